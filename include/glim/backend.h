@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+/*
+ * backend.h - what can turn a world into samples
+ *
+ * Units:     samples a pixel
+ * Ownership: destroy() frees the backend
+ * Threads:   one thread at a time calls these; cancel_request() from any
+ * Errors:    load() and pass() say why
+ */
+#ifndef GLIM_BACKEND_H
+#define GLIM_BACKEND_H
+
+#include "glim/film.h"
+#include "glim/pool.h"
+#include "kernels/types.h"
+
+enum pass_result {
+    PASS_DONE,
+    PASS_CANCELLED,
+    PASS_FAILED
+};
+
+/* One pass: every pixel of the grid (0, stride, 2 stride, ...) in both
+ * directions that has fewer than `target` samples gets up to that many. */
+struct pass {
+    int stride;
+    uint64_t target;
+    uint32_t order; /* shuffles the blocks */
+};
+
+struct backend {
+    const char *name; /* "cpu" */
+    int thread_count;
+
+    /* New geometry: builds what the ray queries need. The arrays of `world`
+     * must stay until the next load() or destroy(). */
+    bool (*load)(struct backend *b, const struct world *world,
+                 struct error *err);
+
+    /* Renders into the film, whose corner is pixel (x0, y0) of the picture.
+     * `world` may differ from load()'s in all but its triangles. */
+    enum pass_result (*pass)(struct backend *b, const struct world *world,
+                             struct film *film, int x0, int y0,
+                             const struct pass *pass,
+                             const struct cancel *cancel, struct error *err);
+
+    void (*destroy)(struct backend *b);
+};
+
+struct backend *backend_cpu_create(int thread_count, struct error *err);
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/*
+ * film.h - the picture as exact integer sums, and what is read from it
+ *
+ * A film covers a rectangle (the crop) of the whole picture. Coordinates here
+ * are the film's own: (0, 0) is the crop's corner, row 0 is the top.
+ * A pixel without samples shows its neighbour on the next coarser grid that
+ * has some: (x & -2, y & -2), (x & -4, y & -4), ...
+ *
+ * Units:     radiance sums; 8-bit sRGB in frames
+ * Ownership: film_free() frees; a zeroed struct is an empty film
+ * Threads:   film_add() for rows that no other thread adds to; reading
+ *            functions from any thread at any time (a lock a row)
+ * Errors:    memory: the text says how much was needed
+ */
+#ifndef GLIM_FILM_H
+#define GLIM_FILM_H
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+#include "glim/util.h"
+#include "kernels/path_types.h"
+#include "kernels/sum.h"
+
+#define FILM_LOCKS 64
+
+struct film {
+    int width, height;
+    struct sum *sums;  /* 3 a pixel; guarded by locks[y % FILM_LOCKS] */
+    uint64_t *counts;  /* samples of a pixel; guarded likewise */
+    pthread_mutex_t locks[FILM_LOCKS];
+    atomic_uint_least64_t samples; /* of all pixels */
+    atomic_uint_least64_t rays;
+    atomic_uint_least64_t non_finite; /* NaN, Inf or negative: count as 0 */
+    atomic_uint_least64_t cut_paths;  /* ended at the hard stop */
+};
+
+/* 8-bit sRGB, 3 bytes a pixel, row 0 at the top. */
+struct frame {
+    int width, height;
+    uint8_t *rgb;
+};
+
+bool film_init(struct film *film, int width, int height, struct error *err);
+void film_clear(struct film *film);
+void film_free(struct film *film);
+
+/* Samples of this pixel so far: the index of its next one. For the thread
+ * that adds to it. */
+uint64_t film_count(const struct film *film, int x, int y);
+
+/* Adds count samples to each of pixels x, x + stride, ... of row y:
+ * samples[i * 8 + s] is sample s of pixel i, and counts[i] says how many. */
+void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
+                  const struct path_sample *samples, const int *counts);
+
+/* Linear means, 3 floats a pixel, row 0 at the top. */
+void film_linear(struct film *film, float *rgb);
+
+/* 8-bit sRGB of the means times 2^exposure. `frame` has the film's size and
+ * its own memory. */
+void film_resolve(struct film *film, float exposure, struct frame *frame);
+
+/* The same, averaged down to the frame's size (or repeated up to it). */
+void film_preview(struct film *film, float exposure, struct frame *frame);
+
+bool frame_init(struct frame *frame, int width, int height, struct error *err);
+void frame_free(struct frame *frame);
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/*
+ * options.h - the command line
+ *
+ * Units:     pixels, samples a pixel
+ * Ownership: strings point into argv
+ * Threads:   main only
+ * Errors:    a wrong value is an error that names it, never a silent default
+ */
+#ifndef GLIM_OPTIONS_H
+#define GLIM_OPTIONS_H
+
+#include "glim/render.h"
+#include "glim/util.h"
+
+enum color_mode {
+    COLOR_AUTO,
+    COLOR_MONO,
+    COLOR_16,
+    COLOR_256,
+    COLOR_24BIT
+};
+
+enum glyph_mode {
+    GLYPH_AUTO,
+    GLYPH_UPPER, /* upper half block */
+    GLYPH_LOWER,
+    GLYPH_SPACE, /* one colour a cell */
+    GLYPH_ASCII  /* brightness as characters */
+};
+
+struct options {
+    const char *scene_path;
+    const char *view_path;   /* NULL: beside the scene */
+    const char *output_path; /* NULL: STEM.png in batch mode */
+    const char *stats_path;  /* NULL: none */
+    int width_px, height_px; /* 0: not given */
+    uint64_t spp;            /* 16 by default */
+    bool has_spp;
+    int thread_count;        /* 0: what the process may use */
+    int max_bounces;         /* -1: no limit */
+    bool has_max_bounces;
+    uint32_t seed;
+    bool batch;
+    bool up_is_z;
+    bool has_crop;
+    struct rect crop;
+    bool phoe_keys;      /* W S A D Q E as phoe_ray had them */
+    enum color_mode color;
+    enum glyph_mode glyph;
+    double cell_aspect;  /* height of a cell over its width; 0: ask */
+    bool show_help, show_version;
+};
+
+/* Fills *o from argv. */
+bool options_parse(struct options *o, int argc, char **argv,
+                   struct error *err);
+
+/* The text of --help. */
+extern const char options_help[];
+
+#endif

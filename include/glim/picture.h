@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/*
+ * picture.h - writes a film to PNG, Radiance HDR and PFM files
+ *
+ * Units:     PNG: 8-bit sRGB after exposure; HDR and PFM: linear means,
+ *            without exposure
+ * Ownership: none
+ * Threads:   any; the film may be in use
+ * Errors:    unwritable file, disk full, memory; nothing half-written remains
+ */
+#ifndef GLIM_PICTURE_H
+#define GLIM_PICTURE_H
+
+#include "glim/film.h"
+
+enum picture_format {
+    PICTURE_PNG,
+    PICTURE_HDR,
+    PICTURE_PFM,
+    PICTURE_UNKNOWN
+};
+
+/* By the end of the name; "-" is PNG. */
+enum picture_format picture_format_of(const char *path);
+
+/* Fails early, before rendering, if the file could not be written: unknown
+ * ending, no such folder, no permission, is a folder. */
+bool picture_check(const char *path, struct error *err);
+
+/* Writes to a temporary file beside it, fsync, rename: the old file or the
+ * new one, never half of one. "-" is standard output. */
+bool picture_write(struct film *film, float exposure, const char *path,
+                   struct error *err);
+
+/* Writes STEM.png, or STEM-2.png, STEM-3.png, ... : the first name that is
+ * free; never replaces a file. The name is for free(). */
+char *picture_write_numbered(struct film *film, float exposure,
+                             const char *stem, struct error *err);
+
+#endif

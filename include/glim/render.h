@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+/*
+ * render.h - the render thread: passes over the film, halt and restart
+ *
+ * The first pass goes from coarse to fine, so that there is a whole picture
+ * after a few milliseconds; later ones visit blocks in random order. Pass
+ * sizes follow sample counts, never the clock.
+ *
+ * Units:     samples a pixel (spp), pixels, nanoseconds
+ * Ownership: render_create() takes the backend over; the world's arrays stay
+ *            the caller's and must live until render_halt() or _destroy()
+ * Threads:   all functions from one thread (the main one), except
+ *            render_halt_async() from any
+ * Errors:    render_start() for memory; a failing backend shows in the progress
+ */
+#ifndef GLIM_RENDER_H
+#define GLIM_RENDER_H
+
+#include "glim/backend.h"
+#include "glim/film.h"
+
+struct rect {
+    int x, y, width, height;
+};
+
+struct render_job {
+    struct world world;
+    bool geometry_changed; /* since the last start: the backend loads anew */
+    struct rect crop;      /* in the picture that world.camera has */
+    uint64_t spp;          /* 0: no limit */
+};
+
+enum render_state {
+    RENDER_IDLE,    /* nothing started, or halted */
+    RENDER_RUNNING,
+    RENDER_DONE,    /* spp reached */
+    RENDER_FAILED   /* see error */
+};
+
+struct render_progress {
+    enum render_state state;
+    uint64_t spp_limit;     /* 0: none */
+    uint64_t spp_done;      /* that every pixel has */
+    uint64_t samples;       /* of all pixels together */
+    uint64_t samples_limit; /* 0: none */
+    uint64_t rays;
+    uint64_t non_finite;
+    uint64_t cut_paths;
+    uint64_t render_ns;        /* from start to now, or to the end */
+    uint64_t build_ns;         /* the backend's load() */
+    uint64_t first_picture_ns; /* from start until every pixel has a sample on
+                                  the coarsest grid; 0: not yet */
+    struct error error;
+};
+
+struct render;
+
+struct render *render_create(struct backend *backend, struct error *err);
+
+/* Halts what runs, clears the film and starts. Returns at once when the old
+ * workers are parked; building and rendering go on in the render thread. */
+bool render_start(struct render *r, const struct render_job *job,
+                  struct error *err);
+
+/* Returns when every worker is parked; the film keeps what it has. */
+void render_halt(struct render *r);
+
+/* Goes on after render_halt() where it stopped. `spp` is the new limit. */
+void render_resume(struct render *r, uint64_t spp);
+
+/* Asks for a halt without waiting; for a thread that is not the main one. */
+void render_halt_async(struct render *r);
+
+/* Blocks until the state is not RENDER_RUNNING or timeout_ms has passed (-1:
+ * no limit). True if it is not running. */
+bool render_wait(struct render *r, int timeout_ms);
+
+/* A file descriptor that becomes readable when the state changes from
+ * RENDER_RUNNING; read it empty. */
+int render_event_fd(const struct render *r);
+
+struct render_progress render_progress(struct render *r);
+
+/* For reading: film_preview(), film_resolve(), film_linear(), picture_write().
+ * Valid until the next render_start() with another size. */
+struct film *render_film(struct render *r);
+const struct backend *render_backend(const struct render *r);
+
+void render_destroy(struct render *r);
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+/*
+ * scene.h - a loaded scene: geometry, materials, textures, sky, names
+ *
+ * The loaders fill it in file units; scene_finish() drops what cannot be
+ * rendered, normalises and makes it ready. struct world is made from a scene
+ * and a view and borrows the scene's arrays.
+ *
+ * Units:     file units in double until scene_finish(), normalised float after
+ * Ownership: scene_free() frees everything; a zeroed struct is an empty scene
+ * Threads:   one thread while loading, then read only
+ * Errors:    memory; files named by the text
+ */
+#ifndef GLIM_SCENE_H
+#define GLIM_SCENE_H
+
+#include "glim/report.h"
+#include "glim/util.h"
+#include "glim/view.h"
+#include "kernels/types.h"
+
+struct scene {
+    char *path; /* of the OBJ file */
+
+    /* while loading; freed by scene_finish() */
+    double *file_positions; /* 3 a vertex */
+
+    struct vec3 *positions;
+    uint32_t position_count;
+    struct vec3 *normals; /* unit length, or 0 where the file's is unusable */
+    uint32_t normal_count;
+    struct vec2 *uvs;
+    uint32_t uv_count;
+
+    struct tri *tris;
+    uint32_t *tri_faces;   /* number of the face in the file, from 0 */
+    uint32_t *tri_objects; /* index into object_names */
+    uint32_t tri_count;
+
+    char **object_names; /* 0 is "" : before the first o line */
+    uint32_t object_count;
+
+    struct material *materials; /* 0 is the default material, "" */
+    char **material_names;
+    uint32_t material_count;
+
+    struct texture *textures;
+    char **texture_paths;
+    uint32_t texture_count;
+    uint32_t *texels;
+    size_t texel_count;
+
+    struct vec3 *sky_texels; /* NULL: no image */
+    uint32_t sky_width, sky_height;
+
+    /* stored = (file - center) * scale */
+    double center[3];
+    double scale;
+    double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
+    bool has_emitters;
+    float linear_of_srgb[256];
+};
+
+/* Loads an OBJ file with its MTL files and textures and finishes the scene.
+ * up_is_z turns z-up models to y-up ((x, y, z) becomes (x, z, -y)). */
+bool scene_load(struct scene *scene, const char *path, bool up_is_z,
+                struct report *report, struct error *err);
+
+/* Drops triangles with a non-finite vertex or without area (counted in the
+ * report), computes bounds, centre and scale, and fills positions from
+ * file_positions. */
+bool scene_finish(struct scene *scene, struct report *report,
+                  struct error *err);
+
+/* Loads view->sky_path, or removes the image if that is NULL. */
+bool scene_load_sky(struct scene *scene, const struct view *view,
+                    struct report *report, struct error *err);
+
+/* Sets eye and at so that the whole scene is seen, keeping fovy, size and up. */
+void scene_frame(const struct scene *scene, struct view *view);
+
+/* Fills all of *world but nodes and leaf_tris. False for an impossible camera. */
+bool scene_world(const struct scene *scene, const struct view *view,
+                 uint32_t seed, struct world *world, struct error *err);
+
+void scene_free(struct scene *scene);
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/*
+ * session.h - a scene, its view and its renderer: what batch mode and the
+ * screen have in common
+ *
+ * Units:     as view.h and options.h
+ * Ownership: session_close() frees all
+ * Threads:   main only
+ * Errors:    session_open() says what is wrong with which file
+ */
+#ifndef GLIM_SESSION_H
+#define GLIM_SESSION_H
+
+#include "glim/options.h"
+#include "glim/render.h"
+#include "glim/scene.h"
+
+struct session {
+    const struct options *options;
+    struct scene scene;
+    struct view view;    /* what is rendered now */
+    struct view opened;  /* as loaded, to go back to */
+    char *view_path;     /* where the view is kept: STEM.view or -c FILE */
+    char notice[256];    /* one line for the person, or "" */
+    struct report report;
+    struct render *render;
+    uint64_t start_ns;   /* of the program */
+    uint64_t load_ns;
+    bool geometry_changed;
+};
+
+/* Loads scene, view and sky, applies the options, frames and lights what has
+ * no camera and no light. Nothing is rendered yet. */
+bool session_open(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err);
+
+/* Halts and starts from sample 0 with the current view. spp 0: no limit. */
+bool session_restart(struct session *s, uint64_t spp, struct error *err);
+
+void session_close(struct session *s);
+
+#endif

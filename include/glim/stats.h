@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+/*
+ * stats.h - one JSON object about a render
+ *
+ * Units:     seconds, pixels, samples a pixel
+ * Ownership: none
+ * Threads:   main only
+ * Errors:    unwritable file
+ */
+#ifndef GLIM_STATS_H
+#define GLIM_STATS_H
+
+#include "glim/session.h"
+
+/* Writes to the file, or to standard output for "-". */
+bool stats_write(const struct session *s, const char *path, struct error *err);
+
+#endif

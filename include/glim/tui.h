@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+/*
+ * tui.h - the screen: live picture, status line, keys, help
+ *
+ * Units:     terminal cells
+ * Ownership: the session stays the caller's
+ * Threads:   main only; alone may include curses
+ * Errors:    by the text when no terminal can be opened
+ */
+#ifndef GLIM_TUI_H
+#define GLIM_TUI_H
+
+#include "glim/session.h"
+
+/* Runs until the person quits or a signal comes. *status becomes the exit
+ * status; false only if the screen could not be opened. */
+bool tui_run(struct session *s, int *status, struct error *err);
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/*
+ * util.h - errors, memory, clock
+ *
+ * Units:     nanoseconds, bytes
+ * Ownership: what alloc_array() and the x functions return is for free()
+ * Threads:   all functions from any thread; the hook is set before threads start
+ * Errors:    fail() makes them; xmalloc() and friends never return NULL
+ */
+#ifndef GLIM_UTIL_H
+#define GLIM_UTIL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* One finished line: place, what was found, what was expected. */
+struct error {
+    char text[1024];
+};
+
+/* Formats the text and returns false. Longer texts are cut. */
+bool fail(struct error *err, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* For small things: stops the program when memory is out, after the hook has
+ * given the terminal back. */
+void *xmalloc(size_t size_bytes);
+void *xcalloc(size_t count, size_t size_bytes);
+void *xrealloc(void *p, size_t size_bytes);
+char *xstrdup(const char *s);
+char *xformat(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void xmalloc_set_hook(void (*restore_terminal)(void));
+
+/* For what a file or a picture sizes: zeroed memory, or NULL when it is out or
+ * count * size_bytes overflows. Never NULL for count 0. */
+void *alloc_array(size_t count, size_t size_bytes);
+
+/* Grows *array so that it holds `needed` items, at least doubling. False, with
+ * *array unchanged, when memory is out. *capacity counts items. */
+bool grow_array(void **array, size_t *capacity, size_t needed,
+                size_t size_bytes);
+
+/* Monotonic. */
+uint64_t clock_ns(void);
+
+/* Seconds between two readings of clock_ns(). */
+double seconds_between(uint64_t begin_ns, uint64_t end_ns);
+
+/* Threads that this process may use: its affinity mask and its cgroup's quota,
+ * at least 1. */
+int usable_threads(void);
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+/*
+ * view.h - the small text file beside a scene: where the camera stands, what
+ * the sky is, how the picture is exposed
+ *
+ * Units:     file units of the scene, degrees, pixels, radiance, stops
+ * Ownership: view_free() frees the path; sky_path is relative to the file's
+ *            folder in the file, and ready for open() in the struct
+ * Threads:   one thread at a time
+ * Errors:    an unreadable file, a malformed or impossible value: file:line
+ */
+#ifndef GLIM_VIEW_H
+#define GLIM_VIEW_H
+
+#include "glim/report.h"
+#include "glim/util.h"
+
+/* has_x says that the file (or the person) gave x; the value is a sensible
+ * default else. */
+struct view {
+    double eye[3], at[3], up[3];
+    bool has_camera; /* eye and at are given */
+    double fovy_deg; /* vertical; above 0, below 180 */
+    int width_px, height_px;
+    bool has_size;
+    double background[3]; /* constant radiance */
+    bool has_background;
+    int max_bounces; /* -1: no limit */
+    char *sky_path;  /* NULL: none */
+    double sky_strength;
+    double sky_rotation_deg;
+    double exposure; /* stops: the picture is multiplied by 2^exposure */
+};
+
+/* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
+void view_init(struct view *view);
+
+/* Reads `key value` lines over what `view` holds. An unknown key is a warning. */
+bool view_read(struct view *view, const char *path, struct report *report,
+               struct error *err);
+
+/* Writes the file anew, atomically. A sky path is written relative to the
+ * file's folder where that is possible. */
+bool view_write(const struct view *view, const char *path, struct error *err);
+
+/* True if eye, at and fovy make a camera; else the text says what is wrong. */
+bool view_check(const struct view *view, const char *place, struct error *err);
+
+void view_copy(struct view *to, const struct view *from);
+void view_free(struct view *view);
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+/*
+ * dialect.h - one language for a C11 compiler and an OpenCL C 1.2 compiler
+ *
+ * The only file with #ifdef about compilers. Kernel code is written in C
+ * names; here they are mapped for the device.
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_DIALECT_H
+#define KERNELS_DIALECT_H
+
+#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+
+typedef int int32_t;
+typedef uint uint32_t;
+typedef ulong uint64_t;
+
+#define GLOBAL __global
+#define CONSTANT __constant
+#define sqrtf(x) sqrt(x)
+#define fabsf(x) fabs(x)
+#define floorf(x) floor(x)
+#define float_bits(x) as_uint(x)
+#define bits_float(x) as_float(x)
+
+#pragma OPENCL FP_CONTRACT OFF
+
+#else
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#define GLOBAL
+#define CONSTANT static const
+
+static inline uint32_t float_bits(float x)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static inline float bits_float(uint32_t bits)
+{
+    float x;
+
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+#endif
+
+#endif

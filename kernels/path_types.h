@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/*
+ * path_types.h - what a sample returns
+ *
+ * Units:     radiance
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_PATH_TYPES_H
+#define KERNELS_PATH_TYPES_H
+
+#include "kernels/types.h"
+
+/* Samples of one pixel that are computed together, at most. */
+#define SAMPLE_BLOCK 8
+
+struct path_sample {
+    struct vec3 radiance;
+    uint32_t rays; /* closest-hit and any-hit queries */
+    uint32_t cut;  /* 1: ended at the hard stop of vertices */
+};
+
+#endif

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+/*
+ * types.h - the plain data that a sample reads, the same bytes on every machine
+ *
+ * Units:     normalised scene units: the loader moves the centre of the scene
+ *            to the origin and scales by a power of two until its extent is in
+ *            [1, 2); colours are linear Rec.709
+ * Ownership: struct world borrows all its arrays
+ * Threads:   everything here is read only while samples are computed
+ * Errors:    none
+ */
+#ifndef KERNELS_TYPES_H
+#define KERNELS_TYPES_H
+
+#include "kernels/dialect.h"
+
+#define NO_INDEX 0xffffffffu
+
+struct vec2 {
+    float x, y;
+};
+
+struct vec3 {
+    float x, y, z;
+};
+
+/* Indices into positions, normals and uvs; NO_INDEX where the file has none.
+ * All three of vn, or none; the same for vt. */
+struct tri {
+    uint32_t v[3];
+    uint32_t vn[3];
+    uint32_t vt[3];
+    uint32_t material;
+};
+
+enum material_kind {
+    MATERIAL_DIFFUSE,   /* color: albedo */
+    MATERIAL_METAL,     /* color: reflectance at normal incidence; alpha */
+    MATERIAL_GLASS,     /* color: tint of each crossing; ior, alpha */
+    MATERIAL_THIN_GLASS /* color: tint of each crossing; ior */
+};
+
+struct material {
+    struct vec3 color;
+    float alpha; /* GGX; below ALPHA_SMOOTH a perfect mirror */
+    struct vec3 emission; /* radiance, both sides; 0 for most */
+    float ior;
+    uint32_t kind;             /* enum material_kind */
+    uint32_t color_texture;    /* multiplies color; NO_INDEX: none */
+    uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
+    float opacity; /* 1: opaque; less: a ray passes with probability 1-opacity */
+};
+
+#define ALPHA_SMOOTH 5e-4f
+
+/* width * height texels from texels[first] on, row 0 at the top of the image;
+ * a texel is 8-bit sRGB with linear alpha, r in the lowest byte. */
+struct texture {
+    uint32_t first;
+    uint32_t width;
+    uint32_t height;
+    uint32_t has_holes; /* 1 if any alpha is below one half */
+};
+
+/* Constant radiance (width 0) or a lat-long image times `color`. */
+struct sky {
+    struct vec3 color;
+    uint32_t width;
+    uint32_t height;
+    float rotation_sin; /* of the angle that turns the dome about +y, */
+    float rotation_cos; /* counter-clockwise seen from above */
+    uint32_t pad;
+};
+
+/* direction = forward + sx * right + sy * up, with sx and sy in [-1, 1]:
+ * right and up carry the field of view and the aspect. */
+struct camera {
+    struct vec3 eye;
+    float width; /* of the whole picture in pixels, not of a crop */
+    struct vec3 forward;
+    float height;
+    struct vec3 right;
+    float pad0;
+    struct vec3 up;
+    float pad1;
+};
+
+/* Depth-first: the left child of node i is node i + 1. */
+struct node {
+    struct vec3 lo;
+    uint32_t next; /* inner: right child; leaf: first of its leaf_tris */
+    struct vec3 hi;
+    uint32_t count; /* triangles of a leaf; 0 for an inner node */
+};
+
+/* A triangle where the traversal wants it: raw vertices, in leaf order. */
+struct leaf_tri {
+    struct vec3 p0, p1, p2;
+    uint32_t tri;
+};
+
+/* What the scene has, so that a sample can skip what it has not. */
+enum feature {
+    FEATURE_COVERAGE = 1u /* some material or texture lets rays pass */
+};
+
+/* What a sample reads, nothing more. nodes and leaf_tris belong to the
+ * backend, the rest to the scene. */
+struct world {
+    struct camera camera;
+    struct sky sky;
+    GLOBAL const struct vec3 *positions;
+    GLOBAL const struct vec3 *normals;
+    GLOBAL const struct vec2 *uvs;
+    GLOBAL const struct tri *tris;
+    GLOBAL const struct material *materials;
+    GLOBAL const struct texture *textures;
+    GLOBAL const uint32_t *texels;
+    GLOBAL const float *linear_of_srgb; /* 256: the sRGB curve */
+    GLOBAL const struct vec3 *sky_texels; /* row 0 is +y */
+    GLOBAL const struct node *nodes;
+    GLOBAL const struct leaf_tri *leaf_tris;
+    uint32_t tri_count;
+    uint32_t max_vertices; /* surface vertices of a path, emitter included */
+    uint32_t seed;
+    uint32_t features; /* enum feature, or-ed */
+};
+
+struct ray {
+    struct vec3 o;
+    struct vec3 d; /* unit length */
+    float t_max;
+    uint32_t key; /* of the sample, for decisions at holes */
+};
+
+/* Where a ray meets a triangle: p = b0 p0 + b1 p1 + b2 p2. */
+struct hit {
+    float t;
+    float b0, b1, b2;
+    uint32_t tri;
+};
+
+#endif
