@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "glim/report.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/util.h"
+
+/* Names in files are foreign text: no control character of theirs may reach
+ * the terminal. In UTF-8 the C1 controls are c2 80 to c2 9f. */
+static void replace_controls(char *text)
+{
+    unsigned char before = 0;
+
+    for (char *p = text; *p != '\0'; p++) {
+        unsigned char c = (unsigned char)*p;
+
+        if (c < 0x20 || c == 0x7f || (before == 0xc2 && c < 0xa0))
+            *p = '?';
+        before = c;
+    }
+}
+
+static struct report_entry *find(const struct report *r, const char *kind)
+{
+    for (int i = 0; i < r->entry_count; i++) {
+        if (strcmp(r->entries[i].kind, kind) == 0)
+            return &r->entries[i];
+    }
+    return NULL;
+}
+
+void report_add(struct report *r, const char *kind, const char *format, ...)
+{
+    struct report_entry *entry = find(r, kind);
+    char text[1024];
+    va_list args;
+
+    if (entry != NULL) {
+        entry->count++;
+        return;
+    }
+    if (r->entry_count == r->capacity) {
+        r->capacity = r->capacity == 0 ? 8 : 2 * r->capacity;
+        r->entries =
+            xrealloc(r->entries, (size_t)r->capacity * sizeof *r->entries);
+    }
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    replace_controls(text);
+    entry = &r->entries[r->entry_count++];
+    entry->kind = xstrdup(kind);
+    entry->text = xstrdup(text);
+    entry->count = 1;
+}
+
+void report_print(const struct report *r, FILE *to)
+{
+    for (int i = 0; i < r->entry_count; i++) {
+        const struct report_entry *entry = &r->entries[i];
+
+        fprintf(to, "glim: warning: %s", entry->text);
+        if (entry->count > 1)
+            fprintf(to, " (and %" PRIu64 " more %s)", entry->count - 1,
+                    entry->kind);
+        fputc('\n', to);
+    }
+}
+
+void report_free(struct report *r)
+{
+    for (int i = 0; i < r->entry_count; i++) {
+        free(r->entries[i].kind);
+        free(r->entries[i].text);
+    }
+    free(r->entries);
+    memset(r, 0, sizeof *r);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "glim/report.h"
+
+/* What report_print() writes, in memory for free(). */
+static char *printed(const struct report *r)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+
+    assert_non_null(f);
+    report_print(r, f);
+    fclose(f);
+    return text;
+}
+
+static void test_empty_prints_nothing(void **state)
+{
+    struct report r = {0};
+    char *text = printed(&r);
+
+    (void)state;
+    assert_string_equal(text, "");
+    free(text);
+    report_free(&r);
+}
+
+static void test_first_of_each_kind_then_counts(void **state)
+{
+    struct report r = {0};
+    char *text;
+
+    (void)state;
+    for (int i = 1; i <= 1000; i++)
+        report_add(&r, "faces with a bad index", "a.obj:%d: found 0", i);
+    report_add(&r, "lost textures", "a.mtl:7: no 'wood.png'");
+    text = printed(&r);
+    assert_string_equal(text,
+                        "glim: warning: a.obj:1: found 0 (and 999 more faces "
+                        "with a bad index)\n"
+                        "glim: warning: a.mtl:7: no 'wood.png'\n");
+    free(text);
+    report_free(&r);
+}
+
+static void test_many_kinds(void **state)
+{
+    struct report r = {0};
+
+    (void)state;
+    for (int round = 0; round < 2; round++) {
+        for (int i = 0; i < 100; i++) {
+            char kind[16];
+
+            snprintf(kind, sizeof kind, "kind %d", i);
+            report_add(&r, kind, "text %d %d", i, round);
+        }
+    }
+    assert_int_equal(r.entry_count, 100);
+    assert_string_equal(r.entries[99].kind, "kind 99");
+    assert_string_equal(r.entries[99].text, "text 99 0");
+    assert_int_equal(r.entries[99].count, 2);
+    report_free(&r);
+    assert_int_equal(r.entry_count, 0);
+}
+
+static void test_controls_do_not_reach_the_terminal(void **state)
+{
+    struct report r = {0};
+
+    (void)state;
+    report_add(&r, "names", "%s", "a\033[2Jb\nc\x7f\xc2\x9b z\xc3\xa4");
+    assert_string_equal(r.entries[0].text, "a?[2Jb?c?\xc2? z\xc3\xa4");
+    report_free(&r);
+}
+
+static void test_long_text_is_cut(void **state)
+{
+    struct report r = {0};
+    char *word = malloc(100001);
+
+    (void)state;
+    memset(word, 'x', 100000);
+    word[100000] = '\0';
+    report_add(&r, "words", "%s", word);
+    assert_true(strlen(r.entries[0].text) < 2000);
+    free(word);
+    report_free(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_empty_prints_nothing),
+        cmocka_unit_test(test_first_of_each_kind_then_counts),
+        cmocka_unit_test(test_many_kinds),
+        cmocka_unit_test(test_controls_do_not_reach_the_terminal),
+        cmocka_unit_test(test_long_text_is_cut),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
