@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: MIT
+#include "glim/options.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/number.h"
+#include "glim/picture.h"
+
+/* Beyond these a value is a slip of the finger, not a wish. */
+#define SIDE_MAX    65536
+#define SPP_MAX     1000000000000u
+#define THREADS_MAX 1024
+#define BOUNCES_MAX 999
+
+const char options_help[] =
+    "usage: glim [options] scene.obj\n"
+    "       glim -b [options] [-o picture.png] scene.obj\n"
+    "\n"
+    "Path traces a Wavefront OBJ scene, live in the terminal; with -b into\n"
+    "a file. On the screen, ? shows the keys and q quits.\n"
+    "\n"
+    "scene and picture\n"
+    "  -f FILE          the scene, as without -f\n"
+    "  -c FILE          the view file (default: SCENE.view beside the scene)\n"
+    "  -w WIDTH         in pixels (default: as the view file, or 1024)\n"
+    "  -h HEIGHT        in pixels (default: as the view file, or 576)\n"
+    "  -s SAMPLES       samples a pixel (default: 16)\n"
+    "  -d BOUNCES       0 to 999 bounces of a path (default: as the view\n"
+    "                   file, or no limit)\n"
+    "  --seed N         0 to 4294967295: another noise (default: 0)\n"
+    "  --crop X,Y,W,H   only W x H pixels of the picture, from (X, Y) on\n"
+    "  --up y|z         which way is up in the scene file (default: y)\n"
+    "  -t THREADS       1 to 1024 (default: what the process may use)\n"
+    "\n"
+    "batch mode\n"
+    "  -b               render to a file, without the screen\n"
+    "  -o FILE          a .png, .hdr or .pfm file, which is replaced, or -\n"
+    "                   for standard output (default: a new .png file in\n"
+    "                   the current folder, named after the scene)\n"
+    "  --stats FILE     times and counts as JSON, - for standard output\n"
+    "\n"
+    "screen\n"
+    "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
+    "  --glyph KIND     auto, upper, lower, space or ascii (default: auto)\n"
+    "  --cell-aspect R  height of a character over its width, 0.25 to 8\n"
+    "                   (default: ask the terminal)\n"
+    "  --phoe-keys      W S A D Q E move up, down, left, right, forward and\n"
+    "                   back\n"
+    "\n"
+    "  --help           show this text\n"
+    "  --version        show the version\n"
+    "  --               end of the options\n";
+
+enum option_id {
+    OPTION_SCENE,
+    OPTION_VIEW,
+    OPTION_WIDTH,
+    OPTION_HEIGHT,
+    OPTION_SPP,
+    OPTION_BOUNCES,
+    OPTION_SEED,
+    OPTION_CROP,
+    OPTION_UP,
+    OPTION_THREADS,
+    OPTION_BATCH,
+    OPTION_OUTPUT,
+    OPTION_STATS,
+    OPTION_COLOR,
+    OPTION_GLYPH,
+    OPTION_CELL_ASPECT,
+    OPTION_PHOE_KEYS,
+    OPTION_HELP,
+    OPTION_VERSION
+};
+
+struct option_rule {
+    const char *name; /* as it is typed: one letter is a short option */
+    enum option_id id;
+    const char *value; /* what is expected behind it; NULL: nothing */
+};
+
+static const struct option_rule rules[] = {
+    {"f", OPTION_SCENE, "the name of a scene"},
+    {"c", OPTION_VIEW, "the name of a view file"},
+    {"w", OPTION_WIDTH, "a width in pixels"},
+    {"h", OPTION_HEIGHT, "a height in pixels"},
+    {"s", OPTION_SPP, "a number of samples"},
+    {"d", OPTION_BOUNCES, "a number of bounces"},
+    {"seed", OPTION_SEED, "a number"},
+    {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
+    {"up", OPTION_UP, "y or z"},
+    {"t", OPTION_THREADS, "a number of threads"},
+    {"b", OPTION_BATCH, NULL},
+    {"o", OPTION_OUTPUT, "the name of a picture"},
+    {"stats", OPTION_STATS, "the name of a file"},
+    {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
+    {"glyph", OPTION_GLYPH, "auto, upper, lower, space or ascii"},
+    {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
+    {"phoe-keys", OPTION_PHOE_KEYS, NULL},
+    {"help", OPTION_HELP, NULL},
+    {"version", OPTION_VERSION, NULL},
+};
+
+/* An option as it stands on the command line. */
+struct given {
+    const struct option_rule *rule;
+    char shown[32]; /* "-w" or "--seed", for messages */
+    const char *value;
+};
+
+static bool parse_digits(const char *text, uint64_t max, uint64_t *value)
+{
+    char *end;
+
+    if (*text < '0' || *text > '9')
+        return false; /* strtoull() takes blanks and signs */
+    errno = 0;
+    *value = strtoull(text, &end, 10);
+    return errno == 0 && *end == '\0' && *value <= max;
+}
+
+/* -h asks for help elsewhere. */
+static const char *hint(const struct given *g)
+{
+    return g->rule->id == OPTION_HEIGHT ? " (for help: glim --help)" : "";
+}
+
+static bool whole_number(const struct given *g, uint64_t min, uint64_t max,
+                         uint64_t *value, struct error *err)
+{
+    if (parse_digits(g->value, max, value) && *value >= min)
+        return true;
+    return fail(err,
+                "%s: found '%s', expected a whole number from %" PRIu64
+                " to %" PRIu64 "%s",
+                g->shown, g->value, min, max, hint(g));
+}
+
+static bool whole_int(const struct given *g, int min, int max, int *value,
+                      struct error *err)
+{
+    uint64_t number;
+
+    if (!whole_number(g, (uint64_t)min, (uint64_t)max, &number, err))
+        return false;
+    *value = (int)number;
+    return true;
+}
+
+/* Index in the words that end with NULL. */
+static bool choice(const struct given *g, const char *const *words, int *index,
+                   struct error *err)
+{
+    for (int i = 0; words[i]; i++) {
+        if (strcmp(g->value, words[i]) == 0) {
+            *index = i;
+            return true;
+        }
+    }
+    return fail(err, "%s: found '%s', expected %s", g->shown, g->value,
+                g->rule->value);
+}
+
+static bool file_name(const struct given *g, const char **name,
+                      struct error *err)
+{
+    if (*g->value == '\0')
+        return fail(err, "%s: found '', expected %s", g->shown, g->rule->value);
+    *name = g->value;
+    return true;
+}
+
+static bool set_scene(struct options *o, const char *path, struct error *err)
+{
+    if (o->scene_path)
+        return fail(err, "found a second scene '%s', expected only '%s'", path,
+                    o->scene_path);
+    o->scene_path = path;
+    return true;
+}
+
+static bool set_crop(struct options *o, const struct given *g,
+                     struct error *err)
+{
+    int *const parts[4] = {&o->crop.x, &o->crop.y, &o->crop.width,
+                           &o->crop.height};
+    const char *p = g->value;
+
+    for (int i = 0; i < 4; i++) {
+        char text[8];
+        size_t length = strcspn(p, ",");
+        uint64_t number;
+
+        if (length >= sizeof text || (p[length] == ',') != (i < 3))
+            goto wrong;
+        memcpy(text, p, length);
+        text[length] = '\0';
+        if (!parse_digits(text, SIDE_MAX, &number) || (i > 1 && number == 0))
+            goto wrong;
+        *parts[i] = (int)number;
+        p += length + 1;
+    }
+    o->has_crop = true;
+    return true;
+wrong:
+    return fail(err,
+                "%s: found '%s', expected X,Y,W,H: four whole numbers up to "
+                "%d, W and H above 0",
+                g->shown, g->value, SIDE_MAX);
+}
+
+static bool set_cell_aspect(struct options *o, const struct given *g,
+                            struct error *err)
+{
+    const char *p = g->value;
+    double number;
+
+    if (!number_parse(&p, p + strlen(p), &number) || *p != '\0' ||
+        !(number >= 0.25 && number <= 8.0))
+        return fail(err, "%s: found '%s', expected a number from 0.25 to 8",
+                    g->shown, g->value);
+    o->cell_aspect = number;
+    return true;
+}
+
+static bool set_output(struct options *o, const struct given *g,
+                       struct error *err)
+{
+    if (!file_name(g, &o->output_path, err))
+        return false;
+    if (picture_format_of(g->value) == PICTURE_UNKNOWN)
+        return fail(err,
+                    "%s: found '%s', expected a name that ends in .png, .hdr "
+                    "or .pfm, or - for standard output",
+                    g->shown, g->value);
+    return true;
+}
+
+static bool set_seed(struct options *o, const struct given *g,
+                     struct error *err)
+{
+    uint64_t seed;
+
+    if (!whole_number(g, 0, UINT32_MAX, &seed, err))
+        return false;
+    o->seed = (uint32_t)seed;
+    return true;
+}
+
+/* The options that choose one of some words. */
+static bool set_word(struct options *o, const struct given *g,
+                     struct error *err)
+{
+    static const char *const ups[] = {"y", "z", NULL};
+    static const char *const colors[] = {"auto", "mono", "16",
+                                         "256",  "24",   NULL};
+    static const char *const glyphs[] = {"auto",  "upper", "lower",
+                                         "space", "ascii", NULL};
+    int index;
+
+    switch (g->rule->id) {
+    case OPTION_UP:
+        if (!choice(g, ups, &index, err))
+            return false;
+        o->up_is_z = index == 1;
+        return true;
+    case OPTION_COLOR:
+        if (!choice(g, colors, &index, err))
+            return false;
+        o->color = (enum color_mode)index;
+        return true;
+    default:
+        if (!choice(g, glyphs, &index, err))
+            return false;
+        o->glyph = (enum glyph_mode)index;
+        return true;
+    }
+}
+
+static bool set_option(struct options *o, const struct given *g,
+                       struct error *err)
+{
+    switch (g->rule->id) {
+    case OPTION_SCENE: {
+        const char *path;
+
+        return file_name(g, &path, err) && set_scene(o, path, err);
+    }
+    case OPTION_VIEW: return file_name(g, &o->view_path, err);
+    case OPTION_WIDTH: return whole_int(g, 1, SIDE_MAX, &o->width_px, err);
+    case OPTION_HEIGHT: return whole_int(g, 1, SIDE_MAX, &o->height_px, err);
+    case OPTION_SPP:
+        o->has_spp = true;
+        return whole_number(g, 1, SPP_MAX, &o->spp, err);
+    case OPTION_BOUNCES:
+        o->has_max_bounces = true;
+        return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);
+    case OPTION_SEED: return set_seed(o, g, err);
+    case OPTION_CROP: return set_crop(o, g, err);
+    case OPTION_THREADS:
+        return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
+    case OPTION_OUTPUT: return set_output(o, g, err);
+    case OPTION_STATS: return file_name(g, &o->stats_path, err);
+    case OPTION_CELL_ASPECT: return set_cell_aspect(o, g, err);
+    case OPTION_UP:
+    case OPTION_COLOR:
+    case OPTION_GLYPH: return set_word(o, g, err);
+    case OPTION_BATCH: o->batch = true; return true;
+    case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
+    case OPTION_HELP: o->show_help = true; return true;
+    case OPTION_VERSION: o->show_version = true; return true;
+    }
+    return true;
+}
+
+static const struct option_rule *find_rule(const char *name, size_t length)
+{
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
+        if (strlen(rules[i].name) == length &&
+            memcmp(rules[i].name, name, length) == 0)
+            return &rules[i];
+    }
+    return NULL;
+}
+
+/* Finds the rule of the option at the start of `text`, which is behind its
+ * dashes. */
+static bool find_option(struct given *g, const char *dashes, const char *text,
+                        size_t length, struct error *err)
+{
+    g->rule = find_rule(text, length);
+    if (!g->rule || (length == 1) != (dashes[1] == '\0'))
+        return fail(err, "unknown option '%s%.*s', see glim --help", dashes,
+                    (int)length, text);
+    /* the names in the table fit */
+    memcpy(g->shown, dashes, strlen(dashes));
+    memcpy(g->shown + strlen(dashes), text, length);
+    g->shown[strlen(dashes) + length] = '\0';
+    return true;
+}
+
+/* Takes `attached` or the next argument as the value. */
+static bool take_value(struct given *g, const char *attached, int argc,
+                       char **argv, int *i, struct error *err)
+{
+    g->value = attached;
+    if (!g->value && *i + 1 < argc)
+        g->value = argv[++*i];
+    if (!g->value)
+        return fail(err, "%s: expected %s behind it%s", g->shown,
+                    g->rule->value, hint(g));
+    return true;
+}
+
+/* --name, --name=value or --name value */
+static bool parse_long(struct options *o, int argc, char **argv, int *i,
+                       struct error *err)
+{
+    const char *text = argv[*i] + 2;
+    size_t length = strcspn(text, "=");
+    const char *attached = text[length] == '=' ? text + length + 1 : NULL;
+    struct given g = {0};
+
+    if (!find_option(&g, "--", text, length, err))
+        return false;
+    if (!g.rule->value && attached)
+        return fail(err, "%s: found '%s', expected no value", g.shown,
+                    attached);
+    if (g.rule->value && !take_value(&g, attached, argc, argv, i, err))
+        return false;
+    return set_option(o, &g, err);
+}
+
+/* -x, -xvalue, -x value, or several letters where only the last has a value */
+static bool parse_short(struct options *o, int argc, char **argv, int *i,
+                        struct error *err)
+{
+    const char *p = argv[*i] + 1;
+
+    while (*p) {
+        struct given g = {0};
+
+        if (!find_option(&g, "-", p, 1, err))
+            return false;
+        p++;
+        if (g.rule->value) {
+            if (!take_value(&g, *p ? p : NULL, argc, argv, i, err))
+                return false;
+            p = "";
+        }
+        if (!set_option(o, &g, err))
+            return false;
+    }
+    return true;
+}
+
+/* What is right alone but wrong together. */
+static bool check_together(const struct options *o, struct error *err)
+{
+    if (!o->scene_path)
+        return fail(err, "no scene given, expected: glim [options] scene.obj "
+                         "(see glim --help)");
+    if (o->output_path && !o->batch)
+        return fail(err, "-o: is for batch mode, expected -b beside it (on "
+                         "the screen p saves a picture)");
+    if (o->stats_path && !o->batch)
+        return fail(err, "--stats: is for batch mode, expected -b beside it");
+    if (o->output_path && strcmp(o->output_path, "-") == 0 && o->stats_path &&
+        strcmp(o->stats_path, "-") == 0)
+        return fail(err, "--stats: standard output is taken by -o -, expected "
+                         "the name of a file");
+    return true;
+}
+
+bool options_parse(struct options *o, int argc, char **argv, struct error *err)
+{
+    bool ended = false;
+
+    *o = (struct options){.spp = 16, .max_bounces = -1};
+    for (int i = 1; i < argc; i++) {
+        const char *arg = argv[i];
+        bool ok;
+
+        if (ended || arg[0] != '-' || arg[1] == '\0') {
+            ok = set_scene(o, arg, err);
+        } else if (strcmp(arg, "--") == 0) {
+            ended = true;
+            ok = true;
+        } else if (arg[1] == '-') {
+            ok = parse_long(o, argc, argv, &i, err);
+        } else {
+            ok = parse_short(o, argc, argv, &i, err);
+        }
+        if (!ok)
+            return false;
+        if (o->show_help || o->show_version)
+            return true; /* whatever else is on the line */
+    }
+    return check_together(o, err);
+}

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+/*
+ * The command line: what each option sets, and the exact words about what is
+ * wrong with it.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "glim/options.h"
+
+#define ARGS_MAX 24
+
+/* Parses "a b c" as the arguments behind the program's name. */
+static bool parse(struct options *o, const char *line, struct error *err)
+{
+    static char text[512];
+    static char program[] = "glim";
+    char *argv[ARGS_MAX] = {program};
+    int argc = 1;
+
+    assert_true(strlen(line) < sizeof text);
+    strcpy(text, line);
+    for (char *p = text; *p; argc++) {
+        assert_true(argc < ARGS_MAX - 1);
+        argv[argc] = p;
+        p += strcspn(p, " ");
+        if (*p)
+            *p++ = '\0';
+    }
+    err->text[0] = '\0';
+    return options_parse(o, argc, argv, err);
+}
+
+static struct options good(const char *line)
+{
+    struct options o;
+    struct error err;
+
+    if (!parse(&o, line, &err))
+        fail_msg("'%s': %s", line, err.text);
+    return o;
+}
+
+static void bad(const char *line, const char *text)
+{
+    struct options o;
+    struct error err;
+
+    if (parse(&o, line, &err))
+        fail_msg("'%s' was taken, expected: %s", line, text);
+    assert_string_equal(err.text, text);
+}
+
+static void test_defaults(void **state)
+{
+    struct options o = good("a.obj");
+
+    (void)state;
+    assert_string_equal(o.scene_path, "a.obj");
+    assert_null(o.view_path);
+    assert_null(o.output_path);
+    assert_null(o.stats_path);
+    assert_int_equal(o.width_px, 0);
+    assert_int_equal(o.height_px, 0);
+    assert_int_equal(o.spp, 16);
+    assert_false(o.has_spp);
+    assert_int_equal(o.thread_count, 0);
+    assert_int_equal(o.max_bounces, -1);
+    assert_false(o.has_max_bounces);
+    assert_int_equal(o.seed, 0);
+    assert_false(o.batch || o.up_is_z || o.has_crop || o.phoe_keys);
+    assert_int_equal(o.color, COLOR_AUTO);
+    assert_int_equal(o.glyph, GLYPH_AUTO);
+    assert_true(o.cell_aspect == 0.0);
+    assert_false(o.show_help || o.show_version);
+}
+
+static void test_every_option(void **state)
+{
+    struct options o =
+        good("-b -t 2 --seed 7 -d 5 -c other.view --stats run.json -o out.pfm "
+             "-w 1280 -h 720 -s 500 --crop 1,2,3,4 --up z -f house.obj");
+
+    (void)state;
+    assert_true(o.batch && o.up_is_z && o.has_crop);
+    assert_int_equal(o.thread_count, 2);
+    assert_int_equal(o.seed, 7);
+    assert_true(o.has_max_bounces);
+    assert_int_equal(o.max_bounces, 5);
+    assert_string_equal(o.view_path, "other.view");
+    assert_string_equal(o.stats_path, "run.json");
+    assert_string_equal(o.output_path, "out.pfm");
+    assert_int_equal(o.width_px, 1280);
+    assert_int_equal(o.height_px, 720);
+    assert_true(o.has_spp);
+    assert_int_equal(o.spp, 500);
+    assert_int_equal(o.crop.x, 1);
+    assert_int_equal(o.crop.y, 2);
+    assert_int_equal(o.crop.width, 3);
+    assert_int_equal(o.crop.height, 4);
+    assert_string_equal(o.scene_path, "house.obj");
+}
+
+static void test_words(void **state)
+{
+    (void)state;
+    assert_int_equal(good("a --color 24").color, COLOR_24BIT);
+    assert_int_equal(good("a --color 256").color, COLOR_256);
+    assert_int_equal(good("a --color 16").color, COLOR_16);
+    assert_int_equal(good("a --color mono").color, COLOR_MONO);
+    assert_int_equal(good("a --color auto").color, COLOR_AUTO);
+    assert_int_equal(good("a --glyph auto").glyph, GLYPH_AUTO);
+    assert_int_equal(good("a --glyph upper").glyph, GLYPH_UPPER);
+    assert_int_equal(good("a --glyph lower").glyph, GLYPH_LOWER);
+    assert_int_equal(good("a --glyph space").glyph, GLYPH_SPACE);
+    assert_int_equal(good("a --glyph ascii").glyph, GLYPH_ASCII);
+    assert_false(good("a --up y").up_is_z);
+    assert_true(good("a --phoe-keys").phoe_keys);
+    assert_true(good("a --cell-aspect 1.5e0").cell_aspect == 1.5);
+    bad("a --color red",
+        "--color: found 'red', expected 24, 256, 16, mono or auto");
+    bad("a --glyph=",
+        "--glyph: found '', expected auto, upper, lower, space or ascii");
+    bad("a --up x", "--up: found 'x', expected y or z");
+}
+
+static void test_spelling(void **state)
+{
+    (void)state;
+    assert_int_equal(good("-w640 a").width_px, 640);
+    assert_int_equal(good("a -bt3").thread_count, 3);
+    assert_int_equal(good("a --seed=9").seed, 9);
+    assert_string_equal(good("-- -b").scene_path, "-b");
+    assert_string_equal(good("a -bo -").output_path, "-");
+    assert_int_equal(good("-w 3 a -w 4").width_px, 4);
+    bad("a -x", "unknown option '-x', see glim --help");
+    bad("a -bx", "unknown option '-x', see glim --help");
+    bad("a --w 4", "unknown option '--w', see glim --help");
+    bad("a --seeds=4", "unknown option '--seeds', see glim --help");
+    bad("a --=4", "unknown option '--', see glim --help");
+    bad("a --see 4", "unknown option '--see', see glim --help");
+    bad("a --phoe-keys=1", "--phoe-keys: found '1', expected no value");
+}
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    assert_int_equal(good("a -w 1 -h 65536").height_px, 65536);
+    assert_int_equal(good("a -s 1000000000000").spp, 1000000000000u);
+    assert_int_equal(good("a --seed 4294967295").seed, 4294967295u);
+    assert_int_equal(good("a -d 0").max_bounces, 0);
+    assert_int_equal(good("a -d 999").max_bounces, 999);
+    assert_int_equal(good("a -t 1024").thread_count, 1024);
+    bad("a -w abc", "-w: found 'abc', expected a whole number from 1 to 65536");
+    bad("a -w 0", "-w: found '0', expected a whole number from 1 to 65536");
+    bad("a -w 10px",
+        "-w: found '10px', expected a whole number from 1 to 65536");
+    bad("a -w +1", "-w: found '+1', expected a whole number from 1 to 65536");
+    bad("a -w 0x10",
+        "-w: found '0x10', expected a whole number from 1 to 65536");
+    bad("a -w 65537",
+        "-w: found '65537', expected a whole number from 1 to 65536");
+    bad("a -w 99999999999999999999",
+        "-w: found '99999999999999999999', expected a whole number from 1 to "
+        "65536");
+    bad("a -s 0",
+        "-s: found '0', expected a whole number from 1 to 1000000000000");
+    bad("a -s 1.5",
+        "-s: found '1.5', expected a whole number from 1 to 1000000000000");
+    bad("a -t 0", "-t: found '0', expected a whole number from 1 to 1024");
+    bad("a -d -1", "-d: found '-1', expected a whole number from 0 to 999");
+    bad("a -d 1000", "-d: found '1000', expected a whole number from 0 to 999");
+    bad("a --seed 4294967296",
+        "--seed: found '4294967296', expected a whole number from 0 to "
+        "4294967295");
+    bad("a --cell-aspect nan",
+        "--cell-aspect: found 'nan', expected a number from 0.25 to 8");
+    bad("a --cell-aspect 0x1",
+        "--cell-aspect: found '0x1', expected a number from 0.25 to 8");
+    bad("a --cell-aspect 9",
+        "--cell-aspect: found '9', expected a number from 0.25 to 8");
+    bad("a --cell-aspect=",
+        "--cell-aspect: found '', expected a number from 0.25 to 8");
+}
+
+/* -h is the height, but a person may mean help. */
+static void test_help(void **state)
+{
+    (void)state;
+    assert_true(good("--help").show_help);
+    assert_true(good("--version").show_version);
+    assert_true(good("-o a.png --help -w x").show_help);
+    bad("-h", "-h: expected a height in pixels behind it (for help: glim "
+              "--help)");
+    bad("-h a.obj", "-h: found 'a.obj', expected a whole number from 1 to "
+                    "65536 (for help: glim --help)");
+    bad("-help", "-h: found 'elp', expected a whole number from 1 to 65536 "
+                 "(for help: glim --help)");
+}
+
+static void test_crop(void **state)
+{
+    static const char *const wrong[] = {
+        "1,2,3", "1,2,3,4,5", "1,2,3,0",  "a,2,3,4",          "1,,3,4",
+        "",      "1,2,3,4 ",  "-1,2,3,4", "1,2,99999999999,4"};
+
+    (void)state;
+    assert_int_equal(good("a --crop 0,0,65536,1").crop.width, 65536);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        char program[] = "glim", scene[] = "a", option[64];
+        char *argv[] = {program, scene, option, NULL};
+        struct options o;
+        struct error err;
+
+        snprintf(option, sizeof option, "--crop=%s", wrong[i]);
+        if (options_parse(&o, 3, argv, &err))
+            fail_msg("%s was taken", option);
+        assert_non_null(strstr(err.text, "expected X,Y,W,H"));
+        assert_non_null(strstr(err.text, wrong[i]));
+    }
+}
+
+static void test_together(void **state)
+{
+    (void)state;
+    bad("", "no scene given, expected: glim [options] scene.obj (see glim "
+            "--help)");
+    bad("-b", "no scene given, expected: glim [options] scene.obj (see glim "
+              "--help)");
+    bad("a.obj b.obj", "found a second scene 'b.obj', expected only 'a.obj'");
+    bad("-f a.obj b.obj",
+        "found a second scene 'b.obj', expected only 'a.obj'");
+    bad("a -o x.png", "-o: is for batch mode, expected -b beside it (on the "
+                      "screen p saves a picture)");
+    bad("a --stats x", "--stats: is for batch mode, expected -b beside it");
+    bad("-b a -o - --stats -",
+        "--stats: standard output is taken by -o -, expected the name of a "
+        "file");
+    bad("-b a -o x.jpg",
+        "-o: found 'x.jpg', expected a name that ends in .png, .hdr or .pfm, "
+        "or - for standard output");
+    bad("-f", "-f: expected the name of a scene behind it");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_defaults), cmocka_unit_test(test_every_option),
+        cmocka_unit_test(test_words),    cmocka_unit_test(test_spelling),
+        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_help),
+        cmocka_unit_test(test_crop),     cmocka_unit_test(test_together),
+    };
+
+    return cmocka_run_group_tests_name("options", tests, NULL, NULL);
+}
