@@ -18,19 +18,21 @@
 struct session {
     const struct options *options;
     struct scene scene;
-    struct view view;    /* what is rendered now */
-    struct view opened;  /* as loaded, to go back to */
-    char *view_path;     /* where the view is kept: STEM.view or -c FILE */
-    char notice[256];    /* one line for the person, or "" */
+    struct view view;   /* what is rendered now */
+    struct view opened; /* as loaded, to go back to */
+    char *view_path;    /* where the view is kept: STEM.view or -c FILE */
+    char notice[256];   /* one line for the person, or "" */
     struct report report;
     struct render *render;
-    uint64_t start_ns;   /* of the program */
+    uint64_t start_ns; /* of the program */
     uint64_t load_ns;
+    uint64_t restart_ns; /* when session_restart() last started the render */
     bool geometry_changed;
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has
- * no camera and no light. Nothing is rendered yet. */
+ * no camera and no light. Nothing is rendered yet. session_close() is due also
+ * after an error, which may leave warnings in the report. */
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
 

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "glim/session.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glim/file.h"
+
+#define SIDE_MAX 65536
+
+/* An overcast noon: bright enough for exposure 0, a little blue. */
+static const double soft_sky[3] = {0.7, 0.8, 0.9};
+
+/* Reads the view file that there is: -c FILE, STEM.view, camera.txt. */
+static bool read_view(struct session *s, struct error *err)
+{
+    const struct options *o = s->options;
+    char *camera;
+    bool ok = true;
+
+    if (o->view_path) {
+        s->view_path = xstrdup(o->view_path);
+        return view_read(&s->view, s->view_path, &s->report, err);
+    }
+    char *stem = path_stem(o->scene_path);
+    s->view_path = xformat("%s.view", stem);
+    free(stem);
+    /* a file that is there but cannot be read is an error of view_read() */
+    if (access(s->view_path, F_OK) == 0)
+        return view_read(&s->view, s->view_path, &s->report, err);
+    camera = path_beside(o->scene_path, "camera.txt");
+    if (access(camera, F_OK) == 0)
+        ok = view_read(&s->view, camera, &s->report, err);
+    free(camera);
+    return ok;
+}
+
+/* The other side of a picture whose shape is kept. */
+static int other_side(int side, int from, int to)
+{
+    double other = round((double)side * to / from);
+
+    return other < 1.0 ? 1 : other > SIDE_MAX ? SIDE_MAX : (int)other;
+}
+
+/* The command line wins over the view file. */
+static void apply_options(struct session *s)
+{
+    const struct options *o = s->options;
+    struct view *v = &s->view;
+    int width = o->width_px;
+    int height = o->height_px;
+
+    if (width != 0 || height != 0) {
+        if (height == 0)
+            height = other_side(width, v->width_px, v->height_px);
+        else if (width == 0)
+            width = other_side(height, v->height_px, v->width_px);
+        v->width_px = width;
+        v->height_px = height;
+        v->has_size = true;
+    }
+    if (o->has_max_bounces)
+        v->max_bounces = o->max_bounces;
+}
+
+static void add_notice(struct session *s, const char *text)
+{
+    size_t length = strlen(s->notice);
+
+    snprintf(s->notice + length, sizeof s->notice - length, "%s%s",
+             length > 0 ? "; " : "", text);
+}
+
+static bool is_dark(const struct session *s)
+{
+    const double *b = s->view.background;
+
+    return !s->scene.has_emitters && !s->scene.sky_texels && b[0] <= 0.0 &&
+           b[1] <= 0.0 && b[2] <= 0.0;
+}
+
+/* A scene without camera or light still shows something, and says why. */
+static void complete_view(struct session *s)
+{
+    if (s->scene.tri_count == 0) {
+        add_notice(s, "no faces: only the background is rendered");
+    } else if (is_dark(s) && !s->view.has_background) {
+        memcpy(s->view.background, soft_sky, sizeof soft_sky);
+        add_notice(s, "no light in the scene: lit by a soft sky");
+    }
+    if (!s->view.has_camera)
+        scene_frame(&s->scene, &s->view);
+}
+
+/* The rectangle to render, which must lie in the picture. */
+static bool crop_rect(const struct session *s, struct rect *rect,
+                      struct error *err)
+{
+    const struct rect *c = &s->options->crop;
+    int width = s->view.width_px;
+    int height = s->view.height_px;
+
+    *rect = (struct rect){0, 0, width, height};
+    if (!s->options->has_crop)
+        return true;
+    if (c->x > width - c->width || c->y > height - c->height)
+        return fail(err,
+                    "--crop: found %d,%d,%d,%d, expected a part of the "
+                    "picture, which has %dx%d pixels",
+                    c->x, c->y, c->width, c->height, width, height);
+    *rect = *c;
+    return true;
+}
+
+static bool create_render(struct session *s, struct error *err)
+{
+    int threads = s->options->thread_count;
+    struct backend *backend;
+
+    if (threads == 0)
+        threads = usable_threads();
+    backend = backend_cpu_create(threads, err);
+    if (!backend)
+        return false;
+    s->render = render_create(backend, err);
+    return s->render != NULL;
+}
+
+bool session_open(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err)
+{
+    uint64_t begin_ns = clock_ns();
+    struct rect rect;
+
+    *s = (struct session){.options = options, .start_ns = start_ns};
+    view_init(&s->view);
+    view_init(&s->opened);
+    if (!read_view(s, err))
+        return false;
+    apply_options(s);
+    if (!crop_rect(s, &rect, err) ||
+        !scene_load(&s->scene, options->scene_path, options->up_is_z,
+                    &s->report, err) ||
+        !scene_load_sky(&s->scene, &s->view, &s->report, err))
+        return false;
+    complete_view(s);
+    if (!view_check(&s->view, options->scene_path, err))
+        return false;
+    view_copy(&s->opened, &s->view);
+    s->load_ns = clock_ns() - begin_ns;
+    s->geometry_changed = true;
+    return create_render(s, err);
+}
+
+bool session_restart(struct session *s, uint64_t spp, struct error *err)
+{
+    struct render_job job = {.geometry_changed = s->geometry_changed,
+                             .spp = spp};
+
+    render_halt(s->render);
+    if (!crop_rect(s, &job.crop, err) ||
+        !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
+        return false;
+    s->restart_ns = clock_ns();
+    if (!render_start(s->render, &job, err))
+        return false;
+    s->geometry_changed = false;
+    return true;
+}
+
+void session_close(struct session *s)
+{
+    if (s->render)
+        render_destroy(s->render); /* reads the scene until it returns */
+    scene_free(&s->scene);
+    view_free(&s->view);
+    view_free(&s->opened);
+    report_free(&s->report);
+    free(s->view_path);
+    *s = (struct session){0};
+}
