@@ -5,7 +5,7 @@
  * Units:     none
  * Ownership: the session stays the caller's
  * Threads:   main only
- * Errors:    by the result: an exit status
+ * Errors:    unwritable output, memory, a failing backend
  */
 #ifndef GLIM_BATCH_H
 #define GLIM_BATCH_H
@@ -13,7 +13,8 @@
 #include "glim/session.h"
 
 /* Renders, shows progress on stderr if that is a terminal, writes the picture
- * and the statistics. 0, 1, or 128 + signal after saving the picture so far. */
-int batch_run(struct session *s);
+ * and the statistics. *status becomes 0, or 128 + signal after saving the
+ * picture so far. */
+bool batch_run(struct session *s, int *status, struct error *err);
 
 #endif

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include "glim/batch.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "glim/file.h"
+#include "glim/picture.h"
+#include "glim/stats.h"
+
+/* The bar is drawn this often, which also bounds what a slow link gets. */
+#define DRAW_MS 100
+
+static const struct {
+    int number;
+    const char *name;
+} stop_signals[] = {{SIGINT, "SIGINT"},
+                    {SIGTERM, "SIGTERM"},
+                    {SIGHUP, "SIGHUP"}};
+
+#define STOP_SIGNAL_COUNT (int)(sizeof stop_signals / sizeof stop_signals[0])
+
+/* What a handler may touch: the first signal, and the pipe that wakes poll().
+ * Later signals change nothing, so the picture is saved in peace. */
+static volatile sig_atomic_t stop_signal;
+static int wake_pipe[2];
+
+static void on_stop_signal(int number)
+{
+    int saved_errno = errno;
+
+    if (stop_signal == 0)
+        stop_signal = number;
+    /* a full pipe wakes as well */
+    if (write(wake_pipe[1], "", 1) < 0)
+        errno = saved_errno;
+    errno = saved_errno;
+}
+
+static bool catch_signals(struct error *err)
+{
+    struct sigaction action = {.sa_handler = on_stop_signal,
+                               .sa_flags = SA_RESTART};
+
+    if (pipe2(wake_pipe, O_NONBLOCK | O_CLOEXEC) != 0)
+        return fail(err, "cannot make a pipe: %s", strerror(errno));
+    sigemptyset(&action.sa_mask);
+    for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
+        struct sigaction old;
+
+        /* nohup and background jobs ignore some of them on purpose */
+        if (sigaction(stop_signals[i].number, NULL, &old) == 0 &&
+            old.sa_handler != SIG_IGN)
+            sigaction(stop_signals[i].number, &action, NULL);
+    }
+    return true;
+}
+
+static const char *signal_name(int number)
+{
+    for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
+        if (stop_signals[i].number == number)
+            return stop_signals[i].name;
+    }
+    return "a signal";
+}
+
+static bool is_standard_output(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+/* A file that --stats can write or replace. Whole minutes may lie between
+ * this and the writing, so a mistake is worth finding now. */
+static bool check_stats_path(const char *path, struct error *err)
+{
+    struct stat st;
+
+    if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
+        return fail(err, "%s: found a %s, expected a regular file", path,
+                    S_ISDIR(st.st_mode) ? "folder" : "special file");
+
+    char *folder = path_beside(path, ".");
+    bool ok = access(folder, W_OK | X_OK) == 0 ||
+              fail(err, "%s: %s", path, strerror(errno));
+
+    free(folder);
+    return ok;
+}
+
+static bool check_outputs(const struct options *o, struct error *err)
+{
+    if (o->stats_path && !is_standard_output(o->stats_path) &&
+        !check_stats_path(o->stats_path, err))
+        return false;
+    if (o->output_path)
+        return picture_check(o->output_path, err);
+    if (access(".", W_OK | X_OK) != 0)
+        return fail(err, "the current folder: %s, expected -o FILE elsewhere",
+                    strerror(errno));
+    return true;
+}
+
+struct bar {
+    bool is_wanted;
+    int shown_cols;
+};
+
+static void format_time(char text[16], double seconds)
+{
+    /* beyond 999 hours the answer is "long" anyway */
+    unsigned s = seconds < 3599999.0 ? (unsigned)seconds : 3599999u;
+
+    if (s < 3600)
+        snprintf(text, 16, "%u:%02u", s / 60, s % 60);
+    else
+        snprintf(text, 16, "%u:%02u:%02u", s / 3600, s / 60 % 60, s % 60);
+}
+
+static int terminal_cols(void)
+{
+    struct winsize size;
+
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+        return 80;
+    return size.ws_col;
+}
+
+/* One line without its end. Samples per second are those of the tracing
+ * alone: the time left follows from them. */
+static void format_bar(char *text, size_t size_bytes,
+                       const struct render_progress *p)
+{
+    static const char full[] = "####################";
+    static const char empty[] = "--------------------";
+    double done = p->samples_limit == 0
+                      ? 0.0
+                      : (double)p->samples / (double)p->samples_limit;
+    double elapsed = seconds_between(0, p->render_ns);
+    double rate = elapsed > 0.0 ? (double)p->samples / elapsed : 0.0;
+    int filled = (int)(done * 20.0);
+    char elapsed_text[16], left_text[16] = "-";
+
+    format_time(elapsed_text, elapsed);
+    if (rate > 0.0)
+        format_time(left_text, (double)(p->samples_limit - p->samples) / rate);
+    snprintf(text, size_bytes,
+             "%3d %% [%.*s%.*s] %" PRIu64 " of %" PRIu64
+             " spp, %.2f Msamples/s, %s, left %s",
+             (int)(done * 100.0), filled, full, 20 - filled, empty, p->spp_done,
+             p->spp_limit, rate * 1e-6, elapsed_text, left_text);
+}
+
+/* Writes `text` over what is shown; a line that filled the last column would
+ * wrap. */
+static void bar_show(struct bar *bar, const char *text)
+{
+    int cols = (int)strlen(text);
+    int limit = terminal_cols() - 1;
+
+    if (cols > limit)
+        cols = limit;
+    fprintf(stderr, "\r%.*s", cols, text);
+    if (bar->shown_cols > cols)
+        fprintf(stderr, "%*s", bar->shown_cols - cols, "");
+    bar->shown_cols = cols;
+    fflush(stderr);
+}
+
+static void bar_draw(struct bar *bar, const struct render_progress *p)
+{
+    char text[160];
+
+    if (!bar->is_wanted)
+        return;
+    format_bar(text, sizeof text, p);
+    bar_show(bar, text);
+}
+
+static void bar_erase(struct bar *bar)
+{
+    if (bar->shown_cols == 0)
+        return;
+    bar_show(bar, "");
+    fputc('\r', stderr);
+    bar->shown_cols = 0;
+}
+
+static void read_empty(int fd)
+{
+    char bytes[64];
+
+    while (read(fd, bytes, sizeof bytes) > 0)
+        continue;
+}
+
+/* Until all samples are done or a signal comes; halted then. */
+static void wait_for_end(struct session *s)
+{
+    struct bar bar = {.is_wanted = isatty(STDERR_FILENO) == 1};
+    struct pollfd fds[2] = {{.fd = render_event_fd(s->render),
+                             .events = POLLIN},
+                            {.fd = wake_pipe[0], .events = POLLIN}};
+
+    for (;;) {
+        struct render_progress p = render_progress(s->render);
+
+        if (p.state != RENDER_RUNNING || stop_signal != 0)
+            break;
+        bar_draw(&bar, &p);
+        poll(fds, 2, bar.is_wanted ? DRAW_MS : -1);
+        if (fds[0].revents & POLLIN)
+            read_empty(fds[0].fd);
+    }
+    bar_erase(&bar);
+    render_halt(s->render);
+}
+
+/* Writes the picture; *name is what it is called now, for free(). */
+static bool save_picture(struct session *s, char **name, struct error *err)
+{
+    const struct options *o = s->options;
+    struct film *film = render_film(s->render);
+    float exposure = (float)s->view.exposure;
+    char *stem;
+
+    if (o->output_path) {
+        *name = xstrdup(is_standard_output(o->output_path) ? "standard output"
+                                                           : o->output_path);
+        return picture_write(film, exposure, o->output_path, err);
+    }
+    stem = path_stem(o->scene_path);
+    const char *slash = strrchr(stem, '/');
+    *name =
+        picture_write_numbered(film, exposure, slash ? slash + 1 : stem, err);
+    free(stem);
+    return *name != NULL;
+}
+
+static void say_result(const struct session *s, const char *name,
+                       const struct render_progress *p)
+{
+    const struct film *film = render_film(s->render);
+
+    if (stop_signal != 0)
+        fprintf(stderr,
+                "stopped by %s at %" PRIu64 " of %" PRIu64 " spp: wrote %s\n",
+                signal_name(stop_signal), p->spp_done, p->spp_limit, name);
+    else
+        fprintf(stderr, "%s: %dx%d, %" PRIu64 " spp, %.1f s\n", name,
+                film->width, film->height, p->spp_done,
+                seconds_between(s->start_ns, clock_ns()));
+    if (p->non_finite > 0)
+        fprintf(stderr,
+                "glim: warning: %" PRIu64 " samples were not finite and count "
+                "as black\n",
+                p->non_finite);
+}
+
+static bool save_all(struct session *s, struct error *err)
+{
+    struct render_progress p = render_progress(s->render);
+    char *name = NULL;
+    bool ok;
+
+    if (p.samples == 0) {
+        /* an old picture is worth more than a black one */
+        fprintf(stderr,
+                "stopped by %s before the first sample: nothing "
+                "written\n",
+                signal_name(stop_signal));
+        return true;
+    }
+    ok = save_picture(s, &name, err);
+    if (ok)
+        say_result(s, name, &p);
+    if (ok && s->options->stats_path)
+        ok = stats_write(s, s->options->stats_path, err);
+    free(name);
+    return ok;
+}
+
+bool batch_run(struct session *s, int *status, struct error *err)
+{
+    struct render_progress p;
+
+    if (!check_outputs(s->options, err) || !catch_signals(err) ||
+        !session_restart(s, s->options->spp, err))
+        return false;
+    wait_for_end(s);
+    p = render_progress(s->render);
+    if (p.state == RENDER_FAILED) {
+        *err = p.error;
+        return false;
+    }
+    if (!save_all(s, err))
+        return false;
+    *status = stop_signal != 0 ? 128 + stop_signal : 0;
+    return true;
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+/*
+ * main.c - the only place that prints errors and ends the program
+ *
+ * Units:     none
+ * Ownership: owns the options and the session
+ * Threads:   main only
+ * Errors:    exit status 0 done, 1 failed, 2 usage
+ */
+#include <errno.h>
+#include <fcntl.h>
+#include <locale.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glim/batch.h"
+#include "glim/options.h"
+#include "glim/session.h"
+#include "glim/tui.h"
+#include "glim/util.h"
+#include "glim/version.h"
+
+enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
+
+/* A descriptor that is closed at the start would be given to the next file
+ * that is opened, and messages would end in it. */
+static void fill_standard_files(void)
+{
+    for (int fd = 0; fd <= 2; fd++) {
+        if (fcntl(fd, F_GETFD) != -1 || errno != EBADF)
+            continue;
+        /* read only for standard output, so that a picture that cannot get
+         * there is an error */
+        if (open("/dev/null", fd == 1 ? O_RDONLY : O_RDWR) != fd)
+            return;
+    }
+}
+
+static int complain(enum exit_status status, const struct error *err)
+{
+    fprintf(stderr, "glim: %s\n", err->text);
+    return status;
+}
+
+/* For --help and --version. */
+static int print_out(const char *text)
+{
+    struct error err;
+
+    if (fputs(text, stdout) != EOF && fflush(stdout) == 0)
+        return EXIT_DONE;
+    fail(&err, "standard output: %s", strerror(errno));
+    return complain(EXIT_FAILED, &err);
+}
+
+/* Is there a screen for the live mode, or a place for the picture? */
+static bool check_terminal(const struct options *o, struct error *err)
+{
+    if (o->batch) {
+        if (o->output_path && strcmp(o->output_path, "-") == 0 &&
+            isatty(STDOUT_FILENO))
+            return fail(err, "-o: standard output is a terminal, expected a "
+                             "file or a pipe");
+        return true;
+    }
+    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO))
+        return fail(err,
+                    "standard %s is no terminal, expected one or -b to "
+                    "render to a file",
+                    isatty(STDOUT_FILENO) ? "input" : "output");
+    return true;
+}
+
+static bool run(struct session *s, const struct options *o, uint64_t start_ns,
+                int *status, struct error *err)
+{
+    bool ok = session_open(s, o, start_ns, err);
+
+    report_print(&s->report, stderr);
+    if (!ok)
+        return false;
+    if (s->notice[0] != '\0')
+        fprintf(stderr, "glim: note: %s\n", s->notice);
+    return o->batch ? batch_run(s, status, err) : tui_run(s, status, err);
+}
+
+int main(int argc, char **argv)
+{
+    uint64_t start_ns = clock_ns();
+    struct options options;
+    struct session session;
+    struct error err;
+    int status = EXIT_DONE;
+
+    fill_standard_files();
+    /* the characters of the terminal; numbers keep their point */
+    setlocale(LC_CTYPE, "");
+    if (!options_parse(&options, argc, argv, &err))
+        return complain(EXIT_USAGE, &err);
+    if (options.show_help)
+        return print_out(options_help);
+    if (options.show_version)
+        return print_out("glim " GLIM_VERSION "\n");
+    if (!check_terminal(&options, &err))
+        return complain(EXIT_USAGE, &err);
+    if (options.batch)
+        signal(SIGPIPE, SIG_IGN); /* a failing write says what is wrong */
+    if (!run(&session, &options, start_ns, &status, &err))
+        status = complain(EXIT_FAILED, &err);
+    session_close(&session);
+    return status;
+}

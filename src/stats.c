@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "glim/stats.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/file.h"
+#include "glim/version.h"
+
+/* Bytes of the UTF-8 character at p, or 0 if there is none. */
+static size_t utf8_length(const unsigned char *p)
+{
+    size_t length = *p < 0x80                 ? 1
+                    : *p >= 0xc2 && *p < 0xe0 ? 2
+                    : *p >= 0xe0 && *p < 0xf0 ? 3
+                    : *p >= 0xf0 && *p < 0xf5 ? 4
+                                              : 0;
+
+    for (size_t i = 1; i < length; i++) {
+        if ((p[i] & 0xc0) != 0x80)
+            return 0; /* also at the closing NUL */
+    }
+    /* overlong forms, surrogates, beyond U+10FFFF */
+    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) ||
+        (p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] > 0x8f))
+        return 0;
+    return length;
+}
+
+/* A JSON string. File names may have any bytes: those that are no UTF-8
+ * become U+FFFD, as JSON cannot hold them. */
+static void write_string(FILE *to, const char *text)
+{
+    const unsigned char *p = (const unsigned char *)text;
+
+    fputc('"', to);
+    while (*p) {
+        size_t length = utf8_length(p);
+
+        if (length == 0)
+            fputs("\\ufffd", to);
+        else if (*p == '"' || *p == '\\')
+            fprintf(to, "\\%c", *p);
+        else if (*p < 0x20 || *p == 0x7f)
+            fprintf(to, "\\u%04x", *p);
+        else
+            fwrite(p, 1, length, to);
+        p += length > 0 ? length : 1;
+    }
+    fputc('"', to);
+}
+
+static void write_number(FILE *to, const char *key, uint64_t value)
+{
+    fprintf(to, "  \"%s\": %" PRIu64 ",\n", key, value);
+}
+
+static void write_seconds(FILE *to, const char *key, uint64_t duration_ns)
+{
+    fprintf(to, "  \"%s\": %.6f,\n", key, seconds_between(0, duration_ns));
+}
+
+static void write_object(FILE *to, const struct session *s)
+{
+    struct render_progress p = render_progress(s->render);
+    const struct film *film = render_film(s->render);
+    const struct backend *backend = render_backend(s->render);
+    uint64_t now_ns = clock_ns();
+
+    fputs("{\n  \"version\": ", to);
+    write_string(to, GLIM_VERSION);
+    fputs(",\n  \"scene\": ", to);
+    write_string(to, s->options->scene_path);
+    fputs(",\n  \"backend\": ", to);
+    write_string(to, backend->name);
+    fputs(",\n", to);
+    write_number(to, "threads", (uint64_t)backend->thread_count);
+    write_number(to, "seed", s->options->seed);
+    write_number(to, "triangles", s->scene.tri_count);
+    write_number(to, "width", (uint64_t)film->width);
+    write_number(to, "height", (uint64_t)film->height);
+    write_number(to, "spp", p.spp_done);
+    fprintf(to, "  \"stopped\": %s,\n",
+            p.spp_limit == 0 || p.spp_done < p.spp_limit ? "true" : "false");
+    write_number(to, "samples", p.samples);
+    write_number(to, "rays", p.rays);
+    write_number(to, "non_finite", p.non_finite);
+    write_number(to, "cut_paths", p.cut_paths);
+    write_seconds(to, "load_s", s->load_ns);
+    write_seconds(to, "build_s", p.build_ns);
+    /* what a person waits: from the start of the program */
+    write_seconds(to, "first_picture_s",
+                  p.first_picture_ns == 0
+                      ? 0
+                      : s->restart_ns - s->start_ns + p.first_picture_ns);
+    write_seconds(to, "render_s", p.render_ns);
+    fprintf(to, "  \"total_s\": %.6f\n}\n",
+            seconds_between(s->start_ns, now_ns));
+}
+
+bool stats_write(const struct session *s, const char *path, struct error *err)
+{
+    char *text = NULL;
+    size_t size_bytes = 0;
+    FILE *to = open_memstream(&text, &size_bytes);
+    bool ok;
+
+    if (!to)
+        return fail(err, "%s: %s", path, strerror(errno));
+    write_object(to, s);
+    if (fclose(to) != 0) {
+        ok = fail(err, "%s: %s", path, strerror(errno));
+    } else if (strcmp(path, "-") == 0) {
+        ok = fwrite(text, 1, size_bytes, stdout) == size_bytes &&
+             fflush(stdout) == 0;
+        if (!ok)
+            fail(err, "standard output: %s", strerror(errno));
+    } else {
+        ok = file_write(path, text, size_bytes, false, NULL, err);
+    }
+    free(text);
+    return ok;
+}
