@@ -7,48 +7,161 @@ MANDIR ?= $(PREFIX)/share/man
 DATADIR ?= $(PREFIX)/share/glim
 CC ?= cc
 CFLAGS ?= -O2 -g
+INSTALL ?= install
 V ?= 0
 Q = $(if $(filter 1,$(V)),,@)
+SAY = $(if $(filter 1,$(V)),@:,@printf '  %-5s %s\n')
+
+# What `make run` opens.
+SCENE ?= scenes/cornell.obj
 
 comma := ,
-VARIANT := $(if $(SAN),san-$(subst $(comma),-,$(SAN)),release)$(if $(filter clang%,$(CC)),-clang)
+COMPILER := $(notdir $(firstword $(CC)))
+VARIANT := $(if $(SAN),san-$(subst $(comma),-,$(SAN)),release)$(if \
+	$(filter clang%,$(COMPILER)),-clang)
 B := build/$(VARIANT)
 
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
 	-Wmissing-prototypes -Wpointer-arith -Wcast-qual -Wwrite-strings \
 	-Wvla -Wundef -Wformat=2
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
-	-I. -Iinclude -pthread $(WARNINGS) $(CFLAGS) \
-	$(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
+	-I. -Iinclude -pthread $(WARNINGS) $(CFLAGS) $(if $(SAN), \
+	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 ALL_LDFLAGS = -pthread $(LDFLAGS) $(if $(SAN),-fsanitize=$(SAN))
 LIBS = -lncursesw -ltinfo -lm
+FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
-SOURCES := $(wildcard src/*.c)
-OBJECTS := $(SOURCES:src/%.c=$(B)/%.o)
+OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c))
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
+BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
+TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
+GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
+SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
+C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
+	tests/tools,$(wildcard $(d)/*.[ch]))
 
+## all: the program, build/release/glim (the default)
 all: $(B)/glim
 
 $(B)/glim: $(OBJECTS) $(B)/flags
+	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(OBJECTS) $(LIBS)
 
 $(B)/%.o: src/%.c $(B)/flags
+	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-$(B)/unit/%: tests/unit/%.c $(LIBRARY) $(B)/flags
+$(B)/scenes/%.o: scenes/%.c $(B)/flags
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -MF $@.d $(ALL_LDFLAGS) -o $@ $< \
-		$(LIBRARY) -lcmocka $(LIBS)
+	$(SAY) CC $<
+	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-# changed flags rebuild
+$(B)/scenes/generate: $(GENERATOR) $(LIBRARY)
+	$(SAY) LINK $@
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(GENERATOR) $(LIBRARY) $(LIBS)
+
+define program
+$(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
+	@mkdir -p $$(@D)
+	$$(SAY) CC $$<
+	$$(Q)$$(CC) $$(ALL_CFLAGS) -MMD -MP -MF $$@.d $$(ALL_LDFLAGS) -o $$@ $$< \
+		$$(LIBRARY) $(2) $$(LIBS)
+endef
+$(eval $(call program,unit,-lcmocka))
+$(eval $(call program,bench))
+$(eval $(call program,tools))
+
+# Changed flags or another compiler rebuild everything of this variant.
 $(B)/flags: FORCE
-	@mkdir -p $(B)
-	@echo '$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)' | cmp -s - $@ || \
-		echo '$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS)' > $@
+	@mkdir -p $(@D)
+	@command -v $(firstword $(CC)) >/dev/null || \
+		{ echo "no compiler '$(firstword $(CC))': try 'make deps'"; exit 1; }
+	@echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' > $@
 
+## run: installs what is missing, builds, opens SCENE (the Cornell box);
+##      without a terminal it renders a picture instead
+run:
+	@CC='$(CC)' tests/tools/deps.sh build
+	@if [ -t 0 ] && [ -t 1 ]; then \
+		$(MAKE) --no-print-directory $(B)/glim && $(B)/glim $(SCENE); \
+	else \
+		$(MAKE) --no-print-directory $(B)/glim $(B)/tools/show && \
+		$(B)/glim -b -w 400 -h 400 -s 64 -o build/run.png $(SCENE) && \
+		$(B)/tools/show build/run.png && echo 'picture: build/run.png'; \
+	fi
+
+## test: installs what is missing, builds, runs all tests;
+##       SAN=address,undefined or SAN=thread for a build that watches itself
+test:
+	@CC='$(CC)' tests/tools/deps.sh build test
+	@$(MAKE) --no-print-directory tests
+	@BUILD=$(B) SAN='$(SAN)' tests/run.sh
+
+tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate
+
+## bench: measures speed, halting and threads; FILTER=NAME for one of them
+bench: $(B)/glim $(BENCHES)
+	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
+
+## scenes: writes the scenes in scenes/ anew from their generator
+scenes: $(B)/scenes/generate
+	$(Q)$(B)/scenes/generate scenes
+
+## gallery: renders the README's pictures into scenes/gallery/
+gallery: $(B)/glim
+	@BUILD=$(B) scenes/gallery/render.sh
+
+## install: program, man page and scenes; DESTDIR PREFIX BINDIR MANDIR DATADIR
+install: $(B)/glim
+	$(INSTALL) -d '$(DESTDIR)$(BINDIR)' '$(DESTDIR)$(MANDIR)/man1' \
+		'$(DESTDIR)$(DATADIR)/scenes'
+	$(INSTALL) -m 755 $(B)/glim '$(DESTDIR)$(BINDIR)/glim'
+	$(INSTALL) -m 644 man/glim.1 '$(DESTDIR)$(MANDIR)/man1/glim.1'
+	$(INSTALL) -m 644 $(SCENE_FILES) '$(DESTDIR)$(DATADIR)/scenes'
+
+## uninstall: removes what install has put there
+uninstall:
+	rm -f '$(DESTDIR)$(BINDIR)/glim' '$(DESTDIR)$(MANDIR)/man1/glim.1'
+	rm -f $(patsubst %,'$(DESTDIR)$(DATADIR)/%',$(SCENE_FILES))
+	-rmdir '$(DESTDIR)$(DATADIR)/scenes' '$(DESTDIR)$(DATADIR)'
+
+## deps: says what is missing to build and to test, and installs only that
+deps:
+	@CC='$(CC)' tests/tools/deps.sh -v build test
+
+## format: lays the code out as .clang-format says
+format:
+	@tests/tools/deps.sh lint
+	clang-format -i $(C_FILES)
+
+## lint: layers, layout, cppcheck, clang-tidy, man page
+lint:
+	@tests/tools/deps.sh build test lint
+	tests/layers.sh
+	clang-format --dry-run -Werror $(C_FILES)
+	cppcheck --quiet --std=c11 --error-exitcode=1 --inline-suppr \
+		--enable=warning,portability --suppress=missingIncludeSystem \
+		-D__GNUC__ -I. -Iinclude src
+	clang-tidy --quiet --warnings-as-errors='*' --checks='$(TIDY)' \
+		$(wildcard src/*.c) -- $(ALL_CFLAGS)
+	mandoc -T lint -W warning man/glim.1
+
+TIDY := -*,clang-analyzer-*,-clang-analyzer-security.insecureAPI.Deprecated*,$\
+	bugprone-*,-bugprone-easily-swappable-parameters,$\
+	-bugprone-narrowing-conversions,-bugprone-reserved-identifier,$\
+	-bugprone-implicit-widening-of-multiplication-result
+
+## clean: removes build/
 clean:
 	rm -rf build
 
-.PHONY: all clean FORCE
--include $(OBJECTS:.o=.d) $(UNITS:=.d)
+## help: this list
+help:
+	@sed -n 's/^## //p' Makefile
+	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
+
+.PHONY: all run test tests bench scenes gallery install uninstall deps format \
+	lint clean help FORCE
+-include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
+	$(TOOLS:=.d)

@@ -1,0 +1,115 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# run.sh - runs every test and ends with "N passed, N failed"
+#
+# BUILD names the folder with the programs (build/release). FILTER=WORD runs
+# only the parts whose name has it: layers, man, scenes, a test_x, cli, screen.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+export BUILD=${BUILD:-build/release}
+SAN=${SAN-}
+FILTER=${FILTER-}
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+passed=0
+failed=0
+
+wanted()
+{
+    [[ $1 == *"$FILTER"* ]]
+}
+
+# name, passed, failed: adds to the sums; shows the log if something failed
+report()
+{
+    passed=$((passed + $2))
+    failed=$((failed + $3))
+    if [ "$3" -gt 0 ]; then
+        tail -c 20000 "$log"
+        printf '%-24s %4d passed, %d failed\n' "$1" "$2" "$3"
+    else
+        printf '%-24s %4d passed\n' "$1" "$2"
+        grep -i 'skip' "$log" | grep -v '^\[  SKIPPED \] .*:\|0 skip' |
+            sed 's/^/    /'
+    fi
+}
+
+# A cmocka program says how many tests it starts before it runs them, so tests
+# that a crash has swallowed are found missing.
+run_unit()
+{
+    local started ok skipped status bad
+
+    timeout --kill-after=5 600 "$1" >"$log" 2>&1 </dev/null
+    status=$?
+    started=$(sed -n 's/^\[=*\].* Running \([0-9]*\) test.*/\1/p' "$log" |
+        awk '{ n += $1 } END { print n + 0 }')
+    ok=$(grep -c '^\[       OK \]' "$log")
+    skipped=$(grep '^\[  SKIPPED \] [^ ]*$' "$log" | sort -u | wc -l)
+    bad=$((started - ok - skipped))
+    if [ $bad -le 0 ] && { [ $status != 0 ] || [ "$started" = 0 ]; }; then
+        echo "$1: exit status $status after $started tests" >>"$log"
+        bad=1
+    fi
+    report "${1##*/}" "$ok" "$bad"
+}
+
+# A script that ends with "NAME: N passed, N failed".
+run_script()
+{
+    local name=$1 counts status
+
+    shift
+    timeout --kill-after=5 600 "$@" >"$log" 2>&1 </dev/null
+    status=$?
+    counts=$(sed -n "s/^$name: \([0-9]*\) passed, \([0-9]*\) failed.*/\1 \2/p" \
+        "$log" | tail -1)
+    if [ -z "$counts" ] || { [ $status != 0 ] && [ "${counts#* }" = 0 ]; }; then
+        echo "$name: exit status $status without a count of what failed" >>"$log"
+        counts="${counts% *}"
+        counts="${counts:-0} 1"
+    fi
+    # shellcheck disable=SC2086 # two words
+    report "$name" $counts
+}
+
+# One check: a command that must end with status 0.
+run_check()
+{
+    local name=$1
+
+    shift
+    if "$@" >"$log" 2>&1 </dev/null; then
+        report "$name" 1 0
+    else
+        report "$name" 0 1
+    fi
+}
+
+# The scenes in the repository are what their generator writes.
+scenes_are_generated()
+{
+    local folder status=0 file
+
+    folder=$(mktemp -d)
+    "$BUILD/scenes/generate" "$folder" || status=1
+    for file in "$folder"/*; do
+        cmp "$file" "scenes/${file##*/}" || status=1
+    done
+    rm -rf "$folder"
+    return $status
+}
+
+wanted layers && run_script layers tests/layers.sh
+wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1
+wanted scenes && run_check scenes scenes_are_generated
+for program in tests/unit/test_*.c; do
+    name=$(basename "$program" .c)
+    wanted "$name" && run_unit "$BUILD/unit/$name"
+done
+wanted cli && run_script cli tests/cli/run.sh
+wanted screen && run_script screen tests/screen/run.sh
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ]
