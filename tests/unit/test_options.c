@@ -10,11 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glim/options.h"
 
-#define ARGS_MAX 24
+#include <cmocka.h> /* last: it has a macro fail() */
+
+#define ARGS_MAX 40
 
 /* Parses "a b c" as the arguments behind the program's name. */
 static bool parse(struct options *o, const char *line, struct error *err)
