@@ -19,11 +19,11 @@ typedef int int32_t;
 typedef uint uint32_t;
 typedef ulong uint64_t;
 
-#define GLOBAL __global
-#define CONSTANT __constant
-#define sqrtf(x) sqrt(x)
-#define fabsf(x) fabs(x)
-#define floorf(x) floor(x)
+#define GLOBAL        __global
+#define CONSTANT      __constant
+#define sqrtf(x)      sqrt(x)
+#define fabsf(x)      fabs(x)
+#define floorf(x)     floor(x)
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
 

@@ -42,13 +42,14 @@ enum material_kind {
 
 struct material {
     struct vec3 color;
-    float alpha; /* GGX; below ALPHA_SMOOTH a perfect mirror */
+    float alpha;          /* GGX; below ALPHA_SMOOTH a perfect mirror */
     struct vec3 emission; /* radiance, both sides; 0 for most */
     float ior;
     uint32_t kind;             /* enum material_kind */
     uint32_t color_texture;    /* multiplies color; NO_INDEX: none */
     uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
-    float opacity; /* 1: opaque; less: a ray passes with probability 1-opacity */
+    float
+        opacity; /* 1: opaque; less: a ray passes with probability 1-opacity */
 };
 
 #define ALPHA_SMOOTH 5e-4f
@@ -116,7 +117,7 @@ struct world {
     GLOBAL const struct material *materials;
     GLOBAL const struct texture *textures;
     GLOBAL const uint32_t *texels;
-    GLOBAL const float *linear_of_srgb; /* 256: the sRGB curve */
+    GLOBAL const float *linear_of_srgb;   /* 256: the sRGB curve */
     GLOBAL const struct vec3 *sky_texels; /* row 0 is +y */
     GLOBAL const struct node *nodes;
     GLOBAL const struct leaf_tri *leaf_tris;

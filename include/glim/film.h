@@ -25,14 +25,18 @@
 
 #define FILM_LOCKS 64
 
+/* The coarsest grid that the first pass begins with; a power of two. */
+#define FILM_STRIDE_MAX 32
+
 struct film {
     int width, height;
-    struct sum *sums;  /* 3 a pixel; guarded by locks[y % FILM_LOCKS] */
-    uint64_t *counts;  /* samples of a pixel; guarded likewise */
+    struct sum *sums; /* 3 a pixel; guarded by locks[y % FILM_LOCKS] */
+    uint64_t *counts; /* samples of a pixel; guarded likewise */
     pthread_mutex_t locks[FILM_LOCKS];
     atomic_uint_least64_t samples; /* of all pixels */
     atomic_uint_least64_t rays;
     atomic_uint_least64_t non_finite; /* NaN, Inf or negative: count as 0 */
+    atomic_uint_least64_t saturated;  /* above 2^62: count as 2^62 */
     atomic_uint_least64_t cut_paths;  /* ended at the hard stop */
 };
 

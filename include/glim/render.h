@@ -31,10 +31,10 @@ struct render_job {
 };
 
 enum render_state {
-    RENDER_IDLE,    /* nothing started, or halted */
+    RENDER_IDLE, /* nothing started, or halted */
     RENDER_RUNNING,
-    RENDER_DONE,    /* spp reached */
-    RENDER_FAILED   /* see error */
+    RENDER_DONE,  /* spp reached */
+    RENDER_FAILED /* see error */
 };
 
 struct render_progress {
@@ -45,6 +45,7 @@ struct render_progress {
     uint64_t samples_limit; /* 0: none */
     uint64_t rays;
     uint64_t non_finite;
+    uint64_t saturated;
     uint64_t cut_paths;
     uint64_t render_ns;        /* from start to now, or to the end */
     uint64_t build_ns;         /* the backend's load() */

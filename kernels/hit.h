@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+/*
+ * hit.h - the one triangle test, and how rays leave surfaces
+ *
+ * Watertight (Woop, Benthin and Wald 2013, JCGT 2:1): a ray through an edge
+ * or a vertex hits at least one neighbour. Distances that rounding could have
+ * put on the wrong side of the origin (bound: Pharr et al., PBR 4th ed., 6.8)
+ * are decided again with pairs of floats.
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_HIT_H
+#define KERNELS_HIT_H
+
+#include "kernels/vec.h"
+
+#define FLOAT_EPSILON 0x1p-24f
+#define GAMMA(n)      ((n)*FLOAT_EPSILON / (1.0f - (n)*FLOAT_EPSILON))
+
+/* The ray sheared so that it runs along +z. */
+struct shear {
+    struct vec3 o;
+    float sx, sy, sz;
+    uint32_t axis; /* of the largest component of the direction */
+};
+
+static inline float v3_axis(struct vec3 v, uint32_t axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+static inline struct shear shear_of(struct ray r)
+{
+    struct shear s;
+    float ax = fabsf(r.d.x);
+    float ay = fabsf(r.d.y);
+    float az = fabsf(r.d.z);
+    float dx, dy, dz;
+
+    s.o = r.o;
+    s.axis = ax > ay ? (ax > az ? 0u : 2u) : (ay > az ? 1u : 2u);
+    dx = s.axis == 0 ? r.d.y : s.axis == 1 ? r.d.z : r.d.x;
+    dy = s.axis == 0 ? r.d.z : s.axis == 1 ? r.d.x : r.d.y;
+    dz = v3_axis(r.d, s.axis);
+    s.sz = 1.0f / dz;
+    s.sx = dx / dz;
+    s.sy = dy / dz;
+    return s;
+}
+
+static inline struct vec3 shear_apply(struct shear s, struct vec3 p)
+{
+    struct vec3 a = v3_sub(p, s.o);
+    float x = s.axis == 0 ? a.y : s.axis == 1 ? a.z : a.x;
+    float y = s.axis == 0 ? a.z : s.axis == 1 ? a.x : a.y;
+    float z = v3_axis(a, s.axis);
+
+    return v3(x - s.sx * z, y - s.sy * z, s.sz * z);
+}
+
+/* A number as the sum of two floats that do not overlap. */
+struct pair {
+    float hi, lo;
+};
+
+/* Exact (Knuth). */
+static inline struct pair two_sum(float a, float b)
+{
+    struct pair s;
+    float bb;
+
+    s.hi = a + b;
+    bb = s.hi - a;
+    s.lo = (a - (s.hi - bb)) + (b - bb);
+    return s;
+}
+
+/* Exact (Dekker), unless the low part underflows. */
+static inline struct pair two_product(float a, float b)
+{
+    struct pair p;
+    float ca = 4097.0f * a;
+    float cb = 4097.0f * b;
+    float ah = ca - (ca - a);
+    float bh = cb - (cb - b);
+    float al = a - ah;
+    float bl = b - bh;
+
+    p.hi = a * b;
+    p.lo = ((ah * bh - p.hi) + ah * bl + al * bh) + al * bl;
+    return p;
+}
+
+/* Both halves by two-sums: the shorter sum fails where the highs cancel. */
+static inline struct pair pair_add(struct pair a, struct pair b)
+{
+    struct pair s = two_sum(a.hi, b.hi);
+    struct pair t = two_sum(a.lo, b.lo);
+
+    s = two_sum(s.hi, s.lo + t.hi);
+    return two_sum(s.hi, s.lo + t.lo);
+}
+
+static inline struct pair pair_mul(struct pair a, struct pair b)
+{
+    struct pair p = two_product(a.hi, b.hi);
+
+    p.lo += a.hi * b.lo + a.lo * b.hi;
+    return two_sum(p.hi, p.lo);
+}
+
+static inline struct pair pair_neg(struct pair a)
+{
+    struct pair n = {-a.hi, -a.lo};
+
+    return n;
+}
+
+static inline struct pair pair_minor(struct pair a, struct pair b,
+                                     struct pair c, struct pair d)
+{
+    return pair_add(pair_mul(a, d), pair_neg(pair_mul(b, c)));
+}
+
+/* The distance to the plane of the triangle, with twice the digits; 0 if the
+ * ray runs in the plane. */
+static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
+                                   struct vec3 p2)
+{
+    struct pair ax = two_sum(p1.x, -p0.x), bx = two_sum(p2.x, -p0.x);
+    struct pair ay = two_sum(p1.y, -p0.y), by = two_sum(p2.y, -p0.y);
+    struct pair az = two_sum(p1.z, -p0.z), bz = two_sum(p2.z, -p0.z);
+    struct pair nx = pair_minor(ay, az, by, bz);
+    struct pair ny = pair_minor(az, ax, bz, bx);
+    struct pair nz = pair_minor(ax, ay, bx, by);
+    struct pair dx = {r.d.x, 0.0f}, dy = {r.d.y, 0.0f}, dz = {r.d.z, 0.0f};
+    struct pair above = pair_add(pair_add(pair_mul(nx, two_sum(p0.x, -r.o.x)),
+                                          pair_mul(ny, two_sum(p0.y, -r.o.y))),
+                                 pair_mul(nz, two_sum(p0.z, -r.o.z)));
+    struct pair slope = pair_add(pair_add(pair_mul(nx, dx), pair_mul(ny, dy)),
+                                 pair_mul(nz, dz));
+
+    if (slope.hi == 0.0f)
+        return 0.0f;
+    return above.hi / slope.hi;
+}
+
+/* True if the ray meets the triangle at a distance above 0 and not beyond
+ * t_max; fills all of *h but tri. */
+static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
+                                struct vec3 p1, struct vec3 p2, float t_max,
+                                struct hit *h)
+{
+    struct vec3 a = shear_apply(s, p0);
+    struct vec3 b = shear_apply(s, p1);
+    struct vec3 c = shear_apply(s, p2);
+    float u = c.x * b.y - c.y * b.x;
+    float v = a.x * c.y - a.y * c.x;
+    float w = b.x * a.y - b.y * a.x;
+    float det, t, reach_x, reach_y, reach_z, reach_e;
+    float error_x, error_y, error_e, error_t;
+
+    if ((u < 0.0f || v < 0.0f || w < 0.0f) &&
+        (u > 0.0f || v > 0.0f || w > 0.0f))
+        return false;
+    det = u + v + w;
+    if (det == 0.0f)
+        return false;
+    t = (u * a.z + v * b.z + w * c.z) / det;
+
+    reach_x = f_max(fabsf(a.x), f_max(fabsf(b.x), fabsf(c.x)));
+    reach_y = f_max(fabsf(a.y), f_max(fabsf(b.y), fabsf(c.y)));
+    reach_z = f_max(fabsf(a.z), f_max(fabsf(b.z), fabsf(c.z)));
+    reach_e = f_max(fabsf(u), f_max(fabsf(v), fabsf(w)));
+    error_x = GAMMA(5) * (reach_x + reach_z);
+    error_y = GAMMA(5) * (reach_y + reach_z);
+    error_e = 2.0f * (GAMMA(2) * reach_x * reach_y + error_y * reach_x +
+                      error_x * reach_y);
+    error_t = 3.0f *
+              (GAMMA(3) * reach_e * reach_z + error_e * reach_z +
+               GAMMA(3) * reach_z * reach_e) /
+              fabsf(det);
+    if (!(fabsf(t) > error_t))
+        t = plane_distance(r, p0, p1, p2);
+    if (!(t > 0.0f && t <= t_max))
+        return false;
+    h->t = t;
+    h->b0 = u / det;
+    h->b1 = v / det;
+    h->b2 = w / det;
+    return true;
+}
+
+/* Where a hit is, with a bound of its rounding error on each axis: from the
+ * barycentrics, so that the distance travelled does not matter. */
+static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
+                                    struct vec3 p1, struct vec3 p2,
+                                    struct vec3 *error)
+{
+    struct vec3 a = v3_scale(p0, h.b0);
+    struct vec3 b = v3_scale(p1, h.b1);
+    struct vec3 c = v3_scale(p2, h.b2);
+
+    *error = v3((fabsf(a.x) + fabsf(b.x) + fabsf(c.x)) * GAMMA(7),
+                (fabsf(a.y) + fabsf(b.y) + fabsf(c.y)) * GAMMA(7),
+                (fabsf(a.z) + fabsf(b.z) + fabsf(c.z)) * GAMMA(7));
+    return v3_add(v3_add(a, b), c);
+}
+
+/* The origin of a ray that leaves p on the side of the unit normal ng: out of
+ * reach of p's error, then one float further on each axis. */
+static inline struct vec3 leave_surface(struct vec3 p, struct vec3 error,
+                                        struct vec3 ng)
+{
+    float distance =
+        fabsf(ng.x) * error.x + fabsf(ng.y) * error.y + fabsf(ng.z) * error.z;
+    struct vec3 o = v3_add(p, v3_scale(ng, distance));
+
+    if (ng.x != 0.0f)
+        o.x = float_step(o.x, ng.x > 0.0f);
+    if (ng.y != 0.0f)
+        o.y = float_step(o.y, ng.y > 0.0f);
+    if (ng.z != 0.0f)
+        o.z = float_step(o.z, ng.z > 0.0f);
+    return o;
+}
+
+/* The unit normal by the winding of the file. Edges are scaled first, so that
+ * small triangles do not underflow. False if rounding leaves none. */
+static inline bool triangle_normal(struct vec3 p0, struct vec3 p1,
+                                   struct vec3 p2, struct vec3 *ng)
+{
+    struct vec3 e1 = v3_sub(p1, p0);
+    struct vec3 e2 = v3_sub(p2, p0);
+    float m1 = f_max(fabsf(e1.x), f_max(fabsf(e1.y), fabsf(e1.z)));
+    float m2 = f_max(fabsf(e2.x), f_max(fabsf(e2.y), fabsf(e2.z)));
+    struct vec3 n;
+    float m;
+
+    if (!(m1 > 0.0f && m2 > 0.0f))
+        return false;
+    n = v3_cross(v3_scale(e1, 1.0f / m1), v3_scale(e2, 1.0f / m2));
+    m = f_max(fabsf(n.x), f_max(fabsf(n.y), fabsf(n.z)));
+    if (!(m > 0.0f))
+        return false;
+    *ng = v3_unit(v3_scale(n, 1.0f / m));
+    return true;
+}
+
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+/*
+ * texture.h - look-ups in textures and in the sky's image
+ *
+ * Units:     u to the right, v up with 0 at the bottom, both repeating;
+ *            colours come out linear
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_TEXTURE_H
+#define KERNELS_TEXTURE_H
+
+#include "kernels/vec.h"
+
+struct rgba {
+    struct vec3 color;
+    float alpha;
+};
+
+/* Four texels around a point and how much of the right and lower ones. */
+struct footprint {
+    uint32_t x0, x1, y0, y1;
+    float fx, fy;
+};
+
+/* The column of u in a repeating row of n texels, and its right neighbour. */
+static inline void wrap_pair(float u, uint32_t n, uint32_t *a, uint32_t *b,
+                             float *fraction)
+{
+    float x = (u - floorf(u)) * (float)n - 0.5f;
+    float whole = floorf(x);
+    int32_t i = (int32_t)whole;
+
+    *fraction = x - whole;
+    *a = i < 0 ? n - 1u : (uint32_t)i < n ? (uint32_t)i : n - 1u;
+    *b = *a + 1u < n ? *a + 1u : 0u;
+}
+
+static inline struct rgba texel(const struct world *w, struct texture t,
+                                uint32_t x, uint32_t y)
+{
+    uint32_t bits = w->texels[t.first + y * t.width + x];
+    struct rgba c;
+
+    c.color =
+        v3(w->linear_of_srgb[bits & 255u], w->linear_of_srgb[bits >> 8 & 255u],
+           w->linear_of_srgb[bits >> 16 & 255u]);
+    c.alpha = (float)(bits >> 24) * (1.0f / 255.0f);
+    return c;
+}
+
+/* Bilinear, decoded before mixing. */
+static inline struct rgba texture_at(const struct world *w, uint32_t index,
+                                     struct vec2 uv)
+{
+    struct texture t = w->textures[index];
+    struct footprint f;
+    struct rgba a, b, c, d, mix;
+
+    wrap_pair(uv.x, t.width, &f.x0, &f.x1, &f.fx);
+    wrap_pair(1.0f - (uv.y - floorf(uv.y)), t.height, &f.y0, &f.y1, &f.fy);
+    a = texel(w, t, f.x0, f.y0);
+    b = texel(w, t, f.x1, f.y0);
+    c = texel(w, t, f.x0, f.y1);
+    d = texel(w, t, f.x1, f.y1);
+    mix.color = v3_lerp(v3_lerp(a.color, b.color, f.fx),
+                        v3_lerp(c.color, d.color, f.fx), f.fy);
+    a.alpha += (b.alpha - a.alpha) * f.fx;
+    c.alpha += (d.alpha - c.alpha) * f.fx;
+    mix.alpha = a.alpha + (c.alpha - a.alpha) * f.fy;
+    return mix;
+}
+
+/* Radiance that comes from direction d when nothing is in the way. Image
+ * columns repeat, rows end at the poles. */
+static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
+{
+    struct sky s = w->sky;
+    struct footprint f;
+    struct vec3 turned, top, bottom;
+    float y, whole;
+
+    if (s.width == 0)
+        return s.color;
+    turned = v3(s.rotation_cos * d.x - s.rotation_sin * d.z, d.y,
+                s.rotation_sin * d.x + s.rotation_cos * d.z);
+    wrap_pair(0.5f + atan2_rad(turned.x, -turned.z) * (0.5f / PI), s.width,
+              &f.x0, &f.x1, &f.fx);
+    y = atan2_rad(sqrtf(turned.x * turned.x + turned.z * turned.z), turned.y) *
+            ((float)s.height / PI) -
+        0.5f;
+    whole = floorf(y);
+    f.fy = y - whole;
+    f.y0 = whole < 0.0f ? 0u : (uint32_t)whole;
+    f.y1 = whole < 0.0f ? 0u : f.y0 + 1u;
+    if (f.y0 >= s.height)
+        f.y0 = s.height - 1u;
+    if (f.y1 >= s.height)
+        f.y1 = s.height - 1u;
+    top = v3_lerp(w->sky_texels[f.y0 * s.width + f.x0],
+                  w->sky_texels[f.y0 * s.width + f.x1], f.fx);
+    bottom = v3_lerp(w->sky_texels[f.y1 * s.width + f.x0],
+                     w->sky_texels[f.y1 * s.width + f.x1], f.fx);
+    return v3_mul(v3_lerp(top, bottom, f.fy), s.color);
+}
+
+#endif

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+/*
+ * traverse.h - plain ray queries through the binary tree
+ *
+ * These are the queries of the CPU's reference and of OpenCL. Which hit wins
+ * does not depend on the tree: the nearest t, at equal t the lowest triangle.
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_TRAVERSE_H
+#define KERNELS_TRAVERSE_H
+
+#include "kernels/hit.h"
+#include "kernels/rng.h"
+#include "kernels/texture.h"
+
+/* bvh.h promises trees that fit: at most one entry a level. */
+#define TRAVERSE_STACK 96
+
+/* Boxes are padded by this much when they are built, and entry and exit
+ * distances are widened: together more than the rounding of a hit's t, and
+ * of the edge tests, for any ray that starts within 1e3 scene sizes. */
+#define BOX_PAD   0x1p-20f
+#define BOX_WIDEN (16.0f * FLOAT_EPSILON)
+
+struct slabs {
+    struct vec3 o;
+    struct vec3 inverse;
+};
+
+static inline struct slabs slabs_of(struct ray r)
+{
+    struct slabs s;
+
+    s.o = r.o;
+    s.inverse = v3(1.0f / r.d.x, 1.0f / r.d.y, 1.0f / r.d.z);
+    return s;
+}
+
+/* Distances at which one pair of planes is entered and left. 0 * inf is NaN
+ * where the origin lies in a plane: f_min and f_max then keep the others. */
+static inline void slab_axis(float lo, float hi, float o, float inverse,
+                             float *enter, float *leave)
+{
+    float a = (lo - o) * inverse;
+    float b = (hi - o) * inverse;
+    float in = inverse < 0.0f ? b : a;
+    float out = inverse < 0.0f ? a : b;
+
+    *enter = f_max(in, *enter);
+    *leave = f_min(out, *leave);
+}
+
+/* Where the ray enters the box, or above t_max if it misses it. */
+static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
+                              float t_max)
+{
+    float enter = 0.0f;
+    float leave = FLOAT_MAX;
+
+    slab_axis(lo.x, hi.x, s.o.x, s.inverse.x, &enter, &leave);
+    slab_axis(lo.y, hi.y, s.o.y, s.inverse.y, &enter, &leave);
+    slab_axis(lo.z, hi.z, s.o.z, s.inverse.z, &enter, &leave);
+    enter *= 1.0f - BOX_WIDEN;
+    leave *= 1.0f + BOX_WIDEN;
+    return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
+}
+
+/* False where the surface lets this ray pass: holes of the colour texture's
+ * alpha, and with probability 1 - opacity. */
+static inline bool hit_is_solid(const struct world *w, struct ray r,
+                                struct hit h)
+{
+    struct tri t = w->tris[h.tri];
+    struct material m = w->materials[t.material];
+
+    if (m.opacity < 1.0f &&
+        unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) >= m.opacity)
+        return false;
+    if (m.color_texture != NO_INDEX && t.vt[0] != NO_INDEX &&
+        w->textures[m.color_texture].has_holes != 0) {
+        struct vec2 a = w->uvs[t.vt[0]];
+        struct vec2 b = w->uvs[t.vt[1]];
+        struct vec2 c = w->uvs[t.vt[2]];
+        struct vec2 uv = v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
+                            h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
+
+        return texture_at(w, m.color_texture, uv).alpha >= 0.5f;
+    }
+    return true;
+}
+
+/* Tests the triangles of a leaf; true if a nearer hit was found. */
+static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
+                            struct node leaf, struct hit *best)
+{
+    bool found = false;
+
+    for (uint32_t i = 0; i < leaf.count; i++) {
+        struct leaf_tri t = w->leaf_tris[leaf.next + i];
+        struct hit h;
+
+        if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
+            continue;
+        if (h.t == best->t && t.tri > best->tri)
+            continue;
+        h.tri = t.tri;
+        if ((w->features & FEATURE_COVERAGE) != 0 && !hit_is_solid(w, r, h))
+            continue;
+        *best = h;
+        found = true;
+    }
+    return found;
+}
+
+/* Nearest hit up to r.t_max. */
+static inline bool hit_closest(const struct world *w, struct ray r,
+                               struct hit *best)
+{
+    struct slabs slabs = slabs_of(r);
+    struct shear shear = shear_of(r);
+    uint32_t stack[TRAVERSE_STACK];
+    float entries[TRAVERSE_STACK];
+    uint32_t depth = 0;
+    uint32_t at = 0;
+
+    best->t = r.t_max;
+    best->b0 = best->b1 = best->b2 = 0.0f;
+    best->tri = NO_INDEX;
+    if (w->tri_count == 0 ||
+        box_entry(slabs, w->nodes[0].lo, w->nodes[0].hi, best->t) > best->t)
+        return false;
+    for (;;) {
+        struct node n = w->nodes[at];
+
+        if (n.count == 0) {
+            uint32_t near = at + 1;
+            uint32_t far = n.next;
+            float near_entry =
+                box_entry(slabs, w->nodes[near].lo, w->nodes[near].hi, best->t);
+            float far_entry =
+                box_entry(slabs, w->nodes[far].lo, w->nodes[far].hi, best->t);
+
+            if (far_entry < near_entry) {
+                uint32_t index = near;
+                float entry = near_entry;
+
+                near = far;
+                near_entry = far_entry;
+                far = index;
+                far_entry = entry;
+            }
+            if (near_entry <= best->t) {
+                if (far_entry <= best->t) {
+                    stack[depth] = far;
+                    entries[depth] = far_entry;
+                    depth++;
+                }
+                at = near;
+                continue;
+            }
+        } else {
+            leaf_hit(w, r, shear, n, best);
+        }
+        do {
+            if (depth == 0)
+                return best->tri != NO_INDEX;
+            depth--;
+        } while (entries[depth] > best->t);
+        at = stack[depth];
+    }
+}
+
+/* True if anything is hit up to r.t_max: no order, first find ends it. */
+static inline bool hit_any(const struct world *w, struct ray r)
+{
+    struct slabs slabs = slabs_of(r);
+    struct shear shear = shear_of(r);
+    uint32_t stack[TRAVERSE_STACK];
+    uint32_t depth = 0;
+    struct hit h;
+
+    if (w->tri_count == 0)
+        return false;
+    h.t = r.t_max;
+    h.tri = NO_INDEX;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        uint32_t at = stack[--depth];
+        struct node n = w->nodes[at];
+
+        while (box_entry(slabs, n.lo, n.hi, r.t_max) <= r.t_max) {
+            if (n.count != 0) {
+                if (leaf_hit(w, r, shear, n, &h))
+                    return true;
+                break;
+            }
+            stack[depth++] = n.next;
+            at = at + 1;
+            n = w->nodes[at];
+        }
+    }
+    return false;
+}
+
+#endif

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+/*
+ * vec.h - three-vectors and the few functions that both compilers compute
+ * with the same bits
+ *
+ * Polynomials are those of the Cephes library (Moshier 1989), errors below
+ * 2e-7 on their ranges.
+ *
+ * Units:     radians, or turns where a name says so
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_VEC_H
+#define KERNELS_VEC_H
+
+#include "kernels/types.h"
+
+#define PI        3.14159265358979f
+#define FLOAT_MAX 3.402823466e38f
+
+/* If one is NaN the result is b: put the suspect first. */
+static inline float f_min(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static inline float f_max(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static inline struct vec3 v3(float x, float y, float z)
+{
+    struct vec3 v = {x, y, z};
+
+    return v;
+}
+
+static inline struct vec3 v3_add(struct vec3 a, struct vec3 b)
+{
+    return v3(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+static inline struct vec3 v3_sub(struct vec3 a, struct vec3 b)
+{
+    return v3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+static inline struct vec3 v3_mul(struct vec3 a, struct vec3 b)
+{
+    return v3(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+
+static inline struct vec3 v3_scale(struct vec3 a, float s)
+{
+    return v3(a.x * s, a.y * s, a.z * s);
+}
+
+static inline struct vec3 v3_neg(struct vec3 a)
+{
+    return v3(-a.x, -a.y, -a.z);
+}
+
+static inline float v3_dot(struct vec3 a, struct vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline struct vec3 v3_cross(struct vec3 a, struct vec3 b)
+{
+    return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+              a.x * b.y - a.y * b.x);
+}
+
+static inline float v3_length(struct vec3 a)
+{
+    return sqrtf(v3_dot(a, a));
+}
+
+/* Undefined for a vector without length. */
+static inline struct vec3 v3_unit(struct vec3 a)
+{
+    return v3_scale(a, 1.0f / v3_length(a));
+}
+
+static inline float v3_max(struct vec3 a)
+{
+    return f_max(a.x, f_max(a.y, a.z));
+}
+
+static inline bool v3_is_zero(struct vec3 a)
+{
+    return a.x == 0.0f && a.y == 0.0f && a.z == 0.0f;
+}
+
+/* a + s (b - a), componentwise. */
+static inline struct vec3 v3_lerp(struct vec3 a, struct vec3 b, float s)
+{
+    return v3_add(a, v3_scale(v3_sub(b, a), s));
+}
+
+static inline struct vec2 v2(float x, float y)
+{
+    struct vec2 v = {x, y};
+
+    return v;
+}
+
+/* Sine and cosine for |x| <= pi/4. */
+static inline float sin_small(float x)
+{
+    float z = x * x;
+
+    return ((-1.9515295891e-4f * z + 8.3321608736e-3f) * z - 1.6666654611e-1f) *
+               z * x +
+           x;
+}
+
+static inline float cos_small(float x)
+{
+    float z = x * x;
+
+    return ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z +
+            4.166664568298827e-2f) *
+               z * z -
+           0.5f * z + 1.0f;
+}
+
+/* (cosine, sine) of u turns, u in [0, 1]. */
+static inline struct vec2 cos_sin_turns(float u)
+{
+    float quarter = floorf(u * 4.0f + 0.5f);
+    float x = (u * 4.0f - quarter) * (PI * 0.5f);
+    float c = cos_small(x);
+    float s = sin_small(x);
+    int32_t q = (int32_t)quarter & 3;
+
+    if (q == 0)
+        return v2(c, s);
+    if (q == 1)
+        return v2(-s, c);
+    if (q == 2)
+        return v2(-c, -s);
+    return v2(s, -c);
+}
+
+/* Arc tangent of y/x for 0 <= y <= x, x > 0. */
+static inline float atan_octant(float y, float x)
+{
+    float base = 0.0f;
+    float r = y / x;
+    float z;
+
+    if (r > 0.41421356f) { /* tan(pi/8) */
+        base = PI * 0.25f;
+        r = (r - 1.0f) / (r + 1.0f);
+    }
+    z = r * r;
+    return base + ((((8.05374449538e-2f * z - 1.38776856032e-1f) * z +
+                     1.99777106478e-1f) *
+                        z -
+                    3.33329491539e-1f) *
+                       z * r +
+                   r);
+}
+
+/* The angle of (x, y) in (-pi, pi]; 0 for (0, 0). */
+static inline float atan2_rad(float y, float x)
+{
+    float ay = fabsf(y);
+    float ax = fabsf(x);
+    float a;
+
+    if (ax == 0.0f && ay == 0.0f)
+        return 0.0f;
+    a = ay <= ax ? atan_octant(ay, ax) : PI * 0.5f - atan_octant(ax, ay);
+    if (x < 0.0f)
+        a = PI - a;
+    return y < 0.0f ? -a : a;
+}
+
+/* A right-handed frame around the unit vector n (Duff et al. 2017). */
+static inline void frame_around(struct vec3 n, struct vec3 *t, struct vec3 *b)
+{
+    float sign = n.z < 0.0f ? -1.0f : 1.0f;
+    float a = -1.0f / (sign + n.z);
+    float c = n.x * n.y * a;
+
+    *t = v3(1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x);
+    *b = v3(c, sign + n.y * n.y * a, -n.y);
+}
+
+/* The next float away from zero's side that `up` names. Finite x. */
+static inline float float_step(float x, bool up)
+{
+    uint32_t bits = float_bits(x);
+
+    if (x == 0.0f)
+        return bits_float(up ? 1u : 0x80000001u);
+    if ((x > 0.0f) == up)
+        return bits_float(bits + 1u);
+    return bits_float(bits - 1u);
+}
+
+#endif

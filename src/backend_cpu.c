@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "glim/backend.h"
+
+#include <stdlib.h>
+
+#include "glim/bvh.h"
+
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+
+/* Points of a pass's grid in a block, each way. */
+#define BLOCK_SIDE 8
+
+struct backend_cpu {
+    struct backend base;
+    struct pool *pool;
+    struct bvh bvh;
+};
+
+/* What the workers of one pass read. */
+struct job {
+    struct world world;
+    struct film *film;
+    const struct cancel *cancel;
+    struct pass pass;
+    int x0, y0;
+    uint32_t columns; /* blocks in a row */
+    uint32_t count;   /* blocks in all */
+    uint32_t bits;    /* of the smallest power of two that is not below count */
+};
+
+/* One step of a bijection of the numbers of `bits` bits. */
+static uint32_t scramble(uint32_t i, uint32_t bits, uint32_t key)
+{
+    uint32_t mask = bits >= 32 ? 0xffffffffu : (1u << bits) - 1u;
+    uint32_t shift = bits / 2 + 1;
+
+    i = (i ^ key) & mask;
+    i = (i * 0x2c1b3c6du) & mask;
+    i ^= i >> shift;
+    i = (i * 0x297a2d39u) & mask;
+    i ^= i >> shift;
+    return i;
+}
+
+/* A permutation of the blocks: steps until the number is one of theirs. */
+static uint32_t shuffled(const struct job *j, uint32_t item)
+{
+    uint32_t key = hash_u32(j->pass.order + 1u);
+
+    do
+        item = scramble(item, j->bits, key);
+    while (item >= j->count);
+    return item;
+}
+
+/* Brings the pixels x, x + stride, ... of row y up to the target. False if
+ * cancelled on the way; what was computed is in the film. */
+static bool render_row(const struct job *j, int x, int y, int pixel_count)
+{
+    struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
+    int counts[BLOCK_SIDE];
+    bool is_short;
+
+    do {
+        int done = 0;
+        bool has_new = false;
+
+        is_short = false;
+        for (; done < pixel_count && !cancel_requested(j->cancel); done++) {
+            int px = x + done * j->pass.stride;
+            uint64_t first = film_count(j->film, px, y);
+            uint64_t missing =
+                first < j->pass.target ? j->pass.target - first : 0;
+            uint32_t count =
+                missing < SAMPLE_BLOCK ? (uint32_t)missing : SAMPLE_BLOCK;
+
+            counts[done] = (int)count;
+            if (count == 0)
+                continue;
+            path_samples(&j->world, (uint32_t)(j->x0 + px),
+                         (uint32_t)(j->y0 + y), first, count,
+                         samples + done * SAMPLE_BLOCK);
+            has_new = true;
+            is_short = is_short || count < missing;
+        }
+        if (has_new)
+            film_add_row(j->film, x, y, j->pass.stride, done, samples, counts);
+        if (done < pixel_count)
+            return false;
+    } while (is_short);
+    return true;
+}
+
+static void render_block(void *context, uint32_t item, int worker)
+{
+    const struct job *j = context;
+    uint32_t block = shuffled(j, item);
+    int stride = j->pass.stride;
+    int side = BLOCK_SIDE * stride;
+    int x = (int)(block % j->columns) * side;
+    int y = (int)(block / j->columns) * side;
+    int last = y + side < j->film->height ? y + side : j->film->height;
+    int pixel_count = (j->film->width - x + stride - 1) / stride;
+
+    (void)worker;
+    if (pixel_count > BLOCK_SIDE)
+        pixel_count = BLOCK_SIDE;
+    for (; y < last; y += stride)
+        if (!render_row(j, x, y, pixel_count))
+            return;
+}
+
+static bool cpu_load(struct backend *base, const struct world *world,
+                     struct error *err)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+
+    return bvh_build(&b->bvh, world, err);
+}
+
+static enum pass_result cpu_pass(struct backend *base,
+                                 const struct world *world, struct film *film,
+                                 int x0, int y0, const struct pass *pass,
+                                 const struct cancel *cancel, struct error *err)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+    struct job j = {*world, film, cancel, *pass, x0, y0, 0, 0, 1};
+    int side = BLOCK_SIDE * pass->stride;
+
+    (void)err;
+    j.world.nodes = b->bvh.nodes;
+    j.world.leaf_tris = b->bvh.leaf_tris;
+    j.columns = (uint32_t)((film->width + side - 1) / side);
+    j.count = j.columns * (uint32_t)((film->height + side - 1) / side);
+    while (j.bits < 32 && (1u << j.bits) < j.count)
+        j.bits++;
+    pool_run(b->pool, j.count, render_block, &j, cancel);
+    /* the last blocks may have been left half way */
+    return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
+}
+
+static void cpu_destroy(struct backend *base)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+
+    pool_destroy(b->pool);
+    bvh_free(&b->bvh);
+    free(b);
+}
+
+struct backend *backend_cpu_create(int thread_count, struct error *err)
+{
+    struct backend_cpu *b = xcalloc(1, sizeof *b);
+
+    b->pool = pool_create(thread_count, err);
+    if (b->pool == NULL) {
+        free(b);
+        return NULL;
+    }
+    b->base.name = "cpu";
+    b->base.thread_count = pool_thread_count(b->pool);
+    b->base.load = cpu_load;
+    b->base.pass = cpu_pass;
+    b->base.destroy = cpu_destroy;
+    return &b->base;
+}

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "glim/film.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "kernels/tone.h"
+#include "kernels/vec.h"
+
+/* Pixels of a row that are read under one lock, into memory on the stack. */
+#define RUN 256
+
+/* Sums and count of some pixels together. */
+struct total {
+    struct sum sums[3];
+    uint64_t count;
+};
+
+static void row_lock(struct film *f, int y)
+{
+    pthread_mutex_lock(&f->locks[y % FILM_LOCKS]);
+}
+
+static void row_unlock(struct film *f, int y)
+{
+    pthread_mutex_unlock(&f->locks[y % FILM_LOCKS]);
+}
+
+static size_t pixel_index(const struct film *f, int x, int y)
+{
+    return (size_t)y * (size_t)f->width + (size_t)x;
+}
+
+bool film_init(struct film *f, int width, int height, struct error *err)
+{
+    size_t pixels = (size_t)width * (size_t)height;
+    size_t size_bytes = pixels * (3 * sizeof *f->sums + sizeof *f->counts);
+    size_t memory_bytes =
+        (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+
+    *f = (struct film){.width = width, .height = height};
+    /* the system would promise more than it has, and kill us later */
+    if (size_bytes < memory_bytes) {
+        f->sums = alloc_array(pixels, 3 * sizeof *f->sums);
+        f->counts = alloc_array(pixels, sizeof *f->counts);
+    }
+    if (f->sums == NULL || f->counts == NULL) {
+        free(f->sums);
+        free(f->counts);
+        *f = (struct film){0};
+        return fail(err,
+                    "a picture of %dx%d pixels needs %.1f GiB of memory, "
+                    "found %.1f GiB",
+                    width, height, (double)size_bytes / (1 << 30),
+                    (double)memory_bytes / (1 << 30));
+    }
+    for (int i = 0; i < FILM_LOCKS; i++)
+        pthread_mutex_init(&f->locks[i], NULL);
+    return true;
+}
+
+/* Only the counts: a sum is reset by the first sample that is added to it. */
+void film_clear(struct film *f)
+{
+    for (int y = 0; y < f->height; y++) {
+        row_lock(f, y);
+        memset(f->counts + pixel_index(f, 0, y), 0,
+               (size_t)f->width * sizeof *f->counts);
+        row_unlock(f, y);
+    }
+    atomic_store(&f->samples, 0);
+    atomic_store(&f->rays, 0);
+    atomic_store(&f->non_finite, 0);
+    atomic_store(&f->saturated, 0);
+    atomic_store(&f->cut_paths, 0);
+}
+
+void film_free(struct film *f)
+{
+    if (f->sums != NULL)
+        for (int i = 0; i < FILM_LOCKS; i++)
+            pthread_mutex_destroy(&f->locks[i]);
+    free(f->sums);
+    free(f->counts);
+    *f = (struct film){0};
+}
+
+uint64_t film_count(const struct film *f, int x, int y)
+{
+    return f->counts[pixel_index(f, x, y)];
+}
+
+/* Adds one channel of a sample; what sum_accepts() refuses counts as 0. */
+static void add_channel(struct sum *sum, float x, uint32_t *refused,
+                        uint32_t *saturated)
+{
+    if (!sum_accepts(x)) {
+        *refused = 1;
+        return;
+    }
+    if (x > 0x1p62f)
+        *saturated = 1;
+    sum_add(sum, x);
+}
+
+void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
+                  const struct path_sample *samples, const int *counts)
+{
+    uint64_t rays = 0, added = 0, non_finite = 0, saturated = 0, cut = 0;
+
+    row_lock(f, y);
+    for (int i = 0; i < pixel_count; i++) {
+        size_t at = pixel_index(f, x + i * stride, y);
+        struct sum *sums = f->sums + 3 * at;
+
+        if (counts[i] > 0 && f->counts[at] == 0)
+            memset(sums, 0, 3 * sizeof *sums);
+        for (int s = 0; s < counts[i]; s++) {
+            const struct path_sample *p = &samples[i * SAMPLE_BLOCK + s];
+            uint32_t bad = 0, full = 0;
+
+            add_channel(&sums[0], p->radiance.x, &bad, &full);
+            add_channel(&sums[1], p->radiance.y, &bad, &full);
+            add_channel(&sums[2], p->radiance.z, &bad, &full);
+            non_finite += bad;
+            saturated += full;
+            rays += p->rays;
+            cut += p->cut;
+        }
+        f->counts[at] += (uint64_t)counts[i];
+        added += (uint64_t)counts[i];
+    }
+    row_unlock(f, y);
+    atomic_fetch_add(&f->samples, added);
+    atomic_fetch_add(&f->rays, rays);
+    if (non_finite != 0)
+        atomic_fetch_add(&f->non_finite, non_finite);
+    if (saturated != 0)
+        atomic_fetch_add(&f->saturated, saturated);
+    if (cut != 0)
+        atomic_fetch_add(&f->cut_paths, cut);
+}
+
+static void mean_of(const struct sum *sums, uint64_t count, float *rgb)
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c] = sum_mean(sums[c], count);
+}
+
+/* A pixel without samples: the mean of the nearest coarser grid point that has
+ * some, or black. */
+static void coarse_mean(struct film *f, int x, int y, float *rgb)
+{
+    rgb[0] = rgb[1] = rgb[2] = 0.0f;
+    for (int stride = 2; stride <= FILM_STRIDE_MAX; stride *= 2) {
+        int cx = x - x % stride;
+        int cy = y - y % stride;
+        size_t at = pixel_index(f, cx, cy);
+        bool found;
+
+        row_lock(f, cy);
+        found = f->counts[at] != 0;
+        if (found)
+            mean_of(f->sums + 3 * at, f->counts[at], rgb);
+        row_unlock(f, cy);
+        if (found)
+            return;
+    }
+}
+
+/* Means of `count` pixels of row y from x0 on, 3 floats a pixel. */
+static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
+{
+    bool has_gaps = false;
+
+    row_lock(f, y);
+    for (int i = 0; i < count; i++) {
+        size_t at = pixel_index(f, x0 + i, y);
+
+        rgb[3 * i] = -1.0f; /* no mean is negative */
+        if (f->counts[at] != 0)
+            mean_of(f->sums + 3 * at, f->counts[at], rgb + 3 * i);
+        else
+            has_gaps = true;
+    }
+    row_unlock(f, y);
+    for (int i = 0; has_gaps && i < count; i++)
+        if (rgb[3 * i] < 0.0f)
+            coarse_mean(f, x0 + i, y, rgb + 3 * i);
+}
+
+void film_linear(struct film *f, float *rgb)
+{
+    for (int y = 0; y < f->height; y++)
+        linear_run(f, 0, y, f->width, rgb + 3 * pixel_index(f, 0, y));
+}
+
+/* 2^stops for any number of stops. */
+static float exposure_factor(float stops)
+{
+    return exp2f(f_max(-126.0f, f_min(stops, 126.0f)));
+}
+
+static void expose(const float *rgb, float factor, uint8_t *bytes)
+{
+    for (int c = 0; c < 3; c++)
+        bytes[c] = (uint8_t)srgb_byte(rgb[c] * factor);
+}
+
+void film_resolve(struct film *f, float exposure, struct frame *frame)
+{
+    float factor = exposure_factor(exposure);
+    float rgb[3 * RUN];
+
+    for (int y = 0; y < f->height; y++) {
+        for (int x = 0; x < f->width; x += RUN) {
+            int count = f->width - x < RUN ? f->width - x : RUN;
+
+            linear_run(f, x, y, count, rgb);
+            for (int i = 0; i < count; i++)
+                expose(rgb + 3 * i, factor,
+                       frame->rgb + 3 * pixel_index(f, x + i, y));
+        }
+    }
+}
+
+static void total_add(struct total *t, const struct sum *sums, uint64_t count)
+{
+    if (count == 0)
+        return;
+    for (int c = 0; c < 3; c++) {
+        t->sums[c].lo += sums[c].lo;
+        t->sums[c].hi += sums[c].hi + (t->sums[c].lo < sums[c].lo ? 1 : 0);
+    }
+    t->count += count;
+}
+
+/* The part of `length` film pixels that belongs to pixel i of n. */
+static void span_of(int i, int n, int length, int *begin, int *end)
+{
+    *begin = (int)((int64_t)i * length / n);
+    *end = (int)((int64_t)(i + 1) * length / n);
+    if (*end <= *begin)
+        *end = *begin + 1;
+}
+
+/* Pixels i0 .. i0 + count - 1 of row j of the frame. */
+static void preview_run(struct film *f, float factor, struct frame *frame,
+                        int i0, int j, int count)
+{
+    struct total totals[RUN] = {0};
+    int x0, x1, y0, y1;
+
+    span_of(j, frame->height, f->height, &y0, &y1);
+    for (int y = y0; y < y1; y++) {
+        row_lock(f, y);
+        for (int i = 0; i < count; i++) {
+            span_of(i0 + i, frame->width, f->width, &x0, &x1);
+            for (int x = x0; x < x1; x++) {
+                size_t at = pixel_index(f, x, y);
+
+                total_add(&totals[i], f->sums + 3 * at, f->counts[at]);
+            }
+        }
+        row_unlock(f, y);
+    }
+    for (int i = 0; i < count; i++) {
+        size_t at = (size_t)j * (size_t)frame->width + (size_t)(i0 + i);
+        float rgb[3];
+
+        span_of(i0 + i, frame->width, f->width, &x0, &x1);
+        if (totals[i].count != 0)
+            mean_of(totals[i].sums, totals[i].count, rgb);
+        else
+            coarse_mean(f, (x0 + x1) / 2, (y0 + y1) / 2, rgb);
+        expose(rgb, factor, frame->rgb + 3 * at);
+    }
+}
+
+void film_preview(struct film *f, float exposure, struct frame *frame)
+{
+    float factor = exposure_factor(exposure);
+
+    for (int j = 0; j < frame->height; j++)
+        for (int i = 0; i < frame->width; i += RUN) {
+            int count = frame->width - i < RUN ? frame->width - i : RUN;
+
+            preview_run(f, factor, frame, i, j, count);
+        }
+}
+
+bool frame_init(struct frame *frame, int width, int height, struct error *err)
+{
+    frame->width = width;
+    frame->height = height;
+    frame->rgb = alloc_array((size_t)width * (size_t)height, 3);
+    if (frame->rgb == NULL)
+        return fail(err, "out of memory for a frame of %dx%d pixels", width,
+                    height);
+    return true;
+}
+
+void frame_free(struct frame *frame)
+{
+    free(frame->rgb);
+    *frame = (struct frame){0};
+}

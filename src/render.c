@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "glim/render.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "kernels/path_types.h"
+
+struct render {
+    struct backend *backend;
+    struct film film;
+    pthread_t thread;
+    int event_fd;
+    struct cancel cancel;
+
+    pthread_mutex_t lock;
+    pthread_cond_t begin; /* wanted, or ending */
+    pthread_cond_t end;   /* the state is no longer RENDER_RUNNING */
+    /* guarded by lock */
+    bool wanted; /* a job waits for the render thread */
+    bool ending;
+    enum render_state state;
+    uint64_t spp;      /* limit, 0: none */
+    uint64_t spp_done; /* all passes up to this are complete */
+    uint64_t run_begin_ns;
+    uint64_t run_before_ns; /* of earlier runs of the same picture */
+    uint64_t build_ns;
+    uint64_t first_picture_ns;
+    struct error error;
+    /* set while the render thread is parked */
+    struct render_job job;
+};
+
+/* Samples that every pixel has after the pass that follows spp_done. */
+static uint64_t next_target(uint64_t spp_done, uint64_t spp)
+{
+    uint64_t more = spp_done == 0 ? 1 : spp_done;
+    uint64_t target;
+
+    /* 1, 2, 4, 8, then one block a pass: early pictures soon, later passes
+     * long enough that their ends do not count */
+    if (more > SAMPLE_BLOCK)
+        more = SAMPLE_BLOCK;
+    target = spp_done + more;
+    return spp != 0 && target > spp ? spp : target;
+}
+
+static enum pass_result run_pass(struct render *r, int stride, uint64_t target)
+{
+    struct pass pass = {stride, target, (uint32_t)target};
+
+    return r->backend->pass(r->backend, &r->job.world, &r->film, r->job.crop.x,
+                            r->job.crop.y, &pass, &r->cancel, &r->error);
+}
+
+/* The first sample of all pixels, from a coarse grid to the finest. */
+static enum pass_result run_first_pass(struct render *r)
+{
+    enum pass_result result = PASS_DONE;
+
+    for (int stride = FILM_STRIDE_MAX; stride > 0 && result == PASS_DONE;
+         stride /= 2) {
+        result = run_pass(r, stride, 1);
+        pthread_mutex_lock(&r->lock);
+        if (r->first_picture_ns == 0 && result == PASS_DONE)
+            r->first_picture_ns =
+                r->run_before_ns + clock_ns() - r->run_begin_ns;
+        pthread_mutex_unlock(&r->lock);
+    }
+    return result;
+}
+
+static enum pass_result load(struct render *r)
+{
+    uint64_t begin_ns = clock_ns();
+    bool ok = r->backend->load(r->backend, &r->job.world, &r->error);
+
+    pthread_mutex_lock(&r->lock);
+    r->build_ns = clock_ns() - begin_ns;
+    pthread_mutex_unlock(&r->lock);
+    r->job.geometry_changed = !ok;
+    return ok ? PASS_DONE : PASS_FAILED;
+}
+
+/* Passes until the limit, a cancellation or a failure. */
+static enum pass_result run(struct render *r)
+{
+    enum pass_result result = PASS_DONE;
+    uint64_t spp_done = r->spp_done;
+
+    if (r->job.geometry_changed)
+        result = load(r);
+    while (result == PASS_DONE && (r->spp == 0 || spp_done < r->spp)) {
+        uint64_t target = next_target(spp_done, r->spp);
+
+        result = spp_done == 0 ? run_first_pass(r) : run_pass(r, 1, target);
+        if (result != PASS_DONE)
+            break;
+        spp_done = target;
+        pthread_mutex_lock(&r->lock);
+        r->spp_done = spp_done;
+        pthread_mutex_unlock(&r->lock);
+    }
+    return result;
+}
+
+static void *render_main(void *argument)
+{
+    struct render *r = argument;
+    uint64_t one = 1;
+
+    pthread_mutex_lock(&r->lock);
+    for (;;) {
+        enum pass_result result;
+
+        while (!r->wanted && !r->ending)
+            pthread_cond_wait(&r->begin, &r->lock);
+        if (r->ending)
+            break;
+        r->wanted = false;
+        pthread_mutex_unlock(&r->lock);
+        result = run(r);
+        pthread_mutex_lock(&r->lock);
+        r->run_before_ns += clock_ns() - r->run_begin_ns;
+        r->state = result == PASS_DONE        ? RENDER_DONE
+                   : result == PASS_CANCELLED ? RENDER_IDLE
+                                              : RENDER_FAILED;
+        pthread_cond_broadcast(&r->end);
+        if (write(r->event_fd, &one, sizeof one) < 0) {
+            /* the counter is full: it is readable anyway */
+        }
+    }
+    pthread_mutex_unlock(&r->lock);
+    return NULL;
+}
+
+struct render *render_create(struct backend *backend, struct error *err)
+{
+    struct render *r = xcalloc(1, sizeof *r);
+    sigset_t all, before;
+    pthread_condattr_t monotonic;
+    int reason;
+
+    r->backend = backend;
+    r->event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (r->event_fd < 0) {
+        fail(err, "render: no event descriptor: %s", strerror(errno));
+        backend->destroy(backend);
+        free(r);
+        return NULL;
+    }
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_mutex_init(&r->lock, NULL);
+    pthread_cond_init(&r->begin, NULL);
+    pthread_cond_init(&r->end, &monotonic);
+    pthread_condattr_destroy(&monotonic);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    reason = pthread_create(&r->thread, NULL, render_main, r);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (reason != 0) {
+        fail(err, "render: no thread: %s", strerror(reason));
+        backend->destroy(backend);
+        close(r->event_fd);
+        free(r);
+        return NULL;
+    }
+    return r;
+}
+
+/* Under the lock: lets the render thread go. */
+static void go(struct render *r)
+{
+    cancel_reset(&r->cancel);
+    r->state = RENDER_RUNNING;
+    r->wanted = true;
+    r->run_begin_ns = clock_ns();
+    pthread_cond_signal(&r->begin);
+}
+
+bool render_start(struct render *r, const struct render_job *job,
+                  struct error *err)
+{
+    bool geometry_changed;
+
+    render_halt(r);
+    geometry_changed = r->job.geometry_changed || job->geometry_changed;
+    if (r->film.width != job->crop.width ||
+        r->film.height != job->crop.height) {
+        film_free(&r->film);
+        if (!film_init(&r->film, job->crop.width, job->crop.height, err))
+            return false;
+    } else {
+        film_clear(&r->film);
+    }
+    r->job = *job;
+    r->job.geometry_changed = geometry_changed;
+    pthread_mutex_lock(&r->lock);
+    r->spp = job->spp;
+    r->spp_done = 0;
+    r->run_before_ns = 0;
+    r->first_picture_ns = 0;
+    go(r);
+    pthread_mutex_unlock(&r->lock);
+    return true;
+}
+
+void render_halt_async(struct render *r)
+{
+    cancel_request(&r->cancel);
+}
+
+void render_halt(struct render *r)
+{
+    render_halt_async(r);
+    render_wait(r, -1);
+}
+
+void render_resume(struct render *r, uint64_t spp)
+{
+    pthread_mutex_lock(&r->lock);
+    if (r->state == RENDER_IDLE || r->state == RENDER_DONE) {
+        r->spp = spp;
+        go(r);
+    }
+    pthread_mutex_unlock(&r->lock);
+}
+
+bool render_wait(struct render *r, int timeout_ms)
+{
+    struct timespec until;
+    bool is_parked;
+    int reason = 0;
+
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_sec += timeout_ms / 1000;
+    until.tv_nsec += (long)(timeout_ms % 1000) * 1000000;
+    if (until.tv_nsec >= 1000000000) {
+        until.tv_sec++;
+        until.tv_nsec -= 1000000000;
+    }
+    pthread_mutex_lock(&r->lock);
+    while (r->state == RENDER_RUNNING && reason == 0)
+        reason = timeout_ms < 0
+                     ? pthread_cond_wait(&r->end, &r->lock)
+                     : pthread_cond_timedwait(&r->end, &r->lock, &until);
+    is_parked = r->state != RENDER_RUNNING;
+    pthread_mutex_unlock(&r->lock);
+    return is_parked;
+}
+
+int render_event_fd(const struct render *r)
+{
+    return r->event_fd;
+}
+
+struct render_progress render_progress(struct render *r)
+{
+    struct render_progress p = {0};
+    uint64_t pixels = (uint64_t)r->film.width * (uint64_t)r->film.height;
+
+    pthread_mutex_lock(&r->lock);
+    p.state = r->state;
+    p.spp_limit = r->spp;
+    p.spp_done = r->spp_done;
+    p.render_ns = r->run_before_ns;
+    if (r->state == RENDER_RUNNING)
+        p.render_ns += clock_ns() - r->run_begin_ns;
+    p.build_ns = r->build_ns;
+    p.first_picture_ns = r->first_picture_ns;
+    if (r->state == RENDER_FAILED)
+        p.error = r->error;
+    pthread_mutex_unlock(&r->lock);
+    p.samples = atomic_load(&r->film.samples);
+    p.samples_limit = p.spp_limit * pixels;
+    p.rays = atomic_load(&r->film.rays);
+    p.non_finite = atomic_load(&r->film.non_finite);
+    p.saturated = atomic_load(&r->film.saturated);
+    p.cut_paths = atomic_load(&r->film.cut_paths);
+    return p;
+}
+
+struct film *render_film(struct render *r)
+{
+    return &r->film;
+}
+
+const struct backend *render_backend(const struct render *r)
+{
+    return r->backend;
+}
+
+void render_destroy(struct render *r)
+{
+    if (r == NULL)
+        return;
+    render_halt(r);
+    pthread_mutex_lock(&r->lock);
+    r->ending = true;
+    pthread_cond_signal(&r->begin);
+    pthread_mutex_unlock(&r->lock);
+    pthread_join(r->thread, NULL);
+    pthread_mutex_destroy(&r->lock);
+    pthread_cond_destroy(&r->begin);
+    pthread_cond_destroy(&r->end);
+    close(r->event_fd);
+    film_free(&r->film);
+    r->backend->destroy(r->backend);
+    free(r);
+}
