@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/*
+ * number.h - decimal numbers in text, fast and the same in every locale
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   any
+ * Errors:    a false result; the caller knows file and line
+ */
+#ifndef GLIM_NUMBER_H
+#define GLIM_NUMBER_H
+
+#include <stdbool.h>
+
+/* Reads a decimal number at *p, before end; moves *p behind it. Accepts nan,
+ * inf, +1, .5, 5., 1e400 (gives inf). The value is the nearest double. False:
+ * no number there, *p unmoved. */
+bool number_parse(const char **p, const char *end, double *value);
+
+/* Enough for every number_format(). */
+#define NUMBER_TEXT_BYTES 32
+
+/* The shortest of the usual forms that number_parse() reads back exactly. */
+void number_format(char text[NUMBER_TEXT_BYTES], double value);
+
+#endif

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "glim/util.h"
+
+#include <sched.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "glim/quota.h"
+
+/* More processors than any kernel is built for. */
+#define PROCESSORS_MAX (1 << 16)
+
+/* set before the threads start */
+static void (*restore_terminal)(void);
+
+bool fail(struct error *err, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(err->text, sizeof err->text, format, args);
+    va_end(args);
+    /* Texts quote files: one line, and nothing that moves the cursor. */
+    for (char *p = err->text; *p; p++) {
+        if ((unsigned char)*p < ' ' || *p == 127)
+            *p = '?';
+    }
+    return false;
+}
+
+/* Whatever else runs, this ends the program: no atexit functions, no stdio. */
+static _Noreturn void out_of_memory(void)
+{
+    static const char text[] = "glim: out of memory\n";
+
+    if (restore_terminal)
+        restore_terminal();
+    ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+    (void)written; /* nobody is left to tell */
+    _exit(1);
+}
+
+void xmalloc_set_hook(void (*hook)(void))
+{
+    restore_terminal = hook;
+}
+
+static void *checked(void *p)
+{
+    if (!p)
+        out_of_memory();
+    return p;
+}
+
+void *xmalloc(size_t size_bytes)
+{
+    return checked(malloc(size_bytes ? size_bytes : 1));
+}
+
+void *xcalloc(size_t count, size_t size_bytes)
+{
+    return checked(alloc_array(count, size_bytes));
+}
+
+void *xrealloc(void *p, size_t size_bytes)
+{
+    return checked(realloc(p, size_bytes ? size_bytes : 1));
+}
+
+char *xstrdup(const char *s)
+{
+    return checked(strdup(s));
+}
+
+char *xformat(const char *format, ...)
+{
+    va_list args;
+    char *text;
+
+    va_start(args, format);
+    int length = vasprintf(&text, format, args);
+    va_end(args);
+    return checked(length < 0 ? NULL : text);
+}
+
+void *alloc_array(size_t count, size_t size_bytes)
+{
+    size_t total;
+
+    if (__builtin_mul_overflow(count, size_bytes, &total) ||
+        total > PTRDIFF_MAX)
+        return NULL;
+    return calloc(total ? total : 1, 1);
+}
+
+bool grow_array(void **array, size_t *capacity, size_t needed,
+                size_t size_bytes)
+{
+    size_t wanted = *capacity < 8 ? 8 : *capacity;
+    size_t total;
+
+    if (needed <= *capacity)
+        return true;
+    if (__builtin_mul_overflow(wanted, 2, &wanted) || wanted < needed)
+        wanted = needed;
+    if (__builtin_mul_overflow(wanted, size_bytes, &total) ||
+        total > PTRDIFF_MAX)
+        return false;
+    void *grown = realloc(*array, total ? total : 1);
+    if (!grown)
+        return false;
+    *array = grown;
+    *capacity = wanted;
+    return true;
+}
+
+uint64_t clock_ns(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+}
+
+double seconds_between(uint64_t begin_ns, uint64_t end_ns)
+{
+    return end_ns > begin_ns ? (double)(end_ns - begin_ns) * 1e-9 : 0;
+}
+
+/* The kernel refuses a mask smaller than its own: try greater ones. */
+static int processors_of_affinity(void)
+{
+    for (int count = CPU_SETSIZE; count <= PROCESSORS_MAX; count *= 2) {
+        size_t size_bytes = CPU_ALLOC_SIZE((size_t)count);
+        cpu_set_t *set = xcalloc(1, size_bytes);
+        int usable = sched_getaffinity(0, size_bytes, set) == 0
+                         ? CPU_COUNT_S(size_bytes, set)
+                         : 0;
+
+        free(set);
+        if (usable > 0)
+            return usable;
+    }
+    return 1;
+}
+
+int usable_threads(void)
+{
+    int usable = processors_of_affinity();
+    int quota = quota_processors("");
+
+    return quota > 0 && quota < usable ? quota : usable;
+}
