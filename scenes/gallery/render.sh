@@ -1,0 +1,22 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# render.sh - renders the pictures that the README shows (`make gallery`)
+#
+# Small and clean rather than large and noisy; takes some minutes. screen.png
+# is a picture of a real terminal and is not made here.
+set -eu
+cd "$(dirname "$0")/../.."
+glim=${BUILD:-build/release}/glim
+
+render() # scene, width, samples
+{
+    "$glim" -b -w "$2" -s "$3" -o "scenes/gallery/$1.png" "scenes/$1.obj"
+    echo "scenes/gallery/$1.png"
+}
+
+render cornell 240 2000
+render materials 320 1000
+render glass_mirror 320 2000
+render interior 320 2000
+render skylit 320 1000
+render lights200 320 4000
