@@ -146,7 +146,8 @@ static void format_bar(char *text, size_t size_bytes,
                       ? 0.0
                       : (double)p->samples / (double)p->samples_limit;
     double elapsed = seconds_between(0, p->render_ns);
-    double rate = elapsed > 0.0 ? (double)p->samples / elapsed : 0.0;
+    double tracing = elapsed - seconds_between(0, p->build_ns);
+    double rate = tracing > 0.0 ? (double)p->samples / tracing : 0.0;
     int filled = (int)(done * 20.0);
     char elapsed_text[16], left_text[16] = "-";
 

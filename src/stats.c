@@ -88,6 +88,7 @@ static void write_object(FILE *to, const struct session *s)
     write_number(to, "samples", p.samples);
     write_number(to, "rays", p.rays);
     write_number(to, "non_finite", p.non_finite);
+    write_number(to, "saturated", p.saturated);
     write_number(to, "cut_paths", p.cut_paths);
     write_seconds(to, "load_s", s->load_ns);
     write_seconds(to, "build_s", p.build_ns);
@@ -96,7 +97,7 @@ static void write_object(FILE *to, const struct session *s)
                   p.first_picture_ns == 0
                       ? 0
                       : s->restart_ns - s->start_ns + p.first_picture_ns);
-    write_seconds(to, "render_s", p.render_ns);
+    write_seconds(to, "render_s", p.render_ns - p.build_ns);
     fprintf(to, "  \"total_s\": %.6f\n}\n",
             seconds_between(s->start_ns, now_ns));
 }
