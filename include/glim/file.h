@@ -3,8 +3,7 @@
  * file.h - whole files in, whole files out
  *
  * Units:     bytes
- * Ownership: file_read() returns memory for file_release(); path functions
- *            return strings for free()
+ * Ownership: what file_read() and the path functions return is for free()
  * Threads:   any
  * Errors:    the system's words, with the path
  */
@@ -13,13 +12,22 @@
 
 #include "glim/util.h"
 
+/* No greater file is read. */
+#define FILE_BYTES_MAX ((int64_t)8 << 30)
+
 /* Reads a regular file (a folder or a device is an error). text[size_bytes]
  * is a NUL that is not counted. */
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err);
 
-/* Replaces the file atomically: temporary file beside it, fsync, rename.
- * If must_be_new, an existing file is left alone and *exists is set. */
+/* Fails, early, for what file_write() could not write: a folder, a device, no
+ * such folder, no permission. Changes nothing. */
+bool file_check(const char *path, struct error *err);
+
+/* Replaces the file atomically: temporary file beside it, fsync, rename. Keeps
+ * the permissions of a file that was there; replaces what a link points to.
+ * If must_be_new, an existing file is left alone and *exists (may be NULL) is
+ * set. */
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
 

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "glim/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* As many links in a row as the kernel follows. */
+#define LINKS_MAX 40
+
+/* The system's words for errno, in ours where they are not plain. */
+static bool fail_errno(struct error *err, const char *path)
+{
+    switch (errno) {
+    case ENOENT: return fail(err, "%s: no such file or folder", path);
+    case ENOTDIR:
+        return fail(err, "%s: no such file: a part of it is not a folder",
+                    path);
+    default: return fail(err, "%s: %s", path, strerror(errno));
+    }
+}
+
+static const char *kind_of(mode_t mode)
+{
+    if (S_ISDIR(mode))
+        return "a folder";
+    if (S_ISFIFO(mode))
+        return "a pipe";
+    if (S_ISSOCK(mode))
+        return "a socket";
+    return "a device";
+}
+
+static bool expect_regular(const char *path, const struct stat *st,
+                           struct error *err)
+{
+    return S_ISREG(st->st_mode) || fail(err, "%s: found %s, expected a file",
+                                        path, kind_of(st->st_mode));
+}
+
+/* More than the machine has would end in its out-of-memory killer. */
+static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
+{
+    int64_t memory_bytes =
+        (int64_t)sysconf(_SC_PHYS_PAGES) * (int64_t)sysconf(_SC_PAGESIZE);
+    int64_t most_bytes =
+        memory_bytes < FILE_BYTES_MAX ? memory_bytes : FILE_BYTES_MAX;
+
+    return size_bytes <= most_bytes ||
+           fail(err, "%s: found %.1f GiB, expected %.1f GiB at most", path,
+                (double)size_bytes / (1 << 30), (double)most_bytes / (1 << 30));
+}
+
+/* -1 and errno, or what there was before the end. */
+static int64_t read_all(int fd, char *to, int64_t size_bytes)
+{
+    int64_t done = 0;
+
+    while (done < size_bytes) {
+        ssize_t n = read(fd, to + done, (size_t)(size_bytes - done));
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return -1;
+        if (n == 0)
+            break;
+        done += n;
+    }
+    return done;
+}
+
+static bool read_open_file(int fd, const char *path, char **text,
+                           size_t *size_bytes, struct error *err)
+{
+    struct stat st;
+
+    if (fstat(fd, &st) != 0)
+        return fail_errno(err, path);
+    if (!expect_regular(path, &st, err) || !expect_size(path, st.st_size, err))
+        return false;
+
+    char *memory = malloc((size_t)st.st_size + 1);
+    if (!memory)
+        return fail(err, "%s: out of memory for its %.1f MiB", path,
+                    (double)st.st_size / (1 << 20));
+    int64_t found = read_all(fd, memory, st.st_size);
+    if (found < 0) {
+        fail_errno(err, path);
+        free(memory);
+        return false;
+    }
+    memory[found] = '\0';
+    *text = memory;
+    *size_bytes = (size_t)found;
+    return true;
+}
+
+bool file_read(const char *path, char **text, size_t *size_bytes,
+               struct error *err)
+{
+    /* without O_NONBLOCK, opening a pipe waits for its writer */
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+
+    if (fd < 0)
+        return fail_errno(err, path);
+    bool ok = read_open_file(fd, path, text, size_bytes, err);
+    close(fd);
+    return ok;
+}
+
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    if (!slash)
+        return xstrdup(".");
+    return slash == path ? xstrdup("/")
+                         : xformat("%.*s", (int)(slash - path), path);
+}
+
+/* Where writing to path ends: what its links point to, even if that does not
+ * exist yet. For free(). */
+static char *target_of(const char *path)
+{
+    char *target = xstrdup(path);
+    char link[PATH_MAX];
+
+    for (int i = 0; i < LINKS_MAX; i++) {
+        ssize_t length = readlink(target, link, sizeof link - 1);
+        if (length < 0)
+            break;
+        link[length] = '\0';
+        char *next = path_beside(target, link);
+        free(target);
+        target = next;
+    }
+    return target;
+}
+
+bool file_check(const char *path, struct error *err)
+{
+    char *target = target_of(path);
+    char *folder = folder_of(target);
+    struct stat st;
+    bool ok = true;
+
+    if (stat(target, &st) == 0) {
+        ok = expect_regular(path, &st, err) &&
+             (access(target, W_OK) == 0 || fail_errno(err, path));
+    } else if (errno != ENOENT || *path == '\0') {
+        ok = fail_errno(err, path);
+    }
+    if (ok && access(folder, W_OK | X_OK) != 0)
+        ok = fail_errno(err, folder);
+    free(folder);
+    free(target);
+    return ok;
+}
+
+/* A new file with a name of its own in the folder; -1 and errno if there can
+ * be none. The name is for free(). */
+static int open_temporary(const char *folder, mode_t mode, char **name)
+{
+    for (unsigned i = 0;; i++) {
+        *name = xformat("%s/.glim-%d-%08x", folder, (int)getpid(),
+                        (unsigned)clock_ns() + i);
+        int fd = open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        if (fd >= 0)
+            return fd;
+        free(*name);
+        *name = NULL;
+        if (errno != EEXIST || i == 100)
+            return -1;
+    }
+}
+
+static bool write_all(int fd, const char *data, size_t size_bytes)
+{
+    while (size_bytes > 0) {
+        ssize_t n = write(fd, data, size_bytes);
+        if (n < 0 && errno != EINTR)
+            return false;
+        if (n > 0) {
+            data += n;
+            size_bytes -= (size_t)n;
+        }
+    }
+    return true;
+}
+
+/* Gives the finished file its name. A link is made only where there is nothing
+ * yet; file systems without links have a rename that does the same. */
+static bool publish(const char *temporary, const char *target, bool must_be_new)
+{
+    if (!must_be_new)
+        return rename(temporary, target) == 0;
+    if (link(temporary, target) == 0) {
+        unlink(temporary);
+        return true;
+    }
+    return (errno == EPERM || errno == EOPNOTSUPP) &&
+           renameat2(AT_FDCWD, temporary, AT_FDCWD, target, RENAME_NOREPLACE) ==
+               0;
+}
+
+/* Makes the name last as well. Some file systems cannot: no harm then. */
+static void sync_folder(const char *folder)
+{
+    int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+
+    if (fd >= 0) {
+        fsync(fd);
+        close(fd);
+    }
+}
+
+/* All steps until the file has its name; errno says what failed. */
+static bool replace(const char *folder, const char *target, const void *data,
+                    size_t size_bytes, bool must_be_new)
+{
+    struct stat old;
+    bool keeps_mode = !must_be_new && stat(target, &old) == 0;
+    char *temporary;
+    int fd = open_temporary(folder, 0666, &temporary);
+
+    if (fd < 0)
+        return false;
+    bool ok = (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) &&
+              write_all(fd, data, size_bytes) && fsync(fd) == 0;
+    int reason = errno;
+    if (close(fd) != 0 && ok) {
+        ok = false;
+        reason = errno;
+    }
+    if (ok && !publish(temporary, target, must_be_new)) {
+        ok = false;
+        reason = errno;
+    }
+    if (!ok)
+        unlink(temporary);
+    free(temporary);
+    errno = reason;
+    return ok;
+}
+
+bool file_write(const char *path, const void *data, size_t size_bytes,
+                bool must_be_new, bool *exists, struct error *err)
+{
+    char *target = must_be_new ? xstrdup(path) : target_of(path);
+    char *folder = folder_of(target);
+    bool ok = must_be_new || file_check(path, err);
+
+    if (ok && !replace(folder, target, data, size_bytes, must_be_new)) {
+        if (must_be_new && exists)
+            *exists = errno == EEXIST;
+        ok = fail_errno(err, path);
+    }
+    if (ok)
+        sync_folder(folder);
+    free(folder);
+    free(target);
+    return ok;
+}
+
+char *path_beside(const char *beside, const char *name)
+{
+    const char *slash = strrchr(beside, '/');
+
+    if (*name == '/' || !slash)
+        return xstrdup(name);
+    return xformat("%.*s%s", (int)(slash + 1 - beside), beside, name);
+}
+
+char *path_stem(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot && dot != name ? (size_t)(dot - path) : strlen(path);
+
+    return xformat("%.*s", (int)length, path);
+}
