@@ -148,6 +148,17 @@ static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
     return above.hi / slope.hi;
 }
 
+/* a b - c d with the sign of the exact value. Rounding is monotonic, so only
+ * a result of 0 can hide one: then the products' lost digits decide. */
+static inline float edge_function(float a, float b, float c, float d)
+{
+    float e = a * b - c * d;
+
+    if (e == 0.0f)
+        e = two_product(a, b).lo - two_product(c, d).lo;
+    return e;
+}
+
 /* True if the ray meets the triangle at a distance above 0 and not beyond
  * t_max; fills all of *h but tri. */
 static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
@@ -157,9 +168,9 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     struct vec3 a = shear_apply(s, p0);
     struct vec3 b = shear_apply(s, p1);
     struct vec3 c = shear_apply(s, p2);
-    float u = c.x * b.y - c.y * b.x;
-    float v = a.x * c.y - a.y * c.x;
-    float w = b.x * a.y - b.y * a.x;
+    float u = edge_function(c.x, b.y, c.y, b.x);
+    float v = edge_function(a.x, c.y, a.y, c.x);
+    float w = edge_function(b.x, a.y, b.y, a.x);
     float det, t, reach_x, reach_y, reach_z, reach_e;
     float error_x, error_y, error_e, error_t;
 

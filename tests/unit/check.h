@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+/*
+ * check.h - checks that print both values and the bound that was missed
+ *
+ * Units:     those of the values
+ * Ownership: none
+ * Threads:   one
+ * Errors:    a failed check ends the test
+ */
+#ifndef TESTS_CHECK_H
+#define TESTS_CHECK_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#undef fail /* ours is a function, of util.h */
+
+static inline void check_close_at(double got, double want, double bound,
+                                  const char *what, const char *file, int line)
+{
+    double miss = got > want ? got - want : want - got;
+
+    if (miss <= bound)
+        return;
+    print_error("%s: got %.9g, want %.9g, off by %.3g, allowed %.3g\n", what,
+                got, want, miss, bound);
+    _fail(file, line);
+}
+
+/* |got - want| <= bound; NaN fails. */
+#define check_close(got, want, bound) \
+    check_close_at(got, want, bound, #got, __FILE__, __LINE__)
+
+static inline void check_at_most_at(double got, double bound, const char *what,
+                                    const char *file, int line)
+{
+    if (got <= bound)
+        return;
+    print_error("%s: got %.9g, allowed at most %.9g\n", what, got, bound);
+    _fail(file, line);
+}
+
+#define check_at_most(got, bound) \
+    check_at_most_at(got, bound, #got, __FILE__, __LINE__)
+
+/* Numbers in [0, 1) for tests: not those of the program. (splitmix64) */
+static inline double check_random(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
+
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+/*
+ * mesh.h - small worlds made by tests
+ *
+ * Units:     normalised scene units
+ * Ownership: mesh_free() frees the arrays and the tree
+ * Threads:   one
+ * Errors:    a test ends when memory is out
+ */
+#ifndef TESTS_MESH_H
+#define TESTS_MESH_H
+
+#include <stdlib.h>
+
+#include "check.h"
+#include "glim/bvh.h"
+#include "kernels/vec.h"
+
+struct mesh {
+    struct vec3 *positions;
+    struct tri *tris;
+    uint32_t tri_count;
+    struct material materials[4];
+    struct bvh bvh;
+    struct world world;
+};
+
+static inline void mesh_add(struct mesh *m, struct vec3 a, struct vec3 b,
+                            struct vec3 c, uint32_t material)
+{
+    uint32_t n = m->tri_count++;
+    struct tri t = {{3 * n, 3 * n + 1, 3 * n + 2},
+                    {NO_INDEX, NO_INDEX, NO_INDEX},
+                    {NO_INDEX, NO_INDEX, NO_INDEX},
+                    material};
+
+    m->positions = realloc(m->positions, (3 * n + 3) * sizeof *m->positions);
+    m->tris = realloc(m->tris, (n + 1) * sizeof *m->tris);
+    assert_non_null(m->positions);
+    assert_non_null(m->tris);
+    m->positions[3 * n] = a;
+    m->positions[3 * n + 1] = b;
+    m->positions[3 * n + 2] = c;
+    m->tris[n] = t;
+}
+
+static inline void mesh_add_quad(struct mesh *m, struct vec3 a, struct vec3 b,
+                                 struct vec3 c, struct vec3 d,
+                                 uint32_t material)
+{
+    mesh_add(m, a, b, c, material);
+    mesh_add(m, a, c, d, material);
+}
+
+/* An axis-aligned box, winding outwards. */
+static inline void mesh_add_box(struct mesh *m, struct vec3 lo, struct vec3 hi,
+                                uint32_t material)
+{
+    struct vec3 p[8];
+
+    for (int i = 0; i < 8; i++)
+        p[i] =
+            v3(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
+    mesh_add_quad(m, p[0], p[2], p[3], p[1], material);
+    mesh_add_quad(m, p[4], p[5], p[7], p[6], material);
+    mesh_add_quad(m, p[0], p[1], p[5], p[4], material);
+    mesh_add_quad(m, p[2], p[6], p[7], p[3], material);
+    mesh_add_quad(m, p[0], p[4], p[6], p[2], material);
+    mesh_add_quad(m, p[1], p[3], p[7], p[5], material);
+}
+
+/* A sphere of latitude and longitude, closed, winding outwards. */
+static inline void mesh_add_sphere(struct mesh *m, struct vec3 center,
+                                   float radius, int rows, int columns,
+                                   uint32_t material)
+{
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++) {
+            struct vec3 p[4];
+
+            for (int k = 0; k < 4; k++) {
+                int row = i + k / 2;
+                int column = (j + k % 2) % columns;
+                double theta = 3.141592653589793 * row / rows;
+                double phi = 6.283185307179586 * column / columns;
+                /* the poles are one vertex, to the bit */
+                double s = row == 0 || row == rows ? 0.0 : sin(theta);
+
+                p[k] = v3((float)(center.x + radius * s * cos(phi)),
+                          (float)(center.y + radius * cos(theta)),
+                          (float)(center.z - radius * s * sin(phi)));
+            }
+            if (i > 0)
+                mesh_add(m, p[0], p[3], p[1], material);
+            if (i < rows - 1)
+                mesh_add(m, p[0], p[2], p[3], material);
+        }
+}
+
+static inline struct material mesh_material(uint32_t kind, float color)
+{
+    struct material m = {.color = {color, color, color},
+                         .kind = kind,
+                         .ior = 1.5f,
+                         .opacity = 1.0f,
+                         .color_texture = NO_INDEX,
+                         .emission_texture = NO_INDEX};
+
+    return m;
+}
+
+/* Builds the tree and the world; the camera and the sky stay the caller's. */
+static inline void mesh_finish(struct mesh *m)
+{
+    struct error err;
+    struct world *w = &m->world;
+
+    w->positions = m->positions;
+    w->tris = m->tris;
+    w->tri_count = m->tri_count;
+    w->materials = m->materials;
+    if (w->max_vertices == 0)
+        w->max_vertices = 1000;
+    assert_true(bvh_build(&m->bvh, w, &err));
+    w->nodes = m->bvh.nodes;
+    w->leaf_tris = m->bvh.leaf_tris;
+}
+
+static inline void mesh_free(struct mesh *m)
+{
+    bvh_free(&m->bvh);
+    free(m->positions);
+    free(m->tris);
+}
+
+#endif

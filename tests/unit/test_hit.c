@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+#include "mesh.h"
+
+#include <math.h>
+
+#include "kernels/traverse.h"
+
+static float span(uint64_t *seed)
+{
+    return (float)(2 * check_random(seed) - 1);
+}
+
+static struct vec3 point(uint64_t *seed)
+{
+    float x = span(seed), y = span(seed), z = span(seed);
+
+    return v3(x, y, z);
+}
+
+struct exact {
+    long double t, u, v; /* weights of p1 and p2 */
+};
+
+/* The plane equation in long double (Moller and Trumbore 1997). */
+static struct exact intersect(struct ray r, struct vec3 p0, struct vec3 p1,
+                              struct vec3 p2)
+{
+    long double o[3] = {r.o.x, r.o.y, r.o.z}, d[3] = {r.d.x, r.d.y, r.d.z};
+    long double a[3] = {p0.x, p0.y, p0.z};
+    long double e[3] = {p1.x - a[0], p1.y - a[1], p1.z - a[2]};
+    long double f[3] = {p2.x - a[0], p2.y - a[1], p2.z - a[2]};
+    long double s[3] = {o[0] - a[0], o[1] - a[1], o[2] - a[2]};
+    long double p[3] = {d[1] * f[2] - d[2] * f[1], d[2] * f[0] - d[0] * f[2],
+                        d[0] * f[1] - d[1] * f[0]};
+    long double q[3] = {s[1] * e[2] - s[2] * e[1], s[2] * e[0] - s[0] * e[2],
+                        s[0] * e[1] - s[1] * e[0]};
+    long double det = e[0] * p[0] + e[1] * p[1] + e[2] * p[2];
+    struct exact x = {(f[0] * q[0] + f[1] * q[1] + f[2] * q[2]) / det,
+                      (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) / det,
+                      (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det};
+
+    return x;
+}
+
+/* Clear hits are hits with the right distance and weights, clear misses are
+ * misses. */
+static void hits_agree_with_long_double(void **state)
+{
+    uint64_t seed = 1;
+    int hits = 0, misses = 0;
+
+    (void)state;
+    for (int i = 0; i < 1000000; i++) {
+        struct vec3 p0 = point(&seed), p1 = point(&seed), p2 = point(&seed);
+        struct ray r = {point(&seed), v3_unit(point(&seed)), FLOAT_MAX, 0};
+        struct exact x = intersect(r, p0, p1, p2);
+        struct hit h;
+        bool found = triangle_hit(r, shear_of(r), p0, p1, p2, FLOAT_MAX, &h);
+        const long double edge = 1e-3L;
+
+        if (x.t > edge && x.u > edge && x.v > edge && x.u + x.v < 1 - edge) {
+            struct vec3 n = v3_cross(v3_sub(p1, p0), v3_sub(p2, p0));
+            double slope = fabs((double)v3_dot(v3_unit(n), r.d));
+
+            assert_true(found);
+            check_close(h.t, (double)x.t, 2e-6 / slope);
+            check_close(h.b0 + h.b1 + h.b2, 1, 1e-6);
+            check_close(h.b1 * p1.x + h.b2 * p2.x + h.b0 * p0.x,
+                        (double)(r.o.x + x.t * r.d.x), 2e-6 / slope);
+            hits++;
+        } else if (x.t < -edge || x.u < -edge || x.v < -edge ||
+                   x.u + x.v > 1 + edge) {
+            assert_false(found);
+            misses++;
+        }
+    }
+    assert_true(hits > 20000 && misses > 500000);
+}
+
+/* STRESS G12: no ray from inside gets out of a closed mesh, aimed at vertices,
+ * at edges or anywhere. */
+static void closed_meshes_do_not_leak(void **state)
+{
+    struct mesh m = {0};
+    uint64_t seed = 2;
+    struct hit h;
+
+    (void)state;
+    mesh_add_sphere(&m, v3(0.01f, 0.02f, -0.03f), 0.9f, 20, 30, 0);
+    mesh_finish(&m);
+    for (int i = 0; i < 1000000; i++) {
+        struct tri t = m.tris[(uint32_t)(check_random(&seed) * m.tri_count)];
+        struct vec3 a = m.positions[t.v[0]], b = m.positions[t.v[1]];
+        float s = i % 3 == 0 ? 0.0f : (float)check_random(&seed);
+        struct ray r = {v3_scale(point(&seed), 0.45f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct vec3 at = i % 7 == 0 ? point(&seed) : v3_lerp(a, b, s);
+
+        r.d = v3_unit(v3_sub(at, r.o));
+        assert_true(hit_closest(&m.world, r, &h));
+    }
+    mesh_free(&m);
+}
+
+/* A ray that leaves a face must not hit it again, and hits the face opposite:
+ * over all angles, sizes and places. */
+static void no_ray_hits_its_own_face(void **state)
+{
+    uint64_t seed = 3;
+
+    (void)state;
+    for (int i = 0; i < 2000000; i++) {
+        float size = powf(10.0f, -5.0f + 5.0f * (float)check_random(&seed));
+        struct vec3 base = v3_scale(point(&seed), 1 - size);
+        struct vec3 p0 = v3_add(base, v3_scale(point(&seed), size));
+        struct vec3 p1 = v3_add(base, v3_scale(point(&seed), size));
+        struct vec3 p2 = v3_add(base, v3_scale(point(&seed), size));
+        struct ray in, out;
+        struct vec3 ng, error, p, t, b;
+        struct hit h, again;
+        double angle = 2 * M_PI * check_random(&seed);
+        /* half of them within a thousandth of the plane */
+        double z = i % 2 ? check_random(&seed) : 1e-3 * check_random(&seed);
+        double rest = sqrt(1 - z * z);
+        float u = (float)check_random(&seed), v = (float)check_random(&seed);
+        struct vec3 aim;
+
+        if (!triangle_normal(p0, p1, p2, &ng))
+            continue;
+        if (u + v > 1)
+            u = 1 - u, v = 1 - v;
+        aim = v3_add(v3_scale(p0, 1 - u - v),
+                     v3_add(v3_scale(p1, u), v3_scale(p2, v)));
+        in.o = v3_scale(point(&seed), 1.5f);
+        in.d = v3_unit(v3_sub(aim, in.o));
+        if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
+            continue;
+        p = hit_point(h, p0, p1, p2, &error);
+        frame_around(ng, &t, &b);
+        out.d = v3_add(v3_add(v3_scale(t, (float)(rest * cos(angle))),
+                              v3_scale(b, (float)(rest * sin(angle)))),
+                       v3_scale(ng, (float)z));
+        out.d = v3_unit(out.d);
+        if (!(v3_dot(out.d, ng) > 0))
+            continue;
+        out.o = leave_surface(p, error, ng);
+        assert_false(
+            triangle_hit(out, shear_of(out), p0, p1, p2, FLOAT_MAX, &again));
+    }
+}
+
+/* STRESS G17: a sheet 1e-5 above is hit by rays that leave the lower one. */
+static void near_sheets_are_both_hit(void **state)
+{
+    uint64_t seed = 4;
+
+    (void)state;
+    for (int i = 0; i < 200000; i++) {
+        struct vec3 p0 = point(&seed), p1 = point(&seed), p2 = point(&seed);
+        struct vec3 ng, error, p, t, b;
+        struct vec3 q0, q1, q2;
+        struct ray in, out;
+        struct hit h;
+        double angle = 2 * M_PI * check_random(&seed);
+        double z = 0.05 + 0.95 * check_random(&seed);
+        double rest = sqrt(1 - z * z);
+
+        if (!triangle_normal(p0, p1, p2, &ng) ||
+            v3_length(v3_cross(v3_sub(p1, p0), v3_sub(p2, p0))) < 0.1f)
+            continue;
+        in.o = v3_scale(point(&seed), 1.5f);
+        in.d = v3_unit(
+            v3_sub(v3_scale(v3_add(p0, v3_add(p1, p2)), 1 / 3.0f), in.o));
+        if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
+            continue;
+        p = hit_point(h, p0, p1, p2, &error);
+        q0 = v3_add(p0, v3_scale(ng, 1e-5f));
+        q1 = v3_add(p1, v3_scale(ng, 1e-5f));
+        q2 = v3_add(p2, v3_scale(ng, 1e-5f));
+        frame_around(ng, &t, &b);
+        out.o = leave_surface(p, error, ng);
+        out.d = v3_unit(v3_add(v3_add(v3_scale(t, (float)(rest * cos(angle))),
+                                      v3_scale(b, (float)(rest * sin(angle)))),
+                               v3_scale(ng, (float)z)));
+        assert_true(
+            triangle_hit(out, shear_of(out), q0, q1, q2, FLOAT_MAX, &h));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_agree_with_long_double),
+        cmocka_unit_test(closed_meshes_do_not_leak),
+        cmocka_unit_test(no_ray_hits_its_own_face),
+        cmocka_unit_test(near_sheets_are_both_hit),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

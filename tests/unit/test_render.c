@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+#include "mesh.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glim/render.h"
+
+#define WIDTH  70 /* no multiple of a block */
+#define HEIGHT 43
+
+/* A room with a lamp and a ball of glass. */
+static void make_room(struct mesh *m)
+{
+    memset(m, 0, sizeof *m);
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.7f);
+    m->materials[1] = mesh_material(MATERIAL_DIFFUSE, 0.0f);
+    m->materials[1].emission = v3(9, 8, 7);
+    m->materials[2] = mesh_material(MATERIAL_GLASS, 1.0f);
+    mesh_add_box(m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_quad(m, v3(-0.4f, 0.99f, -0.4f), v3(0.4f, 0.99f, -0.4f),
+                  v3(0.4f, 0.99f, 0.4f), v3(-0.4f, 0.99f, 0.4f), 1);
+    mesh_add_sphere(m, v3(0, -0.5f, 0), 0.4f, 12, 20, 2);
+    m->world.camera = (struct camera){.eye = {0, 0, 0.95f},
+                                      .width = WIDTH,
+                                      .forward = {0, 0, -1},
+                                      .height = HEIGHT,
+                                      .right = {0.8f, 0, 0},
+                                      .up = {0, 0.5f, 0}};
+    mesh_finish(m);
+}
+
+static struct render *open_render(int threads)
+{
+    struct error err;
+    struct backend *backend = backend_cpu_create(threads, &err);
+    struct render *r;
+
+    assert_non_null(backend);
+    r = render_create(backend, &err);
+    assert_non_null(r);
+    return r;
+}
+
+static struct render_job job_of(const struct mesh *m, uint64_t spp)
+{
+    struct render_job job = {m->world, true, {0, 0, WIDTH, HEIGHT}, spp};
+
+    return job;
+}
+
+static void assert_same_film(struct film *a, struct film *b)
+{
+    size_t pixels = (size_t)a->width * (size_t)a->height;
+
+    assert_int_equal(a->width, b->width);
+    assert_memory_equal(a->counts, b->counts, pixels * sizeof *a->counts);
+    assert_memory_equal(a->sums, b->sums, 3 * pixels * sizeof *a->sums);
+    assert_int_equal(atomic_load(&a->rays), atomic_load(&b->rays));
+}
+
+static void thread_counts_give_the_same_bits(void **state)
+{
+    const int threads[] = {1, 2, 3, 8};
+    struct render *renders[4];
+    struct mesh m;
+    struct error err;
+
+    (void)state;
+    make_room(&m);
+    for (int i = 0; i < 4; i++) {
+        struct render_job job = job_of(&m, 11);
+        struct render_progress p;
+
+        renders[i] = open_render(threads[i]);
+        assert_true(render_start(renders[i], &job, &err));
+        assert_true(render_wait(renders[i], 60000));
+        p = render_progress(renders[i]);
+        assert_int_equal(p.state, RENDER_DONE);
+        assert_int_equal(p.spp_done, 11);
+        assert_int_equal(p.samples, 11 * WIDTH * HEIGHT);
+        assert_int_equal(p.non_finite, 0);
+        assert_true(p.first_picture_ns > 0);
+        if (i > 0)
+            assert_same_film(render_film(renders[0]), render_film(renders[i]));
+    }
+    for (int i = 0; i < 4; i++)
+        render_destroy(renders[i]);
+    mesh_free(&m);
+}
+
+/* Halting at any moment and going on loses and repeats no sample. */
+static void halts_do_not_show(void **state)
+{
+    struct render *whole = open_render(2), *halted = open_render(2);
+    struct mesh m;
+    struct error err;
+    struct render_job job;
+    int halts = 0;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 40);
+    assert_true(render_start(whole, &job, &err));
+    assert_true(render_start(halted, &job, &err));
+    while (!render_wait(halted, 1)) {
+        render_halt(halted);
+        assert_int_not_equal(render_progress(halted).state, RENDER_RUNNING);
+        render_resume(halted, 40);
+        halts++;
+    }
+    assert_true(render_wait(whole, 60000));
+    assert_true(halts > 3);
+    assert_int_equal(render_progress(halted).state, RENDER_DONE);
+    assert_same_film(render_film(whole), render_film(halted));
+    render_resume(whole, 41); /* one more sample each */
+    assert_true(render_wait(whole, 60000));
+    assert_int_equal(render_progress(whole).samples, 41 * WIDTH * HEIGHT);
+    render_destroy(whole);
+    render_destroy(halted);
+    mesh_free(&m);
+}
+
+/* A restart shows nothing of the picture before. */
+static void restarts_begin_anew(void **state)
+{
+    struct render *r = open_render(2), *fresh = open_render(2);
+    struct mesh m;
+    struct error err;
+    struct render_job job;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 0);
+    assert_true(render_start(r, &job, &err));
+    for (int i = 0; i < 30; i++) {
+        job.geometry_changed = false;
+        job.world.camera.eye.x = 0.01f * (float)i;
+        job.spp = i == 29 ? 5 : 0;
+        usleep(1000);
+        assert_true(render_start(r, &job, &err));
+    }
+    job.geometry_changed = true;
+    assert_true(render_start(fresh, &job, &err));
+    assert_true(render_wait(r, 60000));
+    assert_true(render_wait(fresh, 60000));
+    assert_same_film(render_film(r), render_film(fresh));
+    render_destroy(r);
+    render_destroy(fresh);
+    mesh_free(&m);
+}
+
+static void a_crop_is_part_of_the_whole(void **state)
+{
+    static float all[3 * WIDTH * HEIGHT], part[3 * 20 * 10];
+    struct render *r = open_render(2);
+    struct mesh m;
+    struct error err;
+    struct render_job job;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 3);
+    assert_true(render_start(r, &job, &err));
+    render_wait(r, -1);
+    film_linear(render_film(r), all);
+    job.geometry_changed = false;
+    job.crop = (struct rect){33, 21, 20, 10};
+    assert_true(render_start(r, &job, &err));
+    render_wait(r, -1);
+    film_linear(render_film(r), part);
+    for (int y = 0; y < 10; y++)
+        assert_memory_equal(part + 3 * 20 * y,
+                            all + 3 * (WIDTH * (y + 21) + 33),
+                            3 * 20 * sizeof *part);
+    render_destroy(r);
+    mesh_free(&m);
+}
+
+/* The event descriptor tells of the end. */
+static void the_end_is_an_event(void **state)
+{
+    struct render *r = open_render(1);
+    struct mesh m;
+    struct error err;
+    struct render_job job;
+    uint64_t events = 0;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 1);
+    assert_int_equal(read(render_event_fd(r), &events, sizeof events), -1);
+    assert_true(render_start(r, &job, &err));
+    render_wait(r, -1);
+    while (read(render_event_fd(r), &events, sizeof events) < 0)
+        usleep(100); /* it comes right after the state */
+    assert_int_equal(events, 1);
+    render_destroy(r);
+    render_destroy(NULL);
+    mesh_free(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thread_counts_give_the_same_bits),
+        cmocka_unit_test(halts_do_not_show),
+        cmocka_unit_test(restarts_begin_anew),
+        cmocka_unit_test(a_crop_is_part_of_the_whole),
+        cmocka_unit_test(the_end_is_an_event),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
