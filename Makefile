@@ -37,6 +37,9 @@ UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
+# On all cores, unless the caller has said how many.
+MAKE_ALL = $(MAKE) --no-print-directory \
+	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
 	tests/tools,$(wildcard $(d)/*.[ch]))
@@ -57,9 +60,9 @@ $(B)/scenes/%.o: scenes/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-$(B)/scenes/generate: $(GENERATOR) $(LIBRARY)
+$(B)/scenes/generate: $(GENERATOR) $(B)/stb.o
 	$(SAY) LINK $@
-	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(GENERATOR) $(LIBRARY) $(LIBS)
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(GENERATOR) $(B)/stb.o -lm
 
 define program
 $(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
@@ -83,11 +86,11 @@ $(B)/flags: FORCE
 ##      without a terminal it renders a picture instead
 run:
 	@CC='$(CC)' tests/tools/deps.sh build
+	@+$(MAKE_ALL) $(B)/glim $(B)/tools/show
 	@if [ -t 0 ] && [ -t 1 ]; then \
-		$(MAKE) --no-print-directory $(B)/glim && $(B)/glim $(SCENE); \
+		$(B)/glim $(SCENE); \
 	else \
-		$(MAKE) --no-print-directory $(B)/glim $(B)/tools/show && \
-		$(B)/glim -b -w 400 -h 400 -s 64 -o build/run.png $(SCENE) && \
+		$(B)/glim -b -h 400 -s 64 -o build/run.png $(SCENE) && \
 		$(B)/tools/show build/run.png && echo 'picture: build/run.png'; \
 	fi
 
@@ -95,7 +98,7 @@ run:
 ##       SAN=address,undefined or SAN=thread for a build that watches itself
 test:
 	@CC='$(CC)' tests/tools/deps.sh build test
-	@$(MAKE) --no-print-directory tests
+	@+$(MAKE_ALL) tests
 	@BUILD=$(B) SAN='$(SAN)' tests/run.sh
 
 tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate

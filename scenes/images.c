@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <stb/stb_image_write.h>
+#include "glim/stb.h"
 
 #define PI         3.14159265358979323846
 #define SIDE_MAX   256
@@ -64,10 +64,38 @@ static uint8_t byte_of(double x)
     return (uint8_t)(value < 0 ? 0 : value > 255 ? 255 : value);
 }
 
-static void stop(const char *path)
+/* What the encoders write to. */
+struct output {
+    char path[4096];
+    FILE *file;
+};
+
+static void append(void *context, void *data, int size_bytes)
 {
-    fprintf(stderr, "%s: could not be written\n", path);
-    exit(1);
+    struct output *out = context;
+
+    if (out->file)
+        fwrite(data, 1, (size_t)size_bytes, out->file);
+}
+
+static void open_output(struct output *out, const char *folder,
+                        const char *name)
+{
+    snprintf(out->path, sizeof out->path, "%s/%s", folder, name);
+    out->file = fopen(out->path, "wb");
+}
+
+/* Closes; any failure on the way is found here. */
+static void close_output(struct output *out, int is_encoded)
+{
+    int is_bad = !out->file || !is_encoded || ferror(out->file);
+
+    if (out->file && fclose(out->file) != 0)
+        is_bad = 1;
+    if (is_bad) {
+        fprintf(stderr, "%s: could not be written\n", out->path);
+        exit(1);
+    }
 }
 
 /* Draws point by point: x and y in [0, 1), y down. */
@@ -75,7 +103,7 @@ static void write_png(const char *folder, const char *name, int width,
                       int height, struct color (*draw)(double x, double y))
 {
     static uint8_t rgb[SIDE_MAX * SIDE_MAX * 3];
-    char path[4096];
+    struct output out;
 
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
@@ -87,9 +115,9 @@ static void write_png(const char *folder, const char *name, int width,
             p[2] = byte_of(c.b);
         }
     }
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (!stbi_write_png(path, width, height, 3, rgb, width * 3))
-        stop(path);
+    open_output(&out, folder, name);
+    close_output(&out, stbi_write_png_to_func(append, &out, width, height, 3,
+                                              rgb, width * 3));
 }
 
 /* Eight planks side by side, each with its own tone and grain. */
@@ -187,28 +215,42 @@ static struct color sky_radiance(double x, double y, double z)
     return c;
 }
 
+/* Radiance's four bytes: three mantissas and the exponent of the greatest. */
+static void put_rgbe(struct color c, uint8_t rgbe[4])
+{
+    int exponent;
+    double scale;
+
+    frexp(fmax(c.r, fmax(c.g, c.b)), &exponent);
+    scale = ldexp(1, 8 - exponent);
+    rgbe[0] = (uint8_t)(c.r * scale);
+    rgbe[1] = (uint8_t)(c.g * scale);
+    rgbe[2] = (uint8_t)(c.b * scale);
+    rgbe[3] = (uint8_t)(exponent + 128);
+}
+
 /* The middle column is along -z, u grows towards +x, row 0 is +y. */
 static void write_sky(const char *folder)
 {
-    static float rgb[SKY_WIDTH * SKY_HEIGHT * 3];
-    char path[4096];
+    static uint8_t rgbe[SKY_WIDTH * SKY_HEIGHT][4];
+    struct output out;
 
     for (int row = 0; row < SKY_HEIGHT; row++) {
         for (int col = 0; col < SKY_WIDTH; col++) {
             double theta = PI * (row + .5) / SKY_HEIGHT;
             double phi = 2 * PI * ((col + .5) / SKY_WIDTH - .5);
-            struct color c = sky_radiance(sin(theta) * sin(phi), cos(theta),
-                                          -sin(theta) * cos(phi));
-            float *p = &rgb[(row * SKY_WIDTH + col) * 3];
 
-            p[0] = (float)c.r;
-            p[1] = (float)c.g;
-            p[2] = (float)c.b;
+            put_rgbe(sky_radiance(sin(theta) * sin(phi), cos(theta),
+                                  -sin(theta) * cos(phi)),
+                     rgbe[row * SKY_WIDTH + col]);
         }
     }
-    snprintf(path, sizeof path, "%s/sky.hdr", folder);
-    if (!stbi_write_hdr(path, SKY_WIDTH, SKY_HEIGHT, 3, rgb))
-        stop(path);
+    open_output(&out, folder, "sky.hdr");
+    if (out.file)
+        fprintf(out.file, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n",
+                SKY_HEIGHT, SKY_WIDTH);
+    append(&out, rgbe, sizeof rgbe);
+    close_output(&out, 1);
 }
 
 void images_write(const char *folder)
