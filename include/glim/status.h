@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+/*
+ * status.h - the text of the status line
+ *
+ * Units:     terminal columns, nanoseconds
+ * Ownership: text goes to the caller's memory
+ * Threads:   any
+ * Errors:    none; what has no room is left out, the least important first
+ */
+#ifndef GLIM_STATUS_H
+#define GLIM_STATUS_H
+
+#include "glim/render.h"
+
+#define STATUS_BYTES 512
+
+struct status {
+    bool is_live;
+    bool is_halted;  /* normal mode: by the person, or not yet started */
+    bool is_started; /* normal mode: a render was begun */
+    const struct render_progress *progress;
+    int thread_count;
+    int width_px, height_px;
+    const char *colors; /* "24 bit" */
+};
+
+/* Writes a line for `cols` columns. */
+void status_format(char text[STATUS_BYTES], int cols, const struct status *s);
+
+/* Seconds as people read them: 7 s, 1:07, 2:01:07. Rounds down. */
+void status_duration(char *text, size_t size_bytes, uint64_t ns);
+
+/* Copies a message for the screen: no control characters, cut at `cols`
+ * bytes. */
+void status_message(char text[STATUS_BYTES], int cols, const char *message);
+
+#endif

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "glim/ansi.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A jump, two 24-bit colours and a glyph: 10 + 38 + 3 bytes. */
+#define CELL_BYTES_MAX 56
+
+bool ansi_init(struct ansi *a, int cols, int rows, struct error *err)
+{
+    size_t count = (size_t)cols * (size_t)rows;
+
+    assert(cols > 0 && rows > 0);
+    *a = (struct ansi){.cols = cols, .rows = rows};
+    a->capacity = count * CELL_BYTES_MAX + ANSI_TEXT_MAX;
+    a->shown = alloc_array(count, sizeof a->shown[0]);
+    a->bytes = alloc_array(a->capacity, 1);
+    if (!a->shown || !a->bytes) {
+        ansi_free(a);
+        return fail(err, "no memory for a window of %dx%d cells", cols, rows);
+    }
+    return true;
+}
+
+void ansi_free(struct ansi *a)
+{
+    free(a->shown);
+    free(a->bytes);
+    *a = (struct ansi){0};
+}
+
+void ansi_forget(struct ansi *a, struct ansi_rect rect)
+{
+    for (int y = rect.row; y < rect.row + rect.rows; y++) {
+        for (int x = rect.col; x < rect.col + rect.cols; x++) {
+            if (x >= 0 && x < a->cols && y >= 0 && y < a->rows)
+                a->shown[(size_t)y * (size_t)a->cols + (size_t)x].glyph = 0;
+        }
+    }
+}
+
+void ansi_forget_all(struct ansi *a)
+{
+    ansi_forget(a, (struct ansi_rect){0, 0, a->cols, a->rows});
+}
+
+void ansi_begin(struct ansi *a)
+{
+    a->length = 0;
+    a->fg = CELL_DEFAULT;
+    a->bg = CELL_DEFAULT;
+}
+
+static void put(struct ansi *a, const char *text, size_t length)
+{
+    assert(a->length + length <= a->capacity);
+    memcpy(a->bytes + a->length, text, length);
+    a->length += length;
+}
+
+void ansi_text(struct ansi *a, const char *text)
+{
+    put(a, text, strlen(text));
+}
+
+static void put_char(struct ansi *a, char c)
+{
+    a->bytes[a->length++] = c;
+}
+
+static void put_number(struct ansi *a, uint32_t n)
+{
+    char digits[10];
+    int count = 0;
+
+    do {
+        digits[count++] = (char)('0' + n % 10);
+        n /= 10;
+    } while (n);
+    while (count)
+        put_char(a, digits[--count]);
+}
+
+/* 38;2;r;g;b for a foreground (base 30), 48;... for a background (base 40).
+ * Semicolons: the form that every terminal takes apart the same way. */
+static void put_color(struct ansi *a, uint32_t color, enum palette palette,
+                      uint32_t base)
+{
+    if (color == CELL_DEFAULT) {
+        put_number(a, base + 9);
+    } else if (palette == PALETTE_24BIT) {
+        put_number(a, base + 8);
+        put(a, ";2;", 3);
+        put_number(a, color >> 16 & 255);
+        put_char(a, ';');
+        put_number(a, color >> 8 & 255);
+        put_char(a, ';');
+        put_number(a, color & 255);
+    } else if (palette == PALETTE_256) {
+        put_number(a, base + 8);
+        put(a, ";5;", 3);
+        put_number(a, color);
+    } else {
+        put_number(a, color < 8 ? base + color : base + 60 + color - 8);
+    }
+}
+
+/* One sequence with only the part that changes. A blank shows no foreground. */
+static void put_colors(struct ansi *a, const struct cell *cell,
+                       enum palette palette)
+{
+    bool new_fg = cell->glyph != ' ' && cell->fg != a->fg;
+    bool new_bg = cell->bg != a->bg;
+
+    if (!new_fg && !new_bg)
+        return;
+    put(a, "\033[", 2);
+    if (new_fg) {
+        put_color(a, cell->fg, palette, 30);
+        a->fg = cell->fg;
+    }
+    if (new_fg && new_bg)
+        put_char(a, ';');
+    if (new_bg) {
+        put_color(a, cell->bg, palette, 40);
+        a->bg = cell->bg;
+    }
+    put_char(a, 'm');
+}
+
+static void put_glyph(struct ansi *a, uint32_t glyph)
+{
+    if (glyph == CELL_UPPER)
+        put(a, "\xe2\x96\x80", 3);
+    else if (glyph == CELL_LOWER)
+        put(a, "\xe2\x96\x84", 3);
+    else
+        put_char(a, (char)glyph);
+}
+
+/* `from` is the column where the cursor stands in this row; -1: elsewhere. */
+static void put_jump(struct ansi *a, int row, int col, int from)
+{
+    if (from == col)
+        return;
+    put(a, "\033[", 2);
+    if (from < 0) {
+        put_number(a, (uint32_t)row + 1);
+        put_char(a, ';');
+        put_number(a, (uint32_t)col + 1);
+        put_char(a, 'H');
+        return;
+    }
+    if (col - from > 1)
+        put_number(a, (uint32_t)(col - from));
+    put_char(a, 'C');
+}
+
+static bool channels_close(uint32_t a, uint32_t b, int step)
+{
+    for (int shift = 0; shift < 24; shift += 8) {
+        if (abs((int)(a >> shift & 255) - (int)(b >> shift & 255)) > step)
+            return false;
+    }
+    return true;
+}
+
+/* What a cell shows in its upper and its lower half. */
+static uint32_t upper_of(const struct cell *c)
+{
+    return c->glyph == CELL_UPPER ? c->fg : c->bg;
+}
+
+static uint32_t lower_of(const struct cell *c)
+{
+    return c->glyph == CELL_LOWER ? c->fg : c->bg;
+}
+
+static bool is_block(const struct cell *c)
+{
+    return (c->glyph == CELL_UPPER || c->glyph == CELL_LOWER ||
+            c->glyph == ' ') &&
+           c->bg != CELL_DEFAULT;
+}
+
+static bool may_stay(const struct cell *shown, const struct cell *cell,
+                     int step)
+{
+    if (shown->glyph == cell->glyph && shown->bg == cell->bg &&
+        (shown->fg == cell->fg || cell->glyph == ' '))
+        return true;
+    return step > 0 && is_block(shown) && is_block(cell) &&
+           channels_close(upper_of(shown), upper_of(cell), step) &&
+           channels_close(lower_of(shown), lower_of(cell), step);
+}
+
+/* The column behind a window above (col, row), or col. */
+static int behind_cover(const struct ansi_draw *how, int col, int row)
+{
+    for (int i = 0; i < how->covered_count; i++) {
+        const struct ansi_rect *r = &how->covered[i];
+
+        if (row >= r->row && row < r->row + r->rows && col >= r->col &&
+            col < r->col + r->cols) {
+            col = r->col + r->cols;
+            i = -1; /* another may begin there */
+        }
+    }
+    return col;
+}
+
+/* Writes what differs in columns [begin, end) of a row until the buffer is
+ * `limit` long; the column where it stopped, or end. */
+static int put_row(struct ansi *a, const struct cells *cells, int row,
+                   int begin, int end, size_t limit,
+                   const struct ansi_draw *how)
+{
+    size_t first = (size_t)row * (size_t)a->cols;
+    int step = cells->palette == PALETTE_24BIT ? how->step : 0;
+    int from = -1;
+
+    for (int col = behind_cover(how, begin, row); col < end;
+         col = behind_cover(how, col + 1, row)) {
+        const struct cell *cell = &cells->cell[first + (size_t)col];
+        struct cell *shown = &a->shown[first + (size_t)col];
+
+        if (may_stay(shown, cell, step))
+            continue;
+        if (a->length >= limit)
+            return col;
+        put_jump(a, how->row + row, how->col + col,
+                 from < 0 ? -1 : how->col + from);
+        put_colors(a, cell, cells->palette);
+        put_glyph(a, cell->glyph);
+        *shown = *cell;
+        from = col + 1;
+    }
+    return end;
+}
+
+bool ansi_picture(struct ansi *a, const struct cells *cells,
+                  const struct ansi_draw *how)
+{
+    size_t limit = how->budget_bytes > SIZE_MAX - a->length
+                       ? SIZE_MAX
+                       : a->length + how->budget_bytes;
+    int start_row = a->next_row;
+    int start_col = a->next_col;
+
+    assert(cells->cols == a->cols && cells->rows == a->rows);
+    if (cells->palette != a->palette)
+        ansi_forget_all(a); /* the same number is another colour */
+    a->palette = cells->palette;
+    /* The row of the start comes twice: its right part first, its left last. */
+    for (int i = 0; i <= a->rows; i++) {
+        int row = (start_row + i) % a->rows;
+        int begin = i == 0 ? start_col : 0;
+        int end = i == a->rows ? start_col : a->cols;
+        int stop = put_row(a, cells, row, begin, end, limit, how);
+
+        if (stop < end) {
+            a->next_row = row;
+            a->next_col = stop;
+            return false;
+        }
+    }
+    a->next_row = 0;
+    a->next_col = 0;
+    return true;
+}
+
+void ansi_end(struct ansi *a, int row)
+{
+    ansi_text(a, "\033[m\033[");
+    put_number(a, (uint32_t)row + 1);
+    ansi_text(a, ";1H");
+    a->fg = CELL_DEFAULT;
+    a->bg = CELL_DEFAULT;
+}

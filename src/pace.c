@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "glim/pace.h"
+
+/* A key waits for the frame on its way: at 0.12 s of output the wait is felt
+ * less than a picture that needs more frames. */
+#define FRAME_SECONDS 0.12
+
+/* Enough for some cells however slow the line. */
+#define BUDGET_MIN 600
+
+/* Before anything is known: half a second at 256 kbit/s. */
+#define BUDGET_FIRST 16384
+
+#define BUDGET_MAX ((size_t)1 << 30)
+
+/* Smaller frames say more about the clock than about the line. */
+#define MEASURE_BYTES 1000
+
+/* The longest round trip that is waited for at start, then later. */
+#define FIRST_ANSWER_NS 400000000u
+#define LOST_ANSWER_NS  5000000000u
+
+/* Below a megabyte a second a frame of a common window lasts longer than a
+ * blink. */
+#define SLOW_RATE 1e6
+
+void pace_init(struct pace *p, uint64_t now_ns)
+{
+    *p = (struct pace){.state = PACE_UNKNOWN,
+                       .outstanding = 1,
+                       .asked_ns = now_ns,
+                       .first_asked_ns = now_ns,
+                       .budget_bytes = BUDGET_FIRST};
+}
+
+bool pace_may_send(const struct pace *p)
+{
+    if (p->state == PACE_UNKNOWN)
+        return !p->first_frame_sent;
+    return p->state == PACE_MUTE || p->outstanding == 0;
+}
+
+bool pace_wants_request(const struct pace *p)
+{
+    return p->state != PACE_MUTE;
+}
+
+static void learn_rate(struct pace *p, double seconds)
+{
+    double rate = (double)p->frame_bytes / (seconds > 5e-4 ? seconds : 5e-4);
+
+    p->rate = p->rate > 0 ? 0.7 * p->rate + 0.3 * rate : rate;
+    double budget = p->rate * FRAME_SECONDS;
+    if (budget >= (double)BUDGET_MAX)
+        p->budget_bytes = BUDGET_MAX;
+    else
+        p->budget_bytes = budget < BUDGET_MIN ? BUDGET_MIN : (size_t)budget;
+}
+
+/* Without answers the time that write() took is all there is to see. */
+static void learn_from_write(struct pace *p, uint64_t took_ns)
+{
+    if (took_ns > 2000000u && p->frame_bytes > MEASURE_BYTES)
+        learn_rate(p, (double)took_ns * 1e-9);
+    else if (p->budget_bytes <= BUDGET_MAX / 2)
+        p->budget_bytes *= 2;
+}
+
+void pace_sent(struct pace *p, size_t size_bytes, bool with_request,
+               uint64_t begin_ns, uint64_t end_ns)
+{
+    p->frame_bytes = size_bytes;
+    p->first_frame_sent = true;
+    if (with_request) {
+        p->outstanding++;
+        p->asked_ns = begin_ns;
+    }
+    if (p->state == PACE_MUTE)
+        learn_from_write(p, end_ns - begin_ns);
+}
+
+/* The answer to the very first request: nothing but the way there and back,
+ * even if a frame has followed it. */
+static void first_answer(struct pace *p, uint64_t now_ns)
+{
+    p->rtt_min_ns = now_ns - p->first_asked_ns;
+    if (p->outstanding == 0)
+        p->frame_bytes = 0;
+}
+
+void pace_answer(struct pace *p, uint64_t now_ns)
+{
+    enum pace_state before = p->state;
+
+    p->state = PACE_ANSWERS;
+    if (before == PACE_MUTE)
+        p->outstanding = 0; /* the others may be lost */
+    else if (p->outstanding > 0)
+        p->outstanding--;
+    if (before != PACE_ANSWERS) {
+        first_answer(p, now_ns);
+        return;
+    }
+    if (p->outstanding > 0 || p->frame_bytes == 0)
+        return;
+    uint64_t rtt_ns = now_ns - p->asked_ns;
+    if (rtt_ns < p->rtt_min_ns)
+        p->rtt_min_ns = rtt_ns;
+    if (p->frame_bytes > MEASURE_BYTES)
+        learn_rate(p, (double)(rtt_ns - p->rtt_min_ns) * 1e-9);
+    p->frame_bytes = 0;
+}
+
+uint64_t pace_deadline_ns(const struct pace *p)
+{
+    if (p->state == PACE_MUTE || p->outstanding == 0)
+        return UINT64_MAX;
+    return p->asked_ns +
+           (p->state == PACE_UNKNOWN ? FIRST_ANSWER_NS : LOST_ANSWER_NS);
+}
+
+void pace_tick(struct pace *p, uint64_t now_ns)
+{
+    if (now_ns >= pace_deadline_ns(p))
+        p->state = PACE_MUTE;
+}
+
+bool pace_is_slow(const struct pace *p)
+{
+    return p->rate > 0 && p->rate < SLOW_RATE;
+}
