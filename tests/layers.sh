@@ -12,7 +12,10 @@ cd "$(dirname "$0")/.." || exit 1
 # bodies of stb's headers, and what backend.h declares.
 HEADERLESS='main stb backend_cpu'
 
-find src include kernels -name '*.[ch]' | sort | awk -v headerless="$HEADERLESS" '
+{
+    find src include kernels scenes tests -name '*.[ch]'
+    find scenes tests .ci -name '*.sh' -o -path .ci/run
+} | sort | awk -v headerless="$HEADERLESS" '
 function fault(text)
 {
     printf "%s: %s\n", path, text
@@ -73,22 +76,30 @@ function check_include(name, is_system,    kernel)
               row_of(name))
 }
 
-function check_file(    line, number, head, is_header)
+function check_rows(    line)
 {
-    stem = stem_of(path)
-    is_header = path ~ /\.h$/
     if (path ~ /^src\/.*\.c$/ && !(stem in exempt) &&
         (getline line < ("include/glim/" stem ".h")) < 0)
         fault("has no include/glim/" stem ".h")
     close("include/glim/" stem ".h")
     if (row_of(path) < 0)
         fault("is in no row of the table in CONTRIBUTING.md")
+}
+
+function check_file(    line, number, head, is_ours, is_licensed)
+{
+    stem = stem_of(path)
+    is_ours = path ~ /^(src|include|kernels)\//
+    if (is_ours)
+        check_rows()
     while ((getline line < path) > 0) {
         number++
-        if (number == 1 && line != "// SPDX-License-Identifier: MIT")
-            fault("does not begin with the SPDX line")
+        if (number <= 2 && line ~ /^(\/\/|#) SPDX-License-Identifier: MIT$/)
+            is_licensed = 1
         if (number <= 40)
             head = head "\n" line
+        if (!is_ours)
+            continue
         if (line ~ /^[ \t]*#[ \t]*include[ \t]*"/) {
             split(line, part, "\"")
             check_include(part[2], 0)
@@ -102,7 +113,9 @@ function check_file(    line, number, head, is_header)
             fault("line " number ": only main ends the program")
     }
     close(path)
-    if (is_header) {
+    if (!is_licensed)
+        fault("does not begin with the SPDX line")
+    if (path ~ /\.h$/) {
         if (head !~ "\n \\* " stem "\\.h - ")
             fault("the head comment does not say what it is")
         if (head !~ /Units: .*Ownership: .*Threads: .*Errors: /)

@@ -101,7 +101,7 @@ scenes_are_generated()
     return $status
 }
 
-wanted layers && run_script layers tests/layers.sh
+wanted layers && run_check layers tests/layers.sh
 wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1
 wanted scenes && run_check scenes scenes_are_generated
 for program in tests/unit/test_*.c; do
