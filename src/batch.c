@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "glim/file.h"
@@ -76,31 +75,15 @@ static const char *signal_name(int number)
 
 static bool is_standard_output(const char *path)
 {
-    return path && strcmp(path, "-") == 0;
+    return strcmp(path, "-") == 0;
 }
 
-/* A file that --stats can write or replace. Whole minutes may lie between
- * this and the writing, so a mistake is worth finding now. */
-static bool check_stats_path(const char *path, struct error *err)
-{
-    struct stat st;
-
-    if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
-        return fail(err, "%s: found a %s, expected a regular file", path,
-                    S_ISDIR(st.st_mode) ? "folder" : "special file");
-
-    char *folder = path_beside(path, ".");
-    bool ok = access(folder, W_OK | X_OK) == 0 ||
-              fail(err, "%s: %s", path, strerror(errno));
-
-    free(folder);
-    return ok;
-}
-
+/* Whole minutes may lie between this and the writing: mistakes are worth
+ * finding now. */
 static bool check_outputs(const struct options *o, struct error *err)
 {
     if (o->stats_path && !is_standard_output(o->stats_path) &&
-        !check_stats_path(o->stats_path, err))
+        !file_check(o->stats_path, err))
         return false;
     if (o->output_path)
         return picture_check(o->output_path, err);
