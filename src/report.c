@@ -32,11 +32,12 @@ static struct report_entry *find(const struct report *r, const char *kind)
     return NULL;
 }
 
-void report_add(struct report *r, const char *kind, const char *format, ...)
+/* The entry of this kind, made with the text if there is none yet. */
+static void add(struct report *r, const char *kind, const char *format,
+                va_list args)
 {
     struct report_entry *entry = find(r, kind);
     char text[1024];
-    va_list args;
 
     if (entry != NULL) {
         entry->count++;
@@ -47,14 +48,47 @@ void report_add(struct report *r, const char *kind, const char *format, ...)
         r->entries =
             xrealloc(r->entries, (size_t)r->capacity * sizeof *r->entries);
     }
-    va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
-    va_end(args);
     replace_controls(text);
     entry = &r->entries[r->entry_count++];
     entry->kind = xstrdup(kind);
     entry->text = xstrdup(text);
     entry->count = 1;
+}
+
+void report_add(struct report *r, const char *kind, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    add(r, kind, format, args);
+    va_end(args);
+}
+
+/* How many entries are of this kind with a name behind it. */
+static int count_named(const struct report *r, const char *kind)
+{
+    size_t length = strlen(kind);
+    int count = 0;
+
+    for (int i = 0; i < r->entry_count; i++)
+        count += strncmp(r->entries[i].kind, kind, length) == 0 &&
+                 strncmp(r->entries[i].kind + length, " '", 2) == 0;
+    return count;
+}
+
+void report_add_named(struct report *r, const char *kind, const char *name,
+                      const char *format, ...)
+{
+    char *named = xformat("%s '%s'", kind, name);
+    bool is_full = find(r, named) == NULL &&
+                   count_named(r, kind) >= REPORT_NAMES_MAX;
+    va_list args;
+
+    va_start(args, format);
+    add(r, is_full ? kind : named, format, args);
+    va_end(args);
+    free(named);
 }
 
 void report_print(const struct report *r, FILE *to)

@@ -15,6 +15,9 @@
 bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
                const char *path, struct report *report, struct error *err);
 
+/* Adds material 0 if the scene has none; false when memory is out. */
+bool mtl_add_default(struct scene *scene, struct error *err);
+
 /* Index of the material of this name, or NO_INDEX. */
 uint32_t mtl_find(const struct scene *scene, const char *name);
 

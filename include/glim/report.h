@@ -27,9 +27,18 @@ struct report {
 };
 
 /* Counts one warning of this kind; keeps the text if it is the first. `kind`
- * is a short phrase that reads well after a number: "faces with a bad index". */
+ * is a short phrase that reads well after a number: "faces with a bad index".
+ */
 void report_add(struct report *r, const char *kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* The same for what has a name in the file: the first of each kind and name in
+ * full. After REPORT_NAMES_MAX names of a kind the others are counted together,
+ * so that no file can fill the screen. */
+#define REPORT_NAMES_MAX 20
+void report_add_named(struct report *r, const char *kind, const char *name,
+                      const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 
 /* Writes a line for each kind, "glim: warning: TEXT", followed by
  * " (and N more KIND)" where there were more. */

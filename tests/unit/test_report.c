@@ -59,7 +59,7 @@ static void test_many_kinds(void **state)
     (void)state;
     for (int round = 0; round < 2; round++) {
         for (int i = 0; i < 100; i++) {
-            char kind[16];
+            char kind[32];
 
             snprintf(kind, sizeof kind, "kind %d", i);
             report_add(&r, kind, "text %d %d", i, round);
@@ -97,6 +97,30 @@ static void test_long_text_is_cut(void **state)
     report_free(&r);
 }
 
+static void test_names_of_a_kind(void **state)
+{
+    struct report r = {0};
+    const struct report_entry *last;
+
+    (void)state;
+    for (int round = 0; round < 2; round++) {
+        for (int i = 0; i < 1000; i++) {
+            char name[32];
+
+            snprintf(name, sizeof name, "m%d", i);
+            report_add_named(&r, "unknown materials", name, "no '%s'", name);
+        }
+    }
+    report_add_named(&r, "lost textures", "m0", "no texture 'm0'");
+    assert_int_equal(r.entry_count, REPORT_NAMES_MAX + 2);
+    assert_string_equal(r.entries[3].kind, "unknown materials 'm3'");
+    assert_int_equal(r.entries[3].count, 2);
+    last = &r.entries[REPORT_NAMES_MAX];
+    assert_string_equal(last->kind, "unknown materials");
+    assert_int_equal(last->count, 2 * (1000 - REPORT_NAMES_MAX));
+    report_free(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -105,6 +129,7 @@ int main(void)
         cmocka_unit_test(test_many_kinds),
         cmocka_unit_test(test_controls_do_not_reach_the_terminal),
         cmocka_unit_test(test_long_text_is_cut),
+        cmocka_unit_test(test_names_of_a_kind),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+/*
+ * lex.h - words, numbers and lines of OBJ and MTL text
+ *
+ * Lines end with LF, CRLF or CR. A backslash before the end of a line joins
+ * the next line to it, but not in a comment: comments of real files end with
+ * paths of folders.
+ *
+ * Units:     bytes; lines count from 1
+ * Ownership: borrows the text, which need not end in NUL; lex_rest() returns
+ *            memory for free()
+ * Threads:   none
+ * Errors:    by the result; the caller knows what it wanted
+ */
+#ifndef GLIM_LEX_H
+#define GLIM_LEX_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct lex {
+    const char *p, *end;
+    uint64_t line;
+};
+
+struct word {
+    const char *start;
+    size_t length;
+};
+
+/* Skips a UTF-8 byte order mark. */
+void lex_init(struct lex *lex, const char *text, size_t size_bytes);
+
+/* Moves over blanks and joined lines. */
+void lex_skip_blanks(struct lex *lex);
+
+/* True at the end of the line or of the text, or at a comment; skips blanks
+ * before it. */
+bool lex_at_line_end(struct lex *lex);
+
+/* Moves behind the end of the line. A comment is skipped as one. */
+void lex_next_line(struct lex *lex);
+
+/* The next word of the line; length 0 at its end. */
+struct word lex_word(struct lex *lex);
+
+/* The rest of the line without blanks around it. A name may hold '#'. NULL
+ * when memory is out. */
+char *lex_rest(struct lex *lex);
+
+/* A number that is a word of its own: 1e400 is infinite, and so are the words
+ * nan, inf and what old Microsoft libraries wrote (1.#INF, -1.#IND). False,
+ * with lex->p at the word, if there is something else or nothing. */
+bool lex_number(struct lex *lex, double *value);
+
+bool word_is(struct word word, const char *text);
+
+/* The word for a message: at most 40 bytes of it; "end of line" if empty. */
+struct word_text {
+    char text[64];
+};
+struct word_text word_quote(struct word word);
+
+#endif

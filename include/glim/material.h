@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+/*
+ * material.h - what an MTL file says about a material, and what glim makes of
+ * it
+ *
+ * illum 6, 7: glass; 4, 9: thin glass; tinted by Tf. Else Pm of one half and
+ * more: metal of colour Kd. Else illum 3, 5 with Ks that is not black: metal of
+ * colour Ks. Else diffuse, colour Kd. Roughness alpha is Pr squared, or
+ * sqrt(2 / (Ns + 2)), or 0 where Ns is absent, 0 or 1000 and more.
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   any
+ * Errors:    none: impossible values are replaced, with a warning
+ */
+#ifndef GLIM_MATERIAL_H
+#define GLIM_MATERIAL_H
+
+#include "glim/report.h"
+#include "kernels/types.h"
+
+/* The colour of what has none. */
+#define MATERIAL_GREY 0.8f
+
+/* line 0: the file does not say. */
+struct mtl_number {
+    double value;
+    uint64_t line;
+};
+
+struct mtl_color {
+    double rgb[3];
+    uint64_t line;
+};
+
+struct mtl_source {
+    struct mtl_color kd, ks, ke, tf;
+    struct mtl_number illum, ns, ni, d, tr, pr, pm;
+    uint32_t map_kd, map_ke; /* number of a texture, or NO_INDEX */
+};
+
+struct material material_default(void);
+
+/* A black colour beside a map stays black here: textures_load() decides. */
+struct material material_from_source(const struct mtl_source *source,
+                                     const char *path, struct report *report);
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/*
+ * textures.h - reads the images that a scene's materials name
+ *
+ * Units:     texels, row 0 at the top
+ * Ownership: the scene owns paths and texels
+ * Threads:   one thread
+ * Errors:    memory; an image that cannot be read is a warning
+ */
+#ifndef GLIM_TEXTURES_H
+#define GLIM_TEXTURES_H
+
+#include "glim/scene.h"
+
+/* Reads the textures of the materials that have triangles. Where an image is
+ * lost, the material's own colour is used, or grey if it has none. */
+bool textures_load(struct scene *scene, struct report *report,
+                   struct error *err);
+
+#endif

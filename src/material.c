@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "glim/material.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+
+/* From here on a highlight is a mirror image: exporters write 1000 for it. */
+#define NS_SMOOTH 1000
+
+#define IOR_DEFAULT 1.5
+#define IOR_MAX     1e6
+
+struct place {
+    const char *path;
+    struct report *report;
+};
+
+struct material material_default(void)
+{
+    struct material m = {
+        .color = {MATERIAL_GREY, MATERIAL_GREY, MATERIAL_GREY},
+        .ior = (float)IOR_DEFAULT,
+        .kind = MATERIAL_DIFFUSE,
+        .color_texture = NO_INDEX,
+        .emission_texture = NO_INDEX,
+        .opacity = 1,
+    };
+
+    return m;
+}
+
+static double unit_clamped(double x)
+{
+    if (!(x > 0))
+        return 0;
+    return x < 1 ? x : 1;
+}
+
+/* A colour that reflects: each channel in [0, 1], or `missing`. */
+static struct vec3 reflecting(const struct mtl_color *c, const char *key,
+                              float missing, const struct place *at)
+{
+    double rgb[3];
+    bool is_clamped = false;
+
+    if (c->line == 0)
+        return (struct vec3){missing, missing, missing};
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = unit_clamped(c->rgb[i]);
+        is_clamped |= !(rgb[i] == c->rgb[i]);
+    }
+    if (is_clamped)
+        report_add(at->report, "colours outside 0 to 1",
+                   "%s:%" PRIu64 ": found %s %g %g %g, expected numbers from 0 "
+                   "to 1: clamped",
+                   at->path, c->line, key, c->rgb[0], c->rgb[1], c->rgb[2]);
+    return (struct vec3){(float)rgb[0], (float)rgb[1], (float)rgb[2]};
+}
+
+static struct vec3 emission(const struct mtl_color *c, const struct place *at)
+{
+    float rgb[3] = {0, 0, 0};
+    bool is_changed = false;
+
+    for (int i = 0; i < 3 && c->line != 0; i++) {
+        if (c->rgb[i] >= 0 && c->rgb[i] <= (double)FLT_MAX)
+            rgb[i] = (float)c->rgb[i];
+        else
+            is_changed = true;
+    }
+    if (is_changed)
+        report_add(at->report, "impossible radiances",
+                   "%s:%" PRIu64 ": found Ke %g %g %g, expected numbers from 0 "
+                   "on: what is not counts as 0",
+                   at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
+    return (struct vec3){rgb[0], rgb[1], rgb[2]};
+}
+
+/* The number if it is in [lo, hi], else `missing`, with a warning if the file
+ * says something else. */
+static double within(const struct mtl_number *n, const char *key, double lo,
+                     double hi, double missing, const struct place *at)
+{
+    if (n->line == 0)
+        return missing;
+    if (n->value >= lo && n->value <= hi)
+        return n->value;
+    report_add(at->report, "impossible material values",
+               "%s:%" PRIu64 ": found %s %g, expected a number from %g to %g: "
+               "taken as %g",
+               at->path, n->line, key, n->value, lo, hi, missing);
+    return missing;
+}
+
+static double roughness(const struct mtl_source *s, const struct place *at)
+{
+    double ns = within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
+
+    if (s->pr.line != 0) {
+        double pr = within(&s->pr, "Pr", 0, 1, unit_clamped(s->pr.value), at);
+
+        return pr * pr;
+    }
+    return ns == 0 || ns >= NS_SMOOTH ? 0 : sqrt(2 / (ns + 2));
+}
+
+/* d wins over Tr. */
+static double opacity(const struct mtl_source *s, const struct place *at)
+{
+    if (s->d.line != 0)
+        return within(&s->d, "d", 0, 1,
+                      isnan(s->d.value) ? 1 : unit_clamped(s->d.value), at);
+    return 1 - within(&s->tr, "Tr", 0, 1, unit_clamped(s->tr.value), at);
+}
+
+static int illumination(const struct mtl_source *s, const struct place *at)
+{
+    double illum = within(&s->illum, "illum", 0, 10, 2, at);
+
+    return (int)illum;
+}
+
+static void make_glass(struct material *m, uint32_t kind,
+                       const struct mtl_source *s, const struct place *at)
+{
+    m->kind = kind;
+    m->color = reflecting(&s->tf, "Tf", 1, at);
+    m->alpha = kind == MATERIAL_GLASS ? (float)roughness(s, at) : 0;
+    m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
+}
+
+static bool is_black(const struct vec3 *c)
+{
+    return c->x == 0 && c->y == 0 && c->z == 0;
+}
+
+/* A map_Kd goes with the colour Kd; other colours have no map yet. */
+static void make_opaque(struct material *m, int illum,
+                        const struct mtl_source *s, const struct place *at)
+{
+    bool has_map = s->map_kd != NO_INDEX;
+    double pm = within(&s->pm, "Pm", 0, 1, unit_clamped(s->pm.value), at);
+    struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
+
+    m->opacity = (float)opacity(s, at);
+    m->color = reflecting(&s->kd, "Kd", has_map ? 0 : MATERIAL_GREY, at);
+    m->color_texture = s->map_kd;
+    if (pm >= 0.5) {
+        m->kind = MATERIAL_METAL;
+        m->alpha = (float)roughness(s, at);
+    } else if ((illum == 3 || illum == 5) && !is_black(&ks)) {
+        m->kind = MATERIAL_METAL;
+        m->color = ks;
+        m->color_texture = NO_INDEX;
+        m->alpha = (float)roughness(s, at);
+    }
+}
+
+struct material material_from_source(const struct mtl_source *s,
+                                     const char *path, struct report *report)
+{
+    struct place at = {path, report};
+    struct material m = material_default();
+    int illum = illumination(s, &at);
+
+    if (illum == 6 || illum == 7)
+        make_glass(&m, MATERIAL_GLASS, s, &at);
+    else if (illum == 4 || illum == 9)
+        make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
+    else
+        make_opaque(&m, illum, s, &at);
+    if (s->map_kd != NO_INDEX && m.color_texture == NO_INDEX)
+        report_add(report, "maps on glass and mirrors",
+                   "%s: found map_Kd on glass or a mirror, which has no colour "
+                   "Kd: not used",
+                   path);
+    m.emission = emission(&s->ke, &at);
+    m.emission_texture = s->map_ke;
+    return m;
+}

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: MIT
+#include "glim/polygon.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/util.h"
+
+/* Cells and corners looked at per corner before the rest is cut blindly. Real
+ * outlines need 5 to 50; no file may take longer than its size explains. */
+#define WORK_PER_CORNER 1000
+#define WORK_AT_LEAST   100000
+
+#define GRID_SIDE_MAX 4096
+
+/* next[] of a corner that is not in the ring (any more). */
+#define NOT_LINKED 0xffffffffu
+
+/* How little an ear must satisfy, tried in this order. */
+enum ear_rule {
+    EAR_CLEAR,   /* no corner in it or on its edges */
+    EAR_TOUCHED, /* corners on its edges only */
+    EAR_CONVEX,  /* the outline crosses itself: anything that adds area */
+    EAR_ANY
+};
+
+static bool reserve(struct polygon *g, uint32_t corner_count)
+{
+    size_t n = corner_count;
+
+    if (n <= g->capacity)
+        return true;
+    n = n < 2 * g->capacity ? 2 * g->capacity : n;
+    n = n < 64 ? 64 : n;
+    polygon_free(g);
+    g->triangles = alloc_array(n, sizeof *g->triangles);
+    g->points = alloc_array(n, sizeof *g->points);
+    g->prev = alloc_array(n, sizeof *g->prev);
+    g->next = alloc_array(n, sizeof *g->next);
+    g->is_reflex = alloc_array(n, sizeof *g->is_reflex);
+    g->cell_starts = alloc_array(n + 1, sizeof *g->cell_starts);
+    g->cell_corners = alloc_array(n, sizeof *g->cell_corners);
+    if (!g->triangles || !g->points || !g->prev || !g->next || !g->is_reflex ||
+        !g->cell_starts || !g->cell_corners) {
+        polygon_free(g);
+        return false;
+    }
+    g->capacity = n;
+    return true;
+}
+
+void polygon_free(struct polygon *g)
+{
+    free(g->triangles);
+    free(g->points);
+    free(g->prev);
+    free(g->next);
+    free(g->is_reflex);
+    free(g->cell_starts);
+    free(g->cell_corners);
+    memset(g, 0, sizeof *g);
+}
+
+static void emit(struct polygon *g, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t *t = g->triangles[g->triangle_count++];
+
+    t[0] = a;
+    t[1] = b;
+    t[2] = c;
+}
+
+static bool emit_fan(struct polygon *g, uint32_t n)
+{
+    for (uint32_t i = 2; i < n; i++)
+        emit(g, 0, i - 1, i);
+    return true;
+}
+
+/* A power of two that brings the corners near 1, so that no product of them
+ * overflows or vanishes. */
+static double scale_of(const double *corners, uint32_t n)
+{
+    double most = 0;
+    int exponent;
+
+    for (size_t i = 0; i < 3 * (size_t)n; i++)
+        most = fmax(most, fabs(corners[i]));
+    if (most > 1e-50 && most < 1e50)
+        return 1;
+    frexp(most, &exponent);
+    return ldexp(1, exponent < -1000 ? 1000 : -exponent);
+}
+
+/* Corner i against corner 0. */
+static void offset(const double *corners, double scale, uint32_t i,
+                   double to[3])
+{
+    for (int k = 0; k < 3; k++)
+        to[k] = corners[3 * (size_t)i + k] * scale - corners[k] * scale;
+}
+
+/* Twice the area as a vector (Newell's method: right for corners that are not
+ * quite in a plane). */
+static void area_vector(const double *corners, double scale, uint32_t n,
+                        double area[3])
+{
+    double p[3] = {0};
+
+    memset(area, 0, 3 * sizeof *area);
+    for (uint32_t i = 1; i < n; i++) {
+        double q[3];
+
+        offset(corners, scale, i, q);
+        area[0] += p[1] * q[2] - p[2] * q[1];
+        area[1] += p[2] * q[0] - p[0] * q[2];
+        area[2] += p[0] * q[1] - p[1] * q[0];
+        memcpy(p, q, sizeof p);
+    }
+}
+
+/* Fills points, so that the outline is counter-clockwise; false if the polygon
+ * has no area to look at. Dropping an axis is enough: lines stay lines. */
+static bool project(struct polygon *g, const double *corners, uint32_t n)
+{
+    double scale = scale_of(corners, n);
+    double area[3];
+    int axis = 0;
+
+    area_vector(corners, scale, n, area);
+    for (int k = 1; k < 3; k++)
+        axis = fabs(area[k]) > fabs(area[axis]) ? k : axis;
+    if (!(fabs(area[axis]) > 0))
+        return false;
+
+    int x = (axis + 1) % 3;
+    int y = (axis + 2) % 3;
+    if (area[axis] < 0) {
+        int swap = x;
+
+        x = y;
+        y = swap;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        double p[3];
+
+        offset(corners, scale, i, p);
+        g->points[i] = (struct point2){p[x], p[y]};
+    }
+    return true;
+}
+
+/* Above 0 if a, b, c turn left. */
+static double turn(const struct polygon *g, uint32_t a, uint32_t b, uint32_t c)
+{
+    struct point2 p = g->points[a];
+    struct point2 q = g->points[b];
+    struct point2 r = g->points[c];
+
+    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+}
+
+/* Every corner turns left, and the outline goes around once (a pentagram turns
+ * left as well): the edges change from down to up once. */
+static bool is_convex(const struct polygon *g, uint32_t n)
+{
+    int rises = 0;
+    bool was_down = g->points[0].y < g->points[n - 1].y;
+
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t j = i + 1 == n ? 0 : i + 1;
+        uint32_t k = j + 1 == n ? 0 : j + 1;
+        bool is_down = g->points[j].y < g->points[i].y;
+
+        if (!(turn(g, i, j, k) > 0))
+            return false;
+        rises += was_down && !is_down;
+        was_down = is_down;
+    }
+    return rises == 1;
+}
+
+static bool same_corner(const double *corners, uint32_t a, uint32_t b)
+{
+    return memcmp(corners + 3 * (size_t)a, corners + 3 * (size_t)b,
+                  3 * sizeof *corners) == 0;
+}
+
+/* Links the corners into a ring, without those that repeat the one before.
+ * Returns how many there are. */
+static uint32_t link_corners(struct polygon *g, const double *corners,
+                             uint32_t n)
+{
+    uint32_t count = 1;
+    uint32_t last = 0;
+
+    for (uint32_t i = 1; i < n; i++) {
+        g->next[i] = NOT_LINKED;
+        if (same_corner(corners, last, i))
+            continue;
+        g->next[last] = i;
+        g->prev[i] = last;
+        last = i;
+        count++;
+    }
+    if (count > 1 && same_corner(corners, last, 0)) {
+        g->next[last] = NOT_LINKED;
+        last = g->prev[last];
+        count--;
+    }
+    g->next[last] = 0;
+    g->prev[0] = last;
+    return count;
+}
+
+static uint32_t cell_along(double x, double origin, double scale, uint32_t side)
+{
+    double cell = (x - origin) * scale;
+
+    if (!(cell > 0))
+        return 0;
+    return cell < side ? (uint32_t)cell : side - 1;
+}
+
+static uint32_t cell_of(const struct polygon *g, struct point2 p)
+{
+    return cell_along(p.y, g->cell_origin.y, g->cell_scale_y, g->side) *
+               g->side +
+           cell_along(p.x, g->cell_origin.x, g->cell_scale_x, g->side);
+}
+
+static void size_grid(struct polygon *g, uint32_t n)
+{
+    struct point2 lo = g->points[0];
+    struct point2 hi = lo;
+
+    for (uint32_t i = 1; i < n; i++) {
+        lo.x = fmin(lo.x, g->points[i].x);
+        lo.y = fmin(lo.y, g->points[i].y);
+        hi.x = fmax(hi.x, g->points[i].x);
+        hi.y = fmax(hi.y, g->points[i].y);
+    }
+    g->side = (uint32_t)sqrt(n);
+    if (g->side > GRID_SIDE_MAX)
+        g->side = GRID_SIDE_MAX;
+    g->cell_origin = lo;
+    g->cell_scale_x = g->side / (hi.x - lo.x);
+    g->cell_scale_y = g->side / (hi.y - lo.y);
+}
+
+/* Sorts the reflex corners into the cells. */
+static void fill_grid(struct polygon *g, uint32_t n)
+{
+    uint32_t cell_count = g->side * g->side;
+    uint32_t *starts = g->cell_starts;
+    uint32_t i = 0;
+
+    memset(starts, 0, (cell_count + 1) * sizeof *starts);
+    do {
+        g->is_reflex[i] = !(turn(g, g->prev[i], i, g->next[i]) > 0);
+        starts[cell_of(g, g->points[i])] += g->is_reflex[i];
+        i = g->next[i];
+    } while (i != 0);
+    for (uint32_t c = 1; c <= cell_count; c++)
+        starts[c] += starts[c - 1];
+    for (i = n; i-- > 0;) {
+        if (g->next[i] != NOT_LINKED && g->is_reflex[i])
+            g->cell_corners[--starts[cell_of(g, g->points[i])]] = i;
+    }
+}
+
+static bool same_point(struct point2 a, struct point2 b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+/* Whether corner p keeps a, b, c from being an ear. */
+static bool is_in_the_way(const struct polygon *g, enum ear_rule rule,
+                          const uint32_t ear[3], uint32_t p)
+{
+    struct point2 at = g->points[p];
+    double ab = turn(g, ear[0], ear[1], p);
+    double bc = turn(g, ear[1], ear[2], p);
+    double ca = turn(g, ear[2], ear[0], p);
+
+    if (rule == EAR_TOUCHED)
+        return ab > 0 && bc > 0 && ca > 0;
+    return ab >= 0 && bc >= 0 && ca >= 0 &&
+           !same_point(at, g->points[ear[0]]) &&
+           !same_point(at, g->points[ear[1]]) &&
+           !same_point(at, g->points[ear[2]]);
+}
+
+/* Looks at the reflex corners in the cells that the ear's box meets. */
+static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
+                         const uint32_t ear[3])
+{
+    struct point2 a = g->points[ear[0]];
+    struct point2 b = g->points[ear[1]];
+    struct point2 c = g->points[ear[2]];
+    struct point2 lo = {fmin(fmin(a.x, b.x), c.x), fmin(fmin(a.y, b.y), c.y)};
+    struct point2 hi = {fmax(fmax(a.x, b.x), c.x), fmax(fmax(a.y, b.y), c.y)};
+    uint32_t first = cell_of(g, lo);
+    uint32_t last = cell_of(g, hi);
+    uint32_t width = last % g->side - first % g->side;
+
+    for (uint32_t row = first; row <= last; row += g->side) {
+        uint32_t begin = g->cell_starts[row];
+        uint32_t end = g->cell_starts[row + width + 1];
+
+        g->work += 1 + end - begin;
+        for (uint32_t i = begin; i < end; i++) {
+            uint32_t p = g->cell_corners[i];
+
+            if (g->next[p] == NOT_LINKED || !g->is_reflex[p] || p == ear[0] ||
+                p == ear[1] || p == ear[2])
+                continue;
+            if (is_in_the_way(g, rule, ear, p))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Whether the cut from a to c starts inside the outline at either end. Where
+ * corners coincide, as at a bridge to a hole, points alone do not say. */
+static bool cut_is_inside(const struct polygon *g, enum ear_rule rule,
+                          uint32_t a, uint32_t c)
+{
+    double at_a = g->is_reflex[a] ? 1 : turn(g, g->prev[a], a, c);
+    double at_c = g->is_reflex[c] ? 1 : turn(g, a, c, g->next[c]);
+
+    if (rule == EAR_TOUCHED)
+        return at_a >= 0 && at_c >= 0;
+    return at_a > 0 && at_c > 0;
+}
+
+static bool is_ear(struct polygon *g, enum ear_rule rule, uint32_t b)
+{
+    uint32_t ear[3] = {g->prev[b], b, g->next[b]};
+
+    if (rule == EAR_ANY)
+        return true;
+    if (!(turn(g, ear[0], b, ear[2]) > 0))
+        return false;
+    return rule == EAR_CONVEX || (cut_is_inside(g, rule, ear[0], ear[2]) &&
+                                  is_empty_ear(g, rule, ear));
+}
+
+static void cut_off(struct polygon *g, uint32_t b)
+{
+    uint32_t a = g->prev[b];
+    uint32_t c = g->next[b];
+
+    emit(g, a, b, c);
+    g->next[a] = c;
+    g->prev[c] = a;
+    g->next[b] = NOT_LINKED;
+    g->is_reflex[a] = !(turn(g, g->prev[a], a, c) > 0);
+    g->is_reflex[c] = !(turn(g, a, c, g->next[c]) > 0);
+}
+
+static void cut_ears(struct polygon *g, uint32_t count)
+{
+    uint64_t work_max = WORK_AT_LEAST + (uint64_t)count * WORK_PER_CORNER;
+    enum ear_rule rule = EAR_CLEAR;
+    uint32_t misses = 0;
+    uint32_t b = 0;
+
+    for (g->work = 0; count > 3; g->work++) {
+        uint32_t c = g->next[b];
+
+        if (g->work > work_max)
+            rule = EAR_ANY;
+        if (is_ear(g, rule, b)) {
+            double area = turn(g, g->prev[b], b, c);
+
+            g->crosses_itself |= area < 0 || rule == EAR_CONVEX;
+            cut_off(g, b);
+            count--;
+            misses = 0;
+            rule = EAR_CLEAR;
+            /* Going on at c would make a fan of slivers. */
+            b = g->next[c];
+        } else {
+            b = c;
+            if (++misses >= count) {
+                misses = 0;
+                rule++;
+            }
+        }
+    }
+    g->crosses_itself |= turn(g, g->prev[b], b, g->next[b]) < 0;
+    emit(g, g->prev[b], b, g->next[b]);
+}
+
+bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
+{
+    uint32_t count;
+
+    if (!reserve(g, n))
+        return false;
+    g->triangle_count = 0;
+    g->crosses_itself = false;
+    if (n == 3 || !project(g, corners, n) || is_convex(g, n))
+        return emit_fan(g, n);
+    count = link_corners(g, corners, n);
+    if (count < 3)
+        return emit_fan(g, 3);
+    size_grid(g, n);
+    fill_grid(g, n);
+    cut_ears(g, count);
+    return true;
+}

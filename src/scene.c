@@ -1,0 +1,464 @@
+// SPDX-License-Identifier: MIT
+#include "glim/scene.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/image.h"
+#include "glim/obj.h"
+#include "glim/textures.h"
+
+/* Without a limit a path ends here; roulette ends it long before. */
+#define VERTICES_MAX 1000
+
+/* The sine of the angle below which `up` is parallel to the view. */
+#define PARALLEL 1e-6
+
+#define PI 3.14159265358979323846
+
+/* A framed scene is seen from this far above, with this much air around. */
+#define FRAME_ELEVATION_DEG 20
+#define FRAME_MARGIN        1.05
+
+/* Float coordinates whose squares do not overflow. */
+#define EYE_MAX 1e18
+
+static void turn_z_up(struct scene *scene)
+{
+    for (size_t i = 0; i < scene->position_count; i++) {
+        double *p = scene->file_positions + 3 * i;
+        double y = p[1];
+
+        p[1] = p[2];
+        p[2] = -y;
+    }
+    for (size_t i = 0; i < scene->normal_count; i++) {
+        struct vec3 *n = &scene->normals[i];
+        float y = n->y;
+
+        n->y = n->z;
+        n->z = -y;
+    }
+}
+
+bool scene_load(struct scene *scene, const char *path, bool up_is_z,
+                struct report *report, struct error *err)
+{
+    if (!obj_read(scene, path, report, err))
+        return false;
+    if (up_is_z)
+        turn_z_up(scene);
+    if (!textures_load(scene, report, err))
+        return false;
+    return scene_finish(scene, report, err);
+}
+
+/* Whether the triangle's edges span an area, computed in double. */
+static bool has_area(const double a[3], const double b[3], const double c[3])
+{
+    double most = 0;
+    double scale = 1;
+    double e[3], f[3];
+    int exponent;
+
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, fmax(fabs(a[k]), fmax(fabs(b[k]), fabs(c[k]))));
+    /* A power of two, so that nothing is rounded and no product overflows. */
+    if (!(most > 1e-50 && most < 1e50)) {
+        frexp(most, &exponent);
+        scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
+    }
+    for (int k = 0; k < 3; k++) {
+        e[k] = b[k] * scale - a[k] * scale;
+        f[k] = c[k] * scale - a[k] * scale;
+    }
+    return e[1] * f[2] != e[2] * f[1] || e[2] * f[0] != e[0] * f[2] ||
+           e[0] * f[1] != e[1] * f[0];
+}
+
+static bool is_finite(const double p[3])
+{
+    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+}
+
+static bool file_tri_is_usable(const struct scene *scene, const struct tri *t)
+{
+    const double *p[3];
+
+    for (int k = 0; k < 3; k++) {
+        p[k] = scene->file_positions + 3 * (size_t)t->v[k];
+        if (!is_finite(p[k]))
+            return false;
+    }
+    return has_area(p[0], p[1], p[2]);
+}
+
+static bool tri_is_usable(const struct scene *scene, const struct tri *t)
+{
+    double p[3][3];
+
+    for (int k = 0; k < 3; k++) {
+        const struct vec3 *v = &scene->positions[t->v[k]];
+
+        p[k][0] = (double)v->x;
+        p[k][1] = (double)v->y;
+        p[k][2] = (double)v->z;
+    }
+    return has_area(p[0], p[1], p[2]);
+}
+
+static void drop_tris(struct scene *scene, struct report *report,
+                      bool (*is_usable)(const struct scene *,
+                                        const struct tri *))
+{
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        if (!is_usable(scene, &scene->tris[i])) {
+            report_add(report, "triangles without area",
+                       "%s: found a triangle without area in face %" PRIu32
+                       ", counted from 0: triangle dropped",
+                       scene->path, scene->tri_faces[i]);
+            continue;
+        }
+        scene->tris[kept] = scene->tris[i];
+        scene->tri_faces[kept] = scene->tri_faces[i];
+        scene->tri_objects[kept] = scene->tri_objects[i];
+        kept++;
+    }
+    scene->tri_count = kept;
+}
+
+/* Bounds of the vertices that triangles use. */
+static void find_bounds(struct scene *scene)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY};
+    double hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            size_t v = scene->tris[i].v[c];
+
+            for (int k = 0; k < 3; k++) {
+                double x = scene->file_positions[3 * v + (size_t)k];
+
+                lo[k] = x < lo[k] ? x : lo[k];
+                hi[k] = x > hi[k] ? x : hi[k];
+            }
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        scene->bounds_lo[k] = scene->tri_count > 0 ? lo[k] : 0;
+        scene->bounds_hi[k] = scene->tri_count > 0 ? hi[k] : 0;
+    }
+}
+
+/* The centre, and the scale that brings the largest extent into [1, 2).
+ * Halves first: no overflow. */
+static void find_scale(struct scene *scene)
+{
+    double half = 0;
+    int exponent;
+
+    for (int k = 0; k < 3; k++) {
+        double lo = scene->bounds_lo[k] / 2;
+        double hi = scene->bounds_hi[k] / 2;
+
+        scene->center[k] = lo + hi;
+        half = fmax(half, hi - lo);
+    }
+    scene->scale = 1;
+    if (half > 0) {
+        frexp(half, &exponent);
+        scene->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
+    }
+}
+
+/* Vertices that no triangle uses may be anywhere. */
+static float normalized(double x, double center, double scale)
+{
+    float y = (float)((x - center) * scale);
+
+    return isfinite(y) ? y : 0;
+}
+
+static bool fill_positions(struct scene *scene, struct error *err)
+{
+    free(scene->positions);
+    scene->positions =
+        alloc_array(scene->position_count, sizeof *scene->positions);
+    if (scene->positions == NULL)
+        return fail(err, "%s: out of memory for %" PRIu32 " vertices",
+                    scene->path, scene->position_count);
+    for (size_t i = 0; i < scene->position_count; i++) {
+        const double *p = scene->file_positions + 3 * i;
+
+        scene->positions[i] = (struct vec3){
+            normalized(p[0], scene->center[0], scene->scale),
+            normalized(p[1], scene->center[1], scene->scale),
+            normalized(p[2], scene->center[2], scene->scale),
+        };
+    }
+    free(scene->file_positions);
+    scene->file_positions = NULL;
+    return true;
+}
+
+static bool shines(const struct material *m)
+{
+    return m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0;
+}
+
+static void fill_linear_of_srgb(float table[256])
+{
+    for (int i = 0; i < 256; i++) {
+        double c = i / 255.0;
+
+        table[i] =
+            (float)(c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
+    }
+}
+
+bool scene_finish(struct scene *scene, struct report *report, struct error *err)
+{
+    drop_tris(scene, report, file_tri_is_usable);
+    find_bounds(scene);
+    find_scale(scene);
+    if (!fill_positions(scene, err))
+        return false;
+    drop_tris(scene, report, tri_is_usable);
+    if (scene->tri_count == 0)
+        report_add(report, "scenes without a face",
+                   "%s: found no face that can be seen: only the background is "
+                   "rendered",
+                   scene->path);
+    scene->has_emitters = false;
+    for (uint32_t i = 0; i < scene->tri_count; i++)
+        scene->has_emitters |=
+            shines(&scene->materials[scene->tris[i].material]);
+    fill_linear_of_srgb(scene->linear_of_srgb);
+    return true;
+}
+
+bool scene_load_sky(struct scene *scene, const struct view *view,
+                    struct report *report, struct error *err)
+{
+    struct image image = {0};
+    uint64_t clamped_count = 0;
+
+    if (view->sky_path != NULL &&
+        !image_read_linear(&image, view->sky_path, &clamped_count, err))
+        return false;
+    if (clamped_count > 0)
+        report_add(report, "skies with impossible values",
+                   "%s: found %" PRIu64 " negative or infinite values: clamped",
+                   view->sky_path, clamped_count);
+    free(scene->sky_texels);
+    /* the scene owns the floats now, three of which are a vec3 */
+    scene->sky_texels = (struct vec3 *)(void *)image.rgb;
+    scene->sky_width = (uint32_t)image.width;
+    scene->sky_height = (uint32_t)image.height;
+    image.rgb = NULL;
+    image_free(&image);
+    return true;
+}
+
+/* Half the field of view along the narrower side of the picture. */
+static double narrow_angle_rad(const struct view *view)
+{
+    double half = view->fovy_deg * PI / 360;
+
+    if (view->width_px < view->height_px)
+        half = atan(tan(half) * view->width_px / view->height_px);
+    return half;
+}
+
+void scene_frame(const struct scene *scene, struct view *view)
+{
+    double elevation = FRAME_ELEVATION_DEG * PI / 180;
+    double radius = 0;
+    double distance;
+
+    for (int k = 0; k < 3; k++) {
+        double half =
+            (scene->bounds_hi[k] / 2 - scene->bounds_lo[k] / 2) * scene->scale;
+
+        radius += half * half;
+    }
+    radius = radius > 0 ? sqrt(radius) : 1;
+    distance = FRAME_MARGIN * radius / sin(narrow_angle_rad(view));
+    memcpy(view->at, scene->center, sizeof view->at);
+    memcpy(view->eye, scene->center, sizeof view->eye);
+    view->eye[1] += distance * sin(elevation) / scene->scale;
+    view->eye[2] += distance * cos(elevation) / scene->scale;
+}
+
+static void cross(const double a[3], const double b[3], double to[3])
+{
+    to[0] = a[1] * b[2] - a[2] * b[1];
+    to[1] = a[2] * b[0] - a[0] * b[2];
+    to[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* Scales v to length 1; false, with v unchanged, if it has no direction. */
+static bool normalize(double v[3])
+{
+    double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    double length;
+
+    if (!(most > 0) || !is_finite(v))
+        return false;
+    for (int k = 0; k < 3; k++)
+        v[k] /= most;
+    length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int k = 0; k < 3; k++)
+        v[k] /= length;
+    return true;
+}
+
+/* `right` of the picture; where `up` says nothing, the axis that is least
+ * along `forward` stands in for it. */
+static void find_right(const double forward[3], const double view_up[3],
+                       double right[3])
+{
+    double up[3] = {view_up[0], view_up[1], view_up[2]};
+    int axis = 0;
+
+    if (normalize(up)) {
+        cross(forward, up, right);
+        if (hypot(hypot(right[0], right[1]), right[2]) >= PARALLEL) {
+            normalize(right);
+            return;
+        }
+    }
+    for (int k = 1; k < 3; k++)
+        axis = fabs(forward[k]) < fabs(forward[axis]) ? k : axis;
+    memset(up, 0, sizeof up);
+    up[axis] = 1;
+    cross(forward, up, right);
+    normalize(right);
+}
+
+static struct vec3 scaled(const double v[3], double scale)
+{
+    return (struct vec3){(float)(v[0] * scale), (float)(v[1] * scale),
+                         (float)(v[2] * scale)};
+}
+
+static bool make_camera(const struct scene *scene, const struct view *view,
+                        struct camera *camera, struct error *err)
+{
+    double tangent = tan(view->fovy_deg * PI / 360);
+    double forward[3], right[3], up[3], eye[3];
+
+    for (int k = 0; k < 3; k++) {
+        forward[k] = view->at[k] / 2 - view->eye[k] / 2;
+        eye[k] = (view->eye[k] - scene->center[k]) * scene->scale;
+        if (!(fabs(eye[k]) < EYE_MAX))
+            return fail(err,
+                        "camera: found eye %g %g %g, expected it nearer to the "
+                        "scene",
+                        view->eye[0], view->eye[1], view->eye[2]);
+    }
+    if (!normalize(forward))
+        return fail(err,
+                    "camera: found eye and at both at %g %g %g, expected two "
+                    "points",
+                    view->at[0], view->at[1], view->at[2]);
+    find_right(forward, view->up, right);
+    cross(right, forward, up);
+    camera->eye = scaled(eye, 1);
+    camera->width = (float)view->width_px;
+    camera->height = (float)view->height_px;
+    camera->forward = scaled(forward, 1);
+    camera->right = scaled(right, tangent * view->width_px / view->height_px);
+    camera->up = scaled(up, tangent);
+    return true;
+}
+
+static struct sky make_sky(const struct scene *scene, const struct view *view)
+{
+    double angle = view->sky_rotation_deg * PI / 180;
+    double one[3] = {1, 1, 1};
+    struct sky sky = {
+        .color = scaled(view->background, 1),
+        .rotation_sin = (float)sin(angle),
+        .rotation_cos = (float)cos(angle),
+    };
+
+    if (scene->sky_texels != NULL) {
+        sky.color = scaled(one, view->sky_strength);
+        sky.width = scene->sky_width;
+        sky.height = scene->sky_height;
+    }
+    return sky;
+}
+
+static uint32_t find_features(const struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        const struct material *m = &scene->materials[scene->tris[i].material];
+
+        if (m->opacity < 1 || (m->color_texture != NO_INDEX &&
+                               scene->textures[m->color_texture].has_holes))
+            return FEATURE_COVERAGE;
+    }
+    return 0;
+}
+
+bool scene_world(const struct scene *scene, const struct view *view,
+                 uint32_t seed, struct world *world, struct error *err)
+{
+    struct world w = {
+        .sky = make_sky(scene, view),
+        .positions = scene->positions,
+        .normals = scene->normals,
+        .uvs = scene->uvs,
+        .tris = scene->tris,
+        .materials = scene->materials,
+        .textures = scene->textures,
+        .texels = scene->texels,
+        .linear_of_srgb = scene->linear_of_srgb,
+        .sky_texels = scene->sky_texels,
+        .tri_count = scene->tri_count,
+        .max_vertices = view->max_bounces < 0 ? VERTICES_MAX
+                                              : (uint32_t)view->max_bounces + 1,
+        .seed = seed,
+        .features = find_features(scene),
+    };
+
+    if (!view_check(view, "camera", err) ||
+        !make_camera(scene, view, &w.camera, err))
+        return false;
+    *world = w;
+    return true;
+}
+
+static void free_strings(char **strings, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        free(strings[i]);
+    free(strings);
+}
+
+void scene_free(struct scene *scene)
+{
+    free(scene->path);
+    free(scene->file_positions);
+    free(scene->positions);
+    free(scene->normals);
+    free(scene->uvs);
+    free(scene->tris);
+    free(scene->tri_faces);
+    free(scene->tri_objects);
+    free_strings(scene->object_names, scene->object_count);
+    free(scene->materials);
+    free_strings(scene->material_names, scene->material_count);
+    free(scene->textures);
+    free_strings(scene->texture_paths, scene->texture_count);
+    free(scene->texels);
+    free(scene->sky_texels);
+    memset(scene, 0, sizeof *scene);
+}

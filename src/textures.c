@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "glim/textures.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/image.h"
+#include "glim/material.h"
+
+/* texture.first is 32 bits wide. */
+#define TEXELS_MAX UINT64_C(0xffffffff)
+
+static bool append(struct scene *scene, const struct image *image,
+                   struct texture *texture, struct error *err)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    size_t total = scene->texel_count + count;
+    uint32_t *texels;
+
+    texels = total > SIZE_MAX / sizeof *texels
+                 ? NULL
+                 : realloc(scene->texels, total * sizeof *texels);
+    if (texels == NULL)
+        return fail(err, "%s: out of memory for the textures: %zu MB",
+                    scene->path, total * sizeof *texels >> 20);
+    scene->texels = texels;
+    texels += scene->texel_count;
+    texture->first = (uint32_t)scene->texel_count;
+    texture->width = (uint32_t)image->width;
+    texture->height = (uint32_t)image->height;
+    for (size_t i = 0; i < count; i++) {
+        const uint8_t *p = image->rgba + 4 * i;
+
+        texels[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 |
+                    (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+        texture->has_holes |= p[3] < 128;
+    }
+    scene->texel_count = total;
+    return true;
+}
+
+/* An unreadable image leaves the texture without texels. */
+static bool load(struct scene *scene, uint32_t index, struct report *report,
+                 struct error *err)
+{
+    const char *path = scene->texture_paths[index];
+    struct image image = {0};
+    struct error why;
+    bool ok = true;
+
+    if (!image_read_8bit(&image, path, &why)) {
+        report_add_named(report, "lost textures", path,
+                         "%s: the texture is not used", why.text);
+        return true;
+    }
+    if ((uint64_t)image.width * (uint64_t)image.height >
+        TEXELS_MAX - scene->texel_count)
+        report_add_named(report, "lost textures", path,
+                         "%s: found more than 4e9 texels in all textures: the "
+                         "texture is not used",
+                         path);
+    else
+        ok = append(scene, &image, &scene->textures[index], err);
+    image_free(&image);
+    return ok;
+}
+
+static bool is_black(const struct vec3 *c)
+{
+    return c->x == 0 && c->y == 0 && c->z == 0;
+}
+
+/* A map multiplies its colour, but beside a black or absent one it stands
+ * alone. Without its image the map is gone. */
+static void settle(const struct scene *scene, uint32_t *texture,
+                   struct vec3 *color, float lost)
+{
+    bool is_lost = *texture != NO_INDEX && scene->textures[*texture].width == 0;
+    float x = is_lost ? lost : 1;
+
+    if (*texture != NO_INDEX && is_black(color))
+        *color = (struct vec3){x, x, x};
+    if (is_lost)
+        *texture = NO_INDEX;
+}
+
+bool textures_load(struct scene *scene, struct report *report,
+                   struct error *err)
+{
+    bool *is_used = alloc_array(scene->material_count, sizeof *is_used);
+    bool *is_tried = alloc_array(scene->texture_count, sizeof *is_tried);
+    bool ok = is_used != NULL && is_tried != NULL;
+
+    if (!ok)
+        fail(err, "%s: out of memory for the textures", scene->path);
+    for (uint32_t i = 0; ok && i < scene->tri_count; i++)
+        is_used[scene->tris[i].material] = true;
+    for (uint32_t i = 0; ok && i < scene->material_count; i++) {
+        struct material *m = &scene->materials[i];
+        uint32_t maps[2] = {m->color_texture, m->emission_texture};
+
+        for (int k = 0; k < 2 && ok; k++) {
+            if (!is_used[i] || maps[k] == NO_INDEX || is_tried[maps[k]])
+                continue;
+            is_tried[maps[k]] = true;
+            ok = load(scene, maps[k], report, err);
+        }
+        settle(scene, &m->color_texture, &m->color, MATERIAL_GREY);
+        settle(scene, &m->emission_texture, &m->emission, 0);
+    }
+    free(is_used);
+    free(is_tried);
+    return ok;
+}
