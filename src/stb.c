@@ -31,6 +31,7 @@ static void *limited_realloc(void *p, size_t size_bytes)
 #define STBI_REALLOC(p, size) limited_realloc(p, size)
 #define STBI_FREE(p)          free(p)
 #define STBI_MAX_DIMENSIONS   IMAGE_SIDE_MAX
+#define STBI_FAILURE_USERMSG
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP

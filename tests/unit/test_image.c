@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "glim/image.h"
+#include "glim/stb.h"
+#include "glim/util.h"
+
+static char folder[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    char command[128];
+
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return chdir("/") == 0 && system(command) == 0 ? 0 : -1;
+}
+
+static void put(const char *path, const void *data, size_t size_bytes)
+{
+    FILE *f = fopen(path, "wb");
+
+    assert_non_null(f);
+    assert_int_equal(fwrite(data, 1, size_bytes, f), size_bytes);
+    assert_int_equal(fclose(f), 0);
+}
+
+static void put_text(const char *path, const char *text)
+{
+    put(path, text, strlen(text));
+}
+
+static void append(void *context, void *data, int size_bytes)
+{
+    fwrite(data, 1, (size_t)size_bytes, context);
+}
+
+static void both_fail(const char *path, const char *expected)
+{
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    err.text[0] = '\0';
+    assert_false(image_read_8bit(&image, path, &err));
+    if (!strstr(err.text, expected))
+        print_error("found '%s', expected '%s'\n", err.text, expected);
+    assert_non_null(strstr(err.text, expected));
+    assert_null(image.rgba);
+    err.text[0] = '\0';
+    assert_false(image_read_linear(&image, path, &clamped, &err));
+    assert_non_null(strstr(err.text, expected));
+    assert_null(image.rgb);
+}
+
+/* The sRGB curve as the standard writes it. */
+static double srgb_decode(double v)
+{
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+static void test_png(void **state)
+{
+    uint8_t pixels[16 * 16 * 4];
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    (void)state;
+    for (int i = 0; i < 256; i++) {
+        pixels[4 * i] = (uint8_t)i;
+        pixels[4 * i + 1] = (uint8_t)(255 - i);
+        pixels[4 * i + 2] = (uint8_t)(i * 7);
+        pixels[4 * i + 3] = (uint8_t)(i * 3);
+    }
+    FILE *f = fopen("a.png", "wb");
+    assert_non_null(f);
+    stbi_write_png_to_func(append, f, 16, 16, 4, pixels, 64);
+    fclose(f);
+    assert_true(image_read_8bit(&image, "a.png", &err));
+    assert_int_equal(image.width, 16);
+    assert_int_equal(image.height, 16);
+    assert_null(image.rgb);
+    assert_memory_equal(image.rgba, pixels, sizeof pixels);
+    image_free(&image);
+    assert_true(image_read_linear(&image, "a.png", &clamped, &err));
+    assert_int_equal(clamped, 0);
+    assert_null(image.rgba);
+    for (int i = 0; i < 256; i++) {
+        for (int c = 0; c < 3; c++)
+            check_close(image.rgb[3 * i + c],
+                        srgb_decode(pixels[4 * i + c] / 255.0), 6e-8);
+    }
+    assert_true(image.rgb[0] == 0 && image.rgb[1] == 1);
+    image_free(&image);
+}
+
+/* 2x1 pixels by hand: (m, e) means m * 2^(e - 136). */
+static void test_hdr(void **state)
+{
+    static const char text[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n"
+                               "-Y 2 +X 1\n"
+                               "\x80\x40\x01\x81"
+                               "\xff\x00\x80\x90";
+    static const float expected[] = {1.0f,         0.5f, 1.0f / 128,
+                                     255 * 256.0f, 0,    128 * 256.0f};
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    (void)state;
+    put("a.hdr", text, sizeof text - 1);
+    assert_true(image_read_linear(&image, "a.hdr", &clamped, &err));
+    assert_int_equal(image.width, 1);
+    assert_int_equal(image.height, 2);
+    for (int i = 0; i < 6; i++)
+        assert_true(image.rgb[i] == expected[i]);
+    image_free(&image);
+    assert_true(image_read_8bit(&image, "a.hdr", &err));
+    assert_null(image.rgb);
+    static const uint8_t bytes[] = {255, 188, 22, 255, 255, 0, 255, 255};
+    assert_memory_equal(image.rgba, bytes, sizeof bytes);
+    image_free(&image);
+}
+
+/* The greatest RGBE values are beyond what is kept. */
+static void test_hdr_greatest(void **state)
+{
+    static const char text[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n"
+                               "-Y 1 +X 1\n\xff\x01\x00\xff";
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    (void)state;
+    put("b.hdr", text, sizeof text - 1);
+    assert_true(image_read_linear(&image, "b.hdr", &clamped, &err));
+    assert_int_equal(clamped, 2);
+    assert_true(image.rgb[0] == 1e30f);
+    assert_true(image.rgb[2] == 0);
+    image_free(&image);
+}
+
+static void put_pfm(const char *path, const char *header, const float *values,
+                    size_t count)
+{
+    FILE *f = fopen(path, "wb");
+
+    assert_non_null(f);
+    fputs(header, f);
+    fwrite(values, sizeof *values, count, f);
+    fclose(f);
+}
+
+static void test_pfm(void **state)
+{
+    static const float values[] = {1,  2,        3,      4, 5, 6,
+                                   -1, INFINITY, 1e-40f, 7, 8, 9};
+    static const float expected[] = {0, 1e30f, 1e-40f, 7, 8, 9,
+                                     1, 2,     3,      4, 5, 6};
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    (void)state;
+    put_pfm("a.pfm", "PF\n2 2\n-1.0\n", values, 12);
+    assert_true(image_read_linear(&image, "a.pfm", &clamped, &err));
+    assert_int_equal(clamped, 2);
+    assert_int_equal(image.width, 2);
+    assert_int_equal(image.height, 2);
+    assert_memory_equal(image.rgb, expected, sizeof expected);
+    image_free(&image);
+
+    put("big.pfm", "Pf 1 1 1\n\x3f\x80\x00\x00", 13);
+    assert_true(image_read_linear(&image, "big.pfm", &clamped, &err));
+    for (int c = 0; c < 3; c++)
+        assert_true(image.rgb[c] == 1);
+    image_free(&image);
+
+    static const float nan[] = {0, NAN, 0};
+    put_pfm("nan.pfm", "PF\n1 1\n-1.0\n", nan, 3);
+    both_fail("nan.pfm", "nan.pfm: found a pixel that is not a number");
+    put_pfm("short.pfm", "PF\n2 2\n-1.0\n", values, 11);
+    both_fail("short.pfm", "short.pfm: found 44 bytes of pixels, expected 48");
+    put_text("head.pfm", "PF\n2 x\n");
+    both_fail("head.pfm",
+              "head.pfm: expected width, height and scale after 'PF'");
+    put_text("huge.pfm", "PF\n99999999999 1\n-1\n");
+    both_fail("huge.pfm", "huge.pfm: found a side of 1e+11 pixels");
+    put_text("wide.pfm", "PF\n40000 1\n-1\n");
+    both_fail("wide.pfm", "expected sides of 1 to 32768");
+}
+
+/* Signature and IHDR with a CRC that stb does not look at. */
+static void put_png_header(const char *path, uint32_t width, uint32_t height)
+{
+    unsigned char png[33] = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR";
+
+    for (int i = 0; i < 4; i++) {
+        png[16 + i] = (unsigned char)(width >> (24 - 8 * i));
+        png[20 + i] = (unsigned char)(height >> (24 - 8 * i));
+    }
+    png[24] = 8; /* depth */
+    png[25] = 6; /* RGBA */
+    put(path, png, sizeof png);
+}
+
+static void test_errors(void **state)
+{
+    (void)state;
+    both_fail("nothing.png", "nothing.png: no such file");
+    both_fail(".", ".: found a folder");
+    put_text("empty.png", "");
+    both_fail("empty.png", "empty.png: found no image that can be read");
+    put_text("text.png", "This is not a picture at all, it is text.\n");
+    both_fail("text.png", "text.png: found no image that can be read");
+    put_png_header("wide.png", 65535, 65535);
+    both_fail("wide.png", "wide.png: found 65535x65535 pixels, expected sides");
+    put_png_header("large.png", 32768, 32767);
+    both_fail("large.png", "large.png: found 32768x32767 pixels, expected");
+    put_png_header("cut.png", 16, 16);
+    both_fail("cut.png", "cut.png: found no image");
+}
+
+/* A scanline of zeros compresses a thousandfold: a file of some megabytes for
+ * one pixel that would inflate to gigabytes takes little memory. */
+static void test_bomb(void **state)
+{
+    int side = 5000;
+    char *zeros = calloc((size_t)side, (size_t)side * 3);
+    struct rusage before, after;
+
+    (void)state;
+    assert_non_null(zeros);
+    FILE *f = fopen("bomb.png", "wb");
+    assert_non_null(f);
+    stbi_write_png_to_func(append, f, side, side, 3, zeros, side * 3);
+    free(zeros);
+    fseek(f, 16, SEEK_SET);
+    fwrite("\0\0\0\1\0\0\0\1", 1, 8, f);
+    fclose(f);
+    getrusage(RUSAGE_SELF, &before);
+    uint64_t begin_ns = clock_ns();
+    struct error err;
+    struct image image;
+    if (image_read_8bit(&image, "bomb.png", &err))
+        image_free(&image);
+    getrusage(RUSAGE_SELF, &after);
+    check_at_most(seconds_between(begin_ns, clock_ns()), 5);
+    check_at_most((double)(after.ru_maxrss - before.ru_maxrss), 64 << 10);
+}
+
+/* Any part of a file, and any file with some bytes changed, gives an image or
+ * an error. */
+static void test_mutations(void **state)
+{
+    static const char *const paths[] = {"a.png", "a.hdr", "a.pfm"};
+    uint64_t random = 1;
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        char bytes[4096];
+        FILE *f = fopen(paths[k], "rb");
+        assert_non_null(f);
+        size_t size = fread(bytes, 1, sizeof bytes, f);
+        fclose(f);
+        for (int i = 0; i < 600; i++) {
+            char changed[4096];
+            memcpy(changed, bytes, size);
+            for (int j = 0; j < i % 5; j++)
+                changed[(size_t)(check_random(&random) * (double)size)] =
+                    (char)(check_random(&random) * 256);
+            size_t kept =
+                i % 2 ? size : (size_t)(check_random(&random) * (double)size);
+            put("changed", changed, kept);
+            if (image_read_8bit(&image, "changed", &err))
+                image_free(&image);
+            if (image_read_linear(&image, "changed", &clamped, &err))
+                image_free(&image);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_png),          cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_hdr_greatest), cmocka_unit_test(test_pfm),
+        cmocka_unit_test(test_errors),       cmocka_unit_test(test_bomb),
+        cmocka_unit_test(test_mutations),
+    };
+
+    return cmocka_run_group_tests_name("image", tests, make_folder,
+                                       remove_folder);
+}
