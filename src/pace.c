@@ -125,6 +125,12 @@ void pace_tick(struct pace *p, uint64_t now_ns)
         p->state = PACE_MUTE;
 }
 
+void pace_forget(struct pace *p)
+{
+    p->outstanding = 0;
+    p->frame_bytes = 0;
+}
+
 bool pace_is_slow(const struct pace *p)
 {
     return p->rate > 0 && p->rate < SLOW_RATE;

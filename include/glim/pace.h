@@ -60,6 +60,9 @@ void pace_answer(struct pace *p, uint64_t now_ns);
  * passed, or more often. */
 void pace_tick(struct pace *p, uint64_t now_ns);
 
+/* Answers that are on their way will not come: somebody else has read them. */
+void pace_forget(struct pace *p);
+
 /* When pace_tick() would give up; UINT64_MAX: never. */
 uint64_t pace_deadline_ns(const struct pace *p);
 

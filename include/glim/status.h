@@ -12,7 +12,7 @@
 
 #include "glim/render.h"
 
-#define STATUS_BYTES 512
+#define STATUS_BYTES 1024
 
 struct status {
     bool is_live;

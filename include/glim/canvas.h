@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+/*
+ * canvas.h - the picture, the status line and the help window on the terminal
+ *
+ * Knows where they are, what they cover and what the terminal can show; writes
+ * frames as the pace allows.
+ *
+ * Units:     terminal cells
+ * Ownership: canvas_free() frees
+ * Threads:   main only
+ * Errors:    memory; a terminal that is gone by the result of canvas_draw()
+ */
+#ifndef GLIM_CANVAS_H
+#define GLIM_CANVAS_H
+
+#include "glim/ansi.h"
+#include "glim/input.h"
+#include "glim/options.h"
+#include "glim/pace.h"
+#include "glim/status.h"
+#include "glim/term.h"
+
+struct canvas {
+    struct pace pace;
+    enum palette palette;
+    bool palette_is_final; /* no answer of the terminal changes it */
+    enum glyphs glyphs;
+    bool glyphs_are_final;
+    double cell_aspect;
+    bool aspect_is_final;
+    bool has_status_row; /* else the line shows only what is urgent */
+    bool is_too_small;
+    bool has_all_answers; /* to what was asked at the start */
+    /* of the present size */
+    struct fit fit;
+    struct cells cells;
+    struct frame frame;
+    struct ansi ansi;
+    char status[STATUS_BYTES];
+    bool has_status;
+    struct ansi_rect window; /* no columns: closed */
+    bool must_update;        /* curses has something to write */
+};
+
+/* After term_open(). An impossible GLIM_COLOR is an error. */
+bool canvas_init(struct canvas *c, const struct options *options,
+                 struct error *err);
+
+/* Fits a picture of this size to the terminal's size of now; everything is
+ * drawn anew. */
+bool canvas_layout(struct canvas *c, int width_px, int height_px,
+                   struct error *err);
+
+/* Takes an answer of the terminal. True if the layout must be done anew. */
+bool canvas_answer(struct canvas *c, const struct event *event);
+
+/* The next palette, from most to least and round. */
+void canvas_next_palette(struct canvas *c);
+
+/* The text of the last row; NULL: none, the picture shows there. */
+void canvas_status(struct canvas *c, const char *text);
+
+void canvas_open_window(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count);
+void canvas_close_window(struct canvas *c);
+
+enum canvas_result {
+    CANVAS_DONE, /* all is shown */
+    CANVAS_MORE, /* the budget was too small for all */
+    CANVAS_GONE  /* the terminal is gone, or a signal wants an end */
+};
+
+/* Writes what has changed, and the film's picture if there is one. Call it only
+ * if pace_may_send(). */
+enum canvas_result canvas_draw(struct canvas *c, struct film *film,
+                               float exposure, int step);
+
+/* Waits for answers on their way, half a second at most: they would be typed
+ * into the shell. Keys pressed meanwhile are lost. */
+void canvas_drain(struct canvas *c, struct input *input);
+
+void canvas_free(struct canvas *c);
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+/*
+ * steer.h - keys and mouse to motions of a view's camera
+ *
+ * Units:     nanoseconds of clock_ns(), terminal cells, parts of the scene
+ * Ownership: the view stays the caller's
+ * Threads:   one thread at a time
+ * Errors:    none
+ */
+#ifndef GLIM_STEER_H
+#define GLIM_STEER_H
+
+#include "glim/cells.h"
+#include "glim/input.h"
+#include "glim/motion.h"
+#include "glim/view.h"
+
+struct steer {
+    struct motion motion;
+    double scene_size; /* file units */
+    double speed;      /* of scene_size, a second */
+    bool is_dragging;
+    int drag_x, drag_y;
+};
+
+/* For a scene between these corners. */
+void steer_init(struct steer *s, const double lo[3], const double hi[3]);
+
+/* Moves by the time that keys were held since the last call. True if the view
+ * has changed. */
+bool steer_step(struct steer *s, struct view *view, uint64_t now_ns);
+
+/* Follows the pointer while a button is down; the picture of width_px x
+ * height_px pixels lies at `fit`. True if the view has changed. */
+bool steer_mouse(struct steer *s, struct view *view, const struct event *event,
+                 const struct fit *fit, int width_px, int height_px);
+
+/* Faster or slower by some steps. */
+void steer_change_speed(struct steer *s, int steps);
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+/*
+ * term.h - the terminal: opened, asked, written to, and given back whatever
+ * happens
+ *
+ * curses owns the terminal, the status line and the windows; the picture is
+ * written past it with term_write(). There is one terminal, so there is one
+ * state, in term.c.
+ *
+ * Units:     terminal cells
+ * Ownership: texts stay the caller's
+ * Threads:   main only; the handlers of faults run anywhere
+ * Errors:    term_open() says why there is no screen
+ */
+#ifndef GLIM_TERM_H
+#define GLIM_TERM_H
+
+#include "glim/palette.h"
+#include "glim/util.h"
+
+struct term_size {
+    int cols, rows;
+    double cell_aspect; /* height over width; 0: not known */
+};
+
+struct term_rect {
+    int col, row, cols, rows;
+};
+
+/* Takes over signals, enters the screen and asks the terminal what it can; its
+ * answers come with the keys, the last of them EVENT_ATTRIBUTES. */
+bool term_open(struct error *err);
+
+/* Gives the terminal back. is_gone: nobody is there any more, write nothing. */
+void term_close(bool is_gone);
+
+/* What is known of colours at once. */
+enum palette term_palette(bool *is_final);
+
+/* True where characters beyond ASCII are drawn as such. *may_learn says that
+ * the answer EVENT_CURSOR tells better: x is 2 then, else 3 or more. */
+bool term_is_utf8(bool *may_learn);
+
+struct term_size term_size(void);
+
+/* Readable when a signal came. term_signal() takes it, 0 if there is none. */
+int term_signal_fd(void);
+int term_signal(void);
+
+/* Reads keys and answers that are there; 0 if none, -1 if the terminal is
+ * gone. */
+int term_read(void *bytes, size_t size_bytes);
+
+/* Blocks until all is written. False if the terminal is gone or a signal says
+ * that it is time to go. */
+bool term_write(const char *bytes, size_t size_bytes);
+
+/* Keys and mouse of other programs come back; the process stops until it is
+ * continued, then the screen is empty. */
+void term_suspend(void);
+
+/* After the process was continued by someone else: all modes anew, and the
+ * screen is empty. */
+void term_resume(void);
+
+/* Drops what was typed or answered and not read. */
+void term_forget_input(void);
+
+/* Follows a new size, and empties the screen at the next term_update(). */
+void term_relayout(void);
+
+void term_set_mouse(bool is_on);
+
+/* The terminal holds back what is written until the end. For terminals that
+ * have said that they can. */
+void term_use_sync(void);
+bool term_has_sync(void);
+
+/* Puts text in the last row, reversed; NULL empties it. Shown, like a window
+ * that was opened or closed, by term_update(). */
+void term_status(const char *text);
+
+/* A centred window with these lines and a title; where it is. One at a time. */
+struct term_rect term_open_window(const char *title, const char *const *texts,
+                                  int text_count);
+void term_close_window(void);
+
+/* Text in the middle of an empty screen. */
+void term_notice(const char *text);
+
+/* Writes what changed. The cursor is in the last row, column 0, afterwards. */
+void term_update(void);
+
+#endif

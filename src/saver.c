@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "glim/saver.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "glim/picture.h"
+
+bool saver_init(struct saver *s, struct error *err)
+{
+    *s = (struct saver){.event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+    if (s->event_fd < 0)
+        return fail(err, "saver: no event descriptor: %s", strerror(errno));
+    pthread_mutex_init(&s->lock, NULL);
+    pthread_cond_init(&s->copied, NULL);
+    return true;
+}
+
+/* Each row as it is at one moment: its sums and counts belong together. */
+static bool copy_film(struct film *to, struct film *from, struct error *err)
+{
+    size_t width = (size_t)from->width;
+
+    if (!film_init(to, from->width, from->height, err))
+        return false;
+    for (int y = 0; y < from->height; y++) {
+        pthread_mutex_t *lock = &from->locks[y % FILM_LOCKS];
+        size_t first = (size_t)y * width;
+
+        pthread_mutex_lock(lock);
+        memcpy(to->sums + 3 * first, from->sums + 3 * first,
+               3 * width * sizeof to->sums[0]);
+        memcpy(to->counts + first, from->counts + first,
+               width * sizeof to->counts[0]);
+        pthread_mutex_unlock(lock);
+    }
+    return true;
+}
+
+static void *saver_main(void *argument)
+{
+    struct saver *s = argument;
+    struct film copy = {0};
+    bool ok = copy_film(&copy, s->film, &s->error);
+    uint64_t one = 1;
+
+    pthread_mutex_lock(&s->lock);
+    s->has_copied = true;
+    pthread_cond_signal(&s->copied);
+    pthread_mutex_unlock(&s->lock);
+    if (ok)
+        s->name =
+            picture_write_numbered(&copy, s->exposure, s->stem, &s->error);
+    film_free(&copy);
+    if (write(s->event_fd, &one, sizeof one) < 0) {
+        /* the counter is full: it is readable anyway */
+    }
+    return NULL;
+}
+
+/* Signals are the main thread's, but for those of a fault, which must reach
+ * the handler that gives the terminal back. */
+static int start_thread(struct saver *s)
+{
+    static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+    sigset_t blocked, before;
+    int reason;
+
+    sigfillset(&blocked);
+    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++)
+        sigdelset(&blocked, faults[i]);
+    pthread_sigmask(SIG_SETMASK, &blocked, &before);
+    reason = pthread_create(&s->thread, NULL, saver_main, s);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return reason;
+}
+
+bool saver_begin(struct saver *s, struct film *film, float exposure,
+                 const char *stem, struct error *err)
+{
+    int reason;
+
+    if (s->is_busy)
+        return fail(err, "%s.png: the picture before is still being saved",
+                    stem);
+    s->film = film;
+    s->exposure = exposure;
+    s->stem = xstrdup(stem);
+    s->has_copied = false;
+    s->name = NULL;
+    reason = start_thread(s);
+    if (reason != 0) {
+        free(s->stem);
+        return fail(err, "%s.png: no thread to save it: %s", stem,
+                    strerror(reason));
+    }
+    s->is_busy = true;
+    return true;
+}
+
+void saver_wait_copied(struct saver *s)
+{
+    if (!s->is_busy)
+        return;
+    pthread_mutex_lock(&s->lock);
+    while (!s->has_copied)
+        pthread_cond_wait(&s->copied, &s->lock);
+    pthread_mutex_unlock(&s->lock);
+}
+
+char *saver_finish(struct saver *s, struct error *err)
+{
+    uint64_t count;
+
+    pthread_join(s->thread, NULL);
+    s->is_busy = false;
+    free(s->stem);
+    s->stem = NULL;
+    if (read(s->event_fd, &count, sizeof count) < 0) {
+        /* nothing there: it was read before */
+    }
+    if (!s->name)
+        *err = s->error;
+    return s->name;
+}
+
+void saver_free(struct saver *s)
+{
+    struct error ignored;
+
+    if (s->is_busy)
+        free(saver_finish(s, &ignored));
+    pthread_cond_destroy(&s->copied);
+    pthread_mutex_destroy(&s->lock);
+    close(s->event_fd);
+}
