@@ -46,6 +46,7 @@ bool view_write(const struct view *view, const char *path, struct error *err);
 /* True if eye, at and fovy make a camera; else the text says what is wrong. */
 bool view_check(const struct view *view, const char *place, struct error *err);
 
+/* `to` has been through view_init(). */
 void view_copy(struct view *to, const struct view *from);
 void view_free(struct view *view);
 
