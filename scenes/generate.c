@@ -110,7 +110,7 @@ static void make_cornell(void)
                "newmtl light\nKd .78 .78 .78\nKe 17 12 4\nillum 1\n");
     write_text("cornell", "view",
                "eye 278 273 -800\nat 278 273 0\nup 0 1 0\nfovy 39.3077\n"
-               "res 600 600\n");
+               "res 600 600\nexposure 1\n");
 }
 
 /* --- materials ------------------------------------------------------------ */
@@ -154,7 +154,7 @@ static void make_materials(void)
                "newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\n"
                "newmtl frosted\nKd 0 0 0\nillum 7\nNi 1.5\nPr .35\n"
                "newmtl bottle\nKd 0 0 0\nillum 7\nNi 1.5\nTf .6 .9 .7\n"
-               "newmtl glow\nKd 0 0 0\nKe 1.6 1.1 .5\nillum 1\n");
+               "newmtl glow\nKd 0 0 0\nKe 1.2 .65 .22\nillum 1\n");
     write_text("materials", "view",
                "eye 0 3.2 8\nat 0 .7 -.2\nup 0 1 0\nfovy 34\nres 1024 576\n"
                "background .25 .3 .4\n");
@@ -165,18 +165,20 @@ static void make_materials(void)
 static void glass_mirror_room(struct mesh *m)
 {
     mesh_object(m, "floor", "tiles");
-    mesh_quad(m, at(-2.5, 0, 3), at(2.5, 0, 3), at(2.5, 0, -2.5),
-              at(-2.5, 0, -2.5), 2.5, 2.75);
+    mesh_quad(m, at(-2.5, 0, 6), at(2.5, 0, 6), at(2.5, 0, -2.5),
+              at(-2.5, 0, -2.5), 2.5, 4.25);
     mesh_object(m, "walls", "white");
     mesh_quad(m, at(-2.5, 0, -2.5), at(2.5, 0, -2.5), at(2.5, 3, -2.5),
               at(-2.5, 3, -2.5), 1, 1);
-    mesh_quad(m, at(-2.5, 3, -2.5), at(2.5, 3, -2.5), at(2.5, 3, 3),
-              at(-2.5, 3, 3), 1, 1);
+    mesh_quad(m, at(-2.5, 3, -2.5), at(2.5, 3, -2.5), at(2.5, 3, 6),
+              at(-2.5, 3, 6), 1, 1);
+    mesh_quad(m, at(2.5, 0, 6), at(-2.5, 0, 6), at(-2.5, 3, 6), at(2.5, 3, 6),
+              1, 1);
     mesh_object(m, "left_wall", "orange");
-    mesh_quad(m, at(-2.5, 0, 3), at(-2.5, 0, -2.5), at(-2.5, 3, -2.5),
-              at(-2.5, 3, 3), 1, 1);
+    mesh_quad(m, at(-2.5, 0, 6), at(-2.5, 0, -2.5), at(-2.5, 3, -2.5),
+              at(-2.5, 3, 6), 1, 1);
     mesh_object(m, "right_wall", "blue");
-    mesh_quad(m, at(2.5, 0, -2.5), at(2.5, 0, 3), at(2.5, 3, 3),
+    mesh_quad(m, at(2.5, 0, -2.5), at(2.5, 0, 6), at(2.5, 3, 6),
               at(2.5, 3, -2.5), 1, 1);
     mesh_object(m, "lamp", "lamp");
     mesh_quad(m, at(-1.2, 2.98, -1.4), at(1.2, 2.98, -1.4), at(1.2, 2.98, 1.2),
@@ -226,7 +228,7 @@ static void make_glass_mirror(void)
         "newmtl green_glass\nKd 0 0 0\nillum 7\nNi 1.5\nTf .65 .95 .8\n");
     write_text("glass_mirror", "view",
                "eye .2 1.5 5.6\nat 0 1.05 -.5\nup 0 1 0\nfovy 34\n"
-               "res 1024 576\nbackground .1 .1 .1\n");
+               "res 1024 576\n");
 }
 
 /* --- interior: 5 wide, 3 high, 6 deep; a window in the left wall ---------- */
@@ -265,7 +267,8 @@ static void interior_furniture(struct mesh *m)
     static const double legs[][2] = {{-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
 
     mesh_object(m, "rug", "rug");
-    mesh_box(m, at(2.3, 0, 2.3), at(2.8, .015, 2), 0);
+    mesh_quad(m, at(.9, .01, 3.3), at(3.7, .01, 3.3), at(3.7, .01, 1.3),
+              at(.9, .01, 1.3), 1, 1);
     mesh_object(m, "table", "wood");
     mesh_box(m, at(2.3, .72, 2.2), at(1.7, .05, .95), 0);
     for (int i = 0; i < 4; i++)
@@ -347,8 +350,8 @@ static void make_skylit(void)
                               "Objects outdoors, lit by an image of the sky.");
 
     mesh_object(&m, "ground", "ground");
-    mesh_quad(&m, at(-30, 0, 30), at(30, 0, 30), at(30, 0, -30),
-              at(-30, 0, -30), 1, 1);
+    mesh_quad(&m, at(-400, 0, 400), at(400, 0, 400), at(400, 0, -400),
+              at(-400, 0, -400), 1, 1);
     mesh_object(&m, "terrace", "tiles");
     mesh_box(&m, at(0, 0, 0), at(7, .12, 5), 0);
     mesh_object(&m, "ring", "gold");
@@ -446,7 +449,7 @@ static void make_lights200(void)
                "newmtl cyan_c\nKd 0 0 0\nKe 60 240 300\n");
     write_text("lights200", "view",
                "eye 2 6.5 17\nat 0 .6 0\nup 0 1 0\nfovy 38\nres 1024 576\n"
-               "background .02 .02 .03\nexposure -1\n");
+               "background .04 .05 .08\n");
 }
 
 int main(int argc, char **argv)
