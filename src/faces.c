@@ -9,6 +9,9 @@
 /* Above every count, and far from overflow. */
 #define INDEX_TEXT_MAX INT64_C(1000000000000)
 
+static const char *const corner_names[] = {"vertex", "texture vertex",
+                                           "normal"};
+
 static bool out_of_memory(const struct faces *f, const struct lex *lex,
                           struct error *err)
 {
@@ -60,6 +63,22 @@ static bool report_index(const struct faces *f, const struct lex *lex,
     return false;
 }
 
+/* Where a file has no normals (or texture vertices) at all, somebody took them
+ * out and left their numbers in the faces. */
+static bool was_taken_out(const struct faces *f, const struct lex *lex, int k,
+                          int64_t index, uint32_t count)
+{
+    if (k == 0 || count > 0 || index < 1)
+        return false;
+    report_add(f->report,
+               k == 1 ? "corners without their texture vertex"
+                      : "corners without their normal",
+               "%s:%" PRIu64 ": found %s %" PRId64 " in a face, but the file "
+               "has none so far: face used without",
+               f->path, lex->line, corner_names[k], index);
+    return true;
+}
+
 static bool report_malformed(const struct faces *f, const struct lex *lex,
                              struct word word)
 {
@@ -74,7 +93,6 @@ static bool report_malformed(const struct faces *f, const struct lex *lex,
 static bool parse_corner(const struct faces *f, const struct lex *lex,
                          struct word word, struct corner *c)
 {
-    static const char *const names[] = {"vertex", "texture vertex", "normal"};
     const uint32_t counts[] = {f->scene->position_count, f->scene->uv_count,
                                f->scene->normal_count};
     const char *p = word.start;
@@ -86,8 +104,9 @@ static bool parse_corner(const struct faces *f, const struct lex *lex,
         int64_t index;
 
         if (parse_index(&p, end, &index)) {
-            if (!resolve(index, counts[k], &indices[k]))
-                return report_index(f, lex, names[k], index, counts[k]);
+            if (!resolve(index, counts[k], &indices[k]) &&
+                !was_taken_out(f, lex, k, index, counts[k]))
+                return report_index(f, lex, corner_names[k], index, counts[k]);
         } else if (k == 0 || p != start) {
             return report_malformed(f, lex, word);
         }

@@ -133,9 +133,9 @@ char *lex_rest(struct lex *lex)
     return text;
 }
 
-/* The four that printf() of old Microsoft libraries wrote: 1.#INF, 1.#IND,
- * 1.#QNAN and 1.#SNAN, with zeros for the digits that were asked for. */
-static bool old_microsoft_number(struct word word, double *value)
+/* What printf() of Microsoft's libraries writes: 1.#INF, 1.#IND, 1.#QNAN and
+ * 1.#SNAN, with zeros for the digits that were asked for, or nan(ind). */
+static bool microsoft_number(struct word word, double *value)
 {
     char text[16];
     const char *p = text;
@@ -151,7 +151,7 @@ static bool old_microsoft_number(struct word word, double *value)
     }
     *value = NAN;
     return strncmp(p, "1.#IND", 6) == 0 || strncmp(p, "1.#QNAN", 7) == 0 ||
-           strncmp(p, "1.#SNAN", 7) == 0;
+           strncmp(p, "1.#SNAN", 7) == 0 || strncmp(p, "nan(", 4) == 0;
 }
 
 bool lex_number(struct lex *lex, double *value)
@@ -163,7 +163,7 @@ bool lex_number(struct lex *lex, double *value)
     if (number_parse(&lex->p, lex->end, value) && ends_word(lex->p, lex->end))
         return true;
     *lex = saved;
-    if (old_microsoft_number(lex_word(lex), value))
+    if (microsoft_number(lex_word(lex), value))
         return true;
     *lex = saved;
     return false;

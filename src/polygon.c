@@ -17,6 +17,9 @@
 /* next[] of a corner that is not in the ring (any more). */
 #define NOT_LINKED 0xffffffffu
 
+/* Of the products in turn(); a few dozen roundings. */
+#define STRAIGHT 1e-14
+
 /* How little an ear must satisfy, tried in this order. */
 enum ear_rule {
     EAR_CLEAR,   /* no corner in it or on its edges */
@@ -151,14 +154,19 @@ static bool project(struct polygon *g, const double *corners, uint32_t n)
     return true;
 }
 
-/* Above 0 if a, b, c turn left. */
+/* Above 0 if a, b, c turn left, below if right. What rounding may have made of
+ * a straight line is 0: else points on one line would contradict each other
+ * (seen: a hole that touches a cut led to a triangle across the hole). */
 static double turn(const struct polygon *g, uint32_t a, uint32_t b, uint32_t c)
 {
     struct point2 p = g->points[a];
     struct point2 q = g->points[b];
     struct point2 r = g->points[c];
+    double left = (q.x - p.x) * (r.y - p.y);
+    double right = (q.y - p.y) * (r.x - p.x);
+    double rounding = STRAIGHT * (fabs(left) + fabs(right));
 
-    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    return fabs(left - right) > rounding ? left - right : 0;
 }
 
 /* Every corner turns left, and the outline goes around once (a pentagram turns
@@ -323,13 +331,16 @@ static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
     return true;
 }
 
-/* Whether the cut from a to c starts inside the outline at either end. Where
- * corners coincide, as at a bridge to a hole, points alone do not say. */
+/* Whether the cut from a to c, past b, starts inside the outline at either end.
+ * Where corners coincide, as at a bridge to a hole, points alone do not say. At
+ * a reflex corner all that is left of the edge with b is inside. */
 static bool cut_is_inside(const struct polygon *g, enum ear_rule rule,
-                          uint32_t a, uint32_t c)
+                          uint32_t a, uint32_t b, uint32_t c)
 {
-    double at_a = g->is_reflex[a] ? 1 : turn(g, g->prev[a], a, c);
-    double at_c = g->is_reflex[c] ? 1 : turn(g, a, c, g->next[c]);
+    uint32_t before = g->prev[a];
+    uint32_t after = g->next[c];
+    double at_a = turn(g, before, a, b) < 0 ? 1 : turn(g, before, a, c);
+    double at_c = turn(g, b, c, after) < 0 ? 1 : turn(g, a, c, after);
 
     if (rule == EAR_TOUCHED)
         return at_a >= 0 && at_c >= 0;
@@ -344,7 +355,7 @@ static bool is_ear(struct polygon *g, enum ear_rule rule, uint32_t b)
         return true;
     if (!(turn(g, ear[0], b, ear[2]) > 0))
         return false;
-    return rule == EAR_CONVEX || (cut_is_inside(g, rule, ear[0], ear[2]) &&
+    return rule == EAR_CONVEX || (cut_is_inside(g, rule, ear[0], b, ear[2]) &&
                                   is_empty_ear(g, rule, ear));
 }
 

@@ -11,8 +11,9 @@
 #define GLIM_ASSET_H
 
 /* The path of the file `name` as written in the file `beside`: relative to its
- * folder, with \ for / if there is no such file, and at last without the
- * folders in it, which were those of another machine. NULL: none exists. */
+ * folder. If there is none: without backslashes before blanks, with \ for /,
+ * and at last without its folders, which were those of another machine.
+ * NULL: none exists. */
 char *asset_find(const char *beside, const char *name);
 
 #endif

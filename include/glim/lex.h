@@ -50,7 +50,7 @@ struct word lex_word(struct lex *lex);
 char *lex_rest(struct lex *lex);
 
 /* A number that is a word of its own: 1e400 is infinite, and so are the words
- * nan, inf and what old Microsoft libraries wrote (1.#INF, -1.#IND). False,
+ * nan, inf and what Microsoft's libraries write (1.#INF, -nan(ind)). False,
  * with lex->p at the word, if there is something else or nothing. */
 bool lex_number(struct lex *lex, double *value);
 

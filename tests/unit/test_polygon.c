@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "check.h"
+#include "glim/polygon.h"
+
+#define PI 3.14159265358979323846
+
+/* Polygons in the plane z = 0 and what is known about them. */
+struct outline {
+    double *points; /* 3 a corner */
+    uint32_t count;
+};
+
+static struct outline outline_of(uint32_t capacity)
+{
+    struct outline o = {calloc(3 * (size_t)capacity, sizeof(double)), 0};
+
+    assert_non_null(o.points);
+    return o;
+}
+
+static void add_point(struct outline *o, double x, double y)
+{
+    o->points[3 * (size_t)o->count] = x;
+    o->points[3 * (size_t)o->count + 1] = y;
+    o->count++;
+}
+
+/* Shoelace formula. */
+static double area_of(const struct outline *o)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < o->count; i++) {
+        const double *p = o->points + 3 * i;
+        const double *q = o->points + 3 * ((i + 1) % o->count);
+
+        sum += p[0] * q[1] - p[1] * q[0];
+    }
+    return sum / 2;
+}
+
+static double triangle_area(const struct outline *o, const uint32_t t[3])
+{
+    const double *a = o->points + 3 * (size_t)t[0];
+    const double *b = o->points + 3 * (size_t)t[1];
+    const double *c = o->points + 3 * (size_t)t[2];
+
+    return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+}
+
+/* Cuts, and checks that the triangles wind like the polygon and that their
+ * areas, none of them negative, add up to its area. */
+static void check_cut(const struct outline *o, const char *name)
+{
+    struct polygon g = {0};
+    double area = area_of(o);
+    double sum = 0;
+
+    assert_true(polygon_cut(&g, o->points, o->count));
+    assert_in_range(g.triangle_count, 1, o->count - 2);
+    for (uint32_t i = 0; i < g.triangle_count; i++) {
+        for (int k = 0; k < 3; k++)
+            assert_in_range(g.triangles[i][k], 0, o->count - 1);
+        sum += fabs(triangle_area(o, g.triangles[i]));
+        if (triangle_area(o, g.triangles[i]) * area < -1e-15 * area * area)
+            fail_msg("%s, %u corners: triangle %u is turned over: area %g",
+                     name, o->count, i, triangle_area(o, g.triangles[i]));
+    }
+    if (!(fabs(sum - fabs(area)) <= 1e-12 * fabs(area)))
+        fail_msg("%s, %u corners: triangles cover %.17g of %.17g", name,
+                 o->count, sum, area);
+    assert_false(g.crosses_itself);
+    polygon_free(&g);
+}
+
+/* Both windings, and starting at every corner of small ones. */
+static void check_all_turns(const struct outline *o, const char *name)
+{
+    uint32_t starts = o->count <= 64 ? o->count : 1;
+
+    for (uint32_t s = 0; s < starts; s++) {
+        for (int is_back = 0; is_back < 2; is_back++) {
+            struct outline turned = outline_of(o->count);
+
+            for (uint32_t i = 0; i < o->count; i++) {
+                uint32_t j = (is_back ? 2 * o->count - i : i) + s;
+                const double *p = o->points + 3 * (size_t)(j % o->count);
+
+                add_point(&turned, p[0], p[1]);
+            }
+            check_cut(&turned, name);
+            free(turned.points);
+        }
+    }
+}
+
+static void test_regular(void **state)
+{
+    (void)state;
+    for (uint32_t n = 3; n <= 64; n++) {
+        struct outline o = outline_of(n);
+        struct polygon g = {0};
+
+        for (uint32_t i = 0; i < n; i++)
+            add_point(&o, cos(2 * PI * i / n), sin(2 * PI * i / n));
+        check_all_turns(&o, "regular");
+        assert_true(polygon_cut(&g, o.points, n));
+        assert_int_equal(g.triangle_count, n - 2);
+        polygon_free(&g);
+        free(o.points);
+    }
+}
+
+static void test_stars_and_combs(void **state)
+{
+    (void)state;
+    for (uint32_t n = 5; n <= 64; n++) {
+        struct outline star = outline_of(n);
+        struct outline comb = outline_of(n);
+
+        for (uint32_t i = 0; i < n; i++) {
+            double r = i % 2 == 0 ? 1 : 0.2;
+
+            add_point(&star, r * cos(2 * PI * i / n), r * sin(2 * PI * i / n));
+        }
+        add_point(&comb, 0, 0);
+        add_point(&comb, n, 0);
+        for (uint32_t i = 2; i < n; i++)
+            add_point(&comb, n - i, i % 2 == 0 ? 5 : 0.5);
+        check_all_turns(&star, "star");
+        check_all_turns(&comb, "comb");
+        free(star.points);
+        free(comb.points);
+    }
+}
+
+/* Corners on straight edges: no fan from one of them covers the polygon
+ * without triangles of no area. */
+static void test_corners_on_edges(void **state)
+{
+    struct outline o = outline_of(16);
+    struct polygon g = {0};
+
+    (void)state;
+    for (int i = 0; i < 4; i++)
+        add_point(&o, i, 0);
+    for (int i = 0; i < 4; i++)
+        add_point(&o, 4, i);
+    for (int i = 0; i < 4; i++)
+        add_point(&o, 4 - i, 4);
+    for (int i = 0; i < 4; i++)
+        add_point(&o, 0, 4 - i);
+    check_all_turns(&o, "square with points on its edges");
+    assert_true(polygon_cut(&g, o.points, o.count));
+    assert_int_equal(g.triangle_count, 14);
+    for (uint32_t i = 0; i < g.triangle_count; i++)
+        assert_true(triangle_area(&o, g.triangles[i]) > 0);
+    polygon_free(&g);
+    free(o.points);
+}
+
+/* A ring: outline, bridge to the hole, around the hole, and back. */
+static void test_hole_with_bridge(void **state)
+{
+    (void)state;
+    for (int n = 3; n <= 30; n++) {
+        struct outline o = outline_of(2 * (uint32_t)n + 2);
+        double expected =
+            (4 - 1) * n / 2.0 * sin(2 * PI / n); /* two regular polygons */
+
+        for (int i = 0; i <= n; i++)
+            add_point(&o, 2 * cos(2 * PI * (i % n) / n),
+                      2 * sin(2 * PI * (i % n) / n));
+        for (int i = n; i >= 0; i--)
+            add_point(&o, cos(2 * PI * (i % n) / n), sin(2 * PI * (i % n) / n));
+        assert_true(fabs(area_of(&o) - expected) < 1e-12 * expected);
+        check_all_turns(&o, "ring");
+        free(o.points);
+    }
+}
+
+/* Nine square holes, joined to the outline or to each other by bridges. */
+static void test_many_holes(void **state)
+{
+    struct outline o = outline_of(128);
+
+    (void)state;
+    add_point(&o, 0, 0);
+    add_point(&o, 10, 0);
+    add_point(&o, 10, 10);
+    add_point(&o, 0, 10);
+    for (int row = 2; row >= 0; row--) {
+        double y = 1 + 3 * row;
+
+        /* along the lower edges of the holes of a row, out and back */
+        add_point(&o, 0, y);
+        for (int i = 0; i < 3; i++) {
+            double x = 1 + 3 * i;
+
+            add_point(&o, x, y);
+            if (i < 2) {
+                add_point(&o, x + 1, y);
+            } else {
+                add_point(&o, x, y + 1);
+                add_point(&o, x + 1, y + 1);
+                add_point(&o, x + 1, y);
+                add_point(&o, x, y);
+            }
+        }
+        for (int i = 1; i >= 0; i--) {
+            double x = 1 + 3 * i;
+
+            add_point(&o, x + 1, y);
+            add_point(&o, x + 1, y + 1);
+            add_point(&o, x, y + 1);
+            add_point(&o, x, y);
+        }
+        add_point(&o, 0, y);
+    }
+    check_cut(&o, "nine holes");
+    free(o.points);
+}
+
+/* Outlines that are seen whole from the middle, and the same with a hole. */
+static void test_random(void **state)
+{
+    uint64_t random = 1;
+
+    (void)state;
+    for (int round = 0; round < 3000; round++) {
+        uint32_t n = 4 + (uint32_t)(check_random(&random) * 60);
+        struct outline o = outline_of(2 * n + 2);
+        struct outline ring = outline_of(2 * n + 2);
+
+        for (uint32_t i = 0; i < n; i++) {
+            double r = 1 + 4 * check_random(&random);
+
+            add_point(&o, r * cos(2 * PI * i / n), r * sin(2 * PI * i / n));
+        }
+        check_cut(&o, "random");
+        for (uint32_t i = 0; i <= n; i++)
+            add_point(&ring, o.points[3 * (i % n)], o.points[3 * (i % n) + 1]);
+        for (uint32_t i = n + 1; i-- > 0;) {
+            double r = 0.1 + 0.5 * (double)(i % n) / n;
+
+            add_point(&ring, r * cos(2 * PI * i / n), r * sin(2 * PI * i / n));
+        }
+        check_cut(&ring, "random ring");
+        free(o.points);
+        free(ring.points);
+    }
+}
+
+static void test_coincident_corners(void **state)
+{
+    static const double square[5][2] = {
+        {0, 0}, {2, 0}, {2, 2}, {0.5, 0.5}, {0, 2}};
+    struct outline o = outline_of(15);
+
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        for (int k = 0; k < 3; k++)
+            add_point(&o, square[i][0], square[i][1]);
+    }
+    check_cut(&o, "every corner three times");
+    free(o.points);
+}
+
+static void test_large_and_concave_is_quick(void **state)
+{
+    uint32_t n = 100000;
+    struct outline o = outline_of(n);
+    uint64_t random = 88172645463325252u;
+    clock_t begin = clock();
+
+    (void)state;
+    for (uint32_t i = 0; i < n; i++) {
+        double r;
+
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        r = 1 + 0.01 * (double)(random >> 40) * 0x1p-24;
+        add_point(&o, r * cos(2 * PI * i / n), r * sin(2 * PI * i / n));
+    }
+    check_cut(&o, "coast");
+    assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 10);
+    free(o.points);
+}
+
+/* No answer is right, but there is one, in time proportional to the size. */
+static void test_outlines_that_cross_themselves(void **state)
+{
+    struct polygon g = {0};
+    struct outline o = outline_of(20000);
+    struct outline flat = outline_of(100);
+    double bowtie[12] = {0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1.5, 0};
+    uint32_t random = 1;
+    clock_t begin = clock();
+
+    (void)state;
+    assert_true(polygon_cut(&g, bowtie, 4));
+    assert_int_equal(g.triangle_count, 2);
+    assert_true(g.crosses_itself);
+    for (uint32_t i = 0; i < 20000; i++) {
+        random = random * 1664525u + 1013904223u;
+        add_point(&o, random >> 16, random & 0xffffu);
+    }
+    assert_true(polygon_cut(&g, o.points, o.count));
+    assert_int_equal(g.triangle_count, 19998);
+    assert_true(g.crosses_itself);
+    for (int i = 0; i < 100; i++)
+        add_point(&flat, i % 7, 0);
+    assert_true(polygon_cut(&g, flat.points, flat.count));
+    assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 20);
+    polygon_free(&g);
+    free(o.points);
+    free(flat.points);
+}
+
+static void test_any_plane_and_any_size(void **state)
+{
+    static const double sizes[] = {1e-300, 1e-30, 1, 1e30, 1e300};
+    static const double arrow[4][2] = {{0, 0}, {2, 1}, {0, 2}, {0.5, 1}};
+    struct polygon g = {0};
+
+    (void)state;
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        for (int axis = 0; axis < 3; axis++) {
+            double p[12] = {0};
+
+            for (int i = 0; i < 4; i++) {
+                p[3 * i + (axis + 1) % 3] = arrow[i][0] * sizes[s];
+                p[3 * i + (axis + 2) % 3] = arrow[i][1] * sizes[s];
+            }
+            assert_true(polygon_cut(&g, p, 4));
+            assert_int_equal(g.triangle_count, 2);
+            assert_false(g.crosses_itself);
+            /* the cut goes through the reflex corner */
+            for (int t = 0; t < 2; t++)
+                assert_true(g.triangles[t][0] == 3 || g.triangles[t][1] == 3 ||
+                            g.triangles[t][2] == 3);
+        }
+    }
+    polygon_free(&g);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_regular),
+        cmocka_unit_test(test_stars_and_combs),
+        cmocka_unit_test(test_corners_on_edges),
+        cmocka_unit_test(test_hole_with_bridge),
+        cmocka_unit_test(test_many_holes),
+        cmocka_unit_test(test_random),
+        cmocka_unit_test(test_coincident_corners),
+        cmocka_unit_test(test_large_and_concave_is_quick),
+        cmocka_unit_test(test_outlines_that_cross_themselves),
+        cmocka_unit_test(test_any_plane_and_any_size),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
