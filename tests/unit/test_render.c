@@ -179,6 +179,37 @@ static void a_crop_is_part_of_the_whole(void **state)
     mesh_free(&m);
 }
 
+/* STRESS G5: faces that are there twice look like one, to the bit. */
+static void doubled_faces_do_not_show(void **state)
+{
+    struct render *once = open_render(2), *twice = open_render(2);
+    struct mesh m, doubled;
+    struct error err;
+    struct render_job job;
+
+    (void)state;
+    make_room(&m);
+    make_room(&doubled);
+    for (uint32_t i = 0; i < m.tri_count; i++) {
+        const uint32_t *v = m.tris[i].v;
+
+        mesh_add(&doubled, m.positions[v[0]], m.positions[v[1]],
+                 m.positions[v[2]], m.tris[i].material);
+    }
+    mesh_finish(&doubled);
+    job = job_of(&m, 16);
+    assert_true(render_start(once, &job, &err));
+    job = job_of(&doubled, 16);
+    assert_true(render_start(twice, &job, &err));
+    assert_true(render_wait(once, 60000));
+    assert_true(render_wait(twice, 60000));
+    assert_same_film(render_film(once), render_film(twice));
+    render_destroy(once);
+    render_destroy(twice);
+    mesh_free(&m);
+    mesh_free(&doubled);
+}
+
 /* The event descriptor tells of the end. */
 static void the_end_is_an_event(void **state)
 {
@@ -209,6 +240,7 @@ int main(void)
         cmocka_unit_test(halts_do_not_show),
         cmocka_unit_test(restarts_begin_anew),
         cmocka_unit_test(a_crop_is_part_of_the_whole),
+        cmocka_unit_test(doubled_faces_do_not_show),
         cmocka_unit_test(the_end_is_an_event),
     };
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+/*
+ * halts - how long from the request to halt until every worker is parked, and
+ * from a restart until the first whole (coarse) picture
+ *
+ * usage: halts SCENE [COUNT]
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "glim/session.h"
+
+static int compare(const void *a, const void *b)
+{
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+
+    return x < y ? -1 : x > y;
+}
+
+static void print_row(const char *what, uint64_t *times_ns, int count)
+{
+    const double shares[] = {0.5, 0.99, 0.999};
+
+    qsort(times_ns, (size_t)count, sizeof *times_ns, compare);
+    printf("%-24s", what);
+    for (int i = 0; i < 3; i++)
+        printf(" %8.3f",
+               (double)times_ns[(int)((count - 1) * shares[i])] * 1e-6);
+    printf(" %8.3f\n", (double)times_ns[count - 1] * 1e-6);
+}
+
+int main(int argc, char **argv)
+{
+    struct options o = {.scene_path = argc > 1 ? argv[1] : NULL,
+                        .max_bounces = -1};
+    int count = argc > 2 ? (int)strtol(argv[2], NULL, 10) : 1000;
+    uint64_t *halts = xcalloc((size_t)count, sizeof *halts);
+    uint64_t *restarts = xcalloc((size_t)count, sizeof *restarts);
+    static struct session s;
+    struct error err;
+    uint64_t random = 1;
+
+    if (argc < 2 || !session_open(&s, &o, clock_ns(), &err) ||
+        !session_restart(&s, 0, &err)) {
+        fprintf(stderr, "halts: %s\n", argc < 2 ? "no scene" : err.text);
+        return 1;
+    }
+    while (render_progress(s.render).first_picture_ns == 0)
+        usleep(1000); /* the tree is built */
+    for (int i = 0; i < count; i++) {
+        uint64_t begin;
+
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        usleep(1000 + (useconds_t)(random >> 33) % 20000);
+        begin = clock_ns();
+        render_halt(s.render);
+        halts[i] = clock_ns() - begin;
+        begin = clock_ns();
+        if (!session_restart(&s, 0, &err)) {
+            fprintf(stderr, "halts: %s\n", err.text);
+            return 1;
+        }
+        while (render_progress(s.render).first_picture_ns == 0)
+            usleep(50);
+        restarts[i] = clock_ns() - begin;
+    }
+    printf("%-24s %8s %8s %8s %8s  ms, %d times\n", argv[1], "p50", "p99",
+           "p99.9", "max", count);
+    print_row("halt", halts, count);
+    print_row("restart to coarse", restarts, count);
+    session_close(&s);
+    free(halts);
+    free(restarts);
+    return 0;
+}

@@ -1,0 +1,109 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# What `make bench` runs. BUILD: the folder of the program; FILTER: the name of
+# one measurement. Times are of this machine at this hour: compare ratios.
+set -eu
+build=${BUILD:-build/release}
+filter=${FILTER:-}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+wanted() {
+    [ -z "$filter" ] || [ "$filter" = "$1" ]
+}
+
+# render THREADS NAME SCENE ARGUMENTS...: seconds of rendering, into NAME.json
+render() {
+    threads=$1 name=$2 scene=$3
+    shift 3
+    "$build/glim" -b -t "$threads" --stats "$work/$name.json" \
+        -o "$work/$name.pfm" "$@" "$scene" 2>"$work/$name.log"
+}
+
+value() { # KEY FILE
+    sed -n "s/.*\"$1\": *\([0-9.e+-]*\).*/\1/p" "$work/$2.json"
+}
+
+divide() { # A B
+    awk "BEGIN { printf \"%.3f\", $1 / $2 }"
+}
+
+machine() {
+    sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1
+    echo "cores: $(nproc), load: $(cut -d ' ' -f 1-3 /proc/loadavg)"
+}
+
+# One process of 1 .. all threads, 960x544, 32 spp.
+bench_threads() {
+    echo
+    echo 'threads: scenes/cornell.obj, 960x544, 32 spp'
+    echo 'threads  seconds  Msamples/s  speed-up'
+    n=1
+    while [ "$n" -le "$(nproc)" ]; do
+        render "$n" threads scenes/cornell.obj -w 960 -h 544 -s 32
+        s=$(value render_s threads)
+        [ "$n" -gt 1 ] || one=$s
+        printf '%7d %8s %11s %9s\n' "$n" "$s" \
+            "$(divide "$(value samples threads)" "($s * 1e6)")" \
+            "$(divide "$one" "$s")"
+        n=$((n + 1))
+    done
+}
+
+# All threads in one process against as many processes of one thread that run
+# side by side, each half (or less) of the picture: what sharing costs.
+bench_sharing() {
+    n=$(nproc)
+    echo
+    echo "sharing: one process of $n threads against $n of one, 960x544, 32 spp"
+    for round in 1 2 3 4 5; do
+        render "$n" together scenes/cornell.obj -w 960 -h 544 -s 32
+        i=0
+        pids=
+        while [ "$i" -lt "$n" ]; do
+            render 1 "apart$i" scenes/cornell.obj -w 960 -h 544 -s 32 &
+            pids="$pids $!"
+            i=$((i + 1))
+        done
+        for pid in $pids; do
+            wait "$pid"
+        done
+        rate=0
+        i=0
+        while [ "$i" -lt "$n" ]; do
+            rate=$(awk "BEGIN { print $rate + 1 / $(value render_s "apart$i") }")
+            i=$((i + 1))
+        done
+        ratio=$(awk "BEGIN { printf \"%.3f\", \
+            1 / $(value render_s together) / $rate }")
+        echo "round $round: together/apart $ratio"
+    done
+}
+
+bench_halts() {
+    echo
+    echo 'halts: from the request until every worker is parked'
+    for scene in scenes/cornell.obj scenes/interior.obj \
+        ../shared/scenes-real/sponza_part/sponza_part.obj; do
+        [ ! -e "$scene" ] || "$build/bench/halts" "$scene" 1000
+    done
+}
+
+# Loading: a million triangles of text.
+bench_load() {
+    echo
+    echo 'load: a grid of 1,000,000 triangles'
+    "$build/bench/grid" 1000 500 >"$work/grid.obj"
+    bytes=$(wc -c <"$work/grid.obj")
+    render "$(nproc)" load "$work/grid.obj" -w 64 -h 36 -s 1
+    echo "load_s $(value load_s load) ($(divide "$bytes" \
+        "($(value load_s load) * 1e6)") MB/s with textures and clean-up)," \
+        "build_s $(value build_s load)"
+}
+
+machine
+for name in threads sharing halts load; do
+    if wanted "$name"; then
+        "bench_$name"
+    fi
+done
