@@ -17,7 +17,6 @@
 #include <stddef.h>
 
 #define STBI_NO_STDIO
-#define STBI_WRITE_NO_STDIO
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
