@@ -38,7 +38,7 @@ static size_t line_end_bytes(const char *p, const char *end)
     return *p == '\r' && end - p > 1 && p[1] == '\n' ? 2 : 1;
 }
 
-/* Bytes of a backslash and the line's end after it: 0, 2 or 3. */
+/* Bytes of a backslash and the end of the line or text after it, or 0. */
 static size_t join_bytes(const char *p, const char *end)
 {
     size_t n;
@@ -46,7 +46,7 @@ static size_t join_bytes(const char *p, const char *end)
     if (p == end || *p != '\\')
         return 0;
     n = line_end_bytes(p + 1, end);
-    return n == 0 ? 0 : n + 1;
+    return n == 0 && p + 1 < end ? 0 : n + 1;
 }
 
 void lex_skip_blanks(struct lex *lex)

@@ -33,8 +33,8 @@ static struct report_entry *find(const struct report *r, const char *kind)
 }
 
 /* The entry of this kind, made with the text if there is none yet. */
-static void add(struct report *r, const char *kind, const char *format,
-                va_list args)
+__attribute__((format(printf, 3, 0))) static void
+add(struct report *r, const char *kind, const char *format, va_list args)
 {
     struct report_entry *entry = find(r, kind);
     char text[1024];
@@ -80,9 +80,12 @@ static int count_named(const struct report *r, const char *kind)
 void report_add_named(struct report *r, const char *kind, const char *name,
                       const char *format, ...)
 {
-    char *named = xformat("%s '%s'", kind, name);
-    bool is_full = find(r, named) == NULL &&
-                   count_named(r, kind) >= REPORT_NAMES_MAX;
+    /* Long names that begin alike count as one. */
+    char *named = xformat("%s '%.100s'", kind, name);
+
+    replace_controls(named);
+    bool is_full =
+        find(r, named) == NULL && count_named(r, kind) >= REPORT_NAMES_MAX;
     va_list args;
 
     va_start(args, format);

@@ -66,13 +66,13 @@ static void check_cut(const struct outline *o, const char *name)
         for (int k = 0; k < 3; k++)
             assert_in_range(g.triangles[i][k], 0, o->count - 1);
         sum += fabs(triangle_area(o, g.triangles[i]));
-        if (triangle_area(o, g.triangles[i]) * area < -1e-15 * area * area)
-            fail_msg("%s, %u corners: triangle %u is turned over: area %g",
-                     name, o->count, i, triangle_area(o, g.triangles[i]));
+        if (triangle_area(o, g.triangles[i]) * area < -1e-15 * area * area) {
+            print_error("%s, %u corners: triangle %u has area %g\n", name,
+                        o->count, i, triangle_area(o, g.triangles[i]));
+            _fail(__FILE__, __LINE__);
+        }
     }
-    if (!(fabs(sum - fabs(area)) <= 1e-12 * fabs(area)))
-        fail_msg("%s, %u corners: triangles cover %.17g of %.17g", name,
-                 o->count, sum, area);
+    check_close(sum, fabs(area), 1e-12 * fabs(area));
     assert_false(g.crosses_itself);
     polygon_free(&g);
 }
