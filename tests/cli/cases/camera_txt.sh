@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+# Which view file counts: -c, then SCENE.view, then camera.txt in the folder.
+mkdir d
+cp "$CLI"/scenes/box.* d
+rm d/box.view
+view='eye 0 1 4\nat 0 1 0\nfovy 40\n'
+printf "${view}res 12 4\n" >d/camera.txt
+run_untimed -b -s 1 -o out.png d/box.obj
+printf "${view}res 5 7\n" >d/box.view
+run_untimed -b -s 1 -o out.png d/box.obj
+printf "${view}res 30 20\n" >other.view
+run_untimed -b -s 1 -o out.png -c other.view d/box.obj
+echo 'one side keeps the shape:'
+run_untimed -b -s 1 -w 15 -o out.png -c other.view d/box.obj
+run_untimed -b -s 1 -h 3 -o out.png -c other.view d/box.obj
+run_untimed -b -s 1 -w 1 -h 9 -o out.png -c other.view d/box.obj

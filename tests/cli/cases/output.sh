@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+# Output that cannot be written is said before the render begins.
+take box
+b="-b -w 8 -h 4 -s 1000000000"
+mkdir folder.png
+run $b -o folder.png box.obj
+run $b -o none/out.png box.obj
+run $b -o out.png --stats none/x.json box.obj
+run $b -o out.png --stats folder.png box.obj
+run $b -o out.png --stats /dev/null box.obj
+glim -b -w 8 -h 4 -s 1 -o - box.obj >&- 2>err
+echo "exit $?"
+cat err
+if [ -e /dev/full ]; then
+    glim -b -w 8 -h 4 -s 1 -o - box.obj >/dev/full 2>err
+    echo "exit $?"
+    cat err
+fi
+ls -A

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+# --stats: one JSON object; counts follow from the size, times are ordered.
+take box
+glim -b -w 20 -h 10 -s 3 -t 2 --seed 7 -o out.png --stats run.json box.obj \
+    2>/dev/null
+sed -n 's/^  \("[a-z_]*"\).*/\1/p' run.json | tr '\n' ' '
+echo
+grep -E '"(width|height|spp|threads|samples|seed|triangles|non_finite)"' run.json
+grep -E '"(backend|scene|stopped)"' run.json
+awk -F '[:,]' '/_s"/ { t[$1] = $2 + 0; if ($2 !~ /^ [0-9]+\.[0-9]+$/) bad = 1 }
+    /"rays"/ { rays = $2 }
+    END {
+        sum = t["  \"load_s\""] + t["  \"build_s\""] + t["  \"render_s\""]
+        print (!bad && sum <= t["  \"total_s\""] &&
+            t["  \"first_picture_s\""] <= t["  \"total_s\""] &&
+            rays >= 600) ? "times and rays are plausible" : "implausible"
+    }' run.json
+glim -b -w 4 -h 4 -s 1 -o out.png --stats - box.obj 2>/dev/null | head -n 1
+echo 'crop and odd names:'
+cp box.obj 'a"b\c.obj'
+glim -b -w 9 -h 9 --crop 1,1,3,2 -s 1 -o out.png --stats run.json 'a"b\c.obj' \
+    2>/dev/null
+grep -E '"(width|height|samples|scene)"' run.json

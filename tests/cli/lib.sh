@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+# lib.sh - what the cases have in common
+#
+# A case runs in an empty folder with glim in its path.
+
+# Runs glim, prints what it says and its exit status.
+run()
+{
+    glim "$@" </dev/null 2>&1
+    echo "exit $?"
+}
+
+# The same without the seconds in the closing line.
+run_untimed()
+{
+    run "$@" | sed 's/, [0-9.]* s$/, T s/'
+}
+
+# Says why the case cannot run here.
+skip()
+{
+    echo "$*"
+    exit 77
+}
+
+# Puts the named scene with its files into the current folder.
+take()
+{
+    for scene in "$@"; do
+        cp "$CLI/scenes/$scene".* .
+    done
+}
+
+# Compares two files byte by byte: says only whether they are equal.
+same()
+{
+    if cmp -s "$1" "$2"; then
+        echo "$1 and $2: the same bytes"
+    else
+        echo "$1 and $2: different"
+    fi
+}
+
+# The four bytes at `offset` as an unsigned number, big end first.
+be32()
+{
+    od -A n -t u1 -j "$2" -N 4 "$1" |
+        awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
+}
+
+# Says what kind of picture a file is, and its size.
+kind()
+{
+    case $(head -c 8 "$1" | od -A n -t x1 | tr -d ' \n') in
+    89504e470d0a1a0a) echo "$1: PNG $(be32 "$1" 16)x$(be32 "$1" 20)" ;;
+    50460a*) echo "$1: PFM $(sed -n '2{p;q;}' "$1" | tr ' ' x)" ;;
+    233f5241*) echo "$1: HDR $(sed -n '/^-Y/{p;q;}' "$1")" ;;
+    *) echo "$1: no picture" ;;
+    esac
+}
+
+# The floats of a PFM file, three a line: its last width * height * 12 bytes.
+floats()
+{
+    tail -c $(($2 * $3 * 12)) "$1" | od -A n -v -w12 -t f4
+}

@@ -1,0 +1,66 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# run.sh - the command line: scripts with the exact output beside them
+#
+# Runs cases/NAME.sh in an empty folder and compares what it prints (standard
+# output and error together) with cases/NAME.out. A script that ends with
+# status 77 is skipped; its last line says why. BUILD names the folder with the
+# program (build/release); arguments name the cases (all).
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+root=$PWD
+build=${BUILD:-build/release}
+case $build in
+/*) ;;
+*) build=$root/$build ;;
+esac
+PATH=$build:$PATH
+CLI=$root/tests/cli
+export PATH CLI root
+# an allocation that fails is a message of ours, also under the sanitizers
+ASAN_OPTIONS=allocator_may_return_null=1:${ASAN_OPTIONS-}
+TSAN_OPTIONS=allocator_may_return_null=1:${TSAN_OPTIONS-}
+LC_ALL=C
+export ASAN_OPTIONS TSAN_OPTIONS LC_ALL
+unset NO_COLOR GLIM_COLOR COLORTERM
+
+if [ ! -x "$build/glim" ]; then
+    echo "cli: no program $build/glim, build it first"
+    exit 1
+fi
+work=$(mktemp -d) || exit 1
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+passed=0
+failed=0
+
+run_case()
+{
+    name=$1
+    out=$work/$name.out
+    mkdir "$work/$name"
+    (cd "$work/$name" && timeout --kill-after=5 120 \
+        sh -u -c '. "$CLI/lib.sh"; . "$CLI/cases/$0.sh"' "$name") \
+        >"$out" 2>&1 </dev/null
+    status=$?
+    if [ $status = 77 ]; then
+        echo "skip $name ($(tail -n 1 "$out"))"
+    elif [ $status = 0 ] && cmp -s "$out" "$CLI/cases/$name.out"; then
+        echo "ok $name"
+        passed=$((passed + 1))
+    else
+        echo "FAIL $name (exit $status)"
+        diff -u "$CLI/cases/$name.out" "$out" | tail -n +3
+        failed=$((failed + 1))
+    fi
+}
+
+if [ $# = 0 ]; then
+    for script in "$CLI"/cases/*.sh; do
+        set -- "$@" "$(basename "$script" .sh)"
+    done
+fi
+for case_name in "$@"; do
+    run_case "$case_name"
+done
+echo "cli: $passed passed, $failed failed"
+[ $failed = 0 ] && [ $passed -gt 0 ]
