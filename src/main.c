@@ -81,8 +81,6 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     report_print(&s->report, stderr);
     if (!ok)
         return false;
-    if (s->notice[0] != '\0')
-        fprintf(stderr, "glim: note: %s\n", s->notice);
     return o->batch ? batch_run(s, status, err) : tui_run(s, status, err);
 }
 

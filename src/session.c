@@ -68,14 +68,6 @@ static void apply_options(struct session *s)
         v->max_bounces = o->max_bounces;
 }
 
-static void add_notice(struct session *s, const char *text)
-{
-    size_t length = strlen(s->notice);
-
-    snprintf(s->notice + length, sizeof s->notice - length, "%s%s",
-             length > 0 ? "; " : "", text);
-}
-
 static bool is_dark(const struct session *s)
 {
     const double *b = s->view.background;
@@ -84,14 +76,20 @@ static bool is_dark(const struct session *s)
            b[1] <= 0.0 && b[2] <= 0.0;
 }
 
-/* A scene without camera or light still shows something, and says why. */
+/* A scene without camera or light still shows something. The report, which
+ * knows of missing faces, goes to stderr, the notice to the status line. */
 static void complete_view(struct session *s)
 {
     if (s->scene.tri_count == 0) {
-        add_notice(s, "no faces: only the background is rendered");
+        snprintf(s->notice, sizeof s->notice,
+                 "no faces: only the background is rendered");
     } else if (is_dark(s) && !s->view.has_background) {
         memcpy(s->view.background, soft_sky, sizeof soft_sky);
-        add_notice(s, "no light in the scene: lit by a soft sky");
+        snprintf(s->notice, sizeof s->notice,
+                 "no light in the scene: lit by a soft sky");
+        report_add(&s->report, "scenes without light",
+                   "%s: found no light: lit by a soft sky",
+                   s->options->scene_path);
     }
     if (!s->view.has_camera)
         scene_frame(&s->scene, &s->view);
