@@ -30,8 +30,8 @@ report()
         printf '%-24s %4d passed, %d failed\n' "$1" "$2" "$3"
     else
         printf '%-24s %4d passed\n' "$1" "$2"
-        grep -i 'skip' "$log" | grep -v '^\[  SKIPPED \] .*:\|0 skip' |
-            sed 's/^/    /'
+        grep -ai skip "$log" | grep -av '^\[  SKIPPED \] [0-9]* test' |
+            grep -av 'SKIPPED TEST(S)$' | awk '!seen[$0]++ { print "    " $0 }'
     fi
 }
 
@@ -45,8 +45,8 @@ run_unit()
     status=$?
     started=$(sed -n 's/^\[=*\].* Running \([0-9]*\) test.*/\1/p' "$log" |
         awk '{ n += $1 } END { print n + 0 }')
-    ok=$(grep -c '^\[       OK \]' "$log")
-    skipped=$(grep '^\[  SKIPPED \] [^ ]*$' "$log" | sort -u | wc -l)
+    ok=$(grep -ac '^\[       OK \]' "$log")
+    skipped=$(grep -a '^\[  SKIPPED \] [^ ]*$' "$log" | sort -u | wc -l)
     bad=$((started - ok - skipped))
     if [ $bad -le 0 ] && { [ $status != 0 ] || [ "$started" = 0 ]; }; then
         echo "$1: exit status $status after $started tests" >>"$log"
