@@ -12,10 +12,16 @@
 #include "glim/util.h"
 
 static char folder[64];
+static char png_suite[500];
 
 static int make_folder(void **state)
 {
+    const char *shared = getenv("GLIM_SHARED");
+    char *real = realpath(shared ? shared : "../shared", NULL);
+
     (void)state;
+    snprintf(png_suite, sizeof png_suite, "%s/suites/png", real ? real : "");
+    free(real);
     snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
     return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
 }
@@ -285,7 +291,7 @@ static void test_mutations(void **state)
             memcpy(changed, bytes, size);
             for (int j = 0; j < i % 5; j++)
                 changed[(size_t)(check_random(&random) * (double)size)] =
-                    (char)(check_random(&random) * 256);
+                    (char)(unsigned char)(check_random(&random) * 256);
             size_t kept =
                 i % 2 ? size : (size_t)(check_random(&random) * (double)size);
             put("changed", changed, kept);
@@ -297,13 +303,100 @@ static void test_mutations(void **state)
     }
 }
 
+/* What the system's sha256sum says of a file. */
+static void sha256_of(const char *path, char sum[65])
+{
+    char command[256];
+
+    snprintf(command, sizeof command, "sha256sum < %s", path);
+    FILE *f = popen(command, "r");
+    assert_non_null(f);
+    assert_int_equal(fread(sum, 1, 64, f), 64);
+    sum[64] = '\0';
+    pclose(f);
+}
+
+/* The value of a line `"key": value,` without quotes, or NULL. */
+static char *value_of(char *line, const char *key)
+{
+    size_t length = strlen(key);
+
+    if (line[0] != '"' || strncmp(line + 1, key, length) != 0 ||
+        line[1 + length] != '"')
+        return NULL;
+    char *value = line + length + 4;
+    value += *value == '"';
+    value[strcspn(value, "\",\n")] = '\0';
+    return value;
+}
+
+/* One file of the suite; sum is "" for one that is broken on purpose, which
+ * may be read or refused. */
+static int read_one(const char *suites, const char *name, const char *sum)
+{
+    char path[1000], found[65];
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    snprintf(path, sizeof path, "%s/%s", suites, name);
+    if (image_read_linear(&image, path, &clamped, &err))
+        image_free(&image);
+    if (!image_read_8bit(&image, path, &err)) {
+        if (*sum != '\0')
+            print_error("%s\n", err.text);
+        return *sum != '\0';
+    }
+    put("pixels", image.rgba, 4 * (size_t)image.width * (size_t)image.height);
+    image_free(&image);
+    if (*sum == '\0')
+        return 0;
+    sha256_of("pixels", found);
+    if (strcmp(found, sum) != 0)
+        print_error("%s: other pixels than expected\n", name);
+    return strcmp(found, sum) != 0;
+}
+
+/* PNG files of many makers, with the pixels that a strict decoder finds. */
+static void test_suite(void **state)
+{
+    char line[1000], name[300] = "", sum[65] = "", path[700];
+    int files = 0, whole = 0, wrong = 0;
+
+    (void)state;
+    snprintf(path, sizeof path, "%s/expected.json", png_suite);
+    FILE *f = fopen(path, "r");
+    if (!f) {
+        print_message("no %s here\n", path);
+        skip();
+    }
+    while (fgets(line, sizeof line, f)) {
+        char *value;
+        if (strncmp(line, "\"png/", 5) == 0) {
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(line + 5, "\""),
+                     line + 5);
+            sum[0] = '\0';
+        } else if ((value = value_of(line, "rgba8_sha256"))) {
+            snprintf(sum, sizeof sum, "%.64s", value);
+        } else if (value_of(line, "valid")) {
+            files++;
+            whole += sum[0] != '\0';
+            wrong += read_one(png_suite, name, sum);
+        }
+    }
+    fclose(f);
+    print_message("%d files, %d of them whole\n", files, whole);
+    assert_true(files > 700 && whole > 100);
+    assert_int_equal(wrong, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_png),          cmocka_unit_test(test_hdr),
         cmocka_unit_test(test_hdr_greatest), cmocka_unit_test(test_pfm),
         cmocka_unit_test(test_errors),       cmocka_unit_test(test_bomb),
-        cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_mutations),    cmocka_unit_test(test_suite),
     };
 
     return cmocka_run_group_tests_name("image", tests, make_folder,
