@@ -103,8 +103,10 @@ int main(int argc, char **argv)
         return print_out("glim " GLIM_VERSION "\n");
     if (!check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);
+    /* a failing write says what is wrong */
+    signal(SIGXFSZ, SIG_IGN);
     if (options.batch)
-        signal(SIGPIPE, SIG_IGN); /* a failing write says what is wrong */
+        signal(SIGPIPE, SIG_IGN);
     if (!run(&session, &options, start_ns, &status, &err))
         status = complain(EXIT_FAILED, &err);
     session_close(&session);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Output that cannot be written is said before the render begins.
+# Output that cannot be written is said, before the render begins if it can be
+# known then.
 take box
 b="-b -w 8 -h 4 -s 1000000000"
 mkdir folder.png
@@ -16,4 +17,11 @@ if [ -e /dev/full ]; then
     echo "exit $?"
     cat err
 fi
+echo 'no room: the old picture stays'
+echo old >out.pfm
+(
+    ulimit -f 4
+    run -b -w 100 -h 100 -s 1 -o out.pfm box.obj
+)
+cat out.pfm
 ls -A

@@ -16,6 +16,17 @@ stop()
 stop INT
 stop TERM
 stop HUP
+# more signals do not disturb the saving
+glim -b -w 900 -h 600 -s 1000000000 -o more.png box.obj 2>err &
+sleep 0.5
+for i in 1 2 3 4 5; do
+    kill -TERM $! 2>/dev/null
+    sleep 0.01
+done
+wait $!
+echo "exit $?"
+sed 's/ at [0-9]* of/ at N of/' err
+kind more.png
 # a job that was told to ignore the signal goes on
 (
     trap '' HUP
