@@ -185,8 +185,6 @@ static void forget_rows(struct canvas *c, int row, int rows)
 
 void canvas_status(struct canvas *c, const char *text)
 {
-    if (c->is_too_small)
-        return;
     if (text ? c->has_status && strcmp(text, c->status) == 0 : !c->has_status)
         return;
     c->has_status = text != NULL;

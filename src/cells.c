@@ -6,25 +6,20 @@
 #include <stdlib.h>
 
 /* Characters by the ink they have, from none to most. */
-static const char ramp[] = " .:-=+*#%@";
+static const char ramp[] = " .:;+xo%#@";
 #define RAMP_LENGTH ((int)sizeof ramp - 1)
 
-/* The first 16 colours as the VGA has them. Themes differ, and nobody can ask
- * all terminals; these lie in the middle of what is in use. */
-static const uint8_t vga[16][3] = {
-    {0, 0, 0},     {170, 0, 0},    {0, 170, 0},    {170, 85, 0},
-    {0, 0, 170},   {170, 0, 170},  {0, 170, 170},  {170, 170, 170},
-    {85, 85, 85},  {255, 85, 85},  {85, 255, 85},  {255, 255, 85},
-    {85, 85, 255}, {255, 85, 255}, {85, 255, 255}, {255, 255, 255}};
+/* The first 16 colours: eight whose channels are 0 or 170, eight with 85 or
+ * 255. Themes differ, and nobody can ask all terminals; these are the VGA's and
+ * lie in the middle of what is in use. */
+#define DARK_ON    170
+#define BRIGHT_OFF 85
 
 /* Bayer's matrix: thresholds that spread a level over 4x4 pixels. */
 static const int8_t bayer[4][4] = {{0, 8, 2, 10},
                                    {12, 4, 14, 6},
                                    {3, 11, 1, 9},
                                    {15, 7, 13, 5}};
-
-/* Peak to peak; about the distance between neighbours among the 16. */
-#define DITHER_16 80
 
 struct rgb {
     int r, g, b;
@@ -104,34 +99,49 @@ static uint32_t nearest_256(struct rgb c)
     return (uint32_t)(16 + 36 * r + 6 * g + b);
 }
 
-static uint32_t nearest_16(struct rgb c)
+static int square(int v)
 {
-    uint32_t best = 0;
-    int best_distance = INT32_MAX;
+    return v * v;
+}
 
-    for (uint32_t i = 0; i < 16; i++) {
-        struct rgb v = {vga[i][0], vga[i][1], vga[i][2]};
-        int d = distance_of(c, v);
+/* Whether a channel between `off` and `on` is on at a threshold of 0..15. The
+ * eye adds light, which is roughly the square of these numbers. */
+static bool is_on(int v, int off, int on, int threshold)
+{
+    return 32 * (square(v) - square(off)) >
+           (2 * threshold + 1) * (square(on) - square(off));
+}
 
-        if (d < best_distance) {
-            best = i;
-            best_distance = d;
-        }
+/* Dithers each channel between the two values it has among the dark or the
+ * bright eight, whichever come closer to the colour. All channels share the
+ * threshold, so that grey stays grey. */
+static uint32_t dithered_16(struct rgb c, int threshold)
+{
+    int v[3] = {c.r, c.g, c.b};
+    int too_bright = 0;
+    int too_dark = 0;
+    uint32_t color = 0;
+
+    for (int i = 0; i < 3; i++) {
+        too_bright += v[i] > DARK_ON ? square(v[i] - DARK_ON) : 0;
+        too_dark += v[i] < BRIGHT_OFF ? square(BRIGHT_OFF - v[i]) : 0;
     }
-    return best;
+    bool is_dark = too_bright <= too_dark;
+    for (int i = 0; i < 3; i++) {
+        if (is_dark ? is_on(v[i], 0, DARK_ON, threshold)
+                    : is_on(v[i], BRIGHT_OFF, 255, threshold))
+            color |= 1u << i;
+    }
+    return is_dark ? color : color + 8;
 }
 
 static uint32_t color_number(struct rgb c, int x, int y, enum palette palette)
 {
-    int shift;
-
     switch (palette) {
     case PALETTE_24BIT:
         return (uint32_t)c.r << 16 | (uint32_t)c.g << 8 | (uint32_t)c.b;
     case PALETTE_256: return nearest_256(c);
-    case PALETTE_16:
-        shift = (2 * bayer[y & 3][x & 3] - 15) * DITHER_16 / 32;
-        return nearest_16((struct rgb){c.r + shift, c.g + shift, c.b + shift});
+    case PALETTE_16: return dithered_16(c, bayer[y & 3][x & 3]);
     case PALETTE_MONO: break;
     }
     return CELL_DEFAULT;
@@ -159,7 +169,7 @@ static struct cell ascii_cell(struct rgb c, enum palette palette)
         struct rgb hue = {c.r * 255 / light, c.g * 255 / light,
                           c.b * 255 / light};
 
-        /* The middle of Bayer's matrix: one colour needs no pattern. */
+        /* a threshold of the middle: one colour needs no pattern */
         cell.fg = color_number(hue, 1, 3, palette);
     }
     return cell;

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "glim/tui.h"
 
-#include <inttypes.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "glim/canvas.h"
-#include "glim/file.h"
 #include "glim/keys.h"
-#include "glim/saver.h"
 #include "glim/steer.h"
 #include "glim/version.h"
+#include "glim/work.h"
 
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)
@@ -34,9 +31,7 @@
 #define STEP        2
 #define STEP_SLOW   8
 
-#define STATUS_NS  (250 * MS_NS)
-#define MESSAGE_NS (4 * S_NS)
-#define NOTICE_NS  (8 * S_NS)
+#define STATUS_NS (250 * MS_NS)
 
 /* A lone ESC is the key when nothing has followed for so long. */
 #define ESCAPE_NS (50 * MS_NS)
@@ -51,55 +46,40 @@ enum question {
 };
 
 struct tui {
-    struct session *session;
+    struct work work;
     struct canvas canvas;
     struct input input;
     struct steer steer;
-    struct saver saver;
-    struct render_progress progress;
-
-    bool is_live;
-    bool is_started;         /* normal mode: a render was begun */
-    bool is_halted;          /* normal mode: by the person */
-    uint64_t saved_samples;  /* of the normal render, in a file */
-    uint64_t saving_samples; /* that the saver will have written */
-    char saving_spp[32];
-
     bool has_mouse;
-
-    bool is_settled; /* nothing of the picture is left to be shown */
-    bool must_restart;
-    uint64_t restarted_ns;
-    uint64_t frame_ns; /* when the next frame is due */
-    uint64_t status_ns;
-
-    char message[STATUS_BYTES];
-    bool is_error; /* stays until a key */
-    uint64_t message_until_ns;
-    enum question question;
     bool has_help;
+    enum question question;
 
-    uint64_t byte_ns; /* when the last one came */
+    bool is_settled;    /* nothing of the picture is left to be shown */
+    uint64_t frame_ns;  /* when the next frame is due */
+    uint64_t status_ns; /* when to look for a new status line */
+    uint64_t byte_ns;   /* when the last one came */
+
     bool is_ending;
-    bool is_gone;
-    int status;
-    char **results; /* lines for after the end */
-    int result_count;
+    bool is_gone; /* the terminal */
+    int status;   /* exit status */
 };
 
-static void say(struct tui *t, const char *text, uint64_t for_ns)
+static struct view *view_of(struct tui *t)
 {
-    snprintf(t->message, sizeof t->message, "%s", text);
-    t->is_error = false;
-    t->message_until_ns = clock_ns() + for_ns;
-    t->status_ns = 0;
+    return &t->work.session->view;
 }
 
-static void say_error(struct tui *t, const char *text)
+static const struct film *film_of(const struct tui *t)
 {
-    say(t, text, MESSAGE_NS);
-    t->is_error = true;
-    t->message_until_ns = NEVER;
+    return render_film(t->work.session->render);
+}
+
+/* Draw again as soon as possible. */
+static void refresh_soon(struct tui *t)
+{
+    t->is_settled = false;
+    t->frame_ns = 0;
+    t->status_ns = 0;
 }
 
 static void end(struct tui *t, int status)
@@ -108,211 +88,32 @@ static void end(struct tui *t, int status)
     t->status = status;
 }
 
-static bool layout(struct tui *t)
+static void layout(struct tui *t)
 {
-    const struct film *film = render_film(t->session->render);
+    const struct film *film = film_of(t);
     struct error err;
 
-    t->is_settled = false;
     t->has_help = false;
-    t->frame_ns = 0;
-    t->status_ns = 0;
-    if (canvas_layout(&t->canvas, film->width, film->height, &err))
-        return true;
-    t->canvas.is_too_small = true;
-    return false;
-}
-
-/* ---- render ---- */
-
-static void restart(struct tui *t)
-{
-    uint64_t spp = t->is_live ? 0 : t->session->options->spp;
-    struct error err;
-
-    saver_wait_copied(&t->saver);
-    if (!session_restart(t->session, spp, &err))
-        say_error(t, err.text);
-    t->must_restart = false;
-    t->restarted_ns = clock_ns();
-    t->is_settled = false;
-    t->frame_ns = 0;
-    t->progress = render_progress(t->session->render);
-}
-
-/* While a picture of the old place is being begun it is finished first, or a
- * scene that is slow to begin would never show anything on the way. */
-static void restart_if_due(struct tui *t)
-{
-    bool has_begun = t->progress.first_picture_ns != 0 ||
-                     t->progress.state != RENDER_RUNNING;
-
-    if (t->must_restart && has_begun)
-        restart(t);
-}
-
-static bool has_unsaved(const struct tui *t)
-{
-    return !t->is_live && t->is_started &&
-           t->progress.samples > t->saved_samples;
-}
-
-static void set_live(struct tui *t, bool is_live)
-{
-    t->is_live = is_live;
-    t->is_started = false;
-    t->is_halted = false;
-    t->saved_samples = 0;
-    t->status_ns = 0;
-    if (is_live) {
-        say(t, "live mode: every change starts anew", MESSAGE_NS);
-        restart(t);
-        return;
+    refresh_soon(t);
+    if (!canvas_layout(&t->canvas, film->width, film->height, &err)) {
+        t->canvas.is_too_small = true; /* nothing can be drawn */
+        work_say_error(&t->work, err.text);
     }
-    motion_stop(&t->steer.motion);
-    t->must_restart = false;
-    render_halt(t->session->render);
-    t->is_settled = false;
-    say(t, "normal mode: Enter starts the render, space goes back", MESSAGE_NS);
-}
-
-static void change_mode(struct tui *t)
-{
-    if (!has_unsaved(t)) {
-        set_live(t, !t->is_live);
-        return;
-    }
-    t->question = QUESTION_LIVE;
-}
-
-static void start_or_halt(struct tui *t)
-{
-    struct render *render = t->session->render;
-
-    t->status_ns = 0;
-    if (t->is_live) {
-        say(t, "Enter starts a render in normal mode: space goes there",
-            MESSAGE_NS);
-    } else if (!t->is_started) {
-        t->is_started = true;
-        t->is_halted = false;
-        t->saved_samples = 0;
-        t->saving_samples = 0; /* of the picture before */
-        restart(t);
-    } else if (t->progress.state == RENDER_RUNNING) {
-        render_halt(render);
-        t->is_halted = true;
-        t->is_settled = false;
-    } else if (t->progress.state == RENDER_IDLE) {
-        t->is_halted = false;
-        t->is_settled = false;
-        render_resume(render, t->session->options->spp);
-    } else {
-        say(t, "the render is done: p saves it, space goes to live mode",
-            MESSAGE_NS);
-    }
-}
-
-/* ---- files ---- */
-
-/* The scene's name in the current folder, without its ending. */
-static char *picture_stem(const struct tui *t)
-{
-    char *stem = path_stem(t->session->scene.path);
-    const char *slash = strrchr(stem, '/');
-    char *name = xstrdup(slash ? slash + 1 : stem);
-
-    free(stem);
-    return name;
-}
-
-static void save_picture(struct tui *t)
-{
-    char *stem = picture_stem(t);
-    struct error err;
-
-    t->saving_samples = t->is_started ? t->progress.samples : 0;
-    snprintf(t->saving_spp, sizeof t->saving_spp, "%" PRIu64 " spp",
-             t->progress.spp_done);
-    if (t->progress.samples == 0)
-        say(t, "nothing to save yet", MESSAGE_NS);
-    else if (saver_begin(&t->saver, render_film(t->session->render),
-                         (float)t->session->view.exposure, stem, &err))
-        say(t, "saving ...", NOTICE_NS);
-    else
-        say_error(t, err.text);
-    free(stem);
-}
-
-static void add_result(struct tui *t, const char *text)
-{
-    t->results = xrealloc(t->results,
-                          ((size_t)t->result_count + 1) * sizeof t->results[0]);
-    t->results[t->result_count++] = xstrdup(text);
-}
-
-/* Waits for the picture that is being saved. False if it failed. */
-static bool finish_saving(struct tui *t)
-{
-    const struct film *film = render_film(t->session->render);
-    struct error err;
-    char *name, *text;
-
-    if (!t->saver.is_busy)
-        return true;
-    name = saver_finish(&t->saver, &err);
-    if (!name) {
-        say_error(t, err.text);
-        add_result(t, err.text);
-        return false;
-    }
-    text = xformat("saved %s %dx%d, %s", name, film->width, film->height,
-                   t->saving_spp);
-    say(t, text, MESSAGE_NS);
-    add_result(t, text);
-    if (t->is_started)
-        t->saved_samples = t->saving_samples;
-    free(text);
-    free(name);
-    return true;
-}
-
-static void save_view(struct tui *t)
-{
-    const struct session *s = t->session;
-    struct error err;
-    char *text;
-
-    if (!view_write(&s->view, s->view_path, &err)) {
-        say_error(t, err.text);
-        return;
-    }
-    text = xformat("wrote the view to %s", s->view_path);
-    say(t, text, MESSAGE_NS);
-    add_result(t, text);
-    free(text);
 }
 
 /* ---- camera ---- */
 
-static bool may_move(struct tui *t)
-{
-    if (!t->is_live)
-        say(t, "the camera moves in live mode: space goes there", MESSAGE_NS);
-    return t->is_live;
-}
-
 static void press(struct tui *t, enum motion_axis axis, int sign)
 {
-    if (may_move(t))
+    if (work_may_move(&t->work))
         motion_press(&t->steer.motion, axis, sign, clock_ns());
 }
 
 static void step_motion(struct tui *t, uint64_t now_ns)
 {
     if (now_ns >= motion_next_ns(&t->steer.motion) &&
-        steer_step(&t->steer, &t->session->view, now_ns))
-        t->must_restart = true;
+        steer_step(&t->steer, view_of(t), now_ns))
+        t->work.must_restart = true;
 }
 
 static void change_speed(struct tui *t, int steps)
@@ -322,22 +123,22 @@ static void change_speed(struct tui *t, int steps)
     steer_change_speed(&t->steer, steps);
     snprintf(text, sizeof text, "speed %.3g of the scene's size a second",
              t->steer.speed);
-    say(t, text, MESSAGE_NS);
+    work_say(&t->work, text);
 }
 
 static void reset_view(struct tui *t)
 {
-    if (!may_move(t))
+    if (!work_may_move(&t->work))
         return;
     motion_stop(&t->steer.motion);
-    view_copy(&t->session->view, &t->session->opened);
-    t->must_restart = true;
-    say(t, "the view as it was opened", MESSAGE_NS);
+    view_copy(view_of(t), &t->work.session->opened);
+    t->work.must_restart = true;
+    work_say(&t->work, "the view as it was opened");
 }
 
 static void take_mouse(struct tui *t, const struct event *event)
 {
-    const struct film *film = render_film(t->session->render);
+    const struct film *film = film_of(t);
 
     if (!t->has_mouse || t->has_help || t->canvas.is_too_small)
         return;
@@ -345,10 +146,10 @@ static void take_mouse(struct tui *t, const struct event *event)
         change_speed(t, 1);
     else if (event->mouse == MOUSE_WHEEL_DOWN)
         change_speed(t, -1);
-    else if ((event->mouse != MOUSE_DRAG || may_move(t)) &&
-             steer_mouse(&t->steer, &t->session->view, event, &t->canvas.fit,
+    else if ((event->mouse != MOUSE_DRAG || work_may_move(&t->work)) &&
+             steer_mouse(&t->steer, view_of(t), event, &t->canvas.fit,
                          film->width, film->height))
-        t->must_restart = true;
+        t->work.must_restart = true;
 }
 
 /* ---- help, screen ---- */
@@ -361,7 +162,7 @@ static void open_help(struct tui *t)
     int count = 0;
 
     while (count < HELP_LINES_MAX - 2 &&
-           (help = keys_help(count, t->session->options->phoe_keys))) {
+           (help = keys_help(count, t->work.session->options->phoe_keys))) {
         snprintf(texts[count], HELP_LINE_MAX, "%-7s %s", help->keys,
                  help->text);
         count++;
@@ -386,16 +187,14 @@ static void close_help(struct tui *t)
 {
     canvas_close_window(&t->canvas);
     t->has_help = false;
-    t->is_settled = false;
-    t->frame_ns = 0;
+    refresh_soon(t);
 }
 
 static void next_colors(struct tui *t)
 {
     canvas_next_palette(&t->canvas);
-    say(t, palette_name(t->canvas.palette), MESSAGE_NS);
-    t->is_settled = false;
-    t->frame_ns = 0;
+    work_say(&t->work, palette_name(t->canvas.palette));
+    refresh_soon(t);
 }
 
 static void switch_mouse(struct tui *t)
@@ -403,8 +202,8 @@ static void switch_mouse(struct tui *t)
     t->has_mouse = !t->has_mouse;
     t->steer.is_dragging = false;
     term_set_mouse(t->has_mouse);
-    say(t, t->has_mouse ? "mouse on: drag to look around" : "mouse off",
-        MESSAGE_NS);
+    work_say(&t->work,
+             t->has_mouse ? "mouse on: drag to look around" : "mouse off");
 }
 
 /* ---- input ---- */
@@ -416,17 +215,36 @@ static void suspend(struct tui *t)
     layout(t);
 }
 
+static void set_live(struct tui *t, bool is_live)
+{
+    motion_stop(&t->steer.motion);
+    work_set_live(&t->work, is_live);
+}
+
+static void ask(struct tui *t, enum question question)
+{
+    t->question = question;
+    t->status_ns = 0;
+}
+
+static void change_mode(struct tui *t)
+{
+    if (work_finish_saving(&t->work) && work_has_unsaved(&t->work))
+        ask(t, QUESTION_LIVE);
+    else
+        set_live(t, !t->work.is_live);
+}
+
 static void quit(struct tui *t)
 {
-    if (!finish_saving(t))
+    if (!work_finish_saving(&t->work))
         return;
-    if (has_unsaved(t))
-        t->question = QUESTION_QUIT;
+    if (work_has_unsaved(&t->work))
+        ask(t, QUESTION_QUIT);
     else
         end(t, 0);
 }
 
-/* The keys that do something of their own kind. */
 static void act(struct tui *t, enum action action)
 {
     switch (action) {
@@ -443,9 +261,9 @@ static void act(struct tui *t, enum action action)
     case ACTION_FASTER: change_speed(t, 1); break;
     case ACTION_SLOWER: change_speed(t, -1); break;
     case ACTION_MODE: change_mode(t); break;
-    case ACTION_START: start_or_halt(t); break;
-    case ACTION_SAVE: save_picture(t); break;
-    case ACTION_SAVE_VIEW: save_view(t); break;
+    case ACTION_START: work_start_or_halt(&t->work); break;
+    case ACTION_SAVE: work_save_picture(&t->work); break;
+    case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
     case ACTION_RESET: reset_view(t); break;
     case ACTION_HIDE:
         t->canvas.has_status_row = !t->canvas.has_status_row;
@@ -467,10 +285,9 @@ static void answer_question(struct tui *t, int key)
 {
     enum question question = t->question;
 
-    t->question = QUESTION_NONE;
-    t->status_ns = 0;
+    ask(t, QUESTION_NONE);
     if (key == 'p' || key == 'P') {
-        save_picture(t);
+        work_save_picture(&t->work);
     } else if (key == 'y' || key == 'Y') {
         if (question == QUESTION_QUIT)
             end(t, 0);
@@ -481,13 +298,12 @@ static void answer_question(struct tui *t, int key)
 
 static void take_key(struct tui *t, int key)
 {
-    enum action action = keys_action(key, t->session->options->phoe_keys);
+    enum action action = keys_action(key, t->work.session->options->phoe_keys);
     bool is_urgent = action == ACTION_INTERRUPT || action == ACTION_ABORT ||
                      action == ACTION_SUSPEND || action == ACTION_REDRAW;
 
-    if (t->is_error) {
-        t->is_error = false;
-        t->message_until_ns = 0;
+    if (t->work.message.is_error) {
+        t->work.message = (struct message){0};
         t->status_ns = 0;
     }
     if (is_urgent)
@@ -512,11 +328,8 @@ static void take_event(struct tui *t, const struct event *event)
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);
-        if (t->canvas.palette != palette || t->canvas.glyphs != glyphs) {
-            t->is_settled = false;
-            t->frame_ns = 0;
-            t->status_ns = 0;
-        }
+        if (t->canvas.palette != palette || t->canvas.glyphs != glyphs)
+            refresh_soon(t);
     }
 }
 
@@ -571,13 +384,13 @@ static void take_signals(struct tui *t)
 
 static void format_status(struct tui *t, char text[STATUS_BYTES])
 {
-    const struct film *film = render_film(t->session->render);
+    const struct film *film = film_of(t);
     struct status status = {
-        .is_live = t->is_live,
-        .is_halted = t->is_halted,
-        .is_started = t->is_started,
-        .progress = &t->progress,
-        .thread_count = render_backend(t->session->render)->thread_count,
+        .is_live = t->work.is_live,
+        .is_halted = t->work.is_halted,
+        .is_started = t->work.is_started,
+        .progress = &t->work.progress,
+        .thread_count = render_backend(t->work.session->render)->thread_count,
         .width_px = film->width,
         .height_px = film->height,
         .colors = palette_name(t->canvas.palette),
@@ -598,8 +411,8 @@ static void update_status(struct tui *t, uint64_t now_ns)
 
     if (t->question != QUESTION_NONE) {
         status_message(text, term_size().cols, questions[t->question]);
-    } else if (now_ns < t->message_until_ns) {
-        status_message(text, term_size().cols, t->message);
+    } else if (now_ns < t->work.message.until_ns) {
+        status_message(text, term_size().cols, t->work.message.text);
     } else if (t->canvas.has_status_row) {
         format_status(t, text);
     } else {
@@ -615,26 +428,26 @@ static uint64_t frame_interval(const struct tui *t, uint64_t took_ns)
 {
     uint64_t interval_ns = FRAME_FIRST_NS;
 
-    if (t->progress.spp_done > 0)
+    if (t->work.progress.spp_done > 0)
         interval_ns =
-            t->progress.render_ns > OLD_NS ? FRAME_OLD_NS : FRAME_YOUNG_NS;
+            t->work.progress.render_ns > OLD_NS ? FRAME_OLD_NS : FRAME_YOUNG_NS;
     /* large windows must not take the time away from the render */
     return interval_ns > 2 * took_ns ? interval_ns : 2 * took_ns;
 }
 
 static int frame_step(const struct tui *t)
 {
-    if (t->progress.state != RENDER_RUNNING)
+    if (t->work.progress.state != RENDER_RUNNING)
         return 0;
     if (pace_is_slow(&t->canvas.pace))
         return STEP_SLOW;
-    return t->progress.render_ns > SETTLING_NS ? STEP : 0;
+    return t->work.progress.render_ns > SETTLING_NS ? STEP : 0;
 }
 
 static void show_messages(struct tui *t, uint64_t now_ns)
 {
-    if (t->message_until_ns != 0 && now_ns >= t->message_until_ns) {
-        t->message_until_ns = 0;
+    if (t->work.message.until_ns != 0 && now_ns >= t->work.message.until_ns) {
+        t->work.message.until_ns = 0;
         t->status_ns = 0;
     }
     if (now_ns < t->status_ns)
@@ -656,16 +469,16 @@ static void lose_terminal(struct tui *t)
 static void draw(struct tui *t, uint64_t now_ns)
 {
     struct canvas *c = &t->canvas;
-    bool is_running = t->progress.state == RENDER_RUNNING;
-    bool has_picture = t->progress.first_picture_ns != 0 || !is_running;
+    bool is_running = t->work.progress.state == RENDER_RUNNING;
+    bool has_picture = t->work.progress.first_picture_ns != 0 || !is_running;
     bool shows = has_picture && !t->is_settled && now_ns >= t->frame_ns;
     enum canvas_result result;
 
     show_messages(t, now_ns);
     if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
         return;
-    result = canvas_draw(c, shows ? render_film(t->session->render) : NULL,
-                         (float)t->session->view.exposure, frame_step(t));
+    result = canvas_draw(c, shows ? render_film(t->work.session->render) : NULL,
+                         (float)t->work.session->view.exposure, frame_step(t));
     if (result == CANVAS_GONE) {
         lose_terminal(t);
     } else if (shows) {
@@ -684,12 +497,6 @@ static uint64_t earlier(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-static bool awaits_picture(const struct tui *t)
-{
-    return t->progress.state == RENDER_RUNNING &&
-           t->progress.first_picture_ns == 0;
-}
-
 /* A lone ESC becomes a key soon; an answer may come in pieces. */
 static uint64_t input_deadline_ns(const struct tui *t)
 {
@@ -705,9 +512,9 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
                             earlier(input_deadline_ns(t),
                                     pace_deadline_ns(&t->canvas.pace)));
 
-    if (awaits_picture(t)) {
+    if (work_awaits_picture(&t->work)) {
         /* looked for often at first, seldom while a tree is built */
-        uint64_t waited_ns = now_ns - t->restarted_ns;
+        uint64_t waited_ns = now_ns - t->work.restarted_ns;
         uint64_t pause_ns = waited_ns / 8;
 
         pause_ns = pause_ns < MS_NS / 2 ? MS_NS / 2 : pause_ns;
@@ -715,10 +522,10 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
     } else if (!t->is_settled && pace_may_send(&t->canvas.pace)) {
         wake = earlier(wake, t->frame_ns);
     }
-    if (t->progress.state == RENDER_RUNNING || t->status_ns == 0)
+    if (t->work.progress.state == RENDER_RUNNING || t->status_ns == 0)
         wake = earlier(wake, t->status_ns);
-    if (t->message_until_ns != 0)
-        wake = earlier(wake, t->message_until_ns);
+    if (t->work.message.until_ns != 0)
+        wake = earlier(wake, t->work.message.until_ns);
     return wake;
 }
 
@@ -740,13 +547,10 @@ static void take_events(struct tui *t, struct pollfd fds[4])
     if (fds[0].revents && !t->is_ending)
         take_input(t);
     if (fds[2].revents) {
-        empty_events(fds[2].fd);
-        t->is_settled = false;
-        t->frame_ns = 0;
-        t->status_ns = 0;
+        empty_events(fds[2].fd); /* work_look() sees what it says */
     }
     if (fds[3].revents)
-        finish_saving(t);
+        work_finish_saving(&t->work);
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);
@@ -758,8 +562,8 @@ static void wait_for_events(struct tui *t)
     struct pollfd fds[4] = {
         {.fd = STDIN_FILENO, .events = POLLIN},
         {.fd = term_signal_fd(), .events = POLLIN},
-        {.fd = render_event_fd(t->session->render), .events = POLLIN},
-        {.fd = t->saver.event_fd, .events = POLLIN},
+        {.fd = render_event_fd(t->work.session->render), .events = POLLIN},
+        {.fd = t->work.saver.event_fd, .events = POLLIN},
     };
     uint64_t now_ns = clock_ns();
     uint64_t until_ns = wake_ns(t, now_ns);
@@ -772,13 +576,20 @@ static void wait_for_events(struct tui *t)
     take_events(t, fds);
 }
 
-static void look_at_progress(struct tui *t)
+/* A restart changes the picture, but the status line only in its time: while
+ * the camera moves there are 60 a second. */
+static void look_at_work(struct tui *t)
 {
-    enum render_state before = t->progress.state;
+    uint64_t before_ns = t->work.restarted_ns;
 
-    t->progress = render_progress(t->session->render);
-    if (t->progress.state == RENDER_FAILED && before != RENDER_FAILED)
-        say_error(t, t->progress.error.text);
+    work_look(&t->work);
+    if (t->work.restarted_ns != before_ns) {
+        t->is_settled = false;
+        t->frame_ns = 0;
+    }
+    if (t->work.has_changed)
+        refresh_soon(t);
+    t->work.has_changed = false;
 }
 
 static void loop(struct tui *t)
@@ -786,32 +597,19 @@ static void loop(struct tui *t)
     while (!t->is_ending) {
         uint64_t now_ns = clock_ns();
 
-        look_at_progress(t);
         step_motion(t, now_ns);
-        restart_if_due(t);
+        look_at_work(t);
         draw(t, now_ns);
         if (!t->is_ending)
             wait_for_events(t);
     }
 }
 
-/* After the terminal was given back. */
-static void print_results(struct tui *t)
-{
-    for (int i = 0; i < t->result_count; i++) {
-        if (!t->is_gone)
-            printf("%s\n", t->results[i]);
-        free(t->results[i]);
-    }
-    free(t->results);
-    fflush(stdout);
-}
-
 static bool open_screen(struct tui *t, struct error *err)
 {
     if (!term_open(err))
         return false;
-    if (!canvas_init(&t->canvas, t->session->options, err)) {
+    if (!canvas_init(&t->canvas, t->work.session->options, err)) {
         term_close(false);
         return false;
     }
@@ -819,32 +617,36 @@ static bool open_screen(struct tui *t, struct error *err)
     return true;
 }
 
+static void close_screen(struct tui *t)
+{
+    if (!t->is_gone)
+        canvas_drain(&t->canvas, &t->input);
+    term_close(t->is_gone);
+    canvas_free(&t->canvas);
+    render_halt(t->work.session->render);
+    work_finish_saving(&t->work);
+    for (int i = 0; i < t->work.result_count && !t->is_gone; i++)
+        printf("%s\n", t->work.results[i]);
+    fflush(stdout);
+}
+
 /* The render starts first, so that it works while the terminal is opened. */
 bool tui_run(struct session *s, int *status, struct error *err)
 {
-    struct tui t = {.session = s,
-                    .is_live = true,
-                    .has_mouse = true,
-                    .restarted_ns = clock_ns()};
+    struct tui t = {.has_mouse = true};
+    bool ok;
 
+    if (!work_init(&t.work, s, err))
+        return false;
     steer_init(&t.steer, s->scene.bounds_lo, s->scene.bounds_hi);
-    if (!session_restart(s, 0, err) || !saver_init(&t.saver, err))
-        return false;
-    if (!open_screen(&t, err)) {
-        saver_free(&t.saver);
-        return false;
+    ok = open_screen(&t, err);
+    if (ok) {
+        if (s->notice[0] != '\0')
+            work_say_long(&t.work, s->notice);
+        loop(&t);
+        close_screen(&t);
+        *status = t.status;
     }
-    if (s->notice[0] != '\0')
-        say(&t, s->notice, NOTICE_NS);
-    loop(&t);
-    if (!t.is_gone)
-        canvas_drain(&t.canvas, &t.input);
-    term_close(t.is_gone);
-    render_halt(s->render);
-    finish_saving(&t);
-    print_results(&t);
-    canvas_free(&t.canvas);
-    saver_free(&t.saver);
-    *status = t.status;
-    return true;
+    work_free(&t.work);
+    return ok;
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/*
+ * work.h - what the screen renders and what of it is saved: live and normal
+ * mode, starting and halting, pictures and views as files, messages about it
+ *
+ * Live mode renders without a limit and starts anew at every change. Normal
+ * mode renders one view to the samples of -s; it can be halted, and what it has
+ * made is not thrown away unasked.
+ *
+ * Units:     nanoseconds of clock_ns(), samples of all pixels together
+ * Ownership: the session stays the caller's; work_free() frees the rest
+ * Threads:   main only
+ * Errors:    become messages, but for work_init()
+ */
+#ifndef GLIM_WORK_H
+#define GLIM_WORK_H
+
+#include "glim/saver.h"
+#include "glim/session.h"
+
+struct message {
+    char text[sizeof(struct error)];
+    bool is_error;     /* stays until a key */
+    uint64_t until_ns; /* 0: none */
+};
+
+struct work {
+    struct session *session;
+    struct saver saver;
+    struct render_progress progress; /* as of the last work_look() */
+    struct message message;
+
+    bool is_live;
+    bool is_started;   /* normal mode: a render was begun */
+    bool is_halted;    /* normal mode: by the person */
+    bool must_restart; /* the view has changed */
+    bool has_changed; /* there is something new to show; the screen clears it */
+    uint64_t restarted_ns;
+
+    uint64_t saved_samples;  /* of the normal render, in a file */
+    uint64_t saving_samples; /* that the saver will have written */
+    char saving_spp[32];
+
+    char **results; /* a line for each file */
+    int result_count;
+};
+
+/* Starts to render in live mode. */
+bool work_init(struct work *w, struct session *session, struct error *err);
+
+void work_say(struct work *w, const char *text);
+void work_say_long(struct work *w, const char *text);
+void work_say_error(struct work *w, const char *text);
+
+/* Looks how far the render is, and restarts it if the view has changed and the
+ * picture before has begun to show. */
+void work_look(struct work *w);
+
+/* True until the first rough picture after a restart is there. */
+bool work_awaits_picture(const struct work *w);
+
+/* True if a normal render would be lost. */
+bool work_has_unsaved(const struct work *w);
+
+/* True if the view may change now; else a message says when. */
+bool work_may_move(struct work *w);
+
+/* Loses what normal mode has rendered. */
+void work_set_live(struct work *w, bool is_live);
+
+void work_start_or_halt(struct work *w);
+
+/* Begins to save the picture as STEM.png or the next free name in the current
+ * folder. The saver's event_fd says when work_finish_saving() has the result.
+ */
+void work_save_picture(struct work *w);
+
+/* Waits for the picture that is being saved, if any. False if that failed. */
+bool work_finish_saving(struct work *w);
+
+void work_save_view(struct work *w);
+
+void work_free(struct work *w);
+
+#endif

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "glim/work.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/file.h"
+
+#define MESSAGE_NS UINT64_C(4000000000)
+#define LONG_NS    UINT64_C(10000000000)
+
+static void say(struct work *w, const char *text, uint64_t until_ns)
+{
+    snprintf(w->message.text, sizeof w->message.text, "%s", text);
+    w->message.is_error = false;
+    w->message.until_ns = until_ns;
+    w->has_changed = true;
+}
+
+void work_say(struct work *w, const char *text)
+{
+    say(w, text, clock_ns() + MESSAGE_NS);
+}
+
+void work_say_long(struct work *w, const char *text)
+{
+    say(w, text, clock_ns() + LONG_NS);
+}
+
+void work_say_error(struct work *w, const char *text)
+{
+    say(w, text, UINT64_MAX);
+    w->message.is_error = true;
+}
+
+static void restart(struct work *w)
+{
+    uint64_t spp = w->is_live ? 0 : w->session->options->spp;
+    struct error err;
+
+    saver_wait_copied(&w->saver);
+    if (!session_restart(w->session, spp, &err))
+        work_say_error(w, err.text);
+    w->must_restart = false;
+    w->restarted_ns = clock_ns();
+    w->progress = render_progress(w->session->render);
+}
+
+bool work_init(struct work *w, struct session *session, struct error *err)
+{
+    *w = (struct work){.session = session,
+                       .is_live = true,
+                       .restarted_ns = clock_ns()};
+    if (!session_restart(session, 0, err) || !saver_init(&w->saver, err))
+        return false;
+    w->progress = render_progress(session->render);
+    return true;
+}
+
+bool work_awaits_picture(const struct work *w)
+{
+    return w->progress.state == RENDER_RUNNING &&
+           w->progress.first_picture_ns == 0;
+}
+
+void work_look(struct work *w)
+{
+    enum render_state before = w->progress.state;
+
+    w->progress = render_progress(w->session->render);
+    if (w->progress.state != before)
+        w->has_changed = true;
+    if (w->progress.state == RENDER_FAILED && before != RENDER_FAILED)
+        work_say_error(w, w->progress.error.text);
+    /* A picture of the old place that has been begun is shown first, or a scene
+     * that is slow to begin would never show anything on the way. */
+    if (w->must_restart && !work_awaits_picture(w))
+        restart(w);
+}
+
+bool work_has_unsaved(const struct work *w)
+{
+    return !w->is_live && w->is_started &&
+           w->progress.samples > w->saved_samples;
+}
+
+bool work_may_move(struct work *w)
+{
+    if (!w->is_live)
+        work_say(w, "the camera moves in live mode: space goes there");
+    return w->is_live;
+}
+
+void work_set_live(struct work *w, bool is_live)
+{
+    w->is_live = is_live;
+    w->is_started = false;
+    w->is_halted = false;
+    w->must_restart = false;
+    if (is_live) {
+        work_say(w, "live mode: every change starts anew");
+        restart(w);
+        return;
+    }
+    render_halt(w->session->render);
+    work_say(w, "normal mode: Enter starts the render, space goes back");
+}
+
+void work_start_or_halt(struct work *w)
+{
+    struct render *render = w->session->render;
+
+    w->has_changed = true;
+    if (w->is_live) {
+        work_say(w, "Enter starts a render in normal mode: space goes there");
+    } else if (!w->is_started) {
+        w->is_started = true;
+        w->is_halted = false;
+        w->saved_samples = 0;
+        w->saving_samples = 0; /* these are of the picture before */
+        w->message.until_ns = 0;
+        restart(w);
+    } else if (w->progress.state == RENDER_RUNNING) {
+        render_halt(render);
+        w->is_halted = true;
+    } else if (w->progress.state == RENDER_IDLE) {
+        render_resume(render, w->session->options->spp);
+        w->is_halted = false;
+    } else {
+        work_say(w, "the render is done: p saves it, space goes to live mode");
+    }
+    w->progress = render_progress(render);
+}
+
+/* The scene's name in the current folder, without its ending. */
+static char *picture_stem(const struct work *w)
+{
+    char *stem = path_stem(w->session->scene.path);
+    const char *slash = strrchr(stem, '/');
+    char *name = xstrdup(slash ? slash + 1 : stem);
+
+    free(stem);
+    return name;
+}
+
+void work_save_picture(struct work *w)
+{
+    struct render_progress now = render_progress(w->session->render);
+    struct error err;
+    char *stem;
+
+    if (now.samples == 0) {
+        work_say(w, "nothing to save yet");
+        return;
+    }
+    stem = picture_stem(w);
+    if (saver_begin(&w->saver, render_film(w->session->render),
+                    (float)w->session->view.exposure, stem, &err)) {
+        w->saving_samples = w->is_started ? now.samples : 0;
+        snprintf(w->saving_spp, sizeof w->saving_spp, "%" PRIu64 " spp",
+                 now.spp_done);
+        work_say_long(w, "saving ...");
+    } else {
+        work_say_error(w, err.text);
+    }
+    free(stem);
+}
+
+static void add_result(struct work *w, const char *text)
+{
+    w->results = xrealloc(w->results,
+                          ((size_t)w->result_count + 1) * sizeof w->results[0]);
+    w->results[w->result_count++] = xstrdup(text);
+}
+
+bool work_finish_saving(struct work *w)
+{
+    const struct film *film = render_film(w->session->render);
+    struct error err;
+    char *name, *text;
+
+    if (!w->saver.is_busy)
+        return true;
+    name = saver_finish(&w->saver, &err);
+    if (!name) {
+        work_say_error(w, err.text);
+        add_result(w, err.text);
+        return false;
+    }
+    text = xformat("saved %s %dx%d, %s", name, film->width, film->height,
+                   w->saving_spp);
+    work_say(w, text);
+    add_result(w, text);
+    if (w->is_started)
+        w->saved_samples = w->saving_samples;
+    free(text);
+    free(name);
+    return true;
+}
+
+void work_save_view(struct work *w)
+{
+    const struct session *s = w->session;
+    struct error err;
+    char *text;
+
+    if (!view_write(&s->view, s->view_path, &err)) {
+        work_say_error(w, err.text);
+        return;
+    }
+    text = xformat("wrote the view to %s", s->view_path);
+    work_say(w, text);
+    add_result(w, text);
+    free(text);
+}
+
+void work_free(struct work *w)
+{
+    saver_free(&w->saver);
+    for (int i = 0; i < w->result_count; i++)
+        free(w->results[i]);
+    free(w->results);
+    *w = (struct work){0};
+}
