@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: MIT
+/*
+ * The bytes go to a little terminal that knows what the standard says about
+ * them (ECMA-48: CUP, CUF, SGR); what it shows must be the cells.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/ansi.h"
+
+#define COLS 40
+#define ROWS 12
+
+struct screen {
+    struct cell cell[ROWS][COLS];
+    int row, col;
+    uint32_t fg, bg;
+};
+
+static void screen_clear(struct screen *s)
+{
+    memset(s, 0, sizeof *s);
+    s->fg = s->bg = CELL_DEFAULT;
+}
+
+static uint32_t sgr_color(const int *p, int count, int *used)
+{
+    if (count >= 5 && p[1] == 2) {
+        *used = 5;
+        return (uint32_t)(p[2] << 16 | p[3] << 8 | p[4]);
+    }
+    assert_true(count >= 3 && p[1] == 5);
+    *used = 3;
+    return (uint32_t)p[2];
+}
+
+static void sgr(struct screen *s, const int *p, int count)
+{
+    for (int i = 0; i < count;) {
+        int used = 1;
+
+        if (p[i] == 0)
+            s->fg = s->bg = CELL_DEFAULT;
+        else if (p[i] == 38)
+            s->fg = sgr_color(p + i, count - i, &used);
+        else if (p[i] == 48)
+            s->bg = sgr_color(p + i, count - i, &used);
+        else if (p[i] == 39)
+            s->fg = CELL_DEFAULT;
+        else if (p[i] == 49)
+            s->bg = CELL_DEFAULT;
+        else if (p[i] >= 30 && p[i] < 38)
+            s->fg = (uint32_t)p[i] - 30;
+        else if (p[i] >= 40 && p[i] < 48)
+            s->bg = (uint32_t)p[i] - 40;
+        else if (p[i] >= 90 && p[i] < 98)
+            s->fg = (uint32_t)p[i] - 82;
+        else if (p[i] >= 100 && p[i] < 108)
+            s->bg = (uint32_t)p[i] - 92;
+        else
+            _fail(__FILE__, __LINE__);
+        i += used;
+    }
+}
+
+static const char *control(struct screen *s, const char *p)
+{
+    int params[16] = {0};
+    int count = 1;
+
+    for (; (*p >= '0' && *p <= '9') || *p == ';'; p++) {
+        if (*p == ';')
+            count++;
+        else
+            params[count - 1] = params[count - 1] * 10 + (*p - '0');
+    }
+    assert_true(count <= 16);
+    if (*p == 'm') {
+        sgr(s, params, count);
+    } else if (*p == 'H') {
+        s->row = params[0] - 1;
+        s->col = params[1] - 1;
+    } else {
+        assert_int_equal(*p, 'C');
+        s->col += params[0] ? params[0] : 1;
+    }
+    return p + 1;
+}
+
+static void print(struct screen *s, uint32_t glyph)
+{
+    assert_in_range(s->row, 0, ROWS - 1);
+    assert_in_range(s->col, 0, COLS - 1);
+    s->cell[s->row][s->col++] = (struct cell){s->fg, s->bg, glyph};
+}
+
+static void screen_write(struct screen *s, const struct ansi *a)
+{
+    const char *p = a->bytes;
+
+    while (p < a->bytes + a->length) {
+        if (memcmp(p, "\033[", 2) == 0) {
+            p = control(s, p + 2);
+        } else if (memcmp(p, "\xe2\x96\x80", 3) == 0) {
+            print(s, CELL_UPPER);
+            p += 3;
+        } else if (memcmp(p, "\xe2\x96\x84", 3) == 0) {
+            print(s, CELL_LOWER);
+            p += 3;
+        } else {
+            assert_in_range(*p, ' ', '~');
+            print(s, (uint32_t)*p++);
+        }
+    }
+}
+
+static void check_shown(const struct screen *s, const struct cells *c, int col,
+                        int row)
+{
+    for (int y = 0; y < c->rows; y++) {
+        for (int x = 0; x < c->cols; x++) {
+            const struct cell *want = &c->cell[y * c->cols + x];
+            const struct cell *got = &s->cell[row + y][col + x];
+
+            assert_int_equal(got->glyph, want->glyph);
+            assert_int_equal(got->bg, want->bg);
+            if (want->glyph != ' ')
+                assert_int_equal(got->fg, want->fg);
+        }
+    }
+}
+
+static uint32_t random_color(enum palette palette, uint64_t *seed)
+{
+    double u = check_random(seed);
+
+    switch (palette) {
+    case PALETTE_24BIT: return (uint32_t)(u * 0x1000000);
+    case PALETTE_256: return 16 + (uint32_t)(u * 240);
+    case PALETTE_16: return (uint32_t)(u * 16);
+    case PALETTE_MONO: break;
+    }
+    return CELL_DEFAULT;
+}
+
+/* Changes some cells; few colours, so that neighbours often share them. */
+static void scramble(struct cells *c, enum palette palette, double part,
+                     uint64_t *seed)
+{
+    uint32_t colors[3];
+
+    c->palette = palette;
+    for (int i = 0; i < 3; i++)
+        colors[i] = random_color(palette, seed);
+    for (int i = 0; i < c->cols * c->rows; i++) {
+        struct cell *cell = &c->cell[i];
+
+        if (check_random(seed) >= part)
+            continue;
+        cell->fg = colors[(int)(3 * check_random(seed))];
+        cell->bg = colors[(int)(3 * check_random(seed))];
+        cell->glyph = check_random(seed) < 0.5 ? CELL_UPPER : CELL_LOWER;
+        if (palette == PALETTE_MONO)
+            cell->glyph = '!' + (uint32_t)(90 * check_random(seed));
+        if (cell->fg == cell->bg && palette != PALETTE_MONO)
+            cell->glyph = ' ';
+    }
+}
+
+static struct cells make_cells(int cols, int rows)
+{
+    struct cells c;
+    struct error err;
+
+    assert_true(cells_init(&c, cols, rows, &err));
+    return c;
+}
+
+static struct ansi make_ansi(int cols, int rows)
+{
+    struct ansi a;
+    struct error err;
+
+    assert_true(ansi_init(&a, cols, rows, &err));
+    return a;
+}
+
+/* Every palette, positions, changes of some and of all cells. */
+static void screen_shows_the_cells(void **state)
+{
+    struct cells c = make_cells(30, 9);
+    struct ansi a = make_ansi(30, 9);
+    struct ansi_draw how = {.col = 4, .row = 2, .budget_bytes = SIZE_MAX};
+    struct screen s;
+    uint64_t seed = 5;
+
+    (void)state;
+    screen_clear(&s);
+    for (int round = 0; round < 200; round++) {
+        enum palette palette = (enum palette)(round / 10 % 4);
+        double part = round % 10 == 0 ? 1.0 : 0.3;
+
+        scramble(&c, palette, part, &seed);
+        ansi_begin(&a);
+        assert_true(ansi_picture(&a, &c, &how));
+        ansi_end(&a, ROWS - 1);
+        screen_write(&s, &a);
+        check_shown(&s, &c, 4, 2);
+        assert_true(s.fg == CELL_DEFAULT && s.bg == CELL_DEFAULT);
+        assert_true(s.row == ROWS - 1 && s.col == 0);
+    }
+    ansi_begin(&a);
+    assert_true(ansi_picture(&a, &c, &how));
+    assert_int_equal(a.length, 0); /* nothing changed, nothing said */
+    ansi_free(&a);
+    cells_free(&c);
+}
+
+/* However small the budget, every cell has its turn, and no frame is much
+ * larger than allowed. */
+static void budget_is_kept(void **state)
+{
+    struct cells c = make_cells(COLS, ROWS);
+    struct ansi a = make_ansi(COLS, ROWS);
+    struct ansi_draw how = {.budget_bytes = 100};
+    struct screen s;
+    uint64_t seed = 6;
+    bool is_done = false;
+    int frames = 0;
+
+    (void)state;
+    screen_clear(&s);
+    scramble(&c, PALETTE_24BIT, 1.0, &seed);
+    for (; !is_done; frames++) {
+        ansi_begin(&a);
+        is_done = ansi_picture(&a, &c, &how);
+        assert_true(a.length < 100 + 56);
+        screen_write(&s, &a);
+        s.fg = s.bg = CELL_DEFAULT;
+        assert_true(frames < 10000);
+    }
+    assert_true(frames > 10);
+    check_shown(&s, &c, 0, 0);
+
+    /* a picture that never rests: all cells are drawn sooner or later */
+    screen_clear(&s);
+    ansi_forget_all(&a);
+    for (int i = 0; i < 4 * frames; i++) {
+        scramble(&c, PALETTE_24BIT, 1.0, &seed);
+        ansi_begin(&a);
+        ansi_picture(&a, &c, &how);
+        screen_write(&s, &a);
+        s.fg = s.bg = CELL_DEFAULT;
+    }
+    for (int i = 0; i < COLS * ROWS; i++)
+        assert_int_not_equal(s.cell[i / COLS][i % COLS].glyph, 0);
+    ansi_free(&a);
+    cells_free(&c);
+}
+
+static void small_steps_may_stay(void **state)
+{
+    struct cells c = make_cells(3, 1);
+    struct ansi a = make_ansi(3, 1);
+    struct ansi_draw how = {.budget_bytes = SIZE_MAX, .step = 2};
+
+    (void)state;
+    c.palette = PALETTE_24BIT;
+    c.cell[0] = (struct cell){0x101010, 0x202020, CELL_UPPER};
+    c.cell[1] = (struct cell){0x303030, 0x303030, ' '};
+    c.cell[2] = (struct cell){0x404040, 0x505050, CELL_UPPER};
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    c.cell[0].fg = 0x12100e; /* by two */
+    c.cell[1] = (struct cell){0x313030, 0x302f30, CELL_UPPER};
+    c.cell[2].bg = 0x505350; /* by three */
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    ansi_text(&a, "");
+    a.bytes[a.length] = '\0';
+    assert_string_equal(
+        a.bytes, "\033[1;3H\033[38;2;64;64;64;48;2;80;83;80m\xe2\x96\x80");
+    how.step = 0; /* exact at the end */
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    a.bytes[a.length] = '\0';
+    assert_string_equal(a.bytes, "\033[1;1H\033[38;2;18;16;14;48;2;32;32;32m"
+                                 "\xe2\x96\x80\033[38;2;49;48;48;48;2;48;47;48m"
+                                 "\xe2\x96\x80");
+    ansi_free(&a);
+    cells_free(&c);
+}
+
+static void covered_cells_stay(void **state)
+{
+    struct cells c = make_cells(COLS, ROWS);
+    struct ansi a = make_ansi(COLS, ROWS);
+    struct ansi_rect covers[2] = {{5, 2, 20, 6}, {25, 3, 3, 3}};
+    struct ansi_draw how = {.budget_bytes = SIZE_MAX,
+                            .covered = covers,
+                            .covered_count = 2};
+    struct screen s;
+    uint64_t seed = 7;
+
+    (void)state;
+    screen_clear(&s);
+    scramble(&c, PALETTE_256, 1.0, &seed);
+    ansi_begin(&a);
+    assert_true(ansi_picture(&a, &c, &how));
+    screen_write(&s, &a);
+    for (int y = 0; y < ROWS; y++) {
+        for (int x = 0; x < COLS; x++) {
+            bool inside = (x >= 5 && x < 25 && y >= 2 && y < 8) ||
+                          (x >= 25 && x < 28 && y >= 3 && y < 6);
+
+            assert_true((s.cell[y][x].glyph == 0) == inside);
+        }
+    }
+    how.covered_count = 0; /* the windows close: curses has cleared there */
+    for (int y = 2; y < 8; y++)
+        memset(s.cell[y], 0, sizeof s.cell[y]);
+    ansi_forget(&a, (struct ansi_rect){-3, 2, COLS + 9, 6});
+    ansi_begin(&a);
+    assert_true(ansi_picture(&a, &c, &how));
+    s.fg = s.bg = CELL_DEFAULT;
+    screen_write(&s, &a);
+    check_shown(&s, &c, 0, 0);
+    ansi_free(&a);
+    cells_free(&c);
+}
+
+/* The bytes for changes that are known by heart. */
+static void bytes_are_few(void **state)
+{
+    struct cells c = make_cells(4, 1);
+    struct ansi a = make_ansi(4, 1);
+    struct ansi_draw how = {.budget_bytes = SIZE_MAX};
+
+    (void)state;
+    c.palette = PALETTE_16;
+    for (int i = 0; i < 4; i++)
+        c.cell[i] = (struct cell){12, 1, CELL_UPPER};
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    a.bytes[a.length] = '\0';
+    assert_string_equal(a.bytes, "\033[1;1H\033[94;41m\xe2\x96\x80\xe2\x96\x80"
+                                 "\xe2\x96\x80\xe2\x96\x80");
+    c.cell[0].fg = 2;
+    c.cell[2] = (struct cell){1, 1, ' '}; /* behind one that stays */
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    a.bytes[a.length] = '\0';
+    assert_string_equal(a.bytes, "\033[1;1H\033[32;41m\xe2\x96\x80\033[C ");
+    ansi_free(&a);
+    cells_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(screen_shows_the_cells),
+        cmocka_unit_test(budget_is_kept),
+        cmocka_unit_test(small_steps_may_stay),
+        cmocka_unit_test(covered_cells_stay),
+        cmocka_unit_test(bytes_are_few),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
