@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+#include <string.h>
+
+#include "glim/status.h"
+
+#define SEC UINT64_C(1000000000)
+
+static const char *duration(uint64_t ns)
+{
+    static char text[32];
+
+    status_duration(text, sizeof text, ns);
+    return text;
+}
+
+static void durations(void **state)
+{
+    (void)state;
+    assert_string_equal(duration(0), "0 s");
+    assert_string_equal(duration(60 * SEC - 1), "59 s");
+    assert_string_equal(duration(60 * SEC), "1:00");
+    assert_string_equal(duration(3599 * SEC), "59:59");
+    assert_string_equal(duration(3600 * SEC + 62 * SEC), "1:01:02");
+    assert_string_equal(duration(UINT64_MAX), "5124095:34:33");
+}
+
+static struct render_progress half_done(void)
+{
+    struct render_progress p = {.state = RENDER_RUNNING,
+                                .spp_limit = 16,
+                                .spp_done = 8,
+                                .samples = 8 * 1000000,
+                                .samples_limit = 16 * 1000000,
+                                .render_ns = 4 * SEC};
+
+    return p;
+}
+
+static void normal_mode_says_what_is_left(void **state)
+{
+    struct render_progress p = half_done();
+    struct status s = {.is_started = true,
+                       .progress = &p,
+                       .thread_count = 2,
+                       .width_px = 1024,
+                       .height_px = 576,
+                       .colors = "24 bit"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    status_format(text, 120, &s);
+    assert_string_equal(
+        text, " NORMAL  8/16 spp  50 %  4 s  left 4 s  2.00 Msamples/s  2 "
+              "threads  1024x576  24 bit                     ? help  q quit ");
+    p.state = RENDER_IDLE;
+    s.is_halted = true;
+    status_format(text, 120, &s);
+    assert_non_null(strstr(text, "NORMAL halted  8/16 spp  50 %  4 s  2.00"));
+    p.state = RENDER_DONE;
+    p.samples = p.samples_limit;
+    status_format(text, 120, &s);
+    assert_non_null(strstr(text, "NORMAL done"));
+    assert_non_null(strstr(text, "100 %"));
+    s.is_started = false;
+    p.state = RENDER_IDLE;
+    status_format(text, 120, &s);
+    assert_non_null(strstr(text, "NORMAL ready  2 threads"));
+}
+
+static void live_mode_has_no_end(void **state)
+{
+    struct render_progress p = half_done();
+    struct status s = {.is_live = true,
+                       .progress = &p,
+                       .thread_count = 1,
+                       .width_px = 10,
+                       .height_px = 20,
+                       .colors = "mono"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    p.spp_limit = p.samples_limit = 0;
+    status_format(text, 100, &s);
+    assert_non_null(strstr(text, " LIVE  8 spp  4 s  2.00 Msamples/s  1 thread "
+                                 " 10x20  mono "));
+    assert_null(strchr(text, '%'));
+    p = (struct render_progress){.state = RENDER_RUNNING};
+    status_format(text, 100, &s); /* nothing yet: no division by zero */
+    assert_non_null(strstr(text, "0 spp  0 s  0 ksamples/s"));
+}
+
+/* At any width the line has that many columns, begins with the mode and never
+ * cuts a field. */
+static void narrow_windows_drop_fields(void **state)
+{
+    struct render_progress p = half_done();
+    struct status s = {.is_started = true,
+                       .progress = &p,
+                       .thread_count = 64,
+                       .width_px = 65536,
+                       .height_px = 65536,
+                       .colors = "256 colours"};
+    static const char *const fields[] = {"8/16 spp", "50 %", "4 s", "left 4 s"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    for (int cols = 1; cols < 3000; cols++) {
+        status_format(text, cols, &s);
+        assert_int_equal(strlen(text),
+                         cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1);
+        if (cols >= 24)
+            assert_true(strncmp(text, " NORMAL", 7) == 0);
+        for (size_t i = 1; i < 4; i++) {
+            if (strstr(text, fields[i])) /* less important ones went before */
+                assert_non_null(strstr(text, fields[0]));
+        }
+    }
+}
+
+static void messages_are_clean(void **state)
+{
+    char text[STATUS_BYTES];
+
+    (void)state;
+    status_message(text, 80, "a\033[2Jb\nc\177");
+    assert_string_equal(text, " a?[2Jb?c?");
+    status_message(text, 4, "abcdef");
+    assert_string_equal(text, " abc");
+    status_message(text, 0, "abcdef");
+    assert_string_equal(text, "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(durations),
+        cmocka_unit_test(normal_mode_says_what_is_left),
+        cmocka_unit_test(live_mode_has_no_end),
+        cmocka_unit_test(narrow_windows_drop_fields),
+        cmocka_unit_test(messages_are_clean),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
