@@ -285,7 +285,7 @@ static bool set_option(struct options *o, const struct given *g,
 {
     switch (g->rule->id) {
     case OPTION_SCENE: {
-        const char *path;
+        const char *path = NULL;
 
         return file_name(g, &path, err) && set_scene(o, path, err);
     }
