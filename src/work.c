@@ -202,10 +202,11 @@ bool work_finish_saving(struct work *w)
 
 void work_save_view(struct work *w)
 {
-    const struct session *s = w->session;
+    struct session *s = w->session;
     struct error err;
     char *text;
 
+    s->view.has_camera = true; /* also one that was placed by the program */
     if (!view_write(&s->view, s->view_path, &err)) {
         work_say_error(w, err.text);
         return;

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+/*
+ * Live and normal mode on a real renderer: what is started, halted, saved and
+ * thought to be unsaved.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glim/work.h"
+
+static const char *const names[] = {"s.obj", "s.view", "s.png", "s-2.png"};
+
+static char folder[] = "/tmp/glim-test-XXXXXX";
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        unlink(names[i]);
+    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
+}
+
+struct fixture {
+    struct options options;
+    struct session session;
+    struct work work;
+};
+
+static int open_work(void **state)
+{
+    static struct fixture f;
+    struct error err;
+    FILE *to = fopen("s.obj", "w");
+
+    unlink("s.view");
+    unlink("s.png");
+    unlink("s-2.png");
+    if (!to || fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", to) < 0 ||
+        fclose(to) != 0)
+        return -1;
+    f.options = (struct options){.scene_path = "s.obj",
+                                 .width_px = 32,
+                                 .height_px = 16,
+                                 .spp = 3,
+                                 .max_bounces = -1,
+                                 .thread_count = 1};
+    *state = &f;
+    if (!session_open(&f.session, &f.options, clock_ns(), &err) ||
+        !work_init(&f.work, &f.session, &err)) {
+        print_error("%s\n", err.text);
+        return -1;
+    }
+    return 0;
+}
+
+static int close_work(void **state)
+{
+    struct fixture *f = *state;
+
+    work_free(&f->work);
+    session_close(&f->session);
+    return 0;
+}
+
+/* Looks until the render is not running, ten seconds at most. */
+static void run_to_end(struct work *w)
+{
+    assert_true(render_wait(w->session->render, 10000));
+    work_look(w);
+}
+
+static void live_mode_has_nothing_to_lose(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    assert_true(w->is_live);
+    assert_int_equal(w->progress.spp_limit, 0);
+    while (work_awaits_picture(w))
+        work_look(w);
+    assert_false(work_has_unsaved(w));
+    assert_true(work_may_move(w));
+    work_start_or_halt(w); /* only says where Enter works */
+    assert_true(w->message.until_ns > 0);
+    assert_int_equal(w->progress.state, RENDER_RUNNING);
+}
+
+static void moving_starts_anew(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    uint64_t before_ns = w->restarted_ns;
+
+    w->must_restart = true;
+    while (w->must_restart) /* after the first picture */
+        work_look(w);
+    assert_true(w->restarted_ns > before_ns);
+    assert_int_equal(w->progress.state, RENDER_RUNNING);
+}
+
+static void normal_mode_renders_to_its_end(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_set_live(w, false);
+    run_to_end(w);
+    assert_int_equal(w->progress.state, RENDER_IDLE);
+    assert_false(work_may_move(w));
+    assert_false(work_has_unsaved(w)); /* nothing was begun */
+    work_start_or_halt(w);
+    run_to_end(w);
+    assert_int_equal(w->progress.state, RENDER_DONE);
+    assert_int_equal(w->progress.spp_done, 3);
+    assert_int_equal(w->progress.samples, 3 * 32 * 16);
+    assert_true(work_has_unsaved(w));
+    work_start_or_halt(w); /* Enter at the end loses nothing */
+    work_look(w);
+    assert_int_equal(w->progress.state, RENDER_DONE);
+    work_set_live(w, true);
+    assert_false(work_has_unsaved(w));
+    assert_int_equal(w->progress.spp_limit, 0);
+}
+
+static void halted_renders_go_on(void **state)
+{
+    struct fixture *f = *state;
+    struct work *w = &f->work;
+
+    f->options.spp = 1000000;
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    while (work_awaits_picture(w))
+        work_look(w);
+    work_start_or_halt(w);
+    assert_true(w->is_halted);
+    assert_int_equal(w->progress.state, RENDER_IDLE);
+    assert_true(work_has_unsaved(w));
+    uint64_t samples = w->progress.samples;
+    work_start_or_halt(w);
+    assert_false(w->is_halted);
+    while (w->progress.samples <= samples)
+        work_look(w);
+    assert_int_equal(w->progress.state, RENDER_RUNNING);
+}
+
+static void saving_never_replaces(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+    for (int i = 0; i < 2; i++) {
+        work_save_picture(w);
+        saver_wait_copied(&w->saver);
+        assert_true(work_finish_saving(w));
+    }
+    assert_int_equal(access("s.png", F_OK), 0);
+    assert_int_equal(access("s-2.png", F_OK), 0);
+    assert_int_equal(w->result_count, 2);
+    assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
+    assert_string_equal(w->message.text, "saved s-2.png 32x16, 3 spp");
+    assert_false(work_has_unsaved(w));
+}
+
+/* What is saved is what was there at the key, whatever happens after it. */
+static void saving_takes_a_copy(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    char first[65536], second[65536];
+    size_t sizes[2];
+
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+    work_save_picture(w);
+    assert_true(work_finish_saving(w));
+    work_save_picture(w);
+    for (int i = 0; i < 3; i++)
+        w->session->view.eye[i] += 5; /* away: another picture */
+    work_set_live(w, true);
+    assert_true(work_finish_saving(w));
+    FILE *a = fopen("s.png", "rb");
+    FILE *b = fopen("s-2.png", "rb");
+    assert_true(a && b);
+    sizes[0] = fread(first, 1, sizeof first, a);
+    sizes[1] = fread(second, 1, sizeof second, b);
+    fclose(a);
+    fclose(b);
+    assert_true(sizes[0] > 60 && sizes[0] == sizes[1]);
+    assert_memory_equal(first, second, sizes[0]);
+}
+
+static void failures_are_messages(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    static char path[] = "no-such-folder-of-glim/s.view";
+
+    free(w->session->view_path);
+    w->session->view_path = strdup(path);
+    work_save_view(w);
+    assert_true(w->message.is_error);
+    assert_non_null(strstr(w->message.text, "no-such-folder-of-glim"));
+    assert_int_equal(w->result_count, 0);
+}
+
+static void views_are_written(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    struct report report = {0};
+    struct view back;
+    struct error err;
+
+    w->session->view.eye[0] = 1.0 / 3;
+    work_save_view(w);
+    assert_string_equal(w->message.text, "wrote the view to s.view");
+    view_init(&back);
+    assert_true(view_read(&back, "s.view", &report, &err));
+    assert_true(back.eye[0] == 1.0 / 3);
+    view_free(&back);
+    report_free(&report);
+}
+
+int main(void)
+{
+#define WORK_TEST(f) cmocka_unit_test_setup_teardown(f, open_work, close_work)
+    const struct CMUnitTest tests[] = {
+        WORK_TEST(live_mode_has_nothing_to_lose),
+        WORK_TEST(moving_starts_anew),
+        WORK_TEST(normal_mode_renders_to_its_end),
+        WORK_TEST(halted_renders_go_on),
+        WORK_TEST(saving_never_replaces),
+        WORK_TEST(saving_takes_a_copy),
+        WORK_TEST(failures_are_messages),
+        WORK_TEST(views_are_written),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
