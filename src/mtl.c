@@ -4,7 +4,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "glim/asset.h"
 #include "glim/file.h"
@@ -241,16 +240,16 @@ static bool skip_option(struct lex *lex)
 /* Cuts off options that come after the name, which some programs write. */
 static bool cut_options(char *name)
 {
-    for (char *p = name; (p = strchr(p, ' ')) != NULL; p++) {
-        struct lex lex;
-        char *end = p;
+    const char *end = name + strlen(name);
 
-        lex_init(&lex, p + 1, strlen(p + 1));
-        if (p == name || !skip_option(&lex))
+    for (char *p = name; (p = strchr(p, ' ')) != NULL; p++) {
+        struct lex lex = {p + 1, end, 1};
+
+        if (p == name || p[1] != '-' || !skip_option(&lex))
             continue;
-        while (end > name && end[-1] == ' ')
-            end--;
-        *end = '\0';
+        while (p > name && p[-1] == ' ')
+            p--;
+        *p = '\0';
         return true;
     }
     return false;

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "glim/asset.h"
 #include "glim/faces.h"
@@ -221,14 +220,34 @@ static bool load_library_named(struct parser *p, const char *name)
 }
 
 /* The end of the first name of several: behind ".mtl" if that is in there,
- * else at the next blank. */
-static char *first_name_end(char *names)
+ * else at the next blank. Looks for it only until it is not found. */
+static char *first_name_end(char *names, bool *has_endings)
 {
-    for (char *p = names; (p = strcasestr(p, ".mtl")) != NULL; p++) {
-        if (p[4] == ' ' || p[4] == '\t' || p[4] == '\0')
-            return p + 4;
+    char *p = names;
+
+    while (*has_endings && (p = strcasestr(p, ".mtl")) != NULL) {
+        p += strlen(".mtl");
+        if (*p == ' ' || *p == '\t' || *p == '\0')
+            return p;
     }
+    *has_endings = false;
     return names + strcspn(names, " \t");
+}
+
+static bool load_libraries(struct parser *p, char *names)
+{
+    bool has_endings = true;
+
+    for (char *name = names; *name != '\0';) {
+        char *end = first_name_end(name, &has_endings);
+        char *next = end + strspn(end, " \t");
+
+        *end = '\0';
+        if (!load_library_named(p, name))
+            return false;
+        name = next;
+    }
+    return true;
 }
 
 /* One name with blanks in it, or several. */
@@ -236,24 +255,13 @@ static bool read_mtllib(struct parser *p)
 {
     char *rest = lex_rest(&p->lex);
     char *path;
-    bool ok = rest != NULL || out_of_memory(p);
+    bool ok;
 
-    if (!ok)
-        return false;
+    if (rest == NULL)
+        return out_of_memory(p);
     path = asset_find(p->path, rest);
-    if (path != NULL) {
-        ok = load_library(p, rest, path);
-        free(path);
-    } else {
-        for (char *name = rest; ok && *name != '\0';) {
-            char *end = first_name_end(name);
-            char *next = end + strspn(end, " \t");
-
-            *end = '\0';
-            ok = load_library_named(p, name);
-            name = next;
-        }
-    }
+    ok = path != NULL ? load_library(p, rest, path) : load_libraries(p, rest);
+    free(path);
     free(rest);
     return ok;
 }

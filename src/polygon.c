@@ -7,10 +7,12 @@
 
 #include "glim/util.h"
 
-/* Cells and corners looked at per corner before the rest is cut blindly. Real
- * outlines need 5 to 50; no file may take longer than its size explains. */
-#define WORK_PER_CORNER 1000
-#define WORK_AT_LEAST   100000
+/* Cells and corners looked at per corner before the rest is cut blindly: no
+ * file may take longer than its size explains. Outlines that do not cross
+ * themselves needed up to 62, rings with rough edges and coasts of 100,000
+ * corners among them. */
+#define WORK_PER_CORNER 250
+#define WORK_AT_LEAST   20000
 
 #define GRID_SIDE_MAX 4096
 

@@ -399,7 +399,7 @@ static void break_in_many_ways(const char *good, size_t size_bytes, bool is_mtl)
         memcpy(text, good, size_bytes);
         for (int k = 0; k < flips; k++)
             text[(size_t)(check_random(&random) * (double)size_bytes)] =
-                (char)(256 * check_random(&random));
+                (char)(unsigned char)(256 * check_random(&random));
         load_broken(text, size_bytes, is_mtl);
     }
     /* with bytes that mean something */
