@@ -45,13 +45,19 @@ static bool expect_limits(const struct source *s, struct error *err)
     return true;
 }
 
+static bool fail_memory(const struct source *s, struct error *err)
+{
+    return fail(err, "%s: out of memory for %dx%d pixels", s->path, s->width,
+                s->height);
+}
+
 static bool fail_decoding(const struct source *s, struct error *err)
 {
     const char *reason = stbi_failure_reason();
 
     return fail(err,
                 "%s: found no image that can be read (%s), expected PNG, "
-                "JPEG, BMP, TGA, PNM, Radiance HDR or PFM",
+                "JPEG, BMP, TGA, Radiance HDR or PFM",
                 s->path, reason ? reason : "out of memory");
 }
 
@@ -129,8 +135,7 @@ static float *read_pfm(struct source *s, struct error *err)
     }
     float *rgb = alloc_array(pixels_of(s), 3 * sizeof *rgb);
     if (!rgb) {
-        fail(err, "%s: out of memory for %dx%d pixels", s->path, s->width,
-             s->height);
+        fail_memory(s, err);
         return NULL;
     }
     size_t to = 0;
@@ -144,16 +149,137 @@ static float *read_pfm(struct source *s, struct error *err)
     return rgb;
 }
 
-/* Radiance HDR; a value is mantissa * 2^(exponent - 136). */
+static bool is_hdr(const struct source *s)
+{
+    static const char *const marks[] = {"#?RADIANCE", "#?RGBE"};
+
+    for (int i = 0; i < 2; i++) {
+        size_t length = strlen(marks[i]);
+        if (s->size_bytes > length && memcmp(s->data, marks[i], length) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Lines of text up to an empty one, then "-Y height +X width". *pixels is what
+ * follows. */
+static bool hdr_header(struct source *s, const char **pixels, struct error *err)
+{
+    static const char blank[] = "\n\n", format[] = "FORMAT=32-bit_rle_rgbe";
+    const char *end = s->data + s->size_bytes;
+    const char *p = memmem(s->data, s->size_bytes, blank, 2);
+    double height, width;
+
+    if (!p || !memmem(s->data, (size_t)(p - s->data), format, strlen(format)))
+        return fail(err, "%s: expected a header with %s", s->path, format);
+    p += 2;
+    bool ok = end - p > 3 && memcmp(p, "-Y ", 3) == 0;
+    p += 3;
+    ok = ok && number_parse(&p, end, &height) && end - p > 4 &&
+         memcmp(p, " +X ", 4) == 0;
+    p += 4;
+    ok = ok && number_parse(&p, end, &width) && p < end && *p == '\n' &&
+         height >= 1 && height <= INT_MAX && width >= 1 && width <= INT_MAX;
+    if (!ok)
+        return fail(err, "%s: expected '-Y height +X width' after the header",
+                    s->path);
+    s->width = (int)width;
+    s->height = (int)height;
+    *pixels = p + 1;
+    return expect_limits(s, err);
+}
+
+/* One row with its four channels apart, each in runs (128 + n: n times the
+ * next byte) and copies (n: the next n bytes). False: the file ends, or the
+ * row does not end where it should. */
+static bool hdr_packed_row(const unsigned char **p, const unsigned char *end,
+                           int width, unsigned char *rgbe)
+{
+    for (int c = 0; c < 4; c++) {
+        for (int x = 0; x < width;) {
+            if (end - *p < 2)
+                return false;
+            int count = *(*p)++;
+            bool is_run = count > 128;
+            count -= is_run ? 128 : 0;
+            if (count == 0 || count > width - x ||
+                end - *p < (is_run ? 1 : count))
+                return false;
+            for (int i = 0; i < count; i++)
+                rgbe[4 * x++ + c] = is_run ? **p : (*p)[i];
+            *p += is_run ? 1 : count;
+        }
+    }
+    return true;
+}
+
+/* One row of whole pixels; 1 1 1 n means the last one n times more, and in a
+ * second such pixel n counts 256 times as much. */
+static bool hdr_flat_row(const unsigned char **p, const unsigned char *end,
+                         int width, unsigned char *rgbe)
+{
+    int shift = 0;
+
+    for (int x = 0; x < width;) {
+        if (end - *p < 4)
+            return false;
+        const unsigned char *pixel = *p;
+        *p += 4;
+        if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+            memcpy(rgbe + 4 * x++, pixel, 4);
+            shift = 0;
+            continue;
+        }
+        if (x == 0 || shift > 8 || pixel[3] << shift > width - x)
+            return false;
+        for (int n = pixel[3] << shift; n > 0; n--, x++)
+            memcpy(rgbe + 4 * x, rgbe + 4 * (x - 1), 4);
+        shift += 8;
+    }
+    return true;
+}
+
+static bool hdr_row(const unsigned char **p, const unsigned char *end,
+                    int width, unsigned char *rgbe)
+{
+    const unsigned char *q = *p;
+
+    if (end - q < 4)
+        return false;
+    if (q[0] != 2 || q[1] != 2 || (q[2] << 8 | q[3]) != width)
+        return hdr_flat_row(p, end, width, rgbe);
+    *p += 4;
+    return hdr_packed_row(p, end, width, rgbe);
+}
+
+/* Radiance HDR; a value is mantissa * 2^(exponent - 136), exponent 0 is
+ * black. */
 static float *read_hdr(struct source *s, struct error *err)
 {
-    int channels;
-    float *rgb = stbi_loadf_from_memory(bytes_of(s), (int)s->size_bytes,
-                                        &s->width, &s->height, &channels, 3);
+    const unsigned char *end = bytes_of(s) + s->size_bytes;
+    const char *pixels = NULL;
 
-    if (!rgb)
-        fail_decoding(s, err);
-    return rgb;
+    if (!hdr_header(s, &pixels, err))
+        return NULL;
+    const unsigned char *p = (const unsigned char *)pixels;
+    unsigned char *rgbe = xmalloc(4 * (size_t)s->width);
+    float *rgb = alloc_array(pixels_of(s), 3 * sizeof *rgb);
+    bool ok = rgb || fail_memory(s, err);
+    for (int y = 0; ok && y < s->height; y++) {
+        float *row = rgb + 3 * (size_t)y * (size_t)s->width;
+        if (!hdr_row(&p, end, s->width, rgbe))
+            ok = fail(err, "%s: found no end of row %d of %d", s->path, y + 1,
+                      s->height);
+        for (int i = 0; ok && i < 3 * s->width; i++) {
+            const unsigned char *pixel = rgbe + 4 * (i / 3);
+            row[i] = pixel[3] ? ldexpf(pixel[i % 3], pixel[3] - 136) : 0;
+        }
+    }
+    free(rgbe);
+    if (ok)
+        return rgb;
+    free(rgb);
+    return NULL;
 }
 
 /* The sRGB curve, IEC 61966-2-1, for all 16-bit values; for free(). An 8-bit
@@ -188,8 +314,7 @@ static float *read_ldr(struct source *s, struct error *err)
             rgb[i] = table[pixels[i]];
         free(table);
     } else {
-        fail(err, "%s: out of memory for %dx%d pixels", s->path, s->width,
-             s->height);
+        fail_memory(s, err);
     }
     free(pixels);
     return rgb;
@@ -221,6 +346,11 @@ static bool read_header(struct source *s, struct error *err)
                     (double)s->size_bytes / (1 << 30));
     if (!expect_png_limits(s, err))
         return false;
+    if (!stb_is_safe(bytes_of(s), s->size_bytes))
+        return fail(err,
+                    "%s: found a Huffman table of more than 256 codes, "
+                    "expected a JPEG image",
+                    s->path);
     stb_limit((size_t)1 << 24);
     if (!stbi_info_from_memory(bytes_of(s), (int)s->size_bytes, &s->width,
                                &s->height, &channels))
@@ -236,11 +366,9 @@ static float *decode_linear(struct source *s, struct error *err)
 {
     if (is_pfm(s))
         return read_pfm(s, err);
-    if (!read_header(s, err))
-        return NULL;
-    return stbi_is_hdr_from_memory(bytes_of(s), (int)s->size_bytes)
-               ? read_hdr(s, err)
-               : read_ldr(s, err);
+    if (is_hdr(s))
+        return read_hdr(s, err);
+    return read_header(s, err) ? read_ldr(s, err) : NULL;
 }
 
 /* False for NaN. */
@@ -298,11 +426,11 @@ static bool read_8bit(struct image *image, struct source *s, struct error *err)
     uint64_t clamped_count;
     int channels;
 
-    if (!is_pfm(s) && !read_header(s, err))
-        return false;
-    if (is_pfm(s) || stbi_is_hdr_from_memory(bytes_of(s), (int)s->size_bytes))
+    if (is_pfm(s) || is_hdr(s))
         return read_linear(image, s, &clamped_count, err) &&
                encode_floats(image, s->path, err);
+    if (!read_header(s, err))
+        return false;
     image->rgba =
         stbi_load_from_memory(bytes_of(s), (int)s->size_bytes, &image->width,
                               &image->height, &channels, 4);

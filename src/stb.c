@@ -28,6 +28,59 @@ static void *limited_realloc(void *p, size_t size_bytes)
     return size_bytes <= limit_bytes ? realloc(p, size_bytes) : NULL;
 }
 
+/* Reading past the end gives 0, as in stb. */
+static unsigned byte_at(const unsigned char *data, size_t size_bytes, size_t i)
+{
+    return i < size_bytes ? data[i] : 0;
+}
+
+/* The segment of Huffman tables whose length field is at i. */
+static bool are_tables_safe(const unsigned char *data, size_t size_bytes,
+                            size_t i)
+{
+    int left = (int)(byte_at(data, size_bytes, i) << 8 |
+                     byte_at(data, size_bytes, i + 1)) -
+               2;
+
+    for (i += 2; left > 0; left -= 17) {
+        int codes = 0;
+        for (size_t k = 1; k <= 16; k++)
+            codes += (int)byte_at(data, size_bytes, i + k);
+        if (codes > 256)
+            return false;
+        left -= codes;
+        i += 17 + (size_t)codes;
+    }
+    return true;
+}
+
+/* Up to the first scan the file is read marker by marker, as stb does: text and
+ * thumbnails are skipped. From there on every ff c4 is taken for tables: packed
+ * pixels have none. */
+bool stb_is_safe(const unsigned char *data, size_t size_bytes)
+{
+    enum { TABLES = 0xc4, START = 0xd8, SCAN = 0xda, PREFIX = 0xff };
+    bool is_in_header = true;
+
+    for (size_t i = 0; i + 1 < size_bytes;) {
+        if (i == 0 && data[0] != PREFIX)
+            return true; /* no JPEG */
+        if (data[i] != PREFIX || data[i + 1] == PREFIX) {
+            i++;
+            continue;
+        }
+        unsigned marker = data[i + 1];
+        i += 2;
+        if (marker == TABLES && !are_tables_safe(data, size_bytes, i))
+            return false;
+        is_in_header = is_in_header && marker != SCAN;
+        if (is_in_header && marker != START)
+            i += byte_at(data, size_bytes, i) << 8 |
+                 byte_at(data, size_bytes, i + 1);
+    }
+    return true;
+}
+
 /* stb copies nothing from or to NULL where a chunk is empty; memcpy() must not
  * be asked to. */
 static void *copy_bytes(void *to, const void *from, size_t size_bytes)
@@ -45,8 +98,6 @@ static void *copy_bytes(void *to, const void *from, size_t size_bytes)
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
-#define STBI_ONLY_PNM
-#define STBI_ONLY_HDR
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 

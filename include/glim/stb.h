@@ -2,9 +2,9 @@
 /*
  * stb.h - stb_image and stb_image_write as this program uses them
  *
- * Formats: PNG, JPEG, BMP, TGA, PNM and Radiance HDR; from memory, to memory.
- * GIF, PSD and PIC are left out: their decoders are the ones with a record of
- * reading out of bounds.
+ * Reads PNG, JPEG, BMP and TGA; writes PNG and Radiance HDR. Debian 12 has
+ * version 2.27, which in GIF, PSD, PIC and PNM files reads and writes out of
+ * bounds, and never comes back from a truncated HDR file.
  *
  * Units:     bytes, pixels
  * Ownership: what the decoders return is for free()
@@ -14,14 +14,21 @@
 #ifndef GLIM_STB_H
 #define GLIM_STB_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #define STBI_NO_STDIO
+#define STBI_NO_LINEAR
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
 /* No single allocation of a decoder in this thread may be greater from now on:
  * a small file can ask for gigabytes. */
 void stb_limit(size_t size_bytes);
+
+/* False for a JPEG file with a Huffman table of more than 256 codes, which
+ * stb_image 2.27 and before write behind its end: such files must not reach
+ * it, not even for their size. */
+bool stb_is_safe(const unsigned char *data, size_t size_bytes);
 
 #endif

@@ -142,6 +142,94 @@ static void test_hdr(void **state)
     image_free(&image);
 }
 
+#define HDR_HEAD "#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n\n"
+
+/* Rows of 8 pixels: channels apart in runs and copies; whole pixels with the
+ * old repeats. */
+static void test_hdr_packed(void **state)
+{
+    static const char text[] = HDR_HEAD "-Y 2 +X 8\n"
+                                        "\x02\x02\x00\x08"
+                                        "\x88\x80"
+                                        "\x03\x40\x20\x10\x85\x00"
+                                        "\x87\x01\x01\x02"
+                                        "\x01\x00\x87\x81"
+                                        "\x80\x00\x00\x81"
+                                        "\x01\x01\x01\x06"
+                                        "\x00\x80\x00\x82";
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    (void)state;
+    put("packed.hdr", text, sizeof text - 1);
+    assert_true(image_read_linear(&image, "packed.hdr", &clamped, &err));
+    assert_int_equal(image.width, 8);
+    assert_int_equal(image.height, 2);
+    for (int x = 0; x < 8; x++) {
+        static const float green[] = {0, 0.25f, 0.125f, 0, 0, 0, 0, 0};
+        const float *low = image.rgb + 3 * x, *high = low + 24;
+        float blue = x == 7 ? 2.0f / 128 : 1.0f / 128;
+        /* exponent 0 is black, whatever the mantissas */
+        assert_true(low[0] == (x == 0 ? 0.0f : 1.0f));
+        assert_true(low[1] == green[x]);
+        assert_true(low[2] == (x == 0 ? 0.0f : blue));
+        assert_true(high[0] == (x == 7 ? 0.0f : 1.0f));
+        assert_true(high[1] == (x == 7 ? 2.0f : 0.0f));
+        assert_true(high[2] == 0.0f);
+    }
+    image_free(&image);
+    for (size_t size = 60; size < sizeof text - 1; size++) {
+        put("cut.hdr", text, size);
+        assert_false(image_read_linear(&image, "cut.hdr", &clamped, &err));
+    }
+    assert_string_equal(err.text, "cut.hdr: found no end of row 2 of 2");
+}
+
+static void test_hdr_errors(void **state)
+{
+    static const char no_end[] = HDR_HEAD "-Y 1 +X 8\n\2\2\0\x08\0\0\0\0";
+    static const char repeat[] = HDR_HEAD "-Y 1 +X 2\n\1\1\1\1\0\0\0\0";
+
+    (void)state;
+    put_text("e.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n1234");
+    both_fail("e.hdr", "e.hdr: expected a header with FORMAT=32-bit_rle_rgbe");
+    put_text("e.hdr", "#?RADIANCE\n");
+    both_fail("e.hdr", "e.hdr: expected a header");
+    put_text("e.hdr", HDR_HEAD "+X 1 -Y 1\n1234");
+    both_fail("e.hdr", "e.hdr: expected '-Y height +X width'");
+    put_text("e.hdr", HDR_HEAD "-Y 1");
+    both_fail("e.hdr", "e.hdr: expected '-Y height +X width'");
+    put_text("e.hdr", HDR_HEAD "-Y nan +X 1\n1234");
+    both_fail("e.hdr", "e.hdr: expected '-Y height +X width'");
+    put_text("e.hdr", HDR_HEAD "-Y 99999 +X 99999\n1234");
+    both_fail("e.hdr", "e.hdr: found 99999x99999 pixels, expected sides");
+    put("e.hdr", no_end, sizeof no_end - 1);
+    both_fail("e.hdr", "e.hdr: found no end of row 1 of 1");
+    put("e.hdr", repeat, sizeof repeat - 1);
+    both_fail("e.hdr", "e.hdr: found no end of row 1 of 1");
+}
+
+/* stb_image 2.27 writes out of bounds for these, in the header as well as
+ * between two scans. */
+static void test_jpeg_tables(void **state)
+{
+    unsigned char jpeg[600] = "\xff\xd8\xff\xe0\0\x06\xff\xc4\xff\xff"
+                              "\xff\xc4\x02\0\x10";
+
+    (void)state;
+    memset(jpeg + 15, 16, 16); /* 16 codes of each length: 256 */
+    assert_true(stb_is_safe(jpeg, sizeof jpeg));
+    jpeg[20] = 17;
+    assert_false(stb_is_safe(jpeg, sizeof jpeg));
+    put("tables.jpg", jpeg, sizeof jpeg);
+    both_fail("tables.jpg", "tables.jpg: found a Huffman table of more than");
+    memcpy(jpeg + 2, "\xff\xda\0\x04zz", 6); /* a scan comes first */
+    assert_false(stb_is_safe(jpeg, sizeof jpeg));
+    jpeg[0] = 0; /* no JPEG at all */
+    assert_true(stb_is_safe(jpeg, sizeof jpeg));
+}
+
 /* The greatest RGBE values are beyond what is kept. */
 static void test_hdr_greatest(void **state)
 {
@@ -273,14 +361,15 @@ static void test_bomb(void **state)
  * an error. */
 static void test_mutations(void **state)
 {
-    static const char *const paths[] = {"a.png", "a.hdr", "a.pfm"};
+    static const char *const paths[] = {"a.png", "a.hdr", "packed.hdr",
+                                        "a.pfm"};
     uint64_t random = 1;
     struct error err;
     struct image image;
     uint64_t clamped;
 
     (void)state;
-    for (size_t k = 0; k < 3; k++) {
+    for (size_t k = 0; k < 4; k++) {
         char bytes[4096];
         FILE *f = fopen(paths[k], "rb");
         assert_non_null(f);
@@ -393,10 +482,12 @@ static void test_suite(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),          cmocka_unit_test(test_hdr),
-        cmocka_unit_test(test_hdr_greatest), cmocka_unit_test(test_pfm),
-        cmocka_unit_test(test_errors),       cmocka_unit_test(test_bomb),
-        cmocka_unit_test(test_mutations),    cmocka_unit_test(test_suite),
+        cmocka_unit_test(test_png),         cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_hdr_packed),  cmocka_unit_test(test_hdr_errors),
+        cmocka_unit_test(test_jpeg_tables), cmocka_unit_test(test_hdr_greatest),
+        cmocka_unit_test(test_pfm),         cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_bomb),        cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_suite),
     };
 
     return cmocka_run_group_tests_name("image", tests, make_folder,
