@@ -319,8 +319,8 @@ static bool normalize(double v[3])
 }
 
 /* `right` of the picture; where `up` says nothing, the axis that is least
- * along `forward` stands in for it. */
-static void find_right(const double forward[3], const double view_up[3],
+ * along `forward` stands in for it, and the result is false. */
+static bool find_right(const double forward[3], const double view_up[3],
                        double right[3])
 {
     double up[3] = {view_up[0], view_up[1], view_up[2]};
@@ -330,7 +330,7 @@ static void find_right(const double forward[3], const double view_up[3],
         cross(forward, up, right);
         if (hypot(hypot(right[0], right[1]), right[2]) >= PARALLEL) {
             normalize(right);
-            return;
+            return true;
         }
     }
     for (int k = 1; k < 3; k++)
@@ -339,6 +339,16 @@ static void find_right(const double forward[3], const double view_up[3],
     up[axis] = 1;
     cross(forward, up, right);
     normalize(right);
+    return false;
+}
+
+bool scene_up_is_parallel(const struct view *view)
+{
+    double forward[3], right[3];
+
+    for (int k = 0; k < 3; k++)
+        forward[k] = view->at[k] / 2 - view->eye[k] / 2;
+    return normalize(forward) && !find_right(forward, view->up, right);
 }
 
 static struct vec3 scaled(const double v[3], double scale)

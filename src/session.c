@@ -93,6 +93,11 @@ static void complete_view(struct session *s)
     }
     if (!s->view.has_camera)
         scene_frame(&s->scene, &s->view);
+    if (scene_up_is_parallel(&s->view))
+        report_add(&s->report, "views along their up",
+                   "%s: found the camera's up along its view: took another "
+                   "axis for it",
+                   s->options->scene_path);
 }
 
 /* The rectangle to render, which must lie in the picture. */
