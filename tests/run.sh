@@ -14,6 +14,7 @@ trap 'rm -f "$log"' EXIT
 
 passed=0
 failed=0
+begin=$SECONDS
 
 wanted()
 {
@@ -23,13 +24,16 @@ wanted()
 # name, passed, failed: adds to the sums; shows the log if something failed
 report()
 {
+    local time=$((SECONDS - begin))s
+
+    begin=$SECONDS
     passed=$((passed + $2))
     failed=$((failed + $3))
     if [ "$3" -gt 0 ]; then
         tail -c 20000 "$log"
-        printf '%-24s %4d passed, %d failed\n' "$1" "$2" "$3"
+        printf '%-20s %4s %4d passed, %d failed\n' "$1" "$time" "$2" "$3"
     else
-        printf '%-24s %4d passed\n' "$1" "$2"
+        printf '%-20s %4s %4d passed\n' "$1" "$time" "$2"
         grep -ai skip "$log" | grep -av '^\[  SKIPPED \] [0-9]* test' |
             grep -av 'SKIPPED TEST(S)$' | awk '!seen[$0]++ { print "    " $0 }'
     fi
