@@ -30,22 +30,13 @@ static enum palette palette_of_option(enum color_mode mode)
     return PALETTE_24BIT;
 }
 
-static bool choose_palette(struct canvas *c, const struct options *options,
-                           struct error *err)
+static void choose_palette(struct canvas *c, enum color_mode mode)
 {
-    const char *word = getenv("GLIM_COLOR");
-
     c->palette_is_final = true;
-    if (options->color != COLOR_AUTO)
-        c->palette = palette_of_option(options->color);
-    else if (!word || word[0] == '\0' || strcmp(word, "auto") == 0)
+    if (mode == COLOR_AUTO)
         c->palette = term_palette(&c->palette_is_final);
-    else if (!palette_of_word(word, &c->palette))
-        return fail(err,
-                    "GLIM_COLOR: found '%s', expected 24, 256, 16, mono or "
-                    "auto",
-                    word);
-    return true;
+    else
+        c->palette = palette_of_option(mode);
 }
 
 static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
@@ -64,15 +55,14 @@ static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
     c->glyphs_are_final = !may_learn;
 }
 
-bool canvas_init(struct canvas *c, const struct options *options,
-                 struct error *err)
+void canvas_init(struct canvas *c, const struct options *options)
 {
     *c = (struct canvas){.has_status_row = true};
     pace_init(&c->pace, clock_ns());
     c->cell_aspect = options->cell_aspect;
     c->aspect_is_final = options->cell_aspect > 0;
     choose_glyphs(c, options->glyph);
-    return choose_palette(c, options, err);
+    choose_palette(c, options->color);
 }
 
 static void free_sized(struct canvas *c)

@@ -415,6 +415,17 @@ static bool check_together(const struct options *o, struct error *err)
     return true;
 }
 
+/* GLIM_COLOR is what --color is where that is not given. */
+static bool take_environment(struct options *o, struct error *err)
+{
+    struct given g = {find_rule("color", 5), "GLIM_COLOR",
+                      getenv("GLIM_COLOR")};
+
+    if (o->batch || o->color != COLOR_AUTO || !g.value || *g.value == '\0')
+        return true;
+    return set_word(o, &g, err);
+}
+
 bool options_parse(struct options *o, int argc, char **argv, struct error *err)
 {
     bool ended = false;
@@ -439,5 +450,5 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         if (o->show_help || o->show_version)
             return true; /* whatever else is on the line */
     }
-    return check_together(o, err);
+    return check_together(o, err) && take_environment(o, err);
 }

@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-static const char *const words[] = {"mono", "16", "256", "24"};
 static const char *const names[] = {"mono", "16 colours", "256 colours",
                                     "24 bit"};
 
@@ -51,22 +50,6 @@ enum palette palette_guess(const struct palette_facts *facts, bool *is_final)
     if (facts->colors >= 256)
         return PALETTE_256;
     return facts->colors >= 8 ? PALETTE_16 : PALETTE_MONO;
-}
-
-bool palette_of_word(const char *word, enum palette *palette)
-{
-    for (int i = 0; i <= PALETTE_24BIT; i++) {
-        if (strcmp(word, words[i]) == 0) {
-            *palette = (enum palette)i;
-            return true;
-        }
-    }
-    return false;
-}
-
-const char *palette_word(enum palette palette)
-{
-    return words[palette];
 }
 
 const char *palette_name(enum palette palette)

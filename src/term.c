@@ -243,6 +243,18 @@ static void drop_stuck_output(void)
         tcflush(STDOUT_FILENO, TCOFLUSH);
 }
 
+/* A terminal without a second screen would keep the picture below what comes
+ * next. */
+static void leave_screen(void)
+{
+    if (!exit_ca_mode) {
+        erase();
+        clearok(curscr, TRUE);
+        refresh();
+    }
+    endwin();
+}
+
 static void write_restoring(void)
 {
     static const char text[] = SYNC_END MOUSE_OFF "\033[m";
@@ -259,7 +271,7 @@ void term_close(bool is_gone)
     if (!is_gone) {
         drop_stuck_output();
         write_restoring();
-        endwin();
+        leave_screen();
     }
     is_open = 0;
     xmalloc_set_hook(NULL);
@@ -365,7 +377,7 @@ void term_suspend(void)
     struct sigaction own;
 
     write_restoring();
-    endwin();
+    leave_screen();
     is_open = 0;
     sigemptyset(&stop.sa_mask);
     sigaction(SIGTSTP, &stop, &own);
@@ -477,7 +489,7 @@ void term_notice(const char *text)
 
     erase();
     if (length <= COLS)
-        mvaddstr(LINES / 2, (COLS - length) / 2, text);
+        mvaddstr((LINES - 1) / 2, (COLS - length) / 2, text);
     else
         mvaddnstr(0, 0, text, LINES * COLS - 1);
 }

@@ -609,10 +609,7 @@ static bool open_screen(struct tui *t, struct error *err)
 {
     if (!term_open(err))
         return false;
-    if (!canvas_init(&t->canvas, t->work.session->options, err)) {
-        term_close(false);
-        return false;
-    }
+    canvas_init(&t->canvas, t->work.session->options);
     layout(t);
     return true;
 }

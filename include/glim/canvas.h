@@ -42,9 +42,8 @@ struct canvas {
     bool must_update;        /* curses has something to write */
 };
 
-/* After term_open(). An impossible GLIM_COLOR is an error. */
-bool canvas_init(struct canvas *c, const struct options *options,
-                 struct error *err);
+/* After term_open(). */
+void canvas_init(struct canvas *c, const struct options *options);
 
 /* Fits a picture of this size to the terminal's size of now; everything is
  * drawn anew. */

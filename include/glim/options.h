@@ -52,7 +52,7 @@ struct options {
     bool show_help, show_version;
 };
 
-/* Fills *o from argv. */
+/* Fills *o from argv, and for the screen from GLIM_COLOR. */
 bool options_parse(struct options *o, int argc, char **argv,
                    struct error *err);
 

@@ -26,11 +26,7 @@ struct palette_facts {
 /* *is_final says that no answer of the terminal may raise it. */
 enum palette palette_guess(const struct palette_facts *facts, bool *is_final);
 
-/* "24", "256", "16" or "mono"; false for other words. */
-bool palette_of_word(const char *word, enum palette *palette);
-
-/* The word for it, and for people. */
-const char *palette_word(enum palette palette);
+/* Its name for people. */
 const char *palette_name(enum palette palette);
 
 #endif

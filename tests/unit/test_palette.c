@@ -62,25 +62,10 @@ static void guesses(void **state)
     }
 }
 
-static void words(void **state)
-{
-    enum palette palette;
-
-    (void)state;
-    assert_true(palette_of_word("24", &palette) && palette == PALETTE_24BIT);
-    assert_true(palette_of_word("256", &palette) && palette == PALETTE_256);
-    assert_true(palette_of_word("16", &palette) && palette == PALETTE_16);
-    assert_true(palette_of_word("mono", &palette) && palette == PALETTE_MONO);
-    assert_false(palette_of_word("24bit", &palette));
-    assert_false(palette_of_word("", &palette));
-    assert_string_equal(palette_name(PALETTE_24BIT), "24 bit");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(guesses),
-        cmocka_unit_test(words),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

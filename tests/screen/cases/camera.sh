@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+# Keys and mouse move the camera; c writes where it is, r goes back.
+lamp_scene
+view_of() # key, number of the eye or at value: presses it, prints the value
+{
+    keys "$1"
+    sleep 0.4
+    keys c
+    wait_for "wrote the view"
+    rm -f lamp.view.old
+    awk -v k="$2" -v n="$3" '$1 == k { print $(n + 1) }' lamp.view
+    cp lamp.view lamp.view.old
+    keys r
+    wait_for "the view as it was opened"
+}
+moved() # key, eye or at, which number, < or >, of what
+{
+    got=$(view_of "$1" "$2" "$3")
+    awk "BEGIN { exit !($got $4 $5) }" ||
+        die "after $1 $2[$3] is $got, expected $4 $5"
+}
+start lamp.obj
+wait_for "▀"
+moved w eye 3 '<' 4.99
+moved s eye 3 '>' 5.01
+moved a eye 1 '<' -0.01
+moved d eye 1 '>' 0.01
+moved Q eye 2 '<' -0.01
+moved e eye 2 '>' 0.01
+moved Up at 2 '>' 0.01
+moved Down at 2 '<' -0.01
+moved Left at 1 '<' -0.01
+moved Right at 1 '>' 0.01
+# a drag to the right turns to the right, as long as the mouse is on
+drag=$(printf '\033[<0;20;10M\033[<32;30;10M\033[<0;30;10m')
+raw_keys "$drag"
+moved x at 1 '>' 0.1
+keys m
+wait_for "mouse off"
+raw_keys "$drag"
+moved x at 1 '==' 0
+raw_keys '+'
+wait_for "speed 0.375"
+# held for a second: a way that no single tap makes
+for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    keys w
+    sleep 0.05
+done
+moved w eye 3 '<' 4.5
+keys q
+expect_end 0
+fresh
+lamp_scene
+start --phoe-keys lamp.obj
+wait_for "▀"
+moved w eye 2 '>' 0.01
+moved Q eye 3 '<' 4.99
+keys q
+expect_end 0

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+# ? opens the help over the picture, any key closes it and does nothing else.
+flat_scene
+size=100x30
+start flat.obj
+wait_for_rows 25 "48;2;188;124;0"
+keys '?'
+wait_for "save the picture as a new PNG"
+expect "Q e *move down, up"
+expect "any key closes"
+# no picture shines through the window
+row=$(screen_colors | grep "save the picture")
+inside=${row#*│}
+inside=${inside%│*}
+case $inside in
+*"48;2;"*) die "picture inside the window: $inside" ;;
+esac
+keys x
+wait_until_gone "any key closes"
+wait_for_rows 25 "48;2;188;124;0"
+reject "save the picture"
+keys '?'
+wait_for "any key closes"
+keys q # closes the help, does not quit
+wait_until_gone "any key closes"
+expect "LIVE"
+keys q
+expect_end 0
+fresh
+start --phoe-keys flat.obj
+wait_for LIVE
+keys F1
+wait_for "w s *move up, down"
+expect "Q e *move forward, back"
+keys C-c
+expect_end 130

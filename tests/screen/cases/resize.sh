@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+# Any size at any moment; what is too small says what is needed.
+flat_scene
+start --cell-aspect 2 flat.obj
+wait_for_rows 15 "48;2;188;124;0"
+mux resize-window -x 100 -y 41
+wait_for_rows 25 "48;2;188;124;0"
+mux resize-window -x 100 -y 11
+wait_for_rows 10 "48;2;188;124;0"
+mux resize-window -x 15 -y 8
+wait_for "15x8: at"
+mux resize-window -x 40 -y 2
+wait_for "window 40x2: at least 20x5 is needed"
+keys w # does nothing here
+mux resize-window -x 60 -y 21
+wait_for_rows 15 "48;2;188;124;0"
+for i in 1 2 3 4 5 6 7 8 9; do
+    mux resize-window -x $((20 + 9 * i)) -y $((5 + 3 * i))
+done
+mux resize-window -x 60 -y 21
+wait_for_rows 15 "48;2;188;124;0"
+wait_for "LIVE"
+keys '?'
+wait_for "any key closes"
+mux resize-window -x 80 -y 31
+wait_until_gone "any key closes"
+wait_for_rows 20 "48;2;188;124;0"
+keys q
+expect_end 0

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+# p never replaces a file and says where; a failure stays until a key.
+flat_scene
+mkdir sub
+mv flat.obj flat.view sub
+start sub/flat.obj
+wait_for "LIVE .* [1-9][0-9]* spp"
+keys p
+wait_for "saved flat.png 100x50, [1-9][0-9]* spp"
+keys p
+wait_for "saved flat-2.png 100x50"
+keys i # the message is seen without the status line, too
+wait_until_gone "saved"
+keys p
+wait_for "saved flat-3.png"
+wait_until_gone "saved"
+keys i
+wait_for "LIVE"
+keys c
+wait_for "wrote the view to sub/flat.view"
+keys q
+expect_end 0
+expect "^saved flat.png"
+expect "^saved flat-2.png"
+expect "^wrote the view to sub/flat.view"
+grep -q '^eye 0 0 5' sub/flat.view || die "$(cat sub/flat.view)"
+[ -s flat.png ] && [ -s flat-2.png ] && [ -s flat-3.png ]
+[ "$(id -u)" != 0 ] || exit 0 # may write everywhere
+fresh
+mkdir readonly
+chmod a-w readonly
+start_line "cd readonly && TERM=tmux-256color glim ../sub/flat.obj; cd .."
+wait_for "LIVE .* [1-9][0-9]* spp"
+keys p
+wait_for "flat.png: "
+sleep 5
+expect "flat.png: "
+keys x
+wait_for "LIVE"
+keys q
+expect_end 0

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# What can be wrong before there is a screen; keys that come too early; notes.
+flat_scene
+start nosuch.obj
+wait_for "^glim: nosuch.obj: "
+expect_end 1
+fresh
+start_line "TERM=dumb glim flat.obj"
+wait_for "^glim: TERM=dumb: this terminal cannot show a picture"
+expect_end 1
+fresh
+start_line "TERM=tmux-256color glim flat.obj </dev/null"
+wait_for "^glim: standard input is no terminal"
+expect_end 2
+fresh
+start_line "sleep 1; TERM=tmux-256color glim -b -w 2 -h 2 -s 1 -o x.png flat.obj
+TERM=tmux-256color glim flat.obj"
+keys q # long before the program
+expect_end 0
+fresh
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >dark.obj
+start dark.obj
+wait_for "no light in the scene: lit by a soft sky"
+keys q
+expect_end 0

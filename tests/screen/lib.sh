@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+# lib.sh - what the cases have in common
+#
+# A case runs in an empty folder; `start` opens a window of tmux in which the
+# program runs, the other functions press keys and look. What does not come
+# within half a minute fails.
+
+mux()
+{
+    tmux -u -S "$SOCKET" -f /dev/null "$@"
+}
+
+# Says what went wrong and ends the case.
+die()
+{
+    echo "$*"
+    exit 1
+}
+
+# Opens a window of $size cells with a shell that runs the given line. Before
+# and after it the settings of the terminal are kept in files.
+size=60x21
+start_line()
+{
+    cat >line.sh <<END
+stty -g >before
+echo "shell was here"
+$1
+status=\$?
+stty -g >after
+echo "exit \$status"
+exec sleep 1000
+END
+    mux new-session -d -x "${size%x*}" -y "${size#*x}" \
+        "exec bash --norc line.sh" \; set-option -g status off \; \
+        set-option -g window-size manual \; \
+        set-option -g default-terminal tmux-256color
+}
+
+# Runs glim with these arguments.
+start()
+{
+    start_line "TERM=tmux-256color glim $*"
+}
+
+# Ends the window, for another one.
+fresh()
+{
+    mux kill-server
+    while mux has-session 2>/dev/null; do
+        sleep 0.05
+    done
+    rm -f "$SOCKET"
+}
+
+keys()
+{
+    mux send-keys "$@"
+}
+
+# Bytes as they are.
+raw_keys()
+{
+    mux send-keys -l "$1"
+}
+
+screen()
+{
+    mux capture-pane -p
+}
+
+# With the colours as sequences, and blanks to the end of the rows.
+screen_colors()
+{
+    mux capture-pane -p -e -N
+}
+
+# Rows that have this colour. The sequence stands only where colours change, so
+# the colour is followed from cell to cell.
+rows_with()
+{
+    screen_colors | awk -v want="$1" '{
+        has = color == want && $0 != "" && substr($0, 1, 1) != "\033"
+        for (line = $0; match(line, /\033\[[0-9;]*m/);) {
+            text = substr(line, 1, RSTART - 1)
+            if (text != "" && color == want)
+                has = 1
+            code = substr(line, RSTART + 2, RLENGTH - 3)
+            if (code ~ /48;|49|^0?$|^4[0-9]/)
+                color = code
+            line = substr(line, RSTART + RLENGTH)
+        }
+        if (line != "" && color == want)
+            has = 1
+        n += has
+    } END { print n + 0 }'
+}
+
+# Waits until the screen has a line that matches.
+wait_for()
+{
+    tries=0
+    until screen | grep -q -e "$1"; do
+        tries=$((tries + 1))
+        [ $tries -lt 300 ] || die "waited for: $1"
+        sleep 0.1
+    done
+}
+
+# Waits until so many rows have the colour.
+wait_for_rows()
+{
+    tries=0
+    until [ "$(rows_with "$2")" = "$1" ]; do
+        tries=$((tries + 1))
+        [ $tries -lt 300 ] ||
+            die "waited for $1 rows of $2, found $(rows_with "$2")"
+        sleep 0.1
+    done
+}
+
+wait_until_gone()
+{
+    tries=0
+    while screen | grep -q -e "$1"; do
+        tries=$((tries + 1))
+        [ $tries -lt 300 ] || die "waited for the end of: $1"
+        sleep 0.1
+    done
+}
+
+# Waits until the command says yes.
+wait_until()
+{
+    tries=0
+    until "$@"; do
+        tries=$((tries + 1))
+        [ $tries -lt 300 ] || die "waited for: $*"
+        sleep 0.1
+    done
+}
+
+expect()
+{
+    screen | grep -q -e "$1" || die "not on the screen: $1"
+}
+
+reject()
+{
+    ! screen | grep -q -e "$1" || die "on the screen: $1"
+}
+
+# Waits for the end with this status, and that everything is as before; with
+# "cleared", what was on the screen may be gone.
+expect_end()
+{
+    wait_for "^exit $1\$"
+    [ "${2-}" = cleared ] || expect "shell was here"
+    cmp before after || die "other settings of the terminal than before"
+    flags=$(mux display-message -p '#{alternate_on}#{mouse_any_flag}#{mouse_sgr_flag}#{keypad_cursor_flag}#{cursor_flag}')
+    [ "$flags" = 00001 ] || die "modes were left on: $flags, expected 00001"
+}
+
+program_pid()
+{
+    pgrep -P "$(mux display-message -p '#{pane_pid}')" glim
+}
+
+# Its only face is behind the camera: the picture is the background in every
+# pixel, so the cells are known. 100x50 pixels; .5 .2 0 is 188 124 0 in sRGB.
+flat_scene()
+{
+    printf 'v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n' >flat.obj
+    printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground .5 .2 0\n' >flat.view
+}
+
+# A triangle that shines, seen from the front: moving changes the picture. The
+# seen colours are its own, exactly, and black.
+lamp_scene()
+{
+    printf 'newmtl l\nKd 0 0 0\nKe 1 1 1\n' >lamp.mtl
+    printf 'mtllib lamp.mtl\nusemtl l\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' \
+        >lamp.obj
+    printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground 0 0 0\n' >lamp.view
+}
