@@ -126,6 +126,7 @@ static void make_glass(struct material *m, uint32_t kind,
 {
     m->kind = kind;
     m->color = reflecting(&s->tf, "Tf", 1, at);
+    m->color_texture = s->map_kd;
     m->alpha = kind == MATERIAL_GLASS ? (float)roughness(s, at) : 0;
     m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
 }
@@ -135,7 +136,6 @@ static bool is_black(const struct vec3 *c)
     return c->x == 0 && c->y == 0 && c->z == 0;
 }
 
-/* A map_Kd goes with the colour Kd; other colours have no map yet. */
 static void make_opaque(struct material *m, int illum,
                         const struct mtl_source *s, const struct place *at)
 {
@@ -149,12 +149,23 @@ static void make_opaque(struct material *m, int illum,
     if (pm >= 0.5) {
         m->kind = MATERIAL_METAL;
         m->alpha = (float)roughness(s, at);
-    } else if ((illum == 3 || illum == 5) && !is_black(&ks)) {
+    } else if ((illum == 3 || illum == 5) &&
+               (!is_black(&ks) || s->map_ks != NO_INDEX)) {
         m->kind = MATERIAL_METAL;
         m->color = ks;
-        m->color_texture = NO_INDEX;
+        m->color_texture = s->map_ks;
         m->alpha = (float)roughness(s, at);
     }
+}
+
+static void check_map(uint32_t map, const char *key, const struct material *m,
+                      const struct place *at)
+{
+    if (map != NO_INDEX && map != m->color_texture)
+        report_add(at->report, "maps that do not fit their material",
+                   "%s: found %s of a material that has no such colour: not "
+                   "used",
+                   at->path, key);
 }
 
 struct material material_from_source(const struct mtl_source *s,
@@ -170,11 +181,8 @@ struct material material_from_source(const struct mtl_source *s,
         make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
     else
         make_opaque(&m, illum, s, &at);
-    if (s->map_kd != NO_INDEX && m.color_texture == NO_INDEX)
-        report_add(report, "maps on glass and mirrors",
-                   "%s: found map_Kd on glass or a mirror, which has no colour "
-                   "Kd: not used",
-                   path);
+    check_map(s->map_kd, "map_Kd", &m, &at);
+    check_map(s->map_ks, "map_Ks", &m, &at);
     m.emission = emission(&s->ke, &at);
     m.emission_texture = s->map_ke;
     return m;

@@ -149,7 +149,9 @@ static bool read_newmtl(struct parser *p)
     free(p->name);
     p->name_line = p->lex.line;
     p->name = lex_rest(&p->lex);
-    p->source = (struct mtl_source){.map_kd = NO_INDEX, .map_ke = NO_INDEX};
+    p->source = (struct mtl_source){.map_kd = NO_INDEX,
+                                    .map_ks = NO_INDEX,
+                                    .map_ke = NO_INDEX};
     return p->name != NULL || out_of_memory(p);
 }
 
@@ -323,7 +325,7 @@ static bool read_property(struct parser *p, struct word key)
         {"d", NULL, &s->d, NULL},           {"Tr", NULL, &s->tr, NULL},
         {"illum", NULL, &s->illum, NULL},   {"Pr", NULL, &s->pr, NULL},
         {"Pm", NULL, &s->pm, NULL},         {"map_Kd", NULL, NULL, &s->map_kd},
-        {"map_Ke", NULL, NULL, &s->map_ke},
+        {"map_Ks", NULL, NULL, &s->map_ks}, {"map_Ke", NULL, NULL, &s->map_ke},
     };
 
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {

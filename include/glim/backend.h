@@ -14,11 +14,7 @@
 #include "glim/pool.h"
 #include "kernels/types.h"
 
-enum pass_result {
-    PASS_DONE,
-    PASS_CANCELLED,
-    PASS_FAILED
-};
+enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 
 /* One pass: every pixel of the grid (0, stride, 2 stride, ...) in both
  * directions that has fewer than `target` samples gets up to that many. */

@@ -14,7 +14,7 @@
 #include "glim/util.h"
 
 /* Neither side of an image may be longer, nor its pixels be more. */
-#define IMAGE_SIDE_MAX 32768
+#define IMAGE_SIDE_MAX   32768
 #define IMAGE_PIXELS_MAX (256u << 20)
 
 struct image {

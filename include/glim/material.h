@@ -3,10 +3,11 @@
  * material.h - what an MTL file says about a material, and what glim makes of
  * it
  *
- * illum 6, 7: glass; 4, 9: thin glass; tinted by Tf. Else Pm of one half and
- * more: metal of colour Kd. Else illum 3, 5 with Ks that is not black: metal of
- * colour Ks. Else diffuse, colour Kd. Roughness alpha is Pr squared, or
- * sqrt(2 / (Ns + 2)), or 0 where Ns is absent, 0 or 1000 and more.
+ * illum 6, 7: glass; 4, 9: thin glass; tinted by Tf times map_Kd. Else Pm of
+ * one half and more: metal of colour Kd. Else illum 3, 5 with Ks that is not
+ * black, or with map_Ks: metal of colour Ks. Else diffuse, colour Kd. A map
+ * multiplies its colour. Roughness alpha is Pr squared, or sqrt(2 / (Ns + 2)),
+ * or 0 where Ns is absent, 0 or 1000 and more.
  *
  * Units:     none
  * Ownership: none
@@ -36,7 +37,7 @@ struct mtl_color {
 struct mtl_source {
     struct mtl_color kd, ks, ke, tf;
     struct mtl_number illum, ns, ni, d, tr, pr, pm;
-    uint32_t map_kd, map_ke; /* number of a texture, or NO_INDEX */
+    uint32_t map_kd, map_ks, map_ke; /* number of a texture, or NO_INDEX */
 };
 
 struct material material_default(void);

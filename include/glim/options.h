@@ -13,13 +13,7 @@
 #include "glim/render.h"
 #include "glim/util.h"
 
-enum color_mode {
-    COLOR_AUTO,
-    COLOR_MONO,
-    COLOR_16,
-    COLOR_256,
-    COLOR_24BIT
-};
+enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
 
 enum glyph_mode {
     GLYPH_AUTO,
@@ -37,24 +31,23 @@ struct options {
     int width_px, height_px; /* 0: not given */
     uint64_t spp;            /* 16 by default */
     bool has_spp;
-    int thread_count;        /* 0: what the process may use */
-    int max_bounces;         /* -1: no limit */
+    int thread_count; /* 0: what the process may use */
+    int max_bounces;  /* -1: no limit */
     bool has_max_bounces;
     uint32_t seed;
     bool batch;
     bool up_is_z;
     bool has_crop;
     struct rect crop;
-    bool phoe_keys;      /* W S A D Q E as phoe_ray had them */
+    bool phoe_keys; /* W S A D Q E as phoe_ray had them */
     enum color_mode color;
     enum glyph_mode glyph;
-    double cell_aspect;  /* height of a cell over its width; 0: ask */
+    double cell_aspect; /* height of a cell over its width; 0: ask */
     bool show_help, show_version;
 };
 
 /* Fills *o from argv, and for the screen from GLIM_COLOR. */
-bool options_parse(struct options *o, int argc, char **argv,
-                   struct error *err);
+bool options_parse(struct options *o, int argc, char **argv, struct error *err);
 
 /* The text of --help. */
 extern const char options_help[];

@@ -13,12 +13,7 @@
 
 #include "glim/film.h"
 
-enum picture_format {
-    PICTURE_PNG,
-    PICTURE_HDR,
-    PICTURE_PFM,
-    PICTURE_UNKNOWN
-};
+enum picture_format { PICTURE_PNG, PICTURE_HDR, PICTURE_PFM, PICTURE_UNKNOWN };
 
 /* By the end of the name; "-" is PNG. */
 enum picture_format picture_format_of(const char *path);

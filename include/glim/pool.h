@@ -3,7 +3,8 @@
  * pool.h - worker threads and cancellation
  *
  * A pool runs one job at a time: a function over the numbers 0..count-1. Each
- * worker owns a range of them and steals half of another's when its own is done.
+ * worker owns a range of them and steals half of another's when its own is
+ * done.
  *
  * Units:     none
  * Ownership: pool_create() returns a pool for pool_destroy(); a job's context

@@ -76,10 +76,12 @@ bool scene_finish(struct scene *scene, struct report *report,
 bool scene_load_sky(struct scene *scene, const struct view *view,
                     struct report *report, struct error *err);
 
-/* Sets eye and at so that the whole scene is seen, keeping fovy, size and up. */
+/* Sets eye and at so that the whole scene is seen, keeping fovy, size and up.
+ */
 void scene_frame(const struct scene *scene, struct view *view);
 
-/* Fills all of *world but nodes and leaf_tris. False for an impossible camera. */
+/* Fills all of *world but nodes and leaf_tris. False for an impossible camera.
+ */
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err);
 

@@ -35,7 +35,8 @@ struct view {
 /* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
 void view_init(struct view *view);
 
-/* Reads `key value` lines over what `view` holds. An unknown key is a warning. */
+/* Reads `key value` lines over what `view` holds. An unknown key is a warning.
+ */
 bool view_read(struct view *view, const char *path, struct report *report,
                struct error *err);
 

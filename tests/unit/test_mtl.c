@@ -279,7 +279,10 @@ static void test_maps_are_shared(void **state)
 {
     struct loaded l =
         load("newmtl a\nmap_Kd t.png\nmap_Ke t.png\nnewmtl b\nmap_Kd u.png\n"
-             "newmtl c\nmap_Kd t.png\nillum 7\n");
+             "newmtl c\nmap_Kd t.png\nillum 7\n"
+             "newmtl d\nmap_Kd u.png\nillum 3\nKs 1 1 1\nmap_Ks t.png\n"
+             "newmtl e\nmap_Kd u.png\nmap_Ks t.png\n"
+             "newmtl f\nillum 5\nmap_Ks u.png\n");
     const struct material *m = l.scene.materials;
 
     (void)state;
@@ -288,8 +291,16 @@ static void test_maps_are_shared(void **state)
     assert_int_equal(m[1].color_texture, 0);
     assert_int_equal(m[1].emission_texture, 0);
     assert_int_equal(m[2].color_texture, 1);
-    assert_int_equal(m[3].color_texture, NO_INDEX);
+    assert_int_equal(m[3].kind, MATERIAL_GLASS);
+    assert_int_equal(m[3].color_texture, 0);
+    assert_int_equal(m[4].kind, MATERIAL_METAL);
+    assert_int_equal(m[4].color_texture, 0);
+    assert_int_equal(m[5].kind, MATERIAL_DIFFUSE);
+    assert_int_equal(m[5].color_texture, 1);
+    assert_int_equal(m[6].kind, MATERIAL_METAL);
+    assert_int_equal(m[6].color_texture, 1);
     assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entries[0].count, 2);
     unload(&l);
 }
 
