@@ -164,7 +164,7 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
             out.radiance = v3_add(out.radiance,
                                   v3_mul(v3_scale(beta, eta_scale),
                                          emission_at(w, &m, v.uv, v.has_uv)));
-        if (vertex >= w->max_vertices) {
+        if (vertex >= w->settings.max_vertices) {
             out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
             break;
         }
@@ -195,10 +195,10 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                                 struct path_sample *out)
 {
     for (uint32_t i = 0; i < count; i++) {
-        struct sampler s = sampler_start(x, y, first + i, w->seed);
+        struct sampler s = sampler_start(x, y, first + i, w->settings.seed);
         struct vec2 offset = random_2d(s, DIMENSION_PIXEL);
 
-        out[i] = path_trace(w, camera_ray(w->camera, x, y, offset), s);
+        out[i] = path_trace(w, camera_ray(w->settings.camera, x, y, offset), s);
     }
 }
 

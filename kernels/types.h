@@ -105,11 +105,20 @@ enum feature {
     FEATURE_COVERAGE = 1u /* some material or texture lets rays pass */
 };
 
+/* What a sample reads beside arrays. */
+struct settings {
+    struct camera camera;
+    struct sky sky;
+    uint32_t tri_count;
+    uint32_t max_vertices; /* surface vertices of a path, emitter included */
+    uint32_t seed;
+    uint32_t features; /* enum feature, or-ed */
+};
+
 /* What a sample reads, nothing more. nodes and leaf_tris belong to the
  * backend, the rest to the scene. */
 struct world {
-    struct camera camera;
-    struct sky sky;
+    struct settings settings;
     GLOBAL const struct vec3 *positions;
     GLOBAL const struct vec3 *normals;
     GLOBAL const struct vec2 *uvs;
@@ -121,10 +130,6 @@ struct world {
     GLOBAL const struct vec3 *sky_texels; /* row 0 is +y */
     GLOBAL const struct node *nodes;
     GLOBAL const struct leaf_tri *leaf_tris;
-    uint32_t tri_count;
-    uint32_t max_vertices; /* surface vertices of a path, emitter included */
-    uint32_t seed;
-    uint32_t features; /* enum feature, or-ed */
 };
 
 struct ray {

@@ -422,7 +422,16 @@ bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err)
 {
     struct world w = {
-        .sky = make_sky(scene, view),
+        .settings =
+            {
+                .sky = make_sky(scene, view),
+                .tri_count = scene->tri_count,
+                .max_vertices = view->max_bounces < 0
+                                    ? VERTICES_MAX
+                                    : (uint32_t)view->max_bounces + 1,
+                .seed = seed,
+                .features = find_features(scene),
+            },
         .positions = scene->positions,
         .normals = scene->normals,
         .uvs = scene->uvs,
@@ -432,15 +441,10 @@ bool scene_world(const struct scene *scene, const struct view *view,
         .texels = scene->texels,
         .linear_of_srgb = scene->linear_of_srgb,
         .sky_texels = scene->sky_texels,
-        .tri_count = scene->tri_count,
-        .max_vertices = view->max_bounces < 0 ? VERTICES_MAX
-                                              : (uint32_t)view->max_bounces + 1,
-        .seed = seed,
-        .features = find_features(scene),
     };
 
     if (!view_check(view, "camera", err) ||
-        !make_camera(scene, view, &w.camera, err))
+        !make_camera(scene, view, &w.settings.camera, err))
         return false;
     *world = w;
     return true;

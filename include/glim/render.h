@@ -26,7 +26,7 @@ struct rect {
 struct render_job {
     struct world world;
     bool geometry_changed; /* since the last start: the backend loads anew */
-    struct rect crop;      /* in the picture that world.camera has */
+    struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
 };
 

@@ -23,12 +23,12 @@ static void make_room(struct mesh *m)
     mesh_add_quad(m, v3(-0.4f, 0.99f, -0.4f), v3(0.4f, 0.99f, -0.4f),
                   v3(0.4f, 0.99f, 0.4f), v3(-0.4f, 0.99f, 0.4f), 1);
     mesh_add_sphere(m, v3(0, -0.5f, 0), 0.4f, 12, 20, 2);
-    m->world.camera = (struct camera){.eye = {0, 0, 0.95f},
-                                      .width = WIDTH,
-                                      .forward = {0, 0, -1},
-                                      .height = HEIGHT,
-                                      .right = {0.8f, 0, 0},
-                                      .up = {0, 0.5f, 0}};
+    m->world.settings.camera = (struct camera){.eye = {0, 0, 0.95f},
+                                               .width = WIDTH,
+                                               .forward = {0, 0, -1},
+                                               .height = HEIGHT,
+                                               .right = {0.8f, 0, 0},
+                                               .up = {0, 0.5f, 0}};
     mesh_finish(m);
 }
 
@@ -137,7 +137,7 @@ static void restarts_begin_anew(void **state)
     assert_true(render_start(r, &job, &err));
     for (int i = 0; i < 30; i++) {
         job.geometry_changed = false;
-        job.world.camera.eye.x = 0.01f * (float)i;
+        job.world.settings.camera.eye.x = 0.01f * (float)i;
         job.spp = i == 29 ? 5 : 0;
         usleep(1000);
         assert_true(render_start(r, &job, &err));
