@@ -108,7 +108,8 @@ static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
         if (h.t == best->t && t.tri > best->tri)
             continue;
         h.tri = t.tri;
-        if ((w->settings.features & FEATURE_COVERAGE) != 0 &&
+        if (HAS(FEATURE_COVERAGE) &&
+            (w->settings.features & FEATURE_COVERAGE) != 0 &&
             !hit_is_solid(w, r, h))
             continue;
         *best = h;

@@ -13,6 +13,7 @@
 #define KERNELS_TYPES_H
 
 #include "kernels/dialect.h"
+#include "kernels/features.h"
 
 #define NO_INDEX 0xffffffffu
 
@@ -98,11 +99,6 @@ struct node {
 struct leaf_tri {
     struct vec3 p0, p1, p2;
     uint32_t tri;
-};
-
-/* What the scene has, so that a sample can skip what it has not. */
-enum feature {
-    FEATURE_COVERAGE = 1u /* some material or texture lets rays pass */
 };
 
 /* What a sample reads beside arrays. */

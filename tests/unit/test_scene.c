@@ -502,7 +502,7 @@ static void test_coverage(void **state)
         view_init(&view);
         scene_frame(&l.scene, &view);
         assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
-        assert_int_equal(w.settings.features,
+        assert_int_equal(w.settings.features & FEATURE_COVERAGE,
                          i == 1 || i == 2 ? FEATURE_COVERAGE : 0);
         view_free(&view);
         unload(&l);
