@@ -105,10 +105,19 @@ struct leaf_tri {
 struct settings {
     struct camera camera;
     struct sky sky;
-    uint32_t tri_count;
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
     uint32_t features; /* enum feature, or-ed */
+
+    /* lengths of the world's arrays */
+    uint32_t tri_count;
+    uint32_t position_count;
+    uint32_t normal_count;
+    uint32_t uv_count;
+    uint32_t material_count;
+    uint32_t texture_count;
+    uint32_t texel_count;
+    uint32_t pad[2];
 };
 
 /* What a sample reads, nothing more. nodes and leaf_tris belong to the

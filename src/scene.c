@@ -457,6 +457,12 @@ bool scene_world(const struct scene *scene, const struct view *view,
             {
                 .sky = make_sky(scene, view),
                 .tri_count = scene->tri_count,
+                .position_count = scene->position_count,
+                .normal_count = scene->normal_count,
+                .uv_count = scene->uv_count,
+                .material_count = scene->material_count,
+                .texture_count = scene->texture_count,
+                .texel_count = (uint32_t)scene->texel_count,
                 .max_vertices = view->max_bounces < 0
                                     ? VERTICES_MAX
                                     : (uint32_t)view->max_bounces + 1,

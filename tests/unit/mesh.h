@@ -118,6 +118,8 @@ static inline void mesh_finish(struct mesh *m)
     w->positions = m->positions;
     w->tris = m->tris;
     w->settings.tri_count = m->tri_count;
+    w->settings.position_count = 3 * m->tri_count;
+    w->settings.material_count = 4;
     w->materials = m->materials;
     if (w->settings.max_vertices == 0)
         w->settings.max_vertices = 1000;
