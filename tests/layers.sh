@@ -13,8 +13,8 @@ cd "$(dirname "$0")/.." || exit 1
 HEADERLESS='main stb backend_cpu'
 
 {
-    find src include kernels scenes tests -name '*.[ch]'
-    find scenes tests .ci -name '*.sh' -o -path .ci/run
+    find src include kernels scenes tests -name '*.[ch]' -o -name '*.cl'
+    find kernels scenes tests .ci -name '*.sh' -o -path .ci/run
 } | sort | awk -v headerless="$HEADERLESS" '
 function fault(text)
 {
@@ -64,6 +64,8 @@ function check_include(name, is_system,    kernel)
             fault("kernels include libc only in dialect.h: <" name ">")
         if (name ~ /curses|^term(info|cap)?\.h$/ && stem !~ /^(tui.*|term)$/)
             fault("only tui and term include <" name ">")
+        if (name ~ /^CL\// && stem !~ /^(cl_.*|backend_cl)$/)
+            fault("only cl_* and backend_cl include <" name ">")
         return
     }
     if (kernel && name !~ /^kernels\//)

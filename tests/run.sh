@@ -7,6 +7,9 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build/release}
+# what PoCL has compiled, apart from the person's own
+POCL_CACHE_DIR=$(realpath "$BUILD")/pocl
+export POCL_CACHE_DIR
 SAN=${SAN-}
 FILTER=${FILTER-}
 log=$(mktemp)

@@ -21,7 +21,8 @@ export PATH CLI root
 ASAN_OPTIONS=allocator_may_return_null=1:${ASAN_OPTIONS-}
 TSAN_OPTIONS=allocator_may_return_null=1:${TSAN_OPTIONS-}
 LC_ALL=C
-export ASAN_OPTIONS TSAN_OPTIONS LC_ALL
+POCL_CACHE_DIR=$build/pocl
+export ASAN_OPTIONS TSAN_OPTIONS LC_ALL POCL_CACHE_DIR
 unset NO_COLOR GLIM_COLOR COLORTERM
 
 if [ ! -x "$build/glim" ]; then
