@@ -10,6 +10,8 @@
 #include <stdlib.h>
 
 #include "glim/bvh.h"
+#include "glim/cl_kernels.h"
+#include "glim/cl_source.h"
 #include "glim/cl_world.h"
 #include "kernels/start.h"
 #include "kernels/task.h"
@@ -412,14 +414,14 @@ static bool share_cancel(struct backend_cl *b, const struct cancel *cancel,
                          struct error *err)
 {
     static const uint32_t never = 0;
-    bool is_cpu = b->machine.device.is_cpu;
+    bool is_cpu = b->machine.device->is_cpu;
 
     if (b->cancel_source == cancel)
         return true;
     cl_machine_drop(&b->machine, &b->cancel);
     b->cancel =
         cl_machine_buffer(&b->machine,
-                          is_cpu ? (const void *)&cancel->requested : &never,
+                          is_cpu ? (const void *)cancel : &never,
                           sizeof never, true, err);
     b->cancel_source = b->cancel != NULL ? cancel : NULL;
     return b->cancel != NULL;
@@ -489,19 +491,37 @@ static void cl_destroy(struct backend *base)
     free(b);
 }
 
-struct backend *backend_cl_create(const struct cl_machine *machine,
-                                  const struct cl_kernels *kernels)
+static bool build_kernels(struct backend_cl *b, const struct cl_request *r,
+                          char **log, struct error *err)
+{
+    char *text = cl_source_text(r->kernels_path, err);
+    bool ok = text != NULL && cl_kernels_build(&b->kernels, &b->machine, text,
+                                               r->features, log, err);
+
+    free(text);
+    return ok;
+}
+
+struct backend *backend_cl_create(const struct cl_request *r, char **log,
+                                  struct error *err)
 {
     struct backend_cl *b = xcalloc(1, sizeof *b);
 
-    b->machine = *machine;
-    b->kernels = *kernels;
+    *log = NULL;
+    if (!cl_machine_open(&b->machine, r->device, err)) {
+        free(b);
+        return NULL;
+    }
     b->task_paths = TASK_PATHS_FIRST;
     b->base.name = "opencl";
-    b->base.thread_count = (int)machine->device.compute_units;
+    b->base.device = b->machine.device->name;
+    b->base.thread_count = (int)b->machine.device->compute_units;
     b->base.load = cl_load;
     b->base.begin = cl_begin;
     b->base.pass = cl_pass;
     b->base.destroy = cl_destroy;
-    return &b->base;
+    if (build_kernels(b, r, log, err))
+        return &b->base;
+    cl_destroy(&b->base);
+    return NULL;
 }

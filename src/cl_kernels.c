@@ -10,10 +10,10 @@ static char *build_log(const struct cl_kernels *k, const struct cl_machine *m)
     size_t size_bytes = 0;
     char *log;
 
-    m->api->GetProgramBuildInfo(k->program, m->device.id, CL_PROGRAM_BUILD_LOG,
+    m->api->GetProgramBuildInfo(k->program, m->device->id, CL_PROGRAM_BUILD_LOG,
                                 0, NULL, &size_bytes);
     log = xcalloc(1, size_bytes + 1);
-    m->api->GetProgramBuildInfo(k->program, m->device.id, CL_PROGRAM_BUILD_LOG,
+    m->api->GetProgramBuildInfo(k->program, m->device->id, CL_PROGRAM_BUILD_LOG,
                                 size_bytes, log, NULL);
     return log;
 }
@@ -42,17 +42,17 @@ static bool compile(struct cl_kernels *k, const struct cl_machine *m,
     /* x / y and sqrt(x) as IEEE 754 has them, where the device can */
     snprintf(options, sizeof options, "-cl-std=CL1.2 -Werror -DFEATURES=%uu%s",
              k->features,
-             m->device.has_correct_divide
+             m->device->has_correct_divide
                  ? " -cl-fp32-correctly-rounded-divide-sqrt"
                  : "");
     code =
-        m->api->BuildProgram(k->program, 1, &m->device.id, options, NULL, NULL);
+        m->api->BuildProgram(k->program, 1, &m->device->id, options, NULL, NULL);
     if (code == CL_SUCCESS)
         return true;
     *log = build_log(k, m);
     length = first_message(*log, &line);
     return fail(err, "OpenCL device %s: the kernels do not compile: %.*s",
-                m->device.name, length, length > 0 ? line : "");
+                m->device->name, length, length > 0 ? line : "");
 }
 
 static bool find_kernel(struct cl_kernels *k, const struct cl_machine *m,

@@ -11,34 +11,34 @@ bool cl_machine_check(const struct cl_machine *m, cl_int code, const char *call,
 {
     if (code == CL_SUCCESS)
         return true;
-    return fail(err, "OpenCL device %s: %s: %s", m->device.name, call,
+    return fail(err, "OpenCL device %s: %s: %s", m->device->name, call,
                 cl_error_name(code));
 }
 
-bool cl_machine_open(struct cl_machine *m, const struct cl_device *device,
-                     struct error *err)
+static bool open_device(struct cl_machine *m, struct error *err)
 {
     const cl_context_properties properties[] = {
-        CL_CONTEXT_PLATFORM, (cl_context_properties)device->platform, 0};
+        CL_CONTEXT_PLATFORM, (cl_context_properties)m->device->platform, 0};
     cl_int code;
 
-    *m = (struct cl_machine){.device = *device};
-    m->api = cl_api_open(err);
-    if (m->api == NULL)
+    m->context = m->api->CreateContext(properties, 1, &m->device->id, NULL,
+                                       NULL, &code);
+    if (!cl_machine_check(m, code, "clCreateContext", err))
         return false;
-    m->context =
-        m->api->CreateContext(properties, 1, &device->id, NULL, NULL, &code);
-    if (!cl_machine_check(m, code, "clCreateContext", err)) {
-        m->context = NULL;
+    m->queue = m->api->CreateCommandQueue(m->context, m->device->id, 0, &code);
+    return cl_machine_check(m, code, "clCreateCommandQueue", err);
+}
+
+bool cl_machine_open(struct cl_machine *m, const char *word, struct error *err)
+{
+    *m = (struct cl_machine){.api = cl_api_open(err)};
+    if (m->api == NULL || !cl_device_list(&m->devices, err))
         return false;
-    }
-    m->queue = m->api->CreateCommandQueue(m->context, device->id, 0, &code);
-    if (!cl_machine_check(m, code, "clCreateCommandQueue", err)) {
-        m->queue = NULL;
-        cl_machine_close(m);
-        return false;
-    }
-    return true;
+    m->device = cl_device_find(&m->devices, word, err);
+    if (m->device != NULL && open_device(m, err))
+        return true;
+    cl_machine_close(m);
+    return false;
 }
 
 void cl_machine_close(struct cl_machine *m)
@@ -47,6 +47,7 @@ void cl_machine_close(struct cl_machine *m)
         m->api->ReleaseCommandQueue(m->queue);
     if (m->context != NULL)
         m->api->ReleaseContext(m->context);
+    cl_devices_free(&m->devices);
     *m = (struct cl_machine){0};
 }
 
@@ -58,12 +59,12 @@ cl_mem cl_machine_buffer(const struct cl_machine *m, const void *data,
     cl_mem buffer;
     cl_int code;
 
-    if (size_bytes > m->device.max_alloc_bytes) {
+    if (size_bytes > m->device->max_alloc_bytes) {
         fail(err,
              "OpenCL device %s: found an array of %.1f MiB, expected at most "
              "%.1f MiB",
-             m->device.name, (double)size_bytes / (1 << 20),
-             (double)m->device.max_alloc_bytes / (1 << 20));
+             m->device->name, (double)size_bytes / (1 << 20),
+             (double)m->device->max_alloc_bytes / (1 << 20));
         return NULL;
     }
     if (size_bytes == 0) { /* which OpenCL refuses */
@@ -72,7 +73,7 @@ cl_mem cl_machine_buffer(const struct cl_machine *m, const void *data,
         shared = false;
     }
     if (data != NULL)
-        flags |= shared && m->device.is_cpu ? CL_MEM_USE_HOST_PTR
+        flags |= shared && m->device->is_cpu ? CL_MEM_USE_HOST_PTR
                                             : CL_MEM_COPY_HOST_PTR;
     buffer = m->api->CreateBuffer(m->context, flags, size_bytes,
                                   (void *)(uintptr_t)data, &code);
@@ -93,7 +94,7 @@ bool cl_machine_wait(const struct cl_machine *m, cl_event *event,
     cl_int status = CL_QUEUED;
     cl_int code = CL_SUCCESS;
 
-    if (m->device.is_cpu) /* its threads do the work: sleep */
+    if (m->device->is_cpu) /* its threads do the work: sleep */
         code = m->api->WaitForEvents(1, event);
     while (code == CL_SUCCESS && status > CL_COMPLETE) {
         code = m->api->GetEventInfo(*event, CL_EVENT_COMMAND_EXECUTION_STATUS,

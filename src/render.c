@@ -165,7 +165,6 @@ struct render *render_create(struct backend *backend, struct error *err)
     r->event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (r->event_fd < 0) {
         fail(err, "render: no event descriptor: %s", strerror(errno));
-        backend->destroy(backend);
         free(r);
         return NULL;
     }
@@ -181,7 +180,6 @@ struct render *render_create(struct backend *backend, struct error *err)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (reason != 0) {
         fail(err, "render: no thread: %s", strerror(reason));
-        backend->destroy(backend);
         close(r->event_fd);
         free(r);
         return NULL;
@@ -307,7 +305,14 @@ struct film *render_film(struct render *r)
     return &r->film;
 }
 
-const struct backend *render_backend(const struct render *r)
+void render_use(struct render *r, struct backend *backend)
+{
+    render_halt(r);
+    r->backend = backend;
+    r->job.geometry_changed = true;
+}
+
+struct backend *render_backend(const struct render *r)
 {
     return r->backend;
 }
@@ -327,6 +332,5 @@ void render_destroy(struct render *r)
     pthread_cond_destroy(&r->end);
     close(r->event_fd);
     film_free(&r->film);
-    r->backend->destroy(r->backend);
     free(r);
 }

@@ -26,7 +26,8 @@ struct pass {
 };
 
 struct backend {
-    const char *name; /* "cpu" */
+    const char *name;   /* "cpu", "opencl" */
+    const char *device; /* which, or NULL */
     int thread_count;
 
     /* New geometry: builds what the ray queries need. The arrays of the world

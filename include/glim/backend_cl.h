@@ -3,17 +3,25 @@
  * backend_cl.h - renders on an OpenCL device
  *
  * Units:     none
- * Ownership: backend_cl_create() takes the machine and the kernels over
+ * Ownership: see backend.h; *log is the caller's to free
  * Threads:   see backend.h
- * Errors:    a device that fails in the middle makes pass() fail
+ * Errors:    no such device, kernels that do not compile: *log is what the
+ *            compiler said then, else NULL; a device that fails in the middle
+ *            makes pass() fail
  */
 #ifndef GLIM_BACKEND_CL_H
 #define GLIM_BACKEND_CL_H
 
 #include "glim/backend.h"
-#include "glim/cl_kernels.h"
 
-struct backend *backend_cl_create(const struct cl_machine *machine,
-                                  const struct cl_kernels *kernels);
+struct cl_request {
+    const char *device;       /* as cl_device_find() has it; NULL: the best */
+    const char *kernels_path; /* folder, or NULL for those in the program */
+    uint32_t features;        /* what the kernels are built for */
+};
+
+/* Drivers have been seen to crash here: cl_probe() first. */
+struct backend *backend_cl_create(const struct cl_request *request, char **log,
+                                  struct error *err);
 
 #endif

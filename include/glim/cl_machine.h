@@ -14,12 +14,14 @@
 
 struct cl_machine {
     const struct cl_api *api;
-    struct cl_device device;
+    struct cl_devices devices;
+    const struct cl_device *device; /* one of them */
     cl_context context;
     cl_command_queue queue; /* in order */
 };
 
-bool cl_machine_open(struct cl_machine *m, const struct cl_device *device,
+/* Opens the device that cl_device_find() finds for the word. */
+bool cl_machine_open(struct cl_machine *m, const char *word,
                      struct error *err);
 void cl_machine_close(struct cl_machine *m);
 

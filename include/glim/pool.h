@@ -19,8 +19,9 @@
 
 #include "glim/util.h"
 
+/* An OpenCL kernel looks at it as one 32-bit word. */
 struct cancel {
-    atomic_uint requested; /* 0 or 1; an OpenCL kernel may look at it */
+    atomic_uint requested;
 };
 
 static inline void cancel_request(struct cancel *c)
