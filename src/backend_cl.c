@@ -420,8 +420,7 @@ static bool share_cancel(struct backend_cl *b, const struct cancel *cancel,
         return true;
     cl_machine_drop(&b->machine, &b->cancel);
     b->cancel =
-        cl_machine_buffer(&b->machine,
-                          is_cpu ? (const void *)cancel : &never,
+        cl_machine_buffer(&b->machine, is_cpu ? (const void *)cancel : &never,
                           sizeof never, true, err);
     b->cancel_source = b->cancel != NULL ? cancel : NULL;
     return b->cancel != NULL;
@@ -502,19 +501,32 @@ static bool build_kernels(struct backend_cl *b, const struct cl_request *r,
     return ok;
 }
 
+static bool open_machine(struct cl_machine *m, const struct cl_request *r,
+                         struct error *err)
+{
+    if (!cl_machine_open(m, r->device, err))
+        return false;
+    if (!r->needs_gpu || m->device->is_gpu)
+        return true;
+    fail(err, "OpenCL: found no GPU, but %s", m->device->name);
+    cl_machine_close(m);
+    return false;
+}
+
 struct backend *backend_cl_create(const struct cl_request *r, char **log,
                                   struct error *err)
 {
     struct backend_cl *b = xcalloc(1, sizeof *b);
 
     *log = NULL;
-    if (!cl_machine_open(&b->machine, r->device, err)) {
+    if (!open_machine(&b->machine, r, err)) {
         free(b);
         return NULL;
     }
     b->task_paths = TASK_PATHS_FIRST;
     b->base.name = "opencl";
     b->base.device = b->machine.device->name;
+    b->base.driver = b->machine.device->driver_version;
     b->base.thread_count = (int)b->machine.device->compute_units;
     b->base.load = cl_load;
     b->base.begin = cl_begin;

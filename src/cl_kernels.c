@@ -45,8 +45,8 @@ static bool compile(struct cl_kernels *k, const struct cl_machine *m,
              m->device->has_correct_divide
                  ? " -cl-fp32-correctly-rounded-divide-sqrt"
                  : "");
-    code =
-        m->api->BuildProgram(k->program, 1, &m->device->id, options, NULL, NULL);
+    code = m->api->BuildProgram(k->program, 1, &m->device->id, options, NULL,
+                                NULL);
     if (code == CL_SUCCESS)
         return true;
     *log = build_log(k, m);

@@ -21,8 +21,8 @@ static bool open_device(struct cl_machine *m, struct error *err)
         CL_CONTEXT_PLATFORM, (cl_context_properties)m->device->platform, 0};
     cl_int code;
 
-    m->context = m->api->CreateContext(properties, 1, &m->device->id, NULL,
-                                       NULL, &code);
+    m->context =
+        m->api->CreateContext(properties, 1, &m->device->id, NULL, NULL, &code);
     if (!cl_machine_check(m, code, "clCreateContext", err))
         return false;
     m->queue = m->api->CreateCommandQueue(m->context, m->device->id, 0, &code);
@@ -74,7 +74,7 @@ cl_mem cl_machine_buffer(const struct cl_machine *m, const void *data,
     }
     if (data != NULL)
         flags |= shared && m->device->is_cpu ? CL_MEM_USE_HOST_PTR
-                                            : CL_MEM_COPY_HOST_PTR;
+                                             : CL_MEM_COPY_HOST_PTR;
     buffer = m->api->CreateBuffer(m->context, flags, size_bytes,
                                   (void *)(uintptr_t)data, &code);
     return cl_machine_check(m, code, "clCreateBuffer", err) ? buffer : NULL;

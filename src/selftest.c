@@ -49,12 +49,12 @@ static const char faces[] = "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\n"
 static bool make_scene(struct scene *scene, struct error *err)
 {
     struct report report = {0};
-    bool ok = mtl_add_default(scene, err) &&
-              mtl_parse(scene, materials, sizeof materials - 1, "self-test",
-                        &report, err) &&
-              obj_parse(scene, faces, sizeof faces - 1, "self-test", &report,
-                        err) &&
-              scene_finish(scene, &report, err);
+    bool ok =
+        mtl_add_default(scene, err) &&
+        mtl_parse(scene, materials, sizeof materials - 1, "self-test", &report,
+                  err) &&
+        obj_parse(scene, faces, sizeof faces - 1, "self-test", &report, err) &&
+        scene_finish(scene, &report, err);
 
     report_free(&report);
     return ok;

@@ -27,7 +27,8 @@ struct pass {
 
 struct backend {
     const char *name;   /* "cpu", "opencl" */
-    const char *device; /* which, or NULL */
+    const char *device; /* its name and that of its driver's version, */
+    const char *driver; /* or NULL */
     int thread_count;
 
     /* New geometry: builds what the ray queries need. The arrays of the world

@@ -17,6 +17,7 @@
 struct cl_request {
     const char *device;       /* as cl_device_find() has it; NULL: the best */
     const char *kernels_path; /* folder, or NULL for those in the program */
+    bool needs_gpu;           /* else any kind of device will do */
     uint32_t features;        /* what the kernels are built for */
 };
 

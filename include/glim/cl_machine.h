@@ -21,8 +21,7 @@ struct cl_machine {
 };
 
 /* Opens the device that cl_device_find() finds for the word. */
-bool cl_machine_open(struct cl_machine *m, const char *word,
-                     struct error *err);
+bool cl_machine_open(struct cl_machine *m, const char *word, struct error *err);
 void cl_machine_close(struct cl_machine *m);
 
 /* True for CL_SUCCESS; else the text says that this call failed, and how. */
