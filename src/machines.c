@@ -37,10 +37,16 @@ bool machines_end_device(struct machines *m, char **log, struct error *err)
     return m->device != NULL;
 }
 
-void machines_close(struct machines *m)
+void machines_abandon_device(struct machines *m)
 {
     if (m->start != NULL)
         cl_start_abandon(m->start);
+    m->start = NULL;
+}
+
+void machines_close(struct machines *m)
+{
+    machines_abandon_device(m);
     if (m->device != NULL)
         m->device->destroy(m->device);
     if (m->cpu != NULL)

@@ -32,6 +32,9 @@ bool machines_begin_device(struct machines *m, struct error *err);
 /* Waits until it is up. *log, for free(), is what drivers said, or NULL. */
 bool machines_end_device(struct machines *m, char **log, struct error *err);
 
+/* Nobody wants it any more. */
+void machines_abandon_device(struct machines *m);
+
 void machines_close(struct machines *m);
 
 #endif
