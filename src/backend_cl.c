@@ -7,6 +7,7 @@
  */
 #include "glim/backend_cl.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "glim/bvh.h"
@@ -54,7 +55,12 @@ struct slot {
 struct backend_cl {
     struct backend base;
     struct cl_machine machine;
-    struct cl_kernels kernels;
+    char *text;             /* of the kernels */
+    struct cl_kernels full; /* for the features of the request */
+    struct cl_kernels special;
+    const struct cl_kernels *kernels; /* that the picture is made with */
+    pthread_mutex_t lock;
+    struct cl_kernels next; /* guarded by lock: to be the special ones */
     struct bvh bvh;
     struct cl_world world;
     cl_mem cancel;
@@ -182,7 +188,7 @@ static bool clear_film(struct backend_cl *b, size_t pixel_count,
                        struct error *err)
 {
     uint64_t count = pixel_count;
-    cl_kernel clear = b->kernels.clear;
+    cl_kernel clear = b->kernels->clear;
 
     return call_done(b,
                      b->machine.api->SetKernelArg(clear, 0, sizeof count,
@@ -190,6 +196,22 @@ static bool clear_film(struct backend_cl *b, size_t pixel_count,
                      "clSetKernelArg", err) &&
            set_arguments(b, clear, 1, (cl_mem[]){b->sums, b->counts}, 2, err) &&
            enqueue(b, clear, pixel_count, err);
+}
+
+/* The special kernels if they can do all that the world needs. */
+static void choose_kernels(struct backend_cl *b, uint32_t features)
+{
+    pthread_mutex_lock(&b->lock);
+    if (b->next.program != NULL) {
+        cl_kernels_free(&b->special, &b->machine);
+        b->special = b->next;
+        b->next = (struct cl_kernels){0};
+    }
+    pthread_mutex_unlock(&b->lock);
+    b->kernels =
+        b->special.program != NULL && (features & ~b->special.features) == 0
+            ? &b->special
+            : &b->full;
 }
 
 static bool cl_begin(struct backend *base, const struct world *world,
@@ -200,6 +222,7 @@ static bool cl_begin(struct backend *base, const struct world *world,
     size_t row_bytes =
         (size_t)film->width * (PIXEL_SUMS_BYTES + sizeof(uint64_t));
 
+    choose_kernels(b, world->settings.features);
     b->film = film;
     b->x0 = (uint32_t)x0;
     b->y0 = (uint32_t)y0;
@@ -244,7 +267,7 @@ static bool make_room(struct backend_cl *b, struct slot *s, uint32_t paths,
 static bool enqueue_task(struct backend_cl *b, struct slot *s,
                          struct error *err)
 {
-    const struct cl_kernels *k = &b->kernels;
+    const struct cl_kernels *k = b->kernels;
     const cl_kernel kernels[] = {k->generate, k->trace, k->add};
     uint32_t paths = s->task.count * s->task.samples;
     const struct tally none = {0};
@@ -484,21 +507,29 @@ static void cl_destroy(struct backend *base)
     free_film(b);
     cl_world_free(&b->world, &b->machine);
     cl_machine_drop(&b->machine, &b->cancel);
-    cl_kernels_free(&b->kernels, &b->machine);
+    cl_kernels_free(&b->next, &b->machine);
+    cl_kernels_free(&b->special, &b->machine);
+    cl_kernels_free(&b->full, &b->machine);
     cl_machine_close(&b->machine);
     bvh_free(&b->bvh);
+    pthread_mutex_destroy(&b->lock);
+    free(b->text);
     free(b);
 }
 
-static bool build_kernels(struct backend_cl *b, const struct cl_request *r,
-                          char **log, struct error *err)
+bool backend_cl_specialise(struct backend *base, uint32_t features, char **log,
+                           struct error *err)
 {
-    char *text = cl_source_text(r->kernels_path, err);
-    bool ok = text != NULL && cl_kernels_build(&b->kernels, &b->machine, text,
-                                               r->features, log, err);
+    struct backend_cl *b = (struct backend_cl *)base;
+    struct cl_kernels kernels;
 
-    free(text);
-    return ok;
+    if (!cl_kernels_build(&kernels, &b->machine, b->text, features, log, err))
+        return false;
+    pthread_mutex_lock(&b->lock);
+    cl_kernels_free(&b->next, &b->machine);
+    b->next = kernels;
+    pthread_mutex_unlock(&b->lock);
+    return true;
 }
 
 static bool open_machine(struct cl_machine *m, const struct cl_request *r,
@@ -523,6 +554,7 @@ struct backend *backend_cl_create(const struct cl_request *r, char **log,
         free(b);
         return NULL;
     }
+    pthread_mutex_init(&b->lock, NULL);
     b->task_paths = TASK_PATHS_FIRST;
     b->base.name = "opencl";
     b->base.device = b->machine.device->name;
@@ -532,7 +564,9 @@ struct backend *backend_cl_create(const struct cl_request *r, char **log,
     b->base.begin = cl_begin;
     b->base.pass = cl_pass;
     b->base.destroy = cl_destroy;
-    if (build_kernels(b, r, log, err))
+    b->text = cl_source_text(r->kernels_path, err);
+    if (b->text != NULL &&
+        cl_kernels_build(&b->full, &b->machine, b->text, r->features, log, err))
         return &b->base;
     cl_destroy(&b->base);
     return NULL;

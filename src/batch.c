@@ -286,7 +286,8 @@ static void use_device(struct session *s)
     struct error err;
     char *log = NULL;
 
-    if (machines_begin_device(m, &err) && machines_end_device(m, &log, &err)) {
+    if (machines_begin_device(m, scene_features(&s->scene), &err) &&
+        machines_end_device(m, &log, &err)) {
         render_use(s->render, m->device);
     } else if (s->options->backend != BACKEND_AUTO) {
         if (log && *log != '\0')

@@ -125,7 +125,7 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
         return false;
     cpu = backend_cpu_create(1, err);
     if (cpu != NULL) {
-        ok = selftest_run(cpu, device, verdict, err);
+        ok = selftest_run(cpu, device, r->features, verdict, err);
         cpu->destroy(cpu);
     }
     if (ok) {

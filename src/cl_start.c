@@ -13,6 +13,7 @@
 
 struct cl_start {
     struct cl_request request;
+    struct backend *old; /* to be specialised; NULL: a new one */
     pthread_t thread;
     int event_fd;
     atomic_bool is_unwanted;
@@ -47,7 +48,11 @@ static bool create(struct cl_start *s)
 {
     char *log;
 
-    s->backend = backend_cl_create(&s->request, &log, &s->error);
+    if (s->old == NULL)
+        s->backend = backend_cl_create(&s->request, &log, &s->error);
+    else if (backend_cl_specialise(s->old, s->request.features, &log,
+                                   &s->error))
+        s->backend = s->old;
     if (log != NULL) {
         free(s->log);
         s->log = log;
@@ -65,6 +70,13 @@ static bool is_tried(const struct cl_start *s, const struct cl_probe *probe)
     return ok;
 }
 
+static void drop_backend(struct cl_start *s)
+{
+    if (s->backend != NULL && s->backend != s->old)
+        s->backend->destroy(s->backend);
+    s->backend = NULL;
+}
+
 static void bring_up(struct cl_start *s)
 {
     struct cl_probe probe = {0};
@@ -75,10 +87,8 @@ static void bring_up(struct cl_start *s)
     if ((is_known || try_copy(s, &probe)) && create(s) && is_known &&
         !is_tried(s, &probe)) {
         cl_probe_free(&probe);
-        if (!try_copy(s, &probe)) {
-            s->backend->destroy(s->backend);
-            s->backend = NULL;
-        }
+        if (!try_copy(s, &probe))
+            drop_backend(s);
     }
     cl_probe_free(&probe);
 }
@@ -97,13 +107,14 @@ static void *start_main(void *argument)
 }
 
 struct cl_start *cl_start_begin(const struct cl_request *request,
-                                struct error *err)
+                                struct backend *backend, struct error *err)
 {
     struct cl_start *s = xcalloc(1, sizeof *s);
     sigset_t all, before;
     int reason;
 
     s->request = *request;
+    s->old = backend;
     s->event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (s->event_fd < 0) {
         fail(err, "OpenCL: no event descriptor: %s", strerror(errno));
@@ -133,13 +144,12 @@ bool cl_start_is_over(const struct cl_start *s)
     return atomic_load(&s->is_over);
 }
 
-struct backend *cl_start_end(struct cl_start *s, char **verdict, char **log,
-                             struct error *err)
+/* Behind the end of the thread. */
+static struct backend *finish(struct cl_start *s, char **verdict, char **log,
+                              struct error *err)
 {
-    struct backend *backend;
+    struct backend *backend = s->backend;
 
-    pthread_join(s->thread, NULL);
-    backend = s->backend;
     *verdict = s->verdict;
     *log = s->log;
     if (backend == NULL)
@@ -149,16 +159,22 @@ struct backend *cl_start_end(struct cl_start *s, char **verdict, char **log,
     return backend;
 }
 
+struct backend *cl_start_end(struct cl_start *s, char **verdict, char **log,
+                             struct error *err)
+{
+    pthread_join(s->thread, NULL);
+    return finish(s, verdict, log, err);
+}
+
 void cl_start_abandon(struct cl_start *s)
 {
     struct error ignored;
     char *verdict, *log;
-    struct backend *backend;
 
     atomic_store(&s->is_unwanted, true);
-    backend = cl_start_end(s, &verdict, &log, &ignored);
-    if (backend != NULL)
-        backend->destroy(backend);
+    pthread_join(s->thread, NULL);
+    drop_backend(s);
+    finish(s, &verdict, &log, &ignored);
     free(verdict);
     free(log);
 }

@@ -3,8 +3,6 @@
 
 #include <stdlib.h>
 
-#include "kernels/features.h"
-
 bool machines_open(struct machines *m, const struct options *options,
                    struct error *err)
 {
@@ -15,17 +13,20 @@ bool machines_open(struct machines *m, const struct options *options,
     return m->cpu != NULL;
 }
 
-bool machines_begin_device(struct machines *m, struct error *err)
+/* For a device that is up only new kernels. */
+bool machines_begin_device(struct machines *m, uint32_t features,
+                           struct error *err)
 {
     const struct options *o = m->options;
     struct cl_request request = {
         .device = o->device,
         .kernels_path = o->kernels_path,
         .needs_gpu = o->backend == BACKEND_AUTO,
-        .features = FEATURES_ALL,
+        .features = features,
     };
 
-    m->start = cl_start_begin(&request, err);
+    m->features = features;
+    m->start = cl_start_begin(&request, m->device, err);
     return m->start != NULL;
 }
 
@@ -35,6 +36,28 @@ bool machines_end_device(struct machines *m, char **log, struct error *err)
     m->device = cl_start_end(m->start, &m->verdict, log, err);
     m->start = NULL;
     return m->device != NULL;
+}
+
+void machines_specialise(struct machines *m, uint32_t features)
+{
+    struct error ignored;
+
+    if (m->device != NULL && m->start == NULL && m->features != features)
+        machines_begin_device(m, features, &ignored);
+}
+
+bool machines_end_specialising(struct machines *m)
+{
+    struct error ignored;
+    char *verdict, *log;
+
+    if (m->device == NULL)
+        return false;
+    cl_start_end(m->start, &verdict, &log, &ignored);
+    m->start = NULL;
+    free(verdict);
+    free(log);
+    return true;
 }
 
 void machines_abandon_device(struct machines *m)

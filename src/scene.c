@@ -420,8 +420,8 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
     return sky;
 }
 
-static uint32_t material_features(const struct scene *scene,
-                                  const struct material *m)
+uint32_t scene_material_features(const struct scene *scene,
+                                 const struct material *m)
 {
     uint32_t features = 0;
 
@@ -439,13 +439,13 @@ static uint32_t material_features(const struct scene *scene,
     return features;
 }
 
-static uint32_t find_features(const struct scene *scene)
+uint32_t scene_features(const struct scene *scene)
 {
     uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
 
     for (uint32_t i = 0; i < scene->material_count; i++)
         if (scene->material_is_used[i])
-            features |= material_features(scene, &scene->materials[i]);
+            features |= scene_material_features(scene, &scene->materials[i]);
     return features;
 }
 
@@ -467,7 +467,7 @@ bool scene_world(const struct scene *scene, const struct view *view,
                                     ? VERTICES_MAX
                                     : (uint32_t)view->max_bounces + 1,
                 .seed = seed,
-                .features = find_features(scene),
+                .features = scene_features(scene),
             },
         .positions = scene->positions,
         .normals = scene->normals,

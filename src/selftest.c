@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/material.h"
 #include "glim/mtl.h"
 #include "glim/obj.h"
 #include "glim/render.h"
@@ -46,7 +47,8 @@ static const char faces[] = "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\n"
                             "usemtl frosted\nf 22 23 24\nusemtl pane\n"
                             "f 25 26 27\nusemtl clear\nf 28 29 30\n";
 
-static bool make_scene(struct scene *scene, struct error *err)
+static bool make_scene(struct scene *scene, uint32_t features,
+                       struct error *err)
 {
     struct report report = {0};
     bool ok =
@@ -57,6 +59,12 @@ static bool make_scene(struct scene *scene, struct error *err)
         scene_finish(scene, &report, err);
 
     report_free(&report);
+    for (uint32_t i = 0; ok && i < scene->material_count; i++) {
+        struct material *m = &scene->materials[i];
+
+        if ((scene_material_features(scene, m) & ~features) != 0)
+            *m = material_default();
+    }
     return ok;
 }
 
@@ -139,12 +147,14 @@ static bool judge(const float *a, const float *b,
 }
 
 bool selftest_run(struct backend *cpu, struct backend *device,
-                  char verdict[SELFTEST_VERDICT_BYTES], struct error *err)
+                  uint32_t features, char verdict[SELFTEST_VERDICT_BYTES],
+                  struct error *err)
 {
     struct scene scene = {0};
     struct render_job job;
     float rgb[2][3 * SIDE * SIDE];
-    bool ok = make_scene(&scene, err) && make_job(&scene, &job, err) &&
+    bool ok = make_scene(&scene, features, err) &&
+              make_job(&scene, &job, err) &&
               render_with(cpu, &job, rgb[0], err) &&
               render_with(device, &job, rgb[1], err) &&
               judge(rgb[0], rgb[1], verdict, err);

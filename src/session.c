@@ -162,6 +162,8 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
     if (!render_start(s->render, &job, err))
         return false;
     s->geometry_changed = false;
+    if (session_uses_device(s) && spp == 0) /* there will be restarts */
+        machines_specialise(&s->machines, job.world.settings.features);
     return true;
 }
 

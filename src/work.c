@@ -167,8 +167,8 @@ static void use(struct work *w, struct backend *backend)
     render_use(w->session->render, backend);
     restart(w);
     if (backend == m->device)
-        text = xformat("%s renders; self-test: %s", backend->device,
-                       m->verdict);
+        text =
+            xformat("%s renders; self-test: %s", backend->device, m->verdict);
     else
         text = xstrdup("the CPU renders");
     work_say(w, text);
@@ -179,7 +179,7 @@ void work_begin_device(struct work *w)
 {
     struct error err;
 
-    if (!machines_begin_device(&w->session->machines, &err))
+    if (!machines_begin_device(&w->session->machines, FEATURES_ALL, &err))
         work_say_error(w, err.text);
 }
 
@@ -206,6 +206,8 @@ void work_end_device(struct work *w)
     struct error err;
     char *log;
 
+    if (machines_end_specialising(m))
+        return;
     if (machines_end_device(m, &log, &err)) {
         if (w->is_live)
             use(w, m->device);

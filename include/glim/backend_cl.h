@@ -25,4 +25,10 @@ struct cl_request {
 struct backend *backend_cl_create(const struct cl_request *request, char **log,
                                   struct error *err);
 
+/* Builds kernels that leave out what a world without other features does not
+ * need; the next begin() takes them, with the same bits. From any thread, also
+ * while the backend renders, but not beside destroy(). */
+bool backend_cl_specialise(struct backend *backend, uint32_t features,
+                           char **log, struct error *err);
+
 #endif

@@ -14,16 +14,18 @@
 
 struct cl_start;
 
-/* Returns at once. The texts of the request must stay until the end. */
+/* Returns at once. The texts of the request must stay until the end. With a
+ * backend it is this one that gets kernels for the request's features. */
 struct cl_start *cl_start_begin(const struct cl_request *request,
-                                struct error *err);
+                                struct backend *backend, struct error *err);
 
 /* A descriptor that becomes readable when the device is up, or is not. */
 int cl_start_event_fd(const struct cl_start *start);
 bool cl_start_is_over(const struct cl_start *start);
 
-/* Waits, and returns the backend or NULL. *verdict is that of the self-test,
- * *log what a compiler or a driver said; both for free(), or NULL. */
+/* Waits, and returns the backend, or NULL if nothing came of it. *verdict is
+ * that of the self-test, *log what a compiler or a driver said; both for
+ * free(), or NULL. */
 struct backend *cl_start_end(struct cl_start *start, char **verdict, char **log,
                              struct error *err);
 

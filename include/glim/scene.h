@@ -86,6 +86,11 @@ void scene_frame(const struct scene *scene, struct view *view);
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err);
 
+/* What the scene needs, of enum feature; and what a material of it needs. */
+uint32_t scene_features(const struct scene *scene);
+uint32_t scene_material_features(const struct scene *scene,
+                                 const struct material *material);
+
 /* True if the view's up runs along its direction: scene_world() then takes
  * another axis for it. */
 bool scene_up_is_parallel(const struct view *view);

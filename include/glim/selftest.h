@@ -2,7 +2,8 @@
 /*
  * selftest.h - does a backend compute what the CPU computes?
  *
- * A small box with every kind of material is rendered by both.
+ * A small room with every kind of material that needs no other features is
+ * rendered by both.
  *
  * Units:     none
  * Ownership: both backends stay the caller's, with another scene loaded
@@ -18,6 +19,7 @@
 
 /* The verdict is "the CPU's bits", or how many pixels differ a little. */
 bool selftest_run(struct backend *cpu, struct backend *device,
-                  char verdict[SELFTEST_VERDICT_BYTES], struct error *err);
+                  uint32_t features, char verdict[SELFTEST_VERDICT_BYTES],
+                  struct error *err);
 
 #endif
