@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/cl_api.h"
+#include "glim/cl_device.h"
 #include "glim/cl_source.h"
 #include "glim/file.h"
 
@@ -220,17 +220,15 @@ static void test_hash(void **state)
 static char *log_of(const char *text, cl_int *status)
 {
     struct error err;
-    const struct cl_api *cl = cl_api_open(&err);
-    cl_platform_id platform;
-    cl_device_id device;
+    struct cl_devices list;
     size_t size_bytes = 0;
 
-    if (!cl || cl->GetPlatformIDs(1, &platform, NULL) != CL_SUCCESS ||
-        cl->GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device, NULL) !=
-            CL_SUCCESS) {
-        print_message("skip: no OpenCL device here\n");
+    if (!cl_device_list(&list, &err)) {
+        print_message("skip: %s\n", err.text);
         skip();
     }
+    const struct cl_api *cl = cl_api_open(&err);
+    cl_device_id device = cl_device_find(&list, NULL, &err)->id;
     cl_context context =
         cl->CreateContext(NULL, 1, &device, NULL, NULL, status);
     assert_int_equal(*status, CL_SUCCESS);
@@ -246,6 +244,7 @@ static char *log_of(const char *text, cl_int *status)
                             log, NULL);
     cl->ReleaseProgram(program);
     cl->ReleaseContext(context);
+    cl_devices_free(&list);
     return log;
 }
 
