@@ -99,7 +99,7 @@ static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
     struct vec3 h;
 
     s->eta_scale = 1.0f;
-    if (m->alpha < ALPHA_SMOOTH) {
+    if (!HAS(FEATURE_ROUGH) || m->alpha < ALPHA_SMOOTH) {
         s->wi = v3(-wo.x, -wo.y, wo.z);
         s->weight = fresnel_schlick(m->color, wo.z);
         return true;
@@ -153,7 +153,7 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
         s->eta_scale = 1.0f;
         return true;
     }
-    if (m->alpha < ALPHA_SMOOTH) {
+    if (!HAS(FEATURE_ROUGH) || m->alpha < ALPHA_SMOOTH) {
         glass_choose(m, wo, h, choice, s);
         return true;
     }
@@ -201,8 +201,10 @@ static inline bool bsdf_sample(const struct bsdf *m, struct vec3 wo,
         s->eta_scale = 1.0f;
         return s->wi.z > 0.0f;
     }
-    if (m->kind == MATERIAL_METAL)
+    if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return metal_sample(m, wo, u, s);
+    if (!HAS(FEATURE_GLASS))
+        return false;
     if (m->kind == MATERIAL_GLASS)
         return glass_sample(m, wo, u, choice, s);
     thin_glass_sample(m, wo, choice, s);

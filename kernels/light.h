@@ -19,7 +19,7 @@ static inline struct vec3 emission_at(const struct world *w,
                                       const struct material *m, struct vec2 uv,
                                       bool has_uv)
 {
-    if (m->emission_texture == NO_INDEX || !has_uv)
+    if (!HAS(FEATURE_TEXTURES) || m->emission_texture == NO_INDEX || !has_uv)
         return m->emission;
     return v3_mul(m->emission, texture_at(w, m->emission_texture, uv).color);
 }

@@ -16,11 +16,10 @@
 #define KERNELS_PATH_H
 
 #include "kernels/bsdf.h"
-#include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
-#include "kernels/rng.h"
+#include "kernels/start.h"
 
 /* Paths without a limit of their own end here, counted. */
 #define PATH_HARD_STOP 1000u
@@ -93,12 +92,12 @@ bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
     struct bsdf b;
 
     b.color = m->color;
-    if (m->color_texture != NO_INDEX && v->has_uv)
+    if (HAS(FEATURE_TEXTURES) && m->color_texture != NO_INDEX && v->has_uv)
         b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
     b.alpha = m->alpha;
     b.kind = m->kind;
     b.eta = m->ior;
-    if (m->kind == MATERIAL_GLASS && !v->is_outside)
+    if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !v->is_outside)
         b.eta = 1.0f / m->ior;
     return b;
 }
@@ -164,7 +163,7 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
             out.radiance = v3_add(out.radiance,
                                   v3_mul(v3_scale(beta, eta_scale),
                                          emission_at(w, &m, v.uv, v.has_uv)));
-        if (vertex >= w->max_vertices) {
+        if (vertex >= w->settings.max_vertices) {
             out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
             break;
         }
@@ -195,10 +194,9 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                                 struct path_sample *out)
 {
     for (uint32_t i = 0; i < count; i++) {
-        struct sampler s = sampler_start(x, y, first + i, w->seed);
-        struct vec2 offset = random_2d(s, DIMENSION_PIXEL);
+        struct path_start start = path_begin(&w->settings, x, y, first + i);
 
-        out[i] = path_trace(w, camera_ray(w->camera, x, y, offset), s);
+        out[i] = path_trace(w, start.ray, start.sampler);
     }
 }
 

@@ -76,12 +76,12 @@ static inline struct rgba texture_at(const struct world *w, uint32_t index,
  * columns repeat, rows end at the poles. */
 static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
 {
-    struct sky s = w->sky;
+    struct sky s = w->settings.sky;
     struct footprint f;
     struct vec3 turned, top, bottom;
     float y, whole;
 
-    if (s.width == 0)
+    if (!HAS(FEATURE_SKY_IMAGE) || s.width == 0)
         return s.color;
     turned = v3(s.rotation_cos * d.x - s.rotation_sin * d.z, d.y,
                 s.rotation_sin * d.x + s.rotation_cos * d.z);

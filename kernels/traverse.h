@@ -108,7 +108,9 @@ static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
         if (h.t == best->t && t.tri > best->tri)
             continue;
         h.tri = t.tri;
-        if ((w->features & FEATURE_COVERAGE) != 0 && !hit_is_solid(w, r, h))
+        if (HAS(FEATURE_COVERAGE) &&
+            (w->settings.features & FEATURE_COVERAGE) != 0 &&
+            !hit_is_solid(w, r, h))
             continue;
         *best = h;
         found = true;
@@ -130,7 +132,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     best->t = r.t_max;
     best->b0 = best->b1 = best->b2 = 0.0f;
     best->tri = NO_INDEX;
-    if (w->tri_count == 0 ||
+    if (w->settings.tri_count == 0 ||
         box_entry(slabs, w->nodes[0].lo, w->nodes[0].hi, best->t) > best->t)
         return false;
     for (;;) {
@@ -183,7 +185,7 @@ static inline bool hit_any(const struct world *w, struct ray r)
     uint32_t depth = 0;
     struct hit h;
 
-    if (w->tri_count == 0)
+    if (w->settings.tri_count == 0)
         return false;
     h.t = r.t_max;
     h.tri = NO_INDEX;

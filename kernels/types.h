@@ -13,6 +13,7 @@
 #define KERNELS_TYPES_H
 
 #include "kernels/dialect.h"
+#include "kernels/features.h"
 
 #define NO_INDEX 0xffffffffu
 
@@ -100,16 +101,29 @@ struct leaf_tri {
     uint32_t tri;
 };
 
-/* What the scene has, so that a sample can skip what it has not. */
-enum feature {
-    FEATURE_COVERAGE = 1u /* some material or texture lets rays pass */
+/* What a sample reads beside arrays. */
+struct settings {
+    struct camera camera;
+    struct sky sky;
+    uint32_t max_vertices; /* surface vertices of a path, emitter included */
+    uint32_t seed;
+    uint32_t features; /* enum feature, or-ed */
+
+    /* lengths of the world's arrays */
+    uint32_t tri_count;
+    uint32_t position_count;
+    uint32_t normal_count;
+    uint32_t uv_count;
+    uint32_t material_count;
+    uint32_t texture_count;
+    uint32_t texel_count;
+    uint32_t pad[2];
 };
 
 /* What a sample reads, nothing more. nodes and leaf_tris belong to the
  * backend, the rest to the scene. */
 struct world {
-    struct camera camera;
-    struct sky sky;
+    struct settings settings;
     GLOBAL const struct vec3 *positions;
     GLOBAL const struct vec3 *normals;
     GLOBAL const struct vec2 *uvs;
@@ -121,10 +135,6 @@ struct world {
     GLOBAL const struct vec3 *sky_texels; /* row 0 is +y */
     GLOBAL const struct node *nodes;
     GLOBAL const struct leaf_tri *leaf_tris;
-    uint32_t tri_count;
-    uint32_t max_vertices; /* surface vertices of a path, emitter included */
-    uint32_t seed;
-    uint32_t features; /* enum feature, or-ed */
 };
 
 struct ray {

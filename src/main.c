@@ -18,6 +18,7 @@
 #include "glim/batch.h"
 #include "glim/cl_device.h"
 #include "glim/cl_environment.h"
+#include "glim/cl_probe.h"
 #include "glim/options.h"
 #include "glim/session.h"
 #include "glim/tui.h"
@@ -66,6 +67,22 @@ static int list_devices(void)
         return complain(EXIT_FAILED, &err);
     cl_devices_print(&list, stdout);
     cl_devices_free(&list);
+    return print_out("");
+}
+
+/* This program as the copy that another one has started: cl_probe.h. */
+static int probe(const struct options *o)
+{
+    struct cl_request request = {
+        .device = o->device,
+        .kernels_path = o->kernels_path,
+        .needs_gpu = o->backend == BACKEND_AUTO,
+        .features = o->features,
+    };
+    struct error err;
+
+    if (!cl_probe_answer(&request, &err))
+        return complain(EXIT_FAILED, &err);
     return print_out("");
 }
 
@@ -118,6 +135,8 @@ int main(int argc, char **argv)
     cl_environment_prepare(options.thread_count);
     if (options.list_devices)
         return list_devices();
+    if (options.probe)
+        return probe(&options);
     if (!check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);
     /* a failing write says what is wrong */

@@ -77,6 +77,7 @@ enum option_id {
     OPTION_DEVICE,
     OPTION_LIST_DEVICES,
     OPTION_KERNELS,
+    OPTION_PROBE,
     OPTION_BATCH,
     OPTION_OUTPUT,
     OPTION_STATS,
@@ -109,6 +110,7 @@ static const struct option_rule rules[] = {
     {"device", OPTION_DEVICE, "the number or name of a device"},
     {"list-devices", OPTION_LIST_DEVICES, NULL},
     {"kernels", OPTION_KERNELS, "the name of a folder"},
+    {"probe", OPTION_PROBE, "a number of features"}, /* for glim itself */
     {"b", OPTION_BATCH, NULL},
     {"o", OPTION_OUTPUT, "the name of a picture"},
     {"stats", OPTION_STATS, "the name of a file"},
@@ -255,6 +257,18 @@ static bool set_output(struct options *o, const struct given *g,
     return true;
 }
 
+static bool set_probe(struct options *o, const struct given *g,
+                      struct error *err)
+{
+    uint64_t features;
+
+    if (!whole_number(g, 0, UINT32_MAX, &features, err))
+        return false;
+    o->probe = true;
+    o->features = (uint32_t)features;
+    return true;
+}
+
 static bool set_seed(struct options *o, const struct given *g,
                      struct error *err)
 {
@@ -322,6 +336,7 @@ static bool set_option(struct options *o, const struct given *g,
         o->has_max_bounces = true;
         return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);
     case OPTION_SEED: return set_seed(o, g, err);
+    case OPTION_PROBE: return set_probe(o, g, err);
     case OPTION_CROP: return set_crop(o, g, err);
     case OPTION_THREADS:
         return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
@@ -443,7 +458,7 @@ static bool settle_backend(struct options *o, struct error *err)
 /* What is right alone but wrong together. */
 static bool check_together(const struct options *o, struct error *err)
 {
-    if (o->list_devices)
+    if (o->list_devices || o->probe)
         return true;
     if (!o->scene_path)
         return fail(err, "no scene given, expected: glim [options] scene.obj "

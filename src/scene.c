@@ -221,6 +221,22 @@ static void fill_linear_of_srgb(float table[256])
     }
 }
 
+static bool find_used_materials(struct scene *scene, struct error *err)
+{
+    free(scene->material_is_used);
+    scene->material_is_used =
+        alloc_array(scene->material_count, sizeof *scene->material_is_used);
+    if (scene->material_is_used == NULL)
+        return fail(err, "%s: out of memory for its materials", scene->path);
+    for (uint32_t i = 0; i < scene->tri_count; i++)
+        scene->material_is_used[scene->tris[i].material] = true;
+    scene->has_emitters = false;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        scene->has_emitters |=
+            scene->material_is_used[i] && shines(&scene->materials[i]);
+    return true;
+}
+
 bool scene_finish(struct scene *scene, struct report *report, struct error *err)
 {
     drop_tris(scene, report, file_tri_is_usable);
@@ -234,10 +250,8 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
                    "%s: found no face that can be seen: only the background is "
                    "rendered",
                    scene->path);
-    scene->has_emitters = false;
-    for (uint32_t i = 0; i < scene->tri_count; i++)
-        scene->has_emitters |=
-            shines(&scene->materials[scene->tris[i].material]);
+    if (!find_used_materials(scene, err))
+        return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     return true;
 }
@@ -406,23 +420,55 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
     return sky;
 }
 
+static uint32_t material_features(const struct scene *scene,
+                                  const struct material *m)
+{
+    uint32_t features = 0;
+
+    if (m->color_texture != NO_INDEX || m->emission_texture != NO_INDEX)
+        features |= FEATURE_TEXTURES;
+    if (m->opacity < 1 || (m->color_texture != NO_INDEX &&
+                           scene->textures[m->color_texture].has_holes))
+        features |= FEATURE_COVERAGE;
+    if (m->kind == MATERIAL_METAL)
+        features |= FEATURE_METAL;
+    if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
+        features |= FEATURE_GLASS;
+    if (m->kind != MATERIAL_DIFFUSE && m->alpha >= ALPHA_SMOOTH)
+        features |= FEATURE_ROUGH;
+    return features;
+}
+
 static uint32_t find_features(const struct scene *scene)
 {
-    for (uint32_t i = 0; i < scene->tri_count; i++) {
-        const struct material *m = &scene->materials[scene->tris[i].material];
+    uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
 
-        if (m->opacity < 1 || (m->color_texture != NO_INDEX &&
-                               scene->textures[m->color_texture].has_holes))
-            return FEATURE_COVERAGE;
-    }
-    return 0;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        if (scene->material_is_used[i])
+            features |= material_features(scene, &scene->materials[i]);
+    return features;
 }
 
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err)
 {
     struct world w = {
-        .sky = make_sky(scene, view),
+        .settings =
+            {
+                .sky = make_sky(scene, view),
+                .tri_count = scene->tri_count,
+                .position_count = scene->position_count,
+                .normal_count = scene->normal_count,
+                .uv_count = scene->uv_count,
+                .material_count = scene->material_count,
+                .texture_count = scene->texture_count,
+                .texel_count = (uint32_t)scene->texel_count,
+                .max_vertices = view->max_bounces < 0
+                                    ? VERTICES_MAX
+                                    : (uint32_t)view->max_bounces + 1,
+                .seed = seed,
+                .features = find_features(scene),
+            },
         .positions = scene->positions,
         .normals = scene->normals,
         .uvs = scene->uvs,
@@ -432,15 +478,10 @@ bool scene_world(const struct scene *scene, const struct view *view,
         .texels = scene->texels,
         .linear_of_srgb = scene->linear_of_srgb,
         .sky_texels = scene->sky_texels,
-        .tri_count = scene->tri_count,
-        .max_vertices = view->max_bounces < 0 ? VERTICES_MAX
-                                              : (uint32_t)view->max_bounces + 1,
-        .seed = seed,
-        .features = find_features(scene),
     };
 
     if (!view_check(view, "camera", err) ||
-        !make_camera(scene, view, &w.camera, err))
+        !make_camera(scene, view, &w.settings.camera, err))
         return false;
     *world = w;
     return true;
@@ -465,6 +506,7 @@ void scene_free(struct scene *scene)
     free(scene->tri_objects);
     free_strings(scene->object_names, scene->object_count);
     free(scene->materials);
+    free(scene->material_is_used);
     free_strings(scene->material_names, scene->material_count);
     free(scene->textures);
     free_strings(scene->texture_paths, scene->texture_count);

@@ -55,6 +55,8 @@ struct options {
     double cell_aspect; /* height of a cell over its width; 0: ask */
     bool show_help, show_version;
     bool list_devices; /* then there need be no scene */
+    bool probe;        /* cl_probe.h: this is the copy; nor need there then */
+    uint32_t features; /* that it tries */
 };
 
 /* Fills *o from argv, and for the screen from GLIM_COLOR. */

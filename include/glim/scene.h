@@ -42,6 +42,7 @@ struct scene {
 
     struct material *materials; /* 0 is the default material, "" */
     char **material_names;
+    bool *material_is_used; /* by a triangle; from scene_finish() */
     uint32_t material_count;
 
     struct texture *textures;

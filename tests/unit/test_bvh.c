@@ -14,7 +14,7 @@ static bool brute_force(const struct world *w, struct ray r, struct hit *best)
 
     best->t = r.t_max;
     best->tri = NO_INDEX;
-    for (uint32_t i = 0; i < w->tri_count; i++) {
+    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct hit h;
 
         if (!triangle_hit(r, s, w->positions[w->tris[i].v[0]],

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/*
+ * features.h - what a scene may need, for leaving out what it does not
+ *
+ * scene_world() says which features a scene has. A build is for all of them,
+ * unless FEATURES names those it is for; both give the same bits.
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_FEATURES_H
+#define KERNELS_FEATURES_H
+
+enum feature {
+    FEATURE_COVERAGE = 1,  /* a material or texture lets rays pass */
+    FEATURE_TEXTURES = 2,  /* colours or radiances from images */
+    FEATURE_METAL = 4,     /* any metal */
+    FEATURE_GLASS = 8,     /* any glass, thin or solid */
+    FEATURE_ROUGH = 16,    /* metal or glass that is not smooth */
+    FEATURE_SKY_IMAGE = 32 /* the sky is an image */
+};
+
+#define FEATURES_ALL 63u
+
+#ifndef FEATURES
+#define FEATURES FEATURES_ALL
+#endif
+
+#define HAS(feature) ((FEATURES & (feature)) != 0)
+
+#endif
