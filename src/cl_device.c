@@ -164,18 +164,25 @@ void cl_devices_free(struct cl_devices *list)
     *list = (struct cl_devices){0};
 }
 
-static bool is_called(const struct cl_device *d, const char *word)
+/* Digits alone are a number: 4 is not the device with 4090 in its name. */
+static bool is_meant(const struct cl_devices *list, int index, const char *word)
 {
+    const struct cl_device *d = &list->items[index];
+    char number[16];
+
+    snprintf(number, sizeof number, "%d", index + 1);
+    if (word[strspn(word, "0123456789")] == '\0')
+        return strcmp(word, number) == 0;
     return strcasestr(d->name, word) || strcasestr(d->platform_name, word);
 }
 
-/* "1 'Name', 2 'Name'" of those that the word is in, for free(). */
+/* "1 'Name', 2 'Name'" of those that are meant (NULL: all), for free(). */
 static char *names_of(const struct cl_devices *list, const char *word)
 {
     char *names = xstrdup("");
 
     for (int i = 0; i < list->count; i++) {
-        if (!is_called(&list->items[i], word))
+        if (word && !is_meant(list, i, word))
             continue;
         char *longer = xformat("%s%s%d '%s'", names, *names ? ", " : "", i + 1,
                                list->items[i].name);
@@ -194,55 +201,33 @@ static const struct cl_device *find_best(const struct cl_devices *list)
     return &list->items[0];
 }
 
-/* NULL if the word is no number, or none of a device: "4090" is a name. */
-static const struct cl_device *find_number(const struct cl_devices *list,
-                                           const char *word)
-{
-    for (int i = 0; i < list->count; i++) {
-        char number[16];
-
-        snprintf(number, sizeof number, "%d", i + 1);
-        if (strcmp(number, word) == 0)
-            return &list->items[i];
-    }
-    return NULL;
-}
-
-static const struct cl_device *find_name(const struct cl_devices *list,
-                                         const char *word, struct error *err)
+const struct cl_device *cl_device_find(const struct cl_devices *list,
+                                       const char *word, struct error *err)
 {
     const struct cl_device *found = NULL;
     int count = 0;
 
+    if (!word)
+        return find_best(list);
     for (int i = 0; i < list->count; i++) {
-        if (is_called(&list->items[i], word)) {
+        if (is_meant(list, i, word)) {
             found = &list->items[i];
             count++;
         }
     }
     if (count == 1)
         return found;
-    char *names = names_of(list, count > 1 ? word : "");
-    if (count > 1)
+
+    char *names = names_of(list, found ? word : NULL);
+    if (found)
         fail(err,
-             "--device: '%s' is in the names of %d devices, expected one "
-             "of %s",
+             "--device: '%s' is in the names of %d devices, expected one of %s",
              word, count, names);
     else
         fail(err, "--device: found no device '%s', expected one of %s", word,
              names);
     free(names);
     return NULL;
-}
-
-const struct cl_device *cl_device_find(const struct cl_devices *list,
-                                       const char *word, struct error *err)
-{
-    if (!word)
-        return find_best(list);
-
-    const struct cl_device *found = find_number(list, word);
-    return found ? found : find_name(list, word, err);
 }
 
 /* "OpenCL 3.0": what follows it is the driver's. */

@@ -43,8 +43,8 @@ bool cl_device_list(struct cl_devices *list, struct error *err);
 void cl_devices_free(struct cl_devices *list);
 
 /* The device of that number, or the only one with the word in its name or its
- * platform's name, whatever the case. NULL is for none or several. Without a
- * word (NULL): the first GPU, else the first device. */
+ * platform's name, whatever the case; NULL for none or several. Digits alone
+ * are a number. Without a word (NULL): the first GPU, else the first device. */
 const struct cl_device *cl_device_find(const struct cl_devices *list,
                                        const char *word, struct error *err);
 
