@@ -202,19 +202,19 @@ static void halts(void **state)
     if (!device)
         return;
     open_pair(&p, "scenes/interior.obj", 120, 68);
-    start(&p, 0, (struct rect){0, 0, 120, 68}, 300, 3);
-    start(&p, 1, (struct rect){0, 0, 120, 68}, 300, 3);
+    start(&p, 0, (struct rect){0, 0, 120, 68}, 60, 3);
     finish(&p, 0);
+    start(&p, 1, (struct rect){0, 0, 120, 68}, 60, 3);
     while (render_progress(p.renders[1]).state != RENDER_DONE) {
         pause.tv_nsec = halt_count % 40 * 500000;
         nanosleep(&pause, NULL);
         render_halt(p.renders[1]);
         halt_count++;
-        render_resume(p.renders[1], 300);
+        render_resume(p.renders[1], 60);
         assert_true(halt_count < 100000);
     }
     assert_true(halt_count > 20);
-    assert_same(&p, 300);
+    assert_same(&p, 60);
     close_pair(&p);
 }
 
