@@ -113,6 +113,8 @@ function check_file(    line, number, head, is_ours, is_licensed)
             fault("line " number ": atoi, atof and strtok hide errors")
         if (line ~ /(^|[^a-z_A-Z0-9])_?exit\(/ && path !~ /^src\/(main|util)\.c$/)
             fault("line " number ": only main ends the program")
+        if (line ~ /(^|[^a-z_A-Z0-9])v?fork\(/)
+            fault("line " number ": OpenCL does not survive fork: posix_spawn")
     }
     close(path)
     if (!is_licensed)
