@@ -29,6 +29,6 @@ __kernel void trace_paths(
     if (i / task.samples >= task.count)
         return;
     samples[i].rays = 0;
-    if (starts[i].ray.t_max > 0.0f && *cancel == 0)
+    if (*cancel == 0 && starts[i].ray.t_max > 0.0f)
         samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);
 }

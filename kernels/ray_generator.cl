@@ -6,6 +6,7 @@
 #include "kernels/task.h"
 
 __kernel void generate_rays(struct task task,
+                            volatile __global const uint *cancel,
                             __global const struct settings *settings,
                             __global const ulong *counts,
                             __global struct path_start *starts)
@@ -15,7 +16,7 @@ __kernel void generate_rays(struct task task,
     struct settings s = *settings;
     ulong index;
 
-    if (point >= task.count)
+    if (point >= task.count || *cancel != 0)
         return;
     index = counts[task_pixel(task, point)] + i % task.samples;
     if (index < task.target)

@@ -83,7 +83,7 @@ struct progress {
     const struct pass *pass;
     uint32_t columns, rows; /* of its grid */
     uint32_t next;          /* point that no task has yet */
-    uint32_t next_row;      /* that was not read yet */
+    uint32_t read;          /* point that no reading has yet */
 };
 
 static bool call_done(struct backend_cl *b, cl_int code, const char *call,
@@ -284,9 +284,10 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
                          sizeof none.samples, 0, sizeof none, 0, NULL, NULL),
                      "clEnqueueFillBuffer", err) &&
            set_arguments(b, k->generate, 1,
-                         (cl_mem[]){b->world.buffers[CL_ARRAY_SETTINGS],
+                         (cl_mem[]){b->cancel,
+                                    b->world.buffers[CL_ARRAY_SETTINGS],
                                     b->counts, s->starts},
-                         3, err) &&
+                         4, err) &&
            set_arguments(b, k->trace, 1,
                          (cl_mem[]){b->cancel, s->starts, s->samples}, 3,
                          err) &&
@@ -317,19 +318,18 @@ static cl_int read_rows(struct backend_cl *b, cl_mem buffer, void *to,
                                                  NULL);
 }
 
-/* Puts the reading of rows that the queued tasks complete behind them. */
+/* Puts the reading of what the queued tasks compute behind them, by whole
+ * rows: the last one may be read again. */
 static bool enqueue_reading(struct backend_cl *b, struct progress *p,
-                            struct reading *r, uint32_t complete_rows,
-                            struct error *err)
+                            struct reading *r, struct error *err)
 {
     uint32_t stride = (uint32_t)p->pass->stride;
+    uint32_t end = (p->next + p->columns - 1) / p->columns;
 
-    r->first = p->next_row;
-    r->count = (uint32_t)smaller(complete_rows - p->next_row, b->reading_rows);
-    p->next_row += r->count;
+    r->first = p->read / p->columns;
+    r->count = (uint32_t)smaller(end - r->first, b->reading_rows);
+    p->read = (uint32_t)smaller(p->next, (r->first + r->count) * p->columns);
     b->read_ns = clock_ns();
-    if (r->count == 0)
-        return true;
     return call_done(b,
                      read_rows(b, b->sums, r->sums, PIXEL_SUMS_BYTES, stride,
                                r),
@@ -338,6 +338,12 @@ static bool enqueue_reading(struct backend_cl *b, struct progress *p,
                      read_rows(b, b->counts, r->counts, sizeof *r->counts,
                                stride, r),
                      "clEnqueueReadBufferRect", err);
+}
+
+/* A CPU reads its own memory, and halts sooner when little is left to read. */
+static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
+{
+    return b->machine.device->is_cpu || now_ns >= b->read_ns + READ_NS;
 }
 
 /* Gives the device the next points of the pass. */
@@ -363,8 +369,8 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
     p->next += s->task.count;
     return make_room(b, s, s->task.count * samples, err) &&
            enqueue_task(b, s, err) &&
-           (s->begin_ns < b->read_ns + READ_NS ||
-            enqueue_reading(b, p, &s->reading, p->next / p->columns, err)) &&
+           (!is_reading_due(b, s->begin_ns) ||
+            enqueue_reading(b, p, &s->reading, err)) &&
            call_done(b,
                      api->EnqueueReadBuffer(b->machine.queue, s->tally,
                                             CL_FALSE, 0, sizeof s->result,
@@ -402,27 +408,26 @@ static void adapt(struct backend_cl *b, const struct slot *s)
                                               : (uint32_t)wanted;
 }
 
-static bool finish_task(struct backend_cl *b, struct slot *s, bool is_cancelled,
-                        struct error *err)
+static bool finish_task(struct backend_cl *b, struct slot *s,
+                        const struct cancel *cancel, struct error *err)
 {
     if (!cl_machine_wait(&b->machine, &s->done, err))
         return false;
     film_count_more(b->film, &s->result);
     store_reading(b, s->task.stride, &s->reading);
-    if (!is_cancelled)
+    if (!cancel_requested(cancel))
         adapt(b, s);
     return true;
 }
 
-/* Reads the rest of what the pass has touched. */
+/* Reads what no task had room or reason for. */
 static bool read_rest(struct backend_cl *b, struct progress *p,
                       struct error *err)
 {
-    uint32_t touched = (p->next + p->columns - 1) / p->columns;
     struct reading *r = &b->slots[0].reading;
 
-    while (p->next_row < touched) {
-        if (!enqueue_reading(b, p, r, touched, err) ||
+    while (p->read < p->next) {
+        if (!enqueue_reading(b, p, r, err) ||
             !call_done(b, b->machine.api->Finish(b->machine.queue), "clFinish",
                        err))
             return false;
@@ -465,11 +470,11 @@ static bool run_tasks(struct backend_cl *b, struct progress *p,
 {
     for (int turn = 0;; turn = 1 - turn) {
         struct slot *s = &b->slots[turn];
-        bool is_cancelled = cancel_requested(cancel);
-        bool has_more = !is_cancelled && p->next < p->columns * p->rows;
+        bool has_more;
 
-        if (s->done != NULL && !finish_task(b, s, is_cancelled, err))
+        if (s->done != NULL && !finish_task(b, s, cancel, err))
             return false;
+        has_more = !cancel_requested(cancel) && p->next < p->columns * p->rows;
         if (has_more && !start_task(b, p, s, err))
             return false;
         if (!has_more && b->slots[1 - turn].done == NULL)
