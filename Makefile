@@ -117,6 +117,10 @@ tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate
 bench: $(B)/glim $(BENCHES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
 
+## stress: checks that take minutes; FILTER=NAME for one of them
+stress: $(B)/glim
+	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
+
 ## scenes: writes the scenes in scenes/ anew from their generator
 scenes: $(B)/scenes/generate
 	$(Q)$(B)/scenes/generate scenes
@@ -189,7 +193,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench scenes gallery install uninstall deps format \
+.PHONY: all run test tests bench stress scenes gallery install uninstall deps format \
 	lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(TOOLS:=.d)
