@@ -100,6 +100,30 @@ struct leaf_tri {
     uint32_t tri;
 };
 
+/* A triangle that shines, and the way to it from the root of the light tree:
+ * three bits a level, ten levels a word, the first lowest. */
+struct light {
+    uint32_t tri;
+    uint32_t path[2];
+};
+
+#define LIGHT_LEVELS 20
+#define LIGHT_WIDTH  8
+#define LIGHT_LEAF   0x80000000u
+
+/* Eight clusters of lights, side by side for vector units. Lights shine from
+ * both sides: their normals are lines, all within an angle of the axis. */
+struct light_node {
+    float x[LIGHT_WIDTH], y[LIGHT_WIDTH], z[LIGHT_WIDTH]; /* centre of a box */
+    float radius[LIGHT_WIDTH]; /* of the ball around the box; above 0 */
+    float axis_x[LIGHT_WIDTH]; /* unit */
+    float axis_y[LIGHT_WIDTH];
+    float axis_z[LIGHT_WIDTH];
+    float spread[LIGHT_WIDTH];   /* sine of that angle */
+    float power[LIGHT_WIDTH];    /* the sum over all lights is 1; 0: no child */
+    uint32_t child[LIGHT_WIDTH]; /* a node, or a light and LIGHT_LEAF */
+};
+
 /* What the scene has, so that a sample can skip what it has not. */
 enum feature {
     FEATURE_COVERAGE = 1u /* some material or texture lets rays pass */
@@ -121,7 +145,13 @@ struct world {
     GLOBAL const struct vec3 *sky_texels; /* row 0 is +y */
     GLOBAL const struct node *nodes;
     GLOBAL const struct leaf_tri *leaf_tris;
+    GLOBAL const struct light *lights;
+    GLOBAL const uint32_t *tri_lights;           /* NO_INDEX where it is dark */
+    GLOBAL const struct light_node *light_nodes; /* none for one light */
+    GLOBAL const float *sky_sums; /* see kernels/sky.h; none: no table */
     uint32_t tri_count;
+    uint32_t light_count;
+    float sky_share; /* probability that a light sample is one of the sky */
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
     uint32_t features; /* enum feature, or-ed */

@@ -221,8 +221,30 @@ static void fill_linear_of_srgb(float table[256])
     }
 }
 
+/* The part of a world that no view changes. */
+static struct world scene_arrays(const struct scene *scene)
+{
+    struct world w = {
+        .positions = scene->positions,
+        .normals = scene->normals,
+        .uvs = scene->uvs,
+        .tris = scene->tris,
+        .materials = scene->materials,
+        .textures = scene->textures,
+        .texels = scene->texels,
+        .linear_of_srgb = scene->linear_of_srgb,
+        .sky_texels = scene->sky_texels,
+        .tri_count = scene->tri_count,
+    };
+
+    lights_lend(&scene->lights, &w);
+    return w;
+}
+
 bool scene_finish(struct scene *scene, struct report *report, struct error *err)
 {
+    struct world arrays;
+
     drop_tris(scene, report, file_tri_is_usable);
     find_bounds(scene);
     find_scale(scene);
@@ -239,7 +261,8 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         scene->has_emitters |=
             shines(&scene->materials[scene->tris[i].material]);
     fill_linear_of_srgb(scene->linear_of_srgb);
-    return true;
+    arrays = scene_arrays(scene);
+    return lights_build(&scene->lights, &arrays, err);
 }
 
 bool scene_load_sky(struct scene *scene, const struct view *view,
@@ -421,24 +444,13 @@ static uint32_t find_features(const struct scene *scene)
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err)
 {
-    struct world w = {
-        .sky = make_sky(scene, view),
-        .positions = scene->positions,
-        .normals = scene->normals,
-        .uvs = scene->uvs,
-        .tris = scene->tris,
-        .materials = scene->materials,
-        .textures = scene->textures,
-        .texels = scene->texels,
-        .linear_of_srgb = scene->linear_of_srgb,
-        .sky_texels = scene->sky_texels,
-        .tri_count = scene->tri_count,
-        .max_vertices = view->max_bounces < 0 ? VERTICES_MAX
-                                              : (uint32_t)view->max_bounces + 1,
-        .seed = seed,
-        .features = find_features(scene),
-    };
+    struct world w = scene_arrays(scene);
 
+    w.sky = make_sky(scene, view);
+    w.max_vertices =
+        view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;
+    w.seed = seed;
+    w.features = find_features(scene);
     if (!view_check(view, "camera", err) ||
         !make_camera(scene, view, &w.camera, err))
         return false;
@@ -470,5 +482,6 @@ void scene_free(struct scene *scene)
     free_strings(scene->texture_paths, scene->texture_count);
     free(scene->texels);
     free(scene->sky_texels);
+    lights_free(&scene->lights);
     memset(scene, 0, sizeof *scene);
 }

@@ -14,6 +14,7 @@
 #ifndef GLIM_SCENE_H
 #define GLIM_SCENE_H
 
+#include "glim/lights.h"
 #include "glim/report.h"
 #include "glim/util.h"
 #include "glim/view.h"
@@ -58,6 +59,7 @@ struct scene {
     double scale;
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
     bool has_emitters;
+    struct lights lights;
     float linear_of_srgb[256];
 };
 
