@@ -285,7 +285,8 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
     scene->sky_height = (uint32_t)image.height;
     image.rgb = NULL;
     image_free(&image);
-    return true;
+    return sky_build(&scene->sky_table, scene->sky_texels, scene->sky_width,
+                     scene->sky_height, SKY_WITH_CHANCE, err);
 }
 
 /* Half the field of view along the narrower side of the picture. */
@@ -447,6 +448,7 @@ bool scene_world(const struct scene *scene, const struct view *view,
     struct world w = scene_arrays(scene);
 
     w.sky = make_sky(scene, view);
+    sky_lend(&scene->sky_table, &w);
     w.max_vertices =
         view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;
     w.seed = seed;
@@ -483,5 +485,6 @@ void scene_free(struct scene *scene)
     free(scene->texels);
     free(scene->sky_texels);
     lights_free(&scene->lights);
+    sky_free(&scene->sky_table);
     memset(scene, 0, sizeof *scene);
 }

@@ -16,6 +16,7 @@
 
 #include "glim/lights.h"
 #include "glim/report.h"
+#include "glim/sky.h"
 #include "glim/util.h"
 #include "glim/view.h"
 #include "kernels/types.h"
@@ -53,6 +54,7 @@ struct scene {
 
     struct vec3 *sky_texels; /* NULL: no image */
     uint32_t sky_width, sky_height;
+    struct sky_table sky_table;
 
     /* stored = (file - center) * scale */
     double center[3];
