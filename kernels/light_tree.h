@@ -37,6 +37,7 @@ static inline void light_sums(const struct world *w, uint32_t node,
                               const struct receiver *r, float sums[LIGHT_WIDTH])
 {
     float behind = r->transmits ? -1.0f : 1.0f;
+    float parts[LIGHT_WIDTH];
 
     for (uint32_t i = 0; i < LIGHT_WIDTH; i++) {
         float x = w->light_nodes[node].x[i] - r->p.x;
@@ -52,12 +53,13 @@ static inline void light_sums(const struct world *w, uint32_t node,
 
         in = f_max(f_max(in, in * behind) * inverse + sine, 0.0f);
         out = fabsf(out) * inverse + sine + w->light_nodes[node].spread[i];
-        sums[i] = w->light_nodes[node].power[i] * inverse * inverse *
-                  (f_min(in, 1.0f) + LIGHT_COSINE_SLACK) *
-                  (f_min(out, 1.0f) + LIGHT_COSINE_SLACK);
+        parts[i] = w->light_nodes[node].power[i] * inverse * inverse *
+                   (f_min(in, 1.0f) + LIGHT_COSINE_SLACK) *
+                   (f_min(out, 1.0f) + LIGHT_COSINE_SLACK);
     }
+    sums[0] = parts[0];
     for (uint32_t i = 1; i < LIGHT_WIDTH; i++)
-        sums[i] += sums[i - 1];
+        sums[i] = sums[i - 1] + parts[i];
 }
 
 /* The probability of child i: of the interval that a number can fall in. */

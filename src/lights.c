@@ -70,16 +70,15 @@ static struct cluster cluster_empty(void)
     return c;
 }
 
-static struct cluster cluster_join(struct cluster a, const struct cluster *b)
+static void cluster_add(struct cluster *a, const struct cluster *b)
 {
-    a.lo = v3(f_min(a.lo.x, b->lo.x), f_min(a.lo.y, b->lo.y),
-              f_min(a.lo.z, b->lo.z));
-    a.hi = v3(f_max(a.hi.x, b->hi.x), f_max(a.hi.y, b->hi.y),
-              f_max(a.hi.z, b->hi.z));
-    a.axis = v3_add(a.axis, b->axis);
-    a.power += b->power;
-    a.count += b->count;
-    return a;
+    a->lo = v3(f_min(a->lo.x, b->lo.x), f_min(a->lo.y, b->lo.y),
+               f_min(a->lo.z, b->lo.z));
+    a->hi = v3(f_max(a->hi.x, b->hi.x), f_max(a->hi.y, b->hi.y),
+               f_max(a->hi.z, b->hi.z));
+    a->axis = v3_add(a->axis, b->axis);
+    a->power += b->power;
+    a->count += b->count;
 }
 
 /* An emitter's own cluster, its normal on the side of `front`. */
@@ -99,7 +98,7 @@ static struct cluster cluster_all(const struct emitter *e, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         struct cluster one = cluster_of(&e[i], e[0].normal);
 
-        all = cluster_join(all, &one);
+        cluster_add(&all, &one);
     }
     return all;
 }
@@ -152,13 +151,15 @@ static void split_axis(const struct emitter *e, uint32_t count, uint32_t axis,
         int bin = bin_of(&s, &e[i]);
         struct cluster one = cluster_of(&e[i], e[0].normal);
 
-        bins[bin] = cluster_join(bins[bin], &one);
+        cluster_add(&bins[bin], &one);
     }
     right[BIN_COUNT - 1] = bins[BIN_COUNT - 1];
-    for (int i = BIN_COUNT - 2; i > 0; i--)
-        right[i] = cluster_join(bins[i], &right[i + 1]);
+    for (int i = BIN_COUNT - 2; i > 0; i--) {
+        right[i] = bins[i];
+        cluster_add(&right[i], &right[i + 1]);
+    }
     for (int i = 1; i < BIN_COUNT; i++) {
-        left = cluster_join(left, &bins[i - 1]);
+        cluster_add(&left, &bins[i - 1]);
         if (left.count == 0 || left.count == count)
             continue;
         s.cost = cluster_cost(&left) + cluster_cost(&right[i]);

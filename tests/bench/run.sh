@@ -101,8 +101,14 @@ bench_load() {
         "build_s $(value build_s load)"
 }
 
+bench_sampling() {
+    echo
+    echo 'sampling: nanoseconds on one core'
+    "$build/bench/sampling"
+}
+
 machine
-for name in threads sharing halts load; do
+for name in threads sharing halts load sampling; do
     if wanted "$name"; then
         "bench_$name"
     fi
