@@ -191,8 +191,11 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
     for (uint32_t i = 0; i < count; i++) {
         struct sampler s = sampler_start(x, y, first + i, w->seed);
         struct vec2 offset = random_2d(s, DIMENSION_PIXEL);
+        struct ray r = camera_ray(w->camera, x, y, offset);
 
-        out[i] = path_trace(w, camera_ray(w->camera, x, y, offset), s);
+        if (w->camera.lens_radius > 0.0f)
+            r = camera_through_lens(w->camera, r, random_2d(s, DIMENSION_LENS));
+        out[i] = path_trace(w, r, s);
     }
 }
 

@@ -81,9 +81,9 @@ struct camera {
     struct vec3 forward;
     float height;
     struct vec3 right;
-    float pad0;
+    float lens_radius; /* 0: a pinhole */
     struct vec3 up;
-    float pad1;
+    float focus; /* from the eye to the sharp plane, along forward */
 };
 
 /* Depth-first: the left child of node i is node i + 1. */

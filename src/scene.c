@@ -381,6 +381,22 @@ static struct vec3 scaled(const double v[3], double scale)
                          (float)(v[2] * scale)};
 }
 
+/* What a lens adds to a pinhole camera. */
+static void add_lens(const struct scene *scene, const struct view *view,
+                     struct camera *camera)
+{
+    double focus = view->focus;
+
+    if (focus == 0)
+        focus =
+            hypot(hypot(view->at[0] - view->eye[0], view->at[1] - view->eye[1]),
+                  view->at[2] - view->eye[2]);
+    camera->lens_radius =
+        (float)fmin(view->aperture / 2 * scene->scale, EYE_MAX);
+    camera->focus =
+        (float)fmin(fmax(focus * scene->scale, 1 / EYE_MAX), EYE_MAX);
+}
+
 static bool make_camera(const struct scene *scene, const struct view *view,
                         struct camera *camera, struct error *err)
 {
@@ -409,6 +425,7 @@ static bool make_camera(const struct scene *scene, const struct view *view,
     camera->forward = scaled(forward, 1);
     camera->right = scaled(right, tangent * view->width_px / view->height_px);
     camera->up = scaled(up, tangent);
+    add_lens(scene, view, camera);
     return true;
 }
 
