@@ -109,10 +109,13 @@ double footprint_mean(const struct footprint_sums *f, const struct vec2 uv[3])
     top = floor(top - REACH);
     bottom = floor(bottom + REACH) + 1;
     double step = ceil((bottom - top) / BANDS);
-    for (double y = top; y < bottom; y += step) {
+    for (int i = 0; i < BANDS; i++) {
+        double y = top + i * step;
         double end = fmin(y + step, bottom);
         double x0, x1;
 
+        if (y >= bottom)
+            break;
         if (!extent((const double(*)[2])p, y - REACH, end + REACH, &x0, &x1))
             continue;
         x0 = floor(x0 - REACH);

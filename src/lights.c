@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "glim/footprint.h"
 #include "kernels/hit.h"
@@ -40,9 +41,9 @@ struct builder {
 
 /* Some emitters taken together. */
 struct cluster {
+    double power;
     struct vec3 lo, hi;
     struct vec3 axis; /* sum of the normals, all turned to one side */
-    double power;
     uint32_t count;
 };
 
@@ -61,11 +62,8 @@ struct part {
 
 static struct cluster cluster_empty(void)
 {
-    struct cluster c = {{FLT_MAX, FLT_MAX, FLT_MAX},
-                        {-FLT_MAX, -FLT_MAX, -FLT_MAX},
-                        {0, 0, 0},
-                        0,
-                        0};
+    struct cluster c = {.lo = {FLT_MAX, FLT_MAX, FLT_MAX},
+                        .hi = {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
 
     return c;
 }
@@ -84,7 +82,7 @@ static void cluster_add(struct cluster *a, const struct cluster *b)
 /* An emitter's own cluster, its normal on the side of `front`. */
 static struct cluster cluster_of(const struct emitter *e, struct vec3 front)
 {
-    struct cluster c = {e->lo, e->hi, e->normal, e->power, 1};
+    struct cluster c = {e->power, e->lo, e->hi, e->normal, 1};
 
     if (v3_dot(e->normal, front) < 0.0f)
         c.axis = v3_neg(e->normal);
@@ -464,5 +462,5 @@ void lights_free(struct lights *lights)
     free(lights->lights);
     free(lights->tri_lights);
     free(lights->nodes);
-    *lights = (struct lights){.lights = NULL};
+    memset(lights, 0, sizeof *lights);
 }
