@@ -14,15 +14,16 @@
 #define KERNELS_FEATURES_H
 
 enum feature {
-    FEATURE_COVERAGE = 1,  /* a material or texture lets rays pass */
-    FEATURE_TEXTURES = 2,  /* colours or radiances from images */
-    FEATURE_METAL = 4,     /* any metal */
-    FEATURE_GLASS = 8,     /* any glass, thin or solid */
-    FEATURE_ROUGH = 16,    /* metal or glass that is not smooth */
-    FEATURE_SKY_IMAGE = 32 /* the sky is an image */
+    FEATURE_COVERAGE = 1,   /* a material or texture lets rays pass */
+    FEATURE_TEXTURES = 2,   /* colours or radiances from images */
+    FEATURE_METAL = 4,      /* any metal */
+    FEATURE_GLASS = 8,      /* any glass, thin or solid */
+    FEATURE_ROUGH = 16,     /* metal or glass that is not smooth */
+    FEATURE_SKY_IMAGE = 32, /* the sky is an image */
+    FEATURE_EMITTERS = 64   /* surfaces that shine */
 };
 
-#define FEATURES_ALL 63u
+#define FEATURES_ALL 127u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

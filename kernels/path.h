@@ -75,14 +75,8 @@ static inline bool vertex_at(const struct world *w, struct ray r, struct hit h,
     v->p = hit_point(h, p0, p1, p2, &v->p_error);
     v->has_uv = t.vt[0] != NO_INDEX;
     v->uv = v2(0.0f, 0.0f);
-    if (v->has_uv) {
-        struct vec2 a = w->uvs[t.vt[0]];
-        struct vec2 b = w->uvs[t.vt[1]];
-        struct vec2 c = w->uvs[t.vt[2]];
-
-        v->uv = v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
-                   h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
-    }
+    if (v->has_uv)
+        v->uv = uv_at(w, t, h);
     return true;
 }
 

@@ -19,12 +19,16 @@ __kernel void trace_paths(
     __global const struct texture *textures, __global const uint *texels,
     __global const float *linear_of_srgb,
     __global const struct vec3 *sky_texels, __global const struct node *nodes,
-    __global const struct leaf_tri *leaf_tris)
+    __global const struct leaf_tri *leaf_tris,
+    __global const struct light *lights, __global const uint *tri_lights,
+    __global const struct light_node *light_nodes,
+    __global const float *sky_sums)
 {
     uint i = (uint)get_global_id(0);
-    struct world w = {*settings,      positions,  normals,  uvs,
-                      tris,           materials,  textures, texels,
-                      linear_of_srgb, sky_texels, nodes,    leaf_tris};
+    struct world w = {*settings,      positions,  normals,     uvs,
+                      tris,           materials,  textures,    texels,
+                      linear_of_srgb, sky_texels, nodes,       leaf_tris,
+                      lights,         tri_lights, light_nodes, sky_sums};
 
     if (i / task.samples >= task.count)
         return;

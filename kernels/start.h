@@ -27,6 +27,10 @@ static inline struct path_start path_begin(const struct settings *s, uint32_t x,
     start.sampler = sampler_start(x, y, index, s->seed);
     start.ray =
         camera_ray(s->camera, x, y, random_2d(start.sampler, DIMENSION_PIXEL));
+    if (s->camera.lens_radius > 0.0f)
+        start.ray =
+            camera_through_lens(s->camera, start.ray,
+                                random_2d(start.sampler, DIMENSION_LENS));
     return start;
 }
 

@@ -46,6 +46,11 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
             SOURCE(w->sky_texels, (size_t)s->sky.width * s->sky.height),
         [CL_ARRAY_NODES] = SOURCE(bvh->nodes, bvh->node_count),
         [CL_ARRAY_LEAF_TRIS] = SOURCE(bvh->leaf_tris, bvh->leaf_tri_count),
+        [CL_ARRAY_LIGHTS] = SOURCE(w->lights, s->light_count),
+        [CL_ARRAY_TRI_LIGHTS] =
+            SOURCE(w->tri_lights, s->light_count > 0 ? s->tri_count : 0),
+        [CL_ARRAY_LIGHT_NODES] = SOURCE(w->light_nodes, s->light_node_count),
+        [CL_ARRAY_SKY_SUMS] = SOURCE(w->sky_sums, s->sky_sum_count),
     };
 
     for (int i = 0; i < CL_ARRAY_COUNT; i++) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "glim/asset.h"
+#include "glim/blackbody.h"
 #include "glim/file.h"
 #include "glim/lex.h"
 #include "glim/material.h"
@@ -205,6 +206,31 @@ static bool read_color(struct parser *p, struct word key,
     return true;
 }
 
+/* Ke_blackbody KELVIN [SCALE]: Ke as the colour of that temperature, with
+ * luminance SCALE or 1. */
+static bool read_blackbody(struct parser *p, struct word key,
+                           struct mtl_color *ke)
+{
+    double kelvin, scale = 1;
+
+    if (lex_at_line_end(&p->lex) || !lex_number(&p->lex, &kelvin) ||
+        (!lex_at_line_end(&p->lex) && !lex_number(&p->lex, &scale)))
+        return expected(p, key, "a temperature and perhaps a luminance");
+    *ke = (struct mtl_color){.line = p->lex.line};
+    if (kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST) {
+        blackbody_rgb(kelvin, ke->rgb);
+        for (int i = 0; i < 3; i++)
+            ke->rgb[i] *= scale;
+    } else if (!(kelvin >= 0 && kelvin < BLACKBODY_LEAST)) {
+        report_add(p->report, "impossible temperatures",
+                   "%s:%" PRIu64 ": found %.*s %g, expected kelvins from 0 to "
+                   "%g: taken as 0",
+                   p->path, p->lex.line, (int)key.length, key.start, kelvin,
+                   BLACKBODY_GREATEST);
+    }
+    return true;
+}
+
 /* Options of a map and the words after each; -o -s -t have 1 to 3 numbers. */
 static const struct {
     const char *name;
@@ -328,6 +354,8 @@ static bool read_property(struct parser *p, struct word key)
         {"map_Ks", NULL, NULL, &s->map_ks}, {"map_Ke", NULL, NULL, &s->map_ke},
     };
 
+    if (word_is(key, "Ke_blackbody"))
+        return read_blackbody(p, key, &s->ke);
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
         if (!word_is(key, properties[i].key))
             continue;

@@ -237,8 +237,39 @@ static bool find_used_materials(struct scene *scene, struct error *err)
     return true;
 }
 
+/* The part of a world that no view changes. */
+static struct world scene_arrays(const struct scene *scene)
+{
+    struct world w = {
+        .positions = scene->positions,
+        .normals = scene->normals,
+        .uvs = scene->uvs,
+        .tris = scene->tris,
+        .materials = scene->materials,
+        .textures = scene->textures,
+        .texels = scene->texels,
+        .linear_of_srgb = scene->linear_of_srgb,
+        .sky_texels = scene->sky_texels,
+        .settings =
+            {
+                .tri_count = scene->tri_count,
+                .position_count = scene->position_count,
+                .normal_count = scene->normal_count,
+                .uv_count = scene->uv_count,
+                .material_count = scene->material_count,
+                .texture_count = scene->texture_count,
+                .texel_count = (uint32_t)scene->texel_count,
+            },
+    };
+
+    lights_lend(&scene->lights, &w);
+    return w;
+}
+
 bool scene_finish(struct scene *scene, struct report *report, struct error *err)
 {
+    struct world arrays;
+
     drop_tris(scene, report, file_tri_is_usable);
     find_bounds(scene);
     find_scale(scene);
@@ -253,7 +284,8 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
     if (!find_used_materials(scene, err))
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
-    return true;
+    arrays = scene_arrays(scene);
+    return lights_build(&scene->lights, &arrays, err);
 }
 
 bool scene_load_sky(struct scene *scene, const struct view *view,
@@ -276,7 +308,8 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
     scene->sky_height = (uint32_t)image.height;
     image.rgb = NULL;
     image_free(&image);
-    return true;
+    return sky_build(&scene->sky_table, scene->sky_texels, scene->sky_width,
+                     scene->sky_height, SKY_WITH_CHANCE, err);
 }
 
 /* Half the field of view along the narrower side of the picture. */
@@ -371,6 +404,22 @@ static struct vec3 scaled(const double v[3], double scale)
                          (float)(v[2] * scale)};
 }
 
+/* What a lens adds to a pinhole camera. */
+static void add_lens(const struct scene *scene, const struct view *view,
+                     struct camera *camera)
+{
+    double focus = view->focus;
+
+    if (focus == 0)
+        focus =
+            hypot(hypot(view->at[0] - view->eye[0], view->at[1] - view->eye[1]),
+                  view->at[2] - view->eye[2]);
+    camera->lens_radius =
+        (float)fmin(view->aperture / 2 * scene->scale, EYE_MAX);
+    camera->focus =
+        (float)fmin(fmax(focus * scene->scale, 1 / EYE_MAX), EYE_MAX);
+}
+
 static bool make_camera(const struct scene *scene, const struct view *view,
                         struct camera *camera, struct error *err)
 {
@@ -399,6 +448,7 @@ static bool make_camera(const struct scene *scene, const struct view *view,
     camera->forward = scaled(forward, 1);
     camera->right = scaled(right, tangent * view->width_px / view->height_px);
     camera->up = scaled(up, tangent);
+    add_lens(scene, view, camera);
     return true;
 }
 
@@ -443,6 +493,9 @@ uint32_t scene_features(const struct scene *scene)
 {
     uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
 
+    if (scene->has_emitters)
+        features |= FEATURE_EMITTERS;
+
     for (uint32_t i = 0; i < scene->material_count; i++)
         if (scene->material_is_used[i])
             features |= scene_material_features(scene, &scene->materials[i]);
@@ -452,34 +505,14 @@ uint32_t scene_features(const struct scene *scene)
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err)
 {
-    struct world w = {
-        .settings =
-            {
-                .sky = make_sky(scene, view),
-                .tri_count = scene->tri_count,
-                .position_count = scene->position_count,
-                .normal_count = scene->normal_count,
-                .uv_count = scene->uv_count,
-                .material_count = scene->material_count,
-                .texture_count = scene->texture_count,
-                .texel_count = (uint32_t)scene->texel_count,
-                .max_vertices = view->max_bounces < 0
-                                    ? VERTICES_MAX
-                                    : (uint32_t)view->max_bounces + 1,
-                .seed = seed,
-                .features = scene_features(scene),
-            },
-        .positions = scene->positions,
-        .normals = scene->normals,
-        .uvs = scene->uvs,
-        .tris = scene->tris,
-        .materials = scene->materials,
-        .textures = scene->textures,
-        .texels = scene->texels,
-        .linear_of_srgb = scene->linear_of_srgb,
-        .sky_texels = scene->sky_texels,
-    };
+    struct world w = scene_arrays(scene);
 
+    w.settings.sky = make_sky(scene, view);
+    sky_lend(&scene->sky_table, &w);
+    w.settings.max_vertices =
+        view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;
+    w.settings.seed = seed;
+    w.settings.features = scene_features(scene);
     if (!view_check(view, "camera", err) ||
         !make_camera(scene, view, &w.settings.camera, err))
         return false;
@@ -512,5 +545,7 @@ void scene_free(struct scene *scene)
     free_strings(scene->texture_paths, scene->texture_count);
     free(scene->texels);
     free(scene->sky_texels);
+    lights_free(&scene->lights);
+    sky_free(&scene->sky_table);
     memset(scene, 0, sizeof *scene);
 }

@@ -13,7 +13,7 @@
 #include "glim/scene.h"
 
 #define SIDE 16
-#define SPP  8
+#define SPP  4
 
 /* Devices may round divisions and roots in their own way. Then a path takes
  * another turn now and then, and its pixel differs; most differ in the last

@@ -14,7 +14,9 @@
 #ifndef GLIM_SCENE_H
 #define GLIM_SCENE_H
 
+#include "glim/lights.h"
 #include "glim/report.h"
+#include "glim/sky.h"
 #include "glim/util.h"
 #include "glim/view.h"
 #include "kernels/types.h"
@@ -53,12 +55,14 @@ struct scene {
 
     struct vec3 *sky_texels; /* NULL: no image */
     uint32_t sky_width, sky_height;
+    struct sky_table sky_table;
 
     /* stored = (file - center) * scale */
     double center[3];
     double scale;
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
     bool has_emitters;
+    struct lights lights;
     float linear_of_srgb[256];
 };
 

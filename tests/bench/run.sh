@@ -124,8 +124,14 @@ bench_load() {
         "build_s $(value build_s load)"
 }
 
+bench_sampling() {
+    echo
+    echo 'sampling: nanoseconds on one core'
+    "$build/bench/sampling"
+}
+
 machine
-for name in threads sharing halts load device; do
+for name in threads sharing halts load device sampling; do
     if wanted "$name"; then
         "bench_$name"
     fi

@@ -32,18 +32,26 @@
     M(sky, rotation_sin, 20) M(sky, rotation_cos, 24) M(sky, pad, 28)        \
     S(camera, 64) M(camera, eye, 0) M(camera, width, 12)                     \
     M(camera, forward, 16) M(camera, height, 28) M(camera, right, 32)        \
-    M(camera, pad0, 44) M(camera, up, 48) M(camera, pad1, 60)                \
+    M(camera, lens_radius, 44) M(camera, up, 48) M(camera, focus, 60)               \
     S(node, 32) M(node, lo, 0) M(node, next, 12) M(node, hi, 16)             \
     M(node, count, 28)                                                       \
     S(leaf_tri, 40) M(leaf_tri, p0, 0) M(leaf_tri, p1, 12)                   \
     M(leaf_tri, p2, 24) M(leaf_tri, tri, 36)                                 \
-    S(settings, 144) M(settings, camera, 0) M(settings, sky, 64)             \
+    S(light, 12) M(light, tri, 0) M(light, path, 4)                          \
+    S(light_node, 320) M(light_node, x, 0) M(light_node, y, 32)              \
+    M(light_node, z, 64) M(light_node, radius, 96) M(light_node, axis_x, 128)\
+    M(light_node, axis_y, 160) M(light_node, axis_z, 192)                    \
+    M(light_node, spread, 224) M(light_node, power, 256)                     \
+    M(light_node, child, 288)                                                \
+    S(settings, 160) M(settings, camera, 0) M(settings, sky, 64)             \
     M(settings, max_vertices, 96) M(settings, seed, 100)                     \
-    M(settings, features, 104) M(settings, tri_count, 108)                   \
-    M(settings, position_count, 112) M(settings, normal_count, 116)          \
-    M(settings, uv_count, 120) M(settings, material_count, 124)              \
-    M(settings, texture_count, 128) M(settings, texel_count, 132)            \
-    M(settings, pad, 136)                                                    \
+    M(settings, features, 104) M(settings, sky_share, 108)                   \
+    M(settings, tri_count, 112) M(settings, position_count, 116)             \
+    M(settings, normal_count, 120) M(settings, uv_count, 124)                \
+    M(settings, material_count, 128) M(settings, texture_count, 132)         \
+    M(settings, texel_count, 136) M(settings, light_count, 140)              \
+    M(settings, light_node_count, 144) M(settings, sky_sum_count, 148)       \
+    M(settings, pad, 152)                                                    \
     S(ray, 32) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
     S(path_sample, 20) M(path_sample, radiance, 0) M(path_sample, rays, 12)  \
     M(path_sample, cut, 16)                                                  \

@@ -382,6 +382,14 @@ static void test_camera(void **state)
     assert_int_equal(w.settings.seed, 7);
     assert_int_equal(w.settings.max_vertices, 1000);
     assert_int_equal(w.settings.features, 0);
+    assert_true(w.settings.camera.lens_radius == 0);
+    view.aperture = 0.8; /* a radius of .4, and the distance to at: 8 */
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    check_close((double)w.settings.camera.lens_radius, 0.1, 1e-7);
+    check_close((double)w.settings.camera.focus, 2, 1e-6);
+    view.focus = 12;
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    check_close((double)w.settings.camera.focus, 3, 1e-6);
     view.max_bounces = 0;
     memcpy(view.up, (double[]){1e300, 1e300, 0}, sizeof view.up);
     assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
