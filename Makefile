@@ -111,6 +111,11 @@ bench: $(B)/glim $(BENCHES)
 scenes: $(B)/scenes/generate
 	$(Q)$(B)/scenes/generate scenes
 
+## tables: computes kernels/energy_tables.h anew
+tables: $(B)/tools/energy
+	$(Q)$(B)/tools/energy > $(B)/energy_tables.h
+	$(Q)mv $(B)/energy_tables.h kernels/energy_tables.h
+
 ## gallery: renders the README's pictures into scenes/gallery/
 gallery: $(B)/glim
 	@BUILD=$(B) scenes/gallery/render.sh
@@ -171,7 +176,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench scenes gallery install uninstall deps format \
-	lint clean help FORCE
+.PHONY: all run test tests bench scenes tables gallery install uninstall deps \
+	format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(TOOLS:=.d)

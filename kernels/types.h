@@ -34,10 +34,12 @@ struct tri {
 };
 
 enum material_kind {
-    MATERIAL_DIFFUSE,   /* color: albedo */
-    MATERIAL_METAL,     /* color: reflectance at normal incidence; alpha */
-    MATERIAL_GLASS,     /* color: tint of each crossing; ior, alpha */
-    MATERIAL_THIN_GLASS /* color: tint of each crossing; ior */
+    MATERIAL_DIFFUSE,       /* color: albedo */
+    MATERIAL_ROUGH_DIFFUSE, /* color: albedo; alpha: roughness */
+    MATERIAL_METAL,         /* color: reflectance at normal incidence; alpha */
+    MATERIAL_PLASTIC,       /* color: albedo of the base; coat; alpha */
+    MATERIAL_GLASS,         /* color: tint of each crossing; ior, alpha */
+    MATERIAL_THIN_GLASS     /* color: tint of each crossing; ior */
 };
 
 struct material {
