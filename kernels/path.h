@@ -95,7 +95,9 @@ bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
     b.color = m->color;
     if (m->color_texture != NO_INDEX && v->has_uv)
         b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
-    b.coat = v3(0.0f, 0.0f, 0.0f);
+    b.coat = m->coat;
+    if (m->coat_texture != NO_INDEX && v->has_uv)
+        b.coat = v3_mul(b.coat, texture_at(w, m->coat_texture, v->uv).color);
     b.alpha = m->alpha;
     b.kind = m->kind;
     b.eta = m->ior;

@@ -52,6 +52,8 @@ struct material {
     uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
     float
         opacity; /* 1: opaque; less: a ray passes with probability 1-opacity */
+    struct vec3 coat;      /* reflectance of the coat at normal incidence */
+    uint32_t coat_texture; /* multiplies coat; NO_INDEX: none */
 };
 
 #define ALPHA_SMOOTH 5e-4f
