@@ -126,6 +126,11 @@ stress: $(B)/glim
 scenes: $(B)/scenes/generate
 	$(Q)$(B)/scenes/generate scenes
 
+## tables: computes kernels/energy_tables.h anew
+tables: $(B)/tools/energy
+	$(Q)$(B)/tools/energy > $(B)/energy_tables.h
+	$(Q)mv $(B)/energy_tables.h kernels/energy_tables.h
+
 ## gallery: renders the README's pictures into scenes/gallery/
 gallery: $(B)/glim
 	@BUILD=$(B) scenes/gallery/render.sh
@@ -194,7 +199,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench stress scenes gallery install uninstall deps format \
-	lint clean help FORCE
+.PHONY: all run test tests bench stress scenes tables gallery install uninstall \
+	deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(TOOLS:=.d)

@@ -16,6 +16,7 @@
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 
 typedef int int32_t;
+typedef ushort uint16_t;
 typedef uint uint32_t;
 typedef ulong uint64_t;
 

@@ -14,16 +14,18 @@
 #define KERNELS_FEATURES_H
 
 enum feature {
-    FEATURE_COVERAGE = 1,   /* a material or texture lets rays pass */
-    FEATURE_TEXTURES = 2,   /* colours or radiances from images */
-    FEATURE_METAL = 4,      /* any metal */
-    FEATURE_GLASS = 8,      /* any glass, thin or solid */
-    FEATURE_ROUGH = 16,     /* metal or glass that is not smooth */
-    FEATURE_SKY_IMAGE = 32, /* the sky is an image */
-    FEATURE_EMITTERS = 64   /* surfaces that shine */
+    FEATURE_COVERAGE = 1, /* a material or texture lets rays pass */
+    FEATURE_TEXTURES = 2, /* colours or radiances from images */
+    FEATURE_METAL = 4,    /* any metal */
+    FEATURE_GLASS = 8,    /* any glass, thin or solid */
+    FEATURE_PLASTIC = 16, /* a coat over diffuse */
+    FEATURE_ROUGH = 32,   /* metal, glass or coat that is not smooth */
+    FEATURE_ROUGH_DIFFUSE = 64,
+    FEATURE_SKY_IMAGE = 128, /* the sky is an image */
+    FEATURE_EMITTERS = 256   /* surfaces that shine */
 };
 
-#define FEATURES_ALL 127u
+#define FEATURES_ALL 511u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

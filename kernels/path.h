@@ -88,6 +88,10 @@ bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
     b.color = m->color;
     if (HAS(FEATURE_TEXTURES) && m->color_texture != NO_INDEX && v->has_uv)
         b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
+    b.coat = m->coat;
+    if (HAS(FEATURE_TEXTURES) && HAS(FEATURE_PLASTIC) &&
+        m->coat_texture != NO_INDEX && v->has_uv)
+        b.coat = v3_mul(b.coat, texture_at(w, m->coat_texture, v->uv).color);
     b.alpha = m->alpha;
     b.kind = m->kind;
     b.eta = m->ior;
@@ -104,12 +108,12 @@ static inline bool scatter(const struct bsdf *b, const struct vertex *v,
     struct vec3 t, bt, wo, wi;
     float side;
 
-    if (v3_is_zero(b->color) && b->kind == MATERIAL_DIFFUSE)
+    if (bsdf_is_black(b))
         return false; /* lamps: no ray for nothing */
     frame_around(v->n, &t, &bt);
     wo = v3_neg(r->d);
     wo = v3(v3_dot(wo, t), v3_dot(wo, bt), v3_dot(wo, v->n));
-    if (!(wo.z > 0.0f) || !bsdf_sample(b, wo, direction, choice, s))
+    if (!bsdf_sample(b, wo, direction, choice, s))
         return false;
     wi = v3_add(v3_add(v3_scale(t, s->wi.x), v3_scale(bt, s->wi.y)),
                 v3_scale(v->n, s->wi.z));

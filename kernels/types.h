@@ -35,10 +35,12 @@ struct tri {
 };
 
 enum material_kind {
-    MATERIAL_DIFFUSE,   /* color: albedo */
-    MATERIAL_METAL,     /* color: reflectance at normal incidence; alpha */
-    MATERIAL_GLASS,     /* color: tint of each crossing; ior, alpha */
-    MATERIAL_THIN_GLASS /* color: tint of each crossing; ior */
+    MATERIAL_DIFFUSE,       /* color: albedo */
+    MATERIAL_ROUGH_DIFFUSE, /* color: albedo; alpha: roughness */
+    MATERIAL_METAL,         /* color: reflectance at normal incidence; alpha */
+    MATERIAL_PLASTIC,       /* color: albedo of the base; coat; alpha */
+    MATERIAL_GLASS,         /* color: tint of each crossing; ior, alpha */
+    MATERIAL_THIN_GLASS     /* color: tint of each crossing; ior */
 };
 
 struct material {
@@ -51,6 +53,8 @@ struct material {
     uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
     float
         opacity; /* 1: opaque; less: a ray passes with probability 1-opacity */
+    struct vec3 coat;      /* reflectance of the coat at normal incidence */
+    uint32_t coat_texture; /* multiplies coat; NO_INDEX: none */
 };
 
 #define ALPHA_SMOOTH 5e-4f

@@ -8,6 +8,9 @@
 /* From here on a highlight is a mirror image: exporters write 1000 for it. */
 #define NS_SMOOTH 1000
 
+/* Less rough than this nothing can be told from Lambert's law. */
+#define ROUGH_LEAST 1e-3
+
 #define IOR_DEFAULT 1.5
 #define IOR_MAX     1e6
 
@@ -24,6 +27,7 @@ struct material material_default(void)
         .kind = MATERIAL_DIFFUSE,
         .color_texture = NO_INDEX,
         .emission_texture = NO_INDEX,
+        .coat_texture = NO_INDEX,
         .opacity = 1,
     };
 
@@ -136,12 +140,35 @@ static bool is_black(const struct vec3 *c)
     return c->x == 0 && c->y == 0 && c->z == 0;
 }
 
+static void make_plastic(struct material *m, const struct vec3 *ks,
+                         const struct mtl_source *s, const struct place *at)
+{
+    m->kind = MATERIAL_PLASTIC;
+    m->coat = (struct vec3){ks->x * MATERIAL_COAT, ks->y * MATERIAL_COAT,
+                            ks->z * MATERIAL_COAT};
+    m->coat_texture = s->map_ks;
+    m->alpha = (float)roughness(s, at);
+}
+
+static void make_diffuse(struct material *m, const struct mtl_source *s,
+                         const struct place *at)
+{
+    double r = within(&s->kd_roughness, "Kd_roughness", 0, 1,
+                      unit_clamped(s->kd_roughness.value), at);
+
+    if (r < ROUGH_LEAST)
+        return;
+    m->kind = MATERIAL_ROUGH_DIFFUSE;
+    m->alpha = (float)r;
+}
+
 static void make_opaque(struct material *m, int illum,
                         const struct mtl_source *s, const struct place *at)
 {
     bool has_map = s->map_kd != NO_INDEX;
     double pm = within(&s->pm, "Pm", 0, 1, unit_clamped(s->pm.value), at);
     struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
+    bool has_ks = !is_black(&ks) || s->map_ks != NO_INDEX;
 
     m->opacity = (float)opacity(s, at);
     m->color = reflecting(&s->kd, "Kd", has_map ? 0 : MATERIAL_GREY, at);
@@ -149,19 +176,22 @@ static void make_opaque(struct material *m, int illum,
     if (pm >= 0.5) {
         m->kind = MATERIAL_METAL;
         m->alpha = (float)roughness(s, at);
-    } else if ((illum == 3 || illum == 5) &&
-               (!is_black(&ks) || s->map_ks != NO_INDEX)) {
+    } else if (has_ks && (illum == 3 || illum == 5)) {
         m->kind = MATERIAL_METAL;
         m->color = ks;
         m->color_texture = s->map_ks;
         m->alpha = (float)roughness(s, at);
+    } else if (has_ks) {
+        make_plastic(m, &ks, s, at);
+    } else {
+        make_diffuse(m, s, at);
     }
 }
 
 static void check_map(uint32_t map, const char *key, const struct material *m,
                       const struct place *at)
 {
-    if (map != NO_INDEX && map != m->color_texture)
+    if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture)
         report_add(at->report, "maps that do not fit their material",
                    "%s: found %s of a material that has no such colour: not "
                    "used",

@@ -345,13 +345,21 @@ static bool read_property(struct parser *p, struct word key)
         struct mtl_number *number;
         uint32_t *texture;
     } properties[] = {
-        {"Kd", &s->kd, NULL, NULL},         {"Ks", &s->ks, NULL, NULL},
-        {"Ke", &s->ke, NULL, NULL},         {"Tf", &s->tf, NULL, NULL},
-        {"Ns", NULL, &s->ns, NULL},         {"Ni", NULL, &s->ni, NULL},
-        {"d", NULL, &s->d, NULL},           {"Tr", NULL, &s->tr, NULL},
-        {"illum", NULL, &s->illum, NULL},   {"Pr", NULL, &s->pr, NULL},
-        {"Pm", NULL, &s->pm, NULL},         {"map_Kd", NULL, NULL, &s->map_kd},
-        {"map_Ks", NULL, NULL, &s->map_ks}, {"map_Ke", NULL, NULL, &s->map_ke},
+        {"Kd", &s->kd, NULL, NULL},
+        {"Ks", &s->ks, NULL, NULL},
+        {"Ke", &s->ke, NULL, NULL},
+        {"Tf", &s->tf, NULL, NULL},
+        {"Ns", NULL, &s->ns, NULL},
+        {"Ni", NULL, &s->ni, NULL},
+        {"d", NULL, &s->d, NULL},
+        {"Tr", NULL, &s->tr, NULL},
+        {"illum", NULL, &s->illum, NULL},
+        {"Pr", NULL, &s->pr, NULL},
+        {"Pm", NULL, &s->pm, NULL},
+        {"Kd_roughness", NULL, &s->kd_roughness, NULL},
+        {"map_Kd", NULL, NULL, &s->map_kd},
+        {"map_Ks", NULL, NULL, &s->map_ks},
+        {"map_Ke", NULL, NULL, &s->map_ke},
     };
 
     if (word_is(key, "Ke_blackbody"))

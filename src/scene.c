@@ -475,7 +475,8 @@ uint32_t scene_material_features(const struct scene *scene,
 {
     uint32_t features = 0;
 
-    if (m->color_texture != NO_INDEX || m->emission_texture != NO_INDEX)
+    if (m->color_texture != NO_INDEX || m->coat_texture != NO_INDEX ||
+        m->emission_texture != NO_INDEX)
         features |= FEATURE_TEXTURES;
     if (m->opacity < 1 || (m->color_texture != NO_INDEX &&
                            scene->textures[m->color_texture].has_holes))
@@ -484,7 +485,11 @@ uint32_t scene_material_features(const struct scene *scene,
         features |= FEATURE_METAL;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
-    if (m->kind != MATERIAL_DIFFUSE && m->alpha >= ALPHA_SMOOTH)
+    if (m->kind == MATERIAL_PLASTIC)
+        features |= FEATURE_PLASTIC;
+    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
+        features |= FEATURE_ROUGH_DIFFUSE;
+    else if (m->kind != MATERIAL_DIFFUSE && m->alpha >= ALPHA_SMOOTH)
         features |= FEATURE_ROUGH;
     return features;
 }

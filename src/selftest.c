@@ -28,24 +28,30 @@ static const char materials[] = "newmtl wall\nKd .7 .6 .5\n"
                                 "newmtl pane\nillum 4\nTf .9 1 .9\n"
                                 "newmtl frosted\nillum 7\nNi 1.5\nPr .4\n"
                                 "newmtl clear\nillum 7\nNi 1.4\n"
-                                "newmtl veil\nKd .2 .4 .8\nd .5\n";
+                                "newmtl veil\nKd .2 .4 .8\nd .5\n"
+                                "newmtl chalk\nKd .8 .8 .8\n"
+                                "Kd_roughness .7\n"
+                                "newmtl coated\nKd .5 .1 .1\nKs .2 .2 .2\n"
+                                "illum 2\nPr .5\n";
 
 /* A room, its lamp, and upright triangles in it. */
-static const char faces[] = "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\n"
-                            "v -2 3 -2\nv 2 3 -2\nv 2 3 2\nv -2 3 2\n"
-                            "v -1 2.9 -1\nv 1 2.9 -1\nv 1 2.9 1\nv -1 2.9 1\n"
-                            "usemtl wall\nf 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\n"
-                            "f 1 4 8 5\nf 2 3 7 6\nusemtl lamp\nf 9 10 11 12\n"
-                            "v -1.8 .2 -1\nv -.6 .2 -1.2\nv -1.2 2 -1.1\n"
-                            "v -.5 .2 -1.2\nv .5 .2 -1.2\nv 0 2 -1.2\n"
-                            "v .6 .2 -1.2\nv 1.8 .2 -1\nv 1.2 2 -1.1\n"
-                            "v -1.5 .2 .5\nv -.5 .2 .3\nv -1 2 .4\n"
-                            "v -.4 .2 .2\nv .4 .2 .2\nv 0 2 .2\n"
-                            "v .5 .2 .3\nv 1.5 .2 .5\nv 1 2 .4\n"
-                            "usemtl steel\nf 13 14 15\nusemtl mirror\n"
-                            "f 16 17 18\nusemtl veil\nf 19 20 21\n"
-                            "usemtl frosted\nf 22 23 24\nusemtl pane\n"
-                            "f 25 26 27\nusemtl clear\nf 28 29 30\n";
+static const char faces[] =
+    "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\n"
+    "v -2 3 -2\nv 2 3 -2\nv 2 3 2\nv -2 3 2\n"
+    "v -1 2.9 -1\nv 1 2.9 -1\nv 1 2.9 1\nv -1 2.9 1\n"
+    "usemtl wall\nf 5 6 7 8\nf 1 2 6 5\n"
+    "f 2 3 7 6\nusemtl coated\nf 1 2 3 4\n"
+    "usemtl chalk\nf 1 4 8 5\nusemtl lamp\nf 9 10 11 12\n"
+    "v -1.8 .2 -1\nv -.6 .2 -1.2\nv -1.2 2 -1.1\n"
+    "v -.5 .2 -1.2\nv .5 .2 -1.2\nv 0 2 -1.2\n"
+    "v .6 .2 -1.2\nv 1.8 .2 -1\nv 1.2 2 -1.1\n"
+    "v -1.5 .2 .5\nv -.5 .2 .3\nv -1 2 .4\n"
+    "v -.4 .2 .2\nv .4 .2 .2\nv 0 2 .2\n"
+    "v .5 .2 .3\nv 1.5 .2 .5\nv 1 2 .4\n"
+    "usemtl steel\nf 13 14 15\nusemtl mirror\n"
+    "f 16 17 18\nusemtl veil\nf 19 20 21\n"
+    "usemtl frosted\nf 22 23 24\nusemtl pane\n"
+    "f 25 26 27\nusemtl clear\nf 28 29 30\n";
 
 static bool make_scene(struct scene *scene, uint32_t features,
                        struct error *err)

@@ -71,12 +71,12 @@ static bool is_black(const struct vec3 *c)
 }
 
 /* A map multiplies its colour, but beside a black or absent one it stands
- * alone. Without its image the map is gone. */
+ * alone, times `alone`. Without its image the map is gone. */
 static void settle(const struct scene *scene, uint32_t *texture,
-                   struct vec3 *color, float lost)
+                   struct vec3 *color, float alone, float lost)
 {
     bool is_lost = *texture != NO_INDEX && scene->textures[*texture].width == 0;
-    float x = is_lost ? lost : 1;
+    float x = is_lost ? lost : alone;
 
     if (*texture != NO_INDEX && is_black(color))
         *color = (struct vec3){x, x, x};
@@ -97,16 +97,20 @@ bool textures_load(struct scene *scene, struct report *report,
         is_used[scene->tris[i].material] = true;
     for (uint32_t i = 0; ok && i < scene->material_count; i++) {
         struct material *m = &scene->materials[i];
-        uint32_t maps[2] = {m->color_texture, m->emission_texture};
+        uint32_t maps[] = {m->color_texture, m->emission_texture,
+                           m->coat_texture};
 
-        for (int k = 0; k < 2 && ok; k++) {
+        for (size_t k = 0; k < sizeof maps / sizeof maps[0] && ok; k++) {
             if (!is_used[i] || maps[k] == NO_INDEX || is_tried[maps[k]])
                 continue;
             is_tried[maps[k]] = true;
             ok = load(scene, maps[k], report, err);
         }
-        settle(scene, &m->color_texture, &m->color, MATERIAL_GREY);
-        settle(scene, &m->emission_texture, &m->emission, 0);
+        settle(scene, &m->color_texture, &m->color, 1, MATERIAL_GREY);
+        settle(scene, &m->emission_texture, &m->emission, 1, 0);
+        settle(scene, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
+        if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
+            m->kind = MATERIAL_DIFFUSE;
     }
     free(is_used);
     free(is_tried);

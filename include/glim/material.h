@@ -5,9 +5,11 @@
  *
  * illum 6, 7: glass; 4, 9: thin glass; tinted by Tf times map_Kd. Else Pm of
  * one half and more: metal of colour Kd. Else illum 3, 5 with Ks that is not
- * black, or with map_Ks: metal of colour Ks. Else diffuse, colour Kd. A map
- * multiplies its colour. Roughness alpha is Pr squared, or sqrt(2 / (Ns + 2)),
- * or 0 where Ns is absent, 0 or 1000 and more.
+ * black, or with map_Ks: metal of colour Ks. Else diffuse, colour Kd, under a
+ * clear coat that reflects MATERIAL_COAT Ks if Ks is not black or there is
+ * map_Ks. A map multiplies its colour. Roughness alpha is Pr squared, or
+ * sqrt(2 / (Ns + 2)), or 0 where Ns is absent, 0 or 1000 and more; the
+ * roughness of diffuse without a coat is Kd_roughness, 0 if absent.
  *
  * Units:     none
  * Ownership: none
@@ -19,6 +21,10 @@
 
 #include "glim/report.h"
 #include "kernels/types.h"
+
+/* The reflectance of a coat whose Ks is 1. Exporters write Ks .5 for what is
+ * ordinary, which gives the 4 % of glass and varnish. */
+#define MATERIAL_COAT 0.08f
 
 /* The colour of what has none. */
 #define MATERIAL_GREY 0.8f
@@ -36,7 +42,7 @@ struct mtl_color {
 
 struct mtl_source {
     struct mtl_color kd, ks, ke, tf;
-    struct mtl_number illum, ns, ni, d, tr, pr, pm;
+    struct mtl_number illum, ns, ni, d, tr, pr, pm, kd_roughness;
     uint32_t map_kd, map_ks, map_ke; /* number of a texture, or NO_INDEX */
 };
 

@@ -104,6 +104,7 @@ static inline struct material mesh_material(uint32_t kind, float color)
                          .ior = 1.5f,
                          .opacity = 1.0f,
                          .color_texture = NO_INDEX,
+                         .coat_texture = NO_INDEX,
                          .emission_texture = NO_INDEX};
 
     return m;

@@ -22,10 +22,11 @@
     S(vec3, 12) M(vec3, x, 0) M(vec3, y, 4) M(vec3, z, 8)                    \
     S(tri, 40) M(tri, v, 0) M(tri, vn, 12) M(tri, vt, 24)                    \
     M(tri, material, 36)                                                     \
-    S(material, 48) M(material, color, 0) M(material, alpha, 12)             \
+    S(material, 64) M(material, color, 0) M(material, alpha, 12)             \
     M(material, emission, 16) M(material, ior, 28) M(material, kind, 32)     \
     M(material, color_texture, 36) M(material, emission_texture, 40)         \
-    M(material, opacity, 44)                                                 \
+    M(material, opacity, 44) M(material, coat, 48)                           \
+    M(material, coat_texture, 60)                                            \
     S(texture, 16) M(texture, first, 0) M(texture, width, 4)                 \
     M(texture, height, 8) M(texture, has_holes, 12)                          \
     S(sky, 32) M(sky, color, 0) M(sky, width, 12) M(sky, height, 16)         \

@@ -75,9 +75,14 @@ static void test_kinds(void **state)
         {"Kd .5 .5 .5", MATERIAL_DIFFUSE, .5, 0, 1.5},
         {"Kd .5", MATERIAL_DIFFUSE, .5, 0, 1.5},
         {"", MATERIAL_DIFFUSE, .8, 0, 1.5},
-        {"Kd .5\nKs 1\nNs 10\nillum 2", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"Kd .5\nKs 1\nNs 6\nillum 2", MATERIAL_PLASTIC, .5, .5, 1.5},
+        {"Kd .5\nKs 0\nNs 6\nillum 2", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"Kd .5\nKs 1\nPr .5\nNs 6", MATERIAL_PLASTIC, .5, .25, 1.5},
+        {"Kd .5\nKs 1\nKd_roughness .7", MATERIAL_PLASTIC, .5, 0, 1.5},
+        {"Kd .5\nKd_roughness .7", MATERIAL_ROUGH_DIFFUSE, .5, .7, 1.5},
+        {"Kd .5\nKd_roughness .0009", MATERIAL_DIFFUSE, .5, 0, 1.5},
         {"Kd .5\nillum 0", MATERIAL_DIFFUSE, .5, 0, 1.5},
-        {"Kd .5\nKs .9\nillum 10", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"Kd .5\nKs .9\nillum 10", MATERIAL_PLASTIC, .5, 0, 1.5},
         {"Kd 0\nKs .9\nillum 3", MATERIAL_METAL, .9, 0, 1.5},
         {"Kd 0\nKs .9\nNs 1000\nillum 5", MATERIAL_METAL, .9, 0, 1.5},
         {"Kd 0\nKs .9\nNs 0\nillum 5", MATERIAL_METAL, .9, 0, 1.5},
@@ -110,6 +115,14 @@ static void test_kinds(void **state)
         assert_int_equal(m.color_texture, NO_INDEX);
         assert_int_equal(m.emission_texture, NO_INDEX);
     }
+}
+
+static void test_coats(void **state)
+{
+    (void)state;
+    check_color(one("Kd .5\nKs .5 1 0", 0).coat, .04, .08, 0);
+    check_color(one("Kd .5\nKs 2 -1 .25", 1).coat, .08, 0, .02);
+    check_color(one("Kd .5\nKs 1\nillum 3", 0).coat, 0, 0, 0);
 }
 
 static void test_emission(void **state)
@@ -320,12 +333,13 @@ static void test_maps_are_shared(void **state)
     assert_int_equal(m[3].color_texture, 0);
     assert_int_equal(m[4].kind, MATERIAL_METAL);
     assert_int_equal(m[4].color_texture, 0);
-    assert_int_equal(m[5].kind, MATERIAL_DIFFUSE);
+    assert_int_equal(m[5].kind, MATERIAL_PLASTIC);
     assert_int_equal(m[5].color_texture, 1);
+    assert_int_equal(m[5].coat_texture, 0);
     assert_int_equal(m[6].kind, MATERIAL_METAL);
     assert_int_equal(m[6].color_texture, 1);
     assert_int_equal(l.report.entry_count, 1);
-    assert_int_equal(l.report.entries[0].count, 2);
+    assert_int_equal(l.report.entries[0].count, 1);
     unload(&l);
 }
 
@@ -371,6 +385,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_kinds),
+        cmocka_unit_test(test_coats),
         cmocka_unit_test(test_emission),
         cmocka_unit_test(test_black_bodies),
         cmocka_unit_test(test_colors_are_clamped),

@@ -112,6 +112,35 @@ static void thin_glass_vanishes(void **state)
         furnace_error(mesh_material(MATERIAL_THIN_GLASS, 1.0f), 50000) == 0);
 }
 
+/* On the average of many rays; 3e-3 for each table on the way: a ray meets
+ * glass some four times. */
+static void white_rough_things_vanish(void **state)
+{
+    const struct {
+        uint32_t kind;
+        double meetings;
+    } things[] = {{MATERIAL_METAL, 1},
+                  {MATERIAL_PLASTIC, 1},
+                  {MATERIAL_ROUGH_DIFFUSE, 1},
+                  {MATERIAL_GLASS, 4}};
+
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct mesh m = {0};
+
+        m.materials[0] = mesh_material(things[i].kind, 1.0f);
+        m.materials[0].alpha = 0.4f;
+        m.materials[0].coat = v3(0.04f, 0.04f, 0.04f);
+        m.world.settings.sky.color = v3(1, 1, 1);
+        mesh_add_sphere(&m, v3(0, 0, 0), 0.5f, 24, 40, 0);
+        mesh_finish(&m);
+        check_estimate(look(&m.world, v3(0, 0, 3), v3(0.2f, 0.1f, 0.1f),
+                            100000),
+                       1, 3e-3 * things[i].meetings);
+        mesh_free(&m);
+    }
+}
+
 static void white_mirrors_vanish(void **state)
 {
     (void)state;
@@ -264,6 +293,7 @@ int main(void)
         cmocka_unit_test(smooth_glass_vanishes),
         cmocka_unit_test(thin_glass_vanishes),
         cmocka_unit_test(white_mirrors_vanish),
+        cmocka_unit_test(white_rough_things_vanish),
         cmocka_unit_test(sheets_transmit_their_share),
         cmocka_unit_test(radiance_scales_across_a_face),
         cmocka_unit_test(rectangle_lights_a_plane),

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+/*
+ * energy.h - the light that one bounce between microfacets keeps or loses
+ *
+ * Directional albedos of GGX, interpolated in tables (`make tables`). The
+ * interpolation is cubic: linear tables of 16^3 miss the albedo of rough glass
+ * by 2 %, of 24^2 x 31 by 1 %. These stay within 0.3 % (within 1 % seen from
+ * inside glass of an index below 1.1, where most is lost).
+ *
+ * Units:     mu: cosine to the normal, in [0, 1]; alpha from ALPHA_SMOOTH on
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_ENERGY_H
+#define KERNELS_ENERGY_H
+
+#include "kernels/energy_tables.h"
+#include "kernels/vec.h"
+
+/* sqrt(ALPHA_SMOOTH) */
+#define ROOT_SMOOTH 0.0223606798f
+
+/* Four neighbouring nodes of a table and their weights. */
+struct nodes {
+    uint32_t first;
+    float w[4];
+};
+
+/* Lagrange's cubic through the nodes around t, which runs from 0 to 1. */
+static inline struct nodes nodes_around(float t, uint32_t count)
+{
+    float x = f_min(f_max(t, 0.0f), 1.0f) * (float)(count - 1u);
+    float first = f_min(f_max(floorf(x) - 1.0f, 0.0f), (float)(count - 4u));
+    float a = x - first;
+    float b = a - 1.0f;
+    float c = a - 2.0f;
+    float d = a - 3.0f;
+    struct nodes n;
+
+    n.first = (uint32_t)first;
+    n.w[0] = b * c * d * (-1.0f / 6.0f);
+    n.w[1] = a * c * d * 0.5f;
+    n.w[2] = a * b * d * -0.5f;
+    n.w[3] = a * b * c * (1.0f / 6.0f);
+    return n;
+}
+
+/* Albedos change within mu ~ alpha, and for glass around the critical angle:
+ * this axis has nodes for both. */
+static inline float energy_axis_mu(float mu, float alpha)
+{
+    float near = sqrtf(mu * (1.0f + alpha) / (mu + alpha));
+
+    return mu + 0.7f * (near - mu);
+}
+
+static inline float energy_axis_alpha(float alpha)
+{
+    return (sqrtf(alpha) - ROOT_SMOOTH) / (1.0f - ROOT_SMOOTH);
+}
+
+/* All indices, dense around 1: from 0 over 1/2 at eta 1 to 1. */
+static inline float energy_axis_eta(float eta)
+{
+    float g = (eta - 1.0f) / (eta + 1.0f);
+    float s = sqrtf(fabsf(g));
+
+    return 0.5f + 0.5f * (g < 0.0f ? -s : s);
+}
+
+/* The loss's own scale: it falls by powers of ten where alpha is small, and
+ * what the table holds is the ratio. */
+static inline float ggx_loss_scale(float mu, float alpha)
+{
+    float s = mu + alpha;
+
+    return mu * alpha * alpha / (s * s * s);
+}
+
+/* Of a reflecting surface: 1 - E is what is lost when every facet reflects
+ * all, schlick is the albedo when a facet reflects (1 - cosine)^5. */
+struct ggx_albedo {
+    float loss;
+    float schlick;
+};
+
+static inline struct ggx_albedo ggx_albedo(float mu, float alpha)
+{
+    struct nodes a = nodes_around(energy_axis_alpha(alpha), GGX_ALPHA_NODES);
+    struct nodes m = nodes_around(energy_axis_mu(mu, alpha), GGX_MU_NODES);
+    struct ggx_albedo e = {0.0f, 0.0f};
+    float shift = 0.0f;
+    float c;
+
+    for (uint32_t i = 0; i < 4; i++)
+        for (uint32_t j = 0; j < 4; j++) {
+            uint32_t k = (a.first + i) * GGX_MU_NODES + m.first + j;
+            float w = a.w[i] * m.w[j];
+
+            e.loss += w * ggx_losses[k];
+            shift += w * ggx_shifts[k];
+        }
+    e.loss *= ggx_loss_scale(mu, alpha);
+    /* the facets that are seen stand as if at a cosine of mu + shift */
+    c = f_max(1.0f - mu - shift, 0.0f);
+    e.schlick = (1.0f - e.loss) * c * c * c * c * c;
+    return e;
+}
+
+/* 2 int albedo mu dmu. */
+static inline struct ggx_albedo ggx_albedo_mean(float alpha)
+{
+    struct nodes a = nodes_around(energy_axis_alpha(alpha), GGX_MEAN_NODES);
+    struct ggx_albedo e = {0.0f, 0.0f};
+
+    for (uint32_t i = 0; i < 4; i++) {
+        e.loss += a.w[i] * ggx_mean_losses[a.first + i];
+        e.schlick += a.w[i] * ggx_mean_schlicks[a.first + i];
+    }
+    e.loss *= alpha * alpha;
+    return e;
+}
+
+/* The albedo of rough glass, reflection and transmission together. */
+static inline float glass_albedo(float mu, float alpha, float eta)
+{
+    struct nodes e = nodes_around(energy_axis_eta(eta), GLASS_ETA_NODES);
+    struct nodes a = nodes_around(energy_axis_alpha(alpha), GLASS_ALPHA_NODES);
+    struct nodes m = nodes_around(energy_axis_mu(mu, alpha), GLASS_MU_NODES);
+    float sum = 0.0f;
+
+    for (uint32_t i = 0; i < 4; i++)
+        for (uint32_t j = 0; j < 4; j++) {
+            uint32_t row = (e.first + i) * GLASS_ALPHA_NODES + a.first + j;
+            uint32_t k = row * GLASS_MU_NODES + m.first;
+            float along = m.w[0] * (float)glass_albedos[k] +
+                          m.w[1] * (float)glass_albedos[k + 1] +
+                          m.w[2] * (float)glass_albedos[k + 2] +
+                          m.w[3] * (float)glass_albedos[k + 3];
+
+            sum += e.w[i] * a.w[j] * along;
+        }
+    return sum * (1.0f / 65535.0f);
+}
+
+#endif

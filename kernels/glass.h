@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+/*
+ * glass.h - solid glass, smooth and rough, and thin sheets
+ *
+ * Exact Fresnel; rough faces after Walter et al. 2007 with visible normals,
+ * scaled so that one bounce keeps all light (Turquin 2019, on both sides of
+ * the face): energy is right, reciprocity is not.
+ *
+ * Units:     local frame of bsdf_types.h; f comes times |cosine| and without
+ *            the 1/eta^2 of a crossing
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_GLASS_H
+#define KERNELS_GLASS_H
+
+#include "kernels/bsdf_types.h"
+#include "kernels/energy.h"
+#include "kernels/fresnel.h"
+#include "kernels/ggx.h"
+
+/* Closer to 1 an index is none: wo + eta wi would cancel. */
+#define ETA_STEP 1e-3f
+
+/* Where E falls below, inside a medium hardly denser than its surroundings,
+ * light stays lost rather than that single samples grow without bound. */
+#define GLASS_ALBEDO_MIN 0.05f
+
+static inline bool glass_is_absent(const struct bsdf *m)
+{
+    return fabsf(m->eta - 1.0f) < ETA_STEP;
+}
+
+/* Rough faces only. */
+static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
+                                      struct vec3 wi, float *pdf)
+{
+    bool is_crossing = wi.z < 0.0f;
+    struct vec3 h = half_vector(wo, is_crossing ? v3_scale(wi, m->eta) : wi);
+    float mu_i = fabsf(wi.z);
+    float t_o = ggx_root(m->alpha, wo.z);
+    float t_i = ggx_root(m->alpha, mu_i);
+    float o_dot_h, i_dot_h, cos_t, part, jacobian, gain;
+
+    *pdf = 0.0f;
+    if (h.z < 0.0f)
+        h = v3_neg(h);
+    o_dot_h = v3_dot(wo, h);
+    i_dot_h = v3_dot(wi, h);
+    if (!(o_dot_h > 0.0f) || (i_dot_h < 0.0f) != is_crossing)
+        return v3(0.0f, 0.0f, 0.0f);
+    if (is_crossing) {
+        float d = i_dot_h + o_dot_h / m->eta;
+
+        part = 1.0f - fresnel_cosines(o_dot_h, -i_dot_h, m->eta);
+        jacobian = -i_dot_h / (d * d);
+    } else {
+        part = fresnel_dielectric(o_dot_h, m->eta, &cos_t);
+        jacobian = 0.25f / o_dot_h;
+    }
+    *pdf = part * jacobian * 2.0f * o_dot_h * ggx_density(h, m->alpha) /
+           (wo.z + t_o);
+    /* G2 / G1, with both Lambdas over a common denominator */
+    gain = mu_i * (wo.z + t_o) / (wo.z * t_i + mu_i * t_o);
+    gain /= f_max(glass_albedo(wo.z, m->alpha, m->eta), GLASS_ALBEDO_MIN);
+    return v3_scale(is_crossing ? m->color : v3(1.0f, 1.0f, 1.0f), *pdf * gain);
+}
+
+/* Radiance scales by this towards wi. */
+static inline float glass_eta_scale(const struct bsdf *m, struct vec3 wi)
+{
+    return wi.z < 0.0f && !glass_is_absent(m) ? 1.0f / (m->eta * m->eta) : 1.0f;
+}
+
+/* Reflection or refraction at a face with normal h, chosen by `choice`. */
+static inline struct vec3 glass_choose(const struct bsdf *m, struct vec3 wo,
+                                       struct vec3 h, float choice)
+{
+    float c = v3_dot(wo, h);
+    float cos_t;
+
+    if (choice < fresnel_dielectric(c, m->eta, &cos_t))
+        return reflect_at(wo, h);
+    /* unit length by construction, but for the drift at extreme indices */
+    return v3_unit(v3_sub(v3_scale(v3_sub(v3_scale(h, c), wo), 1.0f / m->eta),
+                          v3_scale(h, cos_t)));
+}
+
+static inline bool glass_sample_smooth(const struct bsdf *m, struct vec3 wo,
+                                       float choice, struct bsdf_sample *s)
+{
+    struct vec3 wi = v3_neg(wo);
+
+    if (!glass_is_absent(m))
+        wi = glass_choose(m, wo, v3(0.0f, 0.0f, 1.0f), choice);
+    sample_delta(s, wi, wi.z < 0.0f ? m->color : v3(1.0f, 1.0f, 1.0f));
+    s->eta_scale = glass_eta_scale(m, wi);
+    return true;
+}
+
+static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
+                                struct vec2 u, float choice,
+                                struct bsdf_sample *s)
+{
+    struct vec3 h, wi, f;
+    float pdf;
+
+    if (is_smooth(m) || glass_is_absent(m))
+        return glass_sample_smooth(m, wo, choice, s);
+    h = ggx_visible_normal(wo, m->alpha, 1.0f, u);
+    if (!(v3_dot(wo, h) > 0.0f))
+        return false;
+    wi = glass_choose(m, wo, h, choice);
+    /* a reflection must end above the surface, a refraction below */
+    if ((v3_dot(wi, h) > 0.0f) != (wi.z > 0.0f) || !(fabsf(wi.z) > COSINE_MIN))
+        return false;
+    f = glass_terms(m, wo, wi, &pdf);
+    if (!sample_density(s, wi, f, pdf))
+        return false;
+    s->eta_scale = glass_eta_scale(m, wi);
+    return true;
+}
+
+/* A sheet of no thickness: all reflections between its faces added up. */
+static inline bool thin_glass_sample(const struct bsdf *m, struct vec3 wo,
+                                     float choice, struct bsdf_sample *s)
+{
+    float cos_t;
+    float f = fresnel_dielectric(wo.z, m->eta, &cos_t);
+
+    if (choice * (1.0f + f) < 2.0f * f)
+        return sample_delta(s, v3(-wo.x, -wo.y, wo.z), v3(1.0f, 1.0f, 1.0f));
+    return sample_delta(s, v3_neg(wo), m->color);
+}
+
+#endif

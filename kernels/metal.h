@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+/*
+ * metal.h - mirrors and rough metals that lose no light
+ *
+ * GGX reflection with Schlick's Fresnel, plus the light of several bounces
+ * between facets after Kulla and Conty 2017, with Hill's factor for colour
+ * (2018): reciprocal, and white metal reflects everything.
+ *
+ * Units:     local frame of bsdf_types.h; f comes times |cosine|
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_METAL_H
+#define KERNELS_METAL_H
+
+#include "kernels/bsdf_types.h"
+#include "kernels/energy.h"
+#include "kernels/fresnel.h"
+#include "kernels/ggx.h"
+
+/* What remains, by colour, of the light that one bounce loses. */
+static inline float metal_echo(float f0_mean, float loss_mean)
+{
+    return f0_mean * f0_mean * (1.0f - loss_mean) /
+           (1.0f - f0_mean * loss_mean);
+}
+
+/* The echo shines by (1 - E_i) mu_i, which is about 1 / mu_i down to alpha:
+ * drawn by its cosine with the density b (1 + b) / (mu_i + b)^2, whose
+ * weights stay below 1 / b; those of cosine_hemisphere() reach 1 / alpha^2. */
+static inline float echo_width(float alpha)
+{
+    return sqrtf(alpha);
+}
+
+static inline struct vec3 echo_direction(float alpha, struct vec2 u)
+{
+    float b = echo_width(alpha);
+    float z = b * u.y / (1.0f + b - u.y);
+    float r = sqrtf(f_max((1.0f - z) * (1.0f + z), 0.0f));
+    struct vec2 turn = cos_sin_turns(u.x);
+
+    return v3(r * turn.x, r * turn.y, z);
+}
+
+static inline float echo_pdf(struct vec3 wi, float alpha)
+{
+    float b = echo_width(alpha);
+
+    return b * (1.0f + b) / ((wi.z + b) * (wi.z + b)) * (0.5f / PI);
+}
+
+/* loss_o: of ggx_albedo() at wo, and the share of the samples that follow the
+ * echo instead of the highlight. */
+static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
+                                      struct vec3 wi, float loss_o, float *pdf)
+{
+    struct vec3 h = half_vector(wo, wi);
+    float loss_i = ggx_albedo(wi.z, m->alpha).loss;
+    float loss_mean = ggx_albedo_mean(m->alpha).loss;
+    struct vec3 f = fresnel_schlick_mean(m->color);
+    struct vec3 single = v3_scale(fresnel_schlick(m->color, v3_dot(wo, h)),
+                                  ggx_reflection(wo, wi, h, m->alpha));
+    struct vec3 multiple =
+        v3_scale(v3(metal_echo(f.x, loss_mean), metal_echo(f.y, loss_mean),
+                    metal_echo(f.z, loss_mean)),
+                 loss_o * loss_i / loss_mean * wi.z * (1.0f / PI));
+
+    *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, m->alpha) +
+           loss_o * echo_pdf(wi, m->alpha);
+    return v3_add(single, multiple);
+}
+
+static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
+                                struct vec2 u, float choice,
+                                struct bsdf_sample *s)
+{
+    struct vec3 wi, f;
+    float loss_o, pdf;
+
+    if (is_smooth(m))
+        return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
+                            fresnel_schlick(m->color, wo.z));
+    loss_o = ggx_albedo(wo.z, m->alpha).loss;
+    wi = choice < loss_o ? echo_direction(m->alpha, u)
+                         : ggx_reflect(wo, m->alpha, u);
+    if (!(wi.z > COSINE_MIN))
+        return false;
+    f = metal_terms(m, wo, wi, loss_o, &pdf);
+    return sample_density(s, wi, f, pdf);
+}
+
+#endif

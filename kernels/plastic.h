@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+/*
+ * plastic.h - a clear GGX coat over a diffuse base
+ *
+ * The base gets what the coat does not reflect on the way in and out:
+ * (1 - E(mu_o)) (1 - E(mu_i)) / (1 - E_mean), with E the albedo of the very
+ * coat that is evaluated. So a white base reflects everything under any coat,
+ * and light may be followed both ways (Kelemen and Szirmay-Kalos 2001).
+ *
+ * Units:     local frame of bsdf_types.h; f comes times |cosine|
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_PLASTIC_H
+#define KERNELS_PLASTIC_H
+
+#include "kernels/diffuse.h"
+#include "kernels/energy.h"
+#include "kernels/fresnel.h"
+#include "kernels/ggx.h"
+
+/* Schlick's albedo from that of its two parts: F0 (E - S) + S. */
+static inline struct vec3 coat_of(struct vec3 f0, struct ggx_albedo e)
+{
+    float part = 1.0f - e.loss - e.schlick;
+
+    return v3(f0.x * part + e.schlick, f0.y * part + e.schlick,
+              f0.z * part + e.schlick);
+}
+
+static inline struct vec3 coat_albedo(const struct bsdf *m, float mu)
+{
+    if (is_smooth(m))
+        return fresnel_schlick(m->coat, mu);
+    return coat_of(m->coat, ggx_albedo(mu, m->alpha));
+}
+
+static inline struct vec3 coat_albedo_mean(const struct bsdf *m)
+{
+    if (is_smooth(m))
+        return fresnel_schlick_mean(m->coat);
+    return coat_of(m->coat, ggx_albedo_mean(m->alpha));
+}
+
+/* (1 - o) (1 - i) / (1 - mean), nothing under a coat that reflects all. */
+static inline float base_share(float o, float i, float mean)
+{
+    return mean < 1.0f ? (1.0f - o) * (1.0f - i) / (1.0f - mean) : 0.0f;
+}
+
+/* The probability to follow the coat: its part of the light, by the sums of
+ * the channels. coat_o: coat_albedo() at wo. */
+static inline float coat_chance(const struct bsdf *m, struct vec3 coat_o)
+{
+    float coat = coat_o.x + coat_o.y + coat_o.z;
+    float base = m->color.x * (1.0f - coat_o.x) +
+                 m->color.y * (1.0f - coat_o.y) +
+                 m->color.z * (1.0f - coat_o.z);
+
+    return coat + base > 0.0f ? coat / (coat + base) : 1.0f;
+}
+
+static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
+                                        struct vec3 wi, struct vec3 coat_o,
+                                        float *pdf)
+{
+    struct vec3 coat_i = coat_albedo(m, wi.z);
+    struct vec3 mean = coat_albedo_mean(m);
+    float cosine = cosine_pdf(wi);
+    float chance = coat_chance(m, coat_o);
+    struct vec3 share = v3(base_share(coat_o.x, coat_i.x, mean.x),
+                           base_share(coat_o.y, coat_i.y, mean.y),
+                           base_share(coat_o.z, coat_i.z, mean.z));
+    struct vec3 f = v3_scale(v3_mul(m->color, share), cosine);
+    struct vec3 h;
+
+    *pdf = (1.0f - chance) * cosine;
+    if (is_smooth(m))
+        return f;
+    h = half_vector(wo, wi);
+    *pdf += chance * ggx_reflection_pdf(wo, h, m->alpha);
+    return v3_add(f, v3_scale(fresnel_schlick(m->coat, v3_dot(wo, h)),
+                              ggx_reflection(wo, wi, h, m->alpha)));
+}
+
+static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
+                                  struct vec2 u, float choice,
+                                  struct bsdf_sample *s)
+{
+    struct vec3 coat_o = coat_albedo(m, wo.z);
+    float chance = coat_chance(m, coat_o);
+    struct vec3 wi, f;
+    float pdf;
+
+    if (!(choice < chance))
+        wi = cosine_hemisphere(u);
+    else if (is_smooth(m))
+        return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
+                            v3_scale(coat_o, 1.0f / chance));
+    else
+        wi = ggx_reflect(wo, m->alpha, u);
+    if (!(wi.z > COSINE_MIN))
+        return false;
+    f = plastic_terms(m, wo, wi, coat_o, &pdf);
+    return sample_density(s, wi, f, pdf);
+}
+
+#endif

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+/*
+ * energy.c - prints kernels/energy_tables.h: albedos of GGX surfaces
+ *
+ * Each albedo is an integral over the square that the kernels draw visible
+ * normals from: E = mean of weights there, by Gauss's quadrature in double
+ * over half the azimuth. Reflection takes the bounded caps, whose weights are
+ * smooth; with all visible normals the cut at the horizon costs a digit. Glass
+ * needs them all.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "kernels/energy.h"
+
+#define POINTS 128
+
+/* Points and weights of Gauss's quadrature in [0, 1]; `tail` has the same
+ * points drawn towards 1, where the caps have their normals far from upright:
+ * all that narrow GGX loses. */
+struct gauss {
+    double x[POINTS];
+    double w[POINTS];
+    double tail[POINTS];
+    double tail_w[POINTS];
+};
+
+/* Newton's method on Legendre's polynomial. */
+static void gauss_init(struct gauss *g)
+{
+    for (int i = 0; i < POINTS; i++) {
+        double z = cos(M_PI * (i + 0.75) / (POINTS + 0.5));
+        double slope = 1;
+        double tail;
+
+        for (int step = 0; step < 20; step++) {
+            double p = 1, before = 0;
+
+            for (int j = 0; j < POINTS; j++) {
+                double next = ((2 * j + 1) * z * p - j * before) / (j + 1);
+
+                before = p;
+                p = next;
+            }
+            slope = POINTS * (z * p - before) / (z * z - 1);
+            z -= p / slope;
+        }
+        g->x[i] = 0.5 - z / 2;
+        g->w[i] = 1 / ((1 - z * z) * slope * slope);
+        tail = (1 - g->x[i]) * (1 - g->x[i]) * (1 - g->x[i]);
+        g->tail[i] = 1 - tail * (1 - g->x[i]);
+        g->tail_w[i] = g->w[i] * 4 * tail;
+    }
+}
+
+static double root(double alpha, double mu)
+{
+    return sqrt(alpha * alpha + (1 - alpha * alpha) * mu * mu);
+}
+
+struct normal {
+    double o_dot_h, z;
+};
+
+/* The visible normal at (u, v) from wo = (sqrt(1 - mu^2), 0, mu). */
+static struct normal visible_normal(double mu, double alpha, double bound,
+                                    double u, double v)
+{
+    double x = sqrt(1 - mu * mu);
+    double length = sqrt(alpha * alpha * x * x + mu * mu);
+    double sx = alpha * x / length;
+    double sz = mu / length;
+    double z = (1 - v) * (1 + bound * sz) - bound * sz;
+    double r = sqrt(fmax(1 - z * z, 0));
+    double hx = alpha * (r * cos(M_PI * u) + sx);
+    double hy = alpha * r * sin(M_PI * u);
+    double hz = fmax(z + sz, 0);
+
+    length = sqrt(hx * hx + hy * hy + hz * hz);
+    if (!(length > 0))
+        return (struct normal){0, 1};
+    return (struct normal){(x * hx + mu * hz) / length, hz / length};
+}
+
+struct albedo {
+    double one;     /* every facet reflects all */
+    double schlick; /* it reflects (1 - cosine)^5 */
+};
+
+static struct albedo reflection(const struct gauss *g, double mu, double alpha)
+{
+    double a2 = alpha * alpha;
+    double reach = 1 + sqrt(1 - mu * mu);
+    double k = (1 - a2) * reach * reach / (reach * reach + a2 * mu * mu);
+    struct albedo e = {0, 0};
+
+    for (int i = 0; i < POINTS; i++)
+        for (int j = 0; j < POINTS; j++) {
+            struct normal h = visible_normal(mu, alpha, k, g->x[i], g->tail[j]);
+            double mu_i = 2 * h.o_dot_h * h.z - mu;
+            double t_o = root(alpha, mu);
+            double part;
+
+            if (!(mu_i > 0))
+                continue;
+            part = g->w[i] * g->tail_w[j] * mu_i * (k * mu + t_o) /
+                   (mu * root(alpha, mu_i) + mu_i * t_o);
+            e.one += part;
+            e.schlick += part * pow(1 - fmin(h.o_dot_h, 1), 5);
+        }
+    return e;
+}
+
+/* G2 / G1. */
+static double unshadowed(double alpha, double mu, double mu_i)
+{
+    double t_o = root(alpha, mu);
+
+    if (!(mu_i > 0))
+        return 0;
+    return mu_i * (mu + t_o) / (mu * root(alpha, mu_i) + mu_i * t_o);
+}
+
+static double glass(const struct gauss *g, double mu, double alpha, double eta)
+{
+    double e = 0;
+
+    for (int i = 0; i < POINTS; i++)
+        for (int j = 0; j < POINTS; j++) {
+            struct normal h = visible_normal(mu, alpha, 1, g->x[i], g->tail[j]);
+            double c = fmin(h.o_dot_h, 1);
+            double s2 = (1 - c * c) / (eta * eta);
+            double f = 1, part;
+
+            if (!(c > 0))
+                continue;
+            if (s2 < 1) {
+                double ct = sqrt(1 - s2);
+                double rs = (c - eta * ct) / (c + eta * ct);
+                double rp = (eta * c - ct) / (eta * c + ct);
+
+                f = (rs * rs + rp * rp) / 2;
+            }
+            part = f * unshadowed(alpha, mu, 2 * c * h.z - mu);
+            if (s2 < 1)
+                part += (1 - f) *
+                        unshadowed(alpha, mu,
+                                   mu / eta - (c / eta - sqrt(1 - s2)) * h.z);
+            e += g->w[i] * g->tail_w[j] * part;
+        }
+    return e;
+}
+
+/* Where a rising function of [0, 1] reaches y. */
+static double inverse(float (*f)(float, float), float parameter, double y)
+{
+    double lo = 0, hi = 1;
+
+    for (int i = 0; i < 40; i++) {
+        double x = (lo + hi) / 2;
+
+        if ((double)f((float)x, parameter) < y)
+            lo = x;
+        else
+            hi = x;
+    }
+    return (lo + hi) / 2;
+}
+
+static double node(int i, int count)
+{
+    return (double)i / (count - 1);
+}
+
+static double alpha_at(double t)
+{
+    double r = (double)ROOT_SMOOTH + t * (1 - (double)ROOT_SMOOTH);
+
+    return r * r;
+}
+
+/* At 0 a limit: the tables hold ratios there. */
+static double mu_at(double t, double alpha)
+{
+    return fmax(inverse(energy_axis_mu, (float)alpha, t), 1e-7);
+}
+
+/* The inverse of energy_axis_eta(), its ends a little inside. */
+static double eta_at(double t)
+{
+    double s = 2 * t - 1;
+    double g = fmax(fmin(s * fabs(s), 1 - 1e-9), -1 + 1e-9);
+
+    return (1 + g) / (1 - g);
+}
+
+static void print_head(const char *type, const char *name, const char *size)
+{
+    printf("\nCONSTANT %s %s[%s] = {", type, name, size);
+}
+
+/* Before the number in the next of `columns` columns. */
+static void print_gap(int i, int columns)
+{
+    printf("%s", i % columns == 0 ? "\n    " : " ");
+}
+
+static void print_ggx(const struct gauss *g, bool is_shift)
+{
+    for (int i = 0; i < GGX_ALPHA_NODES; i++)
+        for (int j = 0; j < GGX_MU_NODES; j++) {
+            double alpha = alpha_at(node(i, GGX_ALPHA_NODES));
+            double mu = mu_at(node(j, GGX_MU_NODES), alpha);
+            struct albedo e = reflection(g, mu, alpha);
+            double s = mu + alpha;
+            double ratio = (1 - e.one) * s * s * s / (mu * alpha * alpha);
+            double shift = 1 - pow(e.schlick / e.one, 0.2) - mu;
+
+            print_gap(i * GGX_MU_NODES + j, 6);
+            printf("%.7ff,", is_shift ? shift : ratio);
+        }
+    printf("\n};\n");
+}
+
+/* 2 int E mu dmu, in the square root of mu: steep at 0. */
+static void print_means(const struct gauss *g, bool is_schlick)
+{
+    for (int i = 0; i < GGX_MEAN_NODES; i++) {
+        double alpha = alpha_at(node(i, GGX_MEAN_NODES));
+        double sum = 0;
+
+        for (int j = 0; j < POINTS; j++) {
+            double t = g->x[j];
+            double mu = t * t;
+            struct albedo e = reflection(g, mu, alpha);
+            double x = is_schlick ? e.schlick : (1 - e.one) / (alpha * alpha);
+
+            sum += g->w[j] * x * 4 * mu * t;
+        }
+        print_gap(i, 6);
+        printf("%.7ff,", sum);
+    }
+    printf("\n};\n");
+}
+
+static void print_glass(const struct gauss *g)
+{
+    for (int i = 0; i < GLASS_ETA_NODES; i++)
+        for (int j = 0; j < GLASS_ALPHA_NODES; j++)
+            for (int k = 0; k < GLASS_MU_NODES; k++) {
+                double alpha = alpha_at(node(j, GLASS_ALPHA_NODES));
+                double mu = mu_at(node(k, GLASS_MU_NODES), alpha);
+                double eta = eta_at(node(i, GLASS_ETA_NODES));
+                int row = i * GLASS_ALPHA_NODES + j;
+
+                print_gap(row * GLASS_MU_NODES + k, 12);
+                printf("%.0f,", 65535 * fmin(glass(g, mu, alpha, eta), 1));
+            }
+    printf("\n};\n");
+}
+
+int main(void)
+{
+    static struct gauss g;
+
+    gauss_init(&g);
+    printf("// SPDX-License-Identifier: MIT\n"
+           "/*\n"
+           " * energy_tables.h - albedos of GGX surfaces, for energy.h\n"
+           " *\n"
+           " * Written by `make tables` (tests/tools/energy.c says how); "
+           "tests/unit/\n"
+           " * test_energy.c compares with another quadrature. Long because "
+           "of its data.\n"
+           " *\n"
+           " * Units:     nodes are uniform along the axes of energy.h, the "
+           "last one (mu)\n"
+           " *            running fastest\n"
+           " * Ownership: none\n"
+           " * Threads:   none\n"
+           " * Errors:    none\n"
+           " */\n"
+           "#ifndef KERNELS_ENERGY_TABLES_H\n"
+           "#define KERNELS_ENERGY_TABLES_H\n\n"
+           "#include \"kernels/dialect.h\"\n\n"
+           "// clang-format off\n");
+    printf("#define GGX_ALPHA_NODES %d\n#define GGX_MU_NODES %d\n"
+           "#define GGX_MEAN_NODES %d\n#define GLASS_ETA_NODES %d\n"
+           "#define GLASS_ALPHA_NODES %d\n#define GLASS_MU_NODES %d\n",
+           GGX_ALPHA_NODES, GGX_MU_NODES, GGX_MEAN_NODES, GLASS_ETA_NODES,
+           GLASS_ALPHA_NODES, GLASS_MU_NODES);
+    printf("\n/* 1 - E over ggx_loss_scale(). */");
+    print_head("float", "ggx_losses", "GGX_ALPHA_NODES * GGX_MU_NODES");
+    print_ggx(&g, false);
+    printf("\n/* (1 - mu - shift)^5 is the Schlick part of E. */");
+    print_head("float", "ggx_shifts", "GGX_ALPHA_NODES * GGX_MU_NODES");
+    print_ggx(&g, true);
+    printf("\n/* 2 int (1 - E) mu dmu over alpha^2, and of the Schlick part. "
+           "*/");
+    print_head("float", "ggx_mean_losses", "GGX_MEAN_NODES");
+    print_means(&g, false);
+    print_head("float", "ggx_mean_schlicks", "GGX_MEAN_NODES");
+    print_means(&g, true);
+    printf("\n/* 65535 E of reflection and transmission. */");
+    print_head("uint16_t", "glass_albedos",
+               "GLASS_ETA_NODES * GLASS_ALPHA_NODES * GLASS_MU_NODES");
+    print_glass(&g);
+    printf("// clang-format on\n\n#endif\n");
+    return 0;
+}

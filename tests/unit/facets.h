@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+/*
+ * facets.h - truth about surfaces, from textbook formulas in double
+ *
+ * Units:     cosines to the normal; alpha of GGX
+ * Ownership: none
+ * Threads:   one
+ * Errors:    none
+ */
+#ifndef TESTS_FACETS_H
+#define TESTS_FACETS_H
+
+#include <math.h>
+
+/* Unpolarised Fresnel from the law of refraction in angles (Hecht, Optics,
+ * 4.6: sines and tangents). */
+static inline double fresnel_by_angles(double cosine, double eta)
+{
+    double ti = acos(cosine);
+    double st = sin(ti) / eta;
+    double tt, s, p;
+
+    if (st >= 1)
+        return 1;
+    if (ti < 1e-6)
+        return pow((eta - 1) / (eta + 1), 2);
+    tt = asin(st);
+    s = sin(ti - tt) / sin(ti + tt);
+    p = tan(ti - tt) / tan(ti + tt);
+    return (s * s + p * p) / 2;
+}
+
+static inline double smith_lambda(double alpha, double cosine)
+{
+    double tan2 = (1 - cosine * cosine) / (cosine * cosine);
+
+    return (sqrt(1 + alpha * alpha * tan2) - 1) / 2;
+}
+
+/* What the facets of a surface reflect. */
+enum facets {
+    FACETS_WHITE,   /* all */
+    FACETS_SCHLICK, /* (1 - cosine)^5 */
+    FACETS_GLASS    /* and transmit the rest */
+};
+
+/* Directional albedo by quadrature over all microfacet normals drawn with
+ * density D cos (Walter et al. 2007, eq. 35): E = mean of
+ * G2 (wo.h) / (cos_o cos_h). */
+static inline double albedo_by_quadrature(enum facets facets, double alpha,
+                                          double mu, double eta)
+{
+    const int side = facets == FACETS_GLASS ? 500 : 1000; /* it is costly */
+    double sine = sqrt(1 - mu * mu);
+    double lo = smith_lambda(alpha, mu);
+    double sum = 0;
+
+    for (int i = 0; i < side; i++) {
+        /* the tail of normals far from upright is drawn out by a square */
+        double s = (i + 0.5) / side;
+        double tan2 = alpha * alpha * (1 / ((1 - s) * (1 - s)) - 1);
+        double hz = 1 / sqrt(1 + tan2);
+        double hr = sqrt(tan2) * hz;
+
+        for (int j = 0; j < side; j++) {
+            double oh = sine * hr * cos(M_PI * (j + 0.5) / side) + mu * hz;
+            double iz = 2 * oh * hz - mu;
+            double f = 1;
+            double part = 0;
+
+            if (oh <= 0)
+                continue;
+            if (facets == FACETS_SCHLICK)
+                f = pow(1 - fmin(oh, 1), 5);
+            if (facets == FACETS_GLASS)
+                f = fresnel_by_angles(fmin(oh, 1), eta);
+            if (iz > 0)
+                part = f / (1 + lo + smith_lambda(alpha, iz));
+            if (facets == FACETS_GLASS && f < 1) {
+                double ct = sqrt(1 - (1 - oh * oh) / (eta * eta));
+
+                iz = -((oh / eta - ct) * hz - mu / eta);
+                if (iz > 0)
+                    part += (1 - f) / (1 + lo + smith_lambda(alpha, iz));
+            }
+            sum += 2 * (1 - s) * part * oh / (mu * hz);
+        }
+    }
+    return sum / side / side;
+}
+
+#endif

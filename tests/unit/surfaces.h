@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+/*
+ * surfaces.h - one of each surface, for tests of all kinds
+ *
+ * Units:     cosines to the normal
+ * Ownership: none
+ * Threads:   one
+ * Errors:    none
+ */
+#ifndef TESTS_SURFACES_H
+#define TESTS_SURFACES_H
+
+#include "check.h"
+
+#include "kernels/bsdf.h"
+
+static const float alphas[] = {5e-4f, 1e-3f, 1e-2f, 0.1f, 0.3f, 0.6f, 1.0f};
+static const float cosines[] = {1.0f, 0.7f, 0.3f, 0.05f, 0.001f};
+static const float etas[] = {1.5f, 1 / 1.5f, 1.33f, 2.4f, 1 / 2.4f};
+
+#define COUNT(a) (sizeof(a) / sizeof *(a))
+
+static const struct vec3 white = {1, 1, 1};
+static const struct vec3 gold = {1.0f, 0.78f, 0.34f};
+static const struct vec3 brick = {0.6f, 0.3f, 0.1f};
+static const struct vec3 strong = {0.08f, 0.05f, 0.02f};
+
+/* Called for each kind of surface that has a density, alpha and cosine. */
+typedef void (*visit)(const struct bsdf *m, float mu);
+
+static inline void at_all_cosines(visit f, const struct bsdf *m)
+{
+    for (size_t c = 0; c < COUNT(cosines); c++)
+        f(m, cosines[c]);
+}
+
+static inline void at_all_reflections(visit f)
+{
+    struct bsdf m = {.color = brick, .eta = 1, .kind = MATERIAL_DIFFUSE};
+
+    at_all_cosines(f, &m);
+    m.kind = MATERIAL_ROUGH_DIFFUSE;
+    for (m.alpha = 0.25f; m.alpha <= 1; m.alpha += 0.25f)
+        at_all_cosines(f, &m);
+    m = (struct bsdf){.color = brick,
+                      .coat = strong,
+                      .eta = 1,
+                      .kind = MATERIAL_PLASTIC};
+    at_all_cosines(f, &m); /* smooth */
+    for (size_t a = 0; a < COUNT(alphas); a++) {
+        m = (struct bsdf){.color = gold,
+                          .alpha = alphas[a],
+                          .eta = 1,
+                          .kind = MATERIAL_METAL};
+        at_all_cosines(f, &m);
+        m = (struct bsdf){.color = brick,
+                          .coat = strong,
+                          .alpha = alphas[a],
+                          .eta = 1,
+                          .kind = MATERIAL_PLASTIC};
+        at_all_cosines(f, &m);
+    }
+}
+
+static inline void at_all_glasses(visit f)
+{
+    for (size_t e = 0; e < COUNT(etas); e++)
+        for (size_t a = 0; a < COUNT(alphas); a++) {
+            struct bsdf m = {.color = {0.9f, 0.8f, 0.7f},
+                             .alpha = alphas[a],
+                             .eta = etas[e],
+                             .kind = MATERIAL_GLASS};
+
+            at_all_cosines(f, &m);
+        }
+}
+
+static inline struct vec3 direction(float cosine)
+{
+    return v3(sqrtf(1.0f - cosine * cosine), 0.0f, cosine);
+}
+
+#endif
