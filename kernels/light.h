@@ -3,7 +3,7 @@
  * light.h - what shines: emissive surfaces and the sky, and directions to them
  *
  * light_sample() draws a direction from a receiver to a light, for next-event
- * estimation; light_pdf() and sky_light_pdf() are its density at what a ray
+ * estimation; light_pdf_at() and sky_light_pdf() are its density at what a ray
  * has met by chance, to weigh both (Veach 1997, 9.2). Densities of a sample
  * and of the same point met by chance are the same bits.
  *
@@ -25,11 +25,8 @@ struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
     struct vec3 radiance; /* that comes along it if nothing is in the way */
     float pdf;            /* of wi per solid angle; above 0 and finite */
-    float distance;       /* FLOAT_MAX: the sky, and nothing below is set */
-    uint32_t tri;
-    struct vec3 p; /* the point, its rounding error and its normal on the */
-    struct vec3 p_error; /* receiver's side, for leave_surface() */
-    struct vec3 ng;
+    uint32_t tri;         /* NO_INDEX: the sky, and there is no point */
+    struct vec3 p;
 };
 
 /* Emitted radiance of a material at uv, the same to both sides. */
@@ -86,7 +83,7 @@ static inline bool sample_triangle(const struct world *w,
     float probability =
         triangle_share(w) * light_tree_choose(w, r, choice, &light);
     struct hit h = triangle_point(point);
-    struct vec3 p0, p1, p2, to_point;
+    struct vec3 p0, p1, p2, p_error, to_point;
     struct material m;
     struct tri t;
 
@@ -98,15 +95,12 @@ static inline bool sample_triangle(const struct world *w,
     p1 = w->positions[t.v[1]];
     p2 = w->positions[t.v[2]];
     s->tri = h.tri;
-    s->p = hit_point(h, p0, p1, p2, &s->p_error);
+    s->p = hit_point(h, p0, p1, p2, &p_error);
     to_point = v3_sub(s->p, r->p);
     s->pdf = probability * triangle_pdf(p0, p1, p2, to_point);
-    if (!(s->pdf > 0.0f) || !triangle_normal(p0, p1, p2, &s->ng))
+    if (!(s->pdf > 0.0f))
         return false;
-    if (v3_dot(s->ng, to_point) > 0.0f)
-        s->ng = v3_neg(s->ng);
-    s->distance = v3_length(to_point);
-    s->wi = v3_scale(to_point, 1.0f / s->distance);
+    s->wi = v3_unit(to_point);
     m = w->materials[t.material];
     s->radiance =
         emission_at(w, &m,
@@ -119,8 +113,9 @@ static inline bool sample_triangle(const struct world *w,
 
 /* Density of light_sample() at point p of a triangle that a ray from the
  * receiver has met. */
-static inline float light_pdf(const struct world *w, const struct receiver *r,
-                              uint32_t tri, struct vec3 p)
+static inline float light_pdf_at(const struct world *w,
+                                 const struct receiver *r, uint32_t tri,
+                                 struct vec3 p)
 {
     uint32_t light =
         w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
@@ -150,7 +145,7 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
         s->wi = sky_sample(w, point);
         s->radiance = sky_radiance(w, s->wi);
         s->pdf = sky_light_pdf(w, s->wi);
-        s->distance = FLOAT_MAX;
+        s->tri = NO_INDEX;
         return s->pdf > 0.0f;
     }
     choice.x = f_min((choice.x - w->settings.sky_share) / triangle_share(w),

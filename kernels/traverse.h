@@ -91,7 +91,7 @@ static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
 
         if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
             continue;
-        if (h.t == best->t && t.tri > best->tri)
+        if (h.t == best->t && t.tri >= best->tri)
             continue;
         h.tri = t.tri;
         if (HAS(FEATURE_COVERAGE) &&
@@ -162,8 +162,10 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     }
 }
 
-/* True if anything is hit up to r.t_max: no order, first find ends it. */
-static inline bool hit_any(const struct world *w, struct ray r)
+/* True if anything is hit before r.t_max, or at r.t_max with a number below
+ * `tri`: hit_closest() would not find the triangle `tri`, which the ray meets
+ * there. No order, the first find ends it. */
+static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     struct slabs slabs = slabs_of(r);
     struct shear shear = shear_of(r);
@@ -174,7 +176,7 @@ static inline bool hit_any(const struct world *w, struct ray r)
     if (w->settings.tri_count == 0)
         return false;
     h.t = r.t_max;
-    h.tri = NO_INDEX;
+    h.tri = tri;
     stack[depth++] = 0;
     while (depth > 0) {
         uint32_t at = stack[--depth];

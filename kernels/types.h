@@ -129,6 +129,14 @@ struct light_node {
     uint32_t child[LIGHT_WIDTH]; /* a node, or a light and LIGHT_LEAF */
 };
 
+/* How light is gathered where a path could meet it by chance as well. The
+ * others are for comparing with. */
+enum direct {
+    DIRECT_MIS,    /* both ways, weighed */
+    DIRECT_LIGHTS, /* only from lights that are chosen */
+    DIRECT_CHANCE  /* only where paths meet them */
+};
+
 /* What a sample reads beside arrays. */
 struct settings {
     struct camera camera;
@@ -136,6 +144,7 @@ struct settings {
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
     uint32_t features; /* enum feature, or-ed */
+    uint32_t direct;   /* enum direct */
     float sky_share;   /* probability that a light sample is one of the sky */
 
     /* lengths of the world's arrays */
@@ -149,7 +158,7 @@ struct settings {
     uint32_t light_count;
     uint32_t light_node_count;
     uint32_t sky_sum_count;
-    uint32_t pad[2];
+    uint32_t pad;
 };
 
 /* What a sample reads, nothing more. nodes and leaf_tris belong to the

@@ -57,8 +57,8 @@ static double time_samples(const struct world *w, double *pdf_ns)
     begin_ns = clock_ns();
     for (uint32_t i = 0; i < SAMPLES; i++) {
         r.p = v3(samples[i].wi.x, 0, samples[i].wi.y);
-        total += samples[i].distance < FLOAT_MAX
-                     ? light_pdf(w, &r, samples[i].tri, samples[i].p)
+        total += samples[i].tri != NO_INDEX
+                     ? light_pdf_at(w, &r, samples[i].tri, samples[i].p)
                      : sky_light_pdf(w, samples[i].wi);
     }
     *pdf_ns = ns_since(begin_ns);

@@ -222,7 +222,7 @@ static double irradiance(const struct world *w, struct vec3 n, int count,
             float cosine = f_max(v3_dot(s.wi, n), 0);
 
             assert_true(s.pdf > 0 && s.pdf <= FLOAT_MAX);
-            assert_true(s.distance == FLOAT_MAX);
+            assert_int_equal(s.tri, NO_INDEX);
             assert_true(s.pdf == sky_light_pdf(w, s.wi));
             e += (double)(s.radiance.x * cosine / (s.pdf + cosine / PI));
         }
