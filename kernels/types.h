@@ -151,7 +151,8 @@ struct world {
     GLOBAL const float *sky_sums; /* see kernels/sky.h; none: no table */
     uint32_t tri_count;
     uint32_t light_count;
-    float sky_share; /* probability that a light sample is one of the sky */
+    float sky_share;   /* probability that a light sample is one of the sky, */
+    float light_share; /* of the lights; what is left is none at all */
     uint32_t max_vertices; /* surface vertices of a path, emitter included */
     uint32_t seed;
     uint32_t features; /* enum feature, or-ed */

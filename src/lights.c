@@ -453,6 +453,7 @@ void lights_lend(const struct lights *lights, struct world *world)
 {
     world->lights = lights->lights;
     world->light_count = lights->light_count;
+    world->light_share = lights->light_count > 0 ? 1 : 0;
     world->tri_lights = lights->tri_lights;
     world->light_nodes = lights->nodes;
 }

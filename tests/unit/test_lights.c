@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "glim/footprint.h"
+#include "glim/sky.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"
 
@@ -451,6 +452,71 @@ static void tree_finds_the_near_lights(void **state)
     discard(&m, &lights);
 }
 
+/* Solid angle of a triangle (Van Oosterom and Strackee 1983). */
+static double solid_angle(const struct vec3 *p, struct vec3 from)
+{
+    struct vec3 a = v3_unit(v3_sub(p[0], from));
+    struct vec3 b = v3_unit(v3_sub(p[1], from));
+    struct vec3 c = v3_unit(v3_sub(p[2], from));
+
+    return 2 * atan2(fabs((double)v3_dot(a, v3_cross(b, c))),
+                     1 + (double)(v3_dot(a, b) + v3_dot(b, c) + v3_dot(c, a)));
+}
+
+/* The mean of 1 / pdf is the solid angle of what is sampled, whatever the
+ * shares: of the whole sky, and of a lamp before it. */
+static void sky_and_lamps_share(void **state)
+{
+    const float shares[][2] = {{0.5f, 0.5f}, {0.25f, 0.5f}, {0.125f, 0.25f}};
+    const int n = 100000;
+    uint64_t seed = 55;
+    struct vec3 texels[8] = {{1, 1, 1}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3},
+                             {4, 4, 4}, {1, 1, 1}, {2, 2, 2}, {1, 1, 1}};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct sky_table table = {NULL};
+    struct error err;
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    mesh_add(&m, v3(0, 1, 0), v3(0.5f, 0.9f, 0), v3(0, 0.8f, 0.6f), LAMP);
+    finish(&m, &lights);
+    m.world.sky = (struct sky){{1, 1, 1}, 4, 2, 0, 1, 0};
+    m.world.sky_texels = texels;
+    assert_true(sky_build(&table, texels, 4, 2, SKY_ALONE, &err));
+    sky_lend(&table, &m.world);
+    assert_true(m.world.sky_share == 0.5f && m.world.light_share == 0.5f);
+    for (size_t k = 0; k < 3; k++) {
+        double sums[2] = {0, 0}, squares[2] = {0, 0};
+        const double truths[2] = {4 * M_PI, solid_angle(m.positions, r.p)};
+
+        m.world.sky_share = shares[k][0];
+        m.world.light_share = shares[k][1];
+        for (int i = 0; i < n; i++) {
+            struct vec2 point = any_choice(&seed);
+            struct light_sample s;
+            int lamp;
+
+            if (!light_sample(&m.world, &r, point, any_choice(&seed), &s))
+                continue;
+            lamp = s.distance < FLOAT_MAX ? 1 : 0;
+            assert_true(s.pdf == (lamp ? light_pdf(&m.world, &r, s.tri, s.p)
+                                       : sky_light_pdf(&m.world, s.wi)));
+            sums[lamp] += 1 / (double)s.pdf;
+            squares[lamp] += pow((double)s.pdf, -2);
+        }
+        for (int i = 0; i < 2; i++) {
+            double mean = sums[i] / n;
+
+            check_close(mean, truths[i],
+                        Z_LIMIT * sqrt((squares[i] / n - mean * mean) / n) +
+                            1e-6);
+        }
+    }
+    sky_free(&table);
+    discard(&m, &lights);
+}
+
 /* STRESS M8, M9: what no light may bring down. */
 static void odd_lights_are_borne(void **state)
 {
@@ -686,6 +752,7 @@ int main(void)
         cmocka_unit_test(rectangles_obey_lambert),
         cmocka_unit_test(many_lamps_obey_lambert),
         cmocka_unit_test(tree_finds_the_near_lights),
+        cmocka_unit_test(sky_and_lamps_share),
         cmocka_unit_test(odd_lights_are_borne),
         cmocka_unit_test(deep_trees_fit),
         cmocka_unit_test(pictures_shine_as_they_look),
