@@ -224,7 +224,7 @@ static void fill_linear_of_srgb(float table[256])
 /* The part of a world that no view changes. */
 static struct world scene_arrays(const struct scene *scene)
 {
-    struct world w = {
+    return (struct world){
         .positions = scene->positions,
         .normals = scene->normals,
         .uvs = scene->uvs,
@@ -236,9 +236,6 @@ static struct world scene_arrays(const struct scene *scene)
         .sky_texels = scene->sky_texels,
         .tri_count = scene->tri_count,
     };
-
-    lights_lend(&scene->lights, &w);
-    return w;
 }
 
 bool scene_finish(struct scene *scene, struct report *report, struct error *err)
@@ -465,6 +462,7 @@ bool scene_world(const struct scene *scene, const struct view *view,
     struct world w = scene_arrays(scene);
 
     w.sky = make_sky(scene, view);
+    lights_lend(&scene->lights, &w);
     sky_lend(&scene->sky_table, &w);
     w.max_vertices =
         view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;

@@ -517,6 +517,30 @@ static void sky_and_lamps_share(void **state)
     discard(&m, &lights);
 }
 
+/* A lamp of area 1/2 and radiance 2 before skies of ever more light. */
+static void weak_lamps_are_sampled_less(void **state)
+{
+    struct mesh m = {0};
+    struct lights lights;
+    float share = 1;
+
+    (void)state;
+    mesh_add(&m, v3(0, 1, 0), v3(1, 1, 0), v3(0, 1, 1), LAMP);
+    finish(&m, &lights);
+    check_close(lights.glare, 2, 1e-6);
+    for (float sky = 0; sky < 20; sky += 0.5f) {
+        m.world.sky.color = v3(sky, sky, sky);
+        lights_lend(&lights, &m.world);
+        assert_true(m.world.light_share <= share && m.world.light_share > 0);
+        share = m.world.light_share;
+        /* the lamp's 2 pi against the square of pi times the sky */
+        assert_true(sky > 2 || share == 1);
+        assert_true(sky < 3 || share < 1);
+    }
+    check_close(share, 0.1, 1e-7);
+    discard(&m, &lights);
+}
+
 /* STRESS M8, M9: what no light may bring down. */
 static void odd_lights_are_borne(void **state)
 {
@@ -753,6 +777,7 @@ int main(void)
         cmocka_unit_test(many_lamps_obey_lambert),
         cmocka_unit_test(tree_finds_the_near_lights),
         cmocka_unit_test(sky_and_lamps_share),
+        cmocka_unit_test(weak_lamps_are_sampled_less),
         cmocka_unit_test(odd_lights_are_borne),
         cmocka_unit_test(deep_trees_fit),
         cmocka_unit_test(pictures_shine_as_they_look),
