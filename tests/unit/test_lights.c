@@ -213,6 +213,155 @@ static void no_contributing_light_is_left_out(void **state)
     }
 }
 
+/* Lambert's formula for a convex polygon, clipped to the upper side of the
+ * receiver's plane: E = L/2 sum_i angle_i (edge normal_i . n). */
+static double lambert(const struct vec3 *corners, int count,
+                      const struct receiver *r)
+{
+    double p[16][3];
+    double sum = 0;
+    int kept = 0;
+
+    for (int i = 0; i < count; i++) {
+        struct vec3 a = v3_sub(corners[i], r->p);
+        struct vec3 b = v3_sub(corners[(i + 1) % count], r->p);
+        double ha = (double)v3_dot(a, r->n), hb = (double)v3_dot(b, r->n);
+
+        if (ha >= 0) {
+            p[kept][0] = (double)a.x;
+            p[kept][1] = (double)a.y;
+            p[kept++][2] = (double)a.z;
+        }
+        if ((ha < 0) != (hb < 0)) {
+            double s = ha / (ha - hb);
+
+            p[kept][0] = (double)a.x + s * (double)(b.x - a.x);
+            p[kept][1] = (double)a.y + s * (double)(b.y - a.y);
+            p[kept++][2] = (double)a.z + s * (double)(b.z - a.z);
+        }
+    }
+    for (int i = 0; i < kept; i++) {
+        const double *a = p[i], *b = p[(i + 1) % kept];
+        double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                       a[0] * b[1] - a[1] * b[0]};
+        double lc = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+        double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+        if (lc > 0)
+            sum += atan2(lc, dot) *
+                   (c[0] * (double)r->n.x + c[1] * (double)r->n.y +
+                    c[2] * (double)r->n.z) /
+                   lc;
+    }
+    return fabs(sum) / 2;
+}
+
+/* What a child of a node may shine is no less than a quarter of what the lamps
+ * below it do, seen from more than two of its radii away: cosines are bounded,
+ * and the distance to none of them is less than half of that to the middle. */
+static void clusters_are_not_underrated(void **state)
+{
+    uint64_t seed = 90;
+    struct mesh m = {0};
+    struct lights lights;
+    double area = 0;
+    int checked = 0;
+
+    (void)state;
+    add_lamps(&m, 400, 0.1, &seed);
+    finish(&m, &lights);
+    for (uint32_t t = 0; t < m.tri_count; t++) {
+        const struct vec3 *p = &m.positions[3 * t];
+
+        area += (double)v3_length(
+                    v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]))) /
+                2;
+    }
+    for (int k = 0; k < 50; k++) {
+        struct receiver r = any_receiver(&seed);
+        double(*below)[LIGHT_WIDTH] = calloc(lights.node_count, sizeof *below);
+
+        r.transmits = false;
+        assert_non_null(below);
+        for (uint32_t l = 0; l < lights.light_count; l++) {
+            double e = lambert(&m.positions[3 * lights.lights[l].tri], 3, &r);
+
+            for (uint32_t at = 0, level = 0; (at & LIGHT_LEAF) == 0; level++) {
+                uint32_t i = lights.lights[l].path[0] >> 3 * level & 7;
+
+                below[at][i] += e / area;
+                at = lights.nodes[at].child[i];
+            }
+        }
+        for (uint32_t n = 0; n < lights.node_count; n++) {
+            const struct light_node *node = &lights.nodes[n];
+            float sums[LIGHT_WIDTH];
+
+            light_sums(&m.world, n, &r, sums);
+            for (int i = 0; i < LIGHT_WIDTH; i++) {
+                struct vec3 to =
+                    v3_sub(v3(node->x[i], node->y[i], node->z[i]), r.p);
+                double share = (double)(sums[i] - (i > 0 ? sums[i - 1] : 0));
+
+                if (v3_length(to) < 2 * node->radius[i] || below[n][i] <= 0)
+                    continue;
+                check_at_most(below[n][i] / 4, share + 1e-6 * (double)sums[7]);
+                checked++;
+            }
+        }
+        free(below);
+    }
+    assert_true(checked > 5000);
+    discard(&m, &lights);
+}
+
+/* Lamps of one size and distance: the one that is seen edge-on is left to
+ * chance, whichever way round the others are wound. */
+static void facing_counts_and_sides_do_not(void **state)
+{
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    mesh_add(&m, v3(-0.5f, 1, 0), v3(-0.49f, 1, 0), v3(-0.5f, 1, 0.01f), LAMP);
+    mesh_add(&m, v3(0.5f, 1, 0), v3(0.5f, 1, 0.01f), v3(0.49f, 1, 0), LAMP);
+    mesh_add(&m, v3(0.5f, 1, 0), v3(0.49f, 1, 0), v3(0.5f, 1, 0.01f), LAMP);
+    mesh_add(&m, v3(-0.5f, 1, 0), v3(-0.505f, 1.01f, 0), v3(-0.5f, 1, 0.01f),
+             LAMP);
+    finish(&m, &lights);
+    for (uint32_t l = 0; l < 3; l++)
+        check_close(light_tree_probability(&m.world, &r, l), 1.0 / 3, 0.02);
+    check_at_most(light_tree_probability(&m.world, &r, 3), 0.02);
+    discard(&m, &lights);
+}
+
+/* The second number decides the lower levels of a deep tree: one number alone
+ * would run out of digits. */
+static void both_numbers_choose(void **state)
+{
+    uint64_t seed = 70;
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    add_lamps(&m, 5000, 0.01, &seed);
+    finish(&m, &lights);
+    for (int k = 0; k < 20; k++) {
+        struct receiver r = any_receiver(&seed);
+        uint32_t first, light;
+        int others = 0;
+
+        assert_true(light_tree_choose(&m.world, &r, v2(0.3f, 0), &first) > 0);
+        for (int i = 1; i < 16; i++) {
+            light_tree_choose(&m.world, &r, v2(0.3f, (float)i / 16), &light);
+            others += light != first;
+        }
+        assert_true(others > 0);
+    }
+    discard(&m, &lights);
+}
+
 /* The density of everything that lies along a direction, found by testing all
  * triangles. */
 static double density_along(const struct world *w, const struct receiver *r,
@@ -297,49 +446,6 @@ static void sample_and_density_agree(void **state)
         discard(&m, &lights);
     }
     assert_true(found > 59000);
-}
-
-/* Lambert's formula for a convex polygon, clipped to the upper side of the
- * receiver's plane: E = L/2 sum_i angle_i (edge normal_i . n). */
-static double lambert(const struct vec3 *corners, int count,
-                      const struct receiver *r)
-{
-    double p[16][3];
-    double sum = 0;
-    int kept = 0;
-
-    for (int i = 0; i < count; i++) {
-        struct vec3 a = v3_sub(corners[i], r->p);
-        struct vec3 b = v3_sub(corners[(i + 1) % count], r->p);
-        double ha = (double)v3_dot(a, r->n), hb = (double)v3_dot(b, r->n);
-
-        if (ha >= 0) {
-            p[kept][0] = (double)a.x;
-            p[kept][1] = (double)a.y;
-            p[kept++][2] = (double)a.z;
-        }
-        if ((ha < 0) != (hb < 0)) {
-            double s = ha / (ha - hb);
-
-            p[kept][0] = (double)a.x + s * (double)(b.x - a.x);
-            p[kept][1] = (double)a.y + s * (double)(b.y - a.y);
-            p[kept++][2] = (double)a.z + s * (double)(b.z - a.z);
-        }
-    }
-    for (int i = 0; i < kept; i++) {
-        const double *a = p[i], *b = p[(i + 1) % kept];
-        double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                       a[0] * b[1] - a[1] * b[0]};
-        double lc = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
-        double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
-        if (lc > 0)
-            sum += atan2(lc, dot) *
-                   (c[0] * (double)r->n.x + c[1] * (double)r->n.y +
-                    c[2] * (double)r->n.z) /
-                   lc;
-    }
-    return fabs(sum) / 2;
 }
 
 /* Irradiance by n independent light samples, and its standard error. */
@@ -698,6 +804,44 @@ static void pictures_shine_as_they_look(void **state)
     }
 }
 
+/* A lamp lets rays pass as other surfaces do: what comes from it is its share
+ * of cover, and nothing from holes. */
+static void holes_do_not_shine(void **state)
+{
+    static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    uint64_t seed = 23;
+    float linear[256];
+    struct texture texture;
+    struct vec2 uvs[4];
+    struct mesh m = {0};
+    struct lights lights;
+    int solid = 0;
+
+    (void)state;
+    /* the left half is a hole */
+    for (int i = 0; i < TEXTURE_SIDE * TEXTURE_SIDE; i++)
+        texels[i] = i % TEXTURE_SIDE < TEXTURE_SIDE / 2 ? 0 : 0xff000000u;
+    add_picture(&m, uvs, texels, &texture, linear, 1);
+    texture.has_holes = 1;
+    m.materials[LAMP].emission_texture = NO_INDEX;
+    m.materials[LAMP].color_texture = 0;
+    m.materials[LAMP].opacity = 0.25f;
+    m.world.features = FEATURE_COVERAGE;
+    finish(&m, &lights);
+    for (int i = 0; i < 1000; i++) {
+        struct light_sample s;
+        struct vec2 point = any_choice(&seed);
+
+        assert_true(light_sample(&m.world, &r, point, any_choice(&seed), &s));
+        if (fabsf(s.p.x) > 1e-2f && fabsf(s.p.x) < 0.49f) /* clear of edges */
+            assert_true(s.radiance.x == (s.p.x < 0 ? 0 : 0.25f));
+        solid += s.radiance.x > 0;
+    }
+    check_close(solid / 1000.0, 0.5, Z_LIMIT * 0.5 / sqrt(1000) + 0.01);
+    discard(&m, &lights);
+}
+
 /* The footprint's mean against random points of the bilinear look-up: on a
  * smooth picture the rim of 2 texels that may be covered as well counts by its
  * share of the area, times the picture's contrast; .006 is 4.9 standard errors
@@ -716,9 +860,10 @@ static void footprints_miss_nothing(void **state)
     (void)state;
     add_picture(&m, uvs, texels, &texture, linear, 1);
     m.world.materials = m.materials;
-    for (int k = 0; k < 400; k++) {
-        bool is_smooth = k % 2 == 0;
-        double size = is_smooth ? 1 : 0.1;
+    for (int k = 0; k < 600; k++) {
+        bool is_smooth = k % 4 == 0;
+        double size = is_smooth ? 1 : 2.0 / TEXTURE_SIDE;
+        int spot = k * 3761 % (TEXTURE_SIDE * TEXTURE_SIDE);
         struct footprint_sums f = {NULL, 0, 0};
         struct vec2 uv[3];
         double truth = 0, rim = 0, area;
@@ -731,10 +876,19 @@ static void footprints_miss_nothing(void **state)
                 is_smooth ? (uint32_t)(128 + 60 * sin(x) + 60 * sin(y)) : 0;
         }
         if (!is_smooth)
-            texels[k * 3761 % (TEXTURE_SIDE * TEXTURE_SIDE)] = 255;
-        for (int i = 0; i < 3; i++)
-            uv[i] = v2(between(&seed, -size, size) + (float)(k % 5) * 0.2f,
-                       between(&seed, -size, size) + (float)(k % 7) * 0.15f);
+            texels[spot] = 255;
+        for (int i = 0; i < 3; i++) {
+            /* anywhere, or within 2 texels of the one */
+            float u = is_smooth ? 0.2f * (float)(k % 5)
+                                : (0.5f + (float)(spot % TEXTURE_SIDE)) /
+                                      TEXTURE_SIDE;
+            float v = is_smooth ? 0.15f * (float)(k % 7)
+                                : 1 - (0.5f + (float)(spot / TEXTURE_SIDE)) /
+                                          TEXTURE_SIDE;
+
+            uv[i] = v2(u + between(&seed, -size, size),
+                       v + between(&seed, -size, size));
+        }
         for (int i = 0; i < 2000; i++) {
             struct vec2 u = any_choice(&seed);
             struct hit h = triangle_point(u);
@@ -771,6 +925,9 @@ int main(void)
         cmocka_unit_test(probabilities_add_up),
         cmocka_unit_test(choices_follow_probabilities),
         cmocka_unit_test(no_contributing_light_is_left_out),
+        cmocka_unit_test(clusters_are_not_underrated),
+        cmocka_unit_test(facing_counts_and_sides_do_not),
+        cmocka_unit_test(both_numbers_choose),
         cmocka_unit_test(density_integrates_to_one),
         cmocka_unit_test(sample_and_density_agree),
         cmocka_unit_test(rectangles_obey_lambert),
@@ -781,6 +938,7 @@ int main(void)
         cmocka_unit_test(odd_lights_are_borne),
         cmocka_unit_test(deep_trees_fit),
         cmocka_unit_test(pictures_shine_as_they_look),
+        cmocka_unit_test(holes_do_not_shine),
         cmocka_unit_test(footprints_miss_nothing),
     };
 
