@@ -69,19 +69,13 @@ static inline struct hit triangle_point(struct vec2 u)
     return h;
 }
 
-/* The probability that a sample is one of the triangles. */
-static inline float triangle_share(const struct world *w)
-{
-    return 1.0f - w->settings.sky_share;
-}
-
 static inline bool sample_triangle(const struct world *w,
                                    const struct receiver *r, struct vec2 point,
                                    struct vec2 choice, struct light_sample *s)
 {
     uint32_t light;
     float probability =
-        triangle_share(w) * light_tree_choose(w, r, choice, &light);
+        w->settings.light_share * light_tree_choose(w, r, choice, &light);
     struct hit h = triangle_point(point);
     struct vec3 p0, p1, p2, p_error, to_point;
     struct material m;
@@ -124,7 +118,7 @@ static inline float light_pdf_at(const struct world *w,
     if (light == NO_INDEX)
         return 0.0f;
     t = w->tris[tri];
-    return triangle_share(w) * light_tree_probability(w, r, light) *
+    return w->settings.light_share * light_tree_probability(w, r, light) *
            triangle_pdf(w->positions[t.v[0]], w->positions[t.v[1]],
                         w->positions[t.v[2]], v3_sub(p, r->p));
 }
@@ -135,8 +129,9 @@ static inline float sky_light_pdf(const struct world *w, struct vec3 wi)
     return w->settings.sky_share * sky_pdf(w, wi);
 }
 
-/* A direction towards a light; false if there is none to sample here. Whether
- * it is above the surface and free is for the caller to find. */
+/* A direction towards a light; false if there is none to sample here, or by
+ * choice.x not this time. Whether it is above the surface and free is for the
+ * caller to find. */
 static inline bool light_sample(const struct world *w, const struct receiver *r,
                                 struct vec2 point, struct vec2 choice,
                                 struct light_sample *s)
@@ -148,8 +143,9 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
         s->tri = NO_INDEX;
         return s->pdf > 0.0f;
     }
-    choice.x = f_min((choice.x - w->settings.sky_share) / triangle_share(w),
-                     UNIT_FLOAT_MAX);
+    choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;
+    if (!(choice.x < 1.0f))
+        return false;
     return sample_triangle(w, r, point, choice, s);
 }
 

@@ -145,7 +145,8 @@ struct settings {
     uint32_t seed;
     uint32_t features; /* enum feature, or-ed */
     uint32_t direct;   /* enum direct */
-    float sky_share;   /* probability that a light sample is one of the sky */
+    float sky_share;   /* probability that a light sample is one of the sky, */
+    float light_share; /* of the lights; what is left is none at all */
 
     /* lengths of the world's arrays */
     uint32_t tri_count;
@@ -158,7 +159,6 @@ struct settings {
     uint32_t light_count;
     uint32_t light_node_count;
     uint32_t sky_sum_count;
-    uint32_t pad;
 };
 
 /* What a sample reads, nothing more. nodes and leaf_tris belong to the

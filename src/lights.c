@@ -26,6 +26,15 @@
  * without underflow. Smaller ones are left to rays that find them by chance. */
 #define AREA_LEAST 1e-30
 
+/* Lights that, found by chance, would have this part of the square of what a
+ * constant sky sheds on a plane as variance are sampled each time; weaker ones
+ * in proportion, but never less often than SHARE_LEAST. Measured: the lamps of
+ * five scenes (6 times the square and more) leave 3 to 80 times the error
+ * without sampling, a large paper lamp in a room with a window (.01) 1.2 times,
+ * where its shadow rays double the time. */
+#define GLARE_FULL  0.1
+#define SHARE_LEAST 0.1
+
 struct emitter {
     struct vec3 lo, hi;
     struct vec3 normal; /* unit; its sign means nothing */
@@ -330,21 +339,24 @@ static double mean_radiance(const struct world *w, const struct tri *t,
     return mean * (double)m->opacity;
 }
 
-/* False if the triangle is not worth sampling. */
+/* False if the triangle is not worth sampling. *glare grows by its own. */
 static bool make_emitter(const struct world *w, uint32_t tri,
                          const struct footprint_sums *footprints,
-                         struct emitter *e)
+                         struct emitter *e, double *glare)
 {
     const struct tri *t = &w->tris[tri];
     struct vec3 p0 = w->positions[t->v[0]];
     struct vec3 p1 = w->positions[t->v[1]];
     struct vec3 p2 = w->positions[t->v[2]];
+    double radiance;
     double twice_area =
         (double)v3_length(v3_cross(v3_sub(p1, p0), v3_sub(p2, p0)));
 
     if (!(twice_area > AREA_LEAST) || !triangle_normal(p0, p1, p2, &e->normal))
         return false;
-    e->power = twice_area * mean_radiance(w, t, footprints);
+    radiance = mean_radiance(w, t, footprints);
+    e->power = twice_area * radiance;
+    *glare += e->power / 2 * radiance;
     e->lo = v3(f_min(p0.x, f_min(p1.x, p2.x)), f_min(p0.y, f_min(p1.y, p2.y)),
                f_min(p0.z, f_min(p1.z, p2.z)));
     e->hi = v3(f_max(p0.x, f_max(p1.x, p2.x)), f_max(p0.y, f_max(p1.y, p2.y)),
@@ -371,7 +383,7 @@ static bool find_emitters(struct builder *b, const struct world *w,
 
         l->tri_lights[i] = NO_INDEX;
         if (!shines(&w->materials[w->tris[i].material]) ||
-            !make_emitter(w, i, footprints, e))
+            !make_emitter(w, i, footprints, e, &l->glare))
             continue;
         total += e->power;
         l->tri_lights[i] = l->light_count;
@@ -449,10 +461,27 @@ out:
     return ok;
 }
 
+/* Light found by chance that falls on a plane has a variance of about pi times
+ * power times radiance at distance 1. */
+static float light_share(const struct lights *lights, const struct sky *sky)
+{
+    double radiance =
+        ((double)sky->color.x + (double)sky->color.y + (double)sky->color.z) /
+        3;
+    double ratio = lights->glare / (M_PI * radiance * radiance);
+
+    if (lights->light_count == 0)
+        return 0;
+    if (sky->width != 0 || !(ratio < GLARE_FULL))
+        return 1;
+    return (float)fmax(ratio / GLARE_FULL, SHARE_LEAST);
+}
+
 void lights_lend(const struct lights *lights, struct world *world)
 {
     world->lights = lights->lights;
     world->settings.light_count = lights->light_count;
+    world->settings.light_share = light_share(lights, &world->settings.sky);
     world->tri_lights = lights->tri_lights;
     world->light_nodes = lights->nodes;
     world->settings.light_node_count = lights->node_count;

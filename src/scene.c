@@ -240,7 +240,7 @@ static bool find_used_materials(struct scene *scene, struct error *err)
 /* The part of a world that no view changes. */
 static struct world scene_arrays(const struct scene *scene)
 {
-    struct world w = {
+    return (struct world){
         .positions = scene->positions,
         .normals = scene->normals,
         .uvs = scene->uvs,
@@ -261,9 +261,6 @@ static struct world scene_arrays(const struct scene *scene)
                 .texel_count = (uint32_t)scene->texel_count,
             },
     };
-
-    lights_lend(&scene->lights, &w);
-    return w;
 }
 
 bool scene_finish(struct scene *scene, struct report *report, struct error *err)
@@ -513,6 +510,7 @@ bool scene_world(const struct scene *scene, const struct view *view,
     struct world w = scene_arrays(scene);
 
     w.settings.sky = make_sky(scene, view);
+    lights_lend(&scene->lights, &w);
     sky_lend(&scene->sky_table, &w);
     w.settings.max_vertices =
         view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;

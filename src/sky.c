@@ -9,9 +9,9 @@
 /* What is left of a constant sky after subtraction is rounding. */
 #define ROUNDING 1e-6
 
-/* A sky and triangles share the samples: which of them is in sight of a point
+/* A sky and lights share the samples: which of them is in sight of a point
  * nobody knows, so that half is never worse than twice the best. */
-#define SHARE_BESIDE_TRIANGLES 0.5f
+#define SHARE_BESIDE_LIGHTS 0.5f
 
 struct image {
     const struct vec3 *texels;
@@ -138,17 +138,16 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
 
 void sky_lend(const struct sky_table *table, struct world *world)
 {
-    bool shines = !v3_is_zero(world->settings.sky.color) && table->sums != NULL;
-
     world->sky_sums = table->sums;
+    world->settings.sky_share = 0;
+    world->settings.sky_sum_count = 0;
+    if (table->sums == NULL || v3_is_zero(world->settings.sky.color))
+        return;
     world->settings.sky_sum_count =
-        table->sums != NULL
-            ? sky_row_sums(world->settings.sky, world->settings.sky.height)
-            : 0;
-    world->settings.sky_share = !shines ? 0
-                                : world->settings.light_count > 0
-                                    ? SHARE_BESIDE_TRIANGLES
-                                    : 1;
+        sky_row_sums(world->settings.sky, world->settings.sky.height);
+    world->settings.sky_share =
+        world->settings.light_count > 0 ? SHARE_BESIDE_LIGHTS : 1;
+    world->settings.light_share = 1 - world->settings.sky_share;
 }
 
 void sky_free(struct sky_table *table)

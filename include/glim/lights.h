@@ -24,13 +24,15 @@ struct lights {
     uint32_t *tri_lights;
     struct light_node *nodes;
     uint32_t node_count;
+    double glare; /* sum of area times radiance squared */
 };
 
 /* Reads the world's triangles, materials and textures. */
 bool lights_build(struct lights *lights, const struct world *world,
                   struct error *err);
 
-/* Lends the arrays to the world. */
+/* Lends the arrays to the world, which has its sky. Where a constant sky
+ * outshines the lights they are sampled less often. */
 void lights_lend(const struct lights *lights, struct world *world);
 
 void lights_free(struct lights *lights);

@@ -33,7 +33,8 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
                uint32_t width, uint32_t height, enum sky_use use,
                struct error *err);
 
-/* Lends the table to a world that has its sky and its lights. */
+/* Lends the table to a world that has its sky and its lights, and lets both
+ * share the samples. */
 void sky_lend(const struct sky_table *table, struct world *world);
 
 void sky_free(struct sky_table *table);

@@ -47,12 +47,12 @@
     S(settings, 160) M(settings, camera, 0) M(settings, sky, 64)             \
     M(settings, max_vertices, 96) M(settings, seed, 100)                     \
     M(settings, features, 104) M(settings, direct, 108)                      \
-    M(settings, sky_share, 112) M(settings, tri_count, 116)                  \
-    M(settings, position_count, 120) M(settings, normal_count, 124)          \
-    M(settings, uv_count, 128) M(settings, material_count, 132)              \
-    M(settings, texture_count, 136) M(settings, texel_count, 140)            \
-    M(settings, light_count, 144) M(settings, light_node_count, 148)         \
-    M(settings, sky_sum_count, 152) M(settings, pad, 156)                    \
+    M(settings, sky_share, 112) M(settings, light_share, 116)                \
+    M(settings, tri_count, 120) M(settings, position_count, 124)             \
+    M(settings, normal_count, 128) M(settings, uv_count, 132)                \
+    M(settings, material_count, 136) M(settings, texture_count, 140)         \
+    M(settings, texel_count, 144) M(settings, light_count, 148)              \
+    M(settings, light_node_count, 152) M(settings, sky_sum_count, 156)       \
     S(ray, 32) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
     S(path_sample, 20) M(path_sample, radiance, 0) M(path_sample, rays, 12)  \
     M(path_sample, cut, 16)                                                  \

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "glim/footprint.h"
+#include "glim/sky.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"
 
@@ -212,6 +213,155 @@ static void no_contributing_light_is_left_out(void **state)
     }
 }
 
+/* Lambert's formula for a convex polygon, clipped to the upper side of the
+ * receiver's plane: E = L/2 sum_i angle_i (edge normal_i . n). */
+static double lambert(const struct vec3 *corners, int count,
+                      const struct receiver *r)
+{
+    double p[16][3];
+    double sum = 0;
+    int kept = 0;
+
+    for (int i = 0; i < count; i++) {
+        struct vec3 a = v3_sub(corners[i], r->p);
+        struct vec3 b = v3_sub(corners[(i + 1) % count], r->p);
+        double ha = (double)v3_dot(a, r->n), hb = (double)v3_dot(b, r->n);
+
+        if (ha >= 0) {
+            p[kept][0] = (double)a.x;
+            p[kept][1] = (double)a.y;
+            p[kept++][2] = (double)a.z;
+        }
+        if ((ha < 0) != (hb < 0)) {
+            double s = ha / (ha - hb);
+
+            p[kept][0] = (double)a.x + s * (double)(b.x - a.x);
+            p[kept][1] = (double)a.y + s * (double)(b.y - a.y);
+            p[kept++][2] = (double)a.z + s * (double)(b.z - a.z);
+        }
+    }
+    for (int i = 0; i < kept; i++) {
+        const double *a = p[i], *b = p[(i + 1) % kept];
+        double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                       a[0] * b[1] - a[1] * b[0]};
+        double lc = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+        double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+        if (lc > 0)
+            sum += atan2(lc, dot) *
+                   (c[0] * (double)r->n.x + c[1] * (double)r->n.y +
+                    c[2] * (double)r->n.z) /
+                   lc;
+    }
+    return fabs(sum) / 2;
+}
+
+/* What a child of a node may shine is no less than a quarter of what the lamps
+ * below it do, seen from more than two of its radii away: cosines are bounded,
+ * and the distance to none of them is less than half of that to the middle. */
+static void clusters_are_not_underrated(void **state)
+{
+    uint64_t seed = 90;
+    struct mesh m = {0};
+    struct lights lights;
+    double area = 0;
+    int checked = 0;
+
+    (void)state;
+    add_lamps(&m, 400, 0.1, &seed);
+    finish(&m, &lights);
+    for (uint32_t t = 0; t < m.tri_count; t++) {
+        const struct vec3 *p = &m.positions[3 * t];
+
+        area += (double)v3_length(
+                    v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]))) /
+                2;
+    }
+    for (int k = 0; k < 50; k++) {
+        struct receiver r = any_receiver(&seed);
+        double(*below)[LIGHT_WIDTH] = calloc(lights.node_count, sizeof *below);
+
+        r.transmits = false;
+        assert_non_null(below);
+        for (uint32_t l = 0; l < lights.light_count; l++) {
+            double e = lambert(&m.positions[3 * lights.lights[l].tri], 3, &r);
+
+            for (uint32_t at = 0, level = 0; (at & LIGHT_LEAF) == 0; level++) {
+                uint32_t i = lights.lights[l].path[0] >> 3 * level & 7;
+
+                below[at][i] += e / area;
+                at = lights.nodes[at].child[i];
+            }
+        }
+        for (uint32_t n = 0; n < lights.node_count; n++) {
+            const struct light_node *node = &lights.nodes[n];
+            float sums[LIGHT_WIDTH];
+
+            light_sums(&m.world, n, &r, sums);
+            for (int i = 0; i < LIGHT_WIDTH; i++) {
+                struct vec3 to =
+                    v3_sub(v3(node->x[i], node->y[i], node->z[i]), r.p);
+                double share = (double)(sums[i] - (i > 0 ? sums[i - 1] : 0));
+
+                if (v3_length(to) < 2 * node->radius[i] || below[n][i] <= 0)
+                    continue;
+                check_at_most(below[n][i] / 4, share + 1e-6 * (double)sums[7]);
+                checked++;
+            }
+        }
+        free(below);
+    }
+    assert_true(checked > 5000);
+    discard(&m, &lights);
+}
+
+/* Lamps of one size and distance: the one that is seen edge-on is left to
+ * chance, whichever way round the others are wound. */
+static void facing_counts_and_sides_do_not(void **state)
+{
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    mesh_add(&m, v3(-0.5f, 1, 0), v3(-0.49f, 1, 0), v3(-0.5f, 1, 0.01f), LAMP);
+    mesh_add(&m, v3(0.5f, 1, 0), v3(0.5f, 1, 0.01f), v3(0.49f, 1, 0), LAMP);
+    mesh_add(&m, v3(0.5f, 1, 0), v3(0.49f, 1, 0), v3(0.5f, 1, 0.01f), LAMP);
+    mesh_add(&m, v3(-0.5f, 1, 0), v3(-0.505f, 1.01f, 0), v3(-0.5f, 1, 0.01f),
+             LAMP);
+    finish(&m, &lights);
+    for (uint32_t l = 0; l < 3; l++)
+        check_close(light_tree_probability(&m.world, &r, l), 1.0 / 3, 0.02);
+    check_at_most(light_tree_probability(&m.world, &r, 3), 0.02);
+    discard(&m, &lights);
+}
+
+/* The second number decides the lower levels of a deep tree: one number alone
+ * would run out of digits. */
+static void both_numbers_choose(void **state)
+{
+    uint64_t seed = 70;
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    add_lamps(&m, 5000, 0.01, &seed);
+    finish(&m, &lights);
+    for (int k = 0; k < 20; k++) {
+        struct receiver r = any_receiver(&seed);
+        uint32_t first, light;
+        int others = 0;
+
+        assert_true(light_tree_choose(&m.world, &r, v2(0.3f, 0), &first) > 0);
+        for (int i = 1; i < 16; i++) {
+            light_tree_choose(&m.world, &r, v2(0.3f, (float)i / 16), &light);
+            others += light != first;
+        }
+        assert_true(others > 0);
+    }
+    discard(&m, &lights);
+}
+
 /* The density of everything that lies along a direction, found by testing all
  * triangles. */
 static double density_along(const struct world *w, const struct receiver *r,
@@ -295,49 +445,6 @@ static void sample_and_density_agree(void **state)
         discard(&m, &lights);
     }
     assert_true(found > 59000);
-}
-
-/* Lambert's formula for a convex polygon, clipped to the upper side of the
- * receiver's plane: E = L/2 sum_i angle_i (edge normal_i . n). */
-static double lambert(const struct vec3 *corners, int count,
-                      const struct receiver *r)
-{
-    double p[16][3];
-    double sum = 0;
-    int kept = 0;
-
-    for (int i = 0; i < count; i++) {
-        struct vec3 a = v3_sub(corners[i], r->p);
-        struct vec3 b = v3_sub(corners[(i + 1) % count], r->p);
-        double ha = (double)v3_dot(a, r->n), hb = (double)v3_dot(b, r->n);
-
-        if (ha >= 0) {
-            p[kept][0] = (double)a.x;
-            p[kept][1] = (double)a.y;
-            p[kept++][2] = (double)a.z;
-        }
-        if ((ha < 0) != (hb < 0)) {
-            double s = ha / (ha - hb);
-
-            p[kept][0] = (double)a.x + s * (double)(b.x - a.x);
-            p[kept][1] = (double)a.y + s * (double)(b.y - a.y);
-            p[kept++][2] = (double)a.z + s * (double)(b.z - a.z);
-        }
-    }
-    for (int i = 0; i < kept; i++) {
-        const double *a = p[i], *b = p[(i + 1) % kept];
-        double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                       a[0] * b[1] - a[1] * b[0]};
-        double lc = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
-        double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
-        if (lc > 0)
-            sum += atan2(lc, dot) *
-                   (c[0] * (double)r->n.x + c[1] * (double)r->n.y +
-                    c[2] * (double)r->n.z) /
-                   lc;
-    }
-    return fabs(sum) / 2;
 }
 
 /* Irradiance by n independent light samples, and its standard error. */
@@ -447,6 +554,97 @@ static void tree_finds_the_near_lights(void **state)
         plain += sqrt(2500 * squares / truth / truth - 1);
     }
     check_at_most(spread, plain / 4);
+    discard(&m, &lights);
+}
+
+/* Solid angle of a triangle (Van Oosterom and Strackee 1983). */
+static double solid_angle(const struct vec3 *p, struct vec3 from)
+{
+    struct vec3 a = v3_unit(v3_sub(p[0], from));
+    struct vec3 b = v3_unit(v3_sub(p[1], from));
+    struct vec3 c = v3_unit(v3_sub(p[2], from));
+
+    return 2 * atan2(fabs((double)v3_dot(a, v3_cross(b, c))),
+                     1 + (double)(v3_dot(a, b) + v3_dot(b, c) + v3_dot(c, a)));
+}
+
+/* The mean of 1 / pdf is the solid angle of what is sampled, whatever the
+ * shares: of the whole sky, and of a lamp before it. */
+static void sky_and_lamps_share(void **state)
+{
+    const float shares[][2] = {{0.5f, 0.5f}, {0.25f, 0.5f}, {0.125f, 0.25f}};
+    const int n = 100000;
+    uint64_t seed = 55;
+    struct vec3 texels[8] = {{1, 1, 1}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3},
+                             {4, 4, 4}, {1, 1, 1}, {2, 2, 2}, {1, 1, 1}};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct sky_table table = {NULL};
+    struct error err;
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    mesh_add(&m, v3(0, 1, 0), v3(0.5f, 0.9f, 0), v3(0, 0.8f, 0.6f), LAMP);
+    finish(&m, &lights);
+    m.world.settings.sky = (struct sky){{1, 1, 1}, 4, 2, 0, 1, 0};
+    m.world.sky_texels = texels;
+    assert_true(sky_build(&table, texels, 4, 2, SKY_ALONE, &err));
+    sky_lend(&table, &m.world);
+    assert_true(m.world.settings.sky_share == 0.5f &&
+                m.world.settings.light_share == 0.5f);
+    for (size_t k = 0; k < 3; k++) {
+        double sums[2] = {0, 0}, squares[2] = {0, 0};
+        const double truths[2] = {4 * M_PI, solid_angle(m.positions, r.p)};
+
+        m.world.settings.sky_share = shares[k][0];
+        m.world.settings.light_share = shares[k][1];
+        for (int i = 0; i < n; i++) {
+            struct vec2 point = any_choice(&seed);
+            struct light_sample s;
+            int lamp;
+
+            if (!light_sample(&m.world, &r, point, any_choice(&seed), &s))
+                continue;
+            lamp = s.tri != NO_INDEX ? 1 : 0;
+            assert_true(s.pdf == (lamp ? light_pdf_at(&m.world, &r, s.tri, s.p)
+                                       : sky_light_pdf(&m.world, s.wi)));
+            sums[lamp] += 1 / (double)s.pdf;
+            squares[lamp] += pow((double)s.pdf, -2);
+        }
+        for (int i = 0; i < 2; i++) {
+            double mean = sums[i] / n;
+
+            check_close(mean, truths[i],
+                        Z_LIMIT * sqrt((squares[i] / n - mean * mean) / n) +
+                            1e-6);
+        }
+    }
+    sky_free(&table);
+    discard(&m, &lights);
+}
+
+/* A lamp of area 1/2 and radiance 2 before skies of ever more light. */
+static void weak_lamps_are_sampled_less(void **state)
+{
+    struct mesh m = {0};
+    struct lights lights;
+    float share = 1;
+
+    (void)state;
+    mesh_add(&m, v3(0, 1, 0), v3(1, 1, 0), v3(0, 1, 1), LAMP);
+    finish(&m, &lights);
+    check_close(lights.glare, 2, 1e-6);
+    for (float sky = 0; sky < 20; sky += 0.5f) {
+        m.world.settings.sky.color = v3(sky, sky, sky);
+        lights_lend(&lights, &m.world);
+        assert_true(m.world.settings.light_share <= share &&
+                    m.world.settings.light_share > 0);
+        share = m.world.settings.light_share;
+        /* the lamp's 2 pi against the square of pi times the sky */
+        assert_true(sky > 2 || share == 1);
+        assert_true(sky < 3 || share < 1);
+    }
+    check_close(share, 0.1, 1e-7);
     discard(&m, &lights);
 }
 
@@ -607,6 +805,44 @@ static void pictures_shine_as_they_look(void **state)
     }
 }
 
+/* A lamp lets rays pass as other surfaces do: what comes from it is its share
+ * of cover, and nothing from holes. */
+static void holes_do_not_shine(void **state)
+{
+    static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    uint64_t seed = 23;
+    float linear[256];
+    struct texture texture;
+    struct vec2 uvs[4];
+    struct mesh m = {0};
+    struct lights lights;
+    int solid = 0;
+
+    (void)state;
+    /* the left half is a hole */
+    for (int i = 0; i < TEXTURE_SIDE * TEXTURE_SIDE; i++)
+        texels[i] = i % TEXTURE_SIDE < TEXTURE_SIDE / 2 ? 0 : 0xff000000u;
+    add_picture(&m, uvs, texels, &texture, linear, 1);
+    texture.has_holes = 1;
+    m.materials[LAMP].emission_texture = NO_INDEX;
+    m.materials[LAMP].color_texture = 0;
+    m.materials[LAMP].opacity = 0.25f;
+    m.world.settings.features = FEATURE_COVERAGE;
+    finish(&m, &lights);
+    for (int i = 0; i < 1000; i++) {
+        struct light_sample s;
+        struct vec2 point = any_choice(&seed);
+
+        assert_true(light_sample(&m.world, &r, point, any_choice(&seed), &s));
+        if (fabsf(s.p.x) > 1e-2f && fabsf(s.p.x) < 0.49f) /* clear of edges */
+            assert_true(s.radiance.x == (s.p.x < 0 ? 0 : 0.25f));
+        solid += s.radiance.x > 0;
+    }
+    check_close(solid / 1000.0, 0.5, Z_LIMIT * 0.5 / sqrt(1000) + 0.01);
+    discard(&m, &lights);
+}
+
 /* The footprint's mean against random points of the bilinear look-up: on a
  * smooth picture the rim of 2 texels that may be covered as well counts by its
  * share of the area, times the picture's contrast; .006 is 4.9 standard errors
@@ -625,9 +861,10 @@ static void footprints_miss_nothing(void **state)
     (void)state;
     add_picture(&m, uvs, texels, &texture, linear, 1);
     m.world.materials = m.materials;
-    for (int k = 0; k < 400; k++) {
-        bool is_smooth = k % 2 == 0;
-        double size = is_smooth ? 1 : 0.1;
+    for (int k = 0; k < 600; k++) {
+        bool is_smooth = k % 4 == 0;
+        double size = is_smooth ? 1 : 2.0 / TEXTURE_SIDE;
+        int spot = k * 3761 % (TEXTURE_SIDE * TEXTURE_SIDE);
         struct footprint_sums f = {NULL, 0, 0};
         struct vec2 uv[3];
         double truth = 0, rim = 0, area;
@@ -640,10 +877,19 @@ static void footprints_miss_nothing(void **state)
                 is_smooth ? (uint32_t)(128 + 60 * sin(x) + 60 * sin(y)) : 0;
         }
         if (!is_smooth)
-            texels[k * 3761 % (TEXTURE_SIDE * TEXTURE_SIDE)] = 255;
-        for (int i = 0; i < 3; i++)
-            uv[i] = v2(between(&seed, -size, size) + (float)(k % 5) * 0.2f,
-                       between(&seed, -size, size) + (float)(k % 7) * 0.15f);
+            texels[spot] = 255;
+        for (int i = 0; i < 3; i++) {
+            /* anywhere, or within 2 texels of the one */
+            float u = is_smooth ? 0.2f * (float)(k % 5)
+                                : (0.5f + (float)(spot % TEXTURE_SIDE)) /
+                                      TEXTURE_SIDE;
+            float v = is_smooth ? 0.15f * (float)(k % 7)
+                                : 1 - (0.5f + (float)(spot / TEXTURE_SIDE)) /
+                                          TEXTURE_SIDE;
+
+            uv[i] = v2(u + between(&seed, -size, size),
+                       v + between(&seed, -size, size));
+        }
         for (int i = 0; i < 2000; i++) {
             struct vec2 u = any_choice(&seed);
             struct hit h = triangle_point(u);
@@ -680,14 +926,20 @@ int main(void)
         cmocka_unit_test(probabilities_add_up),
         cmocka_unit_test(choices_follow_probabilities),
         cmocka_unit_test(no_contributing_light_is_left_out),
+        cmocka_unit_test(clusters_are_not_underrated),
+        cmocka_unit_test(facing_counts_and_sides_do_not),
+        cmocka_unit_test(both_numbers_choose),
         cmocka_unit_test(density_integrates_to_one),
         cmocka_unit_test(sample_and_density_agree),
         cmocka_unit_test(rectangles_obey_lambert),
         cmocka_unit_test(many_lamps_obey_lambert),
         cmocka_unit_test(tree_finds_the_near_lights),
+        cmocka_unit_test(sky_and_lamps_share),
+        cmocka_unit_test(weak_lamps_are_sampled_less),
         cmocka_unit_test(odd_lights_are_borne),
         cmocka_unit_test(deep_trees_fit),
         cmocka_unit_test(pictures_shine_as_they_look),
+        cmocka_unit_test(holes_do_not_shine),
         cmocka_unit_test(footprints_miss_nothing),
     };
 
