@@ -99,7 +99,15 @@ bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
     if (m->coat_texture != NO_INDEX && v->has_uv)
         b.coat = v3_mul(b.coat, texture_at(w, m->coat_texture, v->uv).color);
     b.alpha = m->alpha;
+    if (m->alpha_texture != NO_INDEX && v->has_uv) {
+        float roughness = texture_at(w, m->alpha_texture, v->uv).alpha;
+
+        b.alpha *= roughness * roughness;
+    }
     b.kind = m->kind;
+    if (m->metal_texture != NO_INDEX && v->has_uv &&
+        m->metalness * texture_at(w, m->metal_texture, v->uv).alpha >= 0.5f)
+        b.kind = MATERIAL_METAL;
     b.eta = m->ior;
     if (m->kind == MATERIAL_GLASS && !v->is_outside)
         b.eta = 1.0f / m->ior;

@@ -50,6 +50,21 @@ static inline struct rgba texel(const struct world *w, struct texture t,
     return c;
 }
 
+/* Where the texture is looked up, clamped to the centres of its border. */
+static inline struct vec2 texture_uv(struct texture t, struct vec2 uv)
+{
+    float x = 0.5f / (float)t.width;
+    float y = 0.5f / (float)t.height;
+
+    uv.x = uv.x * t.scale.x + t.offset.x;
+    uv.y = uv.y * t.scale.y + t.offset.y;
+    if (t.is_clamped != 0) {
+        uv.x = f_min(f_max(uv.x, x), 1.0f - x);
+        uv.y = f_min(f_max(uv.y, y), 1.0f - y);
+    }
+    return uv;
+}
+
 /* Bilinear, decoded before mixing. */
 static inline struct rgba texture_at(const struct world *w, uint32_t index,
                                      struct vec2 uv)
@@ -58,6 +73,7 @@ static inline struct rgba texture_at(const struct world *w, uint32_t index,
     struct footprint f;
     struct rgba a, b, c, d, mix;
 
+    uv = texture_uv(t, uv);
     wrap_pair(uv.x, t.width, &f.x0, &f.x1, &f.fx);
     wrap_pair(1.0f - (uv.y - floorf(uv.y)), t.height, &f.y0, &f.y1, &f.fy);
     a = texel(w, t, f.x0, f.y0);

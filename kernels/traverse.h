@@ -69,8 +69,15 @@ static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
     return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
 }
 
+static inline bool is_hole(const struct world *w, uint32_t texture,
+                           struct vec2 uv)
+{
+    return texture != NO_INDEX && w->textures[texture].has_holes != 0 &&
+           texture_at(w, texture, uv).alpha < 0.5f;
+}
+
 /* False where the surface lets this ray pass: holes of the colour texture's
- * alpha, and with probability 1 - opacity. */
+ * alpha and of the opacity texture, and with probability 1 - opacity. */
 static inline bool hit_is_solid(const struct world *w, struct ray r,
                                 struct hit h)
 {
@@ -80,15 +87,16 @@ static inline bool hit_is_solid(const struct world *w, struct ray r,
     if (m.opacity < 1.0f &&
         unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) >= m.opacity)
         return false;
-    if (m.color_texture != NO_INDEX && t.vt[0] != NO_INDEX &&
-        w->textures[m.color_texture].has_holes != 0) {
+    if (t.vt[0] != NO_INDEX &&
+        (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
         struct vec2 a = w->uvs[t.vt[0]];
         struct vec2 b = w->uvs[t.vt[1]];
         struct vec2 c = w->uvs[t.vt[2]];
         struct vec2 uv = v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
                             h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
 
-        return texture_at(w, m.color_texture, uv).alpha >= 0.5f;
+        return !is_hole(w, m.color_texture, uv) &&
+               !is_hole(w, m.opacity_texture, uv);
     }
     return true;
 }

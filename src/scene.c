@@ -406,13 +406,18 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
     return sky;
 }
 
+static bool has_holes(const struct scene *scene, uint32_t texture)
+{
+    return texture != NO_INDEX && scene->textures[texture].has_holes != 0;
+}
+
 static uint32_t find_features(const struct scene *scene)
 {
     for (uint32_t i = 0; i < scene->tri_count; i++) {
         const struct material *m = &scene->materials[scene->tris[i].material];
 
-        if (m->opacity < 1 || (m->color_texture != NO_INDEX &&
-                               scene->textures[m->color_texture].has_holes))
+        if (m->opacity < 1 || has_holes(scene, m->color_texture) ||
+            has_holes(scene, m->opacity_texture))
             return FEATURE_COVERAGE;
     }
     return 0;
