@@ -16,6 +16,7 @@
 #define KERNELS_PATH_H
 
 #include "kernels/bsdf.h"
+#include "kernels/bump.h"
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/light.h"
@@ -171,6 +172,9 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
         if (!vertex_at(w, r, h, &v))
             break;
         m = w->materials[w->tris[h.tri].material];
+        if (has_bumps(&m) && v.has_uv)
+            v.n = bumped_normal(w, &m, w->tris[h.tri], v.uv, v.n, v.ng,
+                                v3_neg(r.d));
         if (!v3_is_zero(m.emission))
             out.radiance = v3_add(out.radiance,
                                   v3_mul(v3_scale(beta, eta_scale),

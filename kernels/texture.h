@@ -43,9 +43,14 @@ static inline struct rgba texel(const struct world *w, struct texture t,
     uint32_t bits = w->texels[t.first + y * t.width + x];
     struct rgba c;
 
-    c.color =
-        v3(w->linear_of_srgb[bits & 255u], w->linear_of_srgb[bits >> 8 & 255u],
-           w->linear_of_srgb[bits >> 16 & 255u]);
+    if (t.is_data != 0)
+        c.color = v3_scale(v3((float)(bits & 255u), (float)(bits >> 8 & 255u),
+                              (float)(bits >> 16 & 255u)),
+                           1.0f / 255.0f);
+    else
+        c.color = v3(w->linear_of_srgb[bits & 255u],
+                     w->linear_of_srgb[bits >> 8 & 255u],
+                     w->linear_of_srgb[bits >> 16 & 255u]);
     c.alpha = (float)(bits >> 24) * (1.0f / 255.0f);
     return c;
 }

@@ -58,6 +58,10 @@ struct material {
     uint32_t metal_texture;   /* times metalness at least 1/2: metal there */
     uint32_t opacity_texture; /* below 1/2: a hole; NO_INDEX: none */
     float metalness;          /* used with metal_texture only */
+    uint32_t normal_texture;  /* shading normal in the tangents' frame */
+    uint32_t bump_texture;    /* heights; NO_INDEX: none */
+    float bump_scale;         /* texels that a height of 1 rises */
+    uint32_t pad;
 };
 
 #define ALPHA_SMOOTH 5e-4f
@@ -73,7 +77,7 @@ struct texture {
     struct vec2 scale;
     struct vec2 offset;
     uint32_t is_clamped; /* 1: the border goes on outside; 0: it repeats */
-    uint32_t is_data;    /* 1: alpha holds a number, there is no colour */
+    uint32_t is_data;    /* 1: linear numbers, alpha holds their mean */
 };
 
 /* Constant radiance (width 0) or a lat-long image times `color`. */

@@ -31,6 +31,8 @@ struct material material_default(void)
         .alpha_texture = NO_INDEX,
         .metal_texture = NO_INDEX,
         .opacity_texture = NO_INDEX,
+        .normal_texture = NO_INDEX,
+        .bump_texture = NO_INDEX,
         .opacity = 1,
     };
 
@@ -237,6 +239,9 @@ struct material material_from_source(const struct mtl_source *s,
     check_map(s->map_pr, "map_Pr", &m, &at);
     check_map(s->map_pm, "map_Pm", &m, &at);
     check_map(s->map_d, "map_d", &m, &at);
+    m.normal_texture = s->norm;
+    m.bump_texture = s->map_bump;
+    m.bump_scale = (float)s->bump_scale;
     m.emission = emission(&s->ke, &at);
     m.emission_texture = s->map_ke;
     return m;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "glim/mtl.h"
 
-#include <float.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +9,7 @@
 #include "glim/asset.h"
 #include "glim/file.h"
 #include "glim/lex.h"
+#include "glim/map.h"
 #include "glim/material.h"
 #include "glim/names.h"
 
@@ -179,7 +178,9 @@ static bool read_newmtl(struct parser *p)
                                     .map_ke = NO_INDEX,
                                     .map_pr = NO_INDEX,
                                     .map_pm = NO_INDEX,
-                                    .map_d = NO_INDEX};
+                                    .map_d = NO_INDEX,
+                                    .map_bump = NO_INDEX,
+                                    .norm = NO_INDEX};
     return p->name != NULL || out_of_memory(p);
 }
 
@@ -233,103 +234,6 @@ static bool read_color(struct parser *p, struct word key,
     return true;
 }
 
-enum map_option { OPTION_OFFSET, OPTION_SCALE, OPTION_CLAMP, OPTION_OTHER };
-
-/* Options of a map and the words after each; -o -s -t have 1 to 3 numbers. */
-static const struct {
-    const char *name;
-    enum map_option option;
-    int least, most;
-} options[] = {
-    {"-blendu", OPTION_OTHER, 1, 1},  {"-blendv", OPTION_OTHER, 1, 1},
-    {"-bm", OPTION_OTHER, 1, 1},      {"-boost", OPTION_OTHER, 1, 1},
-    {"-cc", OPTION_OTHER, 1, 1},      {"-clamp", OPTION_CLAMP, 1, 1},
-    {"-imfchan", OPTION_OTHER, 1, 1}, {"-mm", OPTION_OTHER, 2, 2},
-    {"-o", OPTION_OFFSET, 1, 3},      {"-s", OPTION_SCALE, 1, 3},
-    {"-t", OPTION_OTHER, 1, 3},       {"-texres", OPTION_OTHER, 1, 1},
-    {"-type", OPTION_OTHER, 1, 1},
-};
-
-/* What a map's options say; those that glim does not know are counted. */
-struct map_options {
-    struct texture texture;
-    int unknown_count;
-};
-
-static struct map_options map_options_default(bool is_data)
-{
-    struct map_options o = {.texture = {.scale = {1, 1}, .is_data = is_data}};
-
-    return o;
-}
-
-/* Numbers that a float holds. */
-static struct vec2 finite_pair(const double values[3], struct vec2 other)
-{
-    if (!(fabs(values[0]) <= (double)FLT_MAX) ||
-        !(fabs(values[1]) <= (double)FLT_MAX))
-        return other;
-    return (struct vec2){(float)values[0], (float)values[1]};
-}
-
-/* Reads an option and its values; false if there is none. */
-static bool read_option(struct lex *lex, struct map_options *o)
-{
-    struct lex start = *lex;
-    struct word word = lex_word(lex);
-    size_t i = 0;
-    double values[3] = {0, 0, 0};
-    struct word value = {"", 0};
-
-    while (i < sizeof options / sizeof options[0] &&
-           !word_is(word, options[i].name))
-        i++;
-    if (i == sizeof options / sizeof options[0]) {
-        *lex = start;
-        return false;
-    }
-    if (options[i].option == OPTION_SCALE)
-        values[0] = values[1] = 1;
-    for (int n = 0; n < options[i].most; n++) {
-        if (options[i].most == 3 && lex_number(lex, &values[n]))
-            continue;
-        if (n >= options[i].least)
-            break;
-        value = lex_word(lex);
-    }
-    if (options[i].option == OPTION_OFFSET)
-        o->texture.offset = finite_pair(values, o->texture.offset);
-    else if (options[i].option == OPTION_SCALE)
-        o->texture.scale = finite_pair(values, o->texture.scale);
-    else if (options[i].option == OPTION_CLAMP)
-        o->texture.is_clamped = word_is(value, "on");
-    else
-        o->unknown_count++;
-    return true;
-}
-
-/* Reads options that come after the name, which some programs write, and cuts
- * them off. */
-static void cut_options(char *name, struct map_options *o)
-{
-    const char *end = name + strlen(name);
-    char *cut = NULL;
-
-    for (char *p = name; (p = strchr(p, ' ')) != NULL; p++) {
-        struct lex lex = {p + 1, end, 1};
-
-        if (p == name || p[1] != '-' || !read_option(&lex, o))
-            continue;
-        if (cut == NULL)
-            cut = p;
-    }
-    if (cut == NULL)
-        return;
-    while (cut > name && cut[-1] == ' ')
-        cut--;
-    *cut = '\0';
-}
-
 /* The file that a map names, or as it is written if there is no such file. */
 static char *map_path(const struct parser *p, const char *name)
 {
@@ -338,24 +242,22 @@ static char *map_path(const struct parser *p, const char *name)
     return found != NULL ? found : path_beside(p->path, name);
 }
 
+/* bump_scale: set by -bm; NULL for maps without heights. */
 static bool read_map(struct parser *p, struct word key, bool is_data,
-                     uint32_t *texture)
+                     uint32_t *texture, double *bump_scale)
 {
     uint64_t line = p->lex.line;
-    struct map_options o = map_options_default(is_data);
-    char *name;
+    struct map_options o;
+    char *name = map_read(&p->lex, &o);
     char *path;
 
-    while (read_option(&p->lex, &o))
-        continue;
-    name = lex_rest(&p->lex);
     if (name == NULL)
         return out_of_memory(p);
-    cut_options(name, &o);
+    o.texture.is_data = is_data;
     if (o.unknown_count > 0)
         report_add(p->report, "maps with options",
-                   "%s:%" PRIu64 ": found options of %.*s other than -o, -s "
-                   "and -clamp: the texture is used without them",
+                   "%s:%" PRIu64 ": found options of %.*s other than -o, -s, "
+                   "-bm and -clamp: the texture is used without them",
                    p->path, line, (int)key.length, key.start);
     if (*name == '\0') {
         report_add(p->report, "maps without a file",
@@ -365,6 +267,8 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
         return true;
     }
     path = map_path(p, name);
+    if (bump_scale != NULL)
+        *bump_scale = o.bump_scale;
     *texture = add_texture(p, path, &o.texture);
     free(path);
     free(name);
@@ -392,6 +296,7 @@ static bool read_property(struct parser *p, struct word key)
         struct mtl_color *color;
         struct mtl_number *number;
         uint32_t *texture;
+        double *bump_scale;
         bool is_data;
     } properties[] = {
         {"Kd", .color = &s->kd},
@@ -412,6 +317,13 @@ static bool read_property(struct parser *p, struct word key)
         {"map_Pr", .texture = &s->map_pr, .is_data = true},
         {"map_Pm", .texture = &s->map_pm, .is_data = true},
         {"map_d", .texture = &s->map_d, .is_data = true},
+        {"norm", .texture = &s->norm, .is_data = true},
+        {"bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
+         .is_data = true},
+        {"map_bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
+         .is_data = true},
+        {"map_Bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
+         .is_data = true},
     };
 
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
@@ -421,7 +333,8 @@ static bool read_property(struct parser *p, struct word key)
             return read_color(p, key, properties[i].color);
         if (properties[i].number != NULL)
             return read_number(p, key, properties[i].number);
-        return read_map(p, key, properties[i].is_data, properties[i].texture);
+        return read_map(p, key, properties[i].is_data, properties[i].texture,
+                        properties[i].bump_scale);
     }
     skip_statement(p, key);
     return true;

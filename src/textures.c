@@ -148,9 +148,10 @@ bool textures_load(struct scene *scene, struct report *report,
         is_used[scene->tris[i].material] = true;
     for (uint32_t i = 0; ok && i < scene->material_count; i++) {
         struct material *m = &scene->materials[i];
-        uint32_t maps[] = {m->color_texture, m->emission_texture,
-                           m->coat_texture,  m->alpha_texture,
-                           m->metal_texture, m->opacity_texture};
+        uint32_t maps[] = {m->color_texture,  m->emission_texture,
+                           m->coat_texture,   m->alpha_texture,
+                           m->metal_texture,  m->opacity_texture,
+                           m->normal_texture, m->bump_texture};
 
         for (size_t k = 0; k < sizeof maps / sizeof maps[0] && ok; k++) {
             if (!is_used[i] || maps[k] == NO_INDEX || is_tried[maps[k]])
@@ -164,6 +165,8 @@ bool textures_load(struct scene *scene, struct report *report,
         settle_data(scene, &m->alpha_texture);
         settle_data(scene, &m->metal_texture);
         settle_data(scene, &m->opacity_texture);
+        settle_data(scene, &m->normal_texture);
+        settle_data(scene, &m->bump_texture);
         if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
             m->kind = MATERIAL_DIFFUSE;
     }

@@ -46,7 +46,8 @@ struct mtl_source {
     struct mtl_color kd, ks, ke, tf;
     struct mtl_number illum, ns, ni, d, tr, pr, pm, kd_roughness;
     /* numbers of textures, or NO_INDEX */
-    uint32_t map_kd, map_ks, map_ke, map_pr, map_pm, map_d;
+    uint32_t map_kd, map_ks, map_ke, map_pr, map_pm, map_d, map_bump, norm;
+    double bump_scale; /* of map_bump */
 };
 
 struct material material_default(void);

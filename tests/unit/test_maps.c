@@ -236,6 +236,86 @@ static void holes_are_cut_by_their_map(void **state)
     unload(&l);
 }
 
+static const struct vec3 up = {0, 0, 1};
+
+static struct vec3 bumped(const struct loaded *l, float u, float v,
+                          struct vec3 wo)
+{
+    return bumped_normal(&l->world, &l->material, l->scene.tris[0], v2(u, v),
+                         up, up, wo);
+}
+
+static void check_direction(struct vec3 n, double x, double y, double z)
+{
+    double length = sqrt(x * x + y * y + z * z);
+
+    check_close((double)n.x, x / length, 1e-5);
+    check_close((double)n.y, y / length, 1e-5);
+    check_close((double)n.z, z / length, 1e-5);
+}
+
+/* Linear: 0 is -1, 255 is 1. */
+static void normal_maps_turn_the_normal(void **state)
+{
+    const uint8_t tilted[3] = {170, 102, 221};
+    struct loaded l;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 3, tilted);
+    load(&l, "Kd 1\nnorm two.tga");
+    check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
+                    187. / 255);
+    /* u that grows to the left turns x around */
+    l.scene.uvs[1].x = -1;
+    check_direction(bumped(&l, 0.5f, 0.5f, up), -85. / 255, -51. / 255,
+                    187. / 255);
+    unload(&l);
+}
+
+/* A ramp of 0.2 a texel rises to the right: the normal leans left. */
+static void bump_maps_tilt_by_their_slope(void **state)
+{
+    const uint8_t ramp[12] = {0,   0,   0,   51,  51,  51,
+                              102, 102, 102, 153, 153, 153};
+    struct loaded l;
+
+    (void)state;
+    write_image("two.tga", 4, 1, 3, ramp);
+    load(&l, "Kd 1\nbump -clamp on two.tga");
+    check_direction(bumped(&l, 0.5f, 0.5f, up), -0.2, 0, 1);
+    unload(&l);
+    load(&l, "Kd 1\nbump -clamp on -bm -2 -s .5 1 two.tga");
+    check_direction(bumped(&l, 1, 0.5f, up), 0.4, 0, 1);
+    unload(&l);
+}
+
+/* No mirror image is below the face, whatever the map says. */
+static void bent_normals_reflect_upwards(void **state)
+{
+    uint64_t seed = 5;
+
+    (void)state;
+    for (int i = 0; i < 100000; i++) {
+        struct vec3 v[2];
+        struct vec3 n, r;
+
+        for (int k = 0; k < 2; k++) {
+            double z = check_random(&seed);
+            double phi = 2 * M_PI * check_random(&seed);
+            double s = sqrt(1 - z * z);
+
+            v[k] = v3((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
+        }
+        if (v3_dot(v[0], v[1]) <= 0)
+            continue;
+        n = bent_normal(v[0], up, v[1]);
+        r = v3_sub(v3_scale(n, 2 * v3_dot(n, v[1])), v[1]);
+        assert_true(v3_dot(n, v[1]) > 0);
+        assert_true(r.z > 0);
+        check_close((double)v3_length(n), 1, 1e-5);
+    }
+}
+
 static int enter_folder(void **state)
 {
     static char folder[] = "/tmp/glim-maps-XXXXXX";
@@ -264,6 +344,9 @@ int main(void)
         cmocka_unit_test(roughness_is_multiplied),
         cmocka_unit_test(metal_is_chosen_by_its_map),
         cmocka_unit_test(holes_are_cut_by_their_map),
+        cmocka_unit_test(normal_maps_turn_the_normal),
+        cmocka_unit_test(bump_maps_tilt_by_their_slope),
+        cmocka_unit_test(bent_normals_reflect_upwards),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

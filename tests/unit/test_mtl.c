@@ -230,7 +230,7 @@ static void test_names(void **state)
 static void test_what_is_not_used(void **state)
 {
     struct loaded l = load("Kd 1 1 1\nnewmtl m\nKa x\nKd spectral a.rfl\n"
-                           "map_Bump -bm 1 a.png\nmap_Bump b.png\nsharpness 1\n"
+                           "disp -bm 1 a.png\ndisp b.png\nsharpness 1\n"
                            "map_Kd\n");
 
     (void)state;
@@ -242,7 +242,7 @@ static void test_what_is_not_used(void **state)
                         "a.mtl:4: found Kd spectral, expected a colour: not "
                         "used");
     assert_string_equal(l.report.entries[2].text,
-                        "a.mtl:5: found 'map_Bump', which glim does not use");
+                        "a.mtl:5: found 'disp', which glim does not use");
     assert_int_equal(l.report.entries[2].count, 2);
     assert_string_equal(l.report.entries[4].text,
                         "a.mtl:8: found map_Kd without the name of a file");
@@ -369,12 +369,35 @@ static void test_maps_of_numbers(void **state)
     check_close((double)m[3].alpha, .25, 0);
     assert_int_equal(m[4].kind, MATERIAL_PLASTIC);
     check_close((double)m[4].metalness, .75, 0);
+    assert_int_equal(m[1].bump_texture, NO_INDEX);
     /* a lambertian has no roughness, glass no coverage */
     assert_int_equal(m[5].alpha_texture, NO_INDEX);
     assert_int_equal(m[6].opacity_texture, NO_INDEX);
     assert_int_equal(l.report.entry_count, 1);
     assert_int_equal(l.report.entries[0].count, 2);
     unload(&l);
+}
+
+static void test_bumps(void **state)
+{
+    static const char *const keys[] = {"bump", "map_bump", "map_Bump"};
+    struct material m;
+
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        char text[64];
+
+        snprintf(text, sizeof text, "%s -bm .5 h.png", keys[i]);
+        m = one(text, 0);
+        assert_int_equal(m.bump_texture, 0);
+        check_close((double)m.bump_scale, .5, 0);
+    }
+    check_close((double)one("bump h.png", 0).bump_scale, 1, 0);
+    check_close((double)one("bump h.png -bm -2", 0).bump_scale, -2, 0);
+    check_close((double)one("bump -bm inf h.png", 0).bump_scale, 1, 0);
+    m = one("norm n.png\nillum 7", 0);
+    assert_int_equal(m.normal_texture, 0);
+    assert_int_equal(m.bump_texture, NO_INDEX);
 }
 
 /* Every name of another machine that can be meant finds the file here. */
@@ -430,6 +453,7 @@ int main(void)
         cmocka_unit_test(test_map_options),
         cmocka_unit_test(test_maps_are_shared),
         cmocka_unit_test(test_maps_of_numbers),
+        cmocka_unit_test(test_bumps),
         cmocka_unit_test(test_paths_of_other_machines),
     };
 
