@@ -22,10 +22,11 @@ enum feature {
     FEATURE_ROUGH = 32,   /* metal, glass or coat that is not smooth */
     FEATURE_ROUGH_DIFFUSE = 64,
     FEATURE_SKY_IMAGE = 128, /* the sky is an image */
-    FEATURE_EMITTERS = 256   /* surfaces that shine */
+    FEATURE_EMITTERS = 256,  /* surfaces that shine */
+    FEATURE_BUMPS = 512      /* maps of heights or normals */
 };
 
-#define FEATURES_ALL 511u
+#define FEATURES_ALL 1023u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

@@ -197,7 +197,7 @@ static inline bool path_step(const struct world *w, struct path *p,
     struct vec3 wo;
     struct vec2 lobe;
 
-    if (!vertex_at(w, p->ray, h, &v))
+    if (!vertex_at(w, &m, p->ray, h, &v))
         return false;
     path_add_emission(w, p, &m, h.tri, &v);
     if (vertex >= w->settings.max_vertices) {

@@ -43,11 +43,31 @@ static inline struct rgba texel(const struct world *w, struct texture t,
     uint32_t bits = w->texels[t.first + y * t.width + x];
     struct rgba c;
 
-    c.color =
-        v3(w->linear_of_srgb[bits & 255u], w->linear_of_srgb[bits >> 8 & 255u],
-           w->linear_of_srgb[bits >> 16 & 255u]);
+    if (t.is_data != 0)
+        c.color = v3_scale(v3((float)(bits & 255u), (float)(bits >> 8 & 255u),
+                              (float)(bits >> 16 & 255u)),
+                           1.0f / 255.0f);
+    else
+        c.color = v3(w->linear_of_srgb[bits & 255u],
+                     w->linear_of_srgb[bits >> 8 & 255u],
+                     w->linear_of_srgb[bits >> 16 & 255u]);
     c.alpha = (float)(bits >> 24) * (1.0f / 255.0f);
     return c;
+}
+
+/* Where the texture is looked up, clamped to the centres of its border. */
+static inline struct vec2 texture_uv(struct texture t, struct vec2 uv)
+{
+    float x = 0.5f / (float)t.width;
+    float y = 0.5f / (float)t.height;
+
+    uv.x = uv.x * t.scale.x + t.offset.x;
+    uv.y = uv.y * t.scale.y + t.offset.y;
+    if (t.is_clamped != 0) {
+        uv.x = f_min(f_max(uv.x, x), 1.0f - x);
+        uv.y = f_min(f_max(uv.y, y), 1.0f - y);
+    }
+    return uv;
 }
 
 /* Bilinear, decoded before mixing. */
@@ -58,6 +78,7 @@ static inline struct rgba texture_at(const struct world *w, uint32_t index,
     struct footprint f;
     struct rgba a, b, c, d, mix;
 
+    uv = texture_uv(t, uv);
     wrap_pair(uv.x, t.width, &f.x0, &f.x1, &f.fx);
     wrap_pair(1.0f - (uv.y - floorf(uv.y)), t.height, &f.y0, &f.y1, &f.fy);
     a = texel(w, t, f.x0, f.y0);
@@ -84,17 +105,28 @@ static inline struct vec2 uv_at(const struct world *w, struct tri t,
               h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
 }
 
+static inline bool is_hole(const struct world *w, uint32_t texture,
+                           struct vec2 uv)
+{
+    return texture != NO_INDEX && w->textures[texture].has_holes != 0 &&
+           texture_at(w, texture, uv).alpha < 0.5f;
+}
+
 /* The share of rays that a hit stops: none in holes of the colour texture's
- * alpha, elsewhere the opacity. */
+ * alpha and of the opacity texture, elsewhere the opacity. */
 static inline float coverage_at(const struct world *w, struct hit h)
 {
     struct tri t = w->tris[h.tri];
     struct material m = w->materials[t.material];
 
-    if (m.color_texture != NO_INDEX && t.vt[0] != NO_INDEX &&
-        w->textures[m.color_texture].has_holes != 0 &&
-        texture_at(w, m.color_texture, uv_at(w, t, h)).alpha < 0.5f)
-        return 0.0f;
+    if (HAS(FEATURE_TEXTURES) && t.vt[0] != NO_INDEX &&
+        (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
+        struct vec2 uv = uv_at(w, t, h);
+
+        if (is_hole(w, m.color_texture, uv) ||
+            is_hole(w, m.opacity_texture, uv))
+            return 0.0f;
+    }
     return m.opacity;
 }
 

@@ -53,19 +53,32 @@ struct material {
     uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
     float
         opacity; /* 1: opaque; less: a ray passes with probability 1-opacity */
-    struct vec3 coat;      /* reflectance of the coat at normal incidence */
-    uint32_t coat_texture; /* multiplies coat; NO_INDEX: none */
+    struct vec3 coat;         /* reflectance of the coat at normal incidence */
+    uint32_t coat_texture;    /* multiplies coat; NO_INDEX: none */
+    uint32_t alpha_texture;   /* its square multiplies alpha; NO_INDEX: none */
+    uint32_t metal_texture;   /* times metalness at least 1/2: metal there */
+    uint32_t opacity_texture; /* below 1/2: a hole; NO_INDEX: none */
+    float metalness;          /* used with metal_texture only */
+    uint32_t normal_texture;  /* shading normal in the tangents' frame */
+    uint32_t bump_texture;    /* heights; NO_INDEX: none */
+    float bump_scale;         /* texels that a height of 1 rises */
+    uint32_t pad;
 };
 
 #define ALPHA_SMOOTH 5e-4f
 
 /* width * height texels from texels[first] on, row 0 at the top of the image;
- * a texel is 8-bit sRGB with linear alpha, r in the lowest byte. */
+ * a texel is 8-bit sRGB with linear alpha, r in the lowest byte. Looked up at
+ * uv * scale + offset. */
 struct texture {
     uint32_t first;
     uint32_t width;
     uint32_t height;
     uint32_t has_holes; /* 1 if any alpha is below one half */
+    struct vec2 scale;
+    struct vec2 offset;
+    uint32_t is_clamped; /* 1: the border goes on outside; 0: it repeats */
+    uint32_t is_data;    /* 1: linear numbers, alpha holds their mean */
 };
 
 /* Constant radiance (width 0) or a lat-long image times `color`. */

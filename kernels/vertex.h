@@ -11,6 +11,7 @@
 #define KERNELS_VERTEX_H
 
 #include "kernels/bsdf.h"
+#include "kernels/bump.h"
 #include "kernels/hit.h"
 #include "kernels/texture.h"
 
@@ -47,8 +48,8 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
     return v3_dot(n, wo) > 0.0f ? n : ng;
 }
 
-static inline bool vertex_at(const struct world *w, struct ray r, struct hit h,
-                             struct vertex *v)
+static inline bool vertex_at(const struct world *w, const struct material *m,
+                             struct ray r, struct hit h, struct vertex *v)
 {
     struct tri t = w->tris[h.tri];
     struct vec3 p0 = w->positions[t.v[0]];
@@ -67,6 +68,8 @@ static inline bool vertex_at(const struct world *w, struct ray r, struct hit h,
     v->uv = v2(0.0f, 0.0f);
     if (v->has_uv)
         v->uv = uv_at(w, t, h);
+    if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
+        v->n = bumped_normal(w, m, t, v->uv, v->n, v->ng, wo);
     frame_around(v->n, &v->t, &v->b);
     return true;
 }
@@ -74,17 +77,25 @@ static inline bool vertex_at(const struct world *w, struct ray r, struct hit h,
 static inline struct bsdf
 bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
 {
+    bool has_maps = HAS(FEATURE_TEXTURES) && v->has_uv;
     struct bsdf b;
 
     b.color = m->color;
-    if (HAS(FEATURE_TEXTURES) && m->color_texture != NO_INDEX && v->has_uv)
+    if (has_maps && m->color_texture != NO_INDEX)
         b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
     b.coat = m->coat;
-    if (HAS(FEATURE_TEXTURES) && HAS(FEATURE_PLASTIC) &&
-        m->coat_texture != NO_INDEX && v->has_uv)
+    if (has_maps && m->coat_texture != NO_INDEX)
         b.coat = v3_mul(b.coat, texture_at(w, m->coat_texture, v->uv).color);
     b.alpha = m->alpha;
+    if (has_maps && m->alpha_texture != NO_INDEX) {
+        float roughness = texture_at(w, m->alpha_texture, v->uv).alpha;
+
+        b.alpha *= roughness * roughness;
+    }
     b.kind = m->kind;
+    if (has_maps && m->metal_texture != NO_INDEX &&
+        m->metalness * texture_at(w, m->metal_texture, v->uv).alpha >= 0.5f)
+        b.kind = MATERIAL_METAL;
     b.eta = m->ior;
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !v->is_outside)
         b.eta = 1.0f / m->ior;

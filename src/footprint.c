@@ -88,10 +88,15 @@ static bool extent(const double p[3][2], double y0, double y1, double *x0,
     return *x0 <= *x1;
 }
 
+double footprint_whole(const struct footprint_sums *f)
+{
+    return f->sums[((size_t)f->width + 1) * (f->height + 1) - 1] /
+           ((double)f->width * f->height);
+}
+
 double footprint_mean(const struct footprint_sums *f, const struct vec2 uv[3])
 {
-    double whole = f->sums[((size_t)f->width + 1) * (f->height + 1) - 1] /
-                   ((double)f->width * f->height);
+    double whole = footprint_whole(f);
     double top = INFINITY, bottom = -INFINITY;
     double sum = 0, area = 0;
     double p[3][2];

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "glim/footprint.h"
+#include "kernels/texture.h"
 #include "kernels/hit.h"
 
 #define BIN_COUNT 12
@@ -331,10 +332,16 @@ static double mean_radiance(const struct world *w, const struct tri *t,
                   3;
 
     if (m->emission_texture != NO_INDEX && t->vt[0] != NO_INDEX) {
-        const struct vec2 uv[3] = {w->uvs[t->vt[0]], w->uvs[t->vt[1]],
-                                   w->uvs[t->vt[2]]};
+        const struct footprint_sums *f = &footprints[t->material];
+        struct texture texture = w->textures[m->emission_texture];
+        struct vec2 uv[3];
 
-        mean = footprint_mean(&footprints[t->material], uv);
+        for (int i = 0; i < 3; i++)
+            uv[i] = texture_uv(texture, w->uvs[t->vt[i]]);
+        /* outside a clamped image a triangle shows its border, who knows how
+         * much of it */
+        mean = texture.is_clamped != 0 ? footprint_whole(f)
+                                       : footprint_mean(f, uv);
     }
     return mean * (double)m->opacity;
 }

@@ -28,6 +28,11 @@ struct material material_default(void)
         .color_texture = NO_INDEX,
         .emission_texture = NO_INDEX,
         .coat_texture = NO_INDEX,
+        .alpha_texture = NO_INDEX,
+        .metal_texture = NO_INDEX,
+        .opacity_texture = NO_INDEX,
+        .normal_texture = NO_INDEX,
+        .bump_texture = NO_INDEX,
         .opacity = 1,
     };
 
@@ -97,7 +102,7 @@ static double within(const struct mtl_number *n, const char *key, double lo,
     return missing;
 }
 
-static double roughness(const struct mtl_source *s, const struct place *at)
+static double alpha(const struct mtl_source *s, const struct place *at)
 {
     double ns = within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
 
@@ -106,7 +111,16 @@ static double roughness(const struct mtl_source *s, const struct place *at)
 
         return pr * pr;
     }
+    if (s->map_pr != NO_INDEX)
+        return 1;
     return ns == 0 || ns >= NS_SMOOTH ? 0 : sqrt(2 / (ns + 2));
+}
+
+static void roughen(struct material *m, const struct mtl_source *s,
+                    const struct place *at)
+{
+    m->alpha = (float)alpha(s, at);
+    m->alpha_texture = s->map_pr;
 }
 
 /* d wins over Tr. */
@@ -131,7 +145,8 @@ static void make_glass(struct material *m, uint32_t kind,
     m->kind = kind;
     m->color = reflecting(&s->tf, "Tf", 1, at);
     m->color_texture = s->map_kd;
-    m->alpha = kind == MATERIAL_GLASS ? (float)roughness(s, at) : 0;
+    if (kind == MATERIAL_GLASS)
+        roughen(m, s, at);
     m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
 }
 
@@ -147,7 +162,7 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
     m->coat = (struct vec3){ks->x * MATERIAL_COAT, ks->y * MATERIAL_COAT,
                             ks->z * MATERIAL_COAT};
     m->coat_texture = s->map_ks;
-    m->alpha = (float)roughness(s, at);
+    roughen(m, s, at);
 }
 
 static void make_diffuse(struct material *m, const struct mtl_source *s,
@@ -166,23 +181,29 @@ static void make_opaque(struct material *m, int illum,
                         const struct mtl_source *s, const struct place *at)
 {
     bool has_map = s->map_kd != NO_INDEX;
+    bool is_mixed = s->map_pm != NO_INDEX;
     double pm = within(&s->pm, "Pm", 0, 1, unit_clamped(s->pm.value), at);
     struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
     bool has_ks = !is_black(&ks) || s->map_ks != NO_INDEX;
 
     m->opacity = (float)opacity(s, at);
+    m->opacity_texture = s->map_d;
     m->color = reflecting(&s->kd, "Kd", has_map ? 0 : MATERIAL_GREY, at);
     m->color_texture = s->map_kd;
-    if (pm >= 0.5) {
+    m->metal_texture = s->map_pm;
+    m->metalness = s->pm.line != 0 ? (float)pm : 1;
+    if (pm >= 0.5 && !is_mixed) {
         m->kind = MATERIAL_METAL;
-        m->alpha = (float)roughness(s, at);
-    } else if (has_ks && (illum == 3 || illum == 5)) {
+        roughen(m, s, at);
+    } else if (has_ks && !is_mixed && (illum == 3 || illum == 5)) {
         m->kind = MATERIAL_METAL;
         m->color = ks;
         m->color_texture = s->map_ks;
-        m->alpha = (float)roughness(s, at);
+        roughen(m, s, at);
     } else if (has_ks) {
         make_plastic(m, &ks, s, at);
+    } else if (is_mixed) {
+        roughen(m, s, at);
     } else {
         make_diffuse(m, s, at);
     }
@@ -191,9 +212,11 @@ static void make_opaque(struct material *m, int illum,
 static void check_map(uint32_t map, const char *key, const struct material *m,
                       const struct place *at)
 {
-    if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture)
+    if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture &&
+        map != m->alpha_texture && map != m->metal_texture &&
+        map != m->opacity_texture)
         report_add(at->report, "maps that do not fit their material",
-                   "%s: found %s of a material that has no such colour: not "
+                   "%s: found %s of a material that has no use for it: not "
                    "used",
                    at->path, key);
 }
@@ -213,6 +236,12 @@ struct material material_from_source(const struct mtl_source *s,
         make_opaque(&m, illum, s, &at);
     check_map(s->map_kd, "map_Kd", &m, &at);
     check_map(s->map_ks, "map_Ks", &m, &at);
+    check_map(s->map_pr, "map_Pr", &m, &at);
+    check_map(s->map_pm, "map_Pm", &m, &at);
+    check_map(s->map_d, "map_d", &m, &at);
+    m.normal_texture = s->norm;
+    m.bump_texture = s->map_bump;
+    m.bump_scale = (float)s->bump_scale;
     m.emission = emission(&s->ke, &at);
     m.emission_texture = s->map_ke;
     return m;

@@ -2,6 +2,7 @@
 #include "glim/mtl.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@
 #include "glim/blackbody.h"
 #include "glim/file.h"
 #include "glim/lex.h"
+#include "glim/map.h"
 #include "glim/material.h"
 #include "glim/names.h"
 
@@ -84,11 +86,33 @@ uint32_t mtl_find(const struct scene *scene, const char *name)
     return NO_INDEX;
 }
 
+/* One texture for each path and way to look it up; NULL when memory is out. */
+static char *texture_key(const char *path, const struct texture *t)
+{
+    char *key = NULL;
+    int length = asprintf(&key, "%g %g %g %g %u %u %s", (double)t->scale.x,
+                          (double)t->scale.y, (double)t->offset.x,
+                          (double)t->offset.y, t->is_clamped, t->is_data, path);
+
+    return length < 0 ? NULL : key;
+}
+
+static uint32_t name_texture(struct names *names, const char *path,
+                             const struct texture *texture)
+{
+    char *key = texture_key(path, texture);
+    uint32_t index = key == NULL ? NO_NAME : names_add(names, key);
+
+    free(key);
+    return index;
+}
+
 /* The number of the texture, a new one without texels if need be. */
-static uint32_t add_texture(struct parser *p, const char *path)
+static uint32_t add_texture(struct parser *p, const char *path,
+                            const struct texture *texture)
 {
     struct scene *scene = p->scene;
-    uint32_t index = names_add(&p->textures, path);
+    uint32_t index = name_texture(&p->textures, path, texture);
     size_t needed = (size_t)scene->texture_count + 1;
     size_t texture_capacity = p->texture_capacity;
     void *textures = scene->textures;
@@ -109,7 +133,7 @@ static uint32_t add_texture(struct parser *p, const char *path)
     if (copy == NULL)
         return NO_NAME;
     scene->texture_paths[scene->texture_count] = copy;
-    scene->textures[scene->texture_count++] = (struct texture){0};
+    scene->textures[scene->texture_count++] = *texture;
     return index;
 }
 
@@ -152,7 +176,12 @@ static bool read_newmtl(struct parser *p)
     p->name = lex_rest(&p->lex);
     p->source = (struct mtl_source){.map_kd = NO_INDEX,
                                     .map_ks = NO_INDEX,
-                                    .map_ke = NO_INDEX};
+                                    .map_ke = NO_INDEX,
+                                    .map_pr = NO_INDEX,
+                                    .map_pm = NO_INDEX,
+                                    .map_d = NO_INDEX,
+                                    .map_bump = NO_INDEX,
+                                    .norm = NO_INDEX};
     return p->name != NULL || out_of_memory(p);
 }
 
@@ -231,58 +260,6 @@ static bool read_blackbody(struct parser *p, struct word key,
     return true;
 }
 
-/* Options of a map and the words after each; -o -s -t have 1 to 3 numbers. */
-static const struct {
-    const char *name;
-    int least, most;
-} options[] = {
-    {"-blendu", 1, 1}, {"-blendv", 1, 1}, {"-bm", 1, 1},      {"-boost", 1, 1},
-    {"-cc", 1, 1},     {"-clamp", 1, 1},  {"-imfchan", 1, 1}, {"-mm", 2, 2},
-    {"-o", 1, 3},      {"-s", 1, 3},      {"-t", 1, 3},       {"-texres", 1, 1},
-    {"-type", 1, 1},
-};
-
-/* Moves over an option and its values; false if there is none. */
-static bool skip_option(struct lex *lex)
-{
-    struct lex start = *lex;
-    struct word word = lex_word(lex);
-
-    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
-        double value;
-
-        if (!word_is(word, options[i].name))
-            continue;
-        for (int n = 0; n < options[i].least; n++)
-            lex_word(lex);
-        for (int n = options[i].least; n < options[i].most; n++) {
-            if (!lex_number(lex, &value))
-                break;
-        }
-        return true;
-    }
-    *lex = start;
-    return false;
-}
-
-/* Cuts off options that come after the name, which some programs write. */
-static bool cut_options(char *name)
-{
-    const char *end = name + strlen(name);
-
-    for (char *p = name; (p = strchr(p, ' ')) != NULL; p++) {
-        struct lex lex = {p + 1, end, 1};
-
-        if (p == name || p[1] != '-' || !skip_option(&lex))
-            continue;
-        while (p > name && p[-1] == ' ')
-            p--;
-        *p = '\0';
-        return true;
-    }
-    return false;
-}
-
 /* The file that a map names, or as it is written if there is no such file. */
 static char *map_path(const struct parser *p, const char *name)
 {
@@ -291,23 +268,22 @@ static char *map_path(const struct parser *p, const char *name)
     return found != NULL ? found : path_beside(p->path, name);
 }
 
-static bool read_map(struct parser *p, struct word key, uint32_t *texture)
+/* bump_scale: set by -bm; NULL for maps without heights. */
+static bool read_map(struct parser *p, struct word key, bool is_data,
+                     uint32_t *texture, double *bump_scale)
 {
     uint64_t line = p->lex.line;
-    bool has_options = false;
-    char *name;
+    struct map_options o;
+    char *name = map_read(&p->lex, &o);
     char *path;
 
-    while (skip_option(&p->lex))
-        has_options = true;
-    name = lex_rest(&p->lex);
     if (name == NULL)
         return out_of_memory(p);
-    has_options |= cut_options(name);
-    if (has_options)
+    o.texture.is_data = is_data;
+    if (o.unknown_count > 0)
         report_add(p->report, "maps with options",
-                   "%s:%" PRIu64 ": found options of %.*s: the texture is used "
-                   "without them",
+                   "%s:%" PRIu64 ": found options of %.*s other than -o, -s, "
+                   "-bm and -clamp: the texture is used without them",
                    p->path, line, (int)key.length, key.start);
     if (*name == '\0') {
         report_add(p->report, "maps without a file",
@@ -317,7 +293,9 @@ static bool read_map(struct parser *p, struct word key, uint32_t *texture)
         return true;
     }
     path = map_path(p, name);
-    *texture = add_texture(p, path);
+    if (bump_scale != NULL)
+        *bump_scale = o.bump_scale;
+    *texture = add_texture(p, path, &o.texture);
     free(path);
     free(name);
     return *texture != NO_NAME || out_of_memory(p);
@@ -344,22 +322,34 @@ static bool read_property(struct parser *p, struct word key)
         struct mtl_color *color;
         struct mtl_number *number;
         uint32_t *texture;
+        double *bump_scale;
+        bool is_data;
     } properties[] = {
-        {"Kd", &s->kd, NULL, NULL},
-        {"Ks", &s->ks, NULL, NULL},
-        {"Ke", &s->ke, NULL, NULL},
-        {"Tf", &s->tf, NULL, NULL},
-        {"Ns", NULL, &s->ns, NULL},
-        {"Ni", NULL, &s->ni, NULL},
-        {"d", NULL, &s->d, NULL},
-        {"Tr", NULL, &s->tr, NULL},
-        {"illum", NULL, &s->illum, NULL},
-        {"Pr", NULL, &s->pr, NULL},
-        {"Pm", NULL, &s->pm, NULL},
-        {"Kd_roughness", NULL, &s->kd_roughness, NULL},
-        {"map_Kd", NULL, NULL, &s->map_kd},
-        {"map_Ks", NULL, NULL, &s->map_ks},
-        {"map_Ke", NULL, NULL, &s->map_ke},
+        {"Kd", .color = &s->kd},
+        {"Ks", .color = &s->ks},
+        {"Ke", .color = &s->ke},
+        {"Tf", .color = &s->tf},
+        {"Ns", .number = &s->ns},
+        {"Ni", .number = &s->ni},
+        {"d", .number = &s->d},
+        {"Tr", .number = &s->tr},
+        {"illum", .number = &s->illum},
+        {"Pr", .number = &s->pr},
+        {"Pm", .number = &s->pm},
+        {"Kd_roughness", .number = &s->kd_roughness},
+        {"map_Kd", .texture = &s->map_kd},
+        {"map_Ks", .texture = &s->map_ks},
+        {"map_Ke", .texture = &s->map_ke},
+        {"map_Pr", .texture = &s->map_pr, .is_data = true},
+        {"map_Pm", .texture = &s->map_pm, .is_data = true},
+        {"map_d", .texture = &s->map_d, .is_data = true},
+        {"norm", .texture = &s->norm, .is_data = true},
+        {"bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
+         .is_data = true},
+        {"map_bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
+         .is_data = true},
+        {"map_Bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
+         .is_data = true},
     };
 
     if (word_is(key, "Ke_blackbody"))
@@ -371,7 +361,8 @@ static bool read_property(struct parser *p, struct word key)
             return read_color(p, key, properties[i].color);
         if (properties[i].number != NULL)
             return read_number(p, key, properties[i].number);
-        return read_map(p, key, properties[i].texture);
+        return read_map(p, key, properties[i].is_data, properties[i].texture,
+                        properties[i].bump_scale);
     }
     skip_statement(p, key);
     return true;
@@ -399,10 +390,18 @@ static bool parse_lines(struct parser *p)
     return finish_material(p);
 }
 
-static bool add_names(struct names *names, char **from, uint32_t count)
+/* What other files have brought keeps its numbers. */
+static bool add_known(struct parser *p)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        if (names_add(names, from[i]) == NO_NAME)
+    const struct scene *scene = p->scene;
+
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (names_add(&p->materials, scene->material_names[i]) == NO_NAME)
+            return false;
+    }
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        if (name_texture(&p->textures, scene->texture_paths[i],
+                         &scene->textures[i]) == NO_NAME)
             return false;
     }
     return true;
@@ -421,9 +420,7 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
         lex_init(&p.lex, text, size_bytes);
         p.material_capacity = scene->material_count;
         p.texture_capacity = scene->texture_count;
-        ok = add_names(&p.materials, scene->material_names,
-                       scene->material_count) &&
-             add_names(&p.textures, scene->texture_paths, scene->texture_count);
+        ok = add_known(&p);
         ok = ok ? parse_lines(&p) : out_of_memory(&p);
     }
     free(p.name);

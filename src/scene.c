@@ -467,18 +467,38 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
     return sky;
 }
 
+static bool has_texture(const struct material *m)
+{
+    const uint32_t textures[] = {
+        m->color_texture,  m->coat_texture,  m->emission_texture,
+        m->alpha_texture,  m->metal_texture, m->opacity_texture,
+        m->normal_texture, m->bump_texture,
+    };
+
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        if (textures[i] != NO_INDEX)
+            return true;
+    return false;
+}
+
+static bool has_holes(const struct scene *scene, uint32_t texture)
+{
+    return texture != NO_INDEX && scene->textures[texture].has_holes != 0;
+}
+
 uint32_t scene_material_features(const struct scene *scene,
                                  const struct material *m)
 {
     uint32_t features = 0;
 
-    if (m->color_texture != NO_INDEX || m->coat_texture != NO_INDEX ||
-        m->emission_texture != NO_INDEX)
+    if (has_texture(m))
         features |= FEATURE_TEXTURES;
-    if (m->opacity < 1 || (m->color_texture != NO_INDEX &&
-                           scene->textures[m->color_texture].has_holes))
+    if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
+        features |= FEATURE_BUMPS;
+    if (m->opacity < 1 || has_holes(scene, m->color_texture) ||
+        has_holes(scene, m->opacity_texture))
         features |= FEATURE_COVERAGE;
-    if (m->kind == MATERIAL_METAL)
+    if (m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX)
         features |= FEATURE_METAL;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;

@@ -10,11 +10,32 @@
 /* texture.first is 32 bits wide. */
 #define TEXELS_MAX UINT64_C(0xffffffff)
 
+static bool has_alpha(const struct image *image)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+
+    for (size_t i = 0; i < count; i++) {
+        if (image->rgba[4 * i + 3] < 255)
+            return true;
+    }
+    return false;
+}
+
+/* The number that a texel of data holds: grey, not decoded. What is cut out is
+ * often an alpha channel behind a white or coloured picture. */
+static uint32_t number_of(const uint8_t *texel, bool by_alpha)
+{
+    if (by_alpha)
+        return texel[3];
+    return ((uint32_t)texel[0] + texel[1] + texel[2] + 1) / 3;
+}
+
 static bool append(struct scene *scene, const struct image *image,
                    struct texture *texture, struct error *err)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
     size_t total = scene->texel_count + count;
+    bool by_alpha = !texture->is_data || has_alpha(image);
     uint32_t *texels;
 
     texels = total > SIZE_MAX / sizeof *texels
@@ -30,13 +51,34 @@ static bool append(struct scene *scene, const struct image *image,
     texture->height = (uint32_t)image->height;
     for (size_t i = 0; i < count; i++) {
         const uint8_t *p = image->rgba + 4 * i;
+        uint32_t alpha = number_of(p, by_alpha);
 
         texels[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 |
-                    (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-        texture->has_holes |= p[3] < 128;
+                    (uint32_t)p[2] << 16 | alpha << 24;
+        texture->has_holes |= alpha < 128;
     }
     scene->texel_count = total;
     return true;
+}
+
+/* The same image with other options is read once. */
+static bool shares_texels(struct scene *scene, uint32_t index)
+{
+    struct texture *t = &scene->textures[index];
+
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        const struct texture *other = &scene->textures[i];
+
+        if (other->width == 0 || other->is_data != t->is_data ||
+            strcmp(scene->texture_paths[i], scene->texture_paths[index]) != 0)
+            continue;
+        t->first = other->first;
+        t->width = other->width;
+        t->height = other->height;
+        t->has_holes = other->has_holes;
+        return true;
+    }
+    return false;
 }
 
 /* An unreadable image leaves the texture without texels. */
@@ -48,6 +90,8 @@ static bool load(struct scene *scene, uint32_t index, struct report *report,
     struct error why;
     bool ok = true;
 
+    if (shares_texels(scene, index))
+        return true;
     if (!image_read_8bit(&image, path, &why)) {
         report_add_named(report, "lost textures", path,
                          "%s: the texture is not used", why.text);
@@ -84,6 +128,13 @@ static void settle(const struct scene *scene, uint32_t *texture,
         *texture = NO_INDEX;
 }
 
+/* A map of numbers without its image is gone. */
+static void settle_data(const struct scene *scene, uint32_t *texture)
+{
+    if (*texture != NO_INDEX && scene->textures[*texture].width == 0)
+        *texture = NO_INDEX;
+}
+
 bool textures_load(struct scene *scene, struct report *report,
                    struct error *err)
 {
@@ -97,8 +148,10 @@ bool textures_load(struct scene *scene, struct report *report,
         is_used[scene->tris[i].material] = true;
     for (uint32_t i = 0; ok && i < scene->material_count; i++) {
         struct material *m = &scene->materials[i];
-        uint32_t maps[] = {m->color_texture, m->emission_texture,
-                           m->coat_texture};
+        uint32_t maps[] = {m->color_texture,  m->emission_texture,
+                           m->coat_texture,   m->alpha_texture,
+                           m->metal_texture,  m->opacity_texture,
+                           m->normal_texture, m->bump_texture};
 
         for (size_t k = 0; k < sizeof maps / sizeof maps[0] && ok; k++) {
             if (!is_used[i] || maps[k] == NO_INDEX || is_tried[maps[k]])
@@ -109,6 +162,11 @@ bool textures_load(struct scene *scene, struct report *report,
         settle(scene, &m->color_texture, &m->color, 1, MATERIAL_GREY);
         settle(scene, &m->emission_texture, &m->emission, 1, 0);
         settle(scene, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
+        settle_data(scene, &m->alpha_texture);
+        settle_data(scene, &m->metal_texture);
+        settle_data(scene, &m->opacity_texture);
+        settle_data(scene, &m->normal_texture);
+        settle_data(scene, &m->bump_texture);
         if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
             m->kind = MATERIAL_DIFFUSE;
     }

@@ -27,6 +27,9 @@ struct footprint_sums {
 bool footprint_init(struct footprint_sums *f, const struct world *w,
                     const struct material *m, struct error *err);
 
+/* The mean over the whole image. */
+double footprint_whole(const struct footprint_sums *footprint);
+
 /* Over the triangle with these corners. */
 double footprint_mean(const struct footprint_sums *f, const struct vec2 uv[3]);
 

@@ -9,7 +9,9 @@
  * clear coat that reflects MATERIAL_COAT Ks if Ks is not black or there is
  * map_Ks. A map multiplies its colour. Roughness alpha is Pr squared, or
  * sqrt(2 / (Ns + 2)), or 0 where Ns is absent, 0 or 1000 and more; the
- * roughness of diffuse without a coat is Kd_roughness, 0 if absent.
+ * roughness of diffuse without a coat is Kd_roughness, 0 if absent. With
+ * map_Pr, Pr is 1 if absent; with map_Pm, Pm too, and the map chooses between
+ * metal of colour Kd and the rest.
  *
  * Units:     none
  * Ownership: none
@@ -43,7 +45,9 @@ struct mtl_color {
 struct mtl_source {
     struct mtl_color kd, ks, ke, tf;
     struct mtl_number illum, ns, ni, d, tr, pr, pm, kd_roughness;
-    uint32_t map_kd, map_ks, map_ke; /* number of a texture, or NO_INDEX */
+    /* numbers of textures, or NO_INDEX */
+    uint32_t map_kd, map_ks, map_ke, map_pr, map_pm, map_d, map_bump, norm;
+    double bump_scale; /* of map_bump */
 };
 
 struct material material_default(void);

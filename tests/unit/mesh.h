@@ -105,6 +105,11 @@ static inline struct material mesh_material(uint32_t kind, float color)
                          .opacity = 1.0f,
                          .color_texture = NO_INDEX,
                          .coat_texture = NO_INDEX,
+                         .alpha_texture = NO_INDEX,
+                         .metal_texture = NO_INDEX,
+                         .opacity_texture = NO_INDEX,
+                         .normal_texture = NO_INDEX,
+                         .bump_texture = NO_INDEX,
                          .emission_texture = NO_INDEX};
 
     return m;

@@ -22,13 +22,19 @@
     S(vec3, 12) M(vec3, x, 0) M(vec3, y, 4) M(vec3, z, 8)                    \
     S(tri, 40) M(tri, v, 0) M(tri, vn, 12) M(tri, vt, 24)                    \
     M(tri, material, 36)                                                     \
-    S(material, 64) M(material, color, 0) M(material, alpha, 12)             \
+    S(material, 96) M(material, color, 0) M(material, alpha, 12)             \
     M(material, emission, 16) M(material, ior, 28) M(material, kind, 32)     \
     M(material, color_texture, 36) M(material, emission_texture, 40)         \
     M(material, opacity, 44) M(material, coat, 48)                           \
-    M(material, coat_texture, 60)                                            \
-    S(texture, 16) M(texture, first, 0) M(texture, width, 4)                 \
-    M(texture, height, 8) M(texture, has_holes, 12)                          \
+    M(material, coat_texture, 60) M(material, alpha_texture, 64)             \
+    M(material, metal_texture, 68) M(material, opacity_texture, 72)          \
+    M(material, metalness, 76) M(material, normal_texture, 80)               \
+    M(material, bump_texture, 84) M(material, bump_scale, 88)                \
+    M(material, pad, 92)                                                     \
+    S(texture, 40) M(texture, first, 0) M(texture, width, 4)                 \
+    M(texture, height, 8) M(texture, has_holes, 12) M(texture, scale, 16)    \
+    M(texture, offset, 24) M(texture, is_clamped, 32)                        \
+    M(texture, is_data, 36)                                                  \
     S(sky, 32) M(sky, color, 0) M(sky, width, 12) M(sky, height, 16)         \
     M(sky, rotation_sin, 20) M(sky, rotation_cos, 24) M(sky, pad, 28)        \
     S(camera, 64) M(camera, eye, 0) M(camera, width, 12)                     \

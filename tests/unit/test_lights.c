@@ -732,7 +732,9 @@ static void add_picture(struct mesh *m, struct vec2 uvs[4], uint32_t *texels,
 
     for (int i = 0; i < 256; i++)
         linear[i] = (float)i / 255;
-    *texture = (struct texture){0, TEXTURE_SIDE, TEXTURE_SIDE, 0};
+    *texture = (struct texture){.width = TEXTURE_SIDE,
+                                .height = TEXTURE_SIDE,
+                                .scale = {1, 1}};
     mesh_add_quad(m, v3(-0.5f, 0.5f, -0.5f), v3(0.5f, 0.5f, -0.5f),
                   v3(0.5f, 0.5f, 0.5f), v3(-0.5f, 0.5f, 0.5f), LAMP);
     for (int k = 0; k < 4; k++)

@@ -255,7 +255,7 @@ static void test_names(void **state)
 static void test_what_is_not_used(void **state)
 {
     struct loaded l = load("Kd 1 1 1\nnewmtl m\nKa x\nKd spectral a.rfl\n"
-                           "map_Bump -bm 1 a.png\nmap_Bump b.png\nsharpness 1\n"
+                           "disp -bm 1 a.png\ndisp b.png\nsharpness 1\n"
                            "map_Kd\n");
 
     (void)state;
@@ -267,7 +267,7 @@ static void test_what_is_not_used(void **state)
                         "a.mtl:4: found Kd spectral, expected a colour: not "
                         "used");
     assert_string_equal(l.report.entries[2].text,
-                        "a.mtl:5: found 'map_Bump', which glim does not use");
+                        "a.mtl:5: found 'disp', which glim does not use");
     assert_int_equal(l.report.entries[2].count, 2);
     assert_string_equal(l.report.entries[4].text,
                         "a.mtl:8: found map_Kd without the name of a file");
@@ -280,35 +280,59 @@ static void test_map_options(void **state)
 {
     static const struct {
         const char *text, *path;
-        bool has_options;
+        bool has_unknown;
+        float scale[2], offset[2];
+        uint32_t is_clamped;
     } cases[] = {
-        {"map_Kd a.png", "a.png", false},
-        {"map_Kd  a b  c.png ", "a b  c.png", false},
-        {"map_Kd -s 2 2 2 a.png", "a.png", true},
-        {"map_Kd -s 2 a.png", "a.png", true},
-        {"map_Kd -o 0.1 .2 3d.png", "3d.png", true},
-        {"map_Kd -clamp on -bm 1.5 -blendu off -mm 0 1 a b.png", "a b.png",
-         true},
-        {"map_Kd -type cube_top -texres 512 -imfchan r -t 1 1 1 a.png", "a.png",
-         true},
-        {"map_Kd a b.png -s 1 1 1", "a b.png", true},
-        {"map_Kd a -b.png", "a -b.png", false},
-        {"map_Kd -.png", "-.png", false},
-        {"map_Kd t/a.png", "t/a.png", false},
-        {"map_Kd /t/a.png", "/t/a.png", false},
+        {"map_Kd a.png", "a.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd  a b  c.png ", "a b  c.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -s 2 3 4 a.png", "a.png", false, {2, 3}, {0, 0}, 0},
+        {"map_Kd -s 2 a.png", "a.png", false, {2, 1}, {0, 0}, 0},
+        {"map_Kd -o 0.25 .5 3d.png", "3d.png", false, {1, 1}, {.25f, .5f}, 0},
+        {"map_Kd -o inf 0 -s 1e39 1 a.png", "a.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -clamp on -bm 1.5 -blendu off -mm 0 1 a b.png",
+         "a b.png",
+         true,
+         {1, 1},
+         {0, 0},
+         1},
+        {"map_Kd -type cube_top -texres 512 -imfchan r -t 1 1 1 a.png",
+         "a.png",
+         true,
+         {1, 1},
+         {0, 0},
+         0},
+        {"map_Kd a b.png -s 2 -2 1 -clamp on -o -1",
+         "a b.png",
+         false,
+         {2, -2},
+         {-1, 0},
+         1},
+        {"map_Kd -clamp off a -b.png", "a -b.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -.png", "-.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd t/a.png", "t/a.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd /t/a.png", "/t/a.png", false, {1, 1}, {0, 0}, 0},
     };
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[256];
         struct loaded l;
+        const struct texture *t;
 
         snprintf(text, sizeof text, "newmtl m\n%s\n", cases[i].text);
         l = load(text);
         assert_true(l.ok);
         assert_int_equal(l.scene.texture_count, 1);
         assert_string_equal(l.scene.texture_paths[0], cases[i].path);
-        assert_int_equal(l.report.entry_count, cases[i].has_options);
+        assert_int_equal(l.report.entry_count, cases[i].has_unknown);
+        t = &l.scene.textures[0];
+        check_close((double)t->scale.x, (double)cases[i].scale[0], 0);
+        check_close((double)t->scale.y, (double)cases[i].scale[1], 0);
+        check_close((double)t->offset.x, (double)cases[i].offset[0], 0);
+        check_close((double)t->offset.y, (double)cases[i].offset[1], 0);
+        assert_int_equal(t->is_clamped, cases[i].is_clamped);
+        assert_int_equal(t->is_data, 0);
         unload(&l);
     }
 }
@@ -341,6 +365,64 @@ static void test_maps_are_shared(void **state)
     assert_int_equal(l.report.entry_count, 1);
     assert_int_equal(l.report.entries[0].count, 1);
     unload(&l);
+}
+
+static void test_maps_of_numbers(void **state)
+{
+    struct loaded l =
+        load("newmtl a\nmap_Pr r.png\nKs 1\nmap_d r.png\nmap_Kd r.png\n"
+             "newmtl b\nmap_Pr -s 2 2 r.png\nPr .5\nillum 7\n"
+             "newmtl c\nmap_Pm m.png\nPr .5\nKd 1 0 0\n"
+             "newmtl d\nmap_Pm m.png\nPm .75\nKs 1\nPr .5\nillum 3\n"
+             "newmtl e\nmap_Pr r.png\nnewmtl f\nmap_d r.png\nillum 7\n");
+    const struct material *m = l.scene.materials;
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(l.scene.texture_count, 4);
+    assert_int_equal(l.scene.textures[0].is_data, 1);
+    assert_int_equal(l.scene.textures[1].is_data, 0);
+    assert_int_equal(m[1].alpha_texture, 0);
+    assert_int_equal(m[1].opacity_texture, 0);
+    assert_int_equal(m[1].color_texture, 1);
+    check_close((double)m[1].alpha, 1, 0);
+    assert_int_equal(m[2].alpha_texture, 2);
+    check_close((double)m[2].alpha, .25, 0);
+    assert_int_equal(m[3].kind, MATERIAL_DIFFUSE);
+    assert_int_equal(m[3].metal_texture, 3);
+    check_close((double)m[3].metalness, 1, 0);
+    check_close((double)m[3].alpha, .25, 0);
+    assert_int_equal(m[4].kind, MATERIAL_PLASTIC);
+    check_close((double)m[4].metalness, .75, 0);
+    assert_int_equal(m[1].bump_texture, NO_INDEX);
+    /* a lambertian has no roughness, glass no coverage */
+    assert_int_equal(m[5].alpha_texture, NO_INDEX);
+    assert_int_equal(m[6].opacity_texture, NO_INDEX);
+    assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entries[0].count, 2);
+    unload(&l);
+}
+
+static void test_bumps(void **state)
+{
+    static const char *const keys[] = {"bump", "map_bump", "map_Bump"};
+    struct material m;
+
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        char text[64];
+
+        snprintf(text, sizeof text, "%s -bm .5 h.png", keys[i]);
+        m = one(text, 0);
+        assert_int_equal(m.bump_texture, 0);
+        check_close((double)m.bump_scale, .5, 0);
+    }
+    check_close((double)one("bump h.png", 0).bump_scale, 1, 0);
+    check_close((double)one("bump h.png -bm -2", 0).bump_scale, -2, 0);
+    check_close((double)one("bump -bm inf h.png", 0).bump_scale, 1, 0);
+    m = one("norm n.png\nillum 7", 0);
+    assert_int_equal(m.normal_texture, 0);
+    assert_int_equal(m.bump_texture, NO_INDEX);
 }
 
 /* Every name of another machine that can be meant finds the file here. */
@@ -396,6 +478,8 @@ int main(void)
         cmocka_unit_test(test_what_is_not_used),
         cmocka_unit_test(test_map_options),
         cmocka_unit_test(test_maps_are_shared),
+        cmocka_unit_test(test_maps_of_numbers),
+        cmocka_unit_test(test_bumps),
         cmocka_unit_test(test_paths_of_other_machines),
     };
 

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+/*
+ * bump.h - shading normals from bump and normal maps
+ *
+ * The tangents are the directions in which u and v grow. A mirror image must
+ * not point below the true face, where it would be black: such normals are
+ * bent until it grazes the face (the trap: Estevez, Lecocq and Stein 2019).
+ *
+ * Units:     unit vectors; heights of a bump map in texels
+ * Ownership: none
+ * Threads:   none
+ * Errors:    where texture coordinates span no area the normal stays
+ */
+#ifndef KERNELS_BUMP_H
+#define KERNELS_BUMP_H
+
+#include "kernels/texture.h"
+
+/* How far above the face a bent mirror image points. */
+#define BUMP_GRAZING 1e-3f
+
+static inline bool has_bumps(const struct material *m)
+{
+    return m->normal_texture != NO_INDEX || m->bump_texture != NO_INDEX;
+}
+
+/* Where u and v of the texture grow along the face, unit length. */
+static inline bool uv_tangents(const struct world *w, struct tri t,
+                               struct vec3 *along_u, struct vec3 *along_v)
+{
+    struct vec3 p0 = w->positions[t.v[0]];
+    struct vec3 e1 = v3_sub(w->positions[t.v[1]], p0);
+    struct vec3 e2 = v3_sub(w->positions[t.v[2]], p0);
+    struct vec2 a = w->uvs[t.vt[0]];
+    struct vec2 b = w->uvs[t.vt[1]];
+    struct vec2 c = w->uvs[t.vt[2]];
+    float du1 = b.x - a.x, dv1 = b.y - a.y;
+    float du2 = c.x - a.x, dv2 = c.y - a.y;
+    /* of the area's sign alone, so that no small number is divided by */
+    float sign = du1 * dv2 - du2 * dv1 < 0.0f ? -1.0f : 1.0f;
+    float length_u, length_v;
+
+    *along_u = v3_sub(v3_scale(e1, sign * dv2), v3_scale(e2, sign * dv1));
+    *along_v = v3_sub(v3_scale(e2, sign * du1), v3_scale(e1, sign * du2));
+    length_u = v3_length(*along_u);
+    length_v = v3_length(*along_v);
+    if (!(length_u > 1e-18f && length_v > 1e-18f))
+        return false;
+    *along_u = v3_scale(*along_u, 1.0f / length_u);
+    *along_v = v3_scale(*along_v, 1.0f / length_v);
+    return true;
+}
+
+/* The slopes of the surface along u and v by a map of heights: differences
+ * over one texel. */
+static inline struct vec2
+height_slopes(const struct world *w, const struct material *m, struct vec2 uv)
+{
+    struct texture t = w->textures[m->bump_texture];
+    float x = 0.5f / ((float)t.width * t.scale.x);
+    float y = 0.5f / ((float)t.height * t.scale.y);
+    float right = texture_at(w, m->bump_texture, v2(uv.x + x, uv.y)).alpha;
+    float left = texture_at(w, m->bump_texture, v2(uv.x - x, uv.y)).alpha;
+    float above = texture_at(w, m->bump_texture, v2(uv.x, uv.y + y)).alpha;
+    float below = texture_at(w, m->bump_texture, v2(uv.x, uv.y - y)).alpha;
+
+    return v2(m->bump_scale * (right - left), m->bump_scale * (above - below));
+}
+
+/* Bends n, if need be, until the mirror image of wo is above the face. */
+static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
+                                      struct vec3 wo)
+{
+    struct vec3 r = v3_sub(v3_scale(n, 2.0f * v3_dot(n, wo)), wo);
+    float above = v3_dot(r, ng);
+    struct vec3 middle;
+    float length;
+
+    if (above >= BUMP_GRAZING)
+        return n;
+    middle = v3_add(wo, v3_unit(v3_add(r, v3_scale(ng, BUMP_GRAZING - above))));
+    length = v3_length(middle);
+    return length > 1e-6f ? v3_scale(middle, 1.0f / length) : ng;
+}
+
+/* The shading normal n as the maps of the material turn it; wo.n > 0 before
+ * and after. uv: of the hit; the triangle has texture coordinates. */
+static inline struct vec3 bumped_normal(const struct world *w,
+                                        const struct material *m, struct tri t,
+                                        struct vec2 uv, struct vec3 n,
+                                        struct vec3 ng, struct vec3 wo)
+{
+    struct vec3 along_u, along_v, turned;
+    struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in the tangents */
+    float length;
+
+    if (!uv_tangents(w, t, &along_u, &along_v))
+        return n;
+    if (m->normal_texture != NO_INDEX) {
+        struct vec3 c = texture_at(w, m->normal_texture, uv).color;
+
+        slope = v3(2.0f * c.x - 1.0f, 2.0f * c.y - 1.0f, 2.0f * c.z - 1.0f);
+    }
+    if (m->bump_texture != NO_INDEX) {
+        struct vec2 s = height_slopes(w, m, uv);
+
+        slope.x -= s.x;
+        slope.y -= s.y;
+    }
+    turned =
+        v3_add(v3_add(v3_scale(along_u, slope.x), v3_scale(along_v, slope.y)),
+               v3_scale(n, slope.z));
+    length = v3_length(turned);
+    if (!(length > 1e-6f))
+        return n;
+    turned = v3_scale(turned, 1.0f / length);
+    if (!(v3_dot(turned, wo) > 0.0f))
+        return n;
+    return bent_normal(turned, ng, wo);
+}
+
+#endif
