@@ -77,11 +77,11 @@ static inline uint32_t sky_interval(const struct world *w, uint32_t first,
     float begin;
 
     while (n > 1) {
-        uint32_t middle = n / 2;
+        uint32_t jump = n / 2;
 
-        if (w->sky_sums[low + middle] <= u)
-            low += middle;
-        n -= middle;
+        if (w->sky_sums[low + jump] <= u)
+            low += jump;
+        n -= jump;
     }
     begin = w->sky_sums[low];
     *rest = f_min((u - begin) / (w->sky_sums[low + 1] - begin), 1.0f);
@@ -99,7 +99,7 @@ static inline uint32_t sky_row_sums(struct sky s, uint32_t row)
 static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
 {
     struct sky s = w->settings.sky;
-    float right, down, low, high, share, radius, y;
+    float right, down, low, high, haversine, radius, y;
     uint32_t row = sky_interval(w, 0, s.height, u.y, &down);
     uint32_t column =
         sky_interval(w, sky_row_sums(s, row), s.width, u.x, &right);
@@ -117,9 +117,9 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
     high = cos_sin_turns(0.25f * (float)(row + 1u) / (float)s.height).y;
     low *= low;
     high *= high;
-    share = low + (high - low) * down;
-    radius = 2.0f * sqrtf(share * (1.0f - share));
-    y = 1.0f - 2.0f * share;
+    haversine = low + (high - low) * down;
+    radius = 2.0f * sqrtf(haversine * (1.0f - haversine));
+    y = 1.0f - 2.0f * haversine;
     d = v3(-radius * turn.y, is_below ? -y : y, radius * turn.x);
     return v3(s.rotation_cos * d.x + s.rotation_sin * d.z, d.y,
               s.rotation_cos * d.z - s.rotation_sin * d.x);

@@ -845,6 +845,31 @@ static void holes_do_not_shine(void **state)
     discard(&m, &lights);
 }
 
+/* Of the two halves of a square only that with light in its picture is a
+ * light; it is the one below the diagonal from left bottom to right top. */
+static void dark_pictures_are_no_lights(void **state)
+{
+    static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
+    float linear[256];
+    struct texture texture;
+    struct vec2 uvs[4];
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    memset(texels, 0, sizeof texels);
+    add_picture(&m, uvs, texels, &texture, linear, 1);
+    finish(&m, &lights);
+    assert_int_equal(lights.light_count, 0);
+    lights_free(&lights);
+    /* row 0 is the top: u = 3/4, v = 1/4 */
+    texels[TEXTURE_SIDE * TEXTURE_SIDE * 3 / 4 + TEXTURE_SIDE * 3 / 4] = 1;
+    finish(&m, &lights);
+    assert_int_equal(lights.light_count, 1);
+    assert_int_equal(lights.lights[0].tri, 0);
+    discard(&m, &lights);
+}
+
 /* The footprint's mean against random points of the bilinear look-up: on a
  * smooth picture the rim of 2 texels that may be covered as well counts by its
  * share of the area, times the picture's contrast; .006 is 4.9 standard errors
@@ -942,6 +967,7 @@ int main(void)
         cmocka_unit_test(deep_trees_fit),
         cmocka_unit_test(pictures_shine_as_they_look),
         cmocka_unit_test(holes_do_not_shine),
+        cmocka_unit_test(dark_pictures_are_no_lights),
         cmocka_unit_test(footprints_miss_nothing),
     };
 

@@ -280,6 +280,9 @@ static void test_libraries(void **state)
     check_close(l.scene.materials[l.scene.tris[0].material].color.y, 1, 0);
     check_close(l.scene.materials[l.scene.tris[1].material].color.x, 1, 0);
     assert_true(l.scene.has_emitters);
+    assert_int_equal(l.scene.lights.light_count, 1);
+    assert_int_equal(l.scene.lights.tri_lights[0], 0);
+    assert_int_equal(l.scene.lights.tri_lights[1], NO_INDEX);
     unload(&l);
     l = load("mtllib no such.mtl\nmtllib other\nv 0 0 0\n"
              "mtllib no such.mtl\n");
@@ -467,6 +470,7 @@ static void test_sky(void **state)
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
     check_vec(w.settings.sky.color, .25, .5, 8);
     assert_int_equal(w.settings.sky.width, 0);
+    assert_true(w.settings.sky_share == 0 && w.settings.light_share == 0);
 
     put("two.png", two_texels, sizeof two_texels);
     view.sky_path = strdup("two.png");
@@ -481,6 +485,11 @@ static void test_sky(void **state)
     check_close((double)w.settings.sky.rotation_sin, 1, 1e-7);
     check_close((double)w.settings.sky.rotation_cos, 0, 1e-7);
     check_vec(w.sky_texels[0], 1, 0.21586050, 0);
+    assert_true(w.sky_sums != NULL && w.settings.sky_share == 1 &&
+                w.settings.light_share == 0);
+    view.sky_strength = 0;
+    assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_true(w.settings.sky_share == 0);
 
     assert_false(scene_load_sky(&l.scene, &view, &l.report, &l.err));
     free(view.sky_path);
