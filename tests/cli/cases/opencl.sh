@@ -53,7 +53,7 @@ cp -r "$root/kernels" kernels
 device --kernels kernels -w 64 -h 48 -s 5 -o device.pfm box.obj
 glim -b -w 64 -h 48 -s 5 -o cpu.pfm box.obj 2>/dev/null
 same device.pfm cpu.pfm
-sed -i 's/^    struct path_sample out = .*/    oops;/' kernels/path.h
+sed -i '0,/^{$/s//{ oops;/' kernels/path.h
 device --kernels kernels -w 8 -h 8 -s 1 -o a.png box.obj >err
 grep -c "^error: kernels/path.h:[0-9]*:[0-9]*: use of undeclared identifier 'oops'" err
 tail -n 3 err | sed 's/path.h:[0-9:]*/path.h:N/; s/^[0-9]* error/N error/'
