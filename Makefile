@@ -25,13 +25,15 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
 	-Wmissing-prototypes -Wpointer-arith -Wcast-qual -Wwrite-strings \
 	-Wvla -Wundef -Wformat=2
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
+	-fno-trapping-math \
 	-I. -Iinclude -pthread $(WARNINGS) $(CFLAGS) $(if $(SAN), \
 	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 ALL_LDFLAGS = -pthread $(LDFLAGS) $(if $(SAN),-fsanitize=$(SAN))
-LIBS = -lncursesw -ltinfo -lm
+LIBS = -lncursesw -ltinfo -lm -ldl
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
-OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c))
+KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
+OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
@@ -42,7 +44,7 @@ MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
-	tests/tools,$(wildcard $(d)/*.[ch]))
+	tests/tools,$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
 all: $(B)/glim
@@ -52,6 +54,15 @@ $(B)/glim: $(OBJECTS) $(B)/flags
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(OBJECTS) $(LIBS)
 
 $(B)/%.o: src/%.c $(B)/flags
+	$(SAY) CC $<
+	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+# The folder's own time changes when a file comes or goes.
+$(B)/kernels.c: kernels $(KERNELS) kernels/embed.sh $(B)/flags
+	$(SAY) EMBED $@
+	$(Q)kernels/embed.sh $(KERNELS) > $@.new && mv $@.new $@
+
+$(B)/kernels.o: $(B)/kernels.c
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
@@ -107,6 +118,10 @@ tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate
 bench: $(B)/glim $(BENCHES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
 
+## stress: checks that take minutes; FILTER=NAME for one of them
+stress: $(B)/glim
+	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
+
 ## scenes: writes the scenes in scenes/ anew from their generator
 scenes: $(B)/scenes/generate
 	$(Q)$(B)/scenes/generate scenes
@@ -143,7 +158,7 @@ format:
 	@tests/tools/deps.sh lint
 	clang-format -i $(C_FILES)
 
-## lint: layers, layout, cppcheck, clang-tidy, man page
+## lint: layers, layout, cppcheck, clang-tidy, kernels as OpenCL, man page
 lint:
 	@tests/tools/deps.sh build test lint
 	tests/layers.sh
@@ -152,12 +167,19 @@ lint:
 		--enable=warning,portability $(CPPCHECK_OFF) -I. -Iinclude src
 	clang-tidy --quiet --warnings-as-errors='*' --checks='$(TIDY)' \
 		$(wildcard src/*.c) -- $(ALL_CFLAGS)
+	$(if $(filter %.cl,$(KERNELS)),! command -v clang >/dev/null || \
+		clang $(CL_FLAGS) $(filter %.cl,$(KERNELS)))
 	mandoc -T lint -W warning man/glim.1
 
+# Kernels as any driver's compiler would see them.
+CL_FLAGS := -target spir64 -x cl -cl-std=CL1.2 \
+	-Xclang -finclude-default-header -fsyntax-only -I. \
+	-Wall -Wextra -Wdouble-promotion -Werror
 # What it cannot follow: errors that are written before they are read, stacks.
 CPPCHECK_OFF := --suppress=missingIncludeSystem --suppress=uninitvar \
 	--suppress=ctuuninitvar --suppress=duplicateAssignExpression
-# The analyzer's core does not know that fail() of another file returns false.
+# The analyzer's core does not know that fail() of another file returns false;
+# OpenCL's handles are pointers, and arrays of them have sizeof *array.
 TIDY := -*,clang-analyzer-*,-clang-analyzer-core.*,$\
 	-clang-analyzer-valist.Uninitialized,$\
 	-clang-analyzer-security.insecureAPI.Deprecated*,$\
@@ -165,7 +187,8 @@ TIDY := -*,clang-analyzer-*,-clang-analyzer-core.*,$\
 	-bugprone-easily-swappable-parameters,$\
 	-bugprone-implicit-widening-of-multiplication-result,$\
 	-bugprone-narrowing-conversions,-bugprone-not-null-terminated-result,$\
-	-bugprone-reserved-identifier,-bugprone-suspicious-memory-comparison
+	-bugprone-reserved-identifier,-bugprone-sizeof-expression,$\
+	-bugprone-suspicious-memory-comparison
 
 ## clean: removes build/
 clean:
@@ -176,7 +199,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench scenes tables gallery install uninstall deps \
-	format lint clean help FORCE
+.PHONY: all run test tests bench stress scenes tables gallery install uninstall \
+	deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(TOOLS:=.d)

@@ -30,19 +30,19 @@ static inline bool bsdf_is_black(const struct bsdf *m)
 /* All lobes are deltas: f is zero wherever a light could be sampled. */
 static inline bool bsdf_is_delta(const struct bsdf *m)
 {
-    if (m->kind == MATERIAL_METAL)
-        return m->alpha < ALPHA_SMOOTH;
-    if (m->kind == MATERIAL_GLASS)
-        return m->alpha < ALPHA_SMOOTH || glass_is_absent(m);
-    if (m->kind == MATERIAL_PLASTIC)
-        return m->alpha < ALPHA_SMOOTH && v3_is_zero(m->color);
-    return m->kind == MATERIAL_THIN_GLASS;
+    if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
+        return is_smooth(m);
+    if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
+        return is_smooth(m) || glass_is_absent(m);
+    if (HAS(FEATURE_PLASTIC) && m->kind == MATERIAL_PLASTIC)
+        return is_smooth(m) && v3_is_zero(m->color);
+    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS;
 }
 
 /* f is not zero below the surface. */
 static inline bool bsdf_transmits(const struct bsdf *m)
 {
-    return m->kind == MATERIAL_GLASS && !bsdf_is_delta(m);
+    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !bsdf_is_delta(m);
 }
 
 /* f |cosine| without bsdf_eta_scale(), and the density of bsdf_sample(). */
@@ -52,15 +52,15 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
     *pdf = 0.0f;
     if (!(wo.z > COSINE_MIN && fabsf(wi.z) > COSINE_MIN) || bsdf_is_delta(m))
         return v3(0.0f, 0.0f, 0.0f);
-    if (m->kind == MATERIAL_GLASS)
+    if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return glass_terms(m, wo, wi, pdf);
     if (wi.z < 0.0f)
         return v3(0.0f, 0.0f, 0.0f);
     if (m->kind == MATERIAL_DIFFUSE)
         return lambert_terms(m, wi, pdf);
-    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
+    if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_terms(m, wo, wi, pdf);
-    if (m->kind == MATERIAL_METAL)
+    if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return metal_terms(m, wo, wi, ggx_albedo(wo.z, m->alpha).loss, pdf);
     return plastic_terms(m, wo, wi, coat_albedo(m, wo.z), pdf);
 }
@@ -85,7 +85,9 @@ static inline float bsdf_pdf(const struct bsdf *m, struct vec3 wo,
 /* What radiance from wi is multiplied by beside f: 1/eta^2 below glass. */
 static inline float bsdf_eta_scale(const struct bsdf *m, struct vec3 wi)
 {
-    return m->kind == MATERIAL_GLASS ? glass_eta_scale(m, wi) : 1.0f;
+    return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS
+               ? glass_eta_scale(m, wi)
+               : 1.0f;
 }
 
 /* Draws wi; false if the light ends here. `choice` is for the lobe. */
@@ -97,13 +99,13 @@ static inline bool bsdf_sample(const struct bsdf *m, struct vec3 wo,
         return false;
     if (m->kind == MATERIAL_DIFFUSE)
         return lambert_sample(m, u, s);
-    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
+    if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_sample(m, wo, u, s);
-    if (m->kind == MATERIAL_METAL)
+    if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return metal_sample(m, wo, u, choice, s);
-    if (m->kind == MATERIAL_PLASTIC)
+    if (HAS(FEATURE_PLASTIC) && m->kind == MATERIAL_PLASTIC)
         return plastic_sample(m, wo, u, choice, s);
-    if (m->kind == MATERIAL_GLASS)
+    if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
         return glass_sample(m, wo, u, choice, s);
     return thin_glass_sample(m, wo, choice, s);
 }

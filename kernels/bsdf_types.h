@@ -33,6 +33,12 @@ struct bsdf_sample {
     bool is_delta;      /* no other way to sample would find this direction */
 };
 
+/* The surface has no microfacets. */
+static inline bool is_smooth(const struct bsdf *m)
+{
+    return !HAS(FEATURE_ROUGH) || m->alpha < ALPHA_SMOOTH;
+}
+
 /* A direction without a density. True for the callers' last line. */
 static inline bool sample_delta(struct bsdf_sample *s, struct vec3 wi,
                                 struct vec3 weight)

@@ -19,11 +19,6 @@
 /* How far above the face a bent mirror image points. */
 #define BUMP_GRAZING 1e-3f
 
-static inline bool has_bumps(const struct material *m)
-{
-    return m->normal_texture != NO_INDEX || m->bump_texture != NO_INDEX;
-}
-
 /* Where u and v of the texture grow along the face, unit length. */
 static inline bool uv_tangents(const struct world *w, struct tri t,
                                struct vec3 *along_u, struct vec3 *along_v)
@@ -73,36 +68,38 @@ static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
 {
     struct vec3 r = v3_sub(v3_scale(n, 2.0f * v3_dot(n, wo)), wo);
     float above = v3_dot(r, ng);
-    struct vec3 half;
+    struct vec3 middle;
     float length;
 
     if (above >= BUMP_GRAZING)
         return n;
-    half = v3_add(wo, v3_unit(v3_add(r, v3_scale(ng, BUMP_GRAZING - above))));
-    length = v3_length(half);
-    return length > 1e-6f ? v3_scale(half, 1.0f / length) : ng;
+    middle = v3_add(wo, v3_unit(v3_add(r, v3_scale(ng, BUMP_GRAZING - above))));
+    length = v3_length(middle);
+    return length > 1e-6f ? v3_scale(middle, 1.0f / length) : ng;
 }
 
-/* The shading normal n as the maps of the material turn it; wo.n > 0 before
- * and after. uv: of the hit; the triangle has texture coordinates. */
-static inline struct vec3 bumped_normal(const struct world *w,
-                                        const struct material *m, struct tri t,
+/* The shading normal n as the maps of the triangle's material turn it; wo.n is
+ * above 0 before and after. The triangle has texture coordinates. */
+static inline struct vec3 bumped_normal(const struct world *w, struct tri t,
                                         struct vec2 uv, struct vec3 n,
                                         struct vec3 ng, struct vec3 wo)
 {
+    struct material m = w->materials[t.material];
     struct vec3 along_u, along_v, turned;
     struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in the tangents */
     float length;
 
+    if (m.normal_texture == NO_INDEX && m.bump_texture == NO_INDEX)
+        return n;
     if (!uv_tangents(w, t, &along_u, &along_v))
         return n;
-    if (m->normal_texture != NO_INDEX) {
-        struct vec3 c = texture_at(w, m->normal_texture, uv).color;
+    if (m.normal_texture != NO_INDEX) {
+        struct vec3 c = texture_at(w, m.normal_texture, uv).color;
 
         slope = v3(2.0f * c.x - 1.0f, 2.0f * c.y - 1.0f, 2.0f * c.z - 1.0f);
     }
-    if (m->bump_texture != NO_INDEX) {
-        struct vec2 s = height_slopes(w, m, uv);
+    if (m.bump_texture != NO_INDEX) {
+        struct vec2 s = height_slopes(w, &m, uv);
 
         slope.x -= s.x;
         slope.y -= s.y;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * camera.h - pinhole camera
+ * camera.h - pinhole and thin lens
  *
  * Units:     pixels; (0, 0) is the top left corner of the picture
  * Ownership: none
@@ -10,7 +10,7 @@
 #ifndef KERNELS_CAMERA_H
 #define KERNELS_CAMERA_H
 
-#include "kernels/vec.h"
+#include "kernels/sample.h"
 
 /* The ray through point (offset.x, offset.y) of pixel (x, y), offsets in
  * [0, 1): a box filter of one pixel when they are uniform. */
@@ -23,6 +23,22 @@ static inline struct ray camera_ray(struct camera c, uint32_t x, uint32_t y,
         v3_add(v3_add(c.forward, v3_scale(c.right, sx)), v3_scale(c.up, sy));
     struct ray r = {c.eye, v3_unit(d), FLOAT_MAX, 0};
 
+    return r;
+}
+
+/* The ray from another point of the lens to where the ray through its middle
+ * is sharp; u is uniform in the square. */
+static inline struct ray camera_through_lens(struct camera c, struct ray r,
+                                             struct vec2 u)
+{
+    struct vec2 lens = disk_from_square(u);
+    struct vec3 offset =
+        v3_add(v3_scale(v3_unit(c.right), c.lens_radius * lens.x),
+               v3_scale(v3_unit(c.up), c.lens_radius * lens.y));
+    struct vec3 sharp = v3_scale(r.d, c.focus / v3_dot(r.d, c.forward));
+
+    r.o = v3_add(r.o, offset);
+    r.d = v3_unit(v3_sub(sharp, offset));
     return r;
 }
 

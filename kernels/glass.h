@@ -106,7 +106,7 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
     struct vec3 h, wi, f;
     float pdf;
 
-    if (m->alpha < ALPHA_SMOOTH || glass_is_absent(m))
+    if (is_smooth(m) || glass_is_absent(m))
         return glass_sample_smooth(m, wo, choice, s);
     h = ggx_visible_normal(wo, m->alpha, 1.0f, u);
     if (!(v3_dot(wo, h) > 0.0f))

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * light.h - what shines: emissive surfaces and the sky
+ * light.h - what shines: emissive surfaces and the sky, and directions to them
  *
- * Direct sampling of lights belongs here too, beside what it must agree with.
+ * light_sample() draws a direction from a receiver to a light, for next-event
+ * estimation; light_pdf_at() and sky_light_pdf() are its density at what a ray
+ * has met by chance, to weigh both (Veach 1997, 9.2). Densities of a sample
+ * and of the same point met by chance are the same bits.
  *
- * Units:     radiance
+ * Units:     normalised scene units, radiance, densities per solid angle
  * Ownership: none
  * Threads:   none
  * Errors:    none
@@ -12,16 +15,138 @@
 #ifndef KERNELS_LIGHT_H
 #define KERNELS_LIGHT_H
 
+#include "kernels/hit.h"
+#include "kernels/light_tree.h"
+#include "kernels/sample.h"
+#include "kernels/sky.h"
 #include "kernels/texture.h"
+
+struct light_sample {
+    struct vec3 wi;       /* unit, from the receiver */
+    struct vec3 radiance; /* that comes along it if nothing is in the way */
+    float pdf;            /* of wi per solid angle; above 0 and finite */
+    uint32_t tri;         /* NO_INDEX: the sky, and there is no point */
+    struct vec3 p;
+};
 
 /* Emitted radiance of a material at uv, the same to both sides. */
 static inline struct vec3 emission_at(const struct world *w,
                                       const struct material *m, struct vec2 uv,
                                       bool has_uv)
 {
-    if (m->emission_texture == NO_INDEX || !has_uv)
+    if (!HAS(FEATURE_TEXTURES) || m->emission_texture == NO_INDEX || !has_uv)
         return m->emission;
     return v3_mul(m->emission, texture_at(w, m->emission_texture, uv).color);
+}
+
+/* Density per solid angle, seen from the receiver, of a point that is uniform
+ * on a triangle: distance^2 / (cosine area); to_point leads there. 0 where it
+ * is not finite: such points are not sampled. */
+static inline float triangle_pdf(struct vec3 p0, struct vec3 p1, struct vec3 p2,
+                                 struct vec3 to_point)
+{
+    struct vec3 twice = v3_cross(v3_sub(p1, p0), v3_sub(p2, p0));
+    float square = v3_dot(to_point, to_point);
+    float pdf = 2.0f * square * sqrtf(square) / fabsf(v3_dot(to_point, twice));
+
+    return pdf <= FLOAT_MAX ? pdf : 0.0f;
+}
+
+/* Uniform barycentrics that keep stratified numbers stratified (Heitz 2019,
+ * "A low-distortion map between triangle and square"). */
+static inline struct hit triangle_point(struct vec2 u)
+{
+    struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
+
+    if (u.y > u.x) {
+        h.b0 = 0.5f * u.x;
+        h.b1 = u.y - h.b0;
+    } else {
+        h.b1 = 0.5f * u.y;
+        h.b0 = u.x - h.b1;
+    }
+    h.b2 = f_max(1.0f - h.b0 - h.b1, 0.0f);
+    return h;
+}
+
+static inline bool sample_triangle(const struct world *w,
+                                   const struct receiver *r, struct vec2 point,
+                                   struct vec2 choice, struct light_sample *s)
+{
+    uint32_t light;
+    float probability =
+        w->settings.light_share * light_tree_choose(w, r, choice, &light);
+    struct hit h = triangle_point(point);
+    struct vec3 p0, p1, p2, p_error, to_point;
+    struct material m;
+    struct tri t;
+
+    if (!(probability > 0.0f))
+        return false;
+    h.tri = w->lights[light].tri;
+    t = w->tris[h.tri];
+    p0 = w->positions[t.v[0]];
+    p1 = w->positions[t.v[1]];
+    p2 = w->positions[t.v[2]];
+    s->tri = h.tri;
+    s->p = hit_point(h, p0, p1, p2, &p_error);
+    to_point = v3_sub(s->p, r->p);
+    s->pdf = probability * triangle_pdf(p0, p1, p2, to_point);
+    if (!(s->pdf > 0.0f))
+        return false;
+    s->wi = v3_unit(to_point);
+    m = w->materials[t.material];
+    s->radiance =
+        emission_at(w, &m,
+                    t.vt[0] != NO_INDEX ? uv_at(w, t, h) : v2(0.0f, 0.0f),
+                    t.vt[0] != NO_INDEX);
+    if ((w->settings.features & FEATURE_COVERAGE) != 0)
+        s->radiance = v3_scale(s->radiance, coverage_at(w, h));
+    return true;
+}
+
+/* Density of light_sample() at point p of a triangle that a ray from the
+ * receiver has met. */
+static inline float light_pdf_at(const struct world *w,
+                                 const struct receiver *r, uint32_t tri,
+                                 struct vec3 p)
+{
+    uint32_t light =
+        w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
+    struct tri t;
+
+    if (light == NO_INDEX)
+        return 0.0f;
+    t = w->tris[tri];
+    return w->settings.light_share * light_tree_probability(w, r, light) *
+           triangle_pdf(w->positions[t.v[0]], w->positions[t.v[1]],
+                        w->positions[t.v[2]], v3_sub(p, r->p));
+}
+
+/* Density of light_sample() at the unit vector wi that leads to the sky. */
+static inline float sky_light_pdf(const struct world *w, struct vec3 wi)
+{
+    return w->settings.sky_share * sky_pdf(w, wi);
+}
+
+/* A direction towards a light; false if there is none to sample here, or by
+ * choice.x not this time. Whether it is above the surface and free is for the
+ * caller to find. */
+static inline bool light_sample(const struct world *w, const struct receiver *r,
+                                struct vec2 point, struct vec2 choice,
+                                struct light_sample *s)
+{
+    if (choice.x < w->settings.sky_share) {
+        s->wi = sky_sample(w, point);
+        s->radiance = sky_radiance(w, s->wi);
+        s->pdf = sky_light_pdf(w, s->wi);
+        s->tri = NO_INDEX;
+        return s->pdf > 0.0f;
+    }
+    choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;
+    if (!(choice.x < 1.0f))
+        return false;
+    return sample_triangle(w, r, point, choice, s);
 }
 
 #endif

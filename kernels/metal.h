@@ -79,7 +79,7 @@ static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
     struct vec3 wi, f;
     float loss_o, pdf;
 
-    if (m->alpha < ALPHA_SMOOTH)
+    if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             fresnel_schlick(m->color, wo.z));
     loss_o = ggx_albedo(wo.z, m->alpha).loss;

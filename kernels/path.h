@@ -2,10 +2,13 @@
 /*
  * path.h - one sample of a pixel: a path from the eye
  *
- * The estimator of Kajiya 1986 with throughput roulette. Whoever includes
- * this file supplies
+ * The estimator of Kajiya 1986 with throughput roulette. At each vertex light
+ * is gathered in two ways: from a light that was chosen (next-event
+ * estimation), and by chance, where the path meets one; the balance heuristic
+ * weighs both (Veach 1997, 9.2). Whoever includes this file supplies
  *     bool hit_closest(const struct world *, struct ray, struct hit *);
- * first: traverse.h, or a faster one that finds the same hits.
+ *     bool hit_any(const struct world *, struct ray, uint32_t tri);
+ * first: traverse.h, or faster ones that find the same hits.
  *
  * Units:     normalised scene units, radiance
  * Ownership: none
@@ -15,192 +18,235 @@
 #ifndef KERNELS_PATH_H
 #define KERNELS_PATH_H
 
-#include "kernels/bsdf.h"
-#include "kernels/bump.h"
-#include "kernels/camera.h"
-#include "kernels/hit.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
-#include "kernels/rng.h"
+#include "kernels/start.h"
+#include "kernels/vertex.h"
 
 /* Paths without a limit of their own end here, counted. */
 #define PATH_HARD_STOP 1000u
 
-/* A hit with all that shading needs. */
-struct vertex {
-    struct vec3 p;
-    struct vec3 p_error;
-    struct vec3 ng; /* unit, on the eye's side */
-    struct vec3 n;  /* unit shading normal, wo.n > 0 */
-    struct vec2 uv;
-    bool has_uv;
-    bool is_outside; /* the eye is on the side of the file's normal */
+/* Between the keys of a vertex's next ray and of its shadow ray. */
+#define SHADOW_KEY 0x10000u
+
+/* A path on its way. */
+struct path {
+    struct ray ray;
+    struct sampler sampler;
+    struct vec3 beta; /* what radiance that comes along the ray counts, */
+    float eta_scale;  /* apart from this, which roulette does not see */
+    float pdf;        /* of the ray's direction; 0: no light sample has it */
+    struct receiver from; /* where the ray began, if pdf is not 0 */
+    struct path_sample out;
 };
 
-static inline struct vec3 shading_normal(const struct world *w, struct tri t,
-                                         struct hit h, struct vec3 ng,
-                                         struct vec3 wo)
+static inline void path_add(struct path *p, struct vec3 radiance, float weight)
 {
-    struct vec3 n;
-    float length;
-
-    if (t.vn[0] == NO_INDEX)
-        return ng;
-    n = v3_add(v3_add(v3_scale(w->normals[t.vn[0]], h.b0),
-                      v3_scale(w->normals[t.vn[1]], h.b1)),
-               v3_scale(w->normals[t.vn[2]], h.b2));
-    length = v3_length(n);
-    if (!(length > 1e-6f))
-        return ng;
-    n = v3_scale(n, 1.0f / length);
-    /* exporters write normals and winding that disagree: go by the face */
-    if (v3_dot(n, ng) < 0.0f)
-        n = v3_neg(n);
-    return v3_dot(n, wo) > 0.0f ? n : ng;
+    p->out.radiance =
+        v3_add(p->out.radiance,
+               v3_mul(v3_scale(p->beta, p->eta_scale * weight), radiance));
 }
 
-static inline bool vertex_at(const struct world *w, struct ray r, struct hit h,
-                             struct vertex *v)
+/* Weight of light that was met by chance, where light_pdf is the density with
+ * which light_sample() would have found it. */
+static inline float chance_weight(const struct world *w, float pdf,
+                                  float light_pdf)
 {
-    struct tri t = w->tris[h.tri];
-    struct vec3 p0 = w->positions[t.v[0]];
-    struct vec3 p1 = w->positions[t.v[1]];
-    struct vec3 p2 = w->positions[t.v[2]];
-    struct vec3 wo = v3_neg(r.d);
-
-    if (!triangle_normal(p0, p1, p2, &v->ng))
-        return false;
-    v->is_outside = v3_dot(v->ng, wo) > 0.0f;
-    if (!v->is_outside)
-        v->ng = v3_neg(v->ng);
-    v->n = shading_normal(w, t, h, v->ng, wo);
-    v->p = hit_point(h, p0, p1, p2, &v->p_error);
-    v->has_uv = t.vt[0] != NO_INDEX;
-    v->uv = v2(0.0f, 0.0f);
-    if (v->has_uv) {
-        struct vec2 a = w->uvs[t.vt[0]];
-        struct vec2 b = w->uvs[t.vt[1]];
-        struct vec2 c = w->uvs[t.vt[2]];
-
-        v->uv = v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
-                   h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
-    }
-    return true;
+    if (pdf == 0.0f || w->settings.direct == DIRECT_CHANCE)
+        return 1.0f;
+    if (w->settings.direct == DIRECT_LIGHTS)
+        return light_pdf > 0.0f ? 0.0f : 1.0f;
+    return pdf / (pdf + light_pdf);
 }
 
-static inline struct bsdf
-bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
+/* Weight of light that light_sample() has found. */
+static inline float light_weight(const struct world *w, float light_pdf,
+                                 float pdf)
 {
-    struct bsdf b;
+    return w->settings.direct == DIRECT_LIGHTS ? 1.0f
+                                               : light_pdf / (light_pdf + pdf);
+}
 
-    b.color = m->color;
-    if (m->color_texture != NO_INDEX && v->has_uv)
-        b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
-    b.coat = m->coat;
-    if (m->coat_texture != NO_INDEX && v->has_uv)
-        b.coat = v3_mul(b.coat, texture_at(w, m->coat_texture, v->uv).color);
-    b.alpha = m->alpha;
-    if (m->alpha_texture != NO_INDEX && v->has_uv) {
-        float roughness = texture_at(w, m->alpha_texture, v->uv).alpha;
+static inline void path_add_sky(const struct world *w, struct path *p)
+{
+    float light_pdf = p->pdf > 0.0f ? sky_light_pdf(w, p->ray.d) : 0.0f;
 
-        b.alpha *= roughness * roughness;
+    path_add(p, sky_radiance(w, p->ray.d), chance_weight(w, p->pdf, light_pdf));
+}
+
+static inline void path_add_emission(const struct world *w, struct path *p,
+                                     const struct material *m, uint32_t tri,
+                                     const struct vertex *v)
+{
+    float light_pdf = 0.0f;
+
+    if (!HAS(FEATURE_EMITTERS) || v3_is_zero(m->emission))
+        return;
+    if (p->pdf > 0.0f)
+        light_pdf = light_pdf_at(w, &p->from, tri, v->p);
+    path_add(p, emission_at(w, m, v->uv, v->has_uv),
+             chance_weight(w, p->pdf, light_pdf));
+}
+
+/* Would a ray from the vertex find this light by chance? It is aimed anew from
+ * where it really begins. */
+static inline bool light_is_seen(const struct world *w, struct path *p,
+                                 const struct vertex *v,
+                                 const struct light_sample *s, uint32_t key)
+{
+    struct ray r = {vertex_leave(v, s->wi), s->wi, FLOAT_MAX, key};
+
+    if (s->tri != NO_INDEX) {
+        struct tri t = w->tris[s->tri];
+        struct hit h;
+
+        r.d = v3_unit(v3_sub(s->p, r.o));
+        if (!triangle_hit(r, shear_of(r), w->positions[t.v[0]],
+                          w->positions[t.v[1]], w->positions[t.v[2]], FLOAT_MAX,
+                          &h))
+            return false;
+        r.t_max = h.t;
     }
-    b.kind = m->kind;
-    if (m->metal_texture != NO_INDEX && v->has_uv &&
-        m->metalness * texture_at(w, m->metal_texture, v->uv).alpha >= 0.5f)
-        b.kind = MATERIAL_METAL;
-    b.eta = m->ior;
-    if (m->kind == MATERIAL_GLASS && !v->is_outside)
-        b.eta = 1.0f / m->ior;
-    return b;
+    p->out.rays++;
+    return !hit_any(w, r, s->tri);
+}
+
+/* Light that comes to the vertex straight from a light that is chosen. */
+static inline void path_add_direct(const struct world *w, struct path *p,
+                                   const struct bsdf *b, const struct vertex *v,
+                                   struct vec3 wo, uint32_t vertex)
+{
+    uint32_t dimension = DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE;
+    struct light_sample s;
+    struct vec3 wi, f;
+    float pdf;
+
+    if (!light_sample(w, &p->from,
+                      random_2d(p->sampler,
+                                dimension + DIMENSION_LIGHT_POSITION),
+                      random_2d(p->sampler, dimension + DIMENSION_LIGHT_CHOICE),
+                      &s))
+        return;
+    wi = vertex_to_local(v, s.wi);
+    if (!vertex_sides_agree(v, s.wi, wi.z))
+        return;
+    f = v3_mul(bsdf_terms(b, wo, wi, &pdf), s.radiance);
+    if (v3_is_zero(f) ||
+        !light_is_seen(w, p, v, &s, ray_key(p->sampler, SHADOW_KEY + vertex)))
+        return;
+    path_add(p, f, bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
+}
+
+/* Can light_sample() find anything for it? */
+static inline bool wants_light_sample(const struct world *w,
+                                      const struct bsdf *b)
+{
+    bool has_lights = false;
+
+    if (HAS(FEATURE_EMITTERS))
+        has_lights = w->settings.light_count > 0;
+    if (HAS(FEATURE_SKY_IMAGE))
+        has_lights = has_lights || w->settings.sky_share > 0.0f;
+    return has_lights && w->settings.direct != DIRECT_CHANCE &&
+           !bsdf_is_delta(b);
 }
 
 /* Draws where the path goes on. False if it ends here. */
-static inline bool scatter(const struct bsdf *b, const struct vertex *v,
-                           struct vec2 direction, float choice, struct ray *r,
-                           struct bsdf_sample *s)
+static inline bool path_scatter(struct path *p, const struct bsdf *b,
+                                const struct vertex *v, struct vec3 wo,
+                                struct vec2 direction, float choice)
 {
-    struct vec3 t, bt, wo, wi;
-    float side;
+    struct bsdf_sample s;
+    struct vec3 wi;
 
-    if (bsdf_is_black(b))
-        return false; /* lamps: no ray for nothing */
-    frame_around(v->n, &t, &bt);
-    wo = v3_neg(r->d);
-    wo = v3(v3_dot(wo, t), v3_dot(wo, bt), v3_dot(wo, v->n));
-    if (!bsdf_sample(b, wo, direction, choice, s))
+    if (!bsdf_sample(b, wo, direction, choice, &s))
         return false;
-    wi = v3_add(v3_add(v3_scale(t, s->wi.x), v3_scale(bt, s->wi.y)),
-                v3_scale(v->n, s->wi.z));
-    wi = v3_unit(wi);
-    side = v3_dot(wi, v->ng);
-    /* a shading normal must not let light through the face, nor keep it in */
-    if (s->wi.z > 0.0f ? !(side > 0.0f) : !(side < 0.0f))
+    wi = v3_unit(vertex_to_world(v, s.wi));
+    if (!vertex_sides_agree(v, wi, s.wi.z))
         return false;
-    r->o = leave_surface(v->p, v->p_error, side > 0.0f ? v->ng : v3_neg(v->ng));
-    r->d = wi;
+    p->ray.o = vertex_leave(v, wi);
+    p->ray.d = wi;
+    p->beta = v3_mul(p->beta, s.weight);
+    p->eta_scale *= s.eta_scale;
+    p->pdf = s.is_delta ? 0.0f : s.pdf;
     return true;
 }
 
-/* One path; s is its random numbers. */
-static inline struct path_sample path_trace(const struct world *w, struct ray r,
-                                            struct sampler s)
+/* Survival by the square root of the throughput, from the second vertex on.
+ * False if the path ends. */
+static inline bool path_survives(struct path *p, uint32_t vertex, float u)
 {
-    struct path_sample out = {{0.0f, 0.0f, 0.0f}, 0, 0};
-    struct vec3 beta = {1.0f, 1.0f, 1.0f};
-    float eta_scale = 1.0f; /* apart, so that roulette does not see it */
+    float q = sqrtf(v3_max(p->beta));
 
-    for (uint32_t vertex = 1;; vertex++) {
-        uint32_t dimension = DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE;
-        struct hit h;
-        struct vertex v;
-        struct material m;
-        struct bsdf b;
-        struct bsdf_sample next;
-        struct vec2 lobe;
-        float q;
+    if (vertex == 1 || q >= 1.0f)
+        return q > 0.0f;
+    if (!(u < q))
+        return false;
+    p->beta = v3_scale(p->beta, 1.0f / q);
+    return true;
+}
 
-        r.key = ray_key(s, vertex);
-        r.t_max = FLOAT_MAX;
-        out.rays++;
-        if (!hit_closest(w, r, &h)) {
-            out.radiance =
-                v3_add(out.radiance,
-                       v3_mul(v3_scale(beta, eta_scale), sky_radiance(w, r.d)));
-            break;
-        }
-        if (!vertex_at(w, r, h, &v))
-            break;
-        m = w->materials[w->tris[h.tri].material];
-        if (has_bumps(&m) && v.has_uv)
-            v.n = bumped_normal(w, &m, w->tris[h.tri], v.uv, v.n, v.ng,
-                                v3_neg(r.d));
-        if (!v3_is_zero(m.emission))
-            out.radiance = v3_add(out.radiance,
-                                  v3_mul(v3_scale(beta, eta_scale),
-                                         emission_at(w, &m, v.uv, v.has_uv)));
-        if (vertex >= w->max_vertices) {
-            out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
-            break;
-        }
-        b = bsdf_at(w, &m, &v);
-        lobe = random_2d(s, dimension + DIMENSION_BSDF_LOBE);
-        if (!scatter(&b, &v, random_2d(s, dimension + DIMENSION_BSDF_DIRECTION),
-                     lobe.x, &r, &next))
-            break;
-        beta = v3_mul(beta, next.weight);
-        eta_scale *= next.eta_scale;
-        q = sqrtf(v3_max(beta));
-        if (vertex == 1) {
-            if (!(q > 0.0f))
-                break;
-        } else if (q < 1.0f) {
-            if (!(lobe.y < q))
-                break;
-            beta = v3_scale(beta, 1.0f / q);
-        }
+/* What the path does at a vertex. False if it ends there. */
+static inline bool path_step(const struct world *w, struct path *p,
+                             struct hit h, uint32_t vertex)
+{
+    uint32_t dimension = DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE;
+    struct material m = w->materials[w->tris[h.tri].material];
+    struct vertex v;
+    struct bsdf b;
+    struct vec3 wo;
+    struct vec2 lobe;
+
+    if (!vertex_at(w, p->ray, h, &v))
+        return false;
+    path_add_emission(w, p, &m, h.tri, &v);
+    if (vertex >= w->settings.max_vertices) {
+        p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
+        return false;
     }
-    return out;
+    b = bsdf_at(w, &m, &v);
+    if (bsdf_is_black(&b))
+        return false;
+    wo = vertex_to_local(&v, v3_neg(p->ray.d));
+    p->from.p = v.p;
+    p->from.n = v.n;
+    p->from.transmits = bsdf_transmits(&b);
+    if (wants_light_sample(w, &b))
+        path_add_direct(w, p, &b, &v, wo, vertex);
+    lobe = random_2d(p->sampler, dimension + DIMENSION_BSDF_LOBE);
+    return path_scatter(p, &b, &v, wo,
+                        random_2d(p->sampler,
+                                  dimension + DIMENSION_BSDF_DIRECTION),
+                        lobe.x) &&
+           path_survives(p, vertex, lobe.y);
+}
+
+/* The path that begins with this ray; the sampler has its random numbers. */
+static inline struct path_sample path_trace(const struct world *w, struct ray r,
+                                            struct sampler sampler)
+{
+    struct path p;
+
+    p.ray = r;
+    p.sampler = sampler;
+    p.beta = v3(1.0f, 1.0f, 1.0f);
+    p.eta_scale = 1.0f;
+    p.pdf = 0.0f;
+    p.out.radiance = v3(0.0f, 0.0f, 0.0f);
+    p.out.rays = p.out.cut = 0;
+    for (uint32_t vertex = 1;; vertex++) {
+        struct hit h;
+
+        p.ray.key = ray_key(sampler, vertex);
+        p.ray.t_max = FLOAT_MAX;
+        p.out.rays++;
+        if (!hit_closest(w, p.ray, &h)) {
+            path_add_sky(w, &p);
+            return p.out;
+        }
+        if (!path_step(w, &p, h, vertex))
+            return p.out;
+    }
 }
 
 /* Samples first .. first + count - 1 of pixel (x, y); count is 1 to
@@ -210,10 +256,9 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                                 struct path_sample *out)
 {
     for (uint32_t i = 0; i < count; i++) {
-        struct sampler s = sampler_start(x, y, first + i, w->seed);
-        struct vec2 offset = random_2d(s, DIMENSION_PIXEL);
+        struct path_start start = path_begin(&w->settings, x, y, first + i);
 
-        out[i] = path_trace(w, camera_ray(w->camera, x, y, offset), s);
+        out[i] = path_trace(w, start.ray, start.sampler);
     }
 }
 

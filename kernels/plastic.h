@@ -31,14 +31,14 @@ static inline struct vec3 coat_of(struct vec3 f0, struct ggx_albedo e)
 
 static inline struct vec3 coat_albedo(const struct bsdf *m, float mu)
 {
-    if (m->alpha < ALPHA_SMOOTH)
+    if (is_smooth(m))
         return fresnel_schlick(m->coat, mu);
     return coat_of(m->coat, ggx_albedo(mu, m->alpha));
 }
 
 static inline struct vec3 coat_albedo_mean(const struct bsdf *m)
 {
-    if (m->alpha < ALPHA_SMOOTH)
+    if (is_smooth(m))
         return fresnel_schlick_mean(m->coat);
     return coat_of(m->coat, ggx_albedo_mean(m->alpha));
 }
@@ -76,7 +76,7 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
     struct vec3 h;
 
     *pdf = (1.0f - chance) * cosine;
-    if (m->alpha < ALPHA_SMOOTH)
+    if (is_smooth(m))
         return f;
     h = half_vector(wo, wi);
     *pdf += chance * ggx_reflection_pdf(wo, h, m->alpha);
@@ -95,7 +95,7 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
 
     if (!(choice < chance))
         wi = cosine_hemisphere(u);
-    else if (m->alpha < ALPHA_SMOOTH)
+    else if (is_smooth(m))
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             v3_scale(coat_o, 1.0f / chance));
     else

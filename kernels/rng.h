@@ -2,10 +2,11 @@
 /*
  * rng.h - random numbers as a function of (pixel, sample, dimension, seed)
  *
- * The hash is xor-shift-multiply in two rounds with low bias (constants by
- * Ettinger for Wellons' hash prospector). Keys are hashed one after the other
- * from a non-zero start: adding or xor-ing them first would make neighbouring
- * pixels share streams.
+ * Each dimension of each pixel is an Owen-scrambled Sobol sequence of its own
+ * over the samples (sobol.h), so that a pixel's samples avoid each other and
+ * pixels are independent. Keys are hashed one after the other from a non-zero
+ * start: adding or xor-ing them first would make neighbouring pixels share
+ * streams. After 2^32 samples a pixel starts other sequences.
  *
  * Units:     numbers in [0, 1)
  * Ownership: none
@@ -15,6 +16,7 @@
 #ifndef KERNELS_RNG_H
 #define KERNELS_RNG_H
 
+#include "kernels/sobol.h"
 #include "kernels/vec.h"
 
 /* Fixed dimensions: adding a feature does not shift the others. */
@@ -30,19 +32,9 @@ enum dimension {
 };
 
 struct sampler {
-    uint32_t pixel_key;
-    uint32_t index_key;
+    uint32_t key;            /* of the pixel, the seed and the index's top */
+    uint32_t reversed_index; /* the low 32 bits, the lowest first */
 };
-
-static inline uint32_t hash_u32(uint32_t h)
-{
-    h ^= h >> 16;
-    h *= 0x21f0aaadu;
-    h ^= h >> 15;
-    h *= 0xd35a2d97u;
-    h ^= h >> 15;
-    return h;
-}
 
 /* The top 24 bits: never 1. */
 static inline float unit_float(uint32_t bits)
@@ -55,32 +47,32 @@ static inline struct sampler sampler_start(uint32_t x, uint32_t y,
 {
     struct sampler s;
 
-    s.pixel_key = hash_u32(x + 0x9e3779b9u);
-    s.pixel_key = hash_u32(s.pixel_key ^ y);
-    s.pixel_key = hash_u32(s.pixel_key ^ seed);
-    s.index_key = hash_u32((uint32_t)(index >> 32) + 0x7f4a7c15u);
-    s.index_key = hash_u32(s.index_key ^ (uint32_t)index);
+    s.key = hash_u32(x + 0x9e3779b9u);
+    s.key = hash_u32(s.key ^ y);
+    s.key = hash_u32(s.key ^ seed);
+    s.key = hash_u32(s.key ^ (uint32_t)(index >> 32));
+    s.reversed_index = reverse_bits((uint32_t)index);
     return s;
 }
 
-static inline uint32_t random_bits(struct sampler s, uint32_t dimension)
+static inline uint32_t dimension_key(struct sampler s, uint32_t dimension)
 {
-    uint32_t h = hash_u32(s.pixel_key ^ (dimension + 0x85ebca6bu));
-
-    return hash_u32(h ^ s.index_key);
+    return hash_u32(s.key ^ (dimension + 0x85ebca6bu));
 }
 
 static inline struct vec2 random_2d(struct sampler s, uint32_t dimension)
 {
-    uint32_t first = random_bits(s, dimension);
+    struct bits2 p = sobol_point(s.reversed_index, dimension_key(s, dimension));
 
-    return v2(unit_float(first), unit_float(hash_u32(first + 0x9e3779b9u)));
+    return v2(unit_float(p.x), unit_float(p.y));
 }
 
 /* For decisions at holes on the ray that leaves the camera or a vertex. */
 static inline uint32_t ray_key(struct sampler s, uint32_t vertex)
 {
-    return random_bits(s, 0x40000000u + vertex);
+    uint32_t key = dimension_key(s, 0x40000000u + vertex);
+
+    return hash_u32(key ^ s.reversed_index);
 }
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * texture.h - look-ups in textures and in the sky's image
+ * texture.h - look-ups in textures
  *
  * Units:     u to the right, v up with 0 at the bottom, both repeating;
  *            colours come out linear
@@ -93,37 +93,39 @@ static inline struct rgba texture_at(const struct world *w, uint32_t index,
     return mix;
 }
 
-/* Radiance that comes from direction d when nothing is in the way. Image
- * columns repeat, rows end at the poles. */
-static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
+/* Where a hit is in the textures of its triangle, which has coordinates. */
+static inline struct vec2 uv_at(const struct world *w, struct tri t,
+                                struct hit h)
 {
-    struct sky s = w->sky;
-    struct footprint f;
-    struct vec3 turned, top, bottom;
-    float y, whole;
+    struct vec2 a = w->uvs[t.vt[0]];
+    struct vec2 b = w->uvs[t.vt[1]];
+    struct vec2 c = w->uvs[t.vt[2]];
 
-    if (s.width == 0)
-        return s.color;
-    turned = v3(s.rotation_cos * d.x - s.rotation_sin * d.z, d.y,
-                s.rotation_sin * d.x + s.rotation_cos * d.z);
-    wrap_pair(0.5f + atan2_rad(turned.x, -turned.z) * (0.5f / PI), s.width,
-              &f.x0, &f.x1, &f.fx);
-    y = atan2_rad(sqrtf(turned.x * turned.x + turned.z * turned.z), turned.y) *
-            ((float)s.height / PI) -
-        0.5f;
-    whole = floorf(y);
-    f.fy = y - whole;
-    f.y0 = whole < 0.0f ? 0u : (uint32_t)whole;
-    f.y1 = whole < 0.0f ? 0u : f.y0 + 1u;
-    if (f.y0 >= s.height)
-        f.y0 = s.height - 1u;
-    if (f.y1 >= s.height)
-        f.y1 = s.height - 1u;
-    top = v3_lerp(w->sky_texels[f.y0 * s.width + f.x0],
-                  w->sky_texels[f.y0 * s.width + f.x1], f.fx);
-    bottom = v3_lerp(w->sky_texels[f.y1 * s.width + f.x0],
-                     w->sky_texels[f.y1 * s.width + f.x1], f.fx);
-    return v3_mul(v3_lerp(top, bottom, f.fy), s.color);
+    return v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
+              h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
+}
+
+static inline bool has_holes(const struct world *w, uint32_t texture)
+{
+    return texture != NO_INDEX && w->textures[texture].has_holes != 0;
+}
+
+/* The share of rays that a hit stops: none in holes of the colour texture's
+ * alpha and of the opacity texture, elsewhere the opacity. */
+static inline float coverage_at(const struct world *w, struct hit h)
+{
+    struct tri t = w->tris[h.tri];
+    struct material m = w->materials[t.material];
+
+    if (t.vt[0] == NO_INDEX)
+        return m.opacity;
+    if (has_holes(w, m.color_texture) &&
+        texture_at(w, m.color_texture, uv_at(w, t, h)).alpha < 0.5f)
+        return 0.0f;
+    if (has_holes(w, m.opacity_texture) &&
+        texture_at(w, m.opacity_texture, uv_at(w, t, h)).alpha < 0.5f)
+        return 0.0f;
+    return m.opacity;
 }
 
 #endif

@@ -69,36 +69,14 @@ static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
     return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
 }
 
-static inline bool is_hole(const struct world *w, uint32_t texture,
-                           struct vec2 uv)
-{
-    return texture != NO_INDEX && w->textures[texture].has_holes != 0 &&
-           texture_at(w, texture, uv).alpha < 0.5f;
-}
-
-/* False where the surface lets this ray pass: holes of the colour texture's
- * alpha and of the opacity texture, and with probability 1 - opacity. */
+/* False where the surface lets this ray pass. */
 static inline bool hit_is_solid(const struct world *w, struct ray r,
                                 struct hit h)
 {
-    struct tri t = w->tris[h.tri];
-    struct material m = w->materials[t.material];
+    float coverage = coverage_at(w, h);
 
-    if (m.opacity < 1.0f &&
-        unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) >= m.opacity)
-        return false;
-    if (t.vt[0] != NO_INDEX &&
-        (m.color_texture != NO_INDEX || m.opacity_texture != NO_INDEX)) {
-        struct vec2 a = w->uvs[t.vt[0]];
-        struct vec2 b = w->uvs[t.vt[1]];
-        struct vec2 c = w->uvs[t.vt[2]];
-        struct vec2 uv = v2(h.b0 * a.x + h.b1 * b.x + h.b2 * c.x,
-                            h.b0 * a.y + h.b1 * b.y + h.b2 * c.y);
-
-        return !is_hole(w, m.color_texture, uv) &&
-               !is_hole(w, m.opacity_texture, uv);
-    }
-    return true;
+    return coverage >= 1.0f ||
+           unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) < coverage;
 }
 
 /* Tests the triangles of a leaf; true if a nearer hit was found. */
@@ -113,10 +91,12 @@ static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
 
         if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
             continue;
-        if (h.t == best->t && t.tri > best->tri)
+        if (h.t == best->t && t.tri >= best->tri)
             continue;
         h.tri = t.tri;
-        if ((w->features & FEATURE_COVERAGE) != 0 && !hit_is_solid(w, r, h))
+        if (HAS(FEATURE_COVERAGE) &&
+            (w->settings.features & FEATURE_COVERAGE) != 0 &&
+            !hit_is_solid(w, r, h))
             continue;
         *best = h;
         found = true;
@@ -138,7 +118,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     best->t = r.t_max;
     best->b0 = best->b1 = best->b2 = 0.0f;
     best->tri = NO_INDEX;
-    if (w->tri_count == 0 ||
+    if (w->settings.tri_count == 0 ||
         box_entry(slabs, w->nodes[0].lo, w->nodes[0].hi, best->t) > best->t)
         return false;
     for (;;) {
@@ -182,8 +162,10 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     }
 }
 
-/* True if anything is hit up to r.t_max: no order, first find ends it. */
-static inline bool hit_any(const struct world *w, struct ray r)
+/* True if anything is hit before r.t_max, or at r.t_max with a number below
+ * `tri`: hit_closest() would not find the triangle `tri`, which the ray meets
+ * there. No order, the first find ends it. */
+static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     struct slabs slabs = slabs_of(r);
     struct shear shear = shear_of(r);
@@ -191,10 +173,10 @@ static inline bool hit_any(const struct world *w, struct ray r)
     uint32_t depth = 0;
     struct hit h;
 
-    if (w->tri_count == 0)
+    if (w->settings.tri_count == 0)
         return false;
     h.t = r.t_max;
-    h.tri = NO_INDEX;
+    h.tri = tri;
     stack[depth++] = 0;
     while (depth > 0) {
         uint32_t at = stack[--depth];

@@ -13,6 +13,7 @@
 #define KERNELS_TYPES_H
 
 #include "kernels/dialect.h"
+#include "kernels/features.h"
 
 #define NO_INDEX 0xffffffffu
 
@@ -98,9 +99,9 @@ struct camera {
     struct vec3 forward;
     float height;
     struct vec3 right;
-    float pad0;
+    float lens_radius; /* 0: a pinhole */
     struct vec3 up;
-    float pad1;
+    float focus; /* from the eye to the sharp plane, along forward */
 };
 
 /* Depth-first: the left child of node i is node i + 1. */
@@ -117,16 +118,66 @@ struct leaf_tri {
     uint32_t tri;
 };
 
-/* What the scene has, so that a sample can skip what it has not. */
-enum feature {
-    FEATURE_COVERAGE = 1u /* some material or texture lets rays pass */
+/* A triangle that shines, and the way to it from the root of the light tree:
+ * three bits a level, ten levels a word, the first lowest. */
+struct light {
+    uint32_t tri;
+    uint32_t path[2];
+};
+
+#define LIGHT_LEVELS 20
+#define LIGHT_WIDTH  8
+#define LIGHT_LEAF   0x80000000u
+
+/* Eight clusters of lights, side by side for vector units. Lights shine from
+ * both sides: their normals are lines, all within an angle of the axis. */
+struct light_node {
+    float x[LIGHT_WIDTH], y[LIGHT_WIDTH], z[LIGHT_WIDTH]; /* centre of a box */
+    float radius[LIGHT_WIDTH]; /* of the ball around the box; above 0 */
+    float axis_x[LIGHT_WIDTH]; /* unit */
+    float axis_y[LIGHT_WIDTH];
+    float axis_z[LIGHT_WIDTH];
+    float spread[LIGHT_WIDTH];   /* sine of that angle */
+    float power[LIGHT_WIDTH];    /* the sum over all lights is 1; 0: no child */
+    uint32_t child[LIGHT_WIDTH]; /* a node, or a light and LIGHT_LEAF */
+};
+
+/* How light is gathered where a path could meet it by chance as well. The
+ * others are for comparing with. */
+enum direct {
+    DIRECT_MIS,    /* both ways, weighed */
+    DIRECT_LIGHTS, /* only from lights that are chosen */
+    DIRECT_CHANCE  /* only where paths meet them */
+};
+
+/* What a sample reads beside arrays. */
+struct settings {
+    struct camera camera;
+    struct sky sky;
+    uint32_t max_vertices; /* surface vertices of a path, emitter included */
+    uint32_t seed;
+    uint32_t features; /* enum feature, or-ed */
+    uint32_t direct;   /* enum direct */
+    float sky_share;   /* probability that a light sample is one of the sky, */
+    float light_share; /* of the lights; what is left is none at all */
+
+    /* lengths of the world's arrays */
+    uint32_t tri_count;
+    uint32_t position_count;
+    uint32_t normal_count;
+    uint32_t uv_count;
+    uint32_t material_count;
+    uint32_t texture_count;
+    uint32_t texel_count;
+    uint32_t light_count;
+    uint32_t light_node_count;
+    uint32_t sky_sum_count;
 };
 
 /* What a sample reads, nothing more. nodes and leaf_tris belong to the
  * backend, the rest to the scene. */
 struct world {
-    struct camera camera;
-    struct sky sky;
+    struct settings settings;
     GLOBAL const struct vec3 *positions;
     GLOBAL const struct vec3 *normals;
     GLOBAL const struct vec2 *uvs;
@@ -138,10 +189,10 @@ struct world {
     GLOBAL const struct vec3 *sky_texels; /* row 0 is +y */
     GLOBAL const struct node *nodes;
     GLOBAL const struct leaf_tri *leaf_tris;
-    uint32_t tri_count;
-    uint32_t max_vertices; /* surface vertices of a path, emitter included */
-    uint32_t seed;
-    uint32_t features; /* enum feature, or-ed */
+    GLOBAL const struct light *lights;
+    GLOBAL const uint32_t *tri_lights;           /* NO_INDEX where it is dark */
+    GLOBAL const struct light_node *light_nodes; /* none for one light */
+    GLOBAL const float *sky_sums; /* see kernels/sky.h; none: no table */
 };
 
 struct ray {

@@ -19,6 +19,9 @@
 #define PI        3.14159265358979f
 #define FLOAT_MAX 3.402823466e38f
 
+/* The greatest random number: see unit_float(). */
+#define UNIT_FLOAT_MAX (1.0f - 0x1p-24f)
+
 /* If one is NaN the result is b: put the suspect first. */
 static inline float f_min(float a, float b)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "glim/backend.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #include "glim/bvh.h"
@@ -16,15 +17,17 @@ struct backend_cpu {
     struct backend base;
     struct pool *pool;
     struct bvh bvh;
+    /* from begin() */
+    struct world world;
+    struct film *film;
+    int x0, y0;
 };
 
 /* What the workers of one pass read. */
 struct job {
-    struct world world;
-    struct film *film;
+    const struct backend_cpu *backend;
     const struct cancel *cancel;
     struct pass pass;
-    int x0, y0;
     uint32_t columns; /* blocks in a row */
     uint32_t count;   /* blocks in all */
     uint32_t bits;    /* of the smallest power of two that is not below count */
@@ -59,50 +62,38 @@ static uint32_t shuffled(const struct job *j, uint32_t item)
  * cancelled on the way; what was computed is in the film. */
 static bool render_row(const struct job *j, int x, int y, int pixel_count)
 {
+    const struct backend_cpu *b = j->backend;
     struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
     int counts[BLOCK_SIDE];
-    bool is_short;
+    int done = 0;
 
-    do {
-        int done = 0;
-        bool has_new = false;
+    for (; done < pixel_count && !cancel_requested(j->cancel); done++) {
+        int px = x + done * j->pass.stride;
+        uint64_t first = film_count(b->film, px, y);
+        uint32_t count =
+            first < j->pass.target ? (uint32_t)(j->pass.target - first) : 0;
 
-        is_short = false;
-        for (; done < pixel_count && !cancel_requested(j->cancel); done++) {
-            int px = x + done * j->pass.stride;
-            uint64_t first = film_count(j->film, px, y);
-            uint64_t missing =
-                first < j->pass.target ? j->pass.target - first : 0;
-            uint32_t count =
-                missing < SAMPLE_BLOCK ? (uint32_t)missing : SAMPLE_BLOCK;
-
-            counts[done] = (int)count;
-            if (count == 0)
-                continue;
-            path_samples(&j->world, (uint32_t)(j->x0 + px),
-                         (uint32_t)(j->y0 + y), first, count,
+        counts[done] = (int)count;
+        if (count != 0)
+            path_samples(&b->world, (uint32_t)(b->x0 + px),
+                         (uint32_t)(b->y0 + y), first, count,
                          samples + done * SAMPLE_BLOCK);
-            has_new = true;
-            is_short = is_short || count < missing;
-        }
-        if (has_new)
-            film_add_row(j->film, x, y, j->pass.stride, done, samples, counts);
-        if (done < pixel_count)
-            return false;
-    } while (is_short);
-    return true;
+    }
+    film_add_row(b->film, x, y, j->pass.stride, done, samples, counts);
+    return done == pixel_count;
 }
 
 static void render_block(void *context, uint32_t item, int worker)
 {
     const struct job *j = context;
+    const struct film *film = j->backend->film;
     uint32_t block = shuffled(j, item);
     int stride = j->pass.stride;
     int side = BLOCK_SIDE * stride;
     int x = (int)(block % j->columns) * side;
     int y = (int)(block / j->columns) * side;
-    int last = y + side < j->film->height ? y + side : j->film->height;
-    int pixel_count = (j->film->width - x + stride - 1) / stride;
+    int last = y + side < film->height ? y + side : film->height;
+    int pixel_count = (film->width - x + stride - 1) / stride;
 
     (void)worker;
     if (pixel_count > BLOCK_SIDE)
@@ -120,20 +111,32 @@ static bool cpu_load(struct backend *base, const struct world *world,
     return bvh_build(&b->bvh, world, err);
 }
 
-static enum pass_result cpu_pass(struct backend *base,
-                                 const struct world *world, struct film *film,
-                                 int x0, int y0, const struct pass *pass,
+static bool cpu_begin(struct backend *base, const struct world *world,
+                      struct film *film, int x0, int y0, struct error *err)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+
+    (void)err;
+    b->world = *world;
+    b->world.nodes = b->bvh.nodes;
+    b->world.leaf_tris = b->bvh.leaf_tris;
+    b->film = film;
+    b->x0 = x0;
+    b->y0 = y0;
+    return true;
+}
+
+static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
                                  const struct cancel *cancel, struct error *err)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
-    struct job j = {*world, film, cancel, *pass, x0, y0, 0, 0, 1};
+    struct job j = {b, cancel, *pass, 0, 0, 1};
     int side = BLOCK_SIDE * pass->stride;
 
     (void)err;
-    j.world.nodes = b->bvh.nodes;
-    j.world.leaf_tris = b->bvh.leaf_tris;
-    j.columns = (uint32_t)((film->width + side - 1) / side);
-    j.count = j.columns * (uint32_t)((film->height + side - 1) / side);
+    assert(pass->samples <= SAMPLE_BLOCK);
+    j.columns = (uint32_t)((b->film->width + side - 1) / side);
+    j.count = j.columns * (uint32_t)((b->film->height + side - 1) / side);
     while (j.bits < 32 && (1u << j.bits) < j.count)
         j.bits++;
     pool_run(b->pool, j.count, render_block, &j, cancel);
@@ -162,6 +165,7 @@ struct backend *backend_cpu_create(int thread_count, struct error *err)
     b->base.name = "cpu";
     b->base.thread_count = pool_thread_count(b->pool);
     b->base.load = cpu_load;
+    b->base.begin = cpu_begin;
     b->base.pass = cpu_pass;
     b->base.destroy = cpu_destroy;
     return &b->base;

@@ -273,19 +273,58 @@ static bool save_all(struct session *s, struct error *err)
     return ok;
 }
 
-bool batch_run(struct session *s, int *status, struct error *err)
+static void warn_of_device(const struct error *err)
+{
+    fprintf(stderr, "glim: warning: %s; the CPU renders\n", err->text);
+}
+
+/* The device that the options want, if it comes up. That there is no GPU is
+ * no news to those who let glim choose. */
+static void use_device(struct session *s)
+{
+    struct machines *m = &s->machines;
+    struct error err;
+    char *log = NULL;
+
+    if (machines_begin_device(m, scene_features(&s->scene), &err) &&
+        machines_end_device(m, &log, &err)) {
+        render_use(s->render, m->device);
+    } else if (s->options->backend != BACKEND_AUTO) {
+        if (log && *log != '\0')
+            fprintf(stderr, "%s\n", log);
+        warn_of_device(&err);
+    }
+    free(log);
+}
+
+/* Renders; a device that fails is replaced by the CPU, which starts anew. */
+static bool render_all(struct session *s, struct error *err)
 {
     struct render_progress p;
 
-    if (!check_outputs(s->options, err) || !catch_signals(err) ||
-        !session_restart(s, s->options->spp, err))
+    if (!session_restart(s, s->options->spp, err))
         return false;
     wait_for_end(s);
     p = render_progress(s->render);
-    if (p.state == RENDER_FAILED) {
-        *err = p.error;
+    if (p.state != RENDER_FAILED)
+        return true;
+    *err = p.error;
+    if (!session_uses_device(s))
         return false;
-    }
+    warn_of_device(err);
+    render_use(s->render, s->machines.cpu);
+    return render_all(s, err);
+}
+
+bool batch_run(struct session *s, int *status, struct error *err)
+{
+    if (!check_outputs(s->options, err))
+        return false;
+    /* before our signals are set: drivers put theirs over them */
+    if (s->options->backend != BACKEND_CPU)
+        use_device(s);
+    if (!catch_signals(err) || !render_all(s, err))
+        return false;
     if (!save_all(s, err))
         return false;
     *status = stop_signal != 0 ? 128 + stop_signal : 0;

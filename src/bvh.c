@@ -248,15 +248,16 @@ bool bvh_build(struct bvh *bvh, const struct world *w, struct error *err)
     bool ok = false;
 
     bvh_free(bvh);
-    if (w->tri_count == 0)
+    if (w->settings.tri_count == 0)
         return true;
-    b.primitives = alloc_array(w->tri_count, sizeof *b.primitives);
-    bvh->leaf_tris = alloc_array(w->tri_count, sizeof *bvh->leaf_tris);
+    b.primitives = alloc_array(w->settings.tri_count, sizeof *b.primitives);
+    bvh->leaf_tris = alloc_array(w->settings.tri_count, sizeof *bvh->leaf_tris);
     if (b.primitives == NULL || bvh->leaf_tris == NULL) {
-        fail(err, "out of memory for the tree of %u triangles", w->tri_count);
+        fail(err, "out of memory for the tree of %u triangles",
+             w->settings.tri_count);
         goto out;
     }
-    for (uint32_t i = 0; i < w->tri_count; i++) {
+    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct box box = box_empty();
 
         for (int k = 0; k < 3; k++)
@@ -264,7 +265,7 @@ bool bvh_build(struct bvh *bvh, const struct world *w, struct error *err)
         b.primitives[i].box = box;
         b.primitives[i].tri = i;
     }
-    ok = build(&b, 0, w->tri_count, 0, err);
+    ok = build(&b, 0, w->settings.tri_count, 0, err);
     assert(!ok || bvh->depth < TRAVERSE_STACK);
 out:
     free(b.primitives);

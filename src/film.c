@@ -90,23 +90,10 @@ uint64_t film_count(const struct film *f, int x, int y)
     return f->counts[pixel_index(f, x, y)];
 }
 
-/* Adds one channel of a sample; what sum_accepts() refuses counts as 0. */
-static void add_channel(struct sum *sum, float x, uint32_t *refused,
-                        uint32_t *saturated)
-{
-    if (!sum_accepts(x)) {
-        *refused = 1;
-        return;
-    }
-    if (x > 0x1p62f)
-        *saturated = 1;
-    sum_add(sum, x);
-}
-
 void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
                   const struct path_sample *samples, const int *counts)
 {
-    uint64_t rays = 0, added = 0, non_finite = 0, saturated = 0, cut = 0;
+    struct tally tally = {0};
 
     row_lock(f, y);
     for (int i = 0; i < pixel_count; i++) {
@@ -115,30 +102,36 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
 
         if (counts[i] > 0 && f->counts[at] == 0)
             memset(sums, 0, 3 * sizeof *sums);
-        for (int s = 0; s < counts[i]; s++) {
-            const struct path_sample *p = &samples[i * SAMPLE_BLOCK + s];
-            uint32_t bad = 0, full = 0;
-
-            add_channel(&sums[0], p->radiance.x, &bad, &full);
-            add_channel(&sums[1], p->radiance.y, &bad, &full);
-            add_channel(&sums[2], p->radiance.z, &bad, &full);
-            non_finite += bad;
-            saturated += full;
-            rays += p->rays;
-            cut += p->cut;
-        }
+        for (int s = 0; s < counts[i]; s++)
+            pixel_add(sums, samples[i * SAMPLE_BLOCK + s], &tally);
         f->counts[at] += (uint64_t)counts[i];
-        added += (uint64_t)counts[i];
     }
     row_unlock(f, y);
-    atomic_fetch_add(&f->samples, added);
-    atomic_fetch_add(&f->rays, rays);
-    if (non_finite != 0)
-        atomic_fetch_add(&f->non_finite, non_finite);
-    if (saturated != 0)
-        atomic_fetch_add(&f->saturated, saturated);
-    if (cut != 0)
-        atomic_fetch_add(&f->cut_paths, cut);
+    film_count_more(f, &tally);
+}
+
+void film_store_row(struct film *f, int y, const struct sum *sums,
+                    const uint64_t *counts)
+{
+    size_t at = pixel_index(f, 0, y);
+    size_t width = (size_t)f->width;
+
+    row_lock(f, y);
+    memcpy(f->sums + 3 * at, sums, 3 * width * sizeof *sums);
+    memcpy(f->counts + at, counts, width * sizeof *counts);
+    row_unlock(f, y);
+}
+
+void film_count_more(struct film *f, const struct tally *tally)
+{
+    atomic_fetch_add(&f->samples, tally->samples);
+    atomic_fetch_add(&f->rays, tally->rays);
+    if (tally->non_finite != 0)
+        atomic_fetch_add(&f->non_finite, tally->non_finite);
+    if (tally->saturated != 0)
+        atomic_fetch_add(&f->saturated, tally->saturated);
+    if (tally->cut_paths != 0)
+        atomic_fetch_add(&f->cut_paths, tally->cut_paths);
 }
 
 static void mean_of(const struct sum *sums, uint64_t count, float *rgb)

@@ -16,6 +16,9 @@
 #include <unistd.h>
 
 #include "glim/batch.h"
+#include "glim/cl_device.h"
+#include "glim/cl_environment.h"
+#include "glim/cl_probe.h"
 #include "glim/options.h"
 #include "glim/session.h"
 #include "glim/tui.h"
@@ -44,7 +47,7 @@ static int complain(enum exit_status status, const struct error *err)
     return status;
 }
 
-/* For --help and --version. */
+/* For --help and its like: what cannot be written is an error. */
 static int print_out(const char *text)
 {
     struct error err;
@@ -53,6 +56,34 @@ static int print_out(const char *text)
         return EXIT_DONE;
     fail(&err, "standard output: %s", strerror(errno));
     return complain(EXIT_FAILED, &err);
+}
+
+static int list_devices(void)
+{
+    struct cl_devices list;
+    struct error err;
+
+    if (!cl_device_list(&list, &err))
+        return complain(EXIT_FAILED, &err);
+    cl_devices_print(&list, stdout);
+    cl_devices_free(&list);
+    return print_out("");
+}
+
+/* This program as the copy that another one has started: cl_probe.h. */
+static int probe(const struct options *o)
+{
+    struct cl_request request = {
+        .device = o->device,
+        .kernels_path = o->kernels_path,
+        .needs_gpu = o->backend == BACKEND_AUTO,
+        .features = o->features,
+    };
+    struct error err;
+
+    if (!cl_probe_answer(&request, &err))
+        return complain(EXIT_FAILED, &err);
+    return print_out("");
 }
 
 /* Is there a screen for the live mode, or a place for the picture? */
@@ -101,6 +132,11 @@ int main(int argc, char **argv)
         return print_out(options_help);
     if (options.show_version)
         return print_out("glim " GLIM_VERSION "\n");
+    cl_environment_prepare(options.thread_count);
+    if (options.list_devices)
+        return list_devices();
+    if (options.probe)
+        return probe(&options);
     if (!check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);
     /* a failing write says what is wrong */

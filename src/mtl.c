@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "glim/asset.h"
+#include "glim/blackbody.h"
 #include "glim/file.h"
 #include "glim/lex.h"
 #include "glim/map.h"
@@ -234,6 +235,31 @@ static bool read_color(struct parser *p, struct word key,
     return true;
 }
 
+/* Ke_blackbody KELVIN [SCALE]: Ke as the colour of that temperature, with
+ * luminance SCALE or 1. */
+static bool read_blackbody(struct parser *p, struct word key,
+                           struct mtl_color *ke)
+{
+    double kelvin, scale = 1;
+
+    if (lex_at_line_end(&p->lex) || !lex_number(&p->lex, &kelvin) ||
+        (!lex_at_line_end(&p->lex) && !lex_number(&p->lex, &scale)))
+        return expected(p, key, "a temperature and perhaps a luminance");
+    *ke = (struct mtl_color){.line = p->lex.line};
+    if (kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST) {
+        blackbody_rgb(kelvin, ke->rgb);
+        for (int i = 0; i < 3; i++)
+            ke->rgb[i] *= scale;
+    } else if (!(kelvin >= 0 && kelvin < BLACKBODY_LEAST)) {
+        report_add(p->report, "impossible temperatures",
+                   "%s:%" PRIu64 ": found %.*s %g, expected kelvins from 0 to "
+                   "%g: taken as 0",
+                   p->path, p->lex.line, (int)key.length, key.start, kelvin,
+                   BLACKBODY_GREATEST);
+    }
+    return true;
+}
+
 /* The file that a map names, or as it is written if there is no such file. */
 static char *map_path(const struct parser *p, const char *name)
 {
@@ -326,6 +352,8 @@ static bool read_property(struct parser *p, struct word key)
          .is_data = true},
     };
 
+    if (word_is(key, "Ke_blackbody"))
+        return read_blackbody(p, key, &s->ke);
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
         if (!word_is(key, properties[i].key))
             continue;

@@ -35,6 +35,14 @@ const char options_help[] =
     "  --up y|z         which way is up in the scene file (default: y)\n"
     "  -t THREADS       1 to 1024 (default: what the process may use)\n"
     "\n"
+    "device\n"
+    "  --backend KIND   cpu, opencl or auto: OpenCL if it has a GPU, else\n"
+    "                   the CPU (default: cpu)\n"
+    "  --device N|NAME  the OpenCL device of this number, or with this in its\n"
+    "                   name (default: the first GPU, or the first device)\n"
+    "  --list-devices   show the OpenCL devices\n"
+    "  --kernels FOLDER read the OpenCL kernels from there\n"
+    "\n"
     "batch mode\n"
     "  -b               render to a file, without the screen\n"
     "  -o FILE          a .png, .hdr or .pfm file, which is replaced, or -\n"
@@ -65,6 +73,11 @@ enum option_id {
     OPTION_CROP,
     OPTION_UP,
     OPTION_THREADS,
+    OPTION_BACKEND,
+    OPTION_DEVICE,
+    OPTION_LIST_DEVICES,
+    OPTION_KERNELS,
+    OPTION_PROBE,
     OPTION_BATCH,
     OPTION_OUTPUT,
     OPTION_STATS,
@@ -93,6 +106,11 @@ static const struct option_rule rules[] = {
     {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
     {"up", OPTION_UP, "y or z"},
     {"t", OPTION_THREADS, "a number of threads"},
+    {"backend", OPTION_BACKEND, "cpu, opencl or auto"},
+    {"device", OPTION_DEVICE, "the number or name of a device"},
+    {"list-devices", OPTION_LIST_DEVICES, NULL},
+    {"kernels", OPTION_KERNELS, "the name of a folder"},
+    {"probe", OPTION_PROBE, "a number of features"}, /* for glim itself */
     {"b", OPTION_BATCH, NULL},
     {"o", OPTION_OUTPUT, "the name of a picture"},
     {"stats", OPTION_STATS, "the name of a file"},
@@ -164,12 +182,12 @@ static bool choice(const struct given *g, const char *const *words, int *index,
                 g->rule->value);
 }
 
-static bool file_name(const struct given *g, const char **name,
-                      struct error *err)
+static bool given_text(const struct given *g, const char **text,
+                       struct error *err)
 {
     if (*g->value == '\0')
         return fail(err, "%s: found '', expected %s", g->shown, g->rule->value);
-    *name = g->value;
+    *text = g->value;
     return true;
 }
 
@@ -229,13 +247,25 @@ static bool set_cell_aspect(struct options *o, const struct given *g,
 static bool set_output(struct options *o, const struct given *g,
                        struct error *err)
 {
-    if (!file_name(g, &o->output_path, err))
+    if (!given_text(g, &o->output_path, err))
         return false;
     if (picture_format_of(g->value) == PICTURE_UNKNOWN)
         return fail(err,
                     "%s: found '%s', expected a name that ends in .png, .hdr "
                     "or .pfm, or - for standard output",
                     g->shown, g->value);
+    return true;
+}
+
+static bool set_probe(struct options *o, const struct given *g,
+                      struct error *err)
+{
+    uint64_t features;
+
+    if (!whole_number(g, 0, UINT32_MAX, &features, err))
+        return false;
+    o->probe = true;
+    o->features = (uint32_t)features;
     return true;
 }
 
@@ -255,6 +285,7 @@ static bool set_word(struct options *o, const struct given *g,
                      struct error *err)
 {
     static const char *const ups[] = {"y", "z", NULL};
+    static const char *const backends[] = {"cpu", "opencl", "auto", NULL};
     static const char *const colors[] = {"auto", "mono", "16",
                                          "256",  "24",   NULL};
     static const char *const glyphs[] = {"auto",  "upper", "lower",
@@ -266,6 +297,12 @@ static bool set_word(struct options *o, const struct given *g,
         if (!choice(g, ups, &index, err))
             return false;
         o->up_is_z = index == 1;
+        return true;
+    case OPTION_BACKEND:
+        if (!choice(g, backends, &index, err))
+            return false;
+        o->backend = (enum backend_choice)index;
+        o->has_backend = true;
         return true;
     case OPTION_COLOR:
         if (!choice(g, colors, &index, err))
@@ -287,9 +324,9 @@ static bool set_option(struct options *o, const struct given *g,
     case OPTION_SCENE: {
         const char *path = NULL;
 
-        return file_name(g, &path, err) && set_scene(o, path, err);
+        return given_text(g, &path, err) && set_scene(o, path, err);
     }
-    case OPTION_VIEW: return file_name(g, &o->view_path, err);
+    case OPTION_VIEW: return given_text(g, &o->view_path, err);
     case OPTION_WIDTH: return whole_int(g, 1, SIDE_MAX, &o->width_px, err);
     case OPTION_HEIGHT: return whole_int(g, 1, SIDE_MAX, &o->height_px, err);
     case OPTION_SPP:
@@ -299,16 +336,21 @@ static bool set_option(struct options *o, const struct given *g,
         o->has_max_bounces = true;
         return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);
     case OPTION_SEED: return set_seed(o, g, err);
+    case OPTION_PROBE: return set_probe(o, g, err);
     case OPTION_CROP: return set_crop(o, g, err);
     case OPTION_THREADS:
         return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
     case OPTION_OUTPUT: return set_output(o, g, err);
-    case OPTION_STATS: return file_name(g, &o->stats_path, err);
+    case OPTION_STATS: return given_text(g, &o->stats_path, err);
     case OPTION_CELL_ASPECT: return set_cell_aspect(o, g, err);
+    case OPTION_DEVICE: return given_text(g, &o->device, err);
+    case OPTION_KERNELS: return given_text(g, &o->kernels_path, err);
     case OPTION_UP:
+    case OPTION_BACKEND:
     case OPTION_COLOR:
     case OPTION_GLYPH: return set_word(o, g, err);
     case OPTION_BATCH: o->batch = true; return true;
+    case OPTION_LIST_DEVICES: o->list_devices = true; return true;
     case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
     case OPTION_HELP: o->show_help = true; return true;
     case OPTION_VERSION: o->show_version = true; return true;
@@ -397,9 +439,27 @@ static bool parse_short(struct options *o, int argc, char **argv, int *i,
     return true;
 }
 
+/* Whoever names a device wants to use it. */
+static bool settle_backend(struct options *o, struct error *err)
+{
+    if ((o->device || o->kernels_path) && !o->has_backend)
+        o->backend = BACKEND_OPENCL;
+    if (o->backend != BACKEND_CPU)
+        return true;
+    if (o->device)
+        return fail(err, "--device: is for OpenCL, expected no --backend cpu "
+                         "beside it");
+    if (o->kernels_path)
+        return fail(err, "--kernels: is for OpenCL, expected no --backend cpu "
+                         "beside it");
+    return true;
+}
+
 /* What is right alone but wrong together. */
 static bool check_together(const struct options *o, struct error *err)
 {
+    if (o->list_devices || o->probe)
+        return true;
     if (!o->scene_path)
         return fail(err, "no scene given, expected: glim [options] scene.obj "
                          "(see glim --help)");
@@ -450,5 +510,6 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         if (o->show_help || o->show_version)
             return true; /* whatever else is on the line */
     }
-    return check_together(o, err) && take_environment(o, err);
+    return settle_backend(o, err) && check_together(o, err) &&
+           take_environment(o, err);
 }

@@ -35,6 +35,7 @@ struct render {
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
+    bool is_new; /* the picture: the backend has not begun it */
 };
 
 /* Samples that every pixel has after the pass that follows spp_done. */
@@ -51,12 +52,13 @@ static uint64_t next_target(uint64_t spp_done, uint64_t spp)
     return spp != 0 && target > spp ? spp : target;
 }
 
-static enum pass_result run_pass(struct render *r, int stride, uint64_t target)
+static enum pass_result run_pass(struct render *r, int stride, uint64_t done,
+                                 uint64_t target)
 {
-    struct pass pass = {stride, target, (uint32_t)target};
+    struct pass pass = {stride, target, (uint32_t)(target - done),
+                        (uint32_t)target};
 
-    return r->backend->pass(r->backend, &r->job.world, &r->film, r->job.crop.x,
-                            r->job.crop.y, &pass, &r->cancel, &r->error);
+    return r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
 }
 
 /* The first sample of all pixels, from a coarse grid to the finest. */
@@ -66,7 +68,7 @@ static enum pass_result run_first_pass(struct render *r)
 
     for (int stride = FILM_STRIDE_MAX; stride > 0 && result == PASS_DONE;
          stride /= 2) {
-        result = run_pass(r, stride, 1);
+        result = run_pass(r, stride, 0, 1);
         pthread_mutex_lock(&r->lock);
         if (r->first_picture_ns == 0 && result == PASS_DONE)
             r->first_picture_ns =
@@ -88,6 +90,15 @@ static enum pass_result load(struct render *r)
     return ok ? PASS_DONE : PASS_FAILED;
 }
 
+static enum pass_result begin(struct render *r)
+{
+    bool ok = r->backend->begin(r->backend, &r->job.world, &r->film,
+                                r->job.crop.x, r->job.crop.y, &r->error);
+
+    r->is_new = !ok;
+    return ok ? PASS_DONE : PASS_FAILED;
+}
+
 /* Passes until the limit, a cancellation or a failure. */
 static enum pass_result run(struct render *r)
 {
@@ -96,10 +107,13 @@ static enum pass_result run(struct render *r)
 
     if (r->job.geometry_changed)
         result = load(r);
+    if (r->is_new && result == PASS_DONE)
+        result = begin(r);
     while (result == PASS_DONE && (r->spp == 0 || spp_done < r->spp)) {
         uint64_t target = next_target(spp_done, r->spp);
 
-        result = spp_done == 0 ? run_first_pass(r) : run_pass(r, 1, target);
+        result = spp_done == 0 ? run_first_pass(r)
+                               : run_pass(r, 1, spp_done, target);
         if (result != PASS_DONE)
             break;
         spp_done = target;
@@ -151,7 +165,6 @@ struct render *render_create(struct backend *backend, struct error *err)
     r->event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (r->event_fd < 0) {
         fail(err, "render: no event descriptor: %s", strerror(errno));
-        backend->destroy(backend);
         free(r);
         return NULL;
     }
@@ -167,7 +180,6 @@ struct render *render_create(struct backend *backend, struct error *err)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (reason != 0) {
         fail(err, "render: no thread: %s", strerror(reason));
-        backend->destroy(backend);
         close(r->event_fd);
         free(r);
         return NULL;
@@ -202,6 +214,7 @@ bool render_start(struct render *r, const struct render_job *job,
     }
     r->job = *job;
     r->job.geometry_changed = geometry_changed;
+    r->is_new = true;
     pthread_mutex_lock(&r->lock);
     r->spp = job->spp;
     r->spp_done = 0;
@@ -292,7 +305,14 @@ struct film *render_film(struct render *r)
     return &r->film;
 }
 
-const struct backend *render_backend(const struct render *r)
+void render_use(struct render *r, struct backend *backend)
+{
+    render_halt(r);
+    r->backend = backend;
+    r->job.geometry_changed = true;
+}
+
+struct backend *render_backend(const struct render *r)
 {
     return r->backend;
 }
@@ -312,6 +332,5 @@ void render_destroy(struct render *r)
     pthread_cond_destroy(&r->end);
     close(r->event_fd);
     film_free(&r->film);
-    r->backend->destroy(r->backend);
     free(r);
 }

@@ -221,8 +221,52 @@ static void fill_linear_of_srgb(float table[256])
     }
 }
 
+static bool find_used_materials(struct scene *scene, struct error *err)
+{
+    free(scene->material_is_used);
+    scene->material_is_used =
+        alloc_array(scene->material_count, sizeof *scene->material_is_used);
+    if (scene->material_is_used == NULL)
+        return fail(err, "%s: out of memory for its materials", scene->path);
+    for (uint32_t i = 0; i < scene->tri_count; i++)
+        scene->material_is_used[scene->tris[i].material] = true;
+    scene->has_emitters = false;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        scene->has_emitters |=
+            scene->material_is_used[i] && shines(&scene->materials[i]);
+    return true;
+}
+
+/* The part of a world that no view changes. */
+static struct world scene_arrays(const struct scene *scene)
+{
+    return (struct world){
+        .positions = scene->positions,
+        .normals = scene->normals,
+        .uvs = scene->uvs,
+        .tris = scene->tris,
+        .materials = scene->materials,
+        .textures = scene->textures,
+        .texels = scene->texels,
+        .linear_of_srgb = scene->linear_of_srgb,
+        .sky_texels = scene->sky_texels,
+        .settings =
+            {
+                .tri_count = scene->tri_count,
+                .position_count = scene->position_count,
+                .normal_count = scene->normal_count,
+                .uv_count = scene->uv_count,
+                .material_count = scene->material_count,
+                .texture_count = scene->texture_count,
+                .texel_count = (uint32_t)scene->texel_count,
+            },
+    };
+}
+
 bool scene_finish(struct scene *scene, struct report *report, struct error *err)
 {
+    struct world arrays;
+
     drop_tris(scene, report, file_tri_is_usable);
     find_bounds(scene);
     find_scale(scene);
@@ -234,12 +278,11 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
                    "%s: found no face that can be seen: only the background is "
                    "rendered",
                    scene->path);
-    scene->has_emitters = false;
-    for (uint32_t i = 0; i < scene->tri_count; i++)
-        scene->has_emitters |=
-            shines(&scene->materials[scene->tris[i].material]);
+    if (!find_used_materials(scene, err))
+        return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
-    return true;
+    arrays = scene_arrays(scene);
+    return lights_build(&scene->lights, &arrays, err);
 }
 
 bool scene_load_sky(struct scene *scene, const struct view *view,
@@ -262,7 +305,8 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
     scene->sky_height = (uint32_t)image.height;
     image.rgb = NULL;
     image_free(&image);
-    return true;
+    return sky_build(&scene->sky_table, scene->sky_texels, scene->sky_width,
+                     scene->sky_height, SKY_WITH_CHANCE, err);
 }
 
 /* Half the field of view along the narrower side of the picture. */
@@ -357,6 +401,22 @@ static struct vec3 scaled(const double v[3], double scale)
                          (float)(v[2] * scale)};
 }
 
+/* What a lens adds to a pinhole camera. */
+static void add_lens(const struct scene *scene, const struct view *view,
+                     struct camera *camera)
+{
+    double focus = view->focus;
+
+    if (focus == 0)
+        focus =
+            hypot(hypot(view->at[0] - view->eye[0], view->at[1] - view->eye[1]),
+                  view->at[2] - view->eye[2]);
+    camera->lens_radius =
+        (float)fmin(view->aperture / 2 * scene->scale, EYE_MAX);
+    camera->focus =
+        (float)fmin(fmax(focus * scene->scale, 1 / EYE_MAX), EYE_MAX);
+}
+
 static bool make_camera(const struct scene *scene, const struct view *view,
                         struct camera *camera, struct error *err)
 {
@@ -385,6 +445,7 @@ static bool make_camera(const struct scene *scene, const struct view *view,
     camera->forward = scaled(forward, 1);
     camera->right = scaled(right, tangent * view->width_px / view->height_px);
     camera->up = scaled(up, tangent);
+    add_lens(scene, view, camera);
     return true;
 }
 
@@ -411,41 +472,61 @@ static bool has_holes(const struct scene *scene, uint32_t texture)
     return texture != NO_INDEX && scene->textures[texture].has_holes != 0;
 }
 
-static uint32_t find_features(const struct scene *scene)
+uint32_t scene_material_features(const struct scene *scene,
+                                 const struct material *m)
 {
-    for (uint32_t i = 0; i < scene->tri_count; i++) {
-        const struct material *m = &scene->materials[scene->tris[i].material];
+    bool is_metal = m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX;
+    uint32_t features = 0;
 
-        if (m->opacity < 1 || has_holes(scene, m->color_texture) ||
-            has_holes(scene, m->opacity_texture))
-            return FEATURE_COVERAGE;
-    }
-    return 0;
+    if (m->color_texture != NO_INDEX || m->coat_texture != NO_INDEX ||
+        m->emission_texture != NO_INDEX || m->alpha_texture != NO_INDEX ||
+        m->metal_texture != NO_INDEX || m->normal_texture != NO_INDEX ||
+        m->bump_texture != NO_INDEX)
+        features |= FEATURE_TEXTURES;
+    if (m->opacity < 1 || has_holes(scene, m->color_texture) ||
+        has_holes(scene, m->opacity_texture))
+        features |= FEATURE_COVERAGE;
+    if (is_metal)
+        features |= FEATURE_METAL;
+    if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
+        features |= FEATURE_GLASS;
+    if (m->kind == MATERIAL_PLASTIC)
+        features |= FEATURE_PLASTIC;
+    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
+        features |= FEATURE_ROUGH_DIFFUSE;
+    else if ((is_metal || m->kind != MATERIAL_DIFFUSE) &&
+             m->alpha >= ALPHA_SMOOTH)
+        features |= FEATURE_ROUGH;
+    return features;
+}
+
+uint32_t scene_features(const struct scene *scene)
+{
+    uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
+
+    if (scene->has_emitters)
+        features |= FEATURE_EMITTERS;
+
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        if (scene->material_is_used[i])
+            features |= scene_material_features(scene, &scene->materials[i]);
+    return features;
 }
 
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err)
 {
-    struct world w = {
-        .sky = make_sky(scene, view),
-        .positions = scene->positions,
-        .normals = scene->normals,
-        .uvs = scene->uvs,
-        .tris = scene->tris,
-        .materials = scene->materials,
-        .textures = scene->textures,
-        .texels = scene->texels,
-        .linear_of_srgb = scene->linear_of_srgb,
-        .sky_texels = scene->sky_texels,
-        .tri_count = scene->tri_count,
-        .max_vertices = view->max_bounces < 0 ? VERTICES_MAX
-                                              : (uint32_t)view->max_bounces + 1,
-        .seed = seed,
-        .features = find_features(scene),
-    };
+    struct world w = scene_arrays(scene);
 
+    w.settings.sky = make_sky(scene, view);
+    lights_lend(&scene->lights, &w);
+    sky_lend(&scene->sky_table, &w);
+    w.settings.max_vertices =
+        view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;
+    w.settings.seed = seed;
+    w.settings.features = scene_features(scene);
     if (!view_check(view, "camera", err) ||
-        !make_camera(scene, view, &w.camera, err))
+        !make_camera(scene, view, &w.settings.camera, err))
         return false;
     *world = w;
     return true;
@@ -470,10 +551,13 @@ void scene_free(struct scene *scene)
     free(scene->tri_objects);
     free_strings(scene->object_names, scene->object_count);
     free(scene->materials);
+    free(scene->material_is_used);
     free_strings(scene->material_names, scene->material_count);
     free(scene->textures);
     free_strings(scene->texture_paths, scene->texture_count);
     free(scene->texels);
     free(scene->sky_texels);
+    lights_free(&scene->lights);
+    sky_free(&scene->sky_table);
     memset(scene, 0, sizeof *scene);
 }

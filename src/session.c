@@ -120,20 +120,6 @@ static bool crop_rect(const struct session *s, struct rect *rect,
     return true;
 }
 
-static bool create_render(struct session *s, struct error *err)
-{
-    int threads = s->options->thread_count;
-    struct backend *backend;
-
-    if (threads == 0)
-        threads = usable_threads();
-    backend = backend_cpu_create(threads, err);
-    if (!backend)
-        return false;
-    s->render = render_create(backend, err);
-    return s->render != NULL;
-}
-
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err)
 {
@@ -157,7 +143,10 @@ bool session_open(struct session *s, const struct options *options,
     view_copy(&s->opened, &s->view);
     s->load_ns = clock_ns() - begin_ns;
     s->geometry_changed = true;
-    return create_render(s, err);
+    if (!machines_open(&s->machines, options, err))
+        return false;
+    s->render = render_create(s->machines.cpu, err);
+    return s->render != NULL;
 }
 
 bool session_restart(struct session *s, uint64_t spp, struct error *err)
@@ -173,13 +162,21 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
     if (!render_start(s->render, &job, err))
         return false;
     s->geometry_changed = false;
+    if (session_uses_device(s) && spp == 0) /* there will be restarts */
+        machines_specialise(&s->machines, job.world.settings.features);
     return true;
+}
+
+bool session_uses_device(const struct session *s)
+{
+    return render_backend(s->render) != s->machines.cpu;
 }
 
 void session_close(struct session *s)
 {
     if (s->render)
         render_destroy(s->render); /* reads the scene until it returns */
+    machines_close(&s->machines);
     scene_free(&s->scene);
     view_free(&s->view);
     view_free(&s->opened);

@@ -76,6 +76,12 @@ static void write_object(FILE *to, const struct session *s)
     write_string(to, s->options->scene_path);
     fputs(",\n  \"backend\": ", to);
     write_string(to, backend->name);
+    if (backend->device) {
+        fputs(",\n  \"device\": ", to);
+        write_string(to, backend->device);
+        fputs(",\n  \"driver\": ", to);
+        write_string(to, backend->driver);
+    }
     fputs(",\n", to);
     write_number(to, "threads", (uint64_t)backend->thread_count);
     write_number(to, "seed", s->options->seed);

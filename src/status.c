@@ -15,14 +15,14 @@ enum field {
     FIELD_ELAPSED,
     FIELD_LEFT,
     FIELD_SPEED,
-    FIELD_THREADS,
+    FIELD_MACHINE,
     FIELD_SIZE,
     FIELD_COLORS,
     FIELDS
 };
 
 /* What goes first when there is no room. */
-static const enum field dispensable[] = {FIELD_COLORS,  FIELD_THREADS,
+static const enum field dispensable[] = {FIELD_COLORS,  FIELD_MACHINE,
                                          FIELD_SIZE,    FIELD_SPEED,
                                          FIELD_LEFT,    FIELD_ELAPSED,
                                          FIELD_PERCENT, FIELD_SAMPLES};
@@ -106,8 +106,11 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     const struct render_progress *p = s->progress;
 
     snprintf(text[FIELD_MODE], FIELD_BYTES, "%s", mode_word(s));
-    snprintf(text[FIELD_THREADS], FIELD_BYTES, "%d thread%s", s->thread_count,
-             s->thread_count == 1 ? "" : "s");
+    if (s->device)
+        snprintf(text[FIELD_MACHINE], FIELD_BYTES, "OpenCL %.24s", s->device);
+    else
+        snprintf(text[FIELD_MACHINE], FIELD_BYTES, "%d thread%s",
+                 s->thread_count, s->thread_count == 1 ? "" : "s");
     snprintf(text[FIELD_SIZE], FIELD_BYTES, "%dx%d", s->width_px, s->height_px);
     snprintf(text[FIELD_COLORS], FIELD_BYTES, "%s", s->colors);
     if (!s->is_live && !s->is_started)

@@ -36,6 +36,9 @@
 /* A lone ESC is the key when nothing has followed for so long. */
 #define ESCAPE_NS (50 * MS_NS)
 
+/* What the loop waits for: keys, signals, the render, the saver, a device. */
+#define FDS 5
+
 #define HELP_LINES_MAX 32
 #define HELP_LINE_MAX  64
 
@@ -269,6 +272,7 @@ static void act(struct tui *t, enum action action)
         t->canvas.has_status_row = !t->canvas.has_status_row;
         layout(t);
         break;
+    case ACTION_BACKEND: work_switch_backend(&t->work); break;
     case ACTION_COLORS: next_colors(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
     case ACTION_REDRAW: layout(t); break;
@@ -385,12 +389,14 @@ static void take_signals(struct tui *t)
 static void format_status(struct tui *t, char text[STATUS_BYTES])
 {
     const struct film *film = film_of(t);
+    const struct backend *backend = render_backend(t->work.session->render);
     struct status status = {
         .is_live = t->work.is_live,
         .is_halted = t->work.is_halted,
         .is_started = t->work.is_started,
         .progress = &t->work.progress,
-        .thread_count = render_backend(t->work.session->render)->thread_count,
+        .device = backend->device,
+        .thread_count = backend->thread_count,
         .width_px = film->width,
         .height_px = film->height,
         .colors = palette_name(t->canvas.palette),
@@ -538,7 +544,7 @@ static void empty_events(int fd)
     }
 }
 
-static void take_events(struct tui *t, struct pollfd fds[4])
+static void take_events(struct tui *t, struct pollfd fds[FDS])
 {
     uint64_t now_ns;
 
@@ -551,6 +557,8 @@ static void take_events(struct tui *t, struct pollfd fds[4])
     }
     if (fds[3].revents)
         work_finish_saving(&t->work);
+    if (fds[4].revents)
+        work_end_device(&t->work);
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);
@@ -559,11 +567,13 @@ static void take_events(struct tui *t, struct pollfd fds[4])
 
 static void wait_for_events(struct tui *t)
 {
-    struct pollfd fds[4] = {
+    const struct cl_start *start = t->work.session->machines.start;
+    struct pollfd fds[FDS] = {
         {.fd = STDIN_FILENO, .events = POLLIN},
         {.fd = term_signal_fd(), .events = POLLIN},
         {.fd = render_event_fd(t->work.session->render), .events = POLLIN},
         {.fd = t->work.saver.event_fd, .events = POLLIN},
+        {.fd = start ? cl_start_event_fd(start) : -1, .events = POLLIN},
     };
     uint64_t now_ns = clock_ns();
     uint64_t until_ns = wake_ns(t, now_ns);
@@ -571,7 +581,7 @@ static void wait_for_events(struct tui *t)
     struct timespec pause = {(time_t)(pause_ns / S_NS),
                              (long)(pause_ns % S_NS)};
 
-    if (ppoll(fds, 4, until_ns == NEVER ? NULL : &pause, NULL) < 0)
+    if (ppoll(fds, FDS, until_ns == NEVER ? NULL : &pause, NULL) < 0)
         memset(fds, 0, sizeof fds); /* a signal: its byte is in the pipe */
     take_events(t, fds);
 }
@@ -618,6 +628,8 @@ static void close_screen(struct tui *t)
 {
     if (!t->is_gone)
         canvas_drain(&t->canvas, &t->input);
+    /* else it might put our signals back when they are no longer ours */
+    machines_abandon_device(&t->work.session->machines);
     term_close(t->is_gone);
     canvas_free(&t->canvas);
     render_halt(t->work.session->render);
@@ -640,6 +652,9 @@ bool tui_run(struct session *s, int *status, struct error *err)
     if (ok) {
         if (s->notice[0] != '\0')
             work_say_long(&t.work, s->notice);
+        /* not before: it puts back the signals that it has found */
+        if (s->options->backend != BACKEND_CPU)
+            work_begin_device(&t.work);
         loop(&t);
         close_screen(&t);
         *status = t.status;

@@ -32,6 +32,8 @@ enum key_id {
     KEY_MAX_BOUNCES,
     KEY_SKY_STRENGTH,
     KEY_SKY_ROTATION,
+    KEY_APERTURE,
+    KEY_FOCUS,
     KEY_EXPOSURE
 };
 
@@ -61,6 +63,9 @@ static const struct key {
      "a number from 0 to 1e30"},
     {"sky_rotation", KEY_SKY_ROTATION, 1, false, -1e6, 1e6,
      "an angle from -1e6 to 1e6 degrees"},
+    {"aperture", KEY_APERTURE, 1, false, 0, GREATEST,
+     "a number from 0 to 1e30"},
+    {"focus", KEY_FOCUS, 1, false, 0, GREATEST, "a number from 0 to 1e30"},
     {"exposure", KEY_EXPOSURE, 1, false, -100, 100,
      "a number of stops from -100 to 100"},
 };
@@ -136,6 +141,8 @@ static void store(struct reader *r, const struct key *key, const double *v)
     case KEY_MAX_BOUNCES: view->max_bounces = (int)v[0]; break;
     case KEY_SKY_STRENGTH: view->sky_strength = v[0]; break;
     case KEY_SKY_ROTATION: view->sky_rotation_deg = v[0]; break;
+    case KEY_APERTURE: view->aperture = v[0]; break;
+    case KEY_FOCUS: view->focus = v[0]; break;
     case KEY_EXPOSURE: view->exposure = v[0]; break;
     }
 }
@@ -344,6 +351,10 @@ static void write_keys(FILE *to, const struct view *v, const char *sky)
         write_numbers(to, "sky_strength", &v->sky_strength, 1);
     if (v->sky_rotation_deg < 0 || v->sky_rotation_deg > 0)
         write_numbers(to, "sky_rotation", &v->sky_rotation_deg, 1);
+    if (v->aperture > 0)
+        write_numbers(to, "aperture", &v->aperture, 1);
+    if (v->focus > 0)
+        write_numbers(to, "focus", &v->focus, 1);
     if (v->exposure < 0 || v->exposure > 0)
         write_numbers(to, "exposure", &v->exposure, 1);
 }

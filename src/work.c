@@ -35,6 +35,13 @@ void work_say_error(struct work *w, const char *text)
     w->message.is_error = true;
 }
 
+static void add_result(struct work *w, const char *text)
+{
+    w->results = xrealloc(w->results,
+                          ((size_t)w->result_count + 1) * sizeof w->results[0]);
+    w->results[w->result_count++] = xstrdup(text);
+}
+
 static void restart(struct work *w)
 {
     uint64_t spp = w->is_live ? 0 : w->session->options->spp;
@@ -65,6 +72,22 @@ bool work_awaits_picture(const struct work *w)
            w->progress.first_picture_ns == 0;
 }
 
+/* A device that fails is replaced by the CPU, which starts anew. */
+static void take_failure(struct work *w)
+{
+    struct session *s = w->session;
+    bool has_cpu = session_uses_device(s);
+    char *text = xformat("%s%s", w->progress.error.text,
+                         has_cpu ? "; the CPU renders" : "");
+
+    if (has_cpu) {
+        render_use(s->render, s->machines.cpu);
+        restart(w);
+    }
+    work_say_error(w, text);
+    free(text);
+}
+
 void work_look(struct work *w)
 {
     enum render_state before = w->progress.state;
@@ -73,7 +96,7 @@ void work_look(struct work *w)
     if (w->progress.state != before)
         w->has_changed = true;
     if (w->progress.state == RENDER_FAILED && before != RENDER_FAILED)
-        work_say_error(w, w->progress.error.text);
+        take_failure(w);
     /* A picture of the old place that has been begun is shown first, or a scene
      * that is slow to begin would never show anything on the way. */
     if (w->must_restart && !work_awaits_picture(w))
@@ -134,6 +157,75 @@ void work_start_or_halt(struct work *w)
     w->progress = render_progress(render);
 }
 
+/* ---- backends ---- */
+
+static void use(struct work *w, struct backend *backend)
+{
+    struct machines *m = &w->session->machines;
+    char *text;
+
+    render_use(w->session->render, backend);
+    restart(w);
+    if (backend == m->device)
+        text =
+            xformat("%s renders; self-test: %s", backend->device, m->verdict);
+    else
+        text = xstrdup("the CPU renders");
+    work_say(w, text);
+    free(text);
+}
+
+void work_begin_device(struct work *w)
+{
+    struct error err;
+
+    if (!machines_begin_device(&w->session->machines, FEATURES_ALL, &err))
+        work_say_error(w, err.text);
+}
+
+void work_switch_backend(struct work *w)
+{
+    struct machines *m = &w->session->machines;
+
+    if (!w->is_live) {
+        work_say(w, "the backend changes in live mode: space goes there");
+    } else if (session_uses_device(w->session)) {
+        use(w, m->cpu);
+    } else if (m->device != NULL) {
+        use(w, m->device);
+    } else {
+        work_say_long(w, "OpenCL: waiting for the device");
+        if (m->start == NULL)
+            work_begin_device(w);
+    }
+}
+
+void work_end_device(struct work *w)
+{
+    struct machines *m = &w->session->machines;
+    struct error err;
+    char *log;
+
+    if (machines_end_specialising(m))
+        return;
+    if (machines_end_device(m, &log, &err)) {
+        if (w->is_live)
+            use(w, m->device);
+        else
+            work_say(w, "OpenCL: the device is up: b takes it in live mode");
+    } else if (w->session->options->backend == BACKEND_AUTO) {
+        work_say(w, err.text);
+    } else {
+        work_say_error(w, err.text);
+        if (log != NULL && *log != '\0')
+            add_result(w, log);
+        add_result(w, err.text);
+    }
+    free(log);
+}
+
+/* ---- files ---- */
+
 /* The scene's name in the current folder, without its ending. */
 static char *picture_stem(const struct work *w)
 {
@@ -166,13 +258,6 @@ void work_save_picture(struct work *w)
         work_say_error(w, err.text);
     }
     free(stem);
-}
-
-static void add_result(struct work *w, const char *text)
-{
-    w->results = xrealloc(w->results,
-                          ((size_t)w->result_count + 1) * sizeof w->results[0]);
-    w->results[w->result_count++] = xstrdup(text);
 }
 
 bool work_finish_saving(struct work *w)

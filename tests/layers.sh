@@ -13,8 +13,8 @@ cd "$(dirname "$0")/.." || exit 1
 HEADERLESS='main stb backend_cpu'
 
 {
-    find src include kernels scenes tests -name '*.[ch]'
-    find scenes tests .ci -name '*.sh' -o -path .ci/run
+    find src include kernels scenes tests -name '*.[ch]' -o -name '*.cl'
+    find kernels scenes tests .ci -name '*.sh' -o -path .ci/run
 } | sort | awk -v headerless="$HEADERLESS" '
 function fault(text)
 {
@@ -64,6 +64,8 @@ function check_include(name, is_system,    kernel)
             fault("kernels include libc only in dialect.h: <" name ">")
         if (name ~ /curses|^term(info|cap)?\.h$/ && stem !~ /^(tui.*|term)$/)
             fault("only tui and term include <" name ">")
+        if (name ~ /^CL\// && stem !~ /^(cl_.*|backend_cl)$/)
+            fault("only cl_* and backend_cl include <" name ">")
         return
     }
     if (kernel && name !~ /^kernels\//)
@@ -111,6 +113,8 @@ function check_file(    line, number, head, is_ours, is_licensed)
             fault("line " number ": atoi, atof and strtok hide errors")
         if (line ~ /(^|[^a-z_A-Z0-9])_?exit\(/ && path !~ /^src\/(main|util)\.c$/)
             fault("line " number ": only main ends the program")
+        if (line ~ /(^|[^a-z_A-Z0-9])v?fork\(/)
+            fault("line " number ": OpenCL does not survive fork: posix_spawn")
     }
     close(path)
     if (!is_licensed)

@@ -7,6 +7,10 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build/release}
+# what PoCL has compiled, apart from the person's own
+POCL_CACHE_DIR=$(realpath "$BUILD")/pocl
+export POCL_CACHE_DIR
+export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
 SAN=${SAN-}
 FILTER=${FILTER-}
 log=$(mktemp)

@@ -21,23 +21,29 @@ enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 struct pass {
     int stride;
     uint64_t target;
-    uint32_t order; /* shuffles the blocks */
+    uint32_t samples; /* that a pixel lacks, at most; up to SAMPLE_BLOCK */
+    uint32_t order;   /* shuffles the blocks */
 };
 
 struct backend {
-    const char *name; /* "cpu" */
+    const char *name;   /* "cpu", "opencl" */
+    const char *device; /* its name and that of its driver's version, */
+    const char *driver; /* or NULL */
     int thread_count;
 
-    /* New geometry: builds what the ray queries need. The arrays of `world`
+    /* New geometry: builds what the ray queries need. The arrays of the world
      * must stay until the next load() or destroy(). */
     bool (*load)(struct backend *b, const struct world *world,
                  struct error *err);
 
-    /* Renders into the film, whose corner is pixel (x0, y0) of the picture.
-     * `world` may differ from load()'s in all but its triangles. */
-    enum pass_result (*pass)(struct backend *b, const struct world *world,
-                             struct film *film, int x0, int y0,
-                             const struct pass *pass,
+    /* A new picture: the film is empty, its corner is pixel (x0, y0) of the
+     * whole. The world may differ from load()'s in all but its triangles; its
+     * arrays and the film must stay until the last pass(). */
+    bool (*begin)(struct backend *b, const struct world *world,
+                  struct film *film, int x0, int y0, struct error *err);
+
+    /* Renders into the film of begin(), which has it all at the end. */
+    enum pass_result (*pass)(struct backend *b, const struct pass *pass,
                              const struct cancel *cancel, struct error *err);
 
     void (*destroy)(struct backend *b);

@@ -20,8 +20,7 @@
 #include <stdatomic.h>
 
 #include "glim/util.h"
-#include "kernels/path_types.h"
-#include "kernels/sum.h"
+#include "kernels/pixel.h"
 
 #define FILM_LOCKS 64
 
@@ -58,6 +57,14 @@ uint64_t film_count(const struct film *film, int x, int y);
  * samples[i * 8 + s] is sample s of pixel i, and counts[i] says how many. */
 void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
                   const struct path_sample *samples, const int *counts);
+
+/* Replaces a row, for a device that keeps sums of its own: 3 sums and a count
+ * for each pixel. */
+void film_store_row(struct film *film, int y, const struct sum *sums,
+                    const uint64_t *counts);
+
+/* Counts samples of which the sums are stored elsewhere or later. */
+void film_count_more(struct film *film, const struct tally *tally);
 
 /* Linear means, 3 floats a pixel, row 0 at the top. */
 void film_linear(struct film *film, float *rgb);

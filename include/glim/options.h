@@ -23,6 +23,12 @@ enum glyph_mode {
     GLYPH_ASCII  /* brightness as characters */
 };
 
+enum backend_choice {
+    BACKEND_CPU,
+    BACKEND_OPENCL,
+    BACKEND_AUTO /* a GPU through OpenCL where there is one, else the CPU */
+};
+
 struct options {
     const char *scene_path;
     const char *view_path;   /* NULL: beside the scene */
@@ -39,11 +45,18 @@ struct options {
     bool up_is_z;
     bool has_crop;
     struct rect crop;
-    bool phoe_keys; /* W S A D Q E as phoe_ray had them */
+    enum backend_choice backend;
+    bool has_backend;
+    const char *device;       /* number or a part of a name; NULL: the best */
+    const char *kernels_path; /* NULL: the kernels within the program */
+    bool phoe_keys;           /* W S A D Q E as phoe_ray had them */
     enum color_mode color;
     enum glyph_mode glyph;
     double cell_aspect; /* height of a cell over its width; 0: ask */
     bool show_help, show_version;
+    bool list_devices; /* then there need be no scene */
+    bool probe;        /* cl_probe.h: this is the copy; nor need there then */
+    uint32_t features; /* that it tries */
 };
 
 /* Fills *o from argv, and for the screen from GLIM_COLOR. */

@@ -19,23 +19,24 @@
 
 #include "glim/util.h"
 
+/* An OpenCL kernel looks at it as one 32-bit word. */
 struct cancel {
-    atomic_bool requested;
+    atomic_uint requested;
 };
 
 static inline void cancel_request(struct cancel *c)
 {
-    atomic_store_explicit(&c->requested, true, memory_order_release);
+    atomic_store_explicit(&c->requested, 1, memory_order_release);
 }
 
 static inline void cancel_reset(struct cancel *c)
 {
-    atomic_store_explicit(&c->requested, false, memory_order_relaxed);
+    atomic_store_explicit(&c->requested, 0, memory_order_relaxed);
 }
 
 static inline bool cancel_requested(const struct cancel *c)
 {
-    return atomic_load_explicit(&c->requested, memory_order_relaxed);
+    return atomic_load_explicit(&c->requested, memory_order_relaxed) != 0;
 }
 
 typedef void pool_job(void *context, uint32_t item, int worker);

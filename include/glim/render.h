@@ -7,8 +7,8 @@
  * sizes follow sample counts, never the clock.
  *
  * Units:     samples a pixel (spp), pixels, nanoseconds
- * Ownership: render_create() takes the backend over; the world's arrays stay
- *            the caller's and must live until render_halt() or _destroy()
+ * Ownership: the backend and the world's arrays stay the caller's and must
+ *            live until render_use(), render_halt() or render_destroy()
  * Threads:   all functions from one thread (the main one), except
  *            render_halt_async() from any
  * Errors:    render_start() for memory; a failing backend shows in the progress
@@ -26,7 +26,7 @@ struct rect {
 struct render_job {
     struct world world;
     bool geometry_changed; /* since the last start: the backend loads anew */
-    struct rect crop;      /* in the picture that world.camera has */
+    struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
 };
 
@@ -63,6 +63,10 @@ struct render *render_create(struct backend *backend, struct error *err);
 bool render_start(struct render *r, const struct render_job *job,
                   struct error *err);
 
+/* Halts what runs; from the next start on, which loads the geometry anew, this
+ * backend renders. */
+void render_use(struct render *r, struct backend *backend);
+
 /* Returns when every worker is parked; the film keeps what it has. */
 void render_halt(struct render *r);
 
@@ -85,7 +89,7 @@ struct render_progress render_progress(struct render *r);
 /* For reading: film_preview(), film_resolve(), film_linear(), picture_write().
  * Valid until the next render_start() with another size. */
 struct film *render_film(struct render *r);
-const struct backend *render_backend(const struct render *r);
+struct backend *render_backend(const struct render *r);
 
 void render_destroy(struct render *r);
 

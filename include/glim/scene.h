@@ -14,7 +14,9 @@
 #ifndef GLIM_SCENE_H
 #define GLIM_SCENE_H
 
+#include "glim/lights.h"
 #include "glim/report.h"
+#include "glim/sky.h"
 #include "glim/util.h"
 #include "glim/view.h"
 #include "kernels/types.h"
@@ -42,6 +44,7 @@ struct scene {
 
     struct material *materials; /* 0 is the default material, "" */
     char **material_names;
+    bool *material_is_used; /* by a triangle; from scene_finish() */
     uint32_t material_count;
 
     struct texture *textures;
@@ -52,12 +55,14 @@ struct scene {
 
     struct vec3 *sky_texels; /* NULL: no image */
     uint32_t sky_width, sky_height;
+    struct sky_table sky_table;
 
     /* stored = (file - center) * scale */
     double center[3];
     double scale;
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
     bool has_emitters;
+    struct lights lights;
     float linear_of_srgb[256];
 };
 
@@ -84,6 +89,11 @@ void scene_frame(const struct scene *scene, struct view *view);
  */
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err);
+
+/* What the scene needs, of enum feature; and what a material of it needs. */
+uint32_t scene_features(const struct scene *scene);
+uint32_t scene_material_features(const struct scene *scene,
+                                 const struct material *material);
 
 /* True if the view's up runs along its direction: scene_world() then takes
  * another axis for it. */

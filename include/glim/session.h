@@ -11,6 +11,7 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
+#include "glim/machines.h"
 #include "glim/options.h"
 #include "glim/render.h"
 #include "glim/scene.h"
@@ -23,6 +24,7 @@ struct session {
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
+    struct machines machines;
     struct render *render;
     uint64_t start_ns; /* of the program */
     uint64_t load_ns;
@@ -38,6 +40,9 @@ bool session_open(struct session *s, const struct options *options,
 
 /* Halts and starts from sample 0 with the current view. spp 0: no limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
+
+/* True if an OpenCL device renders. */
+bool session_uses_device(const struct session *s);
 
 void session_close(struct session *s);
 

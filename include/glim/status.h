@@ -19,6 +19,7 @@ struct status {
     bool is_halted;  /* normal mode: by the person, or not yet started */
     bool is_started; /* normal mode: a render was begun */
     const struct render_progress *progress;
+    const char *device; /* NULL: the CPU, with so many threads */
     int thread_count;
     int width_px, height_px;
     const char *colors; /* "24 bit" */

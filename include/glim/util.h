@@ -4,8 +4,8 @@
  *
  * Units:     nanoseconds, bytes
  * Ownership: what alloc_array() and the x functions return is for free()
- * Threads:   all functions from any thread; the hook is set before threads
- * start Errors:    fail() makes them; xmalloc() and friends never return NULL
+ * Threads:   any; the hook is set before they start
+ * Errors:    fail() makes them; xmalloc() and friends never return NULL
  */
 #ifndef GLIM_UTIL_H
 #define GLIM_UTIL_H

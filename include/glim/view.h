@@ -29,6 +29,8 @@ struct view {
     char *sky_path;  /* NULL: none */
     double sky_strength;
     double sky_rotation_deg;
+    double aperture; /* diameter of the lens; 0: a pinhole */
+    double focus;    /* from eye to the sharp plane; 0: as far as at */
     double exposure; /* stops: the picture is multiplied by 2^exposure */
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * work.h - what the screen renders and what of it is saved: live and normal
- * mode, starting and halting, pictures and views as files, messages about it
+ * mode, starting and halting, on which backend, pictures and views as files,
+ * messages about it
  *
  * Live mode renders without a limit and starts anew at every change. Normal
  * mode renders one view to the samples of -s; it can be halted, and what it has
@@ -69,6 +70,16 @@ bool work_may_move(struct work *w);
 void work_set_live(struct work *w, bool is_live);
 
 void work_start_or_halt(struct work *w);
+
+/* From the CPU to the OpenCL device, which is brought up first if need be, or
+ * back. A new picture begins: no film is made by both. */
+void work_switch_backend(struct work *w);
+
+/* Brings the device up in the background; the CPU draws on. */
+void work_begin_device(struct work *w);
+
+/* The start's event_fd is readable: takes the device, or says why not. */
+void work_end_device(struct work *w);
 
 /* Begins to save the picture as STEM.png or the next free name in the current
  * folder. The saver's event_fd says when work_finish_saving() has the result.

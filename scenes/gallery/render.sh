@@ -14,9 +14,9 @@ render() # scene, width, samples
     echo "scenes/gallery/$1.png"
 }
 
-render cornell 240 2000
-render materials 320 1000
-render glass_mirror 320 2000
-render interior 320 2000
+render cornell 240 1000
+render materials 320 600
+render glass_mirror 320 1000
+render interior 320 1000
 render skylit 320 1000
-render lights200 320 4000
+render lights200 320 3000

@@ -3,12 +3,14 @@
  * halts - how long from the request to halt until every worker is parked, and
  * from a restart until the first whole (coarse) picture
  *
- * usage: halts SCENE [COUNT]
+ * usage: halts SCENE [COUNT [opencl]]
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "glim/backend_cl.h"
+#include "glim/cl_environment.h"
 #include "glim/session.h"
 
 static int compare(const void *a, const void *b)
@@ -30,6 +32,19 @@ static void print_row(const char *what, uint64_t *times_ns, int count)
     printf(" %8.3f\n", (double)times_ns[count - 1] * 1e-6);
 }
 
+/* The OpenCL device that there is. */
+static bool use_device(struct session *s, struct error *err)
+{
+    struct cl_request request = {.features = scene_features(&s->scene)};
+    char *log;
+
+    s->machines.device = backend_cl_create(&request, &log, err);
+    if (s->machines.device == NULL)
+        return false;
+    render_use(s->render, s->machines.device);
+    return true;
+}
+
 int main(int argc, char **argv)
 {
     struct options o = {.scene_path = argc > 1 ? argv[1] : NULL,
@@ -41,8 +56,9 @@ int main(int argc, char **argv)
     struct error err;
     uint64_t random = 1;
 
+    cl_environment_prepare(0);
     if (argc < 2 || !session_open(&s, &o, clock_ns(), &err) ||
-        !session_restart(&s, 0, &err)) {
+        (argc > 3 && !use_device(&s, &err)) || !session_restart(&s, 0, &err)) {
         fprintf(stderr, "halts: %s\n", argc < 2 ? "no scene" : err.text);
         return 1;
     }

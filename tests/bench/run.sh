@@ -89,6 +89,29 @@ bench_halts() {
     done
 }
 
+# OpenCL against the CPU: speed, halting, the first and a later start.
+bench_device() {
+    echo
+    echo 'device: OpenCL against the CPU, 480x270, 16 spp, medians of 5'
+    if ! "$build/glim" --list-devices; then
+        return 0
+    fi
+    for n in 1 $(nproc); do
+        "$build/bench/device" "$n" scenes/cornell.obj scenes/materials.obj \
+            scenes/glass_mirror.obj scenes/interior.obj scenes/skylit.obj \
+            scenes/lights200.obj
+    done
+    for scene in scenes/cornell.obj scenes/interior.obj; do
+        "$build/bench/halts" "$scene" 1000 opencl
+    done
+    for start in cold warm warm; do
+        POCL_CACHE_DIR="$work/pocl" "$build/glim" -b --backend opencl -s 1 \
+            -w 64 -h 36 --stats "$work/start.json" -o "$work/start.pfm" \
+            scenes/cornell.obj 2>"$work/start.log"
+        echo "$start start: first picture after $(value first_picture_s start) s"
+    done
+}
+
 # Loading: a million triangles of text.
 bench_load() {
     echo
@@ -101,8 +124,14 @@ bench_load() {
         "build_s $(value build_s load)"
 }
 
+bench_sampling() {
+    echo
+    echo 'sampling: nanoseconds on one core'
+    "$build/bench/sampling"
+}
+
 machine
-for name in threads sharing halts load; do
+for name in threads sharing halts load device sampling; do
     if wanted "$name"; then
         "bench_$name"
     fi

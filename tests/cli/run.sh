@@ -20,8 +20,10 @@ export PATH CLI root
 # an allocation that fails is a message of ours, also under the sanitizers
 ASAN_OPTIONS=allocator_may_return_null=1:${ASAN_OPTIONS-}
 TSAN_OPTIONS=allocator_may_return_null=1:${TSAN_OPTIONS-}
+LSAN_OPTIONS=suppressions=$root/tests/tools/lsan.supp:print_suppressions=0
 LC_ALL=C
-export ASAN_OPTIONS TSAN_OPTIONS LC_ALL
+POCL_CACHE_DIR=$build/pocl
+export ASAN_OPTIONS LSAN_OPTIONS TSAN_OPTIONS LC_ALL POCL_CACHE_DIR
 unset NO_COLOR GLIM_COLOR COLORTERM
 
 if [ ! -x "$build/glim" ]; then

@@ -17,7 +17,8 @@ esac
 PATH=$build:$PATH
 SCREEN=$root/tests/screen
 LC_ALL=C.UTF-8
-export PATH SCREEN LC_ALL root
+POCL_CACHE_DIR=$build/pocl
+export PATH SCREEN LC_ALL POCL_CACHE_DIR root
 unset NO_COLOR GLIM_COLOR COLORTERM TMUX STY TERM
 
 if [ ! -x "$build/glim" ]; then

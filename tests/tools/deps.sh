@@ -55,6 +55,20 @@ need_header() # header, package
     fi
 }
 
+need_library() # its file, package
+{
+    case $($compiler -print-file-name="$1" 2>/dev/null) in
+    */*) note "$2" 0 ;;
+    *) note "$2" 1 ;;
+    esac
+}
+
+need_driver() # its file for the OpenCL loader, package
+{
+    test -e "${OCL_ICD_VENDORS:-/etc/OpenCL/vendors}/$1"
+    note "$2" $?
+}
+
 look()
 {
     missing=
@@ -71,9 +85,12 @@ look()
             fi
             need_header stb/stb_image.h libstb-dev
             need_header curses.h libncurses-dev
+            need_header CL/cl.h opencl-c-headers
             ;;
         test)
             need_header cmocka.h libcmocka-dev
+            need_library libOpenCL.so.1 ocl-icd-libopencl1
+            need_driver pocl.icd pocl-opencl-icd
             need_program tmux tmux
             need_program mandoc mandoc
             ;;

@@ -15,6 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -47,6 +48,26 @@ static inline void check_at_most_at(double got, double bound, const char *what,
 
 #define check_at_most(got, bound) \
     check_at_most_at(got, bound, #got, __FILE__, __LINE__)
+
+/* Prints the text, which says why, if the check fails. */
+#define check_or_say(ok, text)         \
+    do {                               \
+        if (!(ok)) {                   \
+            print_error("%s\n", text); \
+            _fail(__FILE__, __LINE__); \
+        }                              \
+    } while (0)
+
+static inline void check_has_at(const char *text, const char *part,
+                                const char *file, int line)
+{
+    if (strstr(text, part))
+        return;
+    print_error("found no '%s' in '%s'\n", part, text);
+    _fail(file, line);
+}
+
+#define check_has(text, part) check_has_at(text, part, __FILE__, __LINE__)
 
 /* Numbers in [0, 1) for tests: not those of the program. (splitmix64) */
 static inline double check_random(uint64_t *state)

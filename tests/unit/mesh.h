@@ -123,10 +123,12 @@ static inline void mesh_finish(struct mesh *m)
 
     w->positions = m->positions;
     w->tris = m->tris;
-    w->tri_count = m->tri_count;
+    w->settings.tri_count = m->tri_count;
+    w->settings.position_count = 3 * m->tri_count;
+    w->settings.material_count = 4;
     w->materials = m->materials;
-    if (w->max_vertices == 0)
-        w->max_vertices = 1000;
+    if (w->settings.max_vertices == 0)
+        w->settings.max_vertices = 1000;
     assert_true(bvh_build(&m->bvh, w, &err));
     w->nodes = m->bvh.nodes;
     w->leaf_tris = m->bvh.leaf_tris;

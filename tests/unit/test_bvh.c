@@ -14,7 +14,7 @@ static bool brute_force(const struct world *w, struct ray r, struct hit *best)
 
     best->t = r.t_max;
     best->tri = NO_INDEX;
-    for (uint32_t i = 0; i < w->tri_count; i++) {
+    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct hit h;
 
         if (!triangle_hit(r, s, w->positions[w->tris[i].v[0]],
@@ -74,16 +74,18 @@ static void compare(struct mesh *m, int rays, uint64_t seed)
         bool found = brute_force(&m->world, r, &a);
 
         assert_true(hit_closest(&m->world, r, &b) == found);
-        assert_true(hit_any(&m->world, r) == found);
+        assert_true(hit_any(&m->world, r, NO_INDEX) == found);
         if (!found)
             continue;
         hits++;
         assert_true(a.tri == b.tri && a.t == b.t && a.b0 == b.b0 &&
                     a.b1 == b.b1 && a.b2 == b.b2);
         r.t_max = a.t;
-        assert_true(hit_any(&m->world, r));
+        assert_true(hit_any(&m->world, r, NO_INDEX));
+        assert_false(hit_any(&m->world, r, a.tri));
+        assert_true(hit_any(&m->world, r, a.tri + 1));
         r.t_max = nextafterf(a.t, 0.0f);
-        assert_false(hit_any(&m->world, r));
+        assert_false(hit_any(&m->world, r, NO_INDEX));
     }
     assert_true(hits > rays / 20);
     mesh_free(m);
@@ -215,7 +217,7 @@ static void empty_worlds_are_missed(void **state)
     (void)state;
     mesh_finish(&m);
     assert_false(hit_closest(&m.world, r, &h));
-    assert_false(hit_any(&m.world, r));
+    assert_false(hit_any(&m.world, r, NO_INDEX));
     mesh_free(&m);
 }
 

@@ -223,7 +223,8 @@ static void holes_are_cut_by_their_map(void **state)
     write_image("two.tga", 2, 1, 3, two);
     write_image("leaf.tga", 2, 1, 4, leaf);
     load(&l, "Kd .3\nmap_d two.tga");
-    assert_int_equal(l.world.features & FEATURE_COVERAGE, FEATURE_COVERAGE);
+    assert_int_equal(l.world.settings.features & FEATURE_COVERAGE,
+                     FEATURE_COVERAGE);
     assert_false(is_solid(&l, 0.25f, 0.25f));
     assert_true(is_solid(&l, 0.75f, 0.125f));
     unload(&l);
@@ -232,7 +233,7 @@ static void holes_are_cut_by_their_map(void **state)
     assert_true(is_solid(&l, 0.75f, 0.125f));
     unload(&l);
     load(&l, "Kd .3\nmap_Kd two.tga"); /* no holes, nothing to pay */
-    assert_int_equal(l.world.features & FEATURE_COVERAGE, 0);
+    assert_int_equal(l.world.settings.features & FEATURE_COVERAGE, 0);
     unload(&l);
 }
 
@@ -241,8 +242,7 @@ static const struct vec3 up = {0, 0, 1};
 static struct vec3 bumped(const struct loaded *l, float u, float v,
                           struct vec3 wo)
 {
-    return bumped_normal(&l->world, &l->material, l->scene.tris[0], v2(u, v),
-                         up, up, wo);
+    return bumped_normal(&l->world, l->scene.tris[0], v2(u, v), up, up, wo);
 }
 
 static void check_direction(struct vec3 n, double x, double y, double z)

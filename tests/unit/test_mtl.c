@@ -136,6 +136,31 @@ static void test_emission(void **state)
     check_color(one("Ke 1 1e400 2", 1).emission, 1, 0, 2);
 }
 
+static double luminance(struct vec3 c)
+{
+    return 0.2126 * (double)c.x + 0.7152 * (double)c.y + 0.0722 * (double)c.z;
+}
+
+/* Colours are test_blackbody's business. */
+static void test_black_bodies(void **state)
+{
+    struct vec3 c = one("Kd 0 0 0\nKe_blackbody 2000", 0).emission;
+
+    (void)state;
+    check_close(luminance(c), 1, 1e-3);
+    assert_true(c.x > c.y && c.y > c.z);
+    check_close(luminance(one("Ke_blackbody 6500 25", 0).emission), 25, 0.02);
+    check_close(luminance(one("Ke 3 3 3\nKe_blackbody 5e3 2", 0).emission), 2,
+                2e-3);
+    check_color(one("Ke_blackbody 5000 2\nKe 3", 0).emission, 3, 3, 3);
+    check_color(one("Ke_blackbody 0", 0).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody 5000 0", 0).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody -5", 1).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody nan", 1).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody 1e30 4", 1).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody 5000 -1", 1).emission, 0, 0, 0);
+}
+
 static void test_colors_are_clamped(void **state)
 {
     (void)state;
@@ -444,6 +469,7 @@ int main(void)
         cmocka_unit_test(test_kinds),
         cmocka_unit_test(test_coats),
         cmocka_unit_test(test_emission),
+        cmocka_unit_test(test_black_bodies),
         cmocka_unit_test(test_colors_are_clamped),
         cmocka_unit_test(test_impossible_values),
         cmocka_unit_test(test_opacity),

@@ -78,7 +78,10 @@ static void test_defaults(void **state)
     assert_int_equal(o.color, COLOR_AUTO);
     assert_int_equal(o.glyph, GLYPH_AUTO);
     assert_true(o.cell_aspect == 0.0);
-    assert_false(o.show_help || o.show_version);
+    assert_false(o.show_help || o.show_version || o.list_devices);
+    assert_int_equal(o.backend, BACKEND_CPU);
+    assert_null(o.device);
+    assert_null(o.kernels_path);
 }
 
 static void test_every_option(void **state)
@@ -226,6 +229,41 @@ static void test_crop(void **state)
     }
 }
 
+static void test_backend(void **state)
+{
+    (void)state;
+    assert_int_equal(good("a --backend cpu").backend, BACKEND_CPU);
+    assert_int_equal(good("a --backend opencl").backend, BACKEND_OPENCL);
+    assert_int_equal(good("a --backend auto").backend, BACKEND_AUTO);
+    assert_int_equal(good("a --device 2").backend, BACKEND_OPENCL);
+    assert_int_equal(good("a --kernels k").backend, BACKEND_OPENCL);
+    assert_int_equal(good("a --device x --backend auto").backend, BACKEND_AUTO);
+    assert_int_equal(good("a --backend auto --kernels k").backend,
+                     BACKEND_AUTO);
+    assert_string_equal(good("a --device rtx").device, "rtx");
+    assert_string_equal(good("a --kernels=k/l").kernels_path, "k/l");
+    bad("a --backend cuda",
+        "--backend: found 'cuda', expected cpu, opencl or auto");
+    bad("a --device=", "--device: found '', expected the number or name of a "
+                       "device");
+    bad("a --device 1 --backend cpu",
+        "--device: is for OpenCL, expected no --backend cpu beside it");
+    bad("--backend cpu a --kernels k",
+        "--kernels: is for OpenCL, expected no --backend cpu beside it");
+}
+
+static void test_list_devices(void **state)
+{
+    struct options o = good("--list-devices -t 3");
+
+    (void)state;
+    assert_true(o.list_devices);
+    assert_null(o.scene_path);
+    assert_int_equal(o.thread_count, 3);
+    bad("--list-devices -t 0",
+        "-t: found '0', expected a whole number from 1 to 1024");
+}
+
 static void test_together(void **state)
 {
     (void)state;
@@ -255,6 +293,7 @@ int main(void)
         cmocka_unit_test(test_words),    cmocka_unit_test(test_spelling),
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_help),
         cmocka_unit_test(test_crop),     cmocka_unit_test(test_together),
+        cmocka_unit_test(test_backend),  cmocka_unit_test(test_list_devices),
     };
 
     return cmocka_run_group_tests_name("options", tests, NULL, NULL);

@@ -22,7 +22,8 @@ static struct estimate look(const struct world *w, struct vec3 eye,
     for (int i = 0; i < n; i++) {
         struct ray r = {eye, v3_unit(v3_sub(at, eye)), FLOAT_MAX, 0};
         struct path_sample s =
-            path_trace(w, r, sampler_start(1, 2, (uint64_t)i, w->seed));
+            path_trace(w, r,
+                       sampler_start(1, 2, (uint64_t)i, w->settings.seed));
 
         assert_int_equal(s.cut, 0);
         sum += (double)s.radiance.x;
@@ -56,11 +57,12 @@ static void furnace_shows_its_series(void **state)
             m.materials[0] = mesh_material(MATERIAL_DIFFUSE, rhos[k]);
             m.materials[0].emission = v3(2, 2, 2);
             mesh_add_box(&m, v3(-1, -1, -1), v3(1, 1, 1), 0);
-            m.world.max_vertices = d > 1000 ? 1000 : d;
+            m.world.settings.max_vertices = d > 1000 ? 1000 : d;
             mesh_finish(&m);
             e = look(&m.world, v3(0.1f, 0.2f, 0.3f), v3(1, 0, 0), 40000);
             check_estimate(e,
-                           2 * (1 - pow(rho, m.world.max_vertices)) / (1 - rho),
+                           2 * (1 - pow(rho, m.world.settings.max_vertices)) /
+                               (1 - rho),
                            2e-6);
             mesh_free(&m);
         }
@@ -75,7 +77,7 @@ static double furnace_error(struct material material, int n)
     double worst = 0;
 
     m.materials[0] = material;
-    m.world.sky.color = v3(1, 1, 1);
+    m.world.settings.sky.color = v3(1, 1, 1);
     mesh_add_sphere(&m, v3(0, 0, 0), 0.5f, 24, 40, 0);
     mesh_finish(&m);
     for (int i = 0; i < n; i++) {
@@ -129,7 +131,7 @@ static void white_rough_things_vanish(void **state)
         m.materials[0] = mesh_material(things[i].kind, 1.0f);
         m.materials[0].alpha = 0.4f;
         m.materials[0].coat = v3(0.04f, 0.04f, 0.04f);
-        m.world.sky.color = v3(1, 1, 1);
+        m.world.settings.sky.color = v3(1, 1, 1);
         mesh_add_sphere(&m, v3(0, 0, 0), 0.5f, 24, 40, 0);
         mesh_finish(&m);
         check_estimate(look(&m.world, v3(0, 0, 3), v3(0.2f, 0.1f, 0.1f),
@@ -247,7 +249,7 @@ static void total_reflection_ends(void **state)
 
     (void)state;
     m.materials[0] = mesh_material(MATERIAL_GLASS, 1.0f);
-    m.world.sky.color = v3(1, 1, 1);
+    m.world.settings.sky.color = v3(1, 1, 1);
     mesh_add_box(&m, v3(-0.5f, -0.5f, -0.5f), v3(0.5f, 0.5f, 0.5f), 0);
     mesh_finish(&m);
     for (int i = 0; i < 1000; i++) {
@@ -272,8 +274,8 @@ static void opacity_passes_its_share(void **state)
     (void)state;
     m.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.0f);
     m.materials[0].opacity = 0.25f;
-    m.world.sky.color = v3(1, 1, 1);
-    m.world.features = FEATURE_COVERAGE;
+    m.world.settings.sky.color = v3(1, 1, 1);
+    m.world.settings.features = FEATURE_COVERAGE;
     for (int i = 0; i < 2; i++)
         mesh_add_quad(&m, v3(-1, -1, (float)i), v3(1, -1, (float)i),
                       v3(1, 1, (float)i), v3(-1, 1, (float)i), 0);

@@ -23,12 +23,12 @@ static void make_room(struct mesh *m)
     mesh_add_quad(m, v3(-0.4f, 0.99f, -0.4f), v3(0.4f, 0.99f, -0.4f),
                   v3(0.4f, 0.99f, 0.4f), v3(-0.4f, 0.99f, 0.4f), 1);
     mesh_add_sphere(m, v3(0, -0.5f, 0), 0.4f, 12, 20, 2);
-    m->world.camera = (struct camera){.eye = {0, 0, 0.95f},
-                                      .width = WIDTH,
-                                      .forward = {0, 0, -1},
-                                      .height = HEIGHT,
-                                      .right = {0.8f, 0, 0},
-                                      .up = {0, 0.5f, 0}};
+    m->world.settings.camera = (struct camera){.eye = {0, 0, 0.95f},
+                                               .width = WIDTH,
+                                               .forward = {0, 0, -1},
+                                               .height = HEIGHT,
+                                               .right = {0.8f, 0, 0},
+                                               .up = {0, 0.5f, 0}};
     mesh_finish(m);
 }
 
@@ -42,6 +42,14 @@ static struct render *open_render(int threads)
     r = render_create(backend, &err);
     assert_non_null(r);
     return r;
+}
+
+static void close_render(struct render *r)
+{
+    struct backend *backend = render_backend(r);
+
+    render_destroy(r);
+    backend->destroy(backend);
 }
 
 static struct render_job job_of(const struct mesh *m, uint64_t spp)
@@ -87,7 +95,7 @@ static void thread_counts_give_the_same_bits(void **state)
             assert_same_film(render_film(renders[0]), render_film(renders[i]));
     }
     for (int i = 0; i < 4; i++)
-        render_destroy(renders[i]);
+        close_render(renders[i]);
     mesh_free(&m);
 }
 
@@ -118,8 +126,8 @@ static void halts_do_not_show(void **state)
     render_resume(whole, 41); /* one more sample each */
     assert_true(render_wait(whole, 60000));
     assert_int_equal(render_progress(whole).samples, 41 * WIDTH * HEIGHT);
-    render_destroy(whole);
-    render_destroy(halted);
+    close_render(whole);
+    close_render(halted);
     mesh_free(&m);
 }
 
@@ -137,7 +145,7 @@ static void restarts_begin_anew(void **state)
     assert_true(render_start(r, &job, &err));
     for (int i = 0; i < 30; i++) {
         job.geometry_changed = false;
-        job.world.camera.eye.x = 0.01f * (float)i;
+        job.world.settings.camera.eye.x = 0.01f * (float)i;
         job.spp = i == 29 ? 5 : 0;
         usleep(1000);
         assert_true(render_start(r, &job, &err));
@@ -147,8 +155,8 @@ static void restarts_begin_anew(void **state)
     assert_true(render_wait(r, 60000));
     assert_true(render_wait(fresh, 60000));
     assert_same_film(render_film(r), render_film(fresh));
-    render_destroy(r);
-    render_destroy(fresh);
+    close_render(r);
+    close_render(fresh);
     mesh_free(&m);
 }
 
@@ -175,7 +183,7 @@ static void a_crop_is_part_of_the_whole(void **state)
         assert_memory_equal(part + 3 * 20 * y,
                             all + 3 * (WIDTH * (y + 21) + 33),
                             3 * 20 * sizeof *part);
-    render_destroy(r);
+    close_render(r);
     mesh_free(&m);
 }
 
@@ -204,8 +212,8 @@ static void doubled_faces_do_not_show(void **state)
     assert_true(render_wait(once, 60000));
     assert_true(render_wait(twice, 60000));
     assert_same_film(render_film(once), render_film(twice));
-    render_destroy(once);
-    render_destroy(twice);
+    close_render(once);
+    close_render(twice);
     mesh_free(&m);
     mesh_free(&doubled);
 }
@@ -228,7 +236,7 @@ static void the_end_is_an_event(void **state)
     while (read(render_event_fd(r), &events, sizeof events) < 0)
         usleep(100); /* it comes right after the state */
     assert_int_equal(events, 1);
-    render_destroy(r);
+    close_render(r);
     render_destroy(NULL);
     mesh_free(&m);
 }

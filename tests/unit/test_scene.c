@@ -197,7 +197,7 @@ static void test_no_faces(void **state)
     view_init(&view);
     scene_frame(&l.scene, &view);
     assert_true(scene_world(&l.scene, &view, 0, &world, &l.err));
-    assert_int_equal(world.tri_count, 0);
+    assert_int_equal(world.settings.tri_count, 0);
     view_free(&view);
     unload(&l);
 }
@@ -295,7 +295,7 @@ static void test_libraries(void **state)
 static void project(const struct scene *s, const struct world *w,
                     const double point[3], double *x, double *y, double *z)
 {
-    const struct camera *c = &w->camera;
+    const struct camera *c = &w->settings.camera;
     double d[3] = {(point[0] - s->center[0]) * s->scale - (double)c->eye.x,
                    (point[1] - s->center[1]) * s->scale - (double)c->eye.y,
                    (point[2] - s->center[2]) * s->scale - (double)c->eye.z};
@@ -374,19 +374,27 @@ static void test_camera(void **state)
     view.height_px = 100;
     assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
     /* the centre is 2 1 0 and the extent 4: a scale of 1/4 */
-    check_vec(w.camera.eye, 0, 0, 2);
-    check_vec(w.camera.forward, 0, 0, -1);
-    check_vec(w.camera.right, 2, 0, 0);
-    check_vec(w.camera.up, 0, 1, 0);
-    check_close((double)w.camera.width, 200, 0);
-    assert_int_equal(w.seed, 7);
-    assert_int_equal(w.max_vertices, 1000);
-    assert_int_equal(w.features, 0);
+    check_vec(w.settings.camera.eye, 0, 0, 2);
+    check_vec(w.settings.camera.forward, 0, 0, -1);
+    check_vec(w.settings.camera.right, 2, 0, 0);
+    check_vec(w.settings.camera.up, 0, 1, 0);
+    check_close((double)w.settings.camera.width, 200, 0);
+    assert_int_equal(w.settings.seed, 7);
+    assert_int_equal(w.settings.max_vertices, 1000);
+    assert_int_equal(w.settings.features, 0);
+    assert_true(w.settings.camera.lens_radius == 0);
+    view.aperture = 0.8; /* a radius of .4, and the distance to at: 8 */
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    check_close((double)w.settings.camera.lens_radius, 0.1, 1e-7);
+    check_close((double)w.settings.camera.focus, 2, 1e-6);
+    view.focus = 12;
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    check_close((double)w.settings.camera.focus, 3, 1e-6);
     view.max_bounces = 0;
     memcpy(view.up, (double[]){1e300, 1e300, 0}, sizeof view.up);
     assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
-    check_vec(w.camera.up, sqrt(.5), sqrt(.5), 0);
-    assert_int_equal(w.max_vertices, 1);
+    check_vec(w.settings.camera.up, sqrt(.5), sqrt(.5), 0);
+    assert_int_equal(w.settings.max_vertices, 1);
     view_free(&view);
     unload(&l);
 }
@@ -411,14 +419,14 @@ static void test_up_along_the_view(void **state)
         memcpy(view.at, (double[]){.5, 0, 0}, sizeof view.at);
         memcpy(view.up, ups[i], sizeof view.up);
         if (scene_world(&l.scene, &view, 0, &w, &l.err)) {
-            struct vec3 r = w.camera.right;
-            struct vec3 u = w.camera.up;
+            struct vec3 r = w.settings.camera.right;
+            struct vec3 u = w.settings.camera.up;
 
             dot = (double)(r.x * u.x + r.y * u.y + r.z * u.z);
             check_close(dot, 0, 1e-6);
             check_close((double)(r.x * r.x + r.y * r.y + r.z * r.z), 1, 1e-6);
             check_close((double)(u.x * u.x + u.y * u.y + u.z * u.z), 1, 1e-6);
-            check_vec(w.camera.forward, 0, -1, 0);
+            check_vec(w.settings.camera.forward, 0, -1, 0);
         } else {
             assert_true(i >= 2);
         }
@@ -457,8 +465,8 @@ static void test_sky(void **state)
     memcpy(view.eye, (double[]){0, 0, 3}, sizeof view.eye);
     memcpy(view.background, (double[]){.25, .5, 8}, sizeof view.background);
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
-    check_vec(w.sky.color, .25, .5, 8);
-    assert_int_equal(w.sky.width, 0);
+    check_vec(w.settings.sky.color, .25, .5, 8);
+    assert_int_equal(w.settings.sky.width, 0);
 
     put("two.png", two_texels, sizeof two_texels);
     view.sky_path = strdup("two.png");
@@ -467,11 +475,11 @@ static void test_sky(void **state)
     assert_true(scene_load_sky(&l.scene, &view, &l.report, &l.err));
     unlink("two.png");
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
-    check_vec(w.sky.color, 3, 3, 3);
-    assert_int_equal(w.sky.width, 2);
-    assert_int_equal(w.sky.height, 1);
-    check_close((double)w.sky.rotation_sin, 1, 1e-7);
-    check_close((double)w.sky.rotation_cos, 0, 1e-7);
+    check_vec(w.settings.sky.color, 3, 3, 3);
+    assert_int_equal(w.settings.sky.width, 2);
+    assert_int_equal(w.settings.sky.height, 1);
+    check_close((double)w.settings.sky.rotation_sin, 1, 1e-7);
+    check_close((double)w.settings.sky.rotation_cos, 0, 1e-7);
     check_vec(w.sky_texels[0], 1, 0.21586050, 0);
 
     assert_false(scene_load_sky(&l.scene, &view, &l.report, &l.err));
@@ -502,7 +510,8 @@ static void test_coverage(void **state)
         view_init(&view);
         scene_frame(&l.scene, &view);
         assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
-        assert_int_equal(w.features, i == 1 || i == 2 ? FEATURE_COVERAGE : 0);
+        assert_int_equal(w.settings.features & FEATURE_COVERAGE,
+                         i == 1 || i == 2 ? FEATURE_COVERAGE : 0);
         view_free(&view);
         unload(&l);
     }

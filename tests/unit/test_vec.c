@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "kernels/rng.h"
 #include "kernels/sample.h"
 #include "kernels/vec.h"
 
@@ -66,57 +65,6 @@ static void steps_are_nextafter(void **state)
     }
 }
 
-/* STRESS C9: no bits give 1. */
-static void unit_floats_stay_below_one(void **state)
-{
-    (void)state;
-    assert_true(unit_float(0) == 0.0f);
-    for (uint32_t i = 0; i < 1u << 20; i++)
-        assert_true(unit_float(0xffffffffu - i) < 1.0f);
-}
-
-/* STRESS C7: neighbours of any kind are uncorrelated. 1/sqrt(n) is one
- * standard error; 5 of them happen once in 2e6 by chance, 12 are tried. */
-static void numbers_are_uncorrelated(void **state)
-{
-    const int n = 200000;
-    double sums[6] = {0};
-    double mean = 0;
-
-    (void)state;
-    for (int i = 0; i < n; i++) {
-        uint32_t x = (uint32_t)i % 640, y = (uint32_t)i / 640;
-        struct sampler s = sampler_start(x, y, 7, 0);
-        struct vec2 a = random_2d(s, 10);
-        struct vec2 others[5] = {random_2d(sampler_start(x + 1, y, 7, 0), 10),
-                                 random_2d(sampler_start(x, y + 1, 7, 0), 10),
-                                 random_2d(sampler_start(x, y, 8, 0), 10),
-                                 random_2d(s, 11),
-                                 random_2d(sampler_start(x, y, 7, 1), 10)};
-
-        mean += (double)a.x - 0.5;
-        sums[5] += 12 * ((double)a.x - 0.5) * ((double)a.y - 0.5);
-        for (int k = 0; k < 5; k++)
-            sums[k] += 12 * ((double)a.x - 0.5) * ((double)others[k].x - 0.5);
-    }
-    check_close(mean / n, 0, 5 / sqrt(12.0 * n));
-    for (int k = 0; k < 6; k++)
-        check_close(sums[k] / n, 0, 5 / sqrt((double)n));
-}
-
-/* STRESS C8: the index is 64 bits wide, the seed 32. */
-static void far_indices_and_seeds_differ(void **state)
-{
-    struct sampler s = sampler_start(3, 4, 5, 0);
-
-    (void)state;
-    assert_true(random_bits(s, 9) !=
-                random_bits(sampler_start(3, 4, 5 + (1ull << 32), 0), 9));
-    assert_true(random_bits(s, 9) !=
-                random_bits(sampler_start(3, 4, 5, 0xffffffffu), 9));
-    assert_true(random_bits(sampler_start(0, 0, 0, 0), 0) != 0);
-}
-
 /* Moments of the cosine distribution: E z = 2/3, E z^2 = 1/2, E x^2 = 1/4. */
 static void hemisphere_has_cosine_moments(void **state)
 {
@@ -147,9 +95,6 @@ int main(void)
         cmocka_unit_test(angles_agree_with_libm),
         cmocka_unit_test(frames_are_orthonormal),
         cmocka_unit_test(steps_are_nextafter),
-        cmocka_unit_test(unit_floats_stay_below_one),
-        cmocka_unit_test(numbers_are_uncorrelated),
-        cmocka_unit_test(far_indices_and_seeds_differ),
         cmocka_unit_test(hemisphere_has_cosine_moments),
     };
 

@@ -120,6 +120,8 @@ static void test_all_keys(void **state)
                      "sky my sky #1.hdr  \r\n"
                      "sky_strength 2.5\r\n"
                      "sky_rotation -90\r\n"
+                     "aperture 0.5\r\n"
+                     "focus 1e3\r\n"
                      "exposure -1.5");
     assert_true(view.has_camera && view.has_size && view.has_background);
     is3(view.eye, 278, 273, -800);
@@ -133,6 +135,7 @@ static void test_all_keys(void **state)
     snprintf(sky, sizeof sky, "%s/my sky #1.hdr", folder);
     assert_string_equal(view.sky_path, sky);
     assert_true(view.sky_strength == 2.5 && view.sky_rotation_deg == -90);
+    assert_true(view.aperture == 0.5 && view.focus == 1000);
     assert_true(view.exposure == -1.5);
     view_free(&view);
 }
@@ -212,6 +215,8 @@ static void test_refused(void **state)
         {"sky_strength -1", "'-1'", "a number from 0 to 1e30", "sky_strength"},
         {"sky_rotation x", "'x'", "an angle from -1e6 to 1e6 degrees",
          "sky_rotation"},
+        {"aperture -1", "'-1'", "a number from 0 to 1e30", "aperture"},
+        {"focus inf", "'inf'", "a number from 0 to 1e30", "focus"},
         {"exposure nan", "'nan'", "a number of stops from -100 to 100",
          "exposure"},
     };
@@ -311,6 +316,8 @@ static void is_same(const struct view *a, const struct view *b)
     assert_true(a->fovy_deg == b->fovy_deg);
     assert_true(a->sky_strength == b->sky_strength);
     assert_true(a->sky_rotation_deg == b->sky_rotation_deg);
+    assert_true(a->aperture == b->aperture);
+    assert_true(a->focus == b->focus);
     assert_true(a->exposure == b->exposure);
 }
 
@@ -339,6 +346,8 @@ static void test_round_trip(void **state)
                          .max_bounces = 3,
                          .sky_strength = 0.3,
                          .sky_rotation_deg = 12.5,
+                         .aperture = 0.05,
+                         .focus = 7.25,
                          .exposure = -0.7};
     assert_true(view_write(&view, file("w.view"), &err));
     assert_true(view_read(&again, file("w.view"), &report, &err));

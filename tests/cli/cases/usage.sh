@@ -16,6 +16,11 @@ run -b --color red box.obj
 run -b -o out.jpg box.obj
 run -b --nonsense box.obj
 run -b -z box.obj
+run -b --backend gpu box.obj
+run -b --backend cpu --device 1 box.obj
+run -b --backend=cpu --kernels . box.obj
+run -b --device '' box.obj
+run --list-devices=1
 run -b box.obj other.obj
 run -b -f
 run -b -o - --stats - box.obj

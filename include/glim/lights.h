@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/*
+ * lights.h - the triangles that shine, and the tree that finds them
+ *
+ * Built like a bounding volume hierarchy, by the surface area orientation
+ * heuristic of Conty Estevez and Kulla 2018, 4.3. O(n log n); below
+ * LIGHT_SAH_DEPTH nodes are split in halves by count, so that the way to every
+ * light fits LIGHT_LEVELS.
+ *
+ * Units:     normalised scene units
+ * Ownership: lights_free() frees; a zeroed struct is a scene without lights
+ * Threads:   one thread builds; read only after
+ * Errors:    memory
+ */
+#ifndef GLIM_LIGHTS_H
+#define GLIM_LIGHTS_H
+
+#include "glim/util.h"
+#include "kernels/types.h"
+
+struct lights {
+    struct light *lights; /* in the order of their triangles */
+    uint32_t light_count;
+    uint32_t *tri_lights;
+    struct light_node *nodes;
+    uint32_t node_count;
+    double glare; /* sum of area times radiance squared */
+};
+
+/* Reads the world's triangles, materials and textures. */
+bool lights_build(struct lights *lights, const struct world *world,
+                  struct error *err);
+
+/* Lends the arrays to the world, which has its sky. Where a constant sky
+ * outshines the lights they are sampled less often. */
+void lights_lend(const struct lights *lights, struct world *world);
+
+void lights_free(struct lights *lights);
+
+#endif

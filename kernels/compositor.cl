@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/*
+ * compositor.cl - adds the samples of a task to the film, a work-item a point
+ */
+#include "kernels/pixel.h"
+#include "kernels/task.h"
+
+/* The samples of a pixel are consecutive: behind one that was cancelled none
+ * is taken. */
+__kernel void add_samples(struct task task,
+                          __global const struct path_sample *samples,
+                          __global struct sum *sums, __global ulong *counts,
+                          volatile __global struct tally *tally)
+{
+    uint point = (uint)get_global_id(0);
+    struct tally t = {0, 0, 0, 0, 0};
+    ulong pixel;
+
+    if (point >= task.count)
+        return;
+    pixel = task_pixel(task, point);
+    samples += (ulong)point * task.samples;
+    for (uint s = 0; s < task.samples && samples[s].rays != 0; s++)
+        pixel_add(&sums[3 * pixel], samples[s], &t);
+    counts[pixel] += t.samples;
+    atomic_add(&tally->samples, t.samples);
+    atomic_add(&tally->rays, t.rays);
+    if (t.non_finite != 0)
+        atomic_add(&tally->non_finite, t.non_finite);
+    if (t.saturated != 0)
+        atomic_add(&tally->saturated, t.saturated);
+    if (t.cut_paths != 0)
+        atomic_add(&tally->cut_paths, t.cut_paths);
+}

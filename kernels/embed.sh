@@ -1,0 +1,21 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# embed.sh - writes C source that holds the named files, as cl_source.h says
+set -eu
+
+echo '#include "glim/cl_source.h"'
+# numbers, for compilers need not take strings of more than 4095 characters
+i=0
+for file; do
+    i=$((i + 1))
+    echo "static const unsigned char text_$i[] = {"
+    od -A n -v -t u1 "$file" | sed 's/[0-9]\{1,\}/&,/g'
+    echo '0};'
+done
+echo 'const struct cl_source_file cl_source_files[] = {'
+i=0
+for file; do
+    i=$((i + 1))
+    echo "{\"$file\", (const char *)text_$i},"
+done
+echo '{NULL, NULL}};'

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+/*
+ * light_tree.h - which light: a walk from the root of a tree of clusters
+ *
+ * Conty Estevez and Kulla 2018, "Importance sampling of many lights with
+ * adaptive tree splitting", eight children wide, with a bound of the cosines
+ * that needs no trigonometry. The bound is 0 only where nothing of the cluster
+ * reaches the receiver.
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_LIGHT_TREE_H
+#define KERNELS_LIGHT_TREE_H
+
+#include "kernels/vec.h"
+
+/* What is lit. */
+struct receiver {
+    struct vec3 p;
+    struct vec3 n;  /* unit */
+    bool transmits; /* light from behind matters as well */
+};
+
+/* Added to a cosine's bound: more than its rounding. */
+#define LIGHT_COSINE_SLACK 1e-4f
+
+/* Levels that one random number of 24 bits decides: 9 bits of it. */
+#define LIGHT_LEVELS_A_NUMBER 3u
+
+/* How much the eight children may shine at the receiver, summed up to and with
+ * each. The ball around a child's box, seen under the angle of its radius,
+ * lifts both cosines: cos(a - b) <= cos a + sin b where it is not negative. */
+static inline void light_sums(const struct world *w, uint32_t node,
+                              const struct receiver *r, float sums[LIGHT_WIDTH])
+{
+    float behind = r->transmits ? -1.0f : 1.0f;
+    float parts[LIGHT_WIDTH];
+
+    for (uint32_t i = 0; i < LIGHT_WIDTH; i++) {
+        float x = w->light_nodes[node].x[i] - r->p.x;
+        float y = w->light_nodes[node].y[i] - r->p.y;
+        float z = w->light_nodes[node].z[i] - r->p.z;
+        float radius = w->light_nodes[node].radius[i];
+        float inverse = 1.0f / f_max(sqrtf(x * x + y * y + z * z), radius);
+        float sine = radius * inverse;
+        float in = x * r->n.x + y * r->n.y + z * r->n.z;
+        float out = x * w->light_nodes[node].axis_x[i] +
+                    y * w->light_nodes[node].axis_y[i] +
+                    z * w->light_nodes[node].axis_z[i];
+
+        in = f_max(f_max(in, in * behind) * inverse + sine, 0.0f);
+        out = fabsf(out) * inverse + sine + w->light_nodes[node].spread[i];
+        parts[i] = w->light_nodes[node].power[i] * inverse * inverse *
+                   (f_min(in, 1.0f) + LIGHT_COSINE_SLACK) *
+                   (f_min(out, 1.0f) + LIGHT_COSINE_SLACK);
+    }
+    sums[0] = parts[0];
+    for (uint32_t i = 1; i < LIGHT_WIDTH; i++)
+        sums[i] = sums[i - 1] + parts[i];
+}
+
+/* The probability of child i: of the interval that a number can fall in. */
+static inline float light_child_share(const float sums[LIGHT_WIDTH], uint32_t i)
+{
+    float before = i == 0 ? 0.0f : sums[i - 1];
+
+    return (sums[i] - before) / sums[LIGHT_WIDTH - 1];
+}
+
+/* A light and, as result, its probability; 0: none. `choice` is two random
+ * numbers. */
+static inline float light_tree_choose(const struct world *w,
+                                      const struct receiver *r,
+                                      struct vec2 choice, uint32_t *light)
+{
+    float probability = 1.0f;
+    float u = choice.x;
+    uint32_t at = 0;
+
+    *light = 0;
+    if (w->settings.light_count < 2)
+        return (float)w->settings.light_count;
+    for (uint32_t level = 0;; level++) {
+        float sums[LIGHT_WIDTH];
+        float before;
+        uint32_t i = 0;
+
+        if (level == LIGHT_LEVELS_A_NUMBER)
+            u = choice.y;
+        light_sums(w, at, r, sums);
+        u *= sums[LIGHT_WIDTH - 1];
+        for (uint32_t k = 0; k < LIGHT_WIDTH - 1; k++)
+            i += u >= sums[k] ? 1u : 0u;
+        probability *= light_child_share(sums, i);
+        if (!(probability > 0.0f))
+            return 0.0f;
+        before = i == 0 ? 0.0f : sums[i - 1];
+        u = f_min((u - before) / (sums[i] - before), UNIT_FLOAT_MAX);
+        at = w->light_nodes[at].child[i];
+        if ((at & LIGHT_LEAF) != 0) {
+            *light = at & ~LIGHT_LEAF;
+            return probability;
+        }
+    }
+}
+
+/* The probability that light_tree_choose() finds this light: the same
+ * products in the same order, so the same bits. */
+static inline float light_tree_probability(const struct world *w,
+                                           const struct receiver *r,
+                                           uint32_t light)
+{
+    struct light l = w->lights[light];
+    float probability = 1.0f;
+    uint32_t at = 0;
+
+    if (w->settings.light_count < 2)
+        return 1.0f;
+    for (uint32_t level = 0; (at & LIGHT_LEAF) == 0; level++) {
+        uint32_t bits = level < LIGHT_LEVELS / 2 ? l.path[0] : l.path[1];
+        uint32_t i = bits >> 3 * (level % (LIGHT_LEVELS / 2)) & 7u;
+        float sums[LIGHT_WIDTH];
+
+        light_sums(w, at, r, sums);
+        probability *= light_child_share(sums, i);
+        if (!(probability > 0.0f))
+            return 0.0f;
+        at = w->light_nodes[at].child[i];
+    }
+    return probability;
+}
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+/*
+ * pathtracer.cl - the paths of a task, a work-item a path
+ */
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+#include "kernels/task.h"
+
+/* A path that is not traced, or cancelled, has no rays. */
+__kernel void trace_paths(
+    struct task task, volatile __global const uint *cancel,
+    __global const struct path_start *starts,
+    __global struct path_sample *samples,
+    __global const struct settings *settings,
+    __global const struct vec3 *positions, __global const struct vec3 *normals,
+    __global const struct vec2 *uvs, __global const struct tri *tris,
+    __global const struct material *materials,
+    __global const struct texture *textures, __global const uint *texels,
+    __global const float *linear_of_srgb,
+    __global const struct vec3 *sky_texels, __global const struct node *nodes,
+    __global const struct leaf_tri *leaf_tris,
+    __global const struct light *lights, __global const uint *tri_lights,
+    __global const struct light_node *light_nodes,
+    __global const float *sky_sums)
+{
+    uint i = (uint)get_global_id(0);
+    struct world w = {*settings,      positions,  normals,     uvs,
+                      tris,           materials,  textures,    texels,
+                      linear_of_srgb, sky_texels, nodes,       leaf_tris,
+                      lights,         tri_lights, light_nodes, sky_sums};
+
+    if (i / task.samples >= task.count)
+        return;
+    samples[i].rays = 0;
+    if (*cancel == 0 && starts[i].ray.t_max > 0.0f)
+        samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/*
+ * ray_generator.cl - the camera rays of a task, a work-item a path
+ */
+#include "kernels/start.h"
+#include "kernels/task.h"
+
+__kernel void generate_rays(struct task task,
+                            volatile __global const uint *cancel,
+                            __global const struct settings *settings,
+                            __global const ulong *counts,
+                            __global struct path_start *starts)
+{
+    uint i = (uint)get_global_id(0);
+    uint point = i / task.samples;
+    struct settings s = *settings;
+    ulong index;
+
+    if (point >= task.count || *cancel != 0)
+        return;
+    index = counts[task_pixel(task, point)] + i % task.samples;
+    if (index < task.target)
+        starts[i] = path_begin(&s, task.x0 + task_x(task, point),
+                               task.y0 + task_y(task, point), index);
+    else
+        starts[i].ray.t_max = -1.0f; /* no path */
+}

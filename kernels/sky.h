@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+/*
+ * sky.h - the dome around the scene: what it shines, and where most of it
+ *
+ * Directions are drawn from a table over the texels of the image (glim/sky.h)
+ * by inversion, which keeps stratified numbers stratified; inside a texel
+ * uniformly by solid angle.
+ *
+ * Units:     radiance; densities per solid angle
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_SKY_H
+#define KERNELS_SKY_H
+
+#include "kernels/texture.h"
+
+/* Where direction d is in the image, both in [0, 1]: the middle column looks
+ * along -z, u grows towards +x, v from +y down. */
+static inline struct vec2 sky_uv(struct sky s, struct vec3 d)
+{
+    float x = s.rotation_cos * d.x - s.rotation_sin * d.z;
+    float z = s.rotation_sin * d.x + s.rotation_cos * d.z;
+
+    return v2(0.5f + atan2_rad(x, -z) * (0.5f / PI),
+              atan2_rad(sqrtf(x * x + z * z), d.y) * (1.0f / PI));
+}
+
+/* Radiance that comes from direction d when nothing is in the way. Image
+ * columns repeat, rows end at the poles. */
+static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
+{
+    struct sky s = w->settings.sky;
+    struct footprint f;
+    struct vec3 top, bottom;
+    struct vec2 uv;
+    float y, whole;
+
+    if (!HAS(FEATURE_SKY_IMAGE) || s.width == 0)
+        return s.color;
+    uv = sky_uv(s, d);
+    wrap_pair(uv.x, s.width, &f.x0, &f.x1, &f.fx);
+    y = uv.y * (float)s.height - 0.5f;
+    whole = floorf(y);
+    f.fy = y - whole;
+    f.y0 = whole < 0.0f ? 0u : (uint32_t)whole;
+    f.y1 = whole < 0.0f ? 0u : f.y0 + 1u;
+    if (f.y0 >= s.height)
+        f.y0 = s.height - 1u;
+    if (f.y1 >= s.height)
+        f.y1 = s.height - 1u;
+    top = v3_lerp(w->sky_texels[f.y0 * s.width + f.x0],
+                  w->sky_texels[f.y0 * s.width + f.x1], f.fx);
+    bottom = v3_lerp(w->sky_texels[f.y1 * s.width + f.x0],
+                     w->sky_texels[f.y1 * s.width + f.x1], f.fx);
+    return v3_mul(v3_lerp(top, bottom, f.fy), s.color);
+}
+
+/* Solid angle of a texel of this row: the difference of its edges' cosines as
+ * a product, which cancels nothing at the poles. */
+static inline float sky_texel_angle(struct sky s, uint32_t row)
+{
+    float height = 1.0f / (float)s.height;
+    float sine = cos_sin_turns(0.5f * ((float)row + 0.5f) * height).y;
+
+    return 4.0f * PI / (float)s.width * sine * cos_sin_turns(0.25f * height).y;
+}
+
+/* The last of n intervals that begins at or below u, and how far into it u is;
+ * intervals without width are never found. Their ends are n + 1 numbers from 0
+ * to 1 from sky_sums[first] on. */
+static inline uint32_t sky_interval(const struct world *w, uint32_t first,
+                                    uint32_t n, float u, float *rest)
+{
+    uint32_t low = first;
+    float begin;
+
+    while (n > 1) {
+        uint32_t middle = n / 2;
+
+        if (w->sky_sums[low + middle] <= u)
+            low += middle;
+        n -= middle;
+    }
+    begin = w->sky_sums[low];
+    *rest = f_min((u - begin) / (w->sky_sums[low + 1] - begin), 1.0f);
+    return low - first;
+}
+
+/* Where the sums of a row's columns begin: after those of the rows. For the row
+ * behind the last one it is how many there are. */
+static inline uint32_t sky_row_sums(struct sky s, uint32_t row)
+{
+    return s.height + 1u + row * (s.width + 1u);
+}
+
+/* A direction with density sky_pdf(). Only if the world has a table. */
+static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
+{
+    struct sky s = w->settings.sky;
+    float right, down, low, high, share, radius, y;
+    uint32_t row = sky_interval(w, 0, s.height, u.y, &down);
+    uint32_t column =
+        sky_interval(w, sky_row_sums(s, row), s.width, u.x, &right);
+    bool is_below = 2u * row >= s.height;
+    struct vec2 turn = cos_sin_turns(((float)column + right) / (float)s.width);
+    struct vec3 d;
+
+    /* from the nearer pole, by the square of the sine of half the angle: near
+     * a pole the cosine has no digits left */
+    if (is_below) {
+        row = s.height - 1u - row;
+        down = 1.0f - down;
+    }
+    low = cos_sin_turns(0.25f * (float)row / (float)s.height).y;
+    high = cos_sin_turns(0.25f * (float)(row + 1u) / (float)s.height).y;
+    low *= low;
+    high *= high;
+    share = low + (high - low) * down;
+    radius = 2.0f * sqrtf(share * (1.0f - share));
+    y = 1.0f - 2.0f * share;
+    d = v3(-radius * turn.y, is_below ? -y : y, radius * turn.x);
+    return v3(s.rotation_cos * d.x + s.rotation_sin * d.z, d.y,
+              s.rotation_cos * d.z - s.rotation_sin * d.x);
+}
+
+/* Density of sky_sample() at the unit vector d; 0 without a table. */
+static inline float sky_pdf(const struct world *w, struct vec3 d)
+{
+    struct sky s = w->settings.sky;
+    struct vec2 uv;
+    uint32_t row, column, first;
+
+    if (!(w->settings.sky_share > 0.0f))
+        return 0.0f;
+    uv = sky_uv(s, d);
+    row = (uint32_t)(uv.y * (float)s.height);
+    column = (uint32_t)(uv.x * (float)s.width);
+    row = row < s.height ? row : s.height - 1u;
+    column = column < s.width ? column : s.width - 1u;
+    first = sky_row_sums(s, row) + column;
+    return (w->sky_sums[row + 1] - w->sky_sums[row]) *
+           (w->sky_sums[first + 1] - w->sky_sums[first]) /
+           sky_texel_angle(s, row);
+}
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+/*
+ * sobol.h - Owen-scrambled Sobol points in two dimensions
+ *
+ * One (0, 2)-sequence, shuffled and scrambled anew for each key (Burley 2020,
+ * "Practical hash-based Owen scrambling", JCGT 9:4; hash by Vegdahl 2021,
+ * psychopath.io). Every prefix of 2^m points is a (0, m, 2)-net: each box of
+ * area 2^-m with sides that are powers of two holds one of them. Points of two
+ * keys are independent.
+ *
+ * Units:     32-bit fractions of the unit square
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_SOBOL_H
+#define KERNELS_SOBOL_H
+
+#include "kernels/dialect.h"
+
+struct bits2 {
+    uint32_t x, y;
+};
+
+/* xor-shift-multiply in two rounds with low bias (constants by Ettinger for
+ * Wellons' hash prospector). */
+static inline uint32_t hash_u32(uint32_t h)
+{
+    h ^= h >> 16;
+    h *= 0x21f0aaadu;
+    h ^= h >> 15;
+    h *= 0xd35a2d97u;
+    h ^= h >> 15;
+    return h;
+}
+
+static inline uint32_t reverse_bits(uint32_t x)
+{
+    x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+    return x >> 24 | (x >> 8 & 0xff00u) | (x & 0xff00u) << 8 | x << 24;
+}
+
+/* A permutation in which each bit is flipped or not as the lower ones say:
+ * Owen's scrambling of the number whose bits these are in reverse. */
+static inline uint32_t scramble_upwards(uint32_t x, uint32_t key)
+{
+    x ^= x * 0x3d20adeau;
+    x += key;
+    x *= key >> 16 | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/* Pascal's triangle modulo 2 as a matrix: Sobol's second dimension, lowest bit
+ * first. */
+static inline uint32_t pascal_bits(uint32_t p)
+{
+    p ^= p >> 1 & 0x55555555u;
+    p ^= p >> 2 & 0x33333333u;
+    p ^= p >> 4 & 0x0f0f0f0fu;
+    p ^= p >> 8 & 0x00ff00ffu;
+    return p ^ p >> 16;
+}
+
+/* The point of this index, given with its bits reversed. */
+static inline struct bits2 sobol_point(uint32_t reversed_index, uint32_t key)
+{
+    uint32_t i = reverse_bits(scramble_upwards(reversed_index, key));
+    uint32_t key_x = hash_u32(key + 0x9e3779b9u);
+    uint32_t key_y = hash_u32(key + 0x3c6ef372u);
+    struct bits2 p;
+
+    p.x = reverse_bits(scramble_upwards(i, key_x));
+    p.y = reverse_bits(scramble_upwards(pascal_bits(i), key_y));
+    return p;
+}
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+/*
+ * vertex.h - a hit with all that shading needs
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   none
+ * Errors:    a triangle without a normal is no vertex
+ */
+#ifndef KERNELS_VERTEX_H
+#define KERNELS_VERTEX_H
+
+#include "kernels/bsdf.h"
+#include "kernels/bump.h"
+#include "kernels/hit.h"
+#include "kernels/texture.h"
+
+struct vertex {
+    struct vec3 p;
+    struct vec3 p_error;
+    struct vec3 ng; /* unit, on the eye's side */
+    struct vec3 n;  /* unit shading normal, wo.n > 0 */
+    struct vec2 uv;
+    bool has_uv;
+    bool is_outside;  /* the eye is on the side of the file's normal */
+    struct vec3 t, b; /* with n the frame in which BSDFs are given */
+};
+
+static inline struct vec3 shading_normal(const struct world *w, struct tri t,
+                                         struct hit h, struct vec3 ng,
+                                         struct vec3 wo)
+{
+    struct vec3 n;
+    float length;
+
+    if (t.vn[0] == NO_INDEX)
+        return ng;
+    n = v3_add(v3_add(v3_scale(w->normals[t.vn[0]], h.b0),
+                      v3_scale(w->normals[t.vn[1]], h.b1)),
+               v3_scale(w->normals[t.vn[2]], h.b2));
+    length = v3_length(n);
+    if (!(length > 1e-6f))
+        return ng;
+    n = v3_scale(n, 1.0f / length);
+    /* exporters write normals and winding that disagree: go by the face */
+    if (v3_dot(n, ng) < 0.0f)
+        n = v3_neg(n);
+    return v3_dot(n, wo) > 0.0f ? n : ng;
+}
+
+static inline bool vertex_at(const struct world *w, struct ray r, struct hit h,
+                             struct vertex *v)
+{
+    struct tri t = w->tris[h.tri];
+    struct vec3 p0 = w->positions[t.v[0]];
+    struct vec3 p1 = w->positions[t.v[1]];
+    struct vec3 p2 = w->positions[t.v[2]];
+    struct vec3 wo = v3_neg(r.d);
+
+    if (!triangle_normal(p0, p1, p2, &v->ng))
+        return false;
+    v->is_outside = v3_dot(v->ng, wo) > 0.0f;
+    if (!v->is_outside)
+        v->ng = v3_neg(v->ng);
+    v->n = shading_normal(w, t, h, v->ng, wo);
+    v->p = hit_point(h, p0, p1, p2, &v->p_error);
+    v->has_uv = t.vt[0] != NO_INDEX;
+    v->uv = v2(0.0f, 0.0f);
+    if (v->has_uv)
+        v->uv = uv_at(w, t, h);
+    if (HAS(FEATURE_TEXTURES) && v->has_uv)
+        v->n = bumped_normal(w, t, v->uv, v->n, v->ng, wo);
+    frame_around(v->n, &v->t, &v->b);
+    return true;
+}
+
+static inline struct bsdf
+bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
+{
+    struct bsdf b;
+
+    b.color = m->color;
+    if (HAS(FEATURE_TEXTURES) && m->color_texture != NO_INDEX && v->has_uv)
+        b.color = v3_mul(b.color, texture_at(w, m->color_texture, v->uv).color);
+    b.coat = m->coat;
+    if (HAS(FEATURE_TEXTURES) && HAS(FEATURE_PLASTIC) &&
+        m->coat_texture != NO_INDEX && v->has_uv)
+        b.coat = v3_mul(b.coat, texture_at(w, m->coat_texture, v->uv).color);
+    b.alpha = m->alpha;
+    if (HAS(FEATURE_TEXTURES) && m->alpha_texture != NO_INDEX && v->has_uv) {
+        float roughness = texture_at(w, m->alpha_texture, v->uv).alpha;
+
+        b.alpha *= roughness * roughness;
+    }
+    b.kind = m->kind;
+    if (HAS(FEATURE_TEXTURES) && HAS(FEATURE_METAL) &&
+        m->metal_texture != NO_INDEX && v->has_uv &&
+        m->metalness * texture_at(w, m->metal_texture, v->uv).alpha >= 0.5f)
+        b.kind = MATERIAL_METAL;
+    b.eta = m->ior;
+    if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !v->is_outside)
+        b.eta = 1.0f / m->ior;
+    return b;
+}
+
+static inline struct vec3 vertex_to_local(const struct vertex *v, struct vec3 d)
+{
+    return v3(v3_dot(d, v->t), v3_dot(d, v->b), v3_dot(d, v->n));
+}
+
+static inline struct vec3 vertex_to_world(const struct vertex *v, struct vec3 d)
+{
+    struct vec3 x = v3_add(v3_scale(v->t, d.x), v3_scale(v->b, d.y));
+
+    return v3_add(x, v3_scale(v->n, d.z));
+}
+
+/* A shading normal must not let light through the face, nor keep it in: is a
+ * direction on the same side of both? `z` is its cosine to n. */
+static inline bool vertex_sides_agree(const struct vertex *v, struct vec3 d,
+                                      float z)
+{
+    float side = v3_dot(d, v->ng);
+
+    return z > 0.0f ? side > 0.0f : side < 0.0f;
+}
+
+/* Where a ray in this direction begins. */
+static inline struct vec3 vertex_leave(const struct vertex *v, struct vec3 d)
+{
+    return leave_surface(v->p, v->p_error,
+                         v3_dot(d, v->ng) > 0.0f ? v->ng : v3_neg(v->ng));
+}
+
+#endif

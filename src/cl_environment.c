@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "glim/cl_environment.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Where PoCL looks for its cache folder's name. */
+#define CACHE_VARIABLE "POCL_CACHE_DIR"
+
+/* Those of LLVM 15 (lib/Support/Unix/Signals.inc) and PoCL's own, SIGFPE. */
+static const int taken[CL_SIGNAL_COUNT] = {SIGHUP,  SIGINT,  SIGQUIT, SIGILL,
+                                           SIGTRAP, SIGABRT, SIGBUS,  SIGFPE,
+                                           SIGSEGV, SIGUSR1, SIGUSR2, SIGTERM,
+                                           SIGXCPU, SIGXFSZ, SIGSYS};
+
+/* The value, or NULL where there is none or an empty one. */
+static const char *environment(const char *name)
+{
+    const char *value = getenv(name);
+
+    return value && *value != '\0' ? value : NULL;
+}
+
+/* As the XDG base directory specification says, which ignores relative names.
+ * Without a home PoCL finds a place of its own. */
+static void choose_cache(void)
+{
+    const char *cache = environment("XDG_CACHE_HOME");
+    const char *home = environment("HOME");
+    char *folder;
+
+    if (cache && *cache == '/')
+        folder = xformat("%s/glim/pocl", cache);
+    else if (home)
+        folder = xformat("%s/.cache/glim/pocl", home);
+    else
+        return;
+    setenv(CACHE_VARIABLE, folder, 0);
+    free(folder);
+}
+
+void cl_environment_prepare(int thread_count)
+{
+    char count[16];
+
+    if (thread_count == 0)
+        thread_count = usable_threads();
+    snprintf(count, sizeof count, "%d", thread_count);
+    setenv("POCL_MAX_PTHREAD_COUNT", count, 0);
+    setenv("POCL_CPU_MAX_CU_COUNT", count, 0); /* its name since PoCL 4 */
+    setenv("POCL_SIGFPE_HANDLER", "0", 1);
+    choose_cache();
+}
+
+/* As mkdir -p, in place. False and errno if that fails. */
+static bool make_folders(char *path)
+{
+    for (char *p = path + 1;; p++) {
+        char end = *p;
+
+        if (end != '/' && end != '\0')
+            continue;
+        *p = '\0';
+        bool ok = mkdir(path, 0700) == 0 || errno == EEXIST;
+        *p = end;
+        if (!ok || end == '\0')
+            return ok;
+    }
+}
+
+bool cl_cache_open(struct error *err)
+{
+    const char *folder = environment(CACHE_VARIABLE);
+
+    if (!folder)
+        return true;
+    char *path = xformat("%s/.", folder); /* not a file of that name */
+    bool ok = make_folders(path) && access(path, R_OK | W_OK | X_OK) == 0;
+    free(path);
+    return ok || fail(err, "%s: %s", folder, strerror(errno));
+}
+
+void cl_signals_keep(struct cl_signals *s)
+{
+    for (int i = 0; i < CL_SIGNAL_COUNT; i++)
+        sigaction(taken[i], NULL, &s->actions[i]);
+}
+
+void cl_signals_put_back(const struct cl_signals *s)
+{
+    for (int i = 0; i < CL_SIGNAL_COUNT; i++)
+        sigaction(taken[i], &s->actions[i], NULL);
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+/*
+ * device - samples a second of the OpenCL device against the CPU's threads,
+ * and what kernels without unneeded features bring; rounds are interleaved
+ *
+ * usage: device THREADS SCENE...
+ */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "glim/backend_cl.h"
+#include "glim/cl_environment.h"
+#include "glim/session.h"
+
+#define ROUNDS 5
+#define SPP    16
+
+enum contestant { CPU, FULL, SPECIAL, CONTESTANTS };
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return x < y ? -1 : x > y;
+}
+
+static double median(double *values)
+{
+    qsort(values, ROUNDS, sizeof *values, compare);
+    return values[ROUNDS / 2];
+}
+
+/* Millions of samples a second. */
+static double rate(struct session *s, struct backend *backend)
+{
+    struct render_progress p;
+    struct error err;
+
+    render_use(s->render, backend);
+    if (!session_restart(s, SPP, &err)) {
+        fprintf(stderr, "device: %s\n", err.text);
+        exit(1);
+    }
+    render_wait(s->render, -1);
+    p = render_progress(s->render);
+    return (double)p.samples * 1e3 / (double)(p.render_ns - p.build_ns);
+}
+
+static struct backend *open_device(uint32_t features)
+{
+    struct cl_request request = {.features = features};
+    struct error err;
+    char *log;
+    struct backend *b = backend_cl_create(&request, &log, &err);
+
+    if (b == NULL) {
+        fprintf(stderr, "device: %s\n", err.text);
+        exit(1);
+    }
+    return b;
+}
+
+static void bench(const char *path, int threads)
+{
+    struct options o = {.scene_path = path,
+                        .thread_count = threads,
+                        .max_bounces = -1,
+                        .width_px = 480,
+                        .height_px = 270};
+    double rates[CONTESTANTS][ROUNDS];
+    struct backend *backends[CONTESTANTS];
+    struct session s;
+    struct error err;
+
+    if (!session_open(&s, &o, clock_ns(), &err)) {
+        fprintf(stderr, "device: %s\n", err.text);
+        exit(1);
+    }
+    backends[CPU] = s.machines.cpu;
+    backends[FULL] = open_device(FEATURES_ALL);
+    backends[SPECIAL] = open_device(scene_features(&s.scene));
+    for (int i = 0; i < CONTESTANTS; i++)
+        rate(&s, backends[i]); /* loads code and data */
+    for (int i = 0; i < ROUNDS; i++)
+        for (int k = 0; k < CONTESTANTS; k++)
+            rates[k][i] = rate(&s, backends[k]);
+    double cpu = median(rates[CPU]), full = median(rates[FULL]);
+    printf("%-28s %7.3f %7.3f %7.2f %9.2f\n", path, cpu, full, full / cpu,
+           median(rates[SPECIAL]) / full);
+    render_use(s.render, backends[CPU]);
+    backends[FULL]->destroy(backends[FULL]);
+    backends[SPECIAL]->destroy(backends[SPECIAL]);
+    session_close(&s);
+}
+
+int main(int argc, char **argv)
+{
+    int threads = argc > 1 ? (int)strtol(argv[1], NULL, 10) : 0;
+
+    cl_environment_prepare(threads);
+    printf("%d threads %17s %7s %7s %7s %9s\n", threads, "Msamples/s:", "CPU",
+           "OpenCL", "ratio", "special");
+    for (int i = 2; i < argc; i++)
+        bench(argv[i], threads);
+    return 0;
+}

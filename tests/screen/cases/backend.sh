@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+# b brings an OpenCL device up while the CPU draws, and goes back to the CPU;
+# without one the CPU goes on, and says why.
+cp /etc/OpenCL/vendors/pocl.icd . 2>/dev/null || {
+    echo "no PoCL here"
+    exit 77
+}
+export OCL_ICD_VENDORS=$PWD
+flat_scene
+size=140x21
+start -t 1 flat.obj
+wait_for "LIVE .* 1 thread "
+keys b
+wait_for "renders; self-test: the CPU's bits"
+wait_for "LIVE .* OpenCL pthread"
+wait_for_rows 20 "48;2;188;124;0"
+keys w
+wait_for "LIVE .* [1-9][0-9]* spp .* OpenCL pthread"
+wait_for_rows 20 "48;2;188;124;0"
+keys b
+wait_for "the CPU renders"
+wait_for "LIVE .* 1 thread "
+keys b
+wait_for "LIVE .* OpenCL pthread"
+keys Space b
+wait_for "the backend changes in live mode"
+keys q
+expect_end 0
+fresh
+start --backend opencl -s 3 flat.obj
+wait_for "LIVE .* OpenCL pthread"
+keys Space Enter
+wait_for "NORMAL done  3/3 spp .* OpenCL"
+keys p
+wait_for "saved flat.png 100x50, 3 spp"
+keys q
+expect_end 0
+fresh
+start_line "OCL_ICD_VENDORS=/nonexistent TERM=tmux-256color glim --device 1 flat.obj"
+wait_for "OpenCL: found no platform"
+wait_for_rows 20 "48;2;188;124;0"
+keys x
+wait_for "LIVE"
+keys q
+expect_end 0
+# closed while the device is on its way
+fresh
+start -t 1 --backend opencl flat.obj
+wait_for "LIVE"
+keys q
+expect_end 0

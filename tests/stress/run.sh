@@ -1,0 +1,82 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# What `make stress` runs: checks that take minutes. BUILD: the folder of the
+# program; FILTER: the name of one check. The last line is "N passed, N failed";
+# what cannot run here says why.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+build=${BUILD:-build/release}
+filter=${FILTER:-}
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+scenes='cornell materials glass_mirror interior skylit lights200'
+passed=0
+failed=0
+
+# check NAME COMMAND...: counts one check; its output is shown if it fails
+check() {
+    name=$1
+    shift
+    if "$@" >"$work/log" 2>&1; then
+        echo "ok $name"
+        passed=$((passed + 1))
+    else
+        echo "FAIL $name"
+        cat "$work/log"
+        failed=$((failed + 1))
+    fi
+}
+
+wanted() {
+    [ -z "$filter" ] || [ "$filter" = "$1" ]
+}
+
+missing() { # COMMAND FOR
+    command -v "$1" >/dev/null && return 1
+    echo "skip $2 (no $1)"
+}
+
+# The kernels in a simulator that watches every access, for races too; and its
+# picture has the CPU's bytes. It hooks into programs that are linked with
+# OpenCL, which glim is not: so it is the only driver there is.
+simulate() { # SCENE
+    OCL_ICD_VENDORS=$work/vendors oclgrind --build-options -cl-opt-disable \
+        --data-races "$build/glim" -b --backend opencl --device oclgrind \
+        -w 16 -h 9 -s 1 --stats "$work/stats" -o "$work/device.pfm" \
+        "scenes/$1.obj" 2>"$work/said" &&
+        "$build/glim" -b -w 16 -h 9 -s 1 -o "$work/cpu.pfm" "scenes/$1.obj" &&
+        cat "$work/said" && grep -q '"backend": "opencl"' "$work/stats" &&
+        ! grep -i -E 'error|race|invalid|warning' "$work/said" &&
+        cmp "$work/device.pfm" "$work/cpu.pfm"
+}
+
+stress_oclgrind() {
+    missing oclgrind oclgrind && return
+    mkdir "$work/vendors"
+    find / -xdev -name 'liboclgrind-rt-icd.so*' 2>/dev/null | head -n 1 \
+        >"$work/vendors/oclgrind.icd"
+    for scene in $scenes; do
+        check "oclgrind $scene" simulate "$scene"
+    done
+}
+
+# Nothing of the host's is lost or read beyond its end, device and all.
+stress_valgrind() {
+    missing valgrind valgrind && return
+    for backend in cpu opencl; do
+        check "valgrind $backend" valgrind -q --error-exitcode=9 \
+            --leak-check=full --show-leak-kinds=definite,indirect \
+            --errors-for-leak-kinds=definite,indirect \
+            --suppressions=tests/stress/drivers.supp "$build/glim" -b \
+            --backend "$backend" -w 32 -h 18 -s 2 -o "$work/picture.png" \
+            scenes/glass_mirror.obj
+    done
+}
+
+for name in oclgrind valgrind; do
+    if wanted "$name"; then
+        "stress_$name"
+    fi
+done
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
