@@ -489,6 +489,7 @@ static bool has_holes(const struct scene *scene, uint32_t texture)
 uint32_t scene_material_features(const struct scene *scene,
                                  const struct material *m)
 {
+    bool is_metal = m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX;
     uint32_t features = 0;
 
     if (has_texture(m))
@@ -498,7 +499,7 @@ uint32_t scene_material_features(const struct scene *scene,
     if (m->opacity < 1 || has_holes(scene, m->color_texture) ||
         has_holes(scene, m->opacity_texture))
         features |= FEATURE_COVERAGE;
-    if (m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX)
+    if (is_metal)
         features |= FEATURE_METAL;
     if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
         features |= FEATURE_GLASS;
@@ -506,7 +507,8 @@ uint32_t scene_material_features(const struct scene *scene,
         features |= FEATURE_PLASTIC;
     if (m->kind == MATERIAL_ROUGH_DIFFUSE)
         features |= FEATURE_ROUGH_DIFFUSE;
-    else if (m->kind != MATERIAL_DIFFUSE && m->alpha >= ALPHA_SMOOTH)
+    else if ((is_metal || m->kind != MATERIAL_DIFFUSE) &&
+             m->alpha >= ALPHA_SMOOTH)
         features |= FEATURE_ROUGH;
     return features;
 }

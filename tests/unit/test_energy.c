@@ -12,7 +12,7 @@ static const double etas[] = {1.5,     1 / 1.5, 1.33,    1 / 1.33, 2.4,
 #define COUNT(a) (sizeof(a) / sizeof *(a))
 
 /* Off the tables' nodes too. */
-#define OFF_NODES 60
+#define OFF_NODES 24
 
 struct point {
     double alpha, mu, eta;
