@@ -39,6 +39,13 @@ static inline bool bsdf_is_delta(const struct bsdf *m)
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS;
 }
 
+/* Light goes through. */
+static inline bool bsdf_is_glass(const struct bsdf *m)
+{
+    return HAS(FEATURE_GLASS) &&
+           (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS);
+}
+
 /* f is not zero below the surface. */
 static inline bool bsdf_transmits(const struct bsdf *m)
 {

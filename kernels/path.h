@@ -88,13 +88,13 @@ static inline void path_add_emission(const struct world *w, struct path *p,
              chance_weight(w, p->pdf, light_pdf));
 }
 
-/* Would a ray from the vertex find this light by chance? It is aimed anew from
- * where it really begins. */
+/* Would a ray from here find this light by chance? It is aimed anew, as a ray
+ * does not begin in the vertex itself. */
 static inline bool light_is_seen(const struct world *w, struct path *p,
-                                 const struct vertex *v,
-                                 const struct light_sample *s, uint32_t key)
+                                 struct vec3 from, const struct light_sample *s,
+                                 uint32_t key)
 {
-    struct ray r = {vertex_leave(v, s->wi), s->wi, FLOAT_MAX, key};
+    struct ray r = {from, s->wi, FLOAT_MAX, key};
 
     if (s->tri != NO_INDEX) {
         struct tri t = w->tris[s->tri];
@@ -132,7 +132,8 @@ static inline void path_add_direct(const struct world *w, struct path *p,
         return;
     f = v3_mul(bsdf_terms(b, wo, wi, &pdf), s.radiance);
     if (v3_is_zero(f) ||
-        !light_is_seen(w, p, v, &s, ray_key(p->sampler, SHADOW_KEY + vertex)))
+        !light_is_seen(w, p, vertex_leave(v, wi.z), &s,
+                       ray_key(p->sampler, SHADOW_KEY + vertex)))
         return;
     path_add(p, f, bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
 }
@@ -164,7 +165,7 @@ static inline bool path_scatter(struct path *p, const struct bsdf *b,
     wi = v3_unit(vertex_to_world(v, s.wi));
     if (!vertex_sides_agree(v, wi, s.wi.z))
         return false;
-    p->ray.o = vertex_leave(v, wi);
+    p->ray.o = vertex_leave(v, s.wi.z);
     p->ray.d = wi;
     p->beta = v3_mul(p->beta, s.weight);
     p->eta_scale *= s.eta_scale;
@@ -207,6 +208,8 @@ static inline bool path_step(const struct world *w, struct path *p,
     b = bsdf_at(w, &m, &v);
     if (bsdf_is_black(&b))
         return false;
+    if (!bsdf_is_glass(&b))
+        vertex_lift(w, h.tri, h, &v);
     wo = vertex_to_local(&v, v3_neg(p->ray.d));
     p->from.p = v.p;
     p->from.n = v.n;

@@ -23,6 +23,7 @@ struct vertex {
     struct vec2 uv;
     bool has_uv;
     bool is_outside;  /* the eye is on the side of the file's normal */
+    bool is_lifted;   /* p is above its face: vertex_lift() */
     struct vec3 t, b; /* with n the frame in which BSDFs are given */
 };
 
@@ -64,6 +65,7 @@ static inline bool vertex_at(const struct world *w, const struct material *m,
         v->ng = v3_neg(v->ng);
     v->n = shading_normal(w, t, h, v->ng, wo);
     v->p = hit_point(h, p0, p1, p2, &v->p_error);
+    v->is_lifted = false;
     v->has_uv = t.vt[0] != NO_INDEX;
     v->uv = v2(0.0f, 0.0f);
     if (v->has_uv)
@@ -114,21 +116,52 @@ static inline struct vec3 vertex_to_world(const struct vertex *v, struct vec3 d)
     return v3_add(x, v3_scale(v->n, d.z));
 }
 
+/* Moves the vertex out to the smooth surface that the normals at the corners
+ * describe, or faces of a coarse mesh would lie in each other's shade (Hanika
+ * 2021, "Hacking the shadow terminator", Ray Tracing Gems II, 4). For what
+ * does not transmit. */
+static inline void vertex_lift(const struct world *w, uint32_t tri,
+                               struct hit h, struct vertex *v)
+{
+    const float b[3] = {h.b0, h.b1, h.b2};
+    struct tri t = w->tris[tri];
+    struct vec3 up = v3(0.0f, 0.0f, 0.0f);
+
+    if (t.vn[0] == NO_INDEX)
+        return;
+    for (uint32_t i = 0; i < 3; i++) {
+        struct vec3 n = w->normals[t.vn[i]];
+        float height;
+
+        if (v3_dot(n, v->ng) < 0.0f)
+            n = v3_neg(n);
+        height = v3_dot(v3_sub(v->p, w->positions[t.v[i]]), n);
+        up = v3_add(up, v3_scale(n, -b[i] * f_min(height, 0.0f)));
+    }
+    /* on a flat face it is nothing but rounding */
+    v->is_lifted =
+        v3_length(up) > 4.0f * (v->p_error.x + v->p_error.y + v->p_error.z);
+    if (v->is_lifted) {
+        v->p = v3_add(v->p, up);
+        v->p_error = v3_scale(v->p_error, 2.0f);
+    }
+}
+
 /* A shading normal must not let light through the face, nor keep it in: is a
- * direction on the same side of both? `z` is its cosine to n. */
+ * direction on the same side of both? `z` is its cosine to n. Where the vertex
+ * is lifted the face itself is in the way of what must not pass. */
 static inline bool vertex_sides_agree(const struct vertex *v, struct vec3 d,
                                       float z)
 {
     float side = v3_dot(d, v->ng);
 
-    return z > 0.0f ? side > 0.0f : side < 0.0f;
+    return z > 0.0f ? v->is_lifted || side > 0.0f : side < 0.0f;
 }
 
-/* Where a ray in this direction begins. */
-static inline struct vec3 vertex_leave(const struct vertex *v, struct vec3 d)
+/* Where a ray begins that leaves upwards, by its cosine to n, or downwards. */
+static inline struct vec3 vertex_leave(const struct vertex *v, float z)
 {
-    return leave_surface(v->p, v->p_error,
-                         v3_dot(d, v->ng) > 0.0f ? v->ng : v3_neg(v->ng));
+    return leave_surface(v->p, v->p_error, z > 0.0f ? v->ng : v3_neg(v->ng));
 }
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "glim/lights.h"
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"
@@ -285,9 +286,110 @@ static void opacity_passes_its_share(void **state)
     mesh_free(&m);
 }
 
+/* Normals as on the sphere or the plane that the mesh stands for. */
+static void smooth(struct mesh *m, struct vec3 *normals, struct vec3 plane)
+{
+    for (uint32_t t = 0; t < m->tri_count; t++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t i = m->tris[t].v[k];
+
+            normals[i] = v3_is_zero(plane) ? v3_unit(m->positions[i]) : plane;
+            m->tris[t].vn[k] = m->tris[t].material == 0 ? i : NO_INDEX;
+        }
+    m->world.normals = normals;
+}
+
+/* A coarse ball with the normals of a sphere under a small lamp far away is as
+ * bright as the sphere, up to the edge of its shade: the cosine's law. Faces
+ * that are turned away from the lamp would be black. */
+static void coarse_balls_have_smooth_shade(void **state)
+{
+    static struct vec3 normals[4096];
+    /* so that a face which begins 72 degrees from it is turned 95 degrees */
+    const struct vec3 lamp = {177.4f, 0, -92.36f};
+    const struct vec3 aside = {0.04618f, 0, 0.0887f};
+    const struct vec3 above = {0, 0.1f, 0};
+    const double lamp_area = 0.2 * 0.2, radiance = 1e7;
+    struct mesh m = {0};
+    struct lights lights = {0};
+    struct error err;
+    int seen = 0, turned_away = 0;
+
+    (void)state;
+    m.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    m.materials[1] = mesh_material(MATERIAL_DIFFUSE, 0);
+    m.materials[1].emission = v3(1e7f, 1e7f, 1e7f);
+    mesh_add_sphere(&m, v3(0, 0, 0), 1, 8, 8, 0);
+    mesh_add_quad(&m, v3_sub(v3_sub(lamp, aside), above),
+                  v3_sub(v3_add(lamp, aside), above),
+                  v3_add(v3_add(lamp, aside), above),
+                  v3_add(v3_sub(lamp, aside), above), 1);
+    m.world.settings.max_vertices = 2;
+    assert_true(3 * m.tri_count < 4096);
+    smooth(&m, normals, v3(0, 0, 0));
+    mesh_finish(&m);
+    assert_true(lights_build(&lights, &m.world, &err));
+    lights_lend(&lights, &m.world);
+    for (int i = 0; i < 400; i++) {
+        double angle = M_PI * i / 400;
+        struct vec3 at = v3((float)cos(angle), 0.1f, (float)sin(angle));
+        struct ray r = {v3_scale(at, 3), v3_unit(v3_neg(at)), FLOAT_MAX, 0};
+        struct vec3 to_lamp;
+        struct vertex v;
+        struct hit h;
+        double cosine, truth, got = 0;
+
+        assert_true(hit_closest(&m.world, r, &h));
+        assert_true(vertex_at(&m.world, &m.materials[0], r, h, &v));
+        to_lamp = v3_sub(lamp, v.p);
+        cosine = (double)v3_dot(v.n, v3_unit(to_lamp));
+        if (cosine < 0.1)
+            continue;
+        for (uint32_t k = 0; k < 16; k++)
+            got += (double)path_trace(&m.world, r, sampler_start(0, 0, k, 0))
+                       .radiance.x /
+                   16;
+        truth = 0.5 / M_PI * radiance * lamp_area * cosine /
+                (double)v3_dot(to_lamp, to_lamp);
+        /* the vertex is moved by up to .15 of 200, the cosine is at least .1 */
+        check_close(got / truth, 1, 0.15 / 200 / 0.1 + 0.0015);
+        turned_away += v3_dot(v.ng, to_lamp) < 0.0f;
+        seen++;
+    }
+    assert_true(seen > 100);
+    assert_true(turned_away > 10);
+    lights_free(&lights);
+    mesh_free(&m);
+}
+
+/* Normals that lean towards a light behind a wall let none of it through. */
+static void leaning_normals_leak_nothing(void **state)
+{
+    static struct vec3 normals[64];
+    struct mesh m = {0};
+    struct ray r = {{0.2f, 0.1f, 1}, {0, 0, -1}, FLOAT_MAX, 0};
+
+    (void)state;
+    m.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.9f);
+    m.materials[1] = mesh_material(MATERIAL_DIFFUSE, 0);
+    m.materials[1].emission = v3(5, 5, 5);
+    mesh_add_quad(&m, v3(-9, -9, 0), v3(9, -9, 0), v3(9, 9, 0), v3(-9, 9, 0),
+                  0);
+    mesh_add_quad(&m, v3(-9, -9, -1), v3(9, -9, -1), v3(9, 9, -1),
+                  v3(-9, 9, -1), 1);
+    smooth(&m, normals, v3_unit(v3(3, 0, 1)));
+    mesh_finish(&m);
+    for (uint32_t i = 0; i < 20000; i++)
+        assert_true(v3_is_zero(
+            path_trace(&m.world, r, sampler_start(0, 0, i, 0)).radiance));
+    mesh_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coarse_balls_have_smooth_shade),
+        cmocka_unit_test(leaning_normals_leak_nothing),
         cmocka_unit_test(furnace_shows_its_series),
         cmocka_unit_test(white_diffuse_vanishes),
         cmocka_unit_test(smooth_glass_vanishes),
