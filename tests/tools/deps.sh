@@ -92,6 +92,7 @@ look()
             need_library libOpenCL.so.1 ocl-icd-libopencl1
             need_driver pocl.icd pocl-opencl-icd
             need_program tmux tmux
+            need_program pgrep procps
             need_program mandoc mandoc
             ;;
         lint)
