@@ -363,6 +363,96 @@ static void mirrors_show_lamps_to_floors(void **state)
     stage_free(&s);
 }
 
+/* All within glass, seen from within and from outside: a face keeps .96 of what
+ * comes along its normal, and outside radiance is less by the index squared. */
+static void glass_dims_what_is_in_it(void **state)
+{
+    const struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    const struct sheet lamp = {0.05f, 0.6f, -0.3f, 0.3f, 0.4f};
+    double truth = ALBEDO / M_PI * 2 * sheet_irradiance(lamp, &r);
+    struct stage s = {0};
+
+    (void)state;
+    s.mesh.materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
+    s.mesh.materials[LAMP] = lamp_material(2);
+    s.mesh.materials[OTHER] = mesh_material(MATERIAL_GLASS, 1);
+    add_receiver(&s.mesh, r.p, r.n);
+    add_sheet(&s.mesh, lamp, LAMP);
+    mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), OTHER);
+    s.mesh.world.settings.max_vertices = 2; /* without what the faces reflect */
+    stage_finish(&s);
+    check_receiver(&s, &r, 2 * sheet_irradiance(lamp, &r), 1024);
+    s.mesh.world.settings.max_vertices = 3;
+    check_claim(&s, ((struct claim){.eye = {0, 2, 0},
+                                    .truth = GREY(truth * 0.96 / (1.5 * 1.5)),
+                                    .paths = 2048}));
+    stage_free(&s);
+}
+
+/* A room with a glossy ball and a block of glass; four lamps of which one, or
+ * all if it is NO_INDEX, are on. */
+static void make_room(struct stage *s, uint32_t lit)
+{
+    struct mesh *m = &s->mesh;
+
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
+    m->materials[1] = mesh_material(MATERIAL_METAL, 0.8f);
+    m->materials[1].alpha = 0.3f;
+    m->materials[2] = mesh_material(MATERIAL_GLASS, 1);
+    mesh_add_box(m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_sphere(m, v3(-0.4f, -0.6f, -0.3f), 0.4f, 8, 12, 1);
+    mesh_add_box(m, v3(0.2f, -0.9f, -0.5f), v3(0.6f, -0.1f, -0.1f), 2);
+    for (uint32_t i = 0; i < 4; i++) {
+        float x = i % 2 ? 0.2f : -0.8f, z = i / 2 ? 0.1f : -0.7f;
+        struct sheet lamp = {x, x + 0.5f, z, z + 0.4f, 0.5f + 0.1f * (float)i};
+
+        m->materials[3 + i] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
+        if (lit == i || lit == NO_INDEX)
+            m->materials[3 + i].emission =
+                v3((float)i + 1, 2, 3 - 0.5f * (float)i);
+        add_sheet(m, lamp, 3 + i);
+    }
+    stage_finish(s);
+}
+
+/* Light adds up: all lamps at once, and one after the other. */
+static void lamps_add_up_one_by_one(void **state)
+{
+    const struct vec3 places[] = {{0.4f, -1, -0.3f},
+                                  {-0.4f, -0.5f, -0.2f},
+                                  {-1, 0.1f, 0.2f}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+        struct claim c = {.eye = {0.3f, 0.2f, 0.8f},
+                          .at = places[k],
+                          .paths = 2048};
+        struct estimate all = {{0}, {0}}, sum = {{0}, {0}};
+
+        for (uint32_t lit = 0; lit <= 4; lit++) {
+            struct stage s = {0};
+            struct estimate e;
+
+            make_room(&s, lit < 4 ? lit : NO_INDEX);
+            stage_gather(&s, DIRECT_MIS);
+            e = claim_estimate(&s.mesh.world, &c);
+            stage_free(&s);
+            if (lit == 4)
+                all = e;
+            for (int i = 0; lit < 4 && i < 3; i++) {
+                sum.mean[i] += e.mean[i];
+                sum.error[i] = hypot(sum.error[i], e.error[i]);
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            double error = hypot(all.error[i], sum.error[i]);
+
+            check_close(all.mean[i], sum.mean[i], T_LIMIT * error);
+            check_at_most(error, PRECISION * sum.mean[i]);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -372,6 +462,8 @@ int main(void)
         cmocka_unit_test(all_surfaces_shine_as_they_scatter),
         cmocka_unit_test(many_lamps_add_up),
         cmocka_unit_test(mirrors_show_lamps_to_floors),
+        cmocka_unit_test(glass_dims_what_is_in_it),
+        cmocka_unit_test(lamps_add_up_one_by_one),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

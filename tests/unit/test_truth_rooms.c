@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "facets.h"
 #include "truth.h"
 
 enum { WALL, THING, LAMP, OTHER };
@@ -163,6 +164,50 @@ static void corridors_keep_a_power(void **state)
         check_corridor(k, k, 0);
         check_corridor(k, k + 1, 3 * pow(f, k));
         check_corridor(k, 1000, 3 * pow(f, k));
+    }
+}
+
+/* A floor at the ground of a shaft of perfect mirrors, as wide as one likes
+ * therefore, below a pane and a lamp that fills the top. The pane keeps T of
+ * diffuse light and sends the rest back: rho T / (1 - rho (1 - T)). A sheet of
+ * two faces passes (1 - R) / (1 + R), solid or thin. */
+static void panes_dim_floors(void **state)
+{
+    const uint32_t kinds[] = {MATERIAL_GLASS, MATERIAL_THIN_GLASS};
+    const double rho = 0.7;
+    double t = 0;
+
+    (void)state;
+    for (int i = 0; i < 10000; i++) {
+        double cosine = (i + 0.5) / 10000;
+        double r = fresnel_by_angles(cosine, 1.5);
+
+        t += 2 * cosine * (1 - r) / (1 + r) / 10000;
+    }
+    for (size_t k = 0; k < 2; k++) {
+        double truth = 2 * rho * t / (1 - rho * (1 - t));
+        struct stage s = {0};
+
+        s.mesh.materials[WALL] = mesh_material(MATERIAL_METAL, 1);
+        s.mesh.materials[THING] = mesh_material(kinds[k], 1);
+        s.mesh.materials[LAMP] = lamp_material(2);
+        s.mesh.materials[OTHER] = mesh_material(MATERIAL_DIFFUSE, (float)rho);
+        mesh_add_box(&s.mesh, v3(-0.5f, -1, -0.5f), v3(0.5f, 2, 0.5f), WALL);
+        if (kinds[k] == MATERIAL_GLASS)
+            mesh_add_box(&s.mesh, v3(-1, 0.4f, -1), v3(1, 0.6f, 1), THING);
+        else
+            mesh_add_quad(&s.mesh, v3(-1, 0.5f, -1), v3(-1, 0.5f, 1),
+                          v3(1, 0.5f, 1), v3(1, 0.5f, -1), THING);
+        mesh_add_quad(&s.mesh, v3(-1, 0, -1), v3(-1, 0, 1), v3(1, 0, 1),
+                      v3(1, 0, -1), OTHER);
+        mesh_add_quad(&s.mesh, v3(-1, 1, -1), v3(-1, 1, 1), v3(1, 1, 1),
+                      v3(1, 1, -1), LAMP);
+        stage_finish(&s);
+        check_claim(&s, ((struct claim){.eye = {0.1f, 0.3f, 0.2f},
+                                        .at = {-0.2f, 0, 0.1f},
+                                        .truth = GREY(truth),
+                                        .paths = 1024}));
+        stage_free(&s);
     }
 }
 
@@ -371,6 +416,7 @@ int main(void)
         cmocka_unit_test(white_things_vanish_in_rooms),
         cmocka_unit_test(white_walls_show_each_bounce),
         cmocka_unit_test(corridors_keep_a_power),
+        cmocka_unit_test(panes_dim_floors),
         cmocka_unit_test(boxes_agree_with_radiosity),
     };
 

@@ -103,35 +103,50 @@ static inline void claim_means(const struct world *w, const struct claim *c,
     }
 }
 
-static inline void check_claim_this_way(const struct world *w,
-                                        const struct claim *c, const char *file,
-                                        int line)
+struct estimate {
+    double mean[3], error[3];
+};
+
+static inline struct estimate claim_estimate(const struct world *w,
+                                             const struct claim *c)
 {
-    double sums[3] = {0}, squares[3] = {0};
+    struct estimate e = {{0}, {0}};
 
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
         double means[3];
 
         claim_means(w, c, seed, means);
         for (int k = 0; k < 3; k++) {
-            sums[k] += means[k];
-            squares[k] += means[k] * means[k];
+            e.mean[k] += means[k] / SEEDS;
+            e.error[k] += means[k] * means[k] / SEEDS;
         }
     }
     for (int k = 0; k < 3; k++) {
-        double mean = sums[k] / SEEDS;
-        double variance = fmax(squares[k] / SEEDS - mean * mean, 0);
-        double error = sqrt(variance / (SEEDS - 1));
-        /* 1e-5: some tens of roundings of floats */
-        double allowed = T_LIMIT * error + (1e-5 + c->systematic) * c->truth[k];
+        double variance = fmax(e.error[k] - e.mean[k] * e.mean[k], 0);
 
-        if (fabs(mean - c->truth[k]) <= allowed &&
-            error <= PRECISION * c->truth[k])
+        e.error[k] = sqrt(variance / (SEEDS - 1));
+    }
+    return e;
+}
+
+static inline void check_claim_this_way(const struct world *w,
+                                        const struct claim *c, const char *file,
+                                        int line)
+{
+    struct estimate e = claim_estimate(w, c);
+
+    for (int k = 0; k < 3; k++) {
+        double miss = fabs(e.mean[k] - c->truth[k]);
+        /* 1e-5: some tens of roundings of floats */
+        double allowed =
+            T_LIMIT * e.error[k] + (1e-5 + c->systematic) * c->truth[k];
+
+        if (miss <= allowed && e.error[k] <= PRECISION * c->truth[k])
             continue;
         print_error("%s, channel %d: got %.7g, want %.7g, off by %.3g, "
                     "allowed %.3g; standard error %.2g\n",
-                    ways[w->settings.direct], k, mean, c->truth[k],
-                    fabs(mean - c->truth[k]), allowed, error);
+                    ways[w->settings.direct], k, e.mean[k], c->truth[k], miss,
+                    allowed, e.error[k]);
         _fail(file, line);
     }
 }
