@@ -16,11 +16,13 @@
 #include "glim/bvh.h"
 #include "kernels/vec.h"
 
+#define MESH_MATERIALS 8
+
 struct mesh {
     struct vec3 *positions;
     struct tri *tris;
     uint32_t tri_count;
-    struct material materials[4];
+    struct material materials[MESH_MATERIALS];
     struct bvh bvh;
     struct world world;
 };
@@ -125,7 +127,7 @@ static inline void mesh_finish(struct mesh *m)
     w->tris = m->tris;
     w->settings.tri_count = m->tri_count;
     w->settings.position_count = 3 * m->tri_count;
-    w->settings.material_count = 4;
+    w->settings.material_count = MESH_MATERIALS;
     w->materials = m->materials;
     if (w->settings.max_vertices == 0)
         w->settings.max_vertices = 1000;

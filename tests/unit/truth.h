@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+/*
+ * truth.h - what paths show on the average, against truth from outside
+ *
+ * A stage is a small world with all that light is sampled from. Each claim
+ * about it is tried in every way of gathering light, over independent seeds.
+ *
+ * Units:     normalised scene units, radiance
+ * Ownership: stage_free() frees the arrays
+ * Threads:   one
+ * Errors:    a claim that does not hold ends the test
+ */
+#ifndef TESTS_TRUTH_H
+#define TESTS_TRUTH_H
+
+#include <math.h>
+
+#include "glim/lights.h"
+#include "glim/sky.h"
+#include "mesh.h"
+
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+
+#define SEEDS 32
+
+/* Student's t with 31 degrees is beyond this once in 1e6 (two-sided); the
+ * tests that include this make some 600 comparisons: one false alarm in 1,600
+ * choices of seeds. They are fixed. */
+#define T_LIMIT 6.07
+
+/* Claims are about means known to this, or they would hold of anything. */
+#define PRECISION 0.01
+
+struct stage {
+    struct mesh mesh;
+    struct lights lights;
+    struct sky_table skies[2]; /* by enum sky_use */
+};
+
+struct claim {
+    struct vec3 eye, at; /* a ray from eye through at */
+    double truth[3];     /* the radiance that comes along it */
+    double systematic;   /* relative error that is no noise: of tables */
+    int paths;           /* for each seed */
+    int without;         /* 1 << enum direct: a way that is hopeless */
+};
+
+#define GREY(x) \
+    {           \
+        x, x, x \
+    }
+
+static const char *const ways[] = {"both ways", "chosen lights", "chance"};
+
+static inline void stage_finish(struct stage *s)
+{
+    struct world *w = &s->mesh.world;
+    struct error err;
+
+    mesh_finish(&s->mesh);
+    assert_true(lights_build(&s->lights, w, &err));
+    for (int use = SKY_WITH_CHANCE; use <= SKY_ALONE; use++)
+        assert_true(sky_build(&s->skies[use], w->sky_texels,
+                              w->settings.sky.width, w->settings.sky.height,
+                              (enum sky_use)use, &err));
+}
+
+static inline void stage_free(struct stage *s)
+{
+    sky_free(&s->skies[SKY_WITH_CHANCE]);
+    sky_free(&s->skies[SKY_ALONE]);
+    lights_free(&s->lights);
+    mesh_free(&s->mesh);
+}
+
+/* Lends the tables that this way of gathering light needs. */
+static inline void stage_gather(struct stage *s, enum direct direct)
+{
+    enum sky_use use = direct == DIRECT_LIGHTS ? SKY_ALONE : SKY_WITH_CHANCE;
+
+    s->mesh.world.settings.direct = direct;
+    lights_lend(&s->lights, &s->mesh.world);
+    sky_lend(&s->skies[use], &s->mesh.world);
+}
+
+/* Means of n paths along the claim's ray. */
+static inline void claim_means(const struct world *w, const struct claim *c,
+                               uint32_t seed, double means[3])
+{
+    struct ray r = {c->eye, v3_unit(v3_sub(c->at, c->eye)), FLOAT_MAX, 0};
+
+    means[0] = means[1] = means[2] = 0;
+    for (int i = 0; i < c->paths; i++) {
+        struct path_sample s =
+            path_trace(w, r, sampler_start(3, 1, (uint64_t)i, seed));
+
+        assert_int_equal(s.cut, 0);
+        means[0] += (double)s.radiance.x / c->paths;
+        means[1] += (double)s.radiance.y / c->paths;
+        means[2] += (double)s.radiance.z / c->paths;
+    }
+}
+
+struct estimate {
+    double mean[3], error[3];
+};
+
+static inline struct estimate claim_estimate(const struct world *w,
+                                             const struct claim *c)
+{
+    struct estimate e = {{0}, {0}};
+
+    for (uint32_t seed = 1; seed <= SEEDS; seed++) {
+        double means[3];
+
+        claim_means(w, c, seed, means);
+        for (int k = 0; k < 3; k++) {
+            e.mean[k] += means[k] / SEEDS;
+            e.error[k] += means[k] * means[k] / SEEDS;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        double variance = fmax(e.error[k] - e.mean[k] * e.mean[k], 0);
+
+        e.error[k] = sqrt(variance / (SEEDS - 1));
+    }
+    return e;
+}
+
+static inline void check_claim_this_way(const struct world *w,
+                                        const struct claim *c, const char *file,
+                                        int line)
+{
+    struct estimate e = claim_estimate(w, c);
+
+    for (int k = 0; k < 3; k++) {
+        double miss = fabs(e.mean[k] - c->truth[k]);
+        /* 1e-5: some tens of roundings of floats */
+        double allowed =
+            T_LIMIT * e.error[k] + (1e-5 + c->systematic) * c->truth[k];
+
+        if (miss <= allowed && e.error[k] <= PRECISION * c->truth[k])
+            continue;
+        print_error("%s, channel %d: got %.7g, want %.7g, off by %.3g, "
+                    "allowed %.3g; standard error %.2g\n",
+                    ways[w->settings.direct], k, e.mean[k], c->truth[k], miss,
+                    allowed, e.error[k]);
+        _fail(file, line);
+    }
+}
+
+static inline void check_claim_at(struct stage *s, struct claim c,
+                                  const char *file, int line)
+{
+    for (int direct = DIRECT_MIS; direct <= DIRECT_CHANCE; direct++) {
+        if ((c.without >> direct & 1) != 0)
+            continue;
+        stage_gather(s, (enum direct)direct);
+        check_claim_this_way(&s->mesh.world, &c, file, line);
+    }
+}
+
+#define check_claim(stage, claim) \
+    check_claim_at(stage, claim, __FILE__, __LINE__)
+
+static inline struct material lamp_material(float radiance)
+{
+    struct material m = mesh_material(MATERIAL_DIFFUSE, 0);
+
+    m.emission = v3(radiance, radiance, radiance);
+    return m;
+}
+
+#endif
