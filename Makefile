@@ -51,7 +51,8 @@ MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
-	tests/bench/error tests/tools,$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
+	tests/bench/error tests/tools,$(wildcard $(d)/*.[ch])) \
+	$(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
 all: $(B)/glim

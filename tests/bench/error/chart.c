@@ -10,7 +10,7 @@
 #include "glim/file.h"
 #include "glim/stb.h"
 
-#define WIDTH  900
+#define WIDTH  930
 #define HEIGHT 600
 
 /* Where the diagram is; to its right stand the names of the curves. */

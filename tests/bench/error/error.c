@@ -165,7 +165,7 @@ static bool start(struct render *r, const struct render_job *job,
     return true;
 }
 
-/* Adds one render of this world to a curve. */
+/* Adds one render of this world to a curve, at the end of which `rgb` is. */
 static bool measure_world(struct measurement *m, struct curve *c, int round,
                           const struct world *world, struct error *err)
 {
@@ -196,6 +196,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
     return true;
 }
 
+/* Adds one render of a technique to its curve. */
 static bool measure_round(struct measurement *m, int technique, int round,
                           struct error *err)
 {
@@ -337,22 +338,26 @@ static bool draw_curves(const struct measurement *m, const char *name,
 static bool find_reference(struct measurement *m, const struct subject *subject,
                            struct error *err)
 {
-    struct scene *scene = &m->session.scene;
     char *cache;
     bool ok;
 
     if (subject->folder == SHARED)
         return reference_read(&m->reference, m->session.options->scene_path,
                               REDUCE, err);
-    if (scene->sky_texels != NULL &&
-        !sky_build(&m->whole_sky, scene->sky_texels, scene->sky_width,
-                   scene->sky_height, SKY_ALONE, err))
-        return false;
     cache = xformat("%s/reference", m->bench->folder);
     ok = reference_make(&m->reference, &m->session, subject->reference, cache,
                         err);
     free(cache);
     return ok;
+}
+
+static bool build_whole_sky(struct measurement *m, struct error *err)
+{
+    const struct scene *s = &m->session.scene;
+
+    return s->sky_texels == NULL ||
+           sky_build(&m->whole_sky, s->sky_texels, s->sky_width, s->sky_height,
+                     SKY_ALONE, err);
 }
 
 /* `gain`: how many times less error than the first integrator's. */
@@ -372,7 +377,7 @@ static bool measure_scene(const struct bench *bench,
 
     m->bench = bench;
     ok = session_open(&m->session, &o, clock_ns(), err) &&
-         find_reference(m, subject, err);
+         find_reference(m, subject, err) && build_whole_sky(m, err);
     if (ok) {
         m->rgb =
             xcalloc((size_t)m->reference.width * (size_t)m->reference.height,
@@ -408,37 +413,55 @@ static char *path_of(const struct bench *bench, const struct subject *s)
     return xformat("scenes/%s.obj", s->name);
 }
 
+/* As it is shown, and as its diagram is called. */
+static char *title_of(const struct subject *s)
+{
+    return xformat("%s%s", s->folder == SHARED ? "shared-" : "", s->name);
+}
+
+static bool measure_subject(const struct bench *bench, const struct subject *s,
+                            const char *filter, double *gain, struct error *err)
+{
+    char *title = title_of(s);
+    char *path = path_of(bench, s);
+    bool ok = true;
+
+    if (strstr(title, filter) != NULL) {
+        if (access(path, R_OK) == 0)
+            ok = measure_scene(bench, s, path, title, gain, err);
+        else
+            printf("\n%s: skipped, %s is not here\n", title, path);
+    }
+    free(path);
+    free(title);
+    return ok;
+}
+
+static void print_gains(const double gains[SUBJECTS])
+{
+    printf("\nError of the first integrator (hashed points, light by chance) "
+           "at equal time\n");
+    for (int i = 0; i < SUBJECTS; i++) {
+        char *title = title_of(&subjects[i]);
+
+        if (gains[i] > 0)
+            printf("%-20s %9.3g times, goal %4g: %s\n", title, gains[i],
+                   subjects[i].goal,
+                   gains[i] >= subjects[i].goal ? "met" : "NOT MET");
+        free(title);
+    }
+}
+
 static bool measure_all(const struct bench *bench, const char *filter,
                         struct error *err)
 {
-    static const char *const prefixes[] = {"", "shared-", ""};
     double gains[SUBJECTS] = {0};
-    bool ok = true;
 
-    for (int i = 0; ok && i < SUBJECTS; i++) {
-        char *name =
-            xformat("%s%s", prefixes[subjects[i].folder], subjects[i].name);
-        char *path = path_of(bench, &subjects[i]);
-
-        if (strstr(name, filter) == NULL) {
-            /* not wanted */
-        } else if (access(path, R_OK) != 0) {
-            printf("\n%s: skipped, %s is not here\n", name, path);
-        } else {
-            ok = measure_scene(bench, &subjects[i], path, name, &gains[i], err);
-        }
-        free(path);
-        free(name);
-    }
-    printf("\nError of the first integrator (hashed points, light by chance) "
-           "at equal time\n");
-    for (int i = 0; ok && i < SUBJECTS; i++)
-        if (gains[i] > 0)
-            printf("%s%-15s %8.2f times, goal %g: %s\n",
-                   prefixes[subjects[i].folder], subjects[i].name, gains[i],
-                   subjects[i].goal,
-                   gains[i] >= subjects[i].goal ? "met" : "NOT MET");
-    return ok;
+    for (int i = 0; i < SUBJECTS; i++)
+        if (!measure_subject(bench, &subjects[i], filter, &gains[i], err))
+            return false;
+    print_gains(gains);
+    return true;
 }
 
 int main(int argc, char **argv)
@@ -469,9 +492,11 @@ int main(int argc, char **argv)
         bench.backends[i] = techniques[i].create(bench.threads, &err);
         ok = bench.backends[i] != NULL;
     }
-    printf("%d thread(s), %d rounds; ratio: error at equal time, over that of "
-           "everything\n",
-           bench.threads, bench.rounds);
+    printf(
+        "%d thread(s), %d rounds; seconds of the processor a thread; "
+        "efficiency: 1 / (error x seconds); ratio: error at equal time, over "
+        "that of everything; bias: of the mean, against the reference's\n",
+        bench.threads, bench.rounds);
     ok = ok && measure_all(&bench, argc > 4 ? argv[4] : "", &err);
     if (!ok)
         fprintf(stderr, "error: %s\n", err.text);
