@@ -12,6 +12,10 @@ V ?= 0
 Q = $(if $(filter 1,$(V)),,@)
 SAY = $(if $(filter 1,$(V)),@:,@printf '  %-5s %s\n')
 
+# What `make bench-error` renders with, and how often.
+THREADS ?= 1
+ROUNDS ?= 5
+
 # What `make run` opens.
 SCENE ?= scenes/cornell.obj
 
@@ -38,13 +42,17 @@ LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
+ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
+	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
+	%,$(B)/error/cpu_%.o,hashed uniform throughput)
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 # On all cores, unless the caller has said how many.
 MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
-	tests/tools,$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
+	tests/bench/error tests/tools,$(wildcard $(d)/*.[ch])) \
+	$(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
 all: $(B)/glim
@@ -86,6 +94,26 @@ $(eval $(call program,unit,-lcmocka))
 $(eval $(call program,bench))
 $(eval $(call program,tools))
 
+$(B)/error/%.o: tests/bench/error/%.c $(B)/flags
+	@mkdir -p $(@D)
+	$(SAY) CC $<
+	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+# The CPU's backend with a function of the kernels replaced.
+$(B)/error/cpu_%.o: src/backend_cpu.c tests/bench/error/%.h $(B)/flags
+	@mkdir -p $(@D)
+	$(SAY) CC $<
+	$(Q)$(CC) $(ALL_CFLAGS) -include tests/bench/error/$*.h -MMD -MP -c \
+		-o $@ $<
+
+$(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
+	$(SAY) LINK $@
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+
+$(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o $(LIBRARY)
+	$(SAY) LINK $@
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+
 # Changed flags or another compiler rebuild everything of this variant.
 $(B)/flags: FORCE
 	@mkdir -p $(@D)
@@ -117,6 +145,18 @@ tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate
 ## bench: measures speed, halting and threads; FILTER=NAME for one of them
 bench: $(B)/glim $(BENCHES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
+
+## bench-error: error against time, each technique on and off; text, CSV and
+##              diagrams in build/bench-error/; FILTER=PART of scenes' names,
+##              THREADS=1 ROUNDS=5 (seeds)
+bench-error: $(B)/error/error build/bench-error/scenes
+	@mkdir -p build/bench-error/reference
+	@$< build/bench-error '$(THREADS)' '$(ROUNDS)' '$(FILTER)' | \
+		tee build/bench-error/report.txt
+
+build/bench-error/scenes: $(B)/error/scenes
+	@mkdir -p $@
+	$(Q)$< $@ && touch $@
 
 ## stress: checks that take minutes; FILTER=NAME for one of them
 stress: $(B)/glim
@@ -199,7 +239,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench stress scenes tables gallery install uninstall \
-	deps format lint clean help FORCE
+.PHONY: all run test tests bench bench-error stress scenes tables gallery \
+	install uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
-	$(TOOLS:=.d)
+	$(TOOLS:=.d) $(ERROR_BENCH:.o=.d) $(B)/error/scenes.d

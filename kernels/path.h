@@ -20,6 +20,7 @@
 
 #include "kernels/light.h"
 #include "kernels/path_types.h"
+#include "kernels/roulette.h"
 #include "kernels/start.h"
 #include "kernels/vertex.h"
 
@@ -173,14 +174,13 @@ static inline bool path_scatter(struct path *p, const struct bsdf *b,
     return true;
 }
 
-/* Survival by the square root of the throughput, from the second vertex on.
- * False if the path ends. */
+/* False if roulette ends the path. */
 static inline bool path_survives(struct path *p, uint32_t vertex, float u)
 {
-    float q = sqrtf(v3_max(p->beta));
+    float q = survival(p->beta, vertex);
 
-    if (vertex == 1 || q >= 1.0f)
-        return q > 0.0f;
+    if (q >= 1.0f)
+        return true;
     if (!(u < q))
         return false;
     p->beta = v3_scale(p->beta, 1.0f / q);

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "chart.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/file.h"
+#include "glim/stb.h"
+
+#define WIDTH  930
+#define HEIGHT 600
+
+/* Where the diagram is; to its right stand the names of the curves. */
+#define LEFT   90
+#define RIGHT  620
+#define TOP    50
+#define BOTTOM 530
+
+/* A glyph is 4 pixels wide and 6 high, each of SCALE x SCALE. */
+#define SCALE    2
+#define ADVANCE  (5 * SCALE)
+#define GLYPH_PX (6 * SCALE)
+
+#define BLACK 0x000000u
+#define GRAY  0xdddddd
+
+/* One hexadecimal digit a row, the top one first. */
+static const uint32_t letters[] = {0x699f99, 0xe9e99e, 0x698896, 0xe9999e,
+                                   0xf8e88f, 0xf8e888, 0x698b96, 0x99f999,
+                                   0xe4444e, 0x311196, 0x9acca9, 0x88888f,
+                                   0x9ff999, 0x9ddbb9, 0x699996, 0xe99e88,
+                                   0x6999a5, 0xe99ea9, 0x78611e, 0xe44444,
+                                   0x999996, 0x9999a4, 0x999ff9, 0x996699,
+                                   0xaa4444, 0xf1248f};
+static const uint32_t digits[] = {0x69bd96, 0x4c444e, 0x69124f, 0xe1611e,
+                                  0x99f111, 0xf8e11e, 0x68e996, 0xf12244,
+                                  0x696996, 0x699716};
+static const char marks[] = "-.,:+/_()";
+static const uint32_t mark_glyphs[] = {0x00f000, 0x000004, 0x000024,
+                                       0x040040, 0x04e400, 0x112448,
+                                       0x00000f, 0x244442, 0x422224};
+
+static const uint32_t colors[] = {0x000000, 0xd62728, 0x1f77b4, 0x2ca02c,
+                                  0xff7f0e, 0x9467bd, 0x17a2b8, 0x8c564b};
+
+/* One axis: from where to where it goes, in decimal logarithms. */
+struct axis {
+    double low, high;
+    int from_px, to_px;
+};
+
+struct canvas {
+    uint8_t rgb[HEIGHT][WIDTH][3];
+};
+
+static uint32_t glyph_of(char c)
+{
+    const char *mark = strchr(marks, c);
+
+    if (isalpha((unsigned char)c))
+        return letters[toupper((unsigned char)c) - 'A'];
+    if (isdigit((unsigned char)c))
+        return digits[c - '0'];
+    return c != '\0' && mark != NULL ? mark_glyphs[mark - marks] : 0;
+}
+
+static void fill(struct canvas *c, int x, int y, int width, int height,
+                 uint32_t color)
+{
+    for (int j = y < 0 ? 0 : y; j < y + height && j < HEIGHT; j++)
+        for (int i = x < 0 ? 0 : x; i < x + width && i < WIDTH; i++)
+            for (int k = 0; k < 3; k++)
+                c->rgb[j][i][k] = (uint8_t)(color >> (16 - 8 * k));
+}
+
+static void put_text(struct canvas *c, int x, int y, const char *text)
+{
+    for (; *text != '\0'; text++, x += ADVANCE) {
+        uint32_t glyph = glyph_of(*text);
+
+        for (int i = 0; i < 24; i++)
+            if ((glyph >> (23 - i) & 1) != 0)
+                fill(c, x + i % 4 * SCALE, y + i / 4 * SCALE, SCALE, SCALE,
+                     BLACK);
+    }
+}
+
+static int text_width(const char *text)
+{
+    return (int)strlen(text) * ADVANCE;
+}
+
+static void put_line(struct canvas *c, double x0, double y0, double x1,
+                     double y1, uint32_t color)
+{
+    int steps = (int)(fabs(x1 - x0) + fabs(y1 - y0)) + 1;
+
+    for (int i = 0; i <= steps; i++) {
+        double t = (double)i / steps;
+
+        fill(c, (int)(x0 + t * (x1 - x0)), (int)(y0 + t * (y1 - y0)), 2, 2,
+             color);
+    }
+}
+
+static double pixel_of(const struct axis *a, double value)
+{
+    return a->from_px + (a->to_px - a->from_px) * (log10(value) - a->low) /
+                            (a->high - a->low);
+}
+
+static bool is_drawn(const struct series *s, int i)
+{
+    return s->x[i] > 0 && s->y[i] > 0;
+}
+
+/* Widens the axis until the value is on it. */
+static void axis_add(struct axis *a, double value)
+{
+    a->low = fmin(a->low, log10(value) - 0.05);
+    a->high = fmax(a->high, log10(value) + 0.05);
+}
+
+/* Calls of `put` for 1, 2 and 5 times each power of ten on the axis. */
+static void each_tick(struct canvas *c, const struct axis *a,
+                      void (*put)(struct canvas *, int, const char *))
+{
+    static const int steps[] = {1, 2, 5};
+
+    for (int power = (int)floor(a->low); power <= a->high; power++)
+        for (int i = 0; i < 3; i++) {
+            double value = steps[i] * pow(10, power);
+            char label[32];
+
+            if (log10(value) < a->low || log10(value) > a->high)
+                continue;
+            snprintf(label, sizeof label, "%.3g", value);
+            if (power < -2)
+                snprintf(label, sizeof label, "%de%d", steps[i], power);
+            put(c, (int)pixel_of(a, value), label);
+        }
+}
+
+static void put_x_tick(struct canvas *c, int x, const char *label)
+{
+    fill(c, x, TOP, 1, BOTTOM - TOP, GRAY);
+    fill(c, x, BOTTOM, 1, 6, BLACK);
+    put_text(c, x - text_width(label) / 2, BOTTOM + 10, label);
+}
+
+static void put_y_tick(struct canvas *c, int y, const char *label)
+{
+    fill(c, LEFT, y, RIGHT - LEFT, 1, GRAY);
+    fill(c, LEFT - 6, y, 6, 1, BLACK);
+    put_text(c, LEFT - 10 - text_width(label), y - GLYPH_PX / 2, label);
+}
+
+static void put_series(struct canvas *c, const struct series *s,
+                       const struct axis *x, const struct axis *y,
+                       uint32_t color)
+{
+    int before = -1;
+
+    for (int i = 0; i < s->count; i++) {
+        if (!is_drawn(s, i))
+            continue;
+        fill(c, (int)pixel_of(x, s->x[i]) - 2, (int)pixel_of(y, s->y[i]) - 2, 6,
+             6, color);
+        if (before >= 0)
+            put_line(c, pixel_of(x, s->x[before]), pixel_of(y, s->y[before]),
+                     pixel_of(x, s->x[i]), pixel_of(y, s->y[i]), color);
+        before = i;
+    }
+}
+
+static void draw(struct canvas *c, const struct chart *chart,
+                 const struct axis *x, const struct axis *y)
+{
+    fill(c, 0, 0, WIDTH, HEIGHT, 0xffffff);
+    each_tick(c, x, put_x_tick);
+    each_tick(c, y, put_y_tick);
+    fill(c, LEFT, TOP, 1, BOTTOM - TOP, BLACK);
+    fill(c, LEFT, BOTTOM, RIGHT - LEFT, 1, BLACK);
+    put_text(c, LEFT, 12, chart->title);
+    put_text(c, 10, TOP - GLYPH_PX - 6, chart->y_label);
+    put_text(c, (LEFT + RIGHT - text_width(chart->x_label)) / 2, BOTTOM + 35,
+             chart->x_label);
+    for (int i = 0; i < chart->series_count; i++) {
+        uint32_t color = colors[(size_t)i % (sizeof colors / sizeof *colors)];
+
+        put_series(c, &chart->series[i], x, y, color);
+        fill(c, RIGHT + 15, TOP + 24 * i + 4, 20, 4, color);
+        put_text(c, RIGHT + 45, TOP + 24 * i, chart->series[i].name);
+    }
+}
+
+/* What the encoder writes to. */
+struct output {
+    void *data;
+    size_t size_bytes, capacity;
+};
+
+static void append(void *context, void *data, int size_bytes)
+{
+    struct output *o = context;
+    size_t more = (size_t)size_bytes;
+
+    if (!grow_array(&o->data, &o->capacity, o->size_bytes + more, 1))
+        return;
+    memcpy((char *)o->data + o->size_bytes, data, more);
+    o->size_bytes += more;
+}
+
+bool chart_write(const struct chart *chart, const char *path, struct error *err)
+{
+    struct axis x = {INFINITY, -INFINITY, LEFT, RIGHT};
+    struct axis y = {INFINITY, -INFINITY, BOTTOM, TOP};
+    struct output out = {NULL, 0, 0};
+    struct canvas *c;
+    bool ok;
+
+    for (int i = 0; i < chart->series_count; i++)
+        for (int k = 0; k < chart->series[i].count; k++)
+            if (is_drawn(&chart->series[i], k)) {
+                axis_add(&x, chart->series[i].x[k]);
+                axis_add(&y, chart->series[i].y[k]);
+            }
+    if (!(x.low < x.high))
+        return fail(err, "%s: found no point to draw", path);
+    c = xmalloc(sizeof *c);
+    draw(c, chart, &x, &y);
+    ok = stbi_write_png_to_func(append, &out, WIDTH, HEIGHT, 3, c->rgb,
+                                3 * WIDTH) != 0
+             ? file_write(path, out.data, out.size_bytes, false, NULL, err)
+             : fail(err, "%s: out of memory", path);
+    free(out.data);
+    free(c);
+    return ok;
+}

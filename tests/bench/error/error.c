@@ -1,0 +1,509 @@
+// SPDX-License-Identifier: MIT
+/*
+ * error - relative MSE against seconds, with all techniques on and with each
+ * of them off, and how far all together are from glim's first integrator
+ *
+ * usage: error FOLDER THREADS ROUNDS [PART_OF_A_NAME]
+ *
+ * Pictures are small: what a pixel costs and how it converges does not depend
+ * on how many there are. A curve is one render that is looked at after 1, 2,
+ * 4, ... samples a pixel. Rounds have their own seeds, and techniques take
+ * turns in each, so that a slow minute of the machine hits all of them. Seconds
+ * are the processor's for each thread, so that what runs beside hardly counts,
+ * medians over the rounds; errors are means: they are expectations. The
+ * reference's own noise is subtracted.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "chart.h"
+#include "reference.h"
+
+#define POINTS     7 /* 1 to 64 samples a pixel */
+#define ROUNDS_MAX 32
+#define HEIGHT_PX  56
+
+/* References of 256x256 pixels, too many here, become 64x64. */
+#define REDUCE 4
+
+/* Backends made of src/backend_cpu.c with one function replaced: see the
+ * headers in this folder. */
+struct backend *backend_hashed_create(int thread_count, struct error *err);
+struct backend *backend_uniform_create(int thread_count, struct error *err);
+struct backend *backend_throughput_create(int thread_count, struct error *err);
+
+/* What a scene must have for a technique to matter. */
+enum need { NEED_NOTHING, NEED_LIGHT_SAMPLES, NEED_LIGHTS, NEED_SKY_TABLE };
+
+/* All techniques, or all but the one that is named. */
+static const struct technique {
+    const char *name;
+    struct backend *(*create)(int thread_count, struct error *err);
+    enum direct direct;
+    enum sky_use sky_use;
+    enum need need;
+} techniques[] = {
+    {"everything", backend_cpu_create, DIRECT_MIS, SKY_WITH_CHANCE,
+     NEED_NOTHING},
+    {"first integrator", backend_hashed_create, DIRECT_CHANCE, SKY_WITH_CHANCE,
+     NEED_NOTHING},
+    {"without light samples", backend_cpu_create, DIRECT_CHANCE,
+     SKY_WITH_CHANCE, NEED_LIGHT_SAMPLES},
+    {"without light by chance", backend_cpu_create, DIRECT_LIGHTS, SKY_ALONE,
+     NEED_LIGHT_SAMPLES},
+    {"without sobol points", backend_hashed_create, DIRECT_MIS, SKY_WITH_CHANCE,
+     NEED_NOTHING},
+    {"without the light tree", backend_uniform_create, DIRECT_MIS,
+     SKY_WITH_CHANCE, NEED_LIGHTS},
+    {"without compensation", backend_cpu_create, DIRECT_MIS, SKY_ALONE,
+     NEED_SKY_TABLE},
+    {"without root in roulette", backend_throughput_create, DIRECT_MIS,
+     SKY_WITH_CHANCE, NEED_NOTHING},
+};
+
+enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
+enum { EVERYTHING, FIRST_INTEGRATOR };
+
+enum folder { SHIPPED, SHARED, MADE };
+
+/* What is measured; `goal` is how far it should be from the first integrator:
+ * 0.95 is "no worse by more than 5 %". */
+static const struct subject {
+    const char *name;
+    enum folder folder;
+    enum direct reference; /* what makes it, unless another renderer has */
+    double goal;
+} subjects[] = {
+    {"cornell", SHIPPED, DIRECT_MIS, 30},
+    {"materials", SHIPPED, DIRECT_CHANCE, 0.95},
+    {"glass_mirror", SHIPPED, DIRECT_MIS, 0.95},
+    {"interior", SHIPPED, DIRECT_CHANCE, 0.95},
+    {"skylit", SHIPPED, DIRECT_MIS, 0.95},
+    {"lights200", SHIPPED, DIRECT_MIS, 0.95},
+    {"cornell", SHARED, DIRECT_MIS, 30},
+    {"many_lights", SHARED, DIRECT_MIS, 0.95},
+    {"sky", SHARED, DIRECT_MIS, 0.95},
+    {"plates", MADE, DIRECT_MIS, 15},
+    {"lamps2000", MADE, DIRECT_MIS, 5},
+    {"sun", MADE, DIRECT_MIS, 50},
+    {"balls", MADE, DIRECT_MIS, 5},
+};
+
+enum { SUBJECTS = sizeof subjects / sizeof subjects[0] };
+
+/* What one technique did in one scene. */
+struct curve {
+    bool is_measured;
+    double seconds[POINTS][ROUNDS_MAX];
+    double error[POINTS]; /* sums over rounds, then means */
+    double bias;
+};
+
+struct bench {
+    const char *folder;
+    int threads, rounds;
+    FILE *csv;
+    struct backend *backends[TECHNIQUES];
+};
+
+/* One scene while it is measured. */
+struct measurement {
+    const struct bench *bench;
+    struct session session;
+    struct sky_table whole_sky; /* of SKY_ALONE */
+    struct reference reference;
+    float *rgb;
+    struct curve curves[TECHNIQUES];
+};
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+static double median(const double *values, int count)
+{
+    double sorted[ROUNDS_MAX];
+
+    memcpy(sorted, values, (size_t)count * sizeof *sorted);
+    qsort(sorted, (size_t)count, sizeof *sorted, compare);
+    return (sorted[(count - 1) / 2] + sorted[count / 2]) / 2;
+}
+
+static bool matters(const struct technique *t, const struct settings *s)
+{
+    switch (t->need) {
+    case NEED_LIGHT_SAMPLES: return s->light_count > 0 || s->sky_share > 0;
+    case NEED_LIGHTS: return s->light_count > 1;
+    case NEED_SKY_TABLE: return s->sky_share > 0;
+    case NEED_NOTHING: break;
+    }
+    return true;
+}
+
+/* Of the processor: other programs that run beside this one hardly count. */
+static double cpu_seconds(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+static bool start(struct render *r, const struct render_job *job,
+                  struct error *err)
+{
+    if (!render_start(r, job, err))
+        return false;
+    render_wait(r, -1);
+    return true;
+}
+
+/* Adds one render of this world to a curve, at the end of which `rgb` is. */
+static bool measure_world(struct measurement *m, struct curve *c, int round,
+                          const struct world *world, struct error *err)
+{
+    struct session *s = &m->session;
+    struct render_job job = {.world = *world,
+                             .crop = {0, 0, s->view.width_px,
+                                      s->view.height_px},
+                             .spp = 1};
+    double seconds = 0;
+
+    if (!start(s->render, &job, err)) /* builds the tree, loads the code */
+        return false;
+    for (int i = 0; i < POINTS; i++) {
+        double begin = cpu_seconds();
+
+        if (i > 0) {
+            render_resume(s->render, 1ull << i);
+            render_wait(s->render, -1);
+        } else if (!start(s->render, &job, err)) {
+            return false;
+        }
+        seconds += cpu_seconds() - begin;
+        c->seconds[i][round] = seconds / m->bench->threads;
+        film_linear(render_film(s->render), m->rgb);
+        c->error[i] += reference_error(&m->reference, m->rgb);
+    }
+    c->bias += reference_bias(&m->reference, m->rgb);
+    return true;
+}
+
+/* Adds one render of a technique to its curve. */
+static bool measure_round(struct measurement *m, int technique, int round,
+                          struct error *err)
+{
+    const struct technique *t = &techniques[technique];
+    struct session *s = &m->session;
+    struct curve *c = &m->curves[technique];
+    struct world world;
+
+    if (!scene_world(&s->scene, &s->view, (uint32_t)round, &world, err))
+        return false;
+    c->is_measured = matters(t, &world.settings);
+    if (!c->is_measured)
+        return true;
+    if (t->sky_use == SKY_ALONE)
+        sky_lend(&m->whole_sky, &world);
+    world.settings.direct = t->direct;
+    render_use(s->render, m->bench->backends[technique]);
+    return measure_world(m, c, round, &world, err);
+}
+
+static bool measure(struct measurement *m, struct error *err)
+{
+    int rounds = m->bench->rounds;
+
+    for (int round = 0; round < rounds; round++)
+        for (int i = 0; i < TECHNIQUES; i++)
+            if (!measure_round(m, i, round, err))
+                return false;
+    for (int i = 0; i < TECHNIQUES; i++) {
+        struct curve *c = &m->curves[i];
+
+        for (int k = 0; k < POINTS; k++)
+            c->error[k] = c->error[k] / rounds - m->reference.noise;
+        c->bias /= rounds;
+    }
+    return true;
+}
+
+static struct series series_of(const struct curve *c, int rounds)
+{
+    struct series s = {.count = POINTS};
+
+    for (int i = 0; i < POINTS; i++) {
+        s.x[i] = median(c->seconds[i], rounds);
+        s.y[i] = c->error[i];
+    }
+    return s;
+}
+
+/* Of log RMSE against log seconds, by least squares; -0.5: independent
+ * samples. */
+static double slope_of(const struct series *s)
+{
+    double x = 0, y = 0, xx = 0, xy = 0;
+
+    for (int i = 0; i < s->count; i++) {
+        double a = log(s->x[i]), b = log(s->y[i]) / 2;
+
+        x += a;
+        y += b;
+        xx += a * a;
+        xy += a * b;
+    }
+    return (s->count * xy - x * y) / (s->count * xx - x * x);
+}
+
+/* The error after so many seconds, between the two points around it. */
+static double error_after(const struct series *s, double seconds)
+{
+    int i = 1;
+    double t;
+
+    while (i < s->count - 1 && s->x[i] < seconds)
+        i++;
+    t = log(seconds / s->x[i - 1]) / log(s->x[i] / s->x[i - 1]);
+    return s->y[i - 1] * pow(s->y[i] / s->y[i - 1], t);
+}
+
+/* How many times the error of b is that of a at equal time: the longest that
+ * both were measured for. */
+static double times_error(const struct series *a, const struct series *b)
+{
+    double seconds = fmin(a->x[a->count - 1], b->x[b->count - 1]);
+
+    return error_after(b, seconds) / error_after(a, seconds);
+}
+
+static void print_curves(const struct measurement *m, const char *name,
+                         struct series series[TECHNIQUES])
+{
+    const struct reference *r = &m->reference;
+
+    printf("\n%s, %dx%d pixels\nreference: %s; its own relative MSE of %.2g is "
+           "subtracted\n",
+           name, r->width, r->height, r->origin, r->noise);
+    printf("%-25s relative MSE after 1, 2, 4 .. %d samples a pixel%16s "
+           "%6s %10s %6s %6s\n",
+           "", 1 << (POINTS - 1), "seconds", "slope", "efficiency", "ratio",
+           "bias");
+    for (int i = 0; i < TECHNIQUES; i++) {
+        struct series *s = &series[i];
+        double seconds = s->x[POINTS - 1], error = s->y[POINTS - 1];
+
+        if (!m->curves[i].is_measured)
+            continue;
+        printf("%-25s", techniques[i].name);
+        for (int k = 0; k < POINTS; k++)
+            printf(" %8.2e", s->y[k]);
+        printf("  %7.3f %6.2f %10.3g %6.3g %5.1f%%\n", seconds, slope_of(s),
+               1 / (error * seconds), times_error(&series[EVERYTHING], s),
+               100 * m->curves[i].bias);
+        for (int k = 0; k < POINTS; k++)
+            fprintf(m->bench->csv, "%s,%s,%d,%g,%g,%g,%g\n", name,
+                    techniques[i].name, 1 << k, s->x[k], s->y[k], r->noise,
+                    1 / (s->x[k] * s->y[k]));
+    }
+    fflush(stdout);
+}
+
+static bool draw_curves(const struct measurement *m, const char *name,
+                        const struct series series[TECHNIQUES],
+                        struct error *err)
+{
+    struct series drawn[TECHNIQUES];
+    struct chart chart = {name, "seconds", "relative MSE", drawn, 0};
+    char *path = xformat("%s/%s.png", m->bench->folder, name);
+    bool ok;
+
+    for (int i = 0; i < TECHNIQUES; i++)
+        if (m->curves[i].is_measured) {
+            drawn[chart.series_count] = series[i];
+            drawn[chart.series_count++].name = techniques[i].name;
+        }
+    ok = chart_write(&chart, path, err);
+    free(path);
+    return ok;
+}
+
+static bool find_reference(struct measurement *m, const struct subject *subject,
+                           struct error *err)
+{
+    char *cache;
+    bool ok;
+
+    if (subject->folder == SHARED)
+        return reference_read(&m->reference, m->session.options->scene_path,
+                              REDUCE, err);
+    cache = xformat("%s/reference", m->bench->folder);
+    ok = reference_make(&m->reference, &m->session, subject->reference, cache,
+                        err);
+    free(cache);
+    return ok;
+}
+
+static bool build_whole_sky(struct measurement *m, struct error *err)
+{
+    const struct scene *s = &m->session.scene;
+
+    return s->sky_texels == NULL ||
+           sky_build(&m->whole_sky, s->sky_texels, s->sky_width, s->sky_height,
+                     SKY_ALONE, err);
+}
+
+/* `gain`: how many times less error than the first integrator's. */
+static bool measure_scene(const struct bench *bench,
+                          const struct subject *subject, const char *path,
+                          const char *name, double *gain, struct error *err)
+{
+    struct options o = {.scene_path = path,
+                        .height_px = subject->folder == SHARED ? 256 / REDUCE
+                                                               : HEIGHT_PX,
+                        .thread_count = bench->threads,
+                        .max_bounces = -1,
+                        .batch = true};
+    struct series series[TECHNIQUES];
+    struct measurement *m = xcalloc(1, sizeof *m);
+    bool ok;
+
+    m->bench = bench;
+    ok = session_open(&m->session, &o, clock_ns(), err) &&
+         find_reference(m, subject, err) && build_whole_sky(m, err);
+    if (ok) {
+        m->rgb =
+            xcalloc((size_t)m->reference.width * (size_t)m->reference.height,
+                    3 * sizeof *m->rgb);
+        ok = measure(m, err);
+    }
+    for (int i = 0; ok && i < TECHNIQUES; i++)
+        series[i] = series_of(&m->curves[i], bench->rounds);
+    if (ok) {
+        print_curves(m, name, series);
+        *gain = times_error(&series[EVERYTHING], &series[FIRST_INTEGRATOR]);
+        ok = draw_curves(m, name, series, err);
+    }
+    session_close(&m->session);
+    sky_free(&m->whole_sky);
+    reference_free(&m->reference);
+    free(m->rgb);
+    free(m);
+    return ok;
+}
+
+static char *path_of(const struct bench *bench, const struct subject *s)
+{
+    const char *shared = getenv("GLIM_SHARED");
+
+    switch (s->folder) {
+    case SHARED:
+        return xformat("%s/scenes-bench/%s/%s.obj",
+                       shared != NULL ? shared : "../shared", s->name, s->name);
+    case MADE: return xformat("%s/scenes/%s.obj", bench->folder, s->name);
+    case SHIPPED: break;
+    }
+    return xformat("scenes/%s.obj", s->name);
+}
+
+/* As it is shown, and as its diagram is called. */
+static char *title_of(const struct subject *s)
+{
+    return xformat("%s%s", s->folder == SHARED ? "shared-" : "", s->name);
+}
+
+static bool measure_subject(const struct bench *bench, const struct subject *s,
+                            const char *filter, double *gain, struct error *err)
+{
+    char *title = title_of(s);
+    char *path = path_of(bench, s);
+    bool ok = true;
+
+    if (strstr(title, filter) != NULL) {
+        if (access(path, R_OK) == 0)
+            ok = measure_scene(bench, s, path, title, gain, err);
+        else
+            printf("\n%s: skipped, %s is not here\n", title, path);
+    }
+    free(path);
+    free(title);
+    return ok;
+}
+
+static void print_gains(const double gains[SUBJECTS])
+{
+    printf("\nError of the first integrator (hashed points, light by chance) "
+           "at equal time\n");
+    for (int i = 0; i < SUBJECTS; i++) {
+        char *title = title_of(&subjects[i]);
+
+        if (gains[i] > 0)
+            printf("%-20s %9.3g times, goal %4g: %s\n", title, gains[i],
+                   subjects[i].goal,
+                   gains[i] >= subjects[i].goal ? "met" : "NOT MET");
+        free(title);
+    }
+}
+
+static bool measure_all(const struct bench *bench, const char *filter,
+                        struct error *err)
+{
+    double gains[SUBJECTS] = {0};
+
+    for (int i = 0; i < SUBJECTS; i++)
+        if (!measure_subject(bench, &subjects[i], filter, &gains[i], err))
+            return false;
+    print_gains(gains);
+    return true;
+}
+
+int main(int argc, char **argv)
+{
+    struct bench bench = {.folder = argc > 1 ? argv[1] : "."};
+    struct error err;
+    char *csv;
+    bool ok = true;
+
+    if (argc < 4) {
+        fprintf(stderr, "usage: error FOLDER THREADS ROUNDS [NAME]\n");
+        return 2;
+    }
+    bench.threads = (int)strtol(argv[2], NULL, 10);
+    bench.rounds = (int)strtol(argv[3], NULL, 10);
+    bench.rounds = bench.rounds < 1            ? 1
+                   : bench.rounds > ROUNDS_MAX ? ROUNDS_MAX
+                                               : bench.rounds;
+    csv = xformat("%s/error.csv", bench.folder);
+    bench.csv = fopen(csv, "w");
+    if (bench.csv == NULL) {
+        perror(csv);
+        return 1;
+    }
+    fprintf(bench.csv, "scene,technique,samples,seconds,relative_mse,"
+                       "reference_noise,efficiency\n");
+    for (int i = 0; ok && i < TECHNIQUES; i++) {
+        bench.backends[i] = techniques[i].create(bench.threads, &err);
+        ok = bench.backends[i] != NULL;
+    }
+    printf(
+        "%d thread(s), %d rounds; seconds of the processor a thread; "
+        "efficiency: 1 / (error x seconds); ratio: error at equal time, over "
+        "that of everything; bias: of the mean, against the reference's\n",
+        bench.threads, bench.rounds);
+    ok = ok && measure_all(&bench, argc > 4 ? argv[4] : "", &err);
+    if (!ok)
+        fprintf(stderr, "error: %s\n", err.text);
+    for (int i = 0; i < TECHNIQUES; i++)
+        if (bench.backends[i] != NULL)
+            bench.backends[i]->destroy(bench.backends[i]);
+    fclose(bench.csv);
+    free(csv);
+    return ok ? 0 : 1;
+}

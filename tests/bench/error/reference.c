@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "reference.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "glim/file.h"
+#include "glim/image.h"
+#include "glim/picture.h"
+
+#define HALF_SPP 1024
+
+/* Measurements count their seeds from 0. */
+#define SEED_OF_HALVES 1000000u
+
+static size_t number_count(const struct reference *r)
+{
+    return 3 * (size_t)r->width * (size_t)r->height;
+}
+
+double reference_error(const struct reference *r, const float *rgb)
+{
+    size_t count = number_count(r);
+    double sum = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        double ref = (double)r->rgb[i];
+        double miss = (double)rgb[i] - ref;
+
+        sum += miss * miss / (ref * ref + 0.01);
+    }
+    return sum / (double)count;
+}
+
+double reference_bias(const struct reference *r, const float *rgb)
+{
+    size_t count = number_count(r);
+    double sum = 0, reference = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        sum += (double)rgb[i];
+        reference += (double)r->rgb[i];
+    }
+    return sum / reference - 1;
+}
+
+/* The number behind "relmse" in the text. */
+static bool read_noise(const char *path, double *noise, struct error *err)
+{
+    const char key[] = "\"relmse\":";
+    char *text = NULL, *at;
+    size_t size;
+    bool found;
+
+    if (!file_read(path, &text, &size, err))
+        return false;
+    at = strstr(text, key);
+    found = at != NULL && sscanf(at + sizeof key - 1, "%lf", noise) == 1;
+    free(text);
+    return found || fail(err, "%s: found no relmse", path);
+}
+
+/* Means of squares of pixels: what a render with larger pixels shows. */
+static void shrink(const struct image *from, int reduce, struct reference *to)
+{
+    for (int y = 0; y < to->height; y++)
+        for (int x = 0; x < 3 * to->width; x++) {
+            double sum = 0;
+
+            for (int i = 0; i < reduce * reduce; i++) {
+                int row = y * reduce + i / reduce;
+                int column = x / 3 * reduce + i % reduce;
+
+                sum +=
+                    (double)from->rgb[3 * (row * from->width + column) + x % 3];
+            }
+            to->rgb[3 * y * to->width + x] = (float)(sum / (reduce * reduce));
+        }
+}
+
+static bool reference_init(struct reference *r, int width, int height,
+                           struct error *err)
+{
+    r->width = width;
+    r->height = height;
+    r->rgb = alloc_array(number_count(r), sizeof *r->rgb);
+    return r->rgb != NULL || fail(err, "out of memory for a reference");
+}
+
+bool reference_read(struct reference *r, const char *scene_path, int reduce,
+                    struct error *err)
+{
+    char *picture = path_beside(scene_path, "reference.pfm");
+    char *facts = path_beside(scene_path, "reference.json");
+    struct image image = {0};
+    uint64_t clamped;
+    bool ok =
+        image_read_linear(&image, picture, &clamped, err) &&
+        read_noise(facts, &r->noise, err) &&
+        reference_init(r, image.width / reduce, image.height / reduce, err);
+
+    if (ok) {
+        shrink(&image, reduce, r);
+        r->noise /= reduce * reduce;
+        snprintf(r->origin, sizeof r->origin, "by another renderer");
+    }
+    image_free(&image);
+    free(picture);
+    free(facts);
+    return ok;
+}
+
+/* Is the file there, and younger than what the scene is read from? */
+static bool is_fresh(const char *path, const char *scene_path)
+{
+    static const char *const endings[] = {"obj", "mtl", "view"};
+    char *stem = path_stem(scene_path);
+    struct stat own, other;
+    bool fresh = stat(path, &own) == 0;
+
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
+        char *part = xformat("%s.%s", stem, endings[i]);
+
+        fresh = fresh &&
+                !(stat(part, &other) == 0 && other.st_mtime > own.st_mtime);
+        free(part);
+    }
+    free(stem);
+    return fresh;
+}
+
+static bool render_half(struct session *s, enum direct direct, int half,
+                        const char *path, struct error *err)
+{
+    struct render_job job = {.geometry_changed = true,
+                             .crop = {0, 0, s->view.width_px,
+                                      s->view.height_px},
+                             .spp = HALF_SPP};
+
+    if (!scene_world(&s->scene, &s->view, SEED_OF_HALVES + (uint32_t)half,
+                     &job.world, err))
+        return false;
+    job.world.settings.direct = direct;
+    if (!render_start(s->render, &job, err))
+        return false;
+    render_wait(s->render, -1);
+    return picture_write(render_film(s->render), 0, path, err);
+}
+
+/* The half's picture, from its file if that is fresh. */
+static bool read_half(struct image *image, struct session *s,
+                      enum direct direct, const char *folder, int half,
+                      struct error *err)
+{
+    const char *scene_path = s->options->scene_path;
+    const char *slash = strrchr(scene_path, '/');
+    char *stem = path_stem(slash != NULL ? slash + 1 : scene_path);
+    char *path = xformat("%s/%s-%d-%d.pfm", folder, stem, (int)direct, half);
+    uint64_t clamped;
+    bool ok = (is_fresh(path, scene_path) ||
+               render_half(s, direct, half, path, err)) &&
+              image_read_linear(image, path, &clamped, err);
+
+    free(path);
+    free(stem);
+    return ok;
+}
+
+bool reference_make(struct reference *r, struct session *s, enum direct direct,
+                    const char *folder, struct error *err)
+{
+    struct image halves[2] = {{0}, {0}};
+    bool ok = reference_init(r, s->view.width_px, s->view.height_px, err);
+
+    for (int i = 0; ok && i < 2; i++)
+        ok = read_half(&halves[i], s, direct, folder, i, err);
+    if (ok) {
+        for (size_t i = 0; i < number_count(r); i++)
+            r->rgb[i] = (halves[0].rgb[i] + halves[1].rgb[i]) / 2;
+        /* of halves A and B the mean has the variance ((A - B) / 2)^2 */
+        r->noise = reference_error(r, halves[0].rgb);
+        snprintf(r->origin, sizeof r->origin, "2 halves of %d spp by %s",
+                 HALF_SPP,
+                 direct == DIRECT_CHANCE
+                     ? "light met by chance alone"
+                     : "glim itself, all techniques on, other seeds");
+    }
+    image_free(&halves[0]);
+    image_free(&halves[1]);
+    return ok;
+}
+
+void reference_free(struct reference *r)
+{
+    free(r->rgb);
+    *r = (struct reference){0};
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+/*
+ * throughput.h - for a backend_cpu.c with plain roulette: paths survive by
+ * their throughput itself, from the first vertex on
+ *
+ * Units:     probabilities
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef ERROR_THROUGHPUT_H
+#define ERROR_THROUGHPUT_H
+
+#include "kernels/roulette.h"
+
+static inline float throughput(struct vec3 beta, uint32_t vertex)
+{
+    (void)vertex;
+    return v3_max(beta);
+}
+
+#define survival           throughput
+#define backend_cpu_create backend_throughput_create
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/*
+ * uniform.h - for a backend_cpu.c without a light tree: all lights are equally
+ * likely
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef ERROR_UNIFORM_H
+#define ERROR_UNIFORM_H
+
+#include "kernels/light_tree.h"
+
+static inline float uniform_probability(const struct world *w,
+                                        const struct receiver *r,
+                                        uint32_t light)
+{
+    (void)r;
+    (void)light;
+    return 1.0f / (float)w->settings.light_count;
+}
+
+static inline float uniform_choose(const struct world *w,
+                                   const struct receiver *r, struct vec2 choice,
+                                   uint32_t *light)
+{
+    *light = (uint32_t)(choice.x * (float)w->settings.light_count);
+    if (*light >= w->settings.light_count) /* rounded up, or there is none */
+        return 0.0f;
+    return uniform_probability(w, r, *light);
+}
+
+#define light_tree_choose      uniform_choose
+#define light_tree_probability uniform_probability
+#define backend_cpu_create     backend_uniform_create
+
+#endif
