@@ -14,9 +14,9 @@ render() # scene, width, samples
     echo "scenes/gallery/$1.png"
 }
 
-render cornell 240 1000
-render materials 320 600
-render glass_mirror 320 1000
-render interior 320 1000
-render skylit 320 1000
-render lights200 320 3000
+render cornell 240 400
+render materials 320 300
+render glass_mirror 320 700
+render interior 320 700
+render skylit 320 300
+render lights200 320 500
