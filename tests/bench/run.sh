@@ -80,13 +80,17 @@ bench_sharing() {
     done
 }
 
+halts() { # ARGUMENTS for each scene
+    for scene in scenes/cornell.obj scenes/interior.obj \
+        ../shared/scenes-real/sponza_part/sponza_part.obj; do
+        [ ! -e "$scene" ] || "$build/bench/halts" "$scene" "$@"
+    done
+}
+
 bench_halts() {
     echo
     echo 'halts: from the request until every worker is parked'
-    for scene in scenes/cornell.obj scenes/interior.obj \
-        ../shared/scenes-real/sponza_part/sponza_part.obj; do
-        [ ! -e "$scene" ] || "$build/bench/halts" "$scene" 1000
-    done
+    halts 1000
 }
 
 # OpenCL against the CPU: speed, halting, the first and a later start.
@@ -101,9 +105,7 @@ bench_device() {
             scenes/glass_mirror.obj scenes/interior.obj scenes/skylit.obj \
             scenes/lights200.obj
     done
-    for scene in scenes/cornell.obj scenes/interior.obj; do
-        "$build/bench/halts" "$scene" 1000 opencl
-    done
+    halts 1000 opencl
     for start in cold warm warm; do
         POCL_CACHE_DIR="$work/pocl" "$build/glim" -b --backend opencl -s 1 \
             -w 64 -h 36 --stats "$work/start.json" -o "$work/start.pfm" \
