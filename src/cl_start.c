@@ -3,13 +3,13 @@
 
 #include <errno.h>
 #include <pthread.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
 #include "glim/cl_probe.h"
+#include "glim/thread.h"
 
 struct cl_start {
     struct cl_request request;
@@ -110,7 +110,6 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
                                 struct backend *backend, struct error *err)
 {
     struct cl_start *s = xcalloc(1, sizeof *s);
-    sigset_t all, before;
     int reason;
 
     s->request = *request;
@@ -121,10 +120,7 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
         free(s);
         return NULL;
     }
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    reason = pthread_create(&s->thread, NULL, start_main, s);
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    reason = thread_start(&s->thread, start_main, s);
     if (reason != 0) {
         fail(err, "OpenCL: no thread: %s", strerror(reason));
         close(s->event_fd);

@@ -2,9 +2,10 @@
 #include "glim/pool.h"
 
 #include <pthread.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "glim/thread.h"
 
 /* Items first..end-1 that a worker still has, as first << 32 | end: one word,
  * so that owner and thieves take from it with one exchange. A line of memory
@@ -133,7 +134,6 @@ static void *worker_main(void *argument)
 struct pool *pool_create(int thread_count, struct error *err)
 {
     struct pool *p = xcalloc(1, sizeof *p);
-    sigset_t all, before;
     int started = 0;
     int reason = 0;
 
@@ -144,20 +144,15 @@ struct pool *pool_create(int thread_count, struct error *err)
     pthread_cond_init(&p->end, NULL);
     if (p->shares != NULL) {
         memset(p->shares, 0, (size_t)thread_count * sizeof *p->shares);
-        /* signals are the main thread's: a worker that took SIGWINCH would
-         * leave it waiting for the next key */
-        sigfillset(&all);
-        pthread_sigmask(SIG_SETMASK, &all, &before);
         for (; started < thread_count; started++) {
             struct worker *w = &p->workers[started];
 
             w->pool = p;
             w->index = started;
-            reason = pthread_create(&w->thread, NULL, worker_main, w);
+            reason = thread_start(&w->thread, worker_main, w);
             if (reason != 0)
                 break;
         }
-        pthread_sigmask(SIG_SETMASK, &before, NULL);
     }
     p->thread_count = started;
     if (started == 0) {

@@ -3,12 +3,13 @@
 
 #include <errno.h>
 #include <pthread.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "glim/thread.h"
 
 #include "kernels/path_types.h"
 
@@ -157,7 +158,6 @@ static void *render_main(void *argument)
 struct render *render_create(struct backend *backend, struct error *err)
 {
     struct render *r = xcalloc(1, sizeof *r);
-    sigset_t all, before;
     pthread_condattr_t monotonic;
     int reason;
 
@@ -174,10 +174,7 @@ struct render *render_create(struct backend *backend, struct error *err)
     pthread_cond_init(&r->begin, NULL);
     pthread_cond_init(&r->end, &monotonic);
     pthread_condattr_destroy(&monotonic);
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    reason = pthread_create(&r->thread, NULL, render_main, r);
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    reason = thread_start(&r->thread, render_main, r);
     if (reason != 0) {
         fail(err, "render: no thread: %s", strerror(reason));
         close(r->event_fd);

@@ -2,13 +2,13 @@
 #include "glim/saver.h"
 
 #include <errno.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
 #include "glim/picture.h"
+#include "glim/thread.h"
 
 bool saver_init(struct saver *s, struct error *err)
 {
@@ -62,23 +62,6 @@ static void *saver_main(void *argument)
     return NULL;
 }
 
-/* Signals are the main thread's, but for those of a fault, which must reach
- * the handler that gives the terminal back. */
-static int start_thread(struct saver *s)
-{
-    static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-    sigset_t blocked, before;
-    int reason;
-
-    sigfillset(&blocked);
-    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++)
-        sigdelset(&blocked, faults[i]);
-    pthread_sigmask(SIG_SETMASK, &blocked, &before);
-    reason = pthread_create(&s->thread, NULL, saver_main, s);
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    return reason;
-}
-
 bool saver_begin(struct saver *s, struct film *film, float exposure,
                  const char *stem, struct error *err)
 {
@@ -92,7 +75,7 @@ bool saver_begin(struct saver *s, struct film *film, float exposure,
     s->stem = xstrdup(stem);
     s->has_copied = false;
     s->name = NULL;
-    reason = start_thread(s);
+    reason = thread_start(&s->thread, saver_main, s);
     if (reason != 0) {
         free(s->stem);
         return fail(err, "%s.png: no thread to save it: %s", stem,
