@@ -151,8 +151,9 @@ bench: $(B)/glim $(BENCHES)
 ##              THREADS=1 ROUNDS=5 (seeds)
 bench-error: $(B)/error/error build/bench-error/scenes
 	@mkdir -p build/bench-error/reference
-	@$< build/bench-error '$(THREADS)' '$(ROUNDS)' '$(FILTER)' | \
-		tee build/bench-error/report.txt
+	@{ $< build/bench-error '$(THREADS)' '$(ROUNDS)' '$(FILTER)'; \
+		echo $$? > build/bench-error/status; } | \
+		tee build/bench-error/report.txt; exit $$(cat build/bench-error/status)
 
 build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@
