@@ -110,7 +110,8 @@ $(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
-$(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o $(LIBRARY)
+$(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o \
+	$(B)/file.o $(B)/quota.o $(B)/util.o
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
