@@ -110,7 +110,8 @@ $(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
-$(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o $(LIBRARY)
+$(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o \
+	$(B)/file.o $(B)/quota.o $(B)/util.o
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
@@ -151,8 +152,9 @@ bench: $(B)/glim $(BENCHES)
 ##              THREADS=1 ROUNDS=5 (seeds)
 bench-error: $(B)/error/error build/bench-error/scenes
 	@mkdir -p build/bench-error/reference
-	@$< build/bench-error '$(THREADS)' '$(ROUNDS)' '$(FILTER)' | \
-		tee build/bench-error/report.txt
+	@{ $< build/bench-error '$(THREADS)' '$(ROUNDS)' '$(FILTER)'; \
+		echo $$? > build/bench-error/status; } | \
+		tee build/bench-error/report.txt; exit $$(cat build/bench-error/status)
 
 build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@

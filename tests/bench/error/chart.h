@@ -11,16 +11,10 @@
 #define ERROR_CHART_H
 
 #include "glim/util.h"
+#include "series.h"
 
-#define CHART_POINTS 16
-
-struct series {
-    const char *name;
-    int count;
-    double x[CHART_POINTS], y[CHART_POINTS]; /* others than above 0: left out */
-};
-
-/* Text is of letters, shown as capitals, digits and - . , : + / _ ( ) */
+/* Points that are not above 0 are left out. Text is of letters, shown as
+ * capitals, digits and - . , : + / _ ( ) */
 struct chart {
     const char *title, *x_label, *y_label;
     const struct series *series;

@@ -100,7 +100,15 @@ struct curve {
     bool is_measured;
     double seconds[POINTS][ROUNDS_MAX];
     double error[POINTS]; /* sums over rounds, then means */
+    double square;        /* sum of the squares of the last of them */
+    double spread;        /* standard error of its mean, as a part of it */
     double bias;
+};
+
+/* How many times less error than the first integrator, at equal time. */
+struct gain {
+    double times;  /* 0: not measured */
+    double spread; /* standard error, as a part of it */
 };
 
 struct bench {
@@ -174,7 +182,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
                              .spp = 1};
-    double seconds = 0;
+    double seconds = 0, error = 0;
 
     if (!start(s->render, &job, err)) /* builds the tree, loads the code */
         return false;
@@ -190,8 +198,10 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
         seconds += cpu_seconds() - begin;
         c->seconds[i][round] = seconds / m->bench->threads;
         film_linear(render_film(s->render), m->rgb);
-        c->error[i] += reference_error(&m->reference, m->rgb);
+        error = reference_error(&m->reference, m->rgb);
+        c->error[i] += error;
     }
+    c->square += error * error;
     c->bias += reference_bias(&m->reference, m->rgb);
     return true;
 }
@@ -217,6 +227,18 @@ static bool measure_round(struct measurement *m, int technique, int round,
     return measure_world(m, c, round, &world, err);
 }
 
+/* From sums over rounds to means without the reference's noise. */
+static void finish_curve(struct curve *c, int rounds, double noise)
+{
+    double last = c->error[POINTS - 1] / rounds;
+    double variance = (c->square / rounds - last * last) / (rounds - 1);
+
+    for (int i = 0; i < POINTS; i++)
+        c->error[i] = c->error[i] / rounds - noise;
+    c->spread = sqrt(variance) / c->error[POINTS - 1];
+    c->bias /= rounds;
+}
+
 static bool measure(struct measurement *m, struct error *err)
 {
     int rounds = m->bench->rounds;
@@ -225,13 +247,8 @@ static bool measure(struct measurement *m, struct error *err)
         for (int i = 0; i < TECHNIQUES; i++)
             if (!measure_round(m, i, round, err))
                 return false;
-    for (int i = 0; i < TECHNIQUES; i++) {
-        struct curve *c = &m->curves[i];
-
-        for (int k = 0; k < POINTS; k++)
-            c->error[k] = c->error[k] / rounds - m->reference.noise;
-        c->bias /= rounds;
-    }
+    for (int i = 0; i < TECHNIQUES; i++)
+        finish_curve(&m->curves[i], rounds, m->reference.noise);
     return true;
 }
 
@@ -246,44 +263,6 @@ static struct series series_of(const struct curve *c, int rounds)
     return s;
 }
 
-/* Of log RMSE against log seconds, by least squares; -0.5: independent
- * samples. */
-static double slope_of(const struct series *s)
-{
-    double x = 0, y = 0, xx = 0, xy = 0;
-
-    for (int i = 0; i < s->count; i++) {
-        double a = log(s->x[i]), b = log(s->y[i]) / 2;
-
-        x += a;
-        y += b;
-        xx += a * a;
-        xy += a * b;
-    }
-    return (s->count * xy - x * y) / (s->count * xx - x * x);
-}
-
-/* The error after so many seconds, between the two points around it. */
-static double error_after(const struct series *s, double seconds)
-{
-    int i = 1;
-    double t;
-
-    while (i < s->count - 1 && s->x[i] < seconds)
-        i++;
-    t = log(seconds / s->x[i - 1]) / log(s->x[i] / s->x[i - 1]);
-    return s->y[i - 1] * pow(s->y[i] / s->y[i - 1], t);
-}
-
-/* How many times the error of b is that of a at equal time: the longest that
- * both were measured for. */
-static double times_error(const struct series *a, const struct series *b)
-{
-    double seconds = fmin(a->x[a->count - 1], b->x[b->count - 1]);
-
-    return error_after(b, seconds) / error_after(a, seconds);
-}
-
 static void print_curves(const struct measurement *m, const char *name,
                          struct series series[TECHNIQUES])
 {
@@ -292,10 +271,10 @@ static void print_curves(const struct measurement *m, const char *name,
     printf("\n%s, %dx%d pixels\nreference: %s; its own relative MSE of %.2g is "
            "subtracted\n",
            name, r->width, r->height, r->origin, r->noise);
-    printf("%-25s relative MSE after 1, 2, 4 .. %d samples a pixel%16s "
-           "%6s %10s %6s %6s\n",
-           "", 1 << (POINTS - 1), "seconds", "slope", "efficiency", "ratio",
-           "bias");
+    printf("%-25s relative MSE after 1, 2, 4 .. %d samples a pixel%17s "
+           "%8s %6s %10s %6s %6s\n",
+           "", 1 << (POINTS - 1), "+-", "seconds", "slope", "efficiency",
+           "ratio", "bias");
     for (int i = 0; i < TECHNIQUES; i++) {
         struct series *s = &series[i];
         double seconds = s->x[POINTS - 1], error = s->y[POINTS - 1];
@@ -305,8 +284,9 @@ static void print_curves(const struct measurement *m, const char *name,
         printf("%-25s", techniques[i].name);
         for (int k = 0; k < POINTS; k++)
             printf(" %8.2e", s->y[k]);
-        printf("  %7.3f %6.2f %10.3g %6.3g %5.1f%%\n", seconds, slope_of(s),
-               1 / (error * seconds), times_error(&series[EVERYTHING], s),
+        printf(" %3.0f%% %8.3f %6.2f %10.3g %6.3g %5.1f%%\n",
+               100 * m->curves[i].spread, seconds, series_slope(s),
+               1 / (error * seconds), series_times(&series[EVERYTHING], s),
                100 * m->curves[i].bias);
         for (int k = 0; k < POINTS; k++)
             fprintf(m->bench->csv, "%s,%s,%d,%g,%g,%g,%g\n", name,
@@ -360,10 +340,10 @@ static bool build_whole_sky(struct measurement *m, struct error *err)
                      SKY_ALONE, err);
 }
 
-/* `gain`: how many times less error than the first integrator's. */
 static bool measure_scene(const struct bench *bench,
                           const struct subject *subject, const char *path,
-                          const char *name, double *gain, struct error *err)
+                          const char *name, struct gain *gain,
+                          struct error *err)
 {
     struct options o = {.scene_path = path,
                         .height_px = subject->folder == SHARED ? 256 / REDUCE
@@ -388,7 +368,10 @@ static bool measure_scene(const struct bench *bench,
         series[i] = series_of(&m->curves[i], bench->rounds);
     if (ok) {
         print_curves(m, name, series);
-        *gain = times_error(&series[EVERYTHING], &series[FIRST_INTEGRATOR]);
+        gain->times =
+            series_times(&series[EVERYTHING], &series[FIRST_INTEGRATOR]);
+        gain->spread = hypot(m->curves[EVERYTHING].spread,
+                             m->curves[FIRST_INTEGRATOR].spread);
         ok = draw_curves(m, name, series, err);
     }
     session_close(&m->session);
@@ -420,7 +403,8 @@ static char *title_of(const struct subject *s)
 }
 
 static bool measure_subject(const struct bench *bench, const struct subject *s,
-                            const char *filter, double *gain, struct error *err)
+                            const char *filter, struct gain *gain,
+                            struct error *err)
 {
     char *title = title_of(s);
     char *path = path_of(bench, s);
@@ -437,17 +421,17 @@ static bool measure_subject(const struct bench *bench, const struct subject *s,
     return ok;
 }
 
-static void print_gains(const double gains[SUBJECTS])
+static void print_gains(const struct gain gains[SUBJECTS])
 {
     printf("\nError of the first integrator (hashed points, light by chance) "
            "at equal time\n");
     for (int i = 0; i < SUBJECTS; i++) {
         char *title = title_of(&subjects[i]);
 
-        if (gains[i] > 0)
-            printf("%-20s %9.3g times, goal %4g: %s\n", title, gains[i],
-                   subjects[i].goal,
-                   gains[i] >= subjects[i].goal ? "met" : "NOT MET");
+        if (gains[i].times > 0)
+            printf("%-20s %9.3g times +- %2.0f%%, goal %4g: %s\n", title,
+                   gains[i].times, 100 * gains[i].spread, subjects[i].goal,
+                   gains[i].times >= subjects[i].goal ? "met" : "NOT MET");
         free(title);
     }
 }
@@ -455,7 +439,7 @@ static void print_gains(const double gains[SUBJECTS])
 static bool measure_all(const struct bench *bench, const char *filter,
                         struct error *err)
 {
-    double gains[SUBJECTS] = {0};
+    struct gain gains[SUBJECTS] = {{0, 0}};
 
     for (int i = 0; i < SUBJECTS; i++)
         if (!measure_subject(bench, &subjects[i], filter, &gains[i], err))
@@ -492,11 +476,11 @@ int main(int argc, char **argv)
         bench.backends[i] = techniques[i].create(bench.threads, &err);
         ok = bench.backends[i] != NULL;
     }
-    printf(
-        "%d thread(s), %d rounds; seconds of the processor a thread; "
-        "efficiency: 1 / (error x seconds); ratio: error at equal time, over "
-        "that of everything; bias: of the mean, against the reference's\n",
-        bench.threads, bench.rounds);
+    printf("%d thread(s), %d rounds; seconds of the processor a thread; "
+           "+-: standard error of the last error; efficiency: 1 / (error x "
+           "seconds); ratio: error at equal time, over "
+           "that of everything; bias: of the mean, against the reference's\n",
+           bench.threads, bench.rounds);
     ok = ok && measure_all(&bench, argc > 4 ? argv[4] : "", &err);
     if (!ok)
         fprintf(stderr, "error: %s\n", err.text);

@@ -107,9 +107,10 @@ static void make_lamps2000(void)
     mesh_quad(&m, at(-12, 0, 12), at(12, 0, 12), at(12, 0, -12),
               at(-12, 0, -12), 1, 1);
     mesh_object(&m, "pillars", "stone");
-    for (int i = 0; i < 49; i++)
-        mesh_box(&m, at(-10.5 + 3.5 * (i % 7), .001, -10.5 + 3.5 * (i / 7)),
-                 at(.7, 2.5, .7), 17 * i);
+    for (int row = 0; row < 7; row++)
+        for (int i = 0; i < 7; i++)
+            mesh_box(&m, at(-10.5 + 3.5 * i, .001, -10.5 + 3.5 * row),
+                     at(.7, 2.5, .7), 17 * (7 * row + i));
     for (int i = 0; i < 2000; i++) {
         double x = 23 * next_random(&state) - 11.5;
         double y = .2 + 2.8 * next_random(&state);
