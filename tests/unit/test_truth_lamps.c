@@ -75,7 +75,7 @@ static void polygons_obey_lambert(void **state)
     }
 }
 
-/* An upright rectangle between x0, x1 and z0, z1, at height y. */
+/* A level rectangle between x0, x1 and z0, z1, at height y. */
 struct sheet {
     float x0, x1, z0, z1, y;
 };
@@ -210,8 +210,8 @@ static void cut_outs_hide_and_shine_by_half(void **state)
     }
 }
 
-/* Radiance towards wo, in the frame whose x runs along the floor below it, by
- * midpoints over a sheet of radiance 1 seen from the origin. */
+/* Radiance towards wo, in a BSDF's frame, of a floor at the origin under a
+ * sheet of radiance 1, by midpoints. */
 static struct vec3 reflected(const struct bsdf *b, struct vec3 wo,
                              struct sheet lamp)
 {

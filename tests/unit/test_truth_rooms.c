@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /* Light that is scattered many times: furnaces, mirrors, a radiosity box. */
-#include <stdlib.h>
-
 #include "check.h"
 #include "facets.h"
+#include "lambert.h"
 #include "truth.h"
 
 enum { WALL, THING, LAMP, OTHER };
@@ -141,9 +140,12 @@ static void check_corridor(uint32_t k, uint32_t max_vertices, double truth)
 
     s.mesh.materials[WALL] = mesh_material(MATERIAL_METAL, 0.7f);
     s.mesh.materials[LAMP] = lamp_material(3);
-    for (float x = -0.5f; x < 1; x++)
+    for (int i = 0; i < 2; i++) {
+        float x = i ? 0.5f : -0.5f;
+
         mesh_add_quad(&s.mesh, v3(x, -1, -1), v3(x, 1, -1), v3(x, 1, end),
                       v3(x, -1, end), WALL);
+    }
     mesh_add_quad(&s.mesh, v3(-2, -1, end), v3(2, -1, end), v3(2, 1, end),
                   v3(-2, 1, end), LAMP);
     s.mesh.world.settings.max_vertices = max_vertices;
@@ -223,8 +225,8 @@ static void panes_dim_floors(void **state)
 #define LAMP_HALF 0.75 /* a border of patches */
 
 struct patch {
-    double middle[3];
-    double corners[4][3];
+    struct receiver middle;
+    struct vec3 corners[4];
     double radiance[3];
     int side;
     bool shines;
@@ -241,38 +243,32 @@ static const double albedos[SIDES][3] = {{0.8, 0.1, 0.5}, {0.1, 0.8, 0.5},
                                          {0.5, 0.7, 0.5}, {0.3, 0.9, 0.5}};
 
 /* A point of a side: side i is at -1 (even) or 1 (odd) of axis i / 2. */
-static void place(int side, double a, double b, double p[3])
+static struct vec3 place(int side, double a, double b)
 {
-    int axis = side / 2;
+    float wall = side % 2 ? 1 : -1, x = (float)a, y = (float)b;
 
-    p[axis] = side % 2 ? 1 : -1;
-    p[(axis + 1) % 3] = a;
-    p[(axis + 2) % 3] = b;
+    return side < 2   ? v3(wall, x, y)
+           : side < 4 ? v3(y, wall, x)
+                      : v3(x, y, wall);
 }
 
-/* The share of what is scattered at p, of this side, that comes to a patch. */
-static double form_factor(const double p[3], int side, const struct patch *to)
+/* Such a point as what light falls on: the normal looks into the box. */
+static struct receiver receiver_at(int side, double a, double b)
 {
-    double sum = 0;
+    float n = side % 2 ? -1 : 1;
+    struct receiver r = {place(side, a, b),
+                         {side / 2 == 0 ? n : 0, side / 2 == 1 ? n : 0,
+                          side / 2 == 2 ? n : 0},
+                         false};
 
-    if (side == to->side)
-        return 0;
-    for (int i = 0; i < 4; i++) {
-        double a[3], b[3], c[3], lc, dot;
+    return r;
+}
 
-        for (int k = 0; k < 3; k++) {
-            a[k] = to->corners[i][k] - p[k];
-            b[k] = to->corners[(i + 1) % 4][k] - p[k];
-        }
-        for (int k = 0; k < 3; k++)
-            c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] -
-                   a[(k + 2) % 3] * b[(k + 1) % 3];
-        lc = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
-        dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        if (lc > 0)
-            sum += atan2(lc, dot) * c[side / 2] / lc;
-    }
-    return fabs(sum) / (2 * M_PI);
+/* The share of what a receiver on this side scatters that comes to a patch. */
+static double form_factor(const struct receiver *r, int side,
+                          const struct patch *to)
+{
+    return side == to->side ? 0 : lambert(to->corners, 4, r) / M_PI;
 }
 
 static void box_init(struct box *box, int n)
@@ -284,18 +280,18 @@ static void box_init(struct box *box, int n)
         double a = h * (i % n) - 1, b = h * (i / n % n) - 1;
 
         p->side = i / (n * n);
-        place(p->side, a + h / 2, b + h / 2, p->middle);
-        place(p->side, a, b, p->corners[0]);
-        place(p->side, a + h, b, p->corners[1]);
-        place(p->side, a + h, b + h, p->corners[2]);
-        place(p->side, a, b + h, p->corners[3]);
+        p->middle = receiver_at(p->side, a + h / 2, b + h / 2);
+        p->corners[0] = place(p->side, a, b);
+        p->corners[1] = place(p->side, a + h, b);
+        p->corners[2] = place(p->side, a + h, b + h);
+        p->corners[3] = place(p->side, a, b + h);
         p->shines = p->side == CEILING && fabs(a + h / 2) < LAMP_HALF &&
                     fabs(b + h / 2) < LAMP_HALF;
     }
     for (int i = 0; i < box->count; i++)
         for (int j = 0; j < box->count; j++)
             box->factors[i * PATCHES + j] =
-                form_factor(box->patches[i].middle, box->patches[i].side,
+                form_factor(&box->patches[i].middle, box->patches[i].side,
                             &box->patches[j]);
 }
 
@@ -323,13 +319,13 @@ static void box_solve(struct box *box, uint32_t bounces)
 }
 
 /* What the patches make of a point of a wall. */
-static void box_shade(const struct box *box, const double p[3], int side,
+static void box_shade(const struct box *box, const struct receiver *r, int side,
                       double radiance[3])
 {
     radiance[0] = radiance[1] = radiance[2] = 0;
     for (int j = 0; j < box->count; j++)
         for (int k = 0; k < 3; k++)
-            radiance[k] += form_factor(p, side, &box->patches[j]) *
+            radiance[k] += form_factor(r, side, &box->patches[j]) *
                            box->patches[j].radiance[k] * albedos[side][k];
 }
 
@@ -339,29 +335,23 @@ static void add_wall(struct mesh *m, int side, uint32_t material, uint32_t lamp)
     const double cuts[4] = {-1, -LAMP_HALF, LAMP_HALF, 1};
 
     for (int i = 0; i < 9; i++) {
-        const int turn[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-        struct vec3 corners[4];
+        const double *x = &cuts[i % 3], *y = &cuts[i / 3];
 
-        for (int c = 0; c < 4; c++) {
-            double p[3];
-
-            place(side, cuts[i % 3 + turn[c][0]], cuts[i / 3 + turn[c][1]], p);
-            corners[c] = v3((float)p[0], (float)p[1], (float)p[2]);
-        }
-        mesh_add_quad(m, corners[0], corners[1], corners[2], corners[3],
+        mesh_add_quad(m, place(side, x[0], y[0]), place(side, x[1], y[0]),
+                      place(side, x[1], y[1]), place(side, x[0], y[1]),
                       i == 4 && side == CEILING ? lamp : material);
     }
 }
 
 /* Patches of half the size quarter the error: the limit, from 8 and 16 a side,
  * and what may be left of it. */
-static void box_limit(struct box boxes[2], uint32_t bounces, const double p[3],
-                      int side, struct claim *c)
+static void box_limit(struct box boxes[2], uint32_t bounces,
+                      const struct receiver *r, int side, struct claim *c)
 {
     double coarse[3], fine[3];
 
-    box_shade(&boxes[0], p, side, coarse);
-    box_shade(&boxes[1], p, side, fine);
+    box_shade(&boxes[0], r, side, coarse);
+    box_shade(&boxes[1], r, side, fine);
     for (int k = 0; k < 3; k++) {
         c->truth[k] = fine[k] + (fine[k] - coarse[k]) / 3;
         c->systematic =
@@ -397,12 +387,13 @@ static void boxes_agree_with_radiosity(void **state)
         box_solve(&boxes[1], bounces[i] - 1);
         s.mesh.world.settings.max_vertices = is_limited ? bounces[i] + 1 : 1000;
         for (int side = 0; side < SIDES; side += 2) {
-            struct claim c = {.eye = {0.1f, -0.2f, 0.3f}, .paths = 2048};
-            double p[3];
+            struct receiver r =
+                receiver_at(side, places[side / 2][0], places[side / 2][1]);
+            struct claim c = {.eye = {0.1f, -0.2f, 0.3f},
+                              .at = r.p,
+                              .paths = 2048};
 
-            place(side, places[side / 2][0], places[side / 2][1], p);
-            c.at = v3((float)p[0], (float)p[1], (float)p[2]);
-            box_limit(boxes, bounces[i], p, side, &c);
+            box_limit(boxes, bounces[i], &r, side, &c);
             check_claim(&s, c);
         }
     }

@@ -283,22 +283,22 @@ static double disk_covered(double radius, double x, double y, double half)
 static void lamps_blur_as_lenses_want(void **state)
 {
     enum { SIDE = 32, FINE = 16 };
-    const double radius = 0.25, distance = 6, half = 0.1, glow = 7;
-    const double lamp[2] = {0.4, -0.3}, focuses[] = {3, 10};
+    const double radius = 1, distance = 6, half = 0.25, glow = 7;
+    const double lamp[2] = {1.9, -1.6}, focuses[] = {3, 10};
     static double means[SIDE * SIDE], errors[SIDE * SIDE];
 
     (void)state;
     write_text("spot.mtl", "newmtl lamp\nKd 0 0 0\nKe 7 7 7\n");
     write_text("spot.obj",
-               "mtllib spot.mtl\nv 100.3 49.6 0\nv 100.5 49.6 0\n"
-               "v 100.5 49.8 0\nv 100.3 49.8 0\nusemtl lamp\nf 1 2 3 4\n");
+               "mtllib spot.mtl\nv 101.65 48.15 0\nv 102.15 48.15 0\n"
+               "v 102.15 48.65 0\nv 101.65 48.65 0\nusemtl lamp\nf 1 2 3 4\n");
     for (size_t k = 0; k < 2; k++) {
         double focus = focuses[k], shrink = 1 - distance / focus;
         double truths = 0, sum = 0, variance = 0;
         char view[256];
 
         snprintf(view, sizeof view,
-                 "eye 100 50 6\nat 100 50 0\nup 0 1 0\nfovy 20\nres %d %d\n"
+                 "eye 100 50 6\nat 100 50 0\nup 0 1 0\nfovy 60\nres %d %d\n"
                  "aperture %g\nfocus %g\n",
                  SIDE, SIDE, 2 * radius, focus);
         write_text("spot.view", view);
@@ -309,7 +309,7 @@ static void lamps_blur_as_lenses_want(void **state)
             for (int j = 0; j < FINE * FINE; j++) {
                 double x = i % SIDE + (j % FINE + 0.5) / FINE;
                 double y = (double)(i / SIDE) + (j / FINE + 0.5) / FINE;
-                double half_view = tan(10 * M_PI / 180) * distance;
+                double half_view = tan(30 * M_PI / 180) * distance;
 
                 /* from the lens point l the ray comes to shrink l + this */
                 x = (2 * x / SIDE - 1) * half_view;
