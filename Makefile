@@ -37,6 +37,8 @@ OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
+STRESSES := $(patsubst tests/stress/%.c,$(B)/stress/%,$(wildcard \
+	tests/stress/*.c))
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 # On all cores, unless the caller has said how many.
@@ -44,7 +46,7 @@ MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
-	tests/tools,$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
+	tests/stress tests/tools,$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
 all: $(B)/glim
@@ -84,6 +86,7 @@ $(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
 endef
 $(eval $(call program,unit,-lcmocka))
 $(eval $(call program,bench))
+$(eval $(call program,stress,-lcmocka))
 $(eval $(call program,tools))
 
 # Changed flags or another compiler rebuild everything of this variant.
@@ -119,7 +122,7 @@ bench: $(B)/glim $(BENCHES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
 
 ## stress: checks that take minutes; FILTER=NAME for one of them
-stress: $(B)/glim
+stress: $(B)/glim $(STRESSES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
 ## scenes: writes the scenes in scenes/ anew from their generator
@@ -202,4 +205,4 @@ help:
 .PHONY: all run test tests bench stress scenes tables gallery install uninstall \
 	deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
-	$(TOOLS:=.d)
+	$(STRESSES:=.d) $(TOOLS:=.d)
