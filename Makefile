@@ -121,7 +121,9 @@ tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate
 bench: $(B)/glim $(BENCHES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
 
-## stress: checks that take minutes; FILTER=NAME for one of them
+## stress: rows of what breaks path tracers, and other checks that take minutes;
+##         FILTER=NAME for one of them: samples geometry light sizes rays
+##         oclgrind valgrind
 stress: $(B)/glim $(STRESSES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 

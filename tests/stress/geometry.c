@@ -8,9 +8,8 @@
  *
  * usage: geometry [opencl]
  */
-#include "stage.h"
+#include "lamp.h"
 #include "tests/unit/check.h"
-#include "tests/unit/lambert.h"
 
 #define ROOM "Kd .5 .5 .5\nKe .5 .5 .5"
 
@@ -148,28 +147,11 @@ static void nested_room(struct stage *s, double count)
 /* A floor and, as often as said, a lamp above it. */
 static void lamps_over_floor(struct stage *s, double count)
 {
-    put_material(s, "floor", "Kd .6 .6 .6");
-    put_quad(s, 1, 0, (double[]){-2, -2}, (double[]){2, 2});
-    put_material(s, "lamp", "Kd 0 0 0\nKe 5 5 5");
+    put_floor(s);
+    put_shining(s, "lamp", 1);
     for (int i = 0; i < count; i++)
-        put_quad(s, 1, 0.7, (double[]){-0.3, -0.4}, (double[]){0.3, 0.4});
+        put_quad(s, 1, 0.7, lamp_lo, lamp_hi);
 }
-
-/* What the floor then shows at (0.5, 0, 0.2). */
-static double lit_floor(void)
-{
-    const double x = 0.5, z = 0.2, n[3] = {0, 1, 0};
-    const double lamp[4][3] = {{-0.4 - x, 0.7, -0.3 - z},
-                               {0.4 - x, 0.7, -0.3 - z},
-                               {0.4 - x, 0.7, 0.3 - z},
-                               {-0.4 - x, 0.7, 0.3 - z}};
-
-    return 5 * 0.6 / M_PI * lambert_irradiance(lamp, n);
-}
-
-static const struct shot at_floor = {.eye = {0.5, 0.4, 1.2},
-                                     .at = {0.5, 0, 0.2},
-                                     .fovy_deg = 0.01};
 
 /* G9: each half as large as the one before. */
 static void chain_room(struct stage *s, double count)

@@ -4,10 +4,7 @@
  *
  * usage: light [opencl]
  */
-#include "stage.h"
-#include "tests/unit/lambert.h"
-
-static const double far_lo[2] = {-2, -2}, far_hi[2] = {2, 2};
+#include "lamp.h"
 
 /* A shading normal that leans away from its face by an angle loses what the
  * face's plane cuts from the cosine lobe, (1 - cos angle) / 2; on these balls
@@ -153,7 +150,7 @@ static void prism(struct stage *s, double number)
         put_vertex(s, p[i][0], p[i][1], p[i][2]);
     fprintf(s->obj, "f -6 -4 -5\nf -3 -2 -1\nf -6 -5 -2 -3\nf -5 -4 -1 -2\n"
                     "f -4 -6 -3 -1\n");
-    put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
+    put_shining(s, "lamp", 1);
     put_quad(s, 0, 2, (double[]){-1, -1}, (double[]){1, 1});
 }
 
@@ -174,57 +171,35 @@ static void odd_glass(struct stage *s, double kind)
     }
 }
 
-/* A lamp of this radiance over a floor of .6. */
 static void lamp_over_floor(struct stage *s, double radiance)
 {
-    char lines[64];
-
-    put_material(s, "floor", "Kd .6 .6 .6");
-    put_quad(s, 1, 0, far_lo, far_hi);
-    snprintf(lines, sizeof lines, "Kd 0 0 0\nKe %g %g %g", radiance, radiance,
-             radiance);
-    put_material(s, "lamp", lines);
-    put_quad(s, 1, 0.7, (double[]){-0.3, -0.4}, (double[]){0.3, 0.4});
+    put_floor(s);
+    put_shining(s, "lamp", radiance);
+    put_quad(s, 1, 0.7, lamp_lo, lamp_hi);
 }
 
-/* What the floor shows at (0.5, 0, 0.2) for a radiance of 1. */
-static double lit_floor(void)
+/* M9: beside one that shines 0. */
+static void lamp_and_dark(struct stage *s, double number)
 {
-    const double x = 0.5, z = 0.2, n[3] = {0, 1, 0};
-    const double lamp[4][3] = {{-0.4 - x, 0.7, -0.3 - z},
-                               {0.4 - x, 0.7, -0.3 - z},
-                               {0.4 - x, 0.7, 0.3 - z},
-                               {-0.4 - x, 0.7, 0.3 - z}};
-
-    return 0.6 / M_PI * lambert_irradiance(lamp, n);
+    (void)number;
+    lamp_over_floor(s, 1);
+    put_shining(s, "dark", 0);
+    put_quad(s, 1, 0.8, lamp_lo, lamp_hi);
 }
 
-static const struct shot at_floor = {.eye = {0.5, 0.4, 1.2},
-                                     .at = {0.5, 0, 0.2},
-                                     .fovy_deg = 0.01};
-
-/* M9: the lamp as 2 side^2 triangles; between them some without area, and some
- * that shine 0. */
+/* M9: the lamp as 2 side^2 triangles, and so many without area. */
 static void many_lamps(struct stage *s, double side)
 {
-    int n = (int)side;
+    const int n = (int)side;
 
-    lamp_over_floor(s, 1);
-    put_material(s, "dark", "Kd 0 0 0\nKe 0 0 0");
-    put_quad(s, 1, 0.8, (double[]){-0.3, -0.4}, (double[]){0.3, 0.4});
-    if (n == 0)
-        return;
-    stage_end(s);
-    stage_begin(s);
-    put_material(s, "floor", "Kd .6 .6 .6");
-    put_quad(s, 1, 0, far_lo, far_hi);
-    put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
+    put_floor(s);
+    put_shining(s, "lamp", 1);
     for (int i = 0; i <= n; i++)
         for (int j = 0; j <= n; j++)
             put_vertex(s, i * 0.8 / n - 0.4, 0.7, j * 0.6 / n - 0.3);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            int k = 5 + i * (n + 1) + j;
+            int k = 5 + i * (n + 1) + j; /* after the floor's */
 
             fprintf(s->obj, "f %d %d %d %d\n", k, k + 1, k + n + 2, k + n + 1);
             if (j == 0)
@@ -243,9 +218,8 @@ static void no_lamp(struct stage *s, double number)
 static void wall_lamp(struct stage *s, double number)
 {
     (void)number;
-    put_material(s, "floor", "Kd .6 .6 .6");
-    put_quad(s, 1, 0, far_lo, far_hi);
-    put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
+    put_floor(s);
+    put_shining(s, "lamp", 1);
     put_quad(s, 0, 0, (double[]){0, -1}, (double[]){1, 1});
 }
 
@@ -265,25 +239,23 @@ static void flush_floor(struct stage *s, double number)
 {
     (void)number;
     put_material(s, "floor", "Kd .6 .6 .6");
-    put_quad(s, 1, 0, (double[]){-2, 0.1}, far_hi);
-    put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
-    put_quad(s, 1, 0, far_lo, (double[]){2, 0});
+    put_quad(s, 1, 0, (double[]){-2, 0.1}, (double[]){2, 2});
+    put_shining(s, "lamp", 1);
+    put_quad(s, 1, 0, (double[]){-2, -2}, (double[]){2, 0});
 }
 
 /* M12: a lamp in a ceiling: in the file before it (0), after it (1), or below
  * it by as much as the number says. */
 static void flush_lamp(struct stage *s, double number)
 {
-    put_material(s, "floor", "Kd .6 .6 .6");
-    put_quad(s, 1, 0, far_lo, far_hi);
+    put_floor(s);
     for (int i = 0; i < 2; i++)
         if ((i == 0) == (number != 1)) {
-            put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
-            put_quad(s, 1, 0.7 - (number < 1 ? number : 0),
-                     (double[]){-0.3, -0.4}, (double[]){0.3, 0.4});
+            put_shining(s, "lamp", 1);
+            put_quad(s, 1, 0.7 - (number < 1 ? number : 0), lamp_lo, lamp_hi);
         } else {
             put_material(s, "ceiling", "Kd 0 0 0");
-            put_quad(s, 1, 0.7, far_lo, far_hi);
+            put_quad(s, 1, 0.7, (double[]){-2, -2}, (double[]){2, 2});
         }
 }
 
@@ -312,11 +284,7 @@ static void black_body(struct stage *s, double kelvin)
 /* M16: a bright speck of a ten thousandth of a square. */
 static void speck(struct stage *s, double radiance)
 {
-    char lines[64];
-
-    snprintf(lines, sizeof lines, "Kd 0 0 0\nKe %g %g %g", radiance, radiance,
-             radiance);
-    put_material(s, "speck", lines);
+    put_shining(s, "speck", radiance);
     put_quad(s, 1, 0, (double[]){-0.01, -0.01}, (double[]){0.01, 0.01});
 }
 
@@ -508,8 +476,8 @@ static void check_truths(struct stage *s)
         {"M8", "a lamp of 1e-10", lamp_over_floor, 1e-10, 1e-10 * lit, 0,
          at_floor, false},
         {"M9", "no lamp", no_lamp, 0, 0, 0, above, false},
-        {"M9", "one lamp beside one of Ke 0", many_lamps, 0, lit, 0, at_floor,
-         false},
+        {"M9", "one lamp beside one of Ke 0", lamp_and_dark, 0, lit, 0,
+         at_floor, false},
         {"M9", "1e6 lamps, and 707 without area", many_lamps, 707, lit, 0,
          at_floor, true},
         {"M11", "a lamp seen edge on", lamp_over_floor, 1, 0.25, 0, at_side,
@@ -587,8 +555,8 @@ int main(int argc, char **argv)
     check_truths(&s);
     check_brightest(&s);
     check_skies(&s);
-    printf(
-        "note M10: HDR, PNG and JPEG hold neither NaN nor negative texels\n");
+    printf("todo M10 NaN and negative texels: needs a sky format that has "
+           "them, as HDR, PNG and JPEG have not\n");
     stage_close(&s);
     return rows_status();
 }

@@ -13,6 +13,7 @@
 
 #include "glim/pool.h"
 #include "rows.h"
+#include "tests/unit/brute.h"
 #include "tests/unit/mesh.h"
 
 #include "kernels/traverse.h"
@@ -44,18 +45,6 @@ static unsigned long long count_of(atomic_uint_least64_t *n)
     return (unsigned long long)atomic_load(n);
 }
 
-static float span(uint64_t *seed, float half)
-{
-    return (float)(2 * check_random(seed) - 1) * half;
-}
-
-static struct vec3 point(uint64_t *seed, float half)
-{
-    float x = span(seed, half), y = span(seed, half), z = span(seed, half);
-
-    return v3(x, y, z);
-}
-
 /* A unit vector that is uniform on the sphere. */
 static struct vec3 direction(uint64_t *seed)
 {
@@ -65,27 +54,6 @@ static struct vec3 direction(uint64_t *seed)
 
     return v3_unit(
         v3((float)(rest * cos(angle)), (float)(rest * sin(angle)), (float)z));
-}
-
-/* Every triangle, by the same test and the same rule for ties. */
-static bool brute_force(const struct world *w, struct ray r, struct hit *best)
-{
-    struct shear s = shear_of(r);
-
-    best->t = r.t_max;
-    best->tri = NO_INDEX;
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
-        struct hit h;
-
-        if (!triangle_hit(r, s, w->positions[w->tris[i].v[0]],
-                          w->positions[w->tris[i].v[1]],
-                          w->positions[w->tris[i].v[2]], best->t, &h) ||
-            h.t == best->t)
-            continue;
-        h.tri = i;
-        *best = h;
-    }
-    return best->tri != NO_INDEX;
 }
 
 /* True if the tree finds what brute force finds. */
@@ -115,7 +83,7 @@ static void aim_at_edges(void *context, uint32_t item, int worker)
         struct vec3 c = w->positions[t.v[2]];
         float f = i % 3 == 0 ? 0.0f : (float)check_random(&seed);
         struct vec3 at = i % 2 ? v3_lerp(a, b, f) : v3_lerp(b, c, f);
-        struct ray r = {point(&seed, s->size), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {random_point(&seed, s->size), {0, 0, 0}, FLOAT_MAX, 0};
         struct hit h;
 
         r.d = v3_unit(v3_sub(at, r.o));
@@ -186,16 +154,20 @@ struct place {
 
 static bool land(uint64_t *seed, float size, struct place *x)
 {
-    struct vec3 base = point(seed, 1.0f);
+    struct vec3 base = random_point(seed, 1.0f);
     float u = (float)check_random(seed), v = (float)check_random(seed);
-    struct ray r = {v3_scale(point(seed, 1.5f), size), {0, 0, 0}, FLOAT_MAX, 0};
+    struct ray r = {v3_scale(random_point(seed, 1.5f), size),
+                    {0, 0, 0},
+                    FLOAT_MAX,
+                    0};
     float part = powf(10.0f, -5.0f * (float)check_random(seed));
     struct vec3 aim;
     struct hit h;
 
     for (int k = 0; k < 3; k++)
         x->p[k] =
-            v3_scale(v3_add(v3_scale(base, 1 - part), point(seed, part)), size);
+            v3_scale(v3_add(v3_scale(base, 1 - part), random_point(seed, part)),
+                     size);
     if (!triangle_normal(x->p[0], x->p[1], x->p[2], &x->ng))
         return false;
     if (u + v > 1)
@@ -277,14 +249,15 @@ static void hit_needles(void *context, uint32_t item, int worker)
     (void)worker;
     for (int i = 0; i < CHUNK; i++) {
         float width = powf(10.0f, -4.0f - 3.0f * (float)check_random(&seed));
-        struct vec3 a = point(&seed, 0.9f), b = point(&seed, 0.9f);
-        struct vec3 t[3] = {a, b, v3_add(a, point(&seed, width))};
+        struct vec3 a = random_point(&seed, 0.9f),
+                    b = random_point(&seed, 0.9f);
+        struct vec3 t[3] = {a, b, v3_add(a, random_point(&seed, width))};
         struct vec3 at = v3_lerp(a, b, (float)check_random(&seed));
-        struct ray r = {point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
         struct hit h;
 
         if (i % 3 == 0)
-            r.o = v3_add(v3_add(a, v3_sub(a, b)), point(&seed, width));
+            r.o = v3_add(v3_add(a, v3_sub(a, b)), random_point(&seed, width));
         r.d = v3_unit(v3_sub(at, r.o));
         if (!triangle_hit(r, shear_of(r), t[0], t[1], t[2], FLOAT_MAX, &h))
             continue;
@@ -315,10 +288,11 @@ static void cross_gaps(void *context, uint32_t item, int worker)
 
     (void)worker;
     for (int i = 0; i < CHUNK; i++) {
-        struct vec3 p[3] = {point(&seed, 1), point(&seed, 1), point(&seed, 1)};
+        struct vec3 p[3] = {random_point(&seed, 1), random_point(&seed, 1),
+                            random_point(&seed, 1)};
         struct vec3 middle =
             v3_scale(v3_add(p[0], v3_add(p[1], p[2])), 1 / 3.0f);
-        struct ray r = {point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
         struct vec3 ng, error, at, lift;
         struct hit h;
 
@@ -362,8 +336,8 @@ static void compare(const char *name, const char *what, struct mesh *m,
 
     mesh_finish(m);
     for (int i = 0; i < rays; i++) {
-        struct ray r = {point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
-        struct vec3 at = point(&seed, 0.7f);
+        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct vec3 at = random_point(&seed, 0.7f);
 
         if (i % 4 == 0)
             at = m->positions[(uint32_t)(check_random(&seed) * 3 *
@@ -395,7 +369,7 @@ static void axis_rays(void)
     }
     mesh_finish(&m);
     for (int i = 0; i < rays; i++) {
-        struct vec3 o = point(&seed, 1.0f);
+        struct vec3 o = random_point(&seed, 1.0f);
         float zero = i & 1 ? -0.0f : 0.0f, one = i & 2 ? -1.0f : 1.0f;
         struct ray r = {o, {0, 0, 0}, FLOAT_MAX, 0};
 
@@ -414,9 +388,9 @@ static void axis_rays(void)
 
 static void add_needle(struct mesh *m, uint64_t *seed)
 {
-    struct vec3 a = point(seed, 0.9f), b = point(seed, 0.9f);
+    struct vec3 a = random_point(seed, 0.9f), b = random_point(seed, 0.9f);
 
-    mesh_add(m, a, b, v3_add(a, point(seed, 1e-3f)), 0);
+    mesh_add(m, a, b, v3_add(a, random_point(seed, 1e-3f)), 0);
 }
 
 static void hard_trees(void)

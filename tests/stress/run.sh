@@ -104,6 +104,7 @@ stress_samples() {
 # 2 GiB, so that no machine's memory decides.
 is_right_size() { # WIDTH HEIGHT STATUS [WORDS OF THE LINE]
     rm -f "$work/size.png"
+    # shellcheck disable=SC3045 # dash and bash have it
     (ulimit -v 2097152
         "$build/glim" -b -t 1 -w "$1" -h "$2" -s 1 -o "$work/size.png" \
             scenes/cornell.obj 2>"$work/said")
@@ -113,9 +114,18 @@ is_right_size() { # WIDTH HEIGHT STATUS [WORDS OF THE LINE]
     if [ "$status" = 0 ]; then
         [ -s "$work/size.png" ]
     else
-        [ "$(wc -l <"$work/said")" = 1 ] && grep -q "$4" "$work/said" &&
+        [ "$(wc -l <"$work/said")" = 1 ] && grep -q -e "$4" "$work/said" &&
             [ ! -e "$work/size.png" ]
     fi
+}
+
+# The same pictures by OpenCL's device, and by the CPU where there is none.
+is_right_device_size() { # WIDTH HEIGHT
+    for backend in cpu opencl; do
+        "$build/glim" -b --backend "$backend" -w "$1" -h "$2" -s 1 \
+            -o "$work/$backend.pfm" scenes/cornell.obj || return 1
+    done
+    cmp "$work/cpu.pfm" "$work/opencl.pfm"
 }
 
 stress_sizes() {
@@ -124,6 +134,10 @@ stress_sizes() {
         '0 9 2 0' '9 -1 2 -1'; do
         # shellcheck disable=SC2086 # words
         check "C5 $size" is_right_size $size
+    done
+    for size in '1 1' '1 37' '37 1' '1 65536'; do
+        # shellcheck disable=SC2086 # words
+        check "C5 $size opencl" is_right_device_size $size
     done
 }
 
