@@ -168,8 +168,8 @@ static inline void put_box(struct stage *s, const double lo[3],
                     "f -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n");
 }
 
-static inline void load_scene(const struct shot *shot, struct scene *scene,
-                              struct view *view, struct outcome *o)
+static inline void load_scene(struct scene *scene, const struct view *view,
+                              struct outcome *o)
 {
     struct report report = {0};
 
@@ -179,7 +179,6 @@ static inline void load_scene(const struct shot *shot, struct scene *scene,
     for (int i = 0; i < report.entry_count; i++)
         o->warning_count += report.entries[i].count;
     report_free(&report);
-    (void)shot;
 }
 
 static inline struct view make_view(const struct stage *s,
@@ -232,7 +231,7 @@ static inline struct outcome stage_render(struct stage *s,
     struct scene scene;
     double sum = 0, squares = 0;
 
-    load_scene(shot, &scene, &view, &o);
+    load_scene(&scene, &view, &o);
     o.number_count = 3 * (size_t)view.width_px * (size_t)view.height_px;
     o.rgb = xcalloc(o.number_count, sizeof *o.rgb);
     for (int i = 0; i < seeds && !o.is_refused; i++) {
