@@ -41,6 +41,8 @@ OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
+STRESSES := $(patsubst tests/stress/%.c,$(B)/stress/%,$(wildcard \
+	tests/stress/*.c))
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
@@ -51,7 +53,7 @@ MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
-	tests/bench/error tests/tools,$(wildcard $(d)/*.[ch])) \
+	tests/bench/error tests/stress tests/tools,$(wildcard $(d)/*.[ch])) \
 	$(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
@@ -92,6 +94,7 @@ $(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
 endef
 $(eval $(call program,unit,-lcmocka))
 $(eval $(call program,bench))
+$(eval $(call program,stress,-lcmocka))
 $(eval $(call program,tools))
 
 $(B)/error/%.o: tests/bench/error/%.c $(B)/flags
@@ -160,8 +163,10 @@ build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@
 	$(Q)$< $@ && touch $@
 
-## stress: checks that take minutes; FILTER=NAME for one of them
-stress: $(B)/glim
+## stress: rows of what breaks path tracers, and other checks that take minutes;
+##         FILTER=NAME for one of them: samples geometry light sizes rays
+##         oclgrind valgrind
+stress: $(B)/glim $(STRESSES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
 ## scenes: writes the scenes in scenes/ anew from their generator
@@ -244,4 +249,5 @@ help:
 .PHONY: all run test tests bench bench-error stress scenes tables gallery \
 	install uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
-	$(TOOLS:=.d) $(ERROR_BENCH:.o=.d) $(B)/error/scenes.d
+	$(STRESSES:=.d) $(TOOLS:=.d) $(ERROR_BENCH:.o=.d) \
+	$(B)/error/scenes.d

@@ -4,8 +4,9 @@
  *
  * Watertight (Woop, Benthin and Wald 2013, JCGT 2:1): a ray through an edge
  * or a vertex hits at least one neighbour. Distances that rounding could have
- * put on the wrong side of the origin (bound: Pharr et al., PBR 4th ed., 6.8)
- * are decided again with pairs of floats.
+ * put on the wrong side of the origin, or far off on a needle, are computed
+ * again with pairs of floats (bound of the edge functions: Pharr et al., PBR
+ * 4th ed., 6.8).
  *
  * Units:     normalised scene units
  * Ownership: none
@@ -148,6 +149,23 @@ static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
     return above.hi / slope.hi;
 }
 
+/* The distance to a triangle that lies across an axis: one division, the same
+ * for all triangles in that plane, so that those which share a place tie. False
+ * if it lies otherwise. */
+static inline bool axis_distance(struct ray r, struct vec3 p0, struct vec3 p1,
+                                 struct vec3 p2, float *t)
+{
+    if (p0.x == p1.x && p0.x == p2.x)
+        *t = (p0.x - r.o.x) / r.d.x;
+    else if (p0.y == p1.y && p0.y == p2.y)
+        *t = (p0.y - r.o.y) / r.d.y;
+    else if (p0.z == p1.z && p0.z == p2.z)
+        *t = (p0.z - r.o.z) / r.d.z;
+    else
+        return false;
+    return true;
+}
+
 /* a b - c d with the sign of the exact value. Rounding is monotonic, so only
  * a result of 0 can hide one: then the products' lost digits decide. */
 static inline float edge_function(float a, float b, float c, float d)
@@ -158,6 +176,28 @@ static inline float edge_function(float a, float b, float c, float d)
         e = two_product(a, b).lo - two_product(c, d).lo;
     return e;
 }
+
+/* A bound of the error of the mean of the corners' distances by computed
+ * weights with the sum det; corners sheared. Wrong weights put it anywhere
+ * between them. */
+static inline float distance_error(struct vec3 a, struct vec3 b, struct vec3 c,
+                                   float det)
+{
+    float spread = f_max(a.z, f_max(b.z, c.z)) - f_min(a.z, f_min(b.z, c.z));
+    float reach_x = f_max(fabsf(a.x), f_max(fabsf(b.x), fabsf(c.x)));
+    float reach_y = f_max(fabsf(a.y), f_max(fabsf(b.y), fabsf(c.y)));
+    float reach_z = f_max(fabsf(a.z), f_max(fabsf(b.z), fabsf(c.z)));
+    float error_x = GAMMA(5) * (reach_x + reach_z);
+    float error_y = GAMMA(5) * (reach_y + reach_z);
+    float weight = 2.0f * (GAMMA(2) * reach_x * reach_y + error_y * reach_x +
+                           error_x * reach_y);
+
+    return 3.0f * weight * spread / fabsf(det) + GAMMA(12) * reach_z;
+}
+
+/* A distance that may be further off than this part of it is computed anew:
+ * that of needles, and where a face begins close to the origin. */
+#define T_PRECISION 0x1p-14f
 
 /* True if the ray meets the triangle at a distance above 0 and not beyond
  * t_max; fills all of *h but tri. */
@@ -171,8 +211,7 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     float u = edge_function(c.x, b.y, c.y, b.x);
     float v = edge_function(a.x, c.y, a.y, c.x);
     float w = edge_function(b.x, a.y, b.y, a.x);
-    float det, t, reach_x, reach_y, reach_z, reach_e;
-    float error_x, error_y, error_e, error_t;
+    float det, t;
 
     if ((u < 0.0f || v < 0.0f || w < 0.0f) &&
         (u > 0.0f || v > 0.0f || w > 0.0f))
@@ -180,22 +219,14 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     det = u + v + w;
     if (det == 0.0f)
         return false;
-    t = (u * a.z + v * b.z + w * c.z) / det;
-
-    reach_x = f_max(fabsf(a.x), f_max(fabsf(b.x), fabsf(c.x)));
-    reach_y = f_max(fabsf(a.y), f_max(fabsf(b.y), fabsf(c.y)));
-    reach_z = f_max(fabsf(a.z), f_max(fabsf(b.z), fabsf(c.z)));
-    reach_e = f_max(fabsf(u), f_max(fabsf(v), fabsf(w)));
-    error_x = GAMMA(5) * (reach_x + reach_z);
-    error_y = GAMMA(5) * (reach_y + reach_z);
-    error_e = 2.0f * (GAMMA(2) * reach_x * reach_y + error_y * reach_x +
-                      error_x * reach_y);
-    error_t = 3.0f *
-              (GAMMA(3) * reach_e * reach_z + error_e * reach_z +
-               GAMMA(3) * reach_z * reach_e) /
-              fabsf(det);
-    if (!(fabsf(t) > error_t))
-        t = plane_distance(r, p0, p1, p2);
+    if (!axis_distance(r, p0, p1, p2, &t)) {
+        t = (u * a.z + v * b.z + w * c.z) / det;
+        if (!(fabsf(t) * T_PRECISION > distance_error(a, b, c, det))) {
+            t = plane_distance(r, p0, p1, p2);
+            t = f_max(t, f_min(a.z, f_min(b.z, c.z)));
+            t = f_min(t, f_max(a.z, f_max(b.z, c.z)));
+        }
+    }
     if (!(t > 0.0f && t <= t_max))
         return false;
     h->t = t;

@@ -73,7 +73,85 @@ stress_valgrind() {
     done
 }
 
-for name in oclgrind valgrind; do
+# A program of rows says how each of them went; one that ends otherwise than
+# with 0, or 1 for failed rows, is a failure more.
+rows() { # PROGRAM [ARGUMENT]
+    echo "-- $*"
+    program=$1
+    shift
+    "$build/stress/$program" "$@" >"$work/rows"
+    status=$?
+    cat "$work/rows"
+    passed=$((passed + $(grep -c '^ok ' "$work/rows")))
+    bad=$(grep -c '^FAIL ' "$work/rows")
+    if [ "$status" -gt 1 ] || [ "$status" != 0 ] && [ "$bad" = 0 ]; then
+        echo "FAIL $program: ended with status $status"
+        bad=$((bad + 1))
+    fi
+    failed=$((failed + bad))
+}
+
+stress_rays() {
+    rows rays
+}
+
+stress_samples() {
+    rows samples
+    rows samples opencl
+}
+
+# C5: the picture is there, or one line says what is wrong with the size; in
+# 2 GiB, so that no machine's memory decides.
+is_right_size() { # WIDTH HEIGHT STATUS [WORDS OF THE LINE]
+    rm -f "$work/size.png"
+    # shellcheck disable=SC3045 # dash and bash have it
+    (ulimit -v 2097152
+        "$build/glim" -b -t 1 -w "$1" -h "$2" -s 1 -o "$work/size.png" \
+            scenes/cornell.obj 2>"$work/said")
+    status=$?
+    cat "$work/said"
+    [ "$status" = "$3" ] || return 1
+    if [ "$status" = 0 ]; then
+        [ -s "$work/size.png" ]
+    else
+        [ "$(wc -l <"$work/said")" = 1 ] && grep -q -e "$4" "$work/said" &&
+            [ ! -e "$work/size.png" ]
+    fi
+}
+
+# The same pictures by OpenCL's device, and by the CPU where there is none.
+is_right_device_size() { # WIDTH HEIGHT
+    for backend in cpu opencl; do
+        "$build/glim" -b --backend "$backend" -w "$1" -h "$2" -s 1 \
+            -o "$work/$backend.pfm" scenes/cornell.obj || return 1
+    done
+    cmp "$work/cpu.pfm" "$work/opencl.pfm"
+}
+
+stress_sizes() {
+    for size in '1 1 0' '1 37 0' '37 1 0' '1 65536 0' '65536 1 0' \
+        '16384 16384 1 GiB' '65536 65536 1 GiB' '65537 1 2 65537' \
+        '0 9 2 0' '9 -1 2 -1'; do
+        # shellcheck disable=SC2086 # words
+        check "C5 $size" is_right_size $size
+    done
+    for size in '1 1' '1 37' '37 1' '1 65536'; do
+        # shellcheck disable=SC2086 # words
+        check "C5 $size opencl" is_right_device_size $size
+    done
+}
+
+stress_geometry() {
+    rows geometry
+    rows geometry opencl
+}
+
+stress_light() {
+    rows light
+    rows light opencl
+}
+
+for name in samples geometry light sizes rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi

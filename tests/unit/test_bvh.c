@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "brute.h"
 #include "check.h"
 #include "mesh.h"
 
@@ -7,48 +8,15 @@
 
 #include "kernels/traverse.h"
 
-/* Every triangle, by the same test and the same rule for ties. */
-static bool brute_force(const struct world *w, struct ray r, struct hit *best)
-{
-    struct shear s = shear_of(r);
-
-    best->t = r.t_max;
-    best->tri = NO_INDEX;
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
-        struct hit h;
-
-        if (!triangle_hit(r, s, w->positions[w->tris[i].v[0]],
-                          w->positions[w->tris[i].v[1]],
-                          w->positions[w->tris[i].v[2]], best->t, &h) ||
-            h.t == best->t)
-            continue;
-        h.tri = i;
-        *best = h;
-    }
-    return best->tri != NO_INDEX;
-}
-
-static float span(uint64_t *seed, float half)
-{
-    return (float)(2 * check_random(seed) - 1) * half;
-}
-
-static struct vec3 point(uint64_t *seed, float half)
-{
-    float x = span(seed, half), y = span(seed, half), z = span(seed, half);
-
-    return v3(x, y, z);
-}
-
 /* Random rays; every fourth from far outside, every eighth along an axis with
  * zero components, every sixteenth from a vertex. */
 static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
 {
-    struct ray r = {point(seed, i % 4 == 0 ? 50.0f : 1.2f),
+    struct ray r = {random_point(seed, i % 4 == 0 ? 50.0f : 1.2f),
                     {0, 0, 0},
                     FLOAT_MAX,
                     0};
-    struct vec3 at = point(seed, 0.8f);
+    struct vec3 at = random_point(seed, 0.8f);
 
     if (i % 16 == 7)
         r.o = m->positions[(uint32_t)(check_random(seed) * 3 * m->tri_count)];
@@ -100,10 +68,10 @@ static void soup_agrees(void **state)
 
     (void)state;
     for (int i = 0; i < 150; i++) {
-        struct vec3 a = point(&seed, 0.7f);
+        struct vec3 a = random_point(&seed, 0.7f);
 
-        mesh_add(&m, a, v3_add(a, point(&seed, 0.4f)),
-                 v3_add(a, point(&seed, 0.4f)), 0);
+        mesh_add(&m, a, v3_add(a, random_point(&seed, 0.4f)),
+                 v3_add(a, random_point(&seed, 0.4f)), 0);
     }
     compare(&m, RAYS, 1);
 }
@@ -147,15 +115,15 @@ static void needles_agree(void **state)
 
     (void)state;
     for (int i = 0; i < 200; i++) {
-        struct vec3 a = point(&seed, 0.9f);
-        struct vec3 b = point(&seed, 0.9f);
+        struct vec3 a = random_point(&seed, 0.9f);
+        struct vec3 b = random_point(&seed, 0.9f);
         float width = powf(10.0f, -2.0f - 4.0f * (float)check_random(&seed));
 
-        mesh_add(&m, a, b, v3_add(a, point(&seed, width)), 0);
+        mesh_add(&m, a, b, v3_add(a, random_point(&seed, width)), 0);
     }
     for (int i = 0; i < 6; i++) /* something to hit */
-        mesh_add(&m, point(&seed, 1.0f), point(&seed, 1.0f), point(&seed, 1.0f),
-                 0);
+        mesh_add(&m, random_point(&seed, 1.0f), random_point(&seed, 1.0f),
+                 random_point(&seed, 1.0f), 0);
     compare(&m, RAYS, 4);
 }
 

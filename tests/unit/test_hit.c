@@ -78,6 +78,70 @@ static void hits_agree_with_long_double(void **state)
     assert_true(hits > 20000 && misses > 500000);
 }
 
+/* STRESS G4: hits of needles are on the needle, whatever its weights. */
+static void needles_are_hit_where_they_are(void **state)
+{
+    uint64_t seed = 6;
+    int hits = 0;
+
+    (void)state;
+    for (int i = 0; i < 300000; i++) {
+        float width = powf(10.0f, -4.0f - 3.0f * (float)check_random(&seed));
+        struct vec3 a = point(&seed), b = point(&seed);
+        struct vec3 c = v3_add(a, v3_scale(point(&seed), width));
+        struct vec3 at = v3_lerp(a, b, (float)check_random(&seed));
+        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0};
+        struct hit h;
+
+        if (i % 3 == 0) /* nearly along it */
+            r.o =
+                v3_add(v3_add(a, v3_sub(a, b)), v3_scale(point(&seed), width));
+        r.d = v3_unit(v3_sub(at, r.o));
+        if (!triangle_hit(r, shear_of(r), a, b, c, FLOAT_MAX, &h))
+            continue;
+        at = v3_add(r.o, v3_scale(r.d, h.t));
+        hits++;
+        for (uint32_t k = 0; k < 3; k++) {
+            float lo =
+                f_min(v3_axis(a, k), f_min(v3_axis(b, k), v3_axis(c, k)));
+            float hi =
+                f_max(v3_axis(a, k), f_max(v3_axis(b, k), v3_axis(c, k)));
+
+            check_at_most(v3_axis(at, k), (double)hi + 1e-4);
+            check_at_most(lo, (double)v3_axis(at, k) + 1e-4);
+        }
+    }
+    assert_true(hits > 50000);
+}
+
+/* STRESS G6, M12: what overlaps in one plane across an axis is as far off. */
+static void faces_in_one_plane_tie(void **state)
+{
+    uint64_t seed = 7;
+    int hits = 0;
+
+    (void)state;
+    for (int i = 0; i < 300000; i++) {
+        struct vec3 p[6];
+        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0};
+        float plane = span(&seed);
+        struct hit one, other;
+
+        for (int k = 0; k < 6; k++) {
+            p[k] = point(&seed);
+            *(i % 3 == 0 ? &p[k].x : i % 3 == 1 ? &p[k].y : &p[k].z) = plane;
+        }
+        r.d = v3_add(p[0], v3_add(p[1], p[2]));
+        r.d = v3_unit(v3_sub(v3_scale(r.d, 1 / 3.0f), r.o));
+        if (!triangle_hit(r, shear_of(r), p[0], p[1], p[2], FLOAT_MAX, &one) ||
+            !triangle_hit(r, shear_of(r), p[3], p[4], p[5], FLOAT_MAX, &other))
+            continue;
+        hits++;
+        assert_true(one.t == other.t);
+    }
+    assert_true(hits > 1000);
+}
+
 /* STRESS G12: no ray from inside gets out of a closed mesh, aimed at vertices,
  * at edges or anywhere. */
 static void closed_meshes_do_not_leak(void **state)
@@ -191,6 +255,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hits_agree_with_long_double),
+        cmocka_unit_test(needles_are_hit_where_they_are),
+        cmocka_unit_test(faces_in_one_plane_tie),
         cmocka_unit_test(closed_meshes_do_not_leak),
         cmocka_unit_test(no_ray_hits_its_own_face),
         cmocka_unit_test(near_sheets_are_both_hit),

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+/*
+ * samples - what sums, random numbers and weights must hold over long renders
+ *
+ * usage: samples [opencl]
+ */
+#include "stage.h"
+#include "tests/unit/mesh.h"
+
+#include "glim/blackbody.h"
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+
+/* The closed room of geometry.c: every pixel's truth is 1. */
+static void put_room(struct stage *s)
+{
+    stage_begin(s);
+    put_material(s, "room", "Kd .5 .5 .5\nKe .5 .5 .5");
+    put_box(s, (double[]){-1, -1, -1}, (double[]){1, 1, 1});
+    stage_end(s);
+}
+
+static struct shot room_shot(int side_px, uint64_t spp, uint32_t seed)
+{
+    return (struct shot){.eye = {0.1, 0.2, 0.9},
+                         .at = {0.1, 0, 0},
+                         .fovy_deg = 90,
+                         .side_px = side_px,
+                         .spp = spp,
+                         .seed = seed};
+}
+
+/* Correlation of one picture's errors with another's, shifted. */
+static double correlation(const float *one, const float *other, int side, int x,
+                          int y)
+{
+    double sum = 0, ones = 0, others = 0;
+
+    for (int j = y; j < side; j++)
+        for (int i = x; i < side; i++) {
+            double a = (double)one[3 * (j * side + i)] - 1;
+            double b = (double)other[3 * ((j - y) * side + i - x)] - 1;
+
+            sum += a * b;
+            ones += a * a;
+            others += b * b;
+        }
+    return sum / sqrt(ones * others);
+}
+
+/* C7: of 256 x 256 pixels without correlation, 0.02 is 5 standard errors:
+ * once in 2e6 (two-sided), of 14 numbers on each backend. */
+#define CORRELATION 0.02
+
+static void check_streams(struct stage *s)
+{
+    static const int shifts[][2] = {{1, 0}, {0, 1}, {1, 1}, {2, 0},
+                                    {0, 2}, {8, 0}, {0, 8}};
+    struct shot shots[] = {room_shot(256, 4, 0),
+                           room_shot(256, 4, 0xffffffffu)};
+    struct outcome o[2];
+
+    put_room(s);
+    for (int i = 0; i < 2; i++)
+        o[i] = stage_render(s, &shots[i], 1);
+    for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++) {
+        double r =
+            correlation(o[0].rgb, o[0].rgb, 256, shifts[i][0], shifts[i][1]);
+
+        row(fabs(r) < CORRELATION, "C7",
+            "errors of pixels %d, %d apart: correlation %.4f, want 0 within "
+            "%g",
+            shifts[i][0], shifts[i][1], r, CORRELATION);
+    }
+    for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++) {
+        double r =
+            correlation(o[0].rgb, o[1].rgb, 256, i == 0 ? 0 : shifts[i][0],
+                        i == 0 ? 0 : shifts[i][1]);
+
+        row(fabs(r) < CORRELATION, "C7 C8",
+            "errors of seeds 0 and 2^32-1, shift %d: correlation %.4f, want 0 "
+            "within %g",
+            (int)i, r, CORRELATION);
+    }
+    free(o[0].rgb);
+    free(o[1].rgb);
+}
+
+static double squared_error(struct stage *s, int side_px, uint64_t spp)
+{
+    struct shot shot = room_shot(side_px, spp, 1);
+    struct outcome o = stage_render(s, &shot, 1);
+    double sum = 0;
+
+    for (size_t i = 0; i < o.number_count; i++)
+        sum += pow((double)o.rgb[i] - 1, 2) / (double)o.number_count;
+    free(o.rgb);
+    return sum;
+}
+
+/* C7: at least as fast as 1 / n. The mean of 64 squares of normal numbers has
+ * a standard error of sqrt(2 / 64); 4.9 of it come by chance once in 1e6. */
+static void check_slope(struct stage *s)
+{
+    const double slack = 1 + 4.9 * sqrt(2 / 64.0);
+    double begin, end;
+
+    put_room(s);
+    begin = squared_error(s, 64, 16) * 16;
+    end = squared_error(s, 8, 100000) * 100000;
+    row(end <= begin * slack, "C7",
+        "variance times samples: %.4g at 16, %.4g at 100000, want at most %.4g",
+        begin, end, begin * slack);
+}
+
+static void check_seeds(struct stage *s)
+{
+    struct shot shot = room_shot(SIDE_PX, 64, 0xfffffffau);
+    struct outcome o;
+
+    put_room(s);
+    o = stage_render(s, &shot, SEEDS);
+    row(fabs(o.mean - 1) <= T_LIMIT * o.error && o.last.non_finite == 0, "C8",
+        "seeds from 2^32-6 over 0 to 5: %.6g, want 1, off by %.2g of %.2g",
+        o.mean, fabs(o.mean - 1), T_LIMIT * o.error);
+    free(o.rgb);
+}
+
+/* The room again, for paths one at a time. */
+static void make_furnace(struct mesh *m)
+{
+    *m = (struct mesh){0};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    m->materials[0].emission = v3(0.5f, 0.5f, 0.5f);
+    mesh_add_box(m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_finish(m);
+}
+
+static double path_error(const struct world *w, uint64_t index)
+{
+    struct ray r = {v3(0.1f, 0.2f, 0.3f), v3_unit(v3(1, 0.3f, 0.2f)), FLOAT_MAX,
+                    0};
+
+    return (double)path_trace(w, r, sampler_start(3, 5, index, 0)).radiance.x -
+           1;
+}
+
+/* C8: samples around and beyond number 2^32 have the right mean, and are not
+ * those from 0 on again. */
+static void check_late_samples(void)
+{
+    const int count = 200000;
+    const uint64_t first = ((uint64_t)1 << 32) - (uint64_t)(count / 2);
+    struct mesh m;
+    double sum = 0, squares = 0, product = 0, others = 0, mean, error, r;
+
+    make_furnace(&m);
+    for (int i = 0; i < count; i++) {
+        double late = path_error(&m.world, first + (uint64_t)i);
+        double early = path_error(
+            &m.world, (uint64_t)i + (uint64_t)(i < count / 2 ? 0 : -count / 2));
+
+        sum += late;
+        squares += late * late;
+        others += early * early;
+        product += late * early;
+    }
+    mean = sum / count;
+    error = sqrt(squares / count / count);
+    r = product / sqrt(squares * others);
+    row(fabs(mean) < 4.9 * error, "C8",
+        "samples around number 2^32: %.5f, want 1, off by %.2g of %.2g",
+        1 + mean, fabs(mean), 4.9 * error);
+    row(fabs(r) < 4.9 / sqrt(count), "C8",
+        "and those from 0 on: correlation %.4f, want 0 within %.4f", r,
+        4.9 / sqrt(count));
+    mesh_free(&m);
+}
+
+/* C6 */
+static void check_sums(void)
+{
+    const int more = 1 << 25;
+
+    for (int power = 0; power <= 40; power += power == 0 ? 24 : 8) {
+        uint64_t count = power == 0 ? 0 : (uint64_t)1 << power;
+        struct sum s = {0, count}; /* so many samples of 1 */
+        double want;
+
+        for (int i = 0; i < more; i++)
+            sum_add(&s, 3.0f);
+        want = ((double)count + 3.0 * more) / ((double)count + more);
+        row(fabs((double)sum_mean(s, count + (uint64_t)more) / want - 1) <
+                0x1p-22,
+            "C6", "2^25 samples of 3 after 2^%d of 1: mean %.9g, want %.9g",
+            power, (double)sum_mean(s, count + (uint64_t)more), want);
+    }
+}
+
+/* C6: a film that has 2^40 samples a pixel takes more. */
+static void check_film(void)
+{
+    const uint64_t count = (uint64_t)1 << 40;
+    const struct sum sums[3] = {{0, count}, {0, count}, {0, count}};
+    struct path_sample samples[8];
+    struct film film;
+    struct error err;
+    float rgb[3];
+
+    if (!film_init(&film, 1, 1, &err))
+        stage_stop(err.text);
+    film_store_row(&film, 0, sums, &count);
+    for (int i = 0; i < 8; i++)
+        samples[i] = (struct path_sample){.radiance = {1, 1, 1}};
+    film_add_row(&film, 0, 0, 1, 1, samples, (const int[]){8});
+    film_linear(&film, rgb);
+    row(film_count(&film, 0, 0) == count + 8 && rgb[0] == 1, "C6",
+        "a pixel of 2^40 and 8 samples has %llu, mean %.9g, want 1",
+        (unsigned long long)film_count(&film, 0, 0), (double)rgb[0]);
+    film_free(&film);
+}
+
+/* C9: of all 2^32 words. */
+static void check_unit_floats(void)
+{
+    uint64_t outside = 0;
+    float most = 0;
+
+    for (uint64_t bits = 0; bits < (uint64_t)1 << 32; bits++) {
+        float u = unit_float((uint32_t)bits);
+
+        outside += !(u >= 0.0f && u < 1.0f);
+        most = f_max(most, u);
+    }
+    row(outside == 0, "C9",
+        "numbers of 2^32 words: outside [0, 1): %llu, want 0; the greatest is "
+        "1 - %g",
+        (unsigned long long)outside, 1 - (double)most);
+}
+
+static bool is_fine(struct bsdf_sample s)
+{
+    float sum = s.weight.x + s.weight.y + s.weight.z + s.wi.x + s.wi.y + s.wi.z;
+
+    return isfinite(sum) && v3_max(s.weight) >= 0.0f &&
+           (s.is_delta || (isfinite(s.pdf) && s.pdf > 0.0f));
+}
+
+/* C9: BSDFs at the ends of random numbers, grazing and upright. */
+static void check_extremes(void)
+{
+    static const uint32_t kinds[] = {MATERIAL_DIFFUSE, MATERIAL_ROUGH_DIFFUSE,
+                                     MATERIAL_METAL,   MATERIAL_PLASTIC,
+                                     MATERIAL_GLASS,   MATERIAL_THIN_GLASS};
+    static const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
+    static const float heights[] = {1e-6f, 1e-3f, 0.5f, 1};
+    static const float alphas[] = {0, ALPHA_SMOOTH, 0.1f, 1};
+    int bad = 0, drawn = 0;
+
+    for (int i = 0; i < 6 * 4 * 4 * 125; i++) {
+        float z = heights[i / 125 % 4];
+        struct vec3 wo = v3(sqrtf(1 - z * z), 0, z);
+        struct bsdf b = {.color = {1, 1, 1},
+                         .coat = {0.04f, 0.04f, 0.04f},
+                         .alpha = alphas[i / 500 % 4],
+                         .kind = kinds[i / 2000],
+                         .eta = 1.5f};
+        struct bsdf_sample s;
+
+        if (!bsdf_sample(&b, wo, v2(ends[i % 5], ends[i / 5 % 5]),
+                         ends[i / 25 % 5], &s))
+            continue;
+        drawn++;
+        bad += !is_fine(s);
+    }
+    row(bad == 0 && drawn > 6000, "C9 M4",
+        "BSDFs at the ends of random numbers: %d drawn, not finite or "
+        "negative: %d, want 0",
+        drawn, bad);
+}
+
+/* M14: densities of 0 and over the whole range of floats. */
+static void check_weights(void)
+{
+    struct world w = {.settings = {.direct = DIRECT_MIS}};
+    double worst = 0;
+    int count = 0;
+
+    for (float a = 1e-35f; a < 1e35f; a *= 10)
+        for (float b = 1e-35f; b < 1e35f; b *= 10) {
+            double sum = (double)chance_weight(&w, a, b) +
+                         (double)light_weight(&w, b, a);
+
+            worst = fmax(worst, isfinite(sum) ? fabs(sum - 1) : INFINITY);
+            count++;
+        }
+    row(worst < 1e-6, "M14",
+        "%d pairs of densities: weights add up to 1 "
+        "within %.2g, want 1e-6",
+        count, worst);
+    row(chance_weight(&w, 0, 5) == 1 && chance_weight(&w, 5, 0) == 1 &&
+            light_weight(&w, 5, 0) == 1,
+        "M14", "one density 0: the other way weighs %g, %g and %g, want 1",
+        (double)chance_weight(&w, 0, 5), (double)chance_weight(&w, 5, 0),
+        (double)light_weight(&w, 5, 0));
+}
+
+/* M13: what roulette does with weights that are none. */
+static void check_roulette(void)
+{
+    struct path dead = {.beta = {0, 0, 0}}, bad = {.beta = {NAN, NAN, NAN}};
+    struct path bright = {.beta = {4, 4, 4}};
+
+    row(!path_survives(&dead, 2, 0) && !path_survives(&bad, 2, 0) &&
+            path_survives(&bright, 2, 1 - 0x1p-24f) && bright.beta.x == 4,
+        "M13", "weights 0 and NaN end, 4 goes on with weight %g, want 4",
+        (double)bright.beta.x);
+}
+
+/* M15: luminance 1 by the weights of Rec.709, nothing negative. */
+static void check_black_bodies(void)
+{
+    static const double kelvins[] = {BLACKBODY_LEAST, 100, 500, 1e6,
+                                     BLACKBODY_GREATEST};
+
+    for (size_t i = 0; i < sizeof kelvins / sizeof kelvins[0]; i++) {
+        double rgb[3], y;
+
+        blackbody_rgb(kelvins[i], rgb);
+        y = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+        row(rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0 && fabs(y - 1) < 1e-3,
+            "M15", "%g K: %g %g %g, luminance %.5f, want 1", kelvins[i], rgb[0],
+            rgb[1], rgb[2], y);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    struct stage s;
+
+    (void)argv;
+    if (argc == 1) {
+        check_sums();
+        check_film();
+        check_unit_floats();
+        check_extremes();
+        check_weights();
+        check_roulette();
+        check_black_bodies();
+        check_late_samples();
+    }
+    if (!stage_open(&s, argc > 1))
+        return rows_status();
+    check_streams(&s);
+    check_seeds(&s);
+    check_slope(&s);
+    stage_close(&s);
+    return rows_status();
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+/*
+ * brute.h - the plainest ray query, which others have to agree with
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   any; the caller's state of random numbers
+ * Errors:    none
+ */
+#ifndef TESTS_BRUTE_H
+#define TESTS_BRUTE_H
+
+#include "check.h"
+#include "kernels/hit.h"
+
+/* Every triangle, by the same test and the same rule for ties. */
+static inline bool brute_force(const struct world *w, struct ray r,
+                               struct hit *best)
+{
+    struct shear s = shear_of(r);
+
+    best->t = r.t_max;
+    best->tri = NO_INDEX;
+    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
+        struct hit h;
+
+        if (!triangle_hit(r, s, w->positions[w->tris[i].v[0]],
+                          w->positions[w->tris[i].v[1]],
+                          w->positions[w->tris[i].v[2]], best->t, &h) ||
+            h.t == best->t)
+            continue;
+        h.tri = i;
+        *best = h;
+    }
+    return best->tri != NO_INDEX;
+}
+
+/* Uniform from -half to half. */
+static inline float random_span(uint64_t *seed, float half)
+{
+    return (float)(2 * check_random(seed) - 1) * half;
+}
+
+static inline struct vec3 random_point(uint64_t *seed, float half)
+{
+    float x = random_span(seed, half), y = random_span(seed, half);
+    float z = random_span(seed, half);
+
+    return v3(x, y, z);
+}
+
+#endif
