@@ -492,6 +492,8 @@ uint32_t scene_material_features(const struct scene *scene,
     bool is_metal = m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX;
     uint32_t features = 0;
 
+    if (shines(m))
+        features |= FEATURE_EMITTERS;
     if (has_texture(m))
         features |= FEATURE_TEXTURES;
     if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
@@ -516,9 +518,6 @@ uint32_t scene_material_features(const struct scene *scene,
 uint32_t scene_features(const struct scene *scene)
 {
     uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
-
-    if (scene->has_emitters)
-        features |= FEATURE_EMITTERS;
 
     for (uint32_t i = 0; i < scene->material_count; i++)
         if (scene->material_is_used[i])

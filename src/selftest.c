@@ -91,6 +91,7 @@ static bool make_job(const struct scene *scene, struct render_job *job,
     view.at[0] = view.at[2] = 0;
     view.at[1] = 1.3;
     view.fovy_deg = 75;
+    view.background[0] = view.background[1] = view.background[2] = 0.5;
     ok = scene_world(scene, &view, 1, &job->world, err);
     view_free(&view);
     return ok;

@@ -17,6 +17,7 @@
 #include "glim/cl_environment.h"
 #include "glim/render.h"
 #include "glim/scene.h"
+#include "glim/selftest.h"
 #include "kernels/features.h"
 
 static const char *const scenes[] = {
@@ -250,6 +251,34 @@ static void special_builds(void **state)
     }
 }
 
+/* The self-test passes for every build that a scene may ask for. */
+static void self_tests(void **state)
+{
+    (void)state;
+    for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
+        char verdict[SELFTEST_VERDICT_BYTES] = "";
+        struct cl_request request = {.device = "Portable"};
+        struct backend *cpu, *special;
+        struct error err;
+        struct pair p;
+        char *log;
+
+        open_pair(&p, scenes[i], 8, 8);
+        request.features = i == 0 ? 0 : scene_features(&p.scene);
+        cpu = backend_cpu_create(1, &err);
+        special = backend_cl_create(&request, &log, &err);
+        check_or_say(cpu != NULL && special != NULL, err.text);
+        check_or_say(
+            selftest_run(cpu, special, request.features, verdict, &err),
+            err.text);
+        if (is_exact)
+            assert_string_equal(verdict, "the CPU's bits");
+        special->destroy(special);
+        cpu->destroy(cpu);
+        close_pair(&p);
+    }
+}
+
 /* Halted again and again, at any moment: nothing is lost or counted twice. */
 static void halts(void **state)
 {
@@ -306,7 +335,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes), cmocka_unit_test(options),
-        cmocka_unit_test(special_builds), cmocka_unit_test(halts),
+        cmocka_unit_test(special_builds), cmocka_unit_test(self_tests),
+        cmocka_unit_test(halts),
         cmocka_unit_test(buffers),
     };
 
