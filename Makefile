@@ -144,7 +144,7 @@ test:
 	@+$(MAKE_ALL) tests
 	@BUILD=$(B) SAN='$(SAN)' tests/run.sh
 
-tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate
+tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES)
 
 ## bench: measures speed, halting and threads; FILTER=NAME for one of them
 bench: $(B)/glim $(BENCHES)

@@ -13,7 +13,7 @@
 #include "glim/session.h"
 
 #define ROUNDS 5
-#define SPP    16
+#define SPP    4
 
 enum contestant { CPU, FULL, SPECIAL, CONTESTANTS };
 

@@ -96,7 +96,7 @@ bench_halts() {
 # OpenCL against the CPU: speed, halting, the first and a later start.
 bench_device() {
     echo
-    echo 'device: OpenCL against the CPU, 480x270, 16 spp, medians of 5'
+    echo 'device: OpenCL against the CPU, 480x270, 4 spp, medians of 5'
     if ! "$build/glim" --list-devices; then
         return 0
     fi

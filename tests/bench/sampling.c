@@ -77,7 +77,7 @@ static bool bench_lights(uint32_t count, struct error *err)
     struct world w = {.positions = positions,
                       .tris = tris,
                       .materials = &lamp,
-                      .tri_count = count};
+                      .settings.tri_count = count};
     struct lights lights = {.lights = NULL};
     bool ok = positions != NULL && tris != NULL;
 
@@ -116,7 +116,7 @@ static bool bench_sky(uint32_t width, struct error *err)
     uint32_t height = width / 2;
     struct vec3 *texels = alloc_array((size_t)width * height, sizeof *texels);
     struct world w = {
-        .sky = {{1, 1, 1}, width, height, 0, 1, 0},
+        .settings.sky = {{1, 1, 1}, width, height, 0, 1, 0},
         .sky_texels = texels,
     };
     struct sky_table table = {NULL};
