@@ -25,14 +25,16 @@ __kernel void trace_paths(
     __global const float *sky_sums)
 {
     uint i = (uint)get_global_id(0);
-    struct world w = {*settings,      positions,  normals,     uvs,
-                      tris,           materials,  textures,    texels,
-                      linear_of_srgb, sky_texels, nodes,       leaf_tris,
-                      lights,         tri_lights, light_nodes, sky_sums};
 
     if (i / task.samples >= task.count)
         return;
     samples[i].rays = 0;
-    if (*cancel == 0 && starts[i].ray.t_max > 0.0f)
+    if (*cancel == 0 && starts[i].ray.t_max > 0.0f) {
+        struct world w = {*settings,      positions,  normals,     uvs,
+                          tris,           materials,  textures,    texels,
+                          linear_of_srgb, sky_texels, nodes,       leaf_tris,
+                          lights,         tri_lights, light_nodes, sky_sums};
+
         samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);
+    }
 }

@@ -13,15 +13,17 @@ __kernel void generate_rays(struct task task,
 {
     uint i = (uint)get_global_id(0);
     uint point = i / task.samples;
-    struct settings s = *settings;
     ulong index;
 
     if (point >= task.count || *cancel != 0)
         return;
     index = counts[task_pixel(task, point)] + i % task.samples;
-    if (index < task.target)
+    if (index < task.target) {
+        struct settings s = *settings;
+
         starts[i] = path_begin(&s, task.x0 + task_x(task, point),
                                task.y0 + task_y(task, point), index);
-    else
+    } else {
         starts[i].ray.t_max = -1.0f; /* no path */
+    }
 }

@@ -24,7 +24,7 @@
 #define TASK_PATHS_FIRST 8192
 #define TASK_PATHS_MIN   512
 #define TASK_PATHS_MAX   (1u << 20) /* what a tally can count */
-#define TASK_NS          10000000   /* to be aimed at */
+#define TASK_NS          6000000    /* to be aimed at */
 
 /* Between readings of finished rows, and how much is read at once. */
 #define READ_NS    25000000
@@ -70,6 +70,8 @@ struct backend_cl {
     uint32_t x0, y0;
     cl_mem sums;
     cl_mem counts;
+    struct sum *host_sums; /* a CPU device: the memory of these buffers; */
+    uint64_t *host_counts; /* others: NULL */
     size_t pixel_capacity;
     uint32_t reading_rows; /* that a reading has room for */
     struct slot slots[2];
@@ -150,19 +152,33 @@ static void free_film(struct backend_cl *b)
 {
     cl_machine_drop(&b->machine, &b->sums);
     cl_machine_drop(&b->machine, &b->counts);
+    free(b->host_sums);
+    free(b->host_counts);
+    b->host_sums = NULL;
+    b->host_counts = NULL;
     b->pixel_capacity = 0;
 }
 
 static bool make_film(struct backend_cl *b, size_t pixel_count,
                       struct error *err)
 {
+    const struct cl_machine *m = &b->machine;
+    bool is_cpu = m->device->is_cpu;
+
     free_film(b);
-    b->sums = cl_machine_buffer(&b->machine, NULL,
-                                pixel_count * PIXEL_SUMS_BYTES, false, err);
+    if (is_cpu) {
+        b->host_sums = alloc_array(pixel_count, PIXEL_SUMS_BYTES);
+        b->host_counts = alloc_array(pixel_count, sizeof *b->host_counts);
+        if (b->host_sums == NULL || b->host_counts == NULL)
+            return fail(err, "out of memory for a picture of %zu pixels",
+                        pixel_count);
+    }
+    b->sums = cl_machine_buffer(m, b->host_sums, pixel_count * PIXEL_SUMS_BYTES,
+                                true, err);
     if (b->sums != NULL)
         b->counts =
-            cl_machine_buffer(&b->machine, NULL, pixel_count * sizeof(uint64_t),
-                              false, err);
+            cl_machine_buffer(m, b->host_counts, pixel_count * sizeof(uint64_t),
+                              true, err);
     if (b->counts == NULL)
         return false;
     b->pixel_capacity = pixel_count;
@@ -340,10 +356,10 @@ static bool enqueue_reading(struct backend_cl *b, struct progress *p,
                      "clEnqueueReadBufferRect", err);
 }
 
-/* A CPU reads its own memory, and halts sooner when little is left to read. */
+/* A CPU's memory is read as it is. */
 static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
 {
-    return b->machine.device->is_cpu || now_ns >= b->read_ns + READ_NS;
+    return b->host_sums == NULL && now_ns >= b->read_ns + READ_NS;
 }
 
 /* Gives the device the next points of the pass. */
@@ -385,9 +401,29 @@ static void store_reading(struct backend_cl *b, uint32_t stride,
     size_t width = (size_t)b->film->width;
 
     for (uint32_t i = 0; i < r->count; i++)
-        film_store_row(b->film, (int)((r->first + i) * stride),
-                       r->sums + 3 * width * i, r->counts + width * i);
+        film_store_row(b->film, 0, (int)((r->first + i) * stride), 1,
+                       b->film->width, r->sums + 3 * width * i,
+                       r->counts + width * i);
     r->count = 0;
+}
+
+/* The points of a task that is done, from the memory of a CPU device. Nothing
+ * writes to them before the next pass. */
+static void store_points(struct backend_cl *b, const struct task *t)
+{
+    uint32_t end = t->first + t->count;
+
+    for (uint32_t point = t->first; point < end;) {
+        uint32_t row = point / t->columns;
+        uint32_t row_end = (uint32_t)smaller(end, (row + 1) * t->columns);
+        size_t at = (size_t)row * t->stride * t->width;
+
+        film_store_row(b->film, (int)(point % t->columns * t->stride),
+                       (int)(row * t->stride), (int)t->stride,
+                       (int)(row_end - point), b->host_sums + 3 * at,
+                       b->host_counts + at);
+        point = row_end;
+    }
 }
 
 /* The next tasks take about TASK_NS. */
@@ -414,7 +450,10 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
     if (!cl_machine_wait(&b->machine, &s->done, err))
         return false;
     film_count_more(b->film, &s->result);
-    store_reading(b, s->task.stride, &s->reading);
+    if (b->host_sums != NULL)
+        store_points(b, &s->task);
+    else
+        store_reading(b, s->task.stride, &s->reading);
     if (!cancel_requested(cancel))
         adapt(b, s);
     return true;
@@ -426,7 +465,7 @@ static bool read_rest(struct backend_cl *b, struct progress *p,
 {
     struct reading *r = &b->slots[0].reading;
 
-    while (p->read < p->next) {
+    while (b->host_sums == NULL && p->read < p->next) {
         if (!enqueue_reading(b, p, r, err) ||
             !call_done(b, b->machine.api->Finish(b->machine.queue), "clFinish",
                        err))

@@ -110,15 +110,19 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
     film_count_more(f, &tally);
 }
 
-void film_store_row(struct film *f, int y, const struct sum *sums,
-                    const uint64_t *counts)
+void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
+                    const struct sum *sums, const uint64_t *counts)
 {
-    size_t at = pixel_index(f, 0, y);
-    size_t width = (size_t)f->width;
-
     row_lock(f, y);
-    memcpy(f->sums + 3 * at, sums, 3 * width * sizeof *sums);
-    memcpy(f->counts + at, counts, width * sizeof *counts);
+    for (int i = 0; i < pixel_count; i++) {
+        size_t from = (size_t)(x + i * stride);
+        size_t at = pixel_index(f, x + i * stride, y);
+
+        if (f->counts[at] == counts[from])
+            continue;
+        memcpy(f->sums + 3 * at, sums + 3 * from, 3 * sizeof *sums);
+        f->counts[at] = counts[from];
+    }
     row_unlock(f, y);
 }
 

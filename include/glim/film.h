@@ -58,9 +58,11 @@ uint64_t film_count(const struct film *film, int x, int y);
 void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
                   const struct path_sample *samples, const int *counts);
 
-/* Replaces a row, for a device that keeps sums of its own: 3 sums and a count
- * for each pixel. */
-void film_store_row(struct film *film, int y, const struct sum *sums,
+/* Replaces pixels x, x + stride, ... of row y, for a device that keeps sums of
+ * its own: `sums` and `counts` begin with those of pixel 0 of the row. What has
+ * the same count is the same. */
+void film_store_row(struct film *film, int x, int y, int stride,
+                    int pixel_count, const struct sum *sums,
                     const uint64_t *counts);
 
 /* Counts samples of which the sums are stored elsewhere or later. */

@@ -268,9 +268,9 @@ static void self_tests(void **state)
         cpu = backend_cpu_create(1, &err);
         special = backend_cl_create(&request, &log, &err);
         check_or_say(cpu != NULL && special != NULL, err.text);
-        check_or_say(
-            selftest_run(cpu, special, request.features, verdict, &err),
-            err.text);
+        check_or_say(selftest_run(cpu, special, request.features, verdict,
+                                  &err),
+                     err.text);
         if (is_exact)
             assert_string_equal(verdict, "the CPU's bits");
         special->destroy(special);
@@ -336,8 +336,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes), cmocka_unit_test(options),
         cmocka_unit_test(special_builds), cmocka_unit_test(self_tests),
-        cmocka_unit_test(halts),
-        cmocka_unit_test(buffers),
+        cmocka_unit_test(halts),          cmocka_unit_test(buffers),
     };
 
     return cmocka_run_group_tests(tests, open_device, close_device);
