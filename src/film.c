@@ -115,8 +115,9 @@ void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
 {
     row_lock(f, y);
     for (int i = 0; i < pixel_count; i++) {
-        size_t from = (size_t)(x + i * stride);
-        size_t at = pixel_index(f, x + i * stride, y);
+        int px = x + i * stride;
+        size_t from = (size_t)px;
+        size_t at = pixel_index(f, px, y);
 
         if (f->counts[at] == counts[from])
             continue;
