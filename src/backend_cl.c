@@ -185,11 +185,14 @@ static bool make_film(struct backend_cl *b, size_t pixel_count,
     return true;
 }
 
+/* A CPU's memory is read as it is. */
 static bool make_reading(struct backend_cl *b, struct reading *r,
                          struct error *err)
 {
     size_t pixels = (size_t)b->film->width * b->reading_rows;
 
+    if (b->host_sums != NULL)
+        return true;
     free(r->sums);
     free(r->counts);
     r->sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
@@ -356,7 +359,6 @@ static bool enqueue_reading(struct backend_cl *b, struct progress *p,
                      "clEnqueueReadBufferRect", err);
 }
 
-/* A CPU's memory is read as it is. */
 static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
 {
     return b->host_sums == NULL && now_ns >= b->read_ns + READ_NS;
