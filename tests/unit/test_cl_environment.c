@@ -5,6 +5,7 @@
  * (posix_spawn), for a driver does not survive a fork.
  */
 #include "check.h"
+#include "folder.h"
 
 #include <spawn.h>
 #include <stdlib.h>
@@ -21,24 +22,6 @@
 #define SIGNAL_MAX 64
 
 extern char **environ;
-
-static char folder[64];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[256];
-
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command) == 0 ? 0 : -1;
-}
 
 static void is_set(const char *name, const char *expected)
 {

@@ -4,6 +4,7 @@
  * preprocessor and to a driver, and what is wrong with files that lack.
  */
 #include "check.h"
+#include "folder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,24 +13,6 @@
 #include "glim/cl_device.h"
 #include "glim/cl_source.h"
 #include "glim/file.h"
-
-static char folder[64];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[256];
-
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command) == 0 ? 0 : -1;
-}
 
 /* By the C library alone. */
 static void put(const char *name, const char *text)
