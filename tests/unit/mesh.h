@@ -14,6 +14,7 @@
 
 #include "check.h"
 #include "glim/bvh.h"
+#include "glim/material.h"
 #include "kernels/vec.h"
 
 #define MESH_MATERIALS 8
@@ -101,19 +102,11 @@ static inline void mesh_add_sphere(struct mesh *m, struct vec3 center,
 
 static inline struct material mesh_material(uint32_t kind, float color)
 {
-    struct material m = {.color = {color, color, color},
-                         .kind = kind,
-                         .ior = 1.5f,
-                         .opacity = 1.0f,
-                         .color_texture = NO_INDEX,
-                         .coat_texture = NO_INDEX,
-                         .alpha_texture = NO_INDEX,
-                         .metal_texture = NO_INDEX,
-                         .opacity_texture = NO_INDEX,
-                         .normal_texture = NO_INDEX,
-                         .bump_texture = NO_INDEX,
-                         .emission_texture = NO_INDEX};
+    struct material m = material_default();
 
+    m.color = v3(color, color, color);
+    m.kind = kind;
+    m.ior = 1.5f;
     return m;
 }
 
