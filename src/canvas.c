@@ -205,8 +205,8 @@ void canvas_close_window(struct canvas *c)
 }
 
 /* Appends what changed in the picture; false if the budget was too small. */
-static bool add_picture(struct canvas *c, struct film *film, float exposure,
-                        int step)
+static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
+                        float exposure, int step)
 {
     struct ansi_rect covered[2] = {c->window};
     struct ansi_draw how = {.col = c->fit.col,
@@ -221,14 +221,14 @@ static bool add_picture(struct canvas *c, struct film *film, float exposure,
                                         c->fit.cols, 1};
         how.covered_count = 2;
     }
-    film_preview(film, exposure, &c->frame);
+    film_preview(film, draft, exposure, &c->frame);
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     return ansi_picture(&c->ansi, &c->cells, &how);
 }
 
 /* One write() a frame; one more before curses writes its part. */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               float exposure, int step)
+                               struct film *draft, float exposure, int step)
 {
     struct ansi *a = &c->ansi;
     bool has_sync = term_has_sync();
@@ -254,7 +254,7 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         ansi_text(a, SYNC_BEGIN);
     before = a->length;
     if (film)
-        is_complete = add_picture(c, film, exposure, step);
+        is_complete = add_picture(c, film, draft, exposure, step);
     if (a->length == before && !has_updated)
         return is_complete ? CANVAS_DONE : CANVAS_MORE;
     asks = a->length > before && pace_wants_request(&c->pace);

@@ -154,6 +154,10 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
     struct render_job job = {.geometry_changed = s->geometry_changed,
                              .spp = spp};
 
+    if (spp == 0) {
+        job.draft_width = s->draft_width;
+        job.draft_height = s->draft_height;
+    }
     render_halt(s->render);
     if (!crop_rect(s, &job.crop, err) ||
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))

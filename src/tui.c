@@ -102,6 +102,9 @@ static void layout(struct tui *t)
         t->canvas.is_too_small = true; /* nothing can be drawn */
         work_say_error(&t->work, err.text);
     }
+    /* from the next restart on; until then the draft is resampled */
+    t->work.session->draft_width = t->canvas.frame.width;
+    t->work.session->draft_height = t->canvas.frame.height;
 }
 
 /* ---- camera ---- */
@@ -475,6 +478,7 @@ static void lose_terminal(struct tui *t)
 static void draw(struct tui *t, uint64_t now_ns)
 {
     struct canvas *c = &t->canvas;
+    struct render *render = t->work.session->render;
     bool is_running = t->work.progress.state == RENDER_RUNNING;
     bool has_picture = t->work.progress.first_picture_ns != 0 || !is_running;
     bool shows = has_picture && !t->is_settled && now_ns >= t->frame_ns;
@@ -483,8 +487,9 @@ static void draw(struct tui *t, uint64_t now_ns)
     show_messages(t, now_ns);
     if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
         return;
-    result = canvas_draw(c, shows ? render_film(t->work.session->render) : NULL,
-                         (float)t->work.session->view.exposure, frame_step(t));
+    result =
+        canvas_draw(c, shows ? render_film(render) : NULL, render_draft(render),
+                    (float)t->work.session->view.exposure, frame_step(t));
     if (result == CANVAS_GONE) {
         lose_terminal(t);
     } else if (shows) {

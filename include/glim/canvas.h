@@ -69,10 +69,10 @@ enum canvas_result {
     CANVAS_GONE  /* the terminal is gone, or a signal wants an end */
 };
 
-/* Writes what has changed, and the film's picture if there is one. Call it only
- * if pace_may_send(). */
+/* Writes what has changed, and the film's picture if there is one, with the
+ * draft's if there is one. Call it only if pace_may_send(). */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               float exposure, int step);
+                               struct film *draft, float exposure, int step);
 
 /* Waits for answers on their way, half a second at most: they would be typed
  * into the shell. Keys pressed meanwhile are lost. */

@@ -193,12 +193,12 @@ static void preview_averages(void **state)
         for (int x = 0; x < 64; x += 8)
             film_add_row(&film, x, y, 1, 8, samples, counts);
     assert_true(frame_init(&frame, 10, 7, &err));
-    film_preview(&film, 0.0f, &frame);
+    film_preview(&film, NULL, 0.0f, &frame);
     for (int i = 0; i < 70; i++)
         check_close(frame.rgb[3 * i], 188, 4); /* odd widths shift a little */
     frame_free(&frame);
     assert_true(frame_init(&frame, 128, 96, &err));
-    film_preview(&film, 0.0f, &frame);
+    film_preview(&film, NULL, 0.0f, &frame);
     assert_int_equal(frame.rgb[0], frame.rgb[3]);
     assert_int_not_equal(frame.rgb[3], frame.rgb[6]);
     frame_free(&frame);
