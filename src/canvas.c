@@ -93,26 +93,48 @@ static double cell_aspect(const struct canvas *c, const struct term_size *size)
     return 2;
 }
 
+static bool is_too_small(const struct term_size *size)
+{
+    return size->cols < COLS_MIN || size->rows < ROWS_MIN;
+}
+
+static struct fit fit_to(const struct canvas *c, const struct term_size *size,
+                         int width_px, int height_px)
+{
+    return cells_fit(width_px, height_px, size->cols,
+                     size->rows - (c->has_status_row ? 1 : 0),
+                     cell_aspect(c, size));
+}
+
+struct fit canvas_expect(const struct options *options, int width_px,
+                         int height_px)
+{
+    struct canvas c = {.cell_aspect = options->cell_aspect,
+                       .has_status_row = true};
+    struct term_size size = term_size();
+
+    if (is_too_small(&size))
+        return (struct fit){0};
+    return fit_to(&c, &size, width_px, height_px);
+}
+
 bool canvas_layout(struct canvas *c, int width_px, int height_px,
                    struct error *err)
 {
     struct term_size size;
-    int rows;
 
     free_sized(c);
     term_relayout();
     size = term_size();
-    rows = size.rows - (c->has_status_row ? 1 : 0);
     c->window = (struct ansi_rect){0};
     c->has_status = false;
     c->must_update = true;
-    c->is_too_small = size.cols < COLS_MIN || size.rows < ROWS_MIN;
+    c->is_too_small = is_too_small(&size);
     if (c->is_too_small) {
         say_too_small(&size);
         return true;
     }
-    c->fit =
-        cells_fit(width_px, height_px, size.cols, rows, cell_aspect(c, &size));
+    c->fit = fit_to(c, &size, width_px, height_px);
     return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
            frame_init(&c->frame, c->fit.cols, 2 * c->fit.rows, err) &&
            ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err);

@@ -89,24 +89,17 @@ static enum pass_result run_first_pass(struct render *r, int stride)
     return result;
 }
 
-/* Passes until the limit (0: none), a cancellation or a failure. `shared` is
- * how many samples a pixel has after whole passes. */
-static enum pass_result run_passes(struct render *r, int stride_max,
-                                   uint64_t spp, uint64_t *shared)
+/* Brings every pixel to so many samples; all have *spp_done. */
+static enum pass_result run_to(struct render *r, uint64_t target,
+                               int stride_max, uint64_t *spp_done)
 {
-    enum pass_result result = PASS_DONE;
-    uint64_t spp_done = *shared;
+    enum pass_result result = *spp_done == 0
+                                  ? run_first_pass(r, stride_max)
+                                  : run_pass(r, 1, *spp_done, target);
 
-    while (result == PASS_DONE && (spp == 0 || spp_done < spp)) {
-        uint64_t target = next_target(spp_done, spp);
-
-        result = spp_done == 0 ? run_first_pass(r, stride_max)
-                               : run_pass(r, 1, spp_done, target);
-        if (result != PASS_DONE)
-            break;
-        spp_done = target;
+    if (result == PASS_DONE) {
         pthread_mutex_lock(&r->lock);
-        *shared = spp_done;
+        *spp_done = target;
         pthread_mutex_unlock(&r->lock);
     }
     return result;
@@ -154,24 +147,30 @@ static struct world draft_world(const struct render_job *job,
     return w;
 }
 
+/* One pass for each of the two sets of samples that its order has. */
 static enum pass_result run_draft(struct render *r)
 {
     struct world world = draft_world(&r->job, &r->draft);
+    uint64_t *spp_done = &r->draft_spp_done;
     enum pass_result result = begin(r, &world, &r->draft, 0, 0);
 
-    if (result != PASS_DONE)
-        return result;
-    return run_passes(r, DRAFT_STRIDE_MAX, DRAFT_SPP, &r->draft_spp_done);
+    while (result == PASS_DONE && *spp_done < DRAFT_SPP)
+        result = run_to(r, *spp_done == 0 ? 1 : DRAFT_SPP, DRAFT_STRIDE_MAX,
+                        spp_done);
+    return result;
 }
 
+/* Until the limit, a cancellation or a failure. */
 static enum pass_result run_film(struct render *r)
 {
+    uint64_t *spp_done = &r->spp_done;
     enum pass_result result =
         begin(r, &r->job.world, &r->film, r->job.crop.x, r->job.crop.y);
 
-    if (result != PASS_DONE)
-        return result;
-    return run_passes(r, FILM_STRIDE_MAX, r->spp, &r->spp_done);
+    while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp))
+        result = run_to(r, next_target(*spp_done, r->spp), FILM_STRIDE_MAX,
+                        spp_done);
+    return result;
 }
 
 static enum pass_result run(struct render *r)
@@ -372,6 +371,7 @@ struct render_progress render_progress(struct render *r)
         p.render_ns += clock_ns() - r->run_begin_ns;
     p.build_ns = r->build_ns;
     p.first_picture_ns = r->first_picture_ns;
+    p.draft_is_coarse = r->draft.width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)
         p.error = r->error;
     pthread_mutex_unlock(&r->lock);

@@ -42,6 +42,11 @@ struct canvas {
     bool must_update;        /* curses has something to write */
 };
 
+/* Where a picture of this size will go, as far as that is known before
+ * term_open(). No columns: nowhere. */
+struct fit canvas_expect(const struct options *options, int width_px,
+                         int height_px);
+
 /* After term_open(). */
 void canvas_init(struct canvas *c, const struct options *options);
 

@@ -50,7 +50,8 @@ struct render_progress {
     uint64_t spp_done;      /* that every pixel has */
     uint64_t samples;       /* of all pixels together */
     uint64_t samples_limit; /* 0: none */
-    uint64_t draft_samples; /* of the draft, not in the others */
+    uint64_t draft_samples; /* of the draft, not among the others */
+    bool draft_is_coarse;   /* it has pixels without a sample */
     uint64_t rays;
     uint64_t non_finite;
     uint64_t saturated;

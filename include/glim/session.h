@@ -21,6 +21,7 @@ struct session {
     struct scene scene;
     struct view view;   /* what is rendered now */
     struct view opened; /* as loaded, to go back to */
+    struct rect crop;   /* of the view's picture, that is rendered */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
