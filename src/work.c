@@ -57,6 +57,7 @@ static void restart(struct work *w)
     w->must_restart = false;
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
+    w->progress.first_picture_ns = 0; /* for the next look to find */
 }
 
 bool work_init(struct work *w, struct session *session, struct error *err)
