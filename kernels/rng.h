@@ -15,7 +15,8 @@
  * eye, which blurs, the error is smaller (Ahmed and Wonka 2020, "Screen-space
  * blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering
  * of pixels"). That needs the number of samples in advance: sample 0 is a set
- * by itself, the next four are another.
+ * by itself, the next four are another. (Alone, one of a set of four has no
+ * pattern at all; a set for each would let a pixel's samples clump.)
  *
  * Units:     numbers in [0, 1)
  * Ownership: none

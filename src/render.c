@@ -18,8 +18,8 @@
  * large as the film's. */
 #define DRAFT_STRIDE_MAX 8
 
-/* A film of so many samples is shown alone: its pixels, and a pixel of the
- * screen has one at least, have three times as many as the draft's. */
+/* From then on the film is shown alone, and the screen is what a file would
+ * be: each of its pixels has three times as many samples as the draft had. */
 #define DRAFT_SHOWN_SPP 16
 
 struct render {
