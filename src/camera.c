@@ -208,6 +208,17 @@ void camera_frame(struct view *view, const double lo[3], const double hi[3])
     view->has_camera = true;
 }
 
+double camera_depth(const struct view *view, const double point[3])
+{
+    struct axes axes;
+    double offset[3];
+
+    axes_of(view, &axes);
+    for (int i = 0; i < 3; i++)
+        offset[i] = point[i] - view->eye[i];
+    return dot(offset, axes.forward);
+}
+
 void camera_widen(struct view *view, double factor)
 {
     double half_rad = atan(factor * tan(view->fovy_deg * RAD_PER_DEG / 2));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "glim/pick.h"
 
+#include <math.h>
+
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/texture.h"
@@ -35,6 +37,14 @@ static struct vec3 point_of(const struct world *w, struct hit h)
                      w->positions[v[2]], &error);
 }
 
+static void file_point(const struct scene *scene, struct vec3 p,
+                       double point[3])
+{
+    point[0] = p.x / scene->scale + scene->center[0];
+    point[1] = p.y / scene->scale + scene->center[1];
+    point[2] = p.z / scene->scale + scene->center[2];
+}
+
 bool pick_at(const struct scene *scene, const struct view *view, double x_px,
              double y_px, struct pick *pick)
 {
@@ -52,20 +62,34 @@ bool pick_at(const struct scene *scene, const struct view *view, double x_px,
     struct ray ray = camera_ray(world.settings.camera, x, y, offset);
     if (!closest_hit(&world, ray, &hit))
         return false;
-    struct vec3 p = point_of(&world, hit);
     *pick = (struct pick){
         .tri = hit.tri,
         .face = scene->tri_faces[hit.tri],
         .object = scene->tri_objects[hit.tri],
         .material = scene->tris[hit.tri].material,
         .distance = hit.t / scene->scale,
-        .depth =
-            hit.t * v3_dot(ray.d, world.settings.camera.forward) / scene->scale,
-        .position = {p.x / scene->scale + scene->center[0],
-                     p.y / scene->scale + scene->center[1],
-                     p.z / scene->scale + scene->center[2]},
     };
+    file_point(scene, point_of(&world, hit), pick->position);
     return true;
+}
+
+void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],
+                 double hi[3])
+{
+    bool is_first = true;
+
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        for (int c = 0; c < 3 && scene->tri_objects[i] == object; c++) {
+            double point[3];
+
+            file_point(scene, scene->positions[scene->tris[i].v[c]], point);
+            for (int k = 0; k < 3; k++) {
+                lo[k] = is_first ? point[k] : fmin(lo[k], point[k]);
+                hi[k] = is_first ? point[k] : fmax(hi[k], point[k]);
+            }
+            is_first = false;
+        }
+    }
 }
 
 bool pick_point_of_cell(const struct fit *fit, int width_px, int height_px,

@@ -23,7 +23,6 @@ struct pick {
     uint32_t object;   /* of scene.object_names */
     uint32_t material; /* of scene.materials */
     double distance;   /* from the eye */
-    double depth;      /* from the eye along the look, as view.focus */
     double position[3];
 };
 
@@ -31,6 +30,10 @@ struct pick {
  * triangle: 17 ms for a million. */
 bool pick_at(const struct scene *scene, const struct view *view, double x_px,
              double y_px, struct pick *pick);
+
+/* The box around an object's triangles, in file units. */
+void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],
+                 double hi[3]);
 
 /* The point of a picture of width_px x height_px pixels, shown at `fit`, that
  * is in the middle of a cell. False outside of the picture. */

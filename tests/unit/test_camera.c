@@ -189,6 +189,7 @@ static void orbit_keeps_the_point_in_its_place(void **state)
         for (int k = 0; k < 3; k++)
             p[k] = v.at[k] + check_random(&seed);
         depth = project(&v, p, &x, &y);
+        check_close(camera_depth(&v, p), depth, 1e-9);
         camera_orbit(&v, p, 6 * check_random(&seed) - 3,
                      2 * check_random(&seed) - 1);
         check_close(project(&v, p, &after_x, &after_y), depth, 1e-9);

@@ -138,12 +138,28 @@ static void says_what_it_is_in_units_of_the_file(void **state)
     check_close(pick.position[1], 2000, 1e-4);
     check_close(pick.position[2], -500, 1e-4);
     check_close(pick.distance, sqrt(1000), 1e-4);
-    check_close(pick.depth, sqrt(1000), 1e-4);
-    /* at the picture's left edge in its middle row the ray leaves the look by
-     * the half of the field of view */
+    /* at the left edge the ray leaves the look, which is down the slope of 3
+     * in x and y, by half the field of view across it: along z */
     double side = tan(20 * M_PI / 180) * 1024 / 576;
     assert_true(pick_at(&scene, &view, 0, 288, &pick));
-    check_close(pick.distance, pick.depth * hypot(1, side), 1e-3);
+    check_close(pick.distance, sqrt(1000) * hypot(1, side), 1e-3);
+    check_close(pick.position[2], -500 - sqrt(1000) * side, 1e-3);
+    scene_free(&scene);
+}
+
+static void knows_the_box_of_an_object(void **state)
+{
+    struct scene scene;
+    double lo[3], hi[3];
+
+    (void)state;
+    load(&scene, "o one\nv 1 2 3\nv 4 1 3\nv 2 5 9\nf 1 2 3\n"
+                 "o two\nv -7 0 0\nv 0 -8 0\nv 0 0 20\nf 4 5 6\n");
+    pick_bounds(&scene, 1, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        check_close(lo[k], ((double[]){1, 1, 3})[k], 1e-5);
+        check_close(hi[k], ((double[]){4, 5, 9})[k], 1e-5);
+    }
     scene_free(&scene);
 }
 
@@ -214,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_what_the_render_finds),
         cmocka_unit_test(says_what_it_is_in_units_of_the_file),
+        cmocka_unit_test(knows_the_box_of_an_object),
         cmocka_unit_test(misses_the_sky_and_what_is_outside),
         cmocka_unit_test(goes_through_what_is_rather_clear),
         cmocka_unit_test(cells_share_the_picture),
