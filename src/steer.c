@@ -43,6 +43,8 @@ static void turn(const struct steer *s, struct view *view,
     double right = seconds[MOTION_LOOK_RIGHT];
     double up = seconds[MOTION_LOOK_UP];
 
+    if (right == 0 && up == 0)
+        return;
     if (s->is_orbiting)
         camera_orbit(view, s->pivot, ORBIT_SPEED * right, ORBIT_SPEED * up);
     else

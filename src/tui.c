@@ -112,9 +112,9 @@ static void open_help(struct tui *t, int number)
         snprintf(note, sizeof note, "%s, answers in %.1f ms",
                  palette_name(t->canvas.palette),
                  (double)pace->rtt_min_ns * 1e-6);
-    /* within a frame and a blank on each side */
+    /* within a frame, with a blank on each side, above the status line */
     help_page(&page, &t->work.session->options->keys, note, number,
-              size.cols - 4, size.rows - 2);
+              size.cols - 4, size.rows - 3);
     if (number + 1 < page.page_count)
         snprintf(title, sizeof title, " keys %d/%d - any key goes on ",
                  number + 1, page.page_count);
