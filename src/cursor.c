@@ -57,10 +57,11 @@ static bool look_under(const struct cursor *c, struct pick *pick)
 
 bool cursor_look_ahead(const struct cursor *c, struct pick *pick)
 {
-    const struct fit *fit = &c->canvas->fit;
+    const struct session *s = c->work->session;
+    struct rect r = cursor_shown_rect(c);
 
-    return look_at_cell(c, fit->col + fit->cols / 2, fit->row + fit->rows / 2,
-                        pick);
+    return pick_at(&s->scene, &s->view, r.x + r.width / 2.0,
+                   r.y + r.height / 2.0, pick);
 }
 
 void cursor_step(struct cursor *c)
