@@ -23,10 +23,11 @@ enum feature {
     FEATURE_ROUGH_DIFFUSE = 64,
     FEATURE_SKY_IMAGE = 128, /* the sky is an image */
     FEATURE_EMITTERS = 256,  /* surfaces that shine */
-    FEATURE_BUMPS = 512      /* maps of heights or normals */
+    FEATURE_BUMPS = 512,     /* maps of heights or normals */
+    FEATURE_FIRST_HIT = 1024 /* samples are no light: see first_hit.h */
 };
 
-#define FEATURES_ALL 1023u
+#define FEATURES_ALL 2047u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

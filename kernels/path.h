@@ -18,6 +18,7 @@
 #ifndef KERNELS_PATH_H
 #define KERNELS_PATH_H
 
+#include "kernels/first_hit.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
 #include "kernels/roulette.h"
@@ -249,8 +250,7 @@ static inline bool path_step(const struct world *w, struct path *p,
 }
 
 /* The path that begins with this ray; the sampler has its random numbers. */
-static inline struct path_sample path_trace(const struct world *w, struct ray r,
-                                            struct sampler sampler)
+static inline struct path path_open(struct ray r, struct sampler sampler)
 {
     struct path p;
 
@@ -261,19 +261,44 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     p.pdf = 0.0f;
     p.out.radiance = v3(0.0f, 0.0f, 0.0f);
     p.out.rays = p.out.cut = 0;
-    for (uint32_t vertex = 1;; vertex++) {
-        struct hit h;
+    return p;
+}
 
-        p.ray.key = ray_key(sampler, vertex);
-        p.ray.t_max = FLOAT_MAX;
-        p.out.rays++;
-        if (!hit_closest(w, p.ray, &h)) {
-            path_add_sky(w, &p);
-            return p.out;
-        }
-        if (!path_step(w, &p, h, vertex))
-            return p.out;
+/* Goes on to vertex `vertex`, counted from 1, and scatters there: *h is what it
+ * met. False if the path has ended. */
+static inline bool path_advance(const struct world *w, struct path *p,
+                                uint32_t vertex, struct hit *h)
+{
+    p->ray.key = ray_key(p->sampler, vertex);
+    p->ray.t_max = FLOAT_MAX;
+    p->out.rays++;
+    if (!hit_closest(w, p->ray, h)) {
+        path_add_sky(w, p);
+        return false;
     }
+    return path_step(w, p, *h, vertex);
+}
+
+/* The whole path. */
+static inline struct path_sample path_trace(const struct world *w, struct ray r,
+                                            struct sampler sampler)
+{
+    struct path p = path_open(r, sampler);
+    uint32_t vertex = 1;
+    struct hit h;
+
+    while (path_advance(w, &p, vertex, &h))
+        vertex++;
+    return p.out;
+}
+
+/* The sample that begins so, of what the settings ask for. */
+static inline struct path_sample sample_trace(const struct world *w,
+                                              struct path_start start)
+{
+    if (HAS(FEATURE_FIRST_HIT) && w->settings.sample != SAMPLE_LIGHT)
+        return first_hit(w, start);
+    return path_trace(w, start.ray, start.sampler);
 }
 
 /* Samples first .. first + count - 1 of pixel (x, y); count is 1 to
@@ -285,7 +310,7 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
     for (uint32_t i = 0; i < count; i++) {
         struct path_start start = path_begin(&w->settings, x, y, first + i);
 
-        out[i] = path_trace(w, start.ray, start.sampler);
+        out[i] = sample_trace(w, start);
     }
 }
 

@@ -27,6 +27,10 @@ static inline struct path_start path_begin(const struct settings *s, uint32_t x,
     start.sampler = s->order == ORDER_DRAFT
                         ? sampler_start_draft(x, y, (uint32_t)index, s->seed)
                         : sampler_start(x, y, index, s->seed);
+    if (s->sample != SAMPLE_LIGHT) {
+        start.ray = camera_ray(s->camera, x, y, v2(0.5f, 0.5f));
+        return start;
+    }
     start.ray =
         camera_ray(s->camera, x, y, random_2d(start.sampler, DIMENSION_PIXEL));
     if (s->camera.lens_radius > 0.0f)

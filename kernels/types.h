@@ -152,6 +152,18 @@ enum direct {
     DIRECT_CHANCE  /* only where paths meet them */
 };
 
+/* What a sample is: light, or what the ray through a pixel's middle meets. */
+enum sample_kind {
+    SAMPLE_LIGHT,
+    SAMPLE_PREVIEW, /* its colours, simply lit */
+    /* numbers, in x y z; 0 for the sky */
+    SAMPLE_NORMAL,  /* (1 + the shading normal on the eye's side) / 2 */
+    SAMPLE_FACE,    /* (1 + the face's normal as it is wound) / 2 */
+    SAMPLE_UV,      /* within the image, and 1 where there are any */
+    SAMPLE_DEPTH,   /* x: distance from the eye */
+    SAMPLE_MATERIAL /* x: 1 + its number */
+};
+
 /* Which random numbers a sample has; see rng.h. */
 enum order {
     ORDER_PROGRESSIVE, /* pixels are independent, any number of samples */
@@ -167,6 +179,7 @@ struct settings {
     uint32_t features; /* enum feature, or-ed */
     uint32_t direct;   /* enum direct */
     uint32_t order;    /* enum order */
+    uint32_t sample;   /* enum sample_kind */
     float sky_share;   /* probability that a light sample is one of the sky, */
     float light_share; /* of the lights; what is left is none at all */
 

@@ -147,15 +147,27 @@ static struct world draft_world(const struct render_job *job,
     return w;
 }
 
+static bool is_light(const struct render_job *job)
+{
+    return job->world.settings.sample == SAMPLE_LIGHT;
+}
+
+/* What is not light is the same in every sample. */
+static uint64_t draft_spp(const struct render_job *job)
+{
+    return is_light(job) ? DRAFT_SPP : 1;
+}
+
 /* One pass for each of the two sets of samples that its order has. */
 static enum pass_result run_draft(struct render *r)
 {
     struct world world = draft_world(&r->job, &r->draft);
+    uint64_t spp = draft_spp(&r->job);
     uint64_t *spp_done = &r->draft_spp_done;
     enum pass_result result = begin(r, &world, &r->draft, 0, 0);
 
-    while (result == PASS_DONE && *spp_done < DRAFT_SPP)
-        result = run_to(r, *spp_done == 0 ? 1 : DRAFT_SPP, DRAFT_STRIDE_MAX,
+    while (result == PASS_DONE && *spp_done < spp)
+        result = run_to(r, *spp_done == 0 ? 1 : spp, DRAFT_STRIDE_MAX,
                         spp_done);
     return result;
 }
@@ -180,9 +192,9 @@ static enum pass_result run(struct render *r)
     if (r->job.geometry_changed)
         result = load(r);
     if (result == PASS_DONE && r->draft.width > 0 &&
-        r->draft_spp_done < DRAFT_SPP)
+        r->draft_spp_done < draft_spp(&r->job))
         result = run_draft(r);
-    return result == PASS_DONE ? run_film(r) : result;
+    return result == PASS_DONE && is_light(&r->job) ? run_film(r) : result;
 }
 
 static void *render_main(void *argument)

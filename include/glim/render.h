@@ -8,7 +8,8 @@
  *
  * For a screen a draft may come first: a small film of the same picture, with
  * a few samples a pixel in an order that is calm to look at. It is added to
- * what is shown, never to the film.
+ * what is shown, never to the film. What is not light, but a preview or numbers
+ * (enum sample_kind), is a draft only, and the film stays empty.
  *
  * Units:     samples a pixel (spp), pixels, nanoseconds
  * Ownership: the backend and the world's arrays stay the caller's and must

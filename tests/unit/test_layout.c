@@ -51,16 +51,16 @@
     M(light_node, axis_y, 160) M(light_node, axis_z, 192)                    \
     M(light_node, spread, 224) M(light_node, power, 256)                     \
     M(light_node, child, 288)                                                \
-    S(settings, 172) M(settings, camera, 0) M(settings, sky, 72)             \
+    S(settings, 176) M(settings, camera, 0) M(settings, sky, 72)             \
     M(settings, max_vertices, 104) M(settings, seed, 108)                    \
     M(settings, features, 112) M(settings, direct, 116)                      \
-    M(settings, order, 120)                                                  \
-    M(settings, sky_share, 124) M(settings, light_share, 128)                \
-    M(settings, tri_count, 132) M(settings, position_count, 136)             \
-    M(settings, normal_count, 140) M(settings, uv_count, 144)                \
-    M(settings, material_count, 148) M(settings, texture_count, 152)         \
-    M(settings, texel_count, 156) M(settings, light_count, 160)              \
-    M(settings, light_node_count, 164) M(settings, sky_sum_count, 168)       \
+    M(settings, order, 120) M(settings, sample, 124)                         \
+    M(settings, sky_share, 128) M(settings, light_share, 132)                \
+    M(settings, tri_count, 136) M(settings, position_count, 140)             \
+    M(settings, normal_count, 144) M(settings, uv_count, 148)                \
+    M(settings, material_count, 152) M(settings, texture_count, 156)         \
+    M(settings, texel_count, 160) M(settings, light_count, 164)              \
+    M(settings, light_node_count, 168) M(settings, sky_sum_count, 172)       \
     S(ray, 32) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
     S(path_sample, 20) M(path_sample, radiance, 0) M(path_sample, rays, 12)  \
     M(path_sample, cut, 16)                                                  \
