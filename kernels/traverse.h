@@ -26,6 +26,13 @@
 #define BOX_PAD   0x1p-20f
 #define BOX_WIDEN (16.0f * FLOAT_EPSILON)
 
+/* Tests that queries make, for a picture of what rays cost: who counts them
+ * says so before this file. */
+#ifndef COUNT_BOX
+#define COUNT_BOX()
+#define COUNT_TRIANGLE()
+#endif
+
 struct slabs {
     struct vec3 o;
     struct vec3 inverse;
@@ -61,6 +68,7 @@ static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
     float enter = 0.0f;
     float leave = FLOAT_MAX;
 
+    COUNT_BOX();
     slab_axis(lo.x, hi.x, s.o.x, s.inverse.x, &enter, &leave);
     slab_axis(lo.y, hi.y, s.o.y, s.inverse.y, &enter, &leave);
     slab_axis(lo.z, hi.z, s.o.z, s.inverse.z, &enter, &leave);
@@ -89,6 +97,7 @@ static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
         struct leaf_tri t = w->leaf_tris[leaf.next + i];
         struct hit h;
 
+        COUNT_TRIANGLE();
         if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
             continue;
         if (h.t == best->t && t.tri >= best->tri)

@@ -209,15 +209,24 @@ void canvas_status(struct canvas *c, const char *text)
     c->must_update = true;
 }
 
-void canvas_open_window(struct canvas *c, const char *title,
-                        const char *const *texts, int text_count)
+static void cover(struct canvas *c, struct term_rect r)
 {
-    struct term_rect r = term_open_window(title, texts, text_count);
-
     c->window = (struct ansi_rect){r.col - c->fit.col, r.row - c->fit.row,
                                    r.cols, r.rows};
     forget_rows(c, r.row, r.rows);
     c->must_update = true;
+}
+
+void canvas_open_window(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count)
+{
+    cover(c, term_open_window(title, texts, text_count));
+}
+
+void canvas_open_panel(struct canvas *c, const char *title,
+                       const char *const *texts, int text_count)
+{
+    cover(c, term_open_panel(title, texts, text_count));
 }
 
 void canvas_close_window(struct canvas *c)
@@ -246,6 +255,8 @@ static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
         how.covered_count = 2;
     }
     film_preview(film, draft, exposure, &c->frame);
+    if (c->painter.paint)
+        c->painter.paint(c->painter.context, film, draft, &c->frame);
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     if (c->has_cursor)
         cells_mark(&c->cells, c->cursor_col, c->cursor_row);

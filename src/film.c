@@ -193,6 +193,17 @@ void film_linear(struct film *f, float *rgb)
         linear_run(f, 0, y, f->width, rgb + 3 * pixel_index(f, 0, y));
 }
 
+void film_counts(struct film *f, float *counts)
+{
+    for (int y = 0; y < f->height; y++) {
+        row_lock(f, y);
+        for (int x = 0; x < f->width; x++)
+            counts[pixel_index(f, x, y)] =
+                (float)f->counts[pixel_index(f, x, y)];
+        row_unlock(f, y);
+    }
+}
+
 /* 2^stops for any number of stops. */
 static float exposure_factor(float stops)
 {

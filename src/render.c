@@ -9,6 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "glim/projection.h"
 #include "glim/thread.h"
 
 #include "kernels/path_types.h"
@@ -135,14 +136,11 @@ static struct world draft_world(const struct render_job *job,
                                 const struct film *draft)
 {
     struct world w = job->world;
-    struct camera *c = &w.settings.camera;
-    float x = (float)draft->width / (float)job->crop.width;
-    float y = (float)draft->height / (float)job->crop.height;
+    struct projection_part part = {job->crop.x,      job->crop.y,
+                                   job->crop.width,  job->crop.height,
+                                   draft->width, draft->height};
 
-    c->left = x * (c->left + (float)job->crop.x);
-    c->top = y * (c->top + (float)job->crop.y);
-    c->width *= x;
-    c->height *= y;
+    w.settings.camera = projection_camera(&w.settings.camera, &part);
     w.settings.order = ORDER_DRAFT;
     return w;
 }

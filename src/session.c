@@ -152,6 +152,7 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
     struct render_job job = {.geometry_changed = s->geometry_changed,
                              .crop = s->crop,
                              .spp = spp};
+    uint32_t features;
 
     if (spp == 0) {
         job.draft_width = s->draft_width;
@@ -160,12 +161,17 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
     render_halt(s->render);
     if (!scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
+    features = job.world.settings.features;
+    if (spp == 0 && s->sample != SAMPLE_LIGHT) {
+        job.world.settings.sample = s->sample;
+        job.world.settings.features |= FEATURE_FIRST_HIT;
+    }
     s->restart_ns = clock_ns();
     if (!render_start(s->render, &job, err))
         return false;
     s->geometry_changed = false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
-        machines_specialise(&s->machines, job.world.settings.features);
+        machines_specialise(&s->machines, features);
     return true;
 }
 

@@ -454,8 +454,8 @@ void term_status(const char *text)
 }
 
 /* `lines` is a macro of <term.h>. */
-struct term_rect term_open_window(const char *title, const char *const *texts,
-                                  int text_count)
+static struct term_rect window_size(const char *title, const char *const *texts,
+                                    int text_count)
 {
     struct term_rect r = {0, 0, (int)strlen(title) + 6, text_count + 2};
 
@@ -466,8 +466,12 @@ struct term_rect term_open_window(const char *title, const char *const *texts,
     }
     r.cols = r.cols > COLS ? COLS : r.cols;
     r.rows = r.rows > LINES ? LINES : r.rows;
-    r.col = (COLS - r.cols) / 2;
-    r.row = (LINES - r.rows) / 2;
+    return r;
+}
+
+static struct term_rect open_window(struct term_rect r, const char *title,
+                                    const char *const *texts, int text_count)
+{
     term.window = newwin(r.rows, r.cols, r.row, r.col);
     if (!term.window)
         return (struct term_rect){0};
@@ -478,6 +482,25 @@ struct term_rect term_open_window(const char *title, const char *const *texts,
     /* curses believes that these cells are blank and would skip the blanks */
     redrawwin(term.window);
     return r;
+}
+
+struct term_rect term_open_window(const char *title, const char *const *texts,
+                                  int text_count)
+{
+    struct term_rect r = window_size(title, texts, text_count);
+
+    r.col = (COLS - r.cols) / 2;
+    r.row = (LINES - r.rows) / 2;
+    return open_window(r, title, texts, text_count);
+}
+
+struct term_rect term_open_panel(const char *title, const char *const *texts,
+                                 int text_count)
+{
+    struct term_rect r = window_size(title, texts, text_count);
+
+    r.row = r.rows < LINES ? LINES - 1 - r.rows : 0;
+    return open_window(r, title, texts, text_count);
 }
 
 void term_close_window(void)

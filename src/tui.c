@@ -10,6 +10,7 @@
 
 #include "glim/canvas.h"
 #include "glim/help.h"
+#include "glim/inside.h"
 #include "glim/pilot.h"
 #include "glim/version.h"
 #include "glim/work.h"
@@ -50,6 +51,7 @@ struct tui {
     struct canvas canvas;
     struct input input;
     struct pilot pilot;
+    struct inside inside;
     bool has_mouse;
     int help_number; /* the page that is shown, */
     int help_left;   /* with those behind it; 0: no help */
@@ -104,6 +106,7 @@ static void layout(struct tui *t)
     }
     /* until then the old draft is resampled */
     set_draft(t->work.session, &t->canvas.fit);
+    inside_open_panel(&t->inside); /* it went with the layout */
 }
 
 /* ---- help, screen ---- */
@@ -134,6 +137,7 @@ static void open_help(struct tui *t, int number)
         lines[i] = page.lines[i];
     if (t->help_left > 0)
         canvas_close_window(&t->canvas);
+    inside_close_panel(&t->inside);
     canvas_open_window(&t->canvas, title, lines, page.line_count);
     t->help_number = number;
     t->help_left = page.page_count - number;
@@ -143,6 +147,7 @@ static void open_help(struct tui *t, int number)
 static void close_help(struct tui *t)
 {
     canvas_close_window(&t->canvas);
+    inside_open_panel(&t->inside);
     t->help_left = 0;
     refresh_soon(t);
 }
@@ -175,6 +180,7 @@ static void suspend(struct tui *t)
 static void set_live(struct tui *t, bool is_live)
 {
     pilot_stop(&t->pilot);
+    inside_leave(&t->inside);
     work_set_live(&t->work, is_live);
 }
 
@@ -204,7 +210,7 @@ static void quit(struct tui *t)
 
 static void act(struct tui *t, enum action action)
 {
-    if (pilot_act(&t->pilot, action))
+    if (inside_act(&t->inside, action) || pilot_act(&t->pilot, action))
         return;
     switch (action) {
     case ACTION_MODE: change_mode(t); break;
@@ -366,6 +372,8 @@ static void update_status(struct tui *t, uint64_t now_ns)
         status_message(text, term_size().cols, questions[t->question]);
     } else if (now_ns < t->work.message.until_ns) {
         status_message(text, term_size().cols, t->work.message.text);
+    } else if (t->canvas.has_status_row && t->inside.legend[0] != '\0') {
+        status_message(text, term_size().cols, t->inside.legend);
     } else if (t->canvas.has_status_row) {
         format_status(t, text);
     } else {
@@ -559,6 +567,7 @@ static void loop(struct tui *t)
         uint64_t now_ns = clock_ns();
 
         pilot_step(&t->pilot, now_ns);
+        inside_step(&t->inside);
         look_at_work(t);
         draw(t, now_ns);
         if (!t->is_ending)
@@ -571,6 +580,7 @@ static bool open_screen(struct tui *t, struct error *err)
     if (!term_open(err))
         return false;
     canvas_init(&t->canvas, t->work.session->options);
+    inside_init(&t->inside, &t->work, &t->canvas, &t->pilot.cursor);
     layout(t);
     return true;
 }
@@ -612,6 +622,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
         close_screen(&t);
         *status = t.status;
     }
+    inside_free(&t.inside);
     pilot_free(&t.pilot);
     work_free(&t.work);
     return ok;

@@ -20,7 +20,15 @@
 #include "glim/status.h"
 #include "glim/term.h"
 
+/* Draws into frames before they are shown. */
+struct painter {
+    void (*paint)(void *context, struct film *film, struct film *draft,
+                  struct frame *frame);
+    void *context;
+};
+
 struct canvas {
+    struct painter painter; /* none: films are shown as they are */
     struct pace pace;
     enum palette palette;
     bool palette_is_final; /* no answer of the terminal changes it */
@@ -68,6 +76,9 @@ void canvas_status(struct canvas *c, const char *text);
 
 void canvas_open_window(struct canvas *c, const char *title,
                         const char *const *texts, int text_count);
+/* The same at the left edge of the last rows, beside which keys go on. */
+void canvas_open_panel(struct canvas *c, const char *title,
+                       const char *const *texts, int text_count);
 void canvas_close_window(struct canvas *c);
 
 enum canvas_result {

@@ -71,6 +71,9 @@ void film_count_more(struct film *film, const struct tally *tally);
 /* Linear means, 3 floats a pixel, row 0 at the top. */
 void film_linear(struct film *film, float *rgb);
 
+/* Samples of each pixel, row 0 at the top. */
+void film_counts(struct film *film, float *counts);
+
 /* 8-bit sRGB of the means times 2^exposure. `frame` has the film's size and
  * its own memory. */
 void film_resolve(struct film *film, float exposure, struct frame *frame);

@@ -54,6 +54,11 @@ enum action {
     ACTION_VIEW_8,
     ACTION_VIEW_9,
     ACTION_SAVE_VIEW,
+    ACTION_VIEW_NEXT, /* light, preview, normals, .. */
+    ACTION_VIEW_BACK,
+    ACTION_DRAWING, /* boxes, directions, a path */
+    ACTION_LESS,
+    ACTION_MORE,
     ACTION_MODE,
     ACTION_START,
     ACTION_SAVE,

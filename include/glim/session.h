@@ -32,6 +32,7 @@ struct session {
     uint64_t restart_ns; /* when session_restart() last started the render */
     bool geometry_changed;
     int draft_width, draft_height; /* of what will be seen live; 0: nothing */
+    enum sample_kind sample;       /* what will be seen live */
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has

@@ -84,6 +84,9 @@ void term_status(const char *text);
 /* A centred window with these lines and a title; where it is. One at a time. */
 struct term_rect term_open_window(const char *title, const char *const *texts,
                                   int text_count);
+/* The same at the left edge, above the last row. */
+struct term_rect term_open_panel(const char *title, const char *const *texts,
+                                 int text_count);
 void term_close_window(void);
 
 /* Text in the middle of an empty screen. */

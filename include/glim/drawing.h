@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/*
+ * drawing.h - lines on a frame
+ *
+ * Units:     pixels, (0, 0) is the top left corner of the first; 0xRRGGBB
+ * Ownership: none
+ * Threads:   any; one owner of the frame
+ * Errors:    none; what is outside of the frame is not drawn
+ */
+#ifndef GLIM_DRAWING_H
+#define GLIM_DRAWING_H
+
+#include "glim/film.h"
+
+void drawing_dot(struct frame *frame, double x, double y, uint32_t rgb);
+
+/* Every pixel that one step in each, of the longer side, comes upon. */
+void drawing_line(struct frame *frame, double x0, double y0, double x1,
+                  double y1, uint32_t rgb);
+
+/* Between black at 0 and the colour at 1. */
+uint32_t drawing_dim(uint32_t rgb, double brightness);
+
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+/*
+ * inside.h - pictures of what happens inside: other views than light, and
+ * drawings over any of them
+ *
+ * A view with samples of its own (preview, normals, uvs, depth, materials) is
+ * rendered as a draft; the cost of rays and the samples of pixels are counted
+ * here. Boxes of the tree, scattered directions and a path are drawn over the
+ * picture; those two stay where they were picked while the camera moves.
+ *
+ * Units:     frames' pixels
+ * Ownership: work, canvas and cursor stay the caller's and outlive it;
+ *            inside_free() frees the rest
+ * Threads:   main only
+ * Errors:    become messages
+ */
+#ifndef GLIM_INSIDE_H
+#define GLIM_INSIDE_H
+
+#include "glim/bvh.h"
+#include "glim/cost.h"
+#include "glim/cursor.h"
+#include "glim/false_color.h"
+#include "glim/trail.h"
+
+enum inside_view {
+    INSIDE_LIGHT,
+    INSIDE_PREVIEW,
+    INSIDE_NORMALS,
+    INSIDE_FACES,
+    INSIDE_UVS,
+    INSIDE_DEPTH,
+    INSIDE_MATERIALS,
+    INSIDE_COST,
+    INSIDE_SAMPLES,
+    INSIDE_VIEWS
+};
+
+enum inside_drawing {
+    INSIDE_NOTHING,
+    INSIDE_BOXES,
+    INSIDE_LOBES,
+    INSIDE_PATH,
+    INSIDE_DRAWINGS
+};
+
+struct inside {
+    struct work *work;
+    struct canvas *canvas;
+    struct cursor *cursor;
+    enum inside_view view;
+    enum inside_drawing drawing;
+    char legend[128]; /* of the view; "": of light there is none */
+
+    struct bvh bvh; /* built when it is first wanted */
+    bool has_bvh;
+    struct pool *pool; /* likewise */
+
+    float *numbers; /* of the frame that was painted last, or of its film */
+    size_t number_capacity;
+    struct cost *costs; /* of cost_camera and so many pixels */
+    struct camera cost_camera;
+    int cost_width, cost_height;
+
+    uint32_t level; /* of boxes */
+    uint32_t x, y;  /* the pixel that was picked for lobes and path */
+    bool is_placed;
+    double place[3]; /* the pick that x and y come from */
+    uint64_t sample;
+    int step; /* of the path: so many are shown */
+    struct trail trail;
+    struct trail_lobes lobes;
+    bool has_panel;
+};
+
+/* Takes over the canvas's painter. */
+void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
+                 struct cursor *cursor);
+
+/* Does what the action says of views and drawings. False if it is not one. */
+bool inside_act(struct inside *in, enum action action);
+
+/* Follows a new pick. */
+void inside_step(struct inside *in);
+
+/* Back to light: normal mode has no samples of other views. */
+void inside_leave(struct inside *in);
+
+/* Closes the panel before another window opens, and opens it behind that. */
+void inside_close_panel(struct inside *in);
+void inside_open_panel(struct inside *in);
+
+void inside_free(struct inside *in);
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "glim/legend.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "kernels/vec.h"
+
+#define DEGREES (180.0 / 3.14159265358979324)
+
+const char *legend_material(const struct scene *scene, uint32_t tri)
+{
+    const char *name = scene->material_names[scene->tris[tri].material];
+
+    return *name ? name : "no material";
+}
+
+static char *next_line(struct legend *l)
+{
+    return l->lines[l->count++];
+}
+
+static const char *way_name(const struct trail_step *s)
+{
+    switch (s->way) {
+    case TRAIL_SKY: return "sky";
+    case TRAIL_ENDED: return "end";
+    case TRAIL_ROULETTE: return "roulette";
+    case TRAIL_REFLECTED: return "reflect";
+    case TRAIL_TRANSMITTED: break;
+    }
+    return "transmit";
+}
+
+static void add_step(struct legend *l, const struct scene *scene,
+                     const struct trail_step *s, int number)
+{
+    bool goes_on = s->way == TRAIL_REFLECTED || s->way == TRAIL_TRANSMITTED;
+    char place[32] = "";
+    char pdf[16] = "";
+
+    if (s->way != TRAIL_SKY)
+        snprintf(place, sizeof place, "%.3g %.3g %.3g",
+                 s->to.x / scene->scale + scene->center[0],
+                 s->to.y / scene->scale + scene->center[1],
+                 s->to.z / scene->scale + scene->center[2]);
+    if (goes_on)
+        snprintf(pdf, sizeof pdf, s->pdf > 0.0f ? "%.3g" : "delta",
+                 (double)s->pdf);
+    snprintf(next_line(l), LEGEND_BYTES,
+             "%2d %-10.10s %-17.17s %-8s %4.2f %4.2f %4.2f %-6.6s %.2g %.2g "
+             "%.2g",
+             number,
+             s->way == TRAIL_SKY ? "" : legend_material(scene, s->hit.tri),
+             place, way_name(s), (double)s->throughput.x,
+             (double)s->throughput.y, (double)s->throughput.z, pdf,
+             (double)s->light.x, (double)s->light.y, (double)s->light.z);
+}
+
+void legend_trail(struct legend *l, const struct scene *scene,
+                  const struct trail *trail, int count)
+{
+    int first = count > LEGEND_STEPS ? count - LEGEND_STEPS : 0;
+
+    l->count = 0;
+    snprintf(next_line(l), LEGEND_BYTES, "%2s %-10s %-17s %-8s %-14s %-6s %s",
+             "#", "material", "position", "way", "throughput", "pdf", "light");
+    for (int i = first; i < count; i++)
+        add_step(l, scene, &trail->steps[i], i + 1);
+    snprintf(next_line(l), LEGEND_BYTES,
+             "step %d of %d; radiance of the whole path %.4g %.4g %.4g", count,
+             trail->vertices, (double)trail->radiance.x,
+             (double)trail->radiance.y, (double)trail->radiance.z);
+}
+
+static void add_direction(struct legend *l, const char *name, struct vec3 d)
+{
+    snprintf(next_line(l), LEGEND_BYTES, "%-22s %6.3f %6.3f %6.3f", name,
+             (double)d.x, (double)d.y, (double)d.z);
+}
+
+void legend_lobes(struct legend *l, const struct scene *scene,
+                  const struct trail_lobes *lobes)
+{
+    struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
+    float cosine = f_min(v3_dot(lobes->wo, lobes->n), 1.0f);
+    float lo = 0.0f, hi = 0.0f;
+    int deltas = 0;
+
+    l->count = 0;
+    for (int i = 0; i < lobes->count; i++) {
+        float pdf = lobes->pdf[i];
+
+        sum = v3_add(sum, lobes->weight[i]);
+        hi = f_max(hi, pdf);
+        lo = i == 0 ? pdf : f_min(lo, pdf);
+        deltas += pdf == 0.0f ? 1 : 0;
+    }
+    snprintf(next_line(l), LEGEND_BYTES, "%.40s, seen %.1f degrees off n",
+             legend_material(scene, lobes->tri),
+             acos((double)cosine) * DEGREES);
+    add_direction(l, "n normal, green", lobes->n);
+    add_direction(l, "t tangent, red", lobes->t);
+    add_direction(l, "b bitangent, blue", lobes->b);
+    snprintf(next_line(l), LEGEND_BYTES,
+             "%d of %d samples go on, %d as deltas; pdf %.3g to %.3g",
+             lobes->count, TRAIL_LOBES, deltas, (double)lo, (double)hi);
+    add_direction(l, "mean weight",
+                  v3_scale(sum, 1.0f / (float)TRAIL_LOBES));
+}
