@@ -32,8 +32,7 @@ static inline struct vec3 preview_color(const struct world *w,
     struct bsdf b = bsdf_at(w, m, v);
     struct vec3 glow = emission_at(w, m, v->uv, v->has_uv);
     float top = f_max(glow.x, f_max(glow.y, glow.z));
-    float shade =
-        PREVIEW_AMBIENT + (1.0f - PREVIEW_AMBIENT) * v3_dot(v->n, wo);
+    float shade = PREVIEW_AMBIENT + (1.0f - PREVIEW_AMBIENT) * v3_dot(v->n, wo);
 
     return v3_add(v3_scale(b.color, shade),
                   v3_scale(glow, 1.0f / f_max(top, 1.0f)));
@@ -60,9 +59,9 @@ static inline struct vec3 hit_numbers(const struct world *w, struct ray r,
     case SAMPLE_FACE:
         return direction_numbers(v.is_outside ? v.ng : v3_neg(v.ng));
     case SAMPLE_UV:
-        return v.has_uv ? v3(v.uv.x - floorf(v.uv.x), v.uv.y - floorf(v.uv.y),
-                             1.0f)
-                        : none;
+        return v.has_uv
+                   ? v3(v.uv.x - floorf(v.uv.x), v.uv.y - floorf(v.uv.y), 1.0f)
+                   : none;
     case SAMPLE_DEPTH: return v3(h.t, 0.0f, 0.0f);
     case SAMPLE_MATERIAL: return v3((float)number + 1.0f, 0.0f, 0.0f);
     default: return preview_color(w, &m, &v, v3_neg(r.d));

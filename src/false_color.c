@@ -69,8 +69,7 @@ uint32_t false_color(enum sample_kind kind, const float xyz[3],
     case SAMPLE_DEPTH: return xyz[0] > 0.0f ? grey_of_depth(xyz[0], range) : 0;
     case SAMPLE_MATERIAL:
         return xyz[0] > 0.0f ? color_of_number((uint32_t)xyz[0] - 1) : 0;
-    case SAMPLE_UV:
-        return xyz[2] > 0.0f ? rgb_of(xyz[0], xyz[1], 0.0f) : NO_UV;
+    case SAMPLE_UV: return xyz[2] > 0.0f ? rgb_of(xyz[0], xyz[1], 0.0f) : NO_UV;
     default: return rgb_of(xyz[0], xyz[1], xyz[2]);
     }
 }
@@ -78,8 +77,8 @@ uint32_t false_color(enum sample_kind kind, const float xyz[3],
 uint32_t false_color_heat(float part)
 {
     static const float stops[][3] = {
-        {0, 0, 0}, {0.35f, 0.1f, 0.6f}, {0.9f, 0.2f, 0.2f}, {1, 0.8f, 0},
-        {1, 1, 1},
+        {0, 0, 0},    {0.35f, 0.1f, 0.6f}, {0.9f, 0.2f, 0.2f},
+        {1, 0.8f, 0}, {1, 1, 1},
     };
     float at = 4.0f * fminf(fmaxf(part, 0.0f), 1.0f);
     int i = at < 4.0f ? (int)at : 3;

@@ -16,22 +16,20 @@
 /* What is rendered for a view, and what is said of it. */
 static const struct {
     enum sample_kind sample;
-    bool is_counted; /* here; the render has nothing to do with it */
     const char *legend;
 } views[INSIDE_VIEWS] = {
-    [INSIDE_LIGHT] = {SAMPLE_LIGHT, false, ""},
-    [INSIDE_PREVIEW] = {SAMPLE_PREVIEW, false,
+    [INSIDE_LIGHT] = {SAMPLE_LIGHT, ""},
+    [INSIDE_PREVIEW] = {SAMPLE_PREVIEW,
                         "PREVIEW  colours as they are, lit from the eye"},
-    [INSIDE_NORMALS] = {SAMPLE_NORMAL, false,
+    [INSIDE_NORMALS] = {SAMPLE_NORMAL,
                         "NORMALS  for shading: x red, y green, z blue"},
-    [INSIDE_FACES] = {SAMPLE_FACE, false,
+    [INSIDE_FACES] = {SAMPLE_FACE,
                       "FACES  normals as wound: x red, y green, z blue"},
-    [INSIDE_UVS] = {SAMPLE_UV, false, "UVS  u red, v green; grey: none"},
-    [INSIDE_DEPTH] = {SAMPLE_DEPTH, false, "DEPTH"},
-    [INSIDE_MATERIALS] = {SAMPLE_MATERIAL, false,
-                          "MATERIALS  a colour for each"},
-    [INSIDE_COST] = {SAMPLE_PREVIEW, true, "COST"},
-    [INSIDE_SAMPLES] = {SAMPLE_LIGHT, true, "SAMPLES"},
+    [INSIDE_UVS] = {SAMPLE_UV, "UVS  u red, v green; grey: none"},
+    [INSIDE_DEPTH] = {SAMPLE_DEPTH, "DEPTH"},
+    [INSIDE_MATERIALS] = {SAMPLE_MATERIAL, "MATERIALS  a colour for each"},
+    [INSIDE_COST] = {SAMPLE_PREVIEW, "COST"},
+    [INSIDE_SAMPLES] = {SAMPLE_LIGHT, "SAMPLES"},
 };
 
 static struct session *session_of(const struct inside *in)
@@ -96,36 +94,78 @@ static bool need_numbers(struct inside *in, size_t count)
                       sizeof *in->numbers);
 }
 
-/* Fills the frame from a picture of numbers, `stride` floats a pixel. */
-static void fill(struct inside *in, struct frame *frame, int width, int height,
-                 int stride, struct number_range range)
+/* Pixel i of n in the other's length, from 0. */
+static int scaled(int i, int n, int length)
 {
-    enum sample_kind kind = views[in->view].sample;
+    return (int)((int64_t)i * length / n);
+}
 
+/* The frame in false colours of the numbers of a picture, 3 a pixel. */
+static void fill(const struct inside *in, struct frame *frame, int width,
+                 int height, struct number_range range)
+{
     for (int y = 0; y < frame->height; y++) {
         for (int x = 0; x < frame->width; x++) {
-            int from_x = (int)((int64_t)x * width / frame->width);
-            int from_y = (int)((int64_t)y * height / frame->height);
-            const float *n =
-                in->numbers +
-                (size_t)stride * ((size_t)from_y * (size_t)width +
-                                  (size_t)from_x);
+            size_t at =
+                (size_t)scaled(y, frame->height, height) * (size_t)width +
+                (size_t)scaled(x, frame->width, width);
 
             drawing_dot(frame, x, y,
-                        views[in->view].is_counted
-                            ? false_color_heat(range.hi > 0 ? *n / range.hi : 0)
-                            : false_color(kind, n, range));
+                        false_color(views[in->view].sample,
+                                    in->numbers + 3 * at, range));
         }
     }
+}
+
+/* The mean of what pixel (x, y) of the frame covers. */
+static float mean_at(const struct inside *in, const struct frame *frame, int x,
+                     int y, int width, int height)
+{
+    int x0 = scaled(x, frame->width, width);
+    int y0 = scaled(y, frame->height, height);
+    int x1 = scaled(x + 1, frame->width, width);
+    int y1 = scaled(y + 1, frame->height, height);
+    float sum = 0;
+    int count = 0;
+
+    for (int j = y0; j < y1 || j == y0; j++) {
+        for (int i = x0; i < x1 || i == x0; i++) {
+            sum += in->numbers[(size_t)j * (size_t)width + (size_t)i];
+            count++;
+        }
+    }
+    return sum / (float)count;
+}
+
+/* The same for counts, one a pixel, up to the largest. */
+static void fill_heat(const struct inside *in, struct frame *frame, int width,
+                      int height, float largest)
+{
+    for (int y = 0; y < frame->height; y++) {
+        for (int x = 0; x < frame->width; x++) {
+            float mean = mean_at(in, frame, x, y, width, height);
+
+            drawing_dot(frame, x, y,
+                        false_color_heat(largest > 0 ? mean / largest : 0));
+        }
+    }
+}
+
+/* The line below the picture, if it says something new. */
+static void say(struct inside *in, const char *text)
+{
+    in->has_news |= strcmp(text, in->legend) != 0;
+    snprintf(in->legend, sizeof in->legend, "%s", text);
 }
 
 static void say_depth(struct inside *in, struct number_range r)
 {
     double scale = session_of(in)->scene.scale;
+    char text[TEXT_BYTES];
 
-    snprintf(in->legend, sizeof in->legend,
-             "DEPTH  from %.4g, white, to %.4g, dark", r.lo / scale,
-             r.hi / scale);
+    snprintf(text, sizeof text, "DEPTH  from %.4g, white, to %.4g, dark",
+             r.lo / scale, r.hi / scale);
+    say(in, text);
 }
 
 static void paint_numbers(struct inside *in, struct film *draft,
@@ -141,7 +181,7 @@ static void paint_numbers(struct inside *in, struct film *draft,
         return;
     film_linear(draft, in->numbers);
     range = number_range_of(in->numbers, pixels, 3);
-    fill(in, frame, draft->width, draft->height, 3, range);
+    fill(in, frame, draft->width, draft->height, range);
     if (in->view == INSIDE_DEPTH)
         say_depth(in, range);
 }
@@ -151,18 +191,20 @@ static void paint_samples(struct inside *in, struct film *film,
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
     struct number_range range;
+    char text[TEXT_BYTES];
     double sum = 0;
 
     if (!need_numbers(in, pixels))
         return;
     film_counts(film, in->numbers);
     range = number_range_of(in->numbers, pixels, 1);
-    fill(in, frame, film->width, film->height, 1, range);
+    fill_heat(in, frame, film->width, film->height, range.hi);
     for (size_t i = 0; i < pixels; i++)
         sum += in->numbers[i];
-    snprintf(in->legend, sizeof in->legend,
-             "SAMPLES  of a pixel, black 0, white %.0f; mean %.2f", range.hi,
-             sum / (double)pixels);
+    snprintf(text, sizeof text,
+             "SAMPLES  of a pixel, black 0, white %.0f; mean %.2f",
+             (double)range.hi, sum / (double)pixels);
+    say(in, text);
 }
 
 /* Counts anew what another camera or frame sees. */
@@ -195,6 +237,7 @@ static void paint_costs(struct inside *in, struct frame *frame)
     size_t pixels = (size_t)frame->width * (size_t)frame->height;
     struct number_range range;
     double boxes = 0, triangles = 0;
+    char text[TEXT_BYTES];
 
     if (!count_costs(in, frame) || !need_numbers(in, pixels))
         return;
@@ -204,11 +247,13 @@ static void paint_costs(struct inside *in, struct frame *frame)
         in->numbers[i] = (float)(in->costs[i].boxes + in->costs[i].triangles);
     }
     range = number_range_of(in->numbers, pixels, 1);
-    fill(in, frame, frame->width, frame->height, 1, range);
-    snprintf(in->legend, sizeof in->legend,
+    fill_heat(in, frame, frame->width, frame->height, range.hi);
+    snprintf(text, sizeof text,
              "COST  tests of a camera ray, black 0, white %.0f; mean %.1f "
              "boxes, %.1f triangles",
-             range.hi, boxes / (double)pixels, triangles / (double)pixels);
+             (double)range.hi, boxes / (double)pixels,
+             triangles / (double)pixels);
+    say(in, text);
 }
 
 static void paint_view(struct inside *in, struct film *film, struct film *draft,
@@ -292,9 +337,8 @@ static void say_boxes(struct inside *in)
     char text[TEXT_BYTES];
 
     snprintf(text, sizeof text,
-             "boxes of level %u of %u: %u nodes; < > go up and down",
-             in->level, in->bvh.depth,
-             sketch_boxes(&nothing, &any, &in->bvh, in->level));
+             "boxes of level %u of %u: %u nodes; < > go up and down", in->level,
+             in->bvh.depth, sketch_boxes(&nothing, &any, &in->bvh, in->level));
     work_say_long(in->work, text);
 }
 
@@ -410,7 +454,7 @@ static void show(struct inside *in, enum inside_view view)
         view = INSIDE_LIGHT;
     in->view = view;
     s->sample = views[view].sample;
-    snprintf(in->legend, sizeof in->legend, "%s", views[view].legend);
+    say(in, views[view].legend);
     in->work->message.until_ns = 0;
     in->work->has_changed = true;
     if (in->work->is_live && s->sample != before)
@@ -446,13 +490,18 @@ bool inside_act(struct inside *in, enum action action)
 void inside_step(struct inside *in)
 {
     const struct cursor *c = in->cursor;
-    bool is_new = c->has_pick && (!in->is_placed ||
-                                  memcmp(in->place, c->pick.position,
-                                         sizeof in->place) != 0);
+    bool is_new = c->has_pick &&
+                  (!in->is_placed ||
+                   memcmp(in->place, c->pick.position, sizeof in->place) != 0);
 
-    if (is_new &&
-        (in->drawing == INSIDE_LOBES || in->drawing == INSIDE_PATH))
+    if (is_new && (in->drawing == INSIDE_LOBES || in->drawing == INSIDE_PATH))
         draw(in, in->drawing);
+}
+
+float inside_exposure(const struct inside *in)
+{
+    return in->view == INSIDE_PREVIEW ? 0.0f
+                                      : (float)session_of(in)->view.exposure;
 }
 
 void inside_leave(struct inside *in)

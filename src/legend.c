@@ -32,6 +32,14 @@ static const char *way_name(const struct trail_step *s)
     return "transmit";
 }
 
+/* In the file's units; what is rounding there is 0. */
+static double file_coordinate(const struct scene *scene, float x, int axis)
+{
+    double from_file = x / scene->scale + scene->center[axis];
+
+    return fabs(from_file) * scene->scale < 1e-6 ? 0 : from_file;
+}
+
 static void add_step(struct legend *l, const struct scene *scene,
                      const struct trail_step *s, int number)
 {
@@ -41,9 +49,9 @@ static void add_step(struct legend *l, const struct scene *scene,
 
     if (s->way != TRAIL_SKY)
         snprintf(place, sizeof place, "%.3g %.3g %.3g",
-                 s->to.x / scene->scale + scene->center[0],
-                 s->to.y / scene->scale + scene->center[1],
-                 s->to.z / scene->scale + scene->center[2]);
+                 file_coordinate(scene, s->to.x, 0),
+                 file_coordinate(scene, s->to.y, 1),
+                 file_coordinate(scene, s->to.z, 2));
     if (goes_on)
         snprintf(pdf, sizeof pdf, s->pdf > 0.0f ? "%.3g" : "delta",
                  (double)s->pdf);
@@ -105,6 +113,5 @@ void legend_lobes(struct legend *l, const struct scene *scene,
     snprintf(next_line(l), LEGEND_BYTES,
              "%d of %d samples go on, %d as deltas; pdf %.3g to %.3g",
              lobes->count, TRAIL_LOBES, deltas, (double)lo, (double)hi);
-    add_direction(l, "mean weight",
-                  v3_scale(sum, 1.0f / (float)TRAIL_LOBES));
+    add_direction(l, "mean weight", v3_scale(sum, 1.0f / (float)TRAIL_LOBES));
 }

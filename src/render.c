@@ -136,9 +136,9 @@ static struct world draft_world(const struct render_job *job,
                                 const struct film *draft)
 {
     struct world w = job->world;
-    struct projection_part part = {job->crop.x,      job->crop.y,
-                                   job->crop.width,  job->crop.height,
-                                   draft->width, draft->height};
+    struct projection_part part = {job->crop.x,     job->crop.y,
+                                   job->crop.width, job->crop.height,
+                                   draft->width,    draft->height};
 
     w.settings.camera = projection_camera(&w.settings.camera, &part);
     w.settings.order = ORDER_DRAFT;
@@ -165,8 +165,8 @@ static enum pass_result run_draft(struct render *r)
     enum pass_result result = begin(r, &world, &r->draft, 0, 0);
 
     while (result == PASS_DONE && *spp_done < spp)
-        result = run_to(r, *spp_done == 0 ? 1 : spp, DRAFT_STRIDE_MAX,
-                        spp_done);
+        result =
+            run_to(r, *spp_done == 0 ? 1 : spp, DRAFT_STRIDE_MAX, spp_done);
     return result;
 }
 

@@ -52,8 +52,9 @@ static bool add_box(struct level *l, const struct camera *c,
     if (!grow_array((void **)&l->boxes, &l->capacity, l->count + 1u,
                     sizeof *l->boxes))
         return false;
-    l->boxes[l->count++] = (struct near_box){
-        n->lo, n->hi, v3_dot(v3_sub(middle, c->eye), c->forward)};
+    l->boxes[l->count++] =
+        (struct near_box){n->lo, n->hi,
+                          v3_dot(v3_sub(middle, c->eye), c->forward)};
     return true;
 }
 

@@ -84,9 +84,10 @@ static void add_lobe(struct trail_lobes *l, const struct bsdf *b,
 {
     struct bsdf_sample sample;
 
-    if (!bsdf_sample(
-            b, wo, random_2d(s, DIMENSION_BOUNCE + DIMENSION_BSDF_DIRECTION),
-            random_2d(s, DIMENSION_BOUNCE + DIMENSION_BSDF_LOBE).x, &sample))
+    if (!bsdf_sample(b, wo,
+                     random_2d(s, DIMENSION_BOUNCE + DIMENSION_BSDF_DIRECTION),
+                     random_2d(s, DIMENSION_BOUNCE + DIMENSION_BSDF_LOBE).x,
+                     &sample))
         return;
     l->wi[l->count] = vertex_to_world(v, sample.wi);
     l->weight[l->count] = sample.weight;

@@ -441,7 +441,10 @@ static void draw(struct tui *t, uint64_t now_ns)
         return;
     result =
         canvas_draw(c, shows ? render_film(render) : NULL, render_draft(render),
-                    (float)t->work.session->view.exposure, frame_step(t));
+                    inside_exposure(&t->inside), frame_step(t));
+    if (t->inside.has_news)
+        t->status_ns = 0;
+    t->inside.has_news = false;
     if (result == CANVAS_GONE) {
         lose_terminal(t);
     } else if (shows) {

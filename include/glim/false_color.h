@@ -24,8 +24,8 @@ struct number_range number_range_of(const float *x, size_t count,
                                     size_t stride);
 
 /* Normals: x red, y green, z blue, 128 for 0. UVs: u red, v green, dark grey
- * without. Depths: white for the nearest, dark grey for the farthest. Materials:
- * a colour for each. The sky is black. */
+ * without. Depths: white for the nearest, dark grey for the farthest.
+ * Materials: a colour for each. The sky is black. */
 uint32_t false_color(enum sample_kind kind, const float xyz[3],
                      struct number_range range);
 

@@ -50,7 +50,8 @@ struct inside {
     struct cursor *cursor;
     enum inside_view view;
     enum inside_drawing drawing;
-    char legend[128]; /* of the view; "": of light there is none */
+    char legend[256]; /* of the view; "": of light there is none */
+    bool has_news;    /* in the legend; the screen clears it */
 
     struct bvh bvh; /* built when it is first wanted */
     bool has_bvh;
@@ -79,6 +80,9 @@ void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
 
 /* Does what the action says of views and drawings. False if it is not one. */
 bool inside_act(struct inside *in, enum action action);
+
+/* With which films are to be shown: colours of a preview are as they are. */
+float inside_exposure(const struct inside *in);
 
 /* Follows a new pick. */
 void inside_step(struct inside *in);

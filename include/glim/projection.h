@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * projection.h - from points of the scene to pixels: the camera's rays backwards
+ * projection.h - from points of the scene to pixels: the camera's rays
+ * backwards
  *
  * Units:     normalised scene units; pixels, (0, 0) is the top left corner
  * Ownership: none

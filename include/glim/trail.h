@@ -32,9 +32,9 @@ enum trail_way {
 /* A ray and what came of it. */
 struct trail_step {
     struct vec3 from, to;
-    struct hit hit;          /* no triangle: the sky */
-    struct vec3 throughput;  /* of the path before it */
-    struct vec3 light;       /* in the pixel, gathered at the end of the ray */
+    struct hit hit;         /* no triangle: the sky */
+    struct vec3 throughput; /* of the path before it */
+    struct vec3 light;      /* in the pixel, gathered at the end of the ray */
     enum trail_way way;
     float pdf; /* of the direction in which it goes on; 0: the only one */
 };
@@ -55,9 +55,9 @@ void trail_follow(struct trail *t, const struct world *world, uint32_t x,
 struct trail_lobes {
     struct vec3 p, n, t, b; /* in the scene */
     struct vec3 wo;
-    float distance;            /* from the eye */
+    float distance; /* from the eye */
     uint32_t tri;
-    int count;                 /* some samples end instead */
+    int count; /* some samples end instead */
     struct vec3 wi[TRAIL_LOBES];
     struct vec3 weight[TRAIL_LOBES]; /* f |cosine| / pdf */
     float pdf[TRAIL_LOBES];          /* 0: a delta */
