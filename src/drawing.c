@@ -42,9 +42,10 @@ void drawing_line(struct frame *frame, double x0, double y0, double x1,
     keep_inside(y0, dy, frame->height, &begin, &end);
     if (!(begin <= end))
         return;
-    steps = ceil(fmax(fabs(dx), fabs(dy)) * (end - begin));
+    /* shorter than a pixel, or rounding at the frame's edge would leave gaps */
+    steps = floor(fmax(fabs(dx), fabs(dy)) * (end - begin)) + 1;
     for (double i = 0; i <= steps; i++) {
-        double t = begin + (end - begin) * (steps > 0 ? i / steps : 0);
+        double t = begin + (end - begin) * i / steps;
 
         drawing_dot(frame, x0 + t * dx, y0 + t * dy, rgb);
     }

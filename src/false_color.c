@@ -6,6 +6,7 @@
 #define NO_UV       0x404040u
 #define FARTHEST    0.15f /* of white: the sky alone is black */
 #define GOLDEN_TURN 0.618034f
+#define HUES        8 /* that can be told apart beside each other */
 
 struct number_range number_range_of(const float *x, size_t count, size_t stride)
 {
@@ -39,15 +40,16 @@ static float wave(float hue)
     return fminf(fmaxf(x, 0.0f), 1.0f);
 }
 
-/* Turning the hue by the golden section keeps any number of them apart for as
- * long as can be; paler and darker ones are between. */
+/* Turning the hue by the golden section keeps any number of them apart as far
+ * as can be; after some they are paler, then darker. */
 static uint32_t color_of_number(uint32_t i)
 {
     const float saturations[] = {0.75f, 0.45f, 0.75f};
     const float values[] = {1.0f, 1.0f, 0.6f};
+    uint32_t shade = i / HUES % 3;
     float hue = (float)i * GOLDEN_TURN;
-    float s = saturations[i % 3];
-    float v = values[i % 3];
+    float s = saturations[shade];
+    float v = values[shade];
 
     return rgb_of(v * (1.0f - s + s * wave(hue)),
                   v * (1.0f - s + s * wave(hue + 2.0f / 3.0f)),

@@ -14,7 +14,7 @@
 
 void drawing_dot(struct frame *frame, double x, double y, uint32_t rgb);
 
-/* Every pixel that one step in each, of the longer side, comes upon. */
+/* Both ends and all between, a pixel wide. */
 void drawing_line(struct frame *frame, double x0, double y0, double x1,
                   double y1, uint32_t rgb);
 
