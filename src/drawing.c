@@ -42,8 +42,8 @@ void drawing_line(struct frame *frame, double x0, double y0, double x1,
     keep_inside(y0, dy, frame->height, &begin, &end);
     if (!(begin <= end))
         return;
-    /* shorter than a pixel, or rounding at the frame's edge would leave gaps */
-    steps = floor(fmax(fabs(dx), fabs(dy)) * (end - begin)) + 1;
+    /* shorter than a pixel, or rounding would leave gaps */
+    steps = floor(fmax(fabs(dx), fabs(dy)) * (end - begin)) + 2;
     for (double i = 0; i <= steps; i++) {
         double t = begin + (end - begin) * i / steps;
 

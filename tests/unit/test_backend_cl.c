@@ -31,6 +31,7 @@ struct pair {
     struct view view;
     struct render *renders[2];
     int draft_width, draft_height;
+    uint32_t sample; /* enum sample_kind */
 };
 
 static struct backend *device; /* NULL: there is none here */
@@ -111,9 +112,12 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                              .draft_height = p->draft_height};
     struct error err;
 
-    check_or_say(scene_world(&p->scene, &p->view, seed, &job.world, &err) &&
-                     render_start(p->renders[which], &job, &err),
+    check_or_say(scene_world(&p->scene, &p->view, seed, &job.world, &err),
                  err.text);
+    job.world.settings.sample = p->sample;
+    if (p->sample != SAMPLE_LIGHT)
+        job.world.settings.features |= FEATURE_FIRST_HIT;
+    check_or_say(render_start(p->renders[which], &job, &err), err.text);
 }
 
 static void finish(struct pair *p, int which)
@@ -259,6 +263,35 @@ static void drafts(void **state)
     close_pair(&p);
 }
 
+/* Previews and numbers have no film, and the same draft on both. */
+static void first_hits(void **state)
+{
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/interior.obj", 97, 55);
+    p.draft_width = 60;
+    p.draft_height = 34;
+    for (p.sample = SAMPLE_PREVIEW; p.sample <= SAMPLE_MATERIAL; p.sample++) {
+        struct film *drafts[2];
+
+        for (int i = 0; i < 2; i++) {
+            start(&p, i, (struct rect){9, 5, 80, 50}, 0, 1);
+            finish(&p, i);
+            assert_int_equal(render_progress(p.renders[i]).samples, 0);
+            drafts[i] = render_draft(p.renders[i]);
+            assert_int_equal(drafts[i]->samples, 60 * 34);
+        }
+        assert_true(drafts[0]->rays == drafts[1]->rays);
+        if (is_exact)
+            assert_memory_equal(drafts[0]->sums, drafts[1]->sums,
+                                (size_t)3 * 60 * 34 * sizeof(struct sum));
+    }
+    close_pair(&p);
+}
+
 /* A build for the scene's features alone computes the same, and one that lacks
  * a feature that a scene needs is not used for it. */
 static void special_builds(void **state)
@@ -365,9 +398,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes), cmocka_unit_test(options),
-        cmocka_unit_test(drafts),         cmocka_unit_test(special_builds),
-        cmocka_unit_test(self_tests),     cmocka_unit_test(halts),
-        cmocka_unit_test(buffers),
+        cmocka_unit_test(drafts),         cmocka_unit_test(first_hits),
+        cmocka_unit_test(special_builds), cmocka_unit_test(self_tests),
+        cmocka_unit_test(halts),          cmocka_unit_test(buffers),
     };
 
     return cmocka_run_group_tests(tests, open_device, close_device);
