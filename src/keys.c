@@ -59,7 +59,7 @@ static const struct binding bindings[] = {
     {ACTION_VIEW_9, "view-9", {'9'}, {0}},
     {ACTION_SAVE_VIEW, "save-view", {'c'}, {0}},
     {ACTION_VIEW_NEXT, "next-view", {'n'}, {0}},
-    {ACTION_VIEW_BACK, "view-back", {'N'}, {0}},
+    {ACTION_VIEW_BACK, "previous-view", {'N'}, {0}},
     {ACTION_DRAWING, "drawing", {'t', 'T'}, {0}},
     {ACTION_LESS, "less", {'<'}, {0}},
     {ACTION_MORE, "more", {'>'}, {0}},

@@ -83,8 +83,9 @@ void legend_trail(struct legend *l, const struct scene *scene,
 
 static void add_direction(struct legend *l, const char *name, struct vec3 d)
 {
+    /* + 0: -0 becomes 0 */
     snprintf(next_line(l), LEGEND_BYTES, "%-22s %6.3f %6.3f %6.3f", name,
-             (double)d.x, (double)d.y, (double)d.z);
+             (double)d.x + 0, (double)d.y + 0, (double)d.z + 0);
 }
 
 void legend_lobes(struct legend *l, const struct scene *scene,

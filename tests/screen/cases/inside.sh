@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+# Views of what is not light, and drawings over the picture. Two lamps fill it:
+# the right one is wound away from the eye, and neither has uvs.
+two_walls()
+{
+    printf 'newmtl red\nKd 0 0 0\nKe 3 0 0\n' >walls.mtl
+    printf 'newmtl green\nKd 0 0 0\nKe 0 1 0\n' >>walls.mtl
+    printf 'mtllib walls.mtl\nusemtl red\n' >walls.obj
+    printf 'v -20 -20 0\nv 0 -20 0\nv 0 20 0\nv -20 20 0\n' >>walls.obj
+    printf 'f 1 2 3 4\nusemtl green\n' >>walls.obj
+    printf 'v 20 -20 0\nv 20 20 0\nf 3 6 5 2\n' >>walls.obj
+    printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground 0 0 0\nexposure -4\n' \
+        >walls.view
+}
+colors_are() # as many different ones, and these
+{
+    wait_until_gone "LIVE"
+    count=$1
+    shift
+    for color; do
+        wait_for_rows 15 "48;2;$color"
+    done
+    found=$(screen_colors | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)
+    [ "$found" = "$count" ] || die "found $found colours, expected $count"
+}
+two_walls
+start --cell-aspect 2 walls.obj
+wait_for "LIVE .* spp"
+# a preview has its own exposure
+keys n
+wait_for "PREVIEW"
+colors_are 2 "255;0;0" "0;255;0"
+keys n
+wait_for "NORMALS"
+colors_are 1 "128;128;255"
+keys n
+wait_for "FACES"
+colors_are 2 "128;128;255" "128;128;0"
+keys n
+wait_for "UVS"
+colors_are 1 "64;64;64"
+# of the middles of 60x30 pixels: 5 sqrt(1 + x^2 + y^2), where y reaches tan 20
+keys n
+wait_for "DEPTH  from 5.001, white, to 6.396, dark"
+keys n
+wait_for "MATERIALS"
+colors_are 2
+keys n
+wait_for "COST  tests of a camera ray, black 0, white [1-9]"
+keys n
+wait_for "SAMPLES  of a pixel, black 0, white [1-9]"
+keys N N
+wait_for "MATERIALS"
+# moving restarts it
+keys -N 30 w
+wait_for "MATERIALS"
+keys r n n n
+wait_for "LIVE"
+# boxes
+keys t
+wait_for "boxes of level 0 of [0-9]*: 1 nodes"
+keys '>'
+wait_for "boxes of level 1 of"
+keys '<' '<'
+wait_for "boxes of level 0 of"
+# what is in the middle, until something is picked
+keys t
+wait_for "directions from pixel 50 25"
+expect "green, seen [01].[0-9] degrees off n"
+expect "n normal, green .* 0.000  *0.000  *1.000"
+keys v Left Left Left Left Left Left Enter
+wait_for "red, seen"
+keys t
+wait_for "sample 0 of pixel 40 2[0-9]"
+expect "1 red .* end "
+expect "step 1 of 1; radiance of the whole path 3 0 0"
+keys '>'
+wait_for "sample 1 of pixel"
+keys '<'
+wait_for "sample 0 of pixel"
+# help closes and opens it, a resize leaves it
+keys '?'
+wait_for "any key"
+reject "sample 0 of"
+keys Escape
+wait_for "sample 0 of pixel"
+mux resize-window -x 70 -y 25
+wait_for "sample 0 of pixel"
+keys t
+wait_until_gone "sample 0 of"
+keys '>'
+wait_for "t draws them"
+# normal mode has light and samples
+keys n
+wait_for "PREVIEW"
+keys Space
+wait_for "normal mode"
+keys n
+wait_for "SAMPLES"
+keys n
+wait_until_gone "SAMPLES"
+keys q
+expect_end 0
