@@ -114,6 +114,17 @@ bench_device() {
     done
 }
 
+# Frames of the preview while the camera moves.
+bench_previews() {
+    echo
+    echo 'previews: 200x60 cells, all threads'
+    for scene in scenes/cornell.obj scenes/glass_mirror.obj \
+        scenes/interior.obj scenes/lights200.obj scenes/materials.obj \
+        scenes/skylit.obj; do
+        "$build/bench/previews" "$scene"
+    done
+}
+
 # Loading: a million triangles of text.
 bench_load() {
     echo
@@ -133,7 +144,7 @@ bench_sampling() {
 }
 
 machine
-for name in threads sharing halts load device sampling; do
+for name in threads sharing halts previews load device sampling; do
     if wanted "$name"; then
         "bench_$name"
     fi
