@@ -35,7 +35,7 @@ void drawing_line(struct frame *frame, double x0, double y0, double x1,
 {
     double dx = x1 - x0, dy = y1 - y0;
     double begin = 0, end = 1;
-    double steps;
+    int steps;
 
     /* Liang and Barsky 1984: a line that goes far out has few pixels here */
     keep_inside(x0, dx, frame->width, &begin, &end);
@@ -43,8 +43,8 @@ void drawing_line(struct frame *frame, double x0, double y0, double x1,
     if (!(begin <= end))
         return;
     /* shorter than a pixel, or rounding would leave gaps */
-    steps = floor(fmax(fabs(dx), fabs(dy)) * (end - begin)) + 2;
-    for (double i = 0; i <= steps; i++) {
+    steps = (int)(fmax(fabs(dx), fabs(dy)) * (end - begin)) + 2;
+    for (int i = 0; i <= steps; i++) {
         double t = begin + (end - begin) * i / steps;
 
         drawing_dot(frame, x0 + t * dx, y0 + t * dy, rgb);

@@ -280,9 +280,9 @@ static void paint_drawing(struct inside *in, struct frame *frame)
     camera = frame_camera(in, &w.settings.camera, frame);
     if (in->drawing == INSIDE_BOXES)
         sketch_boxes(frame, &camera, &in->bvh, in->level);
-    else if (in->drawing == INSIDE_LOBES)
+    else if (in->drawing == INSIDE_LOBES && in->is_surface)
         sketch_lobes(frame, &camera, &in->lobes);
-    else
+    else if (in->drawing == INSIDE_PATH)
         sketch_trail(frame, &camera, &in->trail, in->step);
 }
 
@@ -313,7 +313,7 @@ void inside_open_panel(struct inside *in)
     inside_close_panel(in);
     if (in->canvas->is_too_small)
         return;
-    if (in->drawing == INSIDE_LOBES) {
+    if (in->drawing == INSIDE_LOBES && in->is_surface) {
         legend_lobes(&legend, scene, &in->lobes);
         snprintf(title, sizeof title, " directions from pixel %u %u ", in->x,
                  in->y);
@@ -342,69 +342,84 @@ static void say_boxes(struct inside *in)
     work_say_long(in->work, text);
 }
 
+static bool is_new_pick(const struct inside *in)
+{
+    const struct cursor *c = in->cursor;
+
+    return c->has_pick && (!in->is_picked || memcmp(in->place, c->pick.position,
+                                                    sizeof in->place) != 0);
+}
+
+/* Where the pick is in the picture now, or its middle. */
+static void find_pixel(struct inside *in)
+{
+    const struct scene *scene = &session_of(in)->scene;
+    struct rect r = session_of(in)->crop;
+    struct projected at;
+
+    in->x = (uint32_t)(r.x + r.width / 2);
+    in->y = (uint32_t)(r.y + r.height / 2);
+    in->is_picked = in->cursor->has_pick;
+    if (!in->is_picked)
+        return;
+    memcpy(in->place, in->cursor->pick.position, sizeof in->place);
+    if (projection_point(
+            &in->camera,
+            v3((float)((in->place[0] - scene->center[0]) * scene->scale),
+               (float)((in->place[1] - scene->center[1]) * scene->scale),
+               (float)((in->place[2] - scene->center[2]) * scene->scale)),
+            &at) &&
+        at.x >= r.x && at.x < r.x + r.width && at.y >= r.y &&
+        at.y < r.y + r.height) {
+        in->x = (uint32_t)at.x;
+        in->y = (uint32_t)at.y;
+    }
+}
+
 static void follow(struct inside *in)
 {
     struct world w;
 
-    if (find_world(in, &w))
-        trail_follow(&in->trail, &w, in->x, in->y, in->sample);
+    if (!find_world(in, &w))
+        return;
+    w.settings.camera = in->camera;
+    trail_follow(&in->trail, &w, in->x, in->y, in->sample);
 }
 
-/* Where the pick is in the picture now, or its middle. */
-static void find_pixel(struct inside *in, const struct world *w)
-{
-    const struct scene *scene = &session_of(in)->scene;
-    struct rect r = session_of(in)->crop;
-    struct projected at = {r.x + r.width / 2, r.y + r.height / 2, 0};
-
-    in->is_placed = in->cursor->has_pick;
-    if (in->is_placed) {
-        const double *p = in->cursor->pick.position;
-        const double *c = scene->center;
-
-        memcpy(in->place, p, sizeof in->place);
-        projection_point(&w->settings.camera,
-                         v3((float)((p[0] - c[0]) * scene->scale),
-                            (float)((p[1] - c[1]) * scene->scale),
-                            (float)((p[2] - c[2]) * scene->scale)),
-                         &at);
-    }
-    in->x = at.x > 0 ? (uint32_t)at.x : 0;
-    in->y = at.y > 0 ? (uint32_t)at.y : 0;
-}
-
-/* Draws from what is picked. False: there is only the sky. */
-static bool place(struct inside *in)
+/* Begins to draw from what is picked. */
+static void place(struct inside *in)
 {
     struct world w;
 
     if (!find_world(in, &w))
-        return false;
-    find_pixel(in, &w);
+        return;
+    in->camera = w.settings.camera;
+    find_pixel(in);
     in->sample = 0;
     in->step = 1;
     follow(in);
-    return trail_scatter(&in->lobes, &w, in->x, in->y);
+    in->is_surface = trail_scatter(&in->lobes, &w, in->x, in->y);
 }
 
-static void draw(struct inside *in, enum inside_drawing drawing)
+static void say_drawing(struct inside *in)
 {
-    bool is_seen = false;
-
-    in->drawing = INSIDE_NOTHING;
-    in->work->message.until_ns = 0;
-    if (drawing != INSIDE_NOTHING && need_tree(in)) {
-        is_seen = drawing == INSIDE_BOXES || place(in);
-        in->drawing = drawing;
-    }
     if (in->drawing == INSIDE_BOXES)
         say_boxes(in);
-    else if (in->drawing == INSIDE_LOBES && !is_seen)
+    else if (in->drawing == INSIDE_LOBES && !in->is_surface)
         work_say(in->work, "only the sky is there: v picks something else");
-    if (in->drawing == INSIDE_LOBES && !is_seen)
-        inside_close_panel(in);
-    else
-        inside_open_panel(in);
+    inside_open_panel(in);
+}
+
+/* A path goes on from where the directions were drawn. */
+static void next_drawing(struct inside *in)
+{
+    in->drawing = (enum inside_drawing)((in->drawing + 1) % INSIDE_DRAWINGS);
+    in->work->message.until_ns = 0;
+    if (in->drawing != INSIDE_NOTHING && !need_tree(in))
+        in->drawing = INSIDE_NOTHING;
+    if (in->drawing == INSIDE_LOBES)
+        place(in);
+    say_drawing(in);
 }
 
 static void change_level(struct inside *in, int by)
@@ -477,9 +492,7 @@ bool inside_act(struct inside *in, enum action action)
     switch (action) {
     case ACTION_VIEW_NEXT: turn(in, 1); break;
     case ACTION_VIEW_BACK: turn(in, -1); break;
-    case ACTION_DRAWING:
-        draw(in, (enum inside_drawing)((in->drawing + 1) % INSIDE_DRAWINGS));
-        break;
+    case ACTION_DRAWING: next_drawing(in); break;
     case ACTION_LESS: change(in, -1); break;
     case ACTION_MORE: change(in, 1); break;
     default: return false;
@@ -489,13 +502,11 @@ bool inside_act(struct inside *in, enum action action)
 
 void inside_step(struct inside *in)
 {
-    const struct cursor *c = in->cursor;
-    bool is_new = c->has_pick &&
-                  (!in->is_placed ||
-                   memcmp(in->place, c->pick.position, sizeof in->place) != 0);
-
-    if (is_new && (in->drawing == INSIDE_LOBES || in->drawing == INSIDE_PATH))
-        draw(in, in->drawing);
+    if ((in->drawing == INSIDE_LOBES || in->drawing == INSIDE_PATH) &&
+        is_new_pick(in)) {
+        place(in);
+        say_drawing(in);
+    }
 }
 
 float inside_exposure(const struct inside *in)

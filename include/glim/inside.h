@@ -64,9 +64,12 @@ struct inside {
     int cost_width, cost_height;
 
     uint32_t level; /* of boxes */
-    uint32_t x, y;  /* the pixel that was picked for lobes and path */
-    bool is_placed;
-    double place[3]; /* the pick that x and y come from */
+    /* where lobes and path begin: a pixel of a picture that was */
+    struct camera camera;
+    uint32_t x, y;
+    bool is_picked; /* by the cursor, at */
+    double place[3];
+    bool is_surface; /* else the sky is there */
     uint64_t sample;
     int step; /* of the path: so many are shown */
     struct trail trail;
