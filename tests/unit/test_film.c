@@ -109,6 +109,7 @@ static void film_shows_means_and_fills_gaps(void **state)
     struct frame frame;
     struct error err;
     float rgb[3 * 64 * 48];
+    float numbers[64 * 48];
     struct path_sample samples[8 * SAMPLE_BLOCK];
     int counts[8] = {2, 1, 0, 0, 0, 0, 0, 0};
 
@@ -121,6 +122,9 @@ static void film_shows_means_and_fills_gaps(void **state)
     samples[1] = grey(3.0f);
     samples[SAMPLE_BLOCK] = grey(8.0f);
     film_add_row(&film, 0, 0, 32, 2, samples, counts); /* (0,0) and (32,0) */
+    film_counts(&film, numbers);
+    for (int i = 0; i < 64 * 48; i++)
+        assert_true(numbers[i] == (i == 0 ? 2 : i == 32 ? 1 : 0));
     film_linear(&film, rgb);
     check_close(rgb[0], 2, 0);
     check_close(rgb[1], 1, 0);

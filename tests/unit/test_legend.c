@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_legend.c - tables of paths and surfaces: the last steps, in file units
+ */
+#include "check.h"
+
+#include "glim/legend.h"
+
+static char none[] = "", red_paint[] = "red paint";
+static char *names[] = {none, red_paint};
+static struct tri tris[] = {{.material = 0}, {.material = 1}};
+static const struct scene scene = {.material_names = names,
+                                   .tris = tris,
+                                   .scale = 0.25,
+                                   .center = {1, 2, 3}};
+
+static void paths_show_their_last_steps(void **state)
+{
+    struct trail trail = {.count = 9, .vertices = 9, .radiance = {1, 2, 3}};
+    struct legend l;
+
+    (void)state;
+    for (uint32_t i = 0; i < 9; i++)
+        trail.steps[i] = (struct trail_step){.to = {1, -0.5f, (float)i},
+                                             .hit.tri = i % 2,
+                                             .throughput = {1, 0.5f, 0.25f},
+                                             .light = {0, 4, 0},
+                                             .way = TRAIL_REFLECTED,
+                                             .pdf = i == 7 ? 0.0f : 0.125f};
+    trail.steps[8].way = TRAIL_SKY;
+    legend_trail(&l, &scene, &trail, 2);
+    assert_int_equal(l.count, 4);
+    check_has(l.lines[0], "throughput");
+    /* 1 / 0.25 + 1, -0.5 / 0.25 + 2, 1 / 0.25 + 3 */
+    check_has(l.lines[2], " 2 red paint  5 0 7 ");
+    check_has(l.lines[2], "reflect  1.00 0.50 0.25 0.125  0 4 0");
+    check_has(l.lines[1], " 1 no materia ");
+    check_has(l.lines[3], "step 2 of 9; radiance of the whole path 1 2 3");
+    legend_trail(&l, &scene, &trail, 9);
+    assert_int_equal(l.count, LEGEND_LINES);
+    check_has(l.lines[1], " 4 red paint ");
+    check_has(l.lines[5], " delta ");
+    check_has(l.lines[6], " 9  ");
+    check_has(l.lines[6], " sky ");
+}
+
+static void surfaces_show_their_frame(void **state)
+{
+    struct trail_lobes lobes = {.n = {0, 0, 1},
+                                .t = {1, 0, 0},
+                                .b = {0, 1, 0},
+                                .wo = {0, 0.6f, 0.8f},
+                                .tri = 1,
+                                .count = 32};
+    struct legend l;
+
+    (void)state;
+    for (int i = 0; i < 32; i++) {
+        lobes.weight[i].x = 1;
+        lobes.pdf[i] = i == 5 ? 0 : i == 6 ? 8 : 0.5f;
+    }
+    legend_lobes(&l, &scene, &lobes);
+    check_has(l.lines[0], "red paint, seen 36.9 degrees off n"); /* acos 0.8 */
+    check_has(l.lines[1], "0.000  0.000  1.000");
+    check_has(l.lines[4], "32 of 64 samples go on, 1 as deltas; pdf 0 to 8");
+    check_has(l.lines[5], "0.500  0.000  0.000"); /* what ends weighs nothing */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(paths_show_their_last_steps),
+        cmocka_unit_test(surfaces_show_their_frame),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
