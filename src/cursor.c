@@ -5,6 +5,11 @@
 
 #define TEXT_BYTES 256
 
+/* An arrow that comes again within this time is held; every so many cells it
+ * goes a cell further at once. */
+#define HELD_NS    UINT64_C(150000000)
+#define HELD_CELLS 8
+
 struct rect cursor_shown_rect(const struct cursor *c)
 {
     const struct session *s = c->work->session;
@@ -99,12 +104,21 @@ static int within(int x, int count)
     return x < 0 ? 0 : x >= count ? count - 1 : x;
 }
 
-static void move(struct cursor *c, int right, int down)
+static void move(struct cursor *c, enum action action, int right, int down)
 {
     struct canvas *canvas = c->canvas;
+    uint64_t now_ns = clock_ns();
+    bool is_held = action == c->held && now_ns - c->held_ns < HELD_NS;
+    int cells;
 
-    canvas->cursor_col = within(canvas->cursor_col + right, canvas->fit.cols);
-    canvas->cursor_row = within(canvas->cursor_row + down, canvas->fit.rows);
+    c->held_count = is_held ? c->held_count + 1 : 0;
+    c->held = action;
+    c->held_ns = now_ns;
+    cells = 1 + c->held_count / HELD_CELLS;
+    canvas->cursor_col =
+        within(canvas->cursor_col + cells * right, canvas->fit.cols);
+    canvas->cursor_row =
+        within(canvas->cursor_row + cells * down, canvas->fit.rows);
     show(c, true);
 }
 
@@ -155,10 +169,10 @@ bool cursor_need_pick(struct cursor *c)
 static bool act_while_shown(struct cursor *c, enum action action)
 {
     switch (action) {
-    case ACTION_LOOK_LEFT: move(c, -1, 0); break;
-    case ACTION_LOOK_RIGHT: move(c, 1, 0); break;
-    case ACTION_LOOK_UP: move(c, 0, -1); break;
-    case ACTION_LOOK_DOWN: move(c, 0, 1); break;
+    case ACTION_LOOK_LEFT: move(c, action, -1, 0); break;
+    case ACTION_LOOK_RIGHT: move(c, action, 1, 0); break;
+    case ACTION_LOOK_UP: move(c, action, 0, -1); break;
+    case ACTION_LOOK_DOWN: move(c, action, 0, 1); break;
     case ACTION_START: pick_under(c); break;
     case ACTION_CURSOR:
     case ACTION_CANCEL:
