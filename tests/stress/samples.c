@@ -8,6 +8,8 @@
 #include "tests/unit/mesh.h"
 
 #include "glim/blackbody.h"
+#include "glim/lights.h"
+#include "glim/sky.h"
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"
@@ -247,13 +249,15 @@ static bool is_fine(struct bsdf_sample s)
            (s.is_delta || (isfinite(s.pdf) && s.pdf > 0.0f));
 }
 
+/* Of random numbers. */
+static const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
+
 /* C9: BSDFs at the ends of random numbers, grazing and upright. */
 static void check_extremes(void)
 {
     static const uint32_t kinds[] = {MATERIAL_DIFFUSE, MATERIAL_ROUGH_DIFFUSE,
                                      MATERIAL_METAL,   MATERIAL_PLASTIC,
                                      MATERIAL_GLASS,   MATERIAL_THIN_GLASS};
-    static const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
     static const float heights[] = {1e-6f, 1e-3f, 0.5f, 1};
     static const float alphas[] = {0, ALPHA_SMOOTH, 0.1f, 1};
     int bad = 0, drawn = 0;
@@ -278,6 +282,86 @@ static void check_extremes(void)
         "BSDFs at the ends of random numbers: %d drawn, not finite or "
         "negative: %d, want 0",
         drawn, bad);
+}
+
+/* Lamps from 1 to 1e-8 in size, and a sky of few texels, one of them black. */
+static void make_lights(struct mesh *m, struct lights *lights,
+                        struct sky_table *table)
+{
+    static const struct vec3 texels[8] = {{1, 1, 1}, {2, 2, 2}, {0, 0, 0},
+                                          {3, 3, 3}, {4, 4, 4}, {1, 1, 1},
+                                          {9, 9, 9}, {1, 1, 1}};
+    struct error err;
+
+    *m = (struct mesh){0};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0);
+    m->materials[0].emission = v3(1, 1, 1);
+    for (int i = 0; i < 9; i++) {
+        float size = powf(10, (float)-i), x = (float)i / 4 - 1;
+
+        mesh_add(m, v3(x, 0, 0), v3(x + size, 0, 0), v3(x, 0, size), 0);
+    }
+    mesh_finish(m);
+    *lights = (struct lights){NULL};
+    *table = (struct sky_table){NULL};
+    m->world.settings.sky = (struct sky){{1, 1, 1}, 4, 2, 0, 1, 0};
+    m->world.sky_texels = texels;
+    if (!lights_build(lights, &m->world, &err) ||
+        !sky_build(table, texels, 4, 2, SKY_ALONE, &err))
+        stage_stop(err.text);
+    lights_lend(lights, &m->world);
+    sky_lend(table, &m->world);
+}
+
+static bool is_light(const struct world *w, const struct receiver *r,
+                     const struct light_sample *s)
+{
+    float sum = s->radiance.x + s->radiance.y + s->radiance.z;
+    float again = s->tri == NO_INDEX ? sky_light_pdf(w, s->wi)
+                                     : light_pdf_at(w, r, s->tri, s->p);
+
+    return isfinite(sum) && sum >= 0.0f && isfinite(s->pdf) && s->pdf > 0.0f &&
+           s->pdf == again && fabsf(v3_length(s->wi) - 1) < 1e-5f;
+}
+
+/* C9: lights at the ends of random numbers, seen from afar, from near by and
+ * from within their corners, in front, behind and grazing. */
+static void check_light_extremes(void)
+{
+    static const float distances[] = {0,     1e-30f, 1e-15f, 1e-6f,
+                                      1e-3f, 1,      1e3f,   1e6f};
+    static const struct vec3 normals[] = {
+        {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {1, 1e-6f, 0}, {1, -1e-6f, 0}};
+    static const struct vec3 away[] = {{0, 1, 0},
+                                       {1, 0, 0},
+                                       {0.6f, 1e-6f, 0.8f}};
+    int bad = 0, drawn = 0, of_sky = 0;
+    struct sky_table table;
+    struct lights lights;
+    struct mesh m;
+
+    make_lights(&m, &lights, &table);
+    for (int i = 0; i < 9 * 8 * 5 * 3 * 625; i++) {
+        struct vec3 from = m.positions[3 * (i / 625 % 9)];
+        struct receiver r = {.n = normals[i / 45000 % 5],
+                             .transmits = i % 2 == 0};
+        struct light_sample s;
+
+        r.p = v3_add(from, v3_scale(away[i / 225000], distances[i / 5625 % 8]));
+        if (!light_sample(&m.world, &r, v2(ends[i % 5], ends[i / 5 % 5]),
+                          v2(ends[i / 25 % 5], ends[i / 125 % 5]), &s))
+            continue;
+        drawn++;
+        of_sky += s.tri == NO_INDEX;
+        bad += !is_light(&m.world, &r, &s);
+    }
+    row(bad == 0 && of_sky > 10000 && drawn - of_sky > 10000, "C9",
+        "lights at the ends of random numbers: %d drawn, %d of them the sky; "
+        "not finite, or of another density than by chance: %d, want 0",
+        drawn, of_sky, bad);
+    sky_free(&table);
+    lights_free(&lights);
+    mesh_free(&m);
 }
 
 /* M14: densities of 0 and over the whole range of floats. */
@@ -345,6 +429,7 @@ int main(int argc, char **argv)
         check_film();
         check_unit_floats();
         check_extremes();
+        check_light_extremes();
         check_weights();
         check_roulette();
         check_black_bodies();
