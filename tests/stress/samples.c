@@ -10,8 +10,23 @@
 #include "glim/blackbody.h"
 #include "glim/lights.h"
 #include "glim/sky.h"
+#include "kernels/roulette.h"
 #include "kernels/traverse.h"
 
+/* Which roulette the paths of this program play: glim's, a plain one from the
+ * first vertex on, or none. */
+static enum { ROULETTE_OURS, ROULETTE_PLAIN, ROULETTE_NONE, ROULETTES } played;
+
+static float played_survival(struct vec3 beta, uint32_t vertex)
+{
+    if (played == ROULETTE_OURS)
+        return survival(beta, vertex);
+    if (played == ROULETTE_PLAIN)
+        return v3_max(beta);
+    return v3_max(beta) > 0.0f ? 1.0f : 0.0f;
+}
+
+#define survival played_survival
 #include "kernels/path.h"
 
 /* The closed room of geometry.c: every pixel's truth is 1. */
@@ -402,6 +417,96 @@ static void check_roulette(void)
         (double)bright.beta.x);
 }
 
+/* A room that shines as the furnace does, around clear glass, which must
+ * vanish: the factor of refraction is not roulette's. */
+static void make_glass_furnace(struct mesh *m)
+{
+    *m = (struct mesh){0};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    m->materials[0].emission = v3(0.5f, 0.5f, 0.5f);
+    m->materials[1] = mesh_material(MATERIAL_GLASS, 1);
+    mesh_add_box(m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_box(m, v3(-0.5f, -0.5f, -0.6f), v3(0.5f, 0.4f, 0.6f), 1);
+    mesh_finish(m);
+}
+
+/* A coloured room with a lamp in a corner: throughputs of all kinds. */
+static void make_lit_room(struct mesh *m)
+{
+    *m = (struct mesh){0};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    m->materials[0].color = v3(0.9f, 0.5f, 0.1f);
+    m->materials[1] = mesh_material(MATERIAL_DIFFUSE, 0);
+    m->materials[1].emission = v3(1, 2, 4);
+    mesh_add_box(m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_box(m, v3(0.2f, -1, -1), v3(0.9f, 0, -0.5f), 1);
+    mesh_finish(m);
+}
+
+struct mean {
+    double value, error;
+};
+
+/* Each from a pixel of its own, so that they are independent. */
+static struct mean mean_of_paths(const struct world *w, uint32_t row)
+{
+    const uint32_t count = 100000;
+    double sum = 0, squares = 0;
+    struct mean m;
+
+    for (uint32_t i = 0; i < count; i++) {
+        struct ray r = {v3(0.7f, 0.8f, 0.9f), v3_unit(v3(-1, -1.1f, -1.2f)),
+                        FLOAT_MAX, 0};
+        struct vec3 c = path_trace(w, r, sampler_start(i, row, 0, 0)).radiance;
+        double x = ((double)c.x + (double)c.y + (double)c.z) / 3;
+
+        sum += x;
+        squares += x * x;
+    }
+    m.value = sum / count;
+    m.error = sqrt(fmax(squares / count - m.value * m.value, 0) / count);
+    return m;
+}
+
+/* M13: every roulette has the same mean. 4.9 standard errors come by chance
+ * once in 1e6 (two-sided), of 6 numbers. */
+static void check_roulettes(void)
+{
+    static const char *const names[] = {"glim's", "a plain one", "none"};
+    struct mesh furnace, room;
+    struct mean lit[ROULETTES];
+
+    make_glass_furnace(&furnace);
+    make_lit_room(&room);
+    /* without roulette a path ends here, where at most 2e-6 is left of it */
+    furnace.world.settings.max_vertices = 128;
+    room.world.settings.max_vertices = 128;
+    for (int i = 0; i < ROULETTES; i++) {
+        struct mean m;
+
+        played = i;
+        m = mean_of_paths(&furnace.world, (uint32_t)i);
+        row(fabs(m.value - 1) < 4.9 * m.error + ROUNDING, "M13",
+            "a furnace with glass, roulette: %s: %.5f, want 1, off by %.2g of "
+            "%.2g",
+            names[i], m.value, fabs(m.value - 1), 4.9 * m.error + ROUNDING);
+        lit[i] = mean_of_paths(&room.world, (uint32_t)i);
+    }
+    played = ROULETTE_OURS;
+    for (int i = 0; i < ROULETTES; i++) {
+        const struct mean *a = &lit[i], *b = &lit[(i + 1) % ROULETTES];
+        double allowed = 4.9 * hypot(a->error, b->error) + ROUNDING;
+
+        row(fabs(a->value - b->value) < allowed, "M13",
+            "a lit room, roulette: %s or %s: %.5f and %.5f, apart by %.2g of "
+            "%.2g",
+            names[i], names[(i + 1) % ROULETTES], a->value, b->value,
+            fabs(a->value - b->value), allowed);
+    }
+    mesh_free(&furnace);
+    mesh_free(&room);
+}
+
 /* M15: luminance 1 by the weights of Rec.709, nothing negative. */
 static void check_black_bodies(void)
 {
@@ -432,6 +537,7 @@ int main(int argc, char **argv)
         check_light_extremes();
         check_weights();
         check_roulette();
+        check_roulettes();
         check_black_bodies();
         check_late_samples();
     }
