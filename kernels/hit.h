@@ -252,6 +252,38 @@ static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
     return v3_add(v3_add(a, b), c);
 }
 
+/* Only hits whose least weight is below this are looked at closely. */
+#define EDGE_NEAR 0x1p-7f
+
+/* hit_point() for rays that go on from there. A point on an edge is on the
+ * neighbour as well, or by its error behind it, and what left it could leave a
+ * closed mesh: it is drawn towards the middle of its triangle until it is as
+ * far from each edge as all its errors. */
+static inline struct vec3 hit_inside(struct hit h, struct vec3 p0,
+                                     struct vec3 p1, struct vec3 p2,
+                                     struct vec3 *error)
+{
+    float least = f_min(h.b0, f_min(h.b1, h.b2));
+    struct vec3 p = hit_point(h, p0, p1, p2, error);
+    struct vec3 e1 = v3_sub(p1, p0);
+    struct vec3 e2 = v3_sub(p2, p0);
+    struct vec3 e3 = v3_sub(p2, p1);
+    float longest, height, share;
+
+    if (least >= EDGE_NEAR)
+        return p;
+    longest = f_max(v3_length(e1), f_max(v3_length(e2), v3_length(e3)));
+    height = v3_length(v3_cross(e1, e2)) / longest;
+    share = f_min((error->x + error->y + error->z) / height, 1.0f / 3.0f);
+    if (least >= share)
+        return p;
+    share = 3.0f * (share - least);
+    h.b0 += share * (1.0f / 3.0f - h.b0);
+    h.b1 += share * (1.0f / 3.0f - h.b1);
+    h.b2 += share * (1.0f / 3.0f - h.b2);
+    return hit_point(h, p0, p1, p2, error);
+}
+
 /* The origin of a ray that leaves p on the side of the unit normal ng: out of
  * reach of p's error, then one float further on each axis. */
 static inline struct vec3 leave_surface(struct vec3 p, struct vec3 error,

@@ -166,6 +166,40 @@ static void closed_meshes_do_not_leak(void **state)
     mesh_free(&m);
 }
 
+/* What meets an edge or a corner of a box and goes on within stays within. */
+static void edges_are_left_inwards(void **state)
+{
+    struct mesh m = {0};
+    uint64_t seed = 6;
+
+    (void)state;
+    mesh_add_box(&m, v3(-0.7f, -0.7f, -0.7f), v3(0.7f, 0.7f, 0.7f), 0);
+    mesh_finish(&m);
+    for (int i = 0; i < 300000; i++) {
+        struct tri t = m.tris[(uint32_t)(check_random(&seed) * m.tri_count)];
+        struct vec3 at =
+            v3_lerp(m.positions[t.v[0]], m.positions[t.v[1]],
+                    i % 3 == 0 ? 0.0f : (float)check_random(&seed));
+        struct ray r = {v3_scale(point(&seed), 0.69f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct vec3 p, ng, error;
+        struct hit h;
+
+        r.d = v3_unit(v3_sub(at, r.o));
+        assert_true(hit_closest(&m.world, r, &h));
+        t = m.tris[h.tri];
+        p = hit_inside(h, m.positions[t.v[0]], m.positions[t.v[1]],
+                       m.positions[t.v[2]], &error);
+        assert_true(triangle_normal(m.positions[t.v[0]], m.positions[t.v[1]],
+                                    m.positions[t.v[2]], &ng));
+        ng = v3_neg(ng); /* a box is wound outwards */
+        r.d = v3_unit(point(&seed));
+        r.d = v3_dot(r.d, ng) < 0 ? v3_neg(r.d) : r.d;
+        r.o = leave_surface(p, error, ng);
+        assert_true(hit_closest(&m.world, r, &h));
+    }
+    mesh_free(&m);
+}
+
 /* A ray that leaves a face must not hit it again, and hits the face opposite:
  * over all angles, sizes and places. */
 static void no_ray_hits_its_own_face(void **state)
@@ -199,7 +233,7 @@ static void no_ray_hits_its_own_face(void **state)
         in.d = v3_unit(v3_sub(aim, in.o));
         if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
             continue;
-        p = hit_point(h, p0, p1, p2, &error);
+        p = hit_inside(h, p0, p1, p2, &error);
         frame_around(ng, &t, &b);
         out.d = v3_add(v3_add(v3_scale(t, (float)(rest * cos(angle))),
                               v3_scale(b, (float)(rest * sin(angle)))),
@@ -237,7 +271,7 @@ static void near_sheets_are_both_hit(void **state)
             v3_sub(v3_scale(v3_add(p0, v3_add(p1, p2)), 1 / 3.0f), in.o));
         if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
             continue;
-        p = hit_point(h, p0, p1, p2, &error);
+        p = hit_inside(h, p0, p1, p2, &error);
         q0 = v3_add(p0, v3_scale(ng, 1e-5f));
         q1 = v3_add(p1, v3_scale(ng, 1e-5f));
         q2 = v3_add(p2, v3_scale(ng, 1e-5f));
@@ -258,6 +292,7 @@ int main(void)
         cmocka_unit_test(needles_are_hit_where_they_are),
         cmocka_unit_test(faces_in_one_plane_tie),
         cmocka_unit_test(closed_meshes_do_not_leak),
+        cmocka_unit_test(edges_are_left_inwards),
         cmocka_unit_test(no_ray_hits_its_own_face),
         cmocka_unit_test(near_sheets_are_both_hit),
     };
