@@ -200,7 +200,8 @@ static inline float distance_error(struct vec3 a, struct vec3 b, struct vec3 c,
 #define T_PRECISION 0x1p-14f
 
 /* True if the ray meets the triangle at a distance above 0 and not beyond
- * t_max; fills all of *h but tri. */
+ * t_max; fills all of *h but tri. The other winding, p1 and p2 exchanged, has
+ * the same distance to the bit: sums are grouped for it. */
 static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
                                 struct vec3 p1, struct vec3 p2, float t_max,
                                 struct hit *h)
@@ -216,11 +217,11 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     if ((u < 0.0f || v < 0.0f || w < 0.0f) &&
         (u > 0.0f || v > 0.0f || w > 0.0f))
         return false;
-    det = u + v + w;
+    det = u + (v + w);
     if (det == 0.0f)
         return false;
     if (!axis_distance(r, p0, p1, p2, &t)) {
-        t = (u * a.z + v * b.z + w * c.z) / det;
+        t = (u * a.z + (v * b.z + w * c.z)) / det;
         if (!(fabsf(t) * T_PRECISION > distance_error(a, b, c, det))) {
             t = plane_distance(r, p0, p1, p2);
             t = f_max(t, f_min(a.z, f_min(b.z, c.z)));

@@ -6,10 +6,9 @@
  */
 #include "lamp.h"
 
-/* A shading normal that leans away from its face by an angle loses what the
- * face's plane cuts from the cosine lobe, (1 - cos angle) / 2; on these balls
- * it is below 10 degrees. */
-#define TERMINATOR 7.6e-3
+/* Of clear glass with normals that lean away from its faces, by up to 7 degrees
+ * on these balls, what refraction sends out below the face is lost. */
+#define LEANING 7.6e-3
 
 /* The BSDFs' tables are this near to white: test_path, test_energy. */
 #define TABLES 3e-3
@@ -68,6 +67,22 @@ static void ball_with_normals(struct stage *s, double normals)
 {
     put_material(s, "white", "Kd 1 1 1");
     put_ball(s, 0.5, (enum normals)normals);
+}
+
+/* M1 */
+static void mirror_ball(struct stage *s, double alpha)
+{
+    put_material(s, "white",
+                 alpha > 0 ? "illum 3\nKs 1 1 1\nPr .5"
+                           : "illum 3\nKs 1 1 1\nPr 0");
+    put_ball(s, 0.5, NORMALS_UNIT);
+}
+
+static void glass_ball(struct stage *s, double number)
+{
+    (void)number;
+    put_material(s, "white", "illum 7\nNi 1.5");
+    put_ball(s, 0.5, NORMALS_UNIT);
 }
 
 /* White things before a white sky, which must vanish. */
@@ -505,7 +520,13 @@ static void check_truths(struct stage *s)
     const double share = pow(0.02 / (2 * 2 * tan(2.5 * M_PI / 180)), 2);
     const struct truth truths[] = {
         {"M1", "a white ball with its normals", ball_with_normals, NORMALS_UNIT,
-         1, TERMINATOR, sky, false},
+         1, 0, sky, false},
+        {"M1", "a mirror ball with its normals", mirror_ball, 0, 1, 0, sky,
+         false},
+        {"M1", "a rough metal ball with its normals", mirror_ball, 0.25, 1,
+         TABLES, sky, false},
+        {"M1", "a glass ball with its normals", glass_ball, 0, 1, LEANING, sky,
+         false},
         {"M5", "a negative albedo", negative_albedo, 0, 0, 0, above, true},
         {"M6", "the eye in a cube of glass", glass_cube, 0, 1.5 * 1.5, 0,
          along_x, false},

@@ -142,6 +142,32 @@ static void faces_in_one_plane_tie(void **state)
     assert_true(hits > 1000);
 }
 
+/* A face and its copy of the other winding are as far off. */
+static void windings_tie(void **state)
+{
+    uint64_t seed = 8;
+    int hits = 0;
+
+    (void)state;
+    for (int i = 0; i < 300000; i++) {
+        /* every other one a needle, with distances in pairs of floats */
+        struct vec3 a = point(&seed), b = point(&seed);
+        struct vec3 c = i % 2 == 0 ? point(&seed)
+                                   : v3_add(a, v3_scale(point(&seed), 1e-5f));
+        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0};
+        struct hit one, other;
+
+        r.d = v3_unit(v3_sub(v3_lerp(v3_lerp(a, b, 0.4f), c, 0.3f), r.o));
+        if (!triangle_hit(r, shear_of(r), a, b, c, FLOAT_MAX, &one))
+            continue;
+        hits++;
+        assert_true(triangle_hit(r, shear_of(r), a, c, b, FLOAT_MAX, &other));
+        assert_true(one.t == other.t && one.b0 == other.b0 &&
+                    one.b1 == other.b2 && one.b2 == other.b1);
+    }
+    assert_true(hits > 200000);
+}
+
 /* STRESS G12: no ray from inside gets out of a closed mesh, aimed at vertices,
  * at edges or anywhere. */
 static void closed_meshes_do_not_leak(void **state)
@@ -291,6 +317,7 @@ int main(void)
         cmocka_unit_test(hits_agree_with_long_double),
         cmocka_unit_test(needles_are_hit_where_they_are),
         cmocka_unit_test(faces_in_one_plane_tie),
+        cmocka_unit_test(windings_tie),
         cmocka_unit_test(closed_meshes_do_not_leak),
         cmocka_unit_test(edges_are_left_inwards),
         cmocka_unit_test(no_ray_hits_its_own_face),
