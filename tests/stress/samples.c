@@ -317,7 +317,7 @@ static void make_lights(struct mesh *m, struct lights *lights,
         mesh_add(m, v3(x, 0, 0), v3(x + size, 0, 0), v3(x, 0, size), 0);
     }
     mesh_finish(m);
-    *lights = (struct lights){NULL};
+    *lights = (struct lights){.lights = NULL};
     *table = (struct sky_table){NULL};
     m->world.settings.sky = (struct sky){{1, 1, 1}, 4, 2, 0, 1, 0};
     m->world.sky_texels = texels;
