@@ -21,6 +21,7 @@ struct session {
     struct scene scene;
     struct view view;   /* what is rendered now */
     struct view opened; /* as loaded, to go back to */
+    struct rect crop;   /* of the view's picture, that is rendered */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
@@ -30,6 +31,7 @@ struct session {
     uint64_t load_ns;
     uint64_t restart_ns; /* when session_restart() last started the render */
     bool geometry_changed;
+    int draft_width, draft_height; /* of what will be seen live; 0: nothing */
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has
