@@ -42,6 +42,9 @@ static inline bool tri_hit(const struct world *w, struct ray r, struct shear s,
 {
     struct hit h;
 
+    /* the test would say so as well, but slowly */
+    if (t.tri + 1u == r.from)
+        return false;
     if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h) ||
         (h.t == best->t && t.tri >= best->tri))
         return false;

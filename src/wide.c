@@ -30,10 +30,10 @@ static void count_tris(struct builder *b)
     const struct node *nodes = b->bvh->nodes;
 
     for (uint32_t i = b->bvh->node_count; i-- > 0;)
-        b->tri_counts[i] = nodes[i].count != 0
-                               ? nodes[i].count
-                               : b->tri_counts[i + 1] +
-                                     b->tri_counts[nodes[i].next];
+        b->tri_counts[i] =
+            nodes[i].count != 0
+                ? nodes[i].count
+                : b->tri_counts[i + 1] + b->tri_counts[nodes[i].next];
 }
 
 static bool is_leaf(const struct builder *b, uint32_t node)
@@ -144,9 +144,9 @@ static uint32_t build(struct builder *b, uint32_t node)
             i < count ? &b->bvh->nodes[children[i]] : NULL;
 
         fill_box(n, i, from ? from->lo : nowhere, from ? from->hi : nowhere);
-        n->child[i] = from == NULL                  ? WIDE_LEAF
+        n->child[i] = from == NULL              ? WIDE_LEAF
                       : is_leaf(b, children[i]) ? add_leaf(b, children[i])
-                                                    : build(b, children[i]);
+                                                : build(b, children[i]);
     }
     return index;
 }

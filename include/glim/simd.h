@@ -68,10 +68,10 @@ typedef struct {
     float v[4];
 } f4;
 
-#define F4_EACH(result, value)      \
-    f4 result;                      \
-    for (int i = 0; i < 4; i++)     \
-        result.v[i] = (value);      \
+#define F4_EACH(result, value)  \
+    f4 result;                  \
+    for (int i = 0; i < 4; i++) \
+        result.v[i] = (value);  \
     return result
 
 static inline f4 f4_load(const float *p)

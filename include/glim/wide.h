@@ -43,6 +43,13 @@ struct wide {
     uint32_t block_count;
 };
 
+/* What the CPU's samples read. Ray queries get the world, and find the tree
+ * behind it. */
+struct wide_world {
+    struct world world; /* first */
+    const struct wide *tree;
+};
+
 bool wide_build(struct wide *wide, const struct bvh *bvh, struct error *err);
 void wide_free(struct wide *wide);
 

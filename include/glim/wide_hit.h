@@ -21,16 +21,9 @@
 /* Entries that wait: all but one child of a node a level. */
 #define WIDE_STACK (TRAVERSE_STACK * (WIDE_CHILDREN - 1) + 1)
 
-/* What the CPU's samples read. The queries get the world, and find the tree
- * behind it. */
-struct wide_world {
-    struct world world; /* first */
-    const struct wide *tree;
-};
-
 static inline const struct wide *wide_of(const struct world *w)
 {
-    return ((const struct wide_world *)(const void *)w)->tree;
+    return ((const struct wide_world *)w)->tree;
 }
 
 /* A ray as box tests want it. */
