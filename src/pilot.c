@@ -349,7 +349,11 @@ static void drag(struct pilot *p, const struct event *event)
 {
     struct pose before = view_pose(view_of(p));
 
-    if (!work_may_move(p->work) || !steer_by(p, event))
+    if (!work_may_move(p->work)) {
+        p->steer.is_dragging = false; /* nor is it a click */
+        return;
+    }
+    if (!steer_by(p, event))
         return;
     if (p->drag_is_new)
         history_add(&p->history, &before);
