@@ -260,6 +260,9 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     p.beta = v3(1.0f, 1.0f, 1.0f);
     p.eta_scale = 1.0f;
     p.pdf = 0.0f;
+    p.from.p = r.o;
+    p.from.n = r.d;
+    p.from.transmits = true;
     p.out.radiance = v3(0.0f, 0.0f, 0.0f);
     p.out.rays = p.out.cut = 0;
     for (uint32_t vertex = 1;; vertex++) {
