@@ -22,7 +22,10 @@ struct cursor {
     struct canvas *canvas; /* knows where it is, and whether it is shown */
     struct pick pick;
     bool has_pick;
-    bool must_look; /* what is under it is not yet said */
+    bool must_look;   /* what is under it is not yet said */
+    enum action held; /* the arrow that came last, when, */
+    uint64_t held_ns;
+    int held_count; /* and how often without a pause */
 };
 
 /* The part of the picture that is on the screen, in pixels. */
