@@ -226,12 +226,16 @@ static inline bool path_step(const struct world *w, struct path *p,
 
     if (!vertex_at(w, &m, p->ray, h, &v))
         return false;
+    b = bsdf_at(w, &m, &v);
+    if (HAS(FEATURE_FIRST_HIT) && w->settings.sample != SAMPLE_LIGHT) {
+        p->out.radiance = first_hit(w, &m, &b, &v, p->ray, h);
+        return false;
+    }
     path_add_emission(w, p, &m, h.tri, &v);
     if (vertex >= w->settings.max_vertices) {
         p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
         return false;
     }
-    b = bsdf_at(w, &m, &v);
     if (bsdf_is_black(&b))
         return false;
     if (!bsdf_is_glass(&b))
@@ -277,7 +281,8 @@ static inline bool path_advance(const struct world *w, struct path *p,
     p->ray.t_max = FLOAT_MAX;
     p->out.rays++;
     if (!hit_closest(w, p->ray, h)) {
-        path_add_sky(w, p);
+        if (w->settings.sample <= SAMPLE_PREVIEW)
+            path_add_sky(w, p);
         return false;
     }
     return path_step(w, p, *h, vertex);
@@ -296,15 +301,6 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     return p.out;
 }
 
-/* The sample that begins so, of what the settings ask for. */
-static inline struct path_sample sample_trace(const struct world *w,
-                                              struct path_start start)
-{
-    if (HAS(FEATURE_FIRST_HIT) && w->settings.sample != SAMPLE_LIGHT)
-        return first_hit(w, start);
-    return path_trace(w, start.ray, start.sampler);
-}
-
 /* Samples first .. first + count - 1 of pixel (x, y); count is 1 to
  * SAMPLE_BLOCK. */
 static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
@@ -314,7 +310,7 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
     for (uint32_t i = 0; i < count; i++) {
         struct path_start start = path_begin(&w->settings, x, y, first + i);
 
-        out[i] = sample_trace(w, start);
+        out[i] = path_trace(w, start.ray, start.sampler);
     }
 }
 

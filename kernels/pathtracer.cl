@@ -35,6 +35,6 @@ __kernel void trace_paths(
                           linear_of_srgb, sky_texels, nodes,       leaf_tris,
                           lights,         tri_lights, light_nodes, sky_sums};
 
-        samples[i] = sample_trace(&w, starts[i]);
+        samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);
     }
 }
