@@ -7,9 +7,14 @@ bool machines_open(struct machines *m, const struct options *options,
                    struct error *err)
 {
     int threads = options->thread_count;
+    const struct paths *paths =
+        options->isa != NULL ? paths_named(options->isa, err) : paths_best();
 
     *m = (struct machines){.options = options};
-    m->cpu = backend_cpu_create(threads != 0 ? threads : usable_threads(), err);
+    if (paths == NULL)
+        return false;
+    m->cpu = backend_cpu_create(threads != 0 ? threads : usable_threads(),
+                                paths, err);
     return m->cpu != NULL;
 }
 

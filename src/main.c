@@ -115,6 +115,21 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     return o->batch ? batch_run(s, status, err) : tui_run(s, status, err);
 }
 
+/* With the sets of instructions that this processor has, the first of which it
+ * uses. */
+static int print_version(void)
+{
+    char text[128];
+    const struct paths *p;
+    int length = snprintf(text, sizeof text, "glim %s\nisa:", GLIM_VERSION);
+
+    for (int i = 0; (p = paths_at(i)) != NULL; i++)
+        length += snprintf(text + length, sizeof text - (size_t)length, " %s",
+                           p->name);
+    snprintf(text + length, sizeof text - (size_t)length, "\n");
+    return print_out(text);
+}
+
 int main(int argc, char **argv)
 {
     uint64_t start_ns = clock_ns();
@@ -131,7 +146,7 @@ int main(int argc, char **argv)
     if (options.show_help)
         return print_out(options_help);
     if (options.show_version)
-        return print_out("glim " GLIM_VERSION "\n");
+        return print_version();
     cl_environment_prepare(options.thread_count);
     if (options.list_devices)
         return list_devices();

@@ -42,6 +42,8 @@ const char options_help[] =
     "                   name (default: the first GPU, or the first device)\n"
     "  --list-devices   show the OpenCL devices\n"
     "  --kernels FOLDER read the OpenCL kernels from there\n"
+    "  --isa NAME       the processor's instructions: plain, avx2 or avx512\n"
+    "                   (default: the best it has; see --version)\n"
     "\n"
     "batch mode\n"
     "  -b               render to a file, without the screen\n"
@@ -77,6 +79,7 @@ enum option_id {
     OPTION_DEVICE,
     OPTION_LIST_DEVICES,
     OPTION_KERNELS,
+    OPTION_ISA,
     OPTION_PROBE,
     OPTION_BATCH,
     OPTION_OUTPUT,
@@ -110,6 +113,7 @@ static const struct option_rule rules[] = {
     {"device", OPTION_DEVICE, "the number or name of a device"},
     {"list-devices", OPTION_LIST_DEVICES, NULL},
     {"kernels", OPTION_KERNELS, "the name of a folder"},
+    {"isa", OPTION_ISA, "the name of a set of instructions"},
     {"probe", OPTION_PROBE, "a number of features"}, /* for glim itself */
     {"b", OPTION_BATCH, NULL},
     {"o", OPTION_OUTPUT, "the name of a picture"},
@@ -345,6 +349,7 @@ static bool set_option(struct options *o, const struct given *g,
     case OPTION_CELL_ASPECT: return set_cell_aspect(o, g, err);
     case OPTION_DEVICE: return given_text(g, &o->device, err);
     case OPTION_KERNELS: return given_text(g, &o->kernels_path, err);
+    case OPTION_ISA: return given_text(g, &o->isa, err);
     case OPTION_UP:
     case OPTION_BACKEND:
     case OPTION_COLOR:

@@ -81,8 +81,8 @@ static inline bool stage_open(struct stage *s, bool on_device)
         s->backend = backend_cl_create(&request, &log, &err);
         free(log);
     } else {
-        s->backend =
-            backend_cpu_create((int)sysconf(_SC_NPROCESSORS_ONLN), &err);
+        s->backend = backend_cpu_create((int)sysconf(_SC_NPROCESSORS_ONLN),
+                                        paths_best(), &err);
     }
     if (s->backend == NULL) {
         printf("skip: %s\n", err.text);

@@ -39,7 +39,7 @@ static void make_room(struct mesh *m)
 static struct render *open_render(int threads)
 {
     struct error err;
-    struct backend *backend = backend_cpu_create(threads, &err);
+    struct backend *backend = backend_cpu_create(threads, paths_best(), &err);
     struct render *r;
 
     assert_non_null(backend);
