@@ -15,6 +15,7 @@
 
 #include "glim/cl_source.h"
 #include "glim/file.h"
+#include "glim/isa.h"
 #include "glim/selftest.h"
 
 extern char **environ;
@@ -123,7 +124,7 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
     free(log);
     if (device == NULL)
         return false;
-    cpu = backend_cpu_create(1, paths_best(), err);
+    cpu = backend_cpu_create(1, isa_best(), err);
     if (cpu != NULL) {
         ok = selftest_run(cpu, device, r->features, verdict, err);
         cpu->destroy(cpu);
@@ -175,14 +176,11 @@ static int spawn(pid_t *pid, const char *const *arguments, int output)
 static int start_copy(pid_t *pid, const struct cl_request *r, int output)
 {
     char *features = xformat("%u", r->features);
-    const char *arguments[10] = {"glim", "--probe", features};
-    int count = 3;
+    const char *arguments[10] = {"glim", "--probe", features, "--backend",
+                                 r->needs_gpu ? "auto" : "opencl"};
+    int count = 5;
     int reason;
 
-    if (r->needs_gpu) {
-        arguments[count++] = "--backend";
-        arguments[count++] = "auto";
-    }
     if (r->device != NULL) {
         arguments[count++] = "--device";
         arguments[count++] = r->device;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "glim/paths.h"
+#include "glim/isa.h"
 
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-
-extern const struct paths paths_plain, paths_avx2, paths_avx512;
 
 #if defined(__x86_64__)
 
@@ -42,7 +40,7 @@ static const struct {
 
 enum { COUNT = sizeof all / sizeof all[0] };
 
-const struct paths *paths_at(int i)
+const struct paths *isa_at(int i)
 {
     for (int k = 0; k < COUNT; k++)
         if (all[k].is_here() && i-- == 0)
@@ -50,17 +48,17 @@ const struct paths *paths_at(int i)
     return NULL;
 }
 
-const struct paths *paths_best(void)
+const struct paths *isa_best(void)
 {
-    return paths_at(0);
+    return isa_at(0);
 }
 
-const struct paths *paths_named(const char *name, struct error *err)
+const struct paths *isa_named(const char *name, struct error *err)
 {
     char known[64] = "";
     const struct paths *p;
 
-    for (int i = 0; (p = paths_at(i)) != NULL; i++) {
+    for (int i = 0; (p = isa_at(i)) != NULL; i++) {
         size_t length = strlen(known);
 
         if (strcmp(p->name, name) == 0)

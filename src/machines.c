@@ -3,16 +3,16 @@
 
 #include <stdlib.h>
 
+#include "glim/isa.h"
+
 bool machines_open(struct machines *m, const struct options *options,
                    struct error *err)
 {
     int threads = options->thread_count;
     const struct paths *paths =
-        options->isa != NULL ? paths_named(options->isa, err) : paths_best();
+        options->paths != NULL ? options->paths : isa_best();
 
     *m = (struct machines){.options = options};
-    if (paths == NULL)
-        return false;
     m->cpu = backend_cpu_create(threads != 0 ? threads : usable_threads(),
                                 paths, err);
     return m->cpu != NULL;

@@ -18,7 +18,9 @@
 #include "glim/batch.h"
 #include "glim/cl_device.h"
 #include "glim/cl_environment.h"
+#include "glim/isa.h"
 #include "glim/cl_probe.h"
+#include "glim/config.h"
 #include "glim/options.h"
 #include "glim/session.h"
 #include "glim/tui.h"
@@ -123,7 +125,7 @@ static int print_version(void)
     const struct paths *p;
     int length = snprintf(text, sizeof text, "glim %s\nisa:", GLIM_VERSION);
 
-    for (int i = 0; (p = paths_at(i)) != NULL; i++)
+    for (int i = 0; (p = isa_at(i)) != NULL; i++)
         length += snprintf(text + length, sizeof text - (size_t)length, " %s",
                            p->name);
     snprintf(text + length, sizeof text - (size_t)length, "\n");
@@ -135,18 +137,23 @@ int main(int argc, char **argv)
     uint64_t start_ns = clock_ns();
     struct options options;
     struct session session;
-    struct error err;
+    struct error err, config_err;
     int status = EXIT_DONE;
 
     fill_standard_files();
     /* the characters of the terminal; numbers keep their point */
     setlocale(LC_CTYPE, "");
+    options_init(&options);
+    /* what is wrong there must not hide the help */
+    bool has_config = config_read(&options, &config_err);
     if (!options_parse(&options, argc, argv, &err))
         return complain(EXIT_USAGE, &err);
     if (options.show_help)
         return print_out(options_help);
     if (options.show_version)
         return print_version();
+    if (!has_config)
+        return complain(EXIT_USAGE, &config_err);
     cl_environment_prepare(options.thread_count);
     if (options.list_devices)
         return list_devices();

@@ -26,5 +26,4 @@ static void samples(const struct world *w, uint32_t x, uint32_t y,
     path_samples(w, x, y, first, count, out);
 }
 
-extern const struct paths PATHS;
 const struct paths PATHS = {PATHS_NAME, samples};

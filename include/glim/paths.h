@@ -2,13 +2,12 @@
 /*
  * paths.h - the CPU's samples, compiled once for each set of instructions
  *
- * src/paths.c is built several times; all give the same bits. Which one runs is
- * chosen when the program starts.
+ * src/paths.c is built several times; all give the same bits. isa.h chooses.
  *
  * Units:     as kernels/path.h
  * Ownership: static
  * Threads:   any, on one world
- * Errors:    paths_named() says what it knows
+ * Errors:    none
  */
 #ifndef GLIM_PATHS_H
 #define GLIM_PATHS_H
@@ -24,14 +23,8 @@ struct paths {
                     uint64_t first, uint32_t count, struct path_sample *out);
 };
 
-/* The fastest that this processor can run. */
-const struct paths *paths_best(void);
-
-/* The one of this name, if the processor can run it. */
-const struct paths *paths_named(const char *name, struct error *err);
-
-/* The i-th that the processor can run, the fastest first; NULL behind the last.
- */
-const struct paths *paths_at(int i);
+extern const struct paths paths_plain; /* what every processor can run */
+extern const struct paths paths_avx2;  /* x86-64 only */
+extern const struct paths paths_avx512;
 
 #endif

@@ -16,6 +16,7 @@
 
 struct status {
     bool is_live;
+    bool is_orbiting;
     bool is_halted;  /* normal mode: by the person, or not yet started */
     bool is_started; /* normal mode: a render was begun */
     const struct render_progress *progress;
@@ -23,6 +24,7 @@ struct status {
     int thread_count;
     int width_px, height_px;
     const char *colors; /* "24 bit" */
+    const char *hint;   /* at the right end */
 };
 
 /* Writes a line for `cols` columns. */
