@@ -39,19 +39,29 @@ static void choose_palette(struct canvas *c, enum color_mode mode)
         c->palette = palette_of_option(mode);
 }
 
+/* What the cells are made of; pixels have half blocks as the fall-back. */
+static enum glyphs glyphs_of_mode(enum glyph_mode mode)
+{
+    switch (mode) {
+    case GLYPH_UPPER: return GLYPHS_UPPER;
+    case GLYPH_LOWER: return GLYPHS_LOWER;
+    case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
+    case GLYPH_SEXTANT: return GLYPHS_SEXTANT;
+    case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
+    case GLYPH_SPACE: return GLYPHS_SPACE;
+    case GLYPH_ASCII: return GLYPHS_ASCII;
+    default: return GLYPHS_HALF;
+    }
+}
+
 static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
 {
-    bool may_learn;
+    bool may_learn = false;
 
-    c->glyphs_are_final = true;
-    switch (mode) {
-    case GLYPH_UPPER: c->glyphs = GLYPHS_UPPER; return;
-    case GLYPH_LOWER: c->glyphs = GLYPHS_LOWER; return;
-    case GLYPH_SPACE: c->glyphs = GLYPHS_SPACE; return;
-    case GLYPH_ASCII: c->glyphs = GLYPHS_ASCII; return;
-    case GLYPH_AUTO: break;
-    }
-    c->glyphs = term_is_utf8(&may_learn) ? GLYPHS_UPPER : GLYPHS_SPACE;
+    c->glyph_mode = mode;
+    c->glyphs = glyphs_of_mode(mode);
+    if (mode == GLYPH_AUTO && !term_is_utf8(&may_learn))
+        c->glyphs = GLYPHS_SPACE;
     c->glyphs_are_final = !may_learn;
 }
 
@@ -96,6 +106,7 @@ static double cell_aspect(const struct canvas *c, const struct term_size *size)
 bool canvas_layout(struct canvas *c, int width_px, int height_px,
                    struct error *err)
 {
+    struct glyph_grid grid;
     struct term_size size;
     int rows;
 
@@ -113,8 +124,10 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     }
     c->fit =
         cells_fit(width_px, height_px, size.cols, rows, cell_aspect(c, &size));
+    grid = glyphs_grid(c->glyphs);
     return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
-           frame_init(&c->frame, c->fit.cols, 2 * c->fit.rows, err) &&
+           frame_init(&c->frame, grid.across * c->fit.cols,
+                      grid.down * c->fit.rows, err) &&
            ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err);
 }
 
@@ -137,6 +150,18 @@ static bool take_cell_size(struct canvas *c, const struct event *event)
     return fabs(before - aspect) > 0.01 * aspect;
 }
 
+/* Behind a character that begins with a byte outside ASCII: in column 2 if it
+ * was one. */
+static bool take_cursor(struct canvas *c, const struct event *event)
+{
+    enum glyphs before = c->glyphs;
+
+    if (!c->glyphs_are_final)
+        c->glyphs = event->x == 2 ? GLYPHS_HALF : GLYPHS_SPACE;
+    c->glyphs_are_final = true;
+    return c->glyphs != before;
+}
+
 bool canvas_answer(struct canvas *c, const struct event *event)
 {
     switch (event->kind) {
@@ -147,11 +172,7 @@ bool canvas_answer(struct canvas *c, const struct event *event)
         break;
     case EVENT_SYNC: term_use_sync(); break;
     case EVENT_CELL_SIZE: return take_cell_size(c, event);
-    case EVENT_CURSOR:
-        if (!c->glyphs_are_final)
-            c->glyphs = event->x == 2 ? GLYPHS_UPPER : GLYPHS_SPACE;
-        c->glyphs_are_final = true;
-        break;
+    case EVENT_CURSOR: return take_cursor(c, event);
     case EVENT_ATTRIBUTES: c->has_all_answers = true; break;
     case EVENT_KEY:
     case EVENT_MOUSE: break;
@@ -164,6 +185,19 @@ void canvas_next_palette(struct canvas *c)
     c->palette_is_final = true;
     c->palette = c->palette == PALETTE_MONO ? PALETTE_24BIT
                                             : (enum palette)(c->palette - 1);
+}
+
+void canvas_next_glyphs(struct canvas *c)
+{
+    static const enum glyph_mode modes[] = {GLYPH_HALF, GLYPH_QUADRANT,
+                                            GLYPH_SEXTANT, GLYPH_BRAILLE,
+                                            GLYPH_ASCII};
+    size_t count = sizeof modes / sizeof modes[0];
+    size_t i = 0;
+
+    while (i < count && glyphs_of_mode(modes[i]) != c->glyphs)
+        i++;
+    choose_glyphs(c, modes[(i + 1) % count]);
 }
 
 /* Rows of the screen, which curses may have cleared to their ends. */

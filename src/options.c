@@ -52,7 +52,9 @@ const char options_help[] =
     "\n"
     "screen\n"
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
-    "  --glyph KIND     auto, upper, lower, space or ascii (default: auto)\n"
+    "  --glyph KIND     half, upper, lower, quadrant, sextant, braille, space\n"
+    "                   or ascii cells; sixel or kitty pixels; or auto:\n"
+    "                   half or space (default: auto)\n"
     "  --cell-aspect R  height of a character over its width, 0.25 to 8\n"
     "                   (default: ask the terminal)\n"
     "  --phoe-keys      W S A D Q E move up, down, left, right, forward and\n"
@@ -115,7 +117,9 @@ static const struct option_rule rules[] = {
     {"o", OPTION_OUTPUT, "the name of a picture"},
     {"stats", OPTION_STATS, "the name of a file"},
     {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
-    {"glyph", OPTION_GLYPH, "auto, upper, lower, space or ascii"},
+    {"glyph", OPTION_GLYPH,
+     "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
+     "sixel or kitty"},
     {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
     {"help", OPTION_HELP, NULL},
@@ -286,10 +290,11 @@ static bool set_word(struct options *o, const struct given *g,
 {
     static const char *const ups[] = {"y", "z", NULL};
     static const char *const backends[] = {"cpu", "opencl", "auto", NULL};
-    static const char *const colors[] = {"auto", "mono", "16",
-                                         "256",  "24",   NULL};
-    static const char *const glyphs[] = {"auto",  "upper", "lower",
-                                         "space", "ascii", NULL};
+    static const char *const colors[] = {"auto", "mono", "16",   "256",
+                                         "24",   "24bit", NULL};
+    static const char *const glyphs[] = {
+        "auto",    "half",  "upper", "lower", "quadrant", "sextant",
+        "braille", "space", "ascii", "sixel", "kitty",    NULL};
     int index;
 
     switch (g->rule->id) {
@@ -307,7 +312,9 @@ static bool set_word(struct options *o, const struct given *g,
     case OPTION_COLOR:
         if (!choice(g, colors, &index, err))
             return false;
-        o->color = (enum color_mode)index;
+        /* 24bit, as in COLORTERM, is the same */
+        o->color = index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
+        o->has_color = true;
         return true;
     default:
         if (!choice(g, glyphs, &index, err))
@@ -481,7 +488,7 @@ static bool take_environment(struct options *o, struct error *err)
     struct given g = {find_rule("color", 5), "GLIM_COLOR",
                       getenv("GLIM_COLOR")};
 
-    if (o->batch || o->color != COLOR_AUTO || !g.value || *g.value == '\0')
+    if (o->batch || o->has_color || !g.value || *g.value == '\0')
         return true;
     return set_word(o, &g, err);
 }

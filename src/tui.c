@@ -200,6 +200,13 @@ static void next_colors(struct tui *t)
     refresh_soon(t);
 }
 
+static void next_glyphs(struct tui *t)
+{
+    canvas_next_glyphs(&t->canvas);
+    work_say(&t->work, glyphs_name(t->canvas.glyphs));
+    layout(t);
+}
+
 static void switch_mouse(struct tui *t)
 {
     t->has_mouse = !t->has_mouse;
@@ -274,6 +281,7 @@ static void act(struct tui *t, enum action action)
         break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;
     case ACTION_COLORS: next_colors(t); break;
+    case ACTION_GLYPHS: next_glyphs(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
     case ACTION_REDRAW: layout(t); break;
     case ACTION_HELP: open_help(t); break;
@@ -323,7 +331,6 @@ static void take_key(struct tui *t, int key)
 static void take_event(struct tui *t, const struct event *event)
 {
     enum palette palette = t->canvas.palette;
-    enum glyphs glyphs = t->canvas.glyphs;
 
     if (event->kind == EVENT_KEY) {
         take_key(t, event->key);
@@ -332,7 +339,7 @@ static void take_event(struct tui *t, const struct event *event)
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);
-        if (t->canvas.palette != palette || t->canvas.glyphs != glyphs)
+        if (t->canvas.palette != palette)
             refresh_soon(t);
     }
 }

@@ -20,6 +20,7 @@ struct ansi {
     int cols, rows;
     struct cell *shown;
     enum palette palette;   /* of `shown` */
+    enum glyphs glyphs;     /* likewise */
     int next_row, next_col; /* where the next frame goes on */
     char *bytes;            /* what is to be written */
     size_t length, capacity;

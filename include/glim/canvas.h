@@ -24,6 +24,7 @@ struct canvas {
     struct pace pace;
     enum palette palette;
     bool palette_is_final; /* no answer of the terminal changes it */
+    enum glyph_mode glyph_mode; /* what is wanted */
     enum glyphs glyphs;
     bool glyphs_are_final;
     double cell_aspect;
@@ -55,6 +56,10 @@ bool canvas_answer(struct canvas *c, const struct event *event);
 
 /* The next palette, from most to least and round. */
 void canvas_next_palette(struct canvas *c);
+
+/* The next kind of glyphs that the terminal has, and round; the layout must be
+ * done anew. */
+void canvas_next_glyphs(struct canvas *c);
 
 /* The text of the last row; NULL: none, the picture shows there. */
 void canvas_status(struct canvas *c, const char *text);

@@ -15,12 +15,19 @@
 
 enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
 
+/* The cells of enum glyphs, or pixels where the terminal has them. */
 enum glyph_mode {
     GLYPH_AUTO,
-    GLYPH_UPPER, /* upper half block */
+    GLYPH_HALF,
+    GLYPH_UPPER,
     GLYPH_LOWER,
-    GLYPH_SPACE, /* one colour a cell */
-    GLYPH_ASCII  /* brightness as characters */
+    GLYPH_QUADRANT,
+    GLYPH_SEXTANT,
+    GLYPH_BRAILLE,
+    GLYPH_SPACE,
+    GLYPH_ASCII,
+    GLYPH_SIXEL,
+    GLYPH_KITTY
 };
 
 enum backend_choice {
@@ -51,6 +58,7 @@ struct options {
     const char *kernels_path; /* NULL: the kernels within the program */
     bool phoe_keys;           /* W S A D Q E as phoe_ray had them */
     enum color_mode color;
+    bool has_color;
     enum glyph_mode glyph;
     double cell_aspect; /* height of a cell over its width; 0: ask */
     bool show_help, show_version;

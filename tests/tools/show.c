@@ -82,7 +82,7 @@ static bool show(const char *path, struct error *err)
         shrink(&image, &frame);
         cells_from_frame(&cells, &frame,
                          is_plain ? PALETTE_MONO : PALETTE_24BIT,
-                         is_plain ? GLYPHS_ASCII : GLYPHS_UPPER);
+                         is_plain ? GLYPHS_ASCII : GLYPHS_HALF);
         print_cells(&cells);
         is_shown = true;
     }
