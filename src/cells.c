@@ -140,7 +140,6 @@ static struct cell mono_cell(const struct cells *cells,
 /* Two groups of dots: for each mask, over which the squares of the sums are
  * divided. */
 struct partition {
-    int dots;
     float share[MASKS_MAX];
 };
 
@@ -149,7 +148,7 @@ struct partition {
  * squared distances. */
 static void partition_init(struct partition *p, int dots)
 {
-    *p = (struct partition){.dots = dots};
+    p->share[0] = 0.0f;
     for (int mask = 1; mask < 1 << (dots - 1); mask++) {
         int k = __builtin_popcount((unsigned)mask);
 
@@ -167,38 +166,42 @@ static void sum_masks(const float *values, int count, float sums[MASKS_MAX])
     }
 }
 
+/* The dots about their mean, as the eye weighs them, channel by channel. */
+static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
+{
+    float mean[3] = {0.0f, 0.0f, 0.0f};
+
+    for (int i = 0; i < dots->count; i++) {
+        values[0][i] = eye[0] * (float)dots->color[i].r;
+        values[1][i] = eye[1] * (float)dots->color[i].g;
+        values[2][i] = eye[2] * (float)dots->color[i].b;
+        for (int c = 0; c < 3; c++)
+            mean[c] += values[c][i] / (float)dots->count;
+    }
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < dots->count; i++)
+            values[c][i] -= mean[c];
+    }
+}
+
 /* The mask of the two groups that are nearest to their means: all are tried. */
 static unsigned best_mask(const struct partition *p, const struct dots *dots)
 {
     float values[3][GLYPH_DOTS_MAX];
-    float sums[3][MASKS_MAX];
+    float r[MASKS_MAX], g[MASKS_MAX], b[MASKS_MAX];
     unsigned best = 0;
     float most = 0.0f;
 
-    for (int c = 0; c < 3; c++) {
-        float mean = 0.0f;
-
-        for (int i = 0; i < p->dots; i++) {
-            const struct rgb *color = &dots->color[i];
-
-            values[c][i] = eye[c] * (float)(c == 0   ? color->r
-                                            : c == 1 ? color->g
-                                                     : color->b);
-            mean += values[c][i] / (float)p->dots;
-        }
-        for (int i = 0; i < p->dots; i++)
-            values[c][i] -= mean;
-        sum_masks(values[c], p->dots, sums[c]);
-    }
-    for (unsigned mask = 1; mask < 1u << (p->dots - 1); mask++) {
-        float gain =
-            p->share[mask] * (sums[0][mask] * sums[0][mask] +
-                              sums[1][mask] * sums[1][mask] +
-                              sums[2][mask] * sums[2][mask]);
+    centre(dots, values);
+    sum_masks(values[0], dots->count, r);
+    sum_masks(values[1], dots->count, g);
+    sum_masks(values[2], dots->count, b);
+    for (unsigned i = 1; i < 1u << (dots->count - 1); i++) {
+        float gain = p->share[i] * (r[i] * r[i] + g[i] * g[i] + b[i] * b[i]);
 
         if (gain > most) {
             most = gain;
-            best = mask;
+            best = i;
         }
     }
     return best;
