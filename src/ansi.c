@@ -310,3 +310,26 @@ void ansi_end(struct ansi *a, int row)
     a->fg = CELL_DEFAULT;
     a->bg = CELL_DEFAULT;
 }
+
+bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
+                struct error *err)
+{
+    struct ansi a;
+
+    if (!ansi_init(&a, cells->cols, cells->rows, err))
+        return false;
+    for (int row = 0; row < cells->rows; row++) {
+        a.fg = CELL_DEFAULT;
+        a.bg = CELL_DEFAULT;
+        for (int col = 0; col < cells->cols; col++)
+            put_cell(&a, cells, &cells->cell[row * cells->cols + col]);
+        if (a.fg != CELL_DEFAULT || a.bg != CELL_DEFAULT)
+            put(&a, "\033[m", 3);
+        put_char(&a, '\n');
+    }
+    *text = a.bytes;
+    *size_bytes = a.length;
+    a.bytes = NULL; /* the caller owns it now */
+    ansi_free(&a);
+    return true;
+}

@@ -18,40 +18,13 @@
 #define COLS_MIN 20
 #define ROWS_MIN 5
 
-static enum palette palette_of_option(enum color_mode mode)
-{
-    switch (mode) {
-    case COLOR_MONO: return PALETTE_MONO;
-    case COLOR_16: return PALETTE_16;
-    case COLOR_256: return PALETTE_256;
-    case COLOR_24BIT:
-    case COLOR_AUTO: break;
-    }
-    return PALETTE_24BIT;
-}
-
 static void choose_palette(struct canvas *c, enum color_mode mode)
 {
     c->palette_is_final = true;
     if (mode == COLOR_AUTO)
         c->palette = term_palette(&c->palette_is_final);
     else
-        c->palette = palette_of_option(mode);
-}
-
-/* What the cells are made of; pixels have half blocks as the fall-back. */
-static enum glyphs glyphs_of_mode(enum glyph_mode mode)
-{
-    switch (mode) {
-    case GLYPH_UPPER: return GLYPHS_UPPER;
-    case GLYPH_LOWER: return GLYPHS_LOWER;
-    case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
-    case GLYPH_SEXTANT: return GLYPHS_SEXTANT;
-    case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
-    case GLYPH_SPACE: return GLYPHS_SPACE;
-    case GLYPH_ASCII: return GLYPHS_ASCII;
-    default: return GLYPHS_HALF;
-    }
+        c->palette = options_palette(mode);
 }
 
 static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
@@ -59,7 +32,7 @@ static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
     bool may_learn = false;
 
     c->glyph_mode = mode;
-    c->glyphs = glyphs_of_mode(mode);
+    c->glyphs = options_glyphs(mode);
     if (mode == GLYPH_AUTO && !term_is_utf8(&may_learn))
         c->glyphs = GLYPHS_SPACE;
     c->glyphs_are_final = !may_learn;
@@ -195,7 +168,7 @@ void canvas_next_glyphs(struct canvas *c)
     size_t count = sizeof modes / sizeof modes[0];
     size_t i = 0;
 
-    while (i < count && glyphs_of_mode(modes[i]) != c->glyphs)
+    while (i < count && options_glyphs(modes[i]) != c->glyphs)
         i++;
     choose_glyphs(c, modes[(i + 1) % count]);
 }
@@ -303,6 +276,11 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         return CANVAS_GONE;
     pace_sent(&c->pace, a->length, asks, begin_ns, clock_ns());
     return is_complete ? CANVAS_DONE : CANVAS_MORE;
+}
+
+struct text_style canvas_style(const struct canvas *c)
+{
+    return (struct text_style){c->fit.cols, c->fit.rows, c->palette, c->glyphs};
 }
 
 static bool awaits_answers(const struct canvas *c)

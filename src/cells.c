@@ -119,8 +119,8 @@ static struct cell ascii_cell(struct cells *cells, struct rgb c)
 
 /* Dots that are bright enough for their places. The eye adds light, which is
  * roughly the square of these numbers. */
-static struct cell mono_cell(const struct cells *cells,
-                             const struct dots *dots, int col, int row)
+static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
+                             int col, int row)
 {
     struct glyph_grid grid = glyphs_grid(cells->glyphs);
     unsigned mask = 0;
@@ -222,8 +222,8 @@ static struct cell block_cell(struct cells *cells, const struct dots *dots,
     uint32_t bg;
 
     if (mask == 0)
-        return solid_cell(dither_color(d, mean_of(dots, 0, 0), col, 2 * row,
-                                       cells->palette));
+        return solid_cell(
+            dither_color(d, mean_of(dots, 0, 0), col, 2 * row, cells->palette));
     fg = dither_color(d, mean_of(dots, mask, 1), col, 2 * row + is_lower,
                       cells->palette);
     bg = dither_color(d, mean_of(dots, mask, 0), col, 2 * row + !is_lower,

@@ -69,12 +69,12 @@ static float light_of(int byte)
  * for image processing", 2020. */
 static struct vec3 oklab(struct vec3 c)
 {
-    float l = cbrtf(0.4122214708f * c.x + 0.5363325363f * c.y +
-                    0.0514459929f * c.z);
-    float m = cbrtf(0.2119034982f * c.x + 0.6806995451f * c.y +
-                    0.1073969566f * c.z);
-    float s = cbrtf(0.0883024619f * c.x + 0.2817188376f * c.y +
-                    0.6299787005f * c.z);
+    float l =
+        cbrtf(0.4122214708f * c.x + 0.5363325363f * c.y + 0.0514459929f * c.z);
+    float m =
+        cbrtf(0.2119034982f * c.x + 0.6806995451f * c.y + 0.1073969566f * c.z);
+    float s =
+        cbrtf(0.0883024619f * c.x + 0.2817188376f * c.y + 0.6299787005f * c.z);
 
     return v3(0.2104542553f * l + 0.7936177850f * m - 0.0040720468f * s,
               1.9779984951f * l - 2.4285922050f * m + 0.4505937099f * s,
@@ -150,8 +150,7 @@ static int next_of_mix(const struct dither *d, struct vec3 lab, int length,
     int best = 0;
 
     for (int i = 0; i < CANDIDATES; i++) {
-        struct vec3 more =
-            v3_add(sum, d->inks[candidates[i].index].light);
+        struct vec3 more = v3_add(sum, d->inks[candidates[i].index].light);
         struct vec3 mean = v3_scale(more, 1.0f / (float)(length + 1));
         float miss = (float)(length + 1) * distance_of(oklab(mean), lab) +
                      GRAIN_WEIGHT * candidates[i].distance;
@@ -214,12 +213,14 @@ static uint32_t dithered_256(struct dither *d, struct rgb c, int threshold)
     bool is_up = threshold & 1;
     struct rgb key = {to_key(c.r, is_up), to_key(c.g, is_up),
                       to_key(c.b, is_up)};
-    uint64_t *mix = &d->mixes[key.r << 2 * KEY_BITS | key.g << KEY_BITS | key.b];
+    uint64_t *mix =
+        &d->mixes[key.r << 2 * KEY_BITS | key.g << KEY_BITS | key.b];
 
     if (*mix == 0)
-        *mix = find_mix(
-            d, (struct rgb){of_key(key.r), of_key(key.g), of_key(key.b)});
-    return (uint32_t)(*mix >> 8 * ((threshold / (THRESHOLDS / MIX_LENGTH)))) & 255u;
+        *mix = find_mix(d, (struct rgb){of_key(key.r), of_key(key.g),
+                                        of_key(key.b)});
+    return (uint32_t)(*mix >> 8 * ((threshold / (THRESHOLDS / MIX_LENGTH)))) &
+           255u;
 }
 
 /* ---- 16 colours ---- */

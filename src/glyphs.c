@@ -7,10 +7,10 @@
  * lower one: U+2580..259F. */
 static const uint32_t halves[4] = {' ', CELL_UPPER, CELL_LOWER, CELL_FULL};
 
-static const uint32_t quadrants[16] = {
-    ' ',    0x2598, 0x259d,      CELL_UPPER, 0x2596,      0x258c,
-    0x259e, 0x259b, 0x2597,      0x259a,      0x2590,      0x259c,
-    CELL_LOWER, 0x2599, 0x259f, CELL_FULL};
+static const uint32_t quadrants[16] = {' ',        0x2598, 0x259d, CELL_UPPER,
+                                       0x2596,     0x258c, 0x259e, 0x259b,
+                                       0x2597,     0x259a, 0x2590, 0x259c,
+                                       CELL_LOWER, 0x2599, 0x259f, CELL_FULL};
 
 /* U+1FB00 on has the sextants in the order of their masks, without those that
  * were there before: none, left half, right half, all. */

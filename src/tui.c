@@ -207,6 +207,13 @@ static void next_glyphs(struct tui *t)
     layout(t);
 }
 
+static void save_text(struct tui *t)
+{
+    struct text_style style = canvas_style(&t->canvas);
+
+    work_save_text(&t->work, &style);
+}
+
 static void switch_mouse(struct tui *t)
 {
     t->has_mouse = !t->has_mouse;
@@ -273,6 +280,7 @@ static void act(struct tui *t, enum action action)
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
     case ACTION_SAVE: work_save_picture(&t->work); break;
+    case ACTION_SAVE_TEXT: save_text(t); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
     case ACTION_RESET: reset_view(t); break;
     case ACTION_HIDE:

@@ -60,6 +60,11 @@ void ansi_text(struct ansi *a, const char *text);
 bool ansi_picture(struct ansi *a, const struct cells *cells,
                   const struct ansi_draw *how);
 
+/* The cells as lines of text for a file or a pipe, each with its colours and
+ * the reader's own at its end. *text is for free(). */
+bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
+                struct error *err);
+
 /* Appends the way back: own colours, cursor at this row, column 0. */
 void ansi_end(struct ansi *a, int row);
 

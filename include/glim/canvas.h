@@ -19,11 +19,12 @@
 #include "glim/pace.h"
 #include "glim/status.h"
 #include "glim/term.h"
+#include "glim/text.h"
 
 struct canvas {
     struct pace pace;
     enum palette palette;
-    bool palette_is_final; /* no answer of the terminal changes it */
+    bool palette_is_final;      /* no answer of the terminal changes it */
     enum glyph_mode glyph_mode; /* what is wanted */
     enum glyphs glyphs;
     bool glyphs_are_final;
@@ -78,6 +79,9 @@ enum canvas_result {
  * if pace_may_send(). */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
                                float exposure, int step);
+
+/* How the picture is shown, as text would be. */
+struct text_style canvas_style(const struct canvas *c);
 
 /* Waits for answers on their way, half a second at most: they would be typed
  * into the shell. Keys pressed meanwhile are lost. */

@@ -10,6 +10,7 @@
 #ifndef GLIM_OPTIONS_H
 #define GLIM_OPTIONS_H
 
+#include "glim/cells.h"
 #include "glim/render.h"
 #include "glim/util.h"
 
@@ -60,7 +61,8 @@ struct options {
     enum color_mode color;
     bool has_color;
     enum glyph_mode glyph;
-    double cell_aspect; /* height of a cell over its width; 0: ask */
+    int text_cols, text_rows; /* batch mode writes text; 0: not */
+    double cell_aspect;       /* height of a cell over its width; 0: ask */
     bool show_help, show_version;
     bool list_devices; /* then there need be no scene */
     bool probe;        /* cl_probe.h: this is the copy; nor need there then */
@@ -69,6 +71,12 @@ struct options {
 
 /* Fills *o from argv, and for the screen from GLIM_COLOR. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
+
+/* What a mode that is not COLOR_AUTO means. */
+enum palette options_palette(enum color_mode mode);
+
+/* What the cells are made of; pixels have half blocks as the fall-back. */
+enum glyphs options_glyphs(enum glyph_mode mode);
 
 /* The text of --help. */
 extern const char options_help[];

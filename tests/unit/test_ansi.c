@@ -110,12 +110,16 @@ static const char *print_utf8(struct screen *s, const char *p)
     return p;
 }
 
-static void screen_write(struct screen *s, const struct ansi *a)
+static void screen_write_bytes(struct screen *s, const char *p, size_t length)
 {
-    const char *p = a->bytes;
+    const char *end = p + length;
 
-    while (p < a->bytes + a->length) {
-        if (memcmp(p, "\033[", 2) == 0) {
+    while (p < end) {
+        if (*p == '\n') {
+            s->row++;
+            s->col = 0;
+            p++;
+        } else if (memcmp(p, "\033[", 2) == 0) {
             p = control(s, p + 2);
         } else if (*p & 0x80) {
             p = print_utf8(s, p);
@@ -124,6 +128,11 @@ static void screen_write(struct screen *s, const struct ansi *a)
             print(s, (uint32_t)*p++);
         }
     }
+}
+
+static void screen_write(struct screen *s, const struct ansi *a)
+{
+    screen_write_bytes(s, a->bytes, a->length);
 }
 
 /* Colours of the dots of a cell, whatever of its two is the foreground. */
@@ -179,8 +188,7 @@ static uint32_t random_glyph(enum glyphs glyphs, uint64_t *seed)
     struct glyph_grid grid = glyphs_grid(glyphs);
     unsigned masks = (1u << grid.across * grid.down) - 2;
 
-    return glyphs_of_mask(glyphs,
-                          1 + (unsigned)(masks * check_random(seed)));
+    return glyphs_of_mask(glyphs, 1 + (unsigned)(masks * check_random(seed)));
 }
 
 /* Changes some cells; few colours, so that neighbours often share them. */
@@ -434,6 +442,45 @@ static void two_colors_stay_set(void **state)
     cells_free(&c);
 }
 
+/* Text for a file shows the same cells as the screen, on a screen without any
+ * positions, and ends each line with the reader's own colours. */
+static void lines_show_the_cells(void **state)
+{
+    static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_UPPER,
+                                        GLYPHS_SEXTANT, GLYPHS_BRAILLE};
+    struct cells c = make_cells(COLS, ROWS);
+    struct screen s;
+    struct error err;
+    uint64_t seed = 8;
+
+    (void)state;
+    for (int round = 0; round < 16; round++) {
+        size_t size_bytes;
+        char *text;
+
+        screen_clear(&s);
+        c.glyphs = kinds[round / 4];
+        scramble(&c, (enum palette)(round % 4), 1.0, &seed);
+        assert_true(ansi_lines(&c, &text, &size_bytes, &err));
+        assert_int_equal(text[size_bytes - 1], '\n');
+        for (size_t i = 0; i < size_bytes; i++) {
+            if (text[i] == '\n' && c.palette != PALETTE_MONO)
+                assert_memory_equal(text + i - 3, "\033[m", 3);
+            if (text[i] != '\033')
+                continue;
+            /* colours, and nothing that moves */
+            assert_true(c.palette != PALETTE_MONO);
+            assert_int_equal(text[i + 2 + strspn(text + i + 2, "0123456789;")],
+                             'm');
+        }
+        screen_write_bytes(&s, text, size_bytes);
+        assert_int_equal(s.row, ROWS);
+        check_shown(&s, &c, 0, 0);
+        free(text);
+    }
+    cells_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -443,6 +490,7 @@ int main(void)
         cmocka_unit_test(covered_cells_stay),
         cmocka_unit_test(bytes_are_few),
         cmocka_unit_test(two_colors_stay_set),
+        cmocka_unit_test(lines_show_the_cells),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

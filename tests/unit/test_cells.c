@@ -13,8 +13,7 @@ static struct cells make_cells_of(struct frame *frame, int cols, int rows,
     struct cells cells;
     struct error err;
 
-    assert_true(
-        frame_init(frame, grid.across * cols, grid.down * rows, &err));
+    assert_true(frame_init(frame, grid.across * cols, grid.down * rows, &err));
     assert_true(cells_init(&cells, cols, rows, &err));
     return cells;
 }

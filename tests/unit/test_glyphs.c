@@ -44,8 +44,8 @@ static void glyphs_are_those_of_the_charts(void **state)
         {GLYPHS_SEXTANT, 1 + 4 + 16, 0x258c},
         {GLYPHS_SEXTANT, 2 + 8 + 32, 0x2590},
         {GLYPHS_SEXTANT, 63, 0x2588},
-        {GLYPHS_BRAILLE, 1, 0x2801},       /* 1 */
-        {GLYPHS_BRAILLE, 2, 0x2808},       /* 4 */
+        {GLYPHS_BRAILLE, 1, 0x2801},        /* 1 */
+        {GLYPHS_BRAILLE, 2, 0x2808},        /* 4 */
         {GLYPHS_BRAILLE, 64 + 128, 0x28c0}, /* 78 */
         {GLYPHS_BRAILLE, 255, 0x28ff},
     };
@@ -69,8 +69,8 @@ static void masks_come_back(void **state)
         for (unsigned mask = 0; mask < 1u << grid.across * grid.down; mask++) {
             unsigned back;
 
-            assert_true(glyphs_mask(kinds[i], glyphs_of_mask(kinds[i], mask),
-                                    &back));
+            assert_true(
+                glyphs_mask(kinds[i], glyphs_of_mask(kinds[i], mask), &back));
             assert_int_equal(back, mask);
         }
         unsigned ignored;

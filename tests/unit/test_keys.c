@@ -28,7 +28,9 @@ static void own_and_phoe_keys(void **state)
         {INPUT_LEFT, ACTION_LOOK_LEFT, ACTION_LOOK_LEFT},
         {INPUT_OTHER, ACTION_NONE, ACTION_NONE},
         {0, ACTION_NONE, ACTION_NONE},
-        {'x', ACTION_NONE, ACTION_NONE},
+        {'x', ACTION_SAVE_TEXT, ACTION_SAVE_TEXT},
+        {'G', ACTION_GLYPHS, ACTION_GLYPHS},
+        {'~', ACTION_NONE, ACTION_NONE},
     };
 
     (void)state;

@@ -33,6 +33,6 @@ for case in "GLIM_COLOR=256:256 colours" "NO_COLOR=1:mono" \
     reject "▀▀▀"
 done
 fresh
-start_line "TERM=tmux-256color GLIM_COLOR=24bit glim flat.obj"
-wait_for "^glim: GLIM_COLOR: found '24bit', expected 24, 256, 16, mono or"
+start_line "TERM=tmux-256color GLIM_COLOR=red glim flat.obj"
+wait_for "^glim: GLIM_COLOR: found 'red', expected 24, 256, 16, mono or"
 expect_end 2
