@@ -53,6 +53,16 @@ void ansi_begin(struct ansi *a)
     a->bg = CELL_DEFAULT;
 }
 
+bool ansi_reserve(struct ansi *a, size_t size_bytes)
+{
+    void *bytes = a->bytes;
+    bool ok =
+        grow_array(&bytes, &a->capacity, a->length + size_bytes, 1);
+
+    a->bytes = bytes;
+    return ok;
+}
+
 static void put(struct ansi *a, const char *text, size_t length)
 {
     assert(a->length + length <= a->capacity);
@@ -171,19 +181,25 @@ static void put_cell(struct ansi *a, const struct cells *cells,
     put(a, bytes, (size_t)glyph_utf8(cell->glyph, bytes));
 }
 
+void ansi_jump(struct ansi *a, int row, int col)
+{
+    put(a, "\033[", 2);
+    put_number(a, (uint32_t)row + 1);
+    put_char(a, ';');
+    put_number(a, (uint32_t)col + 1);
+    put_char(a, 'H');
+}
+
 /* `from` is the column where the cursor stands in this row; -1: elsewhere. */
 static void put_jump(struct ansi *a, int row, int col, int from)
 {
     if (from == col)
         return;
-    put(a, "\033[", 2);
     if (from < 0) {
-        put_number(a, (uint32_t)row + 1);
-        put_char(a, ';');
-        put_number(a, (uint32_t)col + 1);
-        put_char(a, 'H');
+        ansi_jump(a, row, col);
         return;
     }
+    put(a, "\033[", 2);
     if (col - from > 1)
         put_number(a, (uint32_t)(col - from));
     put_char(a, 'C');
@@ -226,8 +242,7 @@ static bool may_stay(const struct cell *shown, const struct cell *cell,
     return step > 0 && dots_close(shown, cell, glyphs, step);
 }
 
-/* The column behind a window above (col, row), or col. */
-static int behind_cover(const struct ansi_draw *how, int col, int row)
+int ansi_uncovered(const struct ansi_draw *how, int col, int row)
 {
     for (int i = 0; i < how->covered_count; i++) {
         const struct ansi_rect *r = &how->covered[i];
@@ -251,8 +266,8 @@ static int put_row(struct ansi *a, const struct cells *cells, int row,
     int step = cells->palette == PALETTE_24BIT ? how->step : 0;
     int from = -1;
 
-    for (int col = behind_cover(how, begin, row); col < end;
-         col = behind_cover(how, col + 1, row)) {
+    for (int col = ansi_uncovered(how, begin, row); col < end;
+         col = ansi_uncovered(how, col + 1, row)) {
         const struct cell *cell = &cells->cell[first + (size_t)col];
         struct cell *shown = &a->shown[first + (size_t)col];
 
@@ -304,9 +319,8 @@ bool ansi_picture(struct ansi *a, const struct cells *cells,
 
 void ansi_end(struct ansi *a, int row)
 {
-    ansi_text(a, "\033[m\033[");
-    put_number(a, (uint32_t)row + 1);
-    ansi_text(a, ";1H");
+    ansi_text(a, "\033[m");
+    ansi_jump(a, row, 0);
     a->fg = CELL_DEFAULT;
     a->bg = CELL_DEFAULT;
 }

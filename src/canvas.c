@@ -14,6 +14,12 @@
 /* The longest round trip that is waited for at the end. */
 #define DRAIN_NS UINT64_C(500000000)
 
+/* Beyond these a terminal has answered nonsense. */
+#define CELL_PX_MAX 200
+
+/* Sixel images with fewer colours have the 16. */
+#define SIXEL_COLORS_MIN 256
+
 /* A smaller window has no room for a picture and a word about it. */
 #define COLS_MIN 20
 #define ROWS_MIN 5
@@ -48,8 +54,18 @@ void canvas_init(struct canvas *c, const struct options *options)
     choose_palette(c, options->color);
 }
 
+/* Cells that are written over sixels replace them, over kitty's not. */
+static void erase_pixels(struct canvas *c)
+{
+    const char *eraser = graphics_eraser(c->graphics.shape.kind);
+
+    if (eraser)
+        term_write(eraser, strlen(eraser));
+}
+
 static void free_sized(struct canvas *c)
 {
+    graphics_free(&c->graphics);
     cells_free(&c->cells);
     frame_free(&c->frame);
     ansi_free(&c->ansi);
@@ -76,13 +92,59 @@ static double cell_aspect(const struct canvas *c, const struct term_size *size)
     return 2;
 }
 
+static enum graphics_kind pixels_kind(const struct canvas *c)
+{
+    if (c->palette == PALETTE_MONO)
+        return GRAPHICS_NONE;
+    if (c->glyph_mode == GLYPH_SIXEL && c->has_sixel)
+        return GRAPHICS_SIXEL;
+    return c->glyph_mode == GLYPH_KITTY && c->has_kitty ? GRAPHICS_KITTY
+                                                        : GRAPHICS_NONE;
+}
+
+/* False if the picture is not of pixels, or there is no memory for them: then
+ * of cells. */
+static bool init_pixels(struct canvas *c, const struct term_size *size,
+                        struct error *err)
+{
+    bool is_poor = c->sixel_colors > 0 && c->sixel_colors < SIXEL_COLORS_MIN;
+    bool was_told = c->cell_width_px > 0;
+    struct graphics_shape shape = {
+        .kind = pixels_kind(c),
+        .cols = c->fit.cols,
+        .rows = c->fit.rows,
+        .cell_width_px = was_told ? c->cell_width_px : size->cell_width_px,
+        .cell_height_px = was_told ? c->cell_height_px : size->cell_height_px,
+        .palette = is_poor ? PALETTE_16 : PALETTE_256,
+    };
+
+    if (shape.kind == GRAPHICS_NONE || shape.cell_width_px < 1 ||
+        shape.cell_height_px < 1)
+        return false;
+    if (graphics_init(&c->graphics, &shape, err) &&
+        frame_init(&c->frame, shape.cols * shape.cell_width_px,
+                   shape.rows * shape.cell_height_px, err))
+        return true;
+    graphics_free(&c->graphics);
+    return false;
+}
+
+static bool init_cells(struct canvas *c, struct error *err)
+{
+    struct glyph_grid grid = glyphs_grid(c->glyphs);
+
+    return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
+           frame_init(&c->frame, grid.across * c->fit.cols,
+                      grid.down * c->fit.rows, err);
+}
+
 bool canvas_layout(struct canvas *c, int width_px, int height_px,
                    struct error *err)
 {
-    struct glyph_grid grid;
     struct term_size size;
     int rows;
 
+    erase_pixels(c);
     free_sized(c);
     term_relayout();
     size = term_size();
@@ -97,11 +159,8 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     }
     c->fit =
         cells_fit(width_px, height_px, size.cols, rows, cell_aspect(c, &size));
-    grid = glyphs_grid(c->glyphs);
-    return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
-           frame_init(&c->frame, grid.across * c->fit.cols,
-                      grid.down * c->fit.rows, err) &&
-           ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err);
+    return ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err) &&
+           (init_pixels(c, &size, err) || init_cells(c, err));
 }
 
 static bool take_cell_size(struct canvas *c, const struct event *event)
@@ -109,7 +168,12 @@ static bool take_cell_size(struct canvas *c, const struct event *event)
     double before = c->cell_aspect;
     double aspect;
 
-    if (c->aspect_is_final || event->x < 1 || event->y < 1)
+    if (event->x < 1 || event->y < 1 || event->x > CELL_PX_MAX ||
+        event->y > CELL_PX_MAX)
+        return false;
+    c->cell_width_px = event->x;
+    c->cell_height_px = event->y;
+    if (c->aspect_is_final)
         return false;
     aspect = (double)event->y / event->x;
     if (aspect < 0.5 || aspect > 5)
@@ -146,7 +210,12 @@ bool canvas_answer(struct canvas *c, const struct event *event)
     case EVENT_SYNC: term_use_sync(); break;
     case EVENT_CELL_SIZE: return take_cell_size(c, event);
     case EVENT_CURSOR: return take_cursor(c, event);
-    case EVENT_ATTRIBUTES: c->has_all_answers = true; break;
+    case EVENT_SIXEL_COLORS: c->sixel_colors = event->x; break;
+    case EVENT_KITTY: c->has_kitty = true; break;
+    case EVENT_ATTRIBUTES:
+        c->has_sixel = event->x == 1;
+        c->has_all_answers = true;
+        return pixels_kind(c) != c->graphics.shape.kind;
     case EVENT_KEY:
     case EVENT_MOUSE: break;
     }
@@ -160,24 +229,48 @@ void canvas_next_palette(struct canvas *c)
                                             : (enum palette)(c->palette - 1);
 }
 
+static bool has_mode(const struct canvas *c, enum glyph_mode mode)
+{
+    if (mode == GLYPH_SIXEL)
+        return c->has_sixel;
+    return mode != GLYPH_KITTY || c->has_kitty;
+}
+
 void canvas_next_glyphs(struct canvas *c)
 {
-    static const enum glyph_mode modes[] = {GLYPH_HALF, GLYPH_QUADRANT,
-                                            GLYPH_SEXTANT, GLYPH_BRAILLE,
-                                            GLYPH_ASCII};
+    static const enum glyph_mode modes[] = {
+        GLYPH_HALF,  GLYPH_QUADRANT, GLYPH_SEXTANT, GLYPH_BRAILLE,
+        GLYPH_ASCII, GLYPH_SIXEL,    GLYPH_KITTY};
     size_t count = sizeof modes / sizeof modes[0];
     size_t i = 0;
 
-    while (i < count && options_glyphs(modes[i]) != c->glyphs)
+    while (i < count && modes[i] != c->glyph_mode)
         i++;
-    choose_glyphs(c, modes[(i + 1) % count]);
+    if (i == count) /* one of those that are the like of half blocks */
+        i = 0;
+    do
+        i = (i + 1) % count;
+    while (!has_mode(c, modes[i]));
+    choose_glyphs(c, modes[i]);
+}
+
+const char *canvas_glyphs_name(const struct canvas *c)
+{
+    switch (c->graphics.shape.kind) {
+    case GRAPHICS_SIXEL: return "sixel pixels";
+    case GRAPHICS_KITTY: return "kitty pixels";
+    case GRAPHICS_NONE: break;
+    }
+    return glyphs_name(c->glyphs);
 }
 
 /* Rows of the screen, which curses may have cleared to their ends. */
 static void forget_rows(struct canvas *c, int row, int rows)
 {
-    ansi_forget(&c->ansi,
-                (struct ansi_rect){0, row - c->fit.row, c->ansi.cols, rows});
+    struct ansi_rect rect = {0, row - c->fit.row, c->ansi.cols, rows};
+
+    ansi_forget(&c->ansi, rect);
+    graphics_forget(&c->graphics, rect);
 }
 
 void canvas_status(struct canvas *c, const char *text)
@@ -229,6 +322,8 @@ static bool add_picture(struct canvas *c, struct film *film, float exposure,
         how.covered_count = 2;
     }
     film_preview(film, exposure, &c->frame);
+    if (c->graphics.shape.kind != GRAPHICS_NONE)
+        return graphics_picture(&c->graphics, &c->ansi, &c->frame, &how);
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     return ansi_picture(&c->ansi, &c->cells, &how);
 }
@@ -294,6 +389,7 @@ void canvas_drain(struct canvas *c, struct input *input)
     uint64_t until_ns = clock_ns() + DRAIN_NS;
     uint64_t now_ns;
 
+    erase_pixels(c);
     while (awaits_answers(c) && (now_ns = clock_ns()) < until_ns) {
         struct pollfd in = {.fd = STDIN_FILENO, .events = POLLIN};
         unsigned char bytes[512];

@@ -46,12 +46,23 @@ int dither_threshold(int x, int y)
     return bayer[y & 3][x & 3];
 }
 
-struct rgb dither_color_of_256(uint32_t number)
+static struct rgb value_of_16(uint32_t number)
+{
+    int off = number < 8 ? 0 : BRIGHT_OFF;
+    int on = number < 8 ? DARK_ON : 255;
+
+    return (struct rgb){number & 1 ? on : off, number & 2 ? on : off,
+                        number & 4 ? on : off};
+}
+
+struct rgb dither_value(uint32_t number, enum palette palette)
 {
     int n = (int)number - CUBE_FIRST;
     int grey = 8 + 10 * ((int)number - GREY_FIRST);
 
-    assert(number >= CUBE_FIRST && number < COLORS);
+    if (palette == PALETTE_16)
+        return value_of_16(number);
+    assert(palette == PALETTE_256 && n >= 0);
     if (number >= GREY_FIRST)
         return (struct rgb){grey, grey, grey};
     return (struct rgb){levels[n / 36], levels[n / 6 % 6], levels[n % 6]};
@@ -97,7 +108,7 @@ bool dither_init(struct dither *d, struct error *err)
         return fail(err, "no memory for the mixes of 256 colours");
     }
     for (uint32_t i = 0; i < INKS; i++)
-        d->inks[i] = ink_of(dither_color_of_256(CUBE_FIRST + i));
+        d->inks[i] = ink_of(dither_value(CUBE_FIRST + i, PALETTE_256));
     return true;
 }
 

@@ -74,7 +74,7 @@ static const struct keys_help common_help[] = {
     {"space", "live mode, normal mode"},
     {"Enter", "normal mode: start, halt, go on"},
     {"p", "save the picture as a new PNG file"},
-    {"x", "save the picture as coloured text, .ans"},
+    {"x", "write it as coloured text, a new .ans file"},
     {"c", "write the view to the view file"},
     {"b", "render on the OpenCL device, or on the CPU"},
     {"C", "next colours: 24 bit, 256, 16, mono"},

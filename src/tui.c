@@ -197,14 +197,14 @@ static void next_colors(struct tui *t)
 {
     canvas_next_palette(&t->canvas);
     work_say(&t->work, palette_name(t->canvas.palette));
-    refresh_soon(t);
+    layout(t);
 }
 
 static void next_glyphs(struct tui *t)
 {
     canvas_next_glyphs(&t->canvas);
-    work_say(&t->work, glyphs_name(t->canvas.glyphs));
     layout(t);
+    work_say(&t->work, canvas_glyphs_name(&t->canvas));
 }
 
 static void save_text(struct tui *t)

@@ -55,6 +55,15 @@ void ansi_begin(struct ansi *a);
 void ansi_text(struct ansi *a, const char *text);
 #define ANSI_TEXT_MAX 256
 
+/* Makes room for so many bytes behind `length`. False if memory is out. */
+bool ansi_reserve(struct ansi *a, size_t size_bytes);
+
+/* Appends a jump of the cursor, from 0. */
+void ansi_jump(struct ansi *a, int row, int col);
+
+/* The first column of the picture from col on that no window covers. */
+int ansi_uncovered(const struct ansi_draw *how, int col, int row);
+
 /* Appends what turns the shown picture into `cells`. Leaves colours and cursor
  * anywhere. True if nothing is left for the next frame. */
 bool ansi_picture(struct ansi *a, const struct cells *cells,

@@ -49,8 +49,8 @@ void dither_free(struct dither *d);
 uint32_t dither_color(struct dither *d, struct rgb c, int x, int y,
                       enum palette palette);
 
-/* What colour 16..255 of the 256 is. */
-struct rgb dither_color_of_256(uint32_t number);
+/* What a number of PALETTE_256 or PALETTE_16 looks like. */
+struct rgb dither_value(uint32_t number, enum palette palette);
 
 /* What the place adds to the choice, 0 to 15: each once in any 4x4 pixels. */
 int dither_threshold(int x, int y);

@@ -71,7 +71,7 @@ static void numbers_are_xterms(void **state)
 {
     (void)state;
     for (int n = 16; n < 256; n++) {
-        struct rgb c = dither_color_of_256((uint32_t)n);
+        struct rgb c = dither_value((uint32_t)n, PALETTE_256);
         int want[3];
 
         value_256(n, want);
