@@ -56,8 +56,7 @@ void ansi_begin(struct ansi *a)
 bool ansi_reserve(struct ansi *a, size_t size_bytes)
 {
     void *bytes = a->bytes;
-    bool ok =
-        grow_array(&bytes, &a->capacity, a->length + size_bytes, 1);
+    bool ok = grow_array(&bytes, &a->capacity, a->length + size_bytes, 1);
 
     a->bytes = bytes;
     return ok;

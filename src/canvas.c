@@ -238,9 +238,10 @@ static bool has_mode(const struct canvas *c, enum glyph_mode mode)
 
 void canvas_next_glyphs(struct canvas *c)
 {
-    static const enum glyph_mode modes[] = {
-        GLYPH_HALF,  GLYPH_QUADRANT, GLYPH_SEXTANT, GLYPH_BRAILLE,
-        GLYPH_ASCII, GLYPH_SIXEL,    GLYPH_KITTY};
+    static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
+                                            GLYPH_SEXTANT, GLYPH_BRAILLE,
+                                            GLYPH_ASCII,   GLYPH_SIXEL,
+                                            GLYPH_KITTY};
     size_t count = sizeof modes / sizeof modes[0];
     size_t i = 0;
 

@@ -237,6 +237,7 @@ static struct cell cell_of(struct cells *cells, const struct dots *dots,
                            const struct partition *partition, int col, int row)
 {
     bool is_mono = cells->palette == PALETTE_MONO;
+    unsigned mask;
 
     if (cells->glyphs == GLYPHS_ASCII || (is_mono && dots->count <= 2))
         return ascii_cell(cells, mean_of(dots, 0, 0));
@@ -249,7 +250,12 @@ static struct cell cell_of(struct cells *cells, const struct dots *dots,
     case GLYPHS_LOWER: return block_cell(cells, dots, 2, col, row);
     default: break;
     }
-    return block_cell(cells, dots, best_mask(partition, dots), col, row);
+    mask = best_mask(partition, dots);
+    /* where dots do not touch, most of a cell is background */
+    if (!glyphs_are_solid(cells->glyphs) &&
+        2 * __builtin_popcount(mask) > dots->count)
+        mask ^= (1u << dots->count) - 1;
+    return block_cell(cells, dots, mask, col, row);
 }
 
 void cells_from_frame(struct cells *cells, const struct frame *frame,

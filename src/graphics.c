@@ -27,9 +27,9 @@ bool graphics_init(struct graphics *g, const struct graphics_shape *shape,
     g->tiles_across = (shape->cols + g->tile_cols - 1) / g->tile_cols;
     g->tiles = alloc_array((size_t)g->tiles_across * (size_t)shape->rows,
                            sizeof g->tiles[0]);
-    g->numbers = alloc_array((size_t)g->tile_cols *
-                                 (size_t)shape->cell_width_px,
-                             (size_t)shape->cell_height_px);
+    g->numbers =
+        alloc_array((size_t)g->tile_cols * (size_t)shape->cell_width_px,
+                    (size_t)shape->cell_height_px);
     if (g->tiles && g->numbers &&
         frame_init(&g->shown, shape->cols * shape->cell_width_px,
                    shape->rows * shape->cell_height_px, err) &&
@@ -152,9 +152,9 @@ static size_t encode_sixel(struct graphics *g, const struct frame *frame,
         for (int x = area->x; x < area->x + area->width; x++) {
             const uint8_t *p = pixel_of(frame, x, y);
 
-            *number++ = (uint8_t)dither_color(
-                &g->dither, (struct rgb){p[0], p[1], p[2]}, x, y,
-                g->shape.palette);
+            *number++ = (uint8_t)dither_color(&g->dither,
+                                              (struct rgb){p[0], p[1], p[2]}, x,
+                                              y, g->shape.palette);
         }
     }
     return sixel_encode(&image, bytes);
@@ -181,15 +181,15 @@ static bool put_tile(struct graphics *g, struct ansi *a, int index,
     struct area area = area_of(g, row, wanted);
 
     if (!ansi_reserve(a, JUMP_BYTES +
-                             (is_kitty ? kitty_bytes_max : sixel_bytes_max)(
-                                 area.width, area.height)))
+                             (is_kitty
+                                  ? kitty_bytes_max
+                                  : sixel_bytes_max)(area.width, area.height)))
         return false;
     if (area.width > 0) {
         ansi_jump(a, how->row + row, how->col + wanted->begin);
-        a->length += is_kitty ? encode_kitty(index, frame, &area,
-                                             a->bytes + a->length)
-                              : encode_sixel(g, frame, &area,
-                                             a->bytes + a->length);
+        a->length +=
+            is_kitty ? encode_kitty(index, frame, &area, a->bytes + a->length)
+                     : encode_sixel(g, frame, &area, a->bytes + a->length);
     } else if (is_kitty) {
         a->length += kitty_erase(index + 1, a->bytes + a->length);
     }
@@ -219,8 +219,7 @@ bool graphics_picture(struct graphics *g, struct ansi *a,
 
         if (may_stay(g, index, &wanted, frame, how->step))
             continue;
-        if (a->length >= limit ||
-            !put_tile(g, a, index, &wanted, frame, how)) {
+        if (a->length >= limit || !put_tile(g, a, index, &wanted, frame, how)) {
             g->next = index;
             return false;
         }

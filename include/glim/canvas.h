@@ -29,8 +29,8 @@ struct canvas {
     enum glyph_mode glyph_mode; /* what is wanted */
     enum glyphs glyphs;
     bool glyphs_are_final;
-    bool has_sixel, has_kitty; /* the terminal has said so */
-    int sixel_colors;          /* 0: it has not said how many */
+    bool has_sixel, has_kitty;         /* the terminal has said so */
+    int sixel_colors;                  /* 0: it has not said how many */
     int cell_width_px, cell_height_px; /* 0: it has not said */
     double cell_aspect;
     bool aspect_is_final;
@@ -92,8 +92,8 @@ struct text_style canvas_style(const struct canvas *c);
 /* The kind of glyphs or pixels, for people. */
 const char *canvas_glyphs_name(const struct canvas *c);
 
-/* Removes pixels and waits for answers on their way, half a second at most: they would be typed
- * into the shell. Keys pressed meanwhile are lost. */
+/* Removes pixels and waits for answers on their way, half a second at most:
+ * they would be typed into the shell. Keys pressed meanwhile are lost. */
 void canvas_drain(struct canvas *c, struct input *input);
 
 void canvas_free(struct canvas *c);

@@ -17,12 +17,13 @@ static void pixels_come_back(void **state)
     for (int round = 0; round < 60; round++) {
         int x = (int)(40 * check_random(&seed));
         int y = (int)(20 * check_random(&seed));
-        struct kitty_image image = {
-            .id = 1 + round,
-            .width = 1 + (int)(256 * check_random(&seed)),
-            .height = 1 + (int)(60 * check_random(&seed)),
-            .rgb = picture + 3 * (300 * y + x),
-            .stride_bytes = 3 * 300};
+        struct kitty_image image = {.id = 1 + round,
+                                    .width =
+                                        1 + (int)(256 * check_random(&seed)),
+                                    .height =
+                                        1 + (int)(60 * check_random(&seed)),
+                                    .rgb = picture + 3 * (300 * y + x),
+                                    .stride_bytes = 3 * 300};
         size_t most = kitty_bytes_max(image.width, image.height);
         char *bytes = malloc(most + 1);
         size_t length = kitty_encode(&image, bytes);

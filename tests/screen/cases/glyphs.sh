@@ -11,7 +11,7 @@ wait_for "sextants"
 wait_for "[🬕🬂🬎🬁🬓]"
 keys G
 wait_for "braille"
-wait_for "[⣀⣠⣄⢀⡀⢸⡇⣴⣦]"
+wait_for "[⢀⡀⣀⣠⣄⠘⠉⣤⢠⡄⠙⠋⠛]"
 reject "[▀▄🬕🬂🬎🬁🬓]"
 keys G
 wait_for "letters"
