@@ -17,6 +17,10 @@
 /* Beyond these a terminal has answered nonsense. */
 #define CELL_PX_MAX 200
 
+/* Of a frame of pixels, however fast the line: what is encoded in the time that
+ * a key may wait, some 20 ms. */
+#define PIXEL_BYTES_MAX ((size_t)512 << 10)
+
 /* Sixel images with fewer colours have the 16. */
 #define SIXEL_COLORS_MIN 256
 
@@ -102,10 +106,16 @@ static enum graphics_kind pixels_kind(const struct canvas *c)
                                                         : GRAPHICS_NONE;
 }
 
-/* False if the picture is not of pixels, or there is no memory for them: then
+static int at_most(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* The frame need not have more pixels than the film of this size. False if the
+ * picture is not of pixels, or there is no memory for them: then
  * of cells. */
 static bool init_pixels(struct canvas *c, const struct term_size *size,
-                        struct error *err)
+                        int width_px, int height_px, struct error *err)
 {
     bool is_poor = c->sixel_colors > 0 && c->sixel_colors < SIXEL_COLORS_MIN;
     bool was_told = c->cell_width_px > 0;
@@ -122,8 +132,8 @@ static bool init_pixels(struct canvas *c, const struct term_size *size,
         shape.cell_height_px < 1)
         return false;
     if (graphics_init(&c->graphics, &shape, err) &&
-        frame_init(&c->frame, shape.cols * shape.cell_width_px,
-                   shape.rows * shape.cell_height_px, err))
+        frame_init(&c->frame, at_most(c->graphics.shown.width, width_px),
+                   at_most(c->graphics.shown.height, height_px), err))
         return true;
     graphics_free(&c->graphics);
     return false;
@@ -148,7 +158,9 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     free_sized(c);
     term_relayout();
     size = term_size();
-    rows = size.rows - (c->has_status_row ? 1 : 0);
+    /* sixels in the last row would scroll the screen */
+    rows = size.rows -
+           (c->has_status_row || pixels_kind(c) == GRAPHICS_SIXEL ? 1 : 0);
     c->window = (struct ansi_rect){0};
     c->has_status = false;
     c->must_update = true;
@@ -160,7 +172,8 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     c->fit =
         cells_fit(width_px, height_px, size.cols, rows, cell_aspect(c, &size));
     return ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err) &&
-           (init_pixels(c, &size, err) || init_cells(c, err));
+           (init_pixels(c, &size, width_px, height_px, err) ||
+            init_cells(c, err));
 }
 
 static bool take_cell_size(struct canvas *c, const struct event *event)
@@ -323,8 +336,11 @@ static bool add_picture(struct canvas *c, struct film *film, float exposure,
         how.covered_count = 2;
     }
     film_preview(film, exposure, &c->frame);
-    if (c->graphics.shape.kind != GRAPHICS_NONE)
+    if (c->graphics.shape.kind != GRAPHICS_NONE) {
+        if (how.budget_bytes > PIXEL_BYTES_MAX)
+            how.budget_bytes = PIXEL_BYTES_MAX;
         return graphics_picture(&c->graphics, &c->ansi, &c->frame, &how);
+    }
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     return ansi_picture(&c->ansi, &c->cells, &how);
 }

@@ -16,6 +16,13 @@
 /* A jump to any cell. */
 #define JUMP_BYTES 24
 
+static bool init_frame(struct frame *frame, const struct graphics_shape *shape,
+                       struct error *err)
+{
+    return frame_init(frame, shape->cols * shape->cell_width_px,
+                      shape->rows * shape->cell_height_px, err);
+}
+
 bool graphics_init(struct graphics *g, const struct graphics_shape *shape,
                    struct error *err)
 {
@@ -30,10 +37,8 @@ bool graphics_init(struct graphics *g, const struct graphics_shape *shape,
     g->numbers =
         alloc_array((size_t)g->tile_cols * (size_t)shape->cell_width_px,
                     (size_t)shape->cell_height_px);
-    if (g->tiles && g->numbers &&
-        frame_init(&g->shown, shape->cols * shape->cell_width_px,
-                   shape->rows * shape->cell_height_px, err) &&
-        dither_init(&g->dither, err))
+    if (g->tiles && g->numbers && init_frame(&g->wanted, shape, err) &&
+        init_frame(&g->shown, shape, err) && dither_init(&g->dither, err))
         return true;
     graphics_free(g);
     return fail(err, "no memory for a picture of %dx%d cells as pixels",
@@ -44,6 +49,7 @@ void graphics_free(struct graphics *g)
 {
     free(g->tiles);
     free(g->numbers);
+    frame_free(&g->wanted);
     frame_free(&g->shown);
     dither_free(&g->dither);
     *g = (struct graphics){0};
@@ -123,8 +129,7 @@ static struct area area_of(const struct graphics *g, int row,
 
 /* Whether the terminal shows it already, to a step of 255. */
 static bool may_stay(const struct graphics *g, int index,
-                     const struct graphics_tile *wanted,
-                     const struct frame *frame, int step)
+                     const struct graphics_tile *wanted, int step)
 {
     const struct graphics_tile *tile = &g->tiles[index];
     struct area area = area_of(g, index / g->tiles_across, wanted);
@@ -134,15 +139,15 @@ static bool may_stay(const struct graphics *g, int index,
         return false;
     for (int y = area.y; area.width > 0 && y < area.y + area.height; y++) {
         if (!rows_close(pixel_of(&g->shown, area.x, y),
-                        pixel_of(frame, area.x, y), 3 * (size_t)area.width,
+                        pixel_of(&g->wanted, area.x, y), 3 * (size_t)area.width,
                         step))
             return false;
     }
     return true;
 }
 
-static size_t encode_sixel(struct graphics *g, const struct frame *frame,
-                           const struct area *area, char *bytes)
+static size_t encode_sixel(struct graphics *g, const struct area *area,
+                           char *bytes)
 {
     struct sixel_image image = {area->width, area->height, g->shape.palette,
                                 g->numbers};
@@ -150,7 +155,7 @@ static size_t encode_sixel(struct graphics *g, const struct frame *frame,
 
     for (int y = area->y; y < area->y + area->height; y++) {
         for (int x = area->x; x < area->x + area->width; x++) {
-            const uint8_t *p = pixel_of(frame, x, y);
+            const uint8_t *p = pixel_of(&g->wanted, x, y);
 
             *number++ = (uint8_t)dither_color(&g->dither,
                                               (struct rgb){p[0], p[1], p[2]}, x,
@@ -160,44 +165,71 @@ static size_t encode_sixel(struct graphics *g, const struct frame *frame,
     return sixel_encode(&image, bytes);
 }
 
-static size_t encode_kitty(int index, const struct frame *frame,
+static size_t encode_kitty(const struct graphics *g, int index,
                            const struct area *area, char *bytes)
 {
     struct kitty_image image = {index + 1, area->width, area->height,
-                                pixel_of(frame, area->x, area->y),
-                                3 * (size_t)frame->width};
+                                pixel_of(&g->wanted, area->x, area->y),
+                                3 * (size_t)g->wanted.width};
 
     return kitty_encode(&image, bytes);
+}
+
+static size_t tile_bytes_max(const struct graphics *g, const struct area *area)
+{
+    return JUMP_BYTES + (g->shape.kind == GRAPHICS_KITTY
+                             ? kitty_bytes_max(area->width, area->height)
+                             : sixel_bytes_max(area->width, area->height));
 }
 
 /* Sends the pixels, or removes them where a window is. False if memory is
  * out. */
 static bool put_tile(struct graphics *g, struct ansi *a, int index,
                      const struct graphics_tile *wanted,
-                     const struct frame *frame, const struct ansi_draw *how)
+                     const struct ansi_draw *how)
 {
     bool is_kitty = g->shape.kind == GRAPHICS_KITTY;
     int row = index / g->tiles_across;
     struct area area = area_of(g, row, wanted);
 
-    if (!ansi_reserve(a, JUMP_BYTES +
-                             (is_kitty
-                                  ? kitty_bytes_max
-                                  : sixel_bytes_max)(area.width, area.height)))
+    if (!ansi_reserve(a, tile_bytes_max(g, &area)))
         return false;
     if (area.width > 0) {
         ansi_jump(a, how->row + row, how->col + wanted->begin);
-        a->length +=
-            is_kitty ? encode_kitty(index, frame, &area, a->bytes + a->length)
-                     : encode_sixel(g, frame, &area, a->bytes + a->length);
+        char *bytes = a->bytes + a->length;
+        a->length += is_kitty ? encode_kitty(g, index, &area, bytes)
+                              : encode_sixel(g, &area, bytes);
     } else if (is_kitty) {
         a->length += kitty_erase(index + 1, a->bytes + a->length);
     }
     for (int y = area.y; y < area.y + area.height; y++)
-        memcpy(pixel_of(&g->shown, area.x, y), pixel_of(frame, area.x, y),
+        memcpy(pixel_of(&g->shown, area.x, y), pixel_of(&g->wanted, area.x, y),
                3 * (size_t)area.width);
     g->tiles[index] = *wanted;
     return true;
+}
+
+/* Rows that repeat are copied. */
+static void enlarge(const struct frame *from, struct frame *to)
+{
+    size_t row_bytes = 3 * (size_t)to->width;
+    int before = -1;
+
+    for (int y = 0; y < to->height; y++) {
+        int from_y = (int)((int64_t)y * from->height / to->height);
+        uint8_t *out = pixel_of(to, 0, y);
+
+        if (from_y == before) {
+            memcpy(out, out - row_bytes, row_bytes);
+            continue;
+        }
+        before = from_y;
+        for (int x = 0; x < to->width; x++)
+            memcpy(out + 3 * x,
+                   pixel_of(from, (int)((int64_t)x * from->width / to->width),
+                            from_y),
+                   3);
+    }
 }
 
 bool graphics_picture(struct graphics *g, struct ansi *a,
@@ -209,7 +241,7 @@ bool graphics_picture(struct graphics *g, struct ansi *a,
                        ? SIZE_MAX
                        : a->length + how->budget_bytes;
 
-    assert(frame->width == g->shown.width && frame->height == g->shown.height);
+    enlarge(frame, &g->wanted);
     if (!g->has_begun && eraser)
         ansi_text(a, eraser);
     g->has_begun = true;
@@ -217,9 +249,9 @@ bool graphics_picture(struct graphics *g, struct ansi *a,
         int index = (g->next + i) % count;
         struct graphics_tile wanted = wanted_tile(g, index, how);
 
-        if (may_stay(g, index, &wanted, frame, how->step))
+        if (may_stay(g, index, &wanted, how->step))
             continue;
-        if (a->length >= limit || !put_tile(g, a, index, &wanted, frame, how)) {
+        if (a->length >= limit || !put_tile(g, a, index, &wanted, how)) {
             g->next = index;
             return false;
         }

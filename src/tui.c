@@ -172,12 +172,14 @@ static void open_help(struct tui *t)
     }
     if (t->canvas.pace.state == PACE_ANSWERS)
         snprintf(texts[count++], HELP_LINE_MAX,
-                 "%s; the terminal answers in %.1f ms",
+                 "%s, %s; the terminal answers in %.1f ms",
                  palette_name(t->canvas.palette),
+                 canvas_glyphs_name(&t->canvas),
                  (double)t->canvas.pace.rtt_min_ns * 1e-6);
     else
-        snprintf(texts[count++], HELP_LINE_MAX, "%s",
-                 palette_name(t->canvas.palette));
+        snprintf(texts[count++], HELP_LINE_MAX, "%s, %s",
+                 palette_name(t->canvas.palette),
+                 canvas_glyphs_name(&t->canvas));
     for (int i = 0; i < count; i++)
         lines[i] = texts[i];
     canvas_open_window(&t->canvas, " glim " GLIM_VERSION " - any key closes ",

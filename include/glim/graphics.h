@@ -38,6 +38,7 @@ struct graphics {
     struct graphics_tile *tiles;
     int next;           /* tile to go on with */
     bool has_begun;     /* images of before are removed */
+    struct frame wanted;
     struct frame shown; /* pixels of known tiles */
     struct dither dither;
     uint8_t *numbers; /* of a tile */
@@ -50,8 +51,9 @@ void graphics_free(struct graphics *g);
 /* Something else has written over these cells of the picture. */
 void graphics_forget(struct graphics *g, struct ansi_rect rect);
 
-/* Appends what turns the shown picture into the frame, of the picture's size in
- * pixels. True if nothing is left for the next frame. */
+/* Appends what turns the shown picture into the frame, of which pixels are
+ * repeated up to those of the terminal. True if nothing is left for the next
+ * frame. */
 bool graphics_picture(struct graphics *g, struct ansi *a,
                       const struct frame *frame, const struct ansi_draw *how);
 

@@ -279,12 +279,43 @@ static void windows_are_left_free(void **state)
     }
 }
 
+/* A frame with fewer pixels than the terminal: each is a rectangle of them. */
+static void small_frames_are_enlarged(void **state)
+{
+    static struct stage st;
+    struct ansi_draw how = {.budget_bytes = SIZE_MAX};
+    struct frame small;
+    struct error err;
+    uint64_t seed = 4;
+    bool is_done;
+
+    (void)state;
+    stage_init(&st, GRAPHICS_KITTY, &seed);
+    assert_true(frame_init(&small, WIDTH / 4, HEIGHT / 5, &err));
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            uint8_t *from = st.frame.rgb + 3 * (y / 5 * 5 * WIDTH + x / 4 * 4);
+
+            memcpy(st.frame.rgb + 3 * (y * WIDTH + x), from, 3);
+            memcpy(small.rgb + 3 * (y / 5 * (WIDTH / 4) + x / 4), from, 3);
+        }
+    }
+    ansi_begin(&st.a);
+    assert_true(graphics_picture(&st.g, &st.a, &small, &how));
+    screen_write(&st.screen, &st.a);
+    check_shown(&st, (struct ansi_rect){0, 0, 0, 0});
+    assert_int_equal(draw(&st, &how, &is_done), 0);
+    frame_free(&small);
+    stage_free(&st);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shows_the_picture),
         cmocka_unit_test(budget_is_kept),
         cmocka_unit_test(windows_are_left_free),
+        cmocka_unit_test(small_frames_are_enlarged),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
