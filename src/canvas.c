@@ -37,23 +37,27 @@ static void choose_palette(struct canvas *c, enum color_mode mode)
         c->palette = options_palette(mode);
 }
 
+/* What is not asked for by name has a fall-back: half blocks for pixels, blanks
+ * for half blocks. */
 static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
 {
-    bool may_learn = false;
+    bool is_by_name = mode != GLYPH_AUTO && mode < GLYPH_SIXEL;
 
     c->glyph_mode = mode;
-    c->glyphs = options_glyphs(mode);
-    if (mode == GLYPH_AUTO && !term_is_utf8(&may_learn))
-        c->glyphs = GLYPHS_SPACE;
-    c->glyphs_are_final = !may_learn;
+    c->glyphs =
+        is_by_name || c->has_unicode ? options_glyphs(mode) : GLYPHS_SPACE;
 }
 
 void canvas_init(struct canvas *c, const struct options *options)
 {
+    bool may_learn;
+
     *c = (struct canvas){.has_status_row = true};
     pace_init(&c->pace, clock_ns());
     c->cell_aspect = options->cell_aspect;
     c->aspect_is_final = options->cell_aspect > 0;
+    c->has_unicode = term_is_utf8(&may_learn);
+    c->unicode_is_final = !may_learn;
     choose_glyphs(c, options->glyph);
     choose_palette(c, options->color);
 }
@@ -206,9 +210,10 @@ static bool take_cursor(struct canvas *c, const struct event *event)
 {
     enum glyphs before = c->glyphs;
 
-    if (!c->glyphs_are_final)
-        c->glyphs = event->x == 2 ? GLYPHS_HALF : GLYPHS_SPACE;
-    c->glyphs_are_final = true;
+    if (!c->unicode_is_final)
+        c->has_unicode = event->x == 2;
+    c->unicode_is_final = true;
+    choose_glyphs(c, c->glyph_mode);
     return c->glyphs != before;
 }
 
@@ -244,23 +249,30 @@ void canvas_next_palette(struct canvas *c)
 
 static bool has_mode(const struct canvas *c, enum glyph_mode mode)
 {
-    if (mode == GLYPH_SIXEL)
-        return c->has_sixel;
-    return mode != GLYPH_KITTY || c->has_kitty;
+    switch (mode) {
+    case GLYPH_SIXEL: return c->has_sixel;
+    case GLYPH_KITTY: return c->has_kitty;
+    case GLYPH_ASCII: return true;
+    case GLYPH_SPACE: return !c->has_unicode;
+    default: return c->has_unicode;
+    }
 }
 
 void canvas_next_glyphs(struct canvas *c)
 {
     static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
                                             GLYPH_SEXTANT, GLYPH_BRAILLE,
-                                            GLYPH_ASCII,   GLYPH_SIXEL,
-                                            GLYPH_KITTY};
+                                            GLYPH_SPACE,   GLYPH_ASCII,
+                                            GLYPH_SIXEL,   GLYPH_KITTY};
     size_t count = sizeof modes / sizeof modes[0];
+    enum glyph_mode now = c->glyph_mode;
     size_t i = 0;
 
-    while (i < count && modes[i] != c->glyph_mode)
+    if (now == GLYPH_AUTO && !c->has_unicode)
+        now = GLYPH_SPACE;
+    while (i < count && modes[i] != now)
         i++;
-    if (i == count) /* one of those that are the like of half blocks */
+    if (i == count) /* upper, lower, auto: the like of half blocks */
         i = 0;
     do
         i = (i + 1) % count;

@@ -28,7 +28,8 @@ struct canvas {
     bool palette_is_final;      /* no answer of the terminal changes it */
     enum glyph_mode glyph_mode; /* what is wanted */
     enum glyphs glyphs;
-    bool glyphs_are_final;
+    bool has_unicode;
+    bool unicode_is_final; /* no answer of the terminal changes it */
     bool has_sixel, has_kitty;         /* the terminal has said so */
     int sixel_colors;                  /* 0: it has not said how many */
     int cell_width_px, cell_height_px; /* 0: it has not said */

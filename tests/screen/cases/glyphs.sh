@@ -41,5 +41,11 @@ fresh
 start_line "LC_ALL=C TERM=tmux-256color glim lamp.obj"
 wait_until eval 'screen_colors | grep -q "48;2;255;255;255m"'
 reject "[^ -~]"
+keys G
+wait_for "letters"
+wait_for "@@@"
+keys G
+wait_for "blanks"
+reject "@@@"
 keys q
 expect_end 0
