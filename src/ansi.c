@@ -55,8 +55,9 @@ void ansi_begin(struct ansi *a)
 
 bool ansi_reserve(struct ansi *a, size_t size_bytes)
 {
+    size_t needed = a->length + size_bytes + ANSI_TEXT_MAX;
     void *bytes = a->bytes;
-    bool ok = grow_array(&bytes, &a->capacity, a->length + size_bytes, 1);
+    bool ok = grow_array(&bytes, &a->capacity, needed, 1);
 
     a->bytes = bytes;
     return ok;

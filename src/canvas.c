@@ -115,9 +115,14 @@ static int at_most(int a, int b)
     return a < b ? a : b;
 }
 
+static bool is_cell_size(int width_px, int height_px)
+{
+    return width_px >= 1 && height_px >= 1 && width_px <= CELL_PX_MAX &&
+           height_px <= CELL_PX_MAX;
+}
+
 /* The frame need not have more pixels than the film of this size. False if the
- * picture is not of pixels, or there is no memory for them: then
- * of cells. */
+ * picture is not of pixels, or there is no memory for them: then of cells. */
 static bool init_pixels(struct canvas *c, const struct term_size *size,
                         int width_px, int height_px, struct error *err)
 {
@@ -132,8 +137,8 @@ static bool init_pixels(struct canvas *c, const struct term_size *size,
         .palette = is_poor ? PALETTE_16 : PALETTE_256,
     };
 
-    if (shape.kind == GRAPHICS_NONE || shape.cell_width_px < 1 ||
-        shape.cell_height_px < 1)
+    if (shape.kind == GRAPHICS_NONE ||
+        !is_cell_size(shape.cell_width_px, shape.cell_height_px))
         return false;
     if (graphics_init(&c->graphics, &shape, err) &&
         frame_init(&c->frame, at_most(c->graphics.shown.width, width_px),
@@ -185,8 +190,7 @@ static bool take_cell_size(struct canvas *c, const struct event *event)
     double before = c->cell_aspect;
     double aspect;
 
-    if (event->x < 1 || event->y < 1 || event->x > CELL_PX_MAX ||
-        event->y > CELL_PX_MAX)
+    if (!is_cell_size(event->x, event->y))
         return false;
     c->cell_width_px = event->x;
     c->cell_height_px = event->y;

@@ -55,7 +55,8 @@ void ansi_begin(struct ansi *a);
 void ansi_text(struct ansi *a, const char *text);
 #define ANSI_TEXT_MAX 256
 
-/* Makes room for so many bytes behind `length`. False if memory is out. */
+/* Makes room for so many bytes behind `length`, and for the rest of the frame's
+ * ansi_text(). False if memory is out. */
 bool ansi_reserve(struct ansi *a, size_t size_bytes);
 
 /* Appends a jump of the cursor, from 0. */
