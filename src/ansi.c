@@ -117,7 +117,7 @@ static void put_color(struct ansi *a, uint32_t color, enum palette palette,
     }
 }
 
-/* A blank shows no foreground, a full block no background. */
+/* A blank shows no foreground. */
 static bool needs_fg(const struct ansi *a, const struct cell *cell)
 {
     return cell->glyph != ' ' && cell->fg != a->fg;
@@ -125,7 +125,7 @@ static bool needs_fg(const struct ansi *a, const struct cell *cell)
 
 static bool needs_bg(const struct ansi *a, const struct cell *cell)
 {
-    return cell->glyph != CELL_FULL && cell->bg != a->bg;
+    return cell->bg != a->bg;
 }
 
 /* One sequence with only the part that changes. */
@@ -152,7 +152,8 @@ static void put_colors(struct ansi *a, const struct cell *cell,
 }
 
 /* The same dots with foreground and background exchanged; where there is no
- * such glyph, the cell itself. */
+ * such glyph, the cell itself. A blank stays one: some fonts' full block leaves
+ * hairlines of the background, which flat areas do not hide. */
 static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
 {
     struct glyph_grid grid = glyphs_grid(glyphs);
@@ -160,7 +161,7 @@ static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
     unsigned mask;
 
     if (!glyphs_are_solid(glyphs) || cell->bg == CELL_DEFAULT ||
-        !glyphs_mask(glyphs, cell->glyph, &mask))
+        !glyphs_mask(glyphs, cell->glyph, &mask) || mask == 0)
         return *cell;
     return (struct cell){cell->bg, cell->fg,
                          glyphs_of_mask(glyphs, all & ~mask)};

@@ -428,7 +428,7 @@ static void two_colors_stay_set(void **state)
     a.bytes[a.length] = '\0';
     assert_string_equal(a.bytes, "\033[1;1H\033[38;5;30;48;5;20m"
                                  "\xe2\x96\x80\xe2\x96\x84"
-                                 "\xe2\x96\x80\xe2\x96\x84 \xe2\x96\x88");
+                                 "\xe2\x96\x80\xe2\x96\x84 \033[48;5;30m ");
     ansi_begin(&a);
     ansi_picture(&a, &c, &how);
     assert_int_equal(a.length, 0); /* it is shown, inverse or not */
