@@ -137,15 +137,13 @@ static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
                          glyphs_of_mask(cells->glyphs, mask)};
 }
 
-/* Two groups of dots: for each mask, over which the squares of the sums are
- * divided. */
+/* About the mean of all dots, with sum S over k of n of them in one group, the
+ * others have -S, and two colours instead of one take |S|^2 n / (k (n - k)) off
+ * the squared distances. For each mask that factor of |S|^2. */
 struct partition {
     float share[MASKS_MAX];
 };
 
-/* About the mean of all, with sum S over k of n dots in one group, the others
- * have -S, and two colours instead of one take |S|^2 n / (k (n - k)) off the
- * squared distances. */
 static void partition_init(struct partition *p, int dots)
 {
     p->share[0] = 0.0f;

@@ -29,9 +29,9 @@ struct canvas {
     enum glyph_mode glyph_mode; /* what is wanted */
     enum glyphs glyphs;
     bool has_unicode;
-    bool unicode_is_final; /* no answer of the terminal changes it */
-    bool has_sixel, has_kitty;         /* the terminal has said so */
-    int sixel_colors;                  /* 0: it has not said how many */
+    bool unicode_is_final;     /* no answer of the terminal changes it */
+    bool has_sixel, has_kitty; /* the terminal has said so */
+    int sixel_colors;          /* 0: it has not said how many */
     int cell_width_px, cell_height_px; /* 0: it has not said */
     double cell_aspect;
     bool aspect_is_final;

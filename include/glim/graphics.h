@@ -36,8 +36,8 @@ struct graphics {
     struct graphics_shape shape;
     int tile_cols, tiles_across;
     struct graphics_tile *tiles;
-    int next;           /* tile to go on with */
-    bool has_begun;     /* images of before are removed */
+    int next;       /* tile to go on with */
+    bool has_begun; /* images of before are removed */
     struct frame wanted;
     struct frame shown; /* pixels of known tiles */
     struct dither dither;
