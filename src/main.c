@@ -92,8 +92,8 @@ static int probe(const struct options *o)
 static bool check_terminal(const struct options *o, struct error *err)
 {
     if (o->batch) {
-        if (o->output_path && strcmp(o->output_path, "-") == 0 &&
-            isatty(STDOUT_FILENO))
+        if (o->text_cols == 0 && o->output_path &&
+            strcmp(o->output_path, "-") == 0 && isatty(STDOUT_FILENO))
             return fail(err, "-o: standard output is a terminal, expected a "
                              "file or a pipe");
         return true;
