@@ -37,7 +37,13 @@ LIBS = -lncursesw -ltinfo -lm -ldl
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
-OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o
+# Sets of instructions that src/paths.c is built for as well, and their flags.
+ISAS := $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),avx2 avx512)
+FLAGS_avx2 := -mavx2 -mbmi -mlzcnt
+FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
+	-mprefer-vector-width=256
+OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o \
+	$(ISAS:%=$(B)/paths_%.o)
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
@@ -46,7 +52,7 @@ STRESSES := $(patsubst tests/stress/%.c,$(B)/stress/%,$(wildcard \
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
-	%,$(B)/error/cpu_%.o,hashed uniform throughput shadows)
+	%,$(B)/error/paths_%.o,whole hashed uniform throughput shadows)
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 # On all cores, unless the caller has said how many.
 MAKE_ALL = $(MAKE) --no-print-directory \
@@ -66,6 +72,11 @@ $(B)/glim: $(OBJECTS) $(B)/flags
 $(B)/%.o: src/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+$(ISAS:%=$(B)/paths_%.o): $(B)/paths_%.o: src/paths.c $(B)/flags
+	$(SAY) CC '$< ($*)'
+	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$*) -DPATHS=paths_$* \
+		-DPATHS_NAME='"$*"' -MMD -MP -c -o $@ $<
 
 # The folder's own time changes when a file comes or goes.
 $(B)/kernels.c: kernels $(KERNELS) kernels/embed.sh $(B)/flags
@@ -102,12 +113,14 @@ $(B)/error/%.o: tests/bench/error/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-# The CPU's backend with a function of the kernels replaced.
-$(B)/error/cpu_%.o: src/backend_cpu.c tests/bench/error/%.h $(B)/flags
+# The CPU's samples with a function of the kernels replaced, and as they are,
+# all for the processor that measures.
+$(B)/error/paths_%.o: src/paths.c tests/bench/error/%.h $(B)/flags
 	@mkdir -p $(@D)
-	$(SAY) CC $<
-	$(Q)$(CC) $(ALL_CFLAGS) -include tests/bench/error/$*.h -MMD -MP -c \
-		-o $@ $<
+	$(SAY) CC '$< ($*)'
+	$(Q)$(CC) $(ALL_CFLAGS) -march=native -mprefer-vector-width=256 \
+		-DPATHS=paths_$* -DPATHS_NAME='"$*"' \
+		-include tests/bench/error/$*.h -MMD -MP -c -o $@ $<
 
 $(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
 	$(SAY) LINK $@

@@ -21,12 +21,18 @@
 #include "kernels/first_hit.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
+#include "kernels/points.h"
 #include "kernels/roulette.h"
 #include "kernels/start.h"
 #include "kernels/vertex.h"
 
 /* Paths without a limit of their own end here, counted. */
 #define PATH_HARD_STOP 1000u
+
+/* So many samples are worth computing their random numbers together. */
+#ifndef POINTS_MIN
+#define POINTS_MIN 3
+#endif
 
 /* Between the keys of a vertex's next ray and of its shadow ray. */
 #define SHADOW_KEY 0x10000u
@@ -35,6 +41,8 @@
 struct path {
     struct ray ray;
     struct sampler sampler;
+    struct points *points; /* or NULL; this path's numbers are those at */
+    uint32_t lane;
     struct vec3 beta; /* what radiance that comes along the ray counts, */
     float eta_scale;  /* apart from this, which roulette does not see */
     float pdf;        /* of the ray's direction; 0: no light sample has it */
@@ -47,6 +55,12 @@ static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
                                     float weight)
 {
     return v3_mul(v3_scale(p->beta, p->eta_scale * weight), radiance);
+}
+
+static inline struct vec2 path_2d(struct path *p, uint32_t vertex,
+                                  uint32_t kind)
+{
+    return points_2d(p->points, p->lane, p->sampler, vertex, kind);
 }
 
 static inline void path_add(struct path *p, struct vec3 radiance, float weight)
@@ -138,17 +152,13 @@ static inline void path_add_direct(const struct world *w, struct path *p,
                                    const struct bsdf *b, const struct vertex *v,
                                    struct vec3 wo, uint32_t vertex)
 {
-    uint32_t dimension = DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE;
     uint32_t key = ray_key(p->sampler, SHADOW_KEY + vertex);
     struct light_sample s;
     struct vec3 wi, light;
     float pdf;
 
-    if (!light_sample(w, &p->from,
-                      random_2d(p->sampler,
-                                dimension + DIMENSION_LIGHT_POSITION),
-                      random_2d(p->sampler, dimension + DIMENSION_LIGHT_CHOICE),
-                      &s))
+    if (!light_sample(w, &p->from, path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
+                      path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &s))
         return;
     wi = vertex_to_local(v, s.wi);
     if (!vertex_sides_agree(v, s.wi, wi.z))
@@ -217,7 +227,6 @@ static inline bool path_survives(struct path *p, uint32_t vertex, float u)
 static inline bool path_step(const struct world *w, struct path *p,
                              struct hit h, uint32_t vertex)
 {
-    uint32_t dimension = DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE;
     struct material m = w->materials[w->tris[h.tri].material];
     struct vertex v;
     struct bsdf b;
@@ -246,21 +255,23 @@ static inline bool path_step(const struct world *w, struct path *p,
     p->from.transmits = bsdf_transmits(&b);
     if (wants_light_sample(w, &b))
         path_add_direct(w, p, &b, &v, wo, vertex);
-    lobe = random_2d(p->sampler, dimension + DIMENSION_BSDF_LOBE);
+    lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);
     return path_scatter(p, &b, &v, wo,
-                        random_2d(p->sampler,
-                                  dimension + DIMENSION_BSDF_DIRECTION),
-                        lobe.x) &&
+                        path_2d(p, vertex, DIMENSION_BSDF_DIRECTION), lobe.x) &&
            path_survives(p, vertex, lobe.y);
 }
 
-/* The path that begins with this ray; the sampler has its random numbers. */
-static inline struct path path_open(struct ray r, struct sampler sampler)
+/* A path that begins with this ray. Its random numbers are the sampler's; with
+ * points, which has them for eight samples, those of sample `lane`. */
+static inline struct path path_open(struct ray r, struct sampler sampler,
+                                    struct points *points, uint32_t lane)
 {
     struct path p;
 
     p.ray = r;
     p.sampler = sampler;
+    p.points = points;
+    p.lane = lane;
     p.beta = v3(1.0f, 1.0f, 1.0f);
     p.eta_scale = 1.0f;
     p.pdf = 0.0f;
@@ -288,11 +299,9 @@ static inline bool path_advance(const struct world *w, struct path *p,
     return path_step(w, p, *h, vertex);
 }
 
-/* The whole path. */
-static inline struct path_sample path_trace(const struct world *w, struct ray r,
-                                            struct sampler sampler)
+/* To its end. */
+static inline struct path_sample path_run(const struct world *w, struct path p)
 {
-    struct path p = path_open(r, sampler);
     uint32_t vertex = 1;
     struct hit h;
 
@@ -301,17 +310,34 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     return p.out;
 }
 
+static inline struct path_sample path_trace(const struct world *w, struct ray r,
+                                            struct sampler sampler)
+{
+    return path_run(w, path_open(r, sampler, NULL, 0));
+}
+
 /* Samples first .. first + count - 1 of pixel (x, y); count is 1 to
  * SAMPLE_BLOCK. */
 static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                                 uint64_t first, uint32_t count,
                                 struct path_sample *out)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        struct path_start start = path_begin(&w->settings, x, y, first + i);
+    struct path_start starts[SAMPLE_BLOCK];
+    struct points points;
+    bool share = count >= POINTS_MIN;
 
-        out[i] = path_trace(w, start.ray, start.sampler);
+    points.known = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        starts[i] = path_begin(&w->settings, x, y, first + i);
+        points.reversed_index[i] = starts[i].sampler.reversed_index;
+        share = share && starts[i].sampler.key == starts[0].sampler.key;
     }
+    for (uint32_t i = count; i < SAMPLE_BLOCK; i++)
+        points.reversed_index[i] = 0;
+    points.key = starts[0].sampler.key;
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = path_run(w, path_open(starts[i].ray, starts[i].sampler,
+                                       share ? &points : NULL, i));
 }
 
 #endif

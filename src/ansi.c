@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A jump, two 24-bit colours and a glyph: 10 + 38 + 3 bytes. */
+/* A jump, two 24-bit colours and a glyph: 10 + 38 + 4 bytes. */
 #define CELL_BYTES_MAX 56
 
 bool ansi_init(struct ansi *a, int cols, int rows, struct error *err)
@@ -51,6 +51,16 @@ void ansi_begin(struct ansi *a)
     a->length = 0;
     a->fg = CELL_DEFAULT;
     a->bg = CELL_DEFAULT;
+}
+
+bool ansi_reserve(struct ansi *a, size_t size_bytes)
+{
+    size_t needed = a->length + size_bytes + ANSI_TEXT_MAX;
+    void *bytes = a->bytes;
+    bool ok = grow_array(&bytes, &a->capacity, needed, 1);
+
+    a->bytes = bytes;
+    return ok;
 }
 
 static void put(struct ansi *a, const char *text, size_t length)
@@ -107,12 +117,23 @@ static void put_color(struct ansi *a, uint32_t color, enum palette palette,
     }
 }
 
-/* One sequence with only the part that changes. A blank shows no foreground. */
+/* A blank shows no foreground. */
+static bool needs_fg(const struct ansi *a, const struct cell *cell)
+{
+    return cell->glyph != ' ' && cell->fg != a->fg;
+}
+
+static bool needs_bg(const struct ansi *a, const struct cell *cell)
+{
+    return cell->bg != a->bg;
+}
+
+/* One sequence with only the part that changes. */
 static void put_colors(struct ansi *a, const struct cell *cell,
                        enum palette palette)
 {
-    bool new_fg = cell->glyph != ' ' && cell->fg != a->fg;
-    bool new_bg = cell->bg != a->bg;
+    bool new_fg = needs_fg(a, cell);
+    bool new_bg = needs_bg(a, cell);
 
     if (!new_fg && !new_bg)
         return;
@@ -130,14 +151,44 @@ static void put_colors(struct ansi *a, const struct cell *cell,
     put_char(a, 'm');
 }
 
-static void put_glyph(struct ansi *a, uint32_t glyph)
+/* The same dots with foreground and background exchanged; where there is no
+ * such glyph, the cell itself. A blank stays one: some fonts' full block leaves
+ * hairlines of the background, which flat areas do not hide. */
+static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
 {
-    if (glyph == CELL_UPPER)
-        put(a, "\xe2\x96\x80", 3);
-    else if (glyph == CELL_LOWER)
-        put(a, "\xe2\x96\x84", 3);
-    else
-        put_char(a, (char)glyph);
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    unsigned all = (1u << grid.across * grid.down) - 1;
+    unsigned mask;
+
+    if (!glyphs_are_solid(glyphs) || cell->bg == CELL_DEFAULT ||
+        !glyphs_mask(glyphs, cell->glyph, &mask) || mask == 0)
+        return *cell;
+    return (struct cell){cell->bg, cell->fg,
+                         glyphs_of_mask(glyphs, all & ~mask)};
+}
+
+/* Writes the cell or its inverse, whichever changes fewer colours: where a
+ * dither mixes two, they stay and the glyphs alternate. */
+static void put_cell(struct ansi *a, const struct cells *cells,
+                     const struct cell *cell)
+{
+    struct cell inverse = inverse_of(cell, cells->glyphs);
+    int changes = needs_fg(a, cell) + needs_bg(a, cell);
+    char bytes[4];
+
+    if (needs_fg(a, &inverse) + needs_bg(a, &inverse) < changes)
+        cell = &inverse;
+    put_colors(a, cell, cells->palette);
+    put(a, bytes, (size_t)glyph_utf8(cell->glyph, bytes));
+}
+
+void ansi_jump(struct ansi *a, int row, int col)
+{
+    put(a, "\033[", 2);
+    put_number(a, (uint32_t)row + 1);
+    put_char(a, ';');
+    put_number(a, (uint32_t)col + 1);
+    put_char(a, 'H');
 }
 
 /* `from` is the column where the cursor stands in this row; -1: elsewhere. */
@@ -145,14 +196,11 @@ static void put_jump(struct ansi *a, int row, int col, int from)
 {
     if (from == col)
         return;
-    put(a, "\033[", 2);
     if (from < 0) {
-        put_number(a, (uint32_t)row + 1);
-        put_char(a, ';');
-        put_number(a, (uint32_t)col + 1);
-        put_char(a, 'H');
+        ansi_jump(a, row, col);
         return;
     }
+    put(a, "\033[", 2);
     if (col - from > 1)
         put_number(a, (uint32_t)(col - from));
     put_char(a, 'C');
@@ -167,37 +215,35 @@ static bool channels_close(uint32_t a, uint32_t b, int step)
     return true;
 }
 
-/* What a cell shows in its upper and its lower half. */
-static uint32_t upper_of(const struct cell *c)
+/* Whether every dot of the cells has about the same colour in both. */
+static bool dots_close(const struct cell *a, const struct cell *b,
+                       enum glyphs glyphs, int step)
 {
-    return c->glyph == CELL_UPPER ? c->fg : c->bg;
-}
+    unsigned masks[2];
 
-static uint32_t lower_of(const struct cell *c)
-{
-    return c->glyph == CELL_LOWER ? c->fg : c->bg;
-}
-
-static bool is_block(const struct cell *c)
-{
-    return (c->glyph == CELL_UPPER || c->glyph == CELL_LOWER ||
-            c->glyph == ' ') &&
-           c->bg != CELL_DEFAULT;
+    if (a->bg == CELL_DEFAULT || b->bg == CELL_DEFAULT ||
+        !glyphs_mask(glyphs, a->glyph, &masks[0]) ||
+        !glyphs_mask(glyphs, b->glyph, &masks[1]))
+        return false;
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    for (int i = 0; i < grid.across * grid.down; i++) {
+        if (!channels_close(masks[0] >> i & 1 ? a->fg : a->bg,
+                            masks[1] >> i & 1 ? b->fg : b->bg, step))
+            return false;
+    }
+    return true;
 }
 
 static bool may_stay(const struct cell *shown, const struct cell *cell,
-                     int step)
+                     enum glyphs glyphs, int step)
 {
     if (shown->glyph == cell->glyph && shown->bg == cell->bg &&
         (shown->fg == cell->fg || cell->glyph == ' '))
         return true;
-    return step > 0 && is_block(shown) && is_block(cell) &&
-           channels_close(upper_of(shown), upper_of(cell), step) &&
-           channels_close(lower_of(shown), lower_of(cell), step);
+    return step > 0 && dots_close(shown, cell, glyphs, step);
 }
 
-/* The column behind a window above (col, row), or col. */
-static int behind_cover(const struct ansi_draw *how, int col, int row)
+int ansi_uncovered(const struct ansi_draw *how, int col, int row)
 {
     for (int i = 0; i < how->covered_count; i++) {
         const struct ansi_rect *r = &how->covered[i];
@@ -221,19 +267,18 @@ static int put_row(struct ansi *a, const struct cells *cells, int row,
     int step = cells->palette == PALETTE_24BIT ? how->step : 0;
     int from = -1;
 
-    for (int col = behind_cover(how, begin, row); col < end;
-         col = behind_cover(how, col + 1, row)) {
+    for (int col = ansi_uncovered(how, begin, row); col < end;
+         col = ansi_uncovered(how, col + 1, row)) {
         const struct cell *cell = &cells->cell[first + (size_t)col];
         struct cell *shown = &a->shown[first + (size_t)col];
 
-        if (may_stay(shown, cell, step))
+        if (may_stay(shown, cell, cells->glyphs, step))
             continue;
         if (a->length >= limit)
             return col;
         put_jump(a, how->row + row, how->col + col,
                  from < 0 ? -1 : how->col + from);
-        put_colors(a, cell, cells->palette);
-        put_glyph(a, cell->glyph);
+        put_cell(a, cells, cell);
         *shown = *cell;
         from = col + 1;
     }
@@ -250,9 +295,11 @@ bool ansi_picture(struct ansi *a, const struct cells *cells,
     int start_col = a->next_col;
 
     assert(cells->cols == a->cols && cells->rows == a->rows);
-    if (cells->palette != a->palette)
-        ansi_forget_all(a); /* the same number is another colour */
+    /* the same number is another colour, the same glyph another mask */
+    if (cells->palette != a->palette || cells->glyphs != a->glyphs)
+        ansi_forget_all(a);
     a->palette = cells->palette;
+    a->glyphs = cells->glyphs;
     /* The row of the start comes twice: its right part first, its left last. */
     for (int i = 0; i <= a->rows; i++) {
         int row = (start_row + i) % a->rows;
@@ -273,9 +320,31 @@ bool ansi_picture(struct ansi *a, const struct cells *cells,
 
 void ansi_end(struct ansi *a, int row)
 {
-    ansi_text(a, "\033[m\033[");
-    put_number(a, (uint32_t)row + 1);
-    ansi_text(a, ";1H");
+    ansi_text(a, "\033[m");
+    ansi_jump(a, row, 0);
     a->fg = CELL_DEFAULT;
     a->bg = CELL_DEFAULT;
+}
+
+bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
+                struct error *err)
+{
+    struct ansi a;
+
+    if (!ansi_init(&a, cells->cols, cells->rows, err))
+        return false;
+    for (int row = 0; row < cells->rows; row++) {
+        a.fg = CELL_DEFAULT;
+        a.bg = CELL_DEFAULT;
+        for (int col = 0; col < cells->cols; col++)
+            put_cell(&a, cells, &cells->cell[row * cells->cols + col]);
+        if (a.fg != CELL_DEFAULT || a.bg != CELL_DEFAULT)
+            put(&a, "\033[m", 3);
+        put_char(&a, '\n');
+    }
+    *text = a.bytes;
+    *size_bytes = a.length;
+    a.bytes = NULL; /* the caller owns it now */
+    ansi_free(&a);
+    return true;
 }

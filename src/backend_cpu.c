@@ -4,15 +4,15 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "glim/wide_hit.h"
-
-#include "kernels/path.h"
+#include "glim/wide.h"
+#include "kernels/sobol.h"
 
 /* Points of a pass's grid in a block, each way. */
 #define BLOCK_SIDE 8
 
 struct backend_cpu {
     struct backend base;
+    const struct paths *paths;
     struct pool *pool;
     struct wide tree;
     /* from begin() */
@@ -73,9 +73,9 @@ static bool render_row(const struct job *j, int x, int y, int pixel_count)
 
         counts[done] = (int)count;
         if (count != 0)
-            path_samples(&b->world.world, (uint32_t)(b->x0 + px),
-                         (uint32_t)(b->y0 + y), first, count,
-                         samples + done * SAMPLE_BLOCK);
+            b->paths->samples(&b->world.world, (uint32_t)(b->x0 + px),
+                              (uint32_t)(b->y0 + y), first, count,
+                              samples + done * SAMPLE_BLOCK);
     }
     film_add_row(b->film, x, y, j->pass.stride, done, samples, counts);
     return done == pixel_count;
@@ -154,7 +154,8 @@ static void cpu_destroy(struct backend *base)
     free(b);
 }
 
-struct backend *backend_cpu_create(int thread_count, struct error *err)
+struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
+                                   struct error *err)
 {
     struct backend_cpu *b = xcalloc(1, sizeof *b);
 
@@ -163,6 +164,7 @@ struct backend *backend_cpu_create(int thread_count, struct error *err)
         free(b);
         return NULL;
     }
+    b->paths = paths;
     b->base.name = "cpu";
     b->base.thread_count = pool_thread_count(b->pool);
     b->base.load = cpu_load;

@@ -15,6 +15,7 @@
 #include "glim/file.h"
 #include "glim/picture.h"
 #include "glim/stats.h"
+#include "glim/text.h"
 
 /* The bar is drawn this often, which also bounds what a slow link gets. */
 #define DRAW_MS 100
@@ -78,6 +79,14 @@ static bool is_standard_output(const char *path)
     return strcmp(path, "-") == 0;
 }
 
+/* Where the text goes; NULL: to standard output. */
+static const char *text_path(const struct options *o)
+{
+    const char *path = o->output_path;
+
+    return path && !is_standard_output(path) ? path : NULL;
+}
+
 /* Whole minutes may lie between this and the writing: mistakes are worth
  * finding now. */
 static bool check_outputs(const struct options *o, struct error *err)
@@ -85,6 +94,8 @@ static bool check_outputs(const struct options *o, struct error *err)
     if (o->stats_path && !is_standard_output(o->stats_path) &&
         !file_check(o->stats_path, err))
         return false;
+    if (o->text_cols > 0)
+        return !text_path(o) || file_check(text_path(o), err);
     if (o->output_path)
         return picture_check(o->output_path, err);
     if (access(".", W_OK | X_OK) != 0)
@@ -209,6 +220,40 @@ static void wait_for_end(struct session *s)
     render_halt(s->render);
 }
 
+/* No terminal is asked: the reader of a file may be another one. */
+static enum palette text_palette(const struct options *o)
+{
+    const char *no_color = getenv("NO_COLOR");
+
+    if (o->color == COLOR_AUTO && no_color && no_color[0] != '\0')
+        return PALETTE_MONO;
+    return options_palette(o->color);
+}
+
+static bool save_text(struct session *s, char **name, struct error *err)
+{
+    const struct options *o = s->options;
+    struct film *film = render_film(s->render);
+    struct fit fit =
+        cells_fit(film->width, film->height, o->text_cols, o->text_rows,
+                  o->cell_aspect > 0 ? o->cell_aspect : 2);
+    struct text_style style = {fit.cols, fit.rows, text_palette(o),
+                               options_glyphs(o->glyph)};
+    const char *path = text_path(o);
+    size_t size_bytes;
+    char *text;
+    bool ok;
+
+    if (!text_of_film(film, (float)s->view.exposure, &style, &text, &size_bytes,
+                      err))
+        return false;
+    *name = xstrdup(path ? path : "standard output");
+    ok = path ? file_write(path, text, size_bytes, false, NULL, err)
+              : file_write_stdout(text, size_bytes, err);
+    free(text);
+    return ok;
+}
+
 /* Writes the picture; *name is what it is called now, for free(). */
 static bool save_picture(struct session *s, char **name, struct error *err)
 {
@@ -217,6 +262,8 @@ static bool save_picture(struct session *s, char **name, struct error *err)
     float exposure = (float)s->view.exposure;
     char *stem;
 
+    if (o->text_cols > 0)
+        return save_text(s, name, err);
     if (o->output_path) {
         *name = xstrdup(is_standard_output(o->output_path) ? "standard output"
                                                            : o->output_path);

@@ -14,21 +14,19 @@
 /* The longest round trip that is waited for at the end. */
 #define DRAIN_NS UINT64_C(500000000)
 
+/* Beyond these a terminal has answered nonsense. */
+#define CELL_PX_MAX 200
+
+/* Of a frame of pixels, however fast the line: what is encoded in the time that
+ * a key may wait, some 20 ms. */
+#define PIXEL_BYTES_MAX ((size_t)512 << 10)
+
+/* Sixel images with fewer colours have the 16. */
+#define SIXEL_COLORS_MIN 256
+
 /* A smaller window has no room for a picture and a word about it. */
 #define COLS_MIN 40
 #define ROWS_MIN 12
-
-static enum palette palette_of_option(enum color_mode mode)
-{
-    switch (mode) {
-    case COLOR_MONO: return PALETTE_MONO;
-    case COLOR_16: return PALETTE_16;
-    case COLOR_256: return PALETTE_256;
-    case COLOR_24BIT:
-    case COLOR_AUTO: break;
-    }
-    return PALETTE_24BIT;
-}
 
 static void choose_palette(struct canvas *c, enum color_mode mode)
 {
@@ -36,37 +34,46 @@ static void choose_palette(struct canvas *c, enum color_mode mode)
     if (mode == COLOR_AUTO)
         c->palette = term_palette(&c->palette_is_final);
     else
-        c->palette = palette_of_option(mode);
+        c->palette = options_palette(mode);
 }
 
+/* What is not asked for by name has a fall-back: half blocks for pixels, blanks
+ * for half blocks. */
 static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
 {
-    bool may_learn;
+    bool is_by_name = mode != GLYPH_AUTO && mode < GLYPH_SIXEL;
 
-    c->glyphs_are_final = true;
-    switch (mode) {
-    case GLYPH_UPPER: c->glyphs = GLYPHS_UPPER; return;
-    case GLYPH_LOWER: c->glyphs = GLYPHS_LOWER; return;
-    case GLYPH_SPACE: c->glyphs = GLYPHS_SPACE; return;
-    case GLYPH_ASCII: c->glyphs = GLYPHS_ASCII; return;
-    case GLYPH_AUTO: break;
-    }
-    c->glyphs = term_is_utf8(&may_learn) ? GLYPHS_UPPER : GLYPHS_SPACE;
-    c->glyphs_are_final = !may_learn;
+    c->glyph_mode = mode;
+    c->glyphs =
+        is_by_name || c->has_unicode ? options_glyphs(mode) : GLYPHS_SPACE;
 }
 
 void canvas_init(struct canvas *c, const struct options *options)
 {
+    bool may_learn;
+
     *c = (struct canvas){.has_status_row = true};
     pace_init(&c->pace, clock_ns());
     c->cell_aspect = options->cell_aspect;
     c->aspect_is_final = options->cell_aspect > 0;
+    c->has_unicode = term_is_utf8(&may_learn);
+    c->unicode_is_final = !may_learn;
     choose_glyphs(c, options->glyph);
     choose_palette(c, options->color);
 }
 
+/* Cells that are written over sixels replace them, over kitty's not. */
+static void erase_pixels(struct canvas *c)
+{
+    const char *eraser = graphics_eraser(c->graphics.shape.kind);
+
+    if (eraser)
+        term_write(eraser, strlen(eraser));
+}
+
 static void free_sized(struct canvas *c)
 {
+    graphics_free(&c->graphics);
     cells_free(&c->cells);
     frame_free(&c->frame);
     ansi_free(&c->ansi);
@@ -93,6 +100,16 @@ static double cell_aspect(const struct canvas *c, const struct term_size *size)
     return 2;
 }
 
+static enum graphics_kind pixels_kind(const struct canvas *c)
+{
+    if (c->palette == PALETTE_MONO)
+        return GRAPHICS_NONE;
+    if (c->glyph_mode == GLYPH_SIXEL && c->has_sixel)
+        return GRAPHICS_SIXEL;
+    return c->glyph_mode == GLYPH_KITTY && c->has_kitty ? GRAPHICS_KITTY
+                                                        : GRAPHICS_NONE;
+}
+
 static bool is_too_small(const struct term_size *size)
 {
     return size->cols < COLS_MIN || size->rows < ROWS_MIN;
@@ -101,9 +118,11 @@ static bool is_too_small(const struct term_size *size)
 static struct fit fit_to(const struct canvas *c, const struct term_size *size,
                          int width_px, int height_px)
 {
+    /* sixels in the last row would scroll the screen */
+    bool is_short = c->has_status_row || pixels_kind(c) == GRAPHICS_SIXEL;
+
     return cells_fit(width_px, height_px, size->cols,
-                     size->rows - (c->has_status_row ? 1 : 0),
-                     cell_aspect(c, size));
+                     size->rows - (is_short ? 1 : 0), cell_aspect(c, size));
 }
 
 struct fit canvas_expect(const struct options *options, int width_px,
@@ -118,11 +137,59 @@ struct fit canvas_expect(const struct options *options, int width_px,
     return fit_to(&c, &size, width_px, height_px);
 }
 
+static int at_most(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static bool is_cell_size(int width_px, int height_px)
+{
+    return width_px >= 1 && height_px >= 1 && width_px <= CELL_PX_MAX &&
+           height_px <= CELL_PX_MAX;
+}
+
+/* The frame need not have more pixels than the film of this size. False if the
+ * picture is not of pixels, or there is no memory for them: then of cells. */
+static bool init_pixels(struct canvas *c, const struct term_size *size,
+                        int width_px, int height_px, struct error *err)
+{
+    bool is_poor = c->sixel_colors > 0 && c->sixel_colors < SIXEL_COLORS_MIN;
+    bool was_told = c->cell_width_px > 0;
+    struct graphics_shape shape = {
+        .kind = pixels_kind(c),
+        .cols = c->fit.cols,
+        .rows = c->fit.rows,
+        .cell_width_px = was_told ? c->cell_width_px : size->cell_width_px,
+        .cell_height_px = was_told ? c->cell_height_px : size->cell_height_px,
+        .palette = is_poor ? PALETTE_16 : PALETTE_256,
+    };
+
+    if (shape.kind == GRAPHICS_NONE ||
+        !is_cell_size(shape.cell_width_px, shape.cell_height_px))
+        return false;
+    if (graphics_init(&c->graphics, &shape, err) &&
+        frame_init(&c->frame, at_most(c->graphics.shown.width, width_px),
+                   at_most(c->graphics.shown.height, height_px), err))
+        return true;
+    graphics_free(&c->graphics);
+    return false;
+}
+
+static bool init_cells(struct canvas *c, struct error *err)
+{
+    struct glyph_grid grid = glyphs_grid(c->glyphs);
+
+    return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
+           frame_init(&c->frame, grid.across * c->fit.cols,
+                      grid.down * c->fit.rows, err);
+}
+
 bool canvas_layout(struct canvas *c, int width_px, int height_px,
                    struct error *err)
 {
     struct term_size size;
 
+    erase_pixels(c);
     free_sized(c);
     term_relayout();
     size = term_size();
@@ -137,9 +204,9 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     c->fit = fit_to(c, &size, width_px, height_px);
     c->cursor_col = c->cursor_col < c->fit.cols ? c->cursor_col : 0;
     c->cursor_row = c->cursor_row < c->fit.rows ? c->cursor_row : 0;
-    return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
-           frame_init(&c->frame, c->fit.cols, 2 * c->fit.rows, err) &&
-           ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err);
+    return ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err) &&
+           (init_pixels(c, &size, width_px, height_px, err) ||
+            init_cells(c, err));
 }
 
 static bool take_cell_size(struct canvas *c, const struct event *event)
@@ -147,7 +214,11 @@ static bool take_cell_size(struct canvas *c, const struct event *event)
     double before = c->cell_aspect;
     double aspect;
 
-    if (c->aspect_is_final || event->x < 1 || event->y < 1)
+    if (!is_cell_size(event->x, event->y))
+        return false;
+    c->cell_width_px = event->x;
+    c->cell_height_px = event->y;
+    if (c->aspect_is_final)
         return false;
     aspect = (double)event->y / event->x;
     if (aspect < 0.5 || aspect > 5)
@@ -161,6 +232,19 @@ static bool take_cell_size(struct canvas *c, const struct event *event)
     return fabs(before - aspect) > 0.01 * aspect;
 }
 
+/* Behind a character that begins with a byte outside ASCII: in column 2 if it
+ * was one. */
+static bool take_cursor(struct canvas *c, const struct event *event)
+{
+    enum glyphs before = c->glyphs;
+
+    if (!c->unicode_is_final)
+        c->has_unicode = event->x == 2;
+    c->unicode_is_final = true;
+    choose_glyphs(c, c->glyph_mode);
+    return c->glyphs != before;
+}
+
 bool canvas_answer(struct canvas *c, const struct event *event)
 {
     switch (event->kind) {
@@ -171,12 +255,13 @@ bool canvas_answer(struct canvas *c, const struct event *event)
         break;
     case EVENT_SYNC: term_use_sync(); break;
     case EVENT_CELL_SIZE: return take_cell_size(c, event);
-    case EVENT_CURSOR:
-        if (!c->glyphs_are_final)
-            c->glyphs = event->x == 2 ? GLYPHS_UPPER : GLYPHS_SPACE;
-        c->glyphs_are_final = true;
-        break;
-    case EVENT_ATTRIBUTES: c->has_all_answers = true; break;
+    case EVENT_CURSOR: return take_cursor(c, event);
+    case EVENT_SIXEL_COLORS: c->sixel_colors = event->x; break;
+    case EVENT_KITTY: c->has_kitty = true; break;
+    case EVENT_ATTRIBUTES:
+        c->has_sixel = event->x == 1;
+        c->has_all_answers = true;
+        return pixels_kind(c) != c->graphics.shape.kind;
     case EVENT_KEY:
     case EVENT_MOUSE: break;
     }
@@ -190,11 +275,56 @@ void canvas_next_palette(struct canvas *c)
                                             : (enum palette)(c->palette - 1);
 }
 
+static bool has_mode(const struct canvas *c, enum glyph_mode mode)
+{
+    switch (mode) {
+    case GLYPH_SIXEL: return c->has_sixel;
+    case GLYPH_KITTY: return c->has_kitty;
+    case GLYPH_ASCII: return true;
+    case GLYPH_SPACE: return !c->has_unicode;
+    default: return c->has_unicode;
+    }
+}
+
+void canvas_next_glyphs(struct canvas *c)
+{
+    static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
+                                            GLYPH_SEXTANT, GLYPH_BRAILLE,
+                                            GLYPH_SPACE,   GLYPH_ASCII,
+                                            GLYPH_SIXEL,   GLYPH_KITTY};
+    size_t count = sizeof modes / sizeof modes[0];
+    enum glyph_mode now = c->glyph_mode;
+    size_t i = 0;
+
+    if (now == GLYPH_AUTO && !c->has_unicode)
+        now = GLYPH_SPACE;
+    while (i < count && modes[i] != now)
+        i++;
+    if (i == count) /* upper, lower, auto: the like of half blocks */
+        i = 0;
+    do
+        i = (i + 1) % count;
+    while (!has_mode(c, modes[i]));
+    choose_glyphs(c, modes[i]);
+}
+
+const char *canvas_glyphs_name(const struct canvas *c)
+{
+    switch (c->graphics.shape.kind) {
+    case GRAPHICS_SIXEL: return "sixel pixels";
+    case GRAPHICS_KITTY: return "kitty pixels";
+    case GRAPHICS_NONE: break;
+    }
+    return glyphs_name(c->glyphs);
+}
+
 /* Rows of the screen, which curses may have cleared to their ends. */
 static void forget_rows(struct canvas *c, int row, int rows)
 {
-    ansi_forget(&c->ansi,
-                (struct ansi_rect){0, row - c->fit.row, c->ansi.cols, rows});
+    struct ansi_rect rect = {0, row - c->fit.row, c->ansi.cols, rows};
+
+    ansi_forget(&c->ansi, rect);
+    graphics_forget(&c->graphics, rect);
 }
 
 void canvas_status(struct canvas *c, const char *text)
@@ -257,6 +387,11 @@ static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
     film_preview(film, draft, exposure, &c->frame);
     if (c->painter.paint)
         c->painter.paint(c->painter.context, film, draft, &c->frame);
+    if (c->graphics.shape.kind != GRAPHICS_NONE) {
+        if (how.budget_bytes > PIXEL_BYTES_MAX)
+            how.budget_bytes = PIXEL_BYTES_MAX;
+        return graphics_picture(&c->graphics, &c->ansi, &c->frame, &how);
+    }
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     if (c->has_cursor)
         cells_mark(&c->cells, c->cursor_col, c->cursor_row);
@@ -308,6 +443,11 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
     return is_complete ? CANVAS_DONE : CANVAS_MORE;
 }
 
+struct text_style canvas_style(const struct canvas *c)
+{
+    return (struct text_style){c->fit.cols, c->fit.rows, c->palette, c->glyphs};
+}
+
 static bool awaits_answers(const struct canvas *c)
 {
     return c->pace.state != PACE_MUTE &&
@@ -319,6 +459,7 @@ void canvas_drain(struct canvas *c, struct input *input)
     uint64_t until_ns = clock_ns() + DRAIN_NS;
     uint64_t now_ns;
 
+    erase_pixels(c);
     while (awaits_answers(c) && (now_ns = clock_ns()) < until_ns) {
         struct pollfd in = {.fd = STDIN_FILENO, .events = POLLIN};
         unsigned char bytes[512];

@@ -9,21 +9,11 @@
 static const char ramp[] = " .:;+xo%#@";
 #define RAMP_LENGTH ((int)sizeof ramp - 1)
 
-/* The first 16 colours: eight whose channels are 0 or 170, eight with 85 or
- * 255. Themes differ, and nobody can ask all terminals; these are the VGA's and
- * lie in the middle of what is in use. */
-#define DARK_ON    170
-#define BRIGHT_OFF 85
+/* Masks of which the last dot is not set: the others are their inverses. */
+#define MASKS_MAX (1 << (GLYPH_DOTS_MAX - 1))
 
-/* Bayer's matrix: thresholds that spread a level over 4x4 pixels. */
-static const int8_t bayer[4][4] = {{0, 8, 2, 10},
-                                   {12, 4, 14, 6},
-                                   {3, 11, 1, 9},
-                                   {15, 7, 13, 5}};
-
-struct rgb {
-    int r, g, b;
-};
+/* Roots of the weights 2, 4 and 3 that the eye gives the primaries, roughly. */
+static const float eye[3] = {1.41421356f, 2.0f, 1.73205081f};
 
 bool cells_init(struct cells *cells, int cols, int rows, struct error *err)
 {
@@ -33,12 +23,16 @@ bool cells_init(struct cells *cells, int cols, int rows, struct error *err)
         alloc_array((size_t)cols * (size_t)rows, sizeof cells->cell[0]);
     if (!cells->cell)
         return fail(err, "no memory for a window of %dx%d cells", cols, rows);
-    return true;
+    if (dither_init(&cells->dither, err))
+        return true;
+    cells_free(cells);
+    return false;
 }
 
 void cells_free(struct cells *cells)
 {
     free(cells->cell);
+    dither_free(&cells->dither);
     *cells = (struct cells){0};
 }
 
@@ -50,101 +44,49 @@ static struct rgb pixel(const struct frame *frame, int x, int y)
     return (struct rgb){p[0], p[1], p[2]};
 }
 
-/* In the curve's space, not in light: the eye sees no difference between two
- * neighbours, and a cell of one colour is coarse anyway. */
-static struct rgb average(struct rgb a, struct rgb b)
+/* The pixels of a cell, dot by dot. */
+struct dots {
+    int count;
+    struct rgb color[GLYPH_DOTS_MAX];
+};
+
+static struct dots dots_of(const struct frame *frame, struct glyph_grid grid,
+                           int col, int row)
 {
-    return (struct rgb){(a.r + b.r + 1) / 2, (a.g + b.g + 1) / 2,
-                        (a.b + b.b + 1) / 2};
-}
+    struct dots dots = {.count = 0};
 
-/* Squared, weighted as the eye weighs the primaries, roughly. */
-static int distance_of(struct rgb a, struct rgb b)
-{
-    int r = a.r - b.r;
-    int g = a.g - b.g;
-    int blue = a.b - b.b;
-
-    return 2 * r * r + 4 * g * g + 3 * blue * blue;
-}
-
-/* The 6 levels of the colour cube are 0, 95, 135, 175, 215, 255. */
-static int cube_level(int v)
-{
-    if (v < 48)
-        return 0;
-    return v < 115 ? 1 : (v - 35) / 40;
-}
-
-static int cube_value(int level)
-{
-    return level ? 55 + 40 * level : 0;
-}
-
-/* The nearest of the cube (16..231) and the greys (232..255: 8, 18, .. 238). */
-static uint32_t nearest_256(struct rgb c)
-{
-    int r = cube_level(c.r);
-    int g = cube_level(c.g);
-    int b = cube_level(c.b);
-    struct rgb cube = {cube_value(r), cube_value(g), cube_value(b)};
-    int mean = (2 * c.r + 4 * c.g + 3 * c.b) / 9;
-    int step = mean < 8 ? 0 : (mean - 3) / 10;
-    int shade = step > 23 ? 23 : step;
-    int value = 8 + 10 * shade;
-    struct rgb grey = {value, value, value};
-
-    if (distance_of(c, grey) < distance_of(c, cube))
-        return (uint32_t)(232 + shade);
-    return (uint32_t)(16 + 36 * r + 6 * g + b);
-}
-
-static int square(int v)
-{
-    return v * v;
-}
-
-/* Whether a channel between `off` and `on` is on at a threshold of 0..15. The
- * eye adds light, which is roughly the square of these numbers. */
-static bool is_on(int v, int off, int on, int threshold)
-{
-    return 32 * (square(v) - square(off)) >
-           (2 * threshold + 1) * (square(on) - square(off));
-}
-
-/* Dithers each channel between the two values it has among the dark or the
- * bright eight, whichever come closer to the colour. All channels share the
- * threshold, so that grey stays grey. */
-static uint32_t dithered_16(struct rgb c, int threshold)
-{
-    int v[3] = {c.r, c.g, c.b};
-    int too_bright = 0;
-    int too_dark = 0;
-    uint32_t color = 0;
-
-    for (int i = 0; i < 3; i++) {
-        too_bright += v[i] > DARK_ON ? square(v[i] - DARK_ON) : 0;
-        too_dark += v[i] < BRIGHT_OFF ? square(BRIGHT_OFF - v[i]) : 0;
+    for (int y = 0; y < grid.down; y++) {
+        for (int x = 0; x < grid.across; x++)
+            dots.color[dots.count++] =
+                pixel(frame, col * grid.across + x, row * grid.down + y);
     }
-    bool is_dark = too_bright <= too_dark;
-    for (int i = 0; i < 3; i++) {
-        if (is_dark ? is_on(v[i], 0, DARK_ON, threshold)
-                    : is_on(v[i], BRIGHT_OFF, 255, threshold))
-            color |= 1u << i;
-    }
-    return is_dark ? color : color + 8;
+    return dots;
 }
 
-static uint32_t color_number(struct rgb c, int x, int y, enum palette palette)
+/* Of the dots whose bits in the mask are `bit`; there is one. In the curve's
+ * space, not in light: the eye sees no difference between two neighbours, and
+ * a cell of one colour is coarse anyway. */
+static struct rgb mean_of(const struct dots *dots, unsigned mask, unsigned bit)
 {
-    switch (palette) {
-    case PALETTE_24BIT:
-        return (uint32_t)c.r << 16 | (uint32_t)c.g << 8 | (uint32_t)c.b;
-    case PALETTE_256: return nearest_256(c);
-    case PALETTE_16: return dithered_16(c, bayer[y & 3][x & 3]);
-    case PALETTE_MONO: break;
+    struct rgb sum = {0, 0, 0};
+    int count = 0;
+
+    for (int i = 0; i < dots->count; i++) {
+        if ((mask >> i & 1) != bit)
+            continue;
+        sum.r += dots->color[i].r;
+        sum.g += dots->color[i].g;
+        sum.b += dots->color[i].b;
+        count++;
     }
-    return CELL_DEFAULT;
+    return (struct rgb){(sum.r + count / 2) / count,
+                        (sum.g + count / 2) / count,
+                        (sum.b + count / 2) / count};
+}
+
+static int brightness(struct rgb c)
+{
+    return (2 * c.r + 5 * c.g + c.b) / 8;
 }
 
 static int largest(struct rgb c)
@@ -155,60 +97,182 @@ static int largest(struct rgb c)
 }
 
 /* The character carries the brightness, its colour only the hue. */
-static struct cell ascii_cell(struct rgb c, enum palette palette)
+static struct cell ascii_cell(struct cells *cells, struct rgb c)
 {
     struct cell cell = {CELL_DEFAULT, CELL_DEFAULT, ' '};
-    int light =
-        palette == PALETTE_MONO ? (2 * c.r + 5 * c.g + c.b) / 8 : largest(c);
+    bool is_mono = cells->palette == PALETTE_MONO;
+    int light = is_mono ? brightness(c) : largest(c);
     int index = light * RAMP_LENGTH / 256;
 
     if (index == 0)
         return cell;
     cell.glyph = (uint32_t)ramp[index];
-    if (palette != PALETTE_MONO) {
+    if (!is_mono) {
         struct rgb hue = {c.r * 255 / light, c.g * 255 / light,
                           c.b * 255 / light};
 
         /* a threshold of the middle: one colour needs no pattern */
-        cell.fg = color_number(hue, 1, 3, palette);
+        cell.fg = dither_color(&cells->dither, hue, 1, 3, cells->palette);
     }
     return cell;
 }
 
-static struct cell block_cell(struct rgb top, struct rgb bottom, int x, int y,
-                              enum palette palette, enum glyphs glyphs)
+/* Dots that are bright enough for their places. The eye adds light, which is
+ * roughly the square of these numbers. */
+static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
+                             int col, int row)
 {
-    uint32_t a;
-    uint32_t b;
+    struct glyph_grid grid = glyphs_grid(cells->glyphs);
+    unsigned mask = 0;
 
-    if (glyphs == GLYPHS_SPACE) {
-        a = color_number(average(top, bottom), x, y, palette);
-        return (struct cell){a, a, ' '};
+    for (int i = 0; i < dots->count; i++) {
+        int light = brightness(dots->color[i]);
+        int threshold = dither_threshold(col * grid.across + i % grid.across,
+                                         row * grid.down + i / grid.across);
+
+        if (32 * light * light > (2 * threshold + 1) * 255 * 255)
+            mask |= 1u << i;
     }
-    a = color_number(top, x, 2 * y, palette);
-    b = color_number(bottom, x, 2 * y + 1, palette);
-    if (a == b)
-        return (struct cell){a, a, ' '};
-    if (glyphs == GLYPHS_LOWER)
-        return (struct cell){b, a, CELL_LOWER};
-    return (struct cell){a, b, CELL_UPPER};
+    return (struct cell){CELL_DEFAULT, CELL_DEFAULT,
+                         glyphs_of_mask(cells->glyphs, mask)};
+}
+
+/* About the mean of all dots, with sum S over k of n of them in one group, the
+ * others have -S, and two colours instead of one take |S|^2 n / (k (n - k)) off
+ * the squared distances. For each mask that factor of |S|^2. */
+struct partition {
+    float share[MASKS_MAX];
+};
+
+static void partition_init(struct partition *p, int dots)
+{
+    p->share[0] = 0.0f;
+    for (int mask = 1; mask < 1 << (dots - 1); mask++) {
+        int k = __builtin_popcount((unsigned)mask);
+
+        p->share[mask] = (float)dots / (float)(k * (dots - k));
+    }
+}
+
+/* The sums of some values over the dots of each mask. */
+static void sum_masks(const float *values, int count, float sums[MASKS_MAX])
+{
+    sums[0] = 0.0f;
+    for (int i = 0; i < count - 1; i++) {
+        for (int mask = 0; mask < 1 << i; mask++)
+            sums[(1 << i) + mask] = sums[mask] + values[i];
+    }
+}
+
+/* The dots about their mean, as the eye weighs them, channel by channel. */
+static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
+{
+    float mean[3] = {0.0f, 0.0f, 0.0f};
+
+    for (int i = 0; i < dots->count; i++) {
+        values[0][i] = eye[0] * (float)dots->color[i].r;
+        values[1][i] = eye[1] * (float)dots->color[i].g;
+        values[2][i] = eye[2] * (float)dots->color[i].b;
+        for (int c = 0; c < 3; c++)
+            mean[c] += values[c][i] / (float)dots->count;
+    }
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < dots->count; i++)
+            values[c][i] -= mean[c];
+    }
+}
+
+/* The mask of the two groups that are nearest to their means: all are tried. */
+static unsigned best_mask(const struct partition *p, const struct dots *dots)
+{
+    float values[3][GLYPH_DOTS_MAX];
+    float r[MASKS_MAX], g[MASKS_MAX], b[MASKS_MAX];
+    unsigned best = 0;
+    float most = 0.0f;
+
+    centre(dots, values);
+    sum_masks(values[0], dots->count, r);
+    sum_masks(values[1], dots->count, g);
+    sum_masks(values[2], dots->count, b);
+    for (unsigned i = 1; i < 1u << (dots->count - 1); i++) {
+        float gain = p->share[i] * (r[i] * r[i] + g[i] * g[i] + b[i] * b[i]);
+
+        if (gain > most) {
+            most = gain;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static struct cell solid_cell(uint32_t color)
+{
+    return (struct cell){color, color, ' '};
+}
+
+/* A cell of two colours where the mask says. */
+static struct cell block_cell(struct cells *cells, const struct dots *dots,
+                              unsigned mask, int col, int row)
+{
+    bool is_lower = cells->glyphs == GLYPHS_LOWER;
+    struct dither *d = &cells->dither;
+    uint32_t fg;
+    uint32_t bg;
+
+    if (mask == 0)
+        return solid_cell(
+            dither_color(d, mean_of(dots, 0, 0), col, 2 * row, cells->palette));
+    fg = dither_color(d, mean_of(dots, mask, 1), col, 2 * row + is_lower,
+                      cells->palette);
+    bg = dither_color(d, mean_of(dots, mask, 0), col, 2 * row + !is_lower,
+                      cells->palette);
+    if (fg == bg)
+        return solid_cell(fg);
+    return (struct cell){fg, bg, glyphs_of_mask(cells->glyphs, mask)};
+}
+
+static struct cell cell_of(struct cells *cells, const struct dots *dots,
+                           const struct partition *partition, int col, int row)
+{
+    bool is_mono = cells->palette == PALETTE_MONO;
+    unsigned mask;
+
+    if (cells->glyphs == GLYPHS_ASCII || (is_mono && dots->count <= 2))
+        return ascii_cell(cells, mean_of(dots, 0, 0));
+    if (is_mono)
+        return mono_cell(cells, dots, col, row);
+    switch (cells->glyphs) {
+    case GLYPHS_SPACE: return block_cell(cells, dots, 0, col, row);
+    case GLYPHS_HALF:
+    case GLYPHS_UPPER: return block_cell(cells, dots, 1, col, row);
+    case GLYPHS_LOWER: return block_cell(cells, dots, 2, col, row);
+    default: break;
+    }
+    mask = best_mask(partition, dots);
+    /* where dots do not touch, most of a cell is background */
+    if (!glyphs_are_solid(cells->glyphs) &&
+        2 * __builtin_popcount(mask) > dots->count)
+        mask ^= (1u << dots->count) - 1;
+    return block_cell(cells, dots, mask, col, row);
 }
 
 void cells_from_frame(struct cells *cells, const struct frame *frame,
                       enum palette palette, enum glyphs glyphs)
 {
-    bool ascii = palette == PALETTE_MONO || glyphs == GLYPHS_ASCII;
+    struct glyph_grid grid = glyphs_grid(glyphs);
     struct cell *out = cells->cell;
+    struct partition partition;
 
-    assert(frame->width == cells->cols && frame->height == 2 * cells->rows);
+    assert(frame->width == grid.across * cells->cols &&
+           frame->height == grid.down * cells->rows);
     cells->palette = palette;
-    for (int y = 0; y < cells->rows; y++) {
-        for (int x = 0; x < cells->cols; x++) {
-            struct rgb top = pixel(frame, x, 2 * y);
-            struct rgb bottom = pixel(frame, x, 2 * y + 1);
+    cells->glyphs = glyphs;
+    partition_init(&partition, grid.across * grid.down);
+    for (int row = 0; row < cells->rows; row++) {
+        for (int col = 0; col < cells->cols; col++) {
+            struct dots dots = dots_of(frame, grid, col, row);
 
-            *out++ = ascii ? ascii_cell(average(top, bottom), palette)
-                           : block_cell(top, bottom, x, y, palette, glyphs);
+            *out++ = cell_of(cells, &dots, &partition, col, row);
         }
     }
 }

@@ -15,6 +15,7 @@
 
 #include "glim/cl_source.h"
 #include "glim/file.h"
+#include "glim/isa.h"
 #include "glim/selftest.h"
 
 extern char **environ;
@@ -123,7 +124,7 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
     free(log);
     if (device == NULL)
         return false;
-    cpu = backend_cpu_create(1, err);
+    cpu = backend_cpu_create(1, isa_best(), err);
     if (cpu != NULL) {
         ok = selftest_run(cpu, device, r->features, verdict, err);
         cpu->destroy(cpu);

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,9 @@
 
 /* As many links in a row as the kernel follows. */
 #define LINKS_MAX 40
+
+/* Names tried before a folder counts as full. */
+#define NUMBER_MAX 100000
 
 /* The system's words for errno, in ours where they are not plain. */
 static bool fail_errno(struct error *err, const char *path)
@@ -265,6 +269,51 @@ bool file_write(const char *path, const void *data, size_t size_bytes,
     free(folder);
     free(target);
     return ok;
+}
+
+bool file_write_stdout(const void *data, size_t size_bytes, struct error *err)
+{
+    const char *p = data;
+    size_t left = size_bytes;
+
+    while (left > 0) {
+        ssize_t n = write(STDOUT_FILENO, p, left);
+        if (n >= 0) {
+            p += n;
+            left -= (size_t)n;
+        } else if (errno == EAGAIN) {
+            /* whoever gave us the pipe made it non-blocking */
+            poll(&(struct pollfd){.fd = STDOUT_FILENO, .events = POLLOUT}, 1,
+                 -1);
+        } else if (errno != EINTR) {
+            return fail(err, "standard output: %s", strerror(errno));
+        }
+    }
+    return true;
+}
+
+char *file_write_numbered(const char *stem, const char *ending,
+                          const void *data, size_t size_bytes,
+                          struct error *err)
+{
+    char *path = xformat("%s.%s", stem, ending);
+
+    for (int i = 2; i <= NUMBER_MAX; i++) {
+        struct stat st;
+        /* looking first saves writing the file for each name that is taken */
+        bool exists = lstat(path, &st) == 0;
+
+        if (!exists && file_write(path, data, size_bytes, true, &exists, err))
+            return path;
+        if (!exists)
+            goto failed;
+        free(path);
+        path = xformat("%s-%d.%s", stem, i, ending);
+    }
+    fail(err, "%s: expected a free name", path);
+failed:
+    free(path);
+    return NULL;
 }
 
 char *path_beside(const char *beside, const char *name)

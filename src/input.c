@@ -8,7 +8,8 @@
 /* Longer than any answer that is expected; what goes on is rubbish. */
 #define SEQUENCE_MAX 512
 
-#define PARAMS_MAX 8
+/* As many as terminals list what they can. */
+#define PARAMS_MAX 32
 
 /* What stands at the beginning of the bytes. */
 struct sequence {
@@ -112,12 +113,24 @@ static int key_of_number(int number)
     }
 }
 
+/* Among the attributes behind the terminal's class 4 is for sixels. */
+static bool lists_sixels(const int *params, int count)
+{
+    for (int i = 1; i < count; i++) {
+        if (params[i] == 4)
+            return true;
+    }
+    return false;
+}
+
 /* Answers that begin with ESC[? */
-static void set_private(struct sequence *s, const int *params,
+static void set_private(struct sequence *s, const int *params, int count,
                         unsigned char last)
 {
     if (last == 'c')
-        set_answer(s, EVENT_ATTRIBUTES, 0, 0);
+        set_answer(s, EVENT_ATTRIBUTES, lists_sixels(params, count), 0);
+    else if (last == 'S' && params[0] == 1 && params[1] == 0)
+        set_answer(s, EVENT_SIXEL_COLORS, params[2], 0);
     else if (last == 'y' && params[0] == 2026 && params[1] >= 1 &&
              params[1] <= 3)
         set_answer(s, EVENT_SYNC, 0, 0);
@@ -133,7 +146,7 @@ static void set_csi(struct sequence *s, const unsigned char *p, size_t length,
         if (last == 'M' || last == 'm')
             set_mouse(s, params, last == 'm');
     } else if (length > 0 && p[0] == '?') {
-        set_private(s, params, last);
+        set_private(s, params, count, last);
     } else if (length > 0 && (p[0] == '>' || p[0] == '=')) {
         return; /* nothing was asked that is answered so */
     } else if (last == 'n') {
@@ -188,6 +201,12 @@ static bool reports_true_color(const unsigned char *p, size_t length)
     return false;
 }
 
+/* _Gi=1;OK: one that does not know them says nothing, or what is wrong. */
+static bool accepts_kitty(const unsigned char *p, size_t length)
+{
+    return length >= 4 && p[0] == 'G' && memcmp(p + length - 3, ";OK", 3) == 0;
+}
+
 /* ESC P, ], ^, _, X: text up to ESC \ (or BEL) */
 static void take_string(struct sequence *s, const unsigned char *p,
                         size_t length)
@@ -209,6 +228,8 @@ static void take_string(struct sequence *s, const unsigned char *p,
         s->length = p[i] == 7 ? i + 1 : i + 2;
         if (p[1] == 'P' && reports_true_color(p + 2, i - 2))
             set_answer(s, EVENT_TRUE_COLOR, 0, 0);
+        else if (p[1] == '_' && accepts_kitty(p + 2, i - 2))
+            set_answer(s, EVENT_KITTY, 0, 0);
         return;
     }
 }

@@ -3,13 +3,18 @@
 
 #include <stdlib.h>
 
+#include "glim/isa.h"
+
 bool machines_open(struct machines *m, const struct options *options,
                    struct error *err)
 {
     int threads = options->thread_count;
+    const struct paths *paths =
+        options->paths != NULL ? options->paths : isa_best();
 
     *m = (struct machines){.options = options};
-    m->cpu = backend_cpu_create(threads != 0 ? threads : usable_threads(), err);
+    m->cpu = backend_cpu_create(threads != 0 ? threads : usable_threads(),
+                                paths, err);
     return m->cpu != NULL;
 }
 

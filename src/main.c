@@ -18,6 +18,7 @@
 #include "glim/batch.h"
 #include "glim/cl_device.h"
 #include "glim/cl_environment.h"
+#include "glim/isa.h"
 #include "glim/cl_probe.h"
 #include "glim/config.h"
 #include "glim/options.h"
@@ -91,8 +92,8 @@ static int probe(const struct options *o)
 static bool check_terminal(const struct options *o, struct error *err)
 {
     if (o->batch) {
-        if (o->output_path && strcmp(o->output_path, "-") == 0 &&
-            isatty(STDOUT_FILENO))
+        if (o->text_cols == 0 && o->output_path &&
+            strcmp(o->output_path, "-") == 0 && isatty(STDOUT_FILENO))
             return fail(err, "-o: standard output is a terminal, expected a "
                              "file or a pipe");
         return true;
@@ -116,6 +117,21 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     return o->batch ? batch_run(s, status, err) : tui_run(s, status, err);
 }
 
+/* With the sets of instructions that this processor has, the first of which it
+ * uses. */
+static int print_version(void)
+{
+    char text[128];
+    const struct paths *p;
+    int length = snprintf(text, sizeof text, "glim %s\nisa:", GLIM_VERSION);
+
+    for (int i = 0; (p = isa_at(i)) != NULL; i++)
+        length += snprintf(text + length, sizeof text - (size_t)length, " %s",
+                           p->name);
+    snprintf(text + length, sizeof text - (size_t)length, "\n");
+    return print_out(text);
+}
+
 int main(int argc, char **argv)
 {
     uint64_t start_ns = clock_ns();
@@ -135,7 +151,7 @@ int main(int argc, char **argv)
     if (options.show_help)
         return print_out(options_help);
     if (options.show_version)
-        return print_out("glim " GLIM_VERSION "\n");
+        return print_version();
     if (!has_config)
         return complain(EXIT_USAGE, &config_err);
     cl_environment_prepare(options.thread_count);

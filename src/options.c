@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/isa.h"
 #include "glim/number.h"
 #include "glim/picture.h"
 
@@ -15,6 +16,7 @@
 #define SPP_MAX     1000000000000u
 #define THREADS_MAX 1024
 #define BOUNCES_MAX 999
+#define CELLS_MAX   2000
 
 const char options_help[] =
     "usage: glim [options] scene.obj\n"
@@ -43,17 +45,24 @@ const char options_help[] =
     "                   name (default: the first GPU, or the first device)\n"
     "  --list-devices   show the OpenCL devices\n"
     "  --kernels FOLDER read the OpenCL kernels from there\n"
+    "  --isa NAME       the processor's instructions: plain, avx2 or avx512\n"
+    "                   (default: the best it has; see --version)\n"
     "\n"
     "batch mode\n"
     "  -b               render to a file, without the screen\n"
     "  -o FILE          a .png, .hdr or .pfm file, which is replaced, or -\n"
     "                   for standard output (default: a new .png file in\n"
     "                   the current folder, named after the scene)\n"
+    "  --ansi COLSxROWS a text of coloured characters, at most so many, for "
+    "-o\n"
+    "                   or standard output, instead of a picture\n"
     "  --stats FILE     times and counts as JSON, - for standard output\n"
     "\n"
     "screen\n"
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
-    "  --glyph KIND     auto, upper, lower, space or ascii (default: auto)\n"
+    "  --glyph KIND     half, upper, lower, quadrant, sextant, braille, space\n"
+    "                   or ascii cells; sixel or kitty pixels; or auto:\n"
+    "                   half or space (default: auto)\n"
     "  --cell-aspect R  height of a character over its width, 0.25 to 8\n"
     "                   (default: ask the terminal)\n"
     "  --phoe-keys      W S A D Q E move up, down, left, right, forward and\n"
@@ -78,9 +87,11 @@ enum option_id {
     OPTION_DEVICE,
     OPTION_LIST_DEVICES,
     OPTION_KERNELS,
+    OPTION_ISA,
     OPTION_PROBE,
     OPTION_BATCH,
     OPTION_OUTPUT,
+    OPTION_ANSI,
     OPTION_STATS,
     OPTION_COLOR,
     OPTION_GLYPH,
@@ -111,12 +122,16 @@ static const struct option_rule rules[] = {
     {"device", OPTION_DEVICE, "the number or name of a device"},
     {"list-devices", OPTION_LIST_DEVICES, NULL},
     {"kernels", OPTION_KERNELS, "the name of a folder"},
+    {"isa", OPTION_ISA, "the name of a set of instructions"},
     {"probe", OPTION_PROBE, "a number of features"}, /* for glim itself */
     {"b", OPTION_BATCH, NULL},
     {"o", OPTION_OUTPUT, "the name of a picture"},
+    {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
     {"stats", OPTION_STATS, "the name of a file"},
     {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
-    {"glyph", OPTION_GLYPH, "auto, upper, lower, space or ascii"},
+    {"glyph", OPTION_GLYPH,
+     "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
+     "sixel or kitty"},
     {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
     {"help", OPTION_HELP, NULL},
@@ -245,16 +260,24 @@ static bool set_cell_aspect(struct options *o, const struct given *g,
     return true;
 }
 
-static bool set_output(struct options *o, const struct given *g,
-                       struct error *err)
+/* COLSxROWS */
+static bool set_text_size(struct options *o, const struct given *g,
+                          struct error *err)
 {
-    if (!given_text(g, &o->output_path, err))
-        return false;
-    if (picture_format_of(g->value) == PICTURE_UNKNOWN)
+    size_t length = strcspn(g->value, "x");
+    char cols_text[8] = "";
+    uint64_t cols = 0, rows = 0;
+
+    if (length < sizeof cols_text && g->value[length] == 'x')
+        memcpy(cols_text, g->value, length);
+    if (!parse_digits(cols_text, CELLS_MAX, &cols) || cols == 0 ||
+        !parse_digits(g->value + length + 1, CELLS_MAX, &rows) || rows == 0)
         return fail(err,
-                    "%s: found '%s', expected a name that ends in .png, .hdr "
-                    "or .pfm, or - for standard output",
-                    g->shown, g->value);
+                    "%s: found '%s', expected COLSxROWS: two whole numbers "
+                    "from 1 to %d",
+                    g->shown, g->value, CELLS_MAX);
+    o->text_cols = (int)cols;
+    o->text_rows = (int)rows;
     return true;
 }
 
@@ -287,10 +310,12 @@ static bool set_word(struct options *o, const struct given *g,
 {
     static const char *const ups[] = {"y", "z", NULL};
     static const char *const backends[] = {"cpu", "opencl", "auto", NULL};
-    static const char *const colors[] = {"auto", "mono", "16",
-                                         "256",  "24",   NULL};
-    static const char *const glyphs[] = {"auto",  "upper", "lower",
-                                         "space", "ascii", NULL};
+    static const char *const colors[] = {"auto", "mono",  "16", "256",
+                                         "24",   "24bit", NULL};
+    static const char *const glyphs[] = {"auto",    "half",     "upper",
+                                         "lower",   "quadrant", "sextant",
+                                         "braille", "space",    "ascii",
+                                         "sixel",   "kitty",    NULL};
     int index = 0;
 
     switch (g->rule->id) {
@@ -308,7 +333,8 @@ static bool set_word(struct options *o, const struct given *g,
     case OPTION_COLOR:
         if (!choice(g, colors, &index, err))
             return false;
-        o->color = (enum color_mode)index;
+        /* 24bit, as in COLORTERM, is the same */
+        o->color = index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
         o->has_color = true;
         return true;
     default:
@@ -342,11 +368,15 @@ static bool set_option(struct options *o, const struct given *g,
     case OPTION_CROP: return set_crop(o, g, err);
     case OPTION_THREADS:
         return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
-    case OPTION_OUTPUT: return set_output(o, g, err);
+    case OPTION_OUTPUT: return given_text(g, &o->output_path, err);
+    case OPTION_ANSI: return set_text_size(o, g, err);
     case OPTION_STATS: return given_text(g, &o->stats_path, err);
     case OPTION_CELL_ASPECT: return set_cell_aspect(o, g, err);
     case OPTION_DEVICE: return given_text(g, &o->device, err);
     case OPTION_KERNELS: return given_text(g, &o->kernels_path, err);
+    case OPTION_ISA:
+        o->paths = isa_named(g->value, err);
+        return o->paths != NULL;
     case OPTION_UP:
     case OPTION_BACKEND:
     case OPTION_COLOR:
@@ -457,6 +487,42 @@ static bool settle_backend(struct options *o, struct error *err)
     return true;
 }
 
+static bool is_standard_output(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+/* What only batch mode has. */
+static bool check_batch(const struct options *o, struct error *err)
+{
+    bool takes_output = is_standard_output(o->output_path) ||
+                        (o->text_cols > 0 && !o->output_path);
+
+    if (o->output_path && !o->batch)
+        return fail(err, "-o: is for batch mode, expected -b beside it (on "
+                         "the screen p saves a picture)");
+    if (o->stats_path && !o->batch)
+        return fail(err, "--stats: is for batch mode, expected -b beside it");
+    if (o->text_cols > 0 && !o->batch)
+        return fail(err, "--ansi: is for batch mode, expected -b beside it "
+                         "(on the screen x saves a text)");
+    if (o->text_cols > 0 && o->glyph >= GLYPH_SIXEL)
+        return fail(err, "--ansi: a text has no pixels, expected a --glyph "
+                         "of cells beside it");
+    if (o->output_path && o->text_cols == 0 &&
+        picture_format_of(o->output_path) == PICTURE_UNKNOWN)
+        return fail(err,
+                    "-o: found '%s', expected a name that ends in .png, .hdr "
+                    "or .pfm, or - for standard output",
+                    o->output_path);
+    if (takes_output && is_standard_output(o->stats_path))
+        return fail(err,
+                    "--stats: standard output is taken by %s, expected the "
+                    "name of a file",
+                    o->text_cols > 0 ? "--ansi" : "-o -");
+    return true;
+}
+
 /* What is right alone but wrong together. */
 static bool check_together(const struct options *o, struct error *err)
 {
@@ -465,16 +531,33 @@ static bool check_together(const struct options *o, struct error *err)
     if (!o->scene_path)
         return fail(err, "no scene given, expected: glim [options] scene.obj "
                          "(see glim --help)");
-    if (o->output_path && !o->batch)
-        return fail(err, "-o: is for batch mode, expected -b beside it (on "
-                         "the screen p saves a picture)");
-    if (o->stats_path && !o->batch)
-        return fail(err, "--stats: is for batch mode, expected -b beside it");
-    if (o->output_path && strcmp(o->output_path, "-") == 0 && o->stats_path &&
-        strcmp(o->stats_path, "-") == 0)
-        return fail(err, "--stats: standard output is taken by -o -, expected "
-                         "the name of a file");
-    return true;
+    return check_batch(o, err);
+}
+
+enum palette options_palette(enum color_mode mode)
+{
+    switch (mode) {
+    case COLOR_MONO: return PALETTE_MONO;
+    case COLOR_16: return PALETTE_16;
+    case COLOR_256: return PALETTE_256;
+    case COLOR_24BIT:
+    case COLOR_AUTO: break;
+    }
+    return PALETTE_24BIT;
+}
+
+enum glyphs options_glyphs(enum glyph_mode mode)
+{
+    switch (mode) {
+    case GLYPH_UPPER: return GLYPHS_UPPER;
+    case GLYPH_LOWER: return GLYPHS_LOWER;
+    case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
+    case GLYPH_SEXTANT: return GLYPHS_SEXTANT;
+    case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
+    case GLYPH_SPACE: return GLYPHS_SPACE;
+    case GLYPH_ASCII: return GLYPHS_ASCII;
+    default: return GLYPHS_HALF;
+    }
 }
 
 /* GLIM_COLOR is what --color is where that is not given. */
@@ -483,7 +566,8 @@ static bool take_environment(struct options *o, struct error *err)
     struct given g = {find_rule("color", 5), "GLIM_COLOR",
                       getenv("GLIM_COLOR")};
 
-    if (o->batch || o->has_color || !g.value || *g.value == '\0')
+    if ((o->batch && o->text_cols == 0) || o->has_color || !g.value ||
+        *g.value == '\0')
         return true;
     return set_word(o, &g, err);
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "glim/picture.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,9 +17,6 @@
 
 /* stb counts in int and doubles its buffers: this much still fits. */
 #define STB_BYTES_MAX ((size_t)1 << 30)
-
-/* Names tried before a folder counts as full. */
-#define NUMBER_MAX 100000
 
 /* A growing file in memory. */
 struct buffer {
@@ -226,27 +221,6 @@ static bool encode(struct film *film, float exposure, const char *path,
                 path);
 }
 
-static bool write_stdout(const struct buffer *b, struct error *err)
-{
-    const char *p = b->data;
-    size_t left = b->size_bytes;
-
-    while (left > 0) {
-        ssize_t n = write(STDOUT_FILENO, p, left);
-        if (n >= 0) {
-            p += n;
-            left -= (size_t)n;
-        } else if (errno == EAGAIN) {
-            /* whoever gave us the pipe made it non-blocking */
-            poll(&(struct pollfd){.fd = STDOUT_FILENO, .events = POLLOUT}, 1,
-                 -1);
-        } else if (errno != EINTR) {
-            return fail(err, "standard output: %s", strerror(errno));
-        }
-    }
-    return true;
-}
-
 bool picture_write(struct film *film, float exposure, const char *path,
                    struct error *err)
 {
@@ -254,7 +228,7 @@ bool picture_write(struct film *film, float exposure, const char *path,
     bool ok = encode(film, exposure, path, &b, err);
 
     if (ok && is_stdout(path))
-        ok = write_stdout(&b, err);
+        ok = file_write_stdout(b.data, b.size_bytes, err);
     else if (ok)
         ok = file_write(path, b.data, b.size_bytes, false, NULL, err);
     free(b.data);
@@ -265,25 +239,12 @@ char *picture_write_numbered(struct film *film, float exposure,
                              const char *stem, struct error *err)
 {
     struct buffer b = {.data = NULL};
-    char *path = xformat("%s.png", stem);
-    bool exists = false;
-    bool ok = encode(film, exposure, path, &b, err);
+    char *name = xformat("%s.png", stem);
+    char *path = NULL;
 
-    for (int i = 2; ok; i++) {
-        struct stat st;
-        /* looking first saves writing the file for each name that is taken */
-        exists = lstat(path, &st) == 0;
-        ok = !exists &&
-             file_write(path, b.data, b.size_bytes, true, &exists, err);
-        if (!exists)
-            break;
-        free(path);
-        path = xformat("%s-%d.png", stem, i);
-        ok = i < NUMBER_MAX || fail(err, "%s: expected a free name", path);
-    }
+    if (encode(film, exposure, name, &b, err))
+        path = file_write_numbered(stem, "png", b.data, b.size_bytes, err);
     free(b.data);
-    if (ok)
-        return path;
-    free(path);
-    return NULL;
+    free(name);
+    return path;
 }

@@ -14,6 +14,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "glim/kitty.h"
+
 /* Drags and wheel, with coordinates that have no limit. */
 #define MOUSE_ON  "\033[?1002h\033[?1006h"
 #define MOUSE_OFF "\033[?1002l\033[?1006l"
@@ -26,6 +28,9 @@
 
 /* Sets a 24-bit colour and asks which one is set. */
 #define COLOR_QUESTION "\033[48;2;1;2;3m\033P$qm\033\\\033[m"
+
+/* How many colours a sixel image may have: XTSMGRAPHICS of xterm. */
+#define SIXEL_QUESTION "\033[?1;1;0S"
 
 /* Draws a half block in the corner and asks where the cursor is. */
 #define GLYPH_QUESTION "\033[H\xe2\x96\x80\033[6n"
@@ -175,6 +180,15 @@ static bool is_simple(const char *name)
     return false;
 }
 
+/* tmux takes the question for a title, screen hands it on unseen. */
+static bool is_inside_another(void)
+{
+    const char *tmux = getenv("TMUX");
+    const char *sty = getenv("STY");
+
+    return (tmux && tmux[0]) || (sty && sty[0]);
+}
+
 static void set_modes(void)
 {
     raw();
@@ -194,8 +208,12 @@ static void ask(void)
     term_is_utf8(&may_learn);
     if (may_learn)
         term_write(GLYPH_QUESTION, sizeof GLYPH_QUESTION - 1);
-    if (term.may_ask_colors)
+    if (term.may_ask_colors) {
         term_write(COLOR_QUESTION, sizeof COLOR_QUESTION - 1);
+        term_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
+    }
+    if (term.may_ask_colors && !is_inside_another())
+        term_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
     term_write(QUESTIONS, sizeof QUESTIONS - 1);
     /* removes what a simple mind has printed of it */
     length = snprintf(text, sizeof text, "\033[2J\033[%d;1H", LINES);
@@ -315,14 +333,17 @@ bool term_is_utf8(bool *may_learn)
 struct term_size term_size(void)
 {
     struct winsize w = {0};
-    struct term_size size = {COLS, LINES, 0};
+    struct term_size size = {.cols = COLS, .rows = LINES};
 
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_col == 0 ||
         w.ws_row == 0)
         return size;
-    if (w.ws_xpixel >= w.ws_col && w.ws_ypixel >= w.ws_row)
+    if (w.ws_xpixel >= w.ws_col && w.ws_ypixel >= w.ws_row) {
         size.cell_aspect =
             ((double)w.ws_ypixel / w.ws_row) / ((double)w.ws_xpixel / w.ws_col);
+        size.cell_width_px = w.ws_xpixel / w.ws_col;
+        size.cell_height_px = w.ws_ypixel / w.ws_row;
+    }
     if (COLS == 0 || LINES == 0) {
         size.cols = w.ws_col;
         size.rows = w.ws_row;

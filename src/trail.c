@@ -55,7 +55,7 @@ void trail_follow(struct trail *t, const struct world *w, uint32_t x,
                   uint32_t y, uint64_t index)
 {
     struct path_start start = path_begin(&w->settings, x, y, index);
-    struct path p = path_open(start.ray, start.sampler);
+    struct path p = path_open(start.ray, start.sampler, NULL, 0);
     bool goes_on = true;
 
     t->count = t->vertices = 0;

@@ -119,10 +119,12 @@ static void open_help(struct tui *t, int number)
     struct help_page page;
     char note[64], title[64];
 
-    snprintf(note, sizeof note, "%s", palette_name(t->canvas.palette));
+    snprintf(note, sizeof note, "%s, %s", palette_name(t->canvas.palette),
+             canvas_glyphs_name(&t->canvas));
     if (pace->state == PACE_ANSWERS)
-        snprintf(note, sizeof note, "%s, answers in %.1f ms",
+        snprintf(note, sizeof note, "%s, %s, answers in %.1f ms",
                  palette_name(t->canvas.palette),
+                 canvas_glyphs_name(&t->canvas),
                  (double)pace->rtt_min_ns * 1e-6);
     /* within a frame, with a blank on each side, above the status line */
     help_page(&page, &t->work.session->options->keys, note, number,
@@ -156,7 +158,21 @@ static void next_colors(struct tui *t)
 {
     canvas_next_palette(&t->canvas);
     work_say(&t->work, palette_name(t->canvas.palette));
-    refresh_soon(t);
+    layout(t);
+}
+
+static void next_glyphs(struct tui *t)
+{
+    canvas_next_glyphs(&t->canvas);
+    layout(t);
+    work_say(&t->work, canvas_glyphs_name(&t->canvas));
+}
+
+static void save_text(struct tui *t)
+{
+    struct text_style style = canvas_style(&t->canvas);
+
+    work_save_text(&t->work, &style);
 }
 
 static void switch_mouse(struct tui *t)
@@ -216,6 +232,7 @@ static void act(struct tui *t, enum action action)
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
     case ACTION_SAVE: work_save_picture(&t->work); break;
+    case ACTION_SAVE_TEXT: save_text(t); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
     case ACTION_HIDE:
         t->canvas.has_status_row = !t->canvas.has_status_row;
@@ -223,6 +240,7 @@ static void act(struct tui *t, enum action action)
         break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;
     case ACTION_COLORS: next_colors(t); break;
+    case ACTION_GLYPHS: next_glyphs(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
     case ACTION_REDRAW: layout(t); break;
     case ACTION_HELP: open_help(t, 0); break;
@@ -274,7 +292,6 @@ static void take_key(struct tui *t, int key)
 static void take_event(struct tui *t, const struct event *event)
 {
     enum palette palette = t->canvas.palette;
-    enum glyphs glyphs = t->canvas.glyphs;
 
     if (event->kind == EVENT_KEY) {
         take_key(t, event->key);
@@ -284,7 +301,7 @@ static void take_event(struct tui *t, const struct event *event)
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);
-        if (t->canvas.palette != palette || t->canvas.glyphs != glyphs)
+        if (t->canvas.palette != palette)
             refresh_soon(t);
     }
 }

@@ -295,6 +295,37 @@ bool work_finish_saving(struct work *w)
     return true;
 }
 
+void work_save_text(struct work *w, const struct text_style *style)
+{
+    struct render_progress now = render_progress(w->session->render);
+    struct error err;
+    char *stem, *text, *name = NULL;
+    size_t size_bytes;
+
+    if (now.samples == 0) {
+        work_say(w, "nothing to save yet");
+        return;
+    }
+    stem = picture_stem(w);
+    if (text_of_film(render_film(w->session->render),
+                     (float)w->session->view.exposure, style, &text,
+                     &size_bytes, &err)) {
+        name = file_write_numbered(stem, "ans", text, size_bytes, &err);
+        free(text);
+    }
+    free(stem);
+    if (!name) {
+        work_say_error(w, err.text);
+        return;
+    }
+    text = xformat("saved %s, text of %dx%d characters", name, style->cols,
+                   style->rows);
+    work_say(w, text);
+    add_result(w, text);
+    free(text);
+    free(name);
+}
+
 void work_save_view(struct work *w)
 {
     struct session *s = w->session;

@@ -70,8 +70,8 @@ function check_include(name, is_system,    kernel)
     }
     if (kernel && name !~ /^kernels\//)
         fault("kernels include only kernels: \"" name "\"")
-    if (name == "kernels/path.h" && stem !~ /^(backend_cpu|trail)$/ && !kernel)
-        fault("only a backend and trail include kernels/path.h")
+    if (name == "kernels/path.h" && stem !~ /^(paths|trail)$/ && !kernel)
+        fault("only paths.c and trail.c include kernels/path.h")
     if (name ~ /^(glim|kernels)\// && row_of(name) > row_of(path) &&
         row_of(path) >= 0)
         fault("row " row_of(path) " includes \"" name "\" of row " \

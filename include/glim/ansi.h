@@ -20,6 +20,7 @@ struct ansi {
     int cols, rows;
     struct cell *shown;
     enum palette palette;   /* of `shown` */
+    enum glyphs glyphs;     /* likewise */
     int next_row, next_col; /* where the next frame goes on */
     char *bytes;            /* what is to be written */
     size_t length, capacity;
@@ -54,10 +55,25 @@ void ansi_begin(struct ansi *a);
 void ansi_text(struct ansi *a, const char *text);
 #define ANSI_TEXT_MAX 256
 
+/* Makes room for so many bytes behind `length`, and for the rest of the frame's
+ * ansi_text(). False if memory is out. */
+bool ansi_reserve(struct ansi *a, size_t size_bytes);
+
+/* Appends a jump of the cursor, from 0. */
+void ansi_jump(struct ansi *a, int row, int col);
+
+/* The first column of the picture from col on that no window covers. */
+int ansi_uncovered(const struct ansi_draw *how, int col, int row);
+
 /* Appends what turns the shown picture into `cells`. Leaves colours and cursor
  * anywhere. True if nothing is left for the next frame. */
 bool ansi_picture(struct ansi *a, const struct cells *cells,
                   const struct ansi_draw *how);
+
+/* The cells as lines of text for a file or a pipe, each with its colours and
+ * the reader's own at its end. *text is for free(). */
+bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
+                struct error *err);
 
 /* Appends the way back: own colours, cursor at this row, column 0. */
 void ansi_end(struct ansi *a, int row);

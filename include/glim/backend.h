@@ -11,6 +11,7 @@
 #define GLIM_BACKEND_H
 
 #include "glim/film.h"
+#include "glim/paths.h"
 #include "glim/pool.h"
 #include "kernels/types.h"
 
@@ -49,6 +50,7 @@ struct backend {
     void (*destroy)(struct backend *b);
 };
 
-struct backend *backend_cpu_create(int thread_count, struct error *err);
+struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
+                                   struct error *err);
 
 #endif

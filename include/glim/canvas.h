@@ -14,11 +14,13 @@
 #define GLIM_CANVAS_H
 
 #include "glim/ansi.h"
+#include "glim/graphics.h"
 #include "glim/input.h"
 #include "glim/options.h"
 #include "glim/pace.h"
 #include "glim/status.h"
 #include "glim/term.h"
+#include "glim/text.h"
 
 /* Draws into frames before they are shown. */
 struct painter {
@@ -31,9 +33,14 @@ struct canvas {
     struct painter painter; /* none: films are shown as they are */
     struct pace pace;
     enum palette palette;
-    bool palette_is_final; /* no answer of the terminal changes it */
+    bool palette_is_final;      /* no answer of the terminal changes it */
+    enum glyph_mode glyph_mode; /* what is wanted */
     enum glyphs glyphs;
-    bool glyphs_are_final;
+    bool has_unicode;
+    bool unicode_is_final;     /* no answer of the terminal changes it */
+    bool has_sixel, has_kitty; /* the terminal has said so */
+    int sixel_colors;          /* 0: it has not said how many */
+    int cell_width_px, cell_height_px; /* 0: it has not said */
     double cell_aspect;
     bool aspect_is_final;
     bool has_status_row; /* else the line shows only what is urgent */
@@ -41,8 +48,9 @@ struct canvas {
     bool has_all_answers; /* to what was asked at the start */
     /* of the present size */
     struct fit fit;
-    struct cells cells;
     struct frame frame;
+    struct cells cells;
+    struct graphics graphics; /* instead of cells, if of a kind */
     struct ansi ansi;
     char status[STATUS_BYTES];
     bool has_status;
@@ -68,8 +76,13 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
 /* Takes an answer of the terminal. True if the layout must be done anew. */
 bool canvas_answer(struct canvas *c, const struct event *event);
 
-/* The next palette, from most to least and round. */
+/* The next palette, from most to least and round; the layout must be done
+ * anew. */
 void canvas_next_palette(struct canvas *c);
+
+/* The next kind of glyphs that the terminal has, and round; the layout must be
+ * done anew. */
+void canvas_next_glyphs(struct canvas *c);
 
 /* The text of the last row; NULL: none, the picture shows there. */
 void canvas_status(struct canvas *c, const char *text);
@@ -92,8 +105,14 @@ enum canvas_result {
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
                                struct film *draft, float exposure, int step);
 
-/* Waits for answers on their way, half a second at most: they would be typed
- * into the shell. Keys pressed meanwhile are lost. */
+/* How the picture is shown, as text would be. */
+struct text_style canvas_style(const struct canvas *c);
+
+/* The kind of glyphs or pixels, for people. */
+const char *canvas_glyphs_name(const struct canvas *c);
+
+/* Removes pixels and waits for answers on their way, half a second at most:
+ * they would be typed into the shell. Keys pressed meanwhile are lost. */
 void canvas_drain(struct canvas *c, struct input *input);
 
 void canvas_free(struct canvas *c);

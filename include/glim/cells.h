@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * cells.h - a picture as terminal cells: half blocks, palettes, brightness as
+ * cells.h - a picture as terminal cells: blocks of two colours, brightness as
  * characters
- *
- * A cell shows two pixels, one above the other. A frame for cells_from_frame()
- * therefore has the cells' columns and twice their rows.
  *
  * Units:     terminal cells, 8-bit sRGB
  * Ownership: cells_free() frees; a zeroed struct is empty
@@ -14,46 +11,33 @@
 #ifndef GLIM_CELLS_H
 #define GLIM_CELLS_H
 
+#include "glim/dither.h"
 #include "glim/film.h"
-#include "glim/util.h"
+#include "glim/glyphs.h"
 
-/* What the terminal can show, from least to most. */
-enum palette {
-    PALETTE_MONO,
-    PALETTE_16,
-    PALETTE_256, /* only 16..255: the rest belongs to the person's theme */
-    PALETTE_24BIT
-};
-
-enum glyphs {
-    GLYPHS_UPPER, /* upper half block */
-    GLYPHS_LOWER,
-    GLYPHS_SPACE, /* one colour a cell */
-    GLYPHS_ASCII  /* brightness as characters */
-};
-
-/* Glyphs that are no ASCII characters. 0 is no glyph: a cell of which nobody
- * knows what it shows. */
-#define CELL_UPPER 1u
-#define CELL_LOWER 2u
 /* The terminal's own foreground or background. */
 #define CELL_DEFAULT 0xffffffffu
 
 struct cell {
-    uint32_t fg, bg; /* 0xRRGGBB, or a number of the palette */
-    uint32_t glyph;  /* a blank's fg is its bg */
+    uint32_t fg, bg; /* 0xRRGGBB, a number of the palette, CELL_DEFAULT */
+    uint32_t glyph;  /* a code point; a blank's fg is its bg. 0 is no glyph: a
+                        cell of which nobody knows what it shows */
 };
 
 struct cells {
     int cols, rows;
     enum palette palette;
+    enum glyphs glyphs;
     struct cell *cell; /* cols * rows, row 0 at the top */
+    struct dither dither;
 };
 
 bool cells_init(struct cells *cells, int cols, int rows, struct error *err);
 void cells_free(struct cells *cells);
 
-/* A monochrome palette always gives characters. */
+/* The frame has cols * across by rows * down pixels of glyphs_grid(). Without
+ * colours (PALETTE_MONO) dots are set or not; one or two pixels a cell are too
+ * few for that and become characters. */
 void cells_from_frame(struct cells *cells, const struct frame *frame,
                       enum palette palette, enum glyphs glyphs);
 

@@ -31,6 +31,15 @@ bool file_check(const char *path, struct error *err);
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
 
+/* Writes STEM.ENDING, or STEM-2.ENDING, STEM-3.ENDING, ... : the first name
+ * that is free; never replaces a file. The name is for free(); NULL: failed. */
+char *file_write_numbered(const char *stem, const char *ending,
+                          const void *data, size_t size_bytes,
+                          struct error *err);
+
+/* Writes all, also where standard output does not block. */
+bool file_write_stdout(const void *data, size_t size_bytes, struct error *err);
+
 /* `name` seen from the folder of `beside`; absolute names stay. */
 char *path_beside(const char *beside, const char *name);
 

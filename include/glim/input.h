@@ -32,11 +32,14 @@ enum event_kind {
     EVENT_KEY,
     EVENT_MOUSE,
     EVENT_READY,      /* ESC[0n: the answer to PACE_REQUEST */
-    EVENT_ATTRIBUTES, /* the answer to ESC[c, the last of the questions */
-    EVENT_TRUE_COLOR, /* the terminal keeps 24-bit colours */
-    EVENT_SYNC,       /* it knows synchronized updates */
-    EVENT_CELL_SIZE,  /* x, y: pixels of a cell */
-    EVENT_CURSOR      /* x, y: where the cursor is */
+    EVENT_ATTRIBUTES, /* the answer to ESC[c, the last of the questions; x: 1 if
+                         the terminal has sixels */
+    EVENT_SIXEL_COLORS, /* x: how many a sixel image may have */
+    EVENT_KITTY,        /* it has kitty's graphics */
+    EVENT_TRUE_COLOR,   /* the terminal keeps 24-bit colours */
+    EVENT_SYNC,         /* it knows synchronized updates */
+    EVENT_CELL_SIZE,    /* x, y: pixels of a cell */
+    EVENT_CURSOR        /* x, y: where the cursor is */
 };
 
 enum mouse_kind {

@@ -10,18 +10,26 @@
 #ifndef GLIM_OPTIONS_H
 #define GLIM_OPTIONS_H
 
+#include "glim/cells.h"
 #include "glim/keys.h"
 #include "glim/render.h"
 #include "glim/util.h"
 
 enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
 
+/* The cells of enum glyphs, or pixels where the terminal has them. */
 enum glyph_mode {
     GLYPH_AUTO,
-    GLYPH_UPPER, /* upper half block */
+    GLYPH_HALF,
+    GLYPH_UPPER,
     GLYPH_LOWER,
-    GLYPH_SPACE, /* one colour a cell */
-    GLYPH_ASCII  /* brightness as characters */
+    GLYPH_QUADRANT,
+    GLYPH_SEXTANT,
+    GLYPH_BRAILLE,
+    GLYPH_SPACE,
+    GLYPH_ASCII,
+    GLYPH_SIXEL,
+    GLYPH_KITTY
 };
 
 enum backend_choice {
@@ -48,14 +56,16 @@ struct options {
     struct rect crop;
     enum backend_choice backend;
     bool has_backend;
-    const char *device;       /* number or a part of a name; NULL: the best */
-    const char *kernels_path; /* NULL: the kernels within the program */
-    bool phoe_keys;           /* W S A D Q E as phoe_ray had them */
+    const char *device;        /* number or a part of a name; NULL: the best */
+    const char *kernels_path;  /* NULL: the kernels within the program */
+    const struct paths *paths; /* of --isa; NULL: the best */
+    bool phoe_keys;            /* W S A D Q E as phoe_ray had them */
     struct keys keys;
     enum color_mode color;
     bool has_color;
     enum glyph_mode glyph;
-    double cell_aspect; /* height of a cell over its width; 0: ask */
+    int text_cols, text_rows; /* batch mode writes text; 0: not */
+    double cell_aspect;       /* height of a cell over its width; 0: ask */
     bool show_help, show_version;
     bool list_devices; /* then there need be no scene */
     bool probe;        /* cl_probe.h: this is the copy; nor need there then */
@@ -73,6 +83,12 @@ bool options_set_taste(struct options *o, const char *name, const char *value,
 /* Takes argv over what *o holds, and for the screen GLIM_COLOR; settles the
  * keys. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
+
+/* What a mode that is not COLOR_AUTO means. */
+enum palette options_palette(enum color_mode mode);
+
+/* What the cells are made of; pixels have half blocks as the fall-back. */
+enum glyphs options_glyphs(enum glyph_mode mode);
 
 /* The text of --help. */
 extern const char options_help[];

@@ -20,7 +20,8 @@
 
 struct term_size {
     int cols, rows;
-    double cell_aspect; /* height over width; 0: not known */
+    double cell_aspect;                /* height over width; 0: not known */
+    int cell_width_px, cell_height_px; /* likewise */
 };
 
 struct term_rect {

@@ -18,6 +18,7 @@
 
 #include "glim/saver.h"
 #include "glim/session.h"
+#include "glim/text.h"
 
 struct message {
     char text[sizeof(struct error)];
@@ -86,6 +87,9 @@ void work_end_device(struct work *w);
  * folder. The saver's event_fd says when work_finish_saving() has the result.
  */
 void work_save_picture(struct work *w);
+
+/* Writes the picture as text, as STEM.ans or the next free name. */
+void work_save_text(struct work *w, const struct text_style *style);
 
 /* Waits for the picture that is being saved, if any. False if that failed. */
 bool work_finish_saving(struct work *w);

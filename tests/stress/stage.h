@@ -24,6 +24,7 @@
 
 #include "glim/backend_cl.h"
 #include "glim/cl_environment.h"
+#include "glim/isa.h"
 #include "glim/render.h"
 #include "glim/scene.h"
 #include "rows.h"
@@ -81,8 +82,8 @@ static inline bool stage_open(struct stage *s, bool on_device)
         s->backend = backend_cl_create(&request, &log, &err);
         free(log);
     } else {
-        s->backend =
-            backend_cpu_create((int)sysconf(_SC_NPROCESSORS_ONLN), &err);
+        s->backend = backend_cpu_create((int)sysconf(_SC_NPROCESSORS_ONLN),
+                                        isa_best(), &err);
     }
     if (s->backend == NULL) {
         printf("skip: %s\n", err.text);

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "glim/cells.h"
+#include "glim/ansi.h"
 #include "glim/image.h"
 
 #define COLS        64
@@ -42,27 +42,16 @@ static void shrink(const struct image *image, struct frame *frame)
     }
 }
 
-static void print_color(const struct cell *cell)
+static bool print_cells(const struct cells *cells, struct error *err)
 {
-    printf("\033[38;2;%u;%u;%um\033[48;2;%u;%u;%um%s", cell->fg >> 16,
-           cell->fg >> 8 & 255, cell->fg & 255, cell->bg >> 16,
-           cell->bg >> 8 & 255, cell->bg & 255,
-           cell->glyph == CELL_UPPER ? "\xe2\x96\x80" : " ");
-}
+    size_t size_bytes;
+    char *text;
 
-static void print_cells(const struct cells *cells)
-{
-    for (int row = 0; row < cells->rows; row++) {
-        for (int col = 0; col < cells->cols; col++) {
-            const struct cell *cell = &cells->cell[row * cells->cols + col];
-
-            if (cells->palette == PALETTE_24BIT)
-                print_color(cell);
-            else
-                putchar((int)cell->glyph);
-        }
-        puts(cells->palette == PALETTE_24BIT ? "\033[0m" : "");
-    }
+    if (!ansi_lines(cells, &text, &size_bytes, err))
+        return false;
+    fwrite(text, 1, size_bytes, stdout);
+    free(text);
+    return true;
 }
 
 static bool show(const char *path, struct error *err)
@@ -82,9 +71,8 @@ static bool show(const char *path, struct error *err)
         shrink(&image, &frame);
         cells_from_frame(&cells, &frame,
                          is_plain ? PALETTE_MONO : PALETTE_24BIT,
-                         is_plain ? GLYPHS_ASCII : GLYPHS_UPPER);
-        print_cells(&cells);
-        is_shown = true;
+                         is_plain ? GLYPHS_ASCII : GLYPHS_HALF);
+        is_shown = print_cells(&cells, err);
     }
     cells_free(&cells);
     frame_free(&frame);

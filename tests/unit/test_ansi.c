@@ -96,24 +96,55 @@ static void print(struct screen *s, uint32_t glyph)
     s->cell[s->row][s->col++] = (struct cell){s->fg, s->bg, glyph};
 }
 
-static void screen_write(struct screen *s, const struct ansi *a)
+static const char *print_utf8(struct screen *s, const char *p)
 {
-    const char *p = a->bytes;
+    unsigned char first = (unsigned char)*p++;
+    int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : 1;
+    uint32_t glyph = first & (0x3fu >> more);
 
-    while (p < a->bytes + a->length) {
-        if (memcmp(p, "\033[", 2) == 0) {
+    for (; more > 0; more--) {
+        assert_int_equal(*p & 0xc0, 0x80);
+        glyph = glyph << 6 | (uint32_t)(*p++ & 0x3f);
+    }
+    print(s, glyph);
+    return p;
+}
+
+static void screen_write_bytes(struct screen *s, const char *p, size_t length)
+{
+    const char *end = p + length;
+
+    while (p < end) {
+        if (*p == '\n') {
+            s->row++;
+            s->col = 0;
+            p++;
+        } else if (memcmp(p, "\033[", 2) == 0) {
             p = control(s, p + 2);
-        } else if (memcmp(p, "\xe2\x96\x80", 3) == 0) {
-            print(s, CELL_UPPER);
-            p += 3;
-        } else if (memcmp(p, "\xe2\x96\x84", 3) == 0) {
-            print(s, CELL_LOWER);
-            p += 3;
+        } else if (*p & 0x80) {
+            p = print_utf8(s, p);
         } else {
             assert_in_range(*p, ' ', '~');
             print(s, (uint32_t)*p++);
         }
     }
+}
+
+static void screen_write(struct screen *s, const struct ansi *a)
+{
+    screen_write_bytes(s, a->bytes, a->length);
+}
+
+/* Colours of the dots of a cell, whatever of its two is the foreground. */
+static void dots_of(const struct cell *cell, enum glyphs glyphs,
+                    uint32_t dots[GLYPH_DOTS_MAX])
+{
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    unsigned mask;
+
+    assert_true(glyphs_mask(glyphs, cell->glyph, &mask));
+    for (int i = 0; i < grid.across * grid.down; i++)
+        dots[i] = mask >> i & 1 ? cell->fg : cell->bg;
 }
 
 static void check_shown(const struct screen *s, const struct cells *c, int col,
@@ -124,10 +155,16 @@ static void check_shown(const struct screen *s, const struct cells *c, int col,
             const struct cell *want = &c->cell[y * c->cols + x];
             const struct cell *got = &s->cell[row + y][col + x];
 
-            assert_int_equal(got->glyph, want->glyph);
-            assert_int_equal(got->bg, want->bg);
-            if (want->glyph != ' ')
-                assert_int_equal(got->fg, want->fg);
+            uint32_t is[GLYPH_DOTS_MAX] = {0}, should[GLYPH_DOTS_MAX] = {0};
+
+            if (want->bg == CELL_DEFAULT) { /* a character, or its dots */
+                assert_int_equal(got->glyph, want->glyph);
+                assert_int_equal(got->bg, want->bg);
+                continue;
+            }
+            dots_of(got, c->glyphs, is);
+            dots_of(want, c->glyphs, should);
+            assert_memory_equal(is, should, sizeof is);
         }
     }
 }
@@ -143,6 +180,15 @@ static uint32_t random_color(enum palette palette, uint64_t *seed)
     case PALETTE_MONO: break;
     }
     return CELL_DEFAULT;
+}
+
+/* Of which some dots are set and others not. */
+static uint32_t random_glyph(enum glyphs glyphs, uint64_t *seed)
+{
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    unsigned masks = (1u << grid.across * grid.down) - 2;
+
+    return glyphs_of_mask(glyphs, 1 + (unsigned)(masks * check_random(seed)));
 }
 
 /* Changes some cells; few colours, so that neighbours often share them. */
@@ -161,7 +207,7 @@ static void scramble(struct cells *c, enum palette palette, double part,
             continue;
         cell->fg = colors[(int)(3 * check_random(seed))];
         cell->bg = colors[(int)(3 * check_random(seed))];
-        cell->glyph = check_random(seed) < 0.5 ? CELL_UPPER : CELL_LOWER;
+        cell->glyph = random_glyph(c->glyphs, seed);
         if (palette == PALETTE_MONO)
             cell->glyph = '!' + (uint32_t)(90 * check_random(seed));
         if (cell->fg == cell->bg && palette != PALETTE_MONO)
@@ -187,12 +233,15 @@ static struct ansi make_ansi(int cols, int rows)
     return a;
 }
 
-/* Every palette, positions, changes of some and of all cells. */
+/* Every palette and kind of glyphs, changes of some and of all cells. */
 static void screen_shows_the_cells(void **state)
 {
     struct cells c = make_cells(30, 9);
     struct ansi a = make_ansi(30, 9);
     struct ansi_draw how = {.col = 4, .row = 2, .budget_bytes = SIZE_MAX};
+    static const enum glyphs kinds[5] = {GLYPHS_HALF, GLYPHS_LOWER,
+                                         GLYPHS_QUADRANT, GLYPHS_SEXTANT,
+                                         GLYPHS_BRAILLE};
     struct screen s;
     uint64_t seed = 5;
 
@@ -202,6 +251,7 @@ static void screen_shows_the_cells(void **state)
         enum palette palette = (enum palette)(round / 10 % 4);
         double part = round % 10 == 0 ? 1.0 : 0.3;
 
+        c.glyphs = kinds[round / 40];
         scramble(&c, palette, part, &seed);
         ansi_begin(&a);
         assert_true(ansi_picture(&a, &c, &how));
@@ -357,6 +407,80 @@ static void bytes_are_few(void **state)
     cells_free(&c);
 }
 
+/* A pattern of two colours needs them once: the glyphs alternate. Half blocks
+ * of which only the upper may be used cannot do that. */
+static void two_colors_stay_set(void **state)
+{
+    struct cells c = make_cells(6, 1);
+    struct ansi a = make_ansi(6, 1);
+    struct ansi_draw how = {.budget_bytes = SIZE_MAX};
+
+    (void)state;
+    c.palette = PALETTE_256;
+    c.glyphs = GLYPHS_HALF;
+    for (int i = 0; i < 6; i++)
+        c.cell[i] = i % 2 ? (struct cell){20, 30, CELL_UPPER}
+                          : (struct cell){30, 20, CELL_UPPER};
+    c.cell[4] = (struct cell){20, 20, ' '};
+    c.cell[5] = (struct cell){30, 30, ' '};
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    a.bytes[a.length] = '\0';
+    assert_string_equal(a.bytes, "\033[1;1H\033[38;5;30;48;5;20m"
+                                 "\xe2\x96\x80\xe2\x96\x84"
+                                 "\xe2\x96\x80\xe2\x96\x84 \033[48;5;30m ");
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    assert_int_equal(a.length, 0); /* it is shown, inverse or not */
+    c.glyphs = GLYPHS_UPPER;
+    ansi_begin(&a);
+    ansi_picture(&a, &c, &how);
+    a.bytes[a.length] = '\0';
+    assert_null(strstr(a.bytes, "\xe2\x96\x84"));
+    assert_null(strstr(a.bytes, "\xe2\x96\x88"));
+    ansi_free(&a);
+    cells_free(&c);
+}
+
+/* Text for a file shows the same cells as the screen, on a screen without any
+ * positions, and ends each line with the reader's own colours. */
+static void lines_show_the_cells(void **state)
+{
+    static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_UPPER,
+                                        GLYPHS_SEXTANT, GLYPHS_BRAILLE};
+    struct cells c = make_cells(COLS, ROWS);
+    struct screen s;
+    struct error err;
+    uint64_t seed = 8;
+
+    (void)state;
+    for (int round = 0; round < 16; round++) {
+        size_t size_bytes;
+        char *text;
+
+        screen_clear(&s);
+        c.glyphs = kinds[round / 4];
+        scramble(&c, (enum palette)(round % 4), 1.0, &seed);
+        assert_true(ansi_lines(&c, &text, &size_bytes, &err));
+        assert_int_equal(text[size_bytes - 1], '\n');
+        for (size_t i = 0; i < size_bytes; i++) {
+            if (text[i] == '\n' && c.palette != PALETTE_MONO)
+                assert_memory_equal(text + i - 3, "\033[m", 3);
+            if (text[i] != '\033')
+                continue;
+            /* colours, and nothing that moves */
+            assert_true(c.palette != PALETTE_MONO);
+            assert_int_equal(text[i + 2 + strspn(text + i + 2, "0123456789;")],
+                             'm');
+        }
+        screen_write_bytes(&s, text, size_bytes);
+        assert_int_equal(s.row, ROWS);
+        check_shown(&s, &c, 0, 0);
+        free(text);
+    }
+    cells_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -365,6 +489,8 @@ int main(void)
         cmocka_unit_test(small_steps_may_stay),
         cmocka_unit_test(covered_cells_stay),
         cmocka_unit_test(bytes_are_few),
+        cmocka_unit_test(two_colors_stay_set),
+        cmocka_unit_test(lines_show_the_cells),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,6 +15,7 @@
 #include "glim/backend_cl.h"
 #include "glim/cl_device.h"
 #include "glim/cl_environment.h"
+#include "glim/isa.h"
 #include "glim/render.h"
 #include "glim/scene.h"
 #include "glim/selftest.h"
@@ -72,7 +73,7 @@ static void open_pair(struct pair *p, const char *path, int width, int height)
     struct report report = {0};
     struct error err;
     char *view_path = xformat("%.*s.view", (int)strlen(path) - 4, path);
-    struct backend *cpu = backend_cpu_create(2, &err);
+    struct backend *cpu = backend_cpu_create(2, isa_best(), &err);
 
     *p = (struct pair){0};
     view_init(&p->view);
@@ -328,7 +329,7 @@ static void self_tests(void **state)
 
         open_pair(&p, scenes[i], 8, 8);
         request.features = i == 0 ? 0 : scene_features(&p.scene);
-        cpu = backend_cpu_create(1, &err);
+        cpu = backend_cpu_create(1, isa_best(), &err);
         special = backend_cl_create(&request, &log, &err);
         check_or_say(cpu != NULL && special != NULL, err.text);
         check_or_say(selftest_run(cpu, special, request.features, verdict,

@@ -6,14 +6,21 @@
 
 #include "glim/cells.h"
 
-static struct cells make_cells(struct frame *frame, int cols, int rows)
+static struct cells make_cells_of(struct frame *frame, int cols, int rows,
+                                  enum glyphs glyphs)
 {
+    struct glyph_grid grid = glyphs_grid(glyphs);
     struct cells cells;
     struct error err;
 
-    assert_true(frame_init(frame, cols, 2 * rows, &err));
+    assert_true(frame_init(frame, grid.across * cols, grid.down * rows, &err));
     assert_true(cells_init(&cells, cols, rows, &err));
     return cells;
+}
+
+static struct cells make_cells(struct frame *frame, int cols, int rows)
+{
+    return make_cells_of(frame, cols, rows, GLYPHS_HALF);
 }
 
 static void set(struct frame *f, int x, int y, int r, int g, int b)
@@ -48,60 +55,6 @@ static void two_pixels_make_a_half_block(void **state)
     cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_SPACE);
     assert_int_equal(c.cell[0].glyph, ' ');
     assert_int_equal(c.cell[0].bg, 0x030405); /* halves round up */
-    cells_free(&c);
-    frame_free(&f);
-}
-
-/* xterm's own numbers: 16 + 36 r + 6 g + b of levels 0 95 135 175 215 255, and
- * 232.. = 8 + 10 i. */
-static void value_256(int n, int rgb[3])
-{
-    static const int level[6] = {0, 95, 135, 175, 215, 255};
-
-    if (n >= 232) {
-        rgb[0] = rgb[1] = rgb[2] = 8 + 10 * (n - 232);
-        return;
-    }
-    rgb[0] = level[(n - 16) / 36];
-    rgb[1] = level[(n - 16) / 6 % 6];
-    rgb[2] = level[(n - 16) % 6];
-}
-
-static int weighted(const int a[3], const int b[3])
-{
-    return 2 * (a[0] - b[0]) * (a[0] - b[0]) +
-           4 * (a[1] - b[1]) * (a[1] - b[1]) +
-           3 * (a[2] - b[2]) * (a[2] - b[2]);
-}
-
-/* Against a search through all 240 colours. */
-static void nearest_of_256(void **state)
-{
-    struct frame f;
-    struct cells c = make_cells(&f, 1, 1);
-    uint64_t seed = 1;
-
-    (void)state;
-    for (int i = 0; i < 20000; i++) {
-        int v[3], got[3], try[3];
-        int best = 1 << 30;
-
-        for (int k = 0; k < 3; k++)
-            v[k] = (int)(256 * check_random(&seed));
-        if (i % 4 == 0) /* greys and what is near them */
-            v[1] = v[2] = v[0];
-        set(&f, 0, 0, v[0], v[1], v[2]);
-        set(&f, 0, 1, v[0], v[1], v[2]);
-        cells_from_frame(&c, &f, PALETTE_256, GLYPHS_UPPER);
-        assert_in_range(c.cell[0].bg, 16, 255);
-        value_256((int)c.cell[0].bg, got);
-        for (int n = 16; n < 256; n++) {
-            value_256(n, try);
-            if (weighted(v, try) < best)
-                best = weighted(v, try);
-        }
-        assert_int_equal(weighted(v, got), best);
-    }
     cells_free(&c);
     frame_free(&f);
 }
@@ -146,6 +99,113 @@ static void sixteen_keep_the_average(void **state)
     }
     cells_free(&c);
     frame_free(&f);
+}
+
+/* Squares to the means of the two groups, weighted as the program does, for
+ * the dots of which bits are set. */
+static double squares(const struct frame *f, unsigned mask)
+{
+    static const double weight[3] = {2, 4, 3};
+    int count = f->width * f->height;
+    double total = 0;
+
+    for (int bit = 0; bit < 2; bit++) {
+        for (int c = 0; c < 3; c++) {
+            double sum = 0, sum2 = 0;
+            int n = 0;
+
+            for (int i = 0; i < count; i++) {
+                double v = f->rgb[3 * i + c];
+
+                if ((int)(mask >> i & 1) != bit)
+                    continue;
+                sum += v;
+                sum2 += v * v;
+                n++;
+            }
+            total += n > 0 ? weight[c] * (sum2 - sum * sum / n) : 0;
+        }
+    }
+    return total;
+}
+
+/* The mean of a channel over the dots of one kind, rounded. */
+static uint32_t mean(const struct frame *f, unsigned mask, unsigned bit)
+{
+    uint32_t color = 0;
+
+    for (int c = 0; c < 3; c++) {
+        int sum = 0, n = 0;
+
+        for (int i = 0; i < f->width * f->height; i++) {
+            if ((mask >> i & 1) != bit)
+                continue;
+            sum += f->rgb[3 * i + c];
+            n++;
+        }
+        color = color << 8 | (uint32_t)floor((double)sum / n + 0.5);
+    }
+    return color;
+}
+
+/* Every partition is tried: none is better, and the colours are its means. */
+static void two_groups_are_the_best(void **state)
+{
+    static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_SEXTANT,
+                                        GLYPHS_BRAILLE};
+    uint64_t seed = 3;
+
+    (void)state;
+    for (int round = 0; round < 900; round++) {
+        struct frame f;
+        enum glyphs glyphs = kinds[round % 3];
+        struct cells c = make_cells_of(&f, 1, 1, glyphs);
+        int dots = f.width * f.height;
+        double least = 1e30;
+        unsigned mask;
+
+        for (int i = 0; i < 3 * dots; i++)
+            f.rgb[i] = (uint8_t)(256 * check_random(&seed));
+        cells_from_frame(&c, &f, PALETTE_24BIT, glyphs);
+        for (unsigned m = 0; m < 1u << dots; m++)
+            least = fmin(least, squares(&f, m));
+        assert_true(glyphs_mask(glyphs, c.cell[0].glyph, &mask));
+        check_close(squares(&f, mask), least, 1e-5 * least);
+        assert_int_equal(c.cell[0].fg, mean(&f, mask, 1));
+        assert_int_equal(c.cell[0].bg, mean(&f, mask, 0));
+        cells_free(&c);
+        frame_free(&f);
+    }
+}
+
+/* Without colours a grey is so many dots as its light, squared, asks for. */
+static void mono_dots_keep_the_average(void **state)
+{
+    static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_BRAILLE};
+
+    (void)state;
+    for (int round = 0; round < 512; round++) {
+        enum glyphs glyphs = kinds[round % 2];
+        struct frame f;
+        struct cells c = make_cells_of(&f, 4, 4, glyphs);
+        int v = round / 2, on = 0;
+
+        for (int i = 0; i < 3 * f.width * f.height; i++)
+            f.rgb[i] = (uint8_t)v;
+        cells_from_frame(&c, &f, PALETTE_MONO, glyphs);
+        for (int i = 0; i < 16; i++) {
+            unsigned mask;
+
+            assert_true(glyphs_mask(glyphs, c.cell[i].glyph, &mask));
+            assert_true(c.cell[i].fg == CELL_DEFAULT &&
+                        c.cell[i].bg == CELL_DEFAULT);
+            on += __builtin_popcount(mask);
+        }
+        check_close((double)on / (f.width * f.height), v * v / 65025.0,
+                    1.0 / 32 + 1e-9);
+        cells_free(&c);
+        frame_free(&f);
+    }
 }
 
 static void mono_is_characters_that_grow(void **state)
@@ -259,7 +319,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mark_is_seen_in_every_palette),
         cmocka_unit_test(two_pixels_make_a_half_block),
-        cmocka_unit_test(nearest_of_256),
+        cmocka_unit_test(two_groups_are_the_best),
+        cmocka_unit_test(mono_dots_keep_the_average),
         cmocka_unit_test(sixteen_keep_the_average),
         cmocka_unit_test(mono_is_characters_that_grow),
         cmocka_unit_test(ascii_keeps_the_hue),

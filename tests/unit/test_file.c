@@ -179,6 +179,33 @@ static void test_must_be_new(void **state)
     assert_int_equal(count_files("n"), 2);
 }
 
+/* The first free name, and nothing of the others changes. */
+static void test_numbered(void **state)
+{
+    static const char *const names[] = {"m/a.txt", "m/a-2.txt", "m/a-4.txt"};
+    struct error err;
+
+    (void)state;
+    mkdir("m", 0777);
+    put("m/a-3.txt", "mine");
+    for (int i = 0; i < 3; i++) {
+        char *name = file_write_numbered("m/a", "txt", names[i], 7, &err);
+
+        assert_string_equal(name, names[i]);
+        free(name);
+    }
+    for (int i = 0; i < 3; i++) {
+        char begin[8];
+
+        snprintf(begin, sizeof begin, "%.7s", names[i]);
+        has(names[i], begin);
+    }
+    has("m/a-3.txt", "mine");
+    assert_int_equal(count_files("m"), 4);
+    assert_null(file_write_numbered("m/none/a", "txt", "x", 1, &err));
+    assert_string_equal(err.text, "m/none/a.txt: no such file or folder");
+}
+
 static void test_links(void **state)
 {
     struct error err;
@@ -324,11 +351,11 @@ static void test_paths(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_read),        cmocka_unit_test(test_read_errors),
-        cmocka_unit_test(test_write),       cmocka_unit_test(test_must_be_new),
-        cmocka_unit_test(test_links),       cmocka_unit_test(test_write_errors),
-        cmocka_unit_test(test_permissions), cmocka_unit_test(test_disk_full),
-        cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_read),         cmocka_unit_test(test_read_errors),
+        cmocka_unit_test(test_write),        cmocka_unit_test(test_must_be_new),
+        cmocka_unit_test(test_numbered),     cmocka_unit_test(test_links),
+        cmocka_unit_test(test_write_errors), cmocka_unit_test(test_permissions),
+        cmocka_unit_test(test_disk_full),    cmocka_unit_test(test_paths),
     };
 
     return cmocka_run_group_tests_name("file", tests, make_folder,

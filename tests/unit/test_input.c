@@ -94,6 +94,12 @@ static void answers_are_answers(void **state)
     } cases[] = {
         {"\033[0n", EVENT_READY, 0, 0},
         {"\033[?64;1;2;6;22c", EVENT_ATTRIBUTES, 0, 0},
+        {"\033[?4;6c", EVENT_ATTRIBUTES, 0, 0}, /* a VT132, without sixels */
+        /* xterm as a VT340; foot */
+        {"\033[?63;1;2;4;6;9;15;16;22;28;29c", EVENT_ATTRIBUTES, 1, 0},
+        {"\033[?62;4;22;28c", EVENT_ATTRIBUTES, 1, 0},
+        {"\033[?1;0;1024S", EVENT_SIXEL_COLORS, 1024, 0},
+        {"\033_Gi=1;OK\033\\", EVENT_KITTY, 0, 0},
         {"\033[?2026;2$y", EVENT_SYNC, 0, 0},
         {"\033[?2026;1$y", EVENT_SYNC, 0, 0},
         {"\033[6;17;8t", EVENT_CELL_SIZE, 8, 17},
@@ -129,7 +135,10 @@ static void the_rest_is_dropped(void **state)
         "\033]11;rgb:0000/0000/0000\033\\",
         "\033]11;rgb:0000/0000/0000\007",
         "\033[>41;379;0c",
-        "\033_Gi=1;OK\033\\",
+        "\033_Gi=1;ENOTSUPPORTED:no\033\\",
+        "\033_G\033\\",
+        "\033[?1;3;0S", /* does not tell its colours */
+        "\033[?2;0;1000;1000S",
         "\033[3n",
         "\033[8;24;80t",
         "\033[<35;10;10",

@@ -50,7 +50,9 @@ static void own_and_phoe_keys(void **state)
         {INPUT_PAGE_UP, ACTION_UP, ACTION_UP},
         {INPUT_OTHER, ACTION_NONE, ACTION_NONE},
         {0, ACTION_NONE, ACTION_NONE},
-        {'x', ACTION_NONE, ACTION_NONE},
+        {'x', ACTION_SAVE_TEXT, ACTION_SAVE_TEXT},
+        {'G', ACTION_GLYPHS, ACTION_GLYPHS},
+        {'~', ACTION_NONE, ACTION_NONE},
     };
     struct keys own = table_keys(false), phoe = table_keys(true);
 

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "glim/options.h"
@@ -115,6 +116,7 @@ static void test_words(void **state)
 {
     (void)state;
     assert_int_equal(good("a --color 24").color, COLOR_24BIT);
+    assert_int_equal(good("a --color=24bit").color, COLOR_24BIT);
     assert_int_equal(good("a --color 256").color, COLOR_256);
     assert_int_equal(good("a --color 16").color, COLOR_16);
     assert_int_equal(good("a --color mono").color, COLOR_MONO);
@@ -124,13 +126,20 @@ static void test_words(void **state)
     assert_int_equal(good("a --glyph lower").glyph, GLYPH_LOWER);
     assert_int_equal(good("a --glyph space").glyph, GLYPH_SPACE);
     assert_int_equal(good("a --glyph ascii").glyph, GLYPH_ASCII);
+    assert_int_equal(good("a --glyph half").glyph, GLYPH_HALF);
+    assert_int_equal(good("a --glyph quadrant").glyph, GLYPH_QUADRANT);
+    assert_int_equal(good("a --glyph sextant").glyph, GLYPH_SEXTANT);
+    assert_int_equal(good("a --glyph braille").glyph, GLYPH_BRAILLE);
+    assert_int_equal(good("a --glyph sixel").glyph, GLYPH_SIXEL);
+    assert_int_equal(good("a --glyph kitty").glyph, GLYPH_KITTY);
     assert_false(good("a --up y").up_is_z);
     assert_true(good("a --phoe-keys").phoe_keys);
     assert_true(good("a --cell-aspect 1.5e0").cell_aspect == 1.5);
     bad("a --color red",
         "--color: found 'red', expected 24, 256, 16, mono or auto");
     bad("a --glyph=",
-        "--glyph: found '', expected auto, upper, lower, space or ascii");
+        "--glyph: found '', expected auto, half, upper, lower, quadrant, "
+        "sextant, braille, space, ascii, sixel or kitty");
     bad("a --up x", "--up: found 'x', expected y or z");
 }
 
@@ -288,14 +297,49 @@ static void test_together(void **state)
     bad("-f", "-f: expected the name of a scene behind it");
 }
 
+/* What is on the line wins over GLIM_COLOR, also "auto"; that is read only
+ * where there is a picture in a terminal. */
+static void test_environment(void **state)
+{
+    (void)state;
+    setenv("GLIM_COLOR", "256", 1);
+    assert_int_equal(good("a").color, COLOR_256);
+    assert_int_equal(good("a --color 16").color, COLOR_16);
+    assert_int_equal(good("a --color auto").color, COLOR_AUTO);
+    assert_int_equal(good("-b a").color, COLOR_AUTO);
+    assert_int_equal(good("-b --ansi 80x24 a").color, COLOR_256);
+    setenv("GLIM_COLOR", "red", 1);
+    bad("a", "GLIM_COLOR: found 'red', expected 24, 256, 16, mono or auto");
+    setenv("GLIM_COLOR", "", 1);
+    assert_int_equal(good("a").color, COLOR_AUTO);
+    unsetenv("GLIM_COLOR");
+}
+
+static void test_text_sizes(void **state)
+{
+    struct options o = good("-b --ansi 80x24 a");
+
+    (void)state;
+    assert_int_equal(o.text_cols, 80);
+    assert_int_equal(o.text_rows, 24);
+    bad("-b --ansi 80 a", "--ansi: found '80', expected COLSxROWS: two whole "
+                          "numbers from 1 to 2000");
+    bad("-b --ansi 80x2001 a",
+        "--ansi: found '80x2001', expected COLSxROWS: two whole numbers from "
+        "1 to 2000");
+    bad("-b --ansi x24 a", "--ansi: found 'x24', expected COLSxROWS: two "
+                           "whole numbers from 1 to 2000");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults), cmocka_unit_test(test_every_option),
-        cmocka_unit_test(test_words),    cmocka_unit_test(test_spelling),
-        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_help),
-        cmocka_unit_test(test_crop),     cmocka_unit_test(test_together),
-        cmocka_unit_test(test_backend),  cmocka_unit_test(test_list_devices),
+        cmocka_unit_test(test_defaults),   cmocka_unit_test(test_every_option),
+        cmocka_unit_test(test_words),      cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_text_sizes), cmocka_unit_test(test_spelling),
+        cmocka_unit_test(test_numbers),    cmocka_unit_test(test_help),
+        cmocka_unit_test(test_crop),       cmocka_unit_test(test_together),
+        cmocka_unit_test(test_backend),    cmocka_unit_test(test_list_devices),
     };
 
     return cmocka_run_group_tests_name("options", tests, NULL, NULL);

@@ -10,6 +10,7 @@
 #include <immintrin.h>
 #endif
 
+#include "glim/isa.h"
 #include "glim/render.h"
 
 #define WIDTH  70 /* no multiple of a block */
@@ -36,16 +37,21 @@ static void make_room(struct mesh *m)
     mesh_finish(m);
 }
 
-static struct render *open_render(int threads)
+static struct render *open_render_with(const struct paths *paths, int threads)
 {
     struct error err;
-    struct backend *backend = backend_cpu_create(threads, &err);
+    struct backend *backend = backend_cpu_create(threads, paths, &err);
     struct render *r;
 
     assert_non_null(backend);
     r = render_create(backend, &err);
     assert_non_null(r);
     return r;
+}
+
+static struct render *open_render(int threads)
+{
+    return open_render_with(isa_best(), threads);
 }
 
 static void close_render(struct render *r)
@@ -103,6 +109,33 @@ static void thread_counts_give_the_same_bits(void **state)
     }
     for (int i = 0; i < 4; i++)
         close_render(renders[i]);
+    mesh_free(&m);
+}
+
+/* 3 of the 11 samples come in a block that is not full. */
+static void instruction_sets_give_the_same_bits(void **state)
+{
+    struct render *plain = open_render_with(isa_named("plain", NULL), 2);
+    const struct paths *paths;
+    struct mesh m;
+    struct error err;
+    struct render_job job;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 11);
+    assert_true(render_start(plain, &job, &err));
+    assert_true(render_wait(plain, 60000));
+    for (int i = 0; (paths = isa_at(i)) != NULL; i++) {
+        struct render *r = open_render_with(paths, 2);
+
+        assert_true(render_start(r, &job, &err));
+        assert_true(render_wait(r, 60000));
+        assert_same_film(render_film(plain), render_film(r));
+        close_render(r);
+    }
+    assert_null(isa_named("sse9", &err));
+    close_render(plain);
     mesh_free(&m);
 }
 
@@ -301,6 +334,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thread_counts_give_the_same_bits),
+        cmocka_unit_test(instruction_sets_give_the_same_bits),
         cmocka_unit_test(halts_do_not_show),
         cmocka_unit_test(restarts_begin_anew),
         cmocka_unit_test(a_crop_is_part_of_the_whole),

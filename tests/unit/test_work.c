@@ -11,7 +11,8 @@
 
 #include "glim/work.h"
 
-static const char *const names[] = {"s.obj", "s.view", "s.png", "s-2.png"};
+static const char *const names[] = {"s.obj",   "s.view", "s.png",
+                                    "s-2.png", "s.ans",  "s-2.ans"};
 
 static char folder[] = "/tmp/glim-test-XXXXXX";
 
@@ -268,6 +269,37 @@ static void views_are_written(void **state)
     report_free(&report);
 }
 
+/* Under a new name each time; what normal mode has rendered is still to be
+ * saved as a picture. */
+static void texts_are_written(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    struct text_style style = {8, 2, PALETTE_MONO, GLYPHS_HALF};
+
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+    work_save_text(w, &style);
+    assert_string_equal(w->message.text, "saved s.ans, text of 8x2 characters");
+    work_save_text(w, &style);
+    assert_string_equal(w->message.text,
+                        "saved s-2.ans, text of 8x2 characters");
+    assert_int_equal(w->result_count, 2);
+    assert_true(work_has_unsaved(w));
+    for (size_t i = 4; i < sizeof names / sizeof names[0]; i++) {
+        FILE *in = fopen(names[i], "r");
+        char line[32];
+
+        assert_non_null(in);
+        for (int row = 0; row < 2; row++) {
+            assert_non_null(fgets(line, sizeof line, in));
+            assert_int_equal(strcspn(line, "\n"), 8);
+        }
+        assert_null(fgets(line, sizeof line, in));
+        fclose(in);
+    }
+}
+
 int main(void)
 {
 #define WORK_TEST(f) cmocka_unit_test_setup_teardown(f, open_work, close_work)
@@ -282,6 +314,7 @@ int main(void)
         WORK_TEST(saving_takes_a_copy),
         WORK_TEST(failures_are_messages),
         WORK_TEST(views_are_written),
+        WORK_TEST(texts_are_written),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -30,12 +30,10 @@
 /* References of 256x256 pixels, too many here, become 64x64. */
 #define REDUCE 4
 
-/* Backends made of src/backend_cpu.c with one function replaced: see the
- * headers in this folder. */
-struct backend *backend_hashed_create(int thread_count, struct error *err);
-struct backend *backend_uniform_create(int thread_count, struct error *err);
-struct backend *backend_throughput_create(int thread_count, struct error *err);
-struct backend *backend_shadows_create(int thread_count, struct error *err);
+/* Made of src/paths.c with one function replaced: see the headers in this
+ * folder. */
+extern const struct paths paths_whole, paths_hashed, paths_uniform,
+    paths_throughput, paths_shadows;
 
 /* What a scene must have for a technique to matter. */
 enum need { NEED_NOTHING, NEED_LIGHT_SAMPLES, NEED_LIGHTS, NEED_SKY_TABLE };
@@ -43,29 +41,28 @@ enum need { NEED_NOTHING, NEED_LIGHT_SAMPLES, NEED_LIGHTS, NEED_SKY_TABLE };
 /* All techniques, or all but the one that is named. */
 static const struct technique {
     const char *name;
-    struct backend *(*create)(int thread_count, struct error *err);
+    const struct paths *paths;
     enum direct direct;
     enum sky_use sky_use;
     enum need need;
 } techniques[] = {
-    {"everything", backend_cpu_create, DIRECT_MIS, SKY_WITH_CHANCE,
+    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_CHANCE, NEED_NOTHING},
+    {"first integrator", &paths_hashed, DIRECT_CHANCE, SKY_WITH_CHANCE,
      NEED_NOTHING},
-    {"first integrator", backend_hashed_create, DIRECT_CHANCE, SKY_WITH_CHANCE,
-     NEED_NOTHING},
-    {"without light samples", backend_cpu_create, DIRECT_CHANCE,
-     SKY_WITH_CHANCE, NEED_LIGHT_SAMPLES},
-    {"without light by chance", backend_cpu_create, DIRECT_LIGHTS, SKY_ALONE,
+    {"without light samples", &paths_whole, DIRECT_CHANCE, SKY_WITH_CHANCE,
      NEED_LIGHT_SAMPLES},
-    {"without sobol points", backend_hashed_create, DIRECT_MIS, SKY_WITH_CHANCE,
+    {"without light by chance", &paths_whole, DIRECT_LIGHTS, SKY_ALONE,
+     NEED_LIGHT_SAMPLES},
+    {"without sobol points", &paths_hashed, DIRECT_MIS, SKY_WITH_CHANCE,
      NEED_NOTHING},
-    {"without the light tree", backend_uniform_create, DIRECT_MIS,
-     SKY_WITH_CHANCE, NEED_LIGHTS},
-    {"without compensation", backend_cpu_create, DIRECT_MIS, SKY_ALONE,
+    {"without the light tree", &paths_uniform, DIRECT_MIS, SKY_WITH_CHANCE,
+     NEED_LIGHTS},
+    {"without compensation", &paths_whole, DIRECT_MIS, SKY_ALONE,
      NEED_SKY_TABLE},
-    {"without root in roulette", backend_throughput_create, DIRECT_MIS,
-     SKY_WITH_CHANCE, NEED_NOTHING},
-    {"with all shadow rays", backend_shadows_create, DIRECT_MIS,
-     SKY_WITH_CHANCE, NEED_LIGHT_SAMPLES},
+    {"without root in roulette", &paths_throughput, DIRECT_MIS, SKY_WITH_CHANCE,
+     NEED_NOTHING},
+    {"with all shadow rays", &paths_shadows, DIRECT_MIS, SKY_WITH_CHANCE,
+     NEED_LIGHT_SAMPLES},
 };
 
 enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
@@ -476,7 +473,8 @@ int main(int argc, char **argv)
     fprintf(bench.csv, "scene,technique,samples,seconds,relative_mse,"
                        "reference_noise,efficiency\n");
     for (int i = 0; ok && i < TECHNIQUES; i++) {
-        bench.backends[i] = techniques[i].create(bench.threads, &err);
+        bench.backends[i] =
+            backend_cpu_create(bench.threads, techniques[i].paths, &err);
         ok = bench.backends[i] != NULL;
     }
     printf("%d thread(s), %d rounds; seconds of the processor a thread; "

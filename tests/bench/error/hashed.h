@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * hashed.h - for a backend_cpu.c without Sobol points: plain hashed numbers
+ * hashed.h - for paths without Sobol points: plain hashed numbers
  *
  * Units:     32-bit fractions of the unit square
  * Ownership: none
@@ -21,7 +21,6 @@ static inline struct bits2 hashed_point(uint32_t reversed_index, uint32_t key)
     return p;
 }
 
-#define sobol_point        hashed_point
-#define backend_cpu_create backend_hashed_create
+#define sobol_point hashed_point
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * shadows.h - for a backend_cpu.c that traces a shadow ray for any light
+ * shadows.h - for paths that traces a shadow ray for any light
  *
  * Units:     probabilities
  * Ownership: none
@@ -19,7 +19,6 @@ static inline float always(struct vec3 light, struct vec3 sum)
     return 1.0f;
 }
 
-#define shadow_survival    always
-#define backend_cpu_create backend_shadows_create
+#define shadow_survival always
 
 #endif

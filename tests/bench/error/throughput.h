@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * throughput.h - for a backend_cpu.c with plain roulette: paths survive by
+ * throughput.h - for paths with plain roulette: paths survive by
  * their throughput itself, from the first vertex on
  *
  * Units:     probabilities
@@ -19,7 +19,6 @@ static inline float throughput(struct vec3 beta, uint32_t vertex)
     return v3_max(beta);
 }
 
-#define survival           throughput
-#define backend_cpu_create backend_throughput_create
+#define survival throughput
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * uniform.h - for a backend_cpu.c without a light tree: all lights are equally
+ * uniform.h - for paths without a light tree: all lights are equally
  * likely
  *
  * Units:     none
@@ -34,6 +34,5 @@ static inline float uniform_choose(const struct world *w,
 
 #define light_tree_choose      uniform_choose
 #define light_tree_probability uniform_probability
-#define backend_cpu_create     backend_uniform_create
 
 #endif

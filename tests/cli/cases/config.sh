@@ -30,7 +30,7 @@ try '\nkey orbit a b c d e\n'
 try 'keys orbit a\n'
 # help is help, even so
 glim --help | head -n 1
-glim --version | sed 's/[0-9.]*$/N/'
+glim --version | sed -n 's/[0-9.]*$/N/; 1p'
 # a relative name of the folder counts as none; then the one at home
 mkdir -p home/.config/glim
 echo wrong >home/.config/glim/config

@@ -39,7 +39,7 @@ fresh
 start_line "OCL_ICD_VENDORS=/nonexistent TERM=tmux-256color glim --device 1 flat.obj"
 wait_for "OpenCL: found no platform"
 wait_for_rows 20 "48;2;188;124;0"
-keys x
+keys '~'
 wait_for "LIVE"
 keys q
 expect_end 0

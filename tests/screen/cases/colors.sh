@@ -21,6 +21,7 @@ keys q
 expect_end 0
 # Some of these have no second screen to come back from: it is cleared.
 for case in "GLIM_COLOR=256:256 colours" "NO_COLOR=1:mono" \
+    "NO_COLOR= COLORTERM=truecolor:24 bit" "NO_COLOR=1 GLIM_COLOR=16:16 colours" \
     "TERM=screen TMUX= STY=1.x:256 colours" "TERM=linux TMUX=:16 colours" \
     "TERM=vt100 TMUX=:mono" "TERM=xterm-nonsense TMUX=:256 colours" \
     "TERM=xterm TMUX= COLORTERM=truecolor:24 bit"; do
@@ -32,7 +33,13 @@ for case in "GLIM_COLOR=256:256 colours" "NO_COLOR=1:mono" \
     reject "LIVE"
     reject "▀▀▀"
 done
+# What is asked for wins over NO_COLOR.
 fresh
-start_line "TERM=tmux-256color GLIM_COLOR=24bit glim flat.obj"
-wait_for "^glim: GLIM_COLOR: found '24bit', expected 24, 256, 16, mono or"
+start_line "TERM=tmux-256color NO_COLOR=1 glim --color=24bit flat.obj"
+wait_for "LIVE .*  24 bit "
+keys q
+expect_end 0
+fresh
+start_line "TERM=tmux-256color GLIM_COLOR=red glim flat.obj"
+wait_for "^glim: GLIM_COLOR: found 'red', expected 24, 256, 16, mono or"
 expect_end 2

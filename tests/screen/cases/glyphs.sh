@@ -1,15 +1,36 @@
 # SPDX-License-Identifier: MIT
-# Half blocks, blanks or characters, as asked.
+# Half blocks, blanks, characters or dots, as asked, by option and by key.
 lamp_scene
 start lamp.obj
-wait_for "▀"
+wait_for "[▀▄]"
+keys G
+wait_for "quadrants"
+wait_for "[▖▗▘▙▛▜▝▞▟▌▐]"
+keys G
+wait_for "sextants"
+wait_for "[🬕🬂🬎🬁🬓]"
+keys G
+wait_for "braille"
+wait_for "[⢀⡀⣀⣠⣄⠘⠉⣤⢠⡄⠙⠋⠛]"
+reject "[▀▄🬕🬂🬎🬁🬓]"
+keys G
+wait_for "letters"
+wait_for "@@@"
+keys G # this terminal has no pixels: round to the first
+wait_for "half blocks"
+wait_for "[▀▄]"
+reject "@@@"
 keys q
 expect_end 0
-fresh
-start --glyph lower lamp.obj
-wait_for "▄"
-keys q
-expect_end 0
+for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@" "sixel:[▀▄]" \
+    "kitty:[▀▄]" "braille --color mono:⣿⣿" "quadrant --color mono:[▟▙]" \
+    "half --color mono:@@@"; do
+    fresh
+    start "--glyph ${case%%:*}" lamp.obj
+    wait_for "${case#*:}"
+    keys q
+    expect_end 0
+done
 fresh
 start --glyph ascii lamp.obj
 wait_for "@@@"
@@ -20,5 +41,11 @@ fresh
 start_line "LC_ALL=C TERM=tmux-256color glim lamp.obj"
 wait_until eval 'screen_colors | grep -q "48;2;255;255;255m"'
 reject "[^ -~]"
+keys G
+wait_for "letters"
+wait_for "@@@"
+keys G
+wait_for "blanks"
+reject "@@@"
 keys q
 expect_end 0

@@ -15,7 +15,7 @@ inside=${inside%│*}
 case $inside in
 *"48;2;"*) die "picture inside the window: $inside" ;;
 esac
-keys x
+keys '~'
 wait_until_gone "any key closes"
 wait_for_rows 25 "48;2;188;124;0"
 reject "save a new PNG"

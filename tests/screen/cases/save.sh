@@ -35,7 +35,7 @@ keys p
 wait_for "flat.png: "
 sleep 5
 expect "flat.png: "
-keys x
+keys '~'
 wait_for "LIVE"
 keys q
 expect_end 0

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/*
+ * kitty.h - pixels as the bytes of kitty's graphics protocol
+ *
+ * Units:     pixels, bytes
+ * Ownership: the buffer is the caller's
+ * Threads:   any
+ * Errors:    none; terminals are told not to answer
+ */
+#ifndef GLIM_KITTY_H
+#define GLIM_KITTY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Asks whether a pixel could be shown; the answer has ";OK". */
+#define KITTY_QUESTION "\033_Gi=1,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
+
+/* Removes all images. */
+#define KITTY_ERASE_ALL "\033_Ga=d,d=A,q=2\033\\"
+
+/* A rectangle of a picture of 3 bytes a pixel, row 0 at the top. */
+struct kitty_image {
+    int id; /* from 1 on: replaces the image of this number */
+    int width, height;
+    const uint8_t *rgb;
+    size_t stride_bytes; /* from a row to the next */
+};
+
+/* The most that kitty_encode() and kitty_erase() write. */
+size_t kitty_bytes_max(int width, int height);
+
+/* Writes the image, which appears with its corner in the cursor's cell and
+ * leaves the cursor there; the number of bytes. */
+size_t kitty_encode(const struct kitty_image *image, char *bytes);
+
+/* Removes one image. */
+size_t kitty_erase(int id, char *bytes);
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+/*
+ * points.h - the random numbers of a pixel's samples, computed together
+ *
+ * The same numbers as random_2d() gives, for eight samples in one loop that
+ * compilers turn into vector code. A dimension is computed when the first
+ * sample asks for it: where one path goes, the others mostly go as well.
+ *
+ * Units:     numbers in [0, 1)
+ * Ownership: none
+ * Threads:   one at a time
+ * Errors:    none
+ */
+#ifndef KERNELS_POINTS_H
+#define KERNELS_POINTS_H
+
+#include "kernels/path_types.h"
+#include "kernels/rng.h"
+
+/* Dimensions at a vertex, and vertices that are computed ahead: what comes
+ * later few paths ask for. One bit for each dimension in a word. */
+#define POINT_KINDS    4u
+#define POINT_VERTICES 8u
+
+struct points {
+    uint32_t key; /* that all have */
+    uint32_t reversed_index[SAMPLE_BLOCK];
+    uint32_t known; /* bit vertex x kinds + kind: is computed */
+    float x[POINT_VERTICES * POINT_KINDS][SAMPLE_BLOCK];
+    float y[POINT_VERTICES * POINT_KINDS][SAMPLE_BLOCK];
+};
+
+static inline void points_compute(struct points *p, uint32_t slot,
+                                  uint32_t dimension)
+{
+    struct sampler any = {p->key, 0};
+    uint32_t key = dimension_key(any, dimension);
+
+    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
+        struct bits2 b = sobol_point(p->reversed_index[i], key);
+
+        p->x[slot][i] = unit_float(b.x);
+        p->y[slot][i] = unit_float(b.y);
+    }
+    p->known |= 1u << slot;
+}
+
+/* random_2d() of sample i at a vertex, the first of which is 1; `kind` is one
+ * of enum dimension's that are counted from DIMENSION_BOUNCE. Without points,
+ * for one sample alone. */
+static inline struct vec2 points_2d(struct points *p, uint32_t i,
+                                    struct sampler s, uint32_t vertex,
+                                    uint32_t kind)
+{
+    uint32_t dimension =
+        DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE + kind;
+    uint32_t slot = (vertex - 1) * POINT_KINDS + kind;
+
+    if (p == NULL || vertex > POINT_VERTICES)
+        return random_2d(s, dimension);
+    if ((p->known >> slot & 1u) == 0)
+        points_compute(p, slot, dimension);
+    return v2(p->x[slot][i], p->y[slot][i]);
+}
+
+#endif

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+/*
+ * pixels.h - what terminals make of sixels and of kitty's graphics, after the
+ * VT340's manual, chapter 14, and kitty's graphics protocol
+ *
+ * Units:     pixels
+ * Ownership: none
+ * Threads:   one
+ * Errors:    bytes that break the rules end the test
+ */
+#ifndef TESTS_PIXELS_H
+#define TESTS_PIXELS_H
+
+#include <stdlib.h>
+
+#include "check.h"
+
+#define PIXELS_MAX (256 * 256)
+
+struct sixels {
+    int width, height;
+    int number[PIXELS_MAX]; /* -1: none was set */
+    int percent[256][3];    /* of the colours; -1: not said */
+};
+
+static inline const char *read_int(const char *p, int *n)
+{
+    char *end;
+
+    assert_in_range(*p, '0', '9');
+    *n = (int)strtol(p, &end, 10);
+    return end;
+}
+
+static inline const char *expect_text(const char *p, const char *text)
+{
+    assert_memory_equal(p, text, strlen(text));
+    return p + strlen(text);
+}
+
+/* #n chooses a colour, #n;2;r;g;b says first what it is. */
+static inline const char *sixel_color(const char *p, struct sixels *s, int *n)
+{
+    p = read_int(p, n);
+    assert_in_range(*n, 0, 255);
+    if (*p != ';')
+        return p;
+    p = expect_text(p, ";2");
+    for (int c = 0; c < 3; c++) {
+        p = read_int(expect_text(p, ";"), &s->percent[*n][c]);
+        assert_in_range(s->percent[*n][c], 0, 100);
+    }
+    return p;
+}
+
+static inline void sixel_set(struct sixels *s, int x, int band, int bits, int n)
+{
+    for (int i = 0; i < 6; i++) {
+        int y = 6 * band + i;
+
+        if (!(bits >> i & 1))
+            continue;
+        assert_true(x < s->width && y < s->height && s->percent[n][0] >= 0);
+        assert_int_equal(s->number[y * s->width + x], -1); /* never twice */
+        s->number[y * s->width + x] = n;
+    }
+}
+
+/* One image, from ESC P on; what is behind it. */
+static inline const char *sixels_read(const char *p, struct sixels *s)
+{
+    int band = 0, x = 0, n = -1;
+
+    p = read_int(expect_text(p, "\033P0;1q\"1;1;"), &s->width);
+    p = read_int(expect_text(p, ";"), &s->height);
+    assert_true(s->width * s->height <= PIXELS_MAX);
+    memset(s->number, -1, sizeof s->number);
+    memset(s->percent, -1, sizeof s->percent);
+    while (*p != '\033') {
+        int count = 1;
+
+        if (*p == '#') {
+            p = sixel_color(p + 1, s, &n);
+            continue;
+        }
+        if (*p == '$' || *p == '-') {
+            band += *p++ == '-';
+            x = 0;
+            continue;
+        }
+        if (*p == '!')
+            p = read_int(p + 1, &count);
+        assert_in_range(*p, '?', '~');
+        for (; count > 0; count--)
+            sixel_set(s, x++, band, *p - '?', n);
+        p++;
+    }
+    assert_true(6 * band < s->height);
+    return expect_text(p, "\033\\");
+}
+
+struct kitty_pixels {
+    int width, height, id;
+    uint8_t rgb[3 * PIXELS_MAX];
+};
+
+static inline int base64_digit(char c)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnop"
+                                 "qrstuvwxyz0123456789+/";
+    const char *at = strchr(digits, c);
+
+    assert_true(c != '\0' && at != NULL);
+    return (int)(at - digits);
+}
+
+/* One image in pieces, from ESC _ on; what is behind it. */
+static inline const char *kitty_read(const char *p, struct kitty_pixels *k)
+{
+    size_t length = 0;
+    int has_more;
+
+    p = read_int(expect_text(p, "\033_Ga=T,f=24,s="), &k->width);
+    p = read_int(expect_text(p, ",v="), &k->height);
+    p = read_int(expect_text(p, ",i="), &k->id);
+    p = read_int(expect_text(p, ",p=1,q=2,C=1,m="), &has_more);
+    for (;;) {
+        const char *begin = ++p; /* behind ; */
+
+        for (; *p != '\033'; p += 4) {
+            int bits = base64_digit(p[0]) << 18 | base64_digit(p[1]) << 12 |
+                       base64_digit(p[2]) << 6 | base64_digit(p[3]);
+
+            assert_true(length + 3 <= sizeof k->rgb);
+            k->rgb[length++] = (uint8_t)(bits >> 16);
+            k->rgb[length++] = (uint8_t)(bits >> 8);
+            k->rgb[length++] = (uint8_t)bits;
+        }
+        assert_true(p - begin <= 4096);
+        p = expect_text(p, "\033\\");
+        if (!has_more)
+            break;
+        p = read_int(expect_text(p, "\033_Gm="), &has_more);
+    }
+    assert_int_equal(length, 3 * k->width * k->height);
+    return p;
+}
+
+#endif
