@@ -274,7 +274,7 @@ static bool read_light(struct parser *p, struct word key)
     if (!read_color(p, key, &s->ke))
         return false;
     if (s->ke.line == p->lex.line) /* not spectral */
-        s->kelvin.line = s->luminance.line = 0;
+        s->kelvin = s->luminance = (struct mtl_number){.line = 0};
     return true;
 }
 

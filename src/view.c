@@ -270,51 +270,6 @@ bool view_check(const struct view *view, const char *place, struct error *err)
     return true;
 }
 
-static char *folder_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-
-    return slash ? xformat("%.*s", (int)(slash + 1 - path), path)
-                 : xstrdup("./");
-}
-
-/* The path with its folder as the system knows it; NULL if there is no such
- * folder. */
-static char *real_path(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    char *folder = folder_of(path);
-    char *real = realpath(folder, NULL);
-    char *whole = NULL;
-
-    if (real)
-        whole = xformat("%s/%s", strcmp(real, "/") == 0 ? "" : real,
-                        slash ? slash + 1 : path);
-    free(real);
-    free(folder);
-    return whole;
-}
-
-/* How a view file at view_path names the file at `path`: from its own folder
- * on if the file lies below it, else absolutely. */
-static char *name_in_view(const char *view_path, const char *path)
-{
-    char *real_view = real_path(view_path);
-    char *real = real_path(path);
-    char *name;
-
-    if (real && real_view) {
-        size_t below = (size_t)(strrchr(real_view, '/') + 1 - real_view);
-        name =
-            xstrdup(strncmp(real, real_view, below) == 0 ? real + below : real);
-    } else {
-        name = xstrdup(path);
-    }
-    free(real);
-    free(real_view);
-    return name;
-}
-
 static void write_numbers(FILE *to, const char *key, const double *values,
                           int count)
 {
@@ -372,7 +327,7 @@ bool view_write(const struct view *view, const char *path, struct error *err)
     FILE *to = open_memstream(&text, &size_bytes);
     if (!to)
         return fail(err, "%s: out of memory", path);
-    char *sky = view->sky_path ? name_in_view(path, view->sky_path) : NULL;
+    char *sky = view->sky_path ? path_seen_from(path, view->sky_path) : NULL;
     write_keys(to, view, sky);
     free(sky);
     bool ok = fclose(to) == 0

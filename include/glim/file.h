@@ -34,6 +34,10 @@ bool file_write(const char *path, const void *data, size_t size_bytes,
 /* `name` seen from the folder of `beside`; absolute names stay. */
 char *path_beside(const char *beside, const char *name);
 
+/* How the file `beside` names the file at `path`: from its own folder on if the
+ * file lies below it, else absolutely. */
+char *path_seen_from(const char *beside, const char *path);
+
 /* The path without the ending of its last part: a/b.obj gives a/b. */
 char *path_stem(const char *path);
 

@@ -33,7 +33,7 @@
 /* The colour of what has none. */
 #define MATERIAL_GREY 0.8f
 
-/* line 0: the file does not say. */
+/* line 0: the file does not say, and the numbers are 0. */
 struct mtl_number {
     double value;
     uint64_t line;
