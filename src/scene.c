@@ -221,7 +221,7 @@ static void fill_linear_of_srgb(float table[256])
     }
 }
 
-static bool find_used_materials(struct scene *scene, struct error *err)
+bool scene_find_used(struct scene *scene, struct error *err)
 {
     free(scene->material_is_used);
     scene->material_is_used =
@@ -237,8 +237,7 @@ static bool find_used_materials(struct scene *scene, struct error *err)
     return true;
 }
 
-/* The part of a world that no view changes. */
-static struct world scene_arrays(const struct scene *scene)
+struct world scene_arrays(const struct scene *scene)
 {
     return (struct world){
         .positions = scene->positions,
@@ -278,7 +277,7 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
                    "%s: found no face that can be seen: only the background is "
                    "rendered",
                    scene->path);
-    if (!find_used_materials(scene, err))
+    if (!scene_find_used(scene, err))
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     arrays = scene_arrays(scene);
@@ -561,6 +560,7 @@ void scene_free(struct scene *scene)
     free(scene->tris);
     free(scene->tri_faces);
     free(scene->tri_objects);
+    free(scene->file_materials);
     free_strings(scene->object_names, scene->object_count);
     free(scene->materials);
     free(scene->material_is_used);

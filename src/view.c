@@ -37,7 +37,7 @@ enum key_id {
     KEY_EXPOSURE
 };
 
-/* Keys with numbers; `sky` alone has a name. */
+/* Keys with numbers; `sky` and `assign` have names. */
 static const struct key {
     const char *name;
     enum key_id id;
@@ -186,6 +186,17 @@ static bool read_sky(struct reader *r, struct error *err)
     return true;
 }
 
+static bool read_assign(struct reader *r, struct error *err)
+{
+    uint64_t line = r->lex.line;
+
+    return assigns_read(&r->view->assigns, &r->lex) ||
+           fail(err,
+                "%s:%" PRIu64 ": found another line than assign OBJECT "
+                "MATERIAL, expected two names, those with blanks in quotes",
+                r->path, line);
+}
+
 static bool read_line(struct reader *r, struct error *err)
 {
     if (lex_at_line_end(&r->lex))
@@ -193,6 +204,8 @@ static bool read_line(struct reader *r, struct error *err)
     struct word name = lex_word(&r->lex);
     if (word_is(name, "sky"))
         return read_sky(r, err);
+    if (word_is(name, "assign"))
+        return read_assign(r, err);
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
         if (word_is(name, keys[i].name))
             return read_numbers(r, &keys[i], err);
@@ -312,6 +325,7 @@ static void write_keys(FILE *to, const struct view *v, const char *sky)
         write_numbers(to, "focus", &v->focus, 1);
     if (v->exposure < 0 || v->exposure > 0)
         write_numbers(to, "exposure", &v->exposure, 1);
+    assigns_write(&v->assigns, to);
 }
 
 bool view_write(const struct view *view, const char *path, struct error *err)
@@ -340,14 +354,18 @@ bool view_write(const struct view *view, const char *path, struct error *err)
 void view_copy(struct view *to, const struct view *from)
 {
     char *sky_path = from->sky_path ? xstrdup(from->sky_path) : NULL;
+    struct assigns assigns = {0};
 
-    free(to->sky_path);
+    assigns_copy(&assigns, &from->assigns);
+    view_free(to);
     *to = *from;
-    to->sky_path = sky_path; /* a copy of its own */
+    to->sky_path = sky_path; /* copies of its own */
+    to->assigns = assigns;
 }
 
 void view_free(struct view *view)
 {
     free(view->sky_path);
+    assigns_free(&view->assigns);
     *view = (struct view){0};
 }

@@ -44,6 +44,8 @@ struct scene {
     struct tri *tris;
     uint32_t *tri_faces;   /* number of the face in the file, from 0 */
     uint32_t *tri_objects; /* index into object_names */
+    uint32_t *file_materials; /* of triangles, as the file has it; NULL: as
+                                 tris has it */
     uint32_t tri_count;
 
     char **object_names; /* 0 is "" : before the first o line */
@@ -100,6 +102,12 @@ void scene_frame(const struct scene *scene, struct view *view);
  */
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err);
+
+/* The part of a world that no view changes. */
+struct world scene_arrays(const struct scene *scene);
+
+/* Finds which materials triangles have, and whether one of them shines. */
+bool scene_find_used(struct scene *scene, struct error *err);
 
 /* What the scene needs, of enum feature; and what a material of it needs. */
 uint32_t scene_features(const struct scene *scene);

@@ -4,7 +4,7 @@
  * the sky is, how the picture is exposed
  *
  * Units:     file units of the scene, degrees, pixels, radiance, stops
- * Ownership: view_free() frees the path; sky_path is relative to the file's
+ * Ownership: view_free() frees what is in it; sky_path is relative to the file's
  *            folder in the file, and ready for open() in the struct
  * Threads:   one thread at a time
  * Errors:    an unreadable file, a malformed or impossible value: file:line
@@ -12,6 +12,7 @@
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
 
+#include "glim/assign.h"
 #include "glim/report.h"
 #include "glim/util.h"
 
@@ -32,6 +33,7 @@ struct view {
     double aperture; /* diameter of the lens; 0: a pinhole */
     double focus;    /* from eye to the sharp plane; 0: as far as at */
     double exposure; /* stops: the picture is multiplied by 2^exposure */
+    struct assigns assigns;
 };
 
 /* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
