@@ -96,8 +96,7 @@ void assigns_set(struct assigns *a, const char *object, const char *material)
     if (material == NULL)
         return;
     a->items = xrealloc(a->items, (a->count + 1) * sizeof a->items[0]);
-    a->items[a->count++] =
-        (struct assign){xstrdup(object), xstrdup(material)};
+    a->items[a->count++] = (struct assign){xstrdup(object), xstrdup(material)};
 }
 
 void assigns_copy(struct assigns *to, const struct assigns *from)

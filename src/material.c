@@ -102,6 +102,8 @@ struct material material_default(void)
         .opacity_texture = NO_INDEX,
         .normal_texture = NO_INDEX,
         .bump_texture = NO_INDEX,
+        .metalness = 1,
+        .bump_scale = 1,
         .opacity = 1,
     };
 

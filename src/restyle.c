@@ -251,7 +251,7 @@ static void drop(struct next *next)
     lights_free(&next->lights);
 }
 
-static bool is_styled(const struct scene *scene, const struct style *style)
+bool scene_is_styled(const struct scene *scene, const struct style *style)
 {
     if (scene->material_count != style->material_count ||
         needs_tris(scene, style))
@@ -269,7 +269,7 @@ bool scene_restyle(struct scene *scene, const struct style *style,
     struct next next = {.materials = NULL};
     bool ok;
 
-    if (is_styled(scene, style))
+    if (scene_is_styled(scene, style))
         return true;
     ok = (grow_names(scene, style) && make_tris(scene, style, &next)) ||
          out_of_memory(scene, err);

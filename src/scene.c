@@ -288,6 +288,7 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
                     struct report *report, struct error *err)
 {
     struct image image = {0};
+    struct sky_table table = {0};
     uint64_t clamped_count = 0;
 
     if (view->sky_path != NULL &&
@@ -297,15 +298,23 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
         report_add(report, "skies with impossible values",
                    "%s: found %" PRIu64 " negative or infinite values: clamped",
                    view->sky_path, clamped_count);
+    if (!sky_build(&table, (struct vec3 *)(void *)image.rgb,
+                   (uint32_t)image.width, (uint32_t)image.height,
+                   SKY_WITH_CHANCE, err)) {
+        image_free(&image);
+        return false;
+    }
+    /* not before: what has another address is known to be another array */
     free(scene->sky_texels);
+    sky_free(&scene->sky_table);
+    scene->sky_table = table;
     /* the scene owns the floats now, three of which are a vec3 */
     scene->sky_texels = (struct vec3 *)(void *)image.rgb;
     scene->sky_width = (uint32_t)image.width;
     scene->sky_height = (uint32_t)image.height;
     image.rgb = NULL;
     image_free(&image);
-    return sky_build(&scene->sky_table, scene->sky_texels, scene->sky_width,
-                     scene->sky_height, SKY_WITH_CHANCE, err);
+    return true;
 }
 
 /* Half the field of view along the narrower side of the picture. */

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "glim/file.h"
+#include "glim/mtl_save.h"
 
 #define SIDE_MAX 65536
 
@@ -120,6 +121,24 @@ static bool crop_rect(const struct session *s, struct rect *rect,
     return true;
 }
 
+/* Brings the scene and the view to what the edit shows. An image of the sky
+ * that cannot be read leaves the one before, and a notice. */
+static bool apply_edit(struct session *s, struct error *err)
+{
+    struct style style = edit_style(&s->edit);
+    struct error why;
+
+    if (!scene_restyle(&s->scene, &style, err))
+        return false;
+    edit_to_view(&s->edit, edit_shown(&s->edit), &s->scene, &s->view);
+    if (s->sky == edit_shown(&s->edit)->mood.sky)
+        return true;
+    s->sky = edit_shown(&s->edit)->mood.sky;
+    if (!scene_load_sky(&s->scene, &s->view, &s->report, &why))
+        snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
+    return true;
+}
+
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err)
 {
@@ -141,6 +160,10 @@ bool session_open(struct session *s, const struct options *options,
     if (!view_check(&s->view, options->scene_path, err))
         return false;
     view_copy(&s->opened, &s->view);
+    edit_init(&s->edit, &s->scene, &s->view, &s->report);
+    s->sky = s->edit.now.mood.sky;
+    if (!apply_edit(s, err))
+        return false;
     s->load_ns = clock_ns() - begin_ns;
     s->geometry_changed = true;
     if (!machines_open(&s->machines, options, err))
@@ -155,15 +178,143 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
                              .spp = spp};
 
     render_halt(s->render);
-    if (!crop_rect(s, &job.crop, err) ||
+    if (!apply_edit(s, err) || !crop_rect(s, &job.crop, err) ||
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
     s->restart_ns = clock_ns();
-    if (!render_start(s->render, &job, err))
+    if (!render_start(s->render, &job, err)) {
+        /* a device has not seen these arrays: it must not know the next ones
+         * by their addresses */
+        s->geometry_changed = true;
         return false;
+    }
     s->geometry_changed = false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
         machines_specialise(&s->machines, job.world.settings.features);
+    return true;
+}
+
+bool session_take_edit(struct session *s)
+{
+    const struct mood *m = &edit_shown(&s->edit)->mood;
+    struct style style = edit_style(&s->edit);
+    const struct view *v = &s->view;
+
+    s->view.exposure = m->exposure;
+    return !scene_is_styled(&s->scene, &style) || s->sky != m->sky ||
+           memcmp(v->background, m->background, sizeof v->background) != 0 ||
+           v->sky_strength != m->sky_strength ||
+           v->sky_rotation_deg != m->sky_rotation_deg;
+}
+
+/* ---- saving what was edited ---- */
+
+/* The material whose block a new one begins with: the nearest in a file. */
+static uint32_t pattern_of(const struct edit *e, uint32_t material)
+{
+    while (!e->saved.is_there[material])
+        material = e->copied_from[material];
+    return material;
+}
+
+/* The file in which a material is, or is to be. */
+static uint32_t file_of(const struct session *s, uint32_t material)
+{
+    const struct edit *e = &s->edit;
+
+    while (e->copied_from[material] != NO_INDEX)
+        material = e->copied_from[material];
+    return s->scene.material_origins[material].file != NO_INDEX
+               ? s->scene.material_origins[material].file
+               : 0;
+}
+
+/* The changes that belong to a file; their number. */
+static size_t collect(const struct session *s, uint32_t file,
+                      struct mtl_change *changes, uint32_t *materials)
+{
+    const struct edit *e = &s->edit;
+    size_t count = 0;
+
+    for (uint32_t i = 0; i < e->material_count; i++) {
+        uint32_t pattern = pattern_of(e, i);
+
+        if (edit_is_saved(e, i) || file_of(s, i) != file)
+            continue;
+        changes[count] = (struct mtl_change){
+            .name = e->names[i],
+            .copied_from = pattern != i ? e->names[pattern] : NULL,
+            .before = &e->saved.sources[pattern],
+            .after = &e->now.sources[i],
+        };
+        materials[count++] = i;
+    }
+    return count;
+}
+
+static bool save_file(struct session *s, uint32_t file, size_t *written,
+                      struct error *err)
+{
+    struct mtl_change *changes =
+        xcalloc(s->edit.material_count, sizeof *changes);
+    uint32_t *materials = xcalloc(s->edit.material_count, sizeof *materials);
+    size_t count = collect(s, file, changes, materials);
+    bool ok = count == 0 || mtl_save(&s->scene, s->scene.mtl_paths[file],
+                                     changes, count, err);
+
+    for (size_t i = 0; ok && i < count; i++)
+        edit_saved_material(&s->edit, materials[i]);
+    *written += count;
+    free(changes);
+    free(materials);
+    return ok;
+}
+
+/* Into the file as it is now: the camera in there is not this one's. */
+static bool save_light(struct session *s, struct error *err)
+{
+    struct report report = {0};
+    struct view view;
+    bool ok;
+
+    view_init(&view);
+    ok = access(s->view_path, F_OK) == 0
+             ? view_read(&view, s->view_path, &report, err)
+             : (view_copy(&view, &s->opened), true);
+    edit_to_view(&s->edit, &s->edit.now, &s->scene, &view);
+    ok = ok && view_write(&view, s->view_path, err);
+    if (ok)
+        edit_saved_view(&s->edit);
+    view_free(&view);
+    report_free(&report);
+    return ok;
+}
+
+bool session_save_edit(struct session *s, char **what, struct error *err)
+{
+    bool has_light = edit_has_unsaved_view(&s->edit);
+    size_t written = 0;
+
+    if (edit_has_unsaved_materials(&s->edit) && s->scene.mtl_path_count == 0)
+        return fail(err,
+                    "%s: found no MTL file of this scene, expected one to "
+                    "write the materials to",
+                    s->scene.path);
+    for (uint32_t i = 0; i < s->scene.mtl_path_count; i++)
+        if (!save_file(s, i, &written, err))
+            return false;
+    if (has_light && !save_light(s, err))
+        return false;
+    if (written == 0 && !has_light)
+        *what = xstrdup("nothing has changed since it was saved");
+    else if (written == 0)
+        *what = xformat("wrote %s", s->view_path);
+    else
+        *what =
+            xformat("wrote %zu material%s to %s%s%s%s", written,
+                    written == 1 ? "" : "s", s->scene.mtl_paths[0],
+                    s->scene.mtl_path_count > 1 ? " and others" : "",
+                    has_light ? ", and " : "", has_light ? s->view_path : "");
     return true;
 }
 
@@ -180,6 +331,7 @@ void session_close(struct session *s)
     scene_free(&s->scene);
     view_free(&s->view);
     view_free(&s->opened);
+    edit_free(&s->edit);
     report_free(&s->report);
     free(s->view_path);
     *s = (struct session){0};

@@ -26,6 +26,9 @@ struct style {
                                  file */
 };
 
+/* True if the scene has this style. */
+bool scene_is_styled(const struct scene *scene, const struct style *style);
+
 bool scene_restyle(struct scene *scene, const struct style *style,
                    struct error *err);
 

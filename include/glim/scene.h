@@ -42,8 +42,8 @@ struct scene {
     uint32_t uv_count;
 
     struct tri *tris;
-    uint32_t *tri_faces;   /* number of the face in the file, from 0 */
-    uint32_t *tri_objects; /* index into object_names */
+    uint32_t *tri_faces;      /* number of the face in the file, from 0 */
+    uint32_t *tri_objects;    /* index into object_names */
     uint32_t *file_materials; /* of triangles, as the file has it; NULL: as
                                  tris has it */
     uint32_t tri_count;

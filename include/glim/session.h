@@ -11,6 +11,7 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
+#include "glim/edit.h"
 #include "glim/machines.h"
 #include "glim/options.h"
 #include "glim/render.h"
@@ -21,6 +22,8 @@ struct session {
     struct scene scene;
     struct view view;   /* what is rendered now */
     struct view opened; /* as loaded, to go back to */
+    struct edit edit;   /* of materials and light; session_restart() applies */
+    uint32_t sky;       /* of the edit's skies, that was looked for last */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
@@ -38,8 +41,18 @@ struct session {
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
 
-/* Halts and starts from sample 0 with the current view. spp 0: no limit. */
+/* Halts and starts from sample 0 with the current view and edit. spp 0: no
+ * limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
+
+/* True if the scene or its light are to be others than what is rendered; takes
+ * over what needs no new picture. */
+bool session_take_edit(struct session *s);
+
+/* Writes changed materials into their MTL files, and if assignments or light
+ * have changed, these into the view file, the rest of which stays. *what is a
+ * line about it, for free(). What was written before an error is saved. */
+bool session_save_edit(struct session *s, char **what, struct error *err);
 
 /* True if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);

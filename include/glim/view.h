@@ -4,10 +4,10 @@
  * the sky is, how the picture is exposed
  *
  * Units:     file units of the scene, degrees, pixels, radiance, stops
- * Ownership: view_free() frees what is in it; sky_path is relative to the file's
- *            folder in the file, and ready for open() in the struct
- * Threads:   one thread at a time
- * Errors:    an unreadable file, a malformed or impossible value: file:line
+ * Ownership: view_free() frees what is in it; sky_path is relative to the
+ * file's folder in the file, and ready for open() in the struct Threads:   one
+ * thread at a time Errors:    an unreadable file, a malformed or impossible
+ * value: file:line
  */
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
