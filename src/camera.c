@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-#define PI_D 3.14159265358979323846
+#define PI_D        3.14159265358979323846
+#define RAD_PER_DEG (PI_D / 180)
 
 /* From the poles: the picture must not turn about its middle. */
 #define POLE_RAD 0.01
@@ -94,19 +95,26 @@ void camera_move(struct view *view, double right, double up, double forward)
     view->has_camera = true;
 }
 
+/* Never 0: what is looked at has a distance. */
+static double reach_of(const struct view *view)
+{
+    double to_at[3], reach;
+
+    for (int i = 0; i < 3; i++)
+        to_at[i] = view->at[i] - view->eye[i];
+    reach = sqrt(dot(to_at, to_at));
+    return reach > 0.0 && !isinf(reach) ? reach : 1;
+}
+
 void camera_turn(struct view *view, double right_rad, double up_rad)
 {
     struct axes axes;
-    double up[3], level[3], across[3], to_at[3];
-    double polar, azimuth_cos, azimuth_sin, distance;
+    double up[3], level[3], across[3];
+    double polar, azimuth_cos, azimuth_sin;
+    double reach = reach_of(view);
 
     up_of(view, up);
     axes_of(view, &axes);
-    for (int i = 0; i < 3; i++)
-        to_at[i] = view->at[i] - view->eye[i];
-    distance = sqrt(dot(to_at, to_at));
-    if (!(distance > 0.0) || isinf(distance))
-        distance = 1;
     /* `across` and `level` span the plane that `up` stands on; the look is
      * over `level` */
     for (int i = 0; i < 3; i++)
@@ -120,8 +128,101 @@ void camera_turn(struct view *view, double right_rad, double up_rad)
     for (int i = 0; i < 3; i++) {
         double around = azimuth_cos * level[i] + azimuth_sin * across[i];
 
-        view->at[i] = view->eye[i] +
-                      distance * (cos(polar) * up[i] + sin(polar) * around);
+        view->at[i] =
+            view->eye[i] + reach * (cos(polar) * up[i] + sin(polar) * around);
     }
     view->has_camera = true;
+}
+
+/* `around` keeps its coordinates along the axes that the camera carries. */
+void camera_orbit(struct view *view, const double around[3], double right_rad,
+                  double up_rad)
+{
+    struct axes axes;
+    double offset[3], right, up, forward;
+
+    axes_of(view, &axes);
+    for (int i = 0; i < 3; i++)
+        offset[i] = around[i] - view->eye[i];
+    right = dot(offset, axes.right);
+    up = dot(offset, axes.up);
+    forward = dot(offset, axes.forward);
+    camera_turn(view, -right_rad, -up_rad);
+    axes_of(view, &axes);
+    for (int i = 0; i < 3; i++) {
+        double eye = around[i] - right * axes.right[i] - up * axes.up[i] -
+                     forward * axes.forward[i];
+
+        view->at[i] += eye - view->eye[i];
+        view->eye[i] = eye;
+    }
+}
+
+/* The nearest place (*x, *z) before points from which all are seen by a camera
+ * along z that sees as far to the sides as `slope` times the distance; `right`
+ * and `left` are the greatest x - slope z and -x - slope z of the points. */
+static void stand_before(double right, double left, double slope, double *x,
+                         double *z)
+{
+    *x = (right - left) / 2;
+    *z = -(right + left) / (2 * slope);
+}
+
+void camera_frame(struct view *view, const double lo[3], const double hi[3])
+{
+    double slope_y = CAMERA_FILL * tan(view->fovy_deg * RAD_PER_DEG / 2);
+    double slope_x = slope_y * view->width_px / view->height_px;
+    double right = -INFINITY, left = -INFINITY;
+    double above = -INFINITY, below = -INFINITY;
+    double center[3], x, y, z, z_across, z_high;
+    double reach = reach_of(view), radius = 0;
+    struct axes axes;
+
+    axes_of(view, &axes);
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+
+        for (int i = 0; i < 3; i++) {
+            center[i] = lo[i] / 2 + hi[i] / 2;
+            p[i] = (corner >> i & 1 ? hi[i] : lo[i]) - center[i];
+        }
+        radius = sqrt(dot(p, p));
+        x = dot(p, axes.right);
+        y = dot(p, axes.up);
+        z = dot(p, axes.forward);
+        right = fmax(right, x - slope_x * z);
+        left = fmax(left, -x - slope_x * z);
+        above = fmax(above, y - slope_y * z);
+        below = fmax(below, -y - slope_y * z);
+    }
+    stand_before(right, left, slope_x, &x, &z_across);
+    stand_before(above, below, slope_y, &y, &z_high);
+    /* a wide lens would see all of it from its nearest corner */
+    z = fmin(-radius, fmin(z_across, z_high));
+    if (!(z < 0))
+        z = -reach; /* a point */
+    for (int i = 0; i < 3; i++) {
+        view->at[i] = center[i] + x * axes.right[i] + y * axes.up[i];
+        view->eye[i] = view->at[i] + z * axes.forward[i];
+    }
+    view->has_camera = true;
+}
+
+double camera_depth(const struct view *view, const double point[3])
+{
+    struct axes axes;
+    double offset[3];
+
+    axes_of(view, &axes);
+    for (int i = 0; i < 3; i++)
+        offset[i] = point[i] - view->eye[i];
+    return dot(offset, axes.forward);
+}
+
+void camera_widen(struct view *view, double factor)
+{
+    double half_rad = atan(factor * tan(view->fovy_deg * RAD_PER_DEG / 2));
+
+    view->fovy_deg =
+        fmax(FOVY_MIN_DEG, fmin(FOVY_MAX_DEG, 2 * half_rad / RAD_PER_DEG));
 }

@@ -15,8 +15,8 @@
 #define DRAIN_NS UINT64_C(500000000)
 
 /* A smaller window has no room for a picture and a word about it. */
-#define COLS_MIN 20
-#define ROWS_MIN 5
+#define COLS_MIN 40
+#define ROWS_MIN 12
 
 static enum palette palette_of_option(enum color_mode mode)
 {
@@ -113,6 +113,8 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     }
     c->fit =
         cells_fit(width_px, height_px, size.cols, rows, cell_aspect(c, &size));
+    c->cursor_col = c->cursor_col < c->fit.cols ? c->cursor_col : 0;
+    c->cursor_row = c->cursor_row < c->fit.rows ? c->cursor_row : 0;
     return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
            frame_init(&c->frame, c->fit.cols, 2 * c->fit.rows, err) &&
            ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err);
@@ -223,6 +225,8 @@ static bool add_picture(struct canvas *c, struct film *film, float exposure,
     }
     film_preview(film, exposure, &c->frame);
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
+    if (c->has_cursor)
+        cells_mark(&c->cells, c->cursor_col, c->cursor_row);
     return ansi_picture(&c->ansi, &c->cells, &how);
 }
 

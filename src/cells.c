@@ -220,6 +220,32 @@ static int within(double cells, int most)
     return cells > most ? most : (int)cells;
 }
 
+/* Black on white, whatever the picture shows there; characters alone where
+ * there are no colours. */
+static struct cell mark_cell(enum palette palette, char glyph)
+{
+    switch (palette) {
+    case PALETTE_24BIT: return (struct cell){0, 0xffffff, glyph};
+    case PALETTE_256: return (struct cell){16, 231, glyph};
+    case PALETTE_16: return (struct cell){0, 15, glyph};
+    case PALETTE_MONO: break;
+    }
+    return (struct cell){CELL_DEFAULT, CELL_DEFAULT, glyph};
+}
+
+void cells_mark(struct cells *cells, int col, int row)
+{
+    static const char text[] = "[+]";
+
+    for (int i = 0; i < 3; i++) {
+        int x = col - 1 + i;
+
+        if (x >= 0 && x < cells->cols && row >= 0 && row < cells->rows)
+            cells->cell[(size_t)row * (size_t)cells->cols + (size_t)x] =
+                mark_cell(cells->palette, text[i]);
+    }
+}
+
 struct fit cells_fit(int width_px, int height_px, int cols, int rows,
                      double cell_aspect)
 {

@@ -175,14 +175,11 @@ static int spawn(pid_t *pid, const char *const *arguments, int output)
 static int start_copy(pid_t *pid, const struct cl_request *r, int output)
 {
     char *features = xformat("%u", r->features);
-    const char *arguments[10] = {"glim", "--probe", features};
-    int count = 3;
+    const char *arguments[10] = {"glim", "--probe", features, "--backend",
+                                 r->needs_gpu ? "auto" : "opencl"};
+    int count = 5;
     int reason;
 
-    if (r->needs_gpu) {
-        arguments[count++] = "--backend";
-        arguments[count++] = "auto";
-    }
     if (r->device != NULL) {
         arguments[count++] = "--device";
         arguments[count++] = r->device;

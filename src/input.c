@@ -70,6 +70,7 @@ static void set_mouse(struct sequence *s, const int *params, bool released)
     *e = (struct event){.kind = EVENT_MOUSE,
                         .mouse = MOUSE_OTHER,
                         .button = b & 3,
+                        .is_modified = (b & 24) != 0,
                         .x = params[1],
                         .y = params[2]};
     if (b & 128)

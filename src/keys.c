@@ -1,117 +1,286 @@
 // SPDX-License-Identifier: MIT
 #include "glim/keys.h"
 
-#include <stddef.h>
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "glim/input.h"
 
 #define CTRL(letter) ((letter)&31)
-#define KEYS_MAX     3
+#define ESCAPE       27
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 struct binding {
     enum action action;
+    const char *name;
     int keys[KEYS_MAX];
+    int phoe[KEYS_MAX]; /* phoe_ray's; none: the same */
 };
 
 /* q quits, so the letter of the row Q E that moves down needs Shift; with Caps
  * Lock on all six do as they are written. */
-static const struct binding own_keys[] = {
-    {ACTION_FORWARD, {'w', 'W'}}, {ACTION_BACK, {'s', 'S'}},
-    {ACTION_LEFT, {'a', 'A'}},    {ACTION_RIGHT, {'d', 'D'}},
-    {ACTION_DOWN, {'Q'}},         {ACTION_UP, {'e', 'E'}},
+static const struct binding bindings[] = {
+    {ACTION_FORWARD, "forward", {'w', 'W'}, {'Q'}},
+    {ACTION_BACK, "back", {'s', 'S'}, {'e', 'E'}},
+    {ACTION_LEFT, "left", {'a', 'A'}, {0}},
+    {ACTION_RIGHT, "right", {'d', 'D'}, {0}},
+    {ACTION_DOWN, "down", {'Q', INPUT_PAGE_DOWN}, {'s', 'S', INPUT_PAGE_DOWN}},
+    {ACTION_UP, "up", {'e', 'E', INPUT_PAGE_UP}, {'w', 'W', INPUT_PAGE_UP}},
+    {ACTION_LOOK_UP, "look-up", {INPUT_UP}, {0}},
+    {ACTION_LOOK_DOWN, "look-down", {INPUT_DOWN}, {0}},
+    {ACTION_LOOK_LEFT, "look-left", {INPUT_LEFT}, {0}},
+    {ACTION_LOOK_RIGHT, "look-right", {INPUT_RIGHT}, {0}},
+    {ACTION_FASTER, "faster", {'+', '='}, {0}},
+    {ACTION_SLOWER, "slower", {'-', '_'}, {0}},
+    {ACTION_CURSOR, "cursor", {'v', 'V'}, {0}},
+    {ACTION_CANCEL, "cancel", {ESCAPE}, {0}},
+    {ACTION_ORBIT, "orbit", {'o', 'O'}, {0}},
+    {ACTION_FRAME, "frame", {'z'}, {0}},
+    {ACTION_FRAME_ALL, "frame-all", {'Z'}, {0}},
+    {ACTION_NARROWER, "narrower", {'['}, {0}},
+    {ACTION_WIDER, "wider", {']'}, {0}},
+    {ACTION_FOCUS, "focus", {'f', 'F'}, {0}},
+    {ACTION_CLOSE, "close-lens", {'{'}, {0}},
+    {ACTION_OPEN, "open-lens", {'}'}, {0}},
+    {ACTION_UNDO, "undo", {'u'}, {0}},
+    {ACTION_REDO, "redo", {'U'}, {0}},
+    {ACTION_RESET, "reset", {'r', 'R', INPUT_HOME}, {0}},
+    {ACTION_KEEP, "keep", {'k', 'K'}, {0}},
+    {ACTION_VIEW_1, "view-1", {'1'}, {0}},
+    {ACTION_VIEW_2, "view-2", {'2'}, {0}},
+    {ACTION_VIEW_3, "view-3", {'3'}, {0}},
+    {ACTION_VIEW_4, "view-4", {'4'}, {0}},
+    {ACTION_VIEW_5, "view-5", {'5'}, {0}},
+    {ACTION_VIEW_6, "view-6", {'6'}, {0}},
+    {ACTION_VIEW_7, "view-7", {'7'}, {0}},
+    {ACTION_VIEW_8, "view-8", {'8'}, {0}},
+    {ACTION_VIEW_9, "view-9", {'9'}, {0}},
+    {ACTION_SAVE_VIEW, "save-view", {'c'}, {0}},
+    {ACTION_MODE, "mode", {' '}, {0}},
+    {ACTION_START, "start", {'\r'}, {0}},
+    {ACTION_SAVE, "save", {'p', 'P'}, {0}},
+    {ACTION_BACKEND, "backend", {'b', 'B'}, {0}},
+    {ACTION_COLORS, "colors", {'C'}, {0}},
+    {ACTION_HIDE, "hide", {'i', 'I'}, {0}},
+    {ACTION_MOUSE, "mouse", {'m', 'M'}, {0}},
+    {ACTION_REDRAW, "redraw", {CTRL('L')}, {0}},
+    {ACTION_HELP, "help", {'?', 'h', INPUT_F1}, {0}},
+    {ACTION_SUSPEND, "suspend", {CTRL('Z')}, {0}},
+    {ACTION_INTERRUPT, "interrupt", {CTRL('C')}, {0}},
+    {ACTION_ABORT, "abort", {CTRL('\\')}, {0}},
+    {ACTION_QUIT, "quit", {'q'}, {0}},
 };
 
-static const struct binding phoe_keys[] = {
-    {ACTION_UP, {'w', 'W'}},   {ACTION_DOWN, {'s', 'S'}},
-    {ACTION_LEFT, {'a', 'A'}}, {ACTION_RIGHT, {'d', 'D'}},
-    {ACTION_FORWARD, {'Q'}},   {ACTION_BACK, {'e', 'E'}},
+/* A line shows the first key of each of its actions, or all that its only
+ * action has but capitals beside small letters; or `keys`, for as long as
+ * nobody has chosen others. Texts have room beside 8 columns of keys, in a
+ * frame of 40. */
+static const struct line {
+    const char *keys;
+    enum action actions[4];
+    const char *text;
+} lines[] = {
+    {NULL, {ACTION_FORWARD, ACTION_BACK}, "move forward, back"},
+    {NULL, {ACTION_LEFT, ACTION_RIGHT}, "move left, right"},
+    {NULL, {ACTION_DOWN, ACTION_UP}, "move down, up"},
+    {"arrows",
+     {ACTION_LOOK_LEFT, ACTION_LOOK_RIGHT, ACTION_LOOK_UP, ACTION_LOOK_DOWN},
+     "look around, or drag"},
+    {NULL, {ACTION_FASTER, ACTION_SLOWER}, "faster, slower, or wheel"},
+    {NULL, {ACTION_CURSOR}, "cursor; Enter or click picks"},
+    {NULL, {ACTION_CANCEL}, "leave the cursor"},
+    {NULL, {ACTION_ORBIT}, "orbit around what is picked"},
+    {NULL, {ACTION_FRAME}, "frame the picked object"},
+    {NULL, {ACTION_FRAME_ALL}, "frame the whole scene"},
+    {NULL, {ACTION_NARROWER, ACTION_WIDER}, "narrower, wider view"},
+    {NULL, {ACTION_FOCUS}, "focus on what is picked"},
+    {NULL, {ACTION_CLOSE, ACTION_OPEN}, "close, open the lens"},
+    {NULL, {ACTION_UNDO, ACTION_REDO}, "undo, redo camera moves"},
+    {NULL, {ACTION_RESET}, "back to the opened view"},
+    {"1-9", {ACTION_VIEW_1}, "go to a numbered view"},
+    {"k 1-9", {ACTION_KEEP}, "give this view a number"},
+    {NULL, {ACTION_SAVE_VIEW}, "write the view file"},
+    {NULL, {ACTION_MODE}, "live mode, normal mode"},
+    {NULL, {ACTION_START}, "normal: start, halt, go on"},
+    {NULL, {ACTION_SAVE}, "save a new PNG file"},
+    {NULL, {ACTION_BACKEND}, "OpenCL device, or CPU"},
+    {NULL, {ACTION_COLORS}, "24 bit, 256, 16, mono"},
+    {NULL, {ACTION_HIDE}, "status line off, on"},
+    {NULL, {ACTION_MOUSE}, "mouse off, on"},
+    {NULL, {ACTION_REDRAW}, "draw the screen anew"},
+    {NULL, {ACTION_HELP}, "this help"},
+    {NULL, {ACTION_SUSPEND}, "to the shell for a while"},
+    {NULL, {ACTION_INTERRUPT, ACTION_ABORT}, "end at once"},
+    {NULL, {ACTION_QUIT}, "quit"},
 };
 
-static const struct binding common_keys[] = {
-    {ACTION_DOWN, {INPUT_PAGE_DOWN}},
-    {ACTION_UP, {INPUT_PAGE_UP}},
-    {ACTION_LOOK_UP, {INPUT_UP}},
-    {ACTION_LOOK_DOWN, {INPUT_DOWN}},
-    {ACTION_LOOK_LEFT, {INPUT_LEFT}},
-    {ACTION_LOOK_RIGHT, {INPUT_RIGHT}},
-    {ACTION_FASTER, {'+', '='}},
-    {ACTION_SLOWER, {'-', '_'}},
-    {ACTION_MODE, {' '}},
-    {ACTION_START, {'\r'}},
-    {ACTION_SAVE, {'p', 'P'}},
-    {ACTION_SAVE_VIEW, {'c'}},
-    {ACTION_RESET, {'r', 'R', INPUT_HOME}},
-    {ACTION_HIDE, {'i', 'I'}},
-    {ACTION_BACKEND, {'b', 'B'}},
-    {ACTION_COLORS, {'C'}},
-    {ACTION_MOUSE, {'m', 'M'}},
-    {ACTION_REDRAW, {CTRL('L')}},
-    {ACTION_HELP, {'?', 'h', INPUT_F1}},
-    {ACTION_QUIT, {'q'}},
-    {ACTION_INTERRUPT, {CTRL('C')}},
-    {ACTION_ABORT, {CTRL('\\')}},
-    {ACTION_SUSPEND, {CTRL('Z')}},
+static const struct key_name {
+    int key;
+    const char *name;
+} key_names[] = {
+    {' ', "space"},
+    {'\r', "Enter"},
+    {'\t', "Tab"},
+    {ESCAPE, "Esc"},
+    {127, "Bksp"},
+    {INPUT_UP, "Up"},
+    {INPUT_DOWN, "Down"},
+    {INPUT_LEFT, "Left"},
+    {INPUT_RIGHT, "Right"},
+    {INPUT_PAGE_UP, "PgUp"},
+    {INPUT_PAGE_DOWN, "PgDn"},
+    {INPUT_HOME, "Home"},
+    {INPUT_F1, "F1"},
 };
 
-static const struct keys_help own_help[] = {
-    {"w s", "move forward, back"},
-    {"a d", "move left, right"},
-    {"Q e", "move down, up (or PgDn, PgUp)"},
-};
-
-static const struct keys_help phoe_help[] = {
-    {"w s", "move up, down"},
-    {"a d", "move left, right"},
-    {"Q e", "move forward, back"},
-};
-
-static const struct keys_help common_help[] = {
-    {"arrows", "look around (or drag with the mouse)"},
-    {"+ -", "move faster, slower (or the wheel)"},
-    {"r", "back to the view as opened"},
-    {"space", "live mode, normal mode"},
-    {"Enter", "normal mode: start, halt, go on"},
-    {"p", "save the picture as a new PNG file"},
-    {"c", "write the view to the view file"},
-    {"b", "render on the OpenCL device, or on the CPU"},
-    {"C", "next colours: 24 bit, 256, 16, mono"},
-    {"i", "hide or show the status line"},
-    {"m", "mouse on, off"},
-    {"^L", "draw the screen anew"},
-    {"^Z", "back to the shell for a while"},
-    {"? h F1", "this help"},
-    {"q", "quit"},
-};
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
-static enum action find(const struct binding *bindings, size_t count, int key)
+static void take_away(struct keys *k, enum action action, int key)
 {
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < KEYS_MAX; k++) {
-            if (bindings[i].keys[k] != 0 && bindings[i].keys[k] == key)
-                return bindings[i].action;
+    for (int i = 0; i < KEYS_MAX; i++) {
+        if (k->keys[action][i] == key)
+            k->keys[action][i] = 0;
+    }
+}
+
+void keys_choose(struct keys *k, enum action action, const int keys[KEYS_MAX])
+{
+    for (int i = 0; i < KEYS_MAX; i++) {
+        for (int other = 0; other < ACTIONS; other++)
+            take_away(k, (enum action)other, keys[i]);
+    }
+    memcpy(k->keys[action], keys, sizeof k->keys[action]);
+    k->is_chosen[action] = true;
+}
+
+void keys_settle(struct keys *k, bool phoe)
+{
+    for (size_t i = 0; i < COUNT(bindings); i++) {
+        const struct binding *b = &bindings[i];
+        const int *keys = phoe && b->phoe[0] != 0 ? b->phoe : b->keys;
+
+        for (int j = 0; j < KEYS_MAX && !k->is_chosen[b->action]; j++)
+            k->keys[b->action][j] =
+                keys_action(k, keys[j]) == ACTION_NONE ? keys[j] : 0;
+    }
+}
+
+enum action keys_action(const struct keys *k, int key)
+{
+    for (int action = 0; action < ACTIONS && key != 0; action++) {
+        for (int i = 0; i < KEYS_MAX; i++) {
+            if (k->keys[action][i] == key)
+                return (enum action)action;
         }
     }
     return ACTION_NONE;
 }
 
-enum action keys_action(int key, bool phoe)
+static bool is_name(const char *name, const char *text, size_t length)
 {
-    enum action action = phoe ? find(phoe_keys, COUNT(phoe_keys), key)
-                              : find(own_keys, COUNT(own_keys), key);
-
-    if (action != ACTION_NONE)
-        return action;
-    return find(common_keys, COUNT(common_keys), key);
+    return strlen(name) == length && memcmp(name, text, length) == 0;
 }
 
-const struct keys_help *keys_help(int line, bool phoe)
+enum action keys_find_action(const char *name, size_t length)
 {
-    size_t i = (size_t)line;
+    for (size_t i = 0; i < COUNT(bindings); i++) {
+        if (is_name(bindings[i].name, name, length))
+            return bindings[i].action;
+    }
+    return ACTION_NONE;
+}
 
-    if (i < COUNT(own_help))
-        return phoe ? &phoe_help[i] : &own_help[i];
-    i -= COUNT(own_help);
-    return i < COUNT(common_help) ? &common_help[i] : NULL;
+const char *keys_action_name(enum action action)
+{
+    for (size_t i = 0; i < COUNT(bindings); i++) {
+        if (bindings[i].action == action)
+            return bindings[i].name;
+    }
+    return NULL;
+}
+
+int keys_find_key(const char *name, size_t length)
+{
+    if (length == 1 && name[0] > ' ' && name[0] < 127)
+        return name[0];
+    if (length == 2 && name[0] == '^' && name[1] > '@' && name[1] <= '_')
+        return CTRL(name[1]);
+    for (size_t i = 0; i < COUNT(key_names); i++) {
+        if (is_name(key_names[i].name, name, length))
+            return key_names[i].key;
+    }
+    return 0;
+}
+
+void keys_key_name(char name[KEYS_NAME_BYTES], int key)
+{
+    for (size_t i = 0; i < COUNT(key_names); i++) {
+        if (key_names[i].key == key) {
+            snprintf(name, KEYS_NAME_BYTES, "%s", key_names[i].name);
+            return;
+        }
+    }
+    if (key < ' ')
+        snprintf(name, KEYS_NAME_BYTES, "^%c", key | 64);
+    else
+        snprintf(name, KEYS_NAME_BYTES, "%c", key);
+}
+
+static void add_key(struct keys_help *help, int key)
+{
+    size_t length = strlen(help->keys);
+    char name[KEYS_NAME_BYTES];
+
+    keys_key_name(name, key);
+    snprintf(help->keys + length, sizeof help->keys - length, "%s%s",
+             length > 0 ? " " : "", name);
+}
+
+/* A capital beside its small letter is not shown. */
+static bool is_shown(const int keys[KEYS_MAX], int i)
+{
+    int key = keys[i];
+
+    if (key == 0)
+        return false;
+    for (int j = 0; j < i; j++) {
+        if (key >= 'A' && key <= 'Z' && keys[j] == key - 'A' + 'a')
+            return false;
+    }
+    return true;
+}
+
+static void add_action(struct keys_help *help, const struct keys *k,
+                       enum action action, bool only_first)
+{
+    bool has_first = false;
+
+    for (int i = 0; i < KEYS_MAX; i++) {
+        if ((has_first && only_first) || !is_shown(k->keys[action], i))
+            continue;
+        add_key(help, k->keys[action][i]);
+        has_first = true;
+    }
+}
+
+bool keys_help(const struct keys *k, int line, struct keys_help *help)
+{
+    const struct line *l;
+    bool is_chosen = false;
+
+    if (line < 0 || (size_t)line >= COUNT(lines))
+        return false;
+    l = &lines[line];
+    *help = (struct keys_help){.text = l->text};
+    for (size_t i = 0; i < COUNT(l->actions); i++)
+        is_chosen |= k->is_chosen[l->actions[i]];
+    if (l->keys && !is_chosen) {
+        snprintf(help->keys, sizeof help->keys, "%s", l->keys);
+        return true;
+    }
+    for (size_t i = 0; i < COUNT(l->actions); i++) {
+        if (l->actions[i] != ACTION_NONE)
+            add_action(help, k, l->actions[i], l->actions[1] != ACTION_NONE);
+    }
+    return true;
 }

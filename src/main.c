@@ -19,6 +19,7 @@
 #include "glim/cl_device.h"
 #include "glim/cl_environment.h"
 #include "glim/cl_probe.h"
+#include "glim/config.h"
 #include "glim/options.h"
 #include "glim/session.h"
 #include "glim/tui.h"
@@ -120,18 +121,23 @@ int main(int argc, char **argv)
     uint64_t start_ns = clock_ns();
     struct options options;
     struct session session;
-    struct error err;
+    struct error err, config_err;
     int status = EXIT_DONE;
 
     fill_standard_files();
     /* the characters of the terminal; numbers keep their point */
     setlocale(LC_CTYPE, "");
+    options_init(&options);
+    /* what is wrong there must not hide the help */
+    bool has_config = config_read(&options, &config_err);
     if (!options_parse(&options, argc, argv, &err))
         return complain(EXIT_USAGE, &err);
     if (options.show_help)
         return print_out(options_help);
     if (options.show_version)
         return print_out("glim " GLIM_VERSION "\n");
+    if (!has_config)
+        return complain(EXIT_USAGE, &config_err);
     cl_environment_prepare(options.thread_count);
     if (options.list_devices)
         return list_devices();

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,10 +123,10 @@ static const struct option_rule rules[] = {
     {"version", OPTION_VERSION, NULL},
 };
 
-/* An option as it stands on the command line. */
+/* An option as it stands on the command line or in a file. */
 struct given {
     const struct option_rule *rule;
-    char shown[32]; /* "-w" or "--seed", for messages */
+    char shown[512]; /* "-w" or "--seed" or its place, for messages */
     const char *value;
 };
 
@@ -308,6 +309,7 @@ static bool set_word(struct options *o, const struct given *g,
         if (!choice(g, colors, &index, err))
             return false;
         o->color = (enum color_mode)index;
+        o->has_color = true;
         return true;
     default:
         if (!choice(g, glyphs, &index, err))
@@ -481,16 +483,51 @@ static bool take_environment(struct options *o, struct error *err)
     struct given g = {find_rule("color", 5), "GLIM_COLOR",
                       getenv("GLIM_COLOR")};
 
-    if (o->batch || o->color != COLOR_AUTO || !g.value || *g.value == '\0')
+    if (o->batch || o->has_color || !g.value || *g.value == '\0')
         return true;
     return set_word(o, &g, err);
+}
+
+void options_init(struct options *o)
+{
+    *o = (struct options){.spp = 16, .max_bounces = -1};
+}
+
+/* What a person or a machine is like, and no picture depends on. */
+static bool is_taste(enum option_id id)
+{
+    return id == OPTION_THREADS || id == OPTION_BACKEND || id == OPTION_COLOR ||
+           id == OPTION_GLYPH || id == OPTION_CELL_ASPECT ||
+           id == OPTION_PHOE_KEYS;
+}
+
+bool options_set_taste(struct options *o, const char *name, const char *value,
+                       const char *place, struct error *err)
+{
+    struct given g = {.rule = find_rule(name, strlen(name)), .value = value};
+
+    if (!g.rule || !is_taste(g.rule->id))
+        return fail(err,
+                    "%s: found '%s', expected an option that may stand here "
+                    "(man glim lists them)",
+                    place, name);
+    snprintf(g.shown, sizeof g.shown, "%s: %s", place, name);
+    if (g.rule->value && !value)
+        return fail(err, "%s: expected %s behind it", g.shown, g.rule->value);
+    if (!g.rule->value && value)
+        return fail(err, "%s: found '%s', expected no value", g.shown, value);
+    if (!set_option(o, &g, err))
+        return false;
+    /* what was not typed now gives way to what was */
+    o->has_backend = false;
+    o->has_color = false;
+    return true;
 }
 
 bool options_parse(struct options *o, int argc, char **argv, struct error *err)
 {
     bool ended = false;
 
-    *o = (struct options){.spp = 16, .max_bounces = -1};
     for (int i = 1; i < argc; i++) {
         const char *arg = argv[i];
         bool ok;
@@ -510,6 +547,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         if (o->show_help || o->show_version)
             return true; /* whatever else is on the line */
     }
+    keys_settle(&o->keys, o->phoe_keys);
     return settle_backend(o, err) && check_together(o, err) &&
            take_environment(o, err);
 }

@@ -12,9 +12,19 @@
 #define SPEED_MAX   100.0
 
 /* Radians a second. */
-#define LOOK_SPEED 0.9
+#define LOOK_SPEED  0.9
+#define ORBIT_SPEED 1.5
 
-#define RAD_PER_DEG 0.017453292519943295
+/* Powers of e a second: a tap changes by about a tenth, or a fifth. */
+#define WIDEN_SPEED 0.7
+#define OPEN_SPEED  1.3
+
+/* Of the scene's size. A smaller lens is as good as a pinhole. */
+#define APERTURE_LEAST    1e-4
+#define APERTURE_GREATEST 1.0
+
+#define PI_D        3.14159265358979323846
+#define RAD_PER_DEG (PI_D / 180)
 
 void steer_init(struct steer *s, const double lo[3], const double hi[3])
 {
@@ -27,6 +37,31 @@ void steer_init(struct steer *s, const double lo[3], const double hi[3])
         s->scene_size = 1; /* a scene without extent */
 }
 
+static void turn(const struct steer *s, struct view *view,
+                 const double seconds[MOTION_AXES])
+{
+    double right = seconds[MOTION_LOOK_RIGHT];
+    double up = seconds[MOTION_LOOK_UP];
+
+    if (right == 0 && up == 0)
+        return;
+    if (s->is_orbiting)
+        camera_orbit(view, s->pivot, ORBIT_SPEED * right, ORBIT_SPEED * up);
+    else
+        camera_turn(view, LOOK_SPEED * right, LOOK_SPEED * up);
+}
+
+/* Below the least there is only the pinhole. */
+static void open_lens(const struct steer *s, struct view *view, double seconds)
+{
+    double least = APERTURE_LEAST * s->scene_size;
+    double aperture = fmax(view->aperture, least) * exp(OPEN_SPEED * seconds);
+
+    view->aperture = aperture > least
+                         ? fmin(aperture, APERTURE_GREATEST * s->scene_size)
+                         : 0;
+}
+
 bool steer_step(struct steer *s, struct view *view, uint64_t now_ns)
 {
     double seconds[MOTION_AXES];
@@ -36,27 +71,39 @@ bool steer_step(struct steer *s, struct view *view, uint64_t now_ns)
         return false;
     camera_move(view, speed * seconds[MOTION_RIGHT], speed * seconds[MOTION_UP],
                 speed * seconds[MOTION_FORWARD]);
-    camera_turn(view, LOOK_SPEED * seconds[MOTION_LOOK_RIGHT],
-                LOOK_SPEED * seconds[MOTION_LOOK_UP]);
+    turn(s, view, seconds);
+    if (seconds[MOTION_WIDEN] != 0)
+        camera_widen(view, exp(WIDEN_SPEED * seconds[MOTION_WIDEN]));
+    if (seconds[MOTION_OPEN] != 0)
+        open_lens(s, view, seconds[MOTION_OPEN]);
     return true;
 }
 
-/* The look turns by the angle that the picture shows under the pointer's way.
- */
+/* The look turns by the angle that the picture shows under the pointer's way;
+ * a thing in the middle turns with the pointer, half around for the picture's
+ * height. */
 static bool drag(struct steer *s, struct view *view, const struct event *e,
                  const struct fit *fit, double shape)
 {
-    int right = e->x - s->drag_x;
-    int down = e->y - s->drag_y;
+    double right = (e->x - s->drag_x) * shape / fit->cols;
+    double down = (double)(e->y - s->drag_y) / fit->rows;
+    double height_rad = view->fovy_deg * RAD_PER_DEG;
 
     s->drag_x = e->x;
     s->drag_y = e->y;
     if (!s->is_dragging || (right == 0 && down == 0))
         return false;
-    double height_rad = view->fovy_deg * RAD_PER_DEG;
-    camera_turn(view, right * height_rad * shape / fit->cols,
-                -down * height_rad / fit->rows);
+    s->has_dragged = true;
+    if (s->drag_orbits)
+        camera_orbit(view, s->pivot, -right * PI_D, down * PI_D);
+    else
+        camera_turn(view, right * height_rad, -down * height_rad);
     return true;
+}
+
+bool steer_orbits(const struct steer *s, const struct event *event)
+{
+    return s->is_orbiting || event->button != 0 || event->is_modified;
 }
 
 bool steer_mouse(struct steer *s, struct view *view, const struct event *event,
@@ -65,6 +112,8 @@ bool steer_mouse(struct steer *s, struct view *view, const struct event *event,
     switch (event->mouse) {
     case MOUSE_PRESS:
         s->is_dragging = true;
+        s->drag_orbits = steer_orbits(s, event);
+        s->has_dragged = false;
         s->drag_x = event->x;
         s->drag_y = event->y;
         break;

@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "glim/canvas.h"
-#include "glim/keys.h"
-#include "glim/steer.h"
+#include "glim/help.h"
+#include "glim/pilot.h"
 #include "glim/version.h"
 #include "glim/work.h"
 
@@ -39,9 +39,6 @@
 /* What the loop waits for: keys, signals, the render, the saver, a device. */
 #define FDS 5
 
-#define HELP_LINES_MAX 32
-#define HELP_LINE_MAX  64
-
 enum question {
     QUESTION_NONE,
     QUESTION_QUIT,
@@ -52,9 +49,10 @@ struct tui {
     struct work work;
     struct canvas canvas;
     struct input input;
-    struct steer steer;
+    struct pilot pilot;
     bool has_mouse;
-    bool has_help;
+    int help_number; /* the page that is shown, */
+    int help_left;   /* with those behind it; 0: no help */
     enum question question;
 
     bool is_settled;    /* nothing of the picture is left to be shown */
@@ -66,11 +64,6 @@ struct tui {
     bool is_gone; /* the terminal */
     int status;   /* exit status */
 };
-
-static struct view *view_of(struct tui *t)
-{
-    return &t->work.session->view;
-}
 
 static const struct film *film_of(const struct tui *t)
 {
@@ -96,7 +89,7 @@ static void layout(struct tui *t)
     const struct film *film = film_of(t);
     struct error err;
 
-    t->has_help = false;
+    t->help_left = 0;
     refresh_soon(t);
     if (!canvas_layout(&t->canvas, film->width, film->height, &err)) {
         t->canvas.is_too_small = true; /* nothing can be drawn */
@@ -104,92 +97,44 @@ static void layout(struct tui *t)
     }
 }
 
-/* ---- camera ---- */
-
-static void press(struct tui *t, enum motion_axis axis, int sign)
-{
-    if (work_may_move(&t->work))
-        motion_press(&t->steer.motion, axis, sign, clock_ns());
-}
-
-static void step_motion(struct tui *t, uint64_t now_ns)
-{
-    if (now_ns >= motion_next_ns(&t->steer.motion) &&
-        steer_step(&t->steer, view_of(t), now_ns))
-        t->work.must_restart = true;
-}
-
-static void change_speed(struct tui *t, int steps)
-{
-    char text[64];
-
-    steer_change_speed(&t->steer, steps);
-    snprintf(text, sizeof text, "speed %.3g of the scene's size a second",
-             t->steer.speed);
-    work_say(&t->work, text);
-}
-
-static void reset_view(struct tui *t)
-{
-    if (!work_may_move(&t->work))
-        return;
-    motion_stop(&t->steer.motion);
-    view_copy(view_of(t), &t->work.session->opened);
-    t->work.must_restart = true;
-    work_say(&t->work, "the view as it was opened");
-}
-
-static void take_mouse(struct tui *t, const struct event *event)
-{
-    const struct film *film = film_of(t);
-
-    if (!t->has_mouse || t->has_help || t->canvas.is_too_small)
-        return;
-    if (event->mouse == MOUSE_WHEEL_UP)
-        change_speed(t, 1);
-    else if (event->mouse == MOUSE_WHEEL_DOWN)
-        change_speed(t, -1);
-    else if ((event->mouse != MOUSE_DRAG || work_may_move(&t->work)) &&
-             steer_mouse(&t->steer, view_of(t), event, &t->canvas.fit,
-                         film->width, film->height))
-        t->work.must_restart = true;
-}
-
 /* ---- help, screen ---- */
 
-static void open_help(struct tui *t)
+static void open_help(struct tui *t, int number)
 {
-    static char texts[HELP_LINES_MAX][HELP_LINE_MAX];
-    const char *lines[HELP_LINES_MAX];
-    const struct keys_help *help;
-    int count = 0;
+    const struct pace *pace = &t->canvas.pace;
+    const char *lines[HELP_ROWS_MAX];
+    struct term_size size = term_size();
+    struct help_page page;
+    char note[64], title[64];
 
-    while (count < HELP_LINES_MAX - 2 &&
-           (help = keys_help(count, t->work.session->options->phoe_keys))) {
-        snprintf(texts[count], HELP_LINE_MAX, "%-7s %s", help->keys,
-                 help->text);
-        count++;
-    }
-    if (t->canvas.pace.state == PACE_ANSWERS)
-        snprintf(texts[count++], HELP_LINE_MAX,
-                 "%s; the terminal answers in %.1f ms",
+    snprintf(note, sizeof note, "%s", palette_name(t->canvas.palette));
+    if (pace->state == PACE_ANSWERS)
+        snprintf(note, sizeof note, "%s, answers in %.1f ms",
                  palette_name(t->canvas.palette),
-                 (double)t->canvas.pace.rtt_min_ns * 1e-6);
+                 (double)pace->rtt_min_ns * 1e-6);
+    /* within a frame, with a blank on each side, above the status line */
+    help_page(&page, &t->work.session->options->keys, note, number,
+              size.cols - 4, size.rows - 3);
+    if (number + 1 < page.page_count)
+        snprintf(title, sizeof title, " keys %d/%d - any key goes on ",
+                 number + 1, page.page_count);
     else
-        snprintf(texts[count++], HELP_LINE_MAX, "%s",
-                 palette_name(t->canvas.palette));
-    for (int i = 0; i < count; i++)
-        lines[i] = texts[i];
-    canvas_open_window(&t->canvas, " glim " GLIM_VERSION " - any key closes ",
-                       lines, count);
-    t->has_help = true;
+        snprintf(title, sizeof title,
+                 " glim " GLIM_VERSION " - any key closes ");
+    for (int i = 0; i < page.line_count; i++)
+        lines[i] = page.lines[i];
+    if (t->help_left > 0)
+        canvas_close_window(&t->canvas);
+    canvas_open_window(&t->canvas, title, lines, page.line_count);
+    t->help_number = number;
+    t->help_left = page.page_count - number;
     t->is_settled = false;
 }
 
 static void close_help(struct tui *t)
 {
     canvas_close_window(&t->canvas);
-    t->has_help = false;
+    t->help_left = 0;
     refresh_soon(t);
 }
 
@@ -203,7 +148,7 @@ static void next_colors(struct tui *t)
 static void switch_mouse(struct tui *t)
 {
     t->has_mouse = !t->has_mouse;
-    t->steer.is_dragging = false;
+    pilot_stop(&t->pilot);
     term_set_mouse(t->has_mouse);
     work_say(&t->work,
              t->has_mouse ? "mouse on: drag to look around" : "mouse off");
@@ -220,7 +165,7 @@ static void suspend(struct tui *t)
 
 static void set_live(struct tui *t, bool is_live)
 {
-    motion_stop(&t->steer.motion);
+    pilot_stop(&t->pilot);
     work_set_live(&t->work, is_live);
 }
 
@@ -250,24 +195,13 @@ static void quit(struct tui *t)
 
 static void act(struct tui *t, enum action action)
 {
+    if (pilot_act(&t->pilot, action))
+        return;
     switch (action) {
-    case ACTION_FORWARD: press(t, MOTION_FORWARD, 1); break;
-    case ACTION_BACK: press(t, MOTION_FORWARD, -1); break;
-    case ACTION_LEFT: press(t, MOTION_RIGHT, -1); break;
-    case ACTION_RIGHT: press(t, MOTION_RIGHT, 1); break;
-    case ACTION_DOWN: press(t, MOTION_UP, -1); break;
-    case ACTION_UP: press(t, MOTION_UP, 1); break;
-    case ACTION_LOOK_UP: press(t, MOTION_LOOK_UP, 1); break;
-    case ACTION_LOOK_DOWN: press(t, MOTION_LOOK_UP, -1); break;
-    case ACTION_LOOK_LEFT: press(t, MOTION_LOOK_RIGHT, -1); break;
-    case ACTION_LOOK_RIGHT: press(t, MOTION_LOOK_RIGHT, 1); break;
-    case ACTION_FASTER: change_speed(t, 1); break;
-    case ACTION_SLOWER: change_speed(t, -1); break;
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
     case ACTION_SAVE: work_save_picture(&t->work); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
-    case ACTION_RESET: reset_view(t); break;
     case ACTION_HIDE:
         t->canvas.has_status_row = !t->canvas.has_status_row;
         layout(t);
@@ -276,12 +210,12 @@ static void act(struct tui *t, enum action action)
     case ACTION_COLORS: next_colors(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
     case ACTION_REDRAW: layout(t); break;
-    case ACTION_HELP: open_help(t); break;
+    case ACTION_HELP: open_help(t, 0); break;
     case ACTION_QUIT: quit(t); break;
     case ACTION_INTERRUPT: end(t, 128 + SIGINT); break;
     case ACTION_ABORT: end(t, 128 + SIGQUIT); break;
     case ACTION_SUSPEND: suspend(t); break;
-    case ACTION_NONE: break;
+    default: break;
     }
 }
 
@@ -302,7 +236,7 @@ static void answer_question(struct tui *t, int key)
 
 static void take_key(struct tui *t, int key)
 {
-    enum action action = keys_action(key, t->work.session->options->phoe_keys);
+    enum action action = keys_action(&t->work.session->options->keys, key);
     bool is_urgent = action == ACTION_INTERRUPT || action == ACTION_ABORT ||
                      action == ACTION_SUSPEND || action == ACTION_REDRAW;
 
@@ -314,7 +248,9 @@ static void take_key(struct tui *t, int key)
         act(t, action);
     else if (t->question != QUESTION_NONE)
         answer_question(t, key);
-    else if (t->has_help)
+    else if (t->help_left > 1 && action != ACTION_CANCEL)
+        open_help(t, t->help_number + 1);
+    else if (t->help_left > 0)
         close_help(t);
     else if (!t->canvas.is_too_small || action == ACTION_QUIT)
         act(t, action);
@@ -328,7 +264,8 @@ static void take_event(struct tui *t, const struct event *event)
     if (event->kind == EVENT_KEY) {
         take_key(t, event->key);
     } else if (event->kind == EVENT_MOUSE) {
-        take_mouse(t, event);
+        if (t->has_mouse && t->help_left == 0 && !t->canvas.is_too_small)
+            pilot_mouse(&t->pilot, event);
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);
@@ -392,6 +329,7 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
     const struct backend *backend = render_backend(t->work.session->render);
     struct status status = {
         .is_live = t->work.is_live,
+        .is_orbiting = t->pilot.steer.is_orbiting,
         .is_halted = t->work.is_halted,
         .is_started = t->work.is_started,
         .progress = &t->work.progress,
@@ -514,7 +452,7 @@ static uint64_t input_deadline_ns(const struct tui *t)
 /* When there is something to do if nothing happens. */
 static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
 {
-    uint64_t wake = earlier(motion_next_ns(&t->steer.motion),
+    uint64_t wake = earlier(pilot_next_ns(&t->pilot),
                             earlier(input_deadline_ns(t),
                                     pace_deadline_ns(&t->canvas.pace)));
 
@@ -607,7 +545,7 @@ static void loop(struct tui *t)
     while (!t->is_ending) {
         uint64_t now_ns = clock_ns();
 
-        step_motion(t, now_ns);
+        pilot_step(&t->pilot, now_ns);
         look_at_work(t);
         draw(t, now_ns);
         if (!t->is_ending)
@@ -647,7 +585,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
 
     if (!work_init(&t.work, s, err))
         return false;
-    steer_init(&t.steer, s->scene.bounds_lo, s->scene.bounds_hi);
+    pilot_init(&t.pilot, &t.work, &t.canvas);
     ok = open_screen(&t, err);
     if (ok) {
         if (s->notice[0] != '\0')
@@ -659,6 +597,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
         close_screen(&t);
         *status = t.status;
     }
+    pilot_free(&t.pilot);
     work_free(&t.work);
     return ok;
 }

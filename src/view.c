@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "glim/file.h"
 #include "glim/lex.h"
@@ -34,14 +35,17 @@ enum key_id {
     KEY_SKY_ROTATION,
     KEY_APERTURE,
     KEY_FOCUS,
-    KEY_EXPOSURE
+    KEY_EXPOSURE,
+    KEY_SKY,    /* has a name */
+    KEY_ASSIGN, /* has two names */
+    KEY_VIEW    /* has a number and other keys */
 };
 
-/* Keys with numbers; `sky` and `assign` have names. */
+/* In the order in which a new file has them. */
 static const struct key {
     const char *name;
     enum key_id id;
-    int count;
+    int count; /* of numbers */
     bool is_whole;
     double least, greatest;
     const char *expected;
@@ -59,6 +63,7 @@ static const struct key {
      "3 numbers from 0 to 1e30"},
     {"max_bounces", KEY_MAX_BOUNCES, 1, true, -1, INT_MAX,
      "a whole number, or -1 for no limit"},
+    {"sky", KEY_SKY, 0, false, 0, 0, "an image file"},
     {"sky_strength", KEY_SKY_STRENGTH, 1, false, 0, GREATEST,
      "a number from 0 to 1e30"},
     {"sky_rotation", KEY_SKY_ROTATION, 1, false, -1e6, 1e6,
@@ -68,7 +73,11 @@ static const struct key {
     {"focus", KEY_FOCUS, 1, false, 0, GREATEST, "a number from 0 to 1e30"},
     {"exposure", KEY_EXPOSURE, 1, false, -100, 100,
      "a number of stops from -100 to 100"},
+    {"assign", KEY_ASSIGN, 0, false, 0, 0, "two names"},
+    {"view", KEY_VIEW, 1, true, 1, VIEW_SHOTS, "a number from 1 to 9"},
 };
+
+#define KEY_COUNT (sizeof keys / sizeof keys[0])
 
 struct reader {
     struct view *view;
@@ -114,19 +123,11 @@ static bool read_number(struct reader *r, const struct key *key, double *value,
     return fail_at(r, found, key->expected, key->name, err);
 }
 
-static void store(struct reader *r, const struct key *key, const double *v)
+static void store(struct view *view, enum key_id id, const double *v)
 {
-    struct view *view = r->view;
-
-    switch (key->id) {
-    case KEY_EYE:
-        memcpy(view->eye, v, sizeof view->eye);
-        r->eye_line = r->lex.line;
-        break;
-    case KEY_AT:
-        memcpy(view->at, v, sizeof view->at);
-        r->at_line = r->lex.line;
-        break;
+    switch (id) {
+    case KEY_EYE: memcpy(view->eye, v, sizeof view->eye); break;
+    case KEY_AT: memcpy(view->at, v, sizeof view->at); break;
     case KEY_UP: memcpy(view->up, v, sizeof view->up); break;
     case KEY_FOVY: view->fovy_deg = v[0]; break;
     case KEY_RES:
@@ -144,11 +145,15 @@ static void store(struct reader *r, const struct key *key, const double *v)
     case KEY_APERTURE: view->aperture = v[0]; break;
     case KEY_FOCUS: view->focus = v[0]; break;
     case KEY_EXPOSURE: view->exposure = v[0]; break;
+    case KEY_SKY:
+    case KEY_ASSIGN:
+    case KEY_VIEW: break;
     }
 }
 
+/* The numbers of the key, into a view that may be another than the file's. */
 static bool read_numbers(struct reader *r, const struct key *key,
-                         struct error *err)
+                         struct view *view, struct error *err)
 {
     double values[3] = {0};
 
@@ -156,16 +161,63 @@ static bool read_numbers(struct reader *r, const struct key *key,
         if (!read_number(r, key, &values[i], err))
             return false;
     }
-    if (!lex_at_line_end(&r->lex)) {
-        struct word surplus = lex_word(&r->lex);
-        return fail_at(r, surplus, key->expected, key->name, err);
-    }
     if (key->id == KEY_UP && values[0] == 0 && values[1] == 0 && values[2] == 0)
         return fail(err,
                     "%s:%" PRIu64 ": found 0 0 0, expected a direction "
                     "for up",
                     r->path, r->lex.line);
-    store(r, key, values);
+    store(view, key->id, values);
+    return true;
+}
+
+static const struct key *find_key(struct word name)
+{
+    for (size_t i = 0; i < KEY_COUNT; i++) {
+        if (word_is(name, keys[i].name))
+            return &keys[i];
+    }
+    return NULL;
+}
+
+static bool is_of_pose(const struct key *key)
+{
+    return key->id <= KEY_FOVY || key->id == KEY_APERTURE ||
+           key->id == KEY_FOCUS;
+}
+
+/* view N eye X Y Z at X Y Z ...: what is left out is as the keys above say. */
+static bool read_shot(struct reader *r, const struct key *view_key,
+                      struct error *err)
+{
+    uint64_t line = r->lex.line;
+    struct view shot = *r->view;
+    bool has_eye = false;
+    bool has_at = false;
+    char place[512];
+    double number;
+
+    if (!read_number(r, view_key, &number, err))
+        return false;
+    while (!lex_at_line_end(&r->lex)) {
+        struct word name = lex_word(&r->lex);
+        const struct key *key = find_key(name);
+
+        if (!key || !is_of_pose(key))
+            return fail_at(r, name, "eye, at, up, fovy, aperture or focus",
+                           view_key->name, err);
+        if (!read_numbers(r, key, &shot, err))
+            return false;
+        has_eye |= key->id == KEY_EYE;
+        has_at |= key->id == KEY_AT;
+    }
+    if (!has_eye || !has_at)
+        return fail_at(r, (struct word){.length = 0}, "eye and at",
+                       view_key->name, err);
+    snprintf(place, sizeof place, "%s:%" PRIu64, r->path, line);
+    if (!view_check(&shot, place, err))
+        return false;
+    r->view->shots[(int)number - 1] = view_pose(&shot);
+    r->view->has_shot[(int)number - 1] = true;
     return true;
 }
 
@@ -186,6 +238,19 @@ static bool read_sky(struct reader *r, struct error *err)
     return true;
 }
 
+static bool read_key(struct reader *r, const struct key *key, struct error *err)
+{
+    if (!read_numbers(r, key, r->view, err))
+        return false;
+    if (!lex_at_line_end(&r->lex))
+        return fail_at(r, lex_word(&r->lex), key->expected, key->name, err);
+    if (key->id == KEY_EYE)
+        r->eye_line = r->lex.line;
+    if (key->id == KEY_AT)
+        r->at_line = r->lex.line;
+    return true;
+}
+
 static bool read_assign(struct reader *r, struct error *err)
 {
     uint64_t line = r->lex.line;
@@ -202,14 +267,15 @@ static bool read_line(struct reader *r, struct error *err)
     if (lex_at_line_end(&r->lex))
         return true;
     struct word name = lex_word(&r->lex);
-    if (word_is(name, "sky"))
+    const struct key *key = find_key(name);
+    if (key && key->id == KEY_SKY)
         return read_sky(r, err);
-    if (word_is(name, "assign"))
+    if (key && key->id == KEY_ASSIGN)
         return read_assign(r, err);
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
-        if (word_is(name, keys[i].name))
-            return read_numbers(r, &keys[i], err);
-    }
+    if (key && key->id == KEY_VIEW)
+        return read_shot(r, key, err);
+    if (key)
+        return read_key(r, key, err);
     report_add(r->report, "lines with an unknown key",
                "%s:%" PRIu64 ": found the unknown key %s, skipped", r->path,
                r->lex.line, word_quote(name).text);
@@ -292,63 +358,181 @@ static void write_numbers(FILE *to, const char *key, const double *values,
         number_format(text, values[i]);
         fprintf(to, " %s", text);
     }
+}
+
+static void write_line(FILE *to, const char *key, const double *values,
+                       int count)
+{
+    write_numbers(to, key, values, count);
     fputc('\n', to);
 }
 
-/* What is as view_init() made it is left out. */
-static void write_keys(FILE *to, const struct view *v, const char *sky)
+static void write_shots(FILE *to, const struct view *v)
 {
-    fputs("# a view of a scene: points in the scene's units, angles in "
-          "degrees,\n# background as radiance, exposure in stops\n",
-          to);
-    if (v->has_camera) {
-        write_numbers(to, "eye", v->eye, 3);
-        write_numbers(to, "at", v->at, 3);
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        const struct pose *p = &v->shots[i];
+
+        if (!v->has_shot[i])
+            continue;
+        fprintf(to, "view %d", i + 1);
+        write_numbers(to, " eye", p->eye, 3);
+        write_numbers(to, " at", p->at, 3);
+        write_numbers(to, " up", p->up, 3);
+        write_numbers(to, " fovy", &p->fovy_deg, 1);
+        write_numbers(to, " aperture", &p->aperture, 1);
+        write_numbers(to, " focus", &p->focus, 1);
+        fputc('\n', to);
     }
-    write_numbers(to, "up", v->up, 3);
-    write_numbers(to, "fovy", &v->fovy_deg, 1);
-    if (v->has_size)
-        fprintf(to, "res %d %d\n", v->width_px, v->height_px);
-    if (v->has_background)
-        write_numbers(to, "background", v->background, 3);
-    if (v->max_bounces >= 0)
-        fprintf(to, "max_bounces %d\n", v->max_bounces);
-    if (sky)
-        fprintf(to, "sky %s\n", sky);
-    if (v->sky_strength < 1 || v->sky_strength > 1)
-        write_numbers(to, "sky_strength", &v->sky_strength, 1);
-    if (v->sky_rotation_deg < 0 || v->sky_rotation_deg > 0)
-        write_numbers(to, "sky_rotation", &v->sky_rotation_deg, 1);
-    if (v->aperture > 0)
-        write_numbers(to, "aperture", &v->aperture, 1);
-    if (v->focus > 0)
-        write_numbers(to, "focus", &v->focus, 1);
-    if (v->exposure < 0 || v->exposure > 0)
-        write_numbers(to, "exposure", &v->exposure, 1);
-    assigns_write(&v->assigns, to);
+}
+
+/* What is as view_init() made it is left out. */
+static void write_key(FILE *to, const struct view *v, enum key_id id,
+                      const char *sky)
+{
+    switch (id) {
+    case KEY_EYE:
+        if (v->has_camera)
+            write_line(to, "eye", v->eye, 3);
+        break;
+    case KEY_AT:
+        if (v->has_camera)
+            write_line(to, "at", v->at, 3);
+        break;
+    case KEY_UP: write_line(to, "up", v->up, 3); break;
+    case KEY_FOVY: write_line(to, "fovy", &v->fovy_deg, 1); break;
+    case KEY_RES:
+        if (v->has_size)
+            fprintf(to, "res %d %d\n", v->width_px, v->height_px);
+        break;
+    case KEY_BACKGROUND:
+        if (v->has_background)
+            write_line(to, "background", v->background, 3);
+        break;
+    case KEY_MAX_BOUNCES:
+        if (v->max_bounces >= 0)
+            fprintf(to, "max_bounces %d\n", v->max_bounces);
+        break;
+    case KEY_SKY:
+        if (sky)
+            fprintf(to, "sky %s\n", sky);
+        break;
+    case KEY_SKY_STRENGTH:
+        if (v->sky_strength < 1 || v->sky_strength > 1)
+            write_line(to, "sky_strength", &v->sky_strength, 1);
+        break;
+    case KEY_SKY_ROTATION:
+        if (v->sky_rotation_deg < 0 || v->sky_rotation_deg > 0)
+            write_line(to, "sky_rotation", &v->sky_rotation_deg, 1);
+        break;
+    case KEY_APERTURE:
+        if (v->aperture > 0)
+            write_line(to, "aperture", &v->aperture, 1);
+        break;
+    case KEY_FOCUS:
+        if (v->focus > 0)
+            write_line(to, "focus", &v->focus, 1);
+        break;
+    case KEY_EXPOSURE:
+        if (v->exposure < 0 || v->exposure > 0)
+            write_line(to, "exposure", &v->exposure, 1);
+        break;
+    case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
+    case KEY_VIEW: write_shots(to, v); break;
+    }
+}
+
+/* The lines of `text`, those with a key as the view has it now; then the keys
+ * that were not there. */
+static void write_over(FILE *to, const char *text, size_t size_bytes,
+                       const struct view *view, const char *sky)
+{
+    bool is_written[KEY_COUNT] = {false};
+    struct lex lex;
+
+    lex_init(&lex, text, size_bytes);
+    while (lex.p < lex.end) {
+        const char *line = lex.p;
+        const struct key *key =
+            lex_at_line_end(&lex) ? NULL : find_key(lex_word(&lex));
+
+        lex_next_line(&lex);
+        if (!key) {
+            fwrite(line, 1, (size_t)(lex.p - line), to);
+            if (lex.p[-1] != '\n' && lex.p[-1] != '\r')
+                fputc('\n', to);
+        } else if (!is_written[key - keys]) {
+            write_key(to, view, key->id, sky);
+            is_written[key - keys] = true;
+        }
+    }
+    for (size_t i = 0; i < KEY_COUNT; i++) {
+        if (!is_written[i])
+            write_key(to, view, keys[i].id, sky);
+    }
+}
+
+/* The text of the file that will be replaced, or how a new one begins. */
+static bool read_old(const char *path, char **text, size_t *size_bytes,
+                     struct error *err)
+{
+    if (access(path, F_OK) == 0)
+        return file_read(path, text, size_bytes, err);
+    *text = xstrdup("# a view of a scene: points in the scene's units, angles "
+                    "in degrees,\n# background as radiance, exposure in "
+                    "stops\n");
+    *size_bytes = strlen(*text);
+    return true;
 }
 
 bool view_write(const struct view *view, const char *path, struct error *err)
 {
-    char *text = NULL;
-    size_t size_bytes = 0;
+    char *old_text, *text = NULL;
+    size_t old_bytes, size_bytes = 0;
 
     if (view->sky_path && strpbrk(view->sky_path, "\r\n"))
         return fail(err,
                     "%s: found a line end in the name of the sky, "
                     "expected none",
                     path);
+    if (!read_old(path, &old_text, &old_bytes, err))
+        return false;
     FILE *to = open_memstream(&text, &size_bytes);
-    if (!to)
+    if (!to) {
+        free(old_text);
         return fail(err, "%s: out of memory", path);
+    }
     char *sky = view->sky_path ? path_seen_from(path, view->sky_path) : NULL;
-    write_keys(to, view, sky);
+    write_over(to, old_text, old_bytes, view, sky);
     free(sky);
+    free(old_text);
     bool ok = fclose(to) == 0
                   ? file_write(path, text, size_bytes, false, NULL, err)
                   : fail(err, "%s: out of memory", path);
     free(text);
     return ok;
+}
+
+struct pose view_pose(const struct view *view)
+{
+    struct pose pose = {.fovy_deg = view->fovy_deg,
+                        .aperture = view->aperture,
+                        .focus = view->focus};
+
+    memcpy(pose.eye, view->eye, sizeof pose.eye);
+    memcpy(pose.at, view->at, sizeof pose.at);
+    memcpy(pose.up, view->up, sizeof pose.up);
+    return pose;
+}
+
+void view_set_pose(struct view *view, const struct pose *pose)
+{
+    memcpy(view->eye, pose->eye, sizeof view->eye);
+    memcpy(view->at, pose->at, sizeof view->at);
+    memcpy(view->up, pose->up, sizeof view->up);
+    view->has_camera = true;
+    view->fovy_deg = pose->fovy_deg;
+    view->aperture = pose->aperture;
+    view->focus = pose->focus;
 }
 
 void view_copy(struct view *to, const struct view *from)

@@ -50,6 +50,9 @@ static void restart(struct work *w)
     saver_wait_copied(&w->saver);
     if (!session_restart(w->session, spp, &err))
         work_say_error(w, err.text);
+    if (w->session->notice[0] != '\0')
+        work_say_error(w, w->session->notice);
+    w->session->notice[0] = '\0';
     w->must_restart = false;
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
@@ -292,10 +295,12 @@ void work_save_view(struct work *w)
     char *text;
 
     s->view.has_camera = true; /* also one that was placed by the program */
+    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
     if (!view_write(&s->view, s->view_path, &err)) {
         work_say_error(w, err.text);
         return;
     }
+    edit_saved_view(&s->edit);
     text = xformat("wrote the view to %s", s->view_path);
     work_say(w, text);
     add_result(w, text);

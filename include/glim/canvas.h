@@ -40,6 +40,8 @@ struct canvas {
     bool has_status;
     struct ansi_rect window; /* no columns: closed */
     bool must_update;        /* curses has something to write */
+    bool has_cursor;
+    int cursor_col, cursor_row; /* in the picture */
 };
 
 /* After term_open(). */

@@ -57,6 +57,9 @@ void cells_free(struct cells *cells);
 void cells_from_frame(struct cells *cells, const struct frame *frame,
                       enum palette palette, enum glyphs glyphs);
 
+/* Puts a cursor around a cell: [+]. */
+void cells_mark(struct cells *cells, int col, int row);
+
 /* Where a picture goes in a window, in cells. */
 struct fit {
     int col, row; /* of its upper left cell, from 0 */

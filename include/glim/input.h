@@ -52,7 +52,8 @@ struct event {
     enum event_kind kind;
     int key; /* a byte, or enum input_key */
     enum mouse_kind mouse;
-    int button; /* 0 is the left one */
+    int button;       /* of the mouse: 0 is the left one, 2 the right one */
+    bool is_modified; /* with Ctrl or Alt */
     int x, y;
 };
 

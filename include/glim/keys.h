@@ -2,7 +2,10 @@
 /*
  * keys.h - which key does what, and the help that says so
  *
- * Units:     none
+ * The one table is in keys.c; the configuration file may give actions other
+ * keys. The manual and the README list the lines of the help: a test compares.
+ *
+ * Units:     keys are bytes or enum input_key; 0 is none
  * Ownership: strings live as long as the program
  * Threads:   any
  * Errors:    none
@@ -11,6 +14,7 @@
 #define GLIM_KEYS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 enum action {
     ACTION_NONE,
@@ -26,33 +30,84 @@ enum action {
     ACTION_LOOK_RIGHT,
     ACTION_FASTER,
     ACTION_SLOWER,
+    ACTION_CURSOR,
+    ACTION_CANCEL,
+    ACTION_ORBIT,
+    ACTION_FRAME,
+    ACTION_FRAME_ALL,
+    ACTION_NARROWER,
+    ACTION_WIDER,
+    ACTION_FOCUS,
+    ACTION_CLOSE, /* the aperture */
+    ACTION_OPEN,
+    ACTION_UNDO,
+    ACTION_REDO,
+    ACTION_RESET,
+    ACTION_KEEP, /* as the numbered view of the next key */
+    ACTION_VIEW_1,
+    ACTION_VIEW_2,
+    ACTION_VIEW_3,
+    ACTION_VIEW_4,
+    ACTION_VIEW_5,
+    ACTION_VIEW_6,
+    ACTION_VIEW_7,
+    ACTION_VIEW_8,
+    ACTION_VIEW_9,
+    ACTION_SAVE_VIEW,
     ACTION_MODE,
     ACTION_START,
     ACTION_SAVE,
-    ACTION_SAVE_VIEW,
-    ACTION_RESET,
-    ACTION_HIDE,
     ACTION_BACKEND,
     ACTION_COLORS,
+    ACTION_HIDE,
     ACTION_MOUSE,
     ACTION_REDRAW,
     ACTION_HELP,
-    ACTION_QUIT,
+    ACTION_SUSPEND,
     ACTION_INTERRUPT, /* Ctrl-C */
     ACTION_ABORT,     /* Ctrl-\ */
-    ACTION_SUSPEND
+    ACTION_QUIT,
+    ACTIONS
 };
 
-/* What a key (a byte or enum input_key) does; phoe says that W S A D Q E have
- * phoe_ray's meaning. */
-enum action keys_action(int key, bool phoe);
+/* Keys that an action can have. */
+#define KEYS_MAX 4
+
+/* A zeroed struct has no keys yet. */
+struct keys {
+    int keys[ACTIONS][KEYS_MAX];
+    bool is_chosen[ACTIONS]; /* by the person */
+};
+
+/* Gives an action these keys only, and takes them from others that were given
+ * them before. */
+void keys_choose(struct keys *k, enum action action, const int keys[KEYS_MAX]);
+
+/* Gives the others their keys of the table, but for those that are taken; phoe
+ * says that W S A D Q E have phoe_ray's meaning. */
+void keys_settle(struct keys *k, bool phoe);
+
+/* What a key does. */
+enum action keys_action(const struct keys *k, int key);
+
+/* The action of this name; ACTION_NONE: there is none. */
+enum action keys_find_action(const char *name, size_t length);
+const char *keys_action_name(enum action action);
+
+/* The key of this name: a character that is visible, ^A to ^_ for Ctrl, or a
+ * word such as PgUp. 0: there is none. */
+int keys_find_key(const char *name, size_t length);
+
+#define KEYS_NAME_BYTES 8
+
+void keys_key_name(char name[KEYS_NAME_BYTES], int key);
 
 struct keys_help {
-    const char *keys;
+    char keys[32];
     const char *text;
 };
 
-/* The lines of the help window, in order; NULL behind the last. */
-const struct keys_help *keys_help(int line, bool phoe);
+/* Line `line` of the help, from 0; false behind the last. */
+bool keys_help(const struct keys *k, int line, struct keys_help *help);
 
 #endif

@@ -23,6 +23,8 @@ enum motion_axis {
     MOTION_FORWARD,
     MOTION_LOOK_RIGHT,
     MOTION_LOOK_UP,
+    MOTION_WIDEN, /* the field of view */
+    MOTION_OPEN,  /* the aperture */
     MOTION_AXES
 };
 

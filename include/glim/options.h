@@ -10,6 +10,7 @@
 #ifndef GLIM_OPTIONS_H
 #define GLIM_OPTIONS_H
 
+#include "glim/keys.h"
 #include "glim/render.h"
 #include "glim/util.h"
 
@@ -50,7 +51,9 @@ struct options {
     const char *device;       /* number or a part of a name; NULL: the best */
     const char *kernels_path; /* NULL: the kernels within the program */
     bool phoe_keys;           /* W S A D Q E as phoe_ray had them */
+    struct keys keys;
     enum color_mode color;
+    bool has_color;
     enum glyph_mode glyph;
     double cell_aspect; /* height of a cell over its width; 0: ask */
     bool show_help, show_version;
@@ -59,7 +62,16 @@ struct options {
     uint32_t features; /* that it tries */
 };
 
-/* Fills *o from argv, and for the screen from GLIM_COLOR. */
+/* What is so if nobody says anything; no keys yet. */
+void options_init(struct options *o);
+
+/* Sets an option that the configuration file may have; NULL: without value.
+ * What is wrong is said of `place`. */
+bool options_set_taste(struct options *o, const char *name, const char *value,
+                       const char *place, struct error *err);
+
+/* Takes argv over what *o holds, and for the screen GLIM_COLOR; settles the
+ * keys. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
 
 /* The text of --help. */

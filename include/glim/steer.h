@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * steer.h - keys and mouse to motions of a view's camera
+ * steer.h - keys that are held and a mouse that is dragged, to motions of a
+ * view's camera
  *
  * Units:     nanoseconds of clock_ns(), terminal cells, parts of the scene
  * Ownership: the view stays the caller's
@@ -19,7 +20,11 @@ struct steer {
     struct motion motion;
     double scene_size; /* file units */
     double speed;      /* of scene_size, a second */
+    bool is_orbiting;  /* what would look around turns about the pivot */
+    double pivot[3];
     bool is_dragging;
+    bool drag_orbits;
+    bool has_dragged; /* since the button went down */
     int drag_x, drag_y;
 };
 
@@ -29,6 +34,10 @@ void steer_init(struct steer *s, const double lo[3], const double hi[3]);
 /* Moves by the time that keys were held since the last call. True if the view
  * has changed. */
 bool steer_step(struct steer *s, struct view *view, uint64_t now_ns);
+
+/* True for a button that turns about the pivot: any that is no plain left one,
+ * and all while is_orbiting. */
+bool steer_orbits(const struct steer *s, const struct event *event);
 
 /* Follows the pointer while a button is down; the picture of width_px x
  * height_px pixels lies at `fit`. True if the view has changed. */

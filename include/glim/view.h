@@ -16,6 +16,15 @@
 #include "glim/report.h"
 #include "glim/util.h"
 
+/* Views that have a number: 1 to 9 in the file, from 0 here. */
+#define VIEW_SHOTS 9
+
+/* The camera of a view: what moves, and what is undone. */
+struct pose {
+    double eye[3], at[3], up[3];
+    double fovy_deg, aperture, focus;
+};
+
 /* has_x says that the file (or the person) gave x; the value is a sensible
  * default else. */
 struct view {
@@ -33,6 +42,8 @@ struct view {
     double aperture; /* diameter of the lens; 0: a pinhole */
     double focus;    /* from eye to the sharp plane; 0: as far as at */
     double exposure; /* stops: the picture is multiplied by 2^exposure */
+    struct pose shots[VIEW_SHOTS]; /* the numbered views */
+    bool has_shot[VIEW_SHOTS];
     struct assigns assigns;
 };
 
@@ -44,12 +55,16 @@ void view_init(struct view *view);
 bool view_read(struct view *view, const char *path, struct report *report,
                struct error *err);
 
-/* Writes the file anew, atomically. A sky path is written relative to the
- * file's folder where that is possible. */
+/* Writes the file, atomically. Lines of a file that is there keep their order,
+ * and those with an unknown key or none stay as they are. A sky path is written
+ * relative to the file's folder where that is possible. */
 bool view_write(const struct view *view, const char *path, struct error *err);
 
 /* True if eye, at and fovy make a camera; else the text says what is wrong. */
 bool view_check(const struct view *view, const char *place, struct error *err);
+
+struct pose view_pose(const struct view *view);
+void view_set_pose(struct view *view, const struct pose *pose);
 
 /* `to` has been through view_init(). */
 void view_copy(struct view *to, const struct view *from);

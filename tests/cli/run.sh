@@ -25,6 +25,9 @@ LC_ALL=C
 POCL_CACHE_DIR=$build/pocl
 export ASAN_OPTIONS LSAN_OPTIONS TSAN_OPTIONS LC_ALL POCL_CACHE_DIR
 unset NO_COLOR GLIM_COLOR COLORTERM
+# the person's own taste is not tested
+XDG_CONFIG_HOME=$root/tests/cli/none
+export XDG_CONFIG_HOME
 
 if [ ! -x "$build/glim" ]; then
     echo "cli: no program $build/glim, build it first"

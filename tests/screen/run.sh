@@ -20,6 +20,9 @@ LC_ALL=C.UTF-8
 POCL_CACHE_DIR=$build/pocl
 export PATH SCREEN LC_ALL POCL_CACHE_DIR root
 unset NO_COLOR GLIM_COLOR COLORTERM TMUX STY TERM
+# the person's own taste is not tested
+XDG_CONFIG_HOME=$root/tests/screen/none
+export XDG_CONFIG_HOME
 
 if [ ! -x "$build/glim" ]; then
     echo "screen: no program $build/glim, build it first"

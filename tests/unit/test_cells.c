@@ -217,9 +217,47 @@ static void pictures_fit(void **state)
     }
 }
 
+/* A cursor of three cells that the borders cut. */
+static void a_mark_is_seen_in_every_palette(void **state)
+{
+    static const struct {
+        enum palette palette;
+        uint32_t fg, bg;
+    } cases[] = {
+        {PALETTE_MONO, CELL_DEFAULT, CELL_DEFAULT},
+        {PALETTE_16, 0, 15}, /* black, bright white */
+        {PALETTE_256, 16, 231},
+        {PALETTE_24BIT, 0x000000, 0xffffff},
+    };
+    struct cells cells;
+    struct error err;
+
+    (void)state;
+    assert_true(cells_init(&cells, 4, 2, &err));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        memset(cells.cell, 0, 8 * sizeof cells.cell[0]);
+        cells.palette = cases[i].palette;
+        cells_mark(&cells, 1, 1);
+        for (int k = 0; k < 8; k++)
+            assert_int_equal(cells.cell[k].glyph,
+                             ((const char[]){0, 0, 0, 0, '[', '+', ']', 0})[k]);
+        assert_int_equal(cells.cell[5].fg, cases[i].fg);
+        assert_int_equal(cells.cell[5].bg, cases[i].bg);
+    }
+    memset(cells.cell, 0, 8 * sizeof cells.cell[0]);
+    cells_mark(&cells, 3, 0);
+    cells_mark(&cells, 0, 1);
+    cells_mark(&cells, 1, 2); /* outside */
+    for (int k = 0; k < 8; k++)
+        assert_int_equal(cells.cell[k].glyph,
+                         ((const char[]){0, 0, '[', '+', '+', ']', 0, 0})[k]);
+    cells_free(&cells);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mark_is_seen_in_every_palette),
         cmocka_unit_test(two_pixels_make_a_half_block),
         cmocka_unit_test(nearest_of_256),
         cmocka_unit_test(sixteen_keep_the_average),

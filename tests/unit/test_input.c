@@ -156,6 +156,12 @@ static void mouse_reports(void **state)
     assert_true(e.mouse == MOUSE_DRAG && e.button == 2 && e.x == 250);
     assert_int_equal(only("\033[<35;1;1M", 3).mouse,
                      MOUSE_OTHER); /* no button */
+    assert_false(e.is_modified);
+    assert_false(only("\033[<4;1;1M", 3).is_modified); /* Shift */
+    assert_true(only("\033[<8;1;1M", 3).is_modified);
+    assert_true(only("\033[<16;1;1M", 3).is_modified);
+    e = only("\033[<80;1;1M", 3);
+    assert_true(e.mouse == MOUSE_WHEEL_UP && e.is_modified);
     assert_int_equal(only("\033[<64;1;1M", 3).mouse, MOUSE_WHEEL_UP);
     assert_int_equal(only("\033[<65;1;1M", 3).mouse, MOUSE_WHEEL_DOWN);
     assert_int_equal(only("\033[<66;1;1M", 3).mouse, MOUSE_OTHER);

@@ -34,6 +34,7 @@ static bool parse(struct options *o, const char *line, struct error *err)
             *p++ = '\0';
     }
     err->text[0] = '\0';
+    options_init(o);
     return options_parse(o, argc, argv, err);
 }
 
@@ -222,6 +223,7 @@ static void test_crop(void **state)
         struct error err;
 
         snprintf(option, sizeof option, "--crop=%s", wrong[i]);
+        options_init(&o);
         if (options_parse(&o, 3, argv, &err))
             fail_msg("%s was taken", option);
         assert_non_null(strstr(err.text, "expected X,Y,W,H"));

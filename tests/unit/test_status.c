@@ -54,6 +54,10 @@ static void normal_mode_says_what_is_left(void **state)
     assert_string_equal(
         text, " NORMAL  8/16 spp  50 %  4 s  left 4 s  2.00 Msamples/s  2 "
               "threads  1024x576  24 bit                     ? help  q quit ");
+    s.is_orbiting = true;
+    status_format(text, 120, &s);
+    check_has(text, " NORMAL orbit  8/16 spp  ");
+    s.is_orbiting = false;
     p.state = RENDER_IDLE;
     s.is_halted = true;
     status_format(text, 120, &s);

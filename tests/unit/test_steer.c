@@ -84,12 +84,126 @@ static void drag_turns_by_what_is_seen(void **state)
     assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100));
 }
 
+/* A second of a held key: the angle, at a constant distance from the pivot. */
+static void orbits_while_keys_are_held(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+    double begin, angle;
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    v.at[2] = -4;
+    s.pivot[2] = -4;
+    s.is_orbiting = true;
+    motion_press(&s.motion, MOTION_LOOK_RIGHT, 1, 1000 * MS);
+    assert_true(steer_step(&s, &v, 1000 * MS));
+    begin = atan2(v.eye[0], v.eye[2] + 4);
+    assert_true(begin > 0); /* to the right of where it was */
+    for (uint64_t t = 1010; t <= 1100; t += 10)
+        steer_step(&s, &v, t * MS);
+    angle = atan2(v.eye[0], v.eye[2] + 4);
+    check_close(angle / begin, (100 + 1000. / 60) / (1000. / 60), 1e-5);
+    check_close(hypot(v.eye[0], v.eye[2] + 4), 4, 1e-12);
+    check_close(v.at[2], -4, 1e-12);
+    check_close(v.eye[1], 0, 1e-12);
+}
+
+static void hold(struct steer *s, struct view *v, enum motion_axis axis,
+                 int sign, int taps)
+{
+    for (uint64_t t = 1000; taps > 0; t += 1000, taps--) {
+        motion_press(&s->motion, axis, sign, t * MS);
+        steer_step(s, v, t * MS);
+        steer_step(s, v, (t + 100) * MS);
+        steer_step(s, v, (t + 200) * MS);
+    }
+}
+
+/* As many taps back as forth. */
+static void widens_and_narrows_alike(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    hold(&s, &v, MOTION_WIDEN, 1, 3);
+    assert_true(v.fovy_deg > 45 && v.fovy_deg < 70);
+    hold(&s, &v, MOTION_WIDEN, -1, 3);
+    check_close(v.fovy_deg, 40, 1e-9);
+    assert_true(v.aperture == 0);
+}
+
+static void opens_from_a_pinhole_and_closes_to_one(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+    double once;
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    hold(&s, &v, MOTION_OPEN, -1, 1);
+    assert_true(v.aperture == 0);
+    hold(&s, &v, MOTION_OPEN, 1, 1);
+    once = v.aperture;
+    assert_true(once > 0 && once < 0.01);
+    hold(&s, &v, MOTION_OPEN, 1, 1);
+    assert_true(v.aperture > once);
+    hold(&s, &v, MOTION_OPEN, -1, 1);
+    check_close(v.aperture, once, 1e-12);
+    hold(&s, &v, MOTION_OPEN, -1, 1);
+    assert_true(v.aperture == 0);
+    hold(&s, &v, MOTION_OPEN, 1, 200);
+    check_close(v.aperture, 5, 1e-12); /* as the scene */
+}
+
+/* Over the picture's height: half around; a thing in the middle follows. */
+static void a_modified_drag_orbits(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+    struct fit fit = {0, 0, 80, 20};
+    struct event e = {.kind = EVENT_MOUSE,
+                      .mouse = MOUSE_PRESS,
+                      .button = 2,
+                      .x = 30,
+                      .y = 10};
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    v.at[2] = -4;
+    s.pivot[2] = -4;
+    assert_true(steer_orbits(&s, &e));
+    steer_mouse(&s, &v, &e, &fit, 200, 100);
+    assert_false(s.has_dragged);
+    e.mouse = MOUSE_DRAG;
+    e.x -= 20; /* a quarter of the width is half the height */
+    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_true(s.has_dragged);
+    check_close(v.eye[0], 4, 1e-9);
+    check_close(v.eye[2], -4, 1e-9);
+    e.y += 5; /* downwards: one looks from above */
+    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    check_close(v.eye[1], 4 * sin(0.25 * 3.141592653589793), 1e-9);
+    e = (struct event){.kind = EVENT_MOUSE, .is_modified = true};
+    assert_true(steer_orbits(&s, &e));
+    e.is_modified = false;
+    assert_false(steer_orbits(&s, &e));
+    s.is_orbiting = true;
+    assert_true(steer_orbits(&s, &e));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(speed_is_a_part_of_the_scene),
         cmocka_unit_test(speed_has_ends),
         cmocka_unit_test(drag_turns_by_what_is_seen),
+        cmocka_unit_test(orbits_while_keys_are_held),
+        cmocka_unit_test(widens_and_narrows_alike),
+        cmocka_unit_test(opens_from_a_pinhole_and_closes_to_one),
+        cmocka_unit_test(a_modified_drag_orbits),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -163,6 +163,8 @@ static void test_refused(void **state)
     static const char sizes[] = "2 whole numbers from 1 to 65536";
     static const char light[] = "3 numbers from 0 to 1e30";
     static const char point[] = "3 numbers from -1e30 to 1e30";
+    static const char number[] = "a number from 1 to 9";
+    static const char parts[] = "eye, at, up, fovy, aperture or focus";
     static const struct {
         const char *text, *found, *expected, *key;
     } cases[] = {
@@ -202,6 +204,15 @@ static void test_refused(void **state)
         {"focus inf", "'inf'", "a number from 0 to 1e30", "focus"},
         {"exposure nan", "'nan'", "a number of stops from -100 to 100",
          "exposure"},
+        {"view", "the end of the line", number, "view"},
+        {"view 0 eye 0 0 1 at 0 0 0", "'0'", number, "view"},
+        {"view 10 eye 0 0 1 at 0 0 0", "'10'", number, "view"},
+        {"view 1.5 eye 0 0 1 at 0 0 0", "'1.5'", number, "view"},
+        {"view 1 res 3 4", "'res'", parts, "view"},
+        {"view 1 eye 0 0 1 at 0 0 0 0", "'0'", parts, "view"},
+        {"view 1 eye 0 0", "the end of the line", point, "eye"},
+        {"view 1 eye 0 0 1", "the end of the line", "eye and at", "view"},
+        {"view 1 at 0 0 1", "the end of the line", "eye and at", "view"},
     };
     char text[200], expected[400];
 
@@ -219,6 +230,62 @@ static void test_refused(void **state)
             "3: found eye and at in one point, expected two");
     refused("\neye 1 2 3\n", "2: found only 'eye', expected eye and at");
     refused("at 1 2 3\n", "1: found only 'at', expected eye and at");
+    refused("\nview 1 eye 1 2 3 at 1 2 3\n",
+            "2: found eye and at in one point, expected two");
+    refused("view 1 eye 1 2 3 at 0 0 0 up 0 0 0\n",
+            "1: found 0 0 0, expected a direction for up");
+}
+
+/* What a line leaves out is as the keys above it say. */
+static void test_numbered_views(void **state)
+{
+    struct view view;
+
+    (void)state;
+    read_text(&view, "eye 0 0 5\nat 0 0 0\n"
+                     "view 9 eye 1 2 3 at 4 5 6\n"
+                     "fovy 30\naperture .5\n"
+                     "view 2 at 1 0 0 eye 7 8 9 focus 3\\\n up 1 0 0 # wide\n");
+    for (int i = 0; i < VIEW_SHOTS; i++)
+        assert_int_equal(view.has_shot[i], i == 1 || i == 8);
+    is3(view.shots[8].eye, 1, 2, 3);
+    is3(view.shots[8].at, 4, 5, 6);
+    is3(view.shots[8].up, 0, 1, 0);
+    assert_true(view.shots[8].fovy_deg == 40 && view.shots[8].aperture == 0);
+    is3(view.shots[1].eye, 7, 8, 9);
+    is3(view.shots[1].at, 1, 0, 0);
+    is3(view.shots[1].up, 1, 0, 0);
+    assert_true(view.shots[1].fovy_deg == 30 && view.shots[1].aperture == .5 &&
+                view.shots[1].focus == 3);
+    is3(view.eye, 0, 0, 5);
+    is3(view.at, 0, 0, 0);
+    assert_true(view.focus == 0);
+    view_free(&view);
+}
+
+static void test_poses(void **state)
+{
+    struct view view, other;
+    struct pose pose;
+
+    (void)state;
+    view_init(&view);
+    view_init(&other);
+    pose = (struct pose){.eye = {1, 2, 3},
+                         .at = {4, 5, 6},
+                         .up = {7, 8, 9},
+                         .fovy_deg = 10,
+                         .aperture = 11,
+                         .focus = 12};
+    other.exposure = 3;
+    view_set_pose(&other, &pose);
+    assert_true(other.has_camera && other.exposure == 3);
+    pose = view_pose(&other);
+    view_set_pose(&view, &pose);
+    is3(view.eye, 1, 2, 3);
+    is3(view.at, 4, 5, 6);
+    is3(view.up, 7, 8, 9);
+    assert_true(view.fovy_deg == 10 && view.aperture == 11 && view.focus == 12);
 }
 
 static void test_no_file(void **state)
@@ -302,6 +369,16 @@ static void is_same(const struct view *a, const struct view *b)
     assert_true(a->aperture == b->aperture);
     assert_true(a->focus == b->focus);
     assert_true(a->exposure == b->exposure);
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        const struct pose *p = &a->shots[i], *q = &b->shots[i];
+
+        assert_int_equal(a->has_shot[i], b->has_shot[i]);
+        is3(p->eye, q->eye[0], q->eye[1], q->eye[2]);
+        is3(p->at, q->at[0], q->at[1], q->at[2]);
+        is3(p->up, q->up[0], q->up[1], q->up[2]);
+        assert_true(p->fovy_deg == q->fovy_deg && p->aperture == q->aperture &&
+                    p->focus == q->focus);
+    }
 }
 
 static void test_round_trip(void **state)
@@ -332,6 +409,12 @@ static void test_round_trip(void **state)
                          .aperture = 0.05,
                          .focus = 7.25,
                          .exposure = -0.7};
+    view.shots[0] = view_pose(&view);
+    view.shots[8] = (struct pose){.eye = {1, 1e-9, 1},
+                                  .at = {0, 1.0 / 3},
+                                  .up = {0, 1},
+                                  .fovy_deg = 3};
+    view.has_shot[0] = view.has_shot[8] = true;
     assert_true(view_write(&view, file("w.view"), &err));
     assert_true(view_read(&again, file("w.view"), &report, &err));
     is_same(&view, &again);
@@ -357,6 +440,45 @@ static void test_text(void **state)
                         "eye 278 273 -800\nat 278 273 0\nup 0 1 0\n"
                         "fovy 39.3077\nres 256 256\nsky s.hdr\n"
                         "exposure -0.5\n");
+    view_free(&view);
+}
+
+static void is_file(const char *path, const char *expected)
+{
+    char text[1000];
+    FILE *f = fopen(path, "r");
+
+    assert_non_null(f);
+    text[fread(text, 1, sizeof text - 1, f)] = '\0';
+    fclose(f);
+    assert_string_equal(text, expected);
+}
+
+/* Comments, order and lines of others outlive a new camera. */
+static void test_lines_are_kept(void **state)
+{
+    struct report report = {0};
+    struct error err;
+    struct view view;
+    const char *path = put("# my room\r\nfovy 30\n\n  # the door\neye 1 2 3\n"
+                           "assign door oak\nat 0 0 0 # eye\neye 4 5 6\n"
+                           "shutter 2 \\\n eye");
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_read(&view, path, &report, &err));
+    report_free(&report);
+    view.eye[0] = 7;
+    view.exposure = 2;
+    view.has_shot[3] = true;
+    view.shots[3] = view_pose(&view);
+    assert_true(view_write(&view, path, &err));
+    is_file(path, "# my room\r\nfovy 30\n\n  # the door\neye 7 5 6\n"
+                  "assign door oak\nat 0 0 0\n"
+                  "shutter 2 \\\n eye\n"
+                  "up 0 1 0\nexposure 2\n"
+                  "view 4 eye 7 5 6 at 0 0 0 up 0 1 0 fovy 30 aperture 0 "
+                  "focus 0\n");
     view_free(&view);
 }
 
@@ -483,13 +605,22 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shared), /* before the folder changes */
-        cmocka_unit_test(test_defaults),   cmocka_unit_test(test_all_keys),
-        cmocka_unit_test(test_over),       cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_no_file),
-        cmocka_unit_test(test_unknown),    cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_text),
-        cmocka_unit_test(test_sky_names),  cmocka_unit_test(test_check),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_all_keys),
+        cmocka_unit_test(test_over),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_no_file),
+        cmocka_unit_test(test_unknown),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_text),
+        cmocka_unit_test(test_sky_names),
+        cmocka_unit_test(test_check),
         cmocka_unit_test(test_copy),
+        cmocka_unit_test(test_poses),
+        cmocka_unit_test(test_numbered_views),
+        cmocka_unit_test(test_lines_are_kept),
     };
 
     return cmocka_run_group_tests_name("view", tests, make_folder,

@@ -5,11 +5,11 @@ size=100x30
 start flat.obj
 wait_for_rows 25 "48;2;188;124;0"
 keys '?'
-wait_for "save the picture as a new PNG"
+wait_for "save a new PNG file"
 expect "Q e *move down, up"
 expect "any key closes"
 # no picture shines through the window
-row=$(screen_colors | grep "save the picture")
+row=$(screen_colors | grep "save a new PNG")
 inside=${row#*│}
 inside=${inside%│*}
 case $inside in
@@ -18,7 +18,7 @@ esac
 keys x
 wait_until_gone "any key closes"
 wait_for_rows 25 "48;2;188;124;0"
-reject "save the picture"
+reject "save a new PNG"
 keys '?'
 wait_for "any key closes"
 keys q # closes the help, does not quit
@@ -30,7 +30,7 @@ fresh
 start --phoe-keys flat.obj
 wait_for LIVE
 keys F1
-wait_for "w s *move up, down"
+wait_for "s w *move down, up"
 expect "Q e *move forward, back"
 keys C-c
 expect_end 130

@@ -5,12 +5,12 @@ start --cell-aspect 2 flat.obj
 wait_for_rows 15 "48;2;188;124;0"
 mux resize-window -x 100 -y 41
 wait_for_rows 25 "48;2;188;124;0"
-mux resize-window -x 100 -y 11
-wait_for_rows 10 "48;2;188;124;0"
+mux resize-window -x 100 -y 12
+wait_for_rows 11 "48;2;188;124;0"
 mux resize-window -x 15 -y 8
 wait_for "15x8: at"
 mux resize-window -x 40 -y 2
-wait_for "window 40x2: at least 20x5 is needed"
+wait_for "window 40x2: at least 40x12 is needed"
 keys w # does nothing here
 mux resize-window -x 60 -y 21
 wait_for_rows 15 "48;2;188;124;0"
@@ -21,9 +21,9 @@ mux resize-window -x 60 -y 21
 wait_for_rows 15 "48;2;188;124;0"
 wait_for "LIVE"
 keys '?'
-wait_for "any key closes"
+wait_for "any key goes on"
 mux resize-window -x 80 -y 31
-wait_until_gone "any key closes"
+wait_until_gone "any key goes on"
 wait_for_rows 20 "48;2;188;124;0"
 keys q
 expect_end 0

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+/*
+ * pilot.h - what keys and mouse do with the camera, and with the cursor that
+ * picks what the camera sees
+ *
+ * Moves are held keys or drags; each is one step of undo. What is picked is the
+ * point to orbit and to focus on, and its object the one to frame.
+ *
+ * Units:     nanoseconds of clock_ns(), terminal cells
+ * Ownership: work and canvas stay the caller's and outlive the pilot;
+ *            pilot_free() frees the rest
+ * Threads:   main only
+ * Errors:    become messages
+ */
+#ifndef GLIM_PILOT_H
+#define GLIM_PILOT_H
+
+#include "glim/canvas.h"
+#include "glim/history.h"
+#include "glim/keys.h"
+#include "glim/pick.h"
+#include "glim/steer.h"
+#include "glim/work.h"
+
+struct pilot {
+    struct work *work;
+    struct canvas *canvas;
+    struct steer steer;
+    struct history history;
+    enum action held; /* what the last step of undo was made by, and when */
+    uint64_t held_ns;
+    bool drag_is_new; /* no step of undo yet */
+    struct pick pick;
+    bool has_pick;
+    bool must_look;  /* what is under the cursor is not yet said */
+    bool is_keeping; /* the next key says the number of a view */
+};
+
+void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas);
+
+/* Does what the action says of camera and cursor. False if it is not the
+ * pilot's. */
+bool pilot_act(struct pilot *p, enum action action);
+
+void pilot_mouse(struct pilot *p, const struct event *event);
+
+/* Moves the camera as far as keys were held until now; says what is under the
+ * cursor. */
+void pilot_step(struct pilot *p, uint64_t now_ns);
+
+/* When to call pilot_step() next; UINT64_MAX: nothing moves. */
+uint64_t pilot_next_ns(const struct pilot *p);
+
+/* Lets go of all keys and buttons. */
+void pilot_stop(struct pilot *p);
+
+void pilot_free(struct pilot *p);
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "glim/help.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+static int count_lines(const struct keys *keys)
+{
+    struct keys_help help;
+    int count = 0;
+
+    while (keys_help(keys, count, &help))
+        count++;
+    return count;
+}
+
+/* Appends entry `i` to a line, at its column; the note is behind the keys. */
+static void add_entry(char *line, const struct keys *keys, const char *note,
+                      int i)
+{
+    size_t length = strlen(line);
+    char entry[HELP_ENTRY_COLS + 1];
+    struct keys_help help;
+
+    if (keys_help(keys, i, &help))
+        snprintf(entry, sizeof entry, "%-7.20s %s", help.keys, help.text);
+    else
+        snprintf(entry, sizeof entry, "%s", note);
+    if (length > 0)
+        sprintf(line + length, "%*s%s",
+                HELP_ENTRY_COLS + HELP_GAP - (int)length, "", entry);
+    else
+        strcpy(line, entry);
+}
+
+void help_page(struct help_page *page, const struct keys *keys,
+               const char *note, int number, int cols, int rows)
+{
+    int entries = count_lines(keys) + 1;
+    int columns =
+        cols >= HELP_COLUMNS * HELP_ENTRY_COLS + HELP_GAP ? HELP_COLUMNS : 1;
+    int per_page, first, left;
+
+    rows = rows < 1 ? 1 : rows > HELP_ROWS_MAX ? HELP_ROWS_MAX : rows;
+    per_page = columns * rows;
+    first = number * per_page;
+    left = entries - first < per_page ? entries - first : per_page;
+    memset(page, 0, sizeof *page);
+    page->page_count = (entries + per_page - 1) / per_page;
+    page->line_count = (left + columns - 1) / columns;
+    for (int i = 0; i < left; i++)
+        add_entry(page->lines[i % page->line_count], keys, note, first + i);
+}

@@ -1,0 +1,523 @@
+// SPDX-License-Identifier: MIT
+#include "glim/pilot.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "glim/camera.h"
+
+/* The same key again within this time goes on with its step of undo: longer
+ * than keyboards wait before they repeat. */
+#define HELD_NS UINT64_C(700000000)
+
+#define TEXT_BYTES 256
+
+/* Actions that last as long as their key is held. */
+static const struct move {
+    enum action action;
+    enum motion_axis axis;
+    int sign;
+} moves[] = {
+    {ACTION_FORWARD, MOTION_FORWARD, 1},
+    {ACTION_BACK, MOTION_FORWARD, -1},
+    {ACTION_LEFT, MOTION_RIGHT, -1},
+    {ACTION_RIGHT, MOTION_RIGHT, 1},
+    {ACTION_DOWN, MOTION_UP, -1},
+    {ACTION_UP, MOTION_UP, 1},
+    {ACTION_LOOK_UP, MOTION_LOOK_UP, 1},
+    {ACTION_LOOK_DOWN, MOTION_LOOK_UP, -1},
+    {ACTION_LOOK_LEFT, MOTION_LOOK_RIGHT, -1},
+    {ACTION_LOOK_RIGHT, MOTION_LOOK_RIGHT, 1},
+    {ACTION_NARROWER, MOTION_WIDEN, -1},
+    {ACTION_WIDER, MOTION_WIDEN, 1},
+    {ACTION_CLOSE, MOTION_OPEN, -1},
+    {ACTION_OPEN, MOTION_OPEN, 1},
+};
+
+static struct view *view_of(const struct pilot *p)
+{
+    return &p->work->session->view;
+}
+
+static const struct scene *scene_of(const struct pilot *p)
+{
+    return &p->work->session->scene;
+}
+
+void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas)
+{
+    const struct scene *scene = &work->session->scene;
+
+    *p = (struct pilot){.work = work, .canvas = canvas};
+    steer_init(&p->steer, scene->bounds_lo, scene->bounds_hi);
+}
+
+void pilot_stop(struct pilot *p)
+{
+    motion_stop(&p->steer.motion);
+    p->steer.is_dragging = false;
+    p->held = ACTION_NONE;
+}
+
+/* ---- moves ---- */
+
+static const struct move *find_move(enum action action)
+{
+    for (size_t i = 0; i < sizeof moves / sizeof moves[0]; i++) {
+        if (moves[i].action == action)
+            return &moves[i];
+    }
+    return NULL;
+}
+
+static void add_step(struct pilot *p)
+{
+    struct pose pose = view_pose(view_of(p));
+
+    history_add(&p->history, &pose);
+}
+
+static void press(struct pilot *p, const struct move *move)
+{
+    uint64_t now_ns = clock_ns();
+
+    if (!work_may_move(p->work))
+        return;
+    if (move->action != p->held || now_ns - p->held_ns > HELD_NS)
+        add_step(p);
+    p->held = move->action;
+    p->held_ns = now_ns;
+    motion_press(&p->steer.motion, move->axis, move->sign, now_ns);
+}
+
+/* True if the camera may jump now; what is held is let go. */
+static bool may_jump(struct pilot *p)
+{
+    if (!work_may_move(p->work))
+        return false;
+    pilot_stop(p);
+    return true;
+}
+
+static void jump(struct pilot *p, const struct pose *pose)
+{
+    add_step(p);
+    view_set_pose(view_of(p), pose);
+    p->work->must_restart = true;
+}
+
+static void say_lens(struct pilot *p)
+{
+    const struct view *v = view_of(p);
+    char text[TEXT_BYTES];
+
+    if (p->held == ACTION_NARROWER || p->held == ACTION_WIDER)
+        snprintf(text, sizeof text, "field of view %.3g degrees", v->fovy_deg);
+    else if (p->held != ACTION_CLOSE && p->held != ACTION_OPEN)
+        return;
+    else if (v->aperture > 0)
+        snprintf(text, sizeof text, "lens open by %.3g", v->aperture);
+    else
+        snprintf(text, sizeof text, "a pinhole: everything is sharp");
+    work_say(p->work, text);
+}
+
+static void change_speed(struct pilot *p, int steps)
+{
+    char text[TEXT_BYTES];
+
+    steer_change_speed(&p->steer, steps);
+    snprintf(text, sizeof text, "speed %.3g of the scene's size a second",
+             p->steer.speed);
+    work_say(p->work, text);
+}
+
+static void reset(struct pilot *p)
+{
+    struct pose pose = view_pose(&p->work->session->opened);
+
+    if (!may_jump(p))
+        return;
+    jump(p, &pose);
+    work_say(p->work, "the view as it was opened");
+}
+
+static void travel(struct pilot *p, bool is_back)
+{
+    struct pose pose = view_pose(view_of(p));
+
+    if (!may_jump(p))
+        return;
+    if (is_back ? !history_undo(&p->history, &pose)
+                : !history_redo(&p->history, &pose)) {
+        work_say(p->work, is_back ? "nothing to undo" : "nothing to do again");
+        return;
+    }
+    view_set_pose(view_of(p), &pose);
+    p->work->must_restart = true;
+    work_say(p->work, is_back ? "undone" : "done again");
+}
+
+/* ---- the cursor, what is picked ---- */
+
+static const char *object_name(const struct pilot *p, const struct pick *pick)
+{
+    const char *name = scene_of(p)->object_names[pick->object];
+
+    return *name ? name : "no name";
+}
+
+static void describe(const struct pilot *p, const struct pick *pick,
+                     const char *what_now, char text[TEXT_BYTES])
+{
+    const char *material = scene_of(p)->material_names[pick->material];
+
+    snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away%s",
+             object_name(p, pick), *material ? material : "no material",
+             pick->face + 1, pick->distance, what_now);
+}
+
+static bool pick_cell(const struct pilot *p, int col, int row,
+                      struct pick *pick)
+{
+    const struct view *v = view_of(p);
+    double x_px, y_px;
+
+    return pick_point_of_cell(&p->canvas->fit, v->width_px, v->height_px, col,
+                              row, &x_px, &y_px) &&
+           pick_at(scene_of(p), v, x_px, y_px, pick);
+}
+
+static bool pick_cursor(const struct pilot *p, struct pick *pick)
+{
+    const struct canvas *c = p->canvas;
+
+    return pick_cell(p, c->fit.col + c->cursor_col, c->fit.row + c->cursor_row,
+                     pick);
+}
+
+static void set_pick(struct pilot *p, const struct pick *pick)
+{
+    char text[TEXT_BYTES];
+
+    p->pick = *pick;
+    p->has_pick = true;
+    memcpy(p->steer.pivot, pick->position, sizeof p->steer.pivot);
+    describe(p, pick, " (o orbit, f focus, z frame)", text);
+    work_say(p->work, text);
+}
+
+static void set_cursor(struct pilot *p, bool is_shown)
+{
+    struct canvas *c = p->canvas;
+
+    if (is_shown && c->cursor_col == 0 && c->cursor_row == 0) {
+        c->cursor_col = c->fit.cols / 2;
+        c->cursor_row = c->fit.rows / 2;
+    }
+    c->has_cursor = is_shown;
+    p->must_look = is_shown;
+    p->work->has_changed = true;
+}
+
+static int within(int x, int count)
+{
+    return x < 0 ? 0 : x >= count ? count - 1 : x;
+}
+
+static void move_cursor(struct pilot *p, int right, int down)
+{
+    struct canvas *c = p->canvas;
+
+    c->cursor_col = within(c->cursor_col + right, c->fit.cols);
+    c->cursor_row = within(c->cursor_row + down, c->fit.rows);
+    set_cursor(p, true);
+}
+
+static void say_under_cursor(struct pilot *p)
+{
+    struct pick pick;
+    char text[TEXT_BYTES];
+
+    p->must_look = false;
+    if (pick_cursor(p, &pick))
+        describe(p, &pick, "", text);
+    else
+        snprintf(text, sizeof text, "nothing but the sky");
+    work_say_long(p->work, text);
+}
+
+static void pick_under_cursor(struct pilot *p)
+{
+    struct pick pick;
+
+    if (!pick_cursor(p, &pick)) {
+        work_say(p->work, "nothing but the sky");
+        return;
+    }
+    set_cursor(p, false);
+    set_pick(p, &pick);
+}
+
+/* What the cursor is on, or what was picked; else a message says how. */
+static bool need_pick(struct pilot *p)
+{
+    if (p->canvas->has_cursor)
+        pick_under_cursor(p);
+    else if (!p->has_pick)
+        work_say(p->work, "nothing is picked: v shows a cursor, Enter picks");
+    return p->has_pick && !p->canvas->has_cursor;
+}
+
+/* What is done while the cursor is shown; false if it is nothing special. */
+static bool act_on_cursor(struct pilot *p, enum action action)
+{
+    switch (action) {
+    case ACTION_LOOK_LEFT: move_cursor(p, -1, 0); break;
+    case ACTION_LOOK_RIGHT: move_cursor(p, 1, 0); break;
+    case ACTION_LOOK_UP: move_cursor(p, 0, -1); break;
+    case ACTION_LOOK_DOWN: move_cursor(p, 0, 1); break;
+    case ACTION_START: pick_under_cursor(p); break;
+    case ACTION_CURSOR:
+    case ACTION_CANCEL:
+        set_cursor(p, false);
+        p->work->message.until_ns = 0;
+        break;
+    default: return false;
+    }
+    return true;
+}
+
+/* ---- orbit, frame, focus ---- */
+
+/* What is picked, or what is in the middle of the picture, or of the scene. */
+static void find_pivot(struct pilot *p)
+{
+    const struct view *v = view_of(p);
+    const struct scene *s = scene_of(p);
+    struct pick pick;
+
+    if (p->has_pick)
+        pick = p->pick;
+    else if (!pick_at(s, v, v->width_px / 2.0, v->height_px / 2.0, &pick))
+        memcpy(pick.position, s->center, sizeof pick.position);
+    memcpy(p->steer.pivot, pick.position, sizeof p->steer.pivot);
+}
+
+static void switch_orbit(struct pilot *p)
+{
+    if (p->canvas->has_cursor && !need_pick(p))
+        return;
+    motion_stop(&p->steer.motion);
+    p->steer.is_orbiting = !p->steer.is_orbiting;
+    if (p->steer.is_orbiting)
+        find_pivot(p);
+    work_say(p->work, !p->steer.is_orbiting ? "arrows and mouse look around"
+                      : p->has_pick ? "arrows and mouse orbit what is picked"
+                                    : "arrows and mouse orbit the middle");
+}
+
+static void frame(struct pilot *p, bool frames_all)
+{
+    const struct scene *s = scene_of(p);
+    struct view framed = *view_of(p);
+    struct pose pose;
+    char text[TEXT_BYTES];
+
+    if (s->tri_count == 0) {
+        work_say(p->work, "no faces to frame");
+        return;
+    }
+    if ((!frames_all && !need_pick(p)) || !may_jump(p))
+        return;
+    if (frames_all) {
+        camera_frame(&framed, s->bounds_lo, s->bounds_hi);
+        snprintf(text, sizeof text, "the whole scene");
+    } else {
+        double lo[3], hi[3];
+
+        pick_bounds(s, p->pick.object, lo, hi);
+        camera_frame(&framed, lo, hi);
+        snprintf(text, sizeof text, "%.60s", object_name(p, &p->pick));
+    }
+    pose = view_pose(&framed);
+    jump(p, &pose);
+    work_say(p->work, text);
+}
+
+static void focus(struct pilot *p)
+{
+    struct pose pose = view_pose(view_of(p));
+    char text[TEXT_BYTES];
+
+    if (!need_pick(p) || !may_jump(p))
+        return;
+    pose.focus = camera_depth(view_of(p), p->pick.position);
+    if (!(pose.focus > 0)) {
+        work_say(p->work, "what is picked lies behind the camera");
+        return;
+    }
+    jump(p, &pose);
+    snprintf(text, sizeof text, "sharp %.4g away%s", pose.focus,
+             pose.aperture > 0 ? "" : " once the lens is open: }");
+    work_say(p->work, text);
+}
+
+/* ---- numbered views ---- */
+
+static void keep_view(struct pilot *p, int number)
+{
+    struct view *v = view_of(p);
+    char text[TEXT_BYTES];
+
+    v->shots[number - 1] = view_pose(v);
+    v->has_shot[number - 1] = true;
+    snprintf(text, sizeof text, "this is view %d: c writes it to the view file",
+             number);
+    work_say(p->work, text);
+}
+
+static void go_to_view(struct pilot *p, int number)
+{
+    char text[TEXT_BYTES];
+
+    if (!view_of(p)->has_shot[number - 1]) {
+        snprintf(text, sizeof text, "no view %d yet: k %d makes this one so",
+                 number, number);
+    } else if (may_jump(p)) {
+        jump(p, &view_of(p)->shots[number - 1]);
+        snprintf(text, sizeof text, "view %d", number);
+    } else {
+        return;
+    }
+    work_say(p->work, text);
+}
+
+static void use_number(struct pilot *p, enum action action)
+{
+    int number = (int)action - ACTION_VIEW_1 + 1;
+
+    if (p->is_keeping)
+        keep_view(p, number);
+    else
+        go_to_view(p, number);
+    p->is_keeping = false;
+}
+
+/* ---- all of it ---- */
+
+bool pilot_act(struct pilot *p, enum action action)
+{
+    const struct move *move = find_move(action);
+
+    if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9) {
+        use_number(p, action);
+        return true;
+    }
+    p->is_keeping = false;
+    if (p->canvas->has_cursor && act_on_cursor(p, action))
+        return true;
+    if (move) {
+        press(p, move);
+        return true;
+    }
+    switch (action) {
+    case ACTION_FASTER: change_speed(p, 1); break;
+    case ACTION_SLOWER: change_speed(p, -1); break;
+    case ACTION_CURSOR: set_cursor(p, true); break;
+    case ACTION_CANCEL: break;
+    case ACTION_ORBIT: switch_orbit(p); break;
+    case ACTION_FRAME: frame(p, false); break;
+    case ACTION_FRAME_ALL: frame(p, true); break;
+    case ACTION_FOCUS: focus(p); break;
+    case ACTION_UNDO: travel(p, true); break;
+    case ACTION_REDO: travel(p, false); break;
+    case ACTION_RESET: reset(p); break;
+    case ACTION_KEEP:
+        p->is_keeping = true;
+        work_say(p->work, "which number for this view: 1 to 9?");
+        break;
+    default: return false;
+    }
+    return true;
+}
+
+static void wheel(struct pilot *p, bool is_up, bool is_modified)
+{
+    if (is_modified)
+        press(p, find_move(is_up ? ACTION_NARROWER : ACTION_WIDER));
+    else
+        change_speed(p, is_up ? 1 : -1);
+}
+
+static void drag(struct pilot *p, const struct event *event)
+{
+    struct view *v = view_of(p);
+    struct pose before = view_pose(v);
+
+    if (!work_may_move(p->work) ||
+        !steer_mouse(&p->steer, v, event, &p->canvas->fit, v->width_px,
+                     v->height_px))
+        return;
+    if (p->drag_is_new)
+        history_add(&p->history, &before);
+    p->drag_is_new = false;
+    p->held = ACTION_NONE;
+    p->work->must_restart = true;
+}
+
+static void click(struct pilot *p, const struct event *event)
+{
+    struct pick pick;
+
+    if (pick_cell(p, event->x - 1, event->y - 1, &pick)) {
+        set_cursor(p, false);
+        set_pick(p, &pick);
+    }
+}
+
+void pilot_mouse(struct pilot *p, const struct event *event)
+{
+    struct view *v = view_of(p);
+
+    switch (event->mouse) {
+    case MOUSE_WHEEL_UP: wheel(p, true, event->is_modified); break;
+    case MOUSE_WHEEL_DOWN: wheel(p, false, event->is_modified); break;
+    case MOUSE_DRAG: drag(p, event); break;
+    case MOUSE_PRESS:
+        p->drag_is_new = true;
+        if (steer_orbits(&p->steer, event) && !p->steer.is_orbiting)
+            find_pivot(p);
+        steer_mouse(&p->steer, v, event, &p->canvas->fit, v->width_px,
+                    v->height_px);
+        break;
+    case MOUSE_RELEASE:
+        if (p->steer.is_dragging && !p->steer.has_dragged && event->button == 0)
+            click(p, event);
+        p->steer.is_dragging = false;
+        break;
+    case MOUSE_OTHER: break;
+    }
+}
+
+void pilot_step(struct pilot *p, uint64_t now_ns)
+{
+    if (now_ns >= motion_next_ns(&p->steer.motion) &&
+        steer_step(&p->steer, view_of(p), now_ns)) {
+        p->work->must_restart = true;
+        p->must_look = p->canvas->has_cursor;
+        say_lens(p);
+    }
+    if (p->must_look)
+        say_under_cursor(p);
+}
+
+uint64_t pilot_next_ns(const struct pilot *p)
+{
+    return motion_next_ns(&p->steer.motion);
+}
+
+void pilot_free(struct pilot *p)
+{
+    history_free(&p->history);
+}

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+# Keys and mouse turn around what is picked, as far from it as before.
+lamp_scene
+# Distance of the eye from the point (0, 0, 0), and its x, after keys.
+orbited()
+{
+    rm -f lamp.view
+    keys c
+    wait_until test -s lamp.view
+    awk -v sign="$1" '$1 == "eye" {
+        d = sqrt($2 * $2 + $3 * $3 + $4 * $4) - 5
+        ok = d < 1e-3 && d > -1e-3 && sign * $2 > 0.1
+    } END { exit !ok }' lamp.view || {
+        cat lamp.view
+        die "expected an eye 5 from the origin, $1"
+    }
+}
+start --cell-aspect 2 lamp.obj
+wait_for "▀"
+keys o
+wait_for "orbit the middle"
+keys Right Right Right
+orbited 1
+keys o
+wait_for "look around"
+keys u
+wait_for "undone"
+# the right button does so without the mode, and a plain one within it
+raw_keys "$(printf '\033[<2;20;10M\033[<34;30;10M\033[<2;30;10m')"
+orbited -1
+keys r
+wait_for "as it was opened"
+keys o
+raw_keys "$(printf '\033[<0;30;10M\033[<32;20;10M\033[<0;20;10m')"
+orbited 1
+wait_for "LIVE orbit"
+keys q
+expect_end 0
