@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/color.h"
 #include "glim/image.h"
 #include "glim/obj.h"
 #include "glim/textures.h"
@@ -213,12 +214,8 @@ static bool shines(const struct material *m)
 
 static void fill_linear_of_srgb(float table[256])
 {
-    for (int i = 0; i < 256; i++) {
-        double c = i / 255.0;
-
-        table[i] =
-            (float)(c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
-    }
+    for (int i = 0; i < 256; i++)
+        table[i] = (float)color_decoded(i / 255.0);
 }
 
 bool scene_find_used(struct scene *scene, struct error *err)

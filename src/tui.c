@@ -590,6 +590,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
     if (ok) {
         if (s->notice[0] != '\0')
             work_say_long(&t.work, s->notice);
+        s->notice[0] = '\0';
         /* not before: it puts back the signals that it has found */
         if (s->options->backend != BACKEND_CPU)
             work_begin_device(&t.work);
