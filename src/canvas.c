@@ -15,8 +15,9 @@
 #define DRAIN_NS UINT64_C(500000000)
 
 /* A smaller window has no room for a picture and a word about it. */
-#define COLS_MIN 40
-#define ROWS_MIN 12
+#define COLS_MIN   40
+#define PANEL_COLS 38 /* or half of a narrow window */
+#define ROWS_MIN   12
 
 static enum palette palette_of_option(enum color_mode mode)
 {
@@ -70,6 +71,7 @@ static void free_sized(struct canvas *c)
     cells_free(&c->cells);
     frame_free(&c->frame);
     ansi_free(&c->ansi);
+    swatches_free(&c->swatches);
 }
 
 static void say_too_small(const struct term_size *size)
@@ -111,13 +113,18 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
         say_too_small(&size);
         return true;
     }
-    c->fit =
-        cells_fit(width_px, height_px, size.cols, rows, cell_aspect(c, &size));
+    c->panel_cols = !c->has_panel                ? 0
+                    : size.cols < 2 * PANEL_COLS ? size.cols / 2
+                                                 : PANEL_COLS;
+    c->fit = cells_fit(width_px, height_px, size.cols - c->panel_cols, rows,
+                       cell_aspect(c, &size));
     c->cursor_col = c->cursor_col < c->fit.cols ? c->cursor_col : 0;
     c->cursor_row = c->cursor_row < c->fit.rows ? c->cursor_row : 0;
     return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
            frame_init(&c->frame, c->fit.cols, 2 * c->fit.rows, err) &&
-           ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err);
+           ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err) &&
+           (c->panel_cols == 0 ||
+            swatches_init(&c->swatches, size.rows - 1, err));
 }
 
 static bool take_cell_size(struct canvas *c, const struct event *event)
@@ -187,6 +194,23 @@ void canvas_status(struct canvas *c, const char *text)
     c->must_update = true;
 }
 
+void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
+                       int line_count)
+{
+    term_show_panel(panel_lines, line_count, c->panel_cols);
+    c->has_new_panel = true;
+    c->must_update = true;
+}
+
+/* Curses has written the panel anew, with blanks for the swatches. */
+static void write_swatches(struct canvas *c)
+{
+    struct swatches *s = &c->swatches;
+
+    swatches_draw(s, c->palette, term_size().cols - c->panel_cols + 2, 0);
+    term_write(s->ansi.bytes, s->ansi.length);
+}
+
 void canvas_open_window(struct canvas *c, const char *title,
                         const char *const *texts, int text_count)
 {
@@ -251,6 +275,9 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         if (has_sync)
             term_write(SYNC_BEGIN, sizeof SYNC_BEGIN - 1);
         term_update();
+        if (c->panel_cols > 0 && c->has_new_panel)
+            write_swatches(c);
+        c->has_new_panel = false;
         c->must_update = false;
     }
     ansi_begin(a);

@@ -201,7 +201,7 @@ static void set_pick(struct pilot *p, const struct pick *pick)
     char text[TEXT_BYTES];
 
     p->pick = *pick;
-    p->has_pick = true;
+    p->has_pick = p->is_pick_new = true;
     memcpy(p->steer.pivot, pick->position, sizeof p->steer.pivot);
     describe(p, pick, " (o orbit, f focus, z frame)", text);
     work_say(p->work, text);

@@ -46,6 +46,7 @@ static struct {
     struct termios before;
     SCREEN *screen;
     WINDOW *window;
+    WINDOW *panel;
     bool has_mouse;
     bool has_sync;
     bool may_ask_colors; /* a terminal that swallows what it cannot answer */
@@ -275,9 +276,8 @@ void term_close(bool is_gone)
     }
     is_open = 0;
     xmalloc_set_hook(NULL);
-    if (term.window)
-        delwin(term.window);
-    term.window = NULL;
+    term_close_window();
+    term_hide_panel();
     if (!is_gone)
         tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
     delscreen(term.screen);
@@ -410,6 +410,7 @@ void term_relayout(void)
         w.ws_row > 0)
         resizeterm(w.ws_row, w.ws_col);
     term_close_window();
+    term_hide_panel();
     erase();
     clearok(curscr, TRUE);
 }
@@ -483,6 +484,48 @@ void term_close_window(void)
     touchwin(stdscr);
 }
 
+static int attribute_of(enum term_look look)
+{
+    switch (look) {
+    case TERM_SELECTED: return A_REVERSE;
+    case TERM_TITLE: return A_BOLD;
+    case TERM_HINT: return A_DIM;
+    case TERM_PLAIN: break;
+    }
+    return A_NORMAL;
+}
+
+struct term_rect term_show_panel(const struct term_line *panel_lines,
+                                 int line_count, int cols)
+{
+    struct term_rect r = {COLS - cols, 0, cols, LINES - 1};
+
+    if (!term.panel)
+        term.panel = newwin(r.rows, r.cols, r.row, r.col);
+    if (!term.panel)
+        return (struct term_rect){0};
+    werase(term.panel);
+    mvwvline(term.panel, 0, 0, 0, r.rows);
+    for (int i = 0; i < line_count && i < r.rows; i++) {
+        wattrset(term.panel, attribute_of(panel_lines[i].look));
+        mvwprintw(term.panel, i, 1, "%-*.*s", cols - 1, cols - 1,
+                  panel_lines[i].text);
+    }
+    wattrset(term.panel, A_NORMAL);
+    /* the picture and swatches were written past curses */
+    redrawwin(term.panel);
+    return r;
+}
+
+void term_hide_panel(void)
+{
+    if (!term.panel)
+        return;
+    delwin(term.panel);
+    term.panel = NULL;
+    touchwin(stdscr);
+}
+
 void term_notice(const char *text)
 {
     int length = (int)strlen(text);
@@ -498,10 +541,15 @@ void term_update(void)
 {
     move(LINES - 1, 0);
     wnoutrefresh(stdscr);
+    if (term.panel) {
+        touchwin(term.panel);
+        wnoutrefresh(term.panel);
+    }
     if (term.window) {
         touchwin(term.window);
         wnoutrefresh(term.window);
-        wnoutrefresh(stdscr); /* nothing but its cursor */
     }
+    if (term.panel || term.window)
+        wnoutrefresh(stdscr); /* nothing but its cursor */
     doupdate();
 }

@@ -10,6 +10,7 @@
 
 #include "glim/canvas.h"
 #include "glim/help.h"
+#include "glim/panel.h"
 #include "glim/pilot.h"
 #include "glim/version.h"
 #include "glim/work.h"
@@ -42,7 +43,8 @@
 enum question {
     QUESTION_NONE,
     QUESTION_QUIT,
-    QUESTION_LIVE /* leave normal mode */
+    QUESTION_EDIT, /* quit without what was edited */
+    QUESTION_LIVE  /* leave normal mode */
 };
 
 struct tui {
@@ -50,6 +52,7 @@ struct tui {
     struct canvas canvas;
     struct input input;
     struct pilot pilot;
+    struct panel panel;
     bool has_mouse;
     int help_number; /* the page that is shown, */
     int help_left;   /* with those behind it; 0: no help */
@@ -91,10 +94,12 @@ static void layout(struct tui *t)
 
     t->help_left = 0;
     refresh_soon(t);
+    t->canvas.has_panel = t->panel.is_open;
     if (!canvas_layout(&t->canvas, film->width, film->height, &err)) {
         t->canvas.is_too_small = true; /* nothing can be drawn */
         work_say_error(&t->work, err.text);
     }
+    panel_draw(&t->panel);
 }
 
 /* ---- help, screen ---- */
@@ -135,12 +140,14 @@ static void close_help(struct tui *t)
 {
     canvas_close_window(&t->canvas);
     t->help_left = 0;
+    panel_draw(&t->panel);
     refresh_soon(t);
 }
 
 static void next_colors(struct tui *t)
 {
     canvas_next_palette(&t->canvas);
+    panel_draw(&t->panel);
     work_say(&t->work, palette_name(t->canvas.palette));
     refresh_soon(t);
 }
@@ -185,12 +192,49 @@ static void change_mode(struct tui *t)
 
 static void quit(struct tui *t)
 {
+    const struct edit *edit = &t->work.session->edit;
+
     if (!work_finish_saving(&t->work))
         return;
     if (work_has_unsaved(&t->work))
         ask(t, QUESTION_QUIT);
+    else if (edit_has_unsaved_materials(edit) || edit_has_unsaved_view(edit))
+        ask(t, QUESTION_EDIT);
     else
         end(t, 0);
+}
+
+/* ---- the panel ---- */
+
+static void open_panel(struct tui *t)
+{
+    if (t->pilot.has_pick)
+        panel_select(&t->panel, &t->pilot.pick);
+    panel_open(&t->panel);
+    layout(t);
+}
+
+/* What was picked while the panel is open is selected in it. */
+static void follow_pick(struct tui *t)
+{
+    if (t->pilot.is_pick_new && t->panel.is_open) {
+        panel_select(&t->panel, &t->pilot.pick);
+        panel_draw(&t->panel);
+    }
+    t->pilot.is_pick_new = false;
+}
+
+/* The cursor on the picture has its keys first. */
+static bool panel_takes(struct tui *t, int key)
+{
+    if (!t->panel.is_open || (t->canvas.has_cursor && !t->panel.is_typing) ||
+        !panel_key(&t->panel, key))
+        return false;
+    if (!t->panel.is_open)
+        layout(t);
+    else
+        panel_draw(&t->panel);
+    return true;
 }
 
 static void act(struct tui *t, enum action action)
@@ -210,6 +254,7 @@ static void act(struct tui *t, enum action action)
     case ACTION_COLORS: next_colors(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
     case ACTION_REDRAW: layout(t); break;
+    case ACTION_PANEL: open_panel(t); break;
     case ACTION_HELP: open_help(t, 0); break;
     case ACTION_QUIT: quit(t); break;
     case ACTION_INTERRUPT: end(t, 128 + SIGINT); break;
@@ -224,13 +269,16 @@ static void answer_question(struct tui *t, int key)
     enum question question = t->question;
 
     ask(t, QUESTION_NONE);
-    if (key == 'p' || key == 'P') {
+    if (question == QUESTION_EDIT && (key == 's' || key == 'S')) {
+        if (work_save_edit(&t->work))
+            quit(t);
+    } else if (question != QUESTION_EDIT && (key == 'p' || key == 'P')) {
         work_save_picture(&t->work);
     } else if (key == 'y' || key == 'Y') {
-        if (question == QUESTION_QUIT)
-            end(t, 0);
-        else
+        if (question == QUESTION_LIVE)
             set_live(t, true);
+        else
+            end(t, 0);
     }
 }
 
@@ -252,8 +300,11 @@ static void take_key(struct tui *t, int key)
         open_help(t, t->help_number + 1);
     else if (t->help_left > 0)
         close_help(t);
-    else if (!t->canvas.is_too_small || action == ACTION_QUIT)
+    else if (t->canvas.is_too_small && action != ACTION_QUIT)
+        return;
+    else if (!panel_takes(t, key))
         act(t, action);
+    follow_pick(t);
 }
 
 static void take_event(struct tui *t, const struct event *event)
@@ -266,6 +317,7 @@ static void take_event(struct tui *t, const struct event *event)
     } else if (event->kind == EVENT_MOUSE) {
         if (t->has_mouse && t->help_left == 0 && !t->canvas.is_too_small)
             pilot_mouse(&t->pilot, event);
+        follow_pick(t);
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);
@@ -348,6 +400,8 @@ static void update_status(struct tui *t, uint64_t now_ns)
     static const char *const questions[] = {
         [QUESTION_QUIT] =
             "The render is not saved. Quit? y: yes, p: save it, other: no",
+        [QUESTION_EDIT] = "Changes of materials or light are not saved. Quit? "
+                          "y: yes, s: save, other: no",
         [QUESTION_LIVE] =
             "The render is not saved. Leave it? y: yes, p: save it, other: no",
     };
@@ -586,6 +640,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
     if (!work_init(&t.work, s, err))
         return false;
     pilot_init(&t.pilot, &t.work, &t.canvas);
+    panel_init(&t.panel, &t.work, &t.canvas);
     ok = open_screen(&t, err);
     if (ok) {
         if (s->notice[0] != '\0')
@@ -598,6 +653,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
         close_screen(&t);
         *status = t.status;
     }
+    panel_free(&t.panel);
     pilot_free(&t.pilot);
     work_free(&t.work);
     return ok;

@@ -307,6 +307,21 @@ void work_save_view(struct work *w)
     free(text);
 }
 
+bool work_save_edit(struct work *w)
+{
+    struct error err;
+    char *what;
+
+    if (!session_save_edit(w->session, &what, &err)) {
+        work_say_error(w, err.text);
+        return false;
+    }
+    work_say(w, what);
+    add_result(w, what);
+    free(what);
+    return true;
+}
+
 void work_free(struct work *w)
 {
     saver_free(&w->saver);

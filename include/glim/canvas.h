@@ -18,6 +18,7 @@
 #include "glim/options.h"
 #include "glim/pace.h"
 #include "glim/status.h"
+#include "glim/swatches.h"
 #include "glim/term.h"
 
 struct canvas {
@@ -38,8 +39,12 @@ struct canvas {
     struct ansi ansi;
     char status[STATUS_BYTES];
     bool has_status;
-    struct ansi_rect window; /* no columns: closed */
-    bool must_update;        /* curses has something to write */
+    struct ansi_rect window;  /* no columns: closed */
+    bool must_update;         /* curses has something to write */
+    bool has_panel;           /* the next layout leaves room for one */
+    int panel_cols;           /* at the right edge; 0: none */
+    struct swatches swatches; /* of the panel's lines */
+    bool has_new_panel;
     bool has_cursor;
     int cursor_col, cursor_row; /* in the picture */
 };
@@ -60,6 +65,11 @@ void canvas_next_palette(struct canvas *c);
 
 /* The text of the last row; NULL: none, the picture shows there. */
 void canvas_status(struct canvas *c, const char *text);
+
+/* Shows lines in the panel that the layout has left room for; c->swatches
+ * stand left of them. */
+void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
+                       int line_count);
 
 void canvas_open_window(struct canvas *c, const char *title,
                         const char *const *texts, int text_count);

@@ -54,6 +54,7 @@ enum action {
     ACTION_VIEW_8,
     ACTION_VIEW_9,
     ACTION_SAVE_VIEW,
+    ACTION_PANEL,
     ACTION_MODE,
     ACTION_START,
     ACTION_SAVE,

@@ -32,8 +32,9 @@ struct pilot {
     bool drag_is_new; /* no step of undo yet */
     struct pick pick;
     bool has_pick;
-    bool must_look;  /* what is under the cursor is not yet said */
-    bool is_keeping; /* the next key says the number of a view */
+    bool is_pick_new; /* whom it concerns clears it */
+    bool must_look;   /* what is under the cursor is not yet said */
+    bool is_keeping;  /* the next key says the number of a view */
 };
 
 void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas);

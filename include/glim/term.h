@@ -85,6 +85,19 @@ struct term_rect term_open_window(const char *title, const char *const *texts,
                                   int text_count);
 void term_close_window(void);
 
+enum term_look { TERM_PLAIN, TERM_SELECTED, TERM_TITLE, TERM_HINT };
+
+struct term_line {
+    char text[64];
+    enum term_look look;
+};
+
+/* Lines at the right edge, cols wide with a bar at their left, down to the row
+ * above the last; where they are. Shown in place of those before. */
+struct term_rect term_show_panel(const struct term_line *panel_lines,
+                                 int line_count, int cols);
+void term_hide_panel(void);
+
 /* Text in the middle of an empty screen. */
 void term_notice(const char *text);
 

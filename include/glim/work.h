@@ -91,6 +91,9 @@ bool work_finish_saving(struct work *w);
 
 void work_save_view(struct work *w);
 
+/* Writes changed materials and light to their files. False if that failed. */
+bool work_save_edit(struct work *w);
+
 void work_free(struct work *w);
 
 #endif
