@@ -15,9 +15,12 @@
 #define DRAIN_NS UINT64_C(500000000)
 
 /* A smaller window has no room for a picture and a word about it. */
-#define COLS_MIN   40
-#define PANEL_COLS 38 /* or half of a narrow window */
-#define ROWS_MIN   12
+#define COLS_MIN 40
+#define ROWS_MIN 12
+
+/* The panel, and what it leaves of a narrow window. */
+#define PANEL_COLS   38
+#define PICTURE_COLS 12
 
 static enum palette palette_of_option(enum color_mode mode)
 {
@@ -95,6 +98,11 @@ static double cell_aspect(const struct canvas *c, const struct term_size *size)
     return 2;
 }
 
+static int panel_cols(int cols)
+{
+    return cols - PICTURE_COLS < PANEL_COLS ? cols - PICTURE_COLS : PANEL_COLS;
+}
+
 bool canvas_layout(struct canvas *c, int width_px, int height_px,
                    struct error *err)
 {
@@ -107,15 +115,14 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     rows = size.rows - (c->has_status_row ? 1 : 0);
     c->window = (struct ansi_rect){0};
     c->has_status = false;
+    c->has_new_panel = false;
     c->must_update = true;
     c->is_too_small = size.cols < COLS_MIN || size.rows < ROWS_MIN;
     if (c->is_too_small) {
         say_too_small(&size);
         return true;
     }
-    c->panel_cols = !c->has_panel                ? 0
-                    : size.cols < 2 * PANEL_COLS ? size.cols / 2
-                                                 : PANEL_COLS;
+    c->panel_cols = c->has_panel ? panel_cols(size.cols) : 0;
     c->fit = cells_fit(width_px, height_px, size.cols - c->panel_cols, rows,
                        cell_aspect(c, &size));
     c->cursor_col = c->cursor_col < c->fit.cols ? c->cursor_col : 0;
@@ -203,12 +210,17 @@ void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
 }
 
 /* Curses has written the panel anew, with blanks for the swatches. */
-static void write_swatches(struct canvas *c)
+static bool write_swatches(struct canvas *c)
 {
     struct swatches *s = &c->swatches;
+    struct term_size size = term_size();
 
-    swatches_draw(s, c->palette, term_size().cols - c->panel_cols + 2, 0);
-    term_write(s->ansi.bytes, s->ansi.length);
+    if (!c->has_new_panel)
+        return true;
+    c->has_new_panel = false;
+    swatches_draw(s, c->palette, size.cols - c->panel_cols + 2, 0,
+                  size.rows - 1);
+    return term_write(s->ansi.bytes, s->ansi.length);
 }
 
 void canvas_open_window(struct canvas *c, const char *title,
@@ -275,9 +287,8 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         if (has_sync)
             term_write(SYNC_BEGIN, sizeof SYNC_BEGIN - 1);
         term_update();
-        if (c->panel_cols > 0 && c->has_new_panel)
-            write_swatches(c);
-        c->has_new_panel = false;
+        if (!write_swatches(c))
+            return CANVAS_GONE;
         c->must_update = false;
     }
     ansi_begin(a);

@@ -62,7 +62,8 @@ static int find_gaps(const struct swatches *s, struct ansi_rect *gaps)
     return count;
 }
 
-void swatches_draw(struct swatches *s, enum palette palette, int col, int row)
+void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
+                   int end_row)
 {
     struct ansi_rect *gaps = xcalloc((size_t)s->cells.rows, sizeof *gaps);
     struct ansi_draw how = {.col = col,
@@ -75,6 +76,6 @@ void swatches_draw(struct swatches *s, enum palette palette, int col, int row)
     ansi_forget_all(&s->ansi);
     cells_from_frame(&s->cells, &s->frame, palette, GLYPHS_SPACE);
     ansi_picture(&s->ansi, &s->cells, &how);
-    ansi_end(&s->ansi, row);
+    ansi_end(&s->ansi, end_row);
     free(gaps);
 }

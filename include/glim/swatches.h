@@ -31,7 +31,9 @@ void swatches_clear(struct swatches *s);
 void swatches_set(struct swatches *s, int row, const double rgb[3]);
 
 /* All of them as what a terminal is sent, with the upper left cell at
- * (col, row) of the screen: s->ansi.bytes, s->ansi.length. */
-void swatches_draw(struct swatches *s, enum palette palette, int col, int row);
+ * (col, row) of the screen and the cursor in end_row at the end:
+ * s->ansi.bytes, s->ansi.length. */
+void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
+                   int end_row);
 
 #endif
