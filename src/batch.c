@@ -214,18 +214,17 @@ static bool save_picture(struct session *s, char **name, struct error *err)
 {
     const struct options *o = s->options;
     struct film *film = render_film(s->render);
-    float exposure = (float)s->view.exposure;
+    struct develop how = session_develop(s);
     char *stem;
 
     if (o->output_path) {
         *name = xstrdup(is_standard_output(o->output_path) ? "standard output"
                                                            : o->output_path);
-        return picture_write(film, exposure, o->output_path, err);
+        return picture_write(film, how, o->output_path, err);
     }
     stem = path_stem(o->scene_path);
     const char *slash = strrchr(stem, '/');
-    *name =
-        picture_write_numbered(film, exposure, slash ? slash + 1 : stem, err);
+    *name = picture_write_numbered(film, how, slash ? slash + 1 : stem, err);
     free(stem);
     return *name != NULL;
 }

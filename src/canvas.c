@@ -243,32 +243,32 @@ void canvas_close_window(struct canvas *c)
 }
 
 /* Appends what changed in the picture; false if the budget was too small. */
-static bool add_picture(struct canvas *c, struct film *film, float exposure,
+static bool add_picture(struct canvas *c, struct film *film, struct develop how,
                         int step)
 {
     struct ansi_rect covered[2] = {c->window};
-    struct ansi_draw how = {.col = c->fit.col,
-                            .row = c->fit.row,
-                            .budget_bytes = c->pace.budget_bytes,
-                            .step = step,
-                            .covered = covered,
-                            .covered_count = 1};
+    struct ansi_draw draw = {.col = c->fit.col,
+                             .row = c->fit.row,
+                             .budget_bytes = c->pace.budget_bytes,
+                             .step = step,
+                             .covered = covered,
+                             .covered_count = 1};
 
     if (c->has_status && !c->has_status_row) {
         covered[1] = (struct ansi_rect){0, term_size().rows - 1 - c->fit.row,
                                         c->fit.cols, 1};
-        how.covered_count = 2;
+        draw.covered_count = 2;
     }
-    film_preview(film, exposure, &c->frame);
+    film_preview(film, how, &c->frame);
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     if (c->has_cursor)
         cells_mark(&c->cells, c->cursor_col, c->cursor_row);
-    return ansi_picture(&c->ansi, &c->cells, &how);
+    return ansi_picture(&c->ansi, &c->cells, &draw);
 }
 
 /* One write() a frame; one more before curses writes its part. */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               float exposure, int step)
+                               struct develop how, int step)
 {
     struct ansi *a = &c->ansi;
     bool has_sync = term_has_sync();
@@ -296,7 +296,7 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         ansi_text(a, SYNC_BEGIN);
     before = a->length;
     if (film)
-        is_complete = add_picture(c, film, exposure, step);
+        is_complete = add_picture(c, film, how, step);
     if (a->length == before && !has_updated)
         return is_complete ? CANVAS_DONE : CANVAS_MORE;
     asks = a->length > before && pace_wants_request(&c->pace);

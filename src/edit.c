@@ -119,6 +119,7 @@ void edit_init(struct edit *e, const struct scene *scene,
         .sky_strength = view->sky_strength,
         .sky_rotation_deg = view->sky_rotation_deg,
         .exposure = view->exposure,
+        .tone = view->tone,
     };
     memcpy(e->now.mood.background, view->background, sizeof view->background);
     free_state(&e->saved);
@@ -221,7 +222,7 @@ static bool moods_equal(const struct mood *a, const struct mood *b)
            a->has_background == b->has_background && a->sky == b->sky &&
            a->sky_strength == b->sky_strength &&
            a->sky_rotation_deg == b->sky_rotation_deg &&
-           a->exposure == b->exposure;
+           a->exposure == b->exposure && a->tone == b->tone;
 }
 
 void edit_mood(struct edit *e, const struct mood *mood)
@@ -394,6 +395,7 @@ void edit_to_view(const struct edit *e, const struct edit_state *s,
     view->sky_strength = m->sky_strength;
     view->sky_rotation_deg = m->sky_rotation_deg;
     view->exposure = m->exposure;
+    view->tone = m->tone;
     free(view->sky_path);
     view->sky_path = m->sky != 0 ? xstrdup(e->skies.items[m->sky]) : NULL;
     write_assigns(e, s, scene, &view->assigns);

@@ -199,15 +199,19 @@ static float exposure_factor(float stops)
     return exp2f(f_max(-126.0f, f_min(stops, 126.0f)));
 }
 
-static void expose(const float *rgb, float factor, uint8_t *bytes)
+static void expose(const float *rgb, float factor, uint32_t tone,
+                   uint8_t *bytes)
 {
+    float shown[3] = {rgb[0] * factor, rgb[1] * factor, rgb[2] * factor};
+
+    tone_curve(tone, shown);
     for (int c = 0; c < 3; c++)
-        bytes[c] = (uint8_t)srgb_byte(rgb[c] * factor);
+        bytes[c] = (uint8_t)srgb_byte(shown[c]);
 }
 
-void film_resolve(struct film *f, float exposure, struct frame *frame)
+void film_resolve(struct film *f, struct develop how, struct frame *frame)
 {
-    float factor = exposure_factor(exposure);
+    float factor = exposure_factor(how.exposure);
     float rgb[3 * RUN];
 
     for (int y = 0; y < f->height; y++) {
@@ -216,7 +220,7 @@ void film_resolve(struct film *f, float exposure, struct frame *frame)
 
             linear_run(f, x, y, count, rgb);
             for (int i = 0; i < count; i++)
-                expose(rgb + 3 * i, factor,
+                expose(rgb + 3 * i, factor, how.tone,
                        frame->rgb + 3 * pixel_index(f, x + i, y));
         }
     }
@@ -243,8 +247,8 @@ static void span_of(int i, int n, int length, int *begin, int *end)
 }
 
 /* Pixels i0 .. i0 + count - 1 of row j of the frame. */
-static void preview_run(struct film *f, float factor, struct frame *frame,
-                        int i0, int j, int count)
+static void preview_run(struct film *f, float factor, uint32_t tone,
+                        struct frame *frame, int i0, int j, int count)
 {
     struct total totals[RUN] = {0};
     int x0, x1, y0, y1;
@@ -271,19 +275,19 @@ static void preview_run(struct film *f, float factor, struct frame *frame,
             mean_of(totals[i].sums, totals[i].count, rgb);
         else
             coarse_mean(f, (x0 + x1) / 2, (y0 + y1) / 2, rgb);
-        expose(rgb, factor, frame->rgb + 3 * at);
+        expose(rgb, factor, tone, frame->rgb + 3 * at);
     }
 }
 
-void film_preview(struct film *f, float exposure, struct frame *frame)
+void film_preview(struct film *f, struct develop how, struct frame *frame)
 {
-    float factor = exposure_factor(exposure);
+    float factor = exposure_factor(how.exposure);
 
     for (int j = 0; j < frame->height; j++)
         for (int i = 0; i < frame->width; i += RUN) {
             int count = frame->width - i < RUN ? frame->width - i : RUN;
 
-            preview_run(f, factor, frame, i, j, count);
+            preview_run(f, factor, how.tone, frame, i, j, count);
         }
 }
 

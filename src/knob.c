@@ -38,6 +38,7 @@ enum knob_id {
     ID_SKY_STRENGTH,
     ID_SKY_ROTATION,
     ID_EXPOSURE,
+    ID_TONE,
     ID_MAP /* and the others after it */
 };
 
@@ -245,6 +246,8 @@ static void list_mood(struct list *l, const struct edit *e,
         add_channels(l, t, m->background);
     }
     add_scale(l, ID_EXPOSURE, "exposure", &exposure, m->exposure);
+    k = add(l, ID_TONE, "tone");
+    snprintf(k->text, sizeof k->text, "%s", view_tones[m->tone]);
 }
 
 int knobs_list(const struct edit *e, const struct scene *scene,
@@ -344,6 +347,9 @@ static void turn_mood(const struct edit *e, struct mood *m,
         break;
     case ID_EXPOSURE:
         m->exposure = turned(&exposure, m->exposure, steps);
+        break;
+    case ID_TONE:
+        m->tone = (m->tone + (steps > 0 ? 1 : TONES - 1)) % TONES;
         break;
     case ID_CHANNEL:
     case ID_CHANNEL + 1:
@@ -510,6 +516,17 @@ static bool type_material(struct mtl_source *s, const struct knob_target *t,
     }
 }
 
+static bool parse_tone(const char *text, uint32_t *tone, struct error *err)
+{
+    for (uint32_t i = 0; i < TONES; i++) {
+        if (strcmp(text, view_tones[i]) != 0)
+            continue;
+        *tone = i;
+        return true;
+    }
+    return fail(err, "found '%s', expected linear, reinhard or aces", text);
+}
+
 static bool type_mood(struct edit *e, struct mood *m,
                       const struct knob_target *t, int id, const char *text,
                       struct error *err)
@@ -519,6 +536,7 @@ static bool type_mood(struct edit *e, struct mood *m,
     case ID_SKY_STRENGTH: return parse_strength(text, &m->sky_strength, err);
     case ID_SKY_ROTATION:
         return parse_scale(text, &rotation, &m->sky_rotation_deg, err);
+    case ID_TONE: return parse_tone(text, &m->tone, err);
     case ID_EXPOSURE: return parse_scale(text, &exposure, &m->exposure, err);
     default:
         m->has_background = true;

@@ -118,7 +118,7 @@ static bool has_memory(size_t size_bytes)
     return trial != NULL;
 }
 
-static bool encode_png(struct film *film, float exposure, const char *path,
+static bool encode_png(struct film *film, struct develop how, const char *path,
                        struct buffer *b, struct error *err)
 {
     struct frame frame;
@@ -126,7 +126,7 @@ static bool encode_png(struct film *film, float exposure, const char *path,
     if (!expect_size(film, 3, path, err) ||
         !frame_init(&frame, film->width, film->height, err))
         return false;
-    film_resolve(film, exposure, &frame);
+    film_resolve(film, how, &frame);
     size_t size_bytes = 3 * (size_t)frame.width * (size_t)frame.height;
     bool ok = has_memory(size_bytes) &&
               stbi_write_png_to_func(append, b, frame.width, frame.height, 3,
@@ -213,11 +213,11 @@ static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
     return !b->is_cut || out_of_memory(film, path, err);
 }
 
-static bool encode(struct film *film, float exposure, const char *path,
+static bool encode(struct film *film, struct develop how, const char *path,
                    struct buffer *b, struct error *err)
 {
     switch (picture_format_of(path)) {
-    case PICTURE_PNG: return encode_png(film, exposure, path, b, err);
+    case PICTURE_PNG: return encode_png(film, how, path, b, err);
     case PICTURE_HDR: return encode_hdr(film, path, b, err);
     case PICTURE_PFM: return encode_pfm(film, path, b, err);
     case PICTURE_UNKNOWN: break;
@@ -247,11 +247,11 @@ static bool write_stdout(const struct buffer *b, struct error *err)
     return true;
 }
 
-bool picture_write(struct film *film, float exposure, const char *path,
+bool picture_write(struct film *film, struct develop how, const char *path,
                    struct error *err)
 {
     struct buffer b = {.data = NULL};
-    bool ok = encode(film, exposure, path, &b, err);
+    bool ok = encode(film, how, path, &b, err);
 
     if (ok && is_stdout(path))
         ok = write_stdout(&b, err);
@@ -261,13 +261,13 @@ bool picture_write(struct film *film, float exposure, const char *path,
     return ok;
 }
 
-char *picture_write_numbered(struct film *film, float exposure,
+char *picture_write_numbered(struct film *film, struct develop how,
                              const char *stem, struct error *err)
 {
     struct buffer b = {.data = NULL};
     char *path = xformat("%s.png", stem);
     bool exists = false;
-    bool ok = encode(film, exposure, path, &b, err);
+    bool ok = encode(film, how, path, &b, err);
 
     for (int i = 2; ok; i++) {
         struct stat st;

@@ -53,8 +53,7 @@ static void *saver_main(void *argument)
     pthread_cond_signal(&s->copied);
     pthread_mutex_unlock(&s->lock);
     if (ok)
-        s->name =
-            picture_write_numbered(&copy, s->exposure, s->stem, &s->error);
+        s->name = picture_write_numbered(&copy, s->how, s->stem, &s->error);
     film_free(&copy);
     if (write(s->event_fd, &one, sizeof one) < 0) {
         /* the counter is full: it is readable anyway */
@@ -62,7 +61,7 @@ static void *saver_main(void *argument)
     return NULL;
 }
 
-bool saver_begin(struct saver *s, struct film *film, float exposure,
+bool saver_begin(struct saver *s, struct film *film, struct develop how,
                  const char *stem, struct error *err)
 {
     int reason;
@@ -71,7 +70,7 @@ bool saver_begin(struct saver *s, struct film *film, float exposure,
         return fail(err, "%s.png: the picture before is still being saved",
                     stem);
     s->film = film;
-    s->exposure = exposure;
+    s->how = how;
     s->stem = xstrdup(stem);
     s->has_copied = false;
     s->name = NULL;

@@ -201,6 +201,7 @@ bool session_take_edit(struct session *s)
     const struct view *v = &s->view;
 
     s->view.exposure = m->exposure;
+    s->view.tone = m->tone;
     return !scene_is_styled(&s->scene, &style) || s->sky != m->sky ||
            memcmp(v->background, m->background, sizeof v->background) != 0 ||
            v->sky_strength != m->sky_strength ||
@@ -316,6 +317,11 @@ bool session_save_edit(struct session *s, char **what, struct error *err)
                     s->scene.mtl_path_count > 1 ? " and others" : "",
                     has_light ? ", and " : "", has_light ? s->view_path : "");
     return true;
+}
+
+struct develop session_develop(const struct session *s)
+{
+    return (struct develop){(float)s->view.exposure, s->view.tone};
 }
 
 bool session_uses_device(const struct session *s)

@@ -476,7 +476,7 @@ static void draw(struct tui *t, uint64_t now_ns)
     if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
         return;
     result = canvas_draw(c, shows ? render_film(t->work.session->render) : NULL,
-                         (float)t->work.session->view.exposure, frame_step(t));
+                         session_develop(t->work.session), frame_step(t));
     if (result == CANVAS_GONE) {
         lose_terminal(t);
     } else if (shows) {

@@ -37,6 +37,7 @@ enum key_id {
     KEY_FOCUS,
     KEY_EXPOSURE,
     KEY_SKY,    /* has a name */
+    KEY_TONE,   /* has a name */
     KEY_ASSIGN, /* has two names */
     KEY_VIEW    /* has a number and other keys */
 };
@@ -73,8 +74,15 @@ static const struct key {
     {"focus", KEY_FOCUS, 1, false, 0, GREATEST, "a number from 0 to 1e30"},
     {"exposure", KEY_EXPOSURE, 1, false, -100, 100,
      "a number of stops from -100 to 100"},
+    {"tone", KEY_TONE, 0, false, 0, 0, "linear, reinhard or aces"},
     {"assign", KEY_ASSIGN, 0, false, 0, 0, "two names"},
     {"view", KEY_VIEW, 1, true, 1, VIEW_SHOTS, "a number from 1 to 9"},
+};
+
+const char *const view_tones[TONES] = {
+    [TONE_LINEAR] = "linear",
+    [TONE_REINHARD] = "reinhard",
+    [TONE_ACES] = "aces",
 };
 
 #define KEY_COUNT (sizeof keys / sizeof keys[0])
@@ -146,6 +154,7 @@ static void store(struct view *view, enum key_id id, const double *v)
     case KEY_FOCUS: view->focus = v[0]; break;
     case KEY_EXPOSURE: view->exposure = v[0]; break;
     case KEY_SKY:
+    case KEY_TONE:
     case KEY_ASSIGN:
     case KEY_VIEW: break;
     }
@@ -251,6 +260,22 @@ static bool read_key(struct reader *r, const struct key *key, struct error *err)
     return true;
 }
 
+static bool read_tone(struct reader *r, const struct key *key,
+                      struct error *err)
+{
+    struct word name = {.length = 0};
+
+    if (!lex_at_line_end(&r->lex))
+        name = lex_word(&r->lex);
+    for (uint32_t i = 0; i < TONES; i++) {
+        if (!word_is(name, view_tones[i]) || !lex_at_line_end(&r->lex))
+            continue;
+        r->view->tone = i;
+        return true;
+    }
+    return fail_at(r, name, key->expected, key->name, err);
+}
+
 static bool read_assign(struct reader *r, struct error *err)
 {
     uint64_t line = r->lex.line;
@@ -270,6 +295,8 @@ static bool read_line(struct reader *r, struct error *err)
     const struct key *key = find_key(name);
     if (key && key->id == KEY_SKY)
         return read_sky(r, err);
+    if (key && key->id == KEY_TONE)
+        return read_tone(r, key, err);
     if (key && key->id == KEY_ASSIGN)
         return read_assign(r, err);
     if (key && key->id == KEY_VIEW)
@@ -435,6 +462,10 @@ static void write_key(FILE *to, const struct view *v, enum key_id id,
     case KEY_EXPOSURE:
         if (v->exposure < 0 || v->exposure > 0)
             write_line(to, "exposure", &v->exposure, 1);
+        break;
+    case KEY_TONE:
+        if (v->tone != TONE_LINEAR)
+            fprintf(to, "tone %s\n", view_tones[v->tone]);
         break;
     case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
     case KEY_VIEW: write_shots(to, v); break;

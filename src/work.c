@@ -252,7 +252,7 @@ void work_save_picture(struct work *w)
     }
     stem = picture_stem(w);
     if (saver_begin(&w->saver, render_film(w->session->render),
-                    (float)w->session->view.exposure, stem, &err)) {
+                    session_develop(w->session), stem, &err)) {
         w->saving_samples = w->is_started ? now.samples : 0;
         snprintf(w->saving_spp, sizeof w->saving_spp, "%" PRIu64 " spp",
                  now.spp_done);

@@ -84,7 +84,7 @@ enum canvas_result {
 /* Writes what has changed, and the film's picture if there is one. Call it only
  * if pace_may_send(). */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               float exposure, int step);
+                               struct develop how, int step);
 
 /* Waits for answers on their way, half a second at most: they would be typed
  * into the shell. Keys pressed meanwhile are lost. */

@@ -24,6 +24,7 @@ struct mood {
     uint32_t sky; /* of the edit's skies; 0: none */
     double sky_strength, sky_rotation_deg;
     double exposure;
+    uint32_t tone;
 };
 
 struct edit_state {

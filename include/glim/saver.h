@@ -24,7 +24,7 @@ struct saver {
     pthread_t thread;
     /* set before the thread starts */
     struct film *film;
-    float exposure;
+    struct develop how;
     char *stem;
     /* guarded by lock */
     pthread_mutex_t lock;
@@ -39,7 +39,7 @@ bool saver_init(struct saver *s, struct error *err);
 
 /* Begins to save as STEM.png, or the next free name. False if another picture
  * is being saved, or no thread can start. */
-bool saver_begin(struct saver *s, struct film *film, float exposure,
+bool saver_begin(struct saver *s, struct film *film, struct develop how,
                  const char *stem, struct error *err);
 
 /* Blocks until the film may be cleared: some milliseconds at most for pictures

@@ -54,6 +54,9 @@ bool session_take_edit(struct session *s);
  * line about it, for free(). What was written before an error is saved. */
 bool session_save_edit(struct session *s, char **what, struct error *err);
 
+/* As view and edit say. */
+struct develop session_develop(const struct session *s);
+
 /* True if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);
 

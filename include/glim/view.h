@@ -15,6 +15,7 @@
 #include "glim/assign.h"
 #include "glim/report.h"
 #include "glim/util.h"
+#include "kernels/tone.h"
 
 /* Views that have a number: 1 to 9 in the file, from 0 here. */
 #define VIEW_SHOTS 9
@@ -44,8 +45,12 @@ struct view {
     double exposure; /* stops: the picture is multiplied by 2^exposure */
     struct pose shots[VIEW_SHOTS]; /* the numbered views */
     bool has_shot[VIEW_SHOTS];
+    uint32_t tone; /* enum tone */
     struct assigns assigns;
 };
+
+/* Names of enum tone in the file. */
+extern const char *const view_tones[TONES];
 
 /* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
 void view_init(struct view *view);
