@@ -6,7 +6,7 @@ BINDIR ?= $(PREFIX)/bin
 MANDIR ?= $(PREFIX)/share/man
 DATADIR ?= $(PREFIX)/share/glim
 CC ?= cc
-CFLAGS ?= -O2 -g
+CFLAGS ?= -O3 -g
 INSTALL ?= install
 V ?= 0
 Q = $(if $(filter 1,$(V)),,@)
@@ -46,7 +46,7 @@ STRESSES := $(patsubst tests/stress/%.c,$(B)/stress/%,$(wildcard \
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
-	%,$(B)/error/cpu_%.o,hashed uniform throughput)
+	%,$(B)/error/cpu_%.o,hashed uniform throughput shadows)
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 # On all cores, unless the caller has said how many.
 MAKE_ALL = $(MAKE) --no-print-directory \

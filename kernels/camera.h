@@ -17,8 +17,8 @@
 static inline struct ray camera_ray(struct camera c, uint32_t x, uint32_t y,
                                     struct vec2 offset)
 {
-    float sx = 2.0f * (((float)x + offset.x) / c.width) - 1.0f;
-    float sy = 1.0f - 2.0f * (((float)y + offset.y) / c.height);
+    float sx = 2.0f * (((float)x + offset.x + c.left) / c.width) - 1.0f;
+    float sy = 1.0f - 2.0f * (((float)y + offset.y + c.top) / c.height);
     struct vec3 d =
         v3_add(v3_add(c.forward, v3_scale(c.right, sx)), v3_scale(c.up, sy));
     struct ray r = {c.eye, v3_unit(d), FLOAT_MAX, 0};

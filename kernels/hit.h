@@ -200,7 +200,8 @@ static inline float distance_error(struct vec3 a, struct vec3 b, struct vec3 c,
 #define T_PRECISION 0x1p-14f
 
 /* True if the ray meets the triangle at a distance above 0 and not beyond
- * t_max; fills all of *h but tri. */
+ * t_max; fills all of *h but tri. The other winding, p1 and p2 exchanged, has
+ * the same distance to the bit: sums are grouped for it. */
 static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
                                 struct vec3 p1, struct vec3 p2, float t_max,
                                 struct hit *h)
@@ -216,11 +217,11 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     if ((u < 0.0f || v < 0.0f || w < 0.0f) &&
         (u > 0.0f || v > 0.0f || w > 0.0f))
         return false;
-    det = u + v + w;
+    det = u + (v + w);
     if (det == 0.0f)
         return false;
     if (!axis_distance(r, p0, p1, p2, &t)) {
-        t = (u * a.z + v * b.z + w * c.z) / det;
+        t = (u * a.z + (v * b.z + w * c.z)) / det;
         if (!(fabsf(t) * T_PRECISION > distance_error(a, b, c, det))) {
             t = plane_distance(r, p0, p1, p2);
             t = f_max(t, f_min(a.z, f_min(b.z, c.z)));
@@ -250,6 +251,38 @@ static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
                 (fabsf(a.y) + fabsf(b.y) + fabsf(c.y)) * GAMMA(7),
                 (fabsf(a.z) + fabsf(b.z) + fabsf(c.z)) * GAMMA(7));
     return v3_add(v3_add(a, b), c);
+}
+
+/* Only hits whose least weight is below this are looked at closely. */
+#define EDGE_NEAR 0x1p-7f
+
+/* hit_point() for rays that go on from there. A point on an edge is on the
+ * neighbour as well, or by its error behind it, and what left it could leave a
+ * closed mesh: it is drawn towards the middle of its triangle until it is as
+ * far from each edge as all its errors. */
+static inline struct vec3 hit_inside(struct hit h, struct vec3 p0,
+                                     struct vec3 p1, struct vec3 p2,
+                                     struct vec3 *error)
+{
+    float least = f_min(h.b0, f_min(h.b1, h.b2));
+    struct vec3 p = hit_point(h, p0, p1, p2, error);
+    struct vec3 e1 = v3_sub(p1, p0);
+    struct vec3 e2 = v3_sub(p2, p0);
+    struct vec3 e3 = v3_sub(p2, p1);
+    float longest, height, share;
+
+    if (least >= EDGE_NEAR)
+        return p;
+    longest = f_max(v3_length(e1), f_max(v3_length(e2), v3_length(e3)));
+    height = v3_length(v3_cross(e1, e2)) / longest;
+    share = f_min((error->x + error->y + error->z) / height, 1.0f / 3.0f);
+    if (least >= share)
+        return p;
+    share = 3.0f * (share - least);
+    h.b0 += share * (1.0f / 3.0f - h.b0);
+    h.b1 += share * (1.0f / 3.0f - h.b1);
+    h.b2 += share * (1.0f / 3.0f - h.b2);
+    return hit_point(h, p0, p1, p2, error);
 }
 
 /* The origin of a ray that leaves p on the side of the unit normal ng: out of

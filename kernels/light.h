@@ -25,8 +25,8 @@ struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
     struct vec3 radiance; /* that comes along it if nothing is in the way */
     float pdf;            /* of wi per solid angle; above 0 and finite */
-    uint32_t tri;         /* NO_INDEX: the sky, and there is no point */
-    struct vec3 p;
+    uint32_t tri;         /* NO_INDEX: the sky */
+    struct vec3 p;        /* on the triangle */
 };
 
 /* Emitted radiance of a material at uv, the same to both sides. */
@@ -141,6 +141,7 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
         s->radiance = sky_radiance(w, s->wi);
         s->pdf = sky_light_pdf(w, s->wi);
         s->tri = NO_INDEX;
+        s->p = r->p;
         return s->pdf > 0.0f;
     }
     choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;

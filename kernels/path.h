@@ -41,11 +41,16 @@ struct path {
     struct path_sample out;
 };
 
+/* What radiance that comes along the path's ray is worth in the pixel. */
+static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
+                                    float weight)
+{
+    return v3_mul(v3_scale(p->beta, p->eta_scale * weight), radiance);
+}
+
 static inline void path_add(struct path *p, struct vec3 radiance, float weight)
 {
-    p->out.radiance =
-        v3_add(p->out.radiance,
-               v3_mul(v3_scale(p->beta, p->eta_scale * weight), radiance));
+    p->out.radiance = v3_add(p->out.radiance, path_part(p, radiance, weight));
 }
 
 /* Weight of light that was met by chance, where light_pdf is the density with
@@ -112,14 +117,30 @@ static inline bool light_is_seen(const struct world *w, struct path *p,
     return !hit_any(w, r, s->tri);
 }
 
+/* False if roulette saves the shadow ray for this light. */
+static inline bool shadow_survives(const struct path *p, uint32_t key,
+                                   struct vec3 *light)
+{
+    float q = shadow_survival(*light, p->out.radiance);
+
+    if (!(q < 1.0f))
+        return true;
+    /* never 0: what is all but impossible must not be divided by */
+    if (!(1.0f - unit_float(hash_u32(key)) < q))
+        return false;
+    *light = v3_scale(*light, 1.0f / q);
+    return true;
+}
+
 /* Light that comes to the vertex straight from a light that is chosen. */
 static inline void path_add_direct(const struct world *w, struct path *p,
                                    const struct bsdf *b, const struct vertex *v,
                                    struct vec3 wo, uint32_t vertex)
 {
     uint32_t dimension = DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE;
+    uint32_t key = ray_key(p->sampler, SHADOW_KEY + vertex);
     struct light_sample s;
-    struct vec3 wi, f;
+    struct vec3 wi, light;
     float pdf;
 
     if (!light_sample(w, &p->from,
@@ -131,12 +152,15 @@ static inline void path_add_direct(const struct world *w, struct path *p,
     wi = vertex_to_local(v, s.wi);
     if (!vertex_sides_agree(v, s.wi, wi.z))
         return;
-    f = v3_mul(bsdf_terms(b, wo, wi, &pdf), s.radiance);
-    if (v3_is_zero(f) ||
-        !light_is_seen(w, p, vertex_leave(v, wi.z), &s,
-                       ray_key(p->sampler, SHADOW_KEY + vertex)))
+    light = v3_mul(bsdf_terms(b, wo, wi, &pdf), s.radiance);
+    if (v3_is_zero(light))
         return;
-    path_add(p, f, bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
+    light =
+        path_part(p, light,
+                  bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
+    if (shadow_survives(p, key, &light) &&
+        light_is_seen(w, p, vertex_leave(v, wi.z), &s, key))
+        p->out.radiance = v3_add(p->out.radiance, light);
 }
 
 /* Can light_sample() find anything for it? */

@@ -8,6 +8,16 @@
  * start: adding or xor-ing them first would make neighbouring pixels share
  * streams. After 2^32 samples a pixel starts other sequences.
  *
+ * In a draft all pixels share the sequences, and take from them in the order of
+ * a Morton curve. The shuffle of the indices is then a nested scramble of the
+ * curve: the samples of a square of pixels avoid each other as those of one
+ * pixel do. What neighbours have too much of and too little cancels, and to the
+ * eye, which blurs, the error is smaller (Ahmed and Wonka 2020, "Screen-space
+ * blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering
+ * of pixels"). That needs the number of samples in advance: sample 0 is a set
+ * by itself, the next four are another. (Alone, one of a set of four has no
+ * pattern at all; a set for each would let a pixel's samples clump.)
+ *
  * Units:     numbers in [0, 1)
  * Ownership: none
  * Threads:   none
@@ -31,6 +41,11 @@ enum dimension {
     DIMENSION_BSDF_LOBE = 3 /* and roulette */
 };
 
+/* Samples of a pixel in a draft, and its longest side: a pixel and one of four
+ * samples are 32 bits. */
+#define DRAFT_SPP      5u
+#define DRAFT_SIDE_MAX 0x8000
+
 struct sampler {
     uint32_t key;            /* of the pixel, the seed and the index's top */
     uint32_t reversed_index; /* the low 32 bits, the lowest first */
@@ -52,6 +67,31 @@ static inline struct sampler sampler_start(uint32_t x, uint32_t y,
     s.key = hash_u32(s.key ^ seed);
     s.key = hash_u32(s.key ^ (uint32_t)(index >> 32));
     s.reversed_index = reverse_bits((uint32_t)index);
+    return s;
+}
+
+/* The bits of a 16-bit number with zeros between them. */
+static inline uint32_t spread_bits(uint32_t x)
+{
+    x = (x | x << 8) & 0x00ff00ffu;
+    x = (x | x << 4) & 0x0f0f0f0fu;
+    x = (x | x << 2) & 0x33333333u;
+    return (x | x << 1) & 0x55555555u;
+}
+
+/* Sample `index`, below DRAFT_SPP, of a pixel in a draft. */
+static inline struct sampler sampler_start_draft(uint32_t x, uint32_t y,
+                                                 uint32_t index, uint32_t seed)
+{
+    uint32_t rank = spread_bits(x) | spread_bits(y) << 1;
+    struct sampler s;
+
+    s.key = hash_u32(seed + 0xc2b2ae35u);
+    if (index != 0) {
+        s.key = hash_u32(s.key);
+        rank = rank << 2 | (index - 1);
+    }
+    s.reversed_index = reverse_bits(rank);
     return s;
 }
 

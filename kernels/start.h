@@ -24,7 +24,9 @@ static inline struct path_start path_begin(const struct settings *s, uint32_t x,
 {
     struct path_start start;
 
-    start.sampler = sampler_start(x, y, index, s->seed);
+    start.sampler = s->order == ORDER_DRAFT
+                        ? sampler_start_draft(x, y, (uint32_t)index, s->seed)
+                        : sampler_start(x, y, index, s->seed);
     start.ray =
         camera_ray(s->camera, x, y, random_2d(start.sampler, DIMENSION_PIXEL));
     if (s->camera.lens_radius > 0.0f)

@@ -102,6 +102,8 @@ struct camera {
     float lens_radius; /* 0: a pinhole */
     struct vec3 up;
     float focus; /* from the eye to the sharp plane, along forward */
+    float left;  /* where pixel (0, 0) begins in the picture, in pixels: the */
+    float top;   /* corner of a crop, which in a draft is no whole number */
 };
 
 /* Depth-first: the left child of node i is node i + 1. */
@@ -150,6 +152,12 @@ enum direct {
     DIRECT_CHANCE  /* only where paths meet them */
 };
 
+/* Which random numbers a sample has; see rng.h. */
+enum order {
+    ORDER_PROGRESSIVE, /* pixels are independent, any number of samples */
+    ORDER_DRAFT        /* pixels spread their error; DRAFT_SPP samples */
+};
+
 /* What a sample reads beside arrays. */
 struct settings {
     struct camera camera;
@@ -158,6 +166,7 @@ struct settings {
     uint32_t seed;
     uint32_t features; /* enum feature, or-ed */
     uint32_t direct;   /* enum direct */
+    uint32_t order;    /* enum order */
     float sky_share;   /* probability that a light sample is one of the sky, */
     float light_share; /* of the lights; what is left is none at all */
 

@@ -64,7 +64,7 @@ static inline bool vertex_at(const struct world *w, const struct material *m,
     if (!v->is_outside)
         v->ng = v3_neg(v->ng);
     v->n = shading_normal(w, t, h, v->ng, wo);
-    v->p = hit_point(h, p0, p1, p2, &v->p_error);
+    v->p = hit_inside(h, p0, p1, p2, &v->p_error);
     v->is_lifted = false;
     v->has_uv = t.vt[0] != NO_INDEX;
     v->uv = v2(0.0f, 0.0f);

@@ -103,28 +103,50 @@ static int panel_cols(int cols)
     return cols - PICTURE_COLS < PANEL_COLS ? cols - PICTURE_COLS : PANEL_COLS;
 }
 
+static bool is_too_small(const struct term_size *size)
+{
+    return size->cols < COLS_MIN || size->rows < ROWS_MIN;
+}
+
+static struct fit fit_to(const struct canvas *c, const struct term_size *size,
+                         int width_px, int height_px)
+{
+    return cells_fit(width_px, height_px, size->cols - c->panel_cols,
+                     size->rows - (c->has_status_row ? 1 : 0),
+                     cell_aspect(c, size));
+}
+
+struct fit canvas_expect(const struct options *options, int width_px,
+                         int height_px)
+{
+    struct canvas c = {.cell_aspect = options->cell_aspect,
+                       .has_status_row = true};
+    struct term_size size = term_size();
+
+    if (is_too_small(&size))
+        return (struct fit){0};
+    return fit_to(&c, &size, width_px, height_px);
+}
+
 bool canvas_layout(struct canvas *c, int width_px, int height_px,
                    struct error *err)
 {
     struct term_size size;
-    int rows;
 
     free_sized(c);
     term_relayout();
     size = term_size();
-    rows = size.rows - (c->has_status_row ? 1 : 0);
     c->window = (struct ansi_rect){0};
     c->has_status = false;
     c->has_new_panel = false;
     c->must_update = true;
-    c->is_too_small = size.cols < COLS_MIN || size.rows < ROWS_MIN;
+    c->is_too_small = is_too_small(&size);
     if (c->is_too_small) {
         say_too_small(&size);
         return true;
     }
     c->panel_cols = c->has_panel ? panel_cols(size.cols) : 0;
-    c->fit = cells_fit(width_px, height_px, size.cols - c->panel_cols, rows,
-                       cell_aspect(c, &size));
+    c->fit = fit_to(c, &size, width_px, height_px);
     c->cursor_col = c->cursor_col < c->fit.cols ? c->cursor_col : 0;
     c->cursor_row = c->cursor_row < c->fit.rows ? c->cursor_row : 0;
     return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
@@ -243,8 +265,8 @@ void canvas_close_window(struct canvas *c)
 }
 
 /* Appends what changed in the picture; false if the budget was too small. */
-static bool add_picture(struct canvas *c, struct film *film, struct develop how,
-                        int step)
+static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
+                        struct develop how, int step)
 {
     struct ansi_rect covered[2] = {c->window};
     struct ansi_draw draw = {.col = c->fit.col,
@@ -259,7 +281,7 @@ static bool add_picture(struct canvas *c, struct film *film, struct develop how,
                                         c->fit.cols, 1};
         draw.covered_count = 2;
     }
-    film_preview(film, how, &c->frame);
+    film_preview(film, draft, how, &c->frame);
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     if (c->has_cursor)
         cells_mark(&c->cells, c->cursor_col, c->cursor_row);
@@ -268,7 +290,7 @@ static bool add_picture(struct canvas *c, struct film *film, struct develop how,
 
 /* One write() a frame; one more before curses writes its part. */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               struct develop how, int step)
+                               struct film *draft, struct develop how, int step)
 {
     struct ansi *a = &c->ansi;
     bool has_sync = term_has_sync();
@@ -296,7 +318,7 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         ansi_text(a, SYNC_BEGIN);
     before = a->length;
     if (film)
-        is_complete = add_picture(c, film, how, step);
+        is_complete = add_picture(c, film, draft, how, step);
     if (a->length == before && !has_updated)
         return is_complete ? CANVAS_DONE : CANVAS_MORE;
     asks = a->length > before && pace_wants_request(&c->pace);

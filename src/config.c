@@ -45,8 +45,9 @@ static bool fail_at(const struct reader *r, struct word found,
 /* The next word of the line, empty at its end. */
 static struct word next_word(struct reader *r)
 {
-    return lex_at_line_end(&r->lex) ? (struct word){.start = ""}
-                                    : lex_word(&r->lex);
+    struct word none = {.start = ""};
+
+    return lex_at_line_end(&r->lex) ? none : lex_word(&r->lex);
 }
 
 static bool read_key(struct reader *r, struct error *err)

@@ -246,18 +246,22 @@ static void span_of(int i, int n, int length, int *begin, int *end)
         *end = *begin + 1;
 }
 
-/* Pixels i0 .. i0 + count - 1 of row j of the frame. */
-static void preview_run(struct film *f, float factor, uint32_t tone,
-                        struct frame *frame, int i0, int j, int count)
+/* Pixels of row y of a frame. */
+struct run {
+    const struct frame *frame;
+    int x, y, count;
+};
+
+/* Adds what the film has where these pixels are. */
+static void add_run(struct film *f, const struct run *r, struct total *totals)
 {
-    struct total totals[RUN] = {0};
     int x0, x1, y0, y1;
 
-    span_of(j, frame->height, f->height, &y0, &y1);
+    span_of(r->y, r->frame->height, f->height, &y0, &y1);
     for (int y = y0; y < y1; y++) {
         row_lock(f, y);
-        for (int i = 0; i < count; i++) {
-            span_of(i0 + i, frame->width, f->width, &x0, &x1);
+        for (int i = 0; i < r->count; i++) {
+            span_of(r->x + i, r->frame->width, f->width, &x0, &x1);
             for (int x = x0; x < x1; x++) {
                 size_t at = pixel_index(f, x, y);
 
@@ -266,28 +270,49 @@ static void preview_run(struct film *f, float factor, uint32_t tone,
         }
         row_unlock(f, y);
     }
-    for (int i = 0; i < count; i++) {
-        size_t at = (size_t)j * (size_t)frame->width + (size_t)(i0 + i);
+}
+
+/* A pixel of a frame where the film has no samples yet. */
+static void coarse_part(struct film *f, const struct run *r, int i, float *rgb)
+{
+    int x0, x1, y0, y1;
+
+    span_of(r->x + i, r->frame->width, f->width, &x0, &x1);
+    span_of(r->y, r->frame->height, f->height, &y0, &y1);
+    coarse_mean(f, (x0 + x1) / 2, (y0 + y1) / 2, rgb);
+}
+
+static void preview_run(struct film *f, struct film *draft, float factor,
+                        uint32_t tone, const struct run *r)
+{
+    struct total totals[RUN] = {0};
+
+    add_run(f, r, totals);
+    if (draft != NULL)
+        add_run(draft, r, totals);
+    for (int i = 0; i < r->count; i++) {
+        size_t at = (size_t)r->y * (size_t)r->frame->width + (size_t)(r->x + i);
         float rgb[3];
 
-        span_of(i0 + i, frame->width, f->width, &x0, &x1);
         if (totals[i].count != 0)
             mean_of(totals[i].sums, totals[i].count, rgb);
         else
-            coarse_mean(f, (x0 + x1) / 2, (y0 + y1) / 2, rgb);
-        expose(rgb, factor, tone, frame->rgb + 3 * at);
+            coarse_part(draft != NULL ? draft : f, r, i, rgb);
+        expose(rgb, factor, tone, r->frame->rgb + 3 * at);
     }
 }
 
-void film_preview(struct film *f, struct develop how, struct frame *frame)
+void film_preview(struct film *f, struct film *draft, struct develop how,
+                  struct frame *frame)
 {
     float factor = exposure_factor(how.exposure);
 
-    for (int j = 0; j < frame->height; j++)
-        for (int i = 0; i < frame->width; i += RUN) {
-            int count = frame->width - i < RUN ? frame->width - i : RUN;
+    for (int y = 0; y < frame->height; y++)
+        for (int x = 0; x < frame->width; x += RUN) {
+            int count = frame->width - x < RUN ? frame->width - x : RUN;
 
-            preview_run(f, factor, how.tone, frame, i, j, count);
+            preview_run(f, draft, factor, how.tone,
+                        &(struct run){frame, x, y, count});
         }
 }
 

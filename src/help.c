@@ -16,10 +16,11 @@ static int count_lines(const struct keys *keys)
 }
 
 /* Appends entry `i` to a line, at its column; the note is behind the keys. */
-static void add_entry(char *line, const struct keys *keys, const char *note,
-                      int i)
+static void add_entry(char line[HELP_LINE_BYTES], const struct keys *keys,
+                      const char *note, int i)
 {
-    size_t length = strlen(line);
+    int length = (int)strlen(line);
+    int gap = length > 0 ? HELP_ENTRY_COLS + HELP_GAP - length : 0;
     char entry[HELP_ENTRY_COLS + 1];
     struct keys_help help;
 
@@ -27,11 +28,8 @@ static void add_entry(char *line, const struct keys *keys, const char *note,
         snprintf(entry, sizeof entry, "%-7.20s %s", help.keys, help.text);
     else
         snprintf(entry, sizeof entry, "%s", note);
-    if (length > 0)
-        sprintf(line + length, "%*s%s",
-                HELP_ENTRY_COLS + HELP_GAP - (int)length, "", entry);
-    else
-        strcpy(line, entry);
+    snprintf(line + length, HELP_LINE_BYTES - (size_t)length, "%*s%s", gap, "",
+             entry);
 }
 
 void help_page(struct help_page *page, const struct keys *keys,

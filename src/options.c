@@ -291,7 +291,7 @@ static bool set_word(struct options *o, const struct given *g,
                                          "256",  "24",   NULL};
     static const char *const glyphs[] = {"auto",  "upper", "lower",
                                          "space", "ascii", NULL};
-    int index;
+    int index = 0;
 
     switch (g->rule->id) {
     case OPTION_UP:

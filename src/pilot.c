@@ -48,7 +48,9 @@ void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas)
 {
     const struct scene *scene = &work->session->scene;
 
-    *p = (struct pilot){.work = work, .canvas = canvas};
+    *p = (struct pilot){.work = work,
+                        .canvas = canvas,
+                        .cursor = {.work = work, .canvas = canvas}};
     steer_init(&p->steer, scene->bounds_lo, scene->bounds_hi);
 }
 
@@ -158,191 +160,75 @@ static void travel(struct pilot *p, bool is_back)
     work_say(p->work, is_back ? "undone" : "done again");
 }
 
-/* ---- the cursor, what is picked ---- */
-
-static const char *object_name(const struct pilot *p, const struct pick *pick)
-{
-    const char *name = scene_of(p)->object_names[pick->object];
-
-    return *name ? name : "no name";
-}
-
-static void describe(const struct pilot *p, const struct pick *pick,
-                     const char *what_now, char text[TEXT_BYTES])
-{
-    const char *material = scene_of(p)->material_names[pick->material];
-
-    snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away%s",
-             object_name(p, pick), *material ? material : "no material",
-             pick->face + 1, pick->distance, what_now);
-}
-
-static bool pick_cell(const struct pilot *p, int col, int row,
-                      struct pick *pick)
-{
-    const struct view *v = view_of(p);
-    double x_px, y_px;
-
-    return pick_point_of_cell(&p->canvas->fit, v->width_px, v->height_px, col,
-                              row, &x_px, &y_px) &&
-           pick_at(scene_of(p), v, x_px, y_px, pick);
-}
-
-static bool pick_cursor(const struct pilot *p, struct pick *pick)
-{
-    const struct canvas *c = p->canvas;
-
-    return pick_cell(p, c->fit.col + c->cursor_col, c->fit.row + c->cursor_row,
-                     pick);
-}
-
-static void set_pick(struct pilot *p, const struct pick *pick)
-{
-    char text[TEXT_BYTES];
-
-    p->pick = *pick;
-    p->has_pick = p->is_pick_new = true;
-    memcpy(p->steer.pivot, pick->position, sizeof p->steer.pivot);
-    describe(p, pick, " (o orbit, f focus, z frame)", text);
-    work_say(p->work, text);
-}
-
-static void set_cursor(struct pilot *p, bool is_shown)
-{
-    struct canvas *c = p->canvas;
-
-    if (is_shown && c->cursor_col == 0 && c->cursor_row == 0) {
-        c->cursor_col = c->fit.cols / 2;
-        c->cursor_row = c->fit.rows / 2;
-    }
-    c->has_cursor = is_shown;
-    p->must_look = is_shown;
-    p->work->has_changed = true;
-}
-
-static int within(int x, int count)
-{
-    return x < 0 ? 0 : x >= count ? count - 1 : x;
-}
-
-static void move_cursor(struct pilot *p, int right, int down)
-{
-    struct canvas *c = p->canvas;
-
-    c->cursor_col = within(c->cursor_col + right, c->fit.cols);
-    c->cursor_row = within(c->cursor_row + down, c->fit.rows);
-    set_cursor(p, true);
-}
-
-static void say_under_cursor(struct pilot *p)
-{
-    struct pick pick;
-    char text[TEXT_BYTES];
-
-    p->must_look = false;
-    if (pick_cursor(p, &pick))
-        describe(p, &pick, "", text);
-    else
-        snprintf(text, sizeof text, "nothing but the sky");
-    work_say_long(p->work, text);
-}
-
-static void pick_under_cursor(struct pilot *p)
-{
-    struct pick pick;
-
-    if (!pick_cursor(p, &pick)) {
-        work_say(p->work, "nothing but the sky");
-        return;
-    }
-    set_cursor(p, false);
-    set_pick(p, &pick);
-}
-
-/* What the cursor is on, or what was picked; else a message says how. */
-static bool need_pick(struct pilot *p)
-{
-    if (p->canvas->has_cursor)
-        pick_under_cursor(p);
-    else if (!p->has_pick)
-        work_say(p->work, "nothing is picked: v shows a cursor, Enter picks");
-    return p->has_pick && !p->canvas->has_cursor;
-}
-
-/* What is done while the cursor is shown; false if it is nothing special. */
-static bool act_on_cursor(struct pilot *p, enum action action)
-{
-    switch (action) {
-    case ACTION_LOOK_LEFT: move_cursor(p, -1, 0); break;
-    case ACTION_LOOK_RIGHT: move_cursor(p, 1, 0); break;
-    case ACTION_LOOK_UP: move_cursor(p, 0, -1); break;
-    case ACTION_LOOK_DOWN: move_cursor(p, 0, 1); break;
-    case ACTION_START: pick_under_cursor(p); break;
-    case ACTION_CURSOR:
-    case ACTION_CANCEL:
-        set_cursor(p, false);
-        p->work->message.until_ns = 0;
-        break;
-    default: return false;
-    }
-    return true;
-}
-
 /* ---- orbit, frame, focus ---- */
 
 /* What is picked, or what is in the middle of the picture, or of the scene. */
 static void find_pivot(struct pilot *p)
 {
-    const struct view *v = view_of(p);
-    const struct scene *s = scene_of(p);
-    struct pick pick;
+    struct pick pick = p->cursor.pick;
 
-    if (p->has_pick)
-        pick = p->pick;
-    else if (!pick_at(s, v, v->width_px / 2.0, v->height_px / 2.0, &pick))
-        memcpy(pick.position, s->center, sizeof pick.position);
+    if (!p->cursor.has_pick && !cursor_look_ahead(&p->cursor, &pick))
+        memcpy(pick.position, scene_of(p)->center, sizeof pick.position);
     memcpy(p->steer.pivot, pick.position, sizeof p->steer.pivot);
+}
+
+static bool need_pick(struct pilot *p)
+{
+    if (!cursor_need_pick(&p->cursor))
+        return false;
+    find_pivot(p);
+    return true;
 }
 
 static void switch_orbit(struct pilot *p)
 {
-    if (p->canvas->has_cursor && !need_pick(p))
+    bool picks = p->canvas->has_cursor;
+
+    if (picks && !need_pick(p))
         return;
     motion_stop(&p->steer.motion);
-    p->steer.is_orbiting = !p->steer.is_orbiting;
-    if (p->steer.is_orbiting)
-        find_pivot(p);
+    p->steer.is_orbiting = picks || !p->steer.is_orbiting;
+    find_pivot(p);
     work_say(p->work, !p->steer.is_orbiting ? "arrows and mouse look around"
-                      : p->has_pick ? "arrows and mouse orbit what is picked"
-                                    : "arrows and mouse orbit the middle");
+                      : p->cursor.has_pick
+                          ? "arrows and mouse orbit what is picked"
+                          : "arrows and mouse orbit the middle");
 }
 
-static void frame(struct pilot *p, bool frames_all)
+static void frame(struct pilot *p, const double lo[3], const double hi[3],
+                  const char *name)
 {
-    const struct scene *s = scene_of(p);
     struct view framed = *view_of(p);
     struct pose pose;
-    char text[TEXT_BYTES];
 
-    if (s->tri_count == 0) {
-        work_say(p->work, "no faces to frame");
+    if (!may_jump(p))
         return;
-    }
-    if ((!frames_all && !need_pick(p)) || !may_jump(p))
-        return;
-    if (frames_all) {
-        camera_frame(&framed, s->bounds_lo, s->bounds_hi);
-        snprintf(text, sizeof text, "the whole scene");
-    } else {
-        double lo[3], hi[3];
-
-        pick_bounds(s, p->pick.object, lo, hi);
-        camera_frame(&framed, lo, hi);
-        snprintf(text, sizeof text, "%.60s", object_name(p, &p->pick));
-    }
+    camera_frame(&framed, lo, hi);
     pose = view_pose(&framed);
     jump(p, &pose);
-    work_say(p->work, text);
+    work_say(p->work, name);
+}
+
+static void frame_object(struct pilot *p)
+{
+    uint32_t object;
+    double lo[3], hi[3];
+
+    if (!need_pick(p))
+        return;
+    object = p->cursor.pick.object;
+    pick_bounds(scene_of(p), object, lo, hi);
+    frame(p, lo, hi, cursor_object_name(&p->cursor, object));
+}
+
+static void frame_all(struct pilot *p)
+{
+    const struct scene *s = scene_of(p);
+
+    if (s->tri_count > 0)
+        frame(p, s->bounds_lo, s->bounds_hi, "the whole scene");
+    else
+        work_say(p->work, "no faces to frame");
 }
 
 static void focus(struct pilot *p)
@@ -352,7 +238,7 @@ static void focus(struct pilot *p)
 
     if (!need_pick(p) || !may_jump(p))
         return;
-    pose.focus = camera_depth(view_of(p), p->pick.position);
+    pose.focus = camera_depth(view_of(p), p->cursor.pick.position);
     if (!(pose.focus > 0)) {
         work_say(p->work, "what is picked lies behind the camera");
         return;
@@ -415,8 +301,11 @@ bool pilot_act(struct pilot *p, enum action action)
         return true;
     }
     p->is_keeping = false;
-    if (p->canvas->has_cursor && act_on_cursor(p, action))
+    if (cursor_act(&p->cursor, action)) {
+        if (p->cursor.has_pick)
+            find_pivot(p);
         return true;
+    }
     if (move) {
         press(p, move);
         return true;
@@ -424,11 +313,9 @@ bool pilot_act(struct pilot *p, enum action action)
     switch (action) {
     case ACTION_FASTER: change_speed(p, 1); break;
     case ACTION_SLOWER: change_speed(p, -1); break;
-    case ACTION_CURSOR: set_cursor(p, true); break;
-    case ACTION_CANCEL: break;
     case ACTION_ORBIT: switch_orbit(p); break;
-    case ACTION_FRAME: frame(p, false); break;
-    case ACTION_FRAME_ALL: frame(p, true); break;
+    case ACTION_FRAME: frame_object(p); break;
+    case ACTION_FRAME_ALL: frame_all(p); break;
     case ACTION_FOCUS: focus(p); break;
     case ACTION_UNDO: travel(p, true); break;
     case ACTION_REDO: travel(p, false); break;
@@ -450,14 +337,19 @@ static void wheel(struct pilot *p, bool is_up, bool is_modified)
         change_speed(p, is_up ? 1 : -1);
 }
 
+static bool steer_by(struct pilot *p, const struct event *event)
+{
+    struct rect r = cursor_shown_rect(&p->cursor);
+
+    return steer_mouse(&p->steer, view_of(p), event, &p->canvas->fit, r.width,
+                       r.height);
+}
+
 static void drag(struct pilot *p, const struct event *event)
 {
-    struct view *v = view_of(p);
-    struct pose before = view_pose(v);
+    struct pose before = view_pose(view_of(p));
 
-    if (!work_may_move(p->work) ||
-        !steer_mouse(&p->steer, v, event, &p->canvas->fit, v->width_px,
-                     v->height_px))
+    if (!work_may_move(p->work) || !steer_by(p, event))
         return;
     if (p->drag_is_new)
         history_add(&p->history, &before);
@@ -466,20 +358,8 @@ static void drag(struct pilot *p, const struct event *event)
     p->work->must_restart = true;
 }
 
-static void click(struct pilot *p, const struct event *event)
-{
-    struct pick pick;
-
-    if (pick_cell(p, event->x - 1, event->y - 1, &pick)) {
-        set_cursor(p, false);
-        set_pick(p, &pick);
-    }
-}
-
 void pilot_mouse(struct pilot *p, const struct event *event)
 {
-    struct view *v = view_of(p);
-
     switch (event->mouse) {
     case MOUSE_WHEEL_UP: wheel(p, true, event->is_modified); break;
     case MOUSE_WHEEL_DOWN: wheel(p, false, event->is_modified); break;
@@ -488,13 +368,14 @@ void pilot_mouse(struct pilot *p, const struct event *event)
         p->drag_is_new = true;
         if (steer_orbits(&p->steer, event) && !p->steer.is_orbiting)
             find_pivot(p);
-        steer_mouse(&p->steer, v, event, &p->canvas->fit, v->width_px,
-                    v->height_px);
+        steer_by(p, event);
         break;
     case MOUSE_RELEASE:
-        if (p->steer.is_dragging && !p->steer.has_dragged && event->button == 0)
-            click(p, event);
-        p->steer.is_dragging = false;
+        if (p->steer.is_dragging && !p->steer.has_dragged &&
+            event->button == 0 &&
+            cursor_click(&p->cursor, event->x - 1, event->y - 1))
+            find_pivot(p);
+        steer_by(p, event);
         break;
     case MOUSE_OTHER: break;
     }
@@ -505,11 +386,10 @@ void pilot_step(struct pilot *p, uint64_t now_ns)
     if (now_ns >= motion_next_ns(&p->steer.motion) &&
         steer_step(&p->steer, view_of(p), now_ns)) {
         p->work->must_restart = true;
-        p->must_look = p->canvas->has_cursor;
+        p->cursor.must_look = p->canvas->has_cursor;
         say_lens(p);
     }
-    if (p->must_look)
-        say_under_cursor(p);
+    cursor_step(&p->cursor);
 }
 
 uint64_t pilot_next_ns(const struct pilot *p)

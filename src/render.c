@@ -12,10 +12,20 @@
 #include "glim/thread.h"
 
 #include "kernels/path_types.h"
+#include "kernels/rng.h"
+
+/* Where the first pass of a draft begins, whose pixels are some ten times as
+ * large as the film's. */
+#define DRAFT_STRIDE_MAX 8
+
+/* From then on the film is shown alone, and the screen is what a file would
+ * be: each of its pixels has three times as many samples as the draft had. */
+#define DRAFT_SHOWN_SPP 16
 
 struct render {
     struct backend *backend;
     struct film film;
+    struct film draft; /* no width: there is none */
     pthread_t thread;
     int event_fd;
     struct cancel cancel;
@@ -29,6 +39,7 @@ struct render {
     enum render_state state;
     uint64_t spp;      /* limit, 0: none */
     uint64_t spp_done; /* all passes up to this are complete */
+    uint64_t draft_spp_done;
     uint64_t run_begin_ns;
     uint64_t run_before_ns; /* of earlier runs of the same picture */
     uint64_t build_ns;
@@ -36,7 +47,7 @@ struct render {
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
-    bool is_new; /* the picture: the backend has not begun it */
+    const struct film *begun; /* by the backend; NULL: a new picture */
 };
 
 /* Samples that every pixel has after the pass that follows spp_done. */
@@ -63,17 +74,32 @@ static enum pass_result run_pass(struct render *r, int stride, uint64_t done,
 }
 
 /* The first sample of all pixels, from a coarse grid to the finest. */
-static enum pass_result run_first_pass(struct render *r)
+static enum pass_result run_first_pass(struct render *r, int stride)
 {
     enum pass_result result = PASS_DONE;
 
-    for (int stride = FILM_STRIDE_MAX; stride > 0 && result == PASS_DONE;
-         stride /= 2) {
+    for (; stride > 0 && result == PASS_DONE; stride /= 2) {
         result = run_pass(r, stride, 0, 1);
         pthread_mutex_lock(&r->lock);
         if (r->first_picture_ns == 0 && result == PASS_DONE)
             r->first_picture_ns =
                 r->run_before_ns + clock_ns() - r->run_begin_ns;
+        pthread_mutex_unlock(&r->lock);
+    }
+    return result;
+}
+
+/* Brings every pixel to so many samples; all have *spp_done. */
+static enum pass_result run_to(struct render *r, uint64_t target,
+                               int stride_max, uint64_t *spp_done)
+{
+    enum pass_result result = *spp_done == 0
+                                  ? run_first_pass(r, stride_max)
+                                  : run_pass(r, 1, *spp_done, target);
+
+    if (result == PASS_DONE) {
+        pthread_mutex_lock(&r->lock);
+        *spp_done = target;
         pthread_mutex_unlock(&r->lock);
     }
     return result;
@@ -91,38 +117,72 @@ static enum pass_result load(struct render *r)
     return ok ? PASS_DONE : PASS_FAILED;
 }
 
-static enum pass_result begin(struct render *r)
+/* After a halt the backend goes on with the film that it has begun. */
+static enum pass_result begin(struct render *r, const struct world *world,
+                              struct film *film, int x0, int y0)
 {
-    bool ok = r->backend->begin(r->backend, &r->job.world, &r->film,
-                                r->job.crop.x, r->job.crop.y, &r->error);
-
-    r->is_new = !ok;
-    return ok ? PASS_DONE : PASS_FAILED;
+    if (r->begun == film)
+        return PASS_DONE;
+    r->begun = NULL;
+    if (!r->backend->begin(r->backend, world, film, x0, y0, &r->error))
+        return PASS_FAILED;
+    r->begun = film;
+    return PASS_DONE;
 }
 
-/* Passes until the limit, a cancellation or a failure. */
+/* The same crop in larger pixels, which are counted from its corner. */
+static struct world draft_world(const struct render_job *job,
+                                const struct film *draft)
+{
+    struct world w = job->world;
+    struct camera *c = &w.settings.camera;
+    float x = (float)draft->width / (float)job->crop.width;
+    float y = (float)draft->height / (float)job->crop.height;
+
+    c->left = x * (c->left + (float)job->crop.x);
+    c->top = y * (c->top + (float)job->crop.y);
+    c->width *= x;
+    c->height *= y;
+    w.settings.order = ORDER_DRAFT;
+    return w;
+}
+
+/* One pass for each of the two sets of samples that its order has. */
+static enum pass_result run_draft(struct render *r)
+{
+    struct world world = draft_world(&r->job, &r->draft);
+    uint64_t *spp_done = &r->draft_spp_done;
+    enum pass_result result = begin(r, &world, &r->draft, 0, 0);
+
+    while (result == PASS_DONE && *spp_done < DRAFT_SPP)
+        result = run_to(r, *spp_done == 0 ? 1 : DRAFT_SPP, DRAFT_STRIDE_MAX,
+                        spp_done);
+    return result;
+}
+
+/* Until the limit, a cancellation or a failure. */
+static enum pass_result run_film(struct render *r)
+{
+    uint64_t *spp_done = &r->spp_done;
+    enum pass_result result =
+        begin(r, &r->job.world, &r->film, r->job.crop.x, r->job.crop.y);
+
+    while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp))
+        result = run_to(r, next_target(*spp_done, r->spp), FILM_STRIDE_MAX,
+                        spp_done);
+    return result;
+}
+
 static enum pass_result run(struct render *r)
 {
     enum pass_result result = PASS_DONE;
-    uint64_t spp_done = r->spp_done;
 
     if (r->job.geometry_changed)
         result = load(r);
-    if (r->is_new && result == PASS_DONE)
-        result = begin(r);
-    while (result == PASS_DONE && (r->spp == 0 || spp_done < r->spp)) {
-        uint64_t target = next_target(spp_done, r->spp);
-
-        result = spp_done == 0 ? run_first_pass(r)
-                               : run_pass(r, 1, spp_done, target);
-        if (result != PASS_DONE)
-            break;
-        spp_done = target;
-        pthread_mutex_lock(&r->lock);
-        r->spp_done = spp_done;
-        pthread_mutex_unlock(&r->lock);
-    }
-    return result;
+    if (result == PASS_DONE && r->draft.width > 0 &&
+        r->draft_spp_done < DRAFT_SPP)
+        result = run_draft(r);
+    return result == PASS_DONE ? run_film(r) : result;
 }
 
 static void *render_main(void *argument)
@@ -194,6 +254,36 @@ static void go(struct render *r)
     pthread_cond_signal(&r->begin);
 }
 
+/* An empty film of this size. */
+static bool renew(struct film *film, int width, int height, struct error *err)
+{
+    if (film->width == width && film->height == height) {
+        film_clear(film);
+        return true;
+    }
+    film_free(film);
+    return film_init(film, width, height, err);
+}
+
+static int smallest(int a, int b, int c)
+{
+    int ab = a < b ? a : b;
+
+    return ab < c ? ab : c;
+}
+
+static bool renew_draft(struct render *r, const struct render_job *job,
+                        struct error *err)
+{
+    int width = smallest(job->draft_width, job->crop.width, DRAFT_SIDE_MAX);
+    int height = smallest(job->draft_height, job->crop.height, DRAFT_SIDE_MAX);
+
+    if (width > 0 && height > 0)
+        return renew(&r->draft, width, height, err);
+    film_free(&r->draft);
+    return true;
+}
+
 bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
@@ -201,20 +291,16 @@ bool render_start(struct render *r, const struct render_job *job,
 
     render_halt(r);
     geometry_changed = r->job.geometry_changed || job->geometry_changed;
-    if (r->film.width != job->crop.width ||
-        r->film.height != job->crop.height) {
-        film_free(&r->film);
-        if (!film_init(&r->film, job->crop.width, job->crop.height, err))
-            return false;
-    } else {
-        film_clear(&r->film);
-    }
+    if (!renew(&r->film, job->crop.width, job->crop.height, err) ||
+        !renew_draft(r, job, err))
+        return false;
     r->job = *job;
     r->job.geometry_changed = geometry_changed;
-    r->is_new = true;
+    r->begun = NULL;
     pthread_mutex_lock(&r->lock);
     r->spp = job->spp;
     r->spp_done = 0;
+    r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
     go(r);
@@ -285,11 +371,13 @@ struct render_progress render_progress(struct render *r)
         p.render_ns += clock_ns() - r->run_begin_ns;
     p.build_ns = r->build_ns;
     p.first_picture_ns = r->first_picture_ns;
+    p.draft_is_coarse = r->draft.width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)
         p.error = r->error;
     pthread_mutex_unlock(&r->lock);
     p.samples = atomic_load(&r->film.samples);
     p.samples_limit = p.spp_limit * pixels;
+    p.draft_samples = atomic_load(&r->draft.samples);
     p.rays = atomic_load(&r->film.rays);
     p.non_finite = atomic_load(&r->film.non_finite);
     p.saturated = atomic_load(&r->film.saturated);
@@ -300,6 +388,16 @@ struct render_progress render_progress(struct render *r)
 struct film *render_film(struct render *r)
 {
     return &r->film;
+}
+
+struct film *render_draft(struct render *r)
+{
+    bool is_young;
+
+    pthread_mutex_lock(&r->lock);
+    is_young = r->spp_done < DRAFT_SHOWN_SPP;
+    pthread_mutex_unlock(&r->lock);
+    return is_young && r->draft.width > 0 ? &r->draft : NULL;
 }
 
 void render_use(struct render *r, struct backend *backend)
@@ -329,5 +427,6 @@ void render_destroy(struct render *r)
     pthread_cond_destroy(&r->end);
     close(r->event_fd);
     film_free(&r->film);
+    film_free(&r->draft);
     free(r);
 }

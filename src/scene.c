@@ -207,6 +207,35 @@ static bool fill_positions(struct scene *scene, struct error *err)
     return true;
 }
 
+static bool is_before(struct vec3 a, struct vec3 b)
+{
+    if (a.x != b.x)
+        return a.x < b.x;
+    return a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+/* Every triangle begins with the corner that is first by its place: copies of a
+ * face, wherever theirs begin and however they are wound, are met at the same
+ * distance, and the first in the file is seen. */
+static void turn_tris(struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        struct tri *t = &scene->tris[i];
+        const struct tri old = *t;
+        uint32_t first = 0;
+
+        for (uint32_t k = 1; k < 3; k++)
+            if (is_before(scene->positions[old.v[k]],
+                          scene->positions[old.v[first]]))
+                first = k;
+        for (uint32_t k = 0; k < 3; k++) {
+            t->v[k] = old.v[(first + k) % 3];
+            t->vn[k] = old.vn[(first + k) % 3];
+            t->vt[k] = old.vt[(first + k) % 3];
+        }
+    }
+}
+
 static bool shines(const struct material *m)
 {
     return m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0;
@@ -269,6 +298,7 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
     if (!fill_positions(scene, err))
         return false;
     drop_tris(scene, report, tri_is_usable);
+    turn_tris(scene);
     if (scene->tri_count == 0)
         report_add(report, "scenes without a face",
                    "%s: found no face that can be seen: only the background is "

@@ -102,14 +102,13 @@ static void complete_view(struct session *s)
 }
 
 /* The rectangle to render, which must lie in the picture. */
-static bool crop_rect(const struct session *s, struct rect *rect,
-                      struct error *err)
+static bool find_crop(struct session *s, struct error *err)
 {
     const struct rect *c = &s->options->crop;
     int width = s->view.width_px;
     int height = s->view.height_px;
 
-    *rect = (struct rect){0, 0, width, height};
+    s->crop = (struct rect){0, 0, width, height};
     if (!s->options->has_crop)
         return true;
     if (c->x > width - c->width || c->y > height - c->height)
@@ -117,7 +116,7 @@ static bool crop_rect(const struct session *s, struct rect *rect,
                     "--crop: found %d,%d,%d,%d, expected a part of the "
                     "picture, which has %dx%d pixels",
                     c->x, c->y, c->width, c->height, width, height);
-    *rect = *c;
+    s->crop = *c;
     return true;
 }
 
@@ -143,7 +142,6 @@ bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err)
 {
     uint64_t begin_ns = clock_ns();
-    struct rect rect;
 
     *s = (struct session){.options = options, .start_ns = start_ns};
     view_init(&s->view);
@@ -151,7 +149,7 @@ bool session_open(struct session *s, const struct options *options,
     if (!read_view(s, err))
         return false;
     apply_options(s);
-    if (!crop_rect(s, &rect, err) ||
+    if (!find_crop(s, err) ||
         !scene_load(&s->scene, options->scene_path, options->up_is_z,
                     &s->report, err) ||
         !scene_load_sky(&s->scene, &s->view, &s->report, err))
@@ -175,10 +173,15 @@ bool session_open(struct session *s, const struct options *options,
 bool session_restart(struct session *s, uint64_t spp, struct error *err)
 {
     struct render_job job = {.geometry_changed = s->geometry_changed,
+                             .crop = s->crop,
                              .spp = spp};
 
+    if (spp == 0) {
+        job.draft_width = s->draft_width;
+        job.draft_height = s->draft_height;
+    }
     render_halt(s->render);
-    if (!apply_edit(s, err) || !crop_rect(s, &job.crop, err) ||
+    if (!apply_edit(s, err) ||
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
     s->restart_ns = clock_ns();

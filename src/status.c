@@ -88,9 +88,9 @@ static void format_limited(char text[FIELDS][FIELD_BYTES],
 static void format_speed(char text[FIELD_BYTES],
                          const struct render_progress *p)
 {
-    double speed = p->render_ns > 0
-                       ? (double)p->samples * 1e9 / (double)p->render_ns
-                       : 0.0;
+    double samples = (double)(p->samples + p->draft_samples);
+    double speed =
+        p->render_ns > 0 ? samples * 1e9 / (double)p->render_ns : 0.0;
 
     if (speed >= 1e9)
         snprintf(text, FIELD_BYTES, "%.2f Gsamples/s", speed * 1e-9);

@@ -15,12 +15,14 @@
 #define LOOK_SPEED  0.9
 #define ORBIT_SPEED 1.5
 
-/* Powers of e a second: a tap changes by about a tenth, or a fifth. */
+/* Powers of e a second. A tap, which lasts 150 ms, changes the field of view by
+ * a tenth and the lens by one stop: half the light, a diameter of 1/sqrt 2. */
 #define WIDEN_SPEED 0.7
-#define OPEN_SPEED  1.3
+#define OPEN_SPEED  2.3105
 
-/* Of the scene's size. A smaller lens is as good as a pinhole. */
-#define APERTURE_LEAST    1e-4
+/* Of the distance that is sharp. A smaller lens is as good as a pinhole: what
+ * is far off is blurred by as many radians, less than a pixel. */
+#define APERTURE_LEAST    1e-3
 #define APERTURE_GREATEST 1.0
 
 #define PI_D        3.14159265358979323846
@@ -52,14 +54,14 @@ static void turn(const struct steer *s, struct view *view,
 }
 
 /* Below the least there is only the pinhole. */
-static void open_lens(const struct steer *s, struct view *view, double seconds)
+static void open_lens(struct view *view, double seconds)
 {
-    double least = APERTURE_LEAST * s->scene_size;
+    double sharp = view->focus > 0 ? view->focus : camera_depth(view, view->at);
+    double least = APERTURE_LEAST * sharp;
     double aperture = fmax(view->aperture, least) * exp(OPEN_SPEED * seconds);
 
-    view->aperture = aperture > least
-                         ? fmin(aperture, APERTURE_GREATEST * s->scene_size)
-                         : 0;
+    view->aperture =
+        aperture > least ? fmin(aperture, APERTURE_GREATEST * sharp) : 0;
 }
 
 bool steer_step(struct steer *s, struct view *view, uint64_t now_ns)
@@ -75,7 +77,7 @@ bool steer_step(struct steer *s, struct view *view, uint64_t now_ns)
     if (seconds[MOTION_WIDEN] != 0)
         camera_widen(view, exp(WIDEN_SPEED * seconds[MOTION_WIDEN]));
     if (seconds[MOTION_OPEN] != 0)
-        open_lens(s, view, seconds[MOTION_OPEN]);
+        open_lens(view, seconds[MOTION_OPEN]);
     return true;
 }
 

@@ -317,10 +317,16 @@ struct term_size term_size(void)
     struct winsize w = {0};
     struct term_size size = {COLS, LINES, 0};
 
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_xpixel >= w.ws_col &&
-        w.ws_ypixel >= w.ws_row && w.ws_col > 0 && w.ws_row > 0)
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_col == 0 ||
+        w.ws_row == 0)
+        return size;
+    if (w.ws_xpixel >= w.ws_col && w.ws_ypixel >= w.ws_row)
         size.cell_aspect =
             ((double)w.ws_ypixel / w.ws_row) / ((double)w.ws_xpixel / w.ws_col);
+    if (COLS == 0 || LINES == 0) {
+        size.cols = w.ws_col;
+        size.rows = w.ws_row;
+    }
     return size;
 }
 

@@ -87,6 +87,13 @@ static void end(struct tui *t, int status)
     t->status = status;
 }
 
+/* From the next restart on: a cell shows two pixels, one above the other. */
+static void set_draft(struct session *s, const struct fit *fit)
+{
+    s->draft_width = fit->cols;
+    s->draft_height = 2 * fit->rows;
+}
+
 static void layout(struct tui *t)
 {
     const struct film *film = film_of(t);
@@ -100,6 +107,8 @@ static void layout(struct tui *t)
         work_say_error(&t->work, err.text);
     }
     panel_draw(&t->panel);
+    /* until then the old draft is resampled */
+    set_draft(t->work.session, &t->canvas.fit);
 }
 
 /* ---- help, screen ---- */
@@ -208,8 +217,8 @@ static void quit(struct tui *t)
 
 static void open_panel(struct tui *t)
 {
-    if (t->pilot.has_pick)
-        panel_select(&t->panel, &t->pilot.pick);
+    if (t->pilot.cursor.has_pick)
+        panel_select(&t->panel, &t->pilot.cursor.pick);
     panel_open(&t->panel);
     layout(t);
 }
@@ -217,11 +226,11 @@ static void open_panel(struct tui *t)
 /* What was picked while the panel is open is selected in it. */
 static void follow_pick(struct tui *t)
 {
-    if (t->pilot.is_pick_new && t->panel.is_open) {
-        panel_select(&t->panel, &t->pilot.pick);
+    if (t->pilot.cursor.is_pick_new && t->panel.is_open) {
+        panel_select(&t->panel, &t->pilot.cursor.pick);
         panel_draw(&t->panel);
     }
-    t->pilot.is_pick_new = false;
+    t->pilot.cursor.is_pick_new = false;
 }
 
 /* The cursor on the picture has its keys first. */
@@ -467,16 +476,18 @@ static void lose_terminal(struct tui *t)
 static void draw(struct tui *t, uint64_t now_ns)
 {
     struct canvas *c = &t->canvas;
+    struct render *render = t->work.session->render;
     bool is_running = t->work.progress.state == RENDER_RUNNING;
-    bool has_picture = t->work.progress.first_picture_ns != 0 || !is_running;
-    bool shows = has_picture && !t->is_settled && now_ns >= t->frame_ns;
+    bool shows = !work_awaits_picture(&t->work) && !t->is_settled &&
+                 now_ns >= t->frame_ns;
     enum canvas_result result;
 
     show_messages(t, now_ns);
     if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
         return;
-    result = canvas_draw(c, shows ? render_film(t->work.session->render) : NULL,
-                         session_develop(t->work.session), frame_step(t));
+    result =
+        canvas_draw(c, shows ? render_film(render) : NULL, render_draft(render),
+                    session_develop(t->work.session), frame_step(t));
     if (result == CANVAS_GONE) {
         lose_terminal(t);
     } else if (shows) {
@@ -517,6 +528,8 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
 
         pause_ns = pause_ns < MS_NS / 2 ? MS_NS / 2 : pause_ns;
         wake = earlier(wake, now_ns + earlier(pause_ns, 20 * MS_NS));
+    } else if (t->work.must_restart) {
+        wake = now_ns;
     } else if (!t->is_settled && pace_may_send(&t->canvas.pace)) {
         wake = earlier(wake, t->frame_ns);
     }
@@ -635,8 +648,10 @@ static void close_screen(struct tui *t)
 bool tui_run(struct session *s, int *status, struct error *err)
 {
     struct tui t = {.has_mouse = true};
+    struct fit fit = canvas_expect(s->options, s->crop.width, s->crop.height);
     bool ok;
 
+    set_draft(s, &fit);
     if (!work_init(&t.work, s, err))
         return false;
     pilot_init(&t.pilot, &t.work, &t.canvas);

@@ -11,6 +11,10 @@
 #define MESSAGE_NS UINT64_C(4000000000)
 #define LONG_NS    UINT64_C(10000000000)
 
+/* The draft's first sample of all pixels is waited for: half a frame at 60 Hz
+ * for a picture that is worth to be seen. */
+#define PATIENCE_NS UINT64_C(8000000)
+
 static void say(struct work *w, const char *text, uint64_t until_ns)
 {
     snprintf(w->message.text, sizeof w->message.text, "%s", text);
@@ -56,6 +60,7 @@ static void restart(struct work *w)
     w->must_restart = false;
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
+    w->progress.first_picture_ns = 0; /* for the next look to find */
 }
 
 bool work_init(struct work *w, struct session *session, struct error *err)
@@ -71,8 +76,11 @@ bool work_init(struct work *w, struct session *session, struct error *err)
 
 bool work_awaits_picture(const struct work *w)
 {
-    return w->progress.state == RENDER_RUNNING &&
-           w->progress.first_picture_ns == 0;
+    const struct render_progress *p = &w->progress;
+
+    return p->state == RENDER_RUNNING &&
+           (p->first_picture_ns == 0 ||
+            (p->draft_is_coarse && p->render_ns < PATIENCE_NS));
 }
 
 /* A device that fails is replaced by the CPU, which starts anew. */
@@ -94,15 +102,17 @@ static void take_failure(struct work *w)
 void work_look(struct work *w)
 {
     enum render_state before = w->progress.state;
+    bool was_awaited = work_awaits_picture(w);
 
     w->progress = render_progress(w->session->render);
     if (w->progress.state != before)
         w->has_changed = true;
     if (w->progress.state == RENDER_FAILED && before != RENDER_FAILED)
         take_failure(w);
-    /* A picture of the old place that has been begun is shown first, or a scene
-     * that is slow to begin would never show anything on the way. */
-    if (w->must_restart && !work_awaits_picture(w))
+    /* A picture of the old place that has been begun is shown first, between
+     * this look and the next, or a scene that is slow to begin would never show
+     * anything on the way. */
+    if (w->must_restart && !was_awaited)
         restart(w);
 }
 

@@ -49,6 +49,11 @@ struct canvas {
     int cursor_col, cursor_row; /* in the picture */
 };
 
+/* Where a picture of this size will go, as far as that is known before
+ * term_open(). No columns: nowhere. */
+struct fit canvas_expect(const struct options *options, int width_px,
+                         int height_px);
+
 /* After term_open(). */
 void canvas_init(struct canvas *c, const struct options *options);
 
@@ -81,10 +86,11 @@ enum canvas_result {
     CANVAS_GONE  /* the terminal is gone, or a signal wants an end */
 };
 
-/* Writes what has changed, and the film's picture if there is one. Call it only
- * if pace_may_send(). */
+/* Writes what has changed, and the film's picture if there is one, with the
+ * draft's if there is one. Call it only if pace_may_send(). */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               struct develop how, int step);
+                               struct film *draft, struct develop how,
+                               int step);
 
 /* Waits for answers on their way, half a second at most: they would be typed
  * into the shell. Keys pressed meanwhile are lost. */

@@ -87,8 +87,10 @@ void film_linear(struct film *film, float *rgb);
  * its own memory. */
 void film_resolve(struct film *film, struct develop how, struct frame *frame);
 
-/* The same, averaged down to the frame's size (or repeated up to it). */
-void film_preview(struct film *film, struct develop how, struct frame *frame);
+/* The same, averaged down to the frame's size (or repeated up to it), together
+ * with the samples of a draft of the same picture; NULL: none. */
+void film_preview(struct film *film, struct film *draft, struct develop how,
+                  struct frame *frame);
 
 bool frame_init(struct frame *frame, int width, int height, struct error *err);
 void frame_free(struct frame *frame);

@@ -19,8 +19,10 @@
 #define HELP_GAP        2
 #define HELP_ROWS_MAX   64
 
+#define HELP_LINE_BYTES (HELP_COLUMNS * (HELP_ENTRY_COLS + HELP_GAP) + 1)
+
 struct help_page {
-    char lines[HELP_ROWS_MAX][HELP_COLUMNS * (HELP_ENTRY_COLS + HELP_GAP) + 1];
+    char lines[HELP_ROWS_MAX][HELP_LINE_BYTES];
     int line_count;
     int page_count; /* of the whole help; at least 1 */
 };

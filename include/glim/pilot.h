@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * pilot.h - what keys and mouse do with the camera, and with the cursor that
- * picks what the camera sees
+ * pilot.h - what keys and mouse do with the camera
  *
  * Moves are held keys or drags; each is one step of undo. What is picked is the
  * point to orbit and to focus on, and its object the one to frame.
@@ -15,12 +14,9 @@
 #ifndef GLIM_PILOT_H
 #define GLIM_PILOT_H
 
-#include "glim/canvas.h"
+#include "glim/cursor.h"
 #include "glim/history.h"
-#include "glim/keys.h"
-#include "glim/pick.h"
 #include "glim/steer.h"
-#include "glim/work.h"
 
 struct pilot {
     struct work *work;
@@ -30,11 +26,8 @@ struct pilot {
     enum action held; /* what the last step of undo was made by, and when */
     uint64_t held_ns;
     bool drag_is_new; /* no step of undo yet */
-    struct pick pick;
-    bool has_pick;
-    bool is_pick_new; /* whom it concerns clears it */
-    bool must_look;   /* what is under the cursor is not yet said */
-    bool is_keeping;  /* the next key says the number of a view */
+    struct cursor cursor;
+    bool is_keeping; /* the next key says the number of a view */
 };
 
 void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas);

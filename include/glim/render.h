@@ -6,6 +6,10 @@
  * after a few milliseconds; later ones visit blocks in random order. Pass
  * sizes follow sample counts, never the clock.
  *
+ * For a screen a draft may come first: a small film of the same picture, with
+ * a few samples a pixel in an order that is calm to look at. It is added to
+ * what is shown, never to the film.
+ *
  * Units:     samples a pixel (spp), pixels, nanoseconds
  * Ownership: the backend and the world's arrays stay the caller's and must
  *            live until render_use(), render_halt() or render_destroy()
@@ -28,6 +32,9 @@ struct render_job {
     bool geometry_changed; /* since the last start: the backend loads anew */
     struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
+    /* pixels of the draft, as many as are shown; it has no more than the film,
+     * and there is none without columns or rows */
+    int draft_width, draft_height;
 };
 
 enum render_state {
@@ -43,14 +50,17 @@ struct render_progress {
     uint64_t spp_done;      /* that every pixel has */
     uint64_t samples;       /* of all pixels together */
     uint64_t samples_limit; /* 0: none */
+    uint64_t draft_samples; /* of the draft, not among the others */
+    bool draft_is_coarse;   /* it has pixels without a sample */
     uint64_t rays;
     uint64_t non_finite;
     uint64_t saturated;
     uint64_t cut_paths;
     uint64_t render_ns;        /* from start to now, or to the end */
     uint64_t build_ns;         /* the backend's load() */
-    uint64_t first_picture_ns; /* from start until every pixel has a sample on
-                                  the coarsest grid; 0: not yet */
+    uint64_t first_picture_ns; /* from start until every pixel, of the draft if
+                                  there is one, has a sample on the coarsest
+                                  grid; 0: not yet */
     struct error error;
 };
 
@@ -89,6 +99,10 @@ struct render_progress render_progress(struct render *r);
 /* For reading: film_preview(), film_resolve(), film_linear(), picture_write().
  * Valid until the next render_start() with another size. */
 struct film *render_film(struct render *r);
+
+/* The draft, to be shown with the film by film_preview() as long as that is
+ * young; NULL: none. Valid until the next render_start(). */
+struct film *render_draft(struct render *r);
 struct backend *render_backend(const struct render *r);
 
 void render_destroy(struct render *r);

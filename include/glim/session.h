@@ -22,6 +22,7 @@ struct session {
     struct scene scene;
     struct view view;   /* what is rendered now */
     struct view opened; /* as loaded, to go back to */
+    struct rect crop;   /* of the view's picture, that is rendered */
     struct edit edit;   /* of materials and light; session_restart() applies */
     uint32_t sky;       /* of the edit's skies, that was looked for last */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
@@ -33,6 +34,7 @@ struct session {
     uint64_t load_ns;
     uint64_t restart_ns; /* when session_restart() last started the render */
     bool geometry_changed;
+    int draft_width, draft_height; /* of what will be seen live; 0: nothing */
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has

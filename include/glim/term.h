@@ -41,6 +41,7 @@ enum palette term_palette(bool *is_final);
  * the answer EVENT_CURSOR tells better: x is 2 then, else 3 or more. */
 bool term_is_utf8(bool *may_learn);
 
+/* Also before term_open(), if the system knows it. */
 struct term_size term_size(void);
 
 /* Readable when a signal came. term_signal() takes it, 0 if there is none. */

@@ -54,10 +54,11 @@ void work_say_long(struct work *w, const char *text);
 void work_say_error(struct work *w, const char *text);
 
 /* Looks how far the render is, and restarts it if the view has changed and the
- * picture before has begun to show. */
+ * look before has found a picture. */
 void work_look(struct work *w);
 
-/* True until the first rough picture after a restart is there. */
+/* True until there is a picture to show after a restart: a rough one, and where
+ * a draft is soon whole, that. */
 bool work_awaits_picture(const struct work *w);
 
 /* True if a normal render would be lost. */

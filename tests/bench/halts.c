@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * halts - how long from the request to halt until every worker is parked, and
- * from a restart until the first whole (coarse) picture
+ * from a restart until the first whole (coarse) picture, as the screen makes
+ * them in a window of some 120 x 40 cells
  *
  * usage: halts SCENE [COUNT [opencl]]
  */
@@ -64,6 +65,8 @@ int main(int argc, char **argv)
     }
     while (render_progress(s.render).first_picture_ns == 0)
         usleep(1000); /* the tree is built */
+    s.draft_width = 120;
+    s.draft_height = 80;
     for (int i = 0; i < count; i++) {
         uint64_t begin;
 

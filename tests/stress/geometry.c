@@ -129,6 +129,32 @@ static void two_materials(struct stage *s, double first)
     }
 }
 
+/* G6: triangles in slanted planes, bright (0) or black (1), and behind each in
+ * the file, unless 2 is added, a copy that is the other, begins elsewhere or is
+ * wound the other way. */
+static void slanted(struct stage *s, double number)
+{
+    static const char *const orders[] = {"-3 -2 -1", "-2 -1 -3", "-1 -3 -2",
+                                         "-3 -1 -2", "-1 -2 -3", "-2 -3 -1"};
+    static const char *const names[] = {"bright", "black"};
+    const int first = (int)number % 2, copies = number < 2 ? 2 : 1;
+    uint64_t seed = 3;
+
+    put_shining(s, names[0], 1);
+    put_material(s, names[1], "Kd 0 0 0");
+    for (int i = 0; i < 60; i++) {
+        double x = (i % 10 - 5) / 5.0, z = (i / 10 - 3) / 5.0;
+        double lean = check_random(&seed) / 5, turn = check_random(&seed) / 5;
+
+        put_vertex(s, x, 0, z);
+        put_vertex(s, x + 0.18, lean, z + turn / 9);
+        put_vertex(s, x, turn, z + 0.18);
+        for (int k = 0; k < copies; k++)
+            fprintf(s->obj, "usemtl %s\nf %s\n", names[(first + k) % 2],
+                    orders[k * i % 6]);
+    }
+}
+
 /* G7: boxes around one point. */
 static void nested_room(struct stage *s, double count)
 {
@@ -382,6 +408,10 @@ static void check_pairs(struct stage *s)
         {"G3", "shared vertices among strangers, or vertices of their own",
          hills, 0, 1, from_above},
         {"G5", "200 coincident faces or one", coincident, 200, 1, from_above},
+        {"G6", "bright slanted faces with black copies, or without", slanted, 0,
+         2, from_above},
+        {"G6", "black slanted faces with bright copies, or without", slanted, 1,
+         3, from_above},
         {"G5 G6", "one picture twice", two_materials, 0, 0, from_above},
     };
 

@@ -6,10 +6,9 @@
  */
 #include "lamp.h"
 
-/* A shading normal that leans away from its face by an angle loses what the
- * face's plane cuts from the cosine lobe, (1 - cos angle) / 2; on these balls
- * it is below 10 degrees. */
-#define TERMINATOR 7.6e-3
+/* Of clear glass with normals that lean away from its faces, by up to 7 degrees
+ * on these balls, what refraction sends out below the face is lost. */
+#define LEANING 7.6e-3
 
 /* The BSDFs' tables are this near to white: test_path, test_energy. */
 #define TABLES 3e-3
@@ -68,6 +67,22 @@ static void ball_with_normals(struct stage *s, double normals)
 {
     put_material(s, "white", "Kd 1 1 1");
     put_ball(s, 0.5, (enum normals)normals);
+}
+
+/* M1 */
+static void mirror_ball(struct stage *s, double alpha)
+{
+    put_material(s, "white",
+                 alpha > 0 ? "illum 3\nKs 1 1 1\nPr .5"
+                           : "illum 3\nKs 1 1 1\nPr 0");
+    put_ball(s, 0.5, NORMALS_UNIT);
+}
+
+static void glass_ball(struct stage *s, double number)
+{
+    (void)number;
+    put_material(s, "white", "illum 7\nNi 1.5");
+    put_ball(s, 0.5, NORMALS_UNIT);
 }
 
 /* White things before a white sky, which must vanish. */
@@ -286,14 +301,20 @@ static void speck(struct stage *s, double radiance)
     put_quad(s, 1, 0, (double[]){-0.01, -0.01}, (double[]){0.01, 0.01});
 }
 
-/* A sky of `width` x `height` texels of radiance `rest`, but one of
- * `hot`. */
+/* A sky of `width` x `height` texels of radiance `rest`, but one of `hot`: in
+ * Radiance HDR, or in PFM, which has numbers that are no radiance. */
 struct sky_file {
     int width, height, hot_row;
     double rest, hot;
+    bool is_pfm;
 };
 
-static void put_texel(FILE *f, double radiance)
+static double sky_texel(const struct sky_file *sky, int x, int y)
+{
+    return y == sky->hot_row && x == sky->width / 3 ? sky->hot : sky->rest;
+}
+
+static void put_hdr_texel(FILE *f, double radiance)
 {
     int exponent = 0;
     double mantissa = frexp(radiance, &exponent);
@@ -305,18 +326,38 @@ static void put_texel(FILE *f, double radiance)
     putc(radiance > 0 ? exponent + 128 : 0, f);
 }
 
-static void write_sky(const struct sky_file *sky)
+static void put_hdr(FILE *f, const struct sky_file *sky)
 {
-    FILE *f = fopen("sky.hdr", "wb");
-
-    if (f == NULL)
-        stage_stop("cannot write the sky");
     fprintf(f, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n",
             sky->height, sky->width);
     for (int y = 0; y < sky->height; y++)
         for (int x = 0; x < sky->width; x++)
-            put_texel(f, y == sky->hot_row && x == sky->width / 3 ? sky->hot
-                                                                  : sky->rest);
+            put_hdr_texel(f, sky_texel(sky, x, y));
+}
+
+/* Rows from the bottom up. */
+static void put_pfm(FILE *f, const struct sky_file *sky)
+{
+    fprintf(f, "PF\n%d %d\n-1\n", sky->width, sky->height);
+    for (int y = sky->height - 1; y >= 0; y--)
+        for (int x = 0; x < sky->width; x++) {
+            float radiance = (float)sky_texel(sky, x, y);
+
+            for (int c = 0; c < 3; c++)
+                fwrite(&radiance, sizeof radiance, 1, f);
+        }
+}
+
+static void write_sky(const struct sky_file *sky)
+{
+    FILE *f = fopen("sky", "wb");
+
+    if (f == NULL)
+        stage_stop("cannot write the sky");
+    if (sky->is_pfm)
+        put_pfm(f, sky);
+    else
+        put_hdr(f, sky);
     if (fclose(f) != 0)
         stage_stop("cannot write the sky");
 }
@@ -326,6 +367,7 @@ static void write_sky(const struct sky_file *sky)
 static double hot_irradiance(const struct sky_file *sky)
 {
     const int steps = 20000;
+    double hot = fmax(sky->hot, 0); /* negative radiance is clamped */
     double sum = 0;
 
     for (int i = 0; i < steps; i++) {
@@ -334,7 +376,7 @@ static double hot_irradiance(const struct sky_file *sky)
 
         sum += (1 - fabs(y)) * sin(theta) * cos(theta);
     }
-    return sky->rest * M_PI + (sky->hot - sky->rest) * sum * 2 / steps *
+    return sky->rest * M_PI + (hot - sky->rest) * sum * 2 / steps *
                                   (M_PI / sky->height) *
                                   (2 * M_PI / sky->width);
 }
@@ -352,12 +394,13 @@ static void check_skies(struct stage *s)
         const char *what;
         struct sky_file file;
     } skies[] = {
-        {"a black sky", {64, 32, 0, 0, 0}},
-        {"one texel", {1, 1, 0, 0.5, 0.5}},
-        {"16384 columns", {16384, 8, 0, 0.5, 0.5}},
-        {"one hot texel of 2048 in the dark", {64, 32, 9, 0, 8192}},
+        {"a black sky", {64, 32, 0, 0, 0, false}},
+        {"one texel", {1, 1, 0, 0.5, 0.5, false}},
+        {"16384 columns", {16384, 8, 0, 0.5, 0.5, false}},
+        {"one hot texel of 2048 in the dark", {64, 32, 9, 0, 8192, false}},
         {"one hot texel of a million, 1e6 times as bright",
-         {1414, 707, 200, 0.25, 262144}},
+         {1414, 707, 200, 0.25, 262144, false}},
+        {"one negative texel of 128", {16, 8, 2, 0.25, -1e6, true}},
     };
 
     for (size_t i = 0; i < sizeof skies / sizeof skies[0]; i++) {
@@ -370,12 +413,30 @@ static void check_skies(struct stage *s)
                           {.eye = {0.3, 2, 0.2},
                            .at = {0, 0, 0.1},
                            .fovy_deg = 40,
-                           .sky = "sky.hdr"},
-                          false};
+                           .sky = "sky"},
+                          skies[i].file.hot < 0};
 
         write_sky(&skies[i].file);
         check_truth(s, &t);
     }
+}
+
+static void check_sky_of_nan(struct stage *s)
+{
+    const struct sky_file file = {8, 4, 0, 0.25, NAN, true};
+    const struct shot up = {.at = {0, 1, 0}, .fovy_deg = 40, .sky = "sky"};
+    const char *want = "sky: found a pixel that is not a number";
+    struct outcome o;
+
+    write_sky(&file);
+    stage_begin(s);
+    ground(s, 0);
+    stage_end(s);
+    o = stage_render(s, &up, 1);
+    row(o.is_refused && strcmp(o.err.text, want) == 0, "M10",
+        "one texel that is NaN: \"%s\", want \"%s\"",
+        o.is_refused ? o.err.text : "rendered", want);
+    free(o.rgb);
 }
 
 /* M8: nothing overflows; what is too bright for the sum is counted. */
@@ -459,7 +520,13 @@ static void check_truths(struct stage *s)
     const double share = pow(0.02 / (2 * 2 * tan(2.5 * M_PI / 180)), 2);
     const struct truth truths[] = {
         {"M1", "a white ball with its normals", ball_with_normals, NORMALS_UNIT,
-         1, TERMINATOR, sky, false},
+         1, 0, sky, false},
+        {"M1", "a mirror ball with its normals", mirror_ball, 0, 1, 0, sky,
+         false},
+        {"M1", "a rough metal ball with its normals", mirror_ball, 0.25, 1,
+         TABLES, sky, false},
+        {"M1", "a glass ball with its normals", glass_ball, 0, 1, LEANING, sky,
+         false},
         {"M5", "a negative albedo", negative_albedo, 0, 0, 0, above, true},
         {"M6", "the eye in a cube of glass", glass_cube, 0, 1.5 * 1.5, 0,
          along_x, false},
@@ -553,8 +620,7 @@ int main(int argc, char **argv)
     check_truths(&s);
     check_brightest(&s);
     check_skies(&s);
-    printf("todo M10 NaN and negative texels: needs a sky format that has "
-           "them, as HDR, PNG and JPEG have not\n");
+    check_sky_of_nan(&s);
     stage_close(&s);
     return rows_status();
 }

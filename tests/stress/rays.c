@@ -17,13 +17,15 @@
 #include "tests/unit/mesh.h"
 
 #include "kernels/traverse.h"
+#include "kernels/vertex.h"
 
 /* One item of work: so many rays from a seed of its own. */
 #define CHUNK 100000
 
 struct shots {
     const struct world *world;
-    float size; /* of what is shot at */
+    struct vec3 center;
+    float size; /* of what is shot at, around the centre */
     atomic_uint_least64_t shot;
     atomic_uint_least64_t bad;
 };
@@ -67,29 +69,64 @@ static bool agrees(const struct world *w, struct ray r)
     return !found || (a.tri == b.tri && a.t == b.t && a.b0 == b.b0);
 }
 
-/* G12: from within to a vertex, along an edge, or to a point of an edge. */
+/* From within to a vertex, along an edge, or to a point of an edge. */
+static struct ray ray_to_edge(const struct shots *s, int i, uint64_t *seed)
+{
+    const struct world *w = s->world;
+    struct tri t =
+        w->tris[(uint32_t)(check_random(seed) * w->settings.tri_count)];
+    struct vec3 a = w->positions[t.v[0]], b = w->positions[t.v[1]];
+    struct vec3 c = w->positions[t.v[2]];
+    float f = i % 3 == 0 ? 0.0f : (float)check_random(seed);
+    struct vec3 at = i % 2 ? v3_lerp(a, b, f) : v3_lerp(b, c, f);
+    struct ray r = {{0, 0, 0}, {0, 0, 0}, FLOAT_MAX, 0};
+
+    r.o = v3_add(s->center, random_point(seed, s->size));
+    r.d = v3_unit(v3_sub(at, r.o));
+    return r;
+}
+
+/* G12 */
 static void aim_at_edges(void *context, uint32_t item, int worker)
 {
     struct shots *s = context;
-    const struct world *w = s->world;
     uint64_t seed = item;
     uint64_t bad = 0;
 
     (void)worker;
     for (int i = 0; i < CHUNK; i++) {
-        struct tri t =
-            w->tris[(uint32_t)(check_random(&seed) * w->settings.tri_count)];
-        struct vec3 a = w->positions[t.v[0]], b = w->positions[t.v[1]];
-        struct vec3 c = w->positions[t.v[2]];
-        float f = i % 3 == 0 ? 0.0f : (float)check_random(&seed);
-        struct vec3 at = i % 2 ? v3_lerp(a, b, f) : v3_lerp(b, c, f);
-        struct ray r = {random_point(&seed, s->size), {0, 0, 0}, FLOAT_MAX, 0};
         struct hit h;
 
-        r.d = v3_unit(v3_sub(at, r.o));
-        bad += !hit_closest(w, r, &h);
+        bad += !hit_closest(s->world, ray_to_edge(s, i, &seed), &h);
     }
     atomic_fetch_add(&s->shot, CHUNK);
+    atomic_fetch_add(&s->bad, bad);
+}
+
+/* G12: what has met an edge or a vertex goes on within, anywhere. */
+static void leave_edges(void *context, uint32_t item, int worker)
+{
+    struct shots *s = context;
+    const struct material m = material_default();
+    uint64_t seed = item;
+    uint64_t shot = 0, bad = 0;
+
+    (void)worker;
+    for (int i = 0; i < CHUNK; i++) {
+        struct ray r = ray_to_edge(s, i, &seed);
+        struct vertex v;
+        struct hit h;
+
+        if (!hit_closest(s->world, r, &h) || !vertex_at(s->world, &m, r, h, &v))
+            continue;
+        r.d = direction(&seed);
+        if (v3_dot(r.d, v.ng) < 0)
+            r.d = v3_neg(r.d);
+        r.o = vertex_leave(&v, 1);
+        shot++;
+        bad += !hit_closest(s->world, r, &h);
+    }
+    atomic_fetch_add(&s->shot, shot);
     atomic_fetch_add(&s->bad, bad);
 }
 
@@ -117,33 +154,63 @@ static void add_star(struct mesh *m)
     mesh_free(&ball);
 }
 
-static void closed_mesh(const char *name, struct mesh *m, float inside,
-                        uint32_t chunks)
+/* Points on an edge of less than some degrees, as the star's are, may be
+ * outside by rounding whatever is done: nothing leaves those. */
+static void closed_mesh(const char *name, struct mesh *m, struct vec3 center,
+                        float inside, bool has_knife_edges)
 {
-    struct shots s = {.world = &m->world, .size = inside};
+    struct shots s = {.world = &m->world, .center = center, .size = inside};
 
     mesh_finish(m);
-    shoot(&s, aim_at_edges, chunks);
+    shoot(&s, aim_at_edges, 200);
     row(atomic_load(&s.bad) == 0, name,
         "%llu rays from within to edges and vertices, leaks: %llu, want 0",
         count_of(&s.shot), count_of(&s.bad));
+    if (!has_knife_edges) {
+        shoot(&s, leave_edges, 30);
+        row(atomic_load(&s.bad) == 0, name,
+            "%llu rays that go on from there, leaks: %llu, want 0",
+            count_of(&s.shot), count_of(&s.bad));
+    }
     mesh_free(m);
+}
+
+/* A box that lies across no axis, around the origin. */
+static void add_turned_box(struct mesh *m, float half)
+{
+    struct vec3 t, b, n = v3_unit(v3(0.3f, 0.5f, 0.9f));
+
+    frame_around(n, &t, &b);
+    mesh_add_box(m, v3(-half, -half, -half), v3(half, half, half), 0);
+    for (uint32_t i = 0; i < 3 * m->tri_count; i++) {
+        struct vec3 p = m->positions[i];
+
+        m->positions[i] = v3_add(v3_add(v3_scale(t, p.x), v3_scale(b, p.y)),
+                                 v3_scale(n, p.z));
+    }
 }
 
 static void closed_meshes(void)
 {
-    struct mesh box = {0}, ball = {0}, fine = {0}, star = {0}, slab = {0};
+    struct mesh box = {0}, turned = {0}, ball = {0}, fine = {0}, star = {0};
+    struct mesh slab = {0}, speck = {0};
+    const struct vec3 origin = {0, 0, 0}, aside = {0.7f, -0.3f, 0.5f};
+    const struct vec3 half = {1e-5f, 1e-5f, 1e-5f};
 
     mesh_add_box(&box, v3(-0.7f, -0.7f, -0.7f), v3(0.7f, 0.7f, 0.7f), 0);
-    closed_mesh("G12 box", &box, 0.69f, 200);
+    closed_mesh("G12 box", &box, origin, 0.69f, false);
+    add_turned_box(&turned, 0.5f);
+    closed_mesh("G12 turned box", &turned, origin, 0.25f, false);
     mesh_add_sphere(&ball, v3(0.01f, 0.02f, -0.03f), 0.9f, 20, 30, 0);
-    closed_mesh("G12 ball", &ball, 0.45f, 200);
+    closed_mesh("G12 ball", &ball, origin, 0.45f, false);
     mesh_add_sphere(&fine, v3(0.01f, 0.02f, -0.03f), 0.9f, 300, 500, 0);
-    closed_mesh("G12 fine ball", &fine, 0.45f, 200);
+    closed_mesh("G12 fine ball", &fine, origin, 0.45f, false);
     add_star(&star);
-    closed_mesh("G12 star of needles", &star, 0.005f, 200);
+    closed_mesh("G12 star of needles", &star, origin, 0.005f, true);
     mesh_add_box(&slab, v3(-1, -1e-5f, -1), v3(1, 1e-5f, 1), 0);
-    closed_mesh("G12 G18 slab of 1e-5", &slab, 0.9e-5f, 200);
+    closed_mesh("G12 G18 slab of 1e-5", &slab, origin, 0.9e-5f, false);
+    mesh_add_box(&speck, v3_sub(aside, half), v3_add(aside, half), 0);
+    closed_mesh("G12 G15 box of 1e-5", &speck, aside, 0.9e-5f, false);
 }
 
 /* A triangle, a point of it that a ray has met, and its error. */
@@ -177,7 +244,7 @@ static bool land(uint64_t *seed, float size, struct place *x)
     r.d = v3_unit(v3_sub(aim, r.o));
     if (!triangle_hit(r, shear_of(r), x->p[0], x->p[1], x->p[2], FLOAT_MAX, &h))
         return false;
-    x->at = hit_point(h, x->p[0], x->p[1], x->p[2], &x->error);
+    x->at = hit_inside(h, x->p[0], x->p[1], x->p[2], &x->error);
     return true;
 }
 
@@ -302,7 +369,7 @@ static void cross_gaps(void *context, uint32_t item, int worker)
         r.d = v3_unit(v3_sub(middle, r.o));
         if (!triangle_hit(r, shear_of(r), p[0], p[1], p[2], FLOAT_MAX, &h))
             continue;
-        at = hit_point(h, p[0], p[1], p[2], &error);
+        at = hit_inside(h, p[0], p[1], p[2], &error);
         r.o = leave_surface(at, error, ng);
         r.d = direction(&seed);
         if (v3_dot(r.d, ng) < 0.05f) /* shallower ones may miss its border */

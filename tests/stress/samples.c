@@ -8,8 +8,25 @@
 #include "tests/unit/mesh.h"
 
 #include "glim/blackbody.h"
+#include "glim/lights.h"
+#include "glim/sky.h"
+#include "kernels/roulette.h"
 #include "kernels/traverse.h"
 
+/* Which roulette the paths of this program play: glim's, a plain one from the
+ * first vertex on, or none. */
+static enum { ROULETTE_OURS, ROULETTE_PLAIN, ROULETTE_NONE, ROULETTES } played;
+
+static float played_survival(struct vec3 beta, uint32_t vertex)
+{
+    if (played == ROULETTE_OURS)
+        return survival(beta, vertex);
+    if (played == ROULETTE_PLAIN)
+        return v3_max(beta);
+    return v3_max(beta) > 0.0f ? 1.0f : 0.0f;
+}
+
+#define survival played_survival
 #include "kernels/path.h"
 
 /* The closed room of geometry.c: every pixel's truth is 1. */
@@ -247,13 +264,15 @@ static bool is_fine(struct bsdf_sample s)
            (s.is_delta || (isfinite(s.pdf) && s.pdf > 0.0f));
 }
 
+/* Of random numbers. */
+static const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
+
 /* C9: BSDFs at the ends of random numbers, grazing and upright. */
 static void check_extremes(void)
 {
     static const uint32_t kinds[] = {MATERIAL_DIFFUSE, MATERIAL_ROUGH_DIFFUSE,
                                      MATERIAL_METAL,   MATERIAL_PLASTIC,
                                      MATERIAL_GLASS,   MATERIAL_THIN_GLASS};
-    static const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
     static const float heights[] = {1e-6f, 1e-3f, 0.5f, 1};
     static const float alphas[] = {0, ALPHA_SMOOTH, 0.1f, 1};
     int bad = 0, drawn = 0;
@@ -278,6 +297,86 @@ static void check_extremes(void)
         "BSDFs at the ends of random numbers: %d drawn, not finite or "
         "negative: %d, want 0",
         drawn, bad);
+}
+
+/* Lamps from 1 to 1e-8 in size, and a sky of few texels, one of them black. */
+static void make_lights(struct mesh *m, struct lights *lights,
+                        struct sky_table *table)
+{
+    static const struct vec3 texels[8] = {{1, 1, 1}, {2, 2, 2}, {0, 0, 0},
+                                          {3, 3, 3}, {4, 4, 4}, {1, 1, 1},
+                                          {9, 9, 9}, {1, 1, 1}};
+    struct error err;
+
+    *m = (struct mesh){0};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0);
+    m->materials[0].emission = v3(1, 1, 1);
+    for (int i = 0; i < 9; i++) {
+        float size = powf(10, (float)-i), x = (float)i / 4 - 1;
+
+        mesh_add(m, v3(x, 0, 0), v3(x + size, 0, 0), v3(x, 0, size), 0);
+    }
+    mesh_finish(m);
+    *lights = (struct lights){.lights = NULL};
+    *table = (struct sky_table){NULL};
+    m->world.settings.sky = (struct sky){{1, 1, 1}, 4, 2, 0, 1, 0};
+    m->world.sky_texels = texels;
+    if (!lights_build(lights, &m->world, &err) ||
+        !sky_build(table, texels, 4, 2, SKY_ALONE, &err))
+        stage_stop(err.text);
+    lights_lend(lights, &m->world);
+    sky_lend(table, &m->world);
+}
+
+static bool is_light(const struct world *w, const struct receiver *r,
+                     const struct light_sample *s)
+{
+    float sum = s->radiance.x + s->radiance.y + s->radiance.z;
+    float again = s->tri == NO_INDEX ? sky_light_pdf(w, s->wi)
+                                     : light_pdf_at(w, r, s->tri, s->p);
+
+    return isfinite(sum) && sum >= 0.0f && isfinite(s->pdf) && s->pdf > 0.0f &&
+           s->pdf == again && fabsf(v3_length(s->wi) - 1) < 1e-5f;
+}
+
+/* C9: lights at the ends of random numbers, seen from afar, from near by and
+ * from within their corners, in front, behind and grazing. */
+static void check_light_extremes(void)
+{
+    static const float distances[] = {0,     1e-30f, 1e-15f, 1e-6f,
+                                      1e-3f, 1,      1e3f,   1e6f};
+    static const struct vec3 normals[] = {
+        {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {1, 1e-6f, 0}, {1, -1e-6f, 0}};
+    static const struct vec3 away[] = {{0, 1, 0},
+                                       {1, 0, 0},
+                                       {0.6f, 1e-6f, 0.8f}};
+    int bad = 0, drawn = 0, of_sky = 0;
+    struct sky_table table;
+    struct lights lights;
+    struct mesh m;
+
+    make_lights(&m, &lights, &table);
+    for (int i = 0; i < 9 * 8 * 5 * 3 * 625; i++) {
+        struct vec3 from = m.positions[3 * (i / 625 % 9)];
+        struct receiver r = {.n = normals[i / 45000 % 5],
+                             .transmits = i % 2 == 0};
+        struct light_sample s;
+
+        r.p = v3_add(from, v3_scale(away[i / 225000], distances[i / 5625 % 8]));
+        if (!light_sample(&m.world, &r, v2(ends[i % 5], ends[i / 5 % 5]),
+                          v2(ends[i / 25 % 5], ends[i / 125 % 5]), &s))
+            continue;
+        drawn++;
+        of_sky += s.tri == NO_INDEX;
+        bad += !is_light(&m.world, &r, &s);
+    }
+    row(bad == 0 && of_sky > 10000 && drawn - of_sky > 10000, "C9",
+        "lights at the ends of random numbers: %d drawn, %d of them the sky; "
+        "not finite, or of another density than by chance: %d, want 0",
+        drawn, of_sky, bad);
+    sky_free(&table);
+    lights_free(&lights);
+    mesh_free(&m);
 }
 
 /* M14: densities of 0 and over the whole range of floats. */
@@ -318,6 +417,96 @@ static void check_roulette(void)
         (double)bright.beta.x);
 }
 
+/* A room that shines as the furnace does, around clear glass, which must
+ * vanish: the factor of refraction is not roulette's. */
+static void make_glass_furnace(struct mesh *m)
+{
+    *m = (struct mesh){0};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    m->materials[0].emission = v3(0.5f, 0.5f, 0.5f);
+    m->materials[1] = mesh_material(MATERIAL_GLASS, 1);
+    mesh_add_box(m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_box(m, v3(-0.5f, -0.5f, -0.6f), v3(0.5f, 0.4f, 0.6f), 1);
+    mesh_finish(m);
+}
+
+/* A coloured room with a lamp in a corner: throughputs of all kinds. */
+static void make_lit_room(struct mesh *m)
+{
+    *m = (struct mesh){0};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    m->materials[0].color = v3(0.9f, 0.5f, 0.1f);
+    m->materials[1] = mesh_material(MATERIAL_DIFFUSE, 0);
+    m->materials[1].emission = v3(1, 2, 4);
+    mesh_add_box(m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_box(m, v3(0.2f, -1, -1), v3(0.9f, 0, -0.5f), 1);
+    mesh_finish(m);
+}
+
+struct mean {
+    double value, error;
+};
+
+/* Each from a pixel of its own, so that they are independent. */
+static struct mean mean_of_paths(const struct world *w, uint32_t row)
+{
+    const uint32_t count = 100000;
+    double sum = 0, squares = 0;
+    struct mean m;
+
+    for (uint32_t i = 0; i < count; i++) {
+        struct ray r = {v3(0.7f, 0.8f, 0.9f), v3_unit(v3(-1, -1.1f, -1.2f)),
+                        FLOAT_MAX, 0};
+        struct vec3 c = path_trace(w, r, sampler_start(i, row, 0, 0)).radiance;
+        double x = ((double)c.x + (double)c.y + (double)c.z) / 3;
+
+        sum += x;
+        squares += x * x;
+    }
+    m.value = sum / count;
+    m.error = sqrt(fmax(squares / count - m.value * m.value, 0) / count);
+    return m;
+}
+
+/* M13: every roulette has the same mean. 4.9 standard errors come by chance
+ * once in 1e6 (two-sided), of 6 numbers. */
+static void check_roulettes(void)
+{
+    static const char *const names[] = {"glim's", "a plain one", "none"};
+    struct mesh furnace, room;
+    struct mean lit[ROULETTES];
+
+    make_glass_furnace(&furnace);
+    make_lit_room(&room);
+    /* without roulette a path ends here, where at most 2e-6 is left of it */
+    furnace.world.settings.max_vertices = 128;
+    room.world.settings.max_vertices = 128;
+    for (int i = 0; i < ROULETTES; i++) {
+        struct mean m;
+
+        played = i;
+        m = mean_of_paths(&furnace.world, (uint32_t)i);
+        row(fabs(m.value - 1) < 4.9 * m.error + ROUNDING, "M13",
+            "a furnace with glass, roulette: %s: %.5f, want 1, off by %.2g of "
+            "%.2g",
+            names[i], m.value, fabs(m.value - 1), 4.9 * m.error + ROUNDING);
+        lit[i] = mean_of_paths(&room.world, (uint32_t)i);
+    }
+    played = ROULETTE_OURS;
+    for (int i = 0; i < ROULETTES; i++) {
+        const struct mean *a = &lit[i], *b = &lit[(i + 1) % ROULETTES];
+        double allowed = 4.9 * hypot(a->error, b->error) + ROUNDING;
+
+        row(fabs(a->value - b->value) < allowed, "M13",
+            "a lit room, roulette: %s or %s: %.5f and %.5f, apart by %.2g of "
+            "%.2g",
+            names[i], names[(i + 1) % ROULETTES], a->value, b->value,
+            fabs(a->value - b->value), allowed);
+    }
+    mesh_free(&furnace);
+    mesh_free(&room);
+}
+
 /* M15: luminance 1 by the weights of Rec.709, nothing negative. */
 static void check_black_bodies(void)
 {
@@ -345,8 +534,10 @@ int main(int argc, char **argv)
         check_film();
         check_unit_floats();
         check_extremes();
+        check_light_extremes();
         check_weights();
         check_roulette();
+        check_roulettes();
         check_black_bodies();
         check_late_samples();
     }

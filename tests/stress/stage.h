@@ -102,7 +102,7 @@ static inline void stage_close(struct stage *s)
     s->backend->destroy(s->backend);
     unlink("a.obj");
     unlink("a.mtl");
-    unlink("sky.hdr");
+    unlink("sky");
     if (chdir("/") != 0 || rmdir(s->folder) != 0)
         stage_stop("files are left in the temporary folder");
 }

@@ -30,6 +30,7 @@ struct pair {
     struct scene scene;
     struct view view;
     struct render *renders[2];
+    int draft_width, draft_height;
 };
 
 static struct backend *device; /* NULL: there is none here */
@@ -105,7 +106,9 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
 {
     struct render_job job = {.geometry_changed = true,
                              .crop = crop,
-                             .spp = spp};
+                             .spp = spp,
+                             .draft_width = p->draft_width,
+                             .draft_height = p->draft_height};
     struct error err;
 
     check_or_say(scene_world(&p->scene, &p->view, seed, &job.world, &err) &&
@@ -229,6 +232,33 @@ static void options(void **state)
     close_pair(&p);
 }
 
+/* A small film before the film, of which that does not know. */
+static void drafts(void **state)
+{
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/cornell.obj", 97, 55);
+    for (int i = 0; i < 2; i++) {
+        const struct film *a, *b;
+
+        p.draft_width = 33 + 7 * i;
+        p.draft_height = 20;
+        render_both(&p, (struct rect){9, 5, 80, 50}, 3, 1);
+        a = render_draft(p.renders[0]);
+        b = render_draft(p.renders[1]);
+        assert_int_equal(b->width, p.draft_width);
+        assert_memory_equal(a->counts, b->counts,
+                            (size_t)b->width * 20 * sizeof *b->counts);
+        if (is_exact)
+            assert_memory_equal(a->sums, b->sums,
+                                3 * (size_t)b->width * 20 * sizeof *b->sums);
+    }
+    close_pair(&p);
+}
+
 /* A build for the scene's features alone computes the same, and one that lacks
  * a feature that a scene needs is not used for it. */
 static void special_builds(void **state)
@@ -335,8 +365,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes), cmocka_unit_test(options),
-        cmocka_unit_test(special_builds), cmocka_unit_test(self_tests),
-        cmocka_unit_test(halts),          cmocka_unit_test(buffers),
+        cmocka_unit_test(drafts),         cmocka_unit_test(special_builds),
+        cmocka_unit_test(self_tests),     cmocka_unit_test(halts),
+        cmocka_unit_test(buffers),
     };
 
     return cmocka_run_group_tests(tests, open_device, close_device);

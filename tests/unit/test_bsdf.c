@@ -98,7 +98,7 @@ static void thin_glass_adds_up_its_reflections(void **state)
         int reflected = 0;
 
         for (int i = 0; i < n; i++) {
-            struct bsdf_sample s;
+            struct bsdf_sample s = {0};
             struct vec3 wo = direction(cosines[c]);
 
             assert_true(

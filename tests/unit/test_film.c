@@ -193,16 +193,70 @@ static void preview_averages(void **state)
         for (int x = 0; x < 64; x += 8)
             film_add_row(&film, x, y, 1, 8, samples, counts);
     assert_true(frame_init(&frame, 10, 7, &err));
-    film_preview(&film, develop_linear(0.0f), &frame);
+    film_preview(&film, NULL, develop_linear(0.0f), &frame);
     for (int i = 0; i < 70; i++)
         check_close(frame.rgb[3 * i], 188, 4); /* odd widths shift a little */
     frame_free(&frame);
     assert_true(frame_init(&frame, 128, 96, &err));
-    film_preview(&film, develop_linear(0.0f), &frame);
+    film_preview(&film, NULL, develop_linear(0.0f), &frame);
     assert_int_equal(frame.rgb[0], frame.rgb[3]);
     assert_int_not_equal(frame.rgb[3], frame.rgb[6]);
     frame_free(&frame);
     film_free(&film);
+}
+
+static void fill(struct film *film, float value)
+{
+    struct path_sample samples[8 * SAMPLE_BLOCK];
+    int counts[8];
+
+    for (int i = 0; i < 8; i++) {
+        counts[i] = 1;
+        samples[i * SAMPLE_BLOCK] = grey(value);
+    }
+    for (int y = 0; y < film->height; y++)
+        for (int x = 0; x < film->width; x += 8)
+            film_add_row(film, x, y, 1, 8, samples, counts);
+}
+
+/* Each sample counts alike: 12 of the film's 0.2 and 3 of the draft's 0.7 in a
+ * pixel of the frame have the mean 0.3. A frame of another size than the
+ * draft's shows the same. */
+static void previews_add_the_draft(void **state)
+{
+    struct film film, draft;
+    struct frame frame;
+    struct error err;
+
+    (void)state;
+    assert_true(film_init(&film, 64, 48, &err));
+    assert_true(film_init(&draft, 16, 16, &err));
+    for (int i = 0; i < 3; i++)
+        fill(&draft, 0.7f);
+    assert_true(frame_init(&frame, 16, 16, &err));
+    film_preview(&film, &draft, develop_linear(0.0f),
+                 &frame); /* of the draft alone */
+    for (int i = 0; i < 16 * 16; i++)
+        assert_int_equal(frame.rgb[3 * i], srgb_byte(0.7f));
+    fill(&film, 0.2f);
+    film_preview(&film, &draft, develop_linear(0.0f), &frame);
+    for (int i = 0; i < 16 * 16; i++)
+        check_close(frame.rgb[3 * i], srgb_byte(0.3f), 1);
+    film_preview(&film, NULL, develop_linear(0.0f), &frame);
+    assert_int_equal(frame.rgb[0], srgb_byte(0.2f));
+    frame_free(&frame);
+    assert_true(frame_init(&frame, 32, 16, &err));
+    film_clear(&film);
+    film_preview(&film, &draft, develop_linear(0.0f), &frame);
+    for (int i = 0; i < 32 * 16; i++)
+        assert_int_equal(frame.rgb[3 * i], srgb_byte(0.7f));
+    film_clear(&draft);
+    draft.counts[0] = 3; /* all that its coarsest grid has */
+    film_preview(&film, &draft, develop_linear(0.0f), &frame);
+    assert_int_equal(frame.rgb[3 * (15 * 32 + 31)], srgb_byte(0.7f));
+    frame_free(&frame);
+    film_free(&film);
+    film_free(&draft);
 }
 
 static void films_too_large_are_refused(void **state)
@@ -281,6 +335,7 @@ int main(void)
         cmocka_unit_test(film_shows_means_and_fills_gaps),
         cmocka_unit_test(bad_samples_count_as_zero),
         cmocka_unit_test(preview_averages),
+        cmocka_unit_test(previews_add_the_draft),
         cmocka_unit_test(films_too_large_are_refused),
     };
 

@@ -142,6 +142,32 @@ static void faces_in_one_plane_tie(void **state)
     assert_true(hits > 1000);
 }
 
+/* A face and its copy of the other winding are as far off. */
+static void windings_tie(void **state)
+{
+    uint64_t seed = 8;
+    int hits = 0;
+
+    (void)state;
+    for (int i = 0; i < 300000; i++) {
+        /* every other one a needle, with distances in pairs of floats */
+        struct vec3 a = point(&seed), b = point(&seed);
+        struct vec3 c = i % 2 == 0 ? point(&seed)
+                                   : v3_add(a, v3_scale(point(&seed), 1e-5f));
+        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0};
+        struct hit one, other;
+
+        r.d = v3_unit(v3_sub(v3_lerp(v3_lerp(a, b, 0.4f), c, 0.3f), r.o));
+        if (!triangle_hit(r, shear_of(r), a, b, c, FLOAT_MAX, &one))
+            continue;
+        hits++;
+        assert_true(triangle_hit(r, shear_of(r), a, c, b, FLOAT_MAX, &other));
+        assert_true(one.t == other.t && one.b0 == other.b0 &&
+                    one.b1 == other.b2 && one.b2 == other.b1);
+    }
+    assert_true(hits > 200000);
+}
+
 /* STRESS G12: no ray from inside gets out of a closed mesh, aimed at vertices,
  * at edges or anywhere. */
 static void closed_meshes_do_not_leak(void **state)
@@ -161,6 +187,40 @@ static void closed_meshes_do_not_leak(void **state)
         struct vec3 at = i % 7 == 0 ? point(&seed) : v3_lerp(a, b, s);
 
         r.d = v3_unit(v3_sub(at, r.o));
+        assert_true(hit_closest(&m.world, r, &h));
+    }
+    mesh_free(&m);
+}
+
+/* What meets an edge or a corner of a box and goes on within stays within. */
+static void edges_are_left_inwards(void **state)
+{
+    struct mesh m = {0};
+    uint64_t seed = 6;
+
+    (void)state;
+    mesh_add_box(&m, v3(-0.7f, -0.7f, -0.7f), v3(0.7f, 0.7f, 0.7f), 0);
+    mesh_finish(&m);
+    for (int i = 0; i < 300000; i++) {
+        struct tri t = m.tris[(uint32_t)(check_random(&seed) * m.tri_count)];
+        struct vec3 at =
+            v3_lerp(m.positions[t.v[0]], m.positions[t.v[1]],
+                    i % 3 == 0 ? 0.0f : (float)check_random(&seed));
+        struct ray r = {v3_scale(point(&seed), 0.69f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct vec3 p, ng, error;
+        struct hit h;
+
+        r.d = v3_unit(v3_sub(at, r.o));
+        assert_true(hit_closest(&m.world, r, &h));
+        t = m.tris[h.tri];
+        p = hit_inside(h, m.positions[t.v[0]], m.positions[t.v[1]],
+                       m.positions[t.v[2]], &error);
+        assert_true(triangle_normal(m.positions[t.v[0]], m.positions[t.v[1]],
+                                    m.positions[t.v[2]], &ng));
+        ng = v3_neg(ng); /* a box is wound outwards */
+        r.d = v3_unit(point(&seed));
+        r.d = v3_dot(r.d, ng) < 0 ? v3_neg(r.d) : r.d;
+        r.o = leave_surface(p, error, ng);
         assert_true(hit_closest(&m.world, r, &h));
     }
     mesh_free(&m);
@@ -199,7 +259,7 @@ static void no_ray_hits_its_own_face(void **state)
         in.d = v3_unit(v3_sub(aim, in.o));
         if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
             continue;
-        p = hit_point(h, p0, p1, p2, &error);
+        p = hit_inside(h, p0, p1, p2, &error);
         frame_around(ng, &t, &b);
         out.d = v3_add(v3_add(v3_scale(t, (float)(rest * cos(angle))),
                               v3_scale(b, (float)(rest * sin(angle)))),
@@ -237,7 +297,7 @@ static void near_sheets_are_both_hit(void **state)
             v3_sub(v3_scale(v3_add(p0, v3_add(p1, p2)), 1 / 3.0f), in.o));
         if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
             continue;
-        p = hit_point(h, p0, p1, p2, &error);
+        p = hit_inside(h, p0, p1, p2, &error);
         q0 = v3_add(p0, v3_scale(ng, 1e-5f));
         q1 = v3_add(p1, v3_scale(ng, 1e-5f));
         q2 = v3_add(p2, v3_scale(ng, 1e-5f));
@@ -257,7 +317,9 @@ int main(void)
         cmocka_unit_test(hits_agree_with_long_double),
         cmocka_unit_test(needles_are_hit_where_they_are),
         cmocka_unit_test(faces_in_one_plane_tie),
+        cmocka_unit_test(windings_tie),
         cmocka_unit_test(closed_meshes_do_not_leak),
+        cmocka_unit_test(edges_are_left_inwards),
         cmocka_unit_test(no_ray_hits_its_own_face),
         cmocka_unit_test(near_sheets_are_both_hit),
     };

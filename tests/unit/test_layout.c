@@ -37,9 +37,10 @@
     M(texture, is_data, 36)                                                  \
     S(sky, 32) M(sky, color, 0) M(sky, width, 12) M(sky, height, 16)         \
     M(sky, rotation_sin, 20) M(sky, rotation_cos, 24) M(sky, pad, 28)        \
-    S(camera, 64) M(camera, eye, 0) M(camera, width, 12)                     \
+    S(camera, 72) M(camera, eye, 0) M(camera, width, 12)                     \
     M(camera, forward, 16) M(camera, height, 28) M(camera, right, 32)        \
-    M(camera, lens_radius, 44) M(camera, up, 48) M(camera, focus, 60)               \
+    M(camera, lens_radius, 44) M(camera, up, 48) M(camera, focus, 60)        \
+    M(camera, left, 64) M(camera, top, 68)                                   \
     S(node, 32) M(node, lo, 0) M(node, next, 12) M(node, hi, 16)             \
     M(node, count, 28)                                                       \
     S(leaf_tri, 40) M(leaf_tri, p0, 0) M(leaf_tri, p1, 12)                   \
@@ -50,15 +51,16 @@
     M(light_node, axis_y, 160) M(light_node, axis_z, 192)                    \
     M(light_node, spread, 224) M(light_node, power, 256)                     \
     M(light_node, child, 288)                                                \
-    S(settings, 160) M(settings, camera, 0) M(settings, sky, 64)             \
-    M(settings, max_vertices, 96) M(settings, seed, 100)                     \
-    M(settings, features, 104) M(settings, direct, 108)                      \
-    M(settings, sky_share, 112) M(settings, light_share, 116)                \
-    M(settings, tri_count, 120) M(settings, position_count, 124)             \
-    M(settings, normal_count, 128) M(settings, uv_count, 132)                \
-    M(settings, material_count, 136) M(settings, texture_count, 140)         \
-    M(settings, texel_count, 144) M(settings, light_count, 148)              \
-    M(settings, light_node_count, 152) M(settings, sky_sum_count, 156)       \
+    S(settings, 172) M(settings, camera, 0) M(settings, sky, 72)             \
+    M(settings, max_vertices, 104) M(settings, seed, 108)                    \
+    M(settings, features, 112) M(settings, direct, 116)                      \
+    M(settings, order, 120)                                                  \
+    M(settings, sky_share, 124) M(settings, light_share, 128)                \
+    M(settings, tri_count, 132) M(settings, position_count, 136)             \
+    M(settings, normal_count, 140) M(settings, uv_count, 144)                \
+    M(settings, material_count, 148) M(settings, texture_count, 152)         \
+    M(settings, texel_count, 156) M(settings, light_count, 160)              \
+    M(settings, light_node_count, 164) M(settings, sky_sum_count, 168)       \
     S(ray, 32) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
     S(path_sample, 20) M(path_sample, radiance, 0) M(path_sample, rays, 12)  \
     M(path_sample, cut, 16)                                                  \

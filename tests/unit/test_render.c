@@ -58,7 +58,10 @@ static void close_render(struct render *r)
 
 static struct render_job job_of(const struct mesh *m, uint64_t spp)
 {
-    struct render_job job = {m->world, true, {0, 0, WIDTH, HEIGHT}, spp};
+    struct render_job job = {.world = m->world,
+                             .geometry_changed = true,
+                             .crop = {0, 0, WIDTH, HEIGHT},
+                             .spp = spp};
 
     return job;
 }

@@ -202,6 +202,32 @@ static void test_no_faces(void **state)
     unload(&l);
 }
 
+/* Copies of a face begin at the same corner, wherever they do so in the file;
+ * winding, texture coordinates and normals stay with their corners. */
+static void test_copies_begin_alike(void **state)
+{
+    static const uint32_t expected[4][3] = {{1, 2, 0},
+                                            {1, 2, 0},
+                                            {1, 2, 0},
+                                            {1, 0, 2}};
+    struct loaded l = load("v 1 2 3\nv 0 5 1\nv 0 6 -1\n"
+                           "vt 0 0\nvt 1 0\nvt 1 1\n"
+                           "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\n"
+                           "f 1/1/1 2/2/2 3/3/3\nf 2/2/2 3/3/3 1/1/1\n"
+                           "f 3/3/3 1/1/1 2/2/2\nf 3/3/3 2/2/2 1/1/1\n");
+
+    (void)state;
+    assert_int_equal(l.scene.tri_count, 4);
+    for (int i = 0; i < 4; i++) {
+        const struct tri *t = &l.scene.tris[i];
+
+        assert_memory_equal(t->v, expected[i], sizeof t->v);
+        assert_memory_equal(t->vt, expected[i], sizeof t->vt);
+        assert_memory_equal(t->vn, expected[i], sizeof t->vn);
+    }
+    unload(&l);
+}
+
 static void test_z_up(void **state)
 {
     struct loaded l = load_turned("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 -1 0\n"
@@ -551,6 +577,7 @@ int main(void)
         cmocka_unit_test(test_triangles_too_small_for_floats),
         cmocka_unit_test(test_unused_vertices_have_no_effect),
         cmocka_unit_test(test_no_faces),
+        cmocka_unit_test(test_copies_begin_alike),
         cmocka_unit_test(test_z_up),
         cmocka_unit_test(test_textures),
         cmocka_unit_test(test_libraries),

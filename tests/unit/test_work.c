@@ -105,6 +105,46 @@ static void moving_starts_anew(void **state)
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
 
+/* A camera that never rests does not hide every picture: after one has come
+ * there is time to show it. */
+static void moving_shows_pictures(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    for (int i = 0; i < 20; i++) {
+        uint64_t before_ns = w->restarted_ns;
+
+        do {
+            w->must_restart = true;
+            work_look(w);
+            assert_int_equal(w->restarted_ns, before_ns);
+        } while (work_awaits_picture(w));
+        work_look(w);
+        assert_int_not_equal(w->restarted_ns, before_ns);
+    }
+}
+
+/* In live mode the draft comes first, and is not counted; in normal mode there
+ * is none. */
+static void drafts_are_live(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    struct render *render = w->session->render;
+
+    w->session->draft_width = 20;
+    w->session->draft_height = 12;
+    work_set_live(w, true);
+    while (w->progress.samples == 0)
+        work_look(w);
+    assert_true(w->progress.draft_samples == 5 * 20 * 12);
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    assert_null(render_draft(render));
+    run_to_end(w);
+    assert_int_equal(w->progress.draft_samples, 0);
+    assert_int_equal(w->progress.samples, 3 * 32 * 16);
+}
+
 static void normal_mode_renders_to_its_end(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
@@ -234,6 +274,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WORK_TEST(live_mode_has_nothing_to_lose),
         WORK_TEST(moving_starts_anew),
+        WORK_TEST(moving_shows_pictures),
+        WORK_TEST(drafts_are_live),
         WORK_TEST(normal_mode_renders_to_its_end),
         WORK_TEST(halted_renders_go_on),
         WORK_TEST(saving_never_replaces),

@@ -35,6 +35,7 @@
 struct backend *backend_hashed_create(int thread_count, struct error *err);
 struct backend *backend_uniform_create(int thread_count, struct error *err);
 struct backend *backend_throughput_create(int thread_count, struct error *err);
+struct backend *backend_shadows_create(int thread_count, struct error *err);
 
 /* What a scene must have for a technique to matter. */
 enum need { NEED_NOTHING, NEED_LIGHT_SAMPLES, NEED_LIGHTS, NEED_SKY_TABLE };
@@ -63,6 +64,8 @@ static const struct technique {
      NEED_SKY_TABLE},
     {"without root in roulette", backend_throughput_create, DIRECT_MIS,
      SKY_WITH_CHANCE, NEED_NOTHING},
+    {"with all shadow rays", backend_shadows_create, DIRECT_MIS,
+     SKY_WITH_CHANCE, NEED_LIGHT_SAMPLES},
 };
 
 enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };

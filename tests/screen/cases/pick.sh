@@ -69,6 +69,9 @@ wait_until_gone "\[+\]"
 keys r v Left Left Left Left Left Left z
 wait_for "^ left"
 is at 1 -1
+# o orbits what the cursor is on, even if it was on before
+keys o v Right Right Right o
+wait_for "orbit what is picked"
 # in normal mode one can look, but not move
 keys Space
 wait_for "normal mode"
@@ -76,5 +79,14 @@ raw_keys "$(printf '\033[<0;30;10M\033[<0;30;10m')"
 wait_for "left, red, "
 keys f
 wait_for "the camera moves in live mode"
+keys q
+expect_end 0
+fresh
+# a cut-out of the picture: its middle is elsewhere
+two_lamps
+start --crop 0,0,50,50 --cell-aspect 2 lamps.obj
+wait_for "▀"
+keys v
+wait_for "left, red, "
 keys q
 expect_end 0

@@ -8,24 +8,28 @@ line() # of the view file that is written now
     wait_until test -s lamp.view
     grep "^$1" lamp.view
 }
+settled() # the same when it does not change any more
+{
+    before=none
+    until now=$(line "$1") && [ "$now" = "$before" ]; do
+        before=$now
+        sleep 0.3 # longer than a key counts as held
+    done
+    echo "$now"
+}
 start --cell-aspect 2 lamp.obj
 wait_for "▀"
 keys u
 wait_for "nothing to undo"
-# held for a second, and a drag: two moves
-for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
-    keys w
-    sleep 0.05
-done
-sleep 0.4
-forward=$(line eye)
+# held for a while, and a drag: two moves
+keys -N 20 w
+forward=$(settled eye)
 raw_keys "$(printf '\033[<0;20;10M\033[<32;30;10M\033[<32;40;10M\033[<0;40;10m')"
 [ "$(line at)" != "at 0 0 0" ] || die "the drag turned nothing"
 keys u
 wait_for "undone"
-[ "$(line eye)" = "$forward" ] || die "the drag was not undone: $(line at)"
+[ "$(line eye)" = "$forward" ] || die "the drag was not undone: $(line eye), expected $forward"
 keys u
-sleep 0.2
 [ "$(line eye)" = "eye 0 0 5" ] || die "not back: $(line eye)"
 [ "$(line at)" = "at 0 0 0" ] || die "not back: $(line at)"
 keys U
@@ -38,7 +42,6 @@ wait_for "field of view 4[0-9]"
 keys u
 raw_keys "$(printf '\033[<80;20;10M')"
 wait_for "field of view 3[0-9]"
-sleep 0.3
 keys u
 wait_for "undone"
 [ "$(line fovy)" = "fovy 40" ] || die "not back: $(line fovy)"
@@ -51,8 +54,7 @@ wait_for "this is view 3"
 keys k x 4 # the x is no number: nothing is kept
 wait_for "no view 4 yet"
 keys s
-sleep 0.4
-[ "$(line eye)" != "eye 0 0 5" ] || die "not moved"
+[ "$(settled eye)" != "eye 0 0 5" ] || die "not moved"
 keys 3
 wait_for "^ view 3"
 [ "$(line eye)" = "eye 0 0 5" ] || die "not at view 3: $(line eye)"
