@@ -10,17 +10,9 @@
 #include "glim/color.h"
 #include "glim/look.h"
 #include "glim/number.h"
+#include "glim/scale.h"
 
-/* A lamp's radiance by the arrows: a tenth more each step; less than the least
- * is off. */
-#define LIGHT_STEP  1.1
-#define LIGHT_LEAST 0.01
-#define LIGHT_MOST  1e4
-
-/* Temperatures by the arrows. */
-#define KELVIN_LEAST 1000.0
-#define KELVIN_MOST  20000.0
-#define KELVIN_STEP  100.0
+/* Where a temperature begins that was none. */
 #define KELVIN_WHITE 6500.0
 
 enum knob_id {
@@ -42,75 +34,30 @@ enum knob_id {
     ID_MAP /* and the others after it */
 };
 
-/* ---- values with a scale ---- */
-
-/* How a number is turned and shown. */
-struct scale {
-    double least, most; /* that can be typed */
-    double from, to;    /* of the scale */
-    double step;
-    int digits;
-    const char *of; /* behind the number */
-    const char *expected;
-    bool wraps;
-};
-
-static const struct scale unit = {0,    1, 0,  1,
-                                  0.01, 3, "", "a number from 0 to 1",
-                                  false};
-static const struct scale hue = {0,   360, 0,  360,
-                                 1,   3,   "", "an angle from 0 to 360",
-                                 true};
-static const struct scale ior = {1e-6, 1e6, 1,  3,
-                                 0.01, 4,   "", "a number above 0",
-                                 false};
-static const struct scale rotation = {-1e6, 1e6, 0,  360,
-                                      1,    4,   "", "an angle in degrees",
-                                      true};
-static const struct scale exposure = {
-    -100, 100, -8, 8, 0.1, 3, " stops", "a number of stops from -100 to 100",
-    false};
-
-static double clamped(double x, double least, double most)
-{
-    return x < least ? least : x > most ? most : x;
-}
-
-/* A value some steps on, on whole steps so that 0.1 + 0.2 is 0.3. */
-static double turned(const struct scale *s, double x, int steps)
-{
-    double next = (round(x / s->step) + steps) * s->step;
-    /* of digits that nobody asked for */
-    double rounded = round(next * 1e6) / 1e6;
-
-    if (s->wraps)
-        return fmod(rounded + s->to, s->to);
-    return clamped(rounded, fmax(s->least, fmin(s->from, x)),
-                   fmin(s->most, fmax(s->to, x)));
-}
-
-static double light_turned(double x, int steps)
-{
-    double next = x < LIGHT_LEAST ? LIGHT_LEAST : x;
-
-    if (x < LIGHT_LEAST && steps < 0)
-        return 0;
-    next *= pow(LIGHT_STEP, steps);
-    /* two digits are as exact as a step */
-    if (next >= LIGHT_LEAST) {
-        double digit = pow(10, floor(log10(next)) - 2);
-
-        next = round(next / digit) * digit;
-    }
-    return next < LIGHT_LEAST ? 0 : fmin(next, LIGHT_MOST);
-}
-
-static double light_place(double x)
-{
-    return x < LIGHT_LEAST
-               ? 0
-               : fmin(log(x / LIGHT_LEAST) / log(LIGHT_MOST / LIGHT_LEAST), 1);
-}
+static const struct scale ior = {.least = 1e-6,
+                                 .most = 1e6,
+                                 .from = 1,
+                                 .to = 3,
+                                 .step = 0.01,
+                                 .digits = 4,
+                                 .expected = "a number above 0"};
+static const struct scale rotation = {.least = -1e6,
+                                      .most = 1e6,
+                                      .to = 360,
+                                      .step = 1,
+                                      .digits = 4,
+                                      .wraps = true,
+                                      .expected = "an angle in degrees"};
+static const struct scale exposure = {.least = -100,
+                                      .most = 100,
+                                      .from = -8,
+                                      .to = 8,
+                                      .step = 0.1,
+                                      .digits = 3,
+                                      .of = " stops",
+                                      .expected =
+                                          "a number of stops from -100 to 100"};
+static const struct scale kelvins = {.from = 1000, .to = 20000, .step = 100};
 
 /* ---- lists ---- */
 
@@ -133,8 +80,8 @@ static void add_scale(struct list *l, int id, const char *label,
 {
     struct knob *k = add(l, id, label);
 
-    k->place = clamped((value - s->from) / (s->to - s->from), 0, 1);
-    snprintf(k->text, sizeof k->text, "%.*g%s", s->digits, value, s->of);
+    k->place = scale_place(s, value);
+    scale_format(s, value, k->text, sizeof k->text);
 }
 
 static void add_color(struct list *l, int id, const char *label,
@@ -159,7 +106,7 @@ static void add_channels(struct list *l, const struct knob_target *t,
         color_to_hsv(rgb, v);
     for (int i = 0; i < 3; i++)
         add_scale(l, ID_CHANNEL + i, t->by_hsv ? hsv_labels[i] : rgb_labels[i],
-                  t->by_hsv && i == 0 ? &hue : &unit, v[i]);
+                  t->by_hsv && i == 0 ? &scale_hue : &scale_unit, v[i]);
 }
 
 static void add_light(struct list *l, const struct mtl_source *s)
@@ -168,13 +115,12 @@ static void add_light(struct list *l, const struct mtl_source *s)
     struct knob *k = add(l, ID_LIGHT, "light");
     double rgb[3];
 
-    k->place = light_place(strength);
-    if (strength > 0)
-        snprintf(k->text, sizeof k->text, "%.4g", strength);
-    else
+    k->place = scale_place(&scale_light, strength);
+    if (!(strength > 0)) {
         snprintf(k->text, sizeof k->text, "off");
-    if (!(strength > 0))
         return;
+    }
+    scale_format(&scale_light, strength, k->text, sizeof k->text);
     look_light_color(s, rgb);
     add_color(l, ID_LIGHT_COLOR, "of colour", rgb);
     k = &l->knobs[l->count - 1];
@@ -213,13 +159,13 @@ static void list_material(struct list *l, const struct scene *scene,
     add_color(l, ID_COLOR, look_is_glass(&m) ? "tint" : "colour", rgb);
     add_channels(l, t, rgb);
     if (m.kind != MATERIAL_THIN_GLASS)
-        add_scale(l, ID_ROUGHNESS, "roughness", &unit, look_roughness(s));
+        add_scale(l, ID_ROUGHNESS, "roughness", &scale_unit, look_roughness(s));
     if (m.kind == MATERIAL_PLASTIC)
-        add_scale(l, ID_COAT, "coat", &unit, look_largest(s->ks.rgb));
+        add_scale(l, ID_COAT, "coat", &scale_unit, look_largest(s->ks.rgb));
     if (look_is_glass(&m))
         add_scale(l, ID_IOR, "index", &ior, (double)m.ior);
     else
-        add_scale(l, ID_COVER, "cover", &unit, (double)m.opacity);
+        add_scale(l, ID_COVER, "cover", &scale_unit, (double)m.opacity);
     add_light(l, s);
     add_maps(l, scene, s);
 }
@@ -236,8 +182,8 @@ static void list_mood(struct list *l, const struct edit *e,
              : slash != NULL ? slash + 1
                              : path);
     if (m->sky != 0) {
-        k = add(l, ID_SKY_STRENGTH, "strength");
-        k->place = light_place(m->sky_strength);
+        add_scale(l, ID_SKY_STRENGTH, "strength", &scale_light,
+                  m->sky_strength);
         snprintf(k->text, sizeof k->text, "%.4g", m->sky_strength);
         add_scale(l, ID_SKY_ROTATION, "rotation", &rotation,
                   m->sky_rotation_deg);
@@ -279,11 +225,12 @@ static void turn_channel(double rgb[3], const struct knob_target *t,
     double hsv[3];
 
     if (!t->by_hsv) {
-        rgb[channel] = turned(&unit, rgb[channel], steps);
+        rgb[channel] = scale_turned(&scale_unit, rgb[channel], steps);
         return;
     }
     color_to_hsv(rgb, hsv);
-    hsv[channel] = turned(channel == 0 ? &hue : &unit, hsv[channel], steps);
+    hsv[channel] = scale_turned(channel == 0 ? &scale_hue : &scale_unit,
+                                hsv[channel], steps);
     color_from_hsv(hsv, rgb);
 }
 
@@ -304,28 +251,32 @@ static void turn_material(struct mtl_source *s, const struct knob_target *t,
         look_set_color(s, rgb);
         break;
     case ID_ROUGHNESS:
-        look_set_roughness(s, turned(&unit, look_roughness(s), steps));
+        look_set_roughness(s,
+                           scale_turned(&scale_unit, look_roughness(s), steps));
         break;
     case ID_COAT:
         /* black would be no coat, and the knob would be gone */
-        rgb[0] = fmax(turned(&unit, look_largest(s->ks.rgb), steps), unit.step);
+        rgb[0] = fmax(scale_turned(&scale_unit, look_largest(s->ks.rgb), steps),
+                      scale_unit.step);
         rgb[1] = rgb[2] = rgb[0];
         look_put_color(&s->ks, rgb);
         break;
     case ID_IOR:
-        look_put_number(&s->ni, turned(&ior, (double)m.ior, steps));
+        look_put_number(&s->ni, scale_turned(&ior, (double)m.ior, steps));
         break;
     case ID_COVER:
-        look_put_number(&s->d, turned(&unit, (double)m.opacity, steps));
+        look_put_number(&s->d,
+                        scale_turned(&scale_unit, (double)m.opacity, steps));
         break;
     case ID_LIGHT:
-        look_set_strength(s, light_turned(look_strength(s), steps));
+        look_set_strength(s,
+                          scale_turned(&scale_light, look_strength(s), steps));
         break;
     case ID_LIGHT_COLOR:
-        look_set_kelvin(s, s->kelvin.line == 0
-                               ? KELVIN_WHITE
-                               : clamped(s->kelvin.value + steps * KELVIN_STEP,
-                                         KELVIN_LEAST, KELVIN_MOST));
+        look_set_kelvin(s,
+                        s->kelvin.line == 0
+                            ? KELVIN_WHITE
+                            : scale_turned(&kelvins, s->kelvin.value, steps));
         break;
     default: s->maps_off ^= 1u << (id - ID_MAP); break;
     }
@@ -340,13 +291,14 @@ static void turn_mood(const struct edit *e, struct mood *m,
             (m->sky + (steps > 0 ? 1 : e->skies.count - 1)) % e->skies.count;
         break;
     case ID_SKY_STRENGTH:
-        m->sky_strength = light_turned(m->sky_strength, steps);
+        m->sky_strength = scale_turned(&scale_light, m->sky_strength, steps);
         break;
     case ID_SKY_ROTATION:
-        m->sky_rotation_deg = turned(&rotation, m->sky_rotation_deg, steps);
+        m->sky_rotation_deg =
+            scale_turned(&rotation, m->sky_rotation_deg, steps);
         break;
     case ID_EXPOSURE:
-        m->exposure = turned(&exposure, m->exposure, steps);
+        m->exposure = scale_turned(&exposure, m->exposure, steps);
         break;
     case ID_TONE:
         m->tone = (m->tone + (steps > 0 ? 1 : TONES - 1)) % TONES;
@@ -361,7 +313,8 @@ static void turn_mood(const struct edit *e, struct mood *m,
     }
 }
 
-/* The next material, round; between last and first the file's own. */
+/* The next material that has a name, round; between last and first what the
+ * file says. */
 static uint32_t next_material(const struct edit *e, uint32_t material, int step)
 {
     uint32_t count = e->material_count + 1;
@@ -369,7 +322,7 @@ static uint32_t next_material(const struct edit *e, uint32_t material, int step)
 
     do
         i = (i + (step > 0 ? 1 : count - 1)) % count;
-    while (i < count - 1 && !e->now.is_there[i]);
+    while (i == 0 || (i < count - 1 && !e->now.is_there[i]));
     return i == count - 1 ? NO_INDEX : i;
 }
 
@@ -393,28 +346,6 @@ void knob_turn(struct edit *e, const struct knob_target *t, int id, int steps)
 
 /* ---- typing ---- */
 
-static bool parse_within(const char *text, double least, double most,
-                         const char *expected, double *value, struct error *err)
-{
-    const char *p = text;
-
-    if (number_parse(&p, text + strlen(text), value) && *p == '\0' &&
-        *value >= least && *value <= most)
-        return true;
-    return fail(err, "found '%s', expected %s", text, expected);
-}
-
-static bool parse_scale(const char *text, const struct scale *s, double *value,
-                        struct error *err)
-{
-    return parse_within(text, s->least, s->most, s->expected, value, err);
-}
-
-static bool parse_strength(const char *text, double *value, struct error *err)
-{
-    return parse_within(text, 0, 1e30, "a number from 0 to 1e30", value, err);
-}
-
 static bool parse_color(const char *text, double most, double rgb[3],
                         double *kelvin, struct error *err)
 {
@@ -436,12 +367,12 @@ static bool type_color(double rgb[3], double most, const struct knob_target *t,
     if (id == ID_COLOR || strpbrk(text, "#kK ") != NULL)
         return parse_color(text, most, rgb, &kelvin, err);
     if (!t->by_hsv) {
-        if (!parse_within(text, 0, most, unit.expected, &x, err))
+        if (!scale_parse(most > 1 ? &scale_light : &scale_unit, text, &x, err))
             return false;
         rgb[channel] = x;
         return true;
     }
-    if (!parse_scale(text, channel == 0 ? &hue : &unit, &x, err))
+    if (!scale_parse(channel == 0 ? &scale_hue : &scale_unit, text, &x, err))
         return false;
     color_to_hsv(rgb, hsv);
     hsv[channel] = x;
@@ -486,28 +417,28 @@ static bool type_material(struct mtl_source *s, const struct knob_target *t,
         look_set_color(s, rgb);
         return true;
     case ID_ROUGHNESS:
-        if (!parse_scale(text, &unit, &x, err))
+        if (!scale_parse(&scale_unit, text, &x, err))
             return false;
         look_set_roughness(s, x);
         return true;
     case ID_COAT:
-        if (!parse_scale(text, &unit, &rgb[0], err))
+        if (!scale_parse(&scale_unit, text, &rgb[0], err))
             return false;
         rgb[1] = rgb[2] = rgb[0];
         look_put_color(&s->ks, rgb);
         return true;
     case ID_IOR:
-        if (!parse_scale(text, &ior, &x, err))
+        if (!scale_parse(&ior, text, &x, err))
             return false;
         look_put_number(&s->ni, x);
         return true;
     case ID_COVER:
-        if (!parse_scale(text, &unit, &x, err))
+        if (!scale_parse(&scale_unit, text, &x, err))
             return false;
         look_put_number(&s->d, x);
         return true;
     case ID_LIGHT:
-        if (!parse_strength(text, &x, err))
+        if (!scale_parse(&scale_light, text, &x, err))
             return false;
         look_set_strength(s, x);
         return true;
@@ -533,11 +464,12 @@ static bool type_mood(struct edit *e, struct mood *m,
 {
     switch (id) {
     case ID_SKY_IMAGE: m->sky = edit_sky(e, text); return true;
-    case ID_SKY_STRENGTH: return parse_strength(text, &m->sky_strength, err);
+    case ID_SKY_STRENGTH:
+        return scale_parse(&scale_light, text, &m->sky_strength, err);
     case ID_SKY_ROTATION:
-        return parse_scale(text, &rotation, &m->sky_rotation_deg, err);
+        return scale_parse(&rotation, text, &m->sky_rotation_deg, err);
     case ID_TONE: return parse_tone(text, &m->tone, err);
-    case ID_EXPOSURE: return parse_scale(text, &exposure, &m->exposure, err);
+    case ID_EXPOSURE: return scale_parse(&exposure, text, &m->exposure, err);
     default:
         m->has_background = true;
         return type_color(m->background, 1e30, t, id, text, err);
