@@ -10,6 +10,7 @@
 struct next {
     struct tri *tris;
     struct material *materials;
+    bool *material_is_used;
     struct texture *textures;
     struct lights lights;
     bool has_lights;
@@ -23,50 +24,44 @@ static bool out_of_memory(const struct scene *scene, struct error *err)
 
 /* ---- triangles ---- */
 
-static uint32_t file_material(const struct scene *scene, uint32_t tri)
+static uint32_t assigned_of(const struct scene *scene, uint32_t object)
 {
-    return scene->file_materials != NULL ? scene->file_materials[tri]
-                                         : scene->tris[tri].material;
+    return scene->assigned != NULL ? scene->assigned[object] : NO_INDEX;
 }
 
-static uint32_t wanted_material(const struct scene *scene,
-                                const struct style *style, uint32_t tri)
+static bool needs_tris(const struct scene *scene, const struct style *style)
 {
-    uint32_t assigned = style->assigned[scene->tri_objects[tri]];
-
-    return assigned != NO_INDEX ? assigned : file_material(scene, tri);
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (assigned_of(scene, i) != style->assigned[i])
+            return true;
+    return false;
 }
 
 /* What the file says is needed again when an object goes back to it. */
 static bool keep_file_materials(struct scene *scene)
 {
-    uint32_t *kept;
-
     if (scene->file_materials != NULL)
         return true;
-    kept = alloc_array(scene->tri_count, sizeof *kept);
-    for (uint32_t i = 0; kept != NULL && i < scene->tri_count; i++)
-        kept[i] = scene->tris[i].material;
-    scene->file_materials = kept;
-    return kept != NULL;
-}
-
-static bool needs_tris(const struct scene *scene, const struct style *style)
-{
+    scene->file_materials =
+        alloc_array(scene->tri_count, sizeof *scene->file_materials);
+    scene->assigned = alloc_array(scene->object_count, sizeof *scene->assigned);
+    if (scene->file_materials == NULL || scene->assigned == NULL) {
+        free(scene->file_materials);
+        free(scene->assigned);
+        scene->file_materials = scene->assigned = NULL;
+        return false;
+    }
     for (uint32_t i = 0; i < scene->tri_count; i++)
-        if (scene->tris[i].material != wanted_material(scene, style, i))
-            return true;
-    return false;
+        scene->file_materials[i] = scene->tris[i].material;
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        scene->assigned[i] = NO_INDEX;
+    return true;
 }
 
 static bool make_tris(struct scene *scene, const struct style *style,
                       struct next *next)
 {
-    bool is_assigned = scene->file_materials != NULL;
-
-    for (uint32_t i = 0; i < scene->object_count && !is_assigned; i++)
-        is_assigned = style->assigned[i] != NO_INDEX;
-    if (!is_assigned || !needs_tris(scene, style))
+    if (!needs_tris(scene, style))
         return true;
     if (!keep_file_materials(scene))
         return false;
@@ -74,8 +69,11 @@ static bool make_tris(struct scene *scene, const struct style *style,
     if (next->tris == NULL)
         return false;
     for (uint32_t i = 0; i < scene->tri_count; i++) {
+        uint32_t assigned = style->assigned[scene->tri_objects[i]];
+
         next->tris[i] = scene->tris[i];
-        next->tris[i].material = wanted_material(scene, style, i);
+        next->tris[i].material =
+            assigned != NO_INDEX ? assigned : scene->file_materials[i];
     }
     return true;
 }
@@ -91,11 +89,14 @@ static const struct tri *tris_of(const struct scene *scene,
 static bool *find_used(const struct scene *scene, const struct style *style,
                        const struct next *next)
 {
-    const struct tri *tris = tris_of(scene, next);
     bool *is_used = alloc_array(style->material_count, sizeof *is_used);
 
-    for (uint32_t i = 0; is_used != NULL && i < scene->tri_count; i++)
-        is_used[tris[i].material] = true;
+    if (is_used != NULL && next->tris == NULL)
+        memcpy(is_used, scene->material_is_used,
+               scene->material_count * sizeof *is_used);
+    else if (is_used != NULL)
+        for (uint32_t i = 0; i < scene->tri_count; i++)
+            is_used[next->tris[i].material] = true;
     return is_used;
 }
 
@@ -147,6 +148,7 @@ static bool make_materials(struct scene *scene, const struct style *style,
     bool *is_used = find_used(scene, style, next);
     bool ok = is_used != NULL || out_of_memory(scene, err);
 
+    next->material_is_used = is_used;
     next->materials =
         alloc_array(style->material_count, sizeof *next->materials);
     if (ok && next->materials == NULL)
@@ -160,7 +162,6 @@ static bool make_materials(struct scene *scene, const struct style *style,
         if (is_used[i])
             ok = load_textures(scene, &next->materials[i], next, err);
     }
-    free(is_used);
     return ok;
 }
 
@@ -168,11 +169,13 @@ static bool make_materials(struct scene *scene, const struct style *style,
 
 static bool needs_lights(const struct scene *scene, const struct next *next)
 {
-    const struct tri *tris = tris_of(scene, next);
-
-    for (uint32_t i = 0; i < scene->tri_count; i++)
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        if (scene->material_is_used[i] &&
+            lights_differ(&scene->materials[i], &next->materials[i]))
+            return true;
+    for (uint32_t i = 0; next->tris != NULL && i < scene->tri_count; i++)
         if (lights_differ(&scene->materials[scene->tris[i].material],
-                          &next->materials[tris[i].material]))
+                          &next->materials[next->tris[i].material]))
             return true;
     return false;
 }
@@ -225,13 +228,18 @@ static void take_sources(struct scene *scene, const struct style *style)
     scene->material_count = style->material_count;
 }
 
-static void swap_in(struct scene *scene, struct next *next)
+static void swap_in(struct scene *scene, const struct style *style,
+                    struct next *next)
 {
     free(scene->materials);
     scene->materials = next->materials;
+    free(scene->material_is_used);
+    scene->material_is_used = next->material_is_used;
     if (next->tris != NULL) {
         free(scene->tris);
         scene->tris = next->tris;
+        memcpy(scene->assigned, style->assigned,
+               scene->object_count * sizeof *scene->assigned);
     }
     if (next->textures != NULL) {
         free(scene->textures);
@@ -246,6 +254,7 @@ static void swap_in(struct scene *scene, struct next *next)
 static void drop(struct next *next)
 {
     free(next->materials);
+    free(next->material_is_used);
     free(next->tris);
     free(next->textures);
     lights_free(&next->lights);
@@ -279,7 +288,8 @@ bool scene_restyle(struct scene *scene, const struct style *style,
         drop(&next);
         return false;
     }
-    swap_in(scene, &next);
+    swap_in(scene, style, &next);
     take_sources(scene, style);
-    return scene_find_used(scene, err);
+    scene_find_emitters(scene);
+    return true;
 }

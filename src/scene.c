@@ -247,7 +247,15 @@ static void fill_linear_of_srgb(float table[256])
         table[i] = (float)color_decoded(i / 255.0);
 }
 
-bool scene_find_used(struct scene *scene, struct error *err)
+void scene_find_emitters(struct scene *scene)
+{
+    scene->has_emitters = false;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        scene->has_emitters |=
+            scene->material_is_used[i] && shines(&scene->materials[i]);
+}
+
+static bool find_used_materials(struct scene *scene, struct error *err)
 {
     free(scene->material_is_used);
     scene->material_is_used =
@@ -256,10 +264,7 @@ bool scene_find_used(struct scene *scene, struct error *err)
         return fail(err, "%s: out of memory for its materials", scene->path);
     for (uint32_t i = 0; i < scene->tri_count; i++)
         scene->material_is_used[scene->tris[i].material] = true;
-    scene->has_emitters = false;
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        scene->has_emitters |=
-            scene->material_is_used[i] && shines(&scene->materials[i]);
+    scene_find_emitters(scene);
     return true;
 }
 
@@ -304,7 +309,7 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
                    "%s: found no face that can be seen: only the background is "
                    "rendered",
                    scene->path);
-    if (!scene_find_used(scene, err))
+    if (!find_used_materials(scene, err))
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     arrays = scene_arrays(scene);
@@ -597,6 +602,7 @@ void scene_free(struct scene *scene)
     free(scene->tri_faces);
     free(scene->tri_objects);
     free(scene->file_materials);
+    free(scene->assigned);
     free_strings(scene->object_names, scene->object_count);
     free(scene->materials);
     free(scene->material_is_used);

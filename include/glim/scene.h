@@ -42,10 +42,12 @@ struct scene {
     uint32_t uv_count;
 
     struct tri *tris;
-    uint32_t *tri_faces;      /* number of the face in the file, from 0 */
-    uint32_t *tri_objects;    /* index into object_names */
-    uint32_t *file_materials; /* of triangles, as the file has it; NULL: as
-                                 tris has it */
+    uint32_t *tri_faces;   /* number of the face in the file, from 0 */
+    uint32_t *tri_objects; /* index into object_names */
+    /* of triangles, as the file has it, and for each object the one it has
+     * instead, or NO_INDEX; NULL: no object has another than in the file */
+    uint32_t *file_materials;
+    uint32_t *assigned;
     uint32_t tri_count;
 
     char **object_names; /* 0 is "" : before the first o line */
@@ -106,8 +108,8 @@ bool scene_world(const struct scene *scene, const struct view *view,
 /* The part of a world that no view changes. */
 struct world scene_arrays(const struct scene *scene);
 
-/* Finds which materials triangles have, and whether one of them shines. */
-bool scene_find_used(struct scene *scene, struct error *err);
+/* Finds whether one of the used materials shines. */
+void scene_find_emitters(struct scene *scene);
 
 /* What the scene needs, of enum feature; and what a material of it needs. */
 uint32_t scene_features(const struct scene *scene);
