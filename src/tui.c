@@ -10,7 +10,7 @@
 
 #include "glim/canvas.h"
 #include "glim/help.h"
-#include "glim/panel.h"
+#include "glim/panel_draw.h"
 #include "glim/pilot.h"
 #include "glim/version.h"
 #include "glim/work.h"
@@ -316,6 +316,15 @@ static void take_key(struct tui *t, int key)
     follow_pick(t);
 }
 
+static void take_mouse(struct tui *t, const struct event *event)
+{
+    if (panel_mouse(&t->panel, event))
+        panel_draw(&t->panel);
+    else
+        pilot_mouse(&t->pilot, event);
+    follow_pick(t);
+}
+
 static void take_event(struct tui *t, const struct event *event)
 {
     enum palette palette = t->canvas.palette;
@@ -325,8 +334,7 @@ static void take_event(struct tui *t, const struct event *event)
         take_key(t, event->key);
     } else if (event->kind == EVENT_MOUSE) {
         if (t->has_mouse && t->help_left == 0 && !t->canvas.is_too_small)
-            pilot_mouse(&t->pilot, event);
-        follow_pick(t);
+            take_mouse(t, event);
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);

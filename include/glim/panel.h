@@ -15,9 +15,8 @@
 #define GLIM_PANEL_H
 
 #include "glim/canvas.h"
-#include "glim/knob.h"
-#include "glim/look.h"
 #include "glim/pick.h"
+#include "glim/selection.h"
 #include "glim/work.h"
 
 #define PANEL_TEXT 512
@@ -25,14 +24,12 @@
 struct panel {
     struct work *work;
     struct canvas *canvas;
-    uint32_t *first_tris; /* one an object; NO_INDEX: it has none */
+    struct selection selection;
     bool is_open;
-    enum knob_page page;
-    uint32_t material, object; /* selected */
-    bool is_in_knobs;          /* else the arrows are the list's */
-    bool by_hsv;
-    int knob;               /* that is selected */
-    int list_top, knob_top; /* the first that is shown */
+    bool is_in_knobs;         /* else the arrows are the list's */
+    int knob;                 /* that is selected */
+    int list_top, knob_top;   /* the first that is shown, */
+    int list_rows, knob_rows; /* and how many are, as drawn last */
     bool is_typing;
     char typed[PANEL_TEXT];
     int turned_id; /* the last knob that was turned, and when */
@@ -48,11 +45,11 @@ void panel_close(struct panel *p);
 /* Does what the key means here. False if it is not the panel's. */
 bool panel_key(struct panel *p, int key);
 
+/* What the mouse does in the panel. False if it is elsewhere. */
+bool panel_mouse(struct panel *p, const struct event *event);
+
 /* Selects what was picked. */
 void panel_select(struct panel *p, const struct pick *pick);
-
-/* Shows it as it is now, after layouts and changes. */
-void panel_draw(struct panel *p);
 
 void panel_free(struct panel *p);
 

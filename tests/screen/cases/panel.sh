@@ -95,6 +95,32 @@ wait_for "are not saved. Quit?"
 keys s
 expect_end 0
 grep -q '^exposure -1$' lamp.view || die "lamp.view: $(cat lamp.view)"
+# the mouse: a material, a value, the wheel, another page
+fresh
+start lamp.obj
+wait_for LIVE
+keys Tab
+wait_for "│>    l  "
+click=$(printf '\033[<0;%d;%dM\033[<0;%d;%dm' 55 3 55 3)
+raw_keys "$click"
+wait_for "│>    l\.2 "
+raw_keys "$(printf '\033[<0;60;20M\033[<0;60;20m')"
+wait_for "│>    light "
+raw_keys "$(printf '\033[<65;60;20M')"
+wait_for "│>    light      0.909"
+raw_keys "$(printf '\033[<0;66;1M\033[<0;66;1m')"
+wait_for "\[Light\]"
+keys u
+wait_for "Sky and picture$"
+keys Escape
+wait_until_gone "│"
+# a click on the picture selects what is there
+keys Tab
+wait_for "Materials   Objects  \[Light\]"
+raw_keys "$(printf '\033[<0;22;12M\033[<0;22;12m')"
+wait_for "│>    l\.2 "
+keys q
+expect_end 0
 # it is all there again; monochrome has the numbers
 fresh
 size=40x12
