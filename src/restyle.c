@@ -129,13 +129,14 @@ static bool load_textures(struct scene *scene, struct material *m,
     struct texture *lent = scene->textures;
     bool ok;
 
-    if (next->textures == NULL) {
+    if (next->textures == NULL && !textures_are_tried(scene, m)) {
         next->textures = alloc_array(scene->texture_count, sizeof *lent);
         if (next->textures == NULL)
             return out_of_memory(scene, err);
         memcpy(next->textures, lent, scene->texture_count * sizeof *lent);
     }
-    scene->textures = next->textures;
+    if (next->textures != NULL)
+        scene->textures = next->textures;
     ok = textures_load_for(scene, m, &report, err);
     scene->textures = lent;
     report_free(&report);

@@ -135,15 +135,36 @@ static void settle_data(const struct scene *scene, uint32_t *texture)
         *texture = NO_INDEX;
 }
 
+#define MAPS 8
+
+static void list_maps(const struct material *m, uint32_t maps[MAPS])
+{
+    const uint32_t all[MAPS] = {m->color_texture,  m->emission_texture,
+                                m->coat_texture,   m->alpha_texture,
+                                m->metal_texture,  m->opacity_texture,
+                                m->normal_texture, m->bump_texture};
+
+    memcpy(maps, all, sizeof all);
+}
+
+bool textures_are_tried(const struct scene *scene, const struct material *m)
+{
+    uint32_t maps[MAPS];
+
+    list_maps(m, maps);
+    for (int i = 0; i < MAPS; i++)
+        if (maps[i] != NO_INDEX && !scene->texture_is_tried[maps[i]])
+            return false;
+    return true;
+}
+
 bool textures_load_for(struct scene *scene, struct material *m,
                        struct report *report, struct error *err)
 {
-    const uint32_t maps[] = {m->color_texture,  m->emission_texture,
-                             m->coat_texture,   m->alpha_texture,
-                             m->metal_texture,  m->opacity_texture,
-                             m->normal_texture, m->bump_texture};
+    uint32_t maps[MAPS];
 
-    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++) {
+    list_maps(m, maps);
+    for (int i = 0; i < MAPS; i++) {
         if (maps[i] == NO_INDEX || scene->texture_is_tried[maps[i]])
             continue;
         scene->texture_is_tried[maps[i]] = true;

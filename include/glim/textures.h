@@ -21,4 +21,8 @@ bool textures_load(struct scene *scene, struct report *report,
 bool textures_load_for(struct scene *scene, struct material *material,
                        struct report *report, struct error *err);
 
+/* True if all images of the material were looked for. */
+bool textures_are_tried(const struct scene *scene,
+                        const struct material *material);
+
 #endif

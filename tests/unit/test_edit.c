@@ -13,6 +13,8 @@
 #include "glim/file.h"
 #include "glim/session.h"
 
+static char root[4096]; /* where the scenes are */
+
 static const char obj[] =
     "mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 2 2\n"
     "o plain\nf 1 2 3\no lamp\nusemtl lamp\nf 1 2 4\nf 1 3 4\n"
@@ -446,8 +448,62 @@ static void test_wrong_lines(void **state)
     report_free(&report);
 }
 
+/* An image that no material had a use for is read when one gets it. */
+static void test_textures_come_into_use(void **state)
+{
+    struct session s, again;
+    struct mtl_source source;
+    const struct texture *textures;
+    struct material before;
+    char *text = xformat("newmtl lamp\nKe 1 1 1\nnewmtl wall\nillum 7\nKd .5\n"
+                         "map_Ks %s/scenes/tiles.png\n",
+                         root);
+
+    (void)state;
+    put_scene();
+    put("a.mtl", text);
+    open_session(&s);
+    restart(&s);
+    before = s.scene.materials[2];
+    textures = s.scene.textures;
+    assert_int_equal(s.scene.texture_count, 1);
+    assert_int_equal(textures[0].width, 0);
+    source = s.edit.now.sources[2];
+    source.illum.value = 2;
+    edit_material(&s.edit, 2, &source);
+    restart(&s);
+    assert_ptr_not_equal(s.scene.textures, textures);
+    assert_true(s.scene.textures[0].width > 0);
+    assert_int_equal(s.scene.materials[2].kind, MATERIAL_PLASTIC);
+    assert_int_equal(s.scene.materials[2].coat_texture, 0);
+    save(&s);
+    open_session(&again);
+    check_same_scene(&s.scene, &again.scene);
+    session_close(&again);
+    /* off: the colour alone; the next step copies no textures */
+    textures = s.scene.textures;
+    source.maps_off = 1u << MTL_MAP_KS;
+    edit_break(&s.edit);
+    edit_material(&s.edit, 2, &source);
+    restart(&s);
+    assert_ptr_equal(s.scene.textures, textures);
+    assert_int_equal(s.scene.materials[2].kind, MATERIAL_DIFFUSE);
+    save(&s);
+    open_session(&again);
+    check_same_scene(&s.scene, &again.scene);
+    session_close(&again);
+    while (edit_undo(&s.edit))
+        continue;
+    restart(&s);
+    assert_memory_equal(&s.scene.materials[2], &before, sizeof before);
+    session_close(&s);
+    free(text);
+}
+
 static int enter(void **state)
 {
+    if (getcwd(root, sizeof root) == NULL)
+        return -1;
     return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
 }
 
@@ -458,6 +514,7 @@ int main(void)
         cmocka_unit_test(test_groups),
         cmocka_unit_test(test_restyle),
         cmocka_unit_test(test_swaps),
+        cmocka_unit_test(test_textures_come_into_use),
         cmocka_unit_test(test_saved_files),
         cmocka_unit_test(test_lost_assignments),
         cmocka_unit_test(test_wrong_lines),
