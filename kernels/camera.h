@@ -21,7 +21,7 @@ static inline struct ray camera_ray(struct camera c, uint32_t x, uint32_t y,
     float sy = 1.0f - 2.0f * (((float)y + offset.y + c.top) / c.height);
     struct vec3 d =
         v3_add(v3_add(c.forward, v3_scale(c.right, sx)), v3_scale(c.up, sy));
-    struct ray r = {c.eye, v3_unit(d), FLOAT_MAX, 0};
+    struct ray r = {c.eye, v3_unit(d), FLOAT_MAX, 0, 0};
 
     return r;
 }

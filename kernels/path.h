@@ -97,10 +97,10 @@ static inline void path_add_emission(const struct world *w, struct path *p,
 /* Would a ray from here find this light by chance? It is aimed anew, as a ray
  * does not begin in the vertex itself. */
 static inline bool light_is_seen(const struct world *w, struct path *p,
-                                 struct vec3 from, const struct light_sample *s,
-                                 uint32_t key)
+                                 const struct vertex *v, float cosine,
+                                 const struct light_sample *s, uint32_t key)
 {
-    struct ray r = {from, s->wi, FLOAT_MAX, key};
+    struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, key, v->face};
 
     if (s->tri != NO_INDEX) {
         struct tri t = w->tris[s->tri];
@@ -159,7 +159,7 @@ static inline void path_add_direct(const struct world *w, struct path *p,
         path_part(p, light,
                   bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
     if (shadow_survives(p, key, &light) &&
-        light_is_seen(w, p, vertex_leave(v, wi.z), &s, key))
+        light_is_seen(w, p, v, wi.z, &s, key))
         p->out.radiance = v3_add(p->out.radiance, light);
 }
 
@@ -192,6 +192,7 @@ static inline bool path_scatter(struct path *p, const struct bsdf *b,
         return false;
     p->ray.o = vertex_leave(v, s.wi.z);
     p->ray.d = wi;
+    p->ray.from = v->face;
     p->beta = v3_mul(p->beta, s.weight);
     p->eta_scale *= s.eta_scale;
     p->pdf = s.is_delta ? 0.0f : s.pdf;
@@ -259,6 +260,9 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     p.beta = v3(1.0f, 1.0f, 1.0f);
     p.eta_scale = 1.0f;
     p.pdf = 0.0f;
+    p.from.p = r.o;
+    p.from.n = r.d;
+    p.from.transmits = true;
     p.out.radiance = v3(0.0f, 0.0f, 0.0f);
     p.out.rays = p.out.cut = 0;
     for (uint32_t vertex = 1;; vertex++) {

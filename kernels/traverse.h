@@ -13,18 +13,7 @@
 #ifndef KERNELS_TRAVERSE_H
 #define KERNELS_TRAVERSE_H
 
-#include "kernels/hit.h"
-#include "kernels/rng.h"
-#include "kernels/texture.h"
-
-/* bvh.h promises trees that fit: at most one entry a level. */
-#define TRAVERSE_STACK 96
-
-/* Boxes are padded by this much when they are built, and entry and exit
- * distances are widened: together more than the rounding of a hit's t, and
- * of the edge tests, for any ray that starts within 1e3 scene sizes. */
-#define BOX_PAD   0x1p-20f
-#define BOX_WIDEN (16.0f * FLOAT_EPSILON)
+#include "kernels/traverse_leaf.h"
 
 struct slabs {
     struct vec3 o;
@@ -69,38 +58,15 @@ static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
     return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
 }
 
-/* False where the surface lets this ray pass. */
-static inline bool hit_is_solid(const struct world *w, struct ray r,
-                                struct hit h)
-{
-    float coverage = coverage_at(w, h);
-
-    return coverage >= 1.0f ||
-           unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) < coverage;
-}
-
 /* Tests the triangles of a leaf; true if a nearer hit was found. */
 static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
                             struct node leaf, struct hit *best)
 {
     bool found = false;
 
-    for (uint32_t i = 0; i < leaf.count; i++) {
-        struct leaf_tri t = w->leaf_tris[leaf.next + i];
-        struct hit h;
-
-        if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
-            continue;
-        if (h.t == best->t && t.tri >= best->tri)
-            continue;
-        h.tri = t.tri;
-        if (HAS(FEATURE_COVERAGE) &&
-            (w->settings.features & FEATURE_COVERAGE) != 0 &&
-            !hit_is_solid(w, r, h))
-            continue;
-        *best = h;
-        found = true;
-    }
+    for (uint32_t i = 0; i < leaf.count; i++)
+        if (tri_hit(w, r, s, w->leaf_tris[leaf.next + i], best))
+            found = true;
     return found;
 }
 

@@ -208,7 +208,9 @@ struct ray {
     struct vec3 o;
     struct vec3 d; /* unit length */
     float t_max;
-    uint32_t key; /* of the sample, for decisions at holes */
+    uint32_t key;  /* of the sample, for decisions at holes */
+    uint32_t from; /* 1 + the triangle it leaves, which is flat: it cannot
+                      meet it again; 0: none */
 };
 
 /* Where a ray meets a triangle: p = b0 p0 + b1 p1 + b2 p2. */

@@ -24,6 +24,7 @@ struct vertex {
     bool has_uv;
     bool is_outside;  /* the eye is on the side of the file's normal */
     bool is_lifted;   /* p is above its face: vertex_lift() */
+    uint32_t face;    /* what a ray that leaves is from: see struct ray */
     struct vec3 t, b; /* with n the frame in which BSDFs are given */
 };
 
@@ -66,6 +67,7 @@ static inline bool vertex_at(const struct world *w, const struct material *m,
     v->n = shading_normal(w, t, h, v->ng, wo);
     v->p = hit_inside(h, p0, p1, p2, &v->p_error);
     v->is_lifted = false;
+    v->face = h.tri + 1u;
     v->has_uv = t.vt[0] != NO_INDEX;
     v->uv = v2(0.0f, 0.0f);
     if (v->has_uv)
@@ -144,6 +146,7 @@ static inline void vertex_lift(const struct world *w, uint32_t tri,
     if (v->is_lifted) {
         v->p = v3_add(v->p, up);
         v->p_error = v3_scale(v->p_error, 2.0f);
+        v->face = 0;
     }
 }
 

@@ -4,9 +4,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "glim/bvh.h"
-
-#include "kernels/traverse.h"
+#include "glim/wide_hit.h"
 
 #include "kernels/path.h"
 
@@ -16,9 +14,9 @@
 struct backend_cpu {
     struct backend base;
     struct pool *pool;
-    struct bvh bvh;
+    struct wide tree;
     /* from begin() */
-    struct world world;
+    struct wide_world world;
     struct film *film;
     int x0, y0;
 };
@@ -75,7 +73,7 @@ static bool render_row(const struct job *j, int x, int y, int pixel_count)
 
         counts[done] = (int)count;
         if (count != 0)
-            path_samples(&b->world, (uint32_t)(b->x0 + px),
+            path_samples(&b->world.world, (uint32_t)(b->x0 + px),
                          (uint32_t)(b->y0 + y), first, count,
                          samples + done * SAMPLE_BLOCK);
     }
@@ -108,7 +106,11 @@ static bool cpu_load(struct backend *base, const struct world *world,
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    return bvh_build(&b->bvh, world, err);
+    struct bvh bvh = {0};
+    bool ok = bvh_build(&bvh, world, err) && wide_build(&b->tree, &bvh, err);
+
+    bvh_free(&bvh);
+    return ok;
 }
 
 static bool cpu_begin(struct backend *base, const struct world *world,
@@ -117,9 +119,8 @@ static bool cpu_begin(struct backend *base, const struct world *world,
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     (void)err;
-    b->world = *world;
-    b->world.nodes = b->bvh.nodes;
-    b->world.leaf_tris = b->bvh.leaf_tris;
+    b->world.world = *world;
+    b->world.tree = &b->tree;
     b->film = film;
     b->x0 = x0;
     b->y0 = y0;
@@ -149,7 +150,7 @@ static void cpu_destroy(struct backend *base)
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     pool_destroy(b->pool);
-    bvh_free(&b->bvh);
+    wide_free(&b->tree);
     free(b);
 }
 

@@ -2,6 +2,7 @@
 #include "glim/cursor.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #define TEXT_BYTES 256
 
@@ -27,15 +28,15 @@ const char *cursor_object_name(const struct cursor *c, uint32_t object)
 }
 
 static void describe(const struct cursor *c, const struct pick *pick,
-                     const char *what_now, char text[TEXT_BYTES])
+                     char text[TEXT_BYTES])
 {
     const struct scene *scene = &c->work->session->scene;
     const char *material = scene->material_names[pick->material];
 
-    snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away%s",
+    snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away",
              cursor_object_name(c, pick->object),
              *material ? material : "no material", pick->face + 1,
-             pick->distance, what_now);
+             pick->distance);
 }
 
 /* ---- looking ---- */
@@ -78,7 +79,7 @@ void cursor_step(struct cursor *c)
         return;
     c->must_look = false;
     if (look_under(c, &pick))
-        describe(c, &pick, "", text);
+        describe(c, &pick, text);
     else
         snprintf(text, sizeof text, "nothing but the sky");
     work_say_long(c->work, text);
@@ -126,12 +127,21 @@ static void move(struct cursor *c, enum action action, int right, int down)
 
 static void take(struct cursor *c, const struct pick *pick)
 {
+    const struct keys *keys = &c->work->session->options->keys;
+    char orbit[KEYS_NAME_BYTES], focus[KEYS_NAME_BYTES], frame[KEYS_NAME_BYTES];
     char text[TEXT_BYTES];
+    size_t length;
 
     c->pick = *pick;
     c->has_pick = c->is_pick_new = true;
     show(c, false);
-    describe(c, pick, " (o orbit, f focus, z frame)", text);
+    describe(c, pick, text);
+    length = strlen(text);
+    keys_first_name(keys, ACTION_ORBIT, orbit);
+    keys_first_name(keys, ACTION_FOCUS, focus);
+    keys_first_name(keys, ACTION_FRAME, frame);
+    snprintf(text + length, sizeof text - length,
+             " (%s orbit, %s focus, %s frame)", orbit, focus, frame);
     work_say(c->work, text);
 }
 
@@ -159,11 +169,19 @@ bool cursor_click(struct cursor *c, int col, int row)
 
 bool cursor_need_pick(struct cursor *c)
 {
+    const struct keys *keys = &c->work->session->options->keys;
+    char cursor[KEYS_NAME_BYTES], start[KEYS_NAME_BYTES], text[TEXT_BYTES];
+
     if (c->canvas->has_cursor)
         return pick_under(c);
-    if (!c->has_pick)
-        work_say(c->work, "nothing is picked: v shows a cursor, Enter picks");
-    return c->has_pick;
+    if (c->has_pick)
+        return true;
+    keys_first_name(keys, ACTION_CURSOR, cursor);
+    keys_first_name(keys, ACTION_START, start);
+    snprintf(text, sizeof text,
+             "nothing is picked: %s shows a cursor, %s picks", cursor, start);
+    work_say(c->work, text);
+    return false;
 }
 
 static bool act_while_shown(struct cursor *c, enum action action)

@@ -228,6 +228,18 @@ void keys_key_name(char name[KEYS_NAME_BYTES], int key)
         snprintf(name, KEYS_NAME_BYTES, "%c", key);
 }
 
+void keys_first_name(const struct keys *k, enum action action,
+                     char name[KEYS_NAME_BYTES])
+{
+    for (int i = 0; i < KEYS_MAX; i++) {
+        if (k->keys[action][i] != 0) {
+            keys_key_name(name, k->keys[action][i]);
+            return;
+        }
+    }
+    snprintf(name, KEYS_NAME_BYTES, "no key");
+}
+
 static void add_key(struct keys_help *help, int key)
 {
     size_t length = strlen(help->keys);

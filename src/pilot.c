@@ -72,6 +72,13 @@ static const struct move *find_move(enum action action)
     return NULL;
 }
 
+/* For messages that tell what to do next. */
+static void key_of(const struct pilot *p, enum action action,
+                   char name[KEYS_NAME_BYTES])
+{
+    keys_first_name(&p->work->session->options->keys, action, name);
+}
+
 static void add_step(struct pilot *p)
 {
     struct pose pose = view_pose(view_of(p));
@@ -234,7 +241,7 @@ static void frame_all(struct pilot *p)
 static void focus(struct pilot *p)
 {
     struct pose pose = view_pose(view_of(p));
-    char text[TEXT_BYTES];
+    char open[KEYS_NAME_BYTES], text[TEXT_BYTES];
 
     if (!need_pick(p) || !may_jump(p))
         return;
@@ -244,8 +251,11 @@ static void focus(struct pilot *p)
         return;
     }
     jump(p, &pose);
-    snprintf(text, sizeof text, "sharp %.4g away%s", pose.focus,
-             pose.aperture > 0 ? "" : " once the lens is open: }");
+    key_of(p, ACTION_OPEN, open);
+    snprintf(text, sizeof text,
+             pose.aperture > 0 ? "sharp %.4g away"
+                               : "sharp %.4g away once the lens is open: %s",
+             pose.focus, open);
     work_say(p->work, text);
 }
 
@@ -254,22 +264,24 @@ static void focus(struct pilot *p)
 static void keep_view(struct pilot *p, int number)
 {
     struct view *v = view_of(p);
-    char text[TEXT_BYTES];
+    char save[KEYS_NAME_BYTES], text[TEXT_BYTES];
 
     v->shots[number - 1] = view_pose(v);
     v->has_shot[number - 1] = true;
-    snprintf(text, sizeof text, "this is view %d: c writes it to the view file",
-             number);
+    key_of(p, ACTION_SAVE_VIEW, save);
+    snprintf(text, sizeof text,
+             "this is view %d: %s writes it to the view file", number, save);
     work_say(p->work, text);
 }
 
 static void go_to_view(struct pilot *p, int number)
 {
-    char text[TEXT_BYTES];
+    char keep[KEYS_NAME_BYTES], text[TEXT_BYTES];
 
     if (!view_of(p)->has_shot[number - 1]) {
-        snprintf(text, sizeof text, "no view %d yet: k %d makes this one so",
-                 number, number);
+        key_of(p, ACTION_KEEP, keep);
+        snprintf(text, sizeof text, "no view %d yet: %s %d makes this one so",
+                 number, keep, number);
     } else if (may_jump(p)) {
         jump(p, &view_of(p)->shots[number - 1]);
         snprintf(text, sizeof text, "view %d", number);
@@ -349,7 +361,11 @@ static void drag(struct pilot *p, const struct event *event)
 {
     struct pose before = view_pose(view_of(p));
 
-    if (!work_may_move(p->work) || !steer_by(p, event))
+    if (!work_may_move(p->work)) {
+        p->steer.is_dragging = false; /* nor is it a click */
+        return;
+    }
+    if (!steer_by(p, event))
         return;
     if (p->drag_is_new)
         history_add(&p->history, &before);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #define FIELD_BYTES 48
-#define HINT        "? help  q quit"
 
 enum field {
     FIELD_MODE,
@@ -138,7 +137,7 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
 {
     char fields[FIELDS][FIELD_BYTES] = {{0}};
     int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;
-    int hint = (int)strlen(HINT);
+    int hint = (int)strlen(s->hint);
     int at = 1;
 
     format_fields(fields, s);
@@ -158,7 +157,7 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
         at += length + 2;
     }
     if (at + hint + 1 <= room)
-        memcpy(text + room - hint - 1, HINT, (size_t)hint);
+        memcpy(text + room - hint - 1, s->hint, (size_t)hint);
 }
 
 void status_message(char text[STATUS_BYTES], int cols, const char *message)

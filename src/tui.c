@@ -396,6 +396,8 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
 {
     const struct film *film = film_of(t);
     const struct backend *backend = render_backend(t->work.session->render);
+    const struct keys *keys = &t->work.session->options->keys;
+    char help[KEYS_NAME_BYTES], quit[KEYS_NAME_BYTES], hint[48];
     struct status status = {
         .is_live = t->work.is_live,
         .is_orbiting = t->pilot.steer.is_orbiting,
@@ -407,8 +409,12 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
         .width_px = film->width,
         .height_px = film->height,
         .colors = palette_name(t->canvas.palette),
+        .hint = hint,
     };
 
+    keys_first_name(keys, ACTION_HELP, help);
+    keys_first_name(keys, ACTION_QUIT, quit);
+    snprintf(hint, sizeof hint, "%s help  %s quit", help, quit);
     status_format(text, term_size().cols, &status);
 }
 

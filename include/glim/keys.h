@@ -103,6 +103,10 @@ int keys_find_key(const char *name, size_t length);
 
 void keys_key_name(char name[KEYS_NAME_BYTES], int key);
 
+/* The name of an action's first key, or "no key". */
+void keys_first_name(const struct keys *k, enum action action,
+                     char name[KEYS_NAME_BYTES]);
+
 struct keys_help {
     char keys[32];
     const char *text;

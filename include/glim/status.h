@@ -24,6 +24,7 @@ struct status {
     int thread_count;
     int width_px, height_px;
     const char *colors; /* "24 bit" */
+    const char *hint;   /* at the right end */
 };
 
 /* Writes a line for `cols` columns. */

@@ -16,7 +16,7 @@
 #include "tests/unit/brute.h"
 #include "tests/unit/mesh.h"
 
-#include "kernels/traverse.h"
+#include "glim/wide_hit.h"
 #include "kernels/vertex.h"
 
 /* One item of work: so many rays from a seed of its own. */
@@ -79,7 +79,7 @@ static struct ray ray_to_edge(const struct shots *s, int i, uint64_t *seed)
     struct vec3 c = w->positions[t.v[2]];
     float f = i % 3 == 0 ? 0.0f : (float)check_random(seed);
     struct vec3 at = i % 2 ? v3_lerp(a, b, f) : v3_lerp(b, c, f);
-    struct ray r = {{0, 0, 0}, {0, 0, 0}, FLOAT_MAX, 0};
+    struct ray r = {{0, 0, 0}, {0, 0, 0}, FLOAT_MAX, 0, 0};
 
     r.o = v3_add(s->center, random_point(seed, s->size));
     r.d = v3_unit(v3_sub(at, r.o));
@@ -223,10 +223,8 @@ static bool land(uint64_t *seed, float size, struct place *x)
 {
     struct vec3 base = random_point(seed, 1.0f);
     float u = (float)check_random(seed), v = (float)check_random(seed);
-    struct ray r = {v3_scale(random_point(seed, 1.5f), size),
-                    {0, 0, 0},
-                    FLOAT_MAX,
-                    0};
+    struct ray r = {
+        v3_scale(random_point(seed, 1.5f), size), {0, 0, 0}, FLOAT_MAX, 0, 0};
     float part = powf(10.0f, -5.0f * (float)check_random(seed));
     struct vec3 aim;
     struct hit h;
@@ -259,7 +257,7 @@ static void leave_faces(void *context, uint32_t item, int worker)
     for (int i = 0; i < CHUNK; i++) {
         struct place x;
         struct hit h;
-        struct ray r = {{0, 0, 0}, {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {{0, 0, 0}, {0, 0, 0}, FLOAT_MAX, 0, 0};
         float nearness = i % 2 ? 1.0f : 1e-3f;
 
         if (!land(&seed, s->size, &x))
@@ -320,7 +318,7 @@ static void hit_needles(void *context, uint32_t item, int worker)
                     b = random_point(&seed, 0.9f);
         struct vec3 t[3] = {a, b, v3_add(a, random_point(&seed, width))};
         struct vec3 at = v3_lerp(a, b, (float)check_random(&seed));
-        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct hit h;
 
         if (i % 3 == 0)
@@ -359,7 +357,7 @@ static void cross_gaps(void *context, uint32_t item, int worker)
                             random_point(&seed, 1)};
         struct vec3 middle =
             v3_scale(v3_add(p[0], v3_add(p[1], p[2])), 1 / 3.0f);
-        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct vec3 ng, error, at, lift;
         struct hit h;
 
@@ -403,7 +401,7 @@ static void compare(const char *name, const char *what, struct mesh *m,
 
     mesh_finish(m);
     for (int i = 0; i < rays; i++) {
-        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {random_point(&seed, 1.5f), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct vec3 at = random_point(&seed, 0.7f);
 
         if (i % 4 == 0)
@@ -438,7 +436,7 @@ static void axis_rays(void)
     for (int i = 0; i < rays; i++) {
         struct vec3 o = random_point(&seed, 1.0f);
         float zero = i & 1 ? -0.0f : 0.0f, one = i & 2 ? -1.0f : 1.0f;
-        struct ray r = {o, {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {o, {0, 0, 0}, FLOAT_MAX, 0, 0};
 
         if (i & 4) /* in a plane of the grid */
             r.o = v3(roundf(o.x * 8) / 8, roundf(o.y * 8) / 8, o.z);
@@ -520,7 +518,7 @@ static void many_triangles(void)
         struct tri t = m.tris[want];
         struct vec3 p = v3_add(v3_add(m.positions[t.v[0]], m.positions[t.v[1]]),
                                m.positions[t.v[2]]);
-        struct ray r = {v3_scale(p, 1 / 3.0f), {0, 0, -1}, FLOAT_MAX, 0};
+        struct ray r = {v3_scale(p, 1 / 3.0f), {0, 0, -1}, FLOAT_MAX, 0, 0};
         struct hit h;
 
         r.o.z = 1;

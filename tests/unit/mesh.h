@@ -3,7 +3,7 @@
  * mesh.h - small worlds made by tests
  *
  * Units:     normalised scene units
- * Ownership: mesh_free() frees the arrays and the tree
+ * Ownership: mesh_free() frees the arrays and the trees
  * Threads:   one
  * Errors:    a test ends when memory is out
  */
@@ -13,8 +13,8 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "glim/bvh.h"
 #include "glim/material.h"
+#include "glim/wide.h"
 #include "kernels/vec.h"
 
 #define MESH_MATERIALS 8
@@ -25,7 +25,11 @@ struct mesh {
     uint32_t tri_count;
     struct material materials[MESH_MATERIALS];
     struct bvh bvh;
-    struct world world;
+    struct wide wide;
+    union {
+        struct world world;
+        struct wide_world wide_world; /* for the queries of wide_hit.h */
+    };
 };
 
 static inline void mesh_add(struct mesh *m, struct vec3 a, struct vec3 b,
@@ -110,7 +114,7 @@ static inline struct material mesh_material(uint32_t kind, float color)
     return m;
 }
 
-/* Builds the tree and the world; the camera and the sky stay the caller's. */
+/* Builds the trees and the world; the camera and the sky stay the caller's. */
 static inline void mesh_finish(struct mesh *m)
 {
     struct error err;
@@ -127,11 +131,14 @@ static inline void mesh_finish(struct mesh *m)
     assert_true(bvh_build(&m->bvh, w, &err));
     w->nodes = m->bvh.nodes;
     w->leaf_tris = m->bvh.leaf_tris;
+    assert_true(wide_build(&m->wide, &m->bvh, &err));
+    m->wide_world.tree = &m->wide;
 }
 
 static inline void mesh_free(struct mesh *m)
 {
     bvh_free(&m->bvh);
+    wide_free(&m->wide);
     free(m->positions);
     free(m->tris);
 }

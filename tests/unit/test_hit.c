@@ -53,7 +53,7 @@ static void hits_agree_with_long_double(void **state)
     (void)state;
     for (int i = 0; i < 1000000; i++) {
         struct vec3 p0 = point(&seed), p1 = point(&seed), p2 = point(&seed);
-        struct ray r = {point(&seed), v3_unit(point(&seed)), FLOAT_MAX, 0};
+        struct ray r = {point(&seed), v3_unit(point(&seed)), FLOAT_MAX, 0, 0};
         struct exact x = intersect(r, p0, p1, p2);
         struct hit h;
         bool found = triangle_hit(r, shear_of(r), p0, p1, p2, FLOAT_MAX, &h);
@@ -90,7 +90,7 @@ static void needles_are_hit_where_they_are(void **state)
         struct vec3 a = point(&seed), b = point(&seed);
         struct vec3 c = v3_add(a, v3_scale(point(&seed), width));
         struct vec3 at = v3_lerp(a, b, (float)check_random(&seed));
-        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct hit h;
 
         if (i % 3 == 0) /* nearly along it */
@@ -123,7 +123,7 @@ static void faces_in_one_plane_tie(void **state)
     (void)state;
     for (int i = 0; i < 300000; i++) {
         struct vec3 p[6];
-        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0, 0};
         float plane = span(&seed);
         struct hit one, other;
 
@@ -154,7 +154,7 @@ static void windings_tie(void **state)
         struct vec3 a = point(&seed), b = point(&seed);
         struct vec3 c = i % 2 == 0 ? point(&seed)
                                    : v3_add(a, v3_scale(point(&seed), 1e-5f));
-        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct hit one, other;
 
         r.d = v3_unit(v3_sub(v3_lerp(v3_lerp(a, b, 0.4f), c, 0.3f), r.o));
@@ -183,7 +183,8 @@ static void closed_meshes_do_not_leak(void **state)
         struct tri t = m.tris[(uint32_t)(check_random(&seed) * m.tri_count)];
         struct vec3 a = m.positions[t.v[0]], b = m.positions[t.v[1]];
         float s = i % 3 == 0 ? 0.0f : (float)check_random(&seed);
-        struct ray r = {v3_scale(point(&seed), 0.45f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {
+            v3_scale(point(&seed), 0.45f), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct vec3 at = i % 7 == 0 ? point(&seed) : v3_lerp(a, b, s);
 
         r.d = v3_unit(v3_sub(at, r.o));
@@ -206,7 +207,8 @@ static void edges_are_left_inwards(void **state)
         struct vec3 at =
             v3_lerp(m.positions[t.v[0]], m.positions[t.v[1]],
                     i % 3 == 0 ? 0.0f : (float)check_random(&seed));
-        struct ray r = {v3_scale(point(&seed), 0.69f), {0, 0, 0}, FLOAT_MAX, 0};
+        struct ray r = {
+            v3_scale(point(&seed), 0.69f), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct vec3 p, ng, error;
         struct hit h;
 

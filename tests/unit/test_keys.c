@@ -135,6 +135,22 @@ static void names_come_back(void **state)
     assert_int_equal(keys_find_key("^a", 2), 0);
 }
 
+static void first_names(void **state)
+{
+    struct keys k = {0};
+    char name[KEYS_NAME_BYTES];
+
+    (void)state;
+    choose(&k, ACTION_MOUSE, 0, 0);
+    keys_settle(&k, false);
+    keys_first_name(&k, ACTION_HELP, name);
+    assert_string_equal(name, "?");
+    keys_first_name(&k, ACTION_MODE, name);
+    assert_string_equal(name, "space");
+    keys_first_name(&k, ACTION_MOUSE, name);
+    assert_string_equal(name, "no key");
+}
+
 /* Every action but capitals of the same is in the help once; lines fit. */
 static void help_names_every_key(void **state)
 {
@@ -334,6 +350,7 @@ int main(void)
         cmocka_unit_test(a_key_has_one_action),
         cmocka_unit_test(chosen_keys_replace_those_of_the_table),
         cmocka_unit_test(names_come_back),
+        cmocka_unit_test(first_names),
         cmocka_unit_test(help_names_every_key),
         cmocka_unit_test(help_shows_chosen_keys),
         cmocka_unit_test(manual_lists_the_same_keys),

@@ -61,7 +61,8 @@
     M(settings, material_count, 148) M(settings, texture_count, 152)         \
     M(settings, texel_count, 156) M(settings, light_count, 160)              \
     M(settings, light_node_count, 164) M(settings, sky_sum_count, 168)       \
-    S(ray, 32) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
+    S(ray, 36) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
+    M(ray, from, 32)                                                         \
     S(path_sample, 20) M(path_sample, radiance, 0) M(path_sample, rays, 12)  \
     M(path_sample, cut, 16)                                                  \
     S(sum, 16) M(sum, lo, 0) M(sum, hi, 8)                                   \
@@ -70,7 +71,7 @@
     S(task, 40) M(task, target, 0) M(task, samples, 8) M(task, first, 12)    \
     M(task, count, 16) M(task, columns, 20) M(task, stride, 24)              \
     M(task, width, 28) M(task, x0, 32) M(task, y0, 36)                       \
-    S(path_start, 40) M(path_start, ray, 0) M(path_start, sampler, 32)
+    S(path_start, 44) M(path_start, ray, 0) M(path_start, sampler, 36)
 /* clang-format on */
 
 #define ASSERT_SIZE(s, size) \

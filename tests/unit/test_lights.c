@@ -325,7 +325,7 @@ static void both_numbers_choose(void **state)
 static double density_along(const struct world *w, const struct receiver *r,
                             struct vec3 d)
 {
-    struct ray ray = {r->p, d, FLOAT_MAX, 0};
+    struct ray ray = {r->p, d, FLOAT_MAX, 0, 0};
     struct shear shear = shear_of(ray);
     double sum = 0;
 

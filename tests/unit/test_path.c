@@ -21,7 +21,7 @@ static struct estimate look(const struct world *w, struct vec3 eye,
     struct estimate e;
 
     for (int i = 0; i < n; i++) {
-        struct ray r = {eye, v3_unit(v3_sub(at, eye)), FLOAT_MAX, 0};
+        struct ray r = {eye, v3_unit(v3_sub(at, eye)), FLOAT_MAX, 0, 0};
         struct path_sample s =
             path_trace(w, r,
                        sampler_start(1, 2, (uint64_t)i, w->settings.seed));
@@ -180,7 +180,7 @@ static void total_reflection_ends(void **state)
     mesh_finish(&m);
     for (int i = 0; i < 1000; i++) {
         struct ray r = {v3(0.1f, 0.2f, 0.3f), v3_unit(v3(0.5f, 0.6f, 0.624f)),
-                        FLOAT_MAX, 0};
+                        FLOAT_MAX, 0, 0};
         struct path_sample s =
             path_trace(&m.world, r, sampler_start(0, 0, (uint64_t)i, 0));
 
@@ -258,7 +258,7 @@ static void coarse_balls_have_smooth_shade(void **state)
     for (int i = 0; i < 400; i++) {
         double angle = M_PI * i / 400;
         struct vec3 at = v3((float)cos(angle), 0.1f, (float)sin(angle));
-        struct ray r = {v3_scale(at, 3), v3_unit(v3_neg(at)), FLOAT_MAX, 0};
+        struct ray r = {v3_scale(at, 3), v3_unit(v3_neg(at)), FLOAT_MAX, 0, 0};
         struct vec3 to_lamp;
         struct vertex v;
         struct hit h;
@@ -292,7 +292,7 @@ static void leaning_normals_leak_nothing(void **state)
 {
     static struct vec3 normals[64];
     struct mesh m = {0};
-    struct ray r = {{0.2f, 0.1f, 1}, {0, 0, -1}, FLOAT_MAX, 0};
+    struct ray r = {{0.2f, 0.1f, 1}, {0, 0, -1}, FLOAT_MAX, 0, 0};
 
     (void)state;
     m.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.9f);

@@ -46,7 +46,8 @@ static void normal_mode_says_what_is_left(void **state)
                        .thread_count = 2,
                        .width_px = 1024,
                        .height_px = 576,
-                       .colors = "24 bit"};
+                       .colors = "24 bit",
+                       .hint = "? help  q quit"};
     char text[STATUS_BYTES];
 
     (void)state;
@@ -81,7 +82,8 @@ static void live_mode_has_no_end(void **state)
                        .thread_count = 1,
                        .width_px = 10,
                        .height_px = 20,
-                       .colors = "mono"};
+                       .colors = "mono",
+                       .hint = "? help  q quit"};
     char text[STATUS_BYTES];
 
     (void)state;
@@ -105,7 +107,8 @@ static void narrow_windows_drop_fields(void **state)
                        .thread_count = 64,
                        .width_px = 65536,
                        .height_px = 65536,
-                       .colors = "256 colours"};
+                       .colors = "256 colours",
+                       .hint = "? help  q quit"};
     static const char *const fields[] = {"8/16 spp", "50 %", "4 s", "left 4 s"};
     char text[STATUS_BYTES];
 

@@ -89,7 +89,7 @@ static inline void stage_gather(struct stage *s, enum direct direct)
 static inline void claim_means(const struct world *w, const struct claim *c,
                                uint32_t seed, double means[3])
 {
-    struct ray r = {c->eye, v3_unit(v3_sub(c->at, c->eye)), FLOAT_MAX, 0};
+    struct ray r = {c->eye, v3_unit(v3_sub(c->at, c->eye)), FLOAT_MAX, 0, 0};
 
     means[0] = means[1] = means[2] = 0;
     for (int i = 0; i < c->paths; i++) {

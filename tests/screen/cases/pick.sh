@@ -77,6 +77,8 @@ keys Space
 wait_for "normal mode"
 raw_keys "$(printf '\033[<0;30;10M\033[<0;30;10m')"
 wait_for "left, red, "
+raw_keys "$(printf '\033[<0;30;10M\033[<32;40;10M\033[<0;40;10m')"
+wait_for "the camera moves in live mode" # and nothing is picked there
 keys f
 wait_for "the camera moves in live mode"
 keys q

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+/*
+ * simd.h - four and eight floats at once: AVX, SSE2, or plain loops
+ *
+ * Arithmetic is that of floats, lane by lane, without contraction. f8_min and
+ * f8_max return the second number where one is NaN. Masks have a bit a lane,
+ * lane 0 the lowest.
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef GLIM_SIMD_H
+#define GLIM_SIMD_H
+
+#include <stdint.h>
+
+#if defined(__SSE2__)
+
+#include <immintrin.h>
+
+typedef __m128 f4;
+
+static inline f4 f4_load(const float *p)
+{
+    return _mm_load_ps(p);
+}
+
+static inline void f4_store(float *p, f4 a)
+{
+    _mm_store_ps(p, a);
+}
+
+static inline f4 f4_all(float x)
+{
+    return _mm_set1_ps(x);
+}
+
+static inline f4 f4_sub(f4 a, f4 b)
+{
+    return _mm_sub_ps(a, b);
+}
+
+static inline f4 f4_mul(f4 a, f4 b)
+{
+    return _mm_mul_ps(a, b);
+}
+
+static inline f4 f4_min(f4 a, f4 b)
+{
+    return _mm_min_ps(a, b);
+}
+
+static inline f4 f4_max(f4 a, f4 b)
+{
+    return _mm_max_ps(a, b);
+}
+
+static inline uint32_t f4_not_above(f4 a, f4 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+
+#else
+
+typedef struct {
+    float v[4];
+} f4;
+
+#define F4_EACH(result, value)  \
+    f4 result;                  \
+    for (int i = 0; i < 4; i++) \
+        result.v[i] = (value);  \
+    return result
+
+static inline f4 f4_load(const float *p)
+{
+    F4_EACH(r, p[i]);
+}
+
+static inline void f4_store(float *p, f4 a)
+{
+    for (int i = 0; i < 4; i++)
+        p[i] = a.v[i];
+}
+
+static inline f4 f4_all(float x)
+{
+    F4_EACH(r, x);
+}
+
+static inline f4 f4_sub(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] - b.v[i]);
+}
+
+static inline f4 f4_mul(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] * b.v[i]);
+}
+
+static inline f4 f4_min(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] < b.v[i] ? a.v[i] : b.v[i]);
+}
+
+static inline f4 f4_max(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] > b.v[i] ? a.v[i] : b.v[i]);
+}
+
+static inline uint32_t f4_not_above(f4 a, f4 b)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] <= b.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+#endif
+
+#if defined(__AVX__)
+
+typedef __m256 f8;
+
+static inline f8 f8_load(const float *p)
+{
+    return _mm256_load_ps(p);
+}
+
+static inline void f8_store(float *p, f8 a)
+{
+    _mm256_store_ps(p, a);
+}
+
+static inline f8 f8_all(float x)
+{
+    return _mm256_set1_ps(x);
+}
+
+static inline f8 f8_sub(f8 a, f8 b)
+{
+    return _mm256_sub_ps(a, b);
+}
+
+static inline f8 f8_mul(f8 a, f8 b)
+{
+    return _mm256_mul_ps(a, b);
+}
+
+static inline f8 f8_min(f8 a, f8 b)
+{
+    return _mm256_min_ps(a, b);
+}
+
+static inline f8 f8_max(f8 a, f8 b)
+{
+    return _mm256_max_ps(a, b);
+}
+
+static inline uint32_t f8_not_above(f8 a, f8 b)
+{
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
+}
+
+#else
+
+typedef struct {
+    f4 lo, hi;
+} f8;
+
+static inline f8 f8_load(const float *p)
+{
+    return (f8){f4_load(p), f4_load(p + 4)};
+}
+
+static inline void f8_store(float *p, f8 a)
+{
+    f4_store(p, a.lo);
+    f4_store(p + 4, a.hi);
+}
+
+static inline f8 f8_all(float x)
+{
+    return (f8){f4_all(x), f4_all(x)};
+}
+
+static inline f8 f8_sub(f8 a, f8 b)
+{
+    return (f8){f4_sub(a.lo, b.lo), f4_sub(a.hi, b.hi)};
+}
+
+static inline f8 f8_mul(f8 a, f8 b)
+{
+    return (f8){f4_mul(a.lo, b.lo), f4_mul(a.hi, b.hi)};
+}
+
+static inline f8 f8_min(f8 a, f8 b)
+{
+    return (f8){f4_min(a.lo, b.lo), f4_min(a.hi, b.hi)};
+}
+
+static inline f8 f8_max(f8 a, f8 b)
+{
+    return (f8){f4_max(a.lo, b.lo), f4_max(a.hi, b.hi)};
+}
+
+static inline uint32_t f8_not_above(f8 a, f8 b)
+{
+    return f4_not_above(a.lo, b.lo) | f4_not_above(a.hi, b.hi) << 4;
+}
+
+#endif
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/*
+ * wide.h - the binary tree made eight children wide, for vector units
+ *
+ * A node's boxes are arrays of eight, so that one step tests all; up to four
+ * triangles lie side by side in a block. Children are opened by largest area
+ * (Wald, Benthin and Boulos 2008, "Getting rid of packets").
+ *
+ * Units:     normalised scene units
+ * Ownership: wide_free() frees; a zeroed struct is a tree without triangles
+ * Threads:   one thread builds; read only after
+ * Errors:    memory
+ */
+#ifndef GLIM_WIDE_H
+#define GLIM_WIDE_H
+
+#include "glim/bvh.h"
+
+#define WIDE_CHILDREN 8
+#define BLOCK_TRIS    4
+
+/* A child is a node's number; or with WIDE_LEAF, in the bits below, the number
+ * of its first block and, in the lowest two, how many more follow it. */
+#define WIDE_LEAF 0x80000000u
+#define WIDE_MORE 3u
+
+struct wide_node {
+    /* near and far planes are picked by the ray's signs: [axis][low or high] */
+    float planes[3][2][WIDE_CHILDREN]; /* no child: a box that nothing meets */
+    uint32_t child[WIDE_CHILDREN];
+};
+
+/* Corners as [corner][axis][triangle]; NaN and NO_INDEX where there is none. */
+struct tri_block {
+    float corners[3][3][BLOCK_TRIS];
+    uint32_t tri[BLOCK_TRIS];
+};
+
+struct wide {
+    struct wide_node *nodes; /* 0 is the root */
+    uint32_t node_count;
+    struct tri_block *blocks;
+    uint32_t block_count;
+};
+
+/* What the CPU's samples read. Ray queries get the world, and find the tree
+ * behind it. */
+struct wide_world {
+    struct world world; /* first */
+    const struct wide *tree;
+};
+
+bool wide_build(struct wide *wide, const struct bvh *bvh, struct error *err);
+void wide_free(struct wide *wide);
+
+#endif

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+/*
+ * trees.h - what any tree's ray queries must find: what brute force finds
+ *
+ * Include the queries first.
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   one
+ * Errors:    the test that finds one ends
+ */
+#ifndef TESTS_TREES_H
+#define TESTS_TREES_H
+
+#include "brute.h"
+#include "check.h"
+#include "mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Random rays; every fourth from far outside, every eighth along an axis with
+ * zero components, every sixteenth from a vertex. */
+static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
+{
+    struct ray r = {random_point(seed, i % 4 == 0 ? 50.0f : 1.2f),
+                    {0, 0, 0},
+                    FLOAT_MAX,
+                    0,
+                    0};
+    struct vec3 at = random_point(seed, 0.8f);
+
+    if (i % 16 == 7)
+        r.o = m->positions[(uint32_t)(check_random(seed) * 3 * m->tri_count)];
+    r.d = v3_unit(v3_sub(at, r.o));
+    if (i % 8 == 3) {
+        r.d = v3(i & 16 ? -0.0f : 0.0f, i & 32 ? 1.0f : -1.0f, 0.0f);
+        if (i & 64) /* in a plane of the grid scenes */
+            r.o.x = roundf(r.o.x * 8) / 8;
+    }
+    return r;
+}
+
+static void compare(struct mesh *m, int rays, uint64_t seed)
+{
+    int hits = 0;
+
+    mesh_finish(m);
+    assert_true(m->bvh.depth < TRAVERSE_STACK);
+    assert_int_equal(m->bvh.leaf_tri_count, m->tri_count);
+    for (int i = 0; i < rays; i++) {
+        struct ray r = random_ray(m, &seed, i);
+        struct hit a, b;
+        bool found = brute_force(&m->world, r, &a);
+
+        assert_true(hit_closest(&m->world, r, &b) == found);
+        assert_true(hit_any(&m->world, r, NO_INDEX) == found);
+        if (!found)
+            continue;
+        hits++;
+        assert_true(a.tri == b.tri && a.t == b.t && a.b0 == b.b0 &&
+                    a.b1 == b.b1 && a.b2 == b.b2);
+        r.t_max = a.t;
+        assert_true(hit_any(&m->world, r, NO_INDEX));
+        assert_false(hit_any(&m->world, r, a.tri));
+        assert_true(hit_any(&m->world, r, a.tri + 1));
+        r.t_max = nextafterf(a.t, 0.0f);
+        assert_false(hit_any(&m->world, r, NO_INDEX));
+    }
+    assert_true(hits > rays / 20);
+    mesh_free(m);
+}
+
+#define RAYS 200000
+
+static void soup_agrees(void **state)
+{
+    struct mesh m = {0};
+    uint64_t seed = 11;
+
+    (void)state;
+    for (int i = 0; i < 150; i++) {
+        struct vec3 a = random_point(&seed, 0.7f);
+
+        mesh_add(&m, a, v3_add(a, random_point(&seed, 0.4f)),
+                 v3_add(a, random_point(&seed, 0.4f)), 0);
+    }
+    compare(&m, RAYS, 1);
+}
+
+static void sphere_in_box_agrees(void **state)
+{
+    struct mesh m = {0};
+
+    (void)state;
+    mesh_add_box(&m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_sphere(&m, v3(0.1f, -0.2f, 0), 0.5f, 10, 16, 0);
+    compare(&m, RAYS, 2);
+}
+
+/* Ties: the same quads three times over, and boxes that share faces. */
+static void ties_agree(void **state)
+{
+    struct mesh m = {0};
+
+    (void)state;
+    for (int k = 0; k < 3; k++)
+        for (int x = -2; x < 2; x++)
+            for (int z = -2; z < 2; z++) {
+                float h = 0.25f;
+                float x0 = (float)x * h, z0 = (float)z * h;
+
+                if (k < 2)
+                    mesh_add_quad(&m, v3(x0, 0, z0), v3(x0, 0, z0 + h),
+                                  v3(x0 + h, 0, z0 + h), v3(x0 + h, 0, z0), 0);
+                else
+                    mesh_add_box(&m, v3(x0, -h, z0), v3(x0 + h, 0, z0 + h), 0);
+            }
+    compare(&m, RAYS, 3);
+}
+
+/* STRESS G4, G19: needles of aspect 1e2 to 1e6. */
+static void needles_agree(void **state)
+{
+    struct mesh m = {0};
+    uint64_t seed = 5;
+
+    (void)state;
+    for (int i = 0; i < 200; i++) {
+        struct vec3 a = random_point(&seed, 0.9f);
+        struct vec3 b = random_point(&seed, 0.9f);
+        float width = powf(10.0f, -2.0f - 4.0f * (float)check_random(&seed));
+
+        mesh_add(&m, a, b, v3_add(a, random_point(&seed, width)), 0);
+    }
+    for (int i = 0; i < 6; i++) /* something to hit */
+        mesh_add(&m, random_point(&seed, 1.0f), random_point(&seed, 1.0f),
+                 random_point(&seed, 1.0f), 0);
+    compare(&m, RAYS, 4);
+}
+
+/* STRESS G7, G9: sizes 2^-k around one point, the teapot in the stadium. */
+static void nested_sizes_agree(void **state)
+{
+    struct mesh m = {0};
+
+    (void)state;
+    for (int k = 0; k < 60; k++) {
+        float s = ldexpf(1.0f, -k);
+
+        mesh_add(&m, v3(s, 0, 0), v3(0, s, 0), v3(0, 0, s), 0);
+        mesh_add(&m, v3(-s, -s, s), v3(s, -s, s), v3(0, s, s), 0);
+    }
+    compare(&m, RAYS, 6);
+}
+
+/* STRESS G7, G8: nothing to split by. */
+static void identical_triangles_build(void **state)
+{
+    struct mesh m = {0};
+    struct ray r = {{0.1f, 0.1f, 1}, {0, 0, -1}, FLOAT_MAX, 0, 0};
+    struct hit h;
+
+    (void)state;
+    for (int i = 0; i < 70000; i++)
+        mesh_add(&m, v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0), 0);
+    mesh_finish(&m);
+    assert_true(hit_closest(&m.world, r, &h));
+    assert_int_equal(h.tri, 0);
+    mesh_free(&m);
+}
+
+/* STRESS G9: a chain that halves 200 times cannot outgrow the stack. */
+static void deep_chains_stay_bounded(void **state)
+{
+    struct mesh m = {0};
+
+    (void)state;
+    for (int k = 0; k < 140; k++) {
+        float x = ldexpf(1.0f, -k);
+
+        mesh_add(&m, v3(x, 0, 0), v3(x, x, 0), v3(x, 0, x), 0);
+    }
+    for (int k = 0; k < 100000; k++)
+        mesh_add(&m, v3(1e-42f, 0, 0), v3(0, 1e-42f, 0), v3(0, 0, 1e-42f), 0);
+    mesh_finish(&m);
+    assert_true(m.bvh.depth < TRAVERSE_STACK);
+    mesh_free(&m);
+}
+
+static void empty_worlds_are_missed(void **state)
+{
+    struct mesh m = {0};
+    struct ray r = {{0, 0, 1}, {0, 0, -1}, FLOAT_MAX, 0, 0};
+    struct hit h;
+
+    (void)state;
+    mesh_finish(&m);
+    assert_false(hit_closest(&m.world, r, &h));
+    assert_false(hit_any(&m.world, r, NO_INDEX));
+    mesh_free(&m);
+}
+
+static int run_trees(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(soup_agrees),
+        cmocka_unit_test(sphere_in_box_agrees),
+        cmocka_unit_test(ties_agree),
+        cmocka_unit_test(needles_agree),
+        cmocka_unit_test(nested_sizes_agree),
+        cmocka_unit_test(identical_triangles_build),
+        cmocka_unit_test(deep_chains_stay_bounded),
+        cmocka_unit_test(empty_worlds_are_missed),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif
