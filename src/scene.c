@@ -564,8 +564,11 @@ void scene_free(struct scene *scene)
     free_strings(scene->object_names, scene->object_count);
     free(scene->materials);
     free(scene->material_is_used);
+    free(scene->material_origins);
     free_strings(scene->material_names, scene->material_count);
+    free_strings(scene->mtl_paths, scene->mtl_path_count);
     free(scene->textures);
+    free(scene->texture_is_tried);
     free_strings(scene->texture_paths, scene->texture_count);
     free(scene->texels);
     free(scene->sky_texels);

@@ -15,11 +15,18 @@
 #define GLIM_SCENE_H
 
 #include "glim/lights.h"
+#include "glim/material.h"
 #include "glim/report.h"
 #include "glim/sky.h"
 #include "glim/util.h"
 #include "glim/view.h"
 #include "kernels/types.h"
+
+/* What a material was made from. */
+struct material_origin {
+    struct mtl_source source;
+    uint32_t file; /* of mtl_paths; NO_INDEX: none */
+};
 
 struct scene {
     char *path; /* of the OBJ file */
@@ -44,11 +51,15 @@ struct scene {
 
     struct material *materials; /* 0 is the default material, "" */
     char **material_names;
+    struct material_origin *material_origins;
     bool *material_is_used; /* by a triangle; from scene_finish() */
     uint32_t material_count;
+    char **mtl_paths; /* of the files that were read, in order */
+    uint32_t mtl_path_count;
 
     struct texture *textures;
     char **texture_paths;
+    bool *texture_is_tried; /* its image was looked for */
     uint32_t texture_count;
     uint32_t *texels;
     size_t texel_count;
