@@ -224,8 +224,8 @@ static bool save_picture(struct session *s, char **name, struct error *err)
     }
     stem = path_stem(o->scene_path);
     const char *slash = strrchr(stem, '/');
-    *name =
-        picture_write_numbered(film, exposure, slash ? slash + 1 : stem, err);
+    *name = picture_write_numbered(film, exposure, slash ? slash + 1 : stem,
+                                   "png", err);
     free(stem);
     return *name != NULL;
 }

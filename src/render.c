@@ -36,7 +36,8 @@ struct render {
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
-    bool is_new; /* the picture: the backend has not begun it */
+    bool is_new;   /* the picture: the backend has not begun it */
+    bool only_one; /* more sample a pixel, then it is halted */
 };
 
 /* Samples that every pixel has after the pass that follows spp_done. */
@@ -111,7 +112,8 @@ static enum pass_result run(struct render *r)
     if (r->is_new && result == PASS_DONE)
         result = begin(r);
     while (result == PASS_DONE && (r->spp == 0 || spp_done < r->spp)) {
-        uint64_t target = next_target(spp_done, r->spp);
+        uint64_t target =
+            r->only_one ? spp_done + 1 : next_target(spp_done, r->spp);
 
         result = spp_done == 0 ? run_first_pass(r)
                                : run_pass(r, 1, spp_done, target);
@@ -121,6 +123,8 @@ static enum pass_result run(struct render *r)
         pthread_mutex_lock(&r->lock);
         r->spp_done = spp_done;
         pthread_mutex_unlock(&r->lock);
+        if (r->only_one && spp_done != r->spp)
+            result = PASS_CANCELLED;
     }
     return result;
 }
@@ -185,9 +189,10 @@ struct render *render_create(struct backend *backend, struct error *err)
 }
 
 /* Under the lock: lets the render thread go. */
-static void go(struct render *r)
+static void go(struct render *r, bool only_one)
 {
     cancel_reset(&r->cancel);
+    r->only_one = only_one;
     r->state = RENDER_RUNNING;
     r->wanted = true;
     r->run_begin_ns = clock_ns();
@@ -217,7 +222,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
-    go(r);
+    go(r, false);
     pthread_mutex_unlock(&r->lock);
     return true;
 }
@@ -238,8 +243,16 @@ void render_resume(struct render *r, uint64_t spp)
     pthread_mutex_lock(&r->lock);
     if (r->state == RENDER_IDLE || r->state == RENDER_DONE) {
         r->spp = spp;
-        go(r);
+        go(r, false);
     }
+    pthread_mutex_unlock(&r->lock);
+}
+
+void render_step(struct render *r)
+{
+    pthread_mutex_lock(&r->lock);
+    if (r->state == RENDER_IDLE)
+        go(r, true);
     pthread_mutex_unlock(&r->lock);
 }
 

@@ -49,10 +49,10 @@ static const char *mode_word(const struct status *s)
     case RENDER_RUNNING: break;
     }
     if (s->is_live)
-        return "LIVE";
+        return s->is_halted ? "LIVE paused" : "LIVE";
     if (!s->is_started)
         return "NORMAL ready";
-    return s->is_halted ? "NORMAL halted" : "NORMAL";
+    return s->is_halted ? "NORMAL paused" : "NORMAL";
 }
 
 static double samples_left(const struct render_progress *p)

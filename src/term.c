@@ -110,6 +110,14 @@ static void take_signals(void)
         sigaction(fault_signals[i], &fault, &term.old_fault[i]);
 }
 
+void term_ignore_ends(void)
+{
+    for (size_t i = 0; i < COUNT(stop_signals); i++) {
+        if (stop_signals[i] == SIGHUP || stop_signals[i] == SIGTERM)
+            term.old_stop[i] = (struct sigaction){.sa_handler = SIG_IGN};
+    }
+}
+
 static void give_signals_back(void)
 {
     for (size_t i = 0; i < COUNT(stop_signals); i++)

@@ -45,7 +45,8 @@
 enum question {
     QUESTION_NONE,
     QUESTION_QUIT,
-    QUESTION_LIVE /* leave normal mode */
+    QUESTION_LIVE, /* leave normal mode */
+    QUESTION_RESTART
 };
 
 struct tui {
@@ -248,6 +249,14 @@ static void quit(struct tui *t)
         end(t, 0);
 }
 
+static void restart(struct tui *t)
+{
+    if (work_finish_saving(&t->work) && work_has_unsaved(&t->work))
+        ask(t, QUESTION_RESTART);
+    else
+        work_restart(&t->work);
+}
+
 static void act(struct tui *t, enum action action)
 {
     switch (action) {
@@ -265,7 +274,10 @@ static void act(struct tui *t, enum action action)
     case ACTION_SLOWER: change_speed(t, -1); break;
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
-    case ACTION_SAVE: work_save_picture(&t->work); break;
+    case ACTION_STEP: work_step(&t->work); break;
+    case ACTION_RESTART: restart(t); break;
+    case ACTION_SAVE: work_save_picture(&t->work, "png"); break;
+    case ACTION_SAVE_LINEAR: work_save_picture(&t->work, "hdr"); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
     case ACTION_RESET: reset_view(t); break;
     case ACTION_HIDE:
@@ -291,12 +303,14 @@ static void answer_question(struct tui *t, int key)
 
     ask(t, QUESTION_NONE);
     if (key == 'p' || key == 'P') {
-        work_save_picture(&t->work);
+        work_save_picture(&t->work, "png");
     } else if (key == 'y' || key == 'Y') {
         if (question == QUESTION_QUIT)
             end(t, 0);
-        else
+        else if (question == QUESTION_LIVE)
             set_live(t, true);
+        else
+            work_restart(&t->work);
     }
 }
 
@@ -412,6 +426,8 @@ static void update_status(struct tui *t, uint64_t now_ns)
             "The render is not saved. Quit? y: yes, p: save it, other: no",
         [QUESTION_LIVE] =
             "The render is not saved. Leave it? y: yes, p: save it, other: no",
+        [QUESTION_RESTART] = "The render is not saved. Start anew? y: yes, p: "
+                             "save it, other: no",
     };
     char text[STATUS_BYTES];
 
@@ -624,8 +640,20 @@ static bool open_screen(struct tui *t, struct error *err)
     return true;
 }
 
+/* A line that is lost is nobody's wish: the picture is kept, whatever it is.
+ * SIGTERM is an orderly end, as q is, but cannot ask: what q would ask about is
+ * kept. Ctrl-C and Ctrl-\ are typed, and mean it. */
+static void keep_picture(struct tui *t)
+{
+    if (t->status == 128 + SIGHUP ||
+        (t->status == 128 + SIGTERM && work_has_unsaved(&t->work)))
+        work_keep(&t->work);
+}
+
 static void close_screen(struct tui *t)
 {
+    if (t->status == 128 + SIGHUP || t->status == 128 + SIGTERM)
+        term_ignore_ends(); /* shells send SIGHUP again */
     if (!t->is_gone)
         canvas_drain(&t->canvas, &t->input);
     /* else it might put our signals back when they are no longer ours */
@@ -634,6 +662,7 @@ static void close_screen(struct tui *t)
     canvas_free(&t->canvas);
     render_halt(t->work.session->render);
     work_finish_saving(&t->work);
+    keep_picture(t);
     for (int i = 0; i < t->work.result_count && !t->is_gone; i++)
         printf("%s\n", t->work.results[i]);
     fflush(stdout);

@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "glim/file.h"
+#include "glim/picture.h"
+#include "glim/xdg.h"
 
 #define MESSAGE_NS UINT64_C(4000000000)
 #define LONG_NS    UINT64_C(10000000000)
@@ -51,6 +53,9 @@ static void restart(struct work *w)
     if (!session_restart(w->session, spp, &err))
         work_say_error(w, err.text);
     w->must_restart = false;
+    w->is_halted = false;
+    w->saved_samples = 0;
+    w->saving_samples = 0; /* these are of the picture before */
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
 }
@@ -120,7 +125,6 @@ void work_set_live(struct work *w, bool is_live)
 {
     w->is_live = is_live;
     w->is_started = false;
-    w->is_halted = false;
     w->must_restart = false;
     if (is_live) {
         work_say(w, "live mode: every change starts anew");
@@ -131,30 +135,62 @@ void work_set_live(struct work *w, bool is_live)
     work_say(w, "normal mode: Enter starts the render, space goes back");
 }
 
+static void start_normal(struct work *w)
+{
+    w->is_started = true;
+    w->message.until_ns = 0;
+    restart(w);
+}
+
+static void say_done(struct work *w)
+{
+    work_say(w, "the render is done: p saves it, space goes to live mode");
+}
+
 void work_start_or_halt(struct work *w)
 {
     struct render *render = w->session->render;
 
     w->has_changed = true;
-    if (w->is_live) {
-        work_say(w, "Enter starts a render in normal mode: space goes there");
-    } else if (!w->is_started) {
-        w->is_started = true;
-        w->is_halted = false;
-        w->saved_samples = 0;
-        w->saving_samples = 0; /* these are of the picture before */
-        w->message.until_ns = 0;
-        restart(w);
+    if (!w->is_live && !w->is_started) {
+        start_normal(w);
     } else if (w->progress.state == RENDER_RUNNING) {
         render_halt(render);
         w->is_halted = true;
     } else if (w->progress.state == RENDER_IDLE) {
-        render_resume(render, w->session->options->spp);
+        render_resume(render, w->is_live ? 0 : w->session->options->spp);
         w->is_halted = false;
     } else {
-        work_say(w, "the render is done: p saves it, space goes to live mode");
+        say_done(w);
     }
     w->progress = render_progress(render);
+}
+
+void work_step(struct work *w)
+{
+    struct render *render = w->session->render;
+
+    w->has_changed = true;
+    if (!w->is_live && !w->is_started)
+        start_normal(w);
+    render_halt(render);
+    w->progress = render_progress(render);
+    if (w->progress.state != RENDER_IDLE) {
+        say_done(w);
+        return;
+    }
+    render_step(render);
+    w->is_halted = true;
+    w->progress = render_progress(render);
+}
+
+void work_restart(struct work *w)
+{
+    w->has_changed = true;
+    if (w->is_live || w->is_started)
+        restart(w);
+    else
+        work_say(w, "nothing is rendered yet: Enter starts");
 }
 
 /* ---- backends ---- */
@@ -226,8 +262,8 @@ void work_end_device(struct work *w)
 
 /* ---- files ---- */
 
-/* The scene's name in the current folder, without its ending. */
-static char *picture_stem(const struct work *w)
+/* The scene's name without folder and ending. */
+static char *scene_name(const struct work *w)
 {
     char *stem = path_stem(w->session->scene.path);
     const char *slash = strrchr(stem, '/');
@@ -237,7 +273,7 @@ static char *picture_stem(const struct work *w)
     return name;
 }
 
-void work_save_picture(struct work *w)
+void work_save_picture(struct work *w, const char *ending)
 {
     struct render_progress now = render_progress(w->session->render);
     struct error err;
@@ -247,10 +283,10 @@ void work_save_picture(struct work *w)
         work_say(w, "nothing to save yet");
         return;
     }
-    stem = picture_stem(w);
+    stem = scene_name(w);
     if (saver_begin(&w->saver, render_film(w->session->render),
-                    (float)w->session->view.exposure, stem, &err)) {
-        w->saving_samples = w->is_started ? now.samples : 0;
+                    (float)w->session->view.exposure, stem, ending, &err)) {
+        w->saving_samples = now.samples;
         snprintf(w->saving_spp, sizeof w->saving_spp, "%" PRIu64 " spp",
                  now.spp_done);
         work_say_long(w, "saving ...");
@@ -278,8 +314,7 @@ bool work_finish_saving(struct work *w)
                    w->saving_spp);
     work_say(w, text);
     add_result(w, text);
-    if (w->is_started)
-        w->saved_samples = w->saving_samples;
+    w->saved_samples = w->saving_samples;
     free(text);
     free(name);
     return true;
@@ -300,6 +335,48 @@ void work_save_view(struct work *w)
     work_say(w, text);
     add_result(w, text);
     free(text);
+}
+
+/* NULL if it cannot be written there. */
+static char *keep_as(struct work *w, const char *stem, struct error *err)
+{
+    char *kept = xformat("%s-kept", stem);
+    char *name = picture_write_numbered(render_film(w->session->render),
+                                        (float)w->session->view.exposure, kept,
+                                        "png", err);
+
+    free(kept);
+    return name;
+}
+
+void work_keep(struct work *w)
+{
+    char *stem = path_stem(w->session->scene.path);
+    struct error err;
+    char *name, *text;
+
+    render_halt(w->session->render);
+    w->progress = render_progress(w->session->render);
+    if (w->progress.samples <= w->saved_samples)
+        goto out;
+    name = keep_as(w, stem, &err);
+    if (!name) {
+        char *scene = scene_name(w);
+        char *state = xdg_state_path(scene);
+
+        if (state)
+            name = keep_as(w, state, &err);
+        free(state);
+        free(scene);
+    }
+    text = name
+               ? xformat("kept %s, %" PRIu64 " spp", name, w->progress.spp_done)
+               : xstrdup(err.text);
+    add_result(w, text);
+    free(text);
+    free(name);
+out:
+    free(stem);
 }
 
 void work_free(struct work *w)

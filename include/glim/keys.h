@@ -28,7 +28,10 @@ enum action {
     ACTION_SLOWER,
     ACTION_MODE,
     ACTION_START,
+    ACTION_STEP, /* one more sample a pixel */
+    ACTION_RESTART,
     ACTION_SAVE,
+    ACTION_SAVE_LINEAR,
     ACTION_SAVE_VIEW,
     ACTION_RESET,
     ACTION_HIDE,

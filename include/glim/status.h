@@ -16,7 +16,7 @@
 
 struct status {
     bool is_live;
-    bool is_halted;  /* normal mode: by the person, or not yet started */
+    bool is_halted;  /* by the person */
     bool is_started; /* normal mode: a render was begun */
     const struct render_progress *progress;
     const char *device; /* NULL: the CPU, with so many threads */

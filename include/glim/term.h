@@ -34,6 +34,10 @@ bool term_open(struct error *err);
 /* Gives the terminal back. is_gone: nobody is there any more, write nothing. */
 void term_close(bool is_gone);
 
+/* SIGHUP and SIGTERM change nothing from now on, not after term_close() either:
+ * one of them has come, and what is left to do is done in peace. */
+void term_ignore_ends(void);
+
 /* What is known of colours at once. */
 enum palette term_palette(bool *is_final);
 

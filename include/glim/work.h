@@ -33,12 +33,12 @@ struct work {
 
     bool is_live;
     bool is_started;   /* normal mode: a render was begun */
-    bool is_halted;    /* normal mode: by the person */
+    bool is_halted;    /* by the person */
     bool must_restart; /* the view has changed */
     bool has_changed; /* there is something new to show; the screen clears it */
     uint64_t restarted_ns;
 
-    uint64_t saved_samples;  /* of the normal render, in a file */
+    uint64_t saved_samples;  /* of this picture, in a file */
     uint64_t saving_samples; /* that the saver will have written */
     char saving_spp[32];
 
@@ -69,7 +69,14 @@ bool work_may_move(struct work *w);
 /* Loses what normal mode has rendered. */
 void work_set_live(struct work *w, bool is_live);
 
+/* In normal mode the first time starts the render. */
 void work_start_or_halt(struct work *w);
+
+/* One more sample for every pixel, then a halt. */
+void work_step(struct work *w);
+
+/* Renders the same anew; loses what normal mode has rendered. */
+void work_restart(struct work *w);
 
 /* From the CPU to the OpenCL device, which is brought up first if need be, or
  * back. A new picture begins: no film is made by both. */
@@ -81,15 +88,20 @@ void work_begin_device(struct work *w);
 /* The start's event_fd is readable: takes the device, or says why not. */
 void work_end_device(struct work *w);
 
-/* Begins to save the picture as STEM.png or the next free name in the current
- * folder. The saver's event_fd says when work_finish_saving() has the result.
- */
-void work_save_picture(struct work *w);
+/* Begins to save the picture as STEM.ENDING or the next free name in the
+ * current folder. The saver's event_fd says when work_finish_saving() has the
+ * result. */
+void work_save_picture(struct work *w, const char *ending);
 
 /* Waits for the picture that is being saved, if any. False if that failed. */
 bool work_finish_saving(struct work *w);
 
 void work_save_view(struct work *w);
+
+/* Halts, and writes what no file has yet as STEM-kept.png beside the scene, or
+ * into the folder of the person's state, or the next free name: for when nobody
+ * is there to save it. */
+void work_keep(struct work *w);
 
 void work_free(struct work *w);
 

@@ -389,7 +389,7 @@ static void test_numbered(void **state)
     fclose(fopen("n-3.png", "w"));
     assert_int_equal(symlink("nowhere", "n-5.png"), 0);
     for (int i = 0; i < 4; i++) {
-        char *path = picture_write_numbered(&film, 0, "n", &err);
+        char *path = picture_write_numbered(&film, 0, "n", "png", &err);
         assert_non_null(path);
         assert_string_equal(path, expected[i]);
         assert_int_equal(stat(path, &st), 0);
@@ -399,7 +399,7 @@ static void test_numbered(void **state)
     assert_int_equal(stat("n-3.png", &st), 0);
     assert_int_equal(st.st_size, 0);
     assert_false(exists("nowhere"));
-    assert_null(picture_write_numbered(&film, 0, "no/n", &err));
+    assert_null(picture_write_numbered(&film, 0, "no/n", "png", &err));
     assert_string_equal(err.text, "no/n.png: no such file or folder");
     film_free(&film);
 }
@@ -419,7 +419,8 @@ static void test_numbered_race(void **state)
             struct error err;
             int written = 0;
             for (int k = 0; k < 10; k++) {
-                char *name = picture_write_numbered(&film, 0, "race", &err);
+                char *name =
+                    picture_write_numbered(&film, 0, "race", "png", &err);
                 written += name != NULL;
                 free(name);
             }
@@ -507,7 +508,7 @@ static bool fails_on_full_disk(struct film *film)
         ok = ok && !picture_write(film, 0, paths[i], &err) &&
              strstr(err.text, ": File too large") &&
              strncmp(err.text, paths[i], 5) == 0;
-    return ok && !picture_write_numbered(film, 0, "full", &err);
+    return ok && !picture_write_numbered(film, 0, "full", "png", &err);
 }
 
 static void test_disk_full(void **state)
