@@ -120,7 +120,7 @@ static bool crop_rect(const struct session *s, struct rect *rect,
     return true;
 }
 
-bool session_open(struct session *s, const struct options *options,
+bool session_load(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err)
 {
     uint64_t begin_ns = clock_ns();
@@ -129,6 +129,7 @@ bool session_open(struct session *s, const struct options *options,
     *s = (struct session){.options = options, .start_ns = start_ns};
     view_init(&s->view);
     view_init(&s->opened);
+    view_init(&s->filed);
     if (!read_view(s, err))
         return false;
     apply_options(s);
@@ -141,12 +142,66 @@ bool session_open(struct session *s, const struct options *options,
     if (!view_check(&s->view, options->scene_path, err))
         return false;
     view_copy(&s->opened, &s->view);
+    view_copy(&s->filed, &s->view);
     s->load_ns = clock_ns() - begin_ns;
     s->geometry_changed = true;
+    return true;
+}
+
+bool session_open(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err)
+{
+    if (!session_load(s, options, start_ns, err))
+        return false;
     if (!machines_open(&s->machines, options, err))
         return false;
     s->render = render_create(s->machines.cpu, err);
     return s->render != NULL;
+}
+
+static void swap_loaded(struct session *a, struct session *b)
+{
+    struct session old = *a;
+
+    a->scene = b->scene;
+    a->opened = b->opened;
+    a->filed = b->filed;
+    a->report = b->report;
+    b->scene = old.scene;
+    b->opened = old.opened;
+    b->filed = old.filed;
+    b->report = old.report;
+    memcpy(a->notice, b->notice, sizeof a->notice);
+}
+
+/* The same triangles need no new tree. But a device knows arrays by their
+ * addresses, and has seen those of the scene that goes only if it has begun to
+ * render it: before that their addresses might come again. */
+void session_take(struct session *s, struct session *fresh)
+{
+    render_halt(s->render);
+    s->geometry_changed |= render_progress(s->render).samples == 0 ||
+                           !scene_has_same_shape(&s->scene, &fresh->scene);
+    view_merge(&s->view, &s->filed, &fresh->filed);
+    swap_loaded(s, fresh);
+}
+
+void session_watch(const struct session *s, struct watch *watch)
+{
+    const struct scene *scene = &s->scene;
+    char *camera = path_beside(s->options->scene_path, "camera.txt");
+
+    watch_add(watch, s->options->scene_path);
+    for (uint32_t i = 0; i < scene->mtl_path_count; i++)
+        watch_add(watch, scene->mtl_paths[i]);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        watch_add(watch, scene->texture_paths[i]);
+    watch_add(watch, s->view_path);
+    if (!s->options->view_path)
+        watch_add(watch, camera);
+    if (s->view.sky_path)
+        watch_add(watch, s->view.sky_path);
+    free(camera);
 }
 
 bool session_restart(struct session *s, uint64_t spp, struct error *err)
@@ -180,6 +235,7 @@ void session_close(struct session *s)
     scene_free(&s->scene);
     view_free(&s->view);
     view_free(&s->opened);
+    view_free(&s->filed);
     report_free(&s->report);
     free(s->view_path);
     *s = (struct session){0};

@@ -10,6 +10,7 @@
 
 enum field {
     FIELD_MODE,
+    FIELD_FILES,
     FIELD_SAMPLES,
     FIELD_PERCENT,
     FIELD_ELAPSED,
@@ -111,6 +112,8 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     else
         snprintf(text[FIELD_MACHINE], FIELD_BYTES, "%d thread%s",
                  s->thread_count, s->thread_count == 1 ? "" : "s");
+    if (s->has_changed_files)
+        snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: l loads");
     snprintf(text[FIELD_SIZE], FIELD_BYTES, "%dx%d", s->width_px, s->height_px);
     snprintf(text[FIELD_COLORS], FIELD_BYTES, "%s", s->colors);
     if (!s->is_live && !s->is_started)

@@ -36,8 +36,9 @@
 /* A lone ESC is the key when nothing has followed for so long. */
 #define ESCAPE_NS (50 * MS_NS)
 
-/* What the loop waits for: keys, signals, the render, the saver, a device. */
-#define FDS 5
+/* What the loop waits for: keys, signals, the render, the saver, a device,
+ * files that change, and those that are loaded. */
+#define FDS 7
 
 #define HELP_LINES_MAX 32
 #define HELP_LINE_MAX  64
@@ -58,10 +59,11 @@ struct tui {
     bool has_help;
     enum question question;
 
-    bool is_settled;    /* nothing of the picture is left to be shown */
-    uint64_t frame_ns;  /* when the next frame is due */
-    uint64_t status_ns; /* when to look for a new status line */
-    uint64_t byte_ns;   /* when the last one came */
+    bool is_settled;         /* nothing of the picture is left to be shown */
+    uint64_t frame_ns;       /* when the next frame is due */
+    uint64_t status_ns;      /* when to look for a new status line */
+    uint64_t byte_ns;        /* when the last one came */
+    int width_px, height_px; /* of the picture that has been laid out */
 
     bool is_ending;
     bool is_gone; /* the terminal */
@@ -98,6 +100,8 @@ static void layout(struct tui *t)
     struct error err;
 
     t->has_help = false;
+    t->width_px = film->width;
+    t->height_px = film->height;
     refresh_soon(t);
     if (!canvas_layout(&t->canvas, film->width, film->height, &err)) {
         t->canvas.is_too_small = true; /* nothing can be drawn */
@@ -284,6 +288,7 @@ static void act(struct tui *t, enum action action)
         t->canvas.has_status_row = !t->canvas.has_status_row;
         layout(t);
         break;
+    case ACTION_RELOAD: work_reload(&t->work); break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;
     case ACTION_COLORS: next_colors(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
@@ -408,6 +413,7 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
         .is_live = t->work.is_live,
         .is_halted = t->work.is_halted,
         .is_started = t->work.is_started,
+        .has_changed_files = t->work.has_changed_files,
         .progress = &t->work.progress,
         .device = backend->device,
         .thread_count = backend->thread_count,
@@ -534,6 +540,7 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
                             earlier(input_deadline_ns(t),
                                     pace_deadline_ns(&t->canvas.pace)));
 
+    wake = earlier(wake, t->work.files_ns);
     if (work_awaits_picture(&t->work)) {
         /* looked for often at first, seldom while a tree is built */
         uint64_t waited_ns = now_ns - t->work.restarted_ns;
@@ -575,6 +582,10 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
         work_finish_saving(&t->work);
     if (fds[4].revents)
         work_end_device(&t->work);
+    if (fds[5].revents)
+        work_look_at_files(&t->work);
+    if (fds[6].revents)
+        work_end_reload(&t->work);
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);
@@ -590,6 +601,9 @@ static void wait_for_events(struct tui *t)
         {.fd = render_event_fd(t->work.session->render), .events = POLLIN},
         {.fd = t->work.saver.event_fd, .events = POLLIN},
         {.fd = start ? cl_start_event_fd(start) : -1, .events = POLLIN},
+        {.fd = t->work.watch.fd, .events = POLLIN},
+        {.fd = t->work.is_live ? t->work.reload.event_fd : -1,
+         .events = POLLIN},
     };
     uint64_t now_ns = clock_ns();
     uint64_t until_ns = wake_ns(t, now_ns);
@@ -606,9 +620,12 @@ static void wait_for_events(struct tui *t)
  * the camera moves there are 60 a second. */
 static void look_at_work(struct tui *t)
 {
+    const struct film *film = film_of(t);
     uint64_t before_ns = t->work.restarted_ns;
 
     work_look(&t->work);
+    if (film->width != t->width_px || film->height != t->height_px)
+        layout(t);
     if (t->work.restarted_ns != before_ns) {
         t->is_settled = false;
         t->frame_ns = 0;

@@ -391,6 +391,64 @@ void view_copy(struct view *to, const struct view *from)
     to->sky_path = sky_path; /* a copy of its own */
 }
 
+static bool has_other_camera(const struct view *a, const struct view *b)
+{
+    return a->has_camera != b->has_camera ||
+           memcmp(a->eye, b->eye, sizeof a->eye) != 0 ||
+           memcmp(a->at, b->at, sizeof a->at) != 0 ||
+           memcmp(a->up, b->up, sizeof a->up) != 0 ||
+           a->fovy_deg != b->fovy_deg || a->aperture != b->aperture ||
+           a->focus != b->focus;
+}
+
+static bool has_other_sky(const struct view *a, const struct view *b)
+{
+    return !a->sky_path != !b->sky_path ||
+           (a->sky_path && strcmp(a->sky_path, b->sky_path) != 0);
+}
+
+static void take_camera(struct view *view, const struct view *from)
+{
+    memcpy(view->eye, from->eye, sizeof view->eye);
+    memcpy(view->at, from->at, sizeof view->at);
+    memcpy(view->up, from->up, sizeof view->up);
+    view->fovy_deg = from->fovy_deg;
+    view->aperture = from->aperture;
+    view->focus = from->focus;
+    view->has_camera = true;
+}
+
+void view_merge(struct view *view, const struct view *before,
+                const struct view *after)
+{
+    /* one that was placed by the program follows the scene, not the file */
+    if (after->has_camera && has_other_camera(before, after))
+        take_camera(view, after);
+    if (before->width_px != after->width_px ||
+        before->height_px != after->height_px) {
+        view->width_px = after->width_px;
+        view->height_px = after->height_px;
+        view->has_size = after->has_size;
+    }
+    if (memcmp(before->background, after->background,
+               sizeof after->background) != 0) {
+        memcpy(view->background, after->background, sizeof view->background);
+        view->has_background = after->has_background;
+    }
+    if (has_other_sky(before, after)) {
+        free(view->sky_path);
+        view->sky_path = after->sky_path ? xstrdup(after->sky_path) : NULL;
+    }
+    if (before->max_bounces != after->max_bounces)
+        view->max_bounces = after->max_bounces;
+    if (before->sky_strength != after->sky_strength)
+        view->sky_strength = after->sky_strength;
+    if (before->sky_rotation_deg != after->sky_rotation_deg)
+        view->sky_rotation_deg = after->sky_rotation_deg;
+    if (before->exposure != after->exposure)
+        view->exposure = after->exposure;
+}
+
 void view_free(struct view *view)
 {
     free(view->sky_path);

@@ -13,6 +13,12 @@
 #define MESSAGE_NS UINT64_C(4000000000)
 #define LONG_NS    UINT64_C(10000000000)
 
+/* Editors and exporters write several files, or one in several steps. */
+#define QUIET_NS UINT64_C(150000000)
+
+/* How often files are looked at where the system does not watch them. */
+#define LOOK_NS UINT64_C(1000000000)
+
 static void say(struct work *w, const char *text, uint64_t until_ns)
 {
     snprintf(w->message.text, sizeof w->message.text, "%s", text);
@@ -60,6 +66,14 @@ static void restart(struct work *w)
     w->progress = render_progress(w->session->render);
 }
 
+static void watch_files(struct work *w)
+{
+    watch_begin(&w->watch);
+    session_watch(w->session, &w->watch);
+    watch_end(&w->watch);
+    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+}
+
 bool work_init(struct work *w, struct session *session, struct error *err)
 {
     *w = (struct work){.session = session,
@@ -67,6 +81,12 @@ bool work_init(struct work *w, struct session *session, struct error *err)
                        .restarted_ns = clock_ns()};
     if (!session_restart(session, 0, err) || !saver_init(&w->saver, err))
         return false;
+    if (!reload_init(&w->reload, session->options, err)) {
+        saver_free(&w->saver);
+        return false;
+    }
+    watch_init(&w->watch);
+    watch_files(w);
     w->progress = render_progress(session->render);
     return true;
 }
@@ -93,10 +113,26 @@ static void take_failure(struct work *w)
     free(text);
 }
 
+/* files_ns has come. */
+static void take_files(struct work *w)
+{
+    bool loads;
+
+    work_look_at_files(w);
+    loads = w->has_changed_files && w->session->options->watch && w->is_live;
+    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+    if (loads && w->reload.is_busy)
+        w->files_ns = clock_ns() + QUIET_NS;
+    else if (loads)
+        work_reload(w);
+}
+
 void work_look(struct work *w)
 {
     enum render_state before = w->progress.state;
 
+    if (clock_ns() >= w->files_ns)
+        take_files(w);
     w->progress = render_progress(w->session->render);
     if (w->progress.state != before)
         w->has_changed = true;
@@ -128,6 +164,7 @@ void work_set_live(struct work *w, bool is_live)
     w->must_restart = false;
     if (is_live) {
         work_say(w, "live mode: every change starts anew");
+        w->files_ns = clock_ns(); /* what has changed may be loaded now */
         restart(w);
         return;
     }
@@ -262,6 +299,72 @@ void work_end_device(struct work *w)
 
 /* ---- files ---- */
 
+void work_look_at_files(struct work *w)
+{
+    bool has_changed;
+
+    watch_drain(&w->watch);
+    has_changed = watch_has_changed(&w->watch);
+    if (has_changed != w->has_changed_files)
+        w->has_changed = true;
+    w->has_changed_files = has_changed;
+    if (has_changed && w->session->options->watch &&
+        w->files_ns > clock_ns() + QUIET_NS)
+        w->files_ns = clock_ns() + QUIET_NS;
+}
+
+void work_reload(struct work *w)
+{
+    struct error err;
+
+    if (!w->is_live) {
+        work_say(w, "files are loaded in live mode: space goes there");
+        return;
+    }
+    watch_settle(&w->watch, NULL); /* what changes from here on is new again */
+    w->has_changed_files = false;
+    if (reload_begin(&w->reload, &err))
+        work_say_long(w, "loading ...");
+    else
+        work_say_error(w, err.text);
+}
+
+/* How many warnings there are, and the first of them. */
+static void say_loaded(struct work *w)
+{
+    const struct report *r = &w->session->report;
+    uint64_t count = 0;
+    char *text;
+
+    for (int i = 0; i < r->entry_count; i++)
+        count += r->entries[i].count;
+    if (count > 0)
+        text = xformat("loaded, %" PRIu64 " warning%s: %s", count,
+                       count == 1 ? "" : "s", r->entries[0].text);
+    else
+        text = xformat("loaded %s", w->session->scene.path);
+    work_say(w, text);
+    free(text);
+}
+
+void work_end_reload(struct work *w)
+{
+    struct session fresh;
+    struct error err;
+
+    if (!reload_end(&w->reload, &fresh, &err)) {
+        work_say_error(w, err.text);
+    } else {
+        saver_wait_copied(&w->saver);
+        session_take(w->session, &fresh);
+        watch_files(w);
+        work_look_at_files(w); /* what was missed meanwhile */
+        say_loaded(w);
+        restart(w);
+    }
+    session_close(&fresh);
+}
+
 /* The scene's name without folder and ending. */
 static char *scene_name(const struct work *w)
 {
@@ -331,6 +434,8 @@ void work_save_view(struct work *w)
         work_say_error(w, err.text);
         return;
     }
+    view_copy(&s->filed, &s->view);
+    watch_settle(&w->watch, s->view_path);
     text = xformat("wrote the view to %s", s->view_path);
     work_say(w, text);
     add_result(w, text);
@@ -382,6 +487,8 @@ out:
 void work_free(struct work *w)
 {
     saver_free(&w->saver);
+    reload_free(&w->reload);
+    watch_free(&w->watch);
     for (int i = 0; i < w->result_count; i++)
         free(w->results[i]);
     free(w->results);

@@ -35,6 +35,7 @@ enum action {
     ACTION_SAVE_VIEW,
     ACTION_RESET,
     ACTION_HIDE,
+    ACTION_RELOAD, /* the files of the scene */
     ACTION_BACKEND,
     ACTION_COLORS,
     ACTION_MOUSE,

@@ -15,12 +15,14 @@
 #include "glim/options.h"
 #include "glim/render.h"
 #include "glim/scene.h"
+#include "glim/watch.h"
 
 struct session {
     const struct options *options;
     struct scene scene;
     struct view view;   /* what is rendered now */
     struct view opened; /* as loaded, to go back to */
+    struct view filed;  /* as the view file has it */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
@@ -37,6 +39,19 @@ struct session {
  * after an error, which may leave warnings in the report. */
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
+
+/* The part of it that reads files: for another session to take. */
+bool session_load(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err);
+
+/* Halts, and takes what `fresh` has loaded of the same files: scene, report,
+ * notice, and of the view what its file has changed; the camera stays else.
+ * What was loaded before is in `fresh` then. session_restart() is due. */
+void session_take(struct session *s, struct session *fresh);
+
+/* Adds all files that the session was loaded from, and those that would be
+ * read if they were there. */
+void session_watch(const struct session *s, struct watch *watch);
 
 /* Halts and starts from sample 0 with the current view. spp 0: no limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);

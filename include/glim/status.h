@@ -18,6 +18,7 @@ struct status {
     bool is_live;
     bool is_halted;  /* by the person */
     bool is_started; /* normal mode: a render was begun */
+    bool has_changed_files;
     const struct render_progress *progress;
     const char *device; /* NULL: the CPU, with so many threads */
     int thread_count;

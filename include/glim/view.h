@@ -49,6 +49,11 @@ bool view_write(const struct view *view, const char *path, struct error *err);
 /* True if eye, at and fovy make a camera; else the text says what is wrong. */
 bool view_check(const struct view *view, const char *place, struct error *err);
 
+/* Takes over what the file has changed from `before` to `after`; the rest of
+ * `view` stays. The camera is one thing. */
+void view_merge(struct view *view, const struct view *before,
+                const struct view *after);
+
 /* `to` has been through view_init(). */
 void view_copy(struct view *to, const struct view *from);
 void view_free(struct view *view);

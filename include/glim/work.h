@@ -16,6 +16,7 @@
 #ifndef GLIM_WORK_H
 #define GLIM_WORK_H
 
+#include "glim/reload.h"
 #include "glim/saver.h"
 #include "glim/session.h"
 
@@ -28,6 +29,8 @@ struct message {
 struct work {
     struct session *session;
     struct saver saver;
+    struct reload reload;
+    struct watch watch;
     struct render_progress progress; /* as of the last work_look() */
     struct message message;
 
@@ -36,6 +39,9 @@ struct work {
     bool is_halted;    /* by the person */
     bool must_restart; /* the view has changed */
     bool has_changed; /* there is something new to show; the screen clears it */
+    bool has_changed_files; /* since they were loaded */
+    uint64_t files_ns;      /* when to look at them, or load them with --watch;
+                               UINT64_MAX: when the watch says so */
     uint64_t restarted_ns;
 
     uint64_t saved_samples;  /* of this picture, in a file */
@@ -87,6 +93,15 @@ void work_begin_device(struct work *w);
 
 /* The start's event_fd is readable: takes the device, or says why not. */
 void work_end_device(struct work *w);
+
+/* The watch's fd is readable: have files of the scene changed? */
+void work_look_at_files(struct work *w);
+
+/* Begins to load the files of the scene anew; what is rendered stays until the
+ * reload's event_fd says, in live mode, that work_end_reload() has the result.
+ * An error leaves the old scene. */
+void work_reload(struct work *w);
+void work_end_reload(struct work *w);
 
 /* Begins to save the picture as STEM.ENDING or the next free name in the
  * current folder. The saver's event_fd says when work_finish_saving() has the
