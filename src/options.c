@@ -34,6 +34,8 @@ const char options_help[] =
     "  --crop X,Y,W,H   only W x H pixels of the picture, from (X, Y) on\n"
     "  --up y|z         which way is up in the scene file (default: y)\n"
     "  -t THREADS       1 to 1024 (default: what the process may use)\n"
+    "  --stats FILE     times and counts as JSON at the end, - for standard\n"
+    "                   output\n"
     "\n"
     "device\n"
     "  --backend KIND   cpu, opencl or auto: OpenCL if it has a GPU, else\n"
@@ -48,7 +50,6 @@ const char options_help[] =
     "  -o FILE          a .png, .hdr or .pfm file, which is replaced, or -\n"
     "                   for standard output (default: a new .png file in\n"
     "                   the current folder, named after the scene)\n"
-    "  --stats FILE     times and counts as JSON, - for standard output\n"
     "\n"
     "screen\n"
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
@@ -295,7 +296,7 @@ static bool set_word(struct options *o, const struct given *g,
                                          "256",  "24",   NULL};
     static const char *const glyphs[] = {"auto",  "upper", "lower",
                                          "space", "ascii", NULL};
-    int index;
+    int index = 0;
 
     switch (g->rule->id) {
     case OPTION_UP:

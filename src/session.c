@@ -214,12 +214,22 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
     s->restart_ns = clock_ns();
+    s->speeds = (struct speeds){0};
+    load_begin(&s->load, render_backend(s->render));
     if (!render_start(s->render, &job, err))
         return false;
     s->geometry_changed = false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
         machines_specialise(&s->machines, job.world.settings.features);
     return true;
+}
+
+struct render_progress session_look(struct session *s)
+{
+    struct render_progress p = render_progress(s->render);
+
+    speeds_look(&s->speeds, p.render_ns, p.samples);
+    return p;
 }
 
 bool session_uses_device(const struct session *s)
@@ -237,6 +247,7 @@ void session_close(struct session *s)
     view_free(&s->opened);
     view_free(&s->filed);
     report_free(&s->report);
+    load_free(&s->load);
     free(s->view_path);
     *s = (struct session){0};
 }

@@ -133,7 +133,7 @@ void work_look(struct work *w)
 
     if (clock_ns() >= w->files_ns)
         take_files(w);
-    w->progress = render_progress(w->session->render);
+    w->progress = session_look(w->session);
     if (w->progress.state != before)
         w->has_changed = true;
     if (w->progress.state == RENDER_FAILED && before != RENDER_FAILED)

@@ -61,7 +61,17 @@ void canvas_status(struct canvas *c, const char *text);
 
 void canvas_open_window(struct canvas *c, const char *title,
                         const char *const *texts, int text_count);
+
+/* The same at the right of the top, with lines that change: as many, and as
+ * long. */
+void canvas_open_panel(struct canvas *c, const char *title,
+                       const char *const *texts, int text_count);
+void canvas_set_panel(struct canvas *c, const char *const *texts,
+                      int text_count);
 void canvas_close_window(struct canvas *c);
+
+/* True if characters beyond ASCII are seen as such. */
+bool canvas_has_unicode(const struct canvas *c);
 
 enum canvas_result {
     CANVAS_DONE, /* all is shown */

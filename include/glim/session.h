@@ -11,10 +11,12 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
+#include "glim/load.h"
 #include "glim/machines.h"
 #include "glim/options.h"
 #include "glim/render.h"
 #include "glim/scene.h"
+#include "glim/speeds.h"
 #include "glim/watch.h"
 
 struct session {
@@ -32,6 +34,9 @@ struct session {
     uint64_t load_ns;
     uint64_t restart_ns; /* when session_restart() last started the render */
     bool geometry_changed;
+    /* of the render since then */
+    struct speeds speeds;
+    struct load load;
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has
@@ -55,6 +60,9 @@ void session_watch(const struct session *s, struct watch *watch);
 
 /* Halts and starts from sample 0 with the current view. spp 0: no limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
+
+/* How far the render is. To be called some times a second, for the speeds. */
+struct render_progress session_look(struct session *s);
 
 /* True if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);

@@ -32,6 +32,10 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s);
 /* Seconds as people read them: 7 s, 1:07, 2:01:07. Rounds down. */
 void status_duration(char *text, size_t size_bytes, uint64_t ns);
 
+/* The time that is left, in such words. False if nobody can know. */
+bool status_left(char *text, size_t size_bytes,
+                 const struct render_progress *p);
+
 /* Copies a message for the screen: no control characters, cut at `cols`
  * bytes. */
 void status_message(char text[STATUS_BYTES], int cols, const char *message);

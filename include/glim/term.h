@@ -84,9 +84,15 @@ bool term_has_sync(void);
  * that was opened or closed, by term_update(). */
 void term_status(const char *text);
 
-/* A centred window with these lines and a title; where it is. One at a time. */
+/* A window with these lines and a title, in the middle or in the corner at the
+ * top right; where it is. One at a time. */
 struct term_rect term_open_window(const char *title, const char *const *texts,
                                   int text_count);
+struct term_rect term_open_panel(const char *title, const char *const *texts,
+                                 int text_count);
+
+/* Replaces the lines of the window, by as long ones. */
+void term_set_window(const char *const *texts, int text_count);
 void term_close_window(void);
 
 /* Text in the middle of an empty screen. */
