@@ -31,9 +31,11 @@ awk -F '[][,:]' '{ value[$1] = $2 + 0 }
         }
         rate = value["  \"samples_per_s\""] * render
         rays = value["  \"rays_per_s\""] * render / value["  \"rays\""]
-        print (sum > 594 && sum < 606 && rate > 594 && rate < 606 &&
-            rays > .99 && rays < 1.01 && loads == 2 && !bad) ?
-            "rates and speeds agree" : "they do not: " sum " " rate " " rays
+        if (sum > 594 && sum < 606 && rate > 594 && rate < 606 &&
+            rays > .99 && rays < 1.01 && loads == 2 && !bad)
+            print "rates and speeds agree"
+        else
+            print "they do not: " sum " " rate " " rays
     }' run.json
 glim -b -w 4 -h 4 -s 1 -o out.png --stats - box.obj 2>/dev/null | head -n 1
 echo 'crop and odd names:'
