@@ -20,7 +20,7 @@ grep -E '"(percent|left_s)"' run.json
 # each of two threads
 awk -F '[][,:]' '{ value[$1] = $2 + 0 }
     /"speeds"/ { for (i = 3; i < NF; i++) speed[n++] = $i }
-    /"load"/ { loads = NF - 3; for (i = 3; i < NF; i++) bad += $i < 0 || $i > 1 }
+    /"load"/ { loads = NF - 4; for (i = 3; i < NF - 1; i++) bad += $i < 0 || $i > 1 }
     END {
         render = value["  \"render_s\""]
         time = render + value["  \"build_s\""]
