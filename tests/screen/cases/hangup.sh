@@ -22,7 +22,7 @@ pid=$(program_pid)
 mux kill-session
 wait_until gone
 is_whole scenes/flat-kept.png
-[ ! -e state ] || die "more than one picture was kept"
+[ ! -e state/glim/flat-kept.png ] || die "more than one picture was kept"
 [ -z "$(find . -name '.glim-*')" ] || die "left: $(find . -name '.glim-*')"
 
 # again, with signals that go on while it is saved: nothing is replaced
