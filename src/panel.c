@@ -39,6 +39,15 @@ void panel_number(char *text, size_t size_bytes, double value)
                  value, units[unit]);
 }
 
+/* Copies a character; the place behind it. */
+static char *put(char *to, const char *character)
+{
+    size_t length = strlen(character);
+
+    memcpy(to, character, length + 1);
+    return to + length;
+}
+
 /* `right` ends in the last column. */
 static void put_sides(char *line, const char *left, const char *right)
 {
@@ -77,9 +86,8 @@ static void format_bar(char *line, const struct panel_facts *f)
     const char *full = f->has_unicode ? "\xe2\x96\x88" : "#";
     const char *empty = f->has_unicode ? "\xe2\x96\x91" : "-";
 
-    line[0] = '\0';
     for (int i = 0; i < PANEL_COLS; i++)
-        strcat(line, i < filled ? full : empty);
+        line = put(line, i < filled ? full : empty);
 }
 
 static void format_rate(char *line, const char *name, uint64_t count,
@@ -153,7 +161,6 @@ static void format_plot(char *line, const struct panel_facts *f, int row)
     double top = top_speed(f->speeds);
     double scale = top > 0 ? 1 / top : 0;
 
-    line[0] = '\0';
     for (int i = 0; i < PANEL_COLS; i++) {
         double a = scale * speed_at(f->speeds, DOT_COLS * i);
         double b = scale * speed_at(f->speeds, DOT_COLS * i + 1);
@@ -161,7 +168,7 @@ static void format_plot(char *line, const struct panel_facts *f, int row)
 
         if (f->has_unicode)
             put_braille(cell, dots_in_row(a, row), dots_in_row(b, row));
-        strcat(line, cell);
+        line = put(line, cell);
     }
 }
 
@@ -203,7 +210,7 @@ static void format_loads(char *line, const struct panel_facts *f)
         if (f->has_unicode) /* U+2581 to U+2588; an idle one has a foot */
             snprintf(cell, sizeof cell, "\xe2\x96%c",
                      (char)(0x80 + (eighths > 0 ? eighths : 1)));
-        strcat(line, cell);
+        line = put(line, cell);
     }
 }
 
