@@ -4,14 +4,13 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "glim/canvas.h"
+#include "glim/gauge.h"
 #include "glim/keys.h"
-#include "glim/panel.h"
 #include "glim/stats.h"
 #include "glim/steer.h"
 #include "glim/version.h"
@@ -35,9 +34,6 @@
 #define STEP_SLOW   8
 
 #define STATUS_NS (250 * MS_NS)
-
-/* The panel is to be read, not watched. */
-#define PANEL_NS (500 * MS_NS)
 
 /* A lone ESC is the key when nothing has followed for so long. */
 #define ESCAPE_NS (50 * MS_NS)
@@ -63,10 +59,7 @@ struct tui {
     struct steer steer;
     bool has_mouse;
     bool has_help;
-    bool has_panel; /* hidden while the help is open */
-    struct load load;
-    uint64_t load_ns;  /* when that was begun */
-    uint64_t panel_ns; /* when the panel is due */
+    struct gauge gauge; /* hidden while the help is open */
     enum question question;
 
     bool is_settled;         /* nothing of the picture is left to be shown */
@@ -96,68 +89,13 @@ static void refresh_soon(struct tui *t)
     t->is_settled = false;
     t->frame_ns = 0;
     t->status_ns = 0;
-    t->panel_ns = 0;
+    t->gauge.due_ns = 0;
 }
 
 static void end(struct tui *t, int status)
 {
     t->is_ending = true;
     t->status = status;
-}
-
-/* ---- the panel of progress ---- */
-
-/* Of each thread since the last time; a paused render has none. */
-static void measure_loads(struct tui *t, uint64_t now_ns, double *loads)
-{
-    const struct backend *backend = render_backend(t->work.session->render);
-    bool is_running = t->work.progress.state == RENDER_RUNNING;
-
-    for (int i = 0; i < backend->thread_count && is_running; i++)
-        loads[i] = load_share(&t->load, backend, i, now_ns - t->load_ns);
-    load_begin(&t->load, backend);
-    t->load_ns = now_ns;
-}
-
-static void draw_panel(struct tui *t, uint64_t now_ns)
-{
-    static char texts[PANEL_ROWS][PANEL_BYTES];
-    const char *lines[PANEL_ROWS];
-    int thread_count = render_backend(t->work.session->render)->thread_count;
-    double *loads = xcalloc((size_t)thread_count, sizeof *loads);
-    struct panel_facts facts = {
-        .progress = &t->work.progress,
-        .speeds = &t->work.session->speeds,
-        .loads = loads,
-        .has_unicode = canvas_has_unicode(&t->canvas),
-    };
-
-    measure_loads(t, now_ns, loads);
-    facts.load_count = t->load.count;
-    panel_format(texts, &facts);
-    free(loads);
-    for (int i = 0; i < PANEL_ROWS; i++)
-        lines[i] = texts[i];
-    if (t->canvas.window.cols == 0)
-        canvas_open_panel(&t->canvas, " progress ", lines, PANEL_ROWS);
-    else
-        canvas_set_panel(&t->canvas, lines, PANEL_ROWS);
-    t->panel_ns = now_ns + PANEL_NS;
-}
-
-static bool shows_panel(const struct tui *t)
-{
-    return t->has_panel && !t->has_help && !t->canvas.is_too_small;
-}
-
-static void switch_panel(struct tui *t)
-{
-    t->has_panel = !t->has_panel;
-    load_begin(&t->load, render_backend(t->work.session->render));
-    t->load_ns = clock_ns();
-    if (!t->has_panel)
-        canvas_close_window(&t->canvas);
-    refresh_soon(t);
 }
 
 static void layout(struct tui *t)
@@ -228,6 +166,19 @@ static void take_mouse(struct tui *t, const struct event *event)
 
 /* ---- help, screen ---- */
 
+static bool shows_gauge(const struct tui *t)
+{
+    return t->gauge.is_on && !t->has_help && !t->canvas.is_too_small;
+}
+
+static void switch_gauge(struct tui *t)
+{
+    gauge_switch(&t->gauge, &t->work);
+    if (!t->gauge.is_on)
+        canvas_close_window(&t->canvas);
+    refresh_soon(t);
+}
+
 static void open_help(struct tui *t)
 {
     static char texts[HELP_LINES_MAX][HELP_LINE_MAX];
@@ -251,7 +202,7 @@ static void open_help(struct tui *t)
                  palette_name(t->canvas.palette));
     for (int i = 0; i < count; i++)
         lines[i] = texts[i];
-    if (t->has_panel)
+    if (t->gauge.is_on)
         canvas_close_window(&t->canvas);
     canvas_open_window(&t->canvas, " glim " GLIM_VERSION " - any key closes ",
                        lines, count);
@@ -276,7 +227,7 @@ static void next_colors(struct tui *t)
 static void hide(struct tui *t)
 {
     t->canvas.has_status_row = !t->canvas.has_status_row;
-    t->has_panel = false;
+    t->gauge.is_on = false;
     layout(t);
 }
 
@@ -359,7 +310,7 @@ static void act(struct tui *t, enum action action)
     case ACTION_SAVE_LINEAR: work_save_picture(&t->work, "hdr"); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
     case ACTION_RESET: reset_view(t); break;
-    case ACTION_PANEL: switch_panel(t); break;
+    case ACTION_PANEL: switch_gauge(t); break;
     case ACTION_HIDE: hide(t); break;
     case ACTION_RELOAD: work_reload(&t->work); break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;
@@ -576,8 +527,8 @@ static void draw(struct tui *t, uint64_t now_ns)
     enum canvas_result result;
 
     show_messages(t, now_ns);
-    if (shows_panel(t) && now_ns >= t->panel_ns)
-        draw_panel(t, now_ns);
+    if (shows_gauge(t) && now_ns >= gauge_next_ns(&t->gauge, &t->work))
+        gauge_draw(&t->gauge, &t->work, c, now_ns);
     if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
         return;
     result = canvas_draw(c, shows ? render_film(t->work.session->render) : NULL,
@@ -628,9 +579,8 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
     }
     if (t->work.progress.state == RENDER_RUNNING || t->status_ns == 0)
         wake = earlier(wake, t->status_ns);
-    if (shows_panel(t) &&
-        (t->work.progress.state == RENDER_RUNNING || t->panel_ns == 0))
-        wake = earlier(wake, t->panel_ns);
+    if (shows_gauge(t))
+        wake = earlier(wake, gauge_next_ns(&t->gauge, &t->work));
     if (t->work.message.until_ns != 0)
         wake = earlier(wake, t->work.message.until_ns);
     return wake;
@@ -755,7 +705,7 @@ static void close_screen(struct tui *t)
     machines_abandon_device(&t->work.session->machines);
     term_close(t->is_gone);
     canvas_free(&t->canvas);
-    load_free(&t->load);
+    gauge_free(&t->gauge);
     render_halt(t->work.session->render);
     work_finish_saving(&t->work);
     keep_picture(t);

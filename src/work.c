@@ -454,34 +454,44 @@ static char *keep_as(struct work *w, const char *stem, struct error *err)
     return name;
 }
 
-void work_keep(struct work *w)
+static char *keep_beside(struct work *w, struct error *err)
 {
     char *stem = path_stem(w->session->scene.path);
+    char *name = keep_as(w, stem, err);
+
+    free(stem);
+    return name;
+}
+
+static char *keep_in_state(struct work *w, struct error *err)
+{
+    char *scene = scene_name(w);
+    char *stem = xdg_state_path(scene);
+    char *name = stem ? keep_as(w, stem, err) : NULL;
+
+    free(stem);
+    free(scene);
+    return name;
+}
+
+void work_keep(struct work *w)
+{
     struct error err;
     char *name, *text;
 
     render_halt(w->session->render);
     w->progress = render_progress(w->session->render);
     if (w->progress.samples <= w->saved_samples)
-        goto out;
-    name = keep_as(w, stem, &err);
-    if (!name) {
-        char *scene = scene_name(w);
-        char *state = xdg_state_path(scene);
-
-        if (state)
-            name = keep_as(w, state, &err);
-        free(state);
-        free(scene);
-    }
+        return;
+    name = keep_beside(w, &err);
+    if (!name)
+        name = keep_in_state(w, &err);
     text = name
                ? xformat("kept %s, %" PRIu64 " spp", name, w->progress.spp_done)
                : xstrdup(err.text);
     add_result(w, text);
     free(text);
     free(name);
-out:
-    free(stem);
 }
 
 void work_free(struct work *w)

@@ -238,6 +238,29 @@ static void watched_files_are_loaded_at_once(void **state)
     options.watch = false;
 }
 
+/* Where nothing tells of changes, files are looked at once a second. */
+static void unwatched_files_are_looked_at(void **state)
+{
+    struct session s;
+    struct work w;
+
+    (void)state;
+    open_work(&w, &s);
+    close(w.watch.fd);
+    w.watch.fd = -1;
+    w.files_ns = clock_ns();
+    work_look(&w);
+    assert_false(w.has_changed_files);
+    assert_true(w.files_ns < clock_ns() + UINT64_C(2000000000));
+    put("s.mtl", "newmtl m\nKd .25 0 0\n");
+    for (int i = 0; i < 3000 && !w.has_changed_files; i++) {
+        usleep(1000);
+        work_look(&w);
+    }
+    assert_true(w.has_changed_files);
+    close_work(&w, &s);
+}
+
 static void own_views_are_no_change(void **state)
 {
     struct session s;
@@ -271,6 +294,7 @@ int main(void)
         cmocka_unit_test(broken_files_leave_the_scene),
         cmocka_unit_test(warnings_are_told),
         cmocka_unit_test(watched_files_are_loaded_at_once),
+        cmocka_unit_test(unwatched_files_are_looked_at),
         cmocka_unit_test(own_views_are_no_change),
     };
 
