@@ -199,14 +199,14 @@ void canvas_open_window(struct canvas *c, const char *title,
     cover(c, term_open_window(title, texts, text_count));
 }
 
-void canvas_open_panel(struct canvas *c, const char *title,
-                       const char *const *texts, int text_count)
+void canvas_open_corner(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count)
 {
-    cover(c, term_open_panel(title, texts, text_count));
+    cover(c, term_open_corner(title, texts, text_count));
 }
 
-void canvas_set_panel(struct canvas *c, const char *const *texts,
-                      int text_count)
+void canvas_set_corner(struct canvas *c, const char *const *texts,
+                       int text_count)
 {
     term_set_window(texts, text_count);
     c->must_update = true;

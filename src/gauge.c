@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "glim/panel.h"
+#include "glim/meter.h"
 
 /* It is to be read, not watched. */
 #define GAUGE_NS UINT64_C(500000000)
@@ -46,9 +46,9 @@ void gauge_draw(struct gauge *g, const struct work *work, struct canvas *canvas,
 {
     size_t thread_count = (size_t)backend_of(work)->thread_count;
     double *loads = xcalloc(thread_count, sizeof *loads);
-    char texts[PANEL_ROWS][PANEL_BYTES];
-    const char *lines[PANEL_ROWS];
-    struct panel_facts facts = {
+    char texts[METER_ROWS][METER_BYTES];
+    const char *lines[METER_ROWS];
+    struct meter_facts facts = {
         .progress = &work->progress,
         .speeds = &work->session->speeds,
         .loads = loads,
@@ -57,14 +57,14 @@ void gauge_draw(struct gauge *g, const struct work *work, struct canvas *canvas,
 
     measure_loads(g, work, now_ns, loads);
     facts.load_count = g->load.count;
-    panel_format(texts, &facts);
+    meter_format(texts, &facts);
     free(loads);
-    for (int i = 0; i < PANEL_ROWS; i++)
+    for (int i = 0; i < METER_ROWS; i++)
         lines[i] = texts[i];
     if (canvas->window.cols == 0)
-        canvas_open_panel(canvas, " progress ", lines, PANEL_ROWS);
+        canvas_open_corner(canvas, " progress ", lines, METER_ROWS);
     else
-        canvas_set_panel(canvas, lines, PANEL_ROWS);
+        canvas_set_corner(canvas, lines, METER_ROWS);
     g->due_ns = now_ns + GAUGE_NS;
 }
 

@@ -44,7 +44,7 @@ static const struct binding common_keys[] = {
     {ACTION_SAVE_LINEAR, {'P'}},
     {ACTION_SAVE_VIEW, {'c'}},
     {ACTION_RESET, {'r', 'R', INPUT_HOME}},
-    {ACTION_PANEL, {'t', 'T'}},
+    {ACTION_METER, {'t', 'T'}},
     {ACTION_HIDE, {'i', 'I'}},
     {ACTION_RELOAD, {'l', 'L'}},
     {ACTION_BACKEND, {'b', 'B'}},

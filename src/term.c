@@ -489,9 +489,9 @@ void term_set_window(const char *const *texts, int text_count)
                    bytes_of(texts[i], cols - 4));
 }
 
-/* Its place is in the middle, or, for a panel, at the right of the top. */
+/* Its place is in the middle, or, for a corner, at the right of the top. */
 static struct term_rect open_window(const char *title, const char *const *texts,
-                                    int text_count, bool is_panel)
+                                    int text_count, bool is_corner)
 {
     struct term_rect r = {0, 0, cols_of(title) + 6, text_count + 2};
 
@@ -502,8 +502,8 @@ static struct term_rect open_window(const char *title, const char *const *texts,
     }
     r.cols = r.cols > COLS ? COLS : r.cols;
     r.rows = r.rows > LINES ? LINES : r.rows;
-    r.col = is_panel ? COLS - r.cols : (COLS - r.cols) / 2;
-    r.row = is_panel ? 0 : (LINES - r.rows) / 2;
+    r.col = is_corner ? COLS - r.cols : (COLS - r.cols) / 2;
+    r.row = is_corner ? 0 : (LINES - r.rows) / 2;
     term.window = newwin(r.rows, r.cols, r.row, r.col);
     if (!term.window)
         return (struct term_rect){0};
@@ -521,8 +521,8 @@ struct term_rect term_open_window(const char *title, const char *const *texts,
     return open_window(title, texts, text_count, false);
 }
 
-struct term_rect term_open_panel(const char *title, const char *const *texts,
-                                 int text_count)
+struct term_rect term_open_corner(const char *title, const char *const *texts,
+                                  int text_count)
 {
     return open_window(title, texts, text_count, true);
 }

@@ -310,7 +310,7 @@ static void act(struct tui *t, enum action action)
     case ACTION_SAVE_LINEAR: work_save_picture(&t->work, "hdr"); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
     case ACTION_RESET: reset_view(t); break;
-    case ACTION_PANEL: switch_gauge(t); break;
+    case ACTION_METER: switch_gauge(t); break;
     case ACTION_HIDE: hide(t); break;
     case ACTION_RELOAD: work_reload(&t->work); break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;

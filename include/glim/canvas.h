@@ -64,10 +64,10 @@ void canvas_open_window(struct canvas *c, const char *title,
 
 /* The same at the right of the top, with lines that change: as many, and as
  * long. */
-void canvas_open_panel(struct canvas *c, const char *title,
-                       const char *const *texts, int text_count);
-void canvas_set_panel(struct canvas *c, const char *const *texts,
-                      int text_count);
+void canvas_open_corner(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count);
+void canvas_set_corner(struct canvas *c, const char *const *texts,
+                       int text_count);
 void canvas_close_window(struct canvas *c);
 
 /* True if characters beyond ASCII are seen as such. */

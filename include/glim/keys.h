@@ -34,7 +34,7 @@ enum action {
     ACTION_SAVE_LINEAR,
     ACTION_SAVE_VIEW,
     ACTION_RESET,
-    ACTION_PANEL, /* progress */
+    ACTION_METER, /* progress */
     ACTION_HIDE,
     ACTION_RELOAD, /* the files of the scene */
     ACTION_BACKEND,

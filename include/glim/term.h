@@ -88,8 +88,8 @@ void term_status(const char *text);
  * top right; where it is. One at a time. */
 struct term_rect term_open_window(const char *title, const char *const *texts,
                                   int text_count);
-struct term_rect term_open_panel(const char *title, const char *const *texts,
-                                 int text_count);
+struct term_rect term_open_corner(const char *title, const char *const *texts,
+                                  int text_count);
 
 /* Replaces the lines of the window, by as long ones. */
 void term_set_window(const char *const *texts, int text_count);
