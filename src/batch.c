@@ -82,8 +82,7 @@ static bool is_standard_output(const char *path)
  * finding now. */
 static bool check_outputs(const struct options *o, struct error *err)
 {
-    if (o->stats_path && !is_standard_output(o->stats_path) &&
-        !file_check(o->stats_path, err))
+    if (o->stats_path && !stats_check(o->stats_path, err))
         return false;
     if (o->output_path)
         return picture_check(o->output_path, err);
@@ -191,22 +190,24 @@ static void read_empty(int fd)
 static void wait_for_end(struct session *s)
 {
     struct bar bar = {.is_wanted = isatty(STDERR_FILENO) == 1};
+    bool looks = bar.is_wanted || s->options->stats_path;
     struct pollfd fds[2] = {{.fd = render_event_fd(s->render),
                              .events = POLLIN},
                             {.fd = wake_pipe[0], .events = POLLIN}};
 
     for (;;) {
-        struct render_progress p = render_progress(s->render);
+        struct render_progress p = session_look(s);
 
         if (p.state != RENDER_RUNNING || stop_signal != 0)
             break;
         bar_draw(&bar, &p);
-        poll(fds, 2, bar.is_wanted ? DRAW_MS : -1);
+        poll(fds, 2, looks ? DRAW_MS : -1);
         if (fds[0].revents & POLLIN)
             read_empty(fds[0].fd);
     }
     bar_erase(&bar);
     render_halt(s->render);
+    session_look(s);
 }
 
 /* Writes the picture; *name is what it is called now, for free(). */
@@ -224,7 +225,8 @@ static bool save_picture(struct session *s, char **name, struct error *err)
     }
     stem = path_stem(o->scene_path);
     const char *slash = strrchr(stem, '/');
-    *name = picture_write_numbered(film, how, slash ? slash + 1 : stem, err);
+    *name =
+        picture_write_numbered(film, how, slash ? slash + 1 : stem, "png", err);
     free(stem);
     return *name != NULL;
 }

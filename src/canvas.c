@@ -245,15 +245,36 @@ static bool write_swatches(struct canvas *c)
     return term_write(s->ansi.bytes, s->ansi.length);
 }
 
-void canvas_open_window(struct canvas *c, const char *title,
-                        const char *const *texts, int text_count)
+static void cover(struct canvas *c, struct term_rect r)
 {
-    struct term_rect r = term_open_window(title, texts, text_count);
-
     c->window = (struct ansi_rect){r.col - c->fit.col, r.row - c->fit.row,
                                    r.cols, r.rows};
     forget_rows(c, r.row, r.rows);
     c->must_update = true;
+}
+
+void canvas_open_window(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count)
+{
+    cover(c, term_open_window(title, texts, text_count));
+}
+
+void canvas_open_corner(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count)
+{
+    cover(c, term_open_corner(title, texts, text_count));
+}
+
+void canvas_set_corner(struct canvas *c, const char *const *texts,
+                       int text_count)
+{
+    term_set_window(texts, text_count);
+    c->must_update = true;
+}
+
+bool canvas_has_unicode(const struct canvas *c)
+{
+    return c->glyphs == GLYPHS_UPPER || c->glyphs == GLYPHS_LOWER;
 }
 
 void canvas_close_window(struct canvas *c)

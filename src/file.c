@@ -267,6 +267,21 @@ bool file_write(const char *path, const void *data, size_t size_bytes,
     return ok;
 }
 
+bool folder_make(char *path)
+{
+    for (char *p = path + 1;; p++) {
+        char end = *p;
+
+        if (end != '/' && end != '\0')
+            continue;
+        *p = '\0';
+        bool ok = mkdir(path, 0700) == 0 || errno == EEXIST;
+        *p = end;
+        if (!ok || end == '\0')
+            return ok;
+    }
+}
+
 char *path_beside(const char *beside, const char *name)
 {
     const char *slash = strrchr(beside, '/');

@@ -37,6 +37,18 @@ void panel_free(struct panel *p)
     selection_free(&p->selection);
 }
 
+void panel_renew(struct panel *p)
+{
+    struct panel before = *p;
+
+    panel_init(p, before.work, before.canvas);
+    p->selection.page = before.selection.page;
+    p->selection.by_hsv = before.selection.by_hsv;
+    if (before.is_open)
+        panel_open(p);
+    panel_free(&before);
+}
+
 void panel_select(struct panel *p, const struct pick *pick)
 {
     p->selection.material = pick->material;
@@ -60,6 +72,10 @@ static bool may_change(struct panel *p)
 {
     if (!p->work->is_live) {
         work_say(p->work, "materials change in live mode: space goes there");
+        return false;
+    }
+    if (p->work->reload.is_busy) {
+        work_say(p->work, "the scene is being loaded: materials change then");
         return false;
     }
     edit_of(p)->is_comparing = false;

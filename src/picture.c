@@ -262,10 +262,11 @@ bool picture_write(struct film *film, struct develop how, const char *path,
 }
 
 char *picture_write_numbered(struct film *film, struct develop how,
-                             const char *stem, struct error *err)
+                             const char *stem, const char *ending,
+                             struct error *err)
 {
     struct buffer b = {.data = NULL};
-    char *path = xformat("%s.png", stem);
+    char *path = xformat("%s.%s", stem, ending);
     bool exists = false;
     bool ok = encode(film, how, path, &b, err);
 
@@ -278,7 +279,7 @@ char *picture_write_numbered(struct film *film, struct develop how,
         if (!exists)
             break;
         free(path);
-        path = xformat("%s-%d.png", stem, i);
+        path = xformat("%s-%d.%s", stem, i, ending);
         ok = i < NUMBER_MAX || fail(err, "%s: expected a free name", path);
     }
     free(b.data);

@@ -584,6 +584,26 @@ bool scene_world(const struct scene *scene, const struct view *view,
     return true;
 }
 
+static bool is_same_place(const struct scene *a, const struct scene *b)
+{
+    return a->scale == b->scale &&
+           memcmp(a->center, b->center, sizeof a->center) == 0 &&
+           a->position_count == b->position_count &&
+           memcmp(a->positions, b->positions,
+                  a->position_count * sizeof *a->positions) == 0;
+}
+
+bool scene_has_same_shape(const struct scene *a, const struct scene *b)
+{
+    if (a->tri_count != b->tri_count || !is_same_place(a, b))
+        return false;
+    for (uint32_t i = 0; i < a->tri_count; i++) {
+        if (memcmp(a->tris[i].v, b->tris[i].v, sizeof a->tris[i].v) != 0)
+            return false;
+    }
+    return true;
+}
+
 static void free_strings(char **strings, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)

@@ -138,7 +138,7 @@ static bool apply_edit(struct session *s, struct error *err)
     return true;
 }
 
-bool session_open(struct session *s, const struct options *options,
+bool session_load(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err)
 {
     uint64_t begin_ns = clock_ns();
@@ -146,6 +146,7 @@ bool session_open(struct session *s, const struct options *options,
     *s = (struct session){.options = options, .start_ns = start_ns};
     view_init(&s->view);
     view_init(&s->opened);
+    view_init(&s->filed);
     if (!read_view(s, err))
         return false;
     apply_options(s);
@@ -158,16 +159,78 @@ bool session_open(struct session *s, const struct options *options,
     if (!view_check(&s->view, options->scene_path, err))
         return false;
     view_copy(&s->opened, &s->view);
+    view_copy(&s->filed, &s->view);
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
     s->sky = s->edit.now.mood.sky;
     if (!apply_edit(s, err))
         return false;
     s->load_ns = clock_ns() - begin_ns;
     s->geometry_changed = true;
+    return true;
+}
+
+bool session_open(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err)
+{
+    if (!session_load(s, options, start_ns, err))
+        return false;
     if (!machines_open(&s->machines, options, err))
         return false;
     s->render = render_create(s->machines.cpu, err);
     return s->render != NULL;
+}
+
+static void swap_loaded(struct session *a, struct session *b)
+{
+    struct session old = *a;
+
+    a->scene = b->scene;
+    a->edit = b->edit;
+    a->sky = b->sky;
+    a->crop = b->crop;
+    a->opened = b->opened;
+    a->filed = b->filed;
+    a->report = b->report;
+    b->scene = old.scene;
+    b->edit = old.edit;
+    b->sky = old.sky;
+    b->crop = old.crop;
+    b->opened = old.opened;
+    b->filed = old.filed;
+    b->report = old.report;
+    memcpy(a->notice, b->notice, sizeof a->notice);
+}
+
+/* The same triangles need no new tree. But a device knows arrays by their
+ * addresses, and has seen those of the scene that goes only if it has begun to
+ * render it: before that their addresses might come again. */
+void session_take(struct session *s, struct session *fresh)
+{
+    render_halt(s->render);
+    s->geometry_changed |= render_progress(s->render).samples == 0 ||
+                           !scene_has_same_shape(&s->scene, &fresh->scene);
+    view_merge(&s->view, &s->filed, &fresh->filed);
+    /* these are the edit's, of which there is another one now */
+    assigns_copy(&s->view.assigns, &fresh->filed.assigns);
+    swap_loaded(s, fresh);
+}
+
+void session_watch(const struct session *s, struct watch *watch)
+{
+    const struct scene *scene = &s->scene;
+    char *camera = path_beside(s->options->scene_path, "camera.txt");
+
+    watch_add(watch, s->options->scene_path);
+    for (uint32_t i = 0; i < scene->mtl_path_count; i++)
+        watch_add(watch, scene->mtl_paths[i]);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        watch_add(watch, scene->texture_paths[i]);
+    watch_add(watch, s->view_path);
+    if (!s->options->view_path)
+        watch_add(watch, camera);
+    if (s->view.sky_path)
+        watch_add(watch, s->view.sky_path);
+    free(camera);
 }
 
 bool session_restart(struct session *s, uint64_t spp, struct error *err)
@@ -185,6 +248,8 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
     s->restart_ns = clock_ns();
+    s->speeds = (struct speeds){0};
+    load_begin(&s->load, render_backend(s->render));
     if (!render_start(s->render, &job, err)) {
         /* a device has not seen these arrays: it must not know the next ones
          * by their addresses */
@@ -327,6 +392,14 @@ struct develop session_develop(const struct session *s)
     return (struct develop){(float)s->view.exposure, s->view.tone};
 }
 
+struct render_progress session_look(struct session *s)
+{
+    struct render_progress p = render_progress(s->render);
+
+    speeds_look(&s->speeds, p.render_ns, p.samples);
+    return p;
+}
+
 bool session_uses_device(const struct session *s)
 {
     return render_backend(s->render) != s->machines.cpu;
@@ -341,7 +414,9 @@ void session_close(struct session *s)
     view_free(&s->view);
     view_free(&s->opened);
     edit_free(&s->edit);
+    view_free(&s->filed);
     report_free(&s->report);
+    load_free(&s->load);
     free(s->view_path);
     *s = (struct session){0};
 }

@@ -111,6 +111,14 @@ static void take_signals(void)
         sigaction(fault_signals[i], &fault, &term.old_fault[i]);
 }
 
+void term_ignore_ends(void)
+{
+    for (size_t i = 0; i < COUNT(stop_signals); i++) {
+        if (stop_signals[i] == SIGHUP || stop_signals[i] == SIGTERM)
+            term.old_stop[i] = (struct sigaction){.sa_handler = SIG_IGN};
+    }
+}
+
 static void give_signals_back(void)
 {
     for (size_t i = 0; i < COUNT(stop_signals); i++)
@@ -454,31 +462,76 @@ void term_status(const char *text)
     attroff(A_REVERSE);
 }
 
-/* `lines` is a macro of <term.h>. */
-struct term_rect term_open_window(const char *title, const char *const *texts,
-                                  int text_count)
+/* Bytes of the text's first `cols` columns: each character has one. */
+static int bytes_of(const char *text, int cols)
 {
-    struct term_rect r = {0, 0, (int)strlen(title) + 6, text_count + 2};
+    int i = 0;
+
+    for (; text[i] != '\0'; i++) {
+        if (((unsigned char)text[i] & 0xc0) != 0x80 && cols-- == 0)
+            break;
+    }
+    return i;
+}
+
+static int cols_of(const char *text)
+{
+    int cols = 0;
+
+    for (; *text; text++)
+        cols += ((unsigned char)*text & 0xc0) != 0x80;
+    return cols;
+}
+
+/* `lines` is a macro of <term.h>. */
+void term_set_window(const char *const *texts, int text_count)
+{
+    int cols, rows;
+
+    if (!term.window)
+        return;
+    getmaxyx(term.window, rows, cols);
+    for (int i = 0; i < text_count && i < rows - 2; i++)
+        mvwaddnstr(term.window, i + 1, 2, texts[i],
+                   bytes_of(texts[i], cols - 4));
+}
+
+/* Its place is in the middle, or, for a corner, at the right of the top. */
+static struct term_rect open_window(const char *title, const char *const *texts,
+                                    int text_count, bool is_corner)
+{
+    struct term_rect r = {0, 0, cols_of(title) + 6, text_count + 2};
 
     for (int i = 0; i < text_count; i++) {
-        int cols = (int)strlen(texts[i]) + 4;
+        int cols = cols_of(texts[i]) + 4;
 
         r.cols = cols > r.cols ? cols : r.cols;
     }
     r.cols = r.cols > COLS ? COLS : r.cols;
     r.rows = r.rows > LINES ? LINES : r.rows;
-    r.col = (COLS - r.cols) / 2;
-    r.row = (LINES - r.rows) / 2;
+    r.col = is_corner ? COLS - r.cols : (COLS - r.cols) / 2;
+    r.row = is_corner ? 0 : (LINES - r.rows) / 2;
     term.window = newwin(r.rows, r.cols, r.row, r.col);
     if (!term.window)
         return (struct term_rect){0};
     box(term.window, 0, 0);
     mvwaddnstr(term.window, 0, 2, title, r.cols - 4);
-    for (int i = 0; i < text_count && i < r.rows - 2; i++)
-        mvwaddnstr(term.window, i + 1, 2, texts[i], r.cols - 4);
+    term_set_window(texts, text_count);
     /* curses believes that these cells are blank and would skip the blanks */
     redrawwin(term.window);
     return r;
+}
+
+struct term_rect term_open_window(const char *title, const char *const *texts,
+                                  int text_count)
+{
+    return open_window(title, texts, text_count, false);
+}
+
+struct term_rect term_open_corner(const char *title, const char *const *texts,
+                                  int text_count)
+{
+    return open_window(title, texts, text_count, true);
 }
 
 void term_close_window(void)

@@ -9,9 +9,11 @@
 #include <unistd.h>
 
 #include "glim/canvas.h"
+#include "glim/gauge.h"
 #include "glim/help.h"
 #include "glim/panel_draw.h"
 #include "glim/pilot.h"
+#include "glim/stats.h"
 #include "glim/version.h"
 #include "glim/work.h"
 
@@ -37,14 +39,16 @@
 /* A lone ESC is the key when nothing has followed for so long. */
 #define ESCAPE_NS (50 * MS_NS)
 
-/* What the loop waits for: keys, signals, the render, the saver, a device. */
-#define FDS 5
+/* What the loop waits for: keys, signals, the render, the saver, a device,
+ * files that change, and those that are loaded. */
+#define FDS 7
 
 enum question {
     QUESTION_NONE,
     QUESTION_QUIT,
     QUESTION_EDIT, /* quit without what was edited */
-    QUESTION_LIVE  /* leave normal mode */
+    QUESTION_LIVE, /* leave normal mode */
+    QUESTION_RESTART
 };
 
 struct tui {
@@ -54,14 +58,16 @@ struct tui {
     struct pilot pilot;
     struct panel panel;
     bool has_mouse;
-    int help_number; /* the page that is shown, */
-    int help_left;   /* with those behind it; 0: no help */
+    int help_number;    /* the page that is shown, */
+    int help_left;      /* with those behind it; 0: no help */
+    struct gauge gauge; /* hidden while the help is open */
     enum question question;
 
-    bool is_settled;    /* nothing of the picture is left to be shown */
-    uint64_t frame_ns;  /* when the next frame is due */
-    uint64_t status_ns; /* when to look for a new status line */
-    uint64_t byte_ns;   /* when the last one came */
+    bool is_settled;         /* nothing of the picture is left to be shown */
+    uint64_t frame_ns;       /* when the next frame is due */
+    uint64_t status_ns;      /* when to look for a new status line */
+    uint64_t byte_ns;        /* when the last one came */
+    int width_px, height_px; /* of the picture that has been laid out */
 
     bool is_ending;
     bool is_gone; /* the terminal */
@@ -79,6 +85,7 @@ static void refresh_soon(struct tui *t)
     t->is_settled = false;
     t->frame_ns = 0;
     t->status_ns = 0;
+    t->gauge.due_ns = 0;
 }
 
 static void end(struct tui *t, int status)
@@ -100,6 +107,8 @@ static void layout(struct tui *t)
     struct error err;
 
     t->help_left = 0;
+    t->width_px = film->width;
+    t->height_px = film->height;
     refresh_soon(t);
     t->canvas.has_panel = t->panel.is_open;
     if (!canvas_layout(&t->canvas, film->width, film->height, &err)) {
@@ -112,6 +121,23 @@ static void layout(struct tui *t)
 }
 
 /* ---- help, screen ---- */
+
+static bool shows_gauge(const struct tui *t)
+{
+    return t->gauge.is_on && t->help_left == 0 && !t->canvas.is_too_small;
+}
+
+static void switch_gauge(struct tui *t)
+{
+    gauge_switch(&t->gauge, &t->work);
+    if (!t->gauge.is_on)
+        canvas_close_window(&t->canvas);
+    if (t->panel.is_open) { /* there is no room for both */
+        panel_close(&t->panel);
+        layout(t);
+    }
+    refresh_soon(t);
+}
 
 static void open_help(struct tui *t, int number)
 {
@@ -137,7 +163,7 @@ static void open_help(struct tui *t, int number)
                  " glim " GLIM_VERSION " - any key closes ");
     for (int i = 0; i < page.line_count; i++)
         lines[i] = page.lines[i];
-    if (t->help_left > 0)
+    if (t->help_left > 0 || t->gauge.is_on)
         canvas_close_window(&t->canvas);
     canvas_open_window(&t->canvas, title, lines, page.line_count);
     t->help_number = number;
@@ -159,6 +185,13 @@ static void next_colors(struct tui *t)
     panel_draw(&t->panel);
     work_say(&t->work, palette_name(t->canvas.palette));
     refresh_soon(t);
+}
+
+static void hide(struct tui *t)
+{
+    t->canvas.has_status_row = !t->canvas.has_status_row;
+    t->gauge.is_on = false;
+    layout(t);
 }
 
 static void switch_mouse(struct tui *t)
@@ -201,13 +234,11 @@ static void change_mode(struct tui *t)
 
 static void quit(struct tui *t)
 {
-    const struct edit *edit = &t->work.session->edit;
-
     if (!work_finish_saving(&t->work))
         return;
     if (work_has_unsaved(&t->work))
         ask(t, QUESTION_QUIT);
-    else if (edit_has_unsaved_materials(edit) || edit_has_unsaved_view(edit))
+    else if (work_has_unsaved_edit(&t->work))
         ask(t, QUESTION_EDIT);
     else
         end(t, 0);
@@ -220,6 +251,7 @@ static void open_panel(struct tui *t)
     if (t->pilot.cursor.has_pick)
         panel_select(&t->panel, &t->pilot.cursor.pick);
     panel_open(&t->panel);
+    t->gauge.is_on = false; /* there is no room for both */
     layout(t);
 }
 
@@ -246,6 +278,14 @@ static bool panel_takes(struct tui *t, int key)
     return true;
 }
 
+static void restart(struct tui *t)
+{
+    if (work_finish_saving(&t->work) && work_has_unsaved(&t->work))
+        ask(t, QUESTION_RESTART);
+    else
+        work_restart(&t->work);
+}
+
 static void act(struct tui *t, enum action action)
 {
     if (pilot_act(&t->pilot, action))
@@ -253,12 +293,14 @@ static void act(struct tui *t, enum action action)
     switch (action) {
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
-    case ACTION_SAVE: work_save_picture(&t->work); break;
+    case ACTION_STEP: work_step(&t->work); break;
+    case ACTION_RESTART: restart(t); break;
+    case ACTION_SAVE: work_save_picture(&t->work, "png"); break;
+    case ACTION_SAVE_LINEAR: work_save_picture(&t->work, "hdr"); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
-    case ACTION_HIDE:
-        t->canvas.has_status_row = !t->canvas.has_status_row;
-        layout(t);
-        break;
+    case ACTION_METER: switch_gauge(t); break;
+    case ACTION_HIDE: hide(t); break;
+    case ACTION_RELOAD: work_reload(&t->work); break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;
     case ACTION_COLORS: next_colors(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
@@ -282,10 +324,12 @@ static void answer_question(struct tui *t, int key)
         if (work_save_edit(&t->work))
             quit(t);
     } else if (question != QUESTION_EDIT && (key == 'p' || key == 'P')) {
-        work_save_picture(&t->work);
+        work_save_picture(&t->work, "png");
     } else if (key == 'y' || key == 'Y') {
         if (question == QUESTION_LIVE)
             set_live(t, true);
+        else if (question == QUESTION_RESTART)
+            work_restart(&t->work);
         else
             end(t, 0);
     }
@@ -398,11 +442,13 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
     const struct backend *backend = render_backend(t->work.session->render);
     const struct keys *keys = &t->work.session->options->keys;
     char help[KEYS_NAME_BYTES], quit[KEYS_NAME_BYTES], hint[48];
+    char load[KEYS_NAME_BYTES];
     struct status status = {
         .is_live = t->work.is_live,
         .is_orbiting = t->pilot.steer.is_orbiting,
         .is_halted = t->work.is_halted,
         .is_started = t->work.is_started,
+        .load_key = t->work.has_changed_files ? load : NULL,
         .progress = &t->work.progress,
         .device = backend->device,
         .thread_count = backend->thread_count,
@@ -412,6 +458,7 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
         .hint = hint,
     };
 
+    keys_first_name(keys, ACTION_RELOAD, load);
     keys_first_name(keys, ACTION_HELP, help);
     keys_first_name(keys, ACTION_QUIT, quit);
     snprintf(hint, sizeof hint, "%s help  %s quit", help, quit);
@@ -427,6 +474,8 @@ static void update_status(struct tui *t, uint64_t now_ns)
                           "y: yes, s: save, other: no",
         [QUESTION_LIVE] =
             "The render is not saved. Leave it? y: yes, p: save it, other: no",
+        [QUESTION_RESTART] = "The render is not saved. Start anew? y: yes, p: "
+                             "save it, other: no",
     };
     char text[STATUS_BYTES];
 
@@ -497,6 +546,8 @@ static void draw(struct tui *t, uint64_t now_ns)
     enum canvas_result result;
 
     show_messages(t, now_ns);
+    if (shows_gauge(t) && now_ns >= gauge_next_ns(&t->gauge, &t->work))
+        gauge_draw(&t->gauge, &t->work, c, now_ns);
     if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
         return;
     result =
@@ -535,6 +586,7 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
                             earlier(input_deadline_ns(t),
                                     pace_deadline_ns(&t->canvas.pace)));
 
+    wake = earlier(wake, t->work.files_ns);
     if (work_awaits_picture(&t->work)) {
         /* looked for often at first, seldom while a tree is built */
         uint64_t waited_ns = now_ns - t->work.restarted_ns;
@@ -549,6 +601,8 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
     }
     if (t->work.progress.state == RENDER_RUNNING || t->status_ns == 0)
         wake = earlier(wake, t->status_ns);
+    if (shows_gauge(t))
+        wake = earlier(wake, gauge_next_ns(&t->gauge, &t->work));
     if (t->work.message.until_ns != 0)
         wake = earlier(wake, t->work.message.until_ns);
     return wake;
@@ -561,6 +615,15 @@ static void empty_events(int fd)
     if (read(fd, &count, sizeof count) < 0) {
         /* nothing there */
     }
+}
+
+static void take_reload(struct tui *t)
+{
+    if (!work_end_reload(&t->work))
+        return;
+    pilot_renew(&t->pilot);
+    panel_renew(&t->panel);
+    panel_draw(&t->panel);
 }
 
 static void take_events(struct tui *t, struct pollfd fds[FDS])
@@ -578,6 +641,10 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
         work_finish_saving(&t->work);
     if (fds[4].revents)
         work_end_device(&t->work);
+    if (fds[5].revents)
+        work_look_at_files(&t->work);
+    if (fds[6].revents)
+        take_reload(t);
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);
@@ -593,6 +660,9 @@ static void wait_for_events(struct tui *t)
         {.fd = render_event_fd(t->work.session->render), .events = POLLIN},
         {.fd = t->work.saver.event_fd, .events = POLLIN},
         {.fd = start ? cl_start_event_fd(start) : -1, .events = POLLIN},
+        {.fd = t->work.watch.fd, .events = POLLIN},
+        {.fd = t->work.is_live ? t->work.reload.event_fd : -1,
+         .events = POLLIN},
     };
     uint64_t now_ns = clock_ns();
     uint64_t until_ns = wake_ns(t, now_ns);
@@ -609,9 +679,12 @@ static void wait_for_events(struct tui *t)
  * the camera moves there are 60 a second. */
 static void look_at_work(struct tui *t)
 {
+    const struct film *film = film_of(t);
     uint64_t before_ns = t->work.restarted_ns;
 
     work_look(&t->work);
+    if (film->width != t->width_px || film->height != t->height_px)
+        layout(t);
     if (t->work.restarted_ns != before_ns) {
         t->is_settled = false;
         t->frame_ns = 0;
@@ -643,16 +716,30 @@ static bool open_screen(struct tui *t, struct error *err)
     return true;
 }
 
+/* A line that is lost is nobody's wish: the picture is kept, whatever it is.
+ * SIGTERM is an orderly end, as q is, but cannot ask: what q would ask about is
+ * kept. Ctrl-C and Ctrl-\ are typed, and mean it. */
+static void keep_picture(struct tui *t)
+{
+    if (t->status == 128 + SIGHUP ||
+        (t->status == 128 + SIGTERM && work_has_unsaved(&t->work)))
+        work_keep(&t->work);
+}
+
 static void close_screen(struct tui *t)
 {
+    if (t->status == 128 + SIGHUP || t->status == 128 + SIGTERM)
+        term_ignore_ends(); /* shells send SIGHUP again */
     if (!t->is_gone)
         canvas_drain(&t->canvas, &t->input);
     /* else it might put our signals back when they are no longer ours */
     machines_abandon_device(&t->work.session->machines);
     term_close(t->is_gone);
     canvas_free(&t->canvas);
+    gauge_free(&t->gauge);
     render_halt(t->work.session->render);
     work_finish_saving(&t->work);
+    keep_picture(t);
     for (int i = 0; i < t->work.result_count && !t->is_gone; i++)
         printf("%s\n", t->work.results[i]);
     fflush(stdout);
@@ -661,11 +748,14 @@ static void close_screen(struct tui *t)
 /* The render starts first, so that it works while the terminal is opened. */
 bool tui_run(struct session *s, int *status, struct error *err)
 {
+    const char *stats_path = s->options->stats_path;
     struct tui t = {.has_mouse = true};
     struct fit fit = canvas_expect(s->options, s->crop.width, s->crop.height);
     bool ok;
 
     set_draft(s, &fit);
+    if (stats_path && !stats_check(stats_path, err))
+        return false;
     if (!work_init(&t.work, s, err))
         return false;
     pilot_init(&t.pilot, &t.work, &t.canvas);
@@ -681,6 +771,8 @@ bool tui_run(struct session *s, int *status, struct error *err)
         loop(&t);
         close_screen(&t);
         *status = t.status;
+        session_look(s);
+        ok = !stats_path || stats_write(s, stats_path, err);
     }
     panel_free(&t.panel);
     pilot_free(&t.pilot);

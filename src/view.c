@@ -578,6 +578,74 @@ void view_copy(struct view *to, const struct view *from)
     to->assigns = assigns;
 }
 
+static bool has_other_camera(const struct view *a, const struct view *b)
+{
+    struct pose of_a = view_pose(a), of_b = view_pose(b);
+
+    return a->has_camera != b->has_camera ||
+           memcmp(&of_a, &of_b, sizeof of_a) != 0;
+}
+
+static bool has_other_sky(const struct view *a, const struct view *b)
+{
+    return !a->sky_path != !b->sky_path ||
+           (a->sky_path && strcmp(a->sky_path, b->sky_path) != 0);
+}
+
+static void take_camera(struct view *view, const struct view *from)
+{
+    struct pose pose = view_pose(from);
+
+    view_set_pose(view, &pose);
+}
+
+static void take_shots(struct view *view, const struct view *before,
+                       const struct view *after)
+{
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        if (before->has_shot[i] == after->has_shot[i] &&
+            memcmp(&before->shots[i], &after->shots[i],
+                   sizeof after->shots[i]) == 0)
+            continue;
+        view->shots[i] = after->shots[i];
+        view->has_shot[i] = after->has_shot[i];
+    }
+}
+
+void view_merge(struct view *view, const struct view *before,
+                const struct view *after)
+{
+    /* one that was placed by the program follows the scene, not the file */
+    if (after->has_camera && has_other_camera(before, after))
+        take_camera(view, after);
+    take_shots(view, before, after);
+    if (before->width_px != after->width_px ||
+        before->height_px != after->height_px) {
+        view->width_px = after->width_px;
+        view->height_px = after->height_px;
+        view->has_size = after->has_size;
+    }
+    if (memcmp(before->background, after->background,
+               sizeof after->background) != 0) {
+        memcpy(view->background, after->background, sizeof view->background);
+        view->has_background = after->has_background;
+    }
+    if (has_other_sky(before, after)) {
+        free(view->sky_path);
+        view->sky_path = after->sky_path ? xstrdup(after->sky_path) : NULL;
+    }
+    if (before->max_bounces != after->max_bounces)
+        view->max_bounces = after->max_bounces;
+    if (before->sky_strength != after->sky_strength)
+        view->sky_strength = after->sky_strength;
+    if (before->sky_rotation_deg != after->sky_rotation_deg)
+        view->sky_rotation_deg = after->sky_rotation_deg;
+    if (before->exposure != after->exposure)
+        view->exposure = after->exposure;
+    if (before->tone != after->tone)
+        view->tone = after->tone;
+}
+
 void view_free(struct view *view)
 {
     free(view->sky_path);

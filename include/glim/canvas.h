@@ -78,7 +78,17 @@ void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
 
 void canvas_open_window(struct canvas *c, const char *title,
                         const char *const *texts, int text_count);
+
+/* The same at the right of the top, with lines that change: as many, and as
+ * long. */
+void canvas_open_corner(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count);
+void canvas_set_corner(struct canvas *c, const char *const *texts,
+                       int text_count);
 void canvas_close_window(struct canvas *c);
+
+/* True if characters beyond ASCII are seen as such. */
+bool canvas_has_unicode(const struct canvas *c);
 
 enum canvas_result {
     CANVAS_DONE, /* all is shown */

@@ -31,6 +31,10 @@ bool file_check(const char *path, struct error *err);
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
 
+/* Makes the folder, and those that it lies in, for this person only. `path` is
+ * changed meanwhile. False and errno if that fails. */
+bool folder_make(char *path);
+
 /* `name` seen from the folder of `beside`; absolute names stay. */
 char *path_beside(const char *beside, const char *name);
 

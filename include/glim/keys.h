@@ -57,9 +57,14 @@ enum action {
     ACTION_PANEL,
     ACTION_MODE,
     ACTION_START,
+    ACTION_STEP, /* one more sample a pixel */
+    ACTION_RESTART,
     ACTION_SAVE,
+    ACTION_SAVE_LINEAR,
     ACTION_BACKEND,
+    ACTION_RELOAD, /* the files of the scene */
     ACTION_COLORS,
+    ACTION_METER, /* progress */
     ACTION_HIDE,
     ACTION_MOUSE,
     ACTION_REDRAW,

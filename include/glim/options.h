@@ -50,6 +50,7 @@ struct options {
     bool has_backend;
     const char *device;       /* number or a part of a name; NULL: the best */
     const char *kernels_path; /* NULL: the kernels within the program */
+    bool watch;               /* changed files are loaded at once */
     bool phoe_keys;           /* W S A D Q E as phoe_ray had them */
     struct keys keys;
     enum color_mode color;

@@ -120,6 +120,10 @@ uint32_t scene_material_features(const struct scene *scene,
  * another axis for it. */
 bool scene_up_is_parallel(const struct view *view);
 
+/* True if both have the same triangles at the same places, whatever their
+ * materials, normals and texture coordinates. */
+bool scene_has_same_shape(const struct scene *a, const struct scene *b);
+
 void scene_free(struct scene *scene);
 
 #endif

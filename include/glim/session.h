@@ -12,10 +12,13 @@
 #define GLIM_SESSION_H
 
 #include "glim/edit.h"
+#include "glim/load.h"
 #include "glim/machines.h"
 #include "glim/options.h"
 #include "glim/render.h"
 #include "glim/scene.h"
+#include "glim/speeds.h"
+#include "glim/watch.h"
 
 struct session {
     const struct options *options;
@@ -25,6 +28,7 @@ struct session {
     struct rect crop;   /* of the view's picture, that is rendered */
     struct edit edit;   /* of materials and light; session_restart() applies */
     uint32_t sky;       /* of the edit's skies, that was looked for last */
+    struct view filed;  /* as the view file has it */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
@@ -35,6 +39,9 @@ struct session {
     uint64_t restart_ns; /* when session_restart() last started the render */
     bool geometry_changed;
     int draft_width, draft_height; /* of what will be seen live; 0: nothing */
+    /* of the render since then */
+    struct speeds speeds;
+    struct load load;
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has
@@ -42,6 +49,19 @@ struct session {
  * after an error, which may leave warnings in the report. */
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
+
+/* The part of it that reads files: for another session to take. */
+bool session_load(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err);
+
+/* Halts, and takes what `fresh` has loaded of the same files: scene, report,
+ * notice, and of the view what its file has changed; the camera stays else.
+ * What was loaded before is in `fresh` then. session_restart() is due. */
+void session_take(struct session *s, struct session *fresh);
+
+/* Adds all files that the session was loaded from, and those that would be
+ * read if they were there. */
+void session_watch(const struct session *s, struct watch *watch);
 
 /* Halts and starts from sample 0 with the current view and edit. spp 0: no
  * limit. */
@@ -58,6 +78,9 @@ bool session_save_edit(struct session *s, char **what, struct error *err);
 
 /* As view and edit say. */
 struct develop session_develop(const struct session *s);
+
+/* How far the render is. To be called some times a second, for the speeds. */
+struct render_progress session_look(struct session *s);
 
 /* True if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);

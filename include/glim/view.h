@@ -71,6 +71,11 @@ bool view_check(const struct view *view, const char *place, struct error *err);
 struct pose view_pose(const struct view *view);
 void view_set_pose(struct view *view, const struct pose *pose);
 
+/* Takes over what the file has changed from `before` to `after`; the rest of
+ * `view` stays. The camera is one thing. */
+void view_merge(struct view *view, const struct view *before,
+                const struct view *after);
+
 /* `to` has been through view_init(). */
 void view_copy(struct view *to, const struct view *from);
 void view_free(struct view *view);

@@ -392,7 +392,7 @@ static void test_numbered(void **state)
     assert_int_equal(symlink("nowhere", "n-5.png"), 0);
     for (int i = 0; i < 4; i++) {
         char *path =
-            picture_write_numbered(&film, develop_linear(0), "n", &err);
+            picture_write_numbered(&film, develop_linear(0), "n", "png", &err);
         assert_non_null(path);
         assert_string_equal(path, expected[i]);
         assert_int_equal(stat(path, &st), 0);
@@ -402,7 +402,8 @@ static void test_numbered(void **state)
     assert_int_equal(stat("n-3.png", &st), 0);
     assert_int_equal(st.st_size, 0);
     assert_false(exists("nowhere"));
-    assert_null(picture_write_numbered(&film, develop_linear(0), "no/n", &err));
+    assert_null(
+        picture_write_numbered(&film, develop_linear(0), "no/n", "png", &err));
     assert_string_equal(err.text, "no/n.png: no such file or folder");
     film_free(&film);
 }
@@ -423,7 +424,7 @@ static void test_numbered_race(void **state)
             int written = 0;
             for (int k = 0; k < 10; k++) {
                 char *name = picture_write_numbered(&film, develop_linear(0),
-                                                    "race", &err);
+                                                    "race", "png", &err);
                 written += name != NULL;
                 free(name);
             }
@@ -511,7 +512,8 @@ static bool fails_on_full_disk(struct film *film)
         ok = ok && !picture_write(film, develop_linear(0), paths[i], &err) &&
              strstr(err.text, ": File too large") &&
              strncmp(err.text, paths[i], 5) == 0;
-    return ok && !picture_write_numbered(film, develop_linear(0), "full", &err);
+    return ok && !picture_write_numbered(film, develop_linear(0), "full", "png",
+                                         &err);
 }
 
 static void test_disk_full(void **state)
