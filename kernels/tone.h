@@ -2,7 +2,8 @@
 /*
  * tone.h - from linear radiance to the byte that is shown
  *
- * The sRGB curve (IEC 61966-2-1), rounded to nearest, as 255 thresholds:
+ * First a curve for what is brighter than white, or none; then
+ * the sRGB curve (IEC 61966-2-1), rounded to nearest, as 255 thresholds:
  * the same byte on every machine, without a power.
  *
  * Units:     linear Rec.709 in, 8-bit sRGB out
@@ -83,6 +84,38 @@ CONSTANT float srgb_thresholds[255] = {
     0x1.e2cfa2p-1f,  0x1.e73c98p-1f,  0x1.ebaf98p-1f,  0x1.f028a2p-1f,
     0x1.f4a7bap-1f,  0x1.f92ce2p-1f,  0x1.fdb81cp-1f,
 };
+
+/* How light brighter than white is shown. */
+enum tone {
+    TONE_LINEAR,   /* as white */
+    TONE_REINHARD, /* Reinhard et al. 2002, "Photographic Tone Reproduction for
+                      Digital Images", equation 3: never white */
+    TONE_ACES,     /* Narkowicz 2015, "ACES Filmic Tone Mapping Curve": darker
+                      shadows, lights that fade to white */
+    TONES
+};
+
+/* Beyond it every curve has reached its end, and products stay finite. */
+#define TONE_MOST 1e6f
+
+static inline float aces(float x)
+{
+    return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
+}
+
+/* rgb: three channels from 0 on. */
+static inline void tone_curve(uint32_t tone, float *rgb)
+{
+    float luminance;
+
+    if (tone == TONE_LINEAR)
+        return;
+    for (int c = 0; c < 3; c++)
+        rgb[c] = rgb[c] < TONE_MOST ? rgb[c] : TONE_MOST;
+    luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    for (int c = 0; c < 3; c++)
+        rgb[c] = tone == TONE_ACES ? aces(rgb[c]) : rgb[c] / (1.0f + luminance);
+}
 
 static inline uint32_t srgb_byte(float linear)
 {

@@ -145,6 +145,11 @@ static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
     return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
 }
 
+static uint64_t cpu_cpu_ns(const struct backend *base, int thread)
+{
+    return pool_cpu_ns(((const struct backend_cpu *)base)->pool, thread);
+}
+
 static void cpu_destroy(struct backend *base)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
@@ -170,6 +175,7 @@ struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
     b->base.load = cpu_load;
     b->base.begin = cpu_begin;
     b->base.pass = cpu_pass;
+    b->base.cpu_ns = cpu_cpu_ns;
     b->base.destroy = cpu_destroy;
     return &b->base;
 }

@@ -91,8 +91,7 @@ static const char *text_path(const struct options *o)
  * finding now. */
 static bool check_outputs(const struct options *o, struct error *err)
 {
-    if (o->stats_path && !is_standard_output(o->stats_path) &&
-        !file_check(o->stats_path, err))
+    if (o->stats_path && !stats_check(o->stats_path, err))
         return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
@@ -202,22 +201,24 @@ static void read_empty(int fd)
 static void wait_for_end(struct session *s)
 {
     struct bar bar = {.is_wanted = isatty(STDERR_FILENO) == 1};
+    bool looks = bar.is_wanted || s->options->stats_path;
     struct pollfd fds[2] = {{.fd = render_event_fd(s->render),
                              .events = POLLIN},
                             {.fd = wake_pipe[0], .events = POLLIN}};
 
     for (;;) {
-        struct render_progress p = render_progress(s->render);
+        struct render_progress p = session_look(s);
 
         if (p.state != RENDER_RUNNING || stop_signal != 0)
             break;
         bar_draw(&bar, &p);
-        poll(fds, 2, bar.is_wanted ? DRAW_MS : -1);
+        poll(fds, 2, looks ? DRAW_MS : -1);
         if (fds[0].revents & POLLIN)
             read_empty(fds[0].fd);
     }
     bar_erase(&bar);
     render_halt(s->render);
+    session_look(s);
 }
 
 /* No terminal is asked: the reader of a file may be another one. */
@@ -244,7 +245,7 @@ static bool save_text(struct session *s, char **name, struct error *err)
     char *text;
     bool ok;
 
-    if (!text_of_film(film, (float)s->view.exposure, &style, &text, &size_bytes,
+    if (!text_of_film(film, session_develop(s), &style, &text, &size_bytes,
                       err))
         return false;
     *name = xstrdup(path ? path : "standard output");
@@ -259,7 +260,7 @@ static bool save_picture(struct session *s, char **name, struct error *err)
 {
     const struct options *o = s->options;
     struct film *film = render_film(s->render);
-    float exposure = (float)s->view.exposure;
+    struct develop how = session_develop(s);
     char *stem;
 
     if (o->text_cols > 0)
@@ -267,12 +268,12 @@ static bool save_picture(struct session *s, char **name, struct error *err)
     if (o->output_path) {
         *name = xstrdup(is_standard_output(o->output_path) ? "standard output"
                                                            : o->output_path);
-        return picture_write(film, exposure, o->output_path, err);
+        return picture_write(film, how, o->output_path, err);
     }
     stem = path_stem(o->scene_path);
     const char *slash = strrchr(stem, '/');
     *name =
-        picture_write_numbered(film, exposure, slash ? slash + 1 : stem, err);
+        picture_write_numbered(film, how, slash ? slash + 1 : stem, "png", err);
     free(stem);
     return *name != NULL;
 }

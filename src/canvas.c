@@ -28,6 +28,10 @@
 #define COLS_MIN 40
 #define ROWS_MIN 12
 
+/* The panel, and what it leaves of a narrow window. */
+#define PANEL_COLS   38
+#define PICTURE_COLS 12
+
 static void choose_palette(struct canvas *c, enum color_mode mode)
 {
     c->palette_is_final = true;
@@ -77,6 +81,7 @@ static void free_sized(struct canvas *c)
     cells_free(&c->cells);
     frame_free(&c->frame);
     ansi_free(&c->ansi);
+    swatches_free(&c->swatches);
 }
 
 static void say_too_small(const struct term_size *size)
@@ -110,6 +115,11 @@ static enum graphics_kind pixels_kind(const struct canvas *c)
                                                         : GRAPHICS_NONE;
 }
 
+static int panel_cols(int cols)
+{
+    return cols - PICTURE_COLS < PANEL_COLS ? cols - PICTURE_COLS : PANEL_COLS;
+}
+
 static bool is_too_small(const struct term_size *size)
 {
     return size->cols < COLS_MIN || size->rows < ROWS_MIN;
@@ -121,7 +131,7 @@ static struct fit fit_to(const struct canvas *c, const struct term_size *size,
     /* sixels in the last row would scroll the screen */
     bool is_short = c->has_status_row || pixels_kind(c) == GRAPHICS_SIXEL;
 
-    return cells_fit(width_px, height_px, size->cols,
+    return cells_fit(width_px, height_px, size->cols - c->panel_cols,
                      size->rows - (is_short ? 1 : 0), cell_aspect(c, size));
 }
 
@@ -195,18 +205,22 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
     size = term_size();
     c->window = (struct ansi_rect){0};
     c->has_status = false;
+    c->has_new_panel = false;
     c->must_update = true;
     c->is_too_small = is_too_small(&size);
     if (c->is_too_small) {
         say_too_small(&size);
         return true;
     }
+    c->panel_cols = c->has_panel ? panel_cols(size.cols) : 0;
     c->fit = fit_to(c, &size, width_px, height_px);
     c->cursor_col = c->cursor_col < c->fit.cols ? c->cursor_col : 0;
     c->cursor_row = c->cursor_row < c->fit.rows ? c->cursor_row : 0;
     return ansi_init(&c->ansi, c->fit.cols, c->fit.rows, err) &&
            (init_pixels(c, &size, width_px, height_px, err) ||
-            init_cells(c, err));
+            init_cells(c, err)) &&
+           (c->panel_cols == 0 ||
+            swatches_init(&c->swatches, size.rows - 1, err));
 }
 
 static bool take_cell_size(struct canvas *c, const struct event *event)
@@ -339,6 +353,28 @@ void canvas_status(struct canvas *c, const char *text)
     c->must_update = true;
 }
 
+void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
+                       int line_count)
+{
+    term_show_panel(panel_lines, line_count, c->panel_cols);
+    c->has_new_panel = true;
+    c->must_update = true;
+}
+
+/* Curses has written the panel anew, with blanks for the swatches. */
+static bool write_swatches(struct canvas *c)
+{
+    struct swatches *s = &c->swatches;
+    struct term_size size = term_size();
+
+    if (!c->has_new_panel)
+        return true;
+    c->has_new_panel = false;
+    swatches_draw(s, c->palette, size.cols - c->panel_cols + 2, 0,
+                  size.rows - 1);
+    return term_write(s->ansi.bytes, s->ansi.length);
+}
+
 static void cover(struct canvas *c, struct term_rect r)
 {
     c->window = (struct ansi_rect){r.col - c->fit.col, r.row - c->fit.row,
@@ -359,6 +395,24 @@ void canvas_open_panel(struct canvas *c, const char *title,
     cover(c, term_open_panel(title, texts, text_count));
 }
 
+void canvas_open_corner(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count)
+{
+    cover(c, term_open_corner(title, texts, text_count));
+}
+
+void canvas_set_corner(struct canvas *c, const char *const *texts,
+                       int text_count)
+{
+    term_set_window(texts, text_count);
+    c->must_update = true;
+}
+
+bool canvas_has_unicode(const struct canvas *c)
+{
+    return c->has_unicode;
+}
+
 void canvas_close_window(struct canvas *c)
 {
     term_close_window();
@@ -369,38 +423,38 @@ void canvas_close_window(struct canvas *c)
 
 /* Appends what changed in the picture; false if the budget was too small. */
 static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
-                        float exposure, int step)
+                        struct develop how, int step)
 {
     struct ansi_rect covered[2] = {c->window};
-    struct ansi_draw how = {.col = c->fit.col,
-                            .row = c->fit.row,
-                            .budget_bytes = c->pace.budget_bytes,
-                            .step = step,
-                            .covered = covered,
-                            .covered_count = 1};
+    struct ansi_draw draw = {.col = c->fit.col,
+                             .row = c->fit.row,
+                             .budget_bytes = c->pace.budget_bytes,
+                             .step = step,
+                             .covered = covered,
+                             .covered_count = 1};
 
     if (c->has_status && !c->has_status_row) {
         covered[1] = (struct ansi_rect){0, term_size().rows - 1 - c->fit.row,
                                         c->fit.cols, 1};
-        how.covered_count = 2;
+        draw.covered_count = 2;
     }
-    film_preview(film, draft, exposure, &c->frame);
+    film_preview(film, draft, how, &c->frame);
     if (c->painter.paint)
         c->painter.paint(c->painter.context, film, draft, &c->frame);
     if (c->graphics.shape.kind != GRAPHICS_NONE) {
-        if (how.budget_bytes > PIXEL_BYTES_MAX)
-            how.budget_bytes = PIXEL_BYTES_MAX;
-        return graphics_picture(&c->graphics, &c->ansi, &c->frame, &how);
+        if (draw.budget_bytes > PIXEL_BYTES_MAX)
+            draw.budget_bytes = PIXEL_BYTES_MAX;
+        return graphics_picture(&c->graphics, &c->ansi, &c->frame, &draw);
     }
     cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
     if (c->has_cursor)
         cells_mark(&c->cells, c->cursor_col, c->cursor_row);
-    return ansi_picture(&c->ansi, &c->cells, &how);
+    return ansi_picture(&c->ansi, &c->cells, &draw);
 }
 
 /* One write() a frame; one more before curses writes its part. */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               struct film *draft, float exposure, int step)
+                               struct film *draft, struct develop how, int step)
 {
     struct ansi *a = &c->ansi;
     bool has_sync = term_has_sync();
@@ -419,6 +473,8 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         if (has_sync)
             term_write(SYNC_BEGIN, sizeof SYNC_BEGIN - 1);
         term_update();
+        if (!write_swatches(c))
+            return CANVAS_GONE;
         c->must_update = false;
     }
     ansi_begin(a);
@@ -426,7 +482,7 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
         ansi_text(a, SYNC_BEGIN);
     before = a->length;
     if (film)
-        is_complete = add_picture(c, film, draft, exposure, step);
+        is_complete = add_picture(c, film, draft, how, step);
     if (a->length == before && !has_updated)
         return is_complete ? CANVAS_DONE : CANVAS_MORE;
     asks = a->length > before && pace_wants_request(&c->pace);

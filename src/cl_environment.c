@@ -5,8 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
+
+#include "glim/file.h"
+#include "glim/xdg.h"
 
 /* Where PoCL looks for its cache folder's name. */
 #define CACHE_VARIABLE "POCL_CACHE_DIR"
@@ -17,30 +19,18 @@ static const int taken[CL_SIGNAL_COUNT] = {SIGHUP,  SIGINT,  SIGQUIT, SIGILL,
                                            SIGSEGV, SIGUSR1, SIGUSR2, SIGTERM,
                                            SIGXCPU, SIGXFSZ, SIGSYS};
 
-/* The value, or NULL where there is none or an empty one. */
-static const char *environment(const char *name)
-{
-    const char *value = getenv(name);
-
-    return value && *value != '\0' ? value : NULL;
-}
-
-/* As the XDG base directory specification says, which ignores relative names.
- * Without a home PoCL finds a place of its own. */
+/* Without a home PoCL finds a place of its own. */
 static void choose_cache(void)
 {
-    const char *cache = environment("XDG_CACHE_HOME");
-    const char *home = environment("HOME");
+    char *cache = xdg_folder("XDG_CACHE_HOME", ".cache");
     char *folder;
 
-    if (cache && *cache == '/')
-        folder = xformat("%s/glim/pocl", cache);
-    else if (home)
-        folder = xformat("%s/.cache/glim/pocl", home);
-    else
+    if (!cache)
         return;
+    folder = xformat("%s/pocl", cache);
     setenv(CACHE_VARIABLE, folder, 0);
     free(folder);
+    free(cache);
 }
 
 void cl_environment_prepare(int thread_count)
@@ -56,30 +46,14 @@ void cl_environment_prepare(int thread_count)
     choose_cache();
 }
 
-/* As mkdir -p, in place. False and errno if that fails. */
-static bool make_folders(char *path)
-{
-    for (char *p = path + 1;; p++) {
-        char end = *p;
-
-        if (end != '/' && end != '\0')
-            continue;
-        *p = '\0';
-        bool ok = mkdir(path, 0700) == 0 || errno == EEXIST;
-        *p = end;
-        if (!ok || end == '\0')
-            return ok;
-    }
-}
-
 bool cl_cache_open(struct error *err)
 {
-    const char *folder = environment(CACHE_VARIABLE);
+    const char *folder = getenv(CACHE_VARIABLE);
 
-    if (!folder)
+    if (!folder || *folder == '\0')
         return true;
     char *path = xformat("%s/.", folder); /* not a file of that name */
-    bool ok = make_folders(path) && access(path, R_OK | W_OK | X_OK) == 0;
+    bool ok = folder_make(path) && access(path, R_OK | W_OK | X_OK) == 0;
     free(path);
     return ok || fail(err, "%s: %s", folder, strerror(errno));
 }

@@ -9,6 +9,7 @@
 
 #include "glim/file.h"
 #include "glim/lex.h"
+#include "glim/xdg.h"
 
 /* Longer words are none that is known. */
 #define WORD_BYTES 64
@@ -21,18 +22,14 @@ struct reader {
     char place[400]; /* file:line */
 };
 
-/* As the XDG base directory specification says, which ignores relative names.
- * NULL: there is no such place. */
+/* NULL: there is no such place. */
 static char *config_path(void)
 {
-    const char *config = getenv("XDG_CONFIG_HOME");
-    const char *home = getenv("HOME");
+    char *folder = xdg_folder("XDG_CONFIG_HOME", ".config");
+    char *path = folder ? xformat("%s/config", folder) : NULL;
 
-    if (config && *config == '/')
-        return xformat("%s/glim/config", config);
-    if (home && *home != '\0')
-        return xformat("%s/.config/glim/config", home);
-    return NULL;
+    free(folder);
+    return path;
 }
 
 static bool fail_at(const struct reader *r, struct word found,

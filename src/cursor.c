@@ -133,7 +133,7 @@ static void take(struct cursor *c, const struct pick *pick)
     size_t length;
 
     c->pick = *pick;
-    c->has_pick = true;
+    c->has_pick = c->is_pick_new = true;
     show(c, false);
     describe(c, pick, text);
     length = strlen(text);

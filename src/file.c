@@ -316,6 +316,21 @@ failed:
     return NULL;
 }
 
+bool folder_make(char *path)
+{
+    for (char *p = path + 1;; p++) {
+        char end = *p;
+
+        if (end != '/' && end != '\0')
+            continue;
+        *p = '\0';
+        bool ok = mkdir(path, 0700) == 0 || errno == EEXIST;
+        *p = end;
+        if (!ok || end == '\0')
+            return ok;
+    }
+}
+
 char *path_beside(const char *beside, const char *name)
 {
     const char *slash = strrchr(beside, '/');
@@ -323,6 +338,41 @@ char *path_beside(const char *beside, const char *name)
     if (*name == '/' || !slash)
         return xstrdup(name);
     return xformat("%.*s%s", (int)(slash + 1 - beside), beside, name);
+}
+
+/* The path with its folder as the system knows it; NULL if there is no such
+ * folder. */
+static char *real_path(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = folder_of(path);
+    char *real = realpath(folder, NULL);
+    char *whole = NULL;
+
+    if (real)
+        whole = xformat("%s/%s", strcmp(real, "/") == 0 ? "" : real,
+                        slash ? slash + 1 : path);
+    free(real);
+    free(folder);
+    return whole;
+}
+
+char *path_seen_from(const char *beside, const char *path)
+{
+    char *real_beside = real_path(beside);
+    char *real = real_path(path);
+    char *name;
+
+    if (real && real_beside) {
+        size_t below = (size_t)(strrchr(real_beside, '/') + 1 - real_beside);
+        name = xstrdup(strncmp(real, real_beside, below) == 0 ? real + below
+                                                              : real);
+    } else {
+        name = xstrdup(path);
+    }
+    free(real);
+    free(real_beside);
+    return name;
 }
 
 char *path_stem(const char *path)

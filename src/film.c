@@ -210,15 +210,19 @@ static float exposure_factor(float stops)
     return exp2f(f_max(-126.0f, f_min(stops, 126.0f)));
 }
 
-static void expose(const float *rgb, float factor, uint8_t *bytes)
+static void expose(const float *rgb, float factor, uint32_t tone,
+                   uint8_t *bytes)
 {
+    float shown[3] = {rgb[0] * factor, rgb[1] * factor, rgb[2] * factor};
+
+    tone_curve(tone, shown);
     for (int c = 0; c < 3; c++)
-        bytes[c] = (uint8_t)srgb_byte(rgb[c] * factor);
+        bytes[c] = (uint8_t)srgb_byte(shown[c]);
 }
 
-void film_resolve(struct film *f, float exposure, struct frame *frame)
+void film_resolve(struct film *f, struct develop how, struct frame *frame)
 {
-    float factor = exposure_factor(exposure);
+    float factor = exposure_factor(how.exposure);
     float rgb[3 * RUN];
 
     for (int y = 0; y < f->height; y++) {
@@ -227,7 +231,7 @@ void film_resolve(struct film *f, float exposure, struct frame *frame)
 
             linear_run(f, x, y, count, rgb);
             for (int i = 0; i < count; i++)
-                expose(rgb + 3 * i, factor,
+                expose(rgb + 3 * i, factor, how.tone,
                        frame->rgb + 3 * pixel_index(f, x + i, y));
         }
     }
@@ -290,7 +294,7 @@ static void coarse_part(struct film *f, const struct run *r, int i, float *rgb)
 }
 
 static void preview_run(struct film *f, struct film *draft, float factor,
-                        const struct run *r)
+                        uint32_t tone, const struct run *r)
 {
     struct total totals[RUN] = {0};
 
@@ -305,20 +309,21 @@ static void preview_run(struct film *f, struct film *draft, float factor,
             mean_of(totals[i].sums, totals[i].count, rgb);
         else
             coarse_part(draft != NULL ? draft : f, r, i, rgb);
-        expose(rgb, factor, r->frame->rgb + 3 * at);
+        expose(rgb, factor, tone, r->frame->rgb + 3 * at);
     }
 }
 
-void film_preview(struct film *f, struct film *draft, float exposure,
+void film_preview(struct film *f, struct film *draft, struct develop how,
                   struct frame *frame)
 {
-    float factor = exposure_factor(exposure);
+    float factor = exposure_factor(how.exposure);
 
     for (int y = 0; y < frame->height; y++)
         for (int x = 0; x < frame->width; x += RUN) {
             int count = frame->width - x < RUN ? frame->width - x : RUN;
 
-            preview_run(f, draft, factor, &(struct run){frame, x, y, count});
+            preview_run(f, draft, factor, how.tone,
+                        &(struct run){frame, x, y, count});
         }
 }
 

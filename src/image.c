@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/color.h"
 #include "glim/file.h"
 #include "glim/number.h"
 #include "glim/stb.h"
@@ -290,8 +291,7 @@ static float *linear_of_srgb16(void)
 
     for (int i = 0; i < 65536; i++) {
         double v = i / 65535.0;
-        table[i] =
-            (float)(v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4));
+        table[i] = (float)color_decoded(v);
     }
     return table;
 }

@@ -509,16 +509,30 @@ void inside_step(struct inside *in)
     }
 }
 
-float inside_exposure(const struct inside *in)
+struct develop inside_develop(const struct inside *in)
 {
-    return in->view == INSIDE_PREVIEW ? 0.0f
-                                      : (float)session_of(in)->view.exposure;
+    return in->view == INSIDE_PREVIEW ? develop_linear(0)
+                                      : session_develop(session_of(in));
 }
 
 void inside_leave(struct inside *in)
 {
     if (views[in->view].sample != SAMPLE_LIGHT)
         show(in, INSIDE_LIGHT);
+}
+
+void inside_stop_drawing(struct inside *in)
+{
+    inside_close_panel(in);
+    in->drawing = INSIDE_NOTHING;
+}
+
+void inside_renew(struct inside *in)
+{
+    inside_stop_drawing(in);
+    bvh_free(&in->bvh);
+    in->has_bvh = false;
+    in->cost_width = 0;
 }
 
 void inside_init(struct inside *in, struct work *work, struct canvas *canvas,

@@ -322,6 +322,15 @@ static bool shines(const struct material *m)
     return v3_max(m->emission) > 0.0f && m->opacity > 0.0f;
 }
 
+bool lights_differ(const struct material *a, const struct material *b)
+{
+    if (!shines(a) && !shines(b))
+        return false;
+    return memcmp(&a->emission, &b->emission, sizeof a->emission) != 0 ||
+           a->emission_texture != b->emission_texture ||
+           a->opacity != b->opacity;
+}
+
 /* The mean of the channels: errors of all three count alike. */
 static double mean_radiance(const struct world *w, const struct tri *t,
                             const struct footprint_sums *footprints)

@@ -12,6 +12,7 @@
 #include <locale.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -22,6 +23,7 @@
 #include "glim/cl_probe.h"
 #include "glim/config.h"
 #include "glim/options.h"
+#include "glim/recent.h"
 #include "glim/session.h"
 #include "glim/tui.h"
 #include "glim/util.h"
@@ -114,7 +116,28 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     report_print(&s->report, stderr);
     if (!ok)
         return false;
-    return o->batch ? batch_run(s, status, err) : tui_run(s, status, err);
+    if (o->batch)
+        return batch_run(s, status, err);
+    recent_add(o->scene_path);
+    return tui_run(s, status, err);
+}
+
+/* Without any argument, at a terminal: one of the scenes that were opened last.
+ * False if the person wants none; *path stays NULL where there is none. */
+static bool choose_scene(int argc, char **path)
+{
+    struct recent recent;
+    bool wants_one = true;
+
+    if (argc > 1 || !isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO))
+        return true;
+    recent_read(&recent);
+    if (recent.count > 0) {
+        *path = recent_choose(&recent, stdin, stdout);
+        wants_one = *path != NULL;
+    }
+    recent_free(&recent);
+    return wants_one;
 }
 
 /* With the sets of instructions that this processor has, the first of which it
@@ -134,7 +157,8 @@ static int print_version(void)
 
 int main(int argc, char **argv)
 {
-    uint64_t start_ns = clock_ns();
+    static char no_more_options[] = "--";
+    char *chosen[] = {argv[0], no_more_options, NULL, NULL};
     struct options options;
     struct session session;
     struct error err, config_err;
@@ -143,10 +167,14 @@ int main(int argc, char **argv)
     fill_standard_files();
     /* the characters of the terminal; numbers keep their point */
     setlocale(LC_CTYPE, "");
+    if (!choose_scene(argc, &chosen[2]))
+        return EXIT_DONE;
+    uint64_t start_ns = clock_ns();
     options_init(&options);
     /* what is wrong there must not hide the help */
     bool has_config = config_read(&options, &config_err);
-    if (!options_parse(&options, argc, argv, &err))
+    if (!options_parse(&options, chosen[2] ? 3 : argc,
+                       chosen[2] ? chosen : argv, &err))
         return complain(EXIT_USAGE, &err);
     if (options.show_help)
         return print_out(options_help);
@@ -168,5 +196,6 @@ int main(int argc, char **argv)
     if (!run(&session, &options, start_ns, &status, &err))
         status = complain(EXIT_FAILED, &err);
     session_close(&session);
+    free(chosen[2]);
     return status;
 }

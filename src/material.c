@@ -5,6 +5,8 @@
 #include <inttypes.h>
 #include <math.h>
 
+#include "glim/blackbody.h"
+
 /* From here on a highlight is a mirror image: exporters write 1000 for it. */
 #define NS_SMOOTH 1000
 
@@ -14,10 +16,77 @@
 #define IOR_DEFAULT 1.5
 #define IOR_MAX     1e6
 
+const char *const mtl_map_keys[MTL_MAPS] = {
+    [MTL_MAP_KD] = "map_Kd", [MTL_MAP_KS] = "map_Ks",
+    [MTL_MAP_KE] = "map_Ke", [MTL_MAP_PR] = "map_Pr",
+    [MTL_MAP_PM] = "map_Pm", [MTL_MAP_D] = "map_d",
+    [MTL_MAP_NORM] = "norm", [MTL_MAP_BUMP] = "map_Bump",
+};
+
 struct place {
     const char *path;
     struct report *report;
 };
+
+struct mtl_source mtl_source_empty(void)
+{
+    struct mtl_source s = {.bump_scale = 1};
+
+    for (int i = 0; i < MTL_MAPS; i++)
+        s.maps[i] = NO_INDEX;
+    return s;
+}
+
+static bool numbers_equal(const struct mtl_number *a,
+                          const struct mtl_number *b)
+{
+    return (a->line == 0) == (b->line == 0) &&
+           (a->line == 0 || a->value == b->value);
+}
+
+static bool colors_equal(const struct mtl_color *a, const struct mtl_color *b)
+{
+    return (a->line == 0) == (b->line == 0) &&
+           (a->line == 0 || (a->rgb[0] == b->rgb[0] && a->rgb[1] == b->rgb[1] &&
+                             a->rgb[2] == b->rgb[2]));
+}
+
+bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
+{
+    for (int i = 0; i < MTL_MAPS; i++)
+        if (a->maps[i] != b->maps[i])
+            return false;
+    return a->maps_off == b->maps_off && a->bump_scale == b->bump_scale &&
+           colors_equal(&a->kd, &b->kd) && colors_equal(&a->ks, &b->ks) &&
+           colors_equal(&a->ke, &b->ke) && colors_equal(&a->tf, &b->tf) &&
+           numbers_equal(&a->kelvin, &b->kelvin) &&
+           numbers_equal(&a->luminance, &b->luminance) &&
+           numbers_equal(&a->illum, &b->illum) &&
+           numbers_equal(&a->ns, &b->ns) && numbers_equal(&a->ni, &b->ni) &&
+           numbers_equal(&a->d, &b->d) && numbers_equal(&a->tr, &b->tr) &&
+           numbers_equal(&a->pr, &b->pr) && numbers_equal(&a->pm, &b->pm) &&
+           numbers_equal(&a->kd_roughness, &b->kd_roughness);
+}
+
+uint32_t mtl_source_map(const struct mtl_source *s, enum mtl_map map)
+{
+    return (s->maps_off >> map & 1) != 0 ? NO_INDEX : s->maps[map];
+}
+
+struct mtl_color mtl_source_light(const struct mtl_source *s)
+{
+    struct mtl_color light = {.line = s->kelvin.line};
+    double kelvin = s->kelvin.value;
+
+    if (s->kelvin.line == 0)
+        return s->ke;
+    if (!(kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST))
+        return light;
+    blackbody_rgb(kelvin, light.rgb);
+    for (int i = 0; i < 3; i++)
+        light.rgb[i] *= s->luminance.value;
+    return light;
+}
 
 struct material material_default(void)
 {
@@ -33,6 +102,8 @@ struct material material_default(void)
         .opacity_texture = NO_INDEX,
         .normal_texture = NO_INDEX,
         .bump_texture = NO_INDEX,
+        .metalness = 1,
+        .bump_scale = 1,
         .opacity = 1,
     };
 
@@ -111,7 +182,7 @@ static double alpha(const struct mtl_source *s, const struct place *at)
 
         return pr * pr;
     }
-    if (s->map_pr != NO_INDEX)
+    if (mtl_source_map(s, MTL_MAP_PR) != NO_INDEX)
         return 1;
     return ns == 0 || ns >= NS_SMOOTH ? 0 : sqrt(2 / (ns + 2));
 }
@@ -120,7 +191,7 @@ static void roughen(struct material *m, const struct mtl_source *s,
                     const struct place *at)
 {
     m->alpha = (float)alpha(s, at);
-    m->alpha_texture = s->map_pr;
+    m->alpha_texture = mtl_source_map(s, MTL_MAP_PR);
 }
 
 /* d wins over Tr. */
@@ -144,7 +215,7 @@ static void make_glass(struct material *m, uint32_t kind,
 {
     m->kind = kind;
     m->color = reflecting(&s->tf, "Tf", 1, at);
-    m->color_texture = s->map_kd;
+    m->color_texture = mtl_source_map(s, MTL_MAP_KD);
     if (kind == MATERIAL_GLASS)
         roughen(m, s, at);
     m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
@@ -161,7 +232,7 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
     m->kind = MATERIAL_PLASTIC;
     m->coat = (struct vec3){ks->x * MATERIAL_COAT, ks->y * MATERIAL_COAT,
                             ks->z * MATERIAL_COAT};
-    m->coat_texture = s->map_ks;
+    m->coat_texture = mtl_source_map(s, MTL_MAP_KS);
     roughen(m, s, at);
 }
 
@@ -180,17 +251,19 @@ static void make_diffuse(struct material *m, const struct mtl_source *s,
 static void make_opaque(struct material *m, int illum,
                         const struct mtl_source *s, const struct place *at)
 {
-    bool has_map = s->map_kd != NO_INDEX;
-    bool is_mixed = s->map_pm != NO_INDEX;
+    uint32_t map_kd = mtl_source_map(s, MTL_MAP_KD);
+    uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
+    bool is_mixed = mtl_source_map(s, MTL_MAP_PM) != NO_INDEX;
     double pm = within(&s->pm, "Pm", 0, 1, unit_clamped(s->pm.value), at);
     struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
-    bool has_ks = !is_black(&ks) || s->map_ks != NO_INDEX;
+    bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
 
     m->opacity = (float)opacity(s, at);
-    m->opacity_texture = s->map_d;
-    m->color = reflecting(&s->kd, "Kd", has_map ? 0 : MATERIAL_GREY, at);
-    m->color_texture = s->map_kd;
-    m->metal_texture = s->map_pm;
+    m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
+    m->color =
+        reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
+    m->color_texture = map_kd;
+    m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
     m->metalness = s->pm.line != 0 ? (float)pm : 1;
     if (pm >= 0.5 && !is_mixed) {
         m->kind = MATERIAL_METAL;
@@ -198,7 +271,7 @@ static void make_opaque(struct material *m, int illum,
     } else if (has_ks && !is_mixed && (illum == 3 || illum == 5)) {
         m->kind = MATERIAL_METAL;
         m->color = ks;
-        m->color_texture = s->map_ks;
+        m->color_texture = map_ks;
         roughen(m, s, at);
     } else if (has_ks) {
         make_plastic(m, &ks, s, at);
@@ -209,23 +282,30 @@ static void make_opaque(struct material *m, int illum,
     }
 }
 
-static void check_map(uint32_t map, const char *key, const struct material *m,
-                      const struct place *at)
+/* Of the maps that only some materials have a use for. */
+static void check_map(const struct mtl_source *s, enum mtl_map which,
+                      const struct material *m, const struct place *at)
 {
+    uint32_t map = mtl_source_map(s, which);
+
     if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture &&
         map != m->alpha_texture && map != m->metal_texture &&
         map != m->opacity_texture)
         report_add(at->report, "maps that do not fit their material",
                    "%s: found %s of a material that has no use for it: not "
                    "used",
-                   at->path, key);
+                   at->path, mtl_map_keys[which]);
 }
 
 struct material material_from_source(const struct mtl_source *s,
                                      const char *path, struct report *report)
 {
+    static const enum mtl_map particular[] = {MTL_MAP_KD, MTL_MAP_KS,
+                                              MTL_MAP_PR, MTL_MAP_PM,
+                                              MTL_MAP_D};
     struct place at = {path, report};
     struct material m = material_default();
+    struct mtl_color light = mtl_source_light(s);
     int illum = illumination(s, &at);
 
     if (illum == 6 || illum == 7)
@@ -234,15 +314,12 @@ struct material material_from_source(const struct mtl_source *s,
         make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
     else
         make_opaque(&m, illum, s, &at);
-    check_map(s->map_kd, "map_Kd", &m, &at);
-    check_map(s->map_ks, "map_Ks", &m, &at);
-    check_map(s->map_pr, "map_Pr", &m, &at);
-    check_map(s->map_pm, "map_Pm", &m, &at);
-    check_map(s->map_d, "map_d", &m, &at);
-    m.normal_texture = s->norm;
-    m.bump_texture = s->map_bump;
+    for (size_t i = 0; i < sizeof particular / sizeof particular[0]; i++)
+        check_map(s, particular[i], &m, &at);
+    m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
+    m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->bump_scale;
-    m.emission = emission(&s->ke, &at);
-    m.emission_texture = s->map_ke;
+    m.emission = emission(&light, &at);
+    m.emission_texture = mtl_source_map(s, MTL_MAP_KE);
     return m;
 }

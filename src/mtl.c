@@ -26,6 +26,7 @@ struct parser {
     size_t texture_capacity;
     char *name; /* of the material that is being read; NULL: none */
     uint64_t name_line;
+    uint32_t file; /* number of this one in scene->mtl_paths */
     struct mtl_source source;
 };
 
@@ -35,26 +36,34 @@ static bool out_of_memory(const struct parser *p)
                 p->path, p->lex.line);
 }
 
-/* Room for one more material and its name. */
+/* Room for one more material, its name and its origin. */
 static bool grow_materials(struct scene *scene, size_t *capacity)
 {
     size_t needed = (size_t)scene->material_count + 1;
     size_t material_capacity = *capacity;
+    size_t name_capacity = *capacity;
     void *materials = scene->materials;
     void *names = scene->material_names;
+    void *origins = scene->material_origins;
 
     if (needed >= NO_INDEX || !grow_array(&materials, &material_capacity,
                                           needed, sizeof *scene->materials))
         return false;
     scene->materials = materials;
-    if (!grow_array(&names, capacity, needed, sizeof *scene->material_names))
+    if (!grow_array(&names, &name_capacity, needed,
+                    sizeof *scene->material_names))
         return false;
     scene->material_names = names;
+    if (!grow_array(&origins, capacity, needed,
+                    sizeof *scene->material_origins))
+        return false;
+    scene->material_origins = origins;
     return true;
 }
 
 static bool add_material(struct scene *scene, size_t *capacity,
-                         const char *name, const struct material *material)
+                         const char *name, const struct material *material,
+                         const struct material_origin *origin)
 {
     char *copy = strdup(name);
 
@@ -63,6 +72,7 @@ static bool add_material(struct scene *scene, size_t *capacity,
         return false;
     }
     scene->material_names[scene->material_count] = copy;
+    scene->material_origins[scene->material_count] = *origin;
     scene->materials[scene->material_count++] = *material;
     return true;
 }
@@ -70,9 +80,11 @@ static bool add_material(struct scene *scene, size_t *capacity,
 bool mtl_add_default(struct scene *scene, struct error *err)
 {
     struct material m = material_default();
+    struct material_origin origin = {mtl_source_empty(), NO_INDEX};
     size_t capacity = 0;
 
-    if (scene->material_count > 0 || add_material(scene, &capacity, "", &m))
+    if (scene->material_count > 0 ||
+        add_material(scene, &capacity, "", &m, &origin))
         return true;
     return fail(err, "out of memory for the materials");
 }
@@ -140,6 +152,7 @@ static uint32_t add_texture(struct parser *p, const char *path,
 /* The material that was being read is complete. */
 static bool finish_material(struct parser *p)
 {
+    struct material_origin origin = {p->source, p->file};
     struct material m;
     uint32_t index;
 
@@ -161,9 +174,11 @@ static bool finish_material(struct parser *p)
                          "one is used",
                          p->path, p->name_line, p->name);
         p->scene->materials[index] = m;
+        p->scene->material_origins[index] = origin;
         return true;
     }
-    return add_material(p->scene, &p->material_capacity, p->name, &m) ||
+    return add_material(p->scene, &p->material_capacity, p->name, &m,
+                        &origin) ||
            out_of_memory(p);
 }
 
@@ -174,14 +189,7 @@ static bool read_newmtl(struct parser *p)
     free(p->name);
     p->name_line = p->lex.line;
     p->name = lex_rest(&p->lex);
-    p->source = (struct mtl_source){.map_kd = NO_INDEX,
-                                    .map_ks = NO_INDEX,
-                                    .map_ke = NO_INDEX,
-                                    .map_pr = NO_INDEX,
-                                    .map_pm = NO_INDEX,
-                                    .map_d = NO_INDEX,
-                                    .map_bump = NO_INDEX,
-                                    .norm = NO_INDEX};
+    p->source = mtl_source_empty();
     return p->name != NULL || out_of_memory(p);
 }
 
@@ -237,26 +245,36 @@ static bool read_color(struct parser *p, struct word key,
 
 /* Ke_blackbody KELVIN [SCALE]: Ke as the colour of that temperature, with
  * luminance SCALE or 1. */
-static bool read_blackbody(struct parser *p, struct word key,
-                           struct mtl_color *ke)
+static bool read_blackbody(struct parser *p, struct word key)
 {
+    struct mtl_source *s = &p->source;
     double kelvin, scale = 1;
 
     if (lex_at_line_end(&p->lex) || !lex_number(&p->lex, &kelvin) ||
         (!lex_at_line_end(&p->lex) && !lex_number(&p->lex, &scale)))
         return expected(p, key, "a temperature and perhaps a luminance");
-    *ke = (struct mtl_color){.line = p->lex.line};
-    if (kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST) {
-        blackbody_rgb(kelvin, ke->rgb);
-        for (int i = 0; i < 3; i++)
-            ke->rgb[i] *= scale;
-    } else if (!(kelvin >= 0 && kelvin < BLACKBODY_LEAST)) {
+    if (!(kelvin >= 0 && kelvin <= BLACKBODY_GREATEST)) {
         report_add(p->report, "impossible temperatures",
                    "%s:%" PRIu64 ": found %.*s %g, expected kelvins from 0 to "
                    "%g: taken as 0",
                    p->path, p->lex.line, (int)key.length, key.start, kelvin,
                    BLACKBODY_GREATEST);
+        kelvin = 0;
     }
+    s->kelvin = (struct mtl_number){kelvin, p->lex.line};
+    s->luminance = (struct mtl_number){scale, p->lex.line};
+    return true;
+}
+
+/* Ke after Ke_blackbody: the last of them counts. */
+static bool read_light(struct parser *p, struct word key)
+{
+    struct mtl_source *s = &p->source;
+
+    if (!read_color(p, key, &s->ke))
+        return false;
+    if (s->ke.line == p->lex.line) /* not spectral */
+        s->kelvin = s->luminance = (struct mtl_number){.line = 0};
     return true;
 }
 
@@ -327,7 +345,6 @@ static bool read_property(struct parser *p, struct word key)
     } properties[] = {
         {"Kd", .color = &s->kd},
         {"Ks", .color = &s->ks},
-        {"Ke", .color = &s->ke},
         {"Tf", .color = &s->tf},
         {"Ns", .number = &s->ns},
         {"Ni", .number = &s->ni},
@@ -337,23 +354,25 @@ static bool read_property(struct parser *p, struct word key)
         {"Pr", .number = &s->pr},
         {"Pm", .number = &s->pm},
         {"Kd_roughness", .number = &s->kd_roughness},
-        {"map_Kd", .texture = &s->map_kd},
-        {"map_Ks", .texture = &s->map_ks},
-        {"map_Ke", .texture = &s->map_ke},
-        {"map_Pr", .texture = &s->map_pr, .is_data = true},
-        {"map_Pm", .texture = &s->map_pm, .is_data = true},
-        {"map_d", .texture = &s->map_d, .is_data = true},
-        {"norm", .texture = &s->norm, .is_data = true},
-        {"bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
-         .is_data = true},
-        {"map_bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
-         .is_data = true},
-        {"map_Bump", .texture = &s->map_bump, .bump_scale = &s->bump_scale,
-         .is_data = true},
+        {"map_Kd", .texture = &s->maps[MTL_MAP_KD]},
+        {"map_Ks", .texture = &s->maps[MTL_MAP_KS]},
+        {"map_Ke", .texture = &s->maps[MTL_MAP_KE]},
+        {"map_Pr", .texture = &s->maps[MTL_MAP_PR], .is_data = true},
+        {"map_Pm", .texture = &s->maps[MTL_MAP_PM], .is_data = true},
+        {"map_d", .texture = &s->maps[MTL_MAP_D], .is_data = true},
+        {"norm", .texture = &s->maps[MTL_MAP_NORM], .is_data = true},
+        {"bump", .texture = &s->maps[MTL_MAP_BUMP],
+         .bump_scale = &s->bump_scale, .is_data = true},
+        {"map_bump", .texture = &s->maps[MTL_MAP_BUMP],
+         .bump_scale = &s->bump_scale, .is_data = true},
+        {"map_Bump", .texture = &s->maps[MTL_MAP_BUMP],
+         .bump_scale = &s->bump_scale, .is_data = true},
     };
 
+    if (word_is(key, "Ke"))
+        return read_light(p, key);
     if (word_is(key, "Ke_blackbody"))
-        return read_blackbody(p, key, &s->ke);
+        return read_blackbody(p, key);
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
         if (!word_is(key, properties[i].key))
             continue;
@@ -407,6 +426,25 @@ static bool add_known(struct parser *p)
     return true;
 }
 
+/* Its number among the files that have brought materials. */
+static bool add_file(struct parser *p)
+{
+    struct scene *scene = p->scene;
+    size_t capacity = scene->mtl_path_count;
+    void *paths = scene->mtl_paths;
+    char *copy = strdup(p->path);
+
+    p->file = scene->mtl_path_count;
+    if (copy == NULL ||
+        !grow_array(&paths, &capacity, (size_t)p->file + 1, sizeof copy)) {
+        free(copy);
+        return false;
+    }
+    scene->mtl_paths = paths;
+    scene->mtl_paths[scene->mtl_path_count++] = copy;
+    return true;
+}
+
 bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
                const char *path, struct report *report, struct error *err)
 {
@@ -420,7 +458,7 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
         lex_init(&p.lex, text, size_bytes);
         p.material_capacity = scene->material_count;
         p.texture_capacity = scene->texture_count;
-        ok = add_known(&p);
+        ok = add_file(&p) && add_known(&p);
         ok = ok ? parse_lines(&p) : out_of_memory(&p);
     }
     free(p.name);

@@ -37,6 +37,8 @@ const char options_help[] =
     "  --crop X,Y,W,H   only W x H pixels of the picture, from (X, Y) on\n"
     "  --up y|z         which way is up in the scene file (default: y)\n"
     "  -t THREADS       1 to 1024 (default: what the process may use)\n"
+    "  --stats FILE     times and counts as JSON at the end, - for standard\n"
+    "                   output\n"
     "\n"
     "device\n"
     "  --backend KIND   cpu, opencl or auto: OpenCL if it has a GPU, else\n"
@@ -56,7 +58,6 @@ const char options_help[] =
     "  --ansi COLSxROWS a text of coloured characters, at most so many, for "
     "-o\n"
     "                   or standard output, instead of a picture\n"
-    "  --stats FILE     times and counts as JSON, - for standard output\n"
     "\n"
     "screen\n"
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
@@ -65,6 +66,9 @@ const char options_help[] =
     "                   half or space (default: auto)\n"
     "  --cell-aspect R  height of a character over its width, 0.25 to 8\n"
     "                   (default: ask the terminal)\n"
+    "  --watch          load files of the scene that have changed at once, "
+    "not\n"
+    "                   only when l is pressed\n"
     "  --phoe-keys      W S A D Q E move up, down, left, right, forward and\n"
     "                   back\n"
     "\n"
@@ -96,6 +100,7 @@ enum option_id {
     OPTION_COLOR,
     OPTION_GLYPH,
     OPTION_CELL_ASPECT,
+    OPTION_WATCH,
     OPTION_PHOE_KEYS,
     OPTION_HELP,
     OPTION_VERSION
@@ -133,6 +138,7 @@ static const struct option_rule rules[] = {
      "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
      "sixel or kitty"},
     {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
+    {"watch", OPTION_WATCH, NULL},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
     {"help", OPTION_HELP, NULL},
     {"version", OPTION_VERSION, NULL},
@@ -383,6 +389,7 @@ static bool set_option(struct options *o, const struct given *g,
     case OPTION_GLYPH: return set_word(o, g, err);
     case OPTION_BATCH: o->batch = true; return true;
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
+    case OPTION_WATCH: o->watch = true; return true;
     case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
     case OPTION_HELP: o->show_help = true; return true;
     case OPTION_VERSION: o->show_version = true; return true;
@@ -501,8 +508,9 @@ static bool check_batch(const struct options *o, struct error *err)
     if (o->output_path && !o->batch)
         return fail(err, "-o: is for batch mode, expected -b beside it (on "
                          "the screen p saves a picture)");
-    if (o->stats_path && !o->batch)
-        return fail(err, "--stats: is for batch mode, expected -b beside it");
+    if (o->watch && o->batch)
+        return fail(err, "--watch: is for the screen, expected no -b beside "
+                         "it");
     if (o->text_cols > 0 && !o->batch)
         return fail(err, "--ansi: is for batch mode, expected -b beside it "
                          "(on the screen x saves a text)");

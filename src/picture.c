@@ -113,7 +113,7 @@ static bool has_memory(size_t size_bytes)
     return trial != NULL;
 }
 
-static bool encode_png(struct film *film, float exposure, const char *path,
+static bool encode_png(struct film *film, struct develop how, const char *path,
                        struct buffer *b, struct error *err)
 {
     struct frame frame;
@@ -121,7 +121,7 @@ static bool encode_png(struct film *film, float exposure, const char *path,
     if (!expect_size(film, 3, path, err) ||
         !frame_init(&frame, film->width, film->height, err))
         return false;
-    film_resolve(film, exposure, &frame);
+    film_resolve(film, how, &frame);
     size_t size_bytes = 3 * (size_t)frame.width * (size_t)frame.height;
     bool ok = has_memory(size_bytes) &&
               stbi_write_png_to_func(append, b, frame.width, frame.height, 3,
@@ -208,11 +208,11 @@ static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
     return !b->is_cut || out_of_memory(film, path, err);
 }
 
-static bool encode(struct film *film, float exposure, const char *path,
+static bool encode(struct film *film, struct develop how, const char *path,
                    struct buffer *b, struct error *err)
 {
     switch (picture_format_of(path)) {
-    case PICTURE_PNG: return encode_png(film, exposure, path, b, err);
+    case PICTURE_PNG: return encode_png(film, how, path, b, err);
     case PICTURE_HDR: return encode_hdr(film, path, b, err);
     case PICTURE_PFM: return encode_pfm(film, path, b, err);
     case PICTURE_UNKNOWN: break;
@@ -221,11 +221,11 @@ static bool encode(struct film *film, float exposure, const char *path,
                 path);
 }
 
-bool picture_write(struct film *film, float exposure, const char *path,
+bool picture_write(struct film *film, struct develop how, const char *path,
                    struct error *err)
 {
     struct buffer b = {.data = NULL};
-    bool ok = encode(film, exposure, path, &b, err);
+    bool ok = encode(film, how, path, &b, err);
 
     if (ok && is_stdout(path))
         ok = file_write_stdout(b.data, b.size_bytes, err);
@@ -235,15 +235,16 @@ bool picture_write(struct film *film, float exposure, const char *path,
     return ok;
 }
 
-char *picture_write_numbered(struct film *film, float exposure,
-                             const char *stem, struct error *err)
+char *picture_write_numbered(struct film *film, struct develop how,
+                             const char *stem, const char *ending,
+                             struct error *err)
 {
     struct buffer b = {.data = NULL};
-    char *name = xformat("%s.png", stem);
+    char *name = xformat("%s.%s", stem, ending);
     char *path = NULL;
 
-    if (encode(film, exposure, name, &b, err))
-        path = file_write_numbered(stem, "png", b.data, b.size_bytes, err);
+    if (encode(film, how, name, &b, err))
+        path = file_write_numbered(stem, ending, b.data, b.size_bytes, err);
     free(b.data);
     free(name);
     return path;

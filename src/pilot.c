@@ -61,6 +61,13 @@ void pilot_stop(struct pilot *p)
     p->held = ACTION_NONE;
 }
 
+void pilot_renew(struct pilot *p)
+{
+    p->cursor.has_pick = false;
+    p->cursor.is_pick_new = false;
+    p->cursor.must_look = p->canvas->has_cursor;
+}
+
 /* ---- moves ---- */
 
 static const struct move *find_move(enum action action)

@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "glim/thread.h"
 
@@ -167,6 +168,18 @@ struct pool *pool_create(int thread_count, struct error *err)
 int pool_thread_count(const struct pool *pool)
 {
     return pool->thread_count;
+}
+
+uint64_t pool_cpu_ns(const struct pool *pool, int worker)
+{
+    struct timespec used;
+    clockid_t clock;
+
+    if (pthread_getcpuclockid(pool->workers[worker].thread, &clock) != 0 ||
+        clock_gettime(clock, &used) != 0)
+        return 0;
+    return (uint64_t)used.tv_sec * UINT64_C(1000000000) +
+           (uint64_t)used.tv_nsec;
 }
 
 bool pool_run(struct pool *p, uint32_t count, pool_job *job, void *context,

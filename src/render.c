@@ -49,6 +49,7 @@ struct render {
     /* set while the render thread is parked */
     struct render_job job;
     const struct film *begun; /* by the backend; NULL: a new picture */
+    bool only_one;            /* more sample a pixel, then it is halted */
 };
 
 /* Samples that every pixel has after the pass that follows spp_done. */
@@ -170,16 +171,21 @@ static enum pass_result run_draft(struct render *r)
     return result;
 }
 
-/* Until the limit, a cancellation or a failure. */
+/* Until the limit, a cancellation or a failure, or for one sample a pixel. */
 static enum pass_result run_film(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
     enum pass_result result =
         begin(r, &r->job.world, &r->film, r->job.crop.x, r->job.crop.y);
 
-    while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp))
-        result = run_to(r, next_target(*spp_done, r->spp), FILM_STRIDE_MAX,
-                        spp_done);
+    while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp)) {
+        uint64_t target =
+            r->only_one ? *spp_done + 1 : next_target(*spp_done, r->spp);
+
+        result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
+        if (r->only_one && result == PASS_DONE && *spp_done != r->spp)
+            result = PASS_CANCELLED;
+    }
     return result;
 }
 
@@ -255,9 +261,10 @@ struct render *render_create(struct backend *backend, struct error *err)
 }
 
 /* Under the lock: lets the render thread go. */
-static void go(struct render *r)
+static void go(struct render *r, bool only_one)
 {
     cancel_reset(&r->cancel);
+    r->only_one = only_one;
     r->state = RENDER_RUNNING;
     r->wanted = true;
     r->run_begin_ns = clock_ns();
@@ -313,7 +320,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
-    go(r);
+    go(r, false);
     pthread_mutex_unlock(&r->lock);
     return true;
 }
@@ -334,8 +341,16 @@ void render_resume(struct render *r, uint64_t spp)
     pthread_mutex_lock(&r->lock);
     if (r->state == RENDER_IDLE || r->state == RENDER_DONE) {
         r->spp = spp;
-        go(r);
+        go(r, false);
     }
+    pthread_mutex_unlock(&r->lock);
+}
+
+void render_step(struct render *r)
+{
+    pthread_mutex_lock(&r->lock);
+    if (r->state == RENDER_IDLE)
+        go(r, true);
     pthread_mutex_unlock(&r->lock);
 }
 

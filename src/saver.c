@@ -53,8 +53,8 @@ static void *saver_main(void *argument)
     pthread_cond_signal(&s->copied);
     pthread_mutex_unlock(&s->lock);
     if (ok)
-        s->name =
-            picture_write_numbered(&copy, s->exposure, s->stem, &s->error);
+        s->name = picture_write_numbered(&copy, s->how, s->stem, s->ending,
+                                         &s->error);
     film_free(&copy);
     if (write(s->event_fd, &one, sizeof one) < 0) {
         /* the counter is full: it is readable anyway */
@@ -62,23 +62,24 @@ static void *saver_main(void *argument)
     return NULL;
 }
 
-bool saver_begin(struct saver *s, struct film *film, float exposure,
-                 const char *stem, struct error *err)
+bool saver_begin(struct saver *s, struct film *film, struct develop how,
+                 const char *stem, const char *ending, struct error *err)
 {
     int reason;
 
     if (s->is_busy)
-        return fail(err, "%s.png: the picture before is still being saved",
-                    stem);
+        return fail(err, "%s.%s: the picture before is still being saved", stem,
+                    ending);
     s->film = film;
-    s->exposure = exposure;
+    s->how = how;
     s->stem = xstrdup(stem);
+    s->ending = ending;
     s->has_copied = false;
     s->name = NULL;
     reason = thread_start(&s->thread, saver_main, s);
     if (reason != 0) {
         free(s->stem);
-        return fail(err, "%s.png: no thread to save it: %s", stem,
+        return fail(err, "%s.%s: no thread to save it: %s", stem, ending,
                     strerror(reason));
     }
     s->is_busy = true;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/color.h"
 #include "glim/image.h"
 #include "glim/obj.h"
 #include "glim/textures.h"
@@ -242,12 +243,16 @@ static bool shines(const struct material *m)
 
 static void fill_linear_of_srgb(float table[256])
 {
-    for (int i = 0; i < 256; i++) {
-        double c = i / 255.0;
+    for (int i = 0; i < 256; i++)
+        table[i] = (float)color_decoded(i / 255.0);
+}
 
-        table[i] =
-            (float)(c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4));
-    }
+void scene_find_emitters(struct scene *scene)
+{
+    scene->has_emitters = false;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        scene->has_emitters |=
+            scene->material_is_used[i] && shines(&scene->materials[i]);
 }
 
 static bool find_used_materials(struct scene *scene, struct error *err)
@@ -259,15 +264,11 @@ static bool find_used_materials(struct scene *scene, struct error *err)
         return fail(err, "%s: out of memory for its materials", scene->path);
     for (uint32_t i = 0; i < scene->tri_count; i++)
         scene->material_is_used[scene->tris[i].material] = true;
-    scene->has_emitters = false;
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        scene->has_emitters |=
-            scene->material_is_used[i] && shines(&scene->materials[i]);
+    scene_find_emitters(scene);
     return true;
 }
 
-/* The part of a world that no view changes. */
-static struct world scene_arrays(const struct scene *scene)
+struct world scene_arrays(const struct scene *scene)
 {
     return (struct world){
         .positions = scene->positions,
@@ -319,6 +320,7 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
                     struct report *report, struct error *err)
 {
     struct image image = {0};
+    struct sky_table table = {0};
     uint64_t clamped_count = 0;
 
     if (view->sky_path != NULL &&
@@ -328,15 +330,23 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
         report_add(report, "skies with impossible values",
                    "%s: found %" PRIu64 " negative or infinite values: clamped",
                    view->sky_path, clamped_count);
+    if (!sky_build(&table, (struct vec3 *)(void *)image.rgb,
+                   (uint32_t)image.width, (uint32_t)image.height,
+                   SKY_WITH_CHANCE, err)) {
+        image_free(&image);
+        return false;
+    }
+    /* not before: what has another address is known to be another array */
     free(scene->sky_texels);
+    sky_free(&scene->sky_table);
+    scene->sky_table = table;
     /* the scene owns the floats now, three of which are a vec3 */
     scene->sky_texels = (struct vec3 *)(void *)image.rgb;
     scene->sky_width = (uint32_t)image.width;
     scene->sky_height = (uint32_t)image.height;
     image.rgb = NULL;
     image_free(&image);
-    return sky_build(&scene->sky_table, scene->sky_texels, scene->sky_width,
-                     scene->sky_height, SKY_WITH_CHANCE, err);
+    return true;
 }
 
 /* Half the field of view along the narrower side of the picture. */
@@ -574,6 +584,26 @@ bool scene_world(const struct scene *scene, const struct view *view,
     return true;
 }
 
+static bool is_same_place(const struct scene *a, const struct scene *b)
+{
+    return a->scale == b->scale &&
+           memcmp(a->center, b->center, sizeof a->center) == 0 &&
+           a->position_count == b->position_count &&
+           memcmp(a->positions, b->positions,
+                  a->position_count * sizeof *a->positions) == 0;
+}
+
+bool scene_has_same_shape(const struct scene *a, const struct scene *b)
+{
+    if (a->tri_count != b->tri_count || !is_same_place(a, b))
+        return false;
+    for (uint32_t i = 0; i < a->tri_count; i++) {
+        if (memcmp(a->tris[i].v, b->tris[i].v, sizeof a->tris[i].v) != 0)
+            return false;
+    }
+    return true;
+}
+
 static void free_strings(char **strings, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -591,11 +621,16 @@ void scene_free(struct scene *scene)
     free(scene->tris);
     free(scene->tri_faces);
     free(scene->tri_objects);
+    free(scene->file_materials);
+    free(scene->assigned);
     free_strings(scene->object_names, scene->object_count);
     free(scene->materials);
     free(scene->material_is_used);
+    free(scene->material_origins);
     free_strings(scene->material_names, scene->material_count);
+    free_strings(scene->mtl_paths, scene->mtl_path_count);
     free(scene->textures);
+    free(scene->texture_is_tried);
     free_strings(scene->texture_paths, scene->texture_count);
     free(scene->texels);
     free(scene->sky_texels);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "glim/file.h"
+#include "glim/mtl_save.h"
 
 #define SIDE_MAX 65536
 
@@ -119,7 +120,25 @@ static bool find_crop(struct session *s, struct error *err)
     return true;
 }
 
-bool session_open(struct session *s, const struct options *options,
+/* Brings the scene and the view to what the edit shows. An image of the sky
+ * that cannot be read leaves the one before, and a notice. */
+static bool apply_edit(struct session *s, struct error *err)
+{
+    struct style style = edit_style(&s->edit);
+    struct error why;
+
+    if (!scene_restyle(&s->scene, &style, err))
+        return false;
+    edit_to_view(&s->edit, edit_shown(&s->edit), &s->scene, &s->view);
+    if (s->sky == edit_shown(&s->edit)->mood.sky)
+        return true;
+    s->sky = edit_shown(&s->edit)->mood.sky;
+    if (!scene_load_sky(&s->scene, &s->view, &s->report, &why))
+        snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
+    return true;
+}
+
+bool session_load(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err)
 {
     uint64_t begin_ns = clock_ns();
@@ -127,6 +146,7 @@ bool session_open(struct session *s, const struct options *options,
     *s = (struct session){.options = options, .start_ns = start_ns};
     view_init(&s->view);
     view_init(&s->opened);
+    view_init(&s->filed);
     if (!read_view(s, err))
         return false;
     apply_options(s);
@@ -139,12 +159,78 @@ bool session_open(struct session *s, const struct options *options,
     if (!view_check(&s->view, options->scene_path, err))
         return false;
     view_copy(&s->opened, &s->view);
+    view_copy(&s->filed, &s->view);
+    edit_init(&s->edit, &s->scene, &s->view, &s->report);
+    s->sky = s->edit.now.mood.sky;
+    if (!apply_edit(s, err))
+        return false;
     s->load_ns = clock_ns() - begin_ns;
     s->geometry_changed = true;
+    return true;
+}
+
+bool session_open(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err)
+{
+    if (!session_load(s, options, start_ns, err))
+        return false;
     if (!machines_open(&s->machines, options, err))
         return false;
     s->render = render_create(s->machines.cpu, err);
     return s->render != NULL;
+}
+
+static void swap_loaded(struct session *a, struct session *b)
+{
+    struct session old = *a;
+
+    a->scene = b->scene;
+    a->edit = b->edit;
+    a->sky = b->sky;
+    a->crop = b->crop;
+    a->opened = b->opened;
+    a->filed = b->filed;
+    a->report = b->report;
+    b->scene = old.scene;
+    b->edit = old.edit;
+    b->sky = old.sky;
+    b->crop = old.crop;
+    b->opened = old.opened;
+    b->filed = old.filed;
+    b->report = old.report;
+    memcpy(a->notice, b->notice, sizeof a->notice);
+}
+
+/* The same triangles need no new tree. But a device knows arrays by their
+ * addresses, and has seen those of the scene that goes only if it has begun to
+ * render it: before that their addresses might come again. */
+void session_take(struct session *s, struct session *fresh)
+{
+    render_halt(s->render);
+    s->geometry_changed |= render_progress(s->render).samples == 0 ||
+                           !scene_has_same_shape(&s->scene, &fresh->scene);
+    view_merge(&s->view, &s->filed, &fresh->filed);
+    /* these are the edit's, of which there is another one now */
+    assigns_copy(&s->view.assigns, &fresh->filed.assigns);
+    swap_loaded(s, fresh);
+}
+
+void session_watch(const struct session *s, struct watch *watch)
+{
+    const struct scene *scene = &s->scene;
+    char *camera = path_beside(s->options->scene_path, "camera.txt");
+
+    watch_add(watch, s->options->scene_path);
+    for (uint32_t i = 0; i < scene->mtl_path_count; i++)
+        watch_add(watch, scene->mtl_paths[i]);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        watch_add(watch, scene->texture_paths[i]);
+    watch_add(watch, s->view_path);
+    if (!s->options->view_path)
+        watch_add(watch, camera);
+    if (s->view.sky_path)
+        watch_add(watch, s->view.sky_path);
+    free(camera);
 }
 
 bool session_restart(struct session *s, uint64_t spp, struct error *err)
@@ -159,7 +245,8 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
         job.draft_height = s->draft_height;
     }
     render_halt(s->render);
-    if (!scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
+    if (!apply_edit(s, err) ||
+        !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
     features = job.world.settings.features;
     if (spp == 0 && s->sample != SAMPLE_LIGHT) {
@@ -167,12 +254,156 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
         job.world.settings.features |= FEATURE_FIRST_HIT;
     }
     s->restart_ns = clock_ns();
-    if (!render_start(s->render, &job, err))
+    s->speeds = (struct speeds){0};
+    load_begin(&s->load, render_backend(s->render));
+    if (!render_start(s->render, &job, err)) {
+        /* a device has not seen these arrays: it must not know the next ones
+         * by their addresses */
+        s->geometry_changed = true;
         return false;
+    }
     s->geometry_changed = false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
         machines_specialise(&s->machines, features);
     return true;
+}
+
+bool session_take_edit(struct session *s)
+{
+    const struct mood *m = &edit_shown(&s->edit)->mood;
+    struct style style = edit_style(&s->edit);
+    const struct view *v = &s->view;
+
+    s->view.exposure = m->exposure;
+    s->view.tone = m->tone;
+    return !scene_is_styled(&s->scene, &style) || s->sky != m->sky ||
+           memcmp(v->background, m->background, sizeof v->background) != 0 ||
+           v->sky_strength != m->sky_strength ||
+           v->sky_rotation_deg != m->sky_rotation_deg;
+}
+
+/* ---- saving what was edited ---- */
+
+/* The material whose block a new one begins with: the nearest in a file. */
+static uint32_t pattern_of(const struct edit *e, uint32_t material)
+{
+    while (!e->saved.is_there[material])
+        material = e->copied_from[material];
+    return material;
+}
+
+/* The file in which a material is, or is to be. */
+static uint32_t file_of(const struct session *s, uint32_t material)
+{
+    const struct edit *e = &s->edit;
+
+    while (e->copied_from[material] != NO_INDEX)
+        material = e->copied_from[material];
+    return s->scene.material_origins[material].file != NO_INDEX
+               ? s->scene.material_origins[material].file
+               : 0;
+}
+
+/* The changes that belong to a file; their number. */
+static size_t collect(const struct session *s, uint32_t file,
+                      struct mtl_change *changes, uint32_t *materials)
+{
+    const struct edit *e = &s->edit;
+    size_t count = 0;
+
+    for (uint32_t i = 0; i < e->material_count; i++) {
+        uint32_t pattern = pattern_of(e, i);
+
+        if (edit_is_saved(e, i) || file_of(s, i) != file)
+            continue;
+        changes[count] = (struct mtl_change){
+            .name = e->names[i],
+            .copied_from = pattern != i ? e->names[pattern] : NULL,
+            .before = &e->saved.sources[pattern],
+            .after = &e->now.sources[i],
+        };
+        materials[count++] = i;
+    }
+    return count;
+}
+
+static bool save_file(struct session *s, uint32_t file, size_t *written,
+                      struct error *err)
+{
+    struct mtl_change *changes =
+        xcalloc(s->edit.material_count, sizeof *changes);
+    uint32_t *materials = xcalloc(s->edit.material_count, sizeof *materials);
+    size_t count = collect(s, file, changes, materials);
+    bool ok = count == 0 || mtl_save(&s->scene, s->scene.mtl_paths[file],
+                                     changes, count, err);
+
+    for (size_t i = 0; ok && i < count; i++)
+        edit_saved_material(&s->edit, materials[i]);
+    *written += count;
+    free(changes);
+    free(materials);
+    return ok;
+}
+
+/* Into the file as it is now: the camera in there is not this one's. */
+static bool save_light(struct session *s, struct error *err)
+{
+    struct report report = {0};
+    struct view view;
+    bool ok;
+
+    view_init(&view);
+    ok = access(s->view_path, F_OK) == 0
+             ? view_read(&view, s->view_path, &report, err)
+             : (view_copy(&view, &s->opened), true);
+    edit_to_view(&s->edit, &s->edit.now, &s->scene, &view);
+    ok = ok && view_write(&view, s->view_path, err);
+    if (ok)
+        edit_saved_view(&s->edit);
+    view_free(&view);
+    report_free(&report);
+    return ok;
+}
+
+bool session_save_edit(struct session *s, char **what, struct error *err)
+{
+    bool has_light = edit_has_unsaved_view(&s->edit);
+    size_t written = 0;
+
+    if (edit_has_unsaved_materials(&s->edit) && s->scene.mtl_path_count == 0)
+        return fail(err,
+                    "%s: found no MTL file of this scene, expected one to "
+                    "write the materials to",
+                    s->scene.path);
+    for (uint32_t i = 0; i < s->scene.mtl_path_count; i++)
+        if (!save_file(s, i, &written, err))
+            return false;
+    if (has_light && !save_light(s, err))
+        return false;
+    if (written == 0 && !has_light)
+        *what = xstrdup("nothing has changed since it was saved");
+    else if (written == 0)
+        *what = xformat("wrote %s", s->view_path);
+    else
+        *what =
+            xformat("wrote %zu material%s to %s%s%s%s", written,
+                    written == 1 ? "" : "s", s->scene.mtl_paths[0],
+                    s->scene.mtl_path_count > 1 ? " and others" : "",
+                    has_light ? ", and " : "", has_light ? s->view_path : "");
+    return true;
+}
+
+struct develop session_develop(const struct session *s)
+{
+    return (struct develop){(float)s->view.exposure, s->view.tone};
+}
+
+struct render_progress session_look(struct session *s)
+{
+    struct render_progress p = render_progress(s->render);
+
+    speeds_look(&s->speeds, p.render_ns, p.samples);
+    return p;
 }
 
 bool session_uses_device(const struct session *s)
@@ -188,7 +419,10 @@ void session_close(struct session *s)
     scene_free(&s->scene);
     view_free(&s->view);
     view_free(&s->opened);
+    edit_free(&s->edit);
+    view_free(&s->filed);
     report_free(&s->report);
+    load_free(&s->load);
     free(s->view_path);
     *s = (struct session){0};
 }

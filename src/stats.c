@@ -63,6 +63,58 @@ static void write_seconds(FILE *to, const char *key, uint64_t duration_ns)
     fprintf(to, "  \"%s\": %.6f,\n", key, seconds_between(0, duration_ns));
 }
 
+/* Null where there is none. */
+static void write_real(FILE *to, const char *key, double value, bool has_value)
+{
+    if (has_value)
+        fprintf(to, "  \"%s\": %.6g,\n", key, value);
+    else
+        fprintf(to, "  \"%s\": null,\n", key);
+}
+
+static void write_speeds(FILE *to, const struct speeds *speeds)
+{
+    write_seconds(to, "span_s", speeds->span_ns);
+    fputs("  \"speeds\": [", to);
+    for (int i = 0; i < speeds->count; i++)
+        fprintf(to, "%s%.6g", i > 0 ? ", " : "", speeds_at(speeds, i));
+    fputs("],\n", to);
+}
+
+static void write_load(FILE *to, const struct session *s, uint64_t render_ns)
+{
+    const struct backend *b = render_backend(s->render);
+
+    fputs("  \"load\": [", to);
+    for (int i = 0; i < s->load.count; i++)
+        fprintf(to, "%s%.3f", i > 0 ? ", " : "",
+                load_share(&s->load, b, i, render_ns));
+    fputs("],\n", to);
+}
+
+/* What the screen's panel shows. Rates are those of rendering alone. */
+static void write_progress(FILE *to, const struct session *s,
+                           const struct render_progress *p)
+{
+    bool has_limit = p->samples_limit > 0;
+    double seconds = seconds_between(p->build_ns, p->render_ns);
+    double rate = seconds > 0 ? (double)p->samples / seconds : 0;
+    double rays = seconds > 0 ? (double)p->rays / seconds : 0;
+    double missing = has_limit && p->samples < p->samples_limit
+                         ? (double)(p->samples_limit - p->samples)
+                         : 0;
+
+    write_real(to, "percent",
+               100 - 100 * missing / (double)(has_limit ? p->samples_limit : 1),
+               has_limit);
+    write_real(to, "samples_per_s", rate, true);
+    write_real(to, "rays_per_s", rays, true);
+    write_real(to, "left_s", missing > 0 ? missing / rate : 0,
+               has_limit && (rate > 0 || missing <= 0));
+    write_speeds(to, &s->speeds);
+    write_load(to, s, p->render_ns);
+}
+
 static void write_object(FILE *to, const struct session *s)
 {
     struct render_progress p = render_progress(s->render);
@@ -96,6 +148,7 @@ static void write_object(FILE *to, const struct session *s)
     write_number(to, "non_finite", p.non_finite);
     write_number(to, "saturated", p.saturated);
     write_number(to, "cut_paths", p.cut_paths);
+    write_progress(to, s, &p);
     write_seconds(to, "load_s", s->load_ns);
     write_seconds(to, "build_s", p.build_ns);
     /* what a person waits: from the start of the program */
@@ -106,6 +159,11 @@ static void write_object(FILE *to, const struct session *s)
     write_seconds(to, "render_s", p.render_ns - p.build_ns);
     fprintf(to, "  \"total_s\": %.6f\n}\n",
             seconds_between(s->start_ns, now_ns));
+}
+
+bool stats_check(const char *path, struct error *err)
+{
+    return strcmp(path, "-") == 0 || file_check(path, err);
 }
 
 bool stats_write(const struct session *s, const char *path, struct error *err)

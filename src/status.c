@@ -9,6 +9,7 @@
 
 enum field {
     FIELD_MODE,
+    FIELD_FILES,
     FIELD_SAMPLES,
     FIELD_PERCENT,
     FIELD_ELAPSED,
@@ -48,10 +49,10 @@ static const char *mode_word(const struct status *s)
     case RENDER_RUNNING: break;
     }
     if (s->is_live)
-        return "LIVE";
+        return s->is_halted ? "LIVE paused" : "LIVE";
     if (!s->is_started)
         return "NORMAL ready";
-    return s->is_halted ? "NORMAL halted" : "NORMAL";
+    return s->is_halted ? "NORMAL paused" : "NORMAL";
 }
 
 static double samples_left(const struct render_progress *p)
@@ -61,27 +62,33 @@ static double samples_left(const struct render_progress *p)
                : 0.0;
 }
 
+bool status_left(char *text, size_t size_bytes, const struct render_progress *p)
+{
+    double left_ns;
+
+    if (p->samples_limit == 0 || p->samples == 0)
+        return false;
+    left_ns = (double)p->render_ns * samples_left(p) / (double)p->samples;
+    /* a second that has begun is left as a whole one */
+    status_duration(text, size_bytes,
+                    left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
+                                   : UINT64_C(1000000000000000000));
+    return true;
+}
+
 static void format_limited(char text[FIELDS][FIELD_BYTES],
                            const struct render_progress *p)
 {
     double part = p->samples_limit > 0
                       ? 1.0 - samples_left(p) / (double)p->samples_limit
                       : 0.0;
+    char duration[24];
 
     snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 "/%" PRIu64 " spp",
              p->spp_done, p->spp_limit);
     snprintf(text[FIELD_PERCENT], FIELD_BYTES, "%d %%", (int)(100.0 * part));
-    if (p->state == RENDER_RUNNING && p->samples > 0) {
-        double left_ns =
-            (double)p->render_ns * samples_left(p) / (double)p->samples;
-        char duration[24];
-
-        /* a second that has begun is left as a whole one */
-        status_duration(duration, sizeof duration,
-                        left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
-                                       : UINT64_C(1000000000000000000));
+    if (p->state == RENDER_RUNNING && status_left(duration, sizeof duration, p))
         snprintf(text[FIELD_LEFT], FIELD_BYTES, "left %s", duration);
-    }
 }
 
 static void format_speed(char text[FIELD_BYTES],
@@ -111,6 +118,9 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     else
         snprintf(text[FIELD_MACHINE], FIELD_BYTES, "%d thread%s",
                  s->thread_count, s->thread_count == 1 ? "" : "s");
+    if (s->load_key)
+        snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: %.8s loads",
+                 s->load_key);
     snprintf(text[FIELD_SIZE], FIELD_BYTES, "%dx%d", s->width_px, s->height_px);
     snprintf(text[FIELD_COLORS], FIELD_BYTES, "%s", s->colors);
     if (!s->is_live && !s->is_started)

@@ -51,6 +51,7 @@ static struct {
     struct termios before;
     SCREEN *screen;
     WINDOW *window;
+    WINDOW *panel;
     bool has_mouse;
     bool has_sync;
     bool may_ask_colors; /* a terminal that swallows what it cannot answer */
@@ -113,6 +114,14 @@ static void take_signals(void)
         sigaction(other_signals[i], &action, &term.old_other[i]);
     for (size_t i = 0; i < COUNT(fault_signals); i++)
         sigaction(fault_signals[i], &fault, &term.old_fault[i]);
+}
+
+void term_ignore_ends(void)
+{
+    for (size_t i = 0; i < COUNT(stop_signals); i++) {
+        if (stop_signals[i] == SIGHUP || stop_signals[i] == SIGTERM)
+            term.old_stop[i] = (struct sigaction){.sa_handler = SIG_IGN};
+    }
 }
 
 static void give_signals_back(void)
@@ -293,9 +302,8 @@ void term_close(bool is_gone)
     }
     is_open = 0;
     xmalloc_set_hook(NULL);
-    if (term.window)
-        delwin(term.window);
-    term.window = NULL;
+    term_close_window();
+    term_hide_panel();
     if (!is_gone)
         tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
     delscreen(term.screen);
@@ -437,6 +445,7 @@ void term_relayout(void)
         w.ws_row > 0)
         resizeterm(w.ws_row, w.ws_col);
     term_close_window();
+    term_hide_panel();
     erase();
     clearok(curscr, TRUE);
 }
@@ -474,14 +483,48 @@ void term_status(const char *text)
     attroff(A_REVERSE);
 }
 
+/* Bytes of the text's first `cols` columns: each character has one. */
+static int bytes_of(const char *text, int cols)
+{
+    int i = 0;
+
+    for (; text[i] != '\0'; i++) {
+        if (((unsigned char)text[i] & 0xc0) != 0x80 && cols-- == 0)
+            break;
+    }
+    return i;
+}
+
+static int cols_of(const char *text)
+{
+    int cols = 0;
+
+    for (; *text; text++)
+        cols += ((unsigned char)*text & 0xc0) != 0x80;
+    return cols;
+}
+
+/* `lines` is a macro of <term.h>. */
+void term_set_window(const char *const *texts, int text_count)
+{
+    int cols, rows;
+
+    if (!term.window)
+        return;
+    getmaxyx(term.window, rows, cols);
+    for (int i = 0; i < text_count && i < rows - 2; i++)
+        mvwaddnstr(term.window, i + 1, 2, texts[i],
+                   bytes_of(texts[i], cols - 4));
+}
+
 /* `lines` is a macro of <term.h>. */
 static struct term_rect window_size(const char *title, const char *const *texts,
                                     int text_count)
 {
-    struct term_rect r = {0, 0, (int)strlen(title) + 6, text_count + 2};
+    struct term_rect r = {0, 0, cols_of(title) + 6, text_count + 2};
 
     for (int i = 0; i < text_count; i++) {
-        int cols = (int)strlen(texts[i]) + 4;
+        int cols = cols_of(texts[i]) + 4;
 
         r.cols = cols > r.cols ? cols : r.cols;
     }
@@ -498,8 +541,7 @@ static struct term_rect open_window(struct term_rect r, const char *title,
         return (struct term_rect){0};
     box(term.window, 0, 0);
     mvwaddnstr(term.window, 0, 2, title, r.cols - 4);
-    for (int i = 0; i < text_count && i < r.rows - 2; i++)
-        mvwaddnstr(term.window, i + 1, 2, texts[i], r.cols - 4);
+    term_set_window(texts, text_count);
     /* curses believes that these cells are blank and would skip the blanks */
     redrawwin(term.window);
     return r;
@@ -524,12 +566,63 @@ struct term_rect term_open_panel(const char *title, const char *const *texts,
     return open_window(r, title, texts, text_count);
 }
 
+struct term_rect term_open_corner(const char *title, const char *const *texts,
+                                  int text_count)
+{
+    struct term_rect r = window_size(title, texts, text_count);
+
+    r.col = COLS - r.cols;
+    return open_window(r, title, texts, text_count);
+}
+
 void term_close_window(void)
 {
     if (!term.window)
         return;
     delwin(term.window);
     term.window = NULL;
+    touchwin(stdscr);
+}
+
+static int attribute_of(enum term_look look)
+{
+    switch (look) {
+    case TERM_SELECTED: return A_REVERSE;
+    case TERM_TITLE: return A_BOLD;
+    case TERM_HINT: return A_DIM;
+    case TERM_PLAIN: break;
+    }
+    return A_NORMAL;
+}
+
+struct term_rect term_show_panel(const struct term_line *panel_lines,
+                                 int line_count, int cols)
+{
+    struct term_rect r = {COLS - cols, 0, cols, LINES - 1};
+
+    if (!term.panel)
+        term.panel = newwin(r.rows, r.cols, r.row, r.col);
+    if (!term.panel)
+        return (struct term_rect){0};
+    werase(term.panel);
+    mvwvline(term.panel, 0, 0, 0, r.rows);
+    for (int i = 0; i < line_count && i < r.rows; i++) {
+        wattrset(term.panel, attribute_of(panel_lines[i].look));
+        mvwprintw(term.panel, i, 1, "%-*.*s", cols - 1, cols - 1,
+                  panel_lines[i].text);
+    }
+    wattrset(term.panel, A_NORMAL);
+    /* the picture and swatches were written past curses */
+    redrawwin(term.panel);
+    return r;
+}
+
+void term_hide_panel(void)
+{
+    if (!term.panel)
+        return;
+    delwin(term.panel);
+    term.panel = NULL;
     touchwin(stdscr);
 }
 
@@ -548,10 +641,15 @@ void term_update(void)
 {
     move(LINES - 1, 0);
     wnoutrefresh(stdscr);
+    if (term.panel) {
+        touchwin(term.panel);
+        wnoutrefresh(term.panel);
+    }
     if (term.window) {
         touchwin(term.window);
         wnoutrefresh(term.window);
-        wnoutrefresh(stdscr); /* nothing but its cursor */
     }
+    if (term.panel || term.window)
+        wnoutrefresh(stdscr); /* nothing but its cursor */
     doupdate();
 }

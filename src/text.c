@@ -3,7 +3,7 @@
 
 #include "glim/ansi.h"
 
-bool text_of_film(struct film *film, float exposure,
+bool text_of_film(struct film *film, struct develop how,
                   const struct text_style *style, char **text,
                   size_t *size_bytes, struct error *err)
 {
@@ -15,7 +15,7 @@ bool text_of_film(struct film *film, float exposure,
               cells_init(&cells, style->cols, style->rows, err);
 
     if (ok) {
-        film_preview(film, NULL, exposure, &frame);
+        film_preview(film, NULL, how, &frame);
         cells_from_frame(&cells, &frame, style->palette, style->glyphs);
         ok = ansi_lines(&cells, text, size_bytes, err);
     }

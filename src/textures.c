@@ -135,42 +135,71 @@ static void settle_data(const struct scene *scene, uint32_t *texture)
         *texture = NO_INDEX;
 }
 
+#define MAPS 8
+
+static void list_maps(const struct material *m, uint32_t maps[MAPS])
+{
+    const uint32_t all[MAPS] = {m->color_texture,  m->emission_texture,
+                                m->coat_texture,   m->alpha_texture,
+                                m->metal_texture,  m->opacity_texture,
+                                m->normal_texture, m->bump_texture};
+
+    memcpy(maps, all, sizeof all);
+}
+
+bool textures_are_tried(const struct scene *scene, const struct material *m)
+{
+    uint32_t maps[MAPS];
+
+    list_maps(m, maps);
+    for (int i = 0; i < MAPS; i++)
+        if (maps[i] != NO_INDEX && !scene->texture_is_tried[maps[i]])
+            return false;
+    return true;
+}
+
+bool textures_load_for(struct scene *scene, struct material *m,
+                       struct report *report, struct error *err)
+{
+    uint32_t maps[MAPS];
+
+    list_maps(m, maps);
+    for (int i = 0; i < MAPS; i++) {
+        if (maps[i] == NO_INDEX || scene->texture_is_tried[maps[i]])
+            continue;
+        scene->texture_is_tried[maps[i]] = true;
+        if (!load(scene, maps[i], report, err))
+            return false;
+    }
+    settle(scene, &m->color_texture, &m->color, 1, MATERIAL_GREY);
+    settle(scene, &m->emission_texture, &m->emission, 1, 0);
+    settle(scene, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
+    settle_data(scene, &m->alpha_texture);
+    settle_data(scene, &m->metal_texture);
+    settle_data(scene, &m->opacity_texture);
+    settle_data(scene, &m->normal_texture);
+    settle_data(scene, &m->bump_texture);
+    if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
+        m->kind = MATERIAL_DIFFUSE;
+    return true;
+}
+
 bool textures_load(struct scene *scene, struct report *report,
                    struct error *err)
 {
     bool *is_used = alloc_array(scene->material_count, sizeof *is_used);
-    bool *is_tried = alloc_array(scene->texture_count, sizeof *is_tried);
-    bool ok = is_used != NULL && is_tried != NULL;
+    bool ok = is_used != NULL;
 
-    if (!ok)
-        fail(err, "%s: out of memory for the textures", scene->path);
+    free(scene->texture_is_tried);
+    scene->texture_is_tried =
+        alloc_array(scene->texture_count, sizeof *scene->texture_is_tried);
+    if (!ok || scene->texture_is_tried == NULL)
+        ok = fail(err, "%s: out of memory for the textures", scene->path);
     for (uint32_t i = 0; ok && i < scene->tri_count; i++)
         is_used[scene->tris[i].material] = true;
-    for (uint32_t i = 0; ok && i < scene->material_count; i++) {
-        struct material *m = &scene->materials[i];
-        uint32_t maps[] = {m->color_texture,  m->emission_texture,
-                           m->coat_texture,   m->alpha_texture,
-                           m->metal_texture,  m->opacity_texture,
-                           m->normal_texture, m->bump_texture};
-
-        for (size_t k = 0; k < sizeof maps / sizeof maps[0] && ok; k++) {
-            if (!is_used[i] || maps[k] == NO_INDEX || is_tried[maps[k]])
-                continue;
-            is_tried[maps[k]] = true;
-            ok = load(scene, maps[k], report, err);
-        }
-        settle(scene, &m->color_texture, &m->color, 1, MATERIAL_GREY);
-        settle(scene, &m->emission_texture, &m->emission, 1, 0);
-        settle(scene, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
-        settle_data(scene, &m->alpha_texture);
-        settle_data(scene, &m->metal_texture);
-        settle_data(scene, &m->opacity_texture);
-        settle_data(scene, &m->normal_texture);
-        settle_data(scene, &m->bump_texture);
-        if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
-            m->kind = MATERIAL_DIFFUSE;
-    }
+    for (uint32_t i = 0; ok && i < scene->material_count; i++)
+        if (is_used[i])
+            ok = textures_load_for(scene, &scene->materials[i], report, err);
     free(is_used);
-    free(is_tried);
     return ok;
 }

@@ -9,9 +9,12 @@
 #include <unistd.h>
 
 #include "glim/canvas.h"
+#include "glim/gauge.h"
 #include "glim/help.h"
 #include "glim/inside.h"
+#include "glim/panel_draw.h"
 #include "glim/pilot.h"
+#include "glim/stats.h"
 #include "glim/version.h"
 #include "glim/work.h"
 
@@ -37,13 +40,16 @@
 /* A lone ESC is the key when nothing has followed for so long. */
 #define ESCAPE_NS (50 * MS_NS)
 
-/* What the loop waits for: keys, signals, the render, the saver, a device. */
-#define FDS 5
+/* What the loop waits for: keys, signals, the render, the saver, a device,
+ * files that change, and those that are loaded. */
+#define FDS 7
 
 enum question {
     QUESTION_NONE,
     QUESTION_QUIT,
-    QUESTION_LIVE /* leave normal mode */
+    QUESTION_EDIT, /* quit without what was edited */
+    QUESTION_LIVE, /* leave normal mode */
+    QUESTION_RESTART
 };
 
 struct tui {
@@ -52,15 +58,18 @@ struct tui {
     struct input input;
     struct pilot pilot;
     struct inside inside;
+    struct panel panel;
     bool has_mouse;
-    int help_number; /* the page that is shown, */
-    int help_left;   /* with those behind it; 0: no help */
+    int help_number;    /* the page that is shown, */
+    int help_left;      /* with those behind it; 0: no help */
+    struct gauge gauge; /* hidden while the help is open */
     enum question question;
 
-    bool is_settled;    /* nothing of the picture is left to be shown */
-    uint64_t frame_ns;  /* when the next frame is due */
-    uint64_t status_ns; /* when to look for a new status line */
-    uint64_t byte_ns;   /* when the last one came */
+    bool is_settled;         /* nothing of the picture is left to be shown */
+    uint64_t frame_ns;       /* when the next frame is due */
+    uint64_t status_ns;      /* when to look for a new status line */
+    uint64_t byte_ns;        /* when the last one came */
+    int width_px, height_px; /* of the picture that has been laid out */
 
     bool is_ending;
     bool is_gone; /* the terminal */
@@ -78,6 +87,7 @@ static void refresh_soon(struct tui *t)
     t->is_settled = false;
     t->frame_ns = 0;
     t->status_ns = 0;
+    t->gauge.due_ns = 0;
 }
 
 static void end(struct tui *t, int status)
@@ -99,17 +109,39 @@ static void layout(struct tui *t)
     struct error err;
 
     t->help_left = 0;
+    t->width_px = film->width;
+    t->height_px = film->height;
     refresh_soon(t);
+    t->canvas.has_panel = t->panel.is_open;
     if (!canvas_layout(&t->canvas, film->width, film->height, &err)) {
         t->canvas.is_too_small = true; /* nothing can be drawn */
         work_say_error(&t->work, err.text);
     }
+    panel_draw(&t->panel);
     /* until then the old draft is resampled */
     set_draft(t->work.session, &t->canvas.fit);
     inside_open_panel(&t->inside); /* it went with the layout */
 }
 
 /* ---- help, screen ---- */
+
+static bool shows_gauge(const struct tui *t)
+{
+    return t->gauge.is_on && t->help_left == 0 && !t->canvas.is_too_small;
+}
+
+static void switch_gauge(struct tui *t)
+{
+    inside_stop_drawing(&t->inside); /* there is one window at a time */
+    gauge_switch(&t->gauge, &t->work);
+    if (!t->gauge.is_on)
+        canvas_close_window(&t->canvas);
+    if (t->panel.is_open) { /* there is no room for both */
+        panel_close(&t->panel);
+        layout(t);
+    }
+    refresh_soon(t);
+}
 
 static void open_help(struct tui *t, int number)
 {
@@ -137,7 +169,7 @@ static void open_help(struct tui *t, int number)
                  " glim " GLIM_VERSION " - any key closes ");
     for (int i = 0; i < page.line_count; i++)
         lines[i] = page.lines[i];
-    if (t->help_left > 0)
+    if (t->help_left > 0 || t->gauge.is_on)
         canvas_close_window(&t->canvas);
     inside_close_panel(&t->inside);
     canvas_open_window(&t->canvas, title, lines, page.line_count);
@@ -151,12 +183,14 @@ static void close_help(struct tui *t)
     canvas_close_window(&t->canvas);
     inside_open_panel(&t->inside);
     t->help_left = 0;
+    panel_draw(&t->panel);
     refresh_soon(t);
 }
 
 static void next_colors(struct tui *t)
 {
     canvas_next_palette(&t->canvas);
+    panel_draw(&t->panel);
     work_say(&t->work, palette_name(t->canvas.palette));
     layout(t);
 }
@@ -173,6 +207,13 @@ static void save_text(struct tui *t)
     struct text_style style = canvas_style(&t->canvas);
 
     work_save_text(&t->work, &style);
+}
+
+static void hide(struct tui *t)
+{
+    t->canvas.has_status_row = !t->canvas.has_status_row;
+    t->gauge.is_on = false;
+    layout(t);
 }
 
 static void switch_mouse(struct tui *t)
@@ -220,29 +261,78 @@ static void quit(struct tui *t)
         return;
     if (work_has_unsaved(&t->work))
         ask(t, QUESTION_QUIT);
+    else if (work_has_unsaved_edit(&t->work))
+        ask(t, QUESTION_EDIT);
     else
         end(t, 0);
 }
 
+/* ---- the panel ---- */
+
+static void open_panel(struct tui *t)
+{
+    if (t->pilot.cursor.has_pick)
+        panel_select(&t->panel, &t->pilot.cursor.pick);
+    panel_open(&t->panel);
+    t->gauge.is_on = false; /* there is no room for both */
+    layout(t);
+}
+
+/* What was picked while the panel is open is selected in it. */
+static void follow_pick(struct tui *t)
+{
+    if (t->pilot.cursor.is_pick_new && t->panel.is_open) {
+        panel_select(&t->panel, &t->pilot.cursor.pick);
+        panel_draw(&t->panel);
+    }
+    t->pilot.cursor.is_pick_new = false;
+}
+
+/* The cursor on the picture has its keys first. */
+static bool panel_takes(struct tui *t, int key)
+{
+    if (!t->panel.is_open || (t->canvas.has_cursor && !t->panel.is_typing) ||
+        !panel_key(&t->panel, key))
+        return false;
+    if (!t->panel.is_open)
+        layout(t);
+    else
+        panel_draw(&t->panel);
+    return true;
+}
+
+static void restart(struct tui *t)
+{
+    if (work_finish_saving(&t->work) && work_has_unsaved(&t->work))
+        ask(t, QUESTION_RESTART);
+    else
+        work_restart(&t->work);
+}
+
 static void act(struct tui *t, enum action action)
 {
+    if (action == ACTION_DRAWING && t->gauge.is_on)
+        switch_gauge(t);
     if (inside_act(&t->inside, action) || pilot_act(&t->pilot, action))
         return;
     switch (action) {
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
-    case ACTION_SAVE: work_save_picture(&t->work); break;
+    case ACTION_STEP: work_step(&t->work); break;
+    case ACTION_RESTART: restart(t); break;
+    case ACTION_SAVE: work_save_picture(&t->work, "png"); break;
     case ACTION_SAVE_TEXT: save_text(t); break;
+    case ACTION_SAVE_LINEAR: work_save_picture(&t->work, "hdr"); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
-    case ACTION_HIDE:
-        t->canvas.has_status_row = !t->canvas.has_status_row;
-        layout(t);
-        break;
+    case ACTION_METER: switch_gauge(t); break;
+    case ACTION_HIDE: hide(t); break;
+    case ACTION_RELOAD: work_reload(&t->work); break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;
     case ACTION_COLORS: next_colors(t); break;
     case ACTION_GLYPHS: next_glyphs(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
     case ACTION_REDRAW: layout(t); break;
+    case ACTION_PANEL: open_panel(t); break;
     case ACTION_HELP: open_help(t, 0); break;
     case ACTION_QUIT: quit(t); break;
     case ACTION_INTERRUPT: end(t, 128 + SIGINT); break;
@@ -257,13 +347,18 @@ static void answer_question(struct tui *t, int key)
     enum question question = t->question;
 
     ask(t, QUESTION_NONE);
-    if (key == 'p' || key == 'P') {
-        work_save_picture(&t->work);
+    if (question == QUESTION_EDIT && (key == 's' || key == 'S')) {
+        if (work_save_edit(&t->work))
+            quit(t);
+    } else if (question != QUESTION_EDIT && (key == 'p' || key == 'P')) {
+        work_save_picture(&t->work, "png");
     } else if (key == 'y' || key == 'Y') {
-        if (question == QUESTION_QUIT)
-            end(t, 0);
-        else
+        if (question == QUESTION_LIVE)
             set_live(t, true);
+        else if (question == QUESTION_RESTART)
+            work_restart(&t->work);
+        else
+            end(t, 0);
     }
 }
 
@@ -285,8 +380,20 @@ static void take_key(struct tui *t, int key)
         open_help(t, t->help_number + 1);
     else if (t->help_left > 0)
         close_help(t);
-    else if (!t->canvas.is_too_small || action == ACTION_QUIT)
+    else if (t->canvas.is_too_small && action != ACTION_QUIT)
+        return;
+    else if (!panel_takes(t, key))
         act(t, action);
+    follow_pick(t);
+}
+
+static void take_mouse(struct tui *t, const struct event *event)
+{
+    if (panel_mouse(&t->panel, event))
+        panel_draw(&t->panel);
+    else
+        pilot_mouse(&t->pilot, event);
+    follow_pick(t);
 }
 
 static void take_event(struct tui *t, const struct event *event)
@@ -297,7 +404,7 @@ static void take_event(struct tui *t, const struct event *event)
         take_key(t, event->key);
     } else if (event->kind == EVENT_MOUSE) {
         if (t->has_mouse && t->help_left == 0 && !t->canvas.is_too_small)
-            pilot_mouse(&t->pilot, event);
+            take_mouse(t, event);
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);
@@ -361,11 +468,13 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
     const struct backend *backend = render_backend(t->work.session->render);
     const struct keys *keys = &t->work.session->options->keys;
     char help[KEYS_NAME_BYTES], quit[KEYS_NAME_BYTES], hint[48];
+    char load[KEYS_NAME_BYTES];
     struct status status = {
         .is_live = t->work.is_live,
         .is_orbiting = t->pilot.steer.is_orbiting,
         .is_halted = t->work.is_halted,
         .is_started = t->work.is_started,
+        .load_key = t->work.has_changed_files ? load : NULL,
         .progress = &t->work.progress,
         .device = backend->device,
         .thread_count = backend->thread_count,
@@ -375,6 +484,7 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
         .hint = hint,
     };
 
+    keys_first_name(keys, ACTION_RELOAD, load);
     keys_first_name(keys, ACTION_HELP, help);
     keys_first_name(keys, ACTION_QUIT, quit);
     snprintf(hint, sizeof hint, "%s help  %s quit", help, quit);
@@ -386,8 +496,12 @@ static void update_status(struct tui *t, uint64_t now_ns)
     static const char *const questions[] = {
         [QUESTION_QUIT] =
             "The render is not saved. Quit? y: yes, p: save it, other: no",
+        [QUESTION_EDIT] = "Changes of materials or light are not saved. Quit? "
+                          "y: yes, s: save, other: no",
         [QUESTION_LIVE] =
             "The render is not saved. Leave it? y: yes, p: save it, other: no",
+        [QUESTION_RESTART] = "The render is not saved. Start anew? y: yes, p: "
+                             "save it, other: no",
     };
     char text[STATUS_BYTES];
 
@@ -460,11 +574,13 @@ static void draw(struct tui *t, uint64_t now_ns)
     enum canvas_result result;
 
     show_messages(t, now_ns);
+    if (shows_gauge(t) && now_ns >= gauge_next_ns(&t->gauge, &t->work))
+        gauge_draw(&t->gauge, &t->work, c, now_ns);
     if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
         return;
     result =
         canvas_draw(c, shows ? render_film(render) : NULL, render_draft(render),
-                    inside_exposure(&t->inside), frame_step(t));
+                    inside_develop(&t->inside), frame_step(t));
     if (t->inside.has_news)
         t->status_ns = 0;
     t->inside.has_news = false;
@@ -501,6 +617,7 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
                             earlier(input_deadline_ns(t),
                                     pace_deadline_ns(&t->canvas.pace)));
 
+    wake = earlier(wake, t->work.files_ns);
     if (work_awaits_picture(&t->work)) {
         /* looked for often at first, seldom while a tree is built */
         uint64_t waited_ns = now_ns - t->work.restarted_ns;
@@ -515,6 +632,8 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
     }
     if (t->work.progress.state == RENDER_RUNNING || t->status_ns == 0)
         wake = earlier(wake, t->status_ns);
+    if (shows_gauge(t))
+        wake = earlier(wake, gauge_next_ns(&t->gauge, &t->work));
     if (t->work.message.until_ns != 0)
         wake = earlier(wake, t->work.message.until_ns);
     return wake;
@@ -527,6 +646,16 @@ static void empty_events(int fd)
     if (read(fd, &count, sizeof count) < 0) {
         /* nothing there */
     }
+}
+
+static void take_reload(struct tui *t)
+{
+    if (!work_end_reload(&t->work))
+        return;
+    pilot_renew(&t->pilot);
+    inside_renew(&t->inside);
+    panel_renew(&t->panel);
+    panel_draw(&t->panel);
 }
 
 static void take_events(struct tui *t, struct pollfd fds[FDS])
@@ -544,6 +673,10 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
         work_finish_saving(&t->work);
     if (fds[4].revents)
         work_end_device(&t->work);
+    if (fds[5].revents)
+        work_look_at_files(&t->work);
+    if (fds[6].revents)
+        take_reload(t);
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);
@@ -559,6 +692,9 @@ static void wait_for_events(struct tui *t)
         {.fd = render_event_fd(t->work.session->render), .events = POLLIN},
         {.fd = t->work.saver.event_fd, .events = POLLIN},
         {.fd = start ? cl_start_event_fd(start) : -1, .events = POLLIN},
+        {.fd = t->work.watch.fd, .events = POLLIN},
+        {.fd = t->work.is_live ? t->work.reload.event_fd : -1,
+         .events = POLLIN},
     };
     uint64_t now_ns = clock_ns();
     uint64_t until_ns = wake_ns(t, now_ns);
@@ -575,9 +711,12 @@ static void wait_for_events(struct tui *t)
  * the camera moves there are 60 a second. */
 static void look_at_work(struct tui *t)
 {
+    const struct film *film = film_of(t);
     uint64_t before_ns = t->work.restarted_ns;
 
     work_look(&t->work);
+    if (film->width != t->width_px || film->height != t->height_px)
+        layout(t);
     if (t->work.restarted_ns != before_ns) {
         t->is_settled = false;
         t->frame_ns = 0;
@@ -611,16 +750,30 @@ static bool open_screen(struct tui *t, struct error *err)
     return true;
 }
 
+/* A line that is lost is nobody's wish: the picture is kept, whatever it is.
+ * SIGTERM is an orderly end, as q is, but cannot ask: what q would ask about is
+ * kept. Ctrl-C and Ctrl-\ are typed, and mean it. */
+static void keep_picture(struct tui *t)
+{
+    if (t->status == 128 + SIGHUP ||
+        (t->status == 128 + SIGTERM && work_has_unsaved(&t->work)))
+        work_keep(&t->work);
+}
+
 static void close_screen(struct tui *t)
 {
+    if (t->status == 128 + SIGHUP || t->status == 128 + SIGTERM)
+        term_ignore_ends(); /* shells send SIGHUP again */
     if (!t->is_gone)
         canvas_drain(&t->canvas, &t->input);
     /* else it might put our signals back when they are no longer ours */
     machines_abandon_device(&t->work.session->machines);
     term_close(t->is_gone);
     canvas_free(&t->canvas);
+    gauge_free(&t->gauge);
     render_halt(t->work.session->render);
     work_finish_saving(&t->work);
+    keep_picture(t);
     for (int i = 0; i < t->work.result_count && !t->is_gone; i++)
         printf("%s\n", t->work.results[i]);
     fflush(stdout);
@@ -629,26 +782,34 @@ static void close_screen(struct tui *t)
 /* The render starts first, so that it works while the terminal is opened. */
 bool tui_run(struct session *s, int *status, struct error *err)
 {
+    const char *stats_path = s->options->stats_path;
     struct tui t = {.has_mouse = true};
     struct fit fit = canvas_expect(s->options, s->crop.width, s->crop.height);
     bool ok;
 
     set_draft(s, &fit);
+    if (stats_path && !stats_check(stats_path, err))
+        return false;
     if (!work_init(&t.work, s, err))
         return false;
     pilot_init(&t.pilot, &t.work, &t.canvas);
+    panel_init(&t.panel, &t.work, &t.canvas);
     ok = open_screen(&t, err);
     if (ok) {
         if (s->notice[0] != '\0')
             work_say_long(&t.work, s->notice);
+        s->notice[0] = '\0';
         /* not before: it puts back the signals that it has found */
         if (s->options->backend != BACKEND_CPU)
             work_begin_device(&t.work);
         loop(&t);
         close_screen(&t);
         *status = t.status;
+        session_look(s);
+        ok = !stats_path || stats_write(s, stats_path, err);
     }
     inside_free(&t.inside);
+    panel_free(&t.panel);
     pilot_free(&t.pilot);
     work_free(&t.work);
     return ok;

@@ -36,8 +36,10 @@ enum key_id {
     KEY_APERTURE,
     KEY_FOCUS,
     KEY_EXPOSURE,
-    KEY_SKY, /* has a name */
-    KEY_VIEW /* has a number and other keys */
+    KEY_SKY,    /* has a name */
+    KEY_TONE,   /* has a name */
+    KEY_ASSIGN, /* has two names */
+    KEY_VIEW    /* has a number and other keys */
 };
 
 /* In the order in which a new file has them. */
@@ -72,7 +74,15 @@ static const struct key {
     {"focus", KEY_FOCUS, 1, false, 0, GREATEST, "a number from 0 to 1e30"},
     {"exposure", KEY_EXPOSURE, 1, false, -100, 100,
      "a number of stops from -100 to 100"},
+    {"tone", KEY_TONE, 0, false, 0, 0, "linear, reinhard or aces"},
+    {"assign", KEY_ASSIGN, 0, false, 0, 0, "two names"},
     {"view", KEY_VIEW, 1, true, 1, VIEW_SHOTS, "a number from 1 to 9"},
+};
+
+const char *const view_tones[TONES] = {
+    [TONE_LINEAR] = "linear",
+    [TONE_REINHARD] = "reinhard",
+    [TONE_ACES] = "aces",
 };
 
 #define KEY_COUNT (sizeof keys / sizeof keys[0])
@@ -144,6 +154,8 @@ static void store(struct view *view, enum key_id id, const double *v)
     case KEY_FOCUS: view->focus = v[0]; break;
     case KEY_EXPOSURE: view->exposure = v[0]; break;
     case KEY_SKY:
+    case KEY_TONE:
+    case KEY_ASSIGN:
     case KEY_VIEW: break;
     }
 }
@@ -248,6 +260,33 @@ static bool read_key(struct reader *r, const struct key *key, struct error *err)
     return true;
 }
 
+static bool read_tone(struct reader *r, const struct key *key,
+                      struct error *err)
+{
+    struct word name = {.length = 0};
+
+    if (!lex_at_line_end(&r->lex))
+        name = lex_word(&r->lex);
+    for (uint32_t i = 0; i < TONES; i++) {
+        if (!word_is(name, view_tones[i]) || !lex_at_line_end(&r->lex))
+            continue;
+        r->view->tone = i;
+        return true;
+    }
+    return fail_at(r, name, key->expected, key->name, err);
+}
+
+static bool read_assign(struct reader *r, struct error *err)
+{
+    uint64_t line = r->lex.line;
+
+    return assigns_read(&r->view->assigns, &r->lex) ||
+           fail(err,
+                "%s:%" PRIu64 ": found another line than assign OBJECT "
+                "MATERIAL, expected two names, those with blanks in quotes",
+                r->path, line);
+}
+
 static bool read_line(struct reader *r, struct error *err)
 {
     if (lex_at_line_end(&r->lex))
@@ -256,6 +295,10 @@ static bool read_line(struct reader *r, struct error *err)
     const struct key *key = find_key(name);
     if (key && key->id == KEY_SKY)
         return read_sky(r, err);
+    if (key && key->id == KEY_TONE)
+        return read_tone(r, key, err);
+    if (key && key->id == KEY_ASSIGN)
+        return read_assign(r, err);
     if (key && key->id == KEY_VIEW)
         return read_shot(r, key, err);
     if (key)
@@ -331,51 +374,6 @@ bool view_check(const struct view *view, const char *place, struct error *err)
                     "0 and below 180",
                     place, view->fovy_deg);
     return true;
-}
-
-static char *folder_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-
-    return slash ? xformat("%.*s", (int)(slash + 1 - path), path)
-                 : xstrdup("./");
-}
-
-/* The path with its folder as the system knows it; NULL if there is no such
- * folder. */
-static char *real_path(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    char *folder = folder_of(path);
-    char *real = realpath(folder, NULL);
-    char *whole = NULL;
-
-    if (real)
-        whole = xformat("%s/%s", strcmp(real, "/") == 0 ? "" : real,
-                        slash ? slash + 1 : path);
-    free(real);
-    free(folder);
-    return whole;
-}
-
-/* How a view file at view_path names the file at `path`: from its own folder
- * on if the file lies below it, else absolutely. */
-static char *name_in_view(const char *view_path, const char *path)
-{
-    char *real_view = real_path(view_path);
-    char *real = real_path(path);
-    char *name;
-
-    if (real && real_view) {
-        size_t below = (size_t)(strrchr(real_view, '/') + 1 - real_view);
-        name =
-            xstrdup(strncmp(real, real_view, below) == 0 ? real + below : real);
-    } else {
-        name = xstrdup(path);
-    }
-    free(real);
-    free(real_view);
-    return name;
 }
 
 static void write_numbers(FILE *to, const char *key, const double *values,
@@ -465,6 +463,11 @@ static void write_key(FILE *to, const struct view *v, enum key_id id,
         if (v->exposure < 0 || v->exposure > 0)
             write_line(to, "exposure", &v->exposure, 1);
         break;
+    case KEY_TONE:
+        if (v->tone != TONE_LINEAR)
+            fprintf(to, "tone %s\n", view_tones[v->tone]);
+        break;
+    case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
     case KEY_VIEW: write_shots(to, v); break;
     }
 }
@@ -529,7 +532,7 @@ bool view_write(const struct view *view, const char *path, struct error *err)
         free(old_text);
         return fail(err, "%s: out of memory", path);
     }
-    char *sky = view->sky_path ? name_in_view(path, view->sky_path) : NULL;
+    char *sky = view->sky_path ? path_seen_from(path, view->sky_path) : NULL;
     write_over(to, old_text, old_bytes, view, sky);
     free(sky);
     free(old_text);
@@ -566,14 +569,86 @@ void view_set_pose(struct view *view, const struct pose *pose)
 void view_copy(struct view *to, const struct view *from)
 {
     char *sky_path = from->sky_path ? xstrdup(from->sky_path) : NULL;
+    struct assigns assigns = {0};
 
-    free(to->sky_path);
+    assigns_copy(&assigns, &from->assigns);
+    view_free(to);
     *to = *from;
-    to->sky_path = sky_path; /* a copy of its own */
+    to->sky_path = sky_path; /* copies of its own */
+    to->assigns = assigns;
+}
+
+static bool has_other_camera(const struct view *a, const struct view *b)
+{
+    struct pose of_a = view_pose(a), of_b = view_pose(b);
+
+    return a->has_camera != b->has_camera ||
+           memcmp(&of_a, &of_b, sizeof of_a) != 0;
+}
+
+static bool has_other_sky(const struct view *a, const struct view *b)
+{
+    return !a->sky_path != !b->sky_path ||
+           (a->sky_path && strcmp(a->sky_path, b->sky_path) != 0);
+}
+
+static void take_camera(struct view *view, const struct view *from)
+{
+    struct pose pose = view_pose(from);
+
+    view_set_pose(view, &pose);
+}
+
+static void take_shots(struct view *view, const struct view *before,
+                       const struct view *after)
+{
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        if (before->has_shot[i] == after->has_shot[i] &&
+            memcmp(&before->shots[i], &after->shots[i],
+                   sizeof after->shots[i]) == 0)
+            continue;
+        view->shots[i] = after->shots[i];
+        view->has_shot[i] = after->has_shot[i];
+    }
+}
+
+void view_merge(struct view *view, const struct view *before,
+                const struct view *after)
+{
+    /* one that was placed by the program follows the scene, not the file */
+    if (after->has_camera && has_other_camera(before, after))
+        take_camera(view, after);
+    take_shots(view, before, after);
+    if (before->width_px != after->width_px ||
+        before->height_px != after->height_px) {
+        view->width_px = after->width_px;
+        view->height_px = after->height_px;
+        view->has_size = after->has_size;
+    }
+    if (memcmp(before->background, after->background,
+               sizeof after->background) != 0) {
+        memcpy(view->background, after->background, sizeof view->background);
+        view->has_background = after->has_background;
+    }
+    if (has_other_sky(before, after)) {
+        free(view->sky_path);
+        view->sky_path = after->sky_path ? xstrdup(after->sky_path) : NULL;
+    }
+    if (before->max_bounces != after->max_bounces)
+        view->max_bounces = after->max_bounces;
+    if (before->sky_strength != after->sky_strength)
+        view->sky_strength = after->sky_strength;
+    if (before->sky_rotation_deg != after->sky_rotation_deg)
+        view->sky_rotation_deg = after->sky_rotation_deg;
+    if (before->exposure != after->exposure)
+        view->exposure = after->exposure;
+    if (before->tone != after->tone)
+        view->tone = after->tone;
 }
 
 void view_free(struct view *view)
 {
     free(view->sky_path);
+    assigns_free(&view->assigns);
     *view = (struct view){0};
 }

@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "glim/file.h"
+#include "glim/picture.h"
+#include "glim/xdg.h"
 
 #define MESSAGE_NS UINT64_C(4000000000)
 #define LONG_NS    UINT64_C(10000000000)
@@ -14,6 +16,12 @@
 /* The draft's first sample of all pixels is waited for: half a frame at 60 Hz
  * for a picture that is worth to be seen. */
 #define PATIENCE_NS UINT64_C(8000000)
+
+/* Editors and exporters write several files, or one in several steps. */
+#define QUIET_NS UINT64_C(150000000)
+
+/* How often files are looked at where the system does not watch them. */
+#define LOOK_NS UINT64_C(1000000000)
 
 static void say(struct work *w, const char *text, uint64_t until_ns)
 {
@@ -54,10 +62,24 @@ static void restart(struct work *w)
     saver_wait_copied(&w->saver);
     if (!session_restart(w->session, spp, &err))
         work_say_error(w, err.text);
+    if (w->session->notice[0] != '\0')
+        work_say_error(w, w->session->notice);
+    w->session->notice[0] = '\0';
     w->must_restart = false;
+    w->is_halted = false;
+    w->saved_samples = 0;
+    w->saving_samples = 0; /* these are of the picture before */
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
     w->progress.first_picture_ns = 0; /* for the next look to find */
+}
+
+static void watch_files(struct work *w)
+{
+    watch_begin(&w->watch);
+    session_watch(w->session, &w->watch);
+    watch_end(&w->watch);
+    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
 bool work_init(struct work *w, struct session *session, struct error *err)
@@ -67,6 +89,12 @@ bool work_init(struct work *w, struct session *session, struct error *err)
                        .restarted_ns = clock_ns()};
     if (!session_restart(session, 0, err) || !saver_init(&w->saver, err))
         return false;
+    if (!reload_init(&w->reload, session->options, err)) {
+        saver_free(&w->saver);
+        return false;
+    }
+    watch_init(&w->watch);
+    watch_files(w);
     w->progress = render_progress(session->render);
     return true;
 }
@@ -96,12 +124,29 @@ static void take_failure(struct work *w)
     free(text);
 }
 
+/* files_ns has come. */
+static void take_files(struct work *w)
+{
+    bool loads;
+
+    work_look_at_files(w);
+    loads = w->has_changed_files && w->session->options->watch && w->is_live &&
+            !work_has_unsaved_edit(w);
+    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+    if (loads && w->reload.is_busy)
+        w->files_ns = clock_ns() + QUIET_NS;
+    else if (loads)
+        work_reload(w);
+}
+
 void work_look(struct work *w)
 {
     enum render_state before = w->progress.state;
     bool was_awaited = work_awaits_picture(w);
 
-    w->progress = render_progress(w->session->render);
+    if (clock_ns() >= w->files_ns)
+        take_files(w);
+    w->progress = session_look(w->session);
     if (w->progress.state != before)
         w->has_changed = true;
     if (w->progress.state == RENDER_FAILED && before != RENDER_FAILED)
@@ -119,6 +164,13 @@ bool work_has_unsaved(const struct work *w)
            w->progress.samples > w->saved_samples;
 }
 
+bool work_has_unsaved_edit(const struct work *w)
+{
+    const struct edit *edit = &w->session->edit;
+
+    return edit_has_unsaved_materials(edit) || edit_has_unsaved_view(edit);
+}
+
 bool work_may_move(struct work *w)
 {
     if (!w->is_live)
@@ -130,10 +182,10 @@ void work_set_live(struct work *w, bool is_live)
 {
     w->is_live = is_live;
     w->is_started = false;
-    w->is_halted = false;
     w->must_restart = false;
     if (is_live) {
         work_say(w, "live mode: every change starts anew");
+        w->files_ns = clock_ns(); /* what has changed may be loaded now */
         restart(w);
         return;
     }
@@ -141,30 +193,62 @@ void work_set_live(struct work *w, bool is_live)
     work_say(w, "normal mode: Enter starts the render, space goes back");
 }
 
+static void start_normal(struct work *w)
+{
+    w->is_started = true;
+    w->message.until_ns = 0;
+    restart(w);
+}
+
+static void say_done(struct work *w)
+{
+    work_say(w, "the render is done: p saves it, space goes to live mode");
+}
+
 void work_start_or_halt(struct work *w)
 {
     struct render *render = w->session->render;
 
     w->has_changed = true;
-    if (w->is_live) {
-        work_say(w, "Enter starts a render in normal mode: space goes there");
-    } else if (!w->is_started) {
-        w->is_started = true;
-        w->is_halted = false;
-        w->saved_samples = 0;
-        w->saving_samples = 0; /* these are of the picture before */
-        w->message.until_ns = 0;
-        restart(w);
+    if (!w->is_live && !w->is_started) {
+        start_normal(w);
     } else if (w->progress.state == RENDER_RUNNING) {
         render_halt(render);
         w->is_halted = true;
     } else if (w->progress.state == RENDER_IDLE) {
-        render_resume(render, w->session->options->spp);
+        render_resume(render, w->is_live ? 0 : w->session->options->spp);
         w->is_halted = false;
     } else {
-        work_say(w, "the render is done: p saves it, space goes to live mode");
+        say_done(w);
     }
     w->progress = render_progress(render);
+}
+
+void work_step(struct work *w)
+{
+    struct render *render = w->session->render;
+
+    w->has_changed = true;
+    if (!w->is_live && !w->is_started)
+        start_normal(w);
+    render_halt(render);
+    w->progress = render_progress(render);
+    if (w->progress.state != RENDER_IDLE) {
+        say_done(w);
+        return;
+    }
+    render_step(render);
+    w->is_halted = true;
+    w->progress = render_progress(render);
+}
+
+void work_restart(struct work *w)
+{
+    w->has_changed = true;
+    if (w->is_live || w->is_started)
+        restart(w);
+    else
+        work_say(w, "nothing is rendered yet: Enter starts");
 }
 
 /* ---- backends ---- */
@@ -236,8 +320,81 @@ void work_end_device(struct work *w)
 
 /* ---- files ---- */
 
-/* The scene's name in the current folder, without its ending. */
-static char *picture_stem(const struct work *w)
+void work_look_at_files(struct work *w)
+{
+    bool has_changed;
+
+    watch_drain(&w->watch);
+    has_changed = watch_has_changed(&w->watch);
+    if (has_changed != w->has_changed_files)
+        w->has_changed = true;
+    w->has_changed_files = has_changed;
+    if (has_changed && w->session->options->watch &&
+        w->files_ns > clock_ns() + QUIET_NS)
+        w->files_ns = clock_ns() + QUIET_NS;
+}
+
+void work_reload(struct work *w)
+{
+    struct error err;
+
+    if (!w->is_live) {
+        work_say(w, "files are loaded in live mode: space goes there");
+        return;
+    }
+    if (work_has_unsaved_edit(w)) {
+        work_say(w, "not loaded: changes of materials or light are not saved; "
+                    "in the panel ^S saves, u undoes");
+        return;
+    }
+    watch_settle(&w->watch, NULL); /* what changes from here on is new again */
+    w->has_changed_files = false;
+    if (reload_begin(&w->reload, &err))
+        work_say_long(w, "loading ...");
+    else
+        work_say_error(w, err.text);
+}
+
+/* How many warnings there are, and the first of them. */
+static void say_loaded(struct work *w)
+{
+    const struct report *r = &w->session->report;
+    uint64_t count = 0;
+    char *text;
+
+    for (int i = 0; i < r->entry_count; i++)
+        count += r->entries[i].count;
+    if (count > 0)
+        text = xformat("loaded, %" PRIu64 " warning%s: %s", count,
+                       count == 1 ? "" : "s", r->entries[0].text);
+    else
+        text = xformat("loaded %s", w->session->scene.path);
+    work_say(w, text);
+    free(text);
+}
+
+bool work_end_reload(struct work *w)
+{
+    struct session fresh;
+    struct error err;
+    bool ok = reload_end(&w->reload, &fresh, &err);
+
+    if (!ok) {
+        work_say_error(w, err.text);
+    } else {
+        saver_wait_copied(&w->saver);
+        session_take(w->session, &fresh);
+        watch_files(w);
+        work_look_at_files(w); /* what was missed meanwhile */
+        say_loaded(w);
+        restart(w);
+    }
+    session_close(&fresh);
+    return ok;
+}
+
+/* The scene's name without folder and ending. */
+static char *scene_name(const struct work *w)
 {
     char *stem = path_stem(w->session->scene.path);
     const char *slash = strrchr(stem, '/');
@@ -247,7 +404,7 @@ static char *picture_stem(const struct work *w)
     return name;
 }
 
-void work_save_picture(struct work *w)
+void work_save_picture(struct work *w, const char *ending)
 {
     struct render_progress now = render_progress(w->session->render);
     struct error err;
@@ -257,10 +414,10 @@ void work_save_picture(struct work *w)
         work_say(w, "nothing to save yet");
         return;
     }
-    stem = picture_stem(w);
+    stem = scene_name(w);
     if (saver_begin(&w->saver, render_film(w->session->render),
-                    (float)w->session->view.exposure, stem, &err)) {
-        w->saving_samples = w->is_started ? now.samples : 0;
+                    session_develop(w->session), stem, ending, &err)) {
+        w->saving_samples = now.samples;
         snprintf(w->saving_spp, sizeof w->saving_spp, "%" PRIu64 " spp",
                  now.spp_done);
         work_say_long(w, "saving ...");
@@ -288,8 +445,7 @@ bool work_finish_saving(struct work *w)
                    w->saving_spp);
     work_say(w, text);
     add_result(w, text);
-    if (w->is_started)
-        w->saved_samples = w->saving_samples;
+    w->saved_samples = w->saving_samples;
     free(text);
     free(name);
     return true;
@@ -306,10 +462,10 @@ void work_save_text(struct work *w, const struct text_style *style)
         work_say(w, "nothing to save yet");
         return;
     }
-    stem = picture_stem(w);
+    stem = scene_name(w);
     if (text_of_film(render_film(w->session->render),
-                     (float)w->session->view.exposure, style, &text,
-                     &size_bytes, &err)) {
+                     session_develop(w->session), style, &text, &size_bytes,
+                     &err)) {
         name = file_write_numbered(stem, "ans", text, size_bytes, &err);
         free(text);
     }
@@ -333,19 +489,97 @@ void work_save_view(struct work *w)
     char *text;
 
     s->view.has_camera = true; /* also one that was placed by the program */
+    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
     if (!view_write(&s->view, s->view_path, &err)) {
         work_say_error(w, err.text);
         return;
     }
+    edit_saved_view(&s->edit);
+    view_copy(&s->filed, &s->view);
+    watch_settle(&w->watch, s->view_path);
     text = xformat("wrote the view to %s", s->view_path);
     work_say(w, text);
     add_result(w, text);
     free(text);
 }
 
+bool work_save_edit(struct work *w)
+{
+    bool had_changed = watch_has_changed(&w->watch);
+    struct error err;
+    char *what;
+    bool ok = session_save_edit(w->session, &what, &err);
+
+    if (!had_changed)
+        watch_settle(&w->watch, NULL); /* what has changed was just written */
+    if (!ok) {
+        work_say_error(w, err.text);
+        return false;
+    }
+    w->files_ns = clock_ns(); /* what has changed may be loaded now */
+    work_say(w, what);
+    add_result(w, what);
+    free(what);
+    return true;
+}
+
+/* NULL if it cannot be written there. */
+static char *keep_as(struct work *w, const char *stem, struct error *err)
+{
+    char *kept = xformat("%s-kept", stem);
+    char *name =
+        picture_write_numbered(render_film(w->session->render),
+                               session_develop(w->session), kept, "png", err);
+
+    free(kept);
+    return name;
+}
+
+static char *keep_beside(struct work *w, struct error *err)
+{
+    char *stem = path_stem(w->session->scene.path);
+    char *name = keep_as(w, stem, err);
+
+    free(stem);
+    return name;
+}
+
+static char *keep_in_state(struct work *w, struct error *err)
+{
+    char *scene = scene_name(w);
+    char *stem = xdg_state_path(scene);
+    char *name = stem ? keep_as(w, stem, err) : NULL;
+
+    free(stem);
+    free(scene);
+    return name;
+}
+
+void work_keep(struct work *w)
+{
+    struct error err;
+    char *name, *text;
+
+    render_halt(w->session->render);
+    w->progress = render_progress(w->session->render);
+    if (w->progress.samples <= w->saved_samples)
+        return;
+    name = keep_beside(w, &err);
+    if (!name)
+        name = keep_in_state(w, &err);
+    text = name
+               ? xformat("kept %s, %" PRIu64 " spp", name, w->progress.spp_done)
+               : xstrdup(err.text);
+    add_result(w, text);
+    free(text);
+    free(name);
+}
+
 void work_free(struct work *w)
 {
     saver_free(&w->saver);
+    reload_free(&w->reload);
+    watch_free(&w->watch);
     for (int i = 0; i < w->result_count; i++)
         free(w->results[i]);
     free(w->results);

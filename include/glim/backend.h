@@ -47,6 +47,10 @@ struct backend {
     enum pass_result (*pass)(struct backend *b, const struct pass *pass,
                              const struct cancel *cancel, struct error *err);
 
+    /* Processor time of a thread so far, in nanoseconds; from any thread. NULL:
+     * the threads are a device's. */
+    uint64_t (*cpu_ns)(const struct backend *b, int thread);
+
     void (*destroy)(struct backend *b);
 };
 

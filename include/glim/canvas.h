@@ -19,6 +19,7 @@
 #include "glim/options.h"
 #include "glim/pace.h"
 #include "glim/status.h"
+#include "glim/swatches.h"
 #include "glim/term.h"
 #include "glim/text.h"
 
@@ -54,8 +55,12 @@ struct canvas {
     struct ansi ansi;
     char status[STATUS_BYTES];
     bool has_status;
-    struct ansi_rect window; /* no columns: closed */
-    bool must_update;        /* curses has something to write */
+    struct ansi_rect window;  /* no columns: closed */
+    bool must_update;         /* curses has something to write */
+    bool has_panel;           /* the next layout leaves room for one */
+    int panel_cols;           /* at the right edge; 0: none */
+    struct swatches swatches; /* of the panel's lines */
+    bool has_new_panel;
     bool has_cursor;
     int cursor_col, cursor_row; /* in the picture */
 };
@@ -87,12 +92,27 @@ void canvas_next_glyphs(struct canvas *c);
 /* The text of the last row; NULL: none, the picture shows there. */
 void canvas_status(struct canvas *c, const char *text);
 
+/* Shows lines in the panel that the layout has left room for; c->swatches
+ * stand left of them. */
+void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
+                       int line_count);
+
 void canvas_open_window(struct canvas *c, const char *title,
                         const char *const *texts, int text_count);
 /* The same at the left edge of the last rows, beside which keys go on. */
 void canvas_open_panel(struct canvas *c, const char *title,
                        const char *const *texts, int text_count);
+
+/* The same at the right of the top, with lines that change: as many, and as
+ * long. */
+void canvas_open_corner(struct canvas *c, const char *title,
+                        const char *const *texts, int text_count);
+void canvas_set_corner(struct canvas *c, const char *const *texts,
+                       int text_count);
 void canvas_close_window(struct canvas *c);
+
+/* True if characters beyond ASCII are seen as such. */
+bool canvas_has_unicode(const struct canvas *c);
 
 enum canvas_result {
     CANVAS_DONE, /* all is shown */
@@ -103,7 +123,8 @@ enum canvas_result {
 /* Writes what has changed, and the film's picture if there is one, with the
  * draft's if there is one. Call it only if pace_may_send(). */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
-                               struct film *draft, float exposure, int step);
+                               struct film *draft, struct develop how,
+                               int step);
 
 /* How the picture is shown, as text would be. */
 struct text_style canvas_style(const struct canvas *c);

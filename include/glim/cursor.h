@@ -22,6 +22,7 @@ struct cursor {
     struct canvas *canvas; /* knows where it is, and whether it is shown */
     struct pick pick;
     bool has_pick;
+    bool is_pick_new; /* whom it concerns clears it */
     bool must_look;   /* what is under it is not yet said */
     enum action held; /* the arrow that came last, when, */
     uint64_t held_ns;

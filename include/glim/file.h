@@ -40,8 +40,16 @@ char *file_write_numbered(const char *stem, const char *ending,
 /* Writes all, also where standard output does not block. */
 bool file_write_stdout(const void *data, size_t size_bytes, struct error *err);
 
+/* Makes the folder, and those that it lies in, for this person only. `path` is
+ * changed meanwhile. False and errno if that fails. */
+bool folder_make(char *path);
+
 /* `name` seen from the folder of `beside`; absolute names stay. */
 char *path_beside(const char *beside, const char *name);
+
+/* How the file `beside` names the file at `path`: from its own folder on if the
+ * file lies below it, else absolutely. */
+char *path_seen_from(const char *beside, const char *path);
 
 /* The path without the ending of its last part: a/b.obj gives a/b. */
 char *path_stem(const char *path);

@@ -21,6 +21,7 @@
 
 #include "glim/util.h"
 #include "kernels/pixel.h"
+#include "kernels/tone.h"
 
 #define FILM_LOCKS 64
 
@@ -44,6 +45,17 @@ struct frame {
     int width, height;
     uint8_t *rgb;
 };
+
+/* How linear light becomes a picture: times 2^exposure, through the curve. */
+struct develop {
+    float exposure;
+    uint32_t tone; /* enum tone */
+};
+
+static inline struct develop develop_linear(float exposure)
+{
+    return (struct develop){exposure, TONE_LINEAR};
+}
 
 bool film_init(struct film *film, int width, int height, struct error *err);
 void film_clear(struct film *film);
@@ -74,13 +86,13 @@ void film_linear(struct film *film, float *rgb);
 /* Samples of each pixel, row 0 at the top. */
 void film_counts(struct film *film, float *counts);
 
-/* 8-bit sRGB of the means times 2^exposure. `frame` has the film's size and
+/* 8-bit sRGB of the means, developed. `frame` has the film's size and
  * its own memory. */
-void film_resolve(struct film *film, float exposure, struct frame *frame);
+void film_resolve(struct film *film, struct develop how, struct frame *frame);
 
 /* The same, averaged down to the frame's size (or repeated up to it), together
  * with the samples of a draft of the same picture; NULL: none. */
-void film_preview(struct film *film, struct film *draft, float exposure,
+void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame);
 
 bool frame_init(struct frame *frame, int width, int height, struct error *err);

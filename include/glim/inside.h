@@ -84,8 +84,14 @@ void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
 /* Does what the action says of views and drawings. False if it is not one. */
 bool inside_act(struct inside *in, enum action action);
 
-/* With which films are to be shown: colours of a preview are as they are. */
-float inside_exposure(const struct inside *in);
+/* How films are to be shown: colours of a preview are as they are. */
+struct develop inside_develop(const struct inside *in);
+
+/* Nothing is drawn over the picture any more. */
+void inside_stop_drawing(struct inside *in);
+
+/* The scene is another one: what was made of the old one is dropped. */
+void inside_renew(struct inside *in);
 
 /* Follows a new pick. */
 void inside_step(struct inside *in);

@@ -59,13 +59,19 @@ enum action {
     ACTION_DRAWING, /* boxes, directions, a path */
     ACTION_LESS,
     ACTION_MORE,
+    ACTION_PANEL,
     ACTION_MODE,
     ACTION_START,
+    ACTION_STEP, /* one more sample a pixel */
+    ACTION_RESTART,
     ACTION_SAVE,
     ACTION_SAVE_TEXT,
+    ACTION_SAVE_LINEAR,
     ACTION_BACKEND,
+    ACTION_RELOAD, /* the files of the scene */
     ACTION_COLORS,
     ACTION_GLYPHS,
+    ACTION_METER, /* progress */
     ACTION_HIDE,
     ACTION_MOUSE,
     ACTION_REDRAW,

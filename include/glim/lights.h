@@ -31,6 +31,9 @@ struct lights {
 bool lights_build(struct lights *lights, const struct world *world,
                   struct error *err);
 
+/* True if a triangle that gets the other material becomes another light. */
+bool lights_differ(const struct material *a, const struct material *b);
+
 /* Lends the arrays to the world, which has its sky. Where a constant sky
  * outshines the lights they are sampled less often. */
 void lights_lend(const struct lights *lights, struct world *world);

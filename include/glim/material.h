@@ -21,6 +21,8 @@
 #ifndef GLIM_MATERIAL_H
 #define GLIM_MATERIAL_H
 
+#include <stdbool.h>
+
 #include "glim/report.h"
 #include "kernels/types.h"
 
@@ -31,7 +33,7 @@
 /* The colour of what has none. */
 #define MATERIAL_GREY 0.8f
 
-/* line 0: the file does not say. */
+/* line 0: the file does not say, and the numbers are 0. */
 struct mtl_number {
     double value;
     uint64_t line;
@@ -42,13 +44,42 @@ struct mtl_color {
     uint64_t line;
 };
 
+enum mtl_map {
+    MTL_MAP_KD,
+    MTL_MAP_KS,
+    MTL_MAP_KE,
+    MTL_MAP_PR,
+    MTL_MAP_PM,
+    MTL_MAP_D,
+    MTL_MAP_NORM,
+    MTL_MAP_BUMP,
+    MTL_MAPS
+};
+
+/* As a statement of the file; heights have three names, this is one. */
+extern const char *const mtl_map_keys[MTL_MAPS];
+
 struct mtl_source {
     struct mtl_color kd, ks, ke, tf;
+    /* of Ke_blackbody; if kelvin is there it stands for ke */
+    struct mtl_number kelvin, luminance;
     struct mtl_number illum, ns, ni, d, tr, pr, pm, kd_roughness;
-    /* numbers of textures, or NO_INDEX */
-    uint32_t map_kd, map_ks, map_ke, map_pr, map_pm, map_d, map_bump, norm;
-    double bump_scale; /* of map_bump */
+    uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
+    uint32_t maps_off;       /* 1 << enum mtl_map: as if it were not there */
+    double bump_scale;       /* of MTL_MAP_BUMP */
 };
+
+/* A material of which the file says nothing. */
+struct mtl_source mtl_source_empty(void);
+
+/* True if both say the same, wherever they say it. */
+bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
+
+/* The texture of a map that is there and not off, or NO_INDEX. */
+uint32_t mtl_source_map(const struct mtl_source *source, enum mtl_map map);
+
+/* The radiance that ke or kelvin and luminance say; line 0: neither. */
+struct mtl_color mtl_source_light(const struct mtl_source *source);
 
 struct material material_default(void);
 

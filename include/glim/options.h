@@ -59,6 +59,7 @@ struct options {
     const char *device;        /* number or a part of a name; NULL: the best */
     const char *kernels_path;  /* NULL: the kernels within the program */
     const struct paths *paths; /* of --isa; NULL: the best */
+    bool watch;                /* changed files are loaded at once */
     bool phoe_keys;            /* W S A D Q E as phoe_ray had them */
     struct keys keys;
     enum color_mode color;

@@ -24,12 +24,14 @@ bool picture_check(const char *path, struct error *err);
 
 /* Writes to a temporary file beside it, fsync, rename: the old file or the
  * new one, never half of one. "-" is standard output. */
-bool picture_write(struct film *film, float exposure, const char *path,
+bool picture_write(struct film *film, struct develop how, const char *path,
                    struct error *err);
 
-/* Writes STEM.png, or STEM-2.png, STEM-3.png, ... : the first name that is
- * free; never replaces a file. The name is for free(). */
-char *picture_write_numbered(struct film *film, float exposure,
-                             const char *stem, struct error *err);
+/* Writes STEM.ENDING, or STEM-2.ENDING, STEM-3.ENDING, ... : the first name
+ * that is free; never replaces a file. The ending is one of the formats'. The
+ * name is for free(). */
+char *picture_write_numbered(struct film *film, struct develop how,
+                             const char *stem, const char *ending,
+                             struct error *err);
 
 #endif

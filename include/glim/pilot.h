@@ -45,6 +45,9 @@ void pilot_step(struct pilot *p, uint64_t now_ns);
 /* When to call pilot_step() next; UINT64_MAX: nothing moves. */
 uint64_t pilot_next_ns(const struct pilot *p);
 
+/* After the scene was loaded anew: what was picked is of the one before. */
+void pilot_renew(struct pilot *p);
+
 /* Lets go of all keys and buttons. */
 void pilot_stop(struct pilot *p);
 

@@ -47,6 +47,9 @@ struct pool;
 struct pool *pool_create(int thread_count, struct error *err);
 int pool_thread_count(const struct pool *pool);
 
+/* Processor time that a worker has used so far, in nanoseconds. */
+uint64_t pool_cpu_ns(const struct pool *pool, int worker);
+
 /* Runs job(context, i, worker) for all i below count; blocks until every
  * worker is parked. When cancel is requested no further item is started.
  * True if all items were run. */

@@ -24,8 +24,9 @@ struct saver {
     pthread_t thread;
     /* set before the thread starts */
     struct film *film;
-    float exposure;
+    struct develop how;
     char *stem;
+    const char *ending;
     /* guarded by lock */
     pthread_mutex_t lock;
     pthread_cond_t copied;
@@ -37,10 +38,11 @@ struct saver {
 
 bool saver_init(struct saver *s, struct error *err);
 
-/* Begins to save as STEM.png, or the next free name. False if another picture
- * is being saved, or no thread can start. */
-bool saver_begin(struct saver *s, struct film *film, float exposure,
-                 const char *stem, struct error *err);
+/* Begins to save as STEM.ENDING, "png" or another one of picture.h, or the next
+ * free name. False if another picture is being saved, or no thread can start.
+ */
+bool saver_begin(struct saver *s, struct film *film, struct develop how,
+                 const char *stem, const char *ending, struct error *err);
 
 /* Blocks until the film may be cleared: some milliseconds at most for pictures
  * of common sizes. */

@@ -15,11 +15,18 @@
 #define GLIM_SCENE_H
 
 #include "glim/lights.h"
+#include "glim/material.h"
 #include "glim/report.h"
 #include "glim/sky.h"
 #include "glim/util.h"
 #include "glim/view.h"
 #include "kernels/types.h"
+
+/* What a material was made from. */
+struct material_origin {
+    struct mtl_source source;
+    uint32_t file; /* of mtl_paths; NO_INDEX: none */
+};
 
 struct scene {
     char *path; /* of the OBJ file */
@@ -37,6 +44,10 @@ struct scene {
     struct tri *tris;
     uint32_t *tri_faces;   /* number of the face in the file, from 0 */
     uint32_t *tri_objects; /* index into object_names */
+    /* of triangles, as the file has it, and for each object the one it has
+     * instead, or NO_INDEX; NULL: no object has another than in the file */
+    uint32_t *file_materials;
+    uint32_t *assigned;
     uint32_t tri_count;
 
     char **object_names; /* 0 is "" : before the first o line */
@@ -44,11 +55,15 @@ struct scene {
 
     struct material *materials; /* 0 is the default material, "" */
     char **material_names;
+    struct material_origin *material_origins;
     bool *material_is_used; /* by a triangle; from scene_finish() */
     uint32_t material_count;
+    char **mtl_paths; /* of the files that were read, in order */
+    uint32_t mtl_path_count;
 
     struct texture *textures;
     char **texture_paths;
+    bool *texture_is_tried; /* its image was looked for */
     uint32_t texture_count;
     uint32_t *texels;
     size_t texel_count;
@@ -90,6 +105,12 @@ void scene_frame(const struct scene *scene, struct view *view);
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err);
 
+/* The part of a world that no view changes. */
+struct world scene_arrays(const struct scene *scene);
+
+/* Finds whether one of the used materials shines. */
+void scene_find_emitters(struct scene *scene);
+
 /* What the scene needs, of enum feature; and what a material of it needs. */
 uint32_t scene_features(const struct scene *scene);
 uint32_t scene_material_features(const struct scene *scene,
@@ -98,6 +119,10 @@ uint32_t scene_material_features(const struct scene *scene,
 /* True if the view's up runs along its direction: scene_world() then takes
  * another axis for it. */
 bool scene_up_is_parallel(const struct view *view);
+
+/* True if both have the same triangles at the same places, whatever their
+ * materials, normals and texture coordinates. */
+bool scene_has_same_shape(const struct scene *a, const struct scene *b);
 
 void scene_free(struct scene *scene);
 

@@ -11,10 +11,14 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
+#include "glim/edit.h"
+#include "glim/load.h"
 #include "glim/machines.h"
 #include "glim/options.h"
 #include "glim/render.h"
 #include "glim/scene.h"
+#include "glim/speeds.h"
+#include "glim/watch.h"
 
 struct session {
     const struct options *options;
@@ -22,6 +26,9 @@ struct session {
     struct view view;   /* what is rendered now */
     struct view opened; /* as loaded, to go back to */
     struct rect crop;   /* of the view's picture, that is rendered */
+    struct edit edit;   /* of materials and light; session_restart() applies */
+    uint32_t sky;       /* of the edit's skies, that was looked for last */
+    struct view filed;  /* as the view file has it */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
@@ -33,6 +40,9 @@ struct session {
     bool geometry_changed;
     int draft_width, draft_height; /* of what will be seen live; 0: nothing */
     enum sample_kind sample;       /* what will be seen live */
+    /* of the render since then */
+    struct speeds speeds;
+    struct load load;
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has
@@ -41,8 +51,37 @@ struct session {
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
 
-/* Halts and starts from sample 0 with the current view. spp 0: no limit. */
+/* The part of it that reads files: for another session to take. */
+bool session_load(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err);
+
+/* Halts, and takes what `fresh` has loaded of the same files: scene, report,
+ * notice, and of the view what its file has changed; the camera stays else.
+ * What was loaded before is in `fresh` then. session_restart() is due. */
+void session_take(struct session *s, struct session *fresh);
+
+/* Adds all files that the session was loaded from, and those that would be
+ * read if they were there. */
+void session_watch(const struct session *s, struct watch *watch);
+
+/* Halts and starts from sample 0 with the current view and edit. spp 0: no
+ * limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
+
+/* True if the scene or its light are to be others than what is rendered; takes
+ * over what needs no new picture. */
+bool session_take_edit(struct session *s);
+
+/* Writes changed materials into their MTL files, and if assignments or light
+ * have changed, these into the view file, the rest of which stays. *what is a
+ * line about it, for free(). What was written before an error is saved. */
+bool session_save_edit(struct session *s, char **what, struct error *err);
+
+/* As view and edit say. */
+struct develop session_develop(const struct session *s);
+
+/* How far the render is. To be called some times a second, for the speeds. */
+struct render_progress session_look(struct session *s);
 
 /* True if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);

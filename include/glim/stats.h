@@ -12,6 +12,9 @@
 
 #include "glim/session.h"
 
+/* Fails, early, where stats_write() could not write. */
+bool stats_check(const char *path, struct error *err);
+
 /* Writes to the file, or to standard output for "-". */
 bool stats_write(const struct session *s, const char *path, struct error *err);
 

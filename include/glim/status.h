@@ -17,8 +17,9 @@
 struct status {
     bool is_live;
     bool is_orbiting;
-    bool is_halted;  /* normal mode: by the person, or not yet started */
-    bool is_started; /* normal mode: a render was begun */
+    bool is_halted;       /* by the person */
+    bool is_started;      /* normal mode: a render was begun */
+    const char *load_key; /* for files that have changed; NULL: none have */
     const struct render_progress *progress;
     const char *device; /* NULL: the CPU, with so many threads */
     int thread_count;
@@ -32,6 +33,10 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s);
 
 /* Seconds as people read them: 7 s, 1:07, 2:01:07. Rounds down. */
 void status_duration(char *text, size_t size_bytes, uint64_t ns);
+
+/* The time that is left, in such words. False if nobody can know. */
+bool status_left(char *text, size_t size_bytes,
+                 const struct render_progress *p);
 
 /* Copies a message for the screen: no control characters, cut at `cols`
  * bytes. */

@@ -35,6 +35,10 @@ bool term_open(struct error *err);
 /* Gives the terminal back. is_gone: nobody is there any more, write nothing. */
 void term_close(bool is_gone);
 
+/* SIGHUP and SIGTERM change nothing from now on, not after term_close() either:
+ * one of them has come, and what is left to do is done in peace. */
+void term_ignore_ends(void);
+
 /* What is known of colours at once. */
 enum palette term_palette(bool *is_final);
 
@@ -82,13 +86,32 @@ bool term_has_sync(void);
  * that was opened or closed, by term_update(). */
 void term_status(const char *text);
 
-/* A centred window with these lines and a title; where it is. One at a time. */
+/* A window with these lines and a title, in the middle or in the corner at the
+ * top right; where it is. One at a time. */
 struct term_rect term_open_window(const char *title, const char *const *texts,
                                   int text_count);
 /* The same at the left edge, above the last row. */
 struct term_rect term_open_panel(const char *title, const char *const *texts,
                                  int text_count);
+struct term_rect term_open_corner(const char *title, const char *const *texts,
+                                  int text_count);
+
+/* Replaces the lines of the window, by as long ones. */
+void term_set_window(const char *const *texts, int text_count);
 void term_close_window(void);
+
+enum term_look { TERM_PLAIN, TERM_SELECTED, TERM_TITLE, TERM_HINT };
+
+struct term_line {
+    char text[64];
+    enum term_look look;
+};
+
+/* Lines at the right edge, cols wide with a bar at their left, down to the row
+ * above the last; where they are. Shown in place of those before. */
+struct term_rect term_show_panel(const struct term_line *panel_lines,
+                                 int line_count, int cols);
+void term_hide_panel(void);
 
 /* Text in the middle of an empty screen. */
 void term_notice(const char *text);

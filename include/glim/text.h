@@ -20,7 +20,7 @@ struct text_style {
     enum glyphs glyphs;
 };
 
-bool text_of_film(struct film *film, float exposure,
+bool text_of_film(struct film *film, struct develop how,
                   const struct text_style *style, char **text,
                   size_t *size_bytes, struct error *err);
 

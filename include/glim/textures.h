@@ -17,4 +17,12 @@
 bool textures_load(struct scene *scene, struct report *report,
                    struct error *err);
 
+/* The same for one material that has come into use, after textures_load(). */
+bool textures_load_for(struct scene *scene, struct material *material,
+                       struct report *report, struct error *err);
+
+/* True if all images of the material were looked for. */
+bool textures_are_tried(const struct scene *scene,
+                        const struct material *material);
+
 #endif

@@ -4,16 +4,18 @@
  * the sky is, how the picture is exposed
  *
  * Units:     file units of the scene, degrees, pixels, radiance, stops
- * Ownership: view_free() frees the path; sky_path is relative to the file's
- *            folder in the file, and ready for open() in the struct
- * Threads:   one thread at a time
- * Errors:    an unreadable file, a malformed or impossible value: file:line
+ * Ownership: view_free() frees what is in it; sky_path is relative to the
+ * file's folder in the file, and ready for open() in the struct Threads:   one
+ * thread at a time Errors:    an unreadable file, a malformed or impossible
+ * value: file:line
  */
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
 
+#include "glim/assign.h"
 #include "glim/report.h"
 #include "glim/util.h"
+#include "kernels/tone.h"
 
 /* Views that have a number: 1 to 9 in the file, from 0 here. */
 #define VIEW_SHOTS 9
@@ -43,7 +45,12 @@ struct view {
     double exposure; /* stops: the picture is multiplied by 2^exposure */
     struct pose shots[VIEW_SHOTS]; /* the numbered views */
     bool has_shot[VIEW_SHOTS];
+    uint32_t tone; /* enum tone */
+    struct assigns assigns;
 };
+
+/* Names of enum tone in the file. */
+extern const char *const view_tones[TONES];
 
 /* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
 void view_init(struct view *view);
@@ -63,6 +70,11 @@ bool view_check(const struct view *view, const char *place, struct error *err);
 
 struct pose view_pose(const struct view *view);
 void view_set_pose(struct view *view, const struct pose *pose);
+
+/* Takes over what the file has changed from `before` to `after`; the rest of
+ * `view` stays. The camera is one thing. */
+void view_merge(struct view *view, const struct view *before,
+                const struct view *after);
 
 /* `to` has been through view_init(). */
 void view_copy(struct view *to, const struct view *from);

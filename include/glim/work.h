@@ -16,6 +16,7 @@
 #ifndef GLIM_WORK_H
 #define GLIM_WORK_H
 
+#include "glim/reload.h"
 #include "glim/saver.h"
 #include "glim/session.h"
 #include "glim/text.h"
@@ -29,17 +30,22 @@ struct message {
 struct work {
     struct session *session;
     struct saver saver;
+    struct reload reload;
+    struct watch watch;
     struct render_progress progress; /* as of the last work_look() */
     struct message message;
 
     bool is_live;
     bool is_started;   /* normal mode: a render was begun */
-    bool is_halted;    /* normal mode: by the person */
+    bool is_halted;    /* by the person */
     bool must_restart; /* the view has changed */
     bool has_changed; /* there is something new to show; the screen clears it */
+    bool has_changed_files; /* since they were loaded */
+    uint64_t files_ns;      /* when to look at them, or load them with --watch;
+                               UINT64_MAX: when the watch says so */
     uint64_t restarted_ns;
 
-    uint64_t saved_samples;  /* of the normal render, in a file */
+    uint64_t saved_samples;  /* of this picture, in a file */
     uint64_t saving_samples; /* that the saver will have written */
     char saving_spp[32];
 
@@ -65,13 +71,23 @@ bool work_awaits_picture(const struct work *w);
 /* True if a normal render would be lost. */
 bool work_has_unsaved(const struct work *w);
 
+/* True if what was changed of materials or light would be lost. */
+bool work_has_unsaved_edit(const struct work *w);
+
 /* True if the view may change now; else a message says when. */
 bool work_may_move(struct work *w);
 
 /* Loses what normal mode has rendered. */
 void work_set_live(struct work *w, bool is_live);
 
+/* In normal mode the first time starts the render. */
 void work_start_or_halt(struct work *w);
+
+/* One more sample for every pixel, then a halt. */
+void work_step(struct work *w);
+
+/* Renders the same anew; loses what normal mode has rendered. */
+void work_restart(struct work *w);
 
 /* From the CPU to the OpenCL device, which is brought up first if need be, or
  * back. A new picture begins: no film is made by both. */
@@ -83,10 +99,20 @@ void work_begin_device(struct work *w);
 /* The start's event_fd is readable: takes the device, or says why not. */
 void work_end_device(struct work *w);
 
-/* Begins to save the picture as STEM.png or the next free name in the current
- * folder. The saver's event_fd says when work_finish_saving() has the result.
- */
-void work_save_picture(struct work *w);
+/* The watch's fd is readable: have files of the scene changed? */
+void work_look_at_files(struct work *w);
+
+/* Begins to load the files of the scene anew; what is rendered stays until the
+ * reload's event_fd says, in live mode, that work_end_reload() has the result.
+ * An error, then work_end_reload() is false, leaves the old scene. What is
+ * edited and not saved would be lost: it is refused. */
+void work_reload(struct work *w);
+bool work_end_reload(struct work *w);
+
+/* Begins to save the picture as STEM.ENDING or the next free name in the
+ * current folder. The saver's event_fd says when work_finish_saving() has the
+ * result. */
+void work_save_picture(struct work *w, const char *ending);
 
 /* Writes the picture as text, as STEM.ans or the next free name. */
 void work_save_text(struct work *w, const struct text_style *style);
@@ -95,6 +121,14 @@ void work_save_text(struct work *w, const struct text_style *style);
 bool work_finish_saving(struct work *w);
 
 void work_save_view(struct work *w);
+
+/* Writes changed materials and light to their files. False if that failed. */
+bool work_save_edit(struct work *w);
+
+/* Halts, and writes what no file has yet as STEM-kept.png beside the scene, or
+ * into the folder of the person's state, or the next free name: for when nobody
+ * is there to save it. */
+void work_keep(struct work *w);
 
 void work_free(struct work *w);
 

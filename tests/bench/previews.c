@@ -39,7 +39,8 @@ static bool draw(struct session *s, struct frame *frame, struct cells *cells,
     if (!session_restart(s, 0, err))
         return false;
     render_wait(s->render, -1);
-    film_preview(render_film(s->render), render_draft(s->render), 0.0f, frame);
+    film_preview(render_film(s->render), render_draft(s->render),
+                 develop_linear(0), frame);
     cells_from_frame(cells, frame, PALETTE_24BIT, GLYPHS_UPPER);
     return true;
 }

@@ -34,6 +34,8 @@ if [ ! -x "$build/glim" ]; then
     exit 1
 fi
 work=$(mktemp -d) || exit 1
+XDG_STATE_HOME=$work/state
+export XDG_STATE_HOME
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 passed=0
 failed=0

@@ -61,7 +61,7 @@ keys()
 # Bytes as they are.
 raw_keys()
 {
-    mux send-keys -l "$1"
+    mux send-keys -l -- "$1"
 }
 
 screen()

@@ -48,6 +48,8 @@ failed=0
 for name in "$@"; do
     out=$work/$name.out
     mkdir "$work/$name"
+    XDG_STATE_HOME=$work/$name.state
+    export XDG_STATE_HOME
     SOCKET=$work/$name.tmux
     export SOCKET
     (cd "$work/$name" && timeout --kill-after=5 180 \

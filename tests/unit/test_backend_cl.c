@@ -17,6 +17,7 @@
 #include "glim/cl_environment.h"
 #include "glim/isa.h"
 #include "glim/render.h"
+#include "glim/restyle.h"
 #include "glim/scene.h"
 #include "glim/selftest.h"
 #include "kernels/features.h"
@@ -32,7 +33,8 @@ struct pair {
     struct view view;
     struct render *renders[2];
     int draft_width, draft_height;
-    uint32_t sample; /* enum sample_kind */
+    uint32_t sample;     /* enum sample_kind */
+    bool keeps_geometry; /* what the backends have loaded counts */
 };
 
 static struct backend *device; /* NULL: there is none here */
@@ -106,7 +108,7 @@ static void close_pair(struct pair *p)
 static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                   uint32_t seed)
 {
-    struct render_job job = {.geometry_changed = true,
+    struct render_job job = {.geometry_changed = !p->keeps_geometry,
                              .crop = crop,
                              .spp = spp,
                              .draft_width = p->draft_width,
@@ -293,6 +295,47 @@ static void first_hits(void **state)
     close_pair(&p);
 }
 
+/* Materials, lights and triangles are swapped between pictures, and freed: the
+ * device sees each change. */
+static void edits(void **state)
+{
+    struct mtl_source sources[32];
+    uint32_t assigned[64];
+    struct pair p;
+    uint64_t seed = 9;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/cornell.obj", 48, 48);
+    assert_in_range(p.scene.material_count, 2, 32);
+    assert_in_range(p.scene.object_count, 2, 64);
+    for (uint32_t i = 0; i < p.scene.material_count; i++)
+        sources[i] = p.scene.material_origins[i].source;
+    for (uint32_t i = 0; i < p.scene.object_count; i++)
+        assigned[i] = NO_INDEX;
+    render_both(&p, (struct rect){0, 0, 48, 48}, 2, 0);
+    p.keeps_geometry = true;
+    for (uint32_t round = 1; round < 20; round++) {
+        uint32_t count = p.scene.material_count - 1;
+        uint32_t m = 1 + (uint32_t)(check_random(&seed) * count);
+        uint32_t o = (uint32_t)(check_random(&seed) * p.scene.object_count);
+        struct style style = {count + 1, p.scene.material_names, sources,
+                              assigned};
+        struct error err;
+
+        sources[m].kd = (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
+        if (round % 3 == 1)
+            sources[m].ke =
+                (struct mtl_color){{3 * check_random(&seed), 1, 1}, 1};
+        if (round % 3 == 2)
+            assigned[o] = m;
+        check_or_say(scene_restyle(&p.scene, &style, &err), err.text);
+        render_both(&p, (struct rect){0, 0, 48, 48}, 2, round);
+    }
+    close_pair(&p);
+}
+
 /* A build for the scene's features alone computes the same, and one that lacks
  * a feature that a scene needs is not used for it. */
 static void special_builds(void **state)
@@ -400,8 +443,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes), cmocka_unit_test(options),
         cmocka_unit_test(drafts),         cmocka_unit_test(first_hits),
-        cmocka_unit_test(special_builds), cmocka_unit_test(self_tests),
-        cmocka_unit_test(halts),          cmocka_unit_test(buffers),
+        cmocka_unit_test(edits),          cmocka_unit_test(special_builds),
+        cmocka_unit_test(self_tests),     cmocka_unit_test(halts),
+        cmocka_unit_test(buffers),
     };
 
     return cmocka_run_group_tests(tests, open_device, close_device);

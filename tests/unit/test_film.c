@@ -142,7 +142,7 @@ static void film_shows_means_and_fills_gaps(void **state)
     assert_int_equal(atomic_load(&film.rays), 4);
 
     assert_true(frame_init(&frame, 64, 48, &err));
-    film_resolve(&film, -1.0f, &frame);
+    film_resolve(&film, develop_linear(-1.0f), &frame);
     assert_int_equal(frame.rgb[0], 255);
     assert_int_equal(frame.rgb[1], 188); /* sRGB of 0.5 */
     assert_int_equal(frame.rgb[2], 137); /* sRGB of 0.25 */
@@ -197,12 +197,12 @@ static void preview_averages(void **state)
         for (int x = 0; x < 64; x += 8)
             film_add_row(&film, x, y, 1, 8, samples, counts);
     assert_true(frame_init(&frame, 10, 7, &err));
-    film_preview(&film, NULL, 0.0f, &frame);
+    film_preview(&film, NULL, develop_linear(0.0f), &frame);
     for (int i = 0; i < 70; i++)
         check_close(frame.rgb[3 * i], 188, 4); /* odd widths shift a little */
     frame_free(&frame);
     assert_true(frame_init(&frame, 128, 96, &err));
-    film_preview(&film, NULL, 0.0f, &frame);
+    film_preview(&film, NULL, develop_linear(0.0f), &frame);
     assert_int_equal(frame.rgb[0], frame.rgb[3]);
     assert_int_not_equal(frame.rgb[3], frame.rgb[6]);
     frame_free(&frame);
@@ -238,24 +238,25 @@ static void previews_add_the_draft(void **state)
     for (int i = 0; i < 3; i++)
         fill(&draft, 0.7f);
     assert_true(frame_init(&frame, 16, 16, &err));
-    film_preview(&film, &draft, 0.0f, &frame); /* of the draft alone */
+    film_preview(&film, &draft, develop_linear(0.0f),
+                 &frame); /* of the draft alone */
     for (int i = 0; i < 16 * 16; i++)
         assert_int_equal(frame.rgb[3 * i], srgb_byte(0.7f));
     fill(&film, 0.2f);
-    film_preview(&film, &draft, 0.0f, &frame);
+    film_preview(&film, &draft, develop_linear(0.0f), &frame);
     for (int i = 0; i < 16 * 16; i++)
         check_close(frame.rgb[3 * i], srgb_byte(0.3f), 1);
-    film_preview(&film, NULL, 0.0f, &frame);
+    film_preview(&film, NULL, develop_linear(0.0f), &frame);
     assert_int_equal(frame.rgb[0], srgb_byte(0.2f));
     frame_free(&frame);
     assert_true(frame_init(&frame, 32, 16, &err));
     film_clear(&film);
-    film_preview(&film, &draft, 0.0f, &frame);
+    film_preview(&film, &draft, develop_linear(0.0f), &frame);
     for (int i = 0; i < 32 * 16; i++)
         assert_int_equal(frame.rgb[3 * i], srgb_byte(0.7f));
     film_clear(&draft);
     draft.counts[0] = 3; /* all that its coarsest grid has */
-    film_preview(&film, &draft, 0.0f, &frame);
+    film_preview(&film, &draft, develop_linear(0.0f), &frame);
     assert_int_equal(frame.rgb[3 * (15 * 32 + 31)], srgb_byte(0.7f));
     frame_free(&frame);
     film_free(&film);
@@ -272,9 +273,64 @@ static void films_too_large_are_refused(void **state)
     assert_non_null(strstr(err.text, "2000000x2000000"));
 }
 
+/* The curves by other means than theirs: Reinhard's keeps ratios of channels
+ * and turns luminance into L / (1 + L); that of Narkowicz meets values of his
+ * formula, computed exactly. Both grow, and neither is dark where there is
+ * infinitely much light. */
+static void test_tone_curves(void **state)
+{
+    static const struct {
+        float x;
+        double y;
+    } aces[] = {{0, 0}, {.18f, 0.26689}, {1, 0.80380}, {4, 0.97342}};
+    uint64_t seed = 11;
+
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        float in[3], out[3];
+        double luminance = 0, shown = 0;
+        static const double weights[3] = {0.2126, 0.7152, 0.0722};
+
+        for (int c = 0; c < 3; c++)
+            in[c] = out[c] = (float)(10 * check_random(&seed));
+        tone_curve(TONE_REINHARD, out);
+        for (int c = 0; c < 3; c++) {
+            luminance += weights[c] * (double)in[c];
+            shown += weights[c] * (double)out[c];
+            check_close((double)out[c] * (double)in[0],
+                        (double)out[0] * (double)in[c], 1e-4);
+        }
+        check_close(shown, luminance / (1 + luminance), 1e-5);
+        memcpy(out, in, sizeof in);
+        tone_curve(TONE_LINEAR, out);
+        assert_memory_equal(out, in, sizeof in);
+    }
+    for (size_t i = 0; i < sizeof aces / sizeof aces[0]; i++) {
+        float rgb[3] = {aces[i].x, 0, 0};
+
+        tone_curve(TONE_ACES, rgb);
+        check_close((double)rgb[0], aces[i].y, 1e-4);
+    }
+    for (uint32_t tone = TONE_REINHARD; tone < TONES; tone++) {
+        float bright[3] = {INFINITY, INFINITY, INFINITY};
+        float last = -1;
+
+        for (float x = 0; x < 1e5f; x = x * 1.1f + 0.001f) {
+            float rgb[3] = {x, x, x};
+
+            tone_curve(tone, rgb);
+            assert_true(rgb[0] >= last);
+            last = rgb[0];
+        }
+        tone_curve(tone, bright);
+        assert_true(bright[0] >= 0.99f && bright[0] < 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tone_curves),
         cmocka_unit_test(sums_do_not_stall),
         cmocka_unit_test(sums_are_exact_in_any_order),
         cmocka_unit_test(single_values_come_back),

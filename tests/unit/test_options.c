@@ -287,7 +287,7 @@ static void test_together(void **state)
         "found a second scene 'b.obj', expected only 'a.obj'");
     bad("a -o x.png", "-o: is for batch mode, expected -b beside it (on the "
                       "screen p saves a picture)");
-    bad("a --stats x", "--stats: is for batch mode, expected -b beside it");
+    bad("-b a --watch", "--watch: is for the screen, expected no -b beside it");
     bad("-b a -o - --stats -",
         "--stats: standard output is taken by -o -, expected the name of a "
         "file");

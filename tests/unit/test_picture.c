@@ -137,8 +137,9 @@ static void test_png(void **state)
     make_film(&film, WIDTH, HEIGHT, wide_range);
     assert_true(frame_init(&frame, WIDTH, HEIGHT, &err));
     for (float exposure = -2; exposure <= 2; exposure += 2) {
-        film_resolve(&film, exposure, &frame);
-        assert_true(picture_write(&film, exposure, "a.png", &err));
+        film_resolve(&film, develop_linear(exposure), &frame);
+        assert_true(
+            picture_write(&film, develop_linear(exposure), "a.png", &err));
         has_bytes("a.png", &frame);
     }
     frame_free(&frame);
@@ -155,7 +156,7 @@ static void test_hdr(void **state)
 
     (void)state;
     make_film(&film, WIDTH, HEIGHT, wide_range);
-    assert_true(picture_write(&film, 3, "a.hdr", &err));
+    assert_true(picture_write(&film, develop_linear(3), "a.hdr", &err));
     film_free(&film);
     assert_true(image_read_linear(&image, "a.hdr", &clamped, &err));
     assert_int_equal(image.width, WIDTH);
@@ -196,7 +197,7 @@ static void test_hdr_powers(void **state)
 
     (void)state;
     make_film(&film, WIDTH, HEIGHT, near_powers);
-    assert_true(picture_write(&film, 0, "p.hdr", &err));
+    assert_true(picture_write(&film, develop_linear(0), "p.hdr", &err));
     film_free(&film);
     assert_true(image_read_linear(&image, "p.hdr", &clamped, &err));
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -218,7 +219,7 @@ static void test_pfm(void **state)
     float *linear = calloc(WIDTH * HEIGHT * 3, sizeof *linear);
     assert_non_null(linear);
     film_linear(&film, linear);
-    assert_true(picture_write(&film, 5, "a.pfm", &err));
+    assert_true(picture_write(&film, develop_linear(5), "a.pfm", &err));
     film_free(&film);
     char *text = read_file("a.pfm", &size);
     size_t head = strlen(header);
@@ -249,10 +250,11 @@ static void test_small(void **state)
         struct film film;
         make_film(&film, sizes[i][0], sizes[i][1], light);
         for (int k = 0; k < 3; k++)
-            assert_true(picture_write(&film, 0, paths[k], &err));
+            assert_true(
+                picture_write(&film, develop_linear(0), paths[k], &err));
         struct frame frame;
         assert_true(frame_init(&frame, sizes[i][0], sizes[i][1], &err));
-        film_resolve(&film, 0, &frame);
+        film_resolve(&film, develop_linear(0), &frame);
         has_bytes("s.png", &frame);
         frame_free(&frame);
         film_free(&film);
@@ -340,7 +342,7 @@ static bool write_to_pipe(struct film *film, bool reads, struct error *err)
     close(ends[1]);
     if (!reads)
         waitpid(child, &status, 0);
-    bool ok = picture_write(film, 0, "-", err);
+    bool ok = picture_write(film, develop_linear(0), "-", err);
     dup2(saved, STDOUT_FILENO);
     close(saved);
     if (reads)
@@ -368,7 +370,7 @@ static void test_stdout(void **state)
     make_film(&film, 300, 200, noise); /* more than a pipe holds */
     assert_true(write_to_pipe(&film, true, &err));
     assert_true(frame_init(&frame, 300, 200, &err));
-    film_resolve(&film, 0, &frame);
+    film_resolve(&film, develop_linear(0), &frame);
     has_bytes("piped.png", &frame);
     assert_false(write_to_pipe(&film, false, &err));
     assert_string_equal(err.text, "standard output: Broken pipe");
@@ -389,7 +391,8 @@ static void test_numbered(void **state)
     fclose(fopen("n-3.png", "w"));
     assert_int_equal(symlink("nowhere", "n-5.png"), 0);
     for (int i = 0; i < 4; i++) {
-        char *path = picture_write_numbered(&film, 0, "n", &err);
+        char *path =
+            picture_write_numbered(&film, develop_linear(0), "n", "png", &err);
         assert_non_null(path);
         assert_string_equal(path, expected[i]);
         assert_int_equal(stat(path, &st), 0);
@@ -399,7 +402,8 @@ static void test_numbered(void **state)
     assert_int_equal(stat("n-3.png", &st), 0);
     assert_int_equal(st.st_size, 0);
     assert_false(exists("nowhere"));
-    assert_null(picture_write_numbered(&film, 0, "no/n", &err));
+    assert_null(
+        picture_write_numbered(&film, develop_linear(0), "no/n", "png", &err));
     assert_string_equal(err.text, "no/n.png: no such file or folder");
     film_free(&film);
 }
@@ -419,7 +423,8 @@ static void test_numbered_race(void **state)
             struct error err;
             int written = 0;
             for (int k = 0; k < 10; k++) {
-                char *name = picture_write_numbered(&film, 0, "race", &err);
+                char *name = picture_write_numbered(&film, develop_linear(0),
+                                                    "race", "png", &err);
                 written += name != NULL;
                 free(name);
             }
@@ -445,8 +450,8 @@ static void write_forever(struct film *a, struct film *b)
     struct error err;
 
     for (;;) {
-        if (!picture_write(a, 0, "k.png", &err) ||
-            !picture_write(b, 0, "k.png", &err))
+        if (!picture_write(a, develop_linear(0), "k.png", &err) ||
+            !picture_write(b, develop_linear(0), "k.png", &err))
             _exit(1);
     }
 }
@@ -464,7 +469,7 @@ static void test_killed(void **state)
     make_film(&films[0], 160, 120, noise);
     make_film(&films[1], 160, 120, dark);
     for (int i = 0; i < 2; i++) {
-        assert_true(picture_write(&films[i], 0, "k.png", &err));
+        assert_true(picture_write(&films[i], develop_linear(0), "k.png", &err));
         files[i] = read_file("k.png", &size);
         sizes[i] = size;
     }
@@ -504,10 +509,11 @@ static bool fails_on_full_disk(struct film *film)
     signal(SIGXFSZ, SIG_IGN);
     ok = setrlimit(RLIMIT_FSIZE, &limit) == 0;
     for (int i = 0; i < 3; i++)
-        ok = ok && !picture_write(film, 0, paths[i], &err) &&
+        ok = ok && !picture_write(film, develop_linear(0), paths[i], &err) &&
              strstr(err.text, ": File too large") &&
              strncmp(err.text, paths[i], 5) == 0;
-    return ok && !picture_write_numbered(film, 0, "full", &err);
+    return ok && !picture_write_numbered(film, develop_linear(0), "full", "png",
+                                         &err);
 }
 
 static void test_disk_full(void **state)
@@ -536,7 +542,7 @@ static void test_disk_full(void **state)
     int saved = dup(STDOUT_FILENO), full = open("/dev/full", O_WRONLY);
     fflush(stdout);
     dup2(full, STDOUT_FILENO);
-    bool ok = picture_write(&film, 0, "-", &err);
+    bool ok = picture_write(&film, develop_linear(0), "-", &err);
     dup2(saved, STDOUT_FILENO);
     close(saved);
     close(full);
@@ -553,7 +559,7 @@ static void test_speed(void **state)
     (void)state;
     make_film(&film, 1024, 576, noise);
     uint64_t begin_ns = clock_ns();
-    assert_true(picture_write(&film, 0, "speed.png", &err));
+    assert_true(picture_write(&film, develop_linear(0), "speed.png", &err));
     print_message("PNG of 1024x576: %.3f s\n",
                   seconds_between(begin_ns, clock_ns()));
     film_free(&film);

@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "glim/pool.h"
@@ -78,9 +79,58 @@ static void cancelling_starts_no_more(void **state)
     pool_destroy(NULL);
 }
 
+#define BURN_NS UINT64_C(30000000)
+
+static uint64_t read_clock(clockid_t clock)
+{
+    struct timespec t;
+
+    assert_int_equal(clock_gettime(clock, &t), 0);
+    return (uint64_t)t.tv_sec * UINT64_C(1000000000) + (uint64_t)t.tv_nsec;
+}
+
+static void burn(void *context, uint32_t item, int worker)
+{
+    uint64_t until_ns = read_clock(CLOCK_THREAD_CPUTIME_ID) + BURN_NS;
+
+    (void)context;
+    (void)item;
+    (void)worker;
+    while (read_clock(CLOCK_THREAD_CPUTIME_ID) < until_ns)
+        continue;
+}
+
+/* The workers' time is what their items have burnt, and the process has used
+ * at least as much; parked workers use none. */
+static void processor_time_is_that_of_the_items(void **state)
+{
+    struct cancel cancel = {0};
+    struct error err;
+    struct pool *pool = pool_create(2, &err);
+    uint64_t begin_ns = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    uint64_t used_ns = 0, later_ns = 0;
+
+    (void)state;
+    assert_non_null(pool);
+    assert_true(pool_run(pool, 6, burn, NULL, &cancel));
+    for (int i = 0; i < 2; i++)
+        used_ns += pool_cpu_ns(pool, i);
+    assert_true(used_ns >= 6 * BURN_NS);
+    /* beside the items there is only their beginning and their end */
+    assert_true(used_ns < 7 * BURN_NS);
+    assert_true(used_ns <=
+                read_clock(CLOCK_PROCESS_CPUTIME_ID) - begin_ns + BURN_NS);
+    usleep(50000);
+    for (int i = 0; i < 2; i++)
+        later_ns += pool_cpu_ns(pool, i);
+    assert_true(later_ns < used_ns + BURN_NS / 6);
+    pool_destroy(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(processor_time_is_that_of_the_items),
         cmocka_unit_test(each_item_runs_once),
         cmocka_unit_test(cancelling_starts_no_more),
     };

@@ -62,7 +62,7 @@ static void normal_mode_says_what_is_left(void **state)
     p.state = RENDER_IDLE;
     s.is_halted = true;
     status_format(text, 120, &s);
-    assert_non_null(strstr(text, "NORMAL halted  8/16 spp  50 %  4 s  2.00"));
+    assert_non_null(strstr(text, "NORMAL paused  8/16 spp  50 %  4 s  2.00"));
     p.state = RENDER_DONE;
     p.samples = p.samples_limit;
     status_format(text, 120, &s);

@@ -32,7 +32,8 @@ static void check_text(const struct text_style *style, const char *expected)
     size_t size_bytes;
     char *text;
 
-    assert_true(text_of_film(&film, 0, style, &text, &size_bytes, &err));
+    assert_true(text_of_film(&film, develop_linear(0), style, &text,
+                             &size_bytes, &err));
     assert_int_equal(size_bytes, strlen(expected));
     assert_memory_equal(text, expected, size_bytes);
     free(text);

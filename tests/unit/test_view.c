@@ -105,6 +105,7 @@ static void test_all_keys(void **state)
                      "sky_rotation -90\r\n"
                      "aperture 0.5\r\n"
                      "focus 1e3\r\n"
+                     "tone aces # bright\r\n"
                      "exposure -1.5");
     assert_true(view.has_camera && view.has_size && view.has_background);
     is3(view.eye, 278, 273, -800);
@@ -120,6 +121,7 @@ static void test_all_keys(void **state)
     assert_true(view.sky_strength == 2.5 && view.sky_rotation_deg == -90);
     assert_true(view.aperture == 0.5 && view.focus == 1000);
     assert_true(view.exposure == -1.5);
+    assert_int_equal(view.tone, TONE_ACES);
     view_free(&view);
 }
 
@@ -204,6 +206,8 @@ static void test_refused(void **state)
         {"focus inf", "'inf'", "a number from 0 to 1e30", "focus"},
         {"exposure nan", "'nan'", "a number of stops from -100 to 100",
          "exposure"},
+        {"tone", "the end of the line", "linear, reinhard or aces", "tone"},
+        {"tone bright", "'bright'", "linear, reinhard or aces", "tone"},
         {"view", "the end of the line", number, "view"},
         {"view 0 eye 0 0 1 at 0 0 0", "'0'", number, "view"},
         {"view 10 eye 0 0 1 at 0 0 0", "'10'", number, "view"},

@@ -11,8 +11,8 @@
 
 #include "glim/work.h"
 
-static const char *const names[] = {"s.obj",   "s.view", "s.png",
-                                    "s-2.png", "s.ans",  "s-2.ans"};
+static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
+                                    "s-kept.png", "s.ans",  "s-2.ans"};
 
 static char folder[] = "/tmp/glim-test-XXXXXX";
 
@@ -45,6 +45,7 @@ static int open_work(void **state)
     unlink("s.view");
     unlink("s.png");
     unlink("s-2.png");
+    unlink("s-kept.png");
     if (!to || fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", to) < 0 ||
         fclose(to) != 0)
         return -1;
@@ -89,9 +90,6 @@ static void live_mode_has_nothing_to_lose(void **state)
         work_look(w);
     assert_false(work_has_unsaved(w));
     assert_true(work_may_move(w));
-    work_start_or_halt(w); /* only says where Enter works */
-    assert_true(w->message.until_ns > 0);
-    assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
 
 static void moving_starts_anew(void **state)
@@ -191,6 +189,114 @@ static void halted_renders_go_on(void **state)
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
 
+static void live_mode_pauses(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    uint64_t samples;
+
+    while (work_awaits_picture(w))
+        work_look(w);
+    work_start_or_halt(w);
+    assert_true(w->is_halted);
+    assert_int_equal(w->progress.state, RENDER_IDLE);
+    samples = w->progress.samples;
+    work_start_or_halt(w);
+    assert_false(w->is_halted);
+    while (w->progress.samples <= samples)
+        work_look(w);
+    assert_int_equal(w->progress.spp_limit, 0);
+    work_start_or_halt(w);
+    w->must_restart = true; /* a change goes on */
+    work_look(w);
+    assert_false(w->is_halted);
+    assert_int_equal(w->progress.state, RENDER_RUNNING);
+}
+
+static void steps_are_one_sample_each(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_set_live(w, false);
+    for (uint64_t spp = 1; spp <= 2; spp++) {
+        work_step(w);
+        run_to_end(w);
+        assert_true(w->is_halted);
+        assert_int_equal(w->progress.state, RENDER_IDLE);
+        assert_int_equal(w->progress.spp_done, spp);
+        assert_int_equal(w->progress.samples, spp * 32 * 16);
+    }
+    work_step(w); /* the last of -s 3 */
+    run_to_end(w);
+    assert_int_equal(w->progress.state, RENDER_DONE);
+    assert_int_equal(w->progress.samples, 3 * 32 * 16);
+    work_step(w); /* there is no more */
+    run_to_end(w);
+    assert_int_equal(w->progress.samples, 3 * 32 * 16);
+    work_restart(w);
+    run_to_end(w);
+    assert_int_equal(w->progress.state, RENDER_DONE);
+    assert_int_equal(w->progress.samples, 3 * 32 * 16);
+}
+
+/* A pass that was cut leaves pixels with more samples than others: a step adds
+ * to those that have fewest, and all end with the same picture. */
+static void steps_after_a_halt_make_the_same_picture(void **state)
+{
+    struct fixture *f = *state;
+    struct work *w = &f->work;
+    float whole[32 * 16 * 3], stepped[32 * 16 * 3];
+
+    f->options.spp = 40;
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+    assert_int_equal(w->progress.spp_done, 40);
+    film_linear(render_film(w->session->render), whole);
+    work_restart(w);
+    for (int i = 0; i < 10000 && w->progress.state != RENDER_DONE; i++) {
+        work_step(w);          /* halts what runs */
+        work_start_or_halt(w); /* halts the step */
+        if (w->progress.state == RENDER_IDLE)
+            work_start_or_halt(w);
+        usleep(100); /* some of a pass */
+        work_look(w);
+    }
+    run_to_end(w);
+    assert_int_equal(w->progress.samples, 40 * 32 * 16);
+    film_linear(render_film(w->session->render), stepped);
+    assert_memory_equal(whole, stepped, sizeof whole);
+}
+
+static void what_no_file_has_is_kept(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+    work_keep(w);
+    assert_int_equal(access("s-kept.png", F_OK), 0);
+    assert_int_equal(w->result_count, 1);
+    assert_string_equal(w->results[0], "kept s-kept.png, 3 spp");
+}
+
+static void what_a_file_has_is_not_kept(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+    work_save_picture(w, "png");
+    assert_true(work_finish_saving(w));
+    work_keep(w);
+    assert_int_equal(access("s-kept.png", F_OK), -1);
+    work_restart(w); /* what follows is not in the file */
+    run_to_end(w);
+    work_keep(w);
+    assert_int_equal(access("s-kept.png", F_OK), 0);
+}
+
 static void saving_never_replaces(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
@@ -199,7 +305,7 @@ static void saving_never_replaces(void **state)
     work_start_or_halt(w);
     run_to_end(w);
     for (int i = 0; i < 2; i++) {
-        work_save_picture(w);
+        work_save_picture(w, "png");
         saver_wait_copied(&w->saver);
         assert_true(work_finish_saving(w));
     }
@@ -221,9 +327,9 @@ static void saving_takes_a_copy(void **state)
     work_set_live(w, false);
     work_start_or_halt(w);
     run_to_end(w);
-    work_save_picture(w);
+    work_save_picture(w, "png");
     assert_true(work_finish_saving(w));
-    work_save_picture(w);
+    work_save_picture(w, "png");
     for (int i = 0; i < 3; i++)
         w->session->view.eye[i] += 5; /* away: another picture */
     work_set_live(w, true);
@@ -286,7 +392,7 @@ static void texts_are_written(void **state)
                         "saved s-2.ans, text of 8x2 characters");
     assert_int_equal(w->result_count, 2);
     assert_true(work_has_unsaved(w));
-    for (size_t i = 4; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 5; i < sizeof names / sizeof names[0]; i++) {
         FILE *in = fopen(names[i], "r");
         char line[32];
 
@@ -310,6 +416,11 @@ int main(void)
         WORK_TEST(drafts_are_live),
         WORK_TEST(normal_mode_renders_to_its_end),
         WORK_TEST(halted_renders_go_on),
+        WORK_TEST(live_mode_pauses),
+        WORK_TEST(steps_are_one_sample_each),
+        WORK_TEST(steps_after_a_halt_make_the_same_picture),
+        WORK_TEST(what_no_file_has_is_kept),
+        WORK_TEST(what_a_file_has_is_not_kept),
         WORK_TEST(saving_never_replaces),
         WORK_TEST(saving_takes_a_copy),
         WORK_TEST(failures_are_messages),

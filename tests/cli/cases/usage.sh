@@ -25,6 +25,6 @@ run -b box.obj other.obj
 run -b -f
 run -b -o - --stats - box.obj
 run -o out.png box.obj
-run --stats out.json box.obj
+run -b --watch box.obj
 run box.obj
 ls

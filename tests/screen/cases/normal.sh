@@ -44,7 +44,7 @@ wait_for LIVE
 keys Space Enter
 wait_for "NORMAL  [1-9][0-9]*/1000000000 spp"
 keys Enter
-wait_for "NORMAL halted"
+wait_for "NORMAL paused"
 halted=$(screen | grep NORMAL)
 sleep 0.5
 [ "$(screen | grep NORMAL)" = "$halted" ] || die "a halted render goes on"

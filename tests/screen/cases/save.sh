@@ -9,6 +9,9 @@ keys p
 wait_for "saved flat.png 100x50, [1-9][0-9]* spp"
 keys p
 wait_for "saved flat-2.png 100x50"
+keys P
+wait_for "saved flat.hdr 100x50, [1-9][0-9]* spp"
+head -n 1 flat.hdr | grep -q '^#?RADIANCE' || die "flat.hdr is no HDR picture"
 keys i # the message is seen without the status line, too
 wait_until_gone "saved"
 keys p

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/*
+ * color.h - colours as people write them: hex, HSV, kelvins
+ *
+ * Hex and HSV are of the encoded colour, as in every colour picker; kelvins
+ * give a black body's colour whose largest channel is 1.
+ *
+ * Units:     linear Rec.709; encoded sRGB, hue 0 to 360, the rest 0 to 1
+ * Ownership: none
+ * Threads:   any
+ * Errors:    by the result
+ */
+#ifndef GLIM_COLOR_H
+#define GLIM_COLOR_H
+
+#include <stdbool.h>
+
+/* The sRGB curve (IEC 61966-2-1) and back. */
+double color_decoded(double encoded);
+double color_encoded(double linear);
+
+void color_to_hsv(const double rgb[3], double hsv[3]);
+void color_from_hsv(const double hsv[3], double rgb[3]);
+
+/* "#rrggbb"; channels beyond 1 count as 1. */
+#define COLOR_HEX_BYTES 8
+void color_to_hex(const double rgb[3], char text[COLOR_HEX_BYTES]);
+
+/* "#rrggbb", "#rgb", "3000K" or three linear numbers. *kelvin is 0 if the text
+ * is no temperature. */
+bool color_parse(const char *text, double rgb[3], double *kelvin);
+
+#endif

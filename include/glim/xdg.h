@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/*
+ * xdg.h - where files of this person belong: the XDG base directories
+ *
+ * Units:     none
+ * Ownership: what is returned is for free()
+ * Threads:   main only, as getenv()
+ * Errors:    NULL where there is no such place
+ */
+#ifndef GLIM_XDG_H
+#define GLIM_XDG_H
+
+/* The folder glim in that of the variable, or in ~/BELOW_HOME: it need not
+ * exist. Relative names in the variable are ignored, as the specification says.
+ */
+char *xdg_folder(const char *variable, const char *below_home);
+
+/* The path of a file in the folder of XDG_STATE_HOME, or in ~/.local/state,
+ * which is made if need be. */
+char *xdg_state_path(const char *name);
+
+#endif

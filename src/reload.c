@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "glim/reload.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "glim/thread.h"
+
+bool reload_init(struct reload *r, const struct options *options,
+                 struct error *err)
+{
+    *r = (struct reload){.event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK),
+                         .options = options};
+    return r->event_fd >= 0 ||
+           fail(err, "reload: no event descriptor: %s", strerror(errno));
+}
+
+static void *reload_main(void *argument)
+{
+    struct reload *r = argument;
+    uint64_t one = 1;
+
+    r->is_loaded = session_load(&r->fresh, r->options, clock_ns(), &r->error);
+    if (write(r->event_fd, &one, sizeof one) < 0) {
+        /* the counter is full: it is readable anyway */
+    }
+    return NULL;
+}
+
+bool reload_begin(struct reload *r, struct error *err)
+{
+    int reason;
+
+    if (r->is_busy)
+        return fail(err, "%s: is still being loaded", r->options->scene_path);
+    reason = thread_start(&r->thread, reload_main, r);
+    if (reason != 0)
+        return fail(err, "%s: no thread to load it: %s", r->options->scene_path,
+                    strerror(reason));
+    r->is_busy = true;
+    return true;
+}
+
+bool reload_end(struct reload *r, struct session *fresh, struct error *err)
+{
+    uint64_t count;
+
+    pthread_join(r->thread, NULL);
+    r->is_busy = false;
+    if (read(r->event_fd, &count, sizeof count) < 0) {
+        /* nothing there: it was read before */
+    }
+    *fresh = r->fresh;
+    r->fresh = (struct session){0}; /* the caller owns it now */
+    if (!r->is_loaded)
+        *err = r->error;
+    return r->is_loaded;
+}
+
+void reload_free(struct reload *r)
+{
+    struct session fresh;
+    struct error ignored;
+
+    if (r->is_busy) {
+        reload_end(r, &fresh, &ignored);
+        session_close(&fresh);
+    }
+    close(r->event_fd);
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "glim/watch.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "glim/file.h"
+#include "glim/util.h"
+
+/* A file is complete, or has this name now; `touch` and chmod too, for a file
+ * may become readable. */
+#define EVENTS (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_ATTRIB)
+
+/* What tells a file from the same one later. */
+struct identity {
+    bool exists;
+    dev_t device;
+    ino_t inode;
+    off_t size_bytes;
+    struct timespec modified;
+};
+
+struct watched {
+    char *path;
+    struct identity known;
+    bool is_listed; /* since watch_begin() */
+};
+
+static struct identity identify(const char *path)
+{
+    struct stat st;
+
+    if (stat(path, &st) != 0)
+        return (struct identity){.exists = false};
+    return (struct identity){true, st.st_dev, st.st_ino, st.st_size,
+                             st.st_mtim};
+}
+
+static bool is_same(const struct identity *a, const struct identity *b)
+{
+    return a->exists == b->exists && a->device == b->device &&
+           a->inode == b->inode && a->size_bytes == b->size_bytes &&
+           a->modified.tv_sec == b->modified.tv_sec &&
+           a->modified.tv_nsec == b->modified.tv_nsec;
+}
+
+void watch_init(struct watch *w)
+{
+    *w = (struct watch){.fd = -1};
+}
+
+void watch_begin(struct watch *w)
+{
+    for (size_t i = 0; i < w->file_count; i++)
+        w->files[i].is_listed = false;
+}
+
+void watch_add(struct watch *w, const char *path)
+{
+    for (size_t i = 0; i < w->file_count; i++) {
+        if (strcmp(w->files[i].path, path) == 0) {
+            w->files[i].is_listed = true;
+            return;
+        }
+    }
+    if (w->file_count == w->capacity) {
+        w->capacity = w->capacity == 0 ? 8 : 2 * w->capacity;
+        w->files = xrealloc(w->files, w->capacity * sizeof w->files[0]);
+    }
+    w->files[w->file_count++] =
+        (struct watched){xstrdup(path), identify(path), true};
+}
+
+static void watch_folder_of(int fd, const char *path)
+{
+    char *folder = path_beside(path, ".");
+
+    /* a folder that is not there has no files that change */
+    inotify_add_watch(fd, folder, EVENTS);
+    free(folder);
+}
+
+/* A link's own folder and that of the file: either may get another one. */
+static void watch_folders(int fd, const char *path)
+{
+    char target[PATH_MAX];
+
+    watch_folder_of(fd, path);
+    if (realpath(path, target))
+        watch_folder_of(fd, target);
+}
+
+void watch_end(struct watch *w)
+{
+    size_t kept = 0;
+
+    if (w->fd >= 0)
+        close(w->fd);
+    w->fd = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    for (size_t i = 0; i < w->file_count; i++) {
+        struct watched *f = &w->files[i];
+
+        bool is_gone = f->known.exists && access(f->path, F_OK) != 0;
+
+        if (!f->is_listed && !is_gone) {
+            free(f->path);
+            continue;
+        }
+        watch_folders(w->fd, f->path);
+        w->files[kept++] = *f;
+    }
+    w->file_count = kept;
+}
+
+void watch_drain(struct watch *w)
+{
+    char events[4096];
+
+    while (w->fd >= 0 && read(w->fd, events, sizeof events) > 0)
+        continue;
+}
+
+bool watch_has_changed(const struct watch *w)
+{
+    bool has_changed = false;
+
+    for (size_t i = 0; i < w->file_count; i++) {
+        struct identity now = identify(w->files[i].path);
+
+        if (w->files[i].known.exists && !now.exists)
+            return false;
+        has_changed |= !is_same(&now, &w->files[i].known);
+    }
+    return has_changed;
+}
+
+void watch_settle(struct watch *w, const char *path)
+{
+    for (size_t i = 0; i < w->file_count; i++) {
+        struct watched *f = &w->files[i];
+        struct identity now = identify(f->path);
+
+        if (now.exists && (!path || strcmp(path, f->path) == 0))
+            f->known = now;
+    }
+}
+
+void watch_free(struct watch *w)
+{
+    for (size_t i = 0; i < w->file_count; i++)
+        free(w->files[i].path);
+    free(w->files);
+    if (w->fd >= 0)
+        close(w->fd);
+    watch_init(w);
+}

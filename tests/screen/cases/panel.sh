@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+# The panel: a lamp gets another colour, live; undo, compare, save; a copy for
+# an object; sky and exposure; at 80x24 and in monochrome.
+lamp_scene
+printf '# mine\nnewmtl l\nKd 0 0 0 # black\nKe 1 1 1\naniso .5\n' >lamp.mtl
+size=80x24
+shows() # colour of the triangle, as R;G;B
+{
+    wait_until eval "screen_colors | sed 's,│.*,,' | grep -q '[34]8;2;$1m'"
+}
+start lamp.obj
+wait_for LIVE
+shows '255;255;255'
+keys Tab
+wait_for "│\[Materials\]  Objects   Light"
+expect "│>    l                 diffuse"
+expect "     light      1          ===......"
+wait_for "LIVE"
+# by hand: red light, typed
+keys Enter
+keys Down Down Down Down Down Down Down Down
+wait_for "^.*│>    of colour  #ffffff"
+raw_keys '#ff0000'
+wait_for "of colour  #ff0000_"
+keys Enter
+shows '255;0;0'
+expect " l \*"
+# the camera still moves
+keys w
+sleep 0.3
+expect "│>    of colour  #ff0000"
+# half as bright by the arrows: one step of undo
+keys Up
+keys Left Left Left
+wait_for "│>    light      0.751"
+keys u
+wait_for "│>    light      1   "
+keys u
+shows '255;255;255'
+keys u
+wait_for "nothing to undo"
+keys U
+shows '255;0;0'
+# compare with what is saved
+keys x
+wait_for "as saved: x goes back"
+shows '255;255;255'
+keys x
+shows '255;0;0'
+# quitting asks, saving changes only what was changed
+keys q
+wait_for "Changes of materials or light are not saved. Quit?"
+keys n
+wait_for LIVE
+keys C-s
+wait_for "wrote 1 material to lamp.mtl"
+printf '# mine\nnewmtl l\nKd 0 0 0 # black\nKe 1 0 0\naniso .5\n' |
+    cmp - lamp.mtl || die "lamp.mtl: $(cat lamp.mtl)"
+# a copy for the object, in green
+keys Tab
+wait_for "│ Materials  \[Objects\]  Light"
+expect "│>    (no name)         l$"
+keys n
+wait_for "has its own material now: l.2"
+keys Tab Tab
+wait_for "│>    l.2               diffuse"
+keys Enter Down Down Down Down Down Down Down Down
+raw_keys '#0f0'
+keys Enter
+shows '0;255;0'
+keys C-s
+wait_for "wrote 1 material to lamp.mtl, and lamp.view"
+grep -q '^assign "" l.2$' lamp.view || die "lamp.view: $(cat lamp.view)"
+# sky and exposure
+keys Escape
+wait_for "Tab page"
+keys Tab Tab
+wait_for "│ Materials   Objects  \[Light\]"
+keys Down
+raw_keys '0 0 1'
+keys Enter
+wait_until eval "screen_colors | grep -q '[34]8;2;0;0;255m'"
+keys Down Down Down Down
+raw_keys '-1'
+keys Enter
+wait_until eval "screen_colors | grep -q '[34]8;2;0;0;188m'"
+# nonsense is refused
+raw_keys '1x'
+keys Enter
+wait_for "found '1x', expected a number of stops"
+keys Escape Escape
+wait_until_gone "│"
+keys q
+wait_for "are not saved. Quit?"
+keys s
+expect_end 0
+grep -q '^exposure -1$' lamp.view || die "lamp.view: $(cat lamp.view)"
+# the mouse: a material, a value, the wheel, another page
+fresh
+start lamp.obj
+wait_for LIVE
+keys Tab
+wait_for "│>    l  "
+click=$(printf '\033[<0;%d;%dM\033[<0;%d;%dm' 55 3 55 3)
+raw_keys "$click"
+wait_for "│>    l\.2 "
+raw_keys "$(printf '\033[<0;60;20M\033[<0;60;20m')"
+wait_for "│>    light "
+raw_keys "$(printf '\033[<65;60;20M')"
+wait_for "│>    light      0.909"
+raw_keys "$(printf '\033[<0;66;1M\033[<0;66;1m')"
+wait_for "\[Light\]"
+keys u
+wait_for "Sky and picture$"
+keys Escape
+wait_until_gone "│"
+# a click on the picture selects what is there
+keys Tab
+wait_for "Materials   Objects  \[Light\]"
+raw_keys "$(printf '\033[<0;22;12M\033[<0;22;12m')"
+wait_for "│>    l\.2 "
+keys q
+expect_end 0
+# it is all there again; monochrome has the numbers
+fresh
+size=40x12
+start --color mono lamp.obj
+wait_for "LIVE"
+keys Tab
+wait_for "│>.*l "
+keys Down
+wait_for "│>.*l\.2 "
+keys Enter Down
+wait_for "│>.*colour     #"
+keys Escape Escape
+wait_until_gone "│"
+keys q
+expect_end 0

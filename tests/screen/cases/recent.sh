@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+# Without an argument glim shows the scenes that were opened last.
+flat_scene
+lamp_scene
+start_line "TERM=tmux-256color glim"
+wait_for "^exit 2" # there are none yet
+expect "no scene given"
+for scene in flat lamp; do
+    fresh
+    start $scene.obj
+    wait_for "LIVE .* spp"
+    keys q
+    expect_end 0
+done
+fresh
+size=120x21
+start_line "cd / && TERM=tmux-256color glim; status=\$?; cd - >/dev/null; (exit \$status)"
+wait_for "^  1  .*/lamp.obj"
+expect "^  2  .*/flat.obj"
+keys 7 Enter
+wait_for "7: no such scene"
+keys 2 Enter
+wait_for "LIVE .* spp"
+wait_for_rows 20 "48;2;188;124;0"
+keys q
+expect_end 0
+fresh
+start_line "TERM=tmux-256color glim"
+wait_for "^  1  .*/flat.obj" # it was opened last
+keys q Enter
+expect_end 0

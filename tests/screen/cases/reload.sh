@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+# Files of the scene are edited while it is on the screen. The picture is a wall
+# that shines: each pixel has its Ke times the image, exactly. .5 .2 0 is 188 124
+# 0 in sRGB.
+size=120x21
+ORANGE="48;2;188;124;0"
+GREEN="48;2;0;188;0"
+write() # as most editors do: another file gets the name
+{
+    cat >"$1.new"
+    mv "$1.new" "$1"
+}
+wall() # z of the wall
+{
+    printf 'mtllib wall.mtl\nusemtl w\nv -9 -9 %s\nv 9 -9 %s\nv 9 9 %s\nv -9 9 %s\n' \
+        "$1" "$1" "$1" "$1"
+    echo 'vt 0 0'
+    echo 'f 1/1 2/1 3/1 4/1'
+}
+shines() # its radiance
+{
+    printf 'newmtl w\nKd 0 0 0\nKe %s\n%s' "$*" "${map-}"
+}
+flat_scene
+glim -b -s 1 -o orange.png flat.obj 2>/dev/null
+printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground 0 .5 0\n' >flat.view
+glim -b -s 1 -o green.png flat.obj 2>/dev/null
+
+story() # options: which backend
+{
+    wall 0 >wall.obj
+    shines .5 .2 0 >wall.mtl
+    printf 'eye 0 0 5\nat 0 0 0\nres 100 50\n' >wall.view
+    start "$@" wall.obj
+    wait_for "LIVE .* $machine"
+    wait_for_rows 20 "$ORANGE"
+    keys w # a step ahead, which is kept
+    sleep 0.5
+
+    shines 0 .5 0 | write wall.mtl
+    wait_for "LIVE  changed: l loads"
+    wait_for_rows 20 "$ORANGE"
+    keys l
+    wait_for "loaded wall.obj"
+    wait_for_rows 20 "$GREEN"
+    wait_for "LIVE .* $machine"
+    reject "changed"
+
+    # broken: the old picture and one message, until it is mended
+    shines .5 oops | write wall.mtl
+    wait_for "changed: l loads"
+    keys l
+    wait_for "wall.mtl:3: found 'oops'"
+    wait_for_rows 20 "$GREEN"
+    sleep 1
+    expect "wall.mtl:3: found 'oops'"
+    shines .5 .2 0 >wall.mtl # in place
+    keys x                   # takes the message away
+    wait_for "changed: l loads"
+    keys l
+    wait_for_rows 20 "$ORANGE"
+
+    # the image
+    cp orange.png wall.png
+    map='map_Ke wall.png
+'
+    shines 1 1 1 | write wall.mtl
+    map=
+    wait_for "changed: l loads"
+    keys l
+    wait_for "loaded wall.obj"
+    wait_for_rows 20 "$ORANGE"
+    cp green.png wall.png
+    wait_for "changed: l loads"
+    keys l
+    wait_for_rows 20 "$GREEN"
+
+    # the geometry: behind the camera there is only the background
+    wall 9 | write wall.obj
+    wait_for "changed: l loads"
+    keys l
+    wait_until_gone "changed: l loads"
+    wait_for_rows 0 "$GREEN"
+    # the view: another background, the camera stays where it has gone
+    printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground .5 .2 0\n' |
+        write wall.view
+    wait_for "changed: l loads"
+    keys l
+    wait_for_rows 20 "$ORANGE"
+    keys c
+    wait_for "wrote the view"
+    grep -q "^eye 0 [^ ]* [34]\." wall.view || die "the camera: $(cat wall.view)"
+    sleep 0.5
+    reject "changed" # by ourselves
+    # another shape of the picture: 50x100 pixels are 20 columns in 20 rows
+    sed 's/^res .*/res 50 100/' wall.view | write wall.view
+    wait_for "changed: l loads"
+    keys l
+    wait_for "LIVE .* 50x100"
+    wait_for_rows 20 "$ORANGE"
+    [ "$(screen_colors | sed -n 10p | grep -o "${ORANGE}m *" |
+        tr -dc ' ' | wc -c)" = 20 ] || die "not laid out anew"
+    keys q
+    expect_end 0
+    fresh
+}
+
+machine="threads*"
+story -t 1
+
+# at once, but not while a render of normal mode would be lost
+wall 0 >wall.obj
+shines .5 .2 0 >wall.mtl
+start --watch -s 1000000000 wall.obj
+wait_for_rows 20 "$ORANGE"
+shines 0 .5 0 | write wall.mtl
+wait_for "loaded wall.obj"
+wait_for_rows 20 "$GREEN"
+shines .5 oops | write wall.mtl
+wait_for "wall.mtl:3: found 'oops'"
+shines 0 .5 0 | write wall.mtl
+wait_for "loaded wall.obj"
+keys Space Enter
+wait_for "NORMAL .*spp"
+shines .5 .2 0 | write wall.mtl
+wait_for "NORMAL  changed: l loads"
+keys l
+wait_for "files are loaded in live mode"
+wait_for_rows 20 "$GREEN"
+keys Space
+wait_for "not saved. Leave it?"
+keys y
+wait_for_rows 20 "$ORANGE"
+keys q
+expect_end 0
+
+cp /etc/OpenCL/vendors/pocl.icd . 2>/dev/null || exit 0
+export OCL_ICD_VENDORS=$PWD
+fresh
+machine=OpenCL
+story -t 1 --backend opencl
