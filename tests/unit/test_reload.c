@@ -116,6 +116,39 @@ static void cameras_stay(void **state)
     }
 }
 
+/* Numbered views of the file come, go and change; the others stay. */
+static void numbered_views_are_taken(void **state)
+{
+    struct session s, fresh;
+    struct error err;
+
+    (void)state;
+    open_scene(&s);
+    for (int i = 0; i < 2; i++) {
+        s.view.shots[i] = view_pose(&s.view);
+        s.view.has_shot[i] = true;
+    }
+    s.view.eye[0] = 7;
+    s.view.shots[2] = view_pose(&s.view);
+    s.view.has_shot[2] = true;
+    check_or_say(view_write(&s.view, "s.view", &err), err.text);
+    session_close(&s);
+    check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
+    s.view.shots[3].eye[0] = 5; /* by the person, in no file */
+    s.view.has_shot[3] = true;
+    check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
+    fresh.filed.has_shot[0] = false;
+    fresh.filed.shots[1].eye[0] = 2;
+    session_take(&s, &fresh);
+    session_close(&fresh);
+    assert_false(s.view.has_shot[0]);
+    check_close(s.view.shots[1].eye[0], 2, 0);
+    check_close(s.view.shots[2].eye[0], 7, 0);
+    assert_true(s.view.has_shot[3]);
+    check_close(s.view.shots[3].eye[0], 5, 0);
+    session_close(&s);
+}
+
 /* Cameras that the program has placed do not jump when the scene grows. */
 static void framed_cameras_stay(void **state)
 {
@@ -290,6 +323,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(changed_files_are_taken),
         cmocka_unit_test(cameras_stay),
+        cmocka_unit_test(numbered_views_are_taken),
         cmocka_unit_test(framed_cameras_stay),
         cmocka_unit_test(broken_files_leave_the_scene),
         cmocka_unit_test(warnings_are_told),

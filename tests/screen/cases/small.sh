@@ -6,13 +6,13 @@ start --cell-aspect 2 flat.obj
 wait_for_rows 10 "48;2;188;124;0"
 expect "LIVE"
 keys '?'
-wait_for "keys 1/4 - any key goes on"
+wait_for "keys 1/5 - any key goes on"
 expect "w s *move forward, back"
 keys x
-wait_for "keys 2/4 - any key goes on"
+wait_for "keys 2/5 - any key goes on"
 keys Escape # closes it at once
 wait_until_gone "any key"
-keys '?' x x x
+keys '?' x x x x
 wait_for "any key closes"
 expect "q *quit"
 keys x
