@@ -38,6 +38,7 @@ struct render {
     bool wanted; /* a job waits for the render thread */
     bool ending;
     enum render_state state;
+    uint64_t steps;    /* samples a pixel until it halts; 0: it goes on */
     uint64_t spp;      /* limit, 0: none */
     uint64_t spp_done; /* all passes up to this are complete */
     uint64_t draft_spp_done;
@@ -48,8 +49,8 @@ struct render {
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
+    bool is_stepping;         /* a sample a pass */
     const struct film *begun; /* by the backend; NULL: a new picture */
-    bool only_one;            /* more sample a pixel, then it is halted */
 };
 
 /* Samples that every pixel has after the pass that follows spp_done. */
@@ -171,7 +172,18 @@ static enum pass_result run_draft(struct render *r)
     return result;
 }
 
-/* Until the limit, a cancellation or a failure, or for one sample a pixel. */
+/* After a pass that was one of the steps: was it the last? */
+static bool was_last_step(struct render *r)
+{
+    bool is_last;
+
+    pthread_mutex_lock(&r->lock);
+    is_last = r->steps > 0 && --r->steps == 0;
+    pthread_mutex_unlock(&r->lock);
+    return is_last;
+}
+
+/* Until the limit, a cancellation or a failure, or for some steps. */
 static enum pass_result run_film(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
@@ -180,10 +192,10 @@ static enum pass_result run_film(struct render *r)
 
     while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp)) {
         uint64_t target =
-            r->only_one ? *spp_done + 1 : next_target(*spp_done, r->spp);
+            r->is_stepping ? *spp_done + 1 : next_target(*spp_done, r->spp);
 
         result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
-        if (r->only_one && result == PASS_DONE && *spp_done != r->spp)
+        if (result == PASS_DONE && was_last_step(r) && *spp_done != r->spp)
             result = PASS_CANCELLED;
     }
     return result;
@@ -261,10 +273,11 @@ struct render *render_create(struct backend *backend, struct error *err)
 }
 
 /* Under the lock: lets the render thread go. */
-static void go(struct render *r, bool only_one)
+static void go(struct render *r, uint64_t steps)
 {
     cancel_reset(&r->cancel);
-    r->only_one = only_one;
+    r->steps = steps;
+    r->is_stepping = steps > 0;
     r->state = RENDER_RUNNING;
     r->wanted = true;
     r->run_begin_ns = clock_ns();
@@ -320,7 +333,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
-    go(r, false);
+    go(r, 0);
     pthread_mutex_unlock(&r->lock);
     return true;
 }
@@ -341,17 +354,29 @@ void render_resume(struct render *r, uint64_t spp)
     pthread_mutex_lock(&r->lock);
     if (r->state == RENDER_IDLE || r->state == RENDER_DONE) {
         r->spp = spp;
-        go(r, false);
+        go(r, 0);
     }
     pthread_mutex_unlock(&r->lock);
 }
 
-void render_step(struct render *r)
+bool render_step(struct render *r)
 {
+    bool is_done;
+
     pthread_mutex_lock(&r->lock);
-    if (r->state == RENDER_IDLE)
-        go(r, true);
+    if (r->state == RENDER_RUNNING && r->steps > 0) {
+        r->steps++;
+        pthread_mutex_unlock(&r->lock);
+        return true;
+    }
     pthread_mutex_unlock(&r->lock);
+    render_halt(r);
+    pthread_mutex_lock(&r->lock);
+    is_done = r->state != RENDER_IDLE;
+    if (!is_done)
+        go(r, 1);
+    pthread_mutex_unlock(&r->lock);
+    return !is_done;
 }
 
 bool render_wait(struct render *r, int timeout_ms)

@@ -65,13 +65,15 @@ static uint32_t open_children(const struct builder *b, uint32_t node,
                               uint32_t children[WIDE_CHILDREN])
 {
     uint32_t count = 1;
-    uint32_t i;
 
     children[0] = node;
-    while (count < WIDE_CHILDREN &&
-           (i = largest_of(b, children, count)) < count) {
-        uint32_t opened = children[i];
+    while (count < WIDE_CHILDREN) {
+        uint32_t i = largest_of(b, children, count);
+        uint32_t opened;
 
+        if (i == count)
+            break;
+        opened = children[i];
         children[i] = opened + 1;
         children[count++] = b->bvh->nodes[opened].next;
     }

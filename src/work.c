@@ -231,15 +231,10 @@ void work_step(struct work *w)
     w->has_changed = true;
     if (!w->is_live && !w->is_started)
         start_normal(w);
-    render_halt(render);
+    w->is_halted = render_step(render);
     w->progress = render_progress(render);
-    if (w->progress.state != RENDER_IDLE) {
+    if (!w->is_halted)
         say_done(w);
-        return;
-    }
-    render_step(render);
-    w->is_halted = true;
-    w->progress = render_progress(render);
 }
 
 void work_restart(struct work *w)

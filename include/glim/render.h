@@ -84,9 +84,9 @@ void render_halt(struct render *r);
 /* Goes on after render_halt() where it stopped. `spp` is the new limit. */
 void render_resume(struct render *r, uint64_t spp);
 
-/* Goes on after render_halt() for one more sample of every pixel, and is halted
- * then by itself. */
-void render_step(struct render *r);
+/* One more sample of every pixel, and one more still if it is under way; then
+ * halts by itself. False if the render is done or has failed. */
+bool render_step(struct render *r);
 
 /* Asks for a halt without waiting; for a thread that is not the main one. */
 void render_halt_async(struct render *r);
