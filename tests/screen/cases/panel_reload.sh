@@ -34,7 +34,7 @@ wait_for "wrote 1 material to lamp.mtl"
 sleep 1
 reject "changed\|loaded"
 # one at a time
-keys t
+keys g
 wait_for "┌─ progress ─"
 reject "Materials"
 keys Tab
