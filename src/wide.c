@@ -60,13 +60,13 @@ static uint32_t largest_of(const struct builder *b, const uint32_t *children,
     return best;
 }
 
-/* Up to eight nodes of the binary tree that stand for this one. */
-static uint32_t open_children(const struct builder *b, uint32_t node,
+/* Up to eight nodes of the binary tree in place of the one that children[0] is;
+ * their number. */
+static uint32_t open_children(const struct builder *b,
                               uint32_t children[WIDE_CHILDREN])
 {
     uint32_t count = 1;
 
-    children[0] = node;
     while (count < WIDE_CHILDREN) {
         uint32_t i = largest_of(b, children, count);
         uint32_t opened;
@@ -135,8 +135,8 @@ static void fill_box(struct wide_node *n, uint32_t i, struct vec3 lo,
 /* Recursion is as deep as the tree, at most. */
 static uint32_t build(struct builder *b, uint32_t node)
 {
-    uint32_t children[WIDE_CHILDREN];
-    uint32_t count = open_children(b, node, children);
+    uint32_t children[WIDE_CHILDREN] = {node};
+    uint32_t count = open_children(b, children);
     uint32_t index = b->wide->node_count++;
     struct wide_node *n = &b->wide->nodes[index];
 
