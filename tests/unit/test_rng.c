@@ -61,6 +61,18 @@ static void unit_floats_stay_below_one(void **state)
         assert_true(unit_float(0xffffffffu - i) < 1.0f);
 }
 
+/* Takes the one of 2^wide x 2^high boxes in which u lies; false if it is taken
+ * already. */
+static bool take_box(bool *is_taken, struct vec2 u, int wide, int high)
+{
+    int column = (int)ldexp((double)u.x, wide);
+    int row = (int)ldexp((double)u.y, high);
+    bool is_free = !is_taken[column << high | row];
+
+    is_taken[column << high | row] = true;
+    return is_free;
+}
+
 /* Each box of area 2^-m, 2^-k by 2^-(m-k), holds one of the 2^m points from
  * `first` on. */
 static bool is_net(uint32_t x, uint64_t first, int m, uint32_t dimension)
@@ -70,13 +82,9 @@ static bool is_net(uint32_t x, uint64_t first, int m, uint32_t dimension)
 
         for (uint64_t i = first; i < first + (UINT64_C(1) << m); i++) {
             struct vec2 u = random_2d(sampler_start(x, 5, i, 7), dimension);
-            int column = (int)ldexp((double)u.x, k);
-            int row = (int)ldexp((double)u.y, m - k);
-            int box = column << (m - k) | row;
 
-            if (is_taken[box])
+            if (!take_box(is_taken, u, k, m - k))
                 return false;
-            is_taken[box] = true;
         }
     }
     return true;
@@ -288,13 +296,9 @@ static bool is_draft_net(uint32_t x, uint32_t y, int wide, int high,
                 draft_point(x + (pixel & ((1u << wide) - 1)),
                             y + (pixel >> wide),
                             first + (i & ((1u << more) - 1)), 7, dimension);
-            int column = (int)ldexp((double)u.x, k);
-            int row = (int)ldexp((double)u.y, m - k);
-            int box = column << (m - k) | row;
 
-            if (is_taken[box])
+            if (!take_box(is_taken, u, k, m - k))
                 return false;
-            is_taken[box] = true;
         }
     }
     return true;
