@@ -152,9 +152,9 @@ static inline void path_add_direct(const struct world *w, struct path *p,
                                    const struct bsdf *b, const struct vertex *v,
                                    struct vec3 wo, uint32_t vertex)
 {
-    uint32_t key = ray_key(p->sampler, SHADOW_KEY + vertex);
     struct light_sample s;
     struct vec3 wi, light;
+    uint32_t key;
     float pdf;
 
     if (!light_sample(w, &p->from, path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
@@ -169,6 +169,7 @@ static inline void path_add_direct(const struct world *w, struct path *p,
     light =
         path_part(p, light,
                   bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
+    key = ray_key(p->sampler, SHADOW_KEY + vertex);
     if (shadow_survives(p, key, &light) &&
         light_is_seen(w, p, v, wi.z, &s, key))
         p->out.radiance = v3_add(p->out.radiance, light);

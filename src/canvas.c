@@ -408,11 +408,6 @@ void canvas_set_corner(struct canvas *c, const char *const *texts,
     c->must_update = true;
 }
 
-bool canvas_has_unicode(const struct canvas *c)
-{
-    return c->has_unicode;
-}
-
 void canvas_close_window(struct canvas *c)
 {
     term_close_window();

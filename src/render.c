@@ -49,7 +49,6 @@ struct render {
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
-    bool is_stepping;         /* a sample a pass */
     const struct film *begun; /* by the backend; NULL: a new picture */
 };
 
@@ -172,6 +171,16 @@ static enum pass_result run_draft(struct render *r)
     return result;
 }
 
+static bool is_stepping(struct render *r)
+{
+    bool has_steps;
+
+    pthread_mutex_lock(&r->lock);
+    has_steps = r->steps > 0;
+    pthread_mutex_unlock(&r->lock);
+    return has_steps;
+}
+
 /* After a pass that was one of the steps: was it the last? */
 static bool was_last_step(struct render *r)
 {
@@ -192,7 +201,7 @@ static enum pass_result run_film(struct render *r)
 
     while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp)) {
         uint64_t target =
-            r->is_stepping ? *spp_done + 1 : next_target(*spp_done, r->spp);
+            is_stepping(r) ? *spp_done + 1 : next_target(*spp_done, r->spp);
 
         result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
         if (result == PASS_DONE && was_last_step(r) && *spp_done != r->spp)
@@ -277,7 +286,6 @@ static void go(struct render *r, uint64_t steps)
 {
     cancel_reset(&r->cancel);
     r->steps = steps;
-    r->is_stepping = steps > 0;
     r->state = RENDER_RUNNING;
     r->wanted = true;
     r->run_begin_ns = clock_ns();

@@ -190,7 +190,6 @@ static void close_help(struct tui *t)
 static void next_colors(struct tui *t)
 {
     canvas_next_palette(&t->canvas);
-    panel_draw(&t->panel);
     work_say(&t->work, palette_name(t->canvas.palette));
     layout(t);
 }

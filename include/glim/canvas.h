@@ -37,7 +37,7 @@ struct canvas {
     bool palette_is_final;      /* no answer of the terminal changes it */
     enum glyph_mode glyph_mode; /* what is wanted */
     enum glyphs glyphs;
-    bool has_unicode;
+    bool has_unicode;          /* characters beyond ASCII are seen as such */
     bool unicode_is_final;     /* no answer of the terminal changes it */
     bool has_sixel, has_kitty; /* the terminal has said so */
     int sixel_colors;          /* 0: it has not said how many */
@@ -110,9 +110,6 @@ void canvas_open_corner(struct canvas *c, const char *title,
 void canvas_set_corner(struct canvas *c, const char *const *texts,
                        int text_count);
 void canvas_close_window(struct canvas *c);
-
-/* True if characters beyond ASCII are seen as such. */
-bool canvas_has_unicode(const struct canvas *c);
 
 enum canvas_result {
     CANVAS_DONE, /* all is shown */
