@@ -200,6 +200,18 @@ static inline bool wants_light_sample(const struct world *w,
            !bsdf_is_delta(b);
 }
 
+/* Draws a direction; false if there is none, or the face is in its way. */
+static inline bool vertex_scatter(const struct vertex *v, const struct bsdf *b,
+                                  struct vec3 wo, struct vec2 direction,
+                                  float choice, struct bsdf_sample *s,
+                                  struct vec3 *wi)
+{
+    if (!bsdf_sample(b, wo, direction, choice, s))
+        return false;
+    *wi = v3_unit(vertex_to_world(v, s->wi));
+    return vertex_sides_agree(v, *wi, s->wi.z);
+}
+
 /* Draws where the path goes on. False if it ends here. */
 static inline bool path_scatter(struct path *p, const struct bsdf *b,
                                 const struct vertex *v, struct vec3 wo,
@@ -208,11 +220,16 @@ static inline bool path_scatter(struct path *p, const struct bsdf *b,
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (!bsdf_sample(b, wo, direction, choice, &s))
-        return false;
-    wi = v3_unit(vertex_to_world(v, s.wi));
-    if (!vertex_sides_agree(v, wi, s.wi.z))
-        return false;
+    if (!vertex_scatter(v, b, wo, direction, choice, &s, &wi)) {
+        /* clear glass whose normal leans loses nothing: its face bends what
+         * the normal would send to the wrong side */
+        struct vertex face = vertex_of_face(*v);
+
+        if (!bsdf_is_delta(b) ||
+            !vertex_scatter(&face, b, vertex_to_local(&face, v3_neg(p->ray.d)),
+                            direction, choice, &s, &wi))
+            return false;
+    }
     p->ray.o = vertex_leave(v, s.wi.z);
     p->ray.d = wi;
     p->ray.from = v->face;
