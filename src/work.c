@@ -8,6 +8,7 @@
 
 #include "glim/file.h"
 #include "glim/picture.h"
+#include "glim/view_file.h"
 #include "glim/xdg.h"
 
 #define MESSAGE_NS UINT64_C(4000000000)

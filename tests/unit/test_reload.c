@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "glim/work.h"
+#include "glim/view_file.h"
 
 #define OBJ                                                                  \
     "mtllib s.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 2 " \

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "glim/work.h"
+#include "glim/view_file.h"
 
 static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
                                     "s-kept.png", "s.ans",  "s-2.ans"};
