@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "glim/knob_text.h"
 #include "glim/panel_draw.h"
 
 #define CTRL(letter) ((letter)&31)
@@ -107,7 +108,7 @@ static void take_typed(struct panel *p)
     if (panel_knobs(p, knobs) == 0 || !may_change(p))
         return;
     edit_break(edit_of(p));
-    if (knob_type(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
+    if (knob_set_text(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
         p->is_typing = false;
         edit_break(edit_of(p));
         take_change(p);
