@@ -151,11 +151,12 @@ static void open_help(struct tui *t, int number)
     struct help_page page;
     char note[64], title[64];
 
-    snprintf(note, sizeof note, "%s, %s", palette_name(t->canvas.palette),
+    snprintf(note, sizeof note, "%s, %s",
+             palette_name(t->canvas.display.palette),
              canvas_glyphs_name(&t->canvas));
     if (pace->state == PACE_ANSWERS)
         snprintf(note, sizeof note, "%s, %s, answers in %.1f ms",
-                 palette_name(t->canvas.palette),
+                 palette_name(t->canvas.display.palette),
                  canvas_glyphs_name(&t->canvas),
                  (double)pace->rtt_min_ns * 1e-6);
     /* within a frame, with a blank on each side, above the status line */
@@ -189,14 +190,14 @@ static void close_help(struct tui *t)
 
 static void next_colors(struct tui *t)
 {
-    canvas_next_palette(&t->canvas);
-    work_say(&t->work, palette_name(t->canvas.palette));
+    display_next_palette(&t->canvas.display);
+    work_say(&t->work, palette_name(t->canvas.display.palette));
     layout(t);
 }
 
 static void next_glyphs(struct tui *t)
 {
-    canvas_next_glyphs(&t->canvas);
+    display_next_glyphs(&t->canvas.display);
     layout(t);
     work_say(&t->work, canvas_glyphs_name(&t->canvas));
 }
@@ -397,7 +398,7 @@ static void take_mouse(struct tui *t, const struct event *event)
 
 static void take_event(struct tui *t, const struct event *event)
 {
-    enum palette palette = t->canvas.palette;
+    enum palette palette = t->canvas.display.palette;
 
     if (event->kind == EVENT_KEY) {
         take_key(t, event->key);
@@ -407,7 +408,7 @@ static void take_event(struct tui *t, const struct event *event)
     } else {
         if (canvas_answer(&t->canvas, event))
             layout(t);
-        if (t->canvas.palette != palette)
+        if (t->canvas.display.palette != palette)
             refresh_soon(t);
     }
 }
@@ -479,7 +480,7 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
         .thread_count = backend->thread_count,
         .width_px = film->width,
         .height_px = film->height,
-        .colors = palette_name(t->canvas.palette),
+        .colors = palette_name(t->canvas.display.palette),
         .hint = hint,
     };
 
