@@ -319,8 +319,10 @@ void inside_open_panel(struct inside *in)
                  in->y);
     } else if (in->drawing == INSIDE_PATH) {
         legend_trail(&legend, scene, &in->trail, in->step);
-        snprintf(title, sizeof title, " sample %llu of pixel %u %u - < > ",
-                 (unsigned long long)in->sample, in->x, in->y);
+        snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
+                 (unsigned long long)in->sample, in->x, in->y,
+                 work_key(in->work, ACTION_LESS).text,
+                 work_key(in->work, ACTION_MORE).text);
     } else {
         return;
     }
@@ -334,12 +336,13 @@ static void say_boxes(struct inside *in)
 {
     struct frame nothing = {0};
     struct camera any = {0};
-    char text[TEXT_BYTES];
 
-    snprintf(text, sizeof text,
-             "boxes of level %u of %u: %u nodes; < > go up and down", in->level,
-             in->bvh.depth, sketch_boxes(&nothing, &any, &in->bvh, in->level));
-    work_say_long(in->work, text);
+    work_say_long(in->work,
+                  "boxes of level %u of %u: %u nodes; %s %s go up and down",
+                  in->level, in->bvh.depth,
+                  sketch_boxes(&nothing, &any, &in->bvh, in->level),
+                  work_key(in->work, ACTION_LESS).text,
+                  work_key(in->work, ACTION_MORE).text);
 }
 
 static bool is_new_pick(const struct inside *in)
@@ -406,7 +409,8 @@ static void say_drawing(struct inside *in)
     if (in->drawing == INSIDE_BOXES)
         say_boxes(in);
     else if (in->drawing == INSIDE_LOBES && !in->is_surface)
-        work_say(in->work, "only the sky is there: v picks something else");
+        work_say(in->work, "only the sky is there: %s picks something else",
+                 work_key(in->work, ACTION_CURSOR).text);
     inside_open_panel(in);
 }
 
@@ -455,7 +459,10 @@ static void change(struct inside *in, int by)
     else if (in->drawing == INSIDE_PATH)
         change_step(in, by);
     else
-        work_say(in->work, "< > go through boxes or a path: t draws them");
+        work_say(in->work, "%s %s go through boxes or a path: %s draws them",
+                 work_key(in->work, ACTION_LESS).text,
+                 work_key(in->work, ACTION_MORE).text,
+                 work_key(in->work, ACTION_DRAWING).text);
 }
 
 /* ---- actions ---- */

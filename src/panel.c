@@ -6,6 +6,7 @@
 
 #include "glim/knob_text.h"
 #include "glim/panel_draw.h"
+#include "glim/work_save.h"
 
 #define CTRL(letter) ((letter)&31)
 #define TAB          '\t'
@@ -72,7 +73,8 @@ static void take_change(struct panel *p)
 static bool may_change(struct panel *p)
 {
     if (!p->work->is_live) {
-        work_say(p->work, "materials change in live mode: space goes there");
+        work_say(p->work, "materials change in live mode: %s goes there",
+                 work_key(p->work, ACTION_MODE).text);
         return false;
     }
     if (p->work->reload.is_busy) {
@@ -113,7 +115,7 @@ static void take_typed(struct panel *p)
         edit_break(edit_of(p));
         take_change(p);
     } else {
-        work_say(p->work, err.text);
+        work_say(p->work, "%s", err.text);
     }
 }
 
@@ -138,7 +140,6 @@ static void compare(struct panel *p)
 static void duplicate(struct panel *p)
 {
     struct edit *e = edit_of(p);
-    char text[128];
 
     if (p->selection.page == KNOB_LIGHT || !selection_has_one(&p->selection) ||
         !may_change(p))
@@ -149,16 +150,15 @@ static void duplicate(struct panel *p)
             edit_duplicate(e, selection_material_of(&p->selection,
                                                     p->selection.object));
         edit_assign(e, p->selection.object, p->selection.material);
-        snprintf(text, sizeof text, "%.40s has its own material now: %.40s",
+        work_say(p->work, "%.40s has its own material now: %.40s",
                  panel_name(scene_of(p)->object_names[p->selection.object]),
                  e->names[p->selection.material]);
     } else {
         p->selection.material = edit_duplicate(e, p->selection.material);
-        snprintf(text, sizeof text, "%.60s: Tab goes to the objects for it",
+        work_say(p->work, "%.60s: Tab goes to the objects for it",
                  e->names[p->selection.material]);
     }
     edit_break(e);
-    work_say(p->work, text);
     take_change(p);
 }
 

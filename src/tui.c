@@ -16,7 +16,7 @@
 #include "glim/pilot.h"
 #include "glim/stats.h"
 #include "glim/version.h"
-#include "glim/work.h"
+#include "glim/work_save.h"
 
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)
@@ -191,7 +191,7 @@ static void close_help(struct tui *t)
 static void next_colors(struct tui *t)
 {
     display_next_palette(&t->canvas.display);
-    work_say(&t->work, palette_name(t->canvas.display.palette));
+    work_say(&t->work, "%s", palette_name(t->canvas.display.palette));
     layout(t);
 }
 
@@ -199,7 +199,7 @@ static void next_glyphs(struct tui *t)
 {
     display_next_glyphs(&t->canvas.display);
     layout(t);
-    work_say(&t->work, canvas_glyphs_name(&t->canvas));
+    work_say(&t->work, "%s", canvas_glyphs_name(&t->canvas));
 }
 
 static void save_text(struct tui *t)
@@ -466,15 +466,14 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
 {
     const struct film *film = film_of(t);
     const struct backend *backend = render_backend(t->work.session->render);
-    const struct keys *keys = &t->work.session->options->keys;
-    char help[KEYS_NAME_BYTES], quit[KEYS_NAME_BYTES], hint[48];
-    char load[KEYS_NAME_BYTES];
+    struct keys_name load = work_key(&t->work, ACTION_RELOAD);
+    char hint[48];
     struct status status = {
         .is_live = t->work.is_live,
         .is_orbiting = t->pilot.steer.is_orbiting,
         .is_halted = t->work.is_halted,
         .is_started = t->work.is_started,
-        .load_key = t->work.has_changed_files ? load : NULL,
+        .load_key = t->work.has_changed_files ? load.text : NULL,
         .progress = &t->work.progress,
         .device = backend->device,
         .thread_count = backend->thread_count,
@@ -484,10 +483,9 @@ static void format_status(struct tui *t, char text[STATUS_BYTES])
         .hint = hint,
     };
 
-    keys_first_name(keys, ACTION_RELOAD, load);
-    keys_first_name(keys, ACTION_HELP, help);
-    keys_first_name(keys, ACTION_QUIT, quit);
-    snprintf(hint, sizeof hint, "%s help  %s quit", help, quit);
+    snprintf(hint, sizeof hint, "%s help  %s quit",
+             work_key(&t->work, ACTION_HELP).text,
+             work_key(&t->work, ACTION_QUIT).text);
     status_format(text, term_size().cols, &status);
 }
 
@@ -797,7 +795,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
     ok = open_screen(&t, err);
     if (ok) {
         if (s->notice[0] != '\0')
-            work_say_long(&t.work, s->notice);
+            work_say_long(&t.work, "%s", s->notice);
         s->notice[0] = '\0';
         /* not before: it puts back the signals that it has found */
         if (s->options->backend != BACKEND_CPU)
