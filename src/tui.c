@@ -507,8 +507,8 @@ static void update_status(struct tui *t, uint64_t now_ns)
         status_message(text, term_size().cols, questions[t->question]);
     } else if (now_ns < t->work.message.until_ns) {
         status_message(text, term_size().cols, t->work.message.text);
-    } else if (t->canvas.has_status_row && t->inside.legend[0] != '\0') {
-        status_message(text, term_size().cols, t->inside.legend);
+    } else if (t->canvas.has_status_row && t->inside.show.legend[0] != '\0') {
+        status_message(text, term_size().cols, t->inside.show.legend);
     } else if (t->canvas.has_status_row) {
         format_status(t, text);
     } else {
@@ -578,10 +578,10 @@ static void draw(struct tui *t, uint64_t now_ns)
         return;
     result =
         canvas_draw(c, shows ? render_film(render) : NULL, render_draft(render),
-                    inside_develop(&t->inside), frame_step(t));
-    if (t->inside.has_news)
+                    show_develop(&t->inside.show), frame_step(t));
+    if (t->inside.show.has_news)
         t->status_ns = 0;
-    t->inside.has_news = false;
+    t->inside.show.has_news = false;
     if (result == CANVAS_GONE) {
         lose_terminal(t);
     } else if (shows) {
