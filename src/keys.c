@@ -236,40 +236,38 @@ int keys_find_key(const char *name, size_t length)
     return 0;
 }
 
-void keys_key_name(char name[KEYS_NAME_BYTES], int key)
+struct keys_name keys_key_name(int key)
 {
+    struct keys_name name;
+
     for (size_t i = 0; i < COUNT(key_names); i++) {
         if (key_names[i].key == key) {
-            snprintf(name, KEYS_NAME_BYTES, "%s", key_names[i].name);
-            return;
+            snprintf(name.text, sizeof name.text, "%s", key_names[i].name);
+            return name;
         }
     }
     if (key < ' ')
-        snprintf(name, KEYS_NAME_BYTES, "^%c", key | 64);
+        snprintf(name.text, sizeof name.text, "^%c", key | 64);
     else
-        snprintf(name, KEYS_NAME_BYTES, "%c", key);
+        snprintf(name.text, sizeof name.text, "%c", key);
+    return name;
 }
 
-void keys_first_name(const struct keys *k, enum action action,
-                     char name[KEYS_NAME_BYTES])
+struct keys_name keys_first_name(const struct keys *k, enum action action)
 {
     for (int i = 0; i < KEYS_MAX; i++) {
-        if (k->keys[action][i] != 0) {
-            keys_key_name(name, k->keys[action][i]);
-            return;
-        }
+        if (k->keys[action][i] != 0)
+            return keys_key_name(k->keys[action][i]);
     }
-    snprintf(name, KEYS_NAME_BYTES, "no key");
+    return (struct keys_name){"no key"};
 }
 
 static void add_key(struct keys_help *help, int key)
 {
     size_t length = strlen(help->keys);
-    char name[KEYS_NAME_BYTES];
 
-    keys_key_name(name, key);
     snprintf(help->keys + length, sizeof help->keys - length, "%s%s",
-             length > 0 ? " " : "", name);
+             length > 0 ? " " : "", keys_key_name(key).text);
 }
 
 /* A capital beside its small letter is not shown. */

@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "glim/knob_text.h"
 #include "glim/panel_draw.h"
+#include "glim/work_save.h"
 
 #define CTRL(letter) ((letter)&31)
 #define TAB          '\t'
@@ -71,7 +73,8 @@ static void take_change(struct panel *p)
 static bool may_change(struct panel *p)
 {
     if (!p->work->is_live) {
-        work_say(p->work, "materials change in live mode: space goes there");
+        work_say(p->work, "materials change in live mode: %s goes there",
+                 work_key(p->work, ACTION_MODE).text);
         return false;
     }
     if (p->work->reload.is_busy) {
@@ -107,12 +110,12 @@ static void take_typed(struct panel *p)
     if (panel_knobs(p, knobs) == 0 || !may_change(p))
         return;
     edit_break(edit_of(p));
-    if (knob_type(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
+    if (knob_set_text(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
         p->is_typing = false;
         edit_break(edit_of(p));
         take_change(p);
     } else {
-        work_say(p->work, err.text);
+        work_say(p->work, "%s", err.text);
     }
 }
 
@@ -137,7 +140,6 @@ static void compare(struct panel *p)
 static void duplicate(struct panel *p)
 {
     struct edit *e = edit_of(p);
-    char text[128];
 
     if (p->selection.page == KNOB_LIGHT || !selection_has_one(&p->selection) ||
         !may_change(p))
@@ -148,16 +150,15 @@ static void duplicate(struct panel *p)
             edit_duplicate(e, selection_material_of(&p->selection,
                                                     p->selection.object));
         edit_assign(e, p->selection.object, p->selection.material);
-        snprintf(text, sizeof text, "%.40s has its own material now: %.40s",
+        work_say(p->work, "%.40s has its own material now: %.40s",
                  panel_name(scene_of(p)->object_names[p->selection.object]),
                  e->names[p->selection.material]);
     } else {
         p->selection.material = edit_duplicate(e, p->selection.material);
-        snprintf(text, sizeof text, "%.60s: Tab goes to the objects for it",
+        work_say(p->work, "%.60s: Tab goes to the objects for it",
                  e->names[p->selection.material]);
     }
     edit_break(e);
-    work_say(p->work, text);
     take_change(p);
 }
 

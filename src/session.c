@@ -10,6 +10,7 @@
 
 #include "glim/file.h"
 #include "glim/mtl_save.h"
+#include "glim/view_file.h"
 
 #define SIDE_MAX 65536
 

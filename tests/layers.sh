@@ -62,8 +62,8 @@ function check_include(name, is_system,    kernel)
     if (is_system) {
         if (kernel && stem != "dialect")
             fault("kernels include libc only in dialect.h: <" name ">")
-        if (name ~ /curses|^term(info|cap)?\.h$/ && stem !~ /^(tui.*|term)$/)
-            fault("only tui and term include <" name ">")
+        if (name ~ /curses|^term(info|cap)?\.h$/ && stem !~ /^(term|windows)$/)
+            fault("only term and windows include <" name ">")
         if (name ~ /^CL\// && stem !~ /^(cl_.*|backend_cl)$/)
             fault("only cl_* and backend_cl include <" name ">")
         return

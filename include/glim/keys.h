@@ -111,13 +111,14 @@ const char *keys_action_name(enum action action);
  * word such as PgUp. 0: there is none. */
 int keys_find_key(const char *name, size_t length);
 
-#define KEYS_NAME_BYTES 8
+struct keys_name {
+    char text[8];
+};
 
-void keys_key_name(char name[KEYS_NAME_BYTES], int key);
+struct keys_name keys_key_name(int key);
 
 /* The name of an action's first key, or "no key". */
-void keys_first_name(const struct keys *k, enum action action,
-                     char name[KEYS_NAME_BYTES]);
+struct keys_name keys_first_name(const struct keys *k, enum action action);
 
 struct keys_help {
     char keys[32];

@@ -111,7 +111,7 @@ static void chosen_keys_replace_those_of_the_table(void **state)
 
 static void names_come_back(void **state)
 {
-    char name[KEYS_NAME_BYTES];
+    struct keys_name name;
 
     (void)state;
     for (int action = 1; action < ACTIONS; action++) {
@@ -126,8 +126,8 @@ static void names_come_back(void **state)
     for (int key = 1; key < INPUT_OTHER; key++) {
         if (key >= 128 && key < INPUT_UP)
             continue; /* none that a terminal sends */
-        keys_key_name(name, key);
-        assert_int_equal(keys_find_key(name, strlen(name)), key);
+        name = keys_key_name(key);
+        assert_int_equal(keys_find_key(name.text, strlen(name.text)), key);
     }
     assert_int_equal(keys_find_key("^A", 2), 1);
     assert_int_equal(keys_find_key("PgUp", 4), INPUT_PAGE_UP);
@@ -140,17 +140,13 @@ static void names_come_back(void **state)
 static void first_names(void **state)
 {
     struct keys k = {0};
-    char name[KEYS_NAME_BYTES];
 
     (void)state;
     choose(&k, ACTION_MOUSE, 0, 0);
     keys_settle(&k, false);
-    keys_first_name(&k, ACTION_HELP, name);
-    assert_string_equal(name, "?");
-    keys_first_name(&k, ACTION_MODE, name);
-    assert_string_equal(name, "space");
-    keys_first_name(&k, ACTION_MOUSE, name);
-    assert_string_equal(name, "no key");
+    assert_string_equal(keys_first_name(&k, ACTION_HELP).text, "?");
+    assert_string_equal(keys_first_name(&k, ACTION_MODE).text, "space");
+    assert_string_equal(keys_first_name(&k, ACTION_MOUSE).text, "no key");
 }
 
 /* Every action but capitals of the same is in the help once; lines fit. */
@@ -168,14 +164,15 @@ static void help_names_every_key(void **state)
             strcat(strcat(all, help.keys), " ");
         }
         for (int action = 1; action < ACTIONS; action++) {
-            char name[KEYS_NAME_BYTES + 2] = " ";
+            char name[16];
 
             if (action >= ACTION_LOOK_UP && action <= ACTION_LOOK_RIGHT)
                 strcpy(name, " arrows");
             else if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9)
                 strcpy(name, " 1-9");
             else
-                keys_key_name(name + 1, k.keys[action][0]);
+                snprintf(name, sizeof name, " %s",
+                         keys_key_name(k.keys[action][0]).text);
             check_has(all, strcat(name, " "));
         }
     }

@@ -11,6 +11,7 @@
 
 #include "glim/util.h"
 #include "glim/view.h"
+#include "glim/view_file.h"
 
 /* In the test's folder; the name lives until the next call. */
 static const char *file(const char *name)

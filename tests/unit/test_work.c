@@ -9,7 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/work.h"
+#include "glim/view_file.h"
+#include "glim/work_save.h"
 
 static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
                                     "s-kept.png", "s.ans",  "s-2.ans"};
@@ -406,6 +407,23 @@ static void texts_are_written(void **state)
     }
 }
 
+/* A person who gave the modes another key is told that one. */
+static void messages_name_the_chosen_keys(void **state)
+{
+    struct fixture *f = *state;
+    const int chosen[KEYS_MAX] = {'j'};
+
+    keys_choose(&f->options.keys, ACTION_MODE, chosen);
+    keys_settle(&f->options.keys, false);
+    work_set_live(&f->work, false);
+    assert_false(work_may_move(&f->work));
+    assert_string_equal(f->work.message.text,
+                        "the camera moves in live mode: j goes there");
+    work_restart(&f->work);
+    assert_string_equal(f->work.message.text,
+                        "nothing is rendered yet: Enter starts");
+}
+
 int main(void)
 {
 #define WORK_TEST(f) cmocka_unit_test_setup_teardown(f, open_work, close_work)
@@ -426,6 +444,7 @@ int main(void)
         WORK_TEST(failures_are_messages),
         WORK_TEST(views_are_written),
         WORK_TEST(texts_are_written),
+        WORK_TEST(messages_name_the_chosen_keys),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
