@@ -176,6 +176,12 @@ build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@
 	$(Q)$< $@ && touch $@
 
+## bench-cycles: paths a second beside those of Blender's Cycles, if Debian's
+##               blender is installed; FILTER=SCENE, ROUNDS=3
+bench-cycles: $(B)/glim
+	@BUILD=$(B) FILTER='$(FILTER)' ROUNDS=$(if $(filter file,$(origin \
+		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
+
 ## stress: rows of what breaks path tracers, and other checks that take minutes;
 ##         FILTER=NAME for one of them: samples geometry light sizes rays
 ##         oclgrind valgrind
@@ -259,7 +265,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench bench-error stress scenes tables gallery \
+.PHONY: all run test tests bench bench-error bench-cycles stress scenes tables gallery \
 	install uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(STRESSES:=.d) $(TOOLS:=.d) $(ERROR_BENCH:.o=.d) \
