@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Built with flags for a set of instructions: PATHS is the name of the result,
- * PATHS_NAME the set's.
+ * Built with flags for a set of instructions, and for FEATURES: PATHS is the
+ * name of the result, PATHS_NAME the instructions'.
  */
 #include "glim/paths.h"
 
@@ -26,4 +26,4 @@ static void samples(const struct world *w, uint32_t x, uint32_t y,
     path_samples(w, x, y, first, count, out);
 }
 
-const struct paths PATHS = {PATHS_NAME, samples};
+const struct paths PATHS = {PATHS_NAME, FEATURES, samples};
