@@ -103,18 +103,19 @@ void work_save_text(struct work *w, const struct text_style *style)
 void work_save_view(struct work *w)
 {
     struct session *s = w->session;
+    struct file_change change;
     struct error err;
     char *text;
 
     s->view.has_camera = true; /* also one that was placed by the program */
     edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
-    if (!view_write(&s->view, s->view_path, &err)) {
+    if (!view_write(&s->view, s->view_path, &change, &err)) {
         work_say_error(w, err.text);
         return;
     }
     edit_saved_view(&s->edit);
     view_copy(&s->filed, &s->view);
-    watch_settle(&w->watch, s->view_path);
+    watch_replaced(&w->watch, s->view_path, &change);
     text = xformat("wrote the view to %s", s->view_path);
     work_say(w, "%s", text);
     work_add_result(w, text);
@@ -123,14 +124,10 @@ void work_save_view(struct work *w)
 
 bool work_save_edit(struct work *w)
 {
-    bool had_changed = watch_has_changed(&w->watch);
     struct error err;
     char *what;
-    bool ok = session_save_edit(w->session, &what, &err);
 
-    if (!had_changed)
-        watch_settle(&w->watch, NULL); /* what has changed was just written */
-    if (!ok) {
+    if (!session_save_edit(w->session, &w->watch, &what, &err)) {
         work_say_error(w, err.text);
         return false;
     }
