@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "glim/drawing.h"
+
 #define SYNC_BEGIN "\033[?2026h"
 #define SYNC_END   "\033[?2026l"
 
@@ -271,6 +273,19 @@ void canvas_close_window(struct canvas *c)
     c->must_update = true;
 }
 
+/* Around the cell of the cursor: white around black is seen on anything. */
+static void mark_pixels(struct canvas *c)
+{
+    struct frame *f = &c->frame;
+    int x0 = c->cursor_col * f->width / c->fit.cols;
+    int y0 = c->cursor_row * f->height / c->fit.rows;
+    int x1 = (c->cursor_col + 1) * f->width / c->fit.cols - 1;
+    int y1 = (c->cursor_row + 1) * f->height / c->fit.rows - 1;
+
+    drawing_box(f, x0 - 1, y0 - 1, x1 + 1, y1 + 1, 0);
+    drawing_box(f, x0 - 2, y0 - 2, x1 + 2, y1 + 2, 0xffffff);
+}
+
 /* Appends what changed in the picture; false if the budget was too small. */
 static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
                         struct develop how, int step)
@@ -292,6 +307,8 @@ static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
     if (c->painter.paint)
         c->painter.paint(c->painter.context, film, draft, &c->frame);
     if (c->graphics.shape.kind != GRAPHICS_NONE) {
+        if (c->has_cursor)
+            mark_pixels(c);
         if (draw.budget_bytes > PIXEL_BYTES_MAX)
             draw.budget_bytes = PIXEL_BYTES_MAX;
         return graphics_picture(&c->graphics, &c->ansi, &c->frame, &draw);

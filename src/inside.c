@@ -7,6 +7,7 @@
 #include "glim/legend.h"
 #include "glim/projection.h"
 #include "glim/sketch.h"
+#include "glim/work_save.h"
 #include "kernels/vec.h"
 
 #define TEXT_BYTES 256
@@ -217,6 +218,74 @@ static void change(struct inside *in, int by)
                  work_key(in->work, ACTION_DRAWING).text);
 }
 
+/* ---- saving ---- */
+
+/* Light is there from its first sample on. */
+static bool has_picture(struct inside *in)
+{
+    if (show_sample(in->show.kind) != SAMPLE_LIGHT ||
+        render_progress(session_of(in)->render).samples > 0)
+        return true;
+    work_say(in->work, "nothing to save yet");
+    return false;
+}
+
+/* As it is shown, in pixels of the frame. */
+static bool paint_all(struct inside *in, struct frame *frame, struct error *err)
+{
+    struct film *film = render_film(session_of(in)->render);
+
+    if (!show_picture(&in->show, film, frame, err))
+        return false;
+    paint_drawing(in, frame);
+    return true;
+}
+
+static void save_shown(struct inside *in)
+{
+    struct rect r = session_of(in)->crop;
+    struct frame frame = {0};
+    struct error err;
+
+    if (frame_init(&frame, r.width, r.height, &err) &&
+        paint_all(in, &frame, &err))
+        work_save_frame(in->work, &frame);
+    else
+        work_say_error(in->work, err.text);
+    frame_free(&frame);
+}
+
+static void save_text(struct inside *in)
+{
+    struct text_style style = canvas_style(in->canvas);
+    struct frame frame = {0};
+    struct error err;
+
+    if (text_frame_init(&frame, &style, &err) && paint_all(in, &frame, &err))
+        work_save_text(in->work, &frame, &style);
+    else
+        work_say_error(in->work, err.text);
+    frame_free(&frame);
+}
+
+/* A picture of light without drawings is a film: a thread saves that. */
+static void save(struct inside *in)
+{
+    if (in->show.kind == SHOW_LIGHT && in->drawing == INSIDE_NOTHING)
+        work_save_picture(in->work, "png");
+    else if (has_picture(in))
+        save_shown(in);
+}
+
+static void save_linear(struct inside *in)
+{
+    if (show_sample(in->show.kind) == SAMPLE_LIGHT)
+        work_save_picture(in->work, "hdr");
+    else
+        work_say(in->work, "only light is saved as HDR: %s goes back to it",
+                 work_key(in->work, ACTION_VIEW_BACK).text);
+}
+
 /* ---- actions ---- */
 
 static void show(struct inside *in, enum show_kind kind)
@@ -254,6 +323,12 @@ bool inside_act(struct inside *in, enum action action)
     case ACTION_DRAWING: next_drawing(in); break;
     case ACTION_LESS: change(in, -1); break;
     case ACTION_MORE: change(in, 1); break;
+    case ACTION_SAVE: save(in); break;
+    case ACTION_SAVE_LINEAR: save_linear(in); break;
+    case ACTION_SAVE_TEXT:
+        if (has_picture(in))
+            save_text(in);
+        break;
     default: return false;
     }
     return true;

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "glim/asset.h"
-#include "glim/file.h"
 #include "glim/map.h"
 #include "glim/mtl_text.h"
 #include "glim/number.h"
@@ -252,12 +251,13 @@ bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
 
 bool mtl_save(const struct scene *scene, const char *path,
               const struct mtl_change *changes, size_t change_count,
-              struct error *err)
+              struct file_change *change, struct error *err)
 {
     char *text, *new_text;
     size_t size_bytes, new_size_bytes;
     bool ok;
 
+    change->before = file_identify(path);
     if (!file_read(path, &text, &size_bytes, err))
         return false;
     ok = mtl_rewrite(scene, path, text, size_bytes, changes, change_count,
@@ -265,7 +265,7 @@ bool mtl_save(const struct scene *scene, const char *path,
     free(text);
     if (!ok)
         return false;
-    ok = file_write(path, new_text, new_size_bytes, false, NULL, err);
+    ok = file_replace(path, new_text, new_size_bytes, change, err);
     free(new_text);
     return ok;
 }

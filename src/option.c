@@ -36,6 +36,8 @@ static const struct option_rule rules[] = {
     {"b", OPTION_BATCH, NULL},
     {"o", OPTION_OUTPUT, "the name of a picture"},
     {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
+    {"show", OPTION_SHOW,
+     "light, preview, normals, faces, uvs, depth, materials or cost"},
     {"stats", OPTION_STATS, "the name of a file"},
     {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
     {"glyph", OPTION_GLYPH,
@@ -239,6 +241,11 @@ static bool set_word(struct options *o, const struct option_given *g,
         o->color = index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
         o->has_color = true;
         return true;
+    case OPTION_SHOW:
+        if (!choice(g, options_shows, &index, err))
+            return false;
+        o->show = (enum show_kind)index;
+        return true;
     default:
         if (!choice(g, glyphs, &index, err))
             return false;
@@ -282,6 +289,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_UP:
     case OPTION_BACKEND:
     case OPTION_COLOR:
+    case OPTION_SHOW:
     case OPTION_GLYPH: return set_word(o, g, err);
     case OPTION_BATCH: o->batch = true; return true;
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;

@@ -48,6 +48,9 @@ const char options_help[] =
     "  --ansi COLSxROWS a text of coloured characters, at most so many, for "
     "-o\n"
     "                   or standard output, instead of a picture\n"
+    "  --show KIND      preview, normals, faces, uvs, depth, materials or "
+    "cost\n"
+    "                   instead of light\n"
     "\n"
     "screen\n"
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
@@ -65,6 +68,18 @@ const char options_help[] =
     "  --help           show this text\n"
     "  --version        show the version\n"
     "  --               end of the options\n";
+
+const char *const options_shows[] = {
+    [SHOW_LIGHT] = "light",
+    [SHOW_PREVIEW] = "preview",
+    [SHOW_NORMALS] = "normals",
+    [SHOW_FACES] = "faces",
+    [SHOW_UVS] = "uvs",
+    [SHOW_DEPTH] = "depth",
+    [SHOW_MATERIALS] = "materials",
+    [SHOW_COST] = "cost",
+    [SHOW_SAMPLES] = NULL, /* all pixels of a file have as many */
+};
 
 /* Finds the rule of the option at the start of `text`, which is behind its
  * dashes. */
@@ -190,6 +205,26 @@ static bool check_batch(const struct options *o, struct error *err)
     return true;
 }
 
+/* What is computed at once knows no samples. */
+static bool check_show(const struct options *o, struct error *err)
+{
+    if (o->show == SHOW_LIGHT)
+        return true;
+    if (!o->batch)
+        return fail(err, "--show: is for batch mode, expected -b beside it "
+                         "(on the screen n shows it)");
+    if (o->stats_path)
+        return fail(err, "--stats: is about a render, expected no --show "
+                         "beside it");
+    if (o->output_path && o->text_cols == 0 &&
+        picture_format_of(o->output_path) != PICTURE_PNG)
+        return fail(err,
+                    "-o: found '%s', expected a name that ends in .png, for "
+                    "--show makes no light",
+                    o->output_path);
+    return true;
+}
+
 /* What is right alone but wrong together. */
 static bool check_together(const struct options *o, struct error *err)
 {
@@ -198,7 +233,7 @@ static bool check_together(const struct options *o, struct error *err)
     if (!o->scene_path)
         return fail(err, "no scene given, expected: glim [options] scene.obj "
                          "(see glim --help)");
-    return check_batch(o, err);
+    return check_batch(o, err) && check_show(o, err);
 }
 
 enum palette options_palette(enum color_mode mode)

@@ -179,7 +179,14 @@ static void add_knobs(struct panel *p, struct sheet *s, int rows)
 
 static void add_hints(const struct panel *p, struct sheet *s)
 {
-    if (p->is_typing) {
+    char text[64];
+
+    if (!p->work->is_live) {
+        add_line(s, WINDOW_TITLE, " Normal mode: only to look at");
+        snprintf(text, sizeof text, " %s goes to live mode to edit",
+                 work_key(p->work, ACTION_MODE).text);
+        add_line(s, WINDOW_TITLE, text);
+    } else if (p->is_typing) {
         add_line(s, WINDOW_HINT, " number, #rrggbb, r g b or 3000K");
         add_line(s, WINDOW_HINT, " Enter takes it   Esc leaves it");
     } else if (p->is_in_knobs) {

@@ -66,6 +66,7 @@ void pilot_renew(struct pilot *p)
     p->cursor.has_pick = false;
     p->cursor.is_pick_new = false;
     p->cursor.must_look = p->canvas->has_cursor;
+    steer_resize(&p->steer, scene_of(p)->bounds_lo, scene_of(p)->bounds_hi);
 }
 
 /* ---- moves ---- */

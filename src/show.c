@@ -7,7 +7,9 @@
 #include <string.h>
 
 #include "glim/drawing.h"
+#include "glim/first_hits.h"
 #include "glim/projection.h"
+#include "kernels/tone.h"
 
 /* What is rendered for it, and what is said of it. */
 static const struct {
@@ -182,22 +184,25 @@ static void say_depth(struct show *s, struct number_range r)
         r.hi / scale);
 }
 
-static void paint_numbers(struct show *s, struct film *draft,
-                          struct frame *frame)
+/* In false colours of the numbers that a picture of this size has. */
+static void paint_numbers(struct show *s, struct frame *frame, int width,
+                          int height)
 {
-    size_t pixels;
-    struct number_range range;
+    size_t pixels = (size_t)width * (size_t)height;
+    struct number_range range = number_range_of(s->numbers, pixels, 3);
 
-    if (!draft)
-        return;
-    pixels = (size_t)draft->width * (size_t)draft->height;
-    if (!need_numbers(s, 3 * pixels))
-        return;
-    film_linear(draft, s->numbers);
-    range = number_range_of(s->numbers, pixels, 3);
-    fill(s, frame, draft->width, draft->height, range);
+    fill(s, frame, width, height, range);
     if (s->kind == SHOW_DEPTH)
         say_depth(s, range);
+}
+
+static void paint_draft(struct show *s, struct film *draft, struct frame *frame)
+{
+    if (!draft ||
+        !need_numbers(s, 3 * (size_t)draft->width * (size_t)draft->height))
+        return;
+    film_linear(draft, s->numbers);
+    paint_numbers(s, frame, draft->width, draft->height);
 }
 
 static void paint_samples(struct show *s, struct film *film,
@@ -271,8 +276,54 @@ void show_paint(struct show *s, struct film *film, struct film *draft,
     case SHOW_PREVIEW: break;
     case SHOW_COST: paint_costs(s, frame); break;
     case SHOW_SAMPLES: paint_samples(s, film, frame); break;
-    default: paint_numbers(s, draft, frame); break;
+    default: paint_draft(s, draft, frame); break;
     }
+}
+
+/* Numbers that are light are shown as such. */
+static void paint_preview(const struct show *s, struct frame *frame)
+{
+    size_t count = 3 * (size_t)frame->width * (size_t)frame->height;
+
+    for (size_t i = 0; i < count; i++)
+        frame->rgb[i] = (uint8_t)srgb_byte(s->numbers[i]);
+}
+
+/* The numbers of the frame's own pixels. */
+static bool find_numbers(struct show *s, const struct frame *frame,
+                         struct error *err)
+{
+    struct world w;
+
+    if (!show_need_tree(s, err) || !need_pool(s, err) || !show_world(s, &w))
+        return false;
+    if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
+        return fail(err, "out of memory for the numbers of %dx%d pixels",
+                    frame->width, frame->height);
+    w.settings.camera = show_camera(s, &w.settings.camera, frame);
+    w.settings.sample = kinds[s->kind].sample;
+    w.settings.features |= FEATURE_FIRST_HIT;
+    first_hits_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
+    return true;
+}
+
+bool show_picture(struct show *s, struct film *film, struct frame *frame,
+                  struct error *err)
+{
+    switch (s->kind) {
+    case SHOW_LIGHT: film_preview(film, NULL, show_develop(s), frame); break;
+    case SHOW_SAMPLES: paint_samples(s, film, frame); break;
+    case SHOW_COST: paint_costs(s, frame); break;
+    default:
+        if (!find_numbers(s, frame, err))
+            return false;
+        if (s->kind == SHOW_PREVIEW)
+            paint_preview(s, frame);
+        else
+            paint_numbers(s, frame, frame->width, frame->height);
+        break;
+    }
+    return true;
 }
 
 void show_renew(struct show *s)

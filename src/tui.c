@@ -44,13 +44,6 @@ static void end(struct tui *t, int status)
     t->status = status;
 }
 
-static void save_text(struct tui *t)
-{
-    struct text_style style = canvas_style(&t->stage.canvas);
-
-    work_save_text(&t->work, &style);
-}
-
 static void switch_mouse(struct tui *t)
 {
     t->has_mouse = !t->has_mouse;
@@ -146,9 +139,6 @@ static void act(struct tui *t, enum action action)
     case ACTION_START: work_start_or_halt(&t->work); break;
     case ACTION_STEP: work_step(&t->work); break;
     case ACTION_RESTART: restart(t); break;
-    case ACTION_SAVE: work_save_picture(&t->work, "png"); break;
-    case ACTION_SAVE_TEXT: save_text(t); break;
-    case ACTION_SAVE_LINEAR: work_save_picture(&t->work, "hdr"); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
     case ACTION_RELOAD: work_reload(&t->work); break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;

@@ -9,7 +9,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/file.h"
 #include "glim/lex.h"
 #include "glim/number.h"
 
@@ -459,7 +458,8 @@ static bool read_old(const char *path, char **text, size_t *size_bytes,
     return true;
 }
 
-bool view_write(const struct view *view, const char *path, struct error *err)
+bool view_write(const struct view *view, const char *path,
+                struct file_change *change, struct error *err)
 {
     char *old_text, *text = NULL;
     size_t old_bytes, size_bytes = 0;
@@ -469,6 +469,7 @@ bool view_write(const struct view *view, const char *path, struct error *err)
                     "%s: found a line end in the name of the sky, "
                     "expected none",
                     path);
+    change->before = file_identify(path);
     if (!read_old(path, &old_text, &old_bytes, err))
         return false;
     FILE *to = open_memstream(&text, &size_bytes);
@@ -481,7 +482,7 @@ bool view_write(const struct view *view, const char *path, struct error *err)
     free(sky);
     free(old_text);
     bool ok = fclose(to) == 0
-                  ? file_write(path, text, size_bytes, false, NULL, err)
+                  ? file_replace(path, text, size_bytes, change, err)
                   : fail(err, "%s: out of memory", path);
     free(text);
     return ok;

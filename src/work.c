@@ -67,6 +67,15 @@ void work_add_result(struct work *w, const char *text)
     w->results[w->result_count++] = xstrdup(text);
 }
 
+static void watch_files(struct work *w)
+{
+    watch_begin(&w->watch);
+    session_watch(w->session, &w->watch);
+    watch_end(&w->watch);
+    w->watched_sky = w->session->sky;
+    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+}
+
 static void restart(struct work *w)
 {
     uint64_t spp = w->is_live ? 0 : w->session->options->spp;
@@ -82,17 +91,11 @@ static void restart(struct work *w)
     w->is_halted = false;
     w->saved_samples = 0;
     w->saving_samples = 0; /* these are of the picture before */
+    if (w->session->sky != w->watched_sky)
+        watch_files(w); /* of another image from now on */
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
     w->progress.first_picture_ns = 0; /* for the next look to find */
-}
-
-static void watch_files(struct work *w)
-{
-    watch_begin(&w->watch);
-    session_watch(w->session, &w->watch);
-    watch_end(&w->watch);
-    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
 bool work_init(struct work *w, struct session *session, struct error *err)
@@ -358,7 +361,7 @@ void work_reload(struct work *w)
                     "in the panel ^S saves, u undoes");
         return;
     }
-    watch_settle(&w->watch, NULL); /* what changes from here on is new again */
+    watch_settle(&w->watch); /* what changes from here on is new again */
     w->has_changed_files = false;
     if (reload_begin(&w->reload, &err))
         work_say_long(w, "loading ...");

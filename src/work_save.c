@@ -69,52 +69,65 @@ bool work_finish_saving(struct work *w)
     return true;
 }
 
-void work_save_text(struct work *w, const struct text_style *style)
+static void say_saved(struct work *w, char *text)
 {
-    struct render_progress now = render_progress(w->session->render);
+    work_say(w, "%s", text);
+    work_add_result(w, text);
+    free(text);
+}
+
+void work_save_frame(struct work *w, const struct frame *frame)
+{
+    char *stem = scene_name(w);
     struct error err;
-    char *stem, *text, *name = NULL;
+    char *name = picture_write_frame_numbered(frame, stem, &err);
+
+    free(stem);
+    if (name)
+        say_saved(w, xformat("saved %s %dx%d, as it is shown", name,
+                             frame->width, frame->height));
+    else
+        work_say_error(w, err.text);
+    free(name);
+}
+
+void work_save_text(struct work *w, const struct frame *frame,
+                    const struct text_style *style)
+{
+    char *stem = scene_name(w);
+    struct error err;
+    char *text, *name = NULL;
     size_t size_bytes;
 
-    if (now.samples == 0) {
-        work_say(w, "nothing to save yet");
-        return;
-    }
-    stem = scene_name(w);
-    if (text_of_film(render_film(w->session->render),
-                     session_develop(w->session), style, &text, &size_bytes,
-                     &err)) {
+    if (text_of_frame(frame, style, &text, &size_bytes, &err)) {
         name = file_write_numbered(stem, "ans", text, size_bytes, &err);
         free(text);
     }
     free(stem);
-    if (!name) {
+    if (name)
+        say_saved(w, xformat("saved %s, text of %dx%d characters", name,
+                             style->cols, style->rows));
+    else
         work_say_error(w, err.text);
-        return;
-    }
-    text = xformat("saved %s, text of %dx%d characters", name, style->cols,
-                   style->rows);
-    work_say(w, "%s", text);
-    work_add_result(w, text);
-    free(text);
     free(name);
 }
 
 void work_save_view(struct work *w)
 {
     struct session *s = w->session;
+    struct file_change change;
     struct error err;
     char *text;
 
     s->view.has_camera = true; /* also one that was placed by the program */
     edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
-    if (!view_write(&s->view, s->view_path, &err)) {
+    if (!view_write(&s->view, s->view_path, &change, &err)) {
         work_say_error(w, err.text);
         return;
     }
     edit_saved_view(&s->edit);
     view_copy(&s->filed, &s->view);
-    watch_settle(&w->watch, s->view_path);
+    watch_replaced(&w->watch, s->view_path, &change);
     text = xformat("wrote the view to %s", s->view_path);
     work_say(w, "%s", text);
     work_add_result(w, text);
@@ -123,14 +136,10 @@ void work_save_view(struct work *w)
 
 bool work_save_edit(struct work *w)
 {
-    bool had_changed = watch_has_changed(&w->watch);
     struct error err;
     char *what;
-    bool ok = session_save_edit(w->session, &what, &err);
 
-    if (!had_changed)
-        watch_settle(&w->watch, NULL); /* what has changed was just written */
-    if (!ok) {
+    if (!session_save_edit(w->session, &w->watch, &what, &err)) {
         work_say_error(w, err.text);
         return false;
     }

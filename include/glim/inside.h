@@ -51,7 +51,8 @@ struct inside {
 void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
                  struct cursor *cursor);
 
-/* Does what the action says of views and drawings. False if it is not one. */
+/* Does what the action says of views and drawings, and saves what is shown.
+ * False if it is not one. */
 bool inside_act(struct inside *in, enum action action);
 
 /* Nothing is drawn over the picture any more. */

@@ -33,6 +33,7 @@ enum option_id {
     OPTION_BATCH,
     OPTION_OUTPUT,
     OPTION_ANSI,
+    OPTION_SHOW,
     OPTION_STATS,
     OPTION_COLOR,
     OPTION_GLYPH,

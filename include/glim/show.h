@@ -20,19 +20,6 @@
 #include "glim/false_color.h"
 #include "glim/session.h"
 
-enum show_kind {
-    SHOW_LIGHT,
-    SHOW_PREVIEW,
-    SHOW_NORMALS,
-    SHOW_FACES,
-    SHOW_UVS,
-    SHOW_DEPTH,
-    SHOW_MATERIALS,
-    SHOW_COST,
-    SHOW_SAMPLES,
-    SHOW_KINDS
-};
-
 struct show {
     struct session *session;
     enum show_kind kind;
@@ -64,6 +51,12 @@ struct develop show_develop(const struct show *s);
 /* Replaces what a film and its draft show in a frame. */
 void show_paint(struct show *s, struct film *film, struct film *draft,
                 struct frame *frame);
+
+/* Fills a frame of any size with the whole picture as it is shown, not through
+ * a draft: film is what light and samples are taken from, and may be NULL for
+ * the others. Blocks while the rest is computed. */
+bool show_picture(struct show *s, struct film *film, struct frame *frame,
+                  struct error *err);
 
 /* A binary tree of the scene, for drawings and costs, and the world as it is
  * rendered, but with that tree. */

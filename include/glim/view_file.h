@@ -10,6 +10,7 @@
 #ifndef GLIM_VIEW_FILE_H
 #define GLIM_VIEW_FILE_H
 
+#include "glim/file.h"
 #include "glim/report.h"
 #include "glim/view.h"
 
@@ -20,7 +21,9 @@ bool view_read(struct view *view, const char *path, struct report *report,
 
 /* Writes the file, atomically. Lines of a file that is there keep their order,
  * and those with an unknown key or none stay as they are. A sky path is written
- * relative to the file's folder where that is possible. */
-bool view_write(const struct view *view, const char *path, struct error *err);
+ * relative to the file's folder where that is possible. *change says what was
+ * replaced by what; one that someone else writes at the same time is not. */
+bool view_write(const struct view *view, const char *path,
+                struct file_change *change, struct error *err);
 
 #endif

@@ -41,6 +41,7 @@ struct work {
     bool has_changed_files; /* since they were loaded */
     uint64_t files_ns;      /* when to look at them, or load them with --watch;
                                UINT64_MAX: when the watch says so */
+    uint32_t watched_sky;   /* its number in the edit */
     uint64_t restarted_ns;
 
     uint64_t saved_samples;  /* of this picture, in a file */

@@ -19,8 +19,13 @@
  * result. */
 void work_save_picture(struct work *w, const char *ending);
 
-/* Writes the picture as text, as STEM.ans or the next free name. */
-void work_save_text(struct work *w, const struct text_style *style);
+/* Writes a picture that is no film, as STEM.png or the next free name. */
+void work_save_frame(struct work *w, const struct frame *frame);
+
+/* Writes a picture of text_frame_init() as text, as STEM.ans or the next free
+ * name. */
+void work_save_text(struct work *w, const struct frame *frame,
+                    const struct text_style *style);
 
 /* Waits for the picture that is being saved, if any. False if that failed. */
 bool work_finish_saving(struct work *w);

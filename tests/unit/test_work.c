@@ -382,15 +382,19 @@ static void texts_are_written(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
     struct text_style style = {8, 2, PALETTE_MONO, GLYPHS_HALF};
+    struct frame frame;
+    struct error err;
 
+    assert_true(text_frame_init(&frame, &style, &err));
     work_set_live(w, false);
     work_start_or_halt(w);
     run_to_end(w);
-    work_save_text(w, &style);
+    work_save_text(w, &frame, &style);
     assert_string_equal(w->message.text, "saved s.ans, text of 8x2 characters");
-    work_save_text(w, &style);
+    work_save_text(w, &frame, &style);
     assert_string_equal(w->message.text,
                         "saved s-2.ans, text of 8x2 characters");
+    frame_free(&frame);
     assert_int_equal(w->result_count, 2);
     assert_true(work_has_unsaved(w));
     for (size_t i = 5; i < sizeof names / sizeof names[0]; i++) {
