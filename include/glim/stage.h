@@ -8,8 +8,8 @@
  * panel.
  *
  * Units:     nanoseconds of clock_ns()
- * Ownership: work and pilot stay the caller's and outlive it; stage_free() frees
- * the rest
+ * Ownership: work and pilot stay the caller's and outlive it; stage_free()
+ * frees the rest
  * Threads:   main only
  * Errors:    become messages
  */
