@@ -107,7 +107,7 @@ static bool cl_load(struct backend *base, const struct world *world,
     struct backend_cl *b = (struct backend_cl *)base;
 
     cl_world_free(&b->world, &b->machine);
-    return bvh_build(&b->bvh, world, err);
+    return bvh_build(&b->bvh, world, NULL, err);
 }
 
 static bool set_arguments(struct backend_cl *b, cl_kernel kernel, cl_uint first,

@@ -106,11 +106,7 @@ static bool cpu_load(struct backend *base, const struct world *world,
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    struct bvh bvh = {0};
-    bool ok = bvh_build(&bvh, world, err) && wide_build(&b->tree, &bvh, err);
-
-    bvh_free(&bvh);
-    return ok;
+    return wide_build(&b->tree, world, b->pool, err);
 }
 
 static bool cpu_begin(struct backend *base, const struct world *world,

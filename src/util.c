@@ -11,6 +11,9 @@
 
 #include "glim/quota.h"
 
+/* What processors read at once. */
+#define LINE_BYTES 64
+
 /* More processors than any kernel is built for. */
 #define PROCESSORS_MAX (1 << 16)
 
@@ -95,6 +98,17 @@ void *alloc_array(size_t count, size_t size_bytes)
         total > PTRDIFF_MAX)
         return NULL;
     return calloc(total ? total : 1, 1);
+}
+
+void *alloc_aligned(size_t count, size_t size_bytes)
+{
+    size_t total;
+
+    if (__builtin_mul_overflow(count, size_bytes, &total) ||
+        total > PTRDIFF_MAX - LINE_BYTES)
+        return NULL;
+    return aligned_alloc(LINE_BYTES,
+                         total / LINE_BYTES * LINE_BYTES + LINE_BYTES);
 }
 
 bool grow_array(void **array, size_t *capacity, size_t needed,

@@ -36,6 +36,9 @@ void xmalloc_set_hook(void (*restore_terminal)(void));
  * count * size_bytes overflows. Never NULL for count 0. */
 void *alloc_array(size_t count, size_t size_bytes);
 
+/* The same at the start of a line of memory, not zeroed. */
+void *alloc_aligned(size_t count, size_t size_bytes);
+
 /* Grows *array so that it holds `needed` items, at least doubling. False, with
  * *array unchanged, when memory is out. *capacity counts items. */
 bool grow_array(void **array, size_t *capacity, size_t needed,

@@ -50,7 +50,8 @@ struct wide_world {
     const struct wide *tree;
 };
 
-bool wide_build(struct wide *wide, const struct bvh *bvh, struct error *err);
+bool wide_build(struct wide *wide, const struct world *world, struct pool *pool,
+                struct error *err);
 void wide_free(struct wide *wide);
 
 #endif
