@@ -5,19 +5,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of the binary tree's leaves, in visits of its nodes. Measured: rays take up
- * to 5 % less time the finer that tree is, up to here. */
-#define LEAF_COST 4.0f
-
-/* Tests of a block in visits of a node. Measured: flat from 0.7 to 1, where
- * memory grows. */
-#define BLOCK_COST 0.7f
-
 /* Nodes that a thread fills at once. */
 #define CHUNK 256
 
 /* More triangles of a leaf than a child can name. */
 #define LEAF_TRIS_MAX ((WIDE_MORE + 1) * BLOCK_TRIS)
+
+/* Measured: rays take up to 5 % less time the finer the binary tree is, up to a
+ * cost of 4. */
+const struct bvh_leaves wide_leaves = {2, 4.0f, LEAF_TRIS_MAX};
 
 /* What it costs to have a node of the binary tree, and what is below it, as so
  * many children. */
@@ -60,7 +56,7 @@ static float leaf_cost(const struct builder *b, uint32_t node)
 
     if (tri_count > LEAF_TRIS_MAX)
         return INFINITY;
-    return BLOCK_COST * area_of(&b->bvh->nodes[node]) *
+    return WIDE_BLOCK_COST * area_of(&b->bvh->nodes[node]) *
            (float)blocks_for(tri_count);
 }
 
@@ -288,13 +284,12 @@ static bool build(struct builder *b, struct pool *pool)
 bool wide_build(struct wide *wide, const struct world *w, struct pool *pool,
                 struct error *err)
 {
-    const struct bvh_leaves leaves = {2, LEAF_COST, LEAF_TRIS_MAX};
     struct bvh bvh = {0};
     struct builder b = {.world = w, .bvh = &bvh, .wide = wide};
     bool ok;
 
     wide_free(wide);
-    if (!bvh_build_nodes(&bvh, w, &leaves, pool, err))
+    if (!bvh_build_nodes(&bvh, w, &wide_leaves, pool, err))
         return false;
     ok = bvh.node_count == 0 || build(&b, pool);
     free(b.fits);
