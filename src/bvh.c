@@ -541,6 +541,15 @@ bool bvh_build(struct bvh *bvh, const struct world *w, struct pool *pool,
     return true;
 }
 
+uint64_t bvh_bytes(const struct bvh *bvh)
+{
+    return bvh->node_count * (uint64_t)sizeof *bvh->nodes +
+           bvh->leaf_tri_count *
+               (uint64_t)(sizeof *bvh->tris + (bvh->leaf_tris != NULL
+                                                   ? sizeof *bvh->leaf_tris
+                                                   : 0));
+}
+
 void bvh_free(struct bvh *bvh)
 {
     free(bvh->nodes);

@@ -138,6 +138,8 @@ static void write_object(FILE *to, const struct session *s)
     write_number(to, "threads", (uint64_t)backend->thread_count);
     write_number(to, "seed", s->options->seed);
     write_number(to, "triangles", s->scene.tri_count);
+    write_number(to, "geometry_bytes", scene_geometry_bytes(&s->scene));
+    write_number(to, "tree_bytes", backend->tree_bytes);
     write_number(to, "width", (uint64_t)film->width);
     write_number(to, "height", (uint64_t)film->height);
     write_number(to, "spp", p.spp_done);

@@ -9,6 +9,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "glim/quota.h"
 
 /* What processors read at once. */
@@ -45,6 +49,15 @@ static _Noreturn void out_of_memory(void)
     ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
     (void)written; /* nobody is left to tell */
     _exit(1);
+}
+
+/* The C library's own threshold grows with what it sees; then freed arrays stay
+ * ours as holes. Measured: 40 bytes a triangle. */
+void memory_init(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
 }
 
 void xmalloc_set_hook(void (*hook)(void))

@@ -303,6 +303,12 @@ bool wide_build(struct wide *wide, const struct world *w, struct pool *pool,
     return true;
 }
 
+uint64_t wide_bytes(const struct wide *wide)
+{
+    return wide->node_count * (uint64_t)sizeof *wide->nodes +
+           wide->block_count * (uint64_t)sizeof *wide->blocks;
+}
+
 void wide_free(struct wide *wide)
 {
     free(wide->nodes);

@@ -46,6 +46,8 @@ bool bvh_build_nodes(struct bvh *bvh, const struct world *world,
                      const struct bvh_leaves *leaves, struct pool *pool,
                      struct error *err);
 
+uint64_t bvh_bytes(const struct bvh *bvh);
+
 void bvh_free(struct bvh *bvh);
 
 #endif

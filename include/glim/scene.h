@@ -108,6 +108,9 @@ bool scene_world(const struct scene *scene, const struct view *view,
 /* The part of a world that no view changes. */
 struct world scene_arrays(const struct scene *scene);
 
+/* Of vertices, normals, texture coordinates and triangles. */
+uint64_t scene_geometry_bytes(const struct scene *scene);
+
 /* Finds whether one of the used materials shines. */
 void scene_find_emitters(struct scene *scene);
 

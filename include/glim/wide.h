@@ -64,6 +64,8 @@ extern const struct bvh_leaves wide_leaves;
  * the binary one's boxes. Without a pool the caller's thread builds. */
 bool wide_build(struct wide *wide, const struct world *world, struct pool *pool,
                 struct error *err);
+uint64_t wide_bytes(const struct wide *wide);
+
 void wide_free(struct wide *wide);
 
 #endif
