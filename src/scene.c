@@ -129,6 +129,7 @@ static void drop_tris(struct scene *scene, struct report *report,
         scene->tri_objects[kept] = scene->tri_objects[i];
         kept++;
     }
+    scene->dropped_count += scene->tri_count - kept;
     scene->tri_count = kept;
 }
 

@@ -49,6 +49,7 @@ struct scene {
     uint32_t *file_materials;
     uint32_t *assigned;
     uint32_t tri_count;
+    uint32_t dropped_count; /* triangles of the file that are not here */
 
     char **object_names; /* 0 is "" : before the first o line */
     uint32_t object_count;
