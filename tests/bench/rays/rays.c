@@ -24,8 +24,10 @@
 /* Rays of a job. */
 #define CHUNK 4096
 
-/* Distances of the same hit differ by no more than this part. */
+/* Distances of the same hit differ by no more than this part, and where the ray
+ * begins close by no more than coordinates are rounded. */
 #define T_TOLERANCE 1e-5f
+#define T_ROUNDING  0x1p-23f
 
 enum { GLIM, ROBUST, FAST, RACERS };
 
@@ -117,7 +119,7 @@ static void compare_answers(const struct contest *c, const struct ray_set *set,
         hits += a.tri != NO_INDEX;
         if ((a.tri == NO_INDEX) != (b.tri == NO_INDEX) ||
             (a.tri != NO_INDEX &&
-             fabsf(a.t - b.t) > T_TOLERANCE * fmaxf(a.t, b.t)))
+             fabsf(a.t - b.t) > T_TOLERANCE * fmaxf(a.t, b.t) + T_ROUNDING))
             faults++;
         else if (a.tri != b.tri)
             ties++;
