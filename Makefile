@@ -39,7 +39,7 @@ FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # Sets of instructions that src/paths.c is built for as well, and their flags.
 ISAS := $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),avx2 avx512)
-FLAGS_avx2 := -mavx2 -mbmi -mlzcnt
+FLAGS_avx2 := -mavx2 -mfma -mbmi -mlzcnt
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o \

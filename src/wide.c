@@ -3,10 +3,14 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 
-/* Of what is read at once. */
-#define ALIGNMENT 64
+/* Of what is read at once, and of memory in large pages: misses of their table
+ * cost rays through a million triangles 5 %. */
+#define ALIGNMENT  64
+#define LARGE_PAGE ((size_t)2 << 20)
 
 /* More triangles of a leaf than a child can name. */
 #define LEAF_TRIS_MAX ((WIDE_MORE + 1) * BLOCK_TRIS)
@@ -16,6 +20,14 @@ struct builder {
     struct wide *wide;
     uint32_t *tri_counts; /* below each node of the binary tree */
 };
+
+/* What names a node or a block as a child. */
+static uint32_t child_at(const struct wide *wide, const void *place)
+{
+    ptrdiff_t distance = (const char *)place - (const char *)wide->nodes;
+
+    return (uint32_t)(distance / WIDE_UNIT * 8);
+}
 
 static float area_of(const struct node *n)
 {
@@ -118,7 +130,8 @@ static uint32_t add_leaf(struct builder *b, uint32_t node)
                            : &none);
     }
     wide->block_count += block_count;
-    return WIDE_LEAF | first_block << 2 | (block_count - 1);
+    return child_at(wide, &wide->blocks[first_block]) | WIDE_LEAF |
+           (block_count - 1);
 }
 
 static void fill_box(struct wide_node *n, uint32_t i, struct vec3 lo,
@@ -137,8 +150,7 @@ static uint32_t build(struct builder *b, uint32_t node)
 {
     uint32_t children[WIDE_CHILDREN] = {node};
     uint32_t count = open_children(b, children);
-    uint32_t index = b->wide->node_count++;
-    struct wide_node *n = &b->wide->nodes[index];
+    struct wide_node *n = &b->wide->nodes[b->wide->node_count++];
 
     for (uint32_t i = 0; i < WIDE_CHILDREN; i++) {
         const struct vec3 nowhere = {INFINITY, INFINITY, INFINITY};
@@ -146,20 +158,28 @@ static uint32_t build(struct builder *b, uint32_t node)
             i < count ? &b->bvh->nodes[children[i]] : NULL;
 
         fill_box(n, i, from ? from->lo : nowhere, from ? from->hi : nowhere);
-        n->child[i] = from == NULL              ? WIDE_LEAF
+        n->child[i] = from == NULL              ? 0
                       : is_leaf(b, children[i]) ? add_leaf(b, children[i])
                                                 : build(b, children[i]);
     }
-    return index;
+    return child_at(b->wide, n);
 }
 
-/* Aligned; the size is a multiple of the alignment. */
-static void *alloc_aligned(size_t count, size_t size)
+/* NULL if there is none, or if children could not name all of it. */
+static void *alloc_tree(size_t node_capacity, size_t block_capacity)
 {
-    if (count > SIZE_MAX / 2 / size)
+    size_t size = node_capacity * sizeof(struct wide_node) +
+                  block_capacity * sizeof(struct tri_block);
+    size_t alignment = size < LARGE_PAGE ? ALIGNMENT : LARGE_PAGE;
+    void *p;
+
+    if (size / WIDE_UNIT >= UINT32_MAX / 8)
         return NULL;
-    return aligned_alloc(ALIGNMENT, (count * size + ALIGNMENT - 1) / ALIGNMENT *
-                                        ALIGNMENT);
+    size = (size + alignment - 1) / alignment * alignment;
+    p = aligned_alloc(alignment, size);
+    if (p != NULL && alignment == LARGE_PAGE)
+        madvise(p, size, MADV_HUGEPAGE);
+    return p;
 }
 
 bool wide_build(struct wide *wide, const struct bvh *bvh, struct error *err)
@@ -172,14 +192,14 @@ bool wide_build(struct wide *wide, const struct bvh *bvh, struct error *err)
     /* a node has at least two children, but for a root that is a leaf; the
      * blocks of a leaf are at most as many as its triangles */
     b.tri_counts = alloc_array(bvh->node_count, sizeof *b.tri_counts);
-    wide->nodes = alloc_aligned(bvh->node_count / 2 + 1, sizeof *wide->nodes);
-    wide->blocks = alloc_aligned(bvh->leaf_tri_count, sizeof *wide->blocks);
-    if (b.tri_counts == NULL || wide->nodes == NULL || wide->blocks == NULL) {
+    wide->nodes = alloc_tree(bvh->node_count / 2 + 1, bvh->leaf_tri_count);
+    if (b.tri_counts == NULL || wide->nodes == NULL) {
         free(b.tri_counts);
         wide_free(wide);
         return fail(err, "out of memory for the tree of %u triangles",
                     bvh->leaf_tri_count);
     }
+    wide->blocks = (void *)(wide->nodes + bvh->node_count / 2 + 1);
     count_tris(&b);
     build(&b, 0);
     free(b.tri_counts);
@@ -189,6 +209,5 @@ bool wide_build(struct wide *wide, const struct bvh *bvh, struct error *err)
 void wide_free(struct wide *wide)
 {
     free(wide->nodes);
-    free(wide->blocks);
     *wide = (struct wide){NULL, 0, NULL, 0};
 }

@@ -14,6 +14,7 @@
 #ifndef GLIM_SIMD_H
 #define GLIM_SIMD_H
 
+#include <math.h>
 #include <stdint.h>
 
 #if defined(__SSE2__)
@@ -37,6 +38,11 @@ static inline f4 f4_all(float x)
     return _mm_set1_ps(x);
 }
 
+static inline f4 f4_add(f4 a, f4 b)
+{
+    return _mm_add_ps(a, b);
+}
+
 static inline f4 f4_sub(f4 a, f4 b)
 {
     return _mm_sub_ps(a, b);
@@ -45,6 +51,16 @@ static inline f4 f4_sub(f4 a, f4 b)
 static inline f4 f4_mul(f4 a, f4 b)
 {
     return _mm_mul_ps(a, b);
+}
+
+static inline f4 f4_div(f4 a, f4 b)
+{
+    return _mm_div_ps(a, b);
+}
+
+static inline f4 f4_abs(f4 a)
+{
+    return _mm_andnot_ps(_mm_set1_ps(-0.0f), a);
 }
 
 static inline f4 f4_min(f4 a, f4 b)
@@ -60,6 +76,26 @@ static inline f4 f4_max(f4 a, f4 b)
 static inline uint32_t f4_not_above(f4 a, f4 b)
 {
     return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+
+static inline uint32_t f4_below(f4 a, f4 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
+}
+
+/* Where a, b and c are the same. */
+static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+{
+    return (uint32_t)_mm_movemask_ps(
+        _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
+}
+
+/* There x, y elsewhere. */
+static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+{
+    f4 same = _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));
+
+    return _mm_or_ps(_mm_and_ps(same, x), _mm_andnot_ps(same, y));
 }
 
 #else
@@ -90,6 +126,11 @@ static inline f4 f4_all(float x)
     F4_EACH(r, x);
 }
 
+static inline f4 f4_add(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] + b.v[i]);
+}
+
 static inline f4 f4_sub(f4 a, f4 b)
 {
     F4_EACH(r, a.v[i] - b.v[i]);
@@ -98,6 +139,16 @@ static inline f4 f4_sub(f4 a, f4 b)
 static inline f4 f4_mul(f4 a, f4 b)
 {
     F4_EACH(r, a.v[i] * b.v[i]);
+}
+
+static inline f4 f4_div(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] / b.v[i]);
+}
+
+static inline f4 f4_abs(f4 a)
+{
+    F4_EACH(r, fabsf(a.v[i]));
 }
 
 static inline f4 f4_min(f4 a, f4 b)
@@ -117,6 +168,29 @@ static inline uint32_t f4_not_above(f4 a, f4 b)
     for (int i = 0; i < 4; i++)
         mask |= (a.v[i] <= b.v[i] ? 1u : 0u) << i;
     return mask;
+}
+
+static inline uint32_t f4_below(f4 a, f4 b)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] < b.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] == b.v[i] && a.v[i] == c.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+{
+    F4_EACH(r, a.v[i] == b.v[i] && a.v[i] == c.v[i] ? x.v[i] : y.v[i]);
 }
 
 #endif
@@ -148,6 +222,16 @@ static inline f8 f8_sub(f8 a, f8 b)
 static inline f8 f8_mul(f8 a, f8 b)
 {
     return _mm256_mul_ps(a, b);
+}
+
+/* a * b - c, rounded once or twice. */
+static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
+{
+#if defined(__FMA__)
+    return _mm256_fmsub_ps(a, b, c);
+#else
+    return _mm256_sub_ps(_mm256_mul_ps(a, b), c);
+#endif
 }
 
 static inline f8 f8_min(f8 a, f8 b)
@@ -195,6 +279,11 @@ static inline f8 f8_sub(f8 a, f8 b)
 static inline f8 f8_mul(f8 a, f8 b)
 {
     return (f8){f4_mul(a.lo, b.lo), f4_mul(a.hi, b.hi)};
+}
+
+static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
+{
+    return f8_sub(f8_mul(a, b), c);
 }
 
 static inline f8 f8_min(f8 a, f8 b)

@@ -15,8 +15,8 @@
 /* A shadow ray ends so near its lamp that no racer finds the lamp itself. */
 #define REACH 0.999f
 
-/* Where a scene has no lamps: low, so that much is in the shade. */
-static const struct vec3 sun = {0.8f, 0.3f, 0.2f};
+/* Where a scene has no lamps. */
+static const struct vec3 sun = {0.5f, 0.5f, 0.2f};
 
 const char *const set_names[SETS] = {"primary", "bounce", "bounce2", "shadow"};
 
