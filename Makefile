@@ -106,6 +106,8 @@ $(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
 		$$(LIBRARY) $(2) $$(LIBS)
 endef
 $(eval $(call program,unit,-lcmocka))
+$(foreach i,$(ISAS),$(eval $(B)/unit/test_wide_$(i): \
+	private ALL_CFLAGS += $(FLAGS_$(i))))
 $(eval $(call program,bench))
 $(eval $(call program,stress,-lcmocka))
 $(eval $(call program,tools))

@@ -23,8 +23,10 @@
  * padded. */
 #define DIRECTION_MIN 0x1p-60f
 
-/* Both ends of a box are this much further apart for a ray; see BOX_WIDEN. */
-#define WIDEN (1.0f + 2.0f * BOX_WIDEN)
+/* Both ends of a box are this much further apart for a ray; see BOX_WIDEN. A
+ * step from one float to the next is at least FLOAT_EPSILON of it. */
+#define WIDEN       (1.0f + 2.0f * BOX_WIDEN)
+#define WIDEN_STEPS 33
 
 static inline const struct wide *wide_of(const struct world *w)
 {
@@ -82,9 +84,10 @@ static inline uint32_t wide_enter(const struct wide_node *n,
         in[i] = wide_planes(n, r->near[i], r->inverse[i], r->start[i]);
         out[i] = wide_planes(n, r->far[i], r->inverse[i], r->start[i]);
     }
-    *entries = f8_max(f8_max(in[0], in[1]), f8_max(in[2], f8_all(0.0f)));
-    leave = f8_mul(f8_min(f8_min(out[0], out[1]), out[2]), f8_all(WIDEN));
-    return f8_not_above(*entries, f8_min(leave, f8_all(t_far)));
+    *entries = f8_later(f8_later(in[0], in[1]), f8_later(in[2], f8_all(0.0f)));
+    leave = f8_sooner(f8_sooner(out[0], out[1]), out[2]);
+    leave = f8_further(leave, WIDEN_STEPS);
+    return f8_before(*entries, f8_sooner(leave, f8_all(t_far)));
 }
 
 /* Beyond this nothing is entered for a hit at t; finite, as the boxes that
@@ -94,16 +97,24 @@ static inline float wide_far(float t)
     return f_min(t * WIDEN, FLOAT_MAX);
 }
 
-static inline const void *wide_at(const struct wide_node *nodes, uint32_t child)
+static inline const struct wide_node *wide_node_at(const struct wide_node *root,
+                                                   uint32_t child)
 {
-    return (const char *)nodes + (size_t)(child & ~7u) * (WIDE_UNIT / 8);
+    return (const void *)((const char *)root + (size_t)child * (WIDE_UNIT / 8));
 }
 
-static inline void wide_prefetch(const struct wide_node *nodes, uint32_t child)
+static inline const struct tri_block *
+wide_block_at(const struct wide_node *root, uint32_t child)
 {
-    const char *p = wide_at(nodes, child);
+    return (const void *)wide_node_at(root, child & ~(WIDE_LEAF | WIDE_MORE));
+}
 
-    for (size_t i = 0; i < sizeof *nodes; i += 64)
+/* A node's lines, or those of a block and something behind it. */
+static inline void wide_prefetch(const struct wide_node *root, uint32_t child)
+{
+    const char *p = (const char *)wide_node_at(root, child);
+
+    for (size_t i = 0; i < sizeof *root; i += 64)
         __builtin_prefetch(p + i);
 }
 
@@ -196,7 +207,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     }
     for (;;) {
         if ((at & WIDE_LEAF) == 0) {
-            const struct wide_node *n = wide_at(nodes, at);
+            const struct wide_node *n = wide_node_at(nodes, at);
             f8 enter;
             uint32_t mask = wide_enter(n, &ray, t_far, &enter);
 
@@ -207,7 +218,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
                 continue;
             }
         } else {
-            blocks_hit(w, &r, &shear, wide_at(nodes, at), at & WIDE_MORE,
+            blocks_hit(w, &r, &shear, wide_block_at(nodes, at), at & WIDE_MORE,
                        &best);
             t_far = wide_far(best.t);
         }
@@ -238,7 +249,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
         return false;
     for (;;) {
         if ((at & WIDE_LEAF) == 0) {
-            const struct wide_node *n = wide_at(nodes, at);
+            const struct wide_node *n = wide_node_at(nodes, at);
             f8 enter;
             uint32_t mask = wide_enter(n, &ray, t_far, &enter);
 
@@ -247,8 +258,8 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
                 wide_prefetch(nodes, *top);
                 top++;
             }
-        } else if (blocks_hit(w, &r, &shear, wide_at(nodes, at), at & WIDE_MORE,
-                              &h)) {
+        } else if (blocks_hit(w, &r, &shear, wide_block_at(nodes, at),
+                              at & WIDE_MORE, &h)) {
             return true;
         }
         if (top == stack)
