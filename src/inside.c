@@ -68,7 +68,7 @@ static bool need_tree(struct inside *in)
 
     if (in->has_bvh)
         return true;
-    in->has_bvh = find_world(in, &w) && bvh_build(&in->bvh, &w, &err);
+    in->has_bvh = find_world(in, &w) && bvh_build(&in->bvh, &w, NULL, &err);
     if (!in->has_bvh)
         work_say(in->work, "no memory for a tree to be drawn");
     return in->has_bvh;

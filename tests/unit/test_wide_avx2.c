@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
-#define ISA "avx2"
+#include "glim/wide_hit.h"
 
-#include "test_wide.c"
+#include "isa_trees.h"
+
+int main(void)
+{
+    return run_isa_trees("avx2");
+}

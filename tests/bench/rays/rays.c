@@ -195,19 +195,17 @@ static const struct racer *racer_of(const struct paths *paths)
 static bool build_glim(struct contest *c, const struct paths *paths,
                        struct error *err)
 {
+    struct pool *pool = pool_create(usable_threads(), err);
     uint64_t begin_ns = clock_ns();
-    struct bvh bvh = {0};
-    bool ok = bvh_build(&bvh, &c->shape.world, err) &&
-              wide_build(&c->tree, &bvh, err);
+    bool ok = pool != NULL && wide_build(&c->tree, &c->shape.world, pool, err);
+    double build_s = seconds_between(begin_ns, clock_ns());
 
-    bvh_free(&bvh);
+    pool_destroy(pool);
     c->world = (struct wide_world){c->shape.world, &c->tree};
     c->racers[GLIM] = *racer_of(paths);
     c->racers[GLIM].tree = &c->world;
-    c->racers[GLIM].build_s = seconds_between(begin_ns, clock_ns());
-    c->racers[GLIM].bytes =
-        (double)c->tree.node_count * sizeof *c->tree.nodes +
-        (double)c->tree.block_count * sizeof *c->tree.blocks;
+    c->racers[GLIM].build_s = build_s;
+    c->racers[GLIM].bytes = (double)wide_bytes(&c->tree);
     return ok;
 }
 
