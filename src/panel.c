@@ -192,8 +192,20 @@ static void move(struct panel *p, int step)
         selection_move(&p->selection, step);
 }
 
+/* What cannot be typed is turned by Enter. */
 static void begin_typing(struct panel *p, int key)
 {
+    struct knob knobs[KNOBS_MAX];
+
+    if (panel_knobs(p, knobs) == 0)
+        return;
+    if (!knob_takes_text(knobs[p->knob].id)) {
+        if (key == ENTER)
+            turn(p, 1);
+        else
+            work_say(p->work, "this is changed with the arrows, or Enter");
+        return;
+    }
     p->is_typing = true;
     p->typed[0] = (char)(key == ENTER ? '\0' : key);
     p->typed[1] = '\0';

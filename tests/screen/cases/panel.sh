@@ -29,6 +29,17 @@ expect " l \*"
 keys w
 sleep 0.3
 expect "│>    of colour  #ff0000"
+# a type is not typed: Enter goes to the next, and back with the undo
+keys Up Up Up Up Up Up Up Up
+wait_for "│>    type       diffuse"
+keys 5
+wait_for "changed with the arrows, or Enter"
+keys Enter
+wait_for "│>    type       [^d ]"
+keys u
+wait_for "│>    type       diffuse"
+keys Down Down Down Down Down Down Down Down
+wait_for "│>    of colour  #ff0000"
 # half as bright by the arrows: one step of undo
 keys Up
 keys Left Left Left
