@@ -16,6 +16,11 @@ wait_for "│\[Materials\]  Objects   Light"
 expect "│>    l                 diffuse"
 expect "     light      1          ===......"
 wait_for "LIVE"
+# the help begins with the panel's own keys
+keys '?'
+wait_for "arrows  choose; change by a step"
+keys Escape
+wait_until_gone "choose; change"
 # by hand: red light, typed
 keys Enter
 keys Down Down Down Down Down Down Down Down
