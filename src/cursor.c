@@ -185,7 +185,7 @@ static bool act_while_shown(struct cursor *c, enum action action)
     case ACTION_CURSOR:
     case ACTION_CANCEL:
         show(c, false);
-        c->work->message.until_ns = 0;
+        work_be_silent(c->work);
         break;
     default: return false;
     }
@@ -198,5 +198,7 @@ bool cursor_act(struct cursor *c, enum action action)
         return act_while_shown(c, action);
     if (action == ACTION_CURSOR)
         show(c, true);
+    else if (action == ACTION_CANCEL)
+        work_be_silent(c->work);
     return action == ACTION_CURSOR || action == ACTION_CANCEL;
 }

@@ -169,7 +169,7 @@ static void next_drawing(struct inside *in)
     struct error err;
 
     in->drawing = (enum inside_drawing)((in->drawing + 1) % INSIDE_DRAWINGS);
-    in->work->message.until_ns = 0;
+    work_be_silent(in->work);
     if (in->drawing != INSIDE_NOTHING && !show_need_tree(&in->show, &err)) {
         in->drawing = INSIDE_NOTHING;
         work_say_error(in->work, err.text);
@@ -294,7 +294,7 @@ static void show(struct inside *in, enum show_kind kind)
     enum sample_kind before = s->sample;
     struct error err;
 
-    in->work->message.until_ns = 0;
+    work_be_silent(in->work);
     if (!show_set(&in->show, kind, &err))
         work_say_error(in->work, err.text);
     s->sample = show_sample(in->show.kind);

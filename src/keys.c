@@ -103,7 +103,7 @@ static const struct line {
      "look around, or drag"},
     {NULL, {ACTION_FASTER, ACTION_SLOWER}, "faster, slower, or wheel"},
     {NULL, {ACTION_CURSOR}, "cursor; Enter or click picks"},
-    {NULL, {ACTION_CANCEL}, "leave the cursor"},
+    {NULL, {ACTION_CANCEL}, "leave cursor, clear message"},
     {NULL, {ACTION_ORBIT}, "orbit around what is picked"},
     {NULL, {ACTION_FRAME}, "frame the picked object"},
     {NULL, {ACTION_FRAME_ALL}, "frame the whole scene"},

@@ -129,6 +129,7 @@ static void drop_tris(struct scene *scene, struct report *report,
         scene->tri_objects[kept] = scene->tri_objects[i];
         kept++;
     }
+    scene->dropped_count += scene->tri_count - kept;
     scene->tri_count = kept;
 }
 
@@ -291,6 +292,15 @@ struct world scene_arrays(const struct scene *scene)
                 .texel_count = (uint32_t)scene->texel_count,
             },
     };
+}
+
+uint64_t scene_geometry_bytes(const struct scene *s)
+{
+    return s->position_count * (uint64_t)sizeof *s->positions +
+           s->normal_count * (uint64_t)sizeof *s->normals +
+           s->uv_count * (uint64_t)sizeof *s->uvs +
+           s->tri_count * (uint64_t)(sizeof *s->tris + sizeof *s->tri_faces +
+                                     sizeof *s->tri_objects);
 }
 
 bool scene_finish(struct scene *scene, struct report *report, struct error *err)

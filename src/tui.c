@@ -132,7 +132,8 @@ static void restart(struct tui *t)
 
 static void act(struct tui *t, enum action action)
 {
-    if (stage_act(&t->stage, action) || pilot_act(&t->pilot, action))
+    /* the pilot first: it may wait for a number */
+    if (pilot_act(&t->pilot, action) || stage_act(&t->stage, action))
         return;
     switch (action) {
     case ACTION_MODE: change_mode(t); break;
@@ -178,10 +179,8 @@ static void take_key(struct tui *t, int key)
     bool is_urgent = action == ACTION_INTERRUPT || action == ACTION_ABORT ||
                      action == ACTION_SUSPEND || action == ACTION_REDRAW;
 
-    if (t->work.message.is_error) {
-        t->work.message = (struct message){0};
-        t->stage.status_ns = 0;
-    }
+    if (t->work.message.is_error)
+        work_be_silent(&t->work);
     if (is_urgent)
         act(t, action);
     else if (t->question != QUESTION_NONE)

@@ -30,13 +30,22 @@ void watch_begin(struct watch *w)
         w->files[i].is_listed = false;
 }
 
-void watch_add(struct watch *w, const char *path)
+static struct watched *find(struct watch *w, const char *path)
 {
     for (size_t i = 0; i < w->file_count; i++) {
-        if (strcmp(w->files[i].path, path) == 0) {
-            w->files[i].is_listed = true;
-            return;
-        }
+        if (strcmp(w->files[i].path, path) == 0)
+            return &w->files[i];
+    }
+    return NULL;
+}
+
+void watch_add(struct watch *w, const char *path)
+{
+    struct watched *known = find(w, path);
+
+    if (known) {
+        known->is_listed = true;
+        return;
     }
     if (w->file_count == w->capacity) {
         w->capacity = w->capacity == 0 ? 8 : 2 * w->capacity;
@@ -120,16 +129,23 @@ void watch_settle(struct watch *w)
     }
 }
 
+void watch_wrote(struct watch *w, const char *path,
+                 const struct file_identity *identity)
+{
+    struct watched *f = find(w, path);
+
+    if (f)
+        f->known = *identity;
+}
+
 void watch_replaced(struct watch *w, const char *path,
                     const struct file_change *change)
 {
-    for (size_t i = 0; i < w->file_count; i++) {
-        struct watched *f = &w->files[i];
+    struct watched *f = find(w, path);
 
-        if (strcmp(path, f->path) == 0 &&
-            file_is_same(&f->known, &change->before))
-            f->known = change->after;
-    }
+    if (f &&
+        (!change->before.exists || file_is_same(&f->known, &change->before)))
+        f->known = change->after;
 }
 
 void watch_free(struct watch *w)

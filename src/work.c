@@ -55,6 +55,12 @@ void work_say_error(struct work *w, const char *text)
     w->has_changed = true;
 }
 
+void work_be_silent(struct work *w)
+{
+    w->message = (struct message){0};
+    w->has_changed = true;
+}
+
 struct keys_name work_key(const struct work *w, enum action action)
 {
     return keys_first_name(&w->session->options->keys, action);
@@ -214,7 +220,7 @@ void work_set_live(struct work *w, bool is_live)
 static void start_normal(struct work *w)
 {
     w->is_started = true;
-    w->message.until_ns = 0;
+    work_be_silent(w);
     restart(w);
 }
 

@@ -127,7 +127,7 @@ void work_save_view(struct work *w)
     }
     edit_saved_view(&s->edit);
     view_copy(&s->filed, &s->view);
-    watch_replaced(&w->watch, s->view_path, &change);
+    watch_wrote(&w->watch, s->view_path, &change.after);
     text = xformat("wrote the view to %s", s->view_path);
     work_say(w, "%s", text);
     work_add_result(w, text);

@@ -49,6 +49,7 @@ struct scene {
     uint32_t *file_materials;
     uint32_t *assigned;
     uint32_t tri_count;
+    uint32_t dropped_count; /* triangles of the file that are not here */
 
     char **object_names; /* 0 is "" : before the first o line */
     uint32_t object_count;
@@ -107,6 +108,9 @@ bool scene_world(const struct scene *scene, const struct view *view,
 
 /* The part of a world that no view changes. */
 struct world scene_arrays(const struct scene *scene);
+
+/* Of vertices, normals, texture coordinates and triangles. */
+uint64_t scene_geometry_bytes(const struct scene *scene);
 
 /* Finds whether one of the used materials shines. */
 void scene_find_emitters(struct scene *scene);

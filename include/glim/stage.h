@@ -9,7 +9,9 @@
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: work and pilot stay the caller's and outlive it; stage_free()
- * frees the rest Threads:   main only Errors:    become messages
+ * frees the rest
+ * Threads:   main only
+ * Errors:    become messages
  */
 #ifndef GLIM_STAGE_H
 #define GLIM_STAGE_H

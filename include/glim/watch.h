@@ -46,7 +46,11 @@ bool watch_has_changed(const struct watch *w);
 /* Each file is known as it is now. */
 void watch_settle(struct watch *w);
 
-/* This program has written the file: what was known before is known after. */
+/* This program has written the whole file. */
+void watch_wrote(struct watch *w, const char *path,
+                 const struct file_identity *identity);
+
+/* It has changed a part of it: if the rest was known before, all is known. */
 void watch_replaced(struct watch *w, const char *path,
                     const struct file_change *change);
 

@@ -62,6 +62,9 @@ void work_say_long(struct work *w, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void work_say_error(struct work *w, const char *text);
 
+/* The status line comes back. */
+void work_be_silent(struct work *w);
+
 /* The key of an action, for messages that tell what to do next. */
 struct keys_name work_key(const struct work *w, enum action action);
 

@@ -113,6 +113,13 @@ static void own_writing_is_known(void **state)
     assert_true(file_replace(paths[PLAIN], "own", 3, &change, &err));
     watch_replaced(&w, paths[PLAIN], &change);
     assert_true(watch_has_changed(&w)); /* theirs was not loaded */
+    watch_wrote(&w, paths[PLAIN], &change.after);
+    assert_false(watch_has_changed(&w));
+    unlink(paths[PLAIN]); /* nothing of theirs is left */
+    change.before = file_identify(paths[PLAIN]);
+    assert_true(file_replace(paths[PLAIN], "again", 5, &change, &err));
+    watch_replaced(&w, paths[PLAIN], &change);
+    assert_false(watch_has_changed(&w));
     watch_free(&w);
 }
 
