@@ -101,9 +101,12 @@ static inline float light_weight(const struct world *w, float light_pdf,
 
 static inline void path_add_sky(const struct world *w, struct path *p)
 {
-    float light_pdf = p->pdf > 0.0f ? sky_light_pdf(w, p->ray.d) : 0.0f;
+    float pdf = 0.0f;
+    struct vec3 radiance = p->pdf > 0.0f ? sky_terms(w, p->ray.d, &pdf)
+                                         : sky_radiance(w, p->ray.d);
 
-    path_add(p, sky_radiance(w, p->ray.d), chance_weight(w, p->pdf, light_pdf));
+    path_add(p, radiance,
+             chance_weight(w, p->pdf, w->settings.sky_share * pdf));
 }
 
 static inline void path_add_emission(const struct world *w, struct path *p,
@@ -351,22 +354,25 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                                 uint64_t first, uint32_t count,
                                 struct path_sample *out)
 {
-    struct path_start starts[SAMPLE_BLOCK];
+    struct sampler samplers[SAMPLE_BLOCK];
     struct points points;
     bool share = count >= POINTS_MIN;
 
     points.known = 0;
     for (uint32_t i = 0; i < count; i++) {
-        starts[i] = path_begin(&w->settings, x, y, first + i);
-        points.reversed_index[i] = starts[i].sampler.reversed_index;
-        share = share && starts[i].sampler.key == starts[0].sampler.key;
+        samplers[i] = path_sampler(&w->settings, x, y, first + i);
+        points.reversed_index[i] = samplers[i].reversed_index;
+        share = share && samplers[i].key == samplers[0].key;
     }
     for (uint32_t i = count; i < SAMPLE_BLOCK; i++)
         points.reversed_index[i] = 0;
-    points.key = starts[0].sampler.key;
-    for (uint32_t i = 0; i < count; i++)
-        out[i] = path_run(w, path_open(starts[i].ray, starts[i].sampler,
-                                       share ? &points : NULL, i));
+    points.key = samplers[0].key;
+    for (uint32_t i = 0; i < count; i++) {
+        struct points *p = share ? &points : NULL;
+        struct ray r = path_ray(&w->settings, x, y, samplers[i], p, i);
+
+        out[i] = path_run(w, path_open(r, samplers[i], p, i));
+    }
 }
 
 #endif
