@@ -49,7 +49,8 @@ FEATURES_lamps := FEATURE_EMITTERS
 FLAGS_lamps := -DFLATTEN
 FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE
 FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
-	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH
+	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH | \
+	FEATURE_GUIDE
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o \
