@@ -379,16 +379,6 @@ static bool run(struct pass *p)
     return make_cells(p, half_flux(p, box));
 }
 
-static bool build_tree(struct pass *p, struct error *err)
-{
-    struct bvh bvh = {0};
-    bool ok =
-        bvh_build(&bvh, &p->wide.world, err) && wide_build(&p->tree, &bvh, err);
-
-    bvh_free(&bvh);
-    return ok;
-}
-
 bool guide_build(struct guide *guide, const struct world *w, struct error *err)
 {
     struct pass p = {.wide = {.world = *w, .tree = &p.tree}, .guide = guide};
@@ -398,9 +388,8 @@ bool guide_build(struct guide *guide, const struct world *w, struct error *err)
     if (w->settings.light_count == 0 || w->settings.tri_count > TRIS_MOST)
         return true;
     ok = find_lists(&p);
-    if (ok && list_total(&p.lights) > 0 && list_total(&p.casters) > 0) {
-        ok = build_tree(&p, err) && run(&p);
-    }
+    if (ok && list_total(&p.lights) > 0 && list_total(&p.casters) > 0)
+        ok = wide_build(&p.tree, &p.wide.world, NULL, err) && run(&p);
     wide_free(&p.tree);
     list_free(&p.lights);
     list_free(&p.casters);
