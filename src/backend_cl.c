@@ -105,9 +105,24 @@ static bool cl_load(struct backend *base, const struct world *world,
                     struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
+    struct pool *pool = pool_create(usable_threads(), err);
+    bool ok;
 
     cl_world_free(&b->world, &b->machine);
-    return bvh_build(&b->bvh, world, err);
+    /* without threads this one builds */
+    ok = bvh_build(&b->bvh, world, pool, err);
+    pool_destroy(pool);
+    base->tree_bytes = bvh_bytes(&b->bvh);
+    return ok;
+}
+
+static void cl_unload(struct backend *base)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+
+    cl_world_free(&b->world, &b->machine);
+    bvh_free(&b->bvh);
+    base->tree_bytes = 0;
 }
 
 static bool set_arguments(struct backend_cl *b, cl_kernel kernel, cl_uint first,
@@ -551,13 +566,12 @@ static void cl_destroy(struct backend *base)
     for (int i = 0; i < 2; i++)
         free_slot(b, &b->slots[i]);
     free_film(b);
-    cl_world_free(&b->world, &b->machine);
+    cl_unload(base);
     cl_machine_drop(&b->machine, &b->cancel);
     cl_kernels_free(&b->next, &b->machine);
     cl_kernels_free(&b->special, &b->machine);
     cl_kernels_free(&b->full, &b->machine);
     cl_machine_close(&b->machine);
-    bvh_free(&b->bvh);
     pthread_mutex_destroy(&b->lock);
     free(b->text);
     free(b);
@@ -607,6 +621,7 @@ struct backend *backend_cl_create(const struct cl_request *r, char **log,
     b->base.driver = b->machine.device->driver_version;
     b->base.thread_count = (int)b->machine.device->compute_units;
     b->base.load = cl_load;
+    b->base.unload = cl_unload;
     b->base.begin = cl_begin;
     b->base.pass = cl_pass;
     b->base.destroy = cl_destroy;

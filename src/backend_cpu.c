@@ -108,11 +108,16 @@ static bool cpu_load(struct backend *base, const struct world *world,
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    struct bvh bvh = {0};
-    bool ok = bvh_build(&bvh, world, err) && wide_build(&b->tree, &bvh, err);
+    if (!wide_build(&b->tree, world, b->pool, err))
+        return false;
+    base->tree_bytes = wide_bytes(&b->tree);
+    return true;
+}
 
-    bvh_free(&bvh);
-    return ok;
+static void cpu_unload(struct backend *base)
+{
+    wide_free(&((struct backend_cpu *)base)->tree);
+    base->tree_bytes = 0;
 }
 
 static bool cpu_begin(struct backend *base, const struct world *world,
@@ -158,7 +163,7 @@ static void cpu_destroy(struct backend *base)
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     pool_destroy(b->pool);
-    wide_free(&b->tree);
+    cpu_unload(base);
     free(b);
 }
 
@@ -176,6 +181,7 @@ struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
     b->base.name = "cpu";
     b->base.thread_count = pool_thread_count(b->pool);
     b->base.load = cpu_load;
+    b->base.unload = cpu_unload;
     b->base.begin = cpu_begin;
     b->base.pass = cpu_pass;
     b->base.cpu_ns = cpu_cpu_ns;

@@ -164,6 +164,7 @@ int main(int argc, char **argv)
     struct error err, config_err;
     int status = EXIT_DONE;
 
+    memory_init();
     fill_standard_files();
     /* the characters of the terminal; numbers keep their point */
     setlocale(LC_CTYPE, "");

@@ -210,6 +210,17 @@ bool pool_run(struct pool *p, uint32_t count, pool_job *job, void *context,
     return is_done;
 }
 
+void pool_each(struct pool *p, uint32_t count, pool_job *job, void *context)
+{
+    const struct cancel never = {0};
+
+    if (p != NULL && count > 1)
+        pool_run(p, count, job, context, &never);
+    else
+        for (uint32_t i = 0; i < count; i++)
+            job(context, i, 0);
+}
+
 void pool_destroy(struct pool *p)
 {
     if (p == NULL)

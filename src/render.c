@@ -461,6 +461,8 @@ struct film *render_draft(struct render *r)
 void render_use(struct render *r, struct backend *backend)
 {
     render_halt(r);
+    if (r->backend != backend)
+        r->backend->unload(r->backend);
     r->backend = backend;
     r->job.geometry_changed = true;
 }

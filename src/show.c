@@ -76,7 +76,7 @@ bool show_need_tree(struct show *s, struct error *err)
     if (!s->has_bvh)
         s->has_bvh =
             scene_world(&of->scene, &of->view, of->options->seed, &w, err) &&
-            bvh_build(&s->bvh, &w, err);
+            bvh_build(&s->bvh, &w, NULL, err);
     return s->has_bvh;
 }
 

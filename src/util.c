@@ -9,7 +9,14 @@
 #include <time.h>
 #include <unistd.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "glim/quota.h"
+
+/* What processors read at once. */
+#define LINE_BYTES 64
 
 /* More processors than any kernel is built for. */
 #define PROCESSORS_MAX (1 << 16)
@@ -42,6 +49,15 @@ static _Noreturn void out_of_memory(void)
     ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
     (void)written; /* nobody is left to tell */
     _exit(1);
+}
+
+/* The C library's own threshold grows with what it sees; then freed arrays stay
+ * ours as holes. Measured: 40 bytes a triangle. */
+void memory_init(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
 }
 
 void xmalloc_set_hook(void (*hook)(void))
@@ -95,6 +111,17 @@ void *alloc_array(size_t count, size_t size_bytes)
         total > PTRDIFF_MAX)
         return NULL;
     return calloc(total ? total : 1, 1);
+}
+
+void *alloc_aligned(size_t count, size_t size_bytes)
+{
+    size_t total;
+
+    if (__builtin_mul_overflow(count, size_bytes, &total) ||
+        total > PTRDIFF_MAX - LINE_BYTES)
+        return NULL;
+    return aligned_alloc(LINE_BYTES,
+                         total / LINE_BYTES * LINE_BYTES + LINE_BYTES);
 }
 
 bool grow_array(void **array, size_t *capacity, size_t needed,

@@ -31,11 +31,15 @@ struct backend {
     const char *device; /* its name and that of its driver's version, */
     const char *driver; /* or NULL */
     int thread_count;
+    uint64_t tree_bytes; /* of what load() built */
 
     /* New geometry: builds what the ray queries need. The arrays of the world
      * must stay until the next load() or destroy(). */
     bool (*load)(struct backend *b, const struct world *world,
                  struct error *err);
+
+    /* Frees what load() built: another backend renders now. */
+    void (*unload)(struct backend *b);
 
     /* A new picture: the film is empty, its corner is pixel (x0, y0) of the
      * whole. The world may differ from load()'s in all but its triangles; its

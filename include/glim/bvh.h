@@ -6,26 +6,48 @@
  * ed., 7.3. Below BVH_SAH_DEPTH nodes are split in halves by count, so that no
  * tree is deeper than the traversal's stack.
  *
+ * The same triangles give the same tree, whatever the number of threads.
+ *
  * Units:     normalised scene units
  * Ownership: bvh_free() frees; a zeroed struct is a tree without triangles
- * Threads:   one thread builds; read only after
+ * Threads:   bvh_build() uses those of its pool; read only after
  * Errors:    memory
  */
 #ifndef GLIM_BVH_H
 #define GLIM_BVH_H
 
+#include "glim/pool.h"
 #include "glim/util.h"
 #include "kernels/types.h"
 
 struct bvh {
     struct node *nodes;
     uint32_t node_count;
-    struct leaf_tri *leaf_tris;
+    uint32_t *tris;             /* numbers, as the leaves have them */
+    struct leaf_tri *leaf_tris; /* the same with corners, or NULL */
     uint32_t leaf_tri_count;
     uint32_t depth;
 };
 
-bool bvh_build(struct bvh *bvh, const struct world *world, struct error *err);
+/* What the leaves are to be: 1 << block_bits triangles are tested at once. */
+struct bvh_leaves {
+    uint32_t block_bits;
+    float block_cost; /* in visits of a node */
+    uint32_t most;    /* triangles; more are split whatever it costs */
+};
+
+/* The tree for queries that test one triangle after the other, with leaf_tris.
+ * Without a pool the caller's thread builds. */
+bool bvh_build(struct bvh *bvh, const struct world *world, struct pool *pool,
+               struct error *err);
+
+/* The tree alone, for such leaves. */
+bool bvh_build_nodes(struct bvh *bvh, const struct world *world,
+                     const struct bvh_leaves *leaves, struct pool *pool,
+                     struct error *err);
+
+uint64_t bvh_bytes(const struct bvh *bvh);
+
 void bvh_free(struct bvh *bvh);
 
 #endif

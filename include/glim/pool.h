@@ -56,6 +56,10 @@ uint64_t pool_cpu_ns(const struct pool *pool, int worker);
 bool pool_run(struct pool *pool, uint32_t count, pool_job *job, void *context,
               const struct cancel *cancel);
 
+/* The same without an end but the last item's. Without a pool, or for a single
+ * item, on the caller's thread, as worker 0. */
+void pool_each(struct pool *pool, uint32_t count, pool_job *job, void *context);
+
 void pool_destroy(struct pool *pool);
 
 #endif

@@ -14,6 +14,7 @@
 #ifndef GLIM_SCENE_H
 #define GLIM_SCENE_H
 
+#include "glim/guide.h"
 #include "glim/lights.h"
 #include "glim/material.h"
 #include "glim/report.h"
@@ -49,6 +50,7 @@ struct scene {
     uint32_t *file_materials;
     uint32_t *assigned;
     uint32_t tri_count;
+    uint32_t dropped_count; /* triangles of the file that are not here */
 
     char **object_names; /* 0 is "" : before the first o line */
     uint32_t object_count;
@@ -78,6 +80,7 @@ struct scene {
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
     bool has_emitters;
     struct lights lights;
+    struct guide guide;
     float linear_of_srgb[256];
 };
 
@@ -107,6 +110,9 @@ bool scene_world(const struct scene *scene, const struct view *view,
 
 /* The part of a world that no view changes. */
 struct world scene_arrays(const struct scene *scene);
+
+/* Of vertices, normals, texture coordinates and triangles. */
+uint64_t scene_geometry_bytes(const struct scene *scene);
 
 /* Finds whether one of the used materials shines. */
 void scene_find_emitters(struct scene *scene);

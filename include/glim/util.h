@@ -32,9 +32,16 @@ char *xstrdup(const char *s);
 char *xformat(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void xmalloc_set_hook(void (*restore_terminal)(void));
 
+/* Before the first allocation: large arrays go back to the system when they are
+ * freed. */
+void memory_init(void);
+
 /* For what a file or a picture sizes: zeroed memory, or NULL when it is out or
  * count * size_bytes overflows. Never NULL for count 0. */
 void *alloc_array(size_t count, size_t size_bytes);
+
+/* The same at the start of a line of memory, not zeroed. */
+void *alloc_aligned(size_t count, size_t size_bytes);
 
 /* Grows *array so that it holds `needed` items, at least doubling. False, with
  * *array unchanged, when memory is out. *capacity counts items. */

@@ -128,10 +128,10 @@ static inline void mesh_finish(struct mesh *m)
     w->materials = m->materials;
     if (w->settings.max_vertices == 0)
         w->settings.max_vertices = 1000;
-    assert_true(bvh_build(&m->bvh, w, &err));
+    assert_true(bvh_build(&m->bvh, w, NULL, &err));
     w->nodes = m->bvh.nodes;
     w->leaf_tris = m->bvh.leaf_tris;
-    assert_true(wide_build(&m->wide, &m->bvh, &err));
+    assert_true(wide_build(&m->wide, w, NULL, &err));
     m->wide_world.tree = &m->wide;
 }
 

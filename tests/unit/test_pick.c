@@ -88,7 +88,7 @@ static void finds_what_the_render_finds(void **state)
     view.aperture = 1; /* a pick goes through the middle of the lens */
     assert_true(scene_world(&scene, &view, 0, &w, &err));
     w.settings.camera.lens_radius = 0;
-    assert_true(bvh_build(&bvh, &w, &err));
+    assert_true(bvh_build(&bvh, &w, NULL, &err));
     w.nodes = bvh.nodes;
     w.leaf_tris = bvh.leaf_tris;
     for (uint32_t i = 0; i < 1000; i++) {

@@ -260,6 +260,33 @@ static void doubled_faces_do_not_show(void **state)
 }
 
 /* The event descriptor tells of the end. */
+/* The tree goes with the backend, and comes back with it. */
+static void backends_that_wait_hold_no_tree(void **state)
+{
+    struct render *r = open_render(1);
+    struct backend *first = render_backend(r);
+    struct error err;
+    struct backend *second = backend_cpu_create(1, isa_best(), &err);
+    struct backend *order[] = {first, second, first};
+    struct mesh m;
+
+    (void)state;
+    make_room(&m);
+    assert_non_null(second);
+    for (int i = 0; i < 3; i++) {
+        struct render_job job = job_of(&m, 1);
+
+        render_use(r, order[i]);
+        assert_true(render_start(r, &job, &err));
+        assert_true(render_wait(r, 60000));
+        assert_true(order[i]->tree_bytes > 0);
+        assert_int_equal((i % 2 == 0 ? second : first)->tree_bytes, 0);
+    }
+    second->destroy(second);
+    close_render(r);
+    mesh_free(&m);
+}
+
 static void the_end_is_an_event(void **state)
 {
     struct render *r = open_render(1);
@@ -340,6 +367,7 @@ int main(void)
         cmocka_unit_test(restarts_begin_anew),
         cmocka_unit_test(a_crop_is_part_of_the_whole),
         cmocka_unit_test(doubled_faces_do_not_show),
+        cmocka_unit_test(backends_that_wait_hold_no_tree),
         cmocka_unit_test(the_end_is_an_event),
         cmocka_unit_test(foreign_float_modes_change_nothing),
     };

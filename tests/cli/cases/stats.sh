@@ -43,3 +43,13 @@ cp box.obj 'a"b\c.obj'
 glim -b -w 9 -h 9 --crop 1,1,3,2 -s 1 -o out.png --stats run.json 'a"b\c.obj' \
     2>/dev/null
 grep -E '"(width|height|samples|scene)"' run.json
+echo 'what is dropped and what nobody uses:'
+{
+    cat box.obj
+    printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf -3 -2 -1\n'
+} > thin.obj
+chmod u+w box.mtl
+printf 'newmtl nobody\nmap_Kd no-such-file.png\n' >> box.mtl
+glim -b -w 2 -h 2 -s 1 -o out.png --stats run.json thin.obj 2>&1 |
+    grep warning
+grep -E '"(triangles|dropped_triangles|materials|unused_materials)"' run.json
