@@ -41,7 +41,7 @@ KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # the others need, for each set of features, of which src/isa.c takes the first
 # that will do: walls and lamps, images on them, most materials.
 ISAS := $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),avx2 avx512)
-FLAGS_avx2 := -mavx2 -mbmi -mlzcnt
+FLAGS_avx2 := -mavx2 -mfma -mbmi -mlzcnt
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
 SETS := lamps images shiny
@@ -49,7 +49,8 @@ FEATURES_lamps := FEATURE_EMITTERS
 FLAGS_lamps := -DFLATTEN
 FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE
 FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
-	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH
+	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH | \
+	FEATURE_GUIDE
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o \
@@ -63,14 +64,16 @@ TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
 	%,$(B)/error/paths_%.o,whole hashed uniform throughput shadows)
+RAYS_BENCH := $(patsubst tests/bench/rays/%.c,$(B)/rays/%.o,$(wildcard \
+	tests/bench/rays/*.c)) $(ISAS:%=$(B)/rays/glim_racer_%.o)
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 # On all cores, unless the caller has said how many.
 MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
-	tests/bench/error tests/stress tests/tools,$(wildcard $(d)/*.[ch])) \
-	$(wildcard kernels/*.cl)
+	tests/bench/error tests/bench/rays tests/stress tests/tools, \
+	$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
 all: $(B)/glim
@@ -119,6 +122,8 @@ $(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
 		$$(LIBRARY) $(2) $$(LIBS)
 endef
 $(eval $(call program,unit,-lcmocka))
+$(foreach i,$(ISAS),$(eval $(B)/unit/test_wide_$(i): \
+	private ALL_CFLAGS += $(FLAGS_$(i))))
 $(eval $(call program,bench))
 $(eval $(call program,stress,-lcmocka))
 $(eval $(call program,tools))
@@ -145,6 +150,21 @@ $(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o \
 	$(B)/file.o $(B)/quota.o $(B)/util.o
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+
+$(B)/rays/%.o: tests/bench/rays/%.c $(B)/flags
+	@mkdir -p $(@D)
+	$(SAY) CC $<
+	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+$(ISAS:%=$(B)/rays/glim_racer_%.o): $(B)/rays/glim_racer_%.o: \
+		tests/bench/rays/glim_racer.c $(B)/flags
+	@mkdir -p $(@D)
+	$(SAY) CC '$< ($*)'
+	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$*) -DRACER=racer_$* -MMD -MP -c -o $@ $<
+
+$(B)/rays/rays: $(RAYS_BENCH) $(LIBRARY)
+	$(SAY) LINK $@
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ -lembree3 $(LIBS)
 
 # Changed flags or another compiler rebuild everything of this variant.
 $(B)/flags: FORCE
@@ -186,6 +206,14 @@ bench-error: $(B)/error/error build/bench-error/scenes
 	@{ $< build/bench-error '$(THREADS)' '$(ROUNDS)' '$(FILTER)'; \
 		echo $$? > build/bench-error/status; } | \
 		tee build/bench-error/report.txt; exit $$(cat build/bench-error/status)
+
+## bench-rays: rays a second beside Embree 3 (Debian's libembree-dev);
+##             FILTER=PART of the meshes' names, ISA=avx2
+bench-rays:
+	@echo '#include <embree3/rtcore.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
+		{ echo 'bench-rays: needs Embree 3: install libembree-dev'; exit 1; }
+	@+$(MAKE_ALL) $(B)/rays/rays
+	@$(B)/rays/rays "$${GLIM_SHARED:-../shared}" '$(FILTER)' '$(ISA)'
 
 build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@
@@ -280,8 +308,8 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench bench-error bench-cycles stress scenes tables gallery \
-	install uninstall deps format lint clean help FORCE
+.PHONY: all run test tests bench bench-error bench-rays bench-cycles stress scenes tables \
+	gallery install uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(STRESSES:=.d) $(TOOLS:=.d) $(ERROR_BENCH:.o=.d) \
-	$(B)/error/scenes.d
+	$(RAYS_BENCH:.o=.d) $(B)/error/scenes.d

@@ -19,6 +19,7 @@
 #define KERNELS_PATH_H
 
 #include "kernels/first_hit.h"
+#include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
 #include "kernels/points.h"
@@ -44,7 +45,7 @@ struct path {
     struct points *points; /* or NULL; this path's numbers are those at */
     uint32_t lane;
     struct vec3 beta; /* what radiance that comes along the ray counts, */
-    float eta_scale;  /* apart from this, which roulette does not see */
+    float scale;      /* apart from this, which roulette does not see */
     float pdf;        /* of the ray's direction; 0: no light sample has it */
     struct receiver from; /* where the ray began, if pdf is not 0 */
     struct path_sample out;
@@ -54,7 +55,7 @@ struct path {
 static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
                                     float weight)
 {
-    return v3_mul(v3_scale(p->beta, p->eta_scale * weight), radiance);
+    return v3_mul(v3_scale(p->beta, p->scale * weight), radiance);
 }
 
 static inline struct vec2 path_2d(struct path *p, uint32_t vertex,
@@ -216,14 +217,22 @@ static inline bool vertex_scatter(const struct vertex *v, const struct bsdf *b,
 }
 
 /* Draws where the path goes on. False if it ends here. */
-static inline bool path_scatter(struct path *p, const struct bsdf *b,
-                                const struct vertex *v, struct vec3 wo,
-                                struct vec2 direction, float choice)
+static inline bool path_scatter(const struct world *w, struct path *p,
+                                const struct bsdf *b, const struct vertex *v,
+                                struct vec3 wo, struct vec2 direction,
+                                float choice)
 {
+    uint32_t cell = NO_INDEX;
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (!vertex_scatter(v, b, wo, direction, choice, &s, &wi)) {
+    if (HAS(FEATURE_GUIDE) && guide_helps(b))
+        cell = guide_at(w, v->p);
+    if (cell != NO_INDEX) {
+        if (!guide_scatter(w, cell, v, b, wo, direction, choice, &s, &wi,
+                           &p->scale))
+            return false;
+    } else if (!vertex_scatter(v, b, wo, direction, choice, &s, &wi)) {
         /* clear glass whose normal leans loses nothing: its face bends what
          * the normal would send to the wrong side */
         struct vertex face = vertex_of_face(*v);
@@ -237,7 +246,7 @@ static inline bool path_scatter(struct path *p, const struct bsdf *b,
     p->ray.d = wi;
     p->ray.from = v->face;
     p->beta = v3_mul(p->beta, s.weight);
-    p->eta_scale *= s.eta_scale;
+    p->scale *= s.eta_scale;
     p->pdf = s.is_delta ? 0.0f : s.pdf;
     return true;
 }
@@ -288,7 +297,7 @@ static inline bool path_step(const struct world *w, struct path *p,
     if (wants_light_sample(w, &b))
         path_add_direct(w, p, &b, &v, wo, vertex);
     lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);
-    return path_scatter(p, &b, &v, wo,
+    return path_scatter(w, p, &b, &v, wo,
                         path_2d(p, vertex, DIMENSION_BSDF_DIRECTION), lobe.x) &&
            path_survives(p, vertex, lobe.y);
 }
@@ -305,7 +314,7 @@ static inline struct path path_open(struct ray r, struct sampler sampler,
     p.points = points;
     p.lane = lane;
     p.beta = v3(1.0f, 1.0f, 1.0f);
-    p.eta_scale = 1.0f;
+    p.scale = 1.0f;
     p.pdf = 0.0f;
     p.from.p = r.o;
     p.from.n = r.d;

@@ -13,6 +13,10 @@
 
 #define BUDGET_MAX ((size_t)1 << 30)
 
+/* From frame to frame: what was measured too fast is so before it costs
+ * seconds. */
+#define GROWTH_MAX 2
+
 /* Smaller frames say more about the clock than about the line. */
 #define MEASURE_BYTES 1000
 
@@ -45,12 +49,19 @@ bool pace_wants_request(const struct pace *p)
     return p->state != PACE_MUTE;
 }
 
+/* Bytes and times are smoothed apart: a small frame whose answer was lucky by
+ * some milliseconds would else be a line of megabytes a second. */
 static void learn_rate(struct pace *p, double seconds)
 {
-    double rate = (double)p->frame_bytes / (seconds > 5e-4 ? seconds : 5e-4);
+    double weight = p->rate > 0 ? 0.3 : 1;
+    double most = GROWTH_MAX * (double)p->budget_bytes;
+    double budget;
 
-    p->rate = p->rate > 0 ? 0.7 * p->rate + 0.3 * rate : rate;
-    double budget = p->rate * FRAME_SECONDS;
+    p->bytes += weight * ((double)p->frame_bytes - p->bytes);
+    p->seconds += weight * (seconds - p->seconds);
+    p->rate = p->bytes / (p->seconds > 5e-4 ? p->seconds : 5e-4);
+    budget = p->rate * FRAME_SECONDS;
+    budget = budget < most ? budget : most;
     if (budget >= (double)BUDGET_MAX)
         p->budget_bytes = BUDGET_MAX;
     else
@@ -104,9 +115,10 @@ void pace_answer(struct pace *p, uint64_t now_ns)
     if (p->outstanding > 0 || p->frame_bytes == 0)
         return;
     uint64_t rtt_ns = now_ns - p->asked_ns;
-    if (rtt_ns < p->rtt_min_ns)
+    /* the quickest answer so far tells of the way, not of the line's speed */
+    if (rtt_ns <= p->rtt_min_ns)
         p->rtt_min_ns = rtt_ns;
-    if (p->frame_bytes > MEASURE_BYTES)
+    else if (p->frame_bytes > MEASURE_BYTES)
         learn_rate(p, (double)(rtt_ns - p->rtt_min_ns) * 1e-9);
     p->frame_bytes = 0;
 }

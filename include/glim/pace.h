@@ -34,7 +34,8 @@ struct pace {
     uint64_t first_asked_ns;
     uint64_t rtt_min_ns; /* the quickest answer so far */
     size_t frame_bytes;
-    double rate; /* bytes a second; 0: not known */
+    double bytes, seconds; /* of late frames: mean size and time on the line */
+    double rate;           /* of them, bytes a second; 0: not known */
     size_t budget_bytes;
     bool first_frame_sent;
 };

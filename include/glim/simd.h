@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * simd.h - four and eight floats at once: AVX, SSE2, or plain loops
+ * simd.h - four and eight floats at once: AVX2, SSE2, or plain loops
  *
- * Arithmetic is that of floats, lane by lane, without contraction. f8_min and
- * f8_max return the second number where one is NaN. Masks have a bit a lane,
- * lane 0 the lowest.
+ * f4 is the arithmetic of floats, lane by lane, without contraction. f8 is for
+ * distances, which need not have the same bits everywhere: f8_mul_sub rounds
+ * once or twice; of two negative numbers f8_later and f8_sooner return any, and
+ * f8_before is for a first number that is not negative; f8_further goes on by
+ * so many floats, or a little more. Masks have a bit a lane, lane 0 the lowest.
  *
  * Units:     none
  * Ownership: none
@@ -14,6 +16,7 @@
 #ifndef GLIM_SIMD_H
 #define GLIM_SIMD_H
 
+#include <math.h>
 #include <stdint.h>
 
 #if defined(__SSE2__)
@@ -37,6 +40,11 @@ static inline f4 f4_all(float x)
     return _mm_set1_ps(x);
 }
 
+static inline f4 f4_add(f4 a, f4 b)
+{
+    return _mm_add_ps(a, b);
+}
+
 static inline f4 f4_sub(f4 a, f4 b)
 {
     return _mm_sub_ps(a, b);
@@ -45,6 +53,16 @@ static inline f4 f4_sub(f4 a, f4 b)
 static inline f4 f4_mul(f4 a, f4 b)
 {
     return _mm_mul_ps(a, b);
+}
+
+static inline f4 f4_div(f4 a, f4 b)
+{
+    return _mm_div_ps(a, b);
+}
+
+static inline f4 f4_abs(f4 a)
+{
+    return _mm_andnot_ps(_mm_set1_ps(-0.0f), a);
 }
 
 static inline f4 f4_min(f4 a, f4 b)
@@ -60,6 +78,26 @@ static inline f4 f4_max(f4 a, f4 b)
 static inline uint32_t f4_not_above(f4 a, f4 b)
 {
     return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+
+static inline uint32_t f4_below(f4 a, f4 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
+}
+
+/* Where a, b and c are the same. */
+static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+{
+    return (uint32_t)_mm_movemask_ps(
+        _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
+}
+
+/* There x, y elsewhere. */
+static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+{
+    f4 same = _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));
+
+    return _mm_or_ps(_mm_and_ps(same, x), _mm_andnot_ps(same, y));
 }
 
 #else
@@ -90,6 +128,11 @@ static inline f4 f4_all(float x)
     F4_EACH(r, x);
 }
 
+static inline f4 f4_add(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] + b.v[i]);
+}
+
 static inline f4 f4_sub(f4 a, f4 b)
 {
     F4_EACH(r, a.v[i] - b.v[i]);
@@ -98,6 +141,16 @@ static inline f4 f4_sub(f4 a, f4 b)
 static inline f4 f4_mul(f4 a, f4 b)
 {
     F4_EACH(r, a.v[i] * b.v[i]);
+}
+
+static inline f4 f4_div(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] / b.v[i]);
+}
+
+static inline f4 f4_abs(f4 a)
+{
+    F4_EACH(r, fabsf(a.v[i]));
 }
 
 static inline f4 f4_min(f4 a, f4 b)
@@ -119,9 +172,32 @@ static inline uint32_t f4_not_above(f4 a, f4 b)
     return mask;
 }
 
+static inline uint32_t f4_below(f4 a, f4 b)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] < b.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] == b.v[i] && a.v[i] == c.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+{
+    F4_EACH(r, a.v[i] == b.v[i] && a.v[i] == c.v[i] ? x.v[i] : y.v[i]);
+}
+
 #endif
 
-#if defined(__AVX__)
+#if defined(__AVX2__)
 
 typedef __m256 f8;
 
@@ -140,29 +216,39 @@ static inline f8 f8_all(float x)
     return _mm256_set1_ps(x);
 }
 
-static inline f8 f8_sub(f8 a, f8 b)
+static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
 {
-    return _mm256_sub_ps(a, b);
+#if defined(__FMA__)
+    return _mm256_fmsub_ps(a, b, c);
+#else
+    return _mm256_sub_ps(_mm256_mul_ps(a, b), c);
+#endif
 }
 
-static inline f8 f8_mul(f8 a, f8 b)
+/* The bits of positive floats sort as these do, and integers are compared in a
+ * quarter of the time. */
+static inline f8 f8_later(f8 a, f8 b)
 {
-    return _mm256_mul_ps(a, b);
+    return _mm256_castsi256_ps(
+        _mm256_max_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)));
 }
 
-static inline f8 f8_min(f8 a, f8 b)
+static inline f8 f8_sooner(f8 a, f8 b)
 {
-    return _mm256_min_ps(a, b);
+    return _mm256_castsi256_ps(
+        _mm256_min_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)));
 }
 
-static inline f8 f8_max(f8 a, f8 b)
+static inline f8 f8_further(f8 a, int steps)
 {
-    return _mm256_max_ps(a, b);
+    return _mm256_castsi256_ps(
+        _mm256_add_epi32(_mm256_castps_si256(a), _mm256_set1_epi32(steps)));
 }
 
-static inline uint32_t f8_not_above(f8 a, f8 b)
+static inline uint32_t f8_before(f8 a, f8 b)
 {
-    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(
+        _mm256_cmpgt_epi32(_mm256_castps_si256(b), _mm256_castps_si256(a))));
 }
 
 #else
@@ -187,29 +273,32 @@ static inline f8 f8_all(float x)
     return (f8){f4_all(x), f4_all(x)};
 }
 
-static inline f8 f8_sub(f8 a, f8 b)
+static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
 {
-    return (f8){f4_sub(a.lo, b.lo), f4_sub(a.hi, b.hi)};
+    return (f8){f4_sub(f4_mul(a.lo, b.lo), c.lo),
+                f4_sub(f4_mul(a.hi, b.hi), c.hi)};
 }
 
-static inline f8 f8_mul(f8 a, f8 b)
-{
-    return (f8){f4_mul(a.lo, b.lo), f4_mul(a.hi, b.hi)};
-}
-
-static inline f8 f8_min(f8 a, f8 b)
-{
-    return (f8){f4_min(a.lo, b.lo), f4_min(a.hi, b.hi)};
-}
-
-static inline f8 f8_max(f8 a, f8 b)
+static inline f8 f8_later(f8 a, f8 b)
 {
     return (f8){f4_max(a.lo, b.lo), f4_max(a.hi, b.hi)};
 }
 
-static inline uint32_t f8_not_above(f8 a, f8 b)
+static inline f8 f8_sooner(f8 a, f8 b)
 {
-    return f4_not_above(a.lo, b.lo) | f4_not_above(a.hi, b.hi) << 4;
+    return (f8){f4_min(a.lo, b.lo), f4_min(a.hi, b.hi)};
+}
+
+static inline f8 f8_further(f8 a, int steps)
+{
+    f8 factor = f8_all(1.0f + (float)steps * 0x1p-23f);
+
+    return (f8){f4_mul(a.lo, factor.lo), f4_mul(a.hi, factor.hi)};
+}
+
+static inline uint32_t f8_before(f8 a, f8 b)
+{
+    return f4_below(a.lo, b.lo) | f4_below(a.hi, b.hi) << 4;
 }
 
 #endif

@@ -22,9 +22,11 @@
 #define WIDE_CHILDREN 8
 #define BLOCK_TRIS    4
 
-/* A child is a node's number; or with WIDE_LEAF, in the bits below, the number
- * of its first block and, in the lowest two, how many more follow it. */
-#define WIDE_LEAF 0x80000000u
+/* A child is how far it is from the root in units of 32 bytes, times 8: so many
+ * bytes are one shift of it away. With WIDE_LEAF it is a block, and the lowest
+ * two bits say how many more follow it. */
+#define WIDE_UNIT 32
+#define WIDE_LEAF 4u
 #define WIDE_MORE 3u
 
 struct wide_node {
@@ -33,16 +35,20 @@ struct wide_node {
     uint32_t child[WIDE_CHILDREN];
 };
 
+_Static_assert(sizeof(struct wide_node) % WIDE_UNIT == 0, "see WIDE_UNIT");
+
 /* Corners as [corner][axis][triangle]; NaN and NO_INDEX where there is none. */
 struct tri_block {
     float corners[3][3][BLOCK_TRIS];
     uint32_t tri[BLOCK_TRIS];
 };
 
+_Static_assert(sizeof(struct tri_block) % WIDE_UNIT == 0, "see WIDE_UNIT");
+
 struct wide {
     struct wide_node *nodes; /* 0 is the root */
     uint32_t node_count;
-    struct tri_block *blocks;
+    struct tri_block *blocks; /* behind the nodes in the same memory */
     uint32_t block_count;
 };
 

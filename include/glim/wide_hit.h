@@ -2,9 +2,8 @@
 /*
  * wide_hit.h - ray queries through the wide tree, for kernels/path.h
  *
- * They find the hits of kernels/traverse.h, to the bit: vector code only says
- * which triangles cannot be hit, kernels/hit.h decides on the others. Children
- * are visited by the distance at which the ray enters them.
+ * They find the hits of kernels/traverse.h, to the bit. Children are visited by
+ * the distance at which the ray enters them.
  *
  * Units:     normalised scene units
  * Ownership: none
@@ -14,178 +13,224 @@
 #ifndef GLIM_WIDE_HIT_H
 #define GLIM_WIDE_HIT_H
 
-#include "glim/simd.h"
-#include "glim/wide.h"
-#include "kernels/traverse_leaf.h"
+#include "glim/block_hit.h"
 
 /* Entries that wait: all but one child of a node a level. */
 #define WIDE_STACK (TRAVERSE_STACK * (WIDE_CHILDREN - 1) + 1)
+
+/* Less of a direction counts as this much: the box test then multiplies no
+ * infinity by 0. Over all of a scene such a ray drifts by less than boxes are
+ * padded. */
+#define DIRECTION_MIN 0x1p-60f
+
+/* Both ends of a box are this much further apart for a ray; see BOX_WIDEN. A
+ * step from one float to the next is at least FLOAT_EPSILON of it. */
+#define WIDEN       (1.0f + 2.0f * BOX_WIDEN)
+#define WIDEN_STEPS 33
 
 static inline const struct wide *wide_of(const struct world *w)
 {
     return ((const struct wide_world *)w)->tree;
 }
 
-/* A ray as box tests want it. */
+/* A ray as box tests want it: a plane at p is at p * inverse - start. Where the
+ * origin is further from the scene than its size, rounding is in proportion to
+ * the distance, which WIDEN is for; nearer, it is a small part of BOX_PAD. */
 struct wide_ray {
-    float o[3], inverse[3];
-    uint32_t near[3]; /* 0: the low plane comes first */
+    f8 inverse[3], start[3];
+    size_t near[3], far[3]; /* of a node's planes, in bytes */
 };
+
+/* Without branches: no processor can predict them for rays in all directions.
+ */
+static inline void wide_ray_axis(struct wide_ray *r, int axis, float o, float d)
+{
+    float inverse = 1.0f / copysignf(f_max(fabsf(d), DIRECTION_MIN), d);
+    uint32_t low_is_far = float_bits(d) >> 31;
+    size_t low = offsetof(struct wide_node, planes[axis][0]);
+
+    r->inverse[axis] = f8_all(inverse);
+    r->start[axis] = f8_all(o * inverse);
+    r->near[axis] = low + low_is_far * sizeof(float[WIDE_CHILDREN]);
+    r->far[axis] = low + (low_is_far ^ 1u) * sizeof(float[WIDE_CHILDREN]);
+}
 
 static inline struct wide_ray wide_ray_of(struct ray r)
 {
-    struct wide_ray s = {{r.o.x, r.o.y, r.o.z},
-                         {1.0f / r.d.x, 1.0f / r.d.y, 1.0f / r.d.z},
-                         {0, 0, 0}};
+    struct wide_ray s;
 
-    for (int i = 0; i < 3; i++)
-        s.near[i] = s.inverse[i] < 0.0f ? 1u : 0u;
+    wide_ray_axis(&s, 0, r.o.x, r.d.x);
+    wide_ray_axis(&s, 1, r.o.y, r.d.y);
+    wide_ray_axis(&s, 2, r.o.z, r.d.z);
     return s;
 }
 
-/* Which children the ray enters before t_max, and where; as box_entry(). */
+static inline f8 wide_planes(const struct wide_node *n, size_t offset,
+                             f8 inverse, f8 start)
+{
+    const void *planes = (const char *)n + offset;
+
+    return f8_mul_sub(f8_load(planes), inverse, start);
+}
+
+/* Which children the ray enters before t_far, and where; as box_entry(). */
 static inline uint32_t wide_enter(const struct wide_node *n,
-                                  const struct wide_ray *s, float t_max,
-                                  float entries[WIDE_CHILDREN])
+                                  const struct wide_ray *r, float t_far,
+                                  f8 *entries)
 {
-    f8 enter = f8_all(0.0f);
-    f8 leave = f8_all(FLOAT_MAX);
+    f8 in[3], out[3], leave;
 
     for (int i = 0; i < 3; i++) {
-        f8 o = f8_all(s->o[i]);
-        f8 inverse = f8_all(s->inverse[i]);
-        f8 in = f8_load(n->planes[i][s->near[i]]);
-        f8 out = f8_load(n->planes[i][s->near[i] ^ 1u]);
-
-        enter = f8_max(f8_mul(f8_sub(in, o), inverse), enter);
-        leave = f8_min(f8_mul(f8_sub(out, o), inverse), leave);
+        in[i] = wide_planes(n, r->near[i], r->inverse[i], r->start[i]);
+        out[i] = wide_planes(n, r->far[i], r->inverse[i], r->start[i]);
     }
-    enter = f8_mul(enter, f8_all(1.0f - BOX_WIDEN));
-    leave = f8_mul(leave, f8_all(1.0f + BOX_WIDEN));
+    *entries = f8_later(f8_later(in[0], in[1]), f8_later(in[2], f8_all(0.0f)));
+    leave = f8_sooner(f8_sooner(out[0], out[1]), out[2]);
+    leave = f8_further(leave, WIDEN_STEPS);
+    return f8_before(*entries, f8_sooner(leave, f8_all(t_far)));
+}
+
+/* Beyond this nothing is entered for a hit at t; finite, as the boxes that
+ * stand for no child are at infinity. */
+static inline float wide_far(float t)
+{
+    return f_min(t * WIDEN, FLOAT_MAX);
+}
+
+static inline const struct wide_node *wide_node_at(const struct wide_node *root,
+                                                   uint32_t child)
+{
+    return (const void *)((const char *)root + (size_t)child * (WIDE_UNIT / 8));
+}
+
+static inline const struct tri_block *
+wide_block_at(const struct wide_node *root, uint32_t child)
+{
+    return (const void *)wide_node_at(root, child & ~(WIDE_LEAF | WIDE_MORE));
+}
+
+/* A node's lines, or those of a block and something behind it. */
+static inline void wide_prefetch(const struct wide_node *root, uint32_t child)
+{
+    const char *p = (const char *)wide_node_at(root, child);
+
+    for (size_t i = 0; i < sizeof *root; i += 64)
+        __builtin_prefetch(p + i);
+}
+
+static inline uint32_t lowest(uint32_t mask)
+{
+    return (uint32_t)__builtin_ctz(mask);
+}
+
+/* A child that waits: the bits of the distance at which it is entered, which
+ * sort as the distance does, above its code. Takes the lowest of the mask. */
+static inline uint64_t wide_take(const struct wide_node *nodes,
+                                 const struct wide_node *n,
+                                 const float entries[WIDE_CHILDREN],
+                                 uint32_t *mask)
+{
+    uint32_t i = lowest(*mask);
+
+    *mask &= *mask - 1;
+    wide_prefetch(nodes, n->child[i]);
+    return (uint64_t)float_bits(entries[i]) << 32 | n->child[i];
+}
+
+/* Without a branch, which would be wrong every other time. */
+static inline void in_order(uint64_t *a, uint64_t *b)
+{
+    uint64_t less = *a < *b ? *a : *b;
+
+    *b = *a < *b ? *b : *a;
+    *a = less;
+}
+
+/* The nearest of two or more children. The others wait on the stack, nearer
+ * ones above: most are two to four, which a network sorts. */
+static inline uint32_t wide_choose(const struct wide_node *nodes,
+                                   const struct wide_node *n, uint32_t mask,
+                                   f8 enter, uint64_t **stack)
+{
+    _Alignas(32) float entries[WIDE_CHILDREN];
+    uint64_t *base = *stack, *top = base;
+    uint64_t a, b, c, d;
+
     f8_store(entries, enter);
-    return f8_not_above(enter, f8_min(leave, f8_all(t_max)));
-}
-
-/* Which triangles of a block the edge functions do not refuse: those of
- * triangle_hit(), where a 0 may have either sign. */
-static inline uint32_t block_candidates(const struct tri_block *block,
-                                        const struct shear *s)
-{
-    const float o[3] = {s->o.x, s->o.y, s->o.z};
-    uint32_t kz = s->axis;
-    uint32_t kx = kz == 2 ? 0 : kz + 1;
-    uint32_t ky = kx == 2 ? 0 : kx + 1;
-    f4 zero = f4_all(0.0f);
-    f4 x[3], y[3], u[3];
-    uint32_t not_below = 15, not_above = 15;
-
-    for (int i = 0; i < 3; i++) {
-        f4 z = f4_sub(f4_load(block->corners[i][kz]), f4_all(o[kz]));
-
-        x[i] = f4_sub(f4_sub(f4_load(block->corners[i][kx]), f4_all(o[kx])),
-                      f4_mul(f4_all(s->sx), z));
-        y[i] = f4_sub(f4_sub(f4_load(block->corners[i][ky]), f4_all(o[ky])),
-                      f4_mul(f4_all(s->sy), z));
-    }
-    u[0] = f4_sub(f4_mul(x[2], y[1]), f4_mul(y[2], x[1]));
-    u[1] = f4_sub(f4_mul(x[0], y[2]), f4_mul(y[0], x[2]));
-    u[2] = f4_sub(f4_mul(x[1], y[0]), f4_mul(y[1], x[0]));
-    for (int i = 0; i < 3; i++) {
-        not_below &= f4_not_above(zero, u[i]);
-        not_above &= f4_not_above(u[i], zero);
-    }
-    return not_below | not_above;
-}
-
-static inline struct leaf_tri block_tri(const struct tri_block *b, uint32_t i)
-{
-    struct leaf_tri t = {
-        {b->corners[0][0][i], b->corners[0][1][i], b->corners[0][2][i]},
-        {b->corners[1][0][i], b->corners[1][1][i], b->corners[1][2][i]},
-        {b->corners[2][0][i], b->corners[2][1][i], b->corners[2][2][i]},
-        b->tri[i]};
-
-    return t;
-}
-
-/* As leaf_hit() of kernels/traverse.h. */
-static inline bool wide_leaf_hit(const struct world *w, struct ray r,
-                                 struct shear s, uint32_t child,
-                                 struct hit *best)
-{
-    const struct tri_block *block =
-        &wide_of(w)->blocks[(child & ~WIDE_LEAF) >> 2];
-    bool found = false;
-
-    for (uint32_t more = child & WIDE_MORE;; more--, block++) {
-        uint32_t candidates = block_candidates(block, &s);
-
-        for (; candidates != 0; candidates &= candidates - 1) {
-            uint32_t i = (uint32_t)__builtin_ctz(candidates);
-
-            found |= tri_hit(w, r, s, block_tri(block, i), best);
+    a = wide_take(nodes, n, entries, &mask);
+    b = wide_take(nodes, n, entries, &mask);
+    in_order(&a, &b);
+    if (mask != 0) {
+        c = wide_take(nodes, n, entries, &mask);
+        if (mask != 0) {
+            d = wide_take(nodes, n, entries, &mask);
+            in_order(&c, &d);
+            in_order(&a, &c);
+            in_order(&b, &d);
+            *top++ = d;
+        } else {
+            in_order(&a, &c);
         }
-        if (more == 0)
-            return found;
+        in_order(&b, &c);
+        *top++ = c;
     }
-}
+    *top++ = b;
+    while (mask != 0) {
+        uint64_t e = wide_take(nodes, n, entries, &mask);
+        uint64_t *at = top++;
 
-struct wide_entry {
-    float t;
-    uint32_t child;
-};
-
-/* Puts the children of the mask on the stack, the nearest last. */
-static inline struct wide_entry *wide_push(const struct wide_node *n,
-                                           uint32_t mask, const float *entries,
-                                           struct wide_entry *top)
-{
-    struct wide_entry *base = top;
-
-    for (; mask != 0; mask &= mask - 1) {
-        uint32_t i = (uint32_t)__builtin_ctz(mask);
-        struct wide_entry e = {entries[i], n->child[i]};
-        struct wide_entry *at = top++;
-
-        for (; at > base && at[-1].t < e.t; at--)
+        in_order(&a, &e);
+        for (; at > base && at[-1] < e; at--)
             *at = at[-1];
         *at = e;
     }
-    return top;
+    *stack = top;
+    return (uint32_t)a;
 }
 
 /* Nearest hit up to r.t_max. */
 static inline bool hit_closest(const struct world *w, struct ray r,
-                               struct hit *best)
+                               struct hit *hit)
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
     struct wide_ray ray = wide_ray_of(r);
-    struct shear shear = shear_of(r);
-    struct wide_entry stack[WIDE_STACK];
-    struct wide_entry *top = stack;
+    struct shear shear = block_shear_of(r);
+    uint64_t stack[WIDE_STACK];
+    uint64_t *top = stack;
+    struct hit best = {r.t_max, 0.0f, 0.0f, 0.0f, NO_INDEX};
+    float t_far = wide_far(r.t_max);
+    uint32_t at = 0;
 
-    best->t = r.t_max;
-    best->b0 = best->b1 = best->b2 = 0.0f;
-    best->tri = NO_INDEX;
-    if (nodes == NULL)
+    if (nodes == NULL) {
+        *hit = best;
         return false;
-    *top++ = (struct wide_entry){0.0f, 0};
-    while (top > stack) {
-        struct wide_entry at = *--top;
-
-        if (at.t > best->t)
-            continue;
-        if ((at.child & WIDE_LEAF) != 0) {
-            wide_leaf_hit(w, r, shear, at.child, best);
-        } else {
-            _Alignas(32) float entries[WIDE_CHILDREN];
-            const struct wide_node *n = &nodes[at.child];
-            uint32_t mask = wide_enter(n, &ray, best->t, entries);
-
-            top = wide_push(n, mask, entries, top);
-        }
     }
-    return best->tri != NO_INDEX;
+    for (;;) {
+        if ((at & WIDE_LEAF) == 0) {
+            const struct wide_node *n = wide_node_at(nodes, at);
+            f8 enter;
+            uint32_t mask = wide_enter(n, &ray, t_far, &enter);
+
+            if (mask != 0) {
+                at = n->child[lowest(mask)];
+                if ((mask & (mask - 1)) != 0)
+                    at = wide_choose(nodes, n, mask, enter, &top);
+                continue;
+            }
+        } else {
+            blocks_hit(w, &r, &shear, wide_block_at(nodes, at), at & WIDE_MORE,
+                       &best);
+            t_far = wide_far(best.t);
+        }
+        do {
+            if (top == stack) {
+                *hit = best;
+                return best.tri != NO_INDEX;
+            }
+            top--;
+        } while (*top >> 32 > float_bits(t_far));
+        at = (uint32_t)*top;
+    }
 }
 
 /* As hit_any() of kernels/traverse.h. */
@@ -193,32 +238,34 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
     struct wide_ray ray = wide_ray_of(r);
-    struct shear shear = shear_of(r);
+    struct shear shear = block_shear_of(r);
+    float t_far = wide_far(r.t_max);
+    struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
     uint32_t stack[WIDE_STACK];
-    uint32_t depth = 0;
-    struct hit h;
+    uint32_t *top = stack;
+    uint32_t at = 0;
 
     if (nodes == NULL)
         return false;
-    h.t = r.t_max;
-    h.tri = tri;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        uint32_t at = stack[--depth];
+    for (;;) {
+        if ((at & WIDE_LEAF) == 0) {
+            const struct wide_node *n = wide_node_at(nodes, at);
+            f8 enter;
+            uint32_t mask = wide_enter(n, &ray, t_far, &enter);
 
-        if ((at & WIDE_LEAF) != 0) {
-            if (wide_leaf_hit(w, r, shear, at, &h))
-                return true;
-        } else {
-            _Alignas(32) float entries[WIDE_CHILDREN];
-            const struct wide_node *n = &nodes[at];
-            uint32_t mask = wide_enter(n, &ray, r.t_max, entries);
-
-            for (; mask != 0; mask &= mask - 1)
-                stack[depth++] = n->child[__builtin_ctz(mask)];
+            for (; mask != 0; mask &= mask - 1) {
+                *top = n->child[lowest(mask)];
+                wide_prefetch(nodes, *top);
+                top++;
+            }
+        } else if (blocks_hit(w, &r, &shear, wide_block_at(nodes, at),
+                              at & WIDE_MORE, &h)) {
+            return true;
         }
+        if (top == stack)
+            return false;
+        at = *--top;
     }
-    return false;
 }
 
 #endif

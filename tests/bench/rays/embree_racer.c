@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "embree_racer.h"
+
+#include <embree3/rtcore.h>
+#include <pmmintrin.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/util.h"
+
+/* What devices hold; only one builds at a time. */
+static atomic_long bytes_held;
+
+static bool note_bytes(void *user, ssize_t bytes, bool post)
+{
+    (void)user;
+    (void)post;
+    atomic_fetch_add(&bytes_held, bytes);
+    return true;
+}
+
+static void note_error(void *user, enum RTCError code, const char *text)
+{
+    (void)user;
+    fprintf(stderr, "rays: Embree's error %d: %s\n", (int)code, text);
+    exit(1);
+}
+
+static RTCGeometry geometry_of(RTCDevice device, const struct world *w)
+{
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    float *positions =
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof *w->positions,
+                                w->settings.position_count);
+    uint32_t *corners =
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof *corners, w->settings.tri_count);
+
+    memcpy(positions, w->positions,
+           w->settings.position_count * sizeof *w->positions);
+    for (uint32_t i = 0; i < w->settings.tri_count; i++)
+        memcpy(&corners[3 * (size_t)i], w->tris[i].v, sizeof w->tris[i].v);
+    return g;
+}
+
+/* Its manual asks for this: denormal numbers are slow, and change no hit of its
+ * own. Returns what to set afterwards. */
+static unsigned flush_denormals(void)
+{
+    unsigned before = _mm_getcsr();
+
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+    return before;
+}
+
+static struct RTCIntersectContext context_of(enum RTCIntersectContextFlags f)
+{
+    struct RTCIntersectContext c;
+
+    rtcInitIntersectContext(&c);
+    c.flags = f;
+    return c;
+}
+
+static struct RTCRay ray_of(const struct ray *r)
+{
+    return (struct RTCRay){.org_x = r->o.x,
+                           .org_y = r->o.y,
+                           .org_z = r->o.z,
+                           .dir_x = r->d.x,
+                           .dir_y = r->d.y,
+                           .dir_z = r->d.z,
+                           .tfar = r->t_max,
+                           .mask = 0xffffffffu};
+}
+
+static void closest(const void *tree, const struct ray *rays, uint32_t count,
+                    struct answer *answers)
+{
+    const struct embree *e = tree;
+    struct RTCIntersectContext c =
+        context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    unsigned before = flush_denormals();
+
+    for (uint32_t i = 0; i < count; i++) {
+        struct RTCRayHit q = {.ray = ray_of(&rays[i])};
+
+        q.hit.geomID = q.hit.primID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(e->scene, &c, &q);
+        answers[i] = (struct answer){q.ray.tfar, q.hit.primID};
+    }
+    _mm_setcsr(before);
+}
+
+static void any(const void *tree, const struct ray *rays, uint32_t count,
+                struct answer *answers)
+{
+    const struct embree *e = tree;
+    struct RTCIntersectContext c =
+        context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    unsigned before = flush_denormals();
+
+    for (uint32_t i = 0; i < count; i++) {
+        struct RTCRay q = ray_of(&rays[i]);
+
+        rtcOccluded1(e->scene, &c, &q);
+        answers[i] = (struct answer){0.0f, q.tfar < 0.0f ? 0 : NO_INDEX};
+    }
+    _mm_setcsr(before);
+}
+
+static void fill_packet(struct RTCRayHit8 *q, int lane, const struct ray *r)
+{
+    q->ray.org_x[lane] = r->o.x;
+    q->ray.org_y[lane] = r->o.y;
+    q->ray.org_z[lane] = r->o.z;
+    q->ray.tnear[lane] = 0.0f;
+    q->ray.dir_x[lane] = r->d.x;
+    q->ray.dir_y[lane] = r->d.y;
+    q->ray.dir_z[lane] = r->d.z;
+    q->ray.time[lane] = 0.0f;
+    q->ray.tfar[lane] = r->t_max;
+    q->ray.mask[lane] = 0xffffffffu;
+    q->ray.id[lane] = q->ray.flags[lane] = 0;
+    q->hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+    q->hit.primID[lane] = RTC_INVALID_GEOMETRY_ID;
+}
+
+static void coherent(const void *tree, const struct ray *rays, uint32_t count,
+                     struct answer *answers)
+{
+    const struct embree *e = tree;
+    struct RTCIntersectContext c =
+        context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+    unsigned before = flush_denormals();
+
+    for (uint32_t i = 0; i < count; i += 8) {
+        uint32_t lanes = count - i < 8 ? count - i : 8;
+        _Alignas(32) int valid[8];
+        struct RTCRayHit8 q;
+
+        for (uint32_t k = 0; k < 8; k++) {
+            valid[k] = k < lanes ? -1 : 0;
+            fill_packet(&q, (int)k, &rays[k < lanes ? i + k : i]);
+        }
+        rtcIntersect8(valid, e->scene, &c, &q);
+        for (uint32_t k = 0; k < lanes; k++)
+            answers[i + k] = (struct answer){q.ray.tfar[k], q.hit.primID[k]};
+    }
+    _mm_setcsr(before);
+}
+
+void embree_build(struct embree *e, const struct world *world,
+                  enum embree_kind kind, int thread_count)
+{
+    enum RTCBuildQuality quality =
+        kind == EMBREE_FAST ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+    char settings[32];
+    uint64_t begin_ns;
+    RTCGeometry g;
+    RTCScene scene;
+    long before;
+
+    snprintf(settings, sizeof settings, "threads=%d", thread_count);
+    e->device = rtcNewDevice(settings);
+    if (e->device == NULL)
+        note_error(NULL, rtcGetDeviceError(NULL), "no device");
+    rtcSetDeviceErrorFunction(e->device, note_error, NULL);
+    rtcSetDeviceMemoryMonitorFunction(e->device, note_bytes, NULL);
+    e->scene = scene = rtcNewScene(e->device);
+    if (kind == EMBREE_ROBUST)
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, quality);
+    g = geometry_of(e->device, world);
+    rtcSetGeometryBuildQuality(g, quality);
+    rtcCommitGeometry(g);
+    rtcAttachGeometry(scene, g);
+    rtcReleaseGeometry(g);
+    before = atomic_load(&bytes_held);
+    begin_ns = clock_ns();
+    rtcCommitScene(scene);
+    e->racer = (struct racer){e,
+                              closest,
+                              any,
+                              coherent,
+                              seconds_between(begin_ns, clock_ns()),
+                              (double)(atomic_load(&bytes_held) - before)};
+}
+
+void embree_free(struct embree *e)
+{
+    if (e->scene != NULL)
+        rtcReleaseScene(e->scene);
+    if (e->device != NULL)
+        rtcReleaseDevice(e->device);
+    *e = (struct embree){.scene = NULL};
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/*
+ * embree_racer.h - the same rays through Embree 3
+ *
+ * Units:     normalised scene units, seconds, bytes
+ * Ownership: embree_free() frees; a zeroed struct is none
+ * Threads:   one builds; queries from any
+ * Errors:    the program ends, for nobody can compare then
+ */
+#ifndef RAYS_EMBREE_RACER_H
+#define RAYS_EMBREE_RACER_H
+
+#include <stdbool.h>
+
+#include "racer.h"
+
+struct embree {
+    struct racer racer;
+    void *device;
+    void *scene;
+};
+
+enum embree_kind {
+    EMBREE_FAST,   /* built in high quality, with spatial splits */
+    EMBREE_MEDIUM, /* without */
+    EMBREE_ROBUST  /* watertight, which builds no spatial splits */
+};
+
+void embree_build(struct embree *e, const struct world *world,
+                  enum embree_kind kind, int thread_count);
+void embree_free(struct embree *e);
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/* Built with flags for a set of instructions: RACER is the name of the result.
+ */
+#include "racer.h"
+
+#include "glim/wide_hit.h"
+
+#ifndef RACER
+#define RACER racer_plain
+#endif
+
+static void closest(const void *tree, const struct ray *rays, uint32_t count,
+                    struct answer *answers)
+{
+    const struct wide_world *w = tree;
+    struct hit h;
+
+    for (uint32_t i = 0; i < count; i++) {
+        hit_closest(&w->world, rays[i], &h);
+        answers[i] = (struct answer){h.t, h.tri};
+    }
+}
+
+static void any(const void *tree, const struct ray *rays, uint32_t count,
+                struct answer *answers)
+{
+    const struct wide_world *w = tree;
+
+    for (uint32_t i = 0; i < count; i++) {
+        bool found = hit_any(&w->world, rays[i], NO_INDEX);
+
+        answers[i] = (struct answer){0.0f, found ? 0 : NO_INDEX};
+    }
+}
+
+const struct racer RACER = {NULL, closest, any, closest, 0.0, 0.0};

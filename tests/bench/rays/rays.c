@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+/*
+ * rays - glim's ray queries beside Embree's: the same rays in one process,
+ * medians of repeats that take turns, every hit compared
+ *
+ * usage: rays SHARED [PART of the meshes' names [ISA]]
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "embree_racer.h"
+#include "sets.h"
+#include "shapes.h"
+
+#include "glim/isa.h"
+#include "glim/pool.h"
+#include "glim/wide.h"
+
+#define REPEATS     7
+#define THREADS_MAX 2
+
+/* Rays of a job. */
+#define CHUNK 4096
+
+/* Distances of the same hit differ by no more than this part, and where the ray
+ * begins close by no more than coordinates are rounded. */
+#define T_TOLERANCE 1e-5f
+#define T_ROUNDING  0x1p-23f
+
+enum { GLIM, ROBUST, FAST, RACERS };
+
+struct contest {
+    struct shape shape;
+    struct wide tree;
+    struct wide_world world;
+    struct embree embrees[RACERS]; /* GLIM's is none */
+    struct racer racers[RACERS];
+    struct ray_set sets[SETS];
+    struct answer *answers[RACERS];
+};
+
+/* One racer's turn. */
+struct heat {
+    racer_query *query;
+    const void *tree;
+    const struct ray_set *set;
+    struct answer *answers;
+};
+
+struct times {
+    double cpu_s[REPEATS]; /* of all threads */
+    double s[REPEATS];
+};
+
+/* Logarithms of ratios, for the geometric mean. */
+static struct {
+    double robust, fast;
+    int count;
+} total;
+
+static void trace_chunk(void *context, uint32_t item, int worker)
+{
+    const struct heat *h = context;
+    uint32_t first = item * CHUNK;
+    uint32_t left = h->set->count - first;
+
+    (void)worker;
+    h->query(h->tree, h->set->rays + first, left < CHUNK ? left : CHUNK,
+             h->answers + first);
+}
+
+static double cpu_s(const struct pool *pool)
+{
+    double sum = 0.0;
+
+    for (int i = 0; i < pool_thread_count(pool); i++)
+        sum += (double)pool_cpu_ns(pool, i) * 1e-9;
+    return sum;
+}
+
+static void time_heat(struct pool *pool, struct heat *h, struct times *times,
+                      int repeat)
+{
+    struct cancel cancel = {0};
+    double before_s = cpu_s(pool);
+    uint64_t begin_ns = clock_ns();
+
+    pool_run(pool, (h->set->count + CHUNK - 1) / CHUNK, trace_chunk, h,
+             &cancel);
+    times->s[repeat] = seconds_between(begin_ns, clock_ns());
+    times->cpu_s[repeat] = cpu_s(pool) - before_s;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+static double median(double *values)
+{
+    qsort(values, REPEATS, sizeof *values, compare_doubles);
+    return values[REPEATS / 2];
+}
+
+/* A line that says how many answers agree with glim's. */
+static void compare_answers(const struct contest *c, const struct ray_set *set,
+                            int racer)
+{
+    static const char *const names[RACERS] = {"", "robust", "fast"};
+    uint32_t hits = 0, ties = 0, faults = 0;
+
+    for (uint32_t i = 0; i < set->count; i++) {
+        struct answer a = c->answers[GLIM][i], b = c->answers[racer][i];
+
+        hits += a.tri != NO_INDEX;
+        if ((a.tri == NO_INDEX) != (b.tri == NO_INDEX) ||
+            (a.tri != NO_INDEX &&
+             fabsf(a.t - b.t) > T_TOLERANCE * fmaxf(a.t, b.t) + T_ROUNDING))
+            faults++;
+        else if (a.tri != b.tri)
+            ties++;
+    }
+    printf("    of %u rays %u hit; %s: %u at the same place name another "
+           "triangle, %u differ\n",
+           set->count, hits, names[racer], ties, faults);
+}
+
+/* Times the queries; `queries` has one for each racer. */
+static void race(struct contest *c, struct pool *pool, const char *name,
+                 const struct ray_set *set, racer_query *const *queries,
+                 bool counts)
+{
+    int threads = pool_thread_count(pool);
+    struct times times[RACERS];
+    double rate[RACERS], s[RACERS];
+
+    for (int repeat = 0; repeat < REPEATS; repeat++)
+        for (int i = 0; i < RACERS; i++) {
+            struct heat h = {queries[i], c->racers[i].tree, set, c->answers[i]};
+
+            time_heat(pool, &h, &times[i], repeat);
+        }
+    for (int i = 0; i < RACERS; i++) {
+        s[i] = median(times[i].s);
+        rate[i] = threads * set->count * 1e-6 / median(times[i].cpu_s);
+    }
+    printf("  %-8s %d %8.3f %8.3f %8.3f   %6.2f %6.2f   %6.2f %6.2f\n", name,
+           threads, rate[GLIM], rate[ROBUST], rate[FAST],
+           rate[GLIM] / rate[ROBUST], rate[GLIM] / rate[FAST],
+           s[ROBUST] / s[GLIM], s[FAST] / s[GLIM]);
+    fflush(stdout);
+    if (!counts)
+        return;
+    total.robust += log(rate[GLIM] / rate[ROBUST]);
+    total.fast += log(rate[GLIM] / rate[FAST]);
+    total.count++;
+}
+
+static void race_all(struct contest *c, struct pool *pool)
+{
+    for (int k = 0; k < SETS; k++) {
+        racer_query *queries[RACERS];
+
+        for (int i = 0; i < RACERS; i++)
+            queries[i] =
+                k == SET_SHADOW ? c->racers[i].any : c->racers[i].closest;
+        race(c, pool, set_names[k], &c->sets[k], queries, k != SET_PRIMARY);
+        if (pool_thread_count(pool) > 1)
+            continue;
+        compare_answers(c, &c->sets[k], ROBUST);
+        compare_answers(c, &c->sets[k], FAST);
+    }
+    racer_query *const coherent[RACERS] = {c->racers[GLIM].coherent,
+                                           c->racers[ROBUST].coherent,
+                                           c->racers[FAST].coherent};
+    race(c, pool, "packets", &c->sets[SET_PRIMARY], coherent, false);
+}
+
+static const struct racer *racer_of(const struct paths *paths)
+{
+#if defined(__x86_64__)
+    if (strcmp(paths->name, "avx512") == 0)
+        return &racer_avx512;
+    if (strcmp(paths->name, "avx2") == 0)
+        return &racer_avx2;
+#endif
+    (void)paths;
+    return &racer_plain;
+}
+
+static bool build_glim(struct contest *c, const struct paths *paths,
+                       struct error *err)
+{
+    uint64_t begin_ns = clock_ns();
+    bool ok = wide_build(&c->tree, &c->shape.world, NULL, err);
+
+    c->world = (struct wide_world){c->shape.world, &c->tree};
+    c->racers[GLIM] = *racer_of(paths);
+    c->racers[GLIM].tree = &c->world;
+    c->racers[GLIM].build_s = seconds_between(begin_ns, clock_ns());
+    c->racers[GLIM].bytes = (double)wide_bytes(&c->tree);
+    return ok;
+}
+
+static void print_build(const char *name, const struct racer *r,
+                        uint32_t tri_count)
+{
+    printf("  %-14s %7.3f s %7.1f bytes a triangle\n", name, r->build_s,
+           r->bytes / tri_count);
+}
+
+static void build_embrees(struct contest *c)
+{
+    const struct world *w = &c->shape.world;
+    struct embree medium = {.scene = NULL};
+
+    embree_build(&medium, w, EMBREE_MEDIUM, usable_threads());
+    embree_build(&c->embrees[ROBUST], w, EMBREE_ROBUST, usable_threads());
+    embree_build(&c->embrees[FAST], w, EMBREE_FAST, usable_threads());
+    print_build("glim", &c->racers[GLIM], w->settings.tri_count);
+    print_build("Embree robust", &c->embrees[ROBUST].racer,
+                w->settings.tri_count);
+    print_build("Embree medium", &medium.racer, w->settings.tri_count);
+    print_build("Embree fast", &c->embrees[FAST].racer, w->settings.tri_count);
+    embree_free(&medium);
+    for (int i = ROBUST; i < RACERS; i++)
+        c->racers[i] = c->embrees[i].racer;
+}
+
+static void contest_free(struct contest *c)
+{
+    for (int i = 0; i < RACERS; i++) {
+        free(c->answers[i]);
+        embree_free(&c->embrees[i]);
+    }
+    sets_free(c->sets);
+    wide_free(&c->tree);
+    shape_free(&c->shape);
+}
+
+static bool run_shape(int shape, const char *shared, const struct paths *paths,
+                      struct error *err)
+{
+    struct contest c = {.answers = {NULL}};
+    bool ok = shape_load(&c.shape, shape, shared, err);
+
+    if (!ok && err->text[0] == '\0') {
+        printf("%s: skipped, %s/scenes-real has none\n", shape_names[shape],
+               shared);
+        return true;
+    }
+    ok = ok && build_glim(&c, paths, err);
+    if (ok) {
+        printf("%s: %u triangles\n", shape_names[shape],
+               c.shape.world.settings.tri_count);
+        build_embrees(&c);
+        sets_make(c.sets, &c.shape.world, &c.racers[GLIM]);
+        for (int i = 0; i < RACERS; i++)
+            c.answers[i] =
+                xcalloc(c.sets[SET_PRIMARY].count, sizeof *c.answers[i]);
+    }
+    for (int n = 1; ok && n <= THREADS_MAX; n++) {
+        struct pool *pool = pool_create(n, err);
+
+        ok = pool != NULL;
+        if (ok)
+            race_all(&c, pool);
+        pool_destroy(pool);
+    }
+    contest_free(&c);
+    return ok;
+}
+
+int main(int argc, char **argv)
+{
+    const char *part = argc > 2 ? argv[2] : "";
+    const struct paths *paths = isa_best();
+    struct error err;
+    bool ok = true;
+
+    if (argc < 2) {
+        fprintf(stderr, "usage: rays SHARED [PART [ISA]]\n");
+        return 2;
+    }
+    if (argc > 3 && argv[3][0] != '\0')
+        ok = (paths = isa_named(argv[3], &err)) != NULL;
+    if (ok)
+        printf("glim (%s) beside Embree 3. Mrays/s: threads times rays over the"
+               " threads'\nprocessor time; ratios of that, then of time by the"
+               " clock.\n"
+               "  rays     threads glim   robust     fast  /robust  /fast "
+               " /robust  /fast\n",
+               paths->name);
+    for (int i = 0; ok && i < SHAPES; i++)
+        if (strstr(shape_names[i], part) != NULL)
+            ok = run_shape(i, argv[1], paths, &err);
+    if (!ok) {
+        fprintf(stderr, "rays: %s\n", err.text);
+        return 1;
+    }
+    if (total.count > 0)
+        printf("geometric mean: robust %.2f fast %.2f\n",
+               exp(total.robust / total.count), exp(total.fast / total.count));
+    return 0;
+}

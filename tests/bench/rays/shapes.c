@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "shapes.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "glim/mtl.h"
+#include "glim/view_file.h"
+#include "kernels/rng.h"
+
+/* Octaves of a terrain's height. */
+#define OCTAVES 10
+
+#define WIDTH_PX  640
+#define HEIGHT_PX 480
+
+const char *const shape_names[SHAPES] = {"bunny", "sponza_part", "veach_ajar",
+                                         "terrain1m", "terrain4m"};
+
+/* Squares of a terrain along x; half as many along z. 0: a file. */
+static const uint32_t columns[SHAPES] = {0, 0, 0, 1000, 2000};
+
+/* In [-1, 1], at the corners of a lattice. */
+static double height_at(int x, int z, int octave)
+{
+    uint32_t h = hash_u32((uint32_t)x + hash_u32((uint32_t)z + 1u));
+
+    return 2.0 * (double)unit_float(hash_u32(h + (uint32_t)octave)) - 1.0;
+}
+
+/* Value noise (Perlin's lattice with heights), x and z at least 0. */
+static double noise(double x, double z, int octave)
+{
+    int i = (int)x, k = (int)z;
+    double u = x - i, v = z - k;
+    double a = height_at(i, k, octave), b = height_at(i + 1, k, octave);
+    double c = height_at(i, k + 1, octave), d = height_at(i + 1, k + 1, octave);
+
+    u = u * u * (3 - 2 * u);
+    v = v * v * (3 - 2 * v);
+    return a + (b - a) * u + (c - a) * v + (a - b - c + d) * u * v;
+}
+
+/* The square of the terrain whose first corner is `a`, as two triangles. */
+static void add_square(struct scene *s, uint32_t a, uint32_t across)
+{
+    const uint32_t corners[2][3] = {{a, a + across, a + 1},
+                                    {a + 1, a + across, a + across + 1}};
+
+    for (int k = 0; k < 2; k++)
+        s->tris[s->tri_count++] =
+            (struct tri){{corners[k][0], corners[k][1], corners[k][2]},
+                         {NO_INDEX, NO_INDEX, NO_INDEX},
+                         {NO_INDEX, NO_INDEX, NO_INDEX},
+                         0};
+}
+
+/* What obj_read() would have read. */
+static bool make_terrain(struct scene *s, uint32_t across, struct error *err)
+{
+    uint32_t along = across / 2;
+    size_t corners = (size_t)(across + 1) * (along + 1);
+    size_t tris = 2 * (size_t)across * along;
+
+    s->file_positions = alloc_array(3 * corners, sizeof *s->file_positions);
+    s->tris = alloc_array(tris, sizeof *s->tris);
+    s->tri_faces = alloc_array(tris, sizeof *s->tri_faces);
+    s->tri_objects = alloc_array(tris, sizeof *s->tri_objects);
+    if (s->file_positions == NULL || s->tris == NULL || s->tri_faces == NULL ||
+        s->tri_objects == NULL)
+        return fail(err, "out of memory for a terrain");
+    for (uint32_t z = 0; z <= along; z++)
+        for (uint32_t x = 0; x <= across; x++) {
+            double *p = s->file_positions + 3 * (size_t)s->position_count++;
+
+            p[0] = 2.0 * x / across;
+            p[2] = 2.0 * z / across;
+            for (int i = 0; i < OCTAVES; i++)
+                p[1] += noise(p[0] * 3 * (1 << i), p[2] * 3 * (1 << i), i) *
+                        0.12 / (1 << i);
+        }
+    for (uint32_t z = 0; z < along; z++)
+        for (uint32_t x = 0; x < across; x++)
+            add_square(s, z * (across + 1) + x, across + 1);
+    return mtl_add_default(s, err);
+}
+
+/* From above one corner over the middle. */
+static bool load_terrain(struct scene *s, uint32_t across, struct view *view,
+                         struct report *report, struct error *err)
+{
+    const struct pose pose = {.eye = {0.2, 0.5, 0.1},
+                              .at = {1.1, 0.0, 0.6},
+                              .up = {0, 1, 0},
+                              .fovy_deg = 60};
+
+    view_set_pose(view, &pose);
+    s->path = xstrdup("terrain");
+    return make_terrain(s, across, err) && scene_finish(s, report, err);
+}
+
+static bool load_file(struct scene *s, const char *name, const char *shared,
+                      struct view *view, struct report *report,
+                      struct error *err)
+{
+    char *folder = xformat("%s/scenes-real/%s", shared, name);
+    char *path = xformat("%s/%s.obj", folder, name);
+    char *camera = xformat("%s/camera.txt", folder);
+    bool ok = access(path, R_OK) == 0;
+
+    err->text[0] = '\0';
+    ok = ok && scene_load(s, path, false, report, err) &&
+         view_read(view, camera, report, err);
+    free(folder);
+    free(path);
+    free(camera);
+    return ok;
+}
+
+bool shape_load(struct shape *shape, int i, const char *shared,
+                struct error *err)
+{
+    struct report report = {0};
+    struct view view;
+    bool ok;
+
+    *shape = (struct shape){.scene.path = NULL};
+    view_init(&view);
+    ok = columns[i] == 0
+             ? load_file(&shape->scene, shape_names[i], shared, &view, &report,
+                         err)
+             : load_terrain(&shape->scene, columns[i], &view, &report, err);
+    view.width_px = WIDTH_PX;
+    view.height_px = HEIGHT_PX;
+    ok = ok && scene_world(&shape->scene, &view, 0, &shape->world, err);
+    /* no holes: Embree's rays would not pass them */
+    shape->world.settings.features = 0;
+    view_free(&view);
+    report_free(&report);
+    if (!ok)
+        shape_free(shape);
+    return ok;
+}
+
+void shape_free(struct shape *shape)
+{
+    scene_free(&shape->scene);
+}

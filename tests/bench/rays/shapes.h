@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/*
+ * shapes.h - meshes that rays are timed in: scans and rooms from ../shared, and
+ * terrains that are made here
+ *
+ * Units:     normalised scene units
+ * Ownership: shape_free() frees; a zeroed struct is none
+ * Threads:   one
+ * Errors:    files that cannot be read, memory
+ */
+#ifndef RAYS_SHAPES_H
+#define RAYS_SHAPES_H
+
+#include "glim/scene.h"
+
+#define SHAPES 5
+
+struct shape {
+    struct scene scene;
+    struct world world; /* as the shape's camera sees it */
+};
+
+extern const char *const shape_names[SHAPES];
+
+/* False with an empty text: there is no such file below `shared`. */
+bool shape_load(struct shape *shape, int i, const char *shared,
+                struct error *err);
+void shape_free(struct shape *shape);
+
+#endif
