@@ -35,6 +35,11 @@ static uint64_t earlier(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
+static uint64_t later(uint64_t a, uint64_t b)
+{
+    return a > b ? a : b;
+}
+
 static const struct film *film_of(const struct stage *st)
 {
     return render_film(st->work->session->render);
@@ -299,10 +304,8 @@ static uint64_t frame_interval(const struct stage *st, uint64_t took_ns,
     if (st->work->progress.spp_done > 0)
         interval_ns = st->work->progress.render_ns > OLD_NS ? FRAME_OLD_NS
                                                             : FRAME_YOUNG_NS;
-    /* a terminal that blocks has to be written to in peace */
-    took_ns =
-        2 * took_ns > FRAME_SHARE * cpu_ns ? 2 * took_ns : FRAME_SHARE * cpu_ns;
-    return interval_ns > took_ns ? interval_ns : took_ns;
+    interval_ns = later(interval_ns, FRAME_SHARE * cpu_ns);
+    return later(interval_ns, 2 * took_ns); /* where writing blocks */
 }
 
 static int frame_step(const struct stage *st)
