@@ -153,14 +153,14 @@ static inline bool guide_scatter(const struct world *w, uint32_t cell,
                                  float *scale)
 {
     float share = guide_share(w, cell);
-    struct vec3 local, f;
+    struct vec3 wi_local, f;
     float pdf;
 
     if (u.x < share) {
         *wi = guide_sample(w, cell, u);
-        local = vertex_to_local(v, *wi);
-        f = bsdf_terms(b, wo, local, &pdf);
-        if (!sample_density(s, local, f, pdf))
+        wi_local = vertex_to_local(v, *wi);
+        f = bsdf_terms(b, wo, wi_local, &pdf);
+        if (!sample_density(s, wi_local, f, pdf))
             return false;
     } else {
         u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);
