@@ -46,9 +46,11 @@ FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
 SETS := lamps images shiny
 FEATURES_lamps := FEATURE_EMITTERS
+FLAGS_lamps := -DFLATTEN
 FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE
 FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
-	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH
+	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH | \
+	FEATURE_GUIDE
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o \
@@ -90,7 +92,7 @@ SET = $(word 2,$(subst _, ,$*))
 
 $(PATHS): $(B)/paths_%.o: src/paths.c $(B)/flags
 	$(SAY) CC '$< ($*)'
-	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$(ISA)) -DPATHS=paths_$* \
+	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$(ISA)) $(FLAGS_$(SET)) -DPATHS=paths_$* \
 		-DPATHS_NAME='"$(ISA)"' $(if $(SET),-DFEATURES='($(FEATURES_$(SET)))') \
 		-MMD -MP -c -o $@ $<
 

@@ -28,7 +28,7 @@
 
 /* The panel, and what it leaves of a narrow window. */
 #define PANEL_COLS   38
-#define PICTURE_COLS 12
+#define PICTURE_COLS 10
 
 void canvas_init(struct canvas *c, const struct options *options)
 {

@@ -140,6 +140,54 @@ static const struct line {
     {NULL, {ACTION_QUIT}, "quit"},
 };
 
+/* Of the panel: keys as they are shown where that is not by their names. */
+#define PANEL_KEYS_MAX 13
+
+static const struct panel_line {
+    const char *keys;
+    const char *text;
+    struct {
+        int key;
+        enum panel_action action;
+    } does[PANEL_KEYS_MAX];
+} panel_lines[] = {
+    {"arrows",
+     "choose; change by a step",
+     {{INPUT_UP, PANEL_UP},
+      {INPUT_DOWN, PANEL_DOWN},
+      {INPUT_LEFT, PANEL_LESS},
+      {INPUT_RIGHT, PANEL_MORE}}},
+    {"PgUp/Dn",
+     "ten lines up, down",
+     {{INPUT_PAGE_UP, PANEL_PAGE_UP}, {INPUT_PAGE_DOWN, PANEL_PAGE_DOWN}}},
+    {NULL,
+     "change by ten steps",
+     {{'[', PANEL_MUCH_LESS}, {']', PANEL_MUCH_MORE}}},
+    {NULL, "to the values; type, switch", {{'\r', PANEL_ENTER}}},
+    {"0-9.-#",
+     "type a value",
+     {{'0', PANEL_TYPE},
+      {'1', PANEL_TYPE},
+      {'2', PANEL_TYPE},
+      {'3', PANEL_TYPE},
+      {'4', PANEL_TYPE},
+      {'5', PANEL_TYPE},
+      {'6', PANEL_TYPE},
+      {'7', PANEL_TYPE},
+      {'8', PANEL_TYPE},
+      {'9', PANEL_TYPE},
+      {'.', PANEL_TYPE},
+      {'-', PANEL_TYPE},
+      {'#', PANEL_TYPE}}},
+    {NULL, "colours by HSV, by RGB", {{'h', PANEL_HSV}}},
+    {NULL, "next of the three pages", {{'\t', PANEL_NEXT_PAGE}}},
+    {NULL, "copy the material", {{'n', PANEL_COPY}}},
+    {NULL, "undo, redo changes", {{'u', PANEL_UNDO}, {'U', PANEL_REDO}}},
+    {NULL, "as it was saved, and back", {{'x', PANEL_COMPARE}}},
+    {NULL, "save what was changed", {{CTRL('S'), PANEL_SAVE}}},
+    {NULL, "to the list; close the panel", {{ESCAPE, PANEL_LEAVE}}},
+};
+
 static const struct key_name {
     int key;
     const char *name;
@@ -316,5 +364,31 @@ bool keys_help(const struct keys *k, int line, struct keys_help *help)
         if (l->actions[i] != ACTION_NONE)
             add_action(help, k, l->actions[i], l->actions[1] != ACTION_NONE);
     }
+    return true;
+}
+
+enum panel_action keys_panel_action(int key)
+{
+    for (size_t i = 0; i < COUNT(panel_lines) && key != 0; i++) {
+        for (int j = 0; j < PANEL_KEYS_MAX; j++) {
+            if (panel_lines[i].does[j].key == key)
+                return panel_lines[i].does[j].action;
+        }
+    }
+    return PANEL_NONE;
+}
+
+bool keys_panel_help(int line, struct keys_help *help)
+{
+    const struct panel_line *l;
+
+    if (line < 0 || (size_t)line >= COUNT(panel_lines))
+        return false;
+    l = &panel_lines[line];
+    *help = (struct keys_help){.text = l->text};
+    if (l->keys)
+        snprintf(help->keys, sizeof help->keys, "%s", l->keys);
+    for (int j = 0; !l->keys && l->does[j].key != 0; j++)
+        add_key(help, l->does[j].key);
     return true;
 }

@@ -20,6 +20,11 @@ static bool parse_color(const char *text, double most, double rgb[3],
                 text);
 }
 
+bool knob_takes_text(int id)
+{
+    return id != KNOB_KIND && id < KNOB_MAP;
+}
+
 /* A colour, or a number for one of its channels. */
 static bool type_color(double rgb[3], double most, const struct knob_target *t,
                        int id, const char *text, struct error *err)

@@ -180,14 +180,18 @@ static bool check_batch(const struct options *o, struct error *err)
                         (o->text_cols > 0 && !o->output_path);
 
     if (o->output_path && !o->batch)
-        return fail(err, "-o: is for batch mode, expected -b beside it (on "
-                         "the screen p saves a picture)");
+        return fail(err,
+                    "-o: is for batch mode, expected -b beside it (on the "
+                    "screen %s saves a picture)",
+                    keys_first_name(&o->keys, ACTION_SAVE).text);
     if (o->watch && o->batch)
         return fail(err, "--watch: is for the screen, expected no -b beside "
                          "it");
     if (o->text_cols > 0 && !o->batch)
-        return fail(err, "--ansi: is for batch mode, expected -b beside it "
-                         "(on the screen x saves a text)");
+        return fail(err,
+                    "--ansi: is for batch mode, expected -b beside it (on the "
+                    "screen %s saves a text)",
+                    keys_first_name(&o->keys, ACTION_SAVE_TEXT).text);
     if (o->text_cols > 0 && o->glyph >= GLYPH_SIXEL)
         return fail(err, "--ansi: a text has no pixels, expected a --glyph "
                          "of cells beside it");
@@ -211,8 +215,10 @@ static bool check_show(const struct options *o, struct error *err)
     if (o->show == SHOW_LIGHT)
         return true;
     if (!o->batch)
-        return fail(err, "--show: is for batch mode, expected -b beside it "
-                         "(on the screen n shows it)");
+        return fail(err,
+                    "--show: is for batch mode, expected -b beside it (on the "
+                    "screen %s shows it)",
+                    keys_first_name(&o->keys, ACTION_VIEW_NEXT).text);
     if (o->stats_path)
         return fail(err, "--stats: is about a render, expected no --show "
                          "beside it");

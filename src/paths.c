@@ -20,8 +20,13 @@
 #define PATHS_NAME "plain"
 #endif
 
-static void samples(const struct world *w, uint32_t x, uint32_t y,
-                    uint64_t first, uint32_t count, struct path_sample *out)
+/* Little code is faster in one function, by 6 %; much is not. */
+#ifdef FLATTEN
+__attribute__((flatten))
+#endif
+static void
+samples(const struct world *w, uint32_t x, uint32_t y, uint64_t first,
+        uint32_t count, struct path_sample *out)
 {
     path_samples(w, x, y, first, count, out);
 }

@@ -46,16 +46,22 @@ struct develop show_develop(const struct show *s)
                                    : session_develop(s->session);
 }
 
-bool show_world(const struct show *s, struct world *w)
+static bool find_world(const struct show *s, struct world *w, struct error *err)
 {
     struct session *of = s->session;
-    struct error err;
 
-    if (!scene_world(&of->scene, &of->view, of->options->seed, w, &err))
+    if (!scene_world(&of->scene, &of->view, of->options->seed, w, err))
         return false;
     w->nodes = s->bvh.nodes;
     w->leaf_tris = s->bvh.leaf_tris;
     return true;
+}
+
+bool show_world(const struct show *s, struct world *w)
+{
+    struct error ignored;
+
+    return find_world(s, w, &ignored);
 }
 
 struct camera show_camera(const struct show *s, const struct camera *camera,
@@ -70,13 +76,11 @@ struct camera show_camera(const struct show *s, const struct camera *camera,
 
 bool show_need_tree(struct show *s, struct error *err)
 {
-    struct session *of = s->session;
     struct world w;
 
     if (!s->has_bvh)
         s->has_bvh =
-            scene_world(&of->scene, &of->view, of->options->seed, &w, err) &&
-            bvh_build(&s->bvh, &w, NULL, err);
+            find_world(s, &w, err) && bvh_build(&s->bvh, &w, NULL, err);
     return s->has_bvh;
 }
 
@@ -295,7 +299,8 @@ static bool find_numbers(struct show *s, const struct frame *frame,
 {
     struct world w;
 
-    if (!show_need_tree(s, err) || !need_pool(s, err) || !show_world(s, &w))
+    if (!show_need_tree(s, err) || !need_pool(s, err) ||
+        !find_world(s, &w, err))
         return false;
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail(err, "out of memory for the numbers of %dx%d pixels",

@@ -140,8 +140,8 @@ static void open_help(struct stage *st, int number)
                  canvas_glyphs_name(&st->canvas),
                  (double)pace->rtt_min_ns * 1e-6);
     /* within a frame, with a blank on each side, above the status line */
-    help_page(&page, &st->work->session->options->keys, note, number,
-              size.cols - 4, size.rows - 3);
+    help_page(&page, &st->work->session->options->keys, st->panel.is_open, note,
+              number, size.cols - 4, size.rows - 3);
     if (number + 1 < page.page_count)
         snprintf(title, sizeof title, " keys %d/%d - any key goes on ",
                  number + 1, page.page_count);

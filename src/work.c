@@ -20,8 +20,8 @@
 /* How often files are looked at where the system does not watch them. */
 #define LOOK_NS UINT64_C(1000000000)
 
-static void say(struct work *w, uint64_t until_ns, const char *format,
-                va_list values)
+static void __attribute__((format(printf, 3, 0)))
+say(struct work *w, uint64_t until_ns, const char *format, va_list values)
 {
     vsnprintf(w->message.text, sizeof w->message.text, format, values);
     w->message.is_error = false;

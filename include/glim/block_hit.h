@@ -219,10 +219,9 @@ static inline bool block_take(const struct ray *r,
 }
 
 /* As leaf_hit() of kernels/traverse.h, for `more` + 1 blocks. */
-static inline bool blocks_hit(const struct world *w, const struct ray *r,
-                              const struct shear *s,
-                              const struct tri_block *block, uint32_t more,
-                              struct hit *best)
+static inline __attribute__((always_inline)) bool
+blocks_hit(const struct world *w, const struct ray *r, const struct shear *s,
+           const struct tri_block *block, uint32_t more, struct hit *best)
 {
     bool has_holes =
         HAS(FEATURE_COVERAGE) && (w->settings.features & FEATURE_COVERAGE) != 0;
@@ -239,12 +238,7 @@ static inline bool blocks_hit(const struct world *w, const struct ray *r,
                 found |= block_take(r, block, &h,
                                     (uint32_t)__builtin_ctz(h.sure), best);
             if (h.unsure != 0) {
-                struct hit nearer = *best;
-
-                if (block_decide(w, r, s, block, h.unsure, &nearer)) {
-                    *best = nearer;
-                    found = true;
-                }
+                found |= block_decide(w, r, s, block, h.unsure, best);
             }
         }
         if (more == 0)

@@ -12,6 +12,9 @@
 
 #include "glim/knob.h"
 
+/* False for what has only some states, which are turned through. */
+bool knob_takes_text(int id);
+
 /* Gives the knob the value that the text says, as a step of the edit. */
 bool knob_set_text(struct edit *edit, const struct knob_target *target, int id,
                    const char *text, struct error *err);

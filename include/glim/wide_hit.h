@@ -197,14 +197,14 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     struct shear shear = block_shear_of(r);
     uint64_t stack[WIDE_STACK];
     uint64_t *top = stack;
-    struct hit best = {r.t_max, 0.0f, 0.0f, 0.0f, NO_INDEX};
     float t_far = wide_far(r.t_max);
     uint32_t at = 0;
 
-    if (nodes == NULL) {
-        *hit = best;
+    hit->t = r.t_max;
+    hit->b0 = hit->b1 = hit->b2 = 0.0f;
+    hit->tri = NO_INDEX;
+    if (nodes == NULL)
         return false;
-    }
     for (;;) {
         if ((at & WIDE_LEAF) == 0) {
             const struct wide_node *n = wide_node_at(nodes, at);
@@ -219,14 +219,12 @@ static inline bool hit_closest(const struct world *w, struct ray r,
             }
         } else {
             blocks_hit(w, &r, &shear, wide_block_at(nodes, at), at & WIDE_MORE,
-                       &best);
-            t_far = wide_far(best.t);
+                       hit);
+            t_far = wide_far(hit->t);
         }
         do {
-            if (top == stack) {
-                *hit = best;
-                return best.tri != NO_INDEX;
-            }
+            if (top == stack)
+                return hit->tri != NO_INDEX;
             top--;
         } while (*top >> 32 > float_bits(t_far));
         at = (uint32_t)*top;
@@ -253,10 +251,14 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
             f8 enter;
             uint32_t mask = wide_enter(n, &ray, t_far, &enter);
 
-            for (; mask != 0; mask &= mask - 1) {
-                *top = n->child[lowest(mask)];
-                wide_prefetch(nodes, *top);
-                top++;
+            if (mask != 0) {
+                for (; (mask & (mask - 1)) != 0; mask &= mask - 1) {
+                    *top = n->child[lowest(mask)];
+                    wide_prefetch(nodes, *top);
+                    top++;
+                }
+                at = n->child[lowest(mask)];
+                continue;
             }
         } else if (blocks_hit(w, &r, &shear, wide_block_at(nodes, at),
                               at & WIDE_MORE, &h)) {
