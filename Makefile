@@ -37,13 +37,24 @@ LIBS = -lncursesw -ltinfo -lm -ldl
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
-# Sets of instructions that src/paths.c is built for as well, and their flags.
+# src/paths.c is built for each set of instructions and, as the scene lacks what
+# the others need, for each set of features, of which src/isa.c takes the first
+# that will do: walls and lamps, images on them, most materials.
 ISAS := $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi -mlzcnt
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
+SETS := lamps images shiny
+FEATURES_lamps := FEATURE_EMITTERS
+FLAGS_lamps := -DFLATTEN
+FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE
+FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
+	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH | \
+	FEATURE_GUIDE
+PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
+	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o \
-	$(ISAS:%=$(B)/paths_%.o)
+	$(PATHS)
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
@@ -75,10 +86,15 @@ $(B)/%.o: src/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-$(ISAS:%=$(B)/paths_%.o): $(B)/paths_%.o: src/paths.c $(B)/flags
+# $* is the instructions' name and, behind a _, that of the features.
+ISA = $(firstword $(subst _, ,$*))
+SET = $(word 2,$(subst _, ,$*))
+
+$(PATHS): $(B)/paths_%.o: src/paths.c $(B)/flags
 	$(SAY) CC '$< ($*)'
-	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$*) -DPATHS=paths_$* \
-		-DPATHS_NAME='"$*"' -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$(ISA)) $(FLAGS_$(SET)) -DPATHS=paths_$* \
+		-DPATHS_NAME='"$(ISA)"' $(if $(SET),-DFEATURES='($(FEATURES_$(SET)))') \
+		-MMD -MP -c -o $@ $<
 
 # The folder's own time changes when a file comes or goes.
 $(B)/kernels.c: kernels $(KERNELS) kernels/embed.sh $(B)/flags
@@ -203,6 +219,12 @@ build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@
 	$(Q)$< $@ && touch $@
 
+## bench-cycles: paths a second beside those of Blender's Cycles, if Debian's
+##               blender is installed; FILTER=SCENE, ROUNDS=3
+bench-cycles: $(B)/glim
+	@BUILD=$(B) FILTER='$(FILTER)' ROUNDS=$(if $(filter file,$(origin \
+		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
+
 ## stress: rows of what breaks path tracers, and other checks that take minutes;
 ##         FILTER=NAME for one of them: samples geometry light sizes rays
 ##         oclgrind valgrind
@@ -286,7 +308,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench bench-error bench-rays stress scenes tables \
+.PHONY: all run test tests bench bench-error bench-rays bench-cycles stress scenes tables \
 	gallery install uninstall deps format lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
 	$(STRESSES:=.d) $(TOOLS:=.d) $(ERROR_BENCH:.o=.d) \

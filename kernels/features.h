@@ -21,13 +21,14 @@ enum feature {
     FEATURE_PLASTIC = 16, /* a coat over diffuse */
     FEATURE_ROUGH = 32,   /* metal, glass or coat that is not smooth */
     FEATURE_ROUGH_DIFFUSE = 64,
-    FEATURE_SKY_IMAGE = 128, /* the sky is an image */
-    FEATURE_EMITTERS = 256,  /* surfaces that shine */
-    FEATURE_BUMPS = 512,     /* maps of heights or normals */
-    FEATURE_FIRST_HIT = 1024 /* samples are no light: see first_hit.h */
+    FEATURE_SKY_IMAGE = 128,  /* the sky is an image */
+    FEATURE_EMITTERS = 256,   /* surfaces that shine */
+    FEATURE_BUMPS = 512,      /* maps of heights or normals */
+    FEATURE_FIRST_HIT = 1024, /* samples are no light: see first_hit.h */
+    FEATURE_GUIDE = 2048      /* directions from photons: see guide.h */
 };
 
-#define FEATURES_ALL 2047u
+#define FEATURES_ALL 4095u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

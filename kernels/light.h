@@ -136,10 +136,10 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
                                 struct vec2 point, struct vec2 choice,
                                 struct light_sample *s)
 {
-    if (choice.x < w->settings.sky_share) {
+    if (sky_has_table(w) && choice.x < w->settings.sky_share) {
         s->wi = sky_sample(w, point);
-        s->radiance = sky_radiance(w, s->wi);
-        s->pdf = sky_light_pdf(w, s->wi);
+        s->radiance = sky_terms(w, s->wi, &s->pdf);
+        s->pdf *= w->settings.sky_share;
         s->tri = NO_INDEX;
         s->p = r->p;
         return s->pdf > 0.0f;

@@ -22,7 +22,8 @@ __kernel void trace_paths(
     __global const struct leaf_tri *leaf_tris,
     __global const struct light *lights, __global const uint *tri_lights,
     __global const struct light_node *light_nodes,
-    __global const float *sky_sums)
+    __global const float *sky_sums, __global const uint *guide_cells,
+    __global const float *guide_sums)
 {
     uint i = (uint)get_global_id(0);
 
@@ -33,7 +34,8 @@ __kernel void trace_paths(
         struct world w = {*settings,      positions,  normals,     uvs,
                           tris,           materials,  textures,    texels,
                           linear_of_srgb, sky_texels, nodes,       leaf_tris,
-                          lights,         tri_lights, light_nodes, sky_sums};
+                          lights,         tri_lights, light_nodes, sky_sums,
+                          guide_cells,    guide_sums};
 
         samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);
     }

@@ -17,10 +17,14 @@
 #include "kernels/path_types.h"
 #include "kernels/rng.h"
 
-/* Dimensions at a vertex, and vertices that are computed ahead: what comes
- * later few paths ask for. One bit for each dimension in a word. */
+/* Dimensions at a vertex, and vertices that are computed ahead, the camera the
+ * first: what comes later few paths ask for. One bit for each dimension in a
+ * word. */
 #define POINT_KINDS    4u
 #define POINT_VERTICES 8u
+
+/* The vertex of the dimensions below DIMENSION_BOUNCE. */
+#define POINTS_CAMERA 0u
 
 struct points {
     uint32_t key; /* that all have */
@@ -46,17 +50,16 @@ static inline void points_compute(struct points *p, uint32_t slot,
 }
 
 /* random_2d() of sample i at a vertex, the first of which is 1; `kind` is one
- * of enum dimension's that are counted from DIMENSION_BOUNCE. Without points,
- * for one sample alone. */
+ * of enum dimension's that are counted from DIMENSION_BOUNCE, for the camera
+ * from 0. Without points, for one sample alone. */
 static inline struct vec2 points_2d(struct points *p, uint32_t i,
                                     struct sampler s, uint32_t vertex,
                                     uint32_t kind)
 {
-    uint32_t dimension =
-        DIMENSION_BOUNCE + (vertex - 1) * DIMENSION_STRIDE + kind;
-    uint32_t slot = (vertex - 1) * POINT_KINDS + kind;
+    uint32_t dimension = vertex * DIMENSION_STRIDE + kind;
+    uint32_t slot = vertex * POINT_KINDS + kind;
 
-    if (p == NULL || vertex > POINT_VERTICES)
+    if (p == NULL || vertex >= POINT_VERTICES)
         return random_2d(s, dimension);
     if ((p->known >> slot & 1u) == 0)
         points_compute(p, slot, dimension);

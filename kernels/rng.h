@@ -33,8 +33,9 @@
 enum dimension {
     DIMENSION_PIXEL = 0,
     DIMENSION_LENS = 1,
-    DIMENSION_BOUNCE = 8, /* + 8 b + one of the following for bounce b */
+    /* times a vertex's number, the first of which is 1, and one of the last */
     DIMENSION_STRIDE = 8,
+    DIMENSION_BOUNCE = DIMENSION_STRIDE,
     DIMENSION_LIGHT_POSITION = 0,
     DIMENSION_LIGHT_CHOICE = 1,
     DIMENSION_BSDF_DIRECTION = 2,

@@ -27,19 +27,14 @@ static inline struct vec2 sky_uv(struct sky s, struct vec3 d)
               atan2_rad(sqrtf(x * x + z * z), d.y) * (1.0f / PI));
 }
 
-/* Radiance that comes from direction d when nothing is in the way. Image
- * columns repeat, rows end at the poles. */
-static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
+/* Radiance of the image at uv. Columns repeat, rows end at the poles. */
+static inline struct vec3 sky_image_at(const struct world *w, struct vec2 uv)
 {
     struct sky s = w->settings.sky;
     struct footprint f;
     struct vec3 top, bottom;
-    struct vec2 uv;
     float y, whole;
 
-    if (!HAS(FEATURE_SKY_IMAGE) || s.width == 0)
-        return s.color;
-    uv = sky_uv(s, d);
     wrap_pair(uv.x, s.width, &f.x0, &f.x1, &f.fx);
     y = uv.y * (float)s.height - 0.5f;
     whole = floorf(y);
@@ -55,6 +50,16 @@ static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
     bottom = v3_lerp(w->sky_texels[f.y1 * s.width + f.x0],
                      w->sky_texels[f.y1 * s.width + f.x1], f.fx);
     return v3_mul(v3_lerp(top, bottom, f.fy), s.color);
+}
+
+/* Radiance that comes from direction d when nothing is in the way. */
+static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
+{
+    struct sky s = w->settings.sky;
+
+    if (!HAS(FEATURE_SKY_IMAGE) || s.width == 0)
+        return s.color;
+    return sky_image_at(w, sky_uv(s, d));
 }
 
 /* Solid angle of a texel of this row: the difference of its edges' cosines as
@@ -125,24 +130,47 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
               s.rotation_cos * d.z - s.rotation_sin * d.x);
 }
 
-/* Density of sky_sample() at the unit vector d; 0 without a table. */
-static inline float sky_pdf(const struct world *w, struct vec3 d)
+/* Whether sky_sample() may be called. */
+static inline bool sky_has_table(const struct world *w)
+{
+    return HAS(FEATURE_SKY_IMAGE) && w->settings.sky_share > 0.0f;
+}
+
+/* Density of sky_sample() at a direction whose place in the image is uv. */
+static inline float sky_table_pdf(const struct world *w, struct vec2 uv)
 {
     struct sky s = w->settings.sky;
-    struct vec2 uv;
-    uint32_t row, column, first;
+    uint32_t row = (uint32_t)(uv.y * (float)s.height);
+    uint32_t column = (uint32_t)(uv.x * (float)s.width);
+    uint32_t first;
 
-    if (!(w->settings.sky_share > 0.0f))
-        return 0.0f;
-    uv = sky_uv(s, d);
-    row = (uint32_t)(uv.y * (float)s.height);
-    column = (uint32_t)(uv.x * (float)s.width);
     row = row < s.height ? row : s.height - 1u;
     column = column < s.width ? column : s.width - 1u;
     first = sky_row_sums(s, row) + column;
     return (w->sky_sums[row + 1] - w->sky_sums[row]) *
            (w->sky_sums[first + 1] - w->sky_sums[first]) /
            sky_texel_angle(s, row);
+}
+
+/* Density of sky_sample() at the unit vector d; 0 without a table. */
+static inline float sky_pdf(const struct world *w, struct vec3 d)
+{
+    return sky_has_table(w) ? sky_table_pdf(w, sky_uv(w->settings.sky, d))
+                            : 0.0f;
+}
+
+/* sky_radiance(), and sky_pdf() with it, at the unit vector d. */
+static inline struct vec3 sky_terms(const struct world *w, struct vec3 d,
+                                    float *pdf)
+{
+    struct vec2 uv;
+
+    *pdf = 0.0f;
+    if (!sky_has_table(w))
+        return sky_radiance(w, d);
+    uv = sky_uv(w->settings.sky, d);
+    *pdf = sky_table_pdf(w, uv);
+    return sky_image_at(w, uv);
 }
 
 #endif

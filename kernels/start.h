@@ -11,32 +11,49 @@
 #define KERNELS_START_H
 
 #include "kernels/camera.h"
-#include "kernels/rng.h"
+#include "kernels/points.h"
 
 struct path_start {
     struct ray ray;
     struct sampler sampler;
 };
 
-/* Sample `index` of pixel (x, y) of the whole picture. */
+/* Of sample `index` of pixel (x, y) of the whole picture. */
+static inline struct sampler path_sampler(const struct settings *s, uint32_t x,
+                                          uint32_t y, uint64_t index)
+{
+    return s->order == ORDER_DRAFT
+               ? sampler_start_draft(x, y, (uint32_t)index, s->seed)
+               : sampler_start(x, y, index, s->seed);
+}
+
+/* The camera's ray of a sample of pixel (x, y); points, or NULL, are as in
+ * path_open() of path.h. */
+static inline struct ray path_ray(const struct settings *s, uint32_t x,
+                                  uint32_t y, struct sampler sampler,
+                                  struct points *points, uint32_t lane)
+{
+    struct ray r;
+
+    if (s->sample != SAMPLE_LIGHT)
+        return camera_ray(s->camera, x, y, v2(0.5f, 0.5f));
+    r = camera_ray(s->camera, x, y,
+                   points_2d(points, lane, sampler, POINTS_CAMERA,
+                             DIMENSION_PIXEL));
+    if (s->camera.lens_radius > 0.0f)
+        r = camera_through_lens(s->camera, r,
+                                points_2d(points, lane, sampler, POINTS_CAMERA,
+                                          DIMENSION_LENS));
+    return r;
+}
+
 static inline struct path_start path_begin(const struct settings *s, uint32_t x,
                                            uint32_t y, uint64_t index)
 {
     struct path_start start;
 
-    start.sampler = s->order == ORDER_DRAFT
-                        ? sampler_start_draft(x, y, (uint32_t)index, s->seed)
-                        : sampler_start(x, y, index, s->seed);
-    if (s->sample != SAMPLE_LIGHT) {
-        start.ray = camera_ray(s->camera, x, y, v2(0.5f, 0.5f));
-        return start;
-    }
-    start.ray =
-        camera_ray(s->camera, x, y, random_2d(start.sampler, DIMENSION_PIXEL));
-    if (s->camera.lens_radius > 0.0f)
-        start.ray =
-            camera_through_lens(s->camera, start.ray,
-                                random_2d(start.sampler, DIMENSION_LENS));
+    start.sampler = path_sampler(s, x, y, index);
+    start.ray = path_ray(s, x, y, start.sampler, NULL, 0);
     return start;
 }
 

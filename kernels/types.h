@@ -144,6 +144,17 @@ struct light_node {
     uint32_t child[LIGHT_WIDTH]; /* a node, or a light and LIGHT_LEAF */
 };
 
+/* Directions on a side of the octahedral map in guide.h: a power of two. */
+#define GUIDE_SIDE 16
+
+/* Cubes in the box around the scene, x fastest, z slowest. */
+struct guide_grid {
+    struct vec3 lo; /* the box's corner */
+    float cells_a_unit;
+    uint32_t width, height, depth; /* cells; 0: there is no grid */
+    uint32_t cell_count;           /* with directions */
+};
+
 /* How light is gathered where a path could meet it by chance as well. The
  * others are for comparing with. */
 enum direct {
@@ -182,6 +193,7 @@ struct settings {
     uint32_t sample;   /* enum sample_kind */
     float sky_share;   /* probability that a light sample is one of the sky, */
     float light_share; /* of the lights; what is left is none at all */
+    struct guide_grid guide;
 
     /* lengths of the world's arrays */
     uint32_t tri_count;
@@ -214,7 +226,9 @@ struct world {
     GLOBAL const struct light *lights;
     GLOBAL const uint32_t *tri_lights;           /* NO_INDEX where it is dark */
     GLOBAL const struct light_node *light_nodes; /* none for one light */
-    GLOBAL const float *sky_sums; /* see kernels/sky.h; none: no table */
+    GLOBAL const float *sky_sums;       /* see kernels/sky.h; none: no table */
+    GLOBAL const uint32_t *guide_cells; /* see kernels/guide.h */
+    GLOBAL const float *guide_sums;     /* GUIDE_SIDE^2 for each of these */
 };
 
 struct ray {

@@ -92,9 +92,10 @@ static inline float v3_max(struct vec3 a)
     return f_max(a.x, f_max(a.y, a.z));
 }
 
+/* Of either sign: in one comparison, by all bits but the signs. */
 static inline bool v3_is_zero(struct vec3 a)
 {
-    return a.x == 0.0f && a.y == 0.0f && a.z == 0.0f;
+    return (float_bits(a.x) | float_bits(a.y) | float_bits(a.z)) << 1 == 0;
 }
 
 /* a + s (b - a), componentwise. */

@@ -161,6 +161,14 @@ static inline bool vertex_sides_agree(const struct vertex *v, struct vec3 d,
     return z > 0.0f ? v->is_lifted || side > 0.0f : side < 0.0f;
 }
 
+/* The vertex as if its face were flat. */
+static inline struct vertex vertex_of_face(struct vertex v)
+{
+    v.n = v.ng;
+    frame_around(v.n, &v.t, &v.b);
+    return v;
+}
+
 /* Where a ray begins that leaves upwards, by its cosine to n, or downwards. */
 static inline struct vec3 vertex_leave(const struct vertex *v, float z)
 {

@@ -4,6 +4,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "glim/isa.h"
 #include "glim/wide.h"
 #include "kernels/sobol.h"
 
@@ -12,10 +13,11 @@
 
 struct backend_cpu {
     struct backend base;
-    const struct paths *paths;
+    const struct paths *paths; /* that can do every world */
     struct pool *pool;
     struct wide tree;
     /* from begin() */
+    const struct paths *fit; /* that can do this one */
     struct wide_world world;
     struct film *film;
     int x0, y0;
@@ -73,9 +75,9 @@ static bool render_row(const struct job *j, int x, int y, int pixel_count)
 
         counts[done] = (int)count;
         if (count != 0)
-            b->paths->samples(&b->world.world, (uint32_t)(b->x0 + px),
-                              (uint32_t)(b->y0 + y), first, count,
-                              samples + done * SAMPLE_BLOCK);
+            b->fit->samples(&b->world.world, (uint32_t)(b->x0 + px),
+                            (uint32_t)(b->y0 + y), first, count,
+                            samples + done * SAMPLE_BLOCK);
     }
     film_add_row(b->film, x, y, j->pass.stride, done, samples, counts);
     return done == pixel_count;
@@ -124,6 +126,7 @@ static bool cpu_begin(struct backend *base, const struct world *world,
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     (void)err;
+    b->fit = isa_fit(b->paths, world->settings.features);
     b->world.world = *world;
     b->world.tree = &b->tree;
     b->film = film;

@@ -14,6 +14,7 @@
 
 #include "glim/file.h"
 #include "glim/picture.h"
+#include "glim/show.h"
 #include "glim/stats.h"
 #include "glim/text.h"
 
@@ -231,22 +232,25 @@ static enum palette text_palette(const struct options *o)
     return options_palette(o->color);
 }
 
-static bool save_text(struct session *s, char **name, struct error *err)
+static bool save_text(struct show *show, char **name, struct error *err)
 {
+    const struct session *s = show->session;
     const struct options *o = s->options;
-    struct film *film = render_film(s->render);
     struct fit fit =
-        cells_fit(film->width, film->height, o->text_cols, o->text_rows,
+        cells_fit(s->crop.width, s->crop.height, o->text_cols, o->text_rows,
                   o->cell_aspect > 0 ? o->cell_aspect : 2);
     struct text_style style = {fit.cols, fit.rows, text_palette(o),
                                options_glyphs(o->glyph)};
     const char *path = text_path(o);
+    struct frame frame = {0};
     size_t size_bytes;
     char *text;
-    bool ok;
+    bool ok = text_frame_init(&frame, &style, err) &&
+              show_picture(show, render_film(s->render), &frame, err) &&
+              text_of_frame(&frame, &style, &text, &size_bytes, err);
 
-    if (!text_of_film(film, session_develop(s), &style, &text, &size_bytes,
-                      err))
+    frame_free(&frame);
+    if (!ok)
         return false;
     *name = xstrdup(path ? path : "standard output");
     ok = path ? file_write(path, text, size_bytes, false, NULL, err)
@@ -255,27 +259,68 @@ static bool save_text(struct session *s, char **name, struct error *err)
     return ok;
 }
 
-/* Writes the picture; *name is what it is called now, for free(). */
-static bool save_picture(struct session *s, char **name, struct error *err)
+/* Of the file that the options name. */
+static bool write_picture(struct session *s, const struct frame *frame,
+                          struct error *err)
 {
-    const struct options *o = s->options;
-    struct film *film = render_film(s->render);
-    struct develop how = session_develop(s);
-    char *stem;
+    const char *path = s->options->output_path;
 
-    if (o->text_cols > 0)
-        return save_text(s, name, err);
-    if (o->output_path) {
-        *name = xstrdup(is_standard_output(o->output_path) ? "standard output"
-                                                           : o->output_path);
-        return picture_write(film, how, o->output_path, err);
-    }
-    stem = path_stem(o->scene_path);
+    return frame ? picture_write_frame(frame, path, err)
+                 : picture_write(render_film(s->render), session_develop(s),
+                                 path, err);
+}
+
+/* Under a name that is free, which comes back for free(). */
+static char *write_numbered(struct session *s, const struct frame *frame,
+                            struct error *err)
+{
+    char *stem = path_stem(s->options->scene_path);
     const char *slash = strrchr(stem, '/');
-    *name =
-        picture_write_numbered(film, how, slash ? slash + 1 : stem, "png", err);
+    const char *last = slash ? slash + 1 : stem;
+    char *name =
+        frame ? picture_write_frame_numbered(frame, last, err)
+              : picture_write_numbered(render_film(s->render),
+                                       session_develop(s), last, "png", err);
+
     free(stem);
+    return name;
+}
+
+/* The frame, or without one the film; *name is what it is called now, for
+ * free(). */
+static bool save_pixels(struct session *s, const struct frame *frame,
+                        char **name, struct error *err)
+{
+    const char *path = s->options->output_path;
+
+    if (path) {
+        *name = xstrdup(is_standard_output(path) ? "standard output" : path);
+        return write_picture(s, frame, err);
+    }
+    *name = write_numbered(s, frame, err);
     return *name != NULL;
+}
+
+/* What is not light, computed at once. */
+static bool save_shown(struct show *show, char **name, struct error *err)
+{
+    struct session *s = show->session;
+    struct frame frame = {0};
+    bool ok = frame_init(&frame, s->crop.width, s->crop.height, err) &&
+              show_picture(show, NULL, &frame, err) &&
+              save_pixels(s, &frame, name, err);
+
+    frame_free(&frame);
+    return ok;
+}
+
+static bool save_picture(struct show *show, char **name, struct error *err)
+{
+    if (show->session->options->text_cols > 0)
+        return save_text(show, name, err);
+    if (show->kind != SHOW_LIGHT)
+        return save_shown(show, name, err);
+    return save_pixels(show->session, NULL, name, err);
 }
 
 static void say_result(const struct session *s, const char *name,
@@ -298,8 +343,9 @@ static void say_result(const struct session *s, const char *name,
                 p->non_finite);
 }
 
-static bool save_all(struct session *s, struct error *err)
+static bool save_all(struct show *show, struct error *err)
 {
+    struct session *s = show->session;
     struct render_progress p = render_progress(s->render);
     char *name = NULL;
     bool ok;
@@ -312,7 +358,7 @@ static bool save_all(struct session *s, struct error *err)
                 signal_name(stop_signal));
         return true;
     }
-    ok = save_picture(s, &name, err);
+    ok = save_picture(show, &name, err);
     if (ok)
         say_result(s, name, &p);
     if (ok && s->options->stats_path)
@@ -364,17 +410,46 @@ static bool render_all(struct session *s, struct error *err)
     return render_all(s, err);
 }
 
-bool batch_run(struct session *s, int *status, struct error *err)
+/* Renders nothing: a ray for each pixel tells all. */
+static bool run_show(struct show *show, struct error *err)
 {
-    if (!check_outputs(s->options, err))
-        return false;
+    const struct session *s = show->session;
+    char *name = NULL;
+    bool ok =
+        show_set(show, s->options->show, err) && save_picture(show, &name, err);
+
+    if (ok)
+        fprintf(stderr, "%s: %dx%d, %s, %.1f s\n", name, s->crop.width,
+                s->crop.height, options_shows[s->options->show],
+                seconds_between(s->start_ns, clock_ns()));
+    free(name);
+    return ok;
+}
+
+static bool run_light(struct show *show, int *status, struct error *err)
+{
+    struct session *s = show->session;
+
     /* before our signals are set: drivers put theirs over them */
     if (s->options->backend != BACKEND_CPU)
         use_device(s);
-    if (!catch_signals(err) || !render_all(s, err))
-        return false;
-    if (!save_all(s, err))
+    if (!catch_signals(err) || !render_all(s, err) || !save_all(show, err))
         return false;
     *status = stop_signal != 0 ? 128 + stop_signal : 0;
     return true;
+}
+
+bool batch_run(struct session *s, int *status, struct error *err)
+{
+    struct show show;
+    bool ok;
+
+    if (!check_outputs(s->options, err))
+        return false;
+    show_init(&show, s);
+    *status = 0;
+    ok = s->options->show == SHOW_LIGHT ? run_light(&show, status, err)
+                                        : run_show(&show, err);
+    show_free(&show);
+    return ok;
 }

@@ -176,23 +176,32 @@ static bool choose_split(const struct builder *b, const struct range *r,
 static void part_boxes(const struct split *s, const struct box *from,
                        uint32_t count, struct box *to[2], struct box centers[2])
 {
+    const f4 limits[2] = {f4_all(-FLOAT_MAX), f4_all(FLOAT_MAX)};
     struct box *left = to[0], *right = to[1];
-    f8 joined[2] = {f8_load(centers[0].planes), f8_load(centers[1].planes)};
-    const f8 limits[2] = {f8_all(-FLOAT_MAX), f8_all(FLOAT_MAX)};
+    f4 lo[2], hi[2];
 
+    for (int k = 0; k < 2; k++) {
+        lo[k] = f4_load(centers[k].planes);
+        hi[k] = f4_load(centers[k].planes + 4);
+    }
     for (uint32_t i = 0; i < count; i++) {
         uint32_t side = split_goes_right(s, &from[i]);
         struct box center = box_center(&from[i]);
-        f8 planes = f8_load(center.planes);
 
         *(side ? right : left) = from[i];
         right += side;
         left += side ^ 1;
-        joined[0] = f8_min(joined[0], f8_max(planes, limits[side]));
-        joined[1] = f8_min(joined[1], f8_max(planes, limits[side ^ 1]));
+        for (uint32_t k = 0; k < 2; k++) {
+            lo[k] =
+                f4_min(lo[k], f4_max(f4_load(center.planes), limits[side ^ k]));
+            hi[k] = f4_min(hi[k], f4_max(f4_load(center.planes + 4),
+                                         limits[side ^ k]));
+        }
     }
-    f8_store(centers[0].planes, joined[0]);
-    f8_store(centers[1].planes, joined[1]);
+    for (int k = 0; k < 2; k++) {
+        f4_store(centers[k].planes, lo[k]);
+        f4_store(centers[k].planes + 4, hi[k]);
+    }
 }
 
 /* Nothing tells the boxes apart: the first half goes left. */
@@ -555,5 +564,5 @@ void bvh_free(struct bvh *bvh)
     free(bvh->nodes);
     free(bvh->tris);
     free(bvh->leaf_tris);
-    *bvh = (struct bvh){0};
+    *bvh = (struct bvh){NULL, 0, NULL, NULL, 0, 0};
 }

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "glim/canvas.h"
 
-#include <math.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "glim/drawing.h"
+
 #define SYNC_BEGIN "\033[?2026h"
 #define SYNC_END   "\033[?2026l"
 
 /* The longest round trip that is waited for at the end. */
 #define DRAIN_NS UINT64_C(500000000)
-
-/* Beyond these a terminal has answered nonsense. */
-#define CELL_PX_MAX 200
 
 /* Of a frame of pixels, however fast the line: what is encoded in the time that
  * a key may wait, some 20 ms. */
@@ -30,40 +28,13 @@
 
 /* The panel, and what it leaves of a narrow window. */
 #define PANEL_COLS   38
-#define PICTURE_COLS 12
-
-static void choose_palette(struct canvas *c, enum color_mode mode)
-{
-    c->palette_is_final = true;
-    if (mode == COLOR_AUTO)
-        c->palette = term_palette(&c->palette_is_final);
-    else
-        c->palette = options_palette(mode);
-}
-
-/* What is not asked for by name has a fall-back: half blocks for pixels, blanks
- * for half blocks. */
-static void choose_glyphs(struct canvas *c, enum glyph_mode mode)
-{
-    bool is_by_name = mode != GLYPH_AUTO && mode < GLYPH_SIXEL;
-
-    c->glyph_mode = mode;
-    c->glyphs =
-        is_by_name || c->has_unicode ? options_glyphs(mode) : GLYPHS_SPACE;
-}
+#define PICTURE_COLS 10
 
 void canvas_init(struct canvas *c, const struct options *options)
 {
-    bool may_learn;
-
     *c = (struct canvas){.has_status_row = true};
     pace_init(&c->pace, clock_ns());
-    c->cell_aspect = options->cell_aspect;
-    c->aspect_is_final = options->cell_aspect > 0;
-    c->has_unicode = term_is_utf8(&may_learn);
-    c->unicode_is_final = !may_learn;
-    choose_glyphs(c, options->glyph);
-    choose_palette(c, options->color);
+    display_init(&c->display, options);
 }
 
 /* Cells that are written over sixels replace them, over kitty's not. */
@@ -90,29 +61,7 @@ static void say_too_small(const struct term_size *size)
 
     snprintf(text, sizeof text, "window %dx%d: at least %dx%d is needed",
              size->cols, size->rows, COLS_MIN, ROWS_MIN);
-    term_notice(text);
-}
-
-/* What the person gave, what the terminal answered, what the system says, what
- * is common. */
-static double cell_aspect(const struct canvas *c, const struct term_size *size)
-{
-    if (c->cell_aspect > 0)
-        return c->cell_aspect;
-    /* from far away the system's pixels can be nonsense */
-    if (size->cell_aspect >= 0.5 && size->cell_aspect <= 5)
-        return size->cell_aspect;
-    return 2;
-}
-
-static enum graphics_kind pixels_kind(const struct canvas *c)
-{
-    if (c->palette == PALETTE_MONO)
-        return GRAPHICS_NONE;
-    if (c->glyph_mode == GLYPH_SIXEL && c->has_sixel)
-        return GRAPHICS_SIXEL;
-    return c->glyph_mode == GLYPH_KITTY && c->has_kitty ? GRAPHICS_KITTY
-                                                        : GRAPHICS_NONE;
+    windows_notice(text);
 }
 
 static int panel_cols(int cols)
@@ -129,16 +78,18 @@ static struct fit fit_to(const struct canvas *c, const struct term_size *size,
                          int width_px, int height_px)
 {
     /* sixels in the last row would scroll the screen */
-    bool is_short = c->has_status_row || pixels_kind(c) == GRAPHICS_SIXEL;
+    bool is_short =
+        c->has_status_row || display_pixels(&c->display) == GRAPHICS_SIXEL;
 
     return cells_fit(width_px, height_px, size->cols - c->panel_cols,
-                     size->rows - (is_short ? 1 : 0), cell_aspect(c, size));
+                     size->rows - (is_short ? 1 : 0),
+                     display_cell_aspect(&c->display, size));
 }
 
 struct fit canvas_expect(const struct options *options, int width_px,
                          int height_px)
 {
-    struct canvas c = {.cell_aspect = options->cell_aspect,
+    struct canvas c = {.display.cell_aspect = options->cell_aspect,
                        .has_status_row = true};
     struct term_size size = term_size();
 
@@ -152,30 +103,23 @@ static int at_most(int a, int b)
     return a < b ? a : b;
 }
 
-static bool is_cell_size(int width_px, int height_px)
-{
-    return width_px >= 1 && height_px >= 1 && width_px <= CELL_PX_MAX &&
-           height_px <= CELL_PX_MAX;
-}
-
 /* The frame need not have more pixels than the film of this size. False if the
  * picture is not of pixels, or there is no memory for them: then of cells. */
 static bool init_pixels(struct canvas *c, const struct term_size *size,
                         int width_px, int height_px, struct error *err)
 {
-    bool is_poor = c->sixel_colors > 0 && c->sixel_colors < SIXEL_COLORS_MIN;
-    bool was_told = c->cell_width_px > 0;
+    const struct display *d = &c->display;
+    bool is_poor = d->sixel_colors > 0 && d->sixel_colors < SIXEL_COLORS_MIN;
     struct graphics_shape shape = {
-        .kind = pixels_kind(c),
+        .kind = display_pixels(d),
         .cols = c->fit.cols,
         .rows = c->fit.rows,
-        .cell_width_px = was_told ? c->cell_width_px : size->cell_width_px,
-        .cell_height_px = was_told ? c->cell_height_px : size->cell_height_px,
         .palette = is_poor ? PALETTE_16 : PALETTE_256,
     };
 
     if (shape.kind == GRAPHICS_NONE ||
-        !is_cell_size(shape.cell_width_px, shape.cell_height_px))
+        !display_cell_size(d, size, &shape.cell_width_px,
+                           &shape.cell_height_px))
         return false;
     if (graphics_init(&c->graphics, &shape, err) &&
         frame_init(&c->frame, at_most(c->graphics.shown.width, width_px),
@@ -187,7 +131,7 @@ static bool init_pixels(struct canvas *c, const struct term_size *size,
 
 static bool init_cells(struct canvas *c, struct error *err)
 {
-    struct glyph_grid grid = glyphs_grid(c->glyphs);
+    struct glyph_grid grid = glyphs_grid(c->display.glyphs);
 
     return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
            frame_init(&c->frame, grid.across * c->fit.cols,
@@ -223,103 +167,16 @@ bool canvas_layout(struct canvas *c, int width_px, int height_px,
             swatches_init(&c->swatches, size.rows - 1, err));
 }
 
-static bool take_cell_size(struct canvas *c, const struct event *event)
-{
-    double before = c->cell_aspect;
-    double aspect;
-
-    if (!is_cell_size(event->x, event->y))
-        return false;
-    c->cell_width_px = event->x;
-    c->cell_height_px = event->y;
-    if (c->aspect_is_final)
-        return false;
-    aspect = (double)event->y / event->x;
-    if (aspect < 0.5 || aspect > 5)
-        return false;
-    if (before <= 0) {
-        struct term_size size = term_size();
-
-        before = cell_aspect(c, &size);
-    }
-    c->cell_aspect = aspect;
-    return fabs(before - aspect) > 0.01 * aspect;
-}
-
-/* Behind a character that begins with a byte outside ASCII: in column 2 if it
- * was one. */
-static bool take_cursor(struct canvas *c, const struct event *event)
-{
-    enum glyphs before = c->glyphs;
-
-    if (!c->unicode_is_final)
-        c->has_unicode = event->x == 2;
-    c->unicode_is_final = true;
-    choose_glyphs(c, c->glyph_mode);
-    return c->glyphs != before;
-}
-
 bool canvas_answer(struct canvas *c, const struct event *event)
 {
-    switch (event->kind) {
-    case EVENT_READY: pace_answer(&c->pace, clock_ns()); break;
-    case EVENT_TRUE_COLOR:
-        if (!c->palette_is_final)
-            c->palette = PALETTE_24BIT;
-        break;
-    case EVENT_SYNC: term_use_sync(); break;
-    case EVENT_CELL_SIZE: return take_cell_size(c, event);
-    case EVENT_CURSOR: return take_cursor(c, event);
-    case EVENT_SIXEL_COLORS: c->sixel_colors = event->x; break;
-    case EVENT_KITTY: c->has_kitty = true; break;
-    case EVENT_ATTRIBUTES:
-        c->has_sixel = event->x == 1;
-        c->has_all_answers = true;
-        return pixels_kind(c) != c->graphics.shape.kind;
-    case EVENT_KEY:
-    case EVENT_MOUSE: break;
-    }
-    return false;
-}
+    bool is_other = display_answer(&c->display, event);
 
-void canvas_next_palette(struct canvas *c)
-{
-    c->palette_is_final = true;
-    c->palette = c->palette == PALETTE_MONO ? PALETTE_24BIT
-                                            : (enum palette)(c->palette - 1);
-}
-
-static bool has_mode(const struct canvas *c, enum glyph_mode mode)
-{
-    switch (mode) {
-    case GLYPH_SIXEL: return c->has_sixel;
-    case GLYPH_KITTY: return c->has_kitty;
-    case GLYPH_ASCII: return true;
-    case GLYPH_SPACE: return !c->has_unicode;
-    default: return c->has_unicode;
-    }
-}
-
-void canvas_next_glyphs(struct canvas *c)
-{
-    static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
-                                            GLYPH_SEXTANT, GLYPH_BRAILLE,
-                                            GLYPH_SPACE,   GLYPH_ASCII,
-                                            GLYPH_SIXEL,   GLYPH_KITTY};
-    size_t count = sizeof modes / sizeof modes[0];
-    enum glyph_mode now = c->glyph_mode;
-    size_t i = 0;
-
-    if (now == GLYPH_AUTO && !c->has_unicode)
-        now = GLYPH_SPACE;
-    while (i < count && modes[i] != now)
-        i++;
-    if (i == count) /* upper, lower, auto: the like of half blocks */
-        i = 0;
-    do
-        i = (i + 1) % count;
-    while (!has_mode(c, modes[i]));
-    choose_glyphs(c, modes[i]);
+    if (event->kind == EVENT_READY)
+        pace_answer(&c->pace, clock_ns());
+    if (event->kind != EVENT_ATTRIBUTES)
+        return is_other;
+    c->has_all_answers = true;
+    return display_pixels(&c->display) != c->graphics.shape.kind;
 }
 
 const char *canvas_glyphs_name(const struct canvas *c)
@@ -329,7 +186,7 @@ const char *canvas_glyphs_name(const struct canvas *c)
     case GRAPHICS_KITTY: return "kitty pixels";
     case GRAPHICS_NONE: break;
     }
-    return glyphs_name(c->glyphs);
+    return glyphs_name(c->display.glyphs);
 }
 
 /* Rows of the screen, which curses may have cleared to their ends. */
@@ -348,15 +205,15 @@ void canvas_status(struct canvas *c, const char *text)
     c->has_status = text != NULL;
     if (text)
         snprintf(c->status, sizeof c->status, "%s", text);
-    term_status(text);
+    windows_status(text);
     forget_rows(c, term_size().rows - 1, 1);
     c->must_update = true;
 }
 
-void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
+void canvas_show_panel(struct canvas *c, const struct window_line *panel_lines,
                        int line_count)
 {
-    term_show_panel(panel_lines, line_count, c->panel_cols);
+    windows_show_panel(panel_lines, line_count, c->panel_cols);
     c->has_new_panel = true;
     c->must_update = true;
 }
@@ -370,12 +227,12 @@ static bool write_swatches(struct canvas *c)
     if (!c->has_new_panel)
         return true;
     c->has_new_panel = false;
-    swatches_draw(s, c->palette, size.cols - c->panel_cols + 2, 0,
+    swatches_draw(s, c->display.palette, size.cols - c->panel_cols + 2, 0,
                   size.rows - 1);
     return term_write(s->ansi.bytes, s->ansi.length);
 }
 
-static void cover(struct canvas *c, struct term_rect r)
+static void cover(struct canvas *c, struct window_rect r)
 {
     c->window = (struct ansi_rect){r.col - c->fit.col, r.row - c->fit.row,
                                    r.cols, r.rows};
@@ -386,34 +243,47 @@ static void cover(struct canvas *c, struct term_rect r)
 void canvas_open_window(struct canvas *c, const char *title,
                         const char *const *texts, int text_count)
 {
-    cover(c, term_open_window(title, texts, text_count));
+    cover(c, windows_open(title, texts, text_count));
 }
 
 void canvas_open_panel(struct canvas *c, const char *title,
                        const char *const *texts, int text_count)
 {
-    cover(c, term_open_panel(title, texts, text_count));
+    cover(c, windows_open_left(title, texts, text_count));
 }
 
 void canvas_open_corner(struct canvas *c, const char *title,
                         const char *const *texts, int text_count)
 {
-    cover(c, term_open_corner(title, texts, text_count));
+    cover(c, windows_open_corner(title, texts, text_count));
 }
 
 void canvas_set_corner(struct canvas *c, const char *const *texts,
                        int text_count)
 {
-    term_set_window(texts, text_count);
+    windows_set(texts, text_count);
     c->must_update = true;
 }
 
 void canvas_close_window(struct canvas *c)
 {
-    term_close_window();
+    windows_close();
     forget_rows(c, c->window.row + c->fit.row, c->window.rows);
     c->window = (struct ansi_rect){0};
     c->must_update = true;
+}
+
+/* Around the cell of the cursor: white around black is seen on anything. */
+static void mark_pixels(struct canvas *c)
+{
+    struct frame *f = &c->frame;
+    int x0 = c->cursor_col * f->width / c->fit.cols;
+    int y0 = c->cursor_row * f->height / c->fit.rows;
+    int x1 = (c->cursor_col + 1) * f->width / c->fit.cols - 1;
+    int y1 = (c->cursor_row + 1) * f->height / c->fit.rows - 1;
+
+    drawing_box(f, x0 - 1, y0 - 1, x1 + 1, y1 + 1, 0);
+    drawing_box(f, x0 - 2, y0 - 2, x1 + 2, y1 + 2, 0xffffff);
 }
 
 /* Appends what changed in the picture; false if the budget was too small. */
@@ -437,11 +307,14 @@ static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
     if (c->painter.paint)
         c->painter.paint(c->painter.context, film, draft, &c->frame);
     if (c->graphics.shape.kind != GRAPHICS_NONE) {
+        if (c->has_cursor)
+            mark_pixels(c);
         if (draw.budget_bytes > PIXEL_BYTES_MAX)
             draw.budget_bytes = PIXEL_BYTES_MAX;
         return graphics_picture(&c->graphics, &c->ansi, &c->frame, &draw);
     }
-    cells_from_frame(&c->cells, &c->frame, c->palette, c->glyphs);
+    cells_from_frame(&c->cells, &c->frame, c->display.palette,
+                     c->display.glyphs);
     if (c->has_cursor)
         cells_mark(&c->cells, c->cursor_col, c->cursor_row);
     return ansi_picture(&c->ansi, &c->cells, &draw);
@@ -460,14 +333,14 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
 
     if (c->is_too_small) {
         if (has_updated)
-            term_update();
+            windows_update();
         c->must_update = false;
         return CANVAS_DONE;
     }
     if (has_updated) {
         if (has_sync)
             term_write(SYNC_BEGIN, sizeof SYNC_BEGIN - 1);
-        term_update();
+        windows_update();
         if (!write_swatches(c))
             return CANVAS_GONE;
         c->must_update = false;
@@ -496,7 +369,8 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
 
 struct text_style canvas_style(const struct canvas *c)
 {
-    return (struct text_style){c->fit.cols, c->fit.rows, c->palette, c->glyphs};
+    return (struct text_style){c->fit.cols, c->fit.rows, c->display.palette,
+                               c->display.glyphs};
 }
 
 static bool awaits_answers(const struct canvas *c)

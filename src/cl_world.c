@@ -51,6 +51,12 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
             SOURCE(w->tri_lights, s->light_count > 0 ? s->tri_count : 0),
         [CL_ARRAY_LIGHT_NODES] = SOURCE(w->light_nodes, s->light_node_count),
         [CL_ARRAY_SKY_SUMS] = SOURCE(w->sky_sums, s->sky_sum_count),
+        [CL_ARRAY_GUIDE_CELLS] =
+            SOURCE(w->guide_cells,
+                   (size_t)s->guide.width * s->guide.height * s->guide.depth),
+        [CL_ARRAY_GUIDE_SUMS] =
+            SOURCE(w->guide_sums,
+                   (size_t)s->guide.cell_count * GUIDE_SIDE * GUIDE_SIDE),
     };
 
     for (int i = 0; i < CL_ARRAY_COUNT; i++) {

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/file.h"
 #include "glim/lex.h"
 #include "glim/xdg.h"
 
@@ -18,7 +17,8 @@
 
 struct reader {
     struct options *options;
-    struct lex lex;
+    const char *path;
+    struct lex *lex;
     char place[400]; /* file:line */
 };
 
@@ -44,7 +44,7 @@ static struct word next_word(struct reader *r)
 {
     struct word none = {.start = ""};
 
-    return lex_at_line_end(&r->lex) ? none : lex_word(&r->lex);
+    return lex_at_line_end(r->lex) ? none : lex_word(r->lex);
 }
 
 static bool read_key(struct reader *r, struct error *err)
@@ -96,10 +96,14 @@ static bool read_option(struct reader *r, struct error *err)
                              value.length > 0 ? texts[1] : NULL, r->place, err);
 }
 
-static bool read_line(struct reader *r, struct error *err)
+static bool read_line(void *context, struct lex *lex, struct error *err)
 {
-    struct word word = next_word(r);
+    struct reader *r = context;
+    struct word word;
 
+    r->lex = lex;
+    snprintf(r->place, sizeof r->place, "%s:%" PRIu64, r->path, lex->line);
+    word = next_word(r);
     if (word.length == 0)
         return true;
     if (word_is(word, "key"))
@@ -109,29 +113,12 @@ static bool read_line(struct reader *r, struct error *err)
     return fail_at(r, word, "key or option", err);
 }
 
-static bool read_file(struct options *o, const char *path, struct error *err)
-{
-    struct reader r = {.options = o};
-    char *text;
-    size_t size_bytes;
-    bool ok = true;
-
-    if (!file_read(path, &text, &size_bytes, err))
-        return false;
-    lex_init(&r.lex, text, size_bytes);
-    while (ok && r.lex.p < r.lex.end) {
-        snprintf(r.place, sizeof r.place, "%s:%" PRIu64, path, r.lex.line);
-        ok = read_line(&r, err);
-        lex_next_line(&r.lex);
-    }
-    free(text);
-    return ok;
-}
-
 bool config_read(struct options *o, struct error *err)
 {
     char *path = config_path();
-    bool ok = !path || access(path, F_OK) != 0 || read_file(o, path, err);
+    struct reader r = {.options = o, .path = path};
+    bool ok =
+        !path || access(path, F_OK) != 0 || lex_file(path, read_line, &r, err);
 
     free(path);
     return ok;

@@ -82,7 +82,7 @@ void cursor_step(struct cursor *c)
         describe(c, &pick, text);
     else
         snprintf(text, sizeof text, "nothing but the sky");
-    work_say_long(c->work, text);
+    work_say_long(c->work, "%s", text);
 }
 
 /* ---- moving ---- */
@@ -127,22 +127,16 @@ static void move(struct cursor *c, enum action action, int right, int down)
 
 static void take(struct cursor *c, const struct pick *pick)
 {
-    const struct keys *keys = &c->work->session->options->keys;
-    char orbit[KEYS_NAME_BYTES], focus[KEYS_NAME_BYTES], frame[KEYS_NAME_BYTES];
     char text[TEXT_BYTES];
-    size_t length;
 
     c->pick = *pick;
     c->has_pick = c->is_pick_new = true;
     show(c, false);
     describe(c, pick, text);
-    length = strlen(text);
-    keys_first_name(keys, ACTION_ORBIT, orbit);
-    keys_first_name(keys, ACTION_FOCUS, focus);
-    keys_first_name(keys, ACTION_FRAME, frame);
-    snprintf(text + length, sizeof text - length,
-             " (%s orbit, %s focus, %s frame)", orbit, focus, frame);
-    work_say(c->work, text);
+    work_say(c->work, "%s (%s orbit, %s focus, %s frame)", text,
+             work_key(c->work, ACTION_ORBIT).text,
+             work_key(c->work, ACTION_FOCUS).text,
+             work_key(c->work, ACTION_FRAME).text);
 }
 
 static bool pick_under(struct cursor *c)
@@ -169,18 +163,14 @@ bool cursor_click(struct cursor *c, int col, int row)
 
 bool cursor_need_pick(struct cursor *c)
 {
-    const struct keys *keys = &c->work->session->options->keys;
-    char cursor[KEYS_NAME_BYTES], start[KEYS_NAME_BYTES], text[TEXT_BYTES];
 
     if (c->canvas->has_cursor)
         return pick_under(c);
     if (c->has_pick)
         return true;
-    keys_first_name(keys, ACTION_CURSOR, cursor);
-    keys_first_name(keys, ACTION_START, start);
-    snprintf(text, sizeof text,
-             "nothing is picked: %s shows a cursor, %s picks", cursor, start);
-    work_say(c->work, text);
+    work_say(c->work, "nothing is picked: %s shows a cursor, %s picks",
+             work_key(c->work, ACTION_CURSOR).text,
+             work_key(c->work, ACTION_START).text);
     return false;
 }
 
@@ -195,7 +185,7 @@ static bool act_while_shown(struct cursor *c, enum action action)
     case ACTION_CURSOR:
     case ACTION_CANCEL:
         show(c, false);
-        c->work->message.until_ns = 0;
+        work_be_silent(c->work);
         break;
     default: return false;
     }
@@ -208,5 +198,7 @@ bool cursor_act(struct cursor *c, enum action action)
         return act_while_shown(c, action);
     if (action == ACTION_CURSOR)
         show(c, true);
+    else if (action == ACTION_CANCEL)
+        work_be_silent(c->work);
     return action == ACTION_CURSOR || action == ACTION_CANCEL;
 }

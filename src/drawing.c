@@ -51,6 +51,15 @@ void drawing_line(struct frame *frame, double x0, double y0, double x1,
     }
 }
 
+void drawing_box(struct frame *frame, double x0, double y0, double x1,
+                 double y1, uint32_t rgb)
+{
+    drawing_line(frame, x0, y0, x1, y0, rgb);
+    drawing_line(frame, x1, y0, x1, y1, rgb);
+    drawing_line(frame, x1, y1, x0, y1, rgb);
+    drawing_line(frame, x0, y1, x0, y0, rgb);
+}
+
 uint32_t drawing_dim(uint32_t rgb, double brightness)
 {
     uint32_t dim = 0;

@@ -25,6 +25,11 @@ static bool fail_errno(struct error *err, const char *path)
     case ENOTDIR:
         return fail(err, "%s: no such file: a part of it is not a folder",
                     path);
+    case ESTALE:
+        return fail(err,
+                    "%s: someone else has written it at the same time: nothing "
+                    "is saved",
+                    path);
     default: return fail(err, "%s: %s", path, strerror(errno));
     }
 }
@@ -115,6 +120,29 @@ bool file_read(const char *path, char **text, size_t *size_bytes,
     bool ok = read_open_file(fd, path, text, size_bytes, err);
     close(fd);
     return ok;
+}
+
+static struct file_identity identity_of(const struct stat *st)
+{
+    return (struct file_identity){true, st->st_dev, st->st_ino, st->st_size,
+                                  st->st_mtim};
+}
+
+struct file_identity file_identify(const char *path)
+{
+    struct stat st;
+
+    if (stat(path, &st) != 0)
+        return (struct file_identity){.exists = false};
+    return identity_of(&st);
+}
+
+bool file_is_same(const struct file_identity *a, const struct file_identity *b)
+{
+    return a->exists == b->exists && a->device == b->device &&
+           a->inode == b->inode && a->size_bytes == b->size_bytes &&
+           a->modified.tv_sec == b->modified.tv_sec &&
+           a->modified.tv_nsec == b->modified.tv_nsec;
 }
 
 static char *folder_of(const char *path)
@@ -223,9 +251,31 @@ static void sync_folder(const char *folder)
     }
 }
 
+/* ESTALE: it is not. */
+static bool is_as_before(const char *target, const struct file_change *change)
+{
+    struct file_identity now = file_identify(target);
+
+    if (file_is_same(&now, &change->before))
+        return true;
+    errno = ESTALE;
+    return false;
+}
+
+static bool fill_after(int fd, struct file_change *change)
+{
+    struct stat st;
+
+    if (fstat(fd, &st) != 0)
+        return false;
+    change->after = identity_of(&st);
+    return true;
+}
+
 /* All steps until the file has its name; errno says what failed. */
 static bool replace(const char *folder, const char *target, const void *data,
-                    size_t size_bytes, bool must_be_new)
+                    size_t size_bytes, bool must_be_new,
+                    struct file_change *change)
 {
     struct stat old;
     bool keeps_mode = !must_be_new && stat(target, &old) == 0;
@@ -235,13 +285,15 @@ static bool replace(const char *folder, const char *target, const void *data,
     if (fd < 0)
         return false;
     bool ok = (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) &&
-              write_all(fd, data, size_bytes) && fsync(fd) == 0;
+              write_all(fd, data, size_bytes) && fsync(fd) == 0 &&
+              (!change || fill_after(fd, change));
     int reason = errno;
     if (close(fd) != 0 && ok) {
         ok = false;
         reason = errno;
     }
-    if (ok && !publish(temporary, target, must_be_new)) {
+    if (ok && ((change && !is_as_before(target, change)) ||
+               !publish(temporary, target, must_be_new))) {
         ok = false;
         reason = errno;
     }
@@ -252,14 +304,15 @@ static bool replace(const char *folder, const char *target, const void *data,
     return ok;
 }
 
-bool file_write(const char *path, const void *data, size_t size_bytes,
-                bool must_be_new, bool *exists, struct error *err)
+static bool write_file(const char *path, const void *data, size_t size_bytes,
+                       bool must_be_new, bool *exists,
+                       struct file_change *change, struct error *err)
 {
     char *target = must_be_new ? xstrdup(path) : target_of(path);
     char *folder = folder_of(target);
     bool ok = must_be_new || file_check(path, err);
 
-    if (ok && !replace(folder, target, data, size_bytes, must_be_new)) {
+    if (ok && !replace(folder, target, data, size_bytes, must_be_new, change)) {
         if (must_be_new && exists)
             *exists = errno == EEXIST;
         ok = fail_errno(err, path);
@@ -269,6 +322,18 @@ bool file_write(const char *path, const void *data, size_t size_bytes,
     free(folder);
     free(target);
     return ok;
+}
+
+bool file_write(const char *path, const void *data, size_t size_bytes,
+                bool must_be_new, bool *exists, struct error *err)
+{
+    return write_file(path, data, size_bytes, must_be_new, exists, NULL, err);
+}
+
+bool file_replace(const char *path, const void *data, size_t size_bytes,
+                  struct file_change *change, struct error *err)
+{
+    return write_file(path, data, size_bytes, false, NULL, change, err);
 }
 
 bool file_write_stdout(const void *data, size_t size_bytes, struct error *err)

@@ -43,10 +43,12 @@ bool film_init(struct film *f, int width, int height, struct error *err)
     if (size_bytes < memory_bytes) {
         f->sums = alloc_array(pixels, 3 * sizeof *f->sums);
         f->counts = alloc_array(pixels, sizeof *f->counts);
+        f->has_row = alloc_array((size_t)height, sizeof *f->has_row);
     }
-    if (f->sums == NULL || f->counts == NULL) {
+    if (f->sums == NULL || f->counts == NULL || f->has_row == NULL) {
         free(f->sums);
         free(f->counts);
+        free(f->has_row);
         *f = (struct film){0};
         return fail(err,
                     "a picture of %dx%d pixels needs %.1f GiB of memory, "
@@ -59,13 +61,17 @@ bool film_init(struct film *f, int width, int height, struct error *err)
     return true;
 }
 
-/* Only the counts: a sum is reset by the first sample that is added to it. */
+/* Only the counts: a sum is reset by the first sample that is added to it. And
+ * only rows that have some: while the camera moves, 60 times a second, these
+ * are few. */
 void film_clear(struct film *f)
 {
     for (int y = 0; y < f->height; y++) {
         row_lock(f, y);
-        memset(f->counts + pixel_index(f, 0, y), 0,
-               (size_t)f->width * sizeof *f->counts);
+        if (f->has_row[y])
+            memset(f->counts + pixel_index(f, 0, y), 0,
+                   (size_t)f->width * sizeof *f->counts);
+        f->has_row[y] = false;
         row_unlock(f, y);
     }
     atomic_store(&f->samples, 0);
@@ -82,6 +88,7 @@ void film_free(struct film *f)
             pthread_mutex_destroy(&f->locks[i]);
     free(f->sums);
     free(f->counts);
+    free(f->has_row);
     *f = (struct film){0};
 }
 
@@ -96,6 +103,7 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
     struct tally tally = {0};
 
     row_lock(f, y);
+    f->has_row[y] = true;
     for (int i = 0; i < pixel_count; i++) {
         size_t at = pixel_index(f, x + i * stride, y);
         struct sum *sums = f->sums + 3 * at;
@@ -114,6 +122,7 @@ void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
                     const struct sum *sums, const uint64_t *counts)
 {
     row_lock(f, y);
+    f->has_row[y] = true;
     for (int i = 0; i < pixel_count; i++) {
         int px = x + i * stride;
         size_t from = (size_t)px;
@@ -271,7 +280,7 @@ static void add_run(struct film *f, const struct run *r, struct total *totals)
     span_of(r->y, r->frame->height, f->height, &y0, &y1);
     for (int y = y0; y < y1; y++) {
         row_lock(f, y);
-        for (int i = 0; i < r->count; i++) {
+        for (int i = 0; i < r->count && f->has_row[y]; i++) {
             span_of(r->x + i, r->frame->width, f->width, &x0, &x1);
             for (int x = x0; x < x1; x++) {
                 size_t at = pixel_index(f, x, y);

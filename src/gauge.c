@@ -52,7 +52,7 @@ void gauge_draw(struct gauge *g, const struct work *work, struct canvas *canvas,
         .progress = &work->progress,
         .speeds = &work->session->speeds,
         .loads = loads,
-        .has_unicode = canvas->has_unicode,
+        .has_unicode = canvas->display.has_unicode,
     };
 
     measure_loads(g, work, now_ns, loads);

@@ -2,270 +2,19 @@
 #include "glim/inside.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "glim/drawing.h"
 #include "glim/legend.h"
 #include "glim/projection.h"
 #include "glim/sketch.h"
+#include "glim/work_save.h"
 #include "kernels/vec.h"
 
 #define TEXT_BYTES 256
 
-/* What is rendered for a view, and what is said of it. */
-static const struct {
-    enum sample_kind sample;
-    const char *legend;
-} views[INSIDE_VIEWS] = {
-    [INSIDE_LIGHT] = {SAMPLE_LIGHT, ""},
-    [INSIDE_PREVIEW] = {SAMPLE_PREVIEW,
-                        "PREVIEW  colours as they are, lit from the eye"},
-    [INSIDE_NORMALS] = {SAMPLE_NORMAL,
-                        "NORMALS  for shading: x red, y green, z blue"},
-    [INSIDE_FACES] = {SAMPLE_FACE,
-                      "FACES  normals as wound: x red, y green, z blue"},
-    [INSIDE_UVS] = {SAMPLE_UV, "UVS  u red, v green; grey: none"},
-    [INSIDE_DEPTH] = {SAMPLE_DEPTH, "DEPTH"},
-    [INSIDE_MATERIALS] = {SAMPLE_MATERIAL, "MATERIALS  a colour for each"},
-    [INSIDE_COST] = {SAMPLE_PREVIEW, "COST"},
-    [INSIDE_SAMPLES] = {SAMPLE_LIGHT, "SAMPLES"},
-};
-
 static struct session *session_of(const struct inside *in)
 {
     return in->work->session;
-}
-
-/* As it is rendered, but with the tree of this file. */
-static bool find_world(const struct inside *in, struct world *w)
-{
-    const struct session *s = session_of(in);
-    struct error err;
-
-    if (!scene_world(&s->scene, &s->view, s->options->seed, w, &err))
-        return false;
-    w->nodes = in->bvh.nodes;
-    w->leaf_tris = in->bvh.leaf_tris;
-    return true;
-}
-
-static struct camera frame_camera(const struct inside *in,
-                                  const struct camera *camera,
-                                  const struct frame *frame)
-{
-    struct rect r = session_of(in)->crop;
-    struct projection_part part = {r.x,      r.y,          r.width,
-                                   r.height, frame->width, frame->height};
-
-    return projection_camera(camera, &part);
-}
-
-static bool need_tree(struct inside *in)
-{
-    struct world w;
-    struct error err;
-
-    if (in->has_bvh)
-        return true;
-    in->has_bvh = find_world(in, &w) && bvh_build(&in->bvh, &w, NULL, &err);
-    if (!in->has_bvh)
-        work_say(in->work, "no memory for a tree to be drawn");
-    return in->has_bvh;
-}
-
-static bool need_pool(struct inside *in)
-{
-    int threads = session_of(in)->options->thread_count;
-    struct error err;
-
-    if (!in->pool)
-        in->pool = pool_create(threads != 0 ? threads : usable_threads(), &err);
-    if (!in->pool)
-        work_say_error(in->work, err.text);
-    return in->pool != NULL;
-}
-
-/* ---- views ---- */
-
-static bool need_numbers(struct inside *in, size_t count)
-{
-    return grow_array((void **)&in->numbers, &in->number_capacity, count,
-                      sizeof *in->numbers);
-}
-
-/* Pixel i of n in the other's length, from 0. */
-static int scaled(int i, int n, int length)
-{
-    return (int)((int64_t)i * length / n);
-}
-
-/* The frame in false colours of the numbers of a picture, 3 a pixel. */
-static void fill(const struct inside *in, struct frame *frame, int width,
-                 int height, struct number_range range)
-{
-    for (int y = 0; y < frame->height; y++) {
-        for (int x = 0; x < frame->width; x++) {
-            size_t at =
-                (size_t)scaled(y, frame->height, height) * (size_t)width +
-                (size_t)scaled(x, frame->width, width);
-
-            drawing_dot(frame, x, y,
-                        false_color(views[in->view].sample,
-                                    in->numbers + 3 * at, range));
-        }
-    }
-}
-
-/* The mean of what pixel (x, y) of the frame covers. */
-static float mean_at(const struct inside *in, const struct frame *frame, int x,
-                     int y, int width, int height)
-{
-    int x0 = scaled(x, frame->width, width);
-    int y0 = scaled(y, frame->height, height);
-    int x1 = scaled(x + 1, frame->width, width);
-    int y1 = scaled(y + 1, frame->height, height);
-    float sum = 0;
-    int count = 0;
-
-    for (int j = y0; j < y1 || j == y0; j++) {
-        for (int i = x0; i < x1 || i == x0; i++) {
-            sum += in->numbers[(size_t)j * (size_t)width + (size_t)i];
-            count++;
-        }
-    }
-    return sum / (float)count;
-}
-
-/* The same for counts, one a pixel, up to the largest. */
-static void fill_heat(const struct inside *in, struct frame *frame, int width,
-                      int height, float largest)
-{
-    for (int y = 0; y < frame->height; y++) {
-        for (int x = 0; x < frame->width; x++) {
-            float mean = mean_at(in, frame, x, y, width, height);
-
-            drawing_dot(frame, x, y,
-                        false_color_heat(largest > 0 ? mean / largest : 0));
-        }
-    }
-}
-
-/* The line below the picture, if it says something new. */
-static void say(struct inside *in, const char *text)
-{
-    in->has_news |= strcmp(text, in->legend) != 0;
-    snprintf(in->legend, sizeof in->legend, "%s", text);
-}
-
-static void say_depth(struct inside *in, struct number_range r)
-{
-    double scale = session_of(in)->scene.scale;
-    char text[TEXT_BYTES];
-
-    snprintf(text, sizeof text, "DEPTH  from %.4g, white, to %.4g, dark",
-             r.lo / scale, r.hi / scale);
-    say(in, text);
-}
-
-static void paint_numbers(struct inside *in, struct film *draft,
-                          struct frame *frame)
-{
-    size_t pixels;
-    struct number_range range;
-
-    if (!draft)
-        return;
-    pixels = (size_t)draft->width * (size_t)draft->height;
-    if (!need_numbers(in, 3 * pixels))
-        return;
-    film_linear(draft, in->numbers);
-    range = number_range_of(in->numbers, pixels, 3);
-    fill(in, frame, draft->width, draft->height, range);
-    if (in->view == INSIDE_DEPTH)
-        say_depth(in, range);
-}
-
-static void paint_samples(struct inside *in, struct film *film,
-                          struct frame *frame)
-{
-    size_t pixels = (size_t)film->width * (size_t)film->height;
-    struct number_range range;
-    char text[TEXT_BYTES];
-    double sum = 0;
-
-    if (!need_numbers(in, pixels))
-        return;
-    film_counts(film, in->numbers);
-    range = number_range_of(in->numbers, pixels, 1);
-    fill_heat(in, frame, film->width, film->height, range.hi);
-    for (size_t i = 0; i < pixels; i++)
-        sum += in->numbers[i];
-    snprintf(text, sizeof text,
-             "SAMPLES  of a pixel, black 0, white %.0f; mean %.2f",
-             (double)range.hi, sum / (double)pixels);
-    say(in, text);
-}
-
-/* Counts anew what another camera or frame sees. */
-static bool count_costs(struct inside *in, const struct frame *frame)
-{
-    struct world w;
-
-    if (!find_world(in, &w))
-        return false;
-    w.settings.camera = frame_camera(in, &w.settings.camera, frame);
-    if (in->cost_width == frame->width && in->cost_height == frame->height &&
-        memcmp(&in->cost_camera, &w.settings.camera, sizeof in->cost_camera) ==
-            0)
-        return true;
-    free(in->costs);
-    in->cost_width = 0;
-    in->costs = alloc_array((size_t)frame->width * (size_t)frame->height,
-                            sizeof *in->costs);
-    if (!in->costs)
-        return false;
-    cost_of_pixels(in->pool, &w, frame->width, frame->height, in->costs);
-    in->cost_camera = w.settings.camera;
-    in->cost_width = frame->width;
-    in->cost_height = frame->height;
-    return true;
-}
-
-static void paint_costs(struct inside *in, struct frame *frame)
-{
-    size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    struct number_range range;
-    double boxes = 0, triangles = 0;
-    char text[TEXT_BYTES];
-
-    if (!count_costs(in, frame) || !need_numbers(in, pixels))
-        return;
-    for (size_t i = 0; i < pixels; i++) {
-        boxes += in->costs[i].boxes;
-        triangles += in->costs[i].triangles;
-        in->numbers[i] = (float)(in->costs[i].boxes + in->costs[i].triangles);
-    }
-    range = number_range_of(in->numbers, pixels, 1);
-    fill_heat(in, frame, frame->width, frame->height, range.hi);
-    snprintf(text, sizeof text,
-             "COST  tests of a camera ray, black 0, white %.0f; mean %.1f "
-             "boxes, %.1f triangles",
-             (double)range.hi, boxes / (double)pixels,
-             triangles / (double)pixels);
-    say(in, text);
-}
-
-static void paint_view(struct inside *in, struct film *film, struct film *draft,
-                       struct frame *frame)
-{
-    switch (in->view) {
-    case INSIDE_LIGHT:
-    case INSIDE_PREVIEW: break;
-    case INSIDE_COST: paint_costs(in, frame); break;
-    case INSIDE_SAMPLES: paint_samples(in, film, frame); break;
-    default: paint_numbers(in, draft, frame); break;
-    }
 }
 
 /* ---- drawings ---- */
@@ -275,11 +24,11 @@ static void paint_drawing(struct inside *in, struct frame *frame)
     struct world w;
     struct camera camera;
 
-    if (in->drawing == INSIDE_NOTHING || !find_world(in, &w))
+    if (in->drawing == INSIDE_NOTHING || !show_world(&in->show, &w))
         return;
-    camera = frame_camera(in, &w.settings.camera, frame);
+    camera = show_camera(&in->show, &w.settings.camera, frame);
     if (in->drawing == INSIDE_BOXES)
-        sketch_boxes(frame, &camera, &in->bvh, in->level);
+        sketch_boxes(frame, &camera, &in->show.bvh, in->level);
     else if (in->drawing == INSIDE_LOBES && in->is_surface)
         sketch_lobes(frame, &camera, &in->lobes);
     else if (in->drawing == INSIDE_PATH)
@@ -291,7 +40,7 @@ static void paint(void *context, struct film *film, struct film *draft,
 {
     struct inside *in = context;
 
-    paint_view(in, film, draft, frame);
+    show_paint(&in->show, film, draft, frame);
     paint_drawing(in, frame);
 }
 
@@ -319,8 +68,10 @@ void inside_open_panel(struct inside *in)
                  in->y);
     } else if (in->drawing == INSIDE_PATH) {
         legend_trail(&legend, scene, &in->trail, in->step);
-        snprintf(title, sizeof title, " sample %llu of pixel %u %u - < > ",
-                 (unsigned long long)in->sample, in->x, in->y);
+        snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
+                 (unsigned long long)in->sample, in->x, in->y,
+                 work_key(in->work, ACTION_LESS).text,
+                 work_key(in->work, ACTION_MORE).text);
     } else {
         return;
     }
@@ -334,12 +85,13 @@ static void say_boxes(struct inside *in)
 {
     struct frame nothing = {0};
     struct camera any = {0};
-    char text[TEXT_BYTES];
 
-    snprintf(text, sizeof text,
-             "boxes of level %u of %u: %u nodes; < > go up and down", in->level,
-             in->bvh.depth, sketch_boxes(&nothing, &any, &in->bvh, in->level));
-    work_say_long(in->work, text);
+    work_say_long(in->work,
+                  "boxes of level %u of %u: %u nodes; %s %s go up and down",
+                  in->level, in->show.bvh.depth,
+                  sketch_boxes(&nothing, &any, &in->show.bvh, in->level),
+                  work_key(in->work, ACTION_LESS).text,
+                  work_key(in->work, ACTION_MORE).text);
 }
 
 static bool is_new_pick(const struct inside *in)
@@ -380,7 +132,7 @@ static void follow(struct inside *in)
 {
     struct world w;
 
-    if (!find_world(in, &w))
+    if (!show_world(&in->show, &w))
         return;
     w.settings.camera = in->camera;
     trail_follow(&in->trail, &w, in->x, in->y, in->sample);
@@ -391,7 +143,7 @@ static void place(struct inside *in)
 {
     struct world w;
 
-    if (!find_world(in, &w))
+    if (!show_world(&in->show, &w))
         return;
     in->camera = w.settings.camera;
     find_pixel(in);
@@ -406,17 +158,22 @@ static void say_drawing(struct inside *in)
     if (in->drawing == INSIDE_BOXES)
         say_boxes(in);
     else if (in->drawing == INSIDE_LOBES && !in->is_surface)
-        work_say(in->work, "only the sky is there: v picks something else");
+        work_say(in->work, "only the sky is there: %s picks something else",
+                 work_key(in->work, ACTION_CURSOR).text);
     inside_open_panel(in);
 }
 
 /* A path goes on from where the directions were drawn. */
 static void next_drawing(struct inside *in)
 {
+    struct error err;
+
     in->drawing = (enum inside_drawing)((in->drawing + 1) % INSIDE_DRAWINGS);
-    in->work->message.until_ns = 0;
-    if (in->drawing != INSIDE_NOTHING && !need_tree(in))
+    work_be_silent(in->work);
+    if (in->drawing != INSIDE_NOTHING && !show_need_tree(&in->show, &err)) {
         in->drawing = INSIDE_NOTHING;
+        work_say_error(in->work, err.text);
+    }
     if (in->drawing == INSIDE_LOBES)
         place(in);
     say_drawing(in);
@@ -424,7 +181,7 @@ static void next_drawing(struct inside *in)
 
 static void change_level(struct inside *in, int by)
 {
-    if (by < 0 ? in->level > 0 : in->level < in->bvh.depth)
+    if (by < 0 ? in->level > 0 : in->level < in->show.bvh.depth)
         in->level += (uint32_t)by;
     say_boxes(in);
 }
@@ -455,22 +212,92 @@ static void change(struct inside *in, int by)
     else if (in->drawing == INSIDE_PATH)
         change_step(in, by);
     else
-        work_say(in->work, "< > go through boxes or a path: t draws them");
+        work_say(in->work, "%s %s go through boxes or a path: %s draws them",
+                 work_key(in->work, ACTION_LESS).text,
+                 work_key(in->work, ACTION_MORE).text,
+                 work_key(in->work, ACTION_DRAWING).text);
+}
+
+/* ---- saving ---- */
+
+/* Light is there from its first sample on. */
+static bool has_picture(struct inside *in)
+{
+    if (show_sample(in->show.kind) != SAMPLE_LIGHT ||
+        render_progress(session_of(in)->render).samples > 0)
+        return true;
+    work_say(in->work, "nothing to save yet");
+    return false;
+}
+
+/* As it is shown, in pixels of the frame. */
+static bool paint_all(struct inside *in, struct frame *frame, struct error *err)
+{
+    struct film *film = render_film(session_of(in)->render);
+
+    if (!show_picture(&in->show, film, frame, err))
+        return false;
+    paint_drawing(in, frame);
+    return true;
+}
+
+static void save_shown(struct inside *in)
+{
+    struct rect r = session_of(in)->crop;
+    struct frame frame = {0};
+    struct error err;
+
+    if (frame_init(&frame, r.width, r.height, &err) &&
+        paint_all(in, &frame, &err))
+        work_save_frame(in->work, &frame);
+    else
+        work_say_error(in->work, err.text);
+    frame_free(&frame);
+}
+
+static void save_text(struct inside *in)
+{
+    struct text_style style = canvas_style(in->canvas);
+    struct frame frame = {0};
+    struct error err;
+
+    if (text_frame_init(&frame, &style, &err) && paint_all(in, &frame, &err))
+        work_save_text(in->work, &frame, &style);
+    else
+        work_say_error(in->work, err.text);
+    frame_free(&frame);
+}
+
+/* A picture of light without drawings is a film: a thread saves that. */
+static void save(struct inside *in)
+{
+    if (in->show.kind == SHOW_LIGHT && in->drawing == INSIDE_NOTHING)
+        work_save_picture(in->work, "png");
+    else if (has_picture(in))
+        save_shown(in);
+}
+
+static void save_linear(struct inside *in)
+{
+    if (show_sample(in->show.kind) == SAMPLE_LIGHT)
+        work_save_picture(in->work, "hdr");
+    else
+        work_say(in->work, "only light is saved as HDR: %s goes back to it",
+                 work_key(in->work, ACTION_VIEW_BACK).text);
 }
 
 /* ---- actions ---- */
 
-static void show(struct inside *in, enum inside_view view)
+static void show(struct inside *in, enum show_kind kind)
 {
     struct session *s = session_of(in);
     enum sample_kind before = s->sample;
+    struct error err;
 
-    if (view == INSIDE_COST && (!need_tree(in) || !need_pool(in)))
-        view = INSIDE_LIGHT;
-    in->view = view;
-    s->sample = views[view].sample;
-    say(in, views[view].legend);
-    in->work->message.until_ns = 0;
+    work_be_silent(in->work);
+    if (!show_set(&in->show, kind, &err))
+        work_say_error(in->work, err.text);
+    s->sample = show_sample(in->show.kind);
     in->work->has_changed = true;
     if (in->work->is_live && s->sample != before)
         in->work->must_restart = true;
@@ -479,12 +306,13 @@ static void show(struct inside *in, enum inside_view view)
 /* Normal mode renders light and nothing else. */
 static void turn(struct inside *in, int by)
 {
-    int view = (int)in->view;
+    int kind = (int)in->show.kind;
 
     do
-        view = (view + by + INSIDE_VIEWS) % INSIDE_VIEWS;
-    while (!in->work->is_live && views[view].sample != SAMPLE_LIGHT);
-    show(in, (enum inside_view)view);
+        kind = (kind + by + SHOW_KINDS) % SHOW_KINDS;
+    while (!in->work->is_live &&
+           show_sample((enum show_kind)kind) != SAMPLE_LIGHT);
+    show(in, (enum show_kind)kind);
 }
 
 bool inside_act(struct inside *in, enum action action)
@@ -495,6 +323,12 @@ bool inside_act(struct inside *in, enum action action)
     case ACTION_DRAWING: next_drawing(in); break;
     case ACTION_LESS: change(in, -1); break;
     case ACTION_MORE: change(in, 1); break;
+    case ACTION_SAVE: save(in); break;
+    case ACTION_SAVE_LINEAR: save_linear(in); break;
+    case ACTION_SAVE_TEXT:
+        if (has_picture(in))
+            save_text(in);
+        break;
     default: return false;
     }
     return true;
@@ -509,16 +343,10 @@ void inside_step(struct inside *in)
     }
 }
 
-struct develop inside_develop(const struct inside *in)
-{
-    return in->view == INSIDE_PREVIEW ? develop_linear(0)
-                                      : session_develop(session_of(in));
-}
-
 void inside_leave(struct inside *in)
 {
-    if (views[in->view].sample != SAMPLE_LIGHT)
-        show(in, INSIDE_LIGHT);
+    if (show_sample(in->show.kind) != SAMPLE_LIGHT)
+        show(in, SHOW_LIGHT);
 }
 
 void inside_stop_drawing(struct inside *in)
@@ -530,24 +358,19 @@ void inside_stop_drawing(struct inside *in)
 void inside_renew(struct inside *in)
 {
     inside_stop_drawing(in);
-    bvh_free(&in->bvh);
-    in->has_bvh = false;
-    in->cost_width = 0;
+    show_renew(&in->show);
 }
 
 void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
                  struct cursor *cursor)
 {
     *in = (struct inside){.work = work, .canvas = canvas, .cursor = cursor};
+    show_init(&in->show, work->session);
     canvas->painter = (struct painter){paint, in};
 }
 
 void inside_free(struct inside *in)
 {
-    if (in->pool)
-        pool_destroy(in->pool);
-    bvh_free(&in->bvh);
-    free(in->numbers);
-    free(in->costs);
+    show_free(&in->show);
     *in = (struct inside){0};
 }

@@ -27,16 +27,32 @@ static bool always(void)
     return true;
 }
 
+/* What the Makefile builds for a set of instructions, the smallest first. */
+enum { BUILDS = 4, WHOLE = BUILDS - 1 };
+
+#define DECLARE(isa)                                                     \
+    extern const struct paths paths_##isa##_lamps, paths_##isa##_images, \
+        paths_##isa##_shiny, paths_##isa
+#define BUILDS_OF(isa)                                                     \
+    {                                                                      \
+        &paths_##isa##_lamps, &paths_##isa##_images, &paths_##isa##_shiny, \
+            &paths_##isa,                                                  \
+    }
+
+DECLARE(plain);
+DECLARE(avx2);
+DECLARE(avx512);
+
 /* The fastest first. */
 static const struct {
-    const struct paths *paths;
+    const struct paths *builds[BUILDS];
     bool (*is_here)(void);
 } all[] = {
 #if defined(__x86_64__)
-    {&paths_avx512, has_avx512},
-    {&paths_avx2, has_avx2},
+    {BUILDS_OF(avx512), has_avx512},
+    {BUILDS_OF(avx2), has_avx2},
 #endif
-    {&paths_plain, always},
+    {BUILDS_OF(plain), always},
 };
 
 enum { COUNT = sizeof all / sizeof all[0] };
@@ -45,7 +61,7 @@ const struct paths *isa_at(int i)
 {
     for (int k = 0; k < COUNT; k++)
         if (all[k].is_here() && i-- == 0)
-            return all[k].paths;
+            return all[k].builds[WHOLE];
     return NULL;
 }
 
@@ -69,4 +85,13 @@ const struct paths *isa_named(const char *name, struct error *err)
     }
     fail(err, "--isa: '%s' is none of this processor's: %s", name, known);
     return NULL;
+}
+
+const struct paths *isa_fit(const struct paths *paths, uint32_t features)
+{
+    for (int k = 0; k < COUNT; k++)
+        for (int i = 0; all[k].builds[WHOLE] == paths && i < BUILDS; i++)
+            if ((features & ~all[k].builds[i]->features) == 0)
+                return all[k].builds[i];
+    return paths;
 }

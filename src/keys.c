@@ -103,7 +103,7 @@ static const struct line {
      "look around, or drag"},
     {NULL, {ACTION_FASTER, ACTION_SLOWER}, "faster, slower, or wheel"},
     {NULL, {ACTION_CURSOR}, "cursor; Enter or click picks"},
-    {NULL, {ACTION_CANCEL}, "leave the cursor"},
+    {NULL, {ACTION_CANCEL}, "leave cursor, clear message"},
     {NULL, {ACTION_ORBIT}, "orbit around what is picked"},
     {NULL, {ACTION_FRAME}, "frame the picked object"},
     {NULL, {ACTION_FRAME_ALL}, "frame the whole scene"},
@@ -138,6 +138,54 @@ static const struct line {
     {NULL, {ACTION_SUSPEND}, "to the shell for a while"},
     {NULL, {ACTION_INTERRUPT, ACTION_ABORT}, "end at once"},
     {NULL, {ACTION_QUIT}, "quit"},
+};
+
+/* Of the panel: keys as they are shown where that is not by their names. */
+#define PANEL_KEYS_MAX 13
+
+static const struct panel_line {
+    const char *keys;
+    const char *text;
+    struct {
+        int key;
+        enum panel_action action;
+    } does[PANEL_KEYS_MAX];
+} panel_lines[] = {
+    {"arrows",
+     "choose; change by a step",
+     {{INPUT_UP, PANEL_UP},
+      {INPUT_DOWN, PANEL_DOWN},
+      {INPUT_LEFT, PANEL_LESS},
+      {INPUT_RIGHT, PANEL_MORE}}},
+    {"PgUp/Dn",
+     "ten lines up, down",
+     {{INPUT_PAGE_UP, PANEL_PAGE_UP}, {INPUT_PAGE_DOWN, PANEL_PAGE_DOWN}}},
+    {NULL,
+     "change by ten steps",
+     {{'[', PANEL_MUCH_LESS}, {']', PANEL_MUCH_MORE}}},
+    {NULL, "to the values; type, switch", {{'\r', PANEL_ENTER}}},
+    {"0-9.-#",
+     "type a value",
+     {{'0', PANEL_TYPE},
+      {'1', PANEL_TYPE},
+      {'2', PANEL_TYPE},
+      {'3', PANEL_TYPE},
+      {'4', PANEL_TYPE},
+      {'5', PANEL_TYPE},
+      {'6', PANEL_TYPE},
+      {'7', PANEL_TYPE},
+      {'8', PANEL_TYPE},
+      {'9', PANEL_TYPE},
+      {'.', PANEL_TYPE},
+      {'-', PANEL_TYPE},
+      {'#', PANEL_TYPE}}},
+    {NULL, "colours by HSV, by RGB", {{'h', PANEL_HSV}}},
+    {NULL, "next of the three pages", {{'\t', PANEL_NEXT_PAGE}}},
+    {NULL, "copy the material", {{'n', PANEL_COPY}}},
+    {NULL, "undo, redo changes", {{'u', PANEL_UNDO}, {'U', PANEL_REDO}}},
+    {NULL, "as it was saved, and back", {{'x', PANEL_COMPARE}}},
+    {NULL, "save what was changed", {{CTRL('S'), PANEL_SAVE}}},
+    {NULL, "to the list; close the panel", {{ESCAPE, PANEL_LEAVE}}},
 };
 
 static const struct key_name {
@@ -236,40 +284,38 @@ int keys_find_key(const char *name, size_t length)
     return 0;
 }
 
-void keys_key_name(char name[KEYS_NAME_BYTES], int key)
+struct keys_name keys_key_name(int key)
 {
+    struct keys_name name;
+
     for (size_t i = 0; i < COUNT(key_names); i++) {
         if (key_names[i].key == key) {
-            snprintf(name, KEYS_NAME_BYTES, "%s", key_names[i].name);
-            return;
+            snprintf(name.text, sizeof name.text, "%s", key_names[i].name);
+            return name;
         }
     }
     if (key < ' ')
-        snprintf(name, KEYS_NAME_BYTES, "^%c", key | 64);
+        snprintf(name.text, sizeof name.text, "^%c", key | 64);
     else
-        snprintf(name, KEYS_NAME_BYTES, "%c", key);
+        snprintf(name.text, sizeof name.text, "%c", key);
+    return name;
 }
 
-void keys_first_name(const struct keys *k, enum action action,
-                     char name[KEYS_NAME_BYTES])
+struct keys_name keys_first_name(const struct keys *k, enum action action)
 {
     for (int i = 0; i < KEYS_MAX; i++) {
-        if (k->keys[action][i] != 0) {
-            keys_key_name(name, k->keys[action][i]);
-            return;
-        }
+        if (k->keys[action][i] != 0)
+            return keys_key_name(k->keys[action][i]);
     }
-    snprintf(name, KEYS_NAME_BYTES, "no key");
+    return (struct keys_name){"no key"};
 }
 
 static void add_key(struct keys_help *help, int key)
 {
     size_t length = strlen(help->keys);
-    char name[KEYS_NAME_BYTES];
 
-    keys_key_name(name, key);
     snprintf(help->keys + length, sizeof help->keys - length, "%s%s",
-             length > 0 ? " " : "", name);
+             length > 0 ? " " : "", keys_key_name(key).text);
 }
 
 /* A capital beside its small letter is not shown. */
@@ -318,5 +364,31 @@ bool keys_help(const struct keys *k, int line, struct keys_help *help)
         if (l->actions[i] != ACTION_NONE)
             add_action(help, k, l->actions[i], l->actions[1] != ACTION_NONE);
     }
+    return true;
+}
+
+enum panel_action keys_panel_action(int key)
+{
+    for (size_t i = 0; i < COUNT(panel_lines) && key != 0; i++) {
+        for (int j = 0; j < PANEL_KEYS_MAX; j++) {
+            if (panel_lines[i].does[j].key == key)
+                return panel_lines[i].does[j].action;
+        }
+    }
+    return PANEL_NONE;
+}
+
+bool keys_panel_help(int line, struct keys_help *help)
+{
+    const struct panel_line *l;
+
+    if (line < 0 || (size_t)line >= COUNT(panel_lines))
+        return false;
+    l = &panel_lines[line];
+    *help = (struct keys_help){.text = l->text};
+    if (l->keys)
+        snprintf(help->keys, sizeof help->keys, "%s", l->keys);
+    for (int j = 0; !l->keys && l->does[j].key != 0; j++)
+        add_key(help, l->does[j].key);
     return true;
 }

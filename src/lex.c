@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/file.h"
 #include "glim/number.h"
 
 /* Longer words are cut in messages. */
@@ -167,6 +168,27 @@ bool lex_number(struct lex *lex, double *value)
         return true;
     *lex = saved;
     return false;
+}
+
+bool lex_file(const char *path,
+              bool (*take_line)(void *context, struct lex *lex,
+                                struct error *err),
+              void *context, struct error *err)
+{
+    struct lex lex;
+    char *text;
+    size_t size_bytes;
+    bool ok = true;
+
+    if (!file_read(path, &text, &size_bytes, err))
+        return false;
+    lex_init(&lex, text, size_bytes);
+    while (ok && lex.p < lex.end) {
+        ok = take_line(context, &lex, err);
+        lex_next_line(&lex);
+    }
+    free(text);
+    return ok;
 }
 
 bool word_is(struct word word, const char *text)

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "glim/options.h"
 
-#include <errno.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/isa.h"
-#include "glim/number.h"
+#include "glim/option.h"
 #include "glim/picture.h"
-
-/* Beyond these a value is a slip of the finger, not a wish. */
-#define SIDE_MAX    65536
-#define SPP_MAX     1000000000000u
-#define THREADS_MAX 1024
-#define BOUNCES_MAX 999
-#define CELLS_MAX   2000
 
 const char options_help[] =
     "usage: glim [options] scene.obj\n"
@@ -58,6 +48,9 @@ const char options_help[] =
     "  --ansi COLSxROWS a text of coloured characters, at most so many, for "
     "-o\n"
     "                   or standard output, instead of a picture\n"
+    "  --show KIND      preview, normals, faces, uvs, depth, materials or "
+    "cost\n"
+    "                   instead of light\n"
     "\n"
     "screen\n"
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
@@ -76,343 +69,24 @@ const char options_help[] =
     "  --version        show the version\n"
     "  --               end of the options\n";
 
-enum option_id {
-    OPTION_SCENE,
-    OPTION_VIEW,
-    OPTION_WIDTH,
-    OPTION_HEIGHT,
-    OPTION_SPP,
-    OPTION_BOUNCES,
-    OPTION_SEED,
-    OPTION_CROP,
-    OPTION_UP,
-    OPTION_THREADS,
-    OPTION_BACKEND,
-    OPTION_DEVICE,
-    OPTION_LIST_DEVICES,
-    OPTION_KERNELS,
-    OPTION_ISA,
-    OPTION_PROBE,
-    OPTION_BATCH,
-    OPTION_OUTPUT,
-    OPTION_ANSI,
-    OPTION_STATS,
-    OPTION_COLOR,
-    OPTION_GLYPH,
-    OPTION_CELL_ASPECT,
-    OPTION_WATCH,
-    OPTION_PHOE_KEYS,
-    OPTION_HELP,
-    OPTION_VERSION
+const char *const options_shows[] = {
+    [SHOW_LIGHT] = "light",
+    [SHOW_PREVIEW] = "preview",
+    [SHOW_NORMALS] = "normals",
+    [SHOW_FACES] = "faces",
+    [SHOW_UVS] = "uvs",
+    [SHOW_DEPTH] = "depth",
+    [SHOW_MATERIALS] = "materials",
+    [SHOW_COST] = "cost",
+    [SHOW_SAMPLES] = NULL, /* all pixels of a file have as many */
 };
-
-struct option_rule {
-    const char *name; /* as it is typed: one letter is a short option */
-    enum option_id id;
-    const char *value; /* what is expected behind it; NULL: nothing */
-};
-
-static const struct option_rule rules[] = {
-    {"f", OPTION_SCENE, "the name of a scene"},
-    {"c", OPTION_VIEW, "the name of a view file"},
-    {"w", OPTION_WIDTH, "a width in pixels"},
-    {"h", OPTION_HEIGHT, "a height in pixels"},
-    {"s", OPTION_SPP, "a number of samples"},
-    {"d", OPTION_BOUNCES, "a number of bounces"},
-    {"seed", OPTION_SEED, "a number"},
-    {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
-    {"up", OPTION_UP, "y or z"},
-    {"t", OPTION_THREADS, "a number of threads"},
-    {"backend", OPTION_BACKEND, "cpu, opencl or auto"},
-    {"device", OPTION_DEVICE, "the number or name of a device"},
-    {"list-devices", OPTION_LIST_DEVICES, NULL},
-    {"kernels", OPTION_KERNELS, "the name of a folder"},
-    {"isa", OPTION_ISA, "the name of a set of instructions"},
-    {"probe", OPTION_PROBE, "a number of features"}, /* for glim itself */
-    {"b", OPTION_BATCH, NULL},
-    {"o", OPTION_OUTPUT, "the name of a picture"},
-    {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
-    {"stats", OPTION_STATS, "the name of a file"},
-    {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
-    {"glyph", OPTION_GLYPH,
-     "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
-     "sixel or kitty"},
-    {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
-    {"watch", OPTION_WATCH, NULL},
-    {"phoe-keys", OPTION_PHOE_KEYS, NULL},
-    {"help", OPTION_HELP, NULL},
-    {"version", OPTION_VERSION, NULL},
-};
-
-/* An option as it stands on the command line or in a file. */
-struct given {
-    const struct option_rule *rule;
-    char shown[512]; /* "-w" or "--seed" or its place, for messages */
-    const char *value;
-};
-
-static bool parse_digits(const char *text, uint64_t max, uint64_t *value)
-{
-    char *end;
-
-    if (*text < '0' || *text > '9')
-        return false; /* strtoull() takes blanks and signs */
-    errno = 0;
-    *value = strtoull(text, &end, 10);
-    return errno == 0 && *end == '\0' && *value <= max;
-}
-
-/* -h asks for help elsewhere. */
-static const char *hint(const struct given *g)
-{
-    return g->rule->id == OPTION_HEIGHT ? " (for help: glim --help)" : "";
-}
-
-static bool whole_number(const struct given *g, uint64_t min, uint64_t max,
-                         uint64_t *value, struct error *err)
-{
-    if (parse_digits(g->value, max, value) && *value >= min)
-        return true;
-    return fail(err,
-                "%s: found '%s', expected a whole number from %" PRIu64
-                " to %" PRIu64 "%s",
-                g->shown, g->value, min, max, hint(g));
-}
-
-static bool whole_int(const struct given *g, int min, int max, int *value,
-                      struct error *err)
-{
-    uint64_t number;
-
-    if (!whole_number(g, (uint64_t)min, (uint64_t)max, &number, err))
-        return false;
-    *value = (int)number;
-    return true;
-}
-
-/* Index in the words that end with NULL. */
-static bool choice(const struct given *g, const char *const *words, int *index,
-                   struct error *err)
-{
-    for (int i = 0; words[i]; i++) {
-        if (strcmp(g->value, words[i]) == 0) {
-            *index = i;
-            return true;
-        }
-    }
-    return fail(err, "%s: found '%s', expected %s", g->shown, g->value,
-                g->rule->value);
-}
-
-static bool given_text(const struct given *g, const char **text,
-                       struct error *err)
-{
-    if (*g->value == '\0')
-        return fail(err, "%s: found '', expected %s", g->shown, g->rule->value);
-    *text = g->value;
-    return true;
-}
-
-static bool set_scene(struct options *o, const char *path, struct error *err)
-{
-    if (o->scene_path)
-        return fail(err, "found a second scene '%s', expected only '%s'", path,
-                    o->scene_path);
-    o->scene_path = path;
-    return true;
-}
-
-static bool set_crop(struct options *o, const struct given *g,
-                     struct error *err)
-{
-    int *const parts[4] = {&o->crop.x, &o->crop.y, &o->crop.width,
-                           &o->crop.height};
-    const char *p = g->value;
-
-    for (int i = 0; i < 4; i++) {
-        char text[8];
-        size_t length = strcspn(p, ",");
-        uint64_t number;
-
-        if (length >= sizeof text || (p[length] == ',') != (i < 3))
-            goto wrong;
-        memcpy(text, p, length);
-        text[length] = '\0';
-        if (!parse_digits(text, SIDE_MAX, &number) || (i > 1 && number == 0))
-            goto wrong;
-        *parts[i] = (int)number;
-        p += length + 1;
-    }
-    o->has_crop = true;
-    return true;
-wrong:
-    return fail(err,
-                "%s: found '%s', expected X,Y,W,H: four whole numbers up to "
-                "%d, W and H above 0",
-                g->shown, g->value, SIDE_MAX);
-}
-
-static bool set_cell_aspect(struct options *o, const struct given *g,
-                            struct error *err)
-{
-    const char *p = g->value;
-    double number;
-
-    if (!number_parse(&p, p + strlen(p), &number) || *p != '\0' ||
-        !(number >= 0.25 && number <= 8.0))
-        return fail(err, "%s: found '%s', expected a number from 0.25 to 8",
-                    g->shown, g->value);
-    o->cell_aspect = number;
-    return true;
-}
-
-/* COLSxROWS */
-static bool set_text_size(struct options *o, const struct given *g,
-                          struct error *err)
-{
-    size_t length = strcspn(g->value, "x");
-    char cols_text[8] = "";
-    uint64_t cols = 0, rows = 0;
-
-    if (length < sizeof cols_text && g->value[length] == 'x')
-        memcpy(cols_text, g->value, length);
-    if (!parse_digits(cols_text, CELLS_MAX, &cols) || cols == 0 ||
-        !parse_digits(g->value + length + 1, CELLS_MAX, &rows) || rows == 0)
-        return fail(err,
-                    "%s: found '%s', expected COLSxROWS: two whole numbers "
-                    "from 1 to %d",
-                    g->shown, g->value, CELLS_MAX);
-    o->text_cols = (int)cols;
-    o->text_rows = (int)rows;
-    return true;
-}
-
-static bool set_probe(struct options *o, const struct given *g,
-                      struct error *err)
-{
-    uint64_t features;
-
-    if (!whole_number(g, 0, UINT32_MAX, &features, err))
-        return false;
-    o->probe = true;
-    o->features = (uint32_t)features;
-    return true;
-}
-
-static bool set_seed(struct options *o, const struct given *g,
-                     struct error *err)
-{
-    uint64_t seed;
-
-    if (!whole_number(g, 0, UINT32_MAX, &seed, err))
-        return false;
-    o->seed = (uint32_t)seed;
-    return true;
-}
-
-/* The options that choose one of some words. */
-static bool set_word(struct options *o, const struct given *g,
-                     struct error *err)
-{
-    static const char *const ups[] = {"y", "z", NULL};
-    static const char *const backends[] = {"cpu", "opencl", "auto", NULL};
-    static const char *const colors[] = {"auto", "mono",  "16", "256",
-                                         "24",   "24bit", NULL};
-    static const char *const glyphs[] = {"auto",    "half",     "upper",
-                                         "lower",   "quadrant", "sextant",
-                                         "braille", "space",    "ascii",
-                                         "sixel",   "kitty",    NULL};
-    int index = 0;
-
-    switch (g->rule->id) {
-    case OPTION_UP:
-        if (!choice(g, ups, &index, err))
-            return false;
-        o->up_is_z = index == 1;
-        return true;
-    case OPTION_BACKEND:
-        if (!choice(g, backends, &index, err))
-            return false;
-        o->backend = (enum backend_choice)index;
-        o->has_backend = true;
-        return true;
-    case OPTION_COLOR:
-        if (!choice(g, colors, &index, err))
-            return false;
-        /* 24bit, as in COLORTERM, is the same */
-        o->color = index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
-        o->has_color = true;
-        return true;
-    default:
-        if (!choice(g, glyphs, &index, err))
-            return false;
-        o->glyph = (enum glyph_mode)index;
-        return true;
-    }
-}
-
-static bool set_option(struct options *o, const struct given *g,
-                       struct error *err)
-{
-    switch (g->rule->id) {
-    case OPTION_SCENE: {
-        const char *path = NULL;
-
-        return given_text(g, &path, err) && set_scene(o, path, err);
-    }
-    case OPTION_VIEW: return given_text(g, &o->view_path, err);
-    case OPTION_WIDTH: return whole_int(g, 1, SIDE_MAX, &o->width_px, err);
-    case OPTION_HEIGHT: return whole_int(g, 1, SIDE_MAX, &o->height_px, err);
-    case OPTION_SPP:
-        o->has_spp = true;
-        return whole_number(g, 1, SPP_MAX, &o->spp, err);
-    case OPTION_BOUNCES:
-        o->has_max_bounces = true;
-        return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);
-    case OPTION_SEED: return set_seed(o, g, err);
-    case OPTION_PROBE: return set_probe(o, g, err);
-    case OPTION_CROP: return set_crop(o, g, err);
-    case OPTION_THREADS:
-        return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
-    case OPTION_OUTPUT: return given_text(g, &o->output_path, err);
-    case OPTION_ANSI: return set_text_size(o, g, err);
-    case OPTION_STATS: return given_text(g, &o->stats_path, err);
-    case OPTION_CELL_ASPECT: return set_cell_aspect(o, g, err);
-    case OPTION_DEVICE: return given_text(g, &o->device, err);
-    case OPTION_KERNELS: return given_text(g, &o->kernels_path, err);
-    case OPTION_ISA:
-        o->paths = isa_named(g->value, err);
-        return o->paths != NULL;
-    case OPTION_UP:
-    case OPTION_BACKEND:
-    case OPTION_COLOR:
-    case OPTION_GLYPH: return set_word(o, g, err);
-    case OPTION_BATCH: o->batch = true; return true;
-    case OPTION_LIST_DEVICES: o->list_devices = true; return true;
-    case OPTION_WATCH: o->watch = true; return true;
-    case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
-    case OPTION_HELP: o->show_help = true; return true;
-    case OPTION_VERSION: o->show_version = true; return true;
-    }
-    return true;
-}
-
-static const struct option_rule *find_rule(const char *name, size_t length)
-{
-    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
-        if (strlen(rules[i].name) == length &&
-            memcmp(rules[i].name, name, length) == 0)
-            return &rules[i];
-    }
-    return NULL;
-}
 
 /* Finds the rule of the option at the start of `text`, which is behind its
  * dashes. */
-static bool find_option(struct given *g, const char *dashes, const char *text,
-                        size_t length, struct error *err)
+static bool find_option(struct option_given *g, const char *dashes,
+                        const char *text, size_t length, struct error *err)
 {
-    g->rule = find_rule(text, length);
+    g->rule = option_rule_named(text, length);
     if (!g->rule || (length == 1) != (dashes[1] == '\0'))
         return fail(err, "unknown option '%s%.*s', see glim --help", dashes,
                     (int)length, text);
@@ -424,7 +98,7 @@ static bool find_option(struct given *g, const char *dashes, const char *text,
 }
 
 /* Takes `attached` or the next argument as the value. */
-static bool take_value(struct given *g, const char *attached, int argc,
+static bool take_value(struct option_given *g, const char *attached, int argc,
                        char **argv, int *i, struct error *err)
 {
     g->value = attached;
@@ -432,7 +106,7 @@ static bool take_value(struct given *g, const char *attached, int argc,
         g->value = argv[++*i];
     if (!g->value)
         return fail(err, "%s: expected %s behind it%s", g->shown,
-                    g->rule->value, hint(g));
+                    g->rule->value, option_hint(g));
     return true;
 }
 
@@ -443,7 +117,7 @@ static bool parse_long(struct options *o, int argc, char **argv, int *i,
     const char *text = argv[*i] + 2;
     size_t length = strcspn(text, "=");
     const char *attached = text[length] == '=' ? text + length + 1 : NULL;
-    struct given g = {0};
+    struct option_given g = {0};
 
     if (!find_option(&g, "--", text, length, err))
         return false;
@@ -452,7 +126,7 @@ static bool parse_long(struct options *o, int argc, char **argv, int *i,
                     attached);
     if (g.rule->value && !take_value(&g, attached, argc, argv, i, err))
         return false;
-    return set_option(o, &g, err);
+    return option_set(o, &g, err);
 }
 
 /* -x, -xvalue, -x value, or several letters where only the last has a value */
@@ -462,7 +136,7 @@ static bool parse_short(struct options *o, int argc, char **argv, int *i,
     const char *p = argv[*i] + 1;
 
     while (*p) {
-        struct given g = {0};
+        struct option_given g = {0};
 
         if (!find_option(&g, "-", p, 1, err))
             return false;
@@ -472,7 +146,7 @@ static bool parse_short(struct options *o, int argc, char **argv, int *i,
                 return false;
             p = "";
         }
-        if (!set_option(o, &g, err))
+        if (!option_set(o, &g, err))
             return false;
     }
     return true;
@@ -506,14 +180,18 @@ static bool check_batch(const struct options *o, struct error *err)
                         (o->text_cols > 0 && !o->output_path);
 
     if (o->output_path && !o->batch)
-        return fail(err, "-o: is for batch mode, expected -b beside it (on "
-                         "the screen p saves a picture)");
+        return fail(err,
+                    "-o: is for batch mode, expected -b beside it (on the "
+                    "screen %s saves a picture)",
+                    keys_first_name(&o->keys, ACTION_SAVE).text);
     if (o->watch && o->batch)
         return fail(err, "--watch: is for the screen, expected no -b beside "
                          "it");
     if (o->text_cols > 0 && !o->batch)
-        return fail(err, "--ansi: is for batch mode, expected -b beside it "
-                         "(on the screen x saves a text)");
+        return fail(err,
+                    "--ansi: is for batch mode, expected -b beside it (on the "
+                    "screen %s saves a text)",
+                    keys_first_name(&o->keys, ACTION_SAVE_TEXT).text);
     if (o->text_cols > 0 && o->glyph >= GLYPH_SIXEL)
         return fail(err, "--ansi: a text has no pixels, expected a --glyph "
                          "of cells beside it");
@@ -531,6 +209,28 @@ static bool check_batch(const struct options *o, struct error *err)
     return true;
 }
 
+/* What is computed at once knows no samples. */
+static bool check_show(const struct options *o, struct error *err)
+{
+    if (o->show == SHOW_LIGHT)
+        return true;
+    if (!o->batch)
+        return fail(err,
+                    "--show: is for batch mode, expected -b beside it (on the "
+                    "screen %s shows it)",
+                    keys_first_name(&o->keys, ACTION_VIEW_NEXT).text);
+    if (o->stats_path)
+        return fail(err, "--stats: is about a render, expected no --show "
+                         "beside it");
+    if (o->output_path && o->text_cols == 0 &&
+        picture_format_of(o->output_path) != PICTURE_PNG)
+        return fail(err,
+                    "-o: found '%s', expected a name that ends in .png, for "
+                    "--show makes no light",
+                    o->output_path);
+    return true;
+}
+
 /* What is right alone but wrong together. */
 static bool check_together(const struct options *o, struct error *err)
 {
@@ -539,7 +239,7 @@ static bool check_together(const struct options *o, struct error *err)
     if (!o->scene_path)
         return fail(err, "no scene given, expected: glim [options] scene.obj "
                          "(see glim --help)");
-    return check_batch(o, err);
+    return check_batch(o, err) && check_show(o, err);
 }
 
 enum palette options_palette(enum color_mode mode)
@@ -571,13 +271,13 @@ enum glyphs options_glyphs(enum glyph_mode mode)
 /* GLIM_COLOR is what --color is where that is not given. */
 static bool take_environment(struct options *o, struct error *err)
 {
-    struct given g = {find_rule("color", 5), "GLIM_COLOR",
-                      getenv("GLIM_COLOR")};
+    struct option_given g = {option_rule_named("color", 5), "GLIM_COLOR",
+                             getenv("GLIM_COLOR")};
 
     if ((o->batch && o->text_cols == 0) || o->has_color || !g.value ||
         *g.value == '\0')
         return true;
-    return set_word(o, &g, err);
+    return option_set(o, &g, err);
 }
 
 void options_init(struct options *o)
@@ -596,7 +296,8 @@ static bool is_taste(enum option_id id)
 bool options_set_taste(struct options *o, const char *name, const char *value,
                        const char *place, struct error *err)
 {
-    struct given g = {.rule = find_rule(name, strlen(name)), .value = value};
+    struct option_given g = {.rule = option_rule_named(name, strlen(name)),
+                             .value = value};
 
     if (!g.rule || !is_taste(g.rule->id))
         return fail(err,
@@ -608,7 +309,7 @@ bool options_set_taste(struct options *o, const char *name, const char *value,
         return fail(err, "%s: expected %s behind it", g.shown, g.rule->value);
     if (!g.rule->value && value)
         return fail(err, "%s: found '%s', expected no value", g.shown, value);
-    if (!set_option(o, &g, err))
+    if (!option_set(o, &g, err))
         return false;
     /* what was not typed now gives way to what was */
     o->has_backend = false;
@@ -625,7 +326,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         bool ok;
 
         if (ended || arg[0] != '-' || arg[1] == '\0') {
-            ok = set_scene(o, arg, err);
+            ok = option_set_scene(o, arg, err);
         } else if (strcmp(arg, "--") == 0) {
             ended = true;
             ok = true;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "glim/pace.h"
 
-/* A key waits for the frame on its way: at 0.12 s of output the wait is felt
- * less than a picture that needs more frames. */
-#define FRAME_SECONDS 0.12
+/* A key waits for the frame on its way and its answer, half of that on average,
+ * and for its own frame: at 200 ms there and back 0.08 s of output are a median
+ * of 0.42 s, and more than a quarter of what the line could carry. */
+#define FRAME_SECONDS 0.08
 
 /* Enough for some cells however slow the line. */
 #define BUDGET_MIN 600
@@ -12,6 +13,10 @@
 #define BUDGET_FIRST 16384
 
 #define BUDGET_MAX ((size_t)1 << 30)
+
+/* From frame to frame: what was measured too fast is so before it costs
+ * seconds. */
+#define GROWTH_MAX 2
 
 /* Smaller frames say more about the clock than about the line. */
 #define MEASURE_BYTES 1000
@@ -45,23 +50,47 @@ bool pace_wants_request(const struct pace *p)
     return p->state != PACE_MUTE;
 }
 
-static void learn_rate(struct pace *p, double seconds)
+/* Bytes and times are smoothed apart: a small frame whose answer was lucky by
+ * some milliseconds would else be a line of megabytes a second. */
+static void learn_rate(struct pace *p, size_t bytes, double seconds)
 {
-    double rate = (double)p->frame_bytes / (seconds > 5e-4 ? seconds : 5e-4);
+    double weight = p->rate > 0 ? 0.3 : 1;
+    double most = GROWTH_MAX * (double)p->budget_bytes;
+    double budget;
 
-    p->rate = p->rate > 0 ? 0.7 * p->rate + 0.3 * rate : rate;
-    double budget = p->rate * FRAME_SECONDS;
+    p->bytes += weight * ((double)bytes - p->bytes);
+    p->seconds += weight * (seconds - p->seconds);
+    p->rate = p->bytes / (p->seconds > 5e-4 ? p->seconds : 5e-4);
+    budget = p->rate * FRAME_SECONDS;
+    budget = budget < most ? budget : most;
     if (budget >= (double)BUDGET_MAX)
         p->budget_bytes = BUDGET_MAX;
     else
         p->budget_bytes = budget < BUDGET_MIN ? BUDGET_MIN : (size_t)budget;
 }
 
+/* What a frame took more than the quickest, for what it was larger, is the
+ * line's: neither the way nor a start that was slow are in it. Where all are as
+ * large as the quickest they become smaller, until one tells. */
+static void learn_from_answer(struct pace *p, uint64_t rtt_ns)
+{
+    if (rtt_ns <= p->rtt_min_ns) {
+        p->rtt_min_ns = rtt_ns;
+        p->rtt_min_bytes = p->frame_bytes;
+    } else if (p->frame_bytes > p->rtt_min_bytes + MEASURE_BYTES) {
+        learn_rate(p, p->frame_bytes - p->rtt_min_bytes,
+                   (double)(rtt_ns - p->rtt_min_ns) * 1e-9);
+    } else if (p->frame_bytes > MEASURE_BYTES &&
+               p->budget_bytes > 2 * BUDGET_MIN) {
+        p->budget_bytes -= p->budget_bytes / 8;
+    }
+}
+
 /* Without answers the time that write() took is all there is to see. */
 static void learn_from_write(struct pace *p, uint64_t took_ns)
 {
     if (took_ns > 2000000u && p->frame_bytes > MEASURE_BYTES)
-        learn_rate(p, (double)took_ns * 1e-9);
+        learn_rate(p, p->frame_bytes, (double)took_ns * 1e-9);
     else if (p->budget_bytes <= BUDGET_MAX / 2)
         p->budget_bytes *= 2;
 }
@@ -103,11 +132,7 @@ void pace_answer(struct pace *p, uint64_t now_ns)
     }
     if (p->outstanding > 0 || p->frame_bytes == 0)
         return;
-    uint64_t rtt_ns = now_ns - p->asked_ns;
-    if (rtt_ns < p->rtt_min_ns)
-        p->rtt_min_ns = rtt_ns;
-    if (p->frame_bytes > MEASURE_BYTES)
-        learn_rate(p, (double)(rtt_ns - p->rtt_min_ns) * 1e-9);
+    learn_from_answer(p, now_ns - p->asked_ns);
     p->frame_bytes = 0;
 }
 

@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "glim/knob_text.h"
 #include "glim/panel_draw.h"
+#include "glim/work_save.h"
 
-#define CTRL(letter) ((letter)&31)
-#define TAB          '\t'
-#define ENTER        '\r'
-#define ESCAPE       27
-#define BACKSPACE    127
+#define ENTER     '\r'
+#define ESCAPE    27
+#define BACKSPACE 127
 
 /* The same knob turned again within this time is the same step of undo: longer
  * than keyboards wait before they repeat. */
@@ -71,7 +71,8 @@ static void take_change(struct panel *p)
 static bool may_change(struct panel *p)
 {
     if (!p->work->is_live) {
-        work_say(p->work, "materials change in live mode: space goes there");
+        work_say(p->work, "materials change in live mode: %s goes there",
+                 work_key(p->work, ACTION_MODE).text);
         return false;
     }
     if (p->work->reload.is_busy) {
@@ -107,12 +108,12 @@ static void take_typed(struct panel *p)
     if (panel_knobs(p, knobs) == 0 || !may_change(p))
         return;
     edit_break(edit_of(p));
-    if (knob_type(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
+    if (knob_set_text(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
         p->is_typing = false;
         edit_break(edit_of(p));
         take_change(p);
     } else {
-        work_say(p->work, err.text);
+        work_say(p->work, "%s", err.text);
     }
 }
 
@@ -137,7 +138,6 @@ static void compare(struct panel *p)
 static void duplicate(struct panel *p)
 {
     struct edit *e = edit_of(p);
-    char text[128];
 
     if (p->selection.page == KNOB_LIGHT || !selection_has_one(&p->selection) ||
         !may_change(p))
@@ -148,16 +148,15 @@ static void duplicate(struct panel *p)
             edit_duplicate(e, selection_material_of(&p->selection,
                                                     p->selection.object));
         edit_assign(e, p->selection.object, p->selection.material);
-        snprintf(text, sizeof text, "%.40s has its own material now: %.40s",
+        work_say(p->work, "%.40s has its own material now: %.40s",
                  panel_name(scene_of(p)->object_names[p->selection.object]),
                  e->names[p->selection.material]);
     } else {
         p->selection.material = edit_duplicate(e, p->selection.material);
-        snprintf(text, sizeof text, "%.60s: Tab goes to the objects for it",
+        work_say(p->work, "%.60s: Tab goes to the objects for it",
                  e->names[p->selection.material]);
     }
     edit_break(e);
-    work_say(p->work, text);
     take_change(p);
 }
 
@@ -191,8 +190,20 @@ static void move(struct panel *p, int step)
         selection_move(&p->selection, step);
 }
 
+/* What cannot be typed is turned by Enter. */
 static void begin_typing(struct panel *p, int key)
 {
+    struct knob knobs[KNOBS_MAX];
+
+    if (panel_knobs(p, knobs) == 0)
+        return;
+    if (!knob_takes_text(knobs[p->knob].id)) {
+        if (key == ENTER)
+            turn(p, 1);
+        else
+            work_say(p->work, "this is changed with the arrows, or Enter");
+        return;
+    }
     p->is_typing = true;
     p->typed[0] = (char)(key == ENTER ? '\0' : key);
     p->typed[1] = '\0';
@@ -221,6 +232,15 @@ static void enter(struct panel *p)
         begin_typing(p, ENTER);
     else
         p->is_in_knobs = selection_has_one(&p->selection);
+}
+
+/* In the list there is only a way to the values. */
+static void step(struct panel *p, int by)
+{
+    if (p->is_in_knobs)
+        turn(p, by);
+    else if (by > 0)
+        enter(p);
 }
 
 static void leave(struct panel *p)
@@ -289,48 +309,39 @@ bool panel_mouse(struct panel *p, const struct event *event)
 
 /* ---- keys ---- */
 
-static bool begins_value(int key)
-{
-    return key > 0 && key < 256 && strchr("0123456789.-#", key) != NULL;
-}
-
 bool panel_key(struct panel *p, int key)
 {
     if (p->is_typing) {
         type(p, key);
         return true;
     }
-    switch (key) {
-    case INPUT_UP: move(p, -1); break;
-    case INPUT_DOWN: move(p, 1); break;
-    case INPUT_PAGE_UP: move(p, -10); break;
-    case INPUT_PAGE_DOWN: move(p, 10); break;
-    case INPUT_LEFT:
-    case INPUT_RIGHT:
-        if (p->is_in_knobs)
-            turn(p, key == INPUT_RIGHT ? 1 : -1);
-        else if (key == INPUT_RIGHT)
-            enter(p);
-        break;
-    case '[': turn(p, -KNOB_COARSE); break;
-    case ']': turn(p, KNOB_COARSE); break;
-    case TAB:
-        show_page(p,
-                  (enum knob_page)((p->selection.page + 1) % (KNOB_LIGHT + 1)));
-        break;
-    case ENTER: enter(p); break;
-    case ESCAPE: leave(p); break;
-    case 'u': travel(p, true); break;
-    case 'U': travel(p, false); break;
-    case 'x': compare(p); break;
-    case 'n': duplicate(p); break;
-    case 'h': p->selection.by_hsv = !p->selection.by_hsv; break;
-    case CTRL('S'): work_save_edit(p->work); break;
-    default:
-        if (!p->is_in_knobs || !begins_value(key))
+    switch (keys_panel_action(key)) {
+    case PANEL_NONE: return false;
+    case PANEL_UP: move(p, -1); break;
+    case PANEL_DOWN: move(p, 1); break;
+    case PANEL_LESS: step(p, -1); break;
+    case PANEL_MORE: step(p, 1); break;
+    case PANEL_PAGE_UP: move(p, -10); break;
+    case PANEL_PAGE_DOWN: move(p, 10); break;
+    case PANEL_ENTER: enter(p); break;
+    case PANEL_MUCH_LESS: turn(p, -KNOB_COARSE); break;
+    case PANEL_MUCH_MORE: turn(p, KNOB_COARSE); break;
+    case PANEL_TYPE:
+        if (!p->is_in_knobs)
             return false;
         begin_typing(p, key);
         break;
+    case PANEL_HSV: p->selection.by_hsv = !p->selection.by_hsv; break;
+    case PANEL_NEXT_PAGE:
+        show_page(p,
+                  (enum knob_page)((p->selection.page + 1) % (KNOB_LIGHT + 1)));
+        break;
+    case PANEL_COPY: duplicate(p); break;
+    case PANEL_UNDO: travel(p, true); break;
+    case PANEL_REDO: travel(p, false); break;
+    case PANEL_COMPARE: compare(p); break;
+    case PANEL_SAVE: work_save_edit(p->work); break;
+    case PANEL_LEAVE: leave(p); break;
     }
     return true;
 }

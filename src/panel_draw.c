@@ -15,7 +15,7 @@
 
 /* What there is to draw on. */
 struct sheet {
-    struct term_line *lines;
+    struct window_line *lines;
     int count;
     struct swatches *swatches;
 };
@@ -44,9 +44,9 @@ int panel_knobs(struct panel *p, struct knob knobs[KNOBS_MAX])
     return count;
 }
 
-static void add_line(struct sheet *s, enum term_look look, const char *text)
+static void add_line(struct sheet *s, enum window_look look, const char *text)
 {
-    struct term_line *line = &s->lines[s->count++];
+    struct window_line *line = &s->lines[s->count++];
 
     line->look = look;
     snprintf(line->text, sizeof line->text, "%s", text);
@@ -60,7 +60,7 @@ static void add_pages(struct sheet *s, enum knob_page page)
         [KNOB_LIGHT] = " Materials   Objects  [Light]",
     };
 
-    add_line(s, TERM_TITLE, titles[page]);
+    add_line(s, WINDOW_TITLE, titles[page]);
 }
 
 /* A material with its kind, or an object with its material. */
@@ -79,7 +79,7 @@ static void add_item(struct panel *p, struct sheet *s, uint32_t i)
              is_object ? panel_name(e->names[material]) : look_kind(source));
     look_swatch(source, rgb);
     swatches_set(s->swatches, s->count, rgb);
-    add_line(s, is_selected && !p->is_in_knobs ? TERM_SELECTED : TERM_PLAIN,
+    add_line(s, is_selected && !p->is_in_knobs ? WINDOW_SELECTED : WINDOW_PLAIN,
              text);
 }
 
@@ -102,7 +102,7 @@ static void add_list(struct panel *p, struct sheet *s, int rows)
         shown++;
     }
     for (; shown < rows; shown++)
-        add_line(s, TERM_PLAIN, "");
+        add_line(s, WINDOW_PLAIN, "");
 }
 
 static void add_title(struct panel *p, struct sheet *s)
@@ -123,7 +123,7 @@ static void add_title(struct panel *p, struct sheet *s)
     else
         snprintf(text, sizeof text, " %.32s%s", e->names[p->selection.material],
                  edit_is_saved(e, p->selection.material) ? "" : " *");
-    add_line(s, TERM_TITLE, text);
+    add_line(s, WINDOW_TITLE, text);
 }
 
 static void format_bar(char bar[BAR_COLS + 1], double place)
@@ -155,7 +155,7 @@ static void add_knob(struct panel *p, struct sheet *s, const struct knob *k,
         text[0] = '>';
     if (k->has_color)
         swatches_set(s->swatches, s->count, k->color);
-    add_line(s, is_selected ? TERM_SELECTED : TERM_PLAIN, text);
+    add_line(s, is_selected ? WINDOW_SELECTED : WINDOW_PLAIN, text);
 }
 
 static void add_knobs(struct panel *p, struct sheet *s, int rows)
@@ -173,21 +173,28 @@ static void add_knobs(struct panel *p, struct sheet *s, int rows)
         if (k < count)
             add_knob(p, s, &knobs[k], p->is_in_knobs && k == p->knob);
         else
-            add_line(s, TERM_PLAIN, "");
+            add_line(s, WINDOW_PLAIN, "");
     }
 }
 
 static void add_hints(const struct panel *p, struct sheet *s)
 {
-    if (p->is_typing) {
-        add_line(s, TERM_HINT, " number, #rrggbb, r g b or 3000K");
-        add_line(s, TERM_HINT, " Enter takes it   Esc leaves it");
+    char text[64];
+
+    if (!p->work->is_live) {
+        add_line(s, WINDOW_TITLE, " Normal mode: only to look at");
+        snprintf(text, sizeof text, " %s goes to live mode to edit",
+                 work_key(p->work, ACTION_MODE).text);
+        add_line(s, WINDOW_TITLE, text);
+    } else if (p->is_typing) {
+        add_line(s, WINDOW_HINT, " number, #rrggbb, r g b or 3000K");
+        add_line(s, WINDOW_HINT, " Enter takes it   Esc leaves it");
     } else if (p->is_in_knobs) {
-        add_line(s, TERM_HINT, " Left Right change  [ ] tenfold  Esc");
-        add_line(s, TERM_HINT, " type a value  h HSV  u undo  ^S save");
+        add_line(s, WINDOW_HINT, " Left Right change  [ ] tenfold  Esc");
+        add_line(s, WINDOW_HINT, " type a value  h HSV  u undo  ^S save");
     } else {
-        add_line(s, TERM_HINT, " Enter values  n copy  x compare");
-        add_line(s, TERM_HINT, " Tab page  u undo  ^S save  Esc close");
+        add_line(s, WINDOW_HINT, " Enter values  n copy  x compare");
+        add_line(s, WINDOW_HINT, " Tab page  u undo  ^S save  Esc close");
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Built with flags for a set of instructions: PATHS is the name of the result,
- * PATHS_NAME the set's.
+ * Built with flags for a set of instructions, and for FEATURES: PATHS is the
+ * name of the result, PATHS_NAME the instructions'.
  */
 #include "glim/paths.h"
 
@@ -20,10 +20,15 @@
 #define PATHS_NAME "plain"
 #endif
 
-static void samples(const struct world *w, uint32_t x, uint32_t y,
-                    uint64_t first, uint32_t count, struct path_sample *out)
+/* Little code is faster in one function, by 6 %; much is not. */
+#ifdef FLATTEN
+__attribute__((flatten))
+#endif
+static void
+samples(const struct world *w, uint32_t x, uint32_t y, uint64_t first,
+        uint32_t count, struct path_sample *out)
 {
     path_samples(w, x, y, first, count, out);
 }
 
-const struct paths PATHS = {PATHS_NAME, samples};
+const struct paths PATHS = {PATHS_NAME, FEATURES, samples};

@@ -83,24 +83,23 @@ static void append(void *context, void *data, int size_bytes)
     b->size_bytes += more;
 }
 
-static bool out_of_memory(const struct film *film, const char *path,
+static bool out_of_memory(int width, int height, const char *path,
                           struct error *err)
 {
-    return fail(err, "%s: out of memory for %dx%d pixels", path, film->width,
-                film->height);
+    return fail(err, "%s: out of memory for %dx%d pixels", path, width, height);
 }
 
-static bool expect_size(const struct film *film, size_t pixel_bytes,
+static bool expect_size(int width, int height, size_t pixel_bytes,
                         const char *path, struct error *err)
 {
     size_t most = STB_BYTES_MAX / pixel_bytes;
-    size_t found = (size_t)film->width * (size_t)film->height;
+    size_t found = (size_t)width * (size_t)height;
 
     return found <= most ||
            fail(err,
                 "%s: found %dx%d pixels, expected %zu in all at most "
                 "(a .pfm file has no limit)",
-                path, film->width, film->height, most);
+                path, width, height, most);
 }
 
 /* stb stops the program when its buffers cannot grow, so they are tried here
@@ -113,21 +112,31 @@ static bool has_memory(size_t size_bytes)
     return trial != NULL;
 }
 
+static bool encode_frame(const struct frame *frame, const char *path,
+                         struct buffer *b, struct error *err)
+{
+    size_t size_bytes = 3 * (size_t)frame->width * (size_t)frame->height;
+    bool ok = has_memory(size_bytes) &&
+              stbi_write_png_to_func(append, b, frame->width, frame->height, 3,
+                                     frame->rgb, 3 * frame->width);
+
+    return (ok && !b->is_cut) ||
+           out_of_memory(frame->width, frame->height, path, err);
+}
+
 static bool encode_png(struct film *film, struct develop how, const char *path,
                        struct buffer *b, struct error *err)
 {
     struct frame frame;
+    bool ok;
 
-    if (!expect_size(film, 3, path, err) ||
+    if (!expect_size(film->width, film->height, 3, path, err) ||
         !frame_init(&frame, film->width, film->height, err))
         return false;
     film_resolve(film, how, &frame);
-    size_t size_bytes = 3 * (size_t)frame.width * (size_t)frame.height;
-    bool ok = has_memory(size_bytes) &&
-              stbi_write_png_to_func(append, b, frame.width, frame.height, 3,
-                                     frame.rgb, 3 * frame.width);
+    ok = encode_frame(&frame, path, b, err);
     frame_free(&frame);
-    return (ok && !b->is_cut) || out_of_memory(film, path, err);
+    return ok;
 }
 
 static float *linear_of(struct film *film, const char *path, struct error *err)
@@ -138,7 +147,7 @@ static float *linear_of(struct film *film, const char *path, struct error *err)
     if (rgb)
         film_linear(film, rgb);
     else
-        out_of_memory(film, path, err);
+        out_of_memory(film->width, film->height, path, err);
     return rgb;
 }
 
@@ -163,7 +172,7 @@ static bool encode_hdr(struct film *film, const char *path, struct buffer *b,
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
 
-    if (!expect_size(film, 3 * sizeof(float), path, err))
+    if (!expect_size(film->width, film->height, 3 * sizeof(float), path, err))
         return false;
     float *rgb = linear_of(film, path, err);
     if (!rgb)
@@ -173,7 +182,8 @@ static bool encode_hdr(struct film *film, const char *path, struct buffer *b,
     bool ok =
         stbi_write_hdr_to_func(append, b, film->width, film->height, 3, rgb);
     free(rgb);
-    return (ok && !b->is_cut) || out_of_memory(film, path, err);
+    return (ok && !b->is_cut) ||
+           out_of_memory(film->width, film->height, path, err);
 }
 
 static void append_floats(struct buffer *b, const float *values, int count)
@@ -205,7 +215,7 @@ static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
         append_floats(b, rgb + 3 * (size_t)y * (size_t)film->width,
                       3 * film->width);
     free(rgb);
-    return !b->is_cut || out_of_memory(film, path, err);
+    return !b->is_cut || out_of_memory(film->width, film->height, path, err);
 }
 
 static bool encode(struct film *film, struct develop how, const char *path,
@@ -221,16 +231,31 @@ static bool encode(struct film *film, struct develop how, const char *path,
                 path);
 }
 
+/* To the file, or to standard output. */
+static bool publish(const struct buffer *b, const char *path, struct error *err)
+{
+    if (is_stdout(path))
+        return file_write_stdout(b->data, b->size_bytes, err);
+    return file_write(path, b->data, b->size_bytes, false, NULL, err);
+}
+
 bool picture_write(struct film *film, struct develop how, const char *path,
                    struct error *err)
 {
     struct buffer b = {.data = NULL};
-    bool ok = encode(film, how, path, &b, err);
+    bool ok = encode(film, how, path, &b, err) && publish(&b, path, err);
 
-    if (ok && is_stdout(path))
-        ok = file_write_stdout(b.data, b.size_bytes, err);
-    else if (ok)
-        ok = file_write(path, b.data, b.size_bytes, false, NULL, err);
+    free(b.data);
+    return ok;
+}
+
+bool picture_write_frame(const struct frame *frame, const char *path,
+                         struct error *err)
+{
+    struct buffer b = {.data = NULL};
+    bool ok = expect_size(frame->width, frame->height, 3, path, err) &&
+              encode_frame(frame, path, &b, err) && publish(&b, path, err);
+
     free(b.data);
     return ok;
 }
@@ -247,5 +272,18 @@ char *picture_write_numbered(struct film *film, struct develop how,
         path = file_write_numbered(stem, ending, b.data, b.size_bytes, err);
     free(b.data);
     free(name);
+    return path;
+}
+
+char *picture_write_frame_numbered(const struct frame *frame, const char *stem,
+                                   struct error *err)
+{
+    struct buffer b = {.data = NULL};
+    char *path = NULL;
+
+    if (expect_size(frame->width, frame->height, 3, stem, err) &&
+        encode_frame(frame, stem, &b, err))
+        path = file_write_numbered(stem, "png", b.data, b.size_bytes, err);
+    free(b.data);
     return path;
 }

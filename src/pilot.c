@@ -66,6 +66,7 @@ void pilot_renew(struct pilot *p)
     p->cursor.has_pick = false;
     p->cursor.is_pick_new = false;
     p->cursor.must_look = p->canvas->has_cursor;
+    steer_resize(&p->steer, scene_of(p)->bounds_lo, scene_of(p)->bounds_hi);
 }
 
 /* ---- moves ---- */
@@ -77,13 +78,6 @@ static const struct move *find_move(enum action action)
             return &moves[i];
     }
     return NULL;
-}
-
-/* For messages that tell what to do next. */
-static void key_of(const struct pilot *p, enum action action,
-                   char name[KEYS_NAME_BYTES])
-{
-    keys_first_name(&p->work->session->options->keys, action, name);
 }
 
 static void add_step(struct pilot *p)
@@ -125,27 +119,22 @@ static void jump(struct pilot *p, const struct pose *pose)
 static void say_lens(struct pilot *p)
 {
     const struct view *v = view_of(p);
-    char text[TEXT_BYTES];
 
     if (p->held == ACTION_NARROWER || p->held == ACTION_WIDER)
-        snprintf(text, sizeof text, "field of view %.3g degrees", v->fovy_deg);
+        work_say(p->work, "field of view %.3g degrees", v->fovy_deg);
     else if (p->held != ACTION_CLOSE && p->held != ACTION_OPEN)
         return;
     else if (v->aperture > 0)
-        snprintf(text, sizeof text, "lens open by %.3g", v->aperture);
+        work_say(p->work, "lens open by %.3g", v->aperture);
     else
-        snprintf(text, sizeof text, "a pinhole: everything is sharp");
-    work_say(p->work, text);
+        work_say(p->work, "a pinhole: everything is sharp");
 }
 
 static void change_speed(struct pilot *p, int steps)
 {
-    char text[TEXT_BYTES];
-
     steer_change_speed(&p->steer, steps);
-    snprintf(text, sizeof text, "speed %.3g of the scene's size a second",
+    work_say(p->work, "speed %.3g of the scene's size a second",
              p->steer.speed);
-    work_say(p->work, text);
 }
 
 static void reset(struct pilot *p)
@@ -220,7 +209,7 @@ static void frame(struct pilot *p, const double lo[3], const double hi[3],
     camera_frame(&framed, lo, hi);
     pose = view_pose(&framed);
     jump(p, &pose);
-    work_say(p->work, name);
+    work_say(p->work, "%s", name);
 }
 
 static void frame_object(struct pilot *p)
@@ -248,7 +237,6 @@ static void frame_all(struct pilot *p)
 static void focus(struct pilot *p)
 {
     struct pose pose = view_pose(view_of(p));
-    char open[KEYS_NAME_BYTES], text[TEXT_BYTES];
 
     if (!need_pick(p) || !may_jump(p))
         return;
@@ -258,12 +246,11 @@ static void focus(struct pilot *p)
         return;
     }
     jump(p, &pose);
-    key_of(p, ACTION_OPEN, open);
-    snprintf(text, sizeof text,
-             pose.aperture > 0 ? "sharp %.4g away"
-                               : "sharp %.4g away once the lens is open: %s",
-             pose.focus, open);
-    work_say(p->work, text);
+    if (pose.aperture > 0)
+        work_say(p->work, "sharp %.4g away", pose.focus);
+    else
+        work_say(p->work, "sharp %.4g away once the lens is open: %s",
+                 pose.focus, work_key(p->work, ACTION_OPEN).text);
 }
 
 /* ---- numbered views ---- */
@@ -271,31 +258,22 @@ static void focus(struct pilot *p)
 static void keep_view(struct pilot *p, int number)
 {
     struct view *v = view_of(p);
-    char save[KEYS_NAME_BYTES], text[TEXT_BYTES];
 
     v->shots[number - 1] = view_pose(v);
     v->has_shot[number - 1] = true;
-    key_of(p, ACTION_SAVE_VIEW, save);
-    snprintf(text, sizeof text,
-             "this is view %d: %s writes it to the view file", number, save);
-    work_say(p->work, text);
+    work_say(p->work, "this is view %d: %s writes it to the view file", number,
+             work_key(p->work, ACTION_SAVE_VIEW).text);
 }
 
 static void go_to_view(struct pilot *p, int number)
 {
-    char keep[KEYS_NAME_BYTES], text[TEXT_BYTES];
-
     if (!view_of(p)->has_shot[number - 1]) {
-        key_of(p, ACTION_KEEP, keep);
-        snprintf(text, sizeof text, "no view %d yet: %s %d makes this one so",
-                 number, keep, number);
+        work_say(p->work, "no view %d yet: %s %d makes this one so", number,
+                 work_key(p->work, ACTION_KEEP).text, number);
     } else if (may_jump(p)) {
         jump(p, &view_of(p)->shots[number - 1]);
-        snprintf(text, sizeof text, "view %d", number);
-    } else {
-        return;
+        work_say(p->work, "view %d", number);
     }
-    work_say(p->work, text);
 }
 
 static void use_number(struct pilot *p, enum action action)

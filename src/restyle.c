@@ -14,6 +14,7 @@ struct next {
     struct texture *textures;
     struct lights lights;
     bool has_lights;
+    struct guide guide;
 };
 
 static bool out_of_memory(const struct scene *scene, struct error *err)
@@ -166,7 +167,7 @@ static bool make_materials(struct scene *scene, const struct style *style,
     return ok;
 }
 
-/* ---- lights ---- */
+/* ---- lights, caustics ---- */
 
 static bool needs_lights(const struct scene *scene, const struct next *next)
 {
@@ -181,20 +182,39 @@ static bool needs_lights(const struct scene *scene, const struct next *next)
     return false;
 }
 
-static bool make_lights(struct scene *scene, const struct style *style,
-                        struct next *next, struct error *err)
+static struct world next_arrays(const struct scene *scene,
+                                const struct style *style,
+                                const struct next *next)
 {
     struct world arrays = scene_arrays(scene);
 
-    if (!needs_lights(scene, next))
-        return true;
     arrays.tris = tris_of(scene, next);
     arrays.materials = next->materials;
     arrays.settings.material_count = style->material_count;
     if (next->textures != NULL)
         arrays.textures = next->textures;
+    return arrays;
+}
+
+static bool make_lights(struct scene *scene, const struct style *style,
+                        struct next *next, struct error *err)
+{
+    struct world arrays = next_arrays(scene, style, next);
+
+    if (!needs_lights(scene, next))
+        return true;
     next->has_lights = lights_build(&next->lights, &arrays, err);
     return next->has_lights;
+}
+
+/* Each colour says how many photons go on. */
+static bool make_guide(struct scene *scene, const struct style *style,
+                       struct next *next, struct error *err)
+{
+    struct world arrays = next_arrays(scene, style, next);
+
+    lights_lend(next->has_lights ? &next->lights : &scene->lights, &arrays);
+    return guide_build(&next->guide, &arrays, err);
 }
 
 /* ---- all ---- */
@@ -250,6 +270,8 @@ static void swap_in(struct scene *scene, const struct style *style,
         lights_free(&scene->lights);
         scene->lights = next->lights;
     }
+    guide_free(&scene->guide);
+    scene->guide = next->guide;
 }
 
 static void drop(struct next *next)
@@ -259,6 +281,7 @@ static void drop(struct next *next)
     free(next->tris);
     free(next->textures);
     lights_free(&next->lights);
+    guide_free(&next->guide);
 }
 
 bool scene_is_styled(const struct scene *scene, const struct style *style)
@@ -284,7 +307,8 @@ bool scene_restyle(struct scene *scene, const struct style *style,
     ok = (grow_names(scene, style) && make_tris(scene, style, &next)) ||
          out_of_memory(scene, err);
     ok = ok && make_materials(scene, style, &next, err) &&
-         make_lights(scene, style, &next, err);
+         make_lights(scene, style, &next, err) &&
+         make_guide(scene, style, &next, err);
     if (!ok) {
         drop(&next);
         return false;

@@ -36,6 +36,7 @@ static bool copy_film(struct film *to, struct film *from, struct error *err)
                3 * width * sizeof to->sums[0]);
         memcpy(to->counts + first, from->counts + first,
                width * sizeof to->counts[0]);
+        to->has_row[y] = from->has_row[y];
         pthread_mutex_unlock(lock);
     }
     return true;

@@ -27,6 +27,30 @@ const struct scale scale_light = {.most = 1e30,
                                   .grows = true,
                                   .expected = "a number from 0 to 1e30"};
 
+const struct scale scale_ior = {.least = 1e-6,
+                                .most = 1e6,
+                                .from = 1,
+                                .to = 3,
+                                .step = 0.01,
+                                .digits = 4,
+                                .expected = "a number above 0"};
+const struct scale scale_rotation = {.least = -1e6,
+                                     .most = 1e6,
+                                     .to = 360,
+                                     .step = 1,
+                                     .digits = 4,
+                                     .wraps = true,
+                                     .expected = "an angle in degrees"};
+const struct scale scale_exposure = {.least = -100,
+                                     .most = 100,
+                                     .from = -8,
+                                     .to = 8,
+                                     .step = 0.1,
+                                     .digits = 3,
+                                     .of = " stops",
+                                     .expected =
+                                         "a number of stops from -100 to 100"};
+
 static double clamped(double x, double least, double most)
 {
     return x < least ? least : x > most ? most : x;

@@ -323,7 +323,10 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     arrays = scene_arrays(scene);
-    return lights_build(&scene->lights, &arrays, err);
+    if (!lights_build(&scene->lights, &arrays, err))
+        return false;
+    lights_lend(&scene->lights, &arrays);
+    return guide_build(&scene->guide, &arrays, err);
 }
 
 bool scene_load_sky(struct scene *scene, const struct view *view,
@@ -569,6 +572,8 @@ uint32_t scene_features(const struct scene *scene)
 {
     uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
 
+    if (scene->guide.grid.cell_count > 0)
+        features |= FEATURE_GUIDE;
     for (uint32_t i = 0; i < scene->material_count; i++)
         if (scene->material_is_used[i])
             features |= scene_material_features(scene, &scene->materials[i]);
@@ -583,6 +588,7 @@ bool scene_world(const struct scene *scene, const struct view *view,
     w.settings.sky = make_sky(scene, view);
     lights_lend(&scene->lights, &w);
     sky_lend(&scene->sky_table, &w);
+    guide_lend(&scene->guide, &w);
     w.settings.max_vertices =
         view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;
     w.settings.seed = seed;
@@ -646,5 +652,6 @@ void scene_free(struct scene *scene)
     free(scene->sky_texels);
     lights_free(&scene->lights);
     sky_free(&scene->sky_table);
+    guide_free(&scene->guide);
     memset(scene, 0, sizeof *scene);
 }

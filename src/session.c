@@ -10,6 +10,7 @@
 
 #include "glim/file.h"
 #include "glim/mtl_save.h"
+#include "glim/view_file.h"
 
 #define SIDE_MAX 65536
 
@@ -327,16 +328,20 @@ static size_t collect(const struct session *s, uint32_t file,
     return count;
 }
 
-static bool save_file(struct session *s, uint32_t file, size_t *written,
-                      struct error *err)
+static bool save_file(struct session *s, uint32_t file, struct watch *watch,
+                      size_t *written, struct error *err)
 {
+    const char *path = s->scene.mtl_paths[file];
     struct mtl_change *changes =
         xcalloc(s->edit.material_count, sizeof *changes);
     uint32_t *materials = xcalloc(s->edit.material_count, sizeof *materials);
     size_t count = collect(s, file, changes, materials);
-    bool ok = count == 0 || mtl_save(&s->scene, s->scene.mtl_paths[file],
-                                     changes, count, err);
+    struct file_change change;
+    bool ok =
+        count == 0 || mtl_save(&s->scene, path, changes, count, &change, err);
 
+    if (ok && count > 0)
+        watch_replaced(watch, path, &change);
     for (size_t i = 0; ok && i < count; i++)
         edit_saved_material(&s->edit, materials[i]);
     *written += count;
@@ -346,8 +351,10 @@ static bool save_file(struct session *s, uint32_t file, size_t *written,
 }
 
 /* Into the file as it is now: the camera in there is not this one's. */
-static bool save_light(struct session *s, struct error *err)
+static bool save_light(struct session *s, struct watch *watch,
+                       struct error *err)
 {
+    struct file_change change;
     struct report report = {0};
     struct view view;
     bool ok;
@@ -357,15 +364,18 @@ static bool save_light(struct session *s, struct error *err)
              ? view_read(&view, s->view_path, &report, err)
              : (view_copy(&view, &s->opened), true);
     edit_to_view(&s->edit, &s->edit.now, &s->scene, &view);
-    ok = ok && view_write(&view, s->view_path, err);
-    if (ok)
+    ok = ok && view_write(&view, s->view_path, &change, err);
+    if (ok) {
         edit_saved_view(&s->edit);
+        watch_replaced(watch, s->view_path, &change);
+    }
     view_free(&view);
     report_free(&report);
     return ok;
 }
 
-bool session_save_edit(struct session *s, char **what, struct error *err)
+bool session_save_edit(struct session *s, struct watch *watch, char **what,
+                       struct error *err)
 {
     bool has_light = edit_has_unsaved_view(&s->edit);
     size_t written = 0;
@@ -376,9 +386,9 @@ bool session_save_edit(struct session *s, char **what, struct error *err)
                     "write the materials to",
                     s->scene.path);
     for (uint32_t i = 0; i < s->scene.mtl_path_count; i++)
-        if (!save_file(s, i, &written, err))
+        if (!save_file(s, i, watch, &written, err))
             return false;
-    if (has_light && !save_light(s, err))
+    if (has_light && !save_light(s, watch, err))
         return false;
     if (written == 0 && !has_light)
         *what = xstrdup("nothing has changed since it was saved");

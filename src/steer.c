@@ -30,11 +30,17 @@
 
 void steer_init(struct steer *s, const double lo[3], const double hi[3])
 {
+    *s = (struct steer){.speed = SPEED_START};
+    steer_resize(s, lo, hi);
+}
+
+void steer_resize(struct steer *s, const double lo[3], const double hi[3])
+{
     double square = 0;
 
     for (int i = 0; i < 3; i++)
         square += (hi[i] - lo[i]) * (hi[i] - lo[i]);
-    *s = (struct steer){.speed = SPEED_START, .scene_size = sqrt(square)};
+    s->scene_size = sqrt(square);
     if (!(s->scene_size > 0) || isinf(s->scene_size))
         s->scene_size = 1; /* a scene without extent */
 }

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "glim/kitty.h"
+#include "glim/windows.h"
 
 /* Drags and wheel, with coordinates that have no limit. */
 #define MOUSE_ON  "\033[?1002h\033[?1006h"
@@ -50,8 +51,6 @@ static struct {
     int signal_pipe[2];
     struct termios before;
     SCREEN *screen;
-    WINDOW *window;
-    WINDOW *panel;
     bool has_mouse;
     bool has_sync;
     bool may_ask_colors; /* a terminal that swallows what it cannot answer */
@@ -255,7 +254,7 @@ bool term_open(struct error *err)
     set_modes();
     term.may_ask_colors = !is_simple(getenv("TERM"));
     term_relayout();
-    term_update();
+    windows_update();
     ask();
     term_set_mouse(true);
     return true;
@@ -302,8 +301,8 @@ void term_close(bool is_gone)
     }
     is_open = 0;
     xmalloc_set_hook(NULL);
-    term_close_window();
-    term_hide_panel();
+    windows_close();
+    windows_hide_panel();
     if (!is_gone)
         tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
     delscreen(term.screen);
@@ -428,7 +427,7 @@ void term_resume(void)
     refresh();
     curs_set(0);
     term_relayout();
-    term_update();
+    windows_update();
     term_set_mouse(term.has_mouse);
 }
 
@@ -444,8 +443,8 @@ void term_relayout(void)
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 &&
         w.ws_row > 0)
         resizeterm(w.ws_row, w.ws_col);
-    term_close_window();
-    term_hide_panel();
+    windows_close();
+    windows_hide_panel();
     erase();
     clearok(curscr, TRUE);
 }
@@ -467,189 +466,4 @@ void term_use_sync(void)
 bool term_has_sync(void)
 {
     return term.has_sync;
-}
-
-void term_status(const char *text)
-{
-    move(LINES - 1, 0);
-    clrtoeol();
-    if (!text)
-        return;
-    attron(A_REVERSE);
-    addnstr(text, COLS);
-    for (int col = getcurx(stdscr); col < COLS && getcury(stdscr) == LINES - 1;
-         col++)
-        addch(' ');
-    attroff(A_REVERSE);
-}
-
-/* Bytes of the text's first `cols` columns: each character has one. */
-static int bytes_of(const char *text, int cols)
-{
-    int i = 0;
-
-    for (; text[i] != '\0'; i++) {
-        if (((unsigned char)text[i] & 0xc0) != 0x80 && cols-- == 0)
-            break;
-    }
-    return i;
-}
-
-static int cols_of(const char *text)
-{
-    int cols = 0;
-
-    for (; *text; text++)
-        cols += ((unsigned char)*text & 0xc0) != 0x80;
-    return cols;
-}
-
-/* `lines` is a macro of <term.h>. */
-void term_set_window(const char *const *texts, int text_count)
-{
-    int cols, rows;
-
-    if (!term.window)
-        return;
-    getmaxyx(term.window, rows, cols);
-    for (int i = 0; i < text_count && i < rows - 2; i++)
-        mvwaddnstr(term.window, i + 1, 2, texts[i],
-                   bytes_of(texts[i], cols - 4));
-}
-
-/* `lines` is a macro of <term.h>. */
-static struct term_rect window_size(const char *title, const char *const *texts,
-                                    int text_count)
-{
-    struct term_rect r = {0, 0, cols_of(title) + 6, text_count + 2};
-
-    for (int i = 0; i < text_count; i++) {
-        int cols = cols_of(texts[i]) + 4;
-
-        r.cols = cols > r.cols ? cols : r.cols;
-    }
-    r.cols = r.cols > COLS ? COLS : r.cols;
-    r.rows = r.rows > LINES ? LINES : r.rows;
-    return r;
-}
-
-static struct term_rect open_window(struct term_rect r, const char *title,
-                                    const char *const *texts, int text_count)
-{
-    term.window = newwin(r.rows, r.cols, r.row, r.col);
-    if (!term.window)
-        return (struct term_rect){0};
-    box(term.window, 0, 0);
-    mvwaddnstr(term.window, 0, 2, title, r.cols - 4);
-    term_set_window(texts, text_count);
-    /* curses believes that these cells are blank and would skip the blanks */
-    redrawwin(term.window);
-    return r;
-}
-
-struct term_rect term_open_window(const char *title, const char *const *texts,
-                                  int text_count)
-{
-    struct term_rect r = window_size(title, texts, text_count);
-
-    r.col = (COLS - r.cols) / 2;
-    r.row = (LINES - r.rows) / 2;
-    return open_window(r, title, texts, text_count);
-}
-
-struct term_rect term_open_panel(const char *title, const char *const *texts,
-                                 int text_count)
-{
-    struct term_rect r = window_size(title, texts, text_count);
-
-    r.row = r.rows < LINES ? LINES - 1 - r.rows : 0;
-    return open_window(r, title, texts, text_count);
-}
-
-struct term_rect term_open_corner(const char *title, const char *const *texts,
-                                  int text_count)
-{
-    struct term_rect r = window_size(title, texts, text_count);
-
-    r.col = COLS - r.cols;
-    return open_window(r, title, texts, text_count);
-}
-
-void term_close_window(void)
-{
-    if (!term.window)
-        return;
-    delwin(term.window);
-    term.window = NULL;
-    touchwin(stdscr);
-}
-
-static int attribute_of(enum term_look look)
-{
-    switch (look) {
-    case TERM_SELECTED: return A_REVERSE;
-    case TERM_TITLE: return A_BOLD;
-    case TERM_HINT: return A_DIM;
-    case TERM_PLAIN: break;
-    }
-    return A_NORMAL;
-}
-
-struct term_rect term_show_panel(const struct term_line *panel_lines,
-                                 int line_count, int cols)
-{
-    struct term_rect r = {COLS - cols, 0, cols, LINES - 1};
-
-    if (!term.panel)
-        term.panel = newwin(r.rows, r.cols, r.row, r.col);
-    if (!term.panel)
-        return (struct term_rect){0};
-    werase(term.panel);
-    mvwvline(term.panel, 0, 0, 0, r.rows);
-    for (int i = 0; i < line_count && i < r.rows; i++) {
-        wattrset(term.panel, attribute_of(panel_lines[i].look));
-        mvwprintw(term.panel, i, 1, "%-*.*s", cols - 1, cols - 1,
-                  panel_lines[i].text);
-    }
-    wattrset(term.panel, A_NORMAL);
-    /* the picture and swatches were written past curses */
-    redrawwin(term.panel);
-    return r;
-}
-
-void term_hide_panel(void)
-{
-    if (!term.panel)
-        return;
-    delwin(term.panel);
-    term.panel = NULL;
-    touchwin(stdscr);
-}
-
-void term_notice(const char *text)
-{
-    int length = (int)strlen(text);
-
-    erase();
-    if (length <= COLS)
-        mvaddstr((LINES - 1) / 2, (COLS - length) / 2, text);
-    else
-        mvaddnstr(0, 0, text, LINES * COLS - 1);
-}
-
-void term_update(void)
-{
-    move(LINES - 1, 0);
-    wnoutrefresh(stdscr);
-    if (term.panel) {
-        touchwin(term.panel);
-        wnoutrefresh(term.panel);
-    }
-    if (term.window) {
-        touchwin(term.window);
-        wnoutrefresh(term.window);
-    }
-    if (term.panel || term.window)
-        wnoutrefresh(stdscr); /* nothing but its cursor */
-    doupdate();
 }

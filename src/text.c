@@ -3,23 +3,25 @@
 
 #include "glim/ansi.h"
 
-bool text_of_film(struct film *film, struct develop how,
-                  const struct text_style *style, char **text,
-                  size_t *size_bytes, struct error *err)
+bool text_frame_init(struct frame *frame, const struct text_style *style,
+                     struct error *err)
 {
     struct glyph_grid grid = glyphs_grid(style->glyphs);
-    struct frame frame = {0};
+
+    return frame_init(frame, grid.across * style->cols, grid.down * style->rows,
+                      err);
+}
+
+bool text_of_frame(const struct frame *frame, const struct text_style *style,
+                   char **text, size_t *size_bytes, struct error *err)
+{
     struct cells cells = {0};
-    bool ok = frame_init(&frame, grid.across * style->cols,
-                         grid.down * style->rows, err) &&
-              cells_init(&cells, style->cols, style->rows, err);
+    bool ok = cells_init(&cells, style->cols, style->rows, err);
 
     if (ok) {
-        film_preview(film, NULL, how, &frame);
-        cells_from_frame(&cells, &frame, style->palette, style->glyphs);
+        cells_from_frame(&cells, frame, style->palette, style->glyphs);
         ok = ansi_lines(&cells, text, size_bytes, err);
     }
     cells_free(&cells);
-    frame_free(&frame);
     return ok;
 }

@@ -8,34 +8,15 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "glim/canvas.h"
-#include "glim/gauge.h"
-#include "glim/help.h"
-#include "glim/inside.h"
 #include "glim/panel_draw.h"
-#include "glim/pilot.h"
+#include "glim/question.h"
+#include "glim/stage.h"
 #include "glim/stats.h"
-#include "glim/version.h"
-#include "glim/work.h"
+#include "glim/work_save.h"
 
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)
 #define NEVER UINT64_MAX
-
-/* Between frames: while the first pass fills the picture, while it is young,
- * and when a frame differs little from the one before. */
-#define FRAME_FIRST_NS (16 * MS_NS)
-#define FRAME_YOUNG_NS (100 * MS_NS)
-#define FRAME_OLD_NS   (250 * MS_NS)
-#define OLD_NS         (10 * S_NS)
-
-/* From this age on cells that changed by no more than STEP of 255 may stay
- * until the end; on a slow line from the beginning, and more. */
-#define SETTLING_NS (2 * S_NS)
-#define STEP        2
-#define STEP_SLOW   8
-
-#define STATUS_NS (250 * MS_NS)
 
 /* A lone ESC is the key when nothing has followed for so long. */
 #define ESCAPE_NS (50 * MS_NS)
@@ -44,175 +25,23 @@
  * files that change, and those that are loaded. */
 #define FDS 7
 
-enum question {
-    QUESTION_NONE,
-    QUESTION_QUIT,
-    QUESTION_EDIT, /* quit without what was edited */
-    QUESTION_LIVE, /* leave normal mode */
-    QUESTION_RESTART
-};
-
 struct tui {
     struct work work;
-    struct canvas canvas;
-    struct input input;
     struct pilot pilot;
-    struct inside inside;
-    struct panel panel;
+    struct stage stage;
+    struct input input;
+    uint64_t byte_ns; /* when its last one came */
     bool has_mouse;
-    int help_number;    /* the page that is shown, */
-    int help_left;      /* with those behind it; 0: no help */
-    struct gauge gauge; /* hidden while the help is open */
     enum question question;
-
-    bool is_settled;         /* nothing of the picture is left to be shown */
-    uint64_t frame_ns;       /* when the next frame is due */
-    uint64_t status_ns;      /* when to look for a new status line */
-    uint64_t byte_ns;        /* when the last one came */
-    int width_px, height_px; /* of the picture that has been laid out */
-
     bool is_ending;
     bool is_gone; /* the terminal */
     int status;   /* exit status */
 };
 
-static const struct film *film_of(const struct tui *t)
-{
-    return render_film(t->work.session->render);
-}
-
-/* Draw again as soon as possible. */
-static void refresh_soon(struct tui *t)
-{
-    t->is_settled = false;
-    t->frame_ns = 0;
-    t->status_ns = 0;
-    t->gauge.due_ns = 0;
-}
-
 static void end(struct tui *t, int status)
 {
     t->is_ending = true;
     t->status = status;
-}
-
-/* From the next restart on: a cell shows two pixels, one above the other. */
-static void set_draft(struct session *s, const struct fit *fit)
-{
-    s->draft_width = fit->cols;
-    s->draft_height = 2 * fit->rows;
-}
-
-static void layout(struct tui *t)
-{
-    const struct film *film = film_of(t);
-    struct error err;
-
-    t->help_left = 0;
-    t->width_px = film->width;
-    t->height_px = film->height;
-    refresh_soon(t);
-    t->canvas.has_panel = t->panel.is_open;
-    if (!canvas_layout(&t->canvas, film->width, film->height, &err)) {
-        t->canvas.is_too_small = true; /* nothing can be drawn */
-        work_say_error(&t->work, err.text);
-    }
-    panel_draw(&t->panel);
-    /* until then the old draft is resampled */
-    set_draft(t->work.session, &t->canvas.fit);
-    inside_open_panel(&t->inside); /* it went with the layout */
-}
-
-/* ---- help, screen ---- */
-
-static bool shows_gauge(const struct tui *t)
-{
-    return t->gauge.is_on && t->help_left == 0 && !t->canvas.is_too_small;
-}
-
-static void switch_gauge(struct tui *t)
-{
-    inside_stop_drawing(&t->inside); /* there is one window at a time */
-    gauge_switch(&t->gauge, &t->work);
-    if (!t->gauge.is_on)
-        canvas_close_window(&t->canvas);
-    if (t->panel.is_open) { /* there is no room for both */
-        panel_close(&t->panel);
-        layout(t);
-    }
-    refresh_soon(t);
-}
-
-static void open_help(struct tui *t, int number)
-{
-    const struct pace *pace = &t->canvas.pace;
-    const char *lines[HELP_ROWS_MAX];
-    struct term_size size = term_size();
-    struct help_page page;
-    char note[64], title[64];
-
-    snprintf(note, sizeof note, "%s, %s", palette_name(t->canvas.palette),
-             canvas_glyphs_name(&t->canvas));
-    if (pace->state == PACE_ANSWERS)
-        snprintf(note, sizeof note, "%s, %s, answers in %.1f ms",
-                 palette_name(t->canvas.palette),
-                 canvas_glyphs_name(&t->canvas),
-                 (double)pace->rtt_min_ns * 1e-6);
-    /* within a frame, with a blank on each side, above the status line */
-    help_page(&page, &t->work.session->options->keys, note, number,
-              size.cols - 4, size.rows - 3);
-    if (number + 1 < page.page_count)
-        snprintf(title, sizeof title, " keys %d/%d - any key goes on ",
-                 number + 1, page.page_count);
-    else
-        snprintf(title, sizeof title,
-                 " glim " GLIM_VERSION " - any key closes ");
-    for (int i = 0; i < page.line_count; i++)
-        lines[i] = page.lines[i];
-    if (t->help_left > 0 || t->gauge.is_on)
-        canvas_close_window(&t->canvas);
-    inside_close_panel(&t->inside);
-    canvas_open_window(&t->canvas, title, lines, page.line_count);
-    t->help_number = number;
-    t->help_left = page.page_count - number;
-    t->is_settled = false;
-}
-
-static void close_help(struct tui *t)
-{
-    canvas_close_window(&t->canvas);
-    inside_open_panel(&t->inside);
-    t->help_left = 0;
-    panel_draw(&t->panel);
-    refresh_soon(t);
-}
-
-static void next_colors(struct tui *t)
-{
-    canvas_next_palette(&t->canvas);
-    work_say(&t->work, palette_name(t->canvas.palette));
-    layout(t);
-}
-
-static void next_glyphs(struct tui *t)
-{
-    canvas_next_glyphs(&t->canvas);
-    layout(t);
-    work_say(&t->work, canvas_glyphs_name(&t->canvas));
-}
-
-static void save_text(struct tui *t)
-{
-    struct text_style style = canvas_style(&t->canvas);
-
-    work_save_text(&t->work, &style);
-}
-
-static void hide(struct tui *t)
-{
-    t->canvas.has_status_row = !t->canvas.has_status_row;
-    t->gauge.is_on = false;
-    layout(t);
 }
 
 static void switch_mouse(struct tui *t)
@@ -228,22 +57,22 @@ static void switch_mouse(struct tui *t)
 
 static void suspend(struct tui *t)
 {
-    canvas_drain(&t->canvas, &t->input);
+    canvas_drain(&t->stage.canvas, &t->input);
     term_suspend();
-    layout(t);
+    stage_layout(&t->stage);
 }
 
 static void set_live(struct tui *t, bool is_live)
 {
     pilot_stop(&t->pilot);
-    inside_leave(&t->inside);
+    inside_leave(&t->stage.inside);
     work_set_live(&t->work, is_live);
 }
 
 static void ask(struct tui *t, enum question question)
 {
     t->question = question;
-    t->status_ns = 0;
+    stage_ask(&t->stage, question_text(question));
 }
 
 static void change_mode(struct tui *t)
@@ -266,23 +95,14 @@ static void quit(struct tui *t)
         end(t, 0);
 }
 
-/* ---- the panel ---- */
-
-static void open_panel(struct tui *t)
-{
-    if (t->pilot.cursor.has_pick)
-        panel_select(&t->panel, &t->pilot.cursor.pick);
-    panel_open(&t->panel);
-    t->gauge.is_on = false; /* there is no room for both */
-    layout(t);
-}
-
 /* What was picked while the panel is open is selected in it. */
 static void follow_pick(struct tui *t)
 {
-    if (t->pilot.cursor.is_pick_new && t->panel.is_open) {
-        panel_select(&t->panel, &t->pilot.cursor.pick);
-        panel_draw(&t->panel);
+    struct panel *panel = &t->stage.panel;
+
+    if (t->pilot.cursor.is_pick_new && panel->is_open) {
+        panel_select(panel, &t->pilot.cursor.pick);
+        panel_draw(panel);
     }
     t->pilot.cursor.is_pick_new = false;
 }
@@ -290,13 +110,15 @@ static void follow_pick(struct tui *t)
 /* The cursor on the picture has its keys first. */
 static bool panel_takes(struct tui *t, int key)
 {
-    if (!t->panel.is_open || (t->canvas.has_cursor && !t->panel.is_typing) ||
-        !panel_key(&t->panel, key))
+    struct panel *panel = &t->stage.panel;
+
+    if (!panel->is_open || (t->stage.canvas.has_cursor && !panel->is_typing) ||
+        !panel_key(panel, key))
         return false;
-    if (!t->panel.is_open)
-        layout(t);
+    if (!panel->is_open)
+        stage_layout(&t->stage);
     else
-        panel_draw(&t->panel);
+        panel_draw(panel);
     return true;
 }
 
@@ -310,29 +132,18 @@ static void restart(struct tui *t)
 
 static void act(struct tui *t, enum action action)
 {
-    if (action == ACTION_DRAWING && t->gauge.is_on)
-        switch_gauge(t);
-    if (inside_act(&t->inside, action) || pilot_act(&t->pilot, action))
+    /* the pilot first: it may wait for a number */
+    if (pilot_act(&t->pilot, action) || stage_act(&t->stage, action))
         return;
     switch (action) {
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
     case ACTION_STEP: work_step(&t->work); break;
     case ACTION_RESTART: restart(t); break;
-    case ACTION_SAVE: work_save_picture(&t->work, "png"); break;
-    case ACTION_SAVE_TEXT: save_text(t); break;
-    case ACTION_SAVE_LINEAR: work_save_picture(&t->work, "hdr"); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
-    case ACTION_METER: switch_gauge(t); break;
-    case ACTION_HIDE: hide(t); break;
     case ACTION_RELOAD: work_reload(&t->work); break;
     case ACTION_BACKEND: work_switch_backend(&t->work); break;
-    case ACTION_COLORS: next_colors(t); break;
-    case ACTION_GLYPHS: next_glyphs(t); break;
     case ACTION_MOUSE: switch_mouse(t); break;
-    case ACTION_REDRAW: layout(t); break;
-    case ACTION_PANEL: open_panel(t); break;
-    case ACTION_HELP: open_help(t, 0); break;
     case ACTION_QUIT: quit(t); break;
     case ACTION_INTERRUPT: end(t, 128 + SIGINT); break;
     case ACTION_ABORT: end(t, 128 + SIGQUIT); break;
@@ -344,14 +155,15 @@ static void act(struct tui *t, enum action action)
 static void answer_question(struct tui *t, int key)
 {
     enum question question = t->question;
+    enum answer answer = question_answer(question, key);
 
     ask(t, QUESTION_NONE);
-    if (question == QUESTION_EDIT && (key == 's' || key == 'S')) {
+    if (answer == ANSWER_SAVE && question == QUESTION_EDIT) {
         if (work_save_edit(&t->work))
             quit(t);
-    } else if (question != QUESTION_EDIT && (key == 'p' || key == 'P')) {
+    } else if (answer == ANSWER_SAVE) {
         work_save_picture(&t->work, "png");
-    } else if (key == 'y' || key == 'Y') {
+    } else if (answer == ANSWER_YES) {
         if (question == QUESTION_LIVE)
             set_live(t, true);
         else if (question == QUESTION_RESTART)
@@ -367,19 +179,15 @@ static void take_key(struct tui *t, int key)
     bool is_urgent = action == ACTION_INTERRUPT || action == ACTION_ABORT ||
                      action == ACTION_SUSPEND || action == ACTION_REDRAW;
 
-    if (t->work.message.is_error) {
-        t->work.message = (struct message){0};
-        t->status_ns = 0;
-    }
+    if (t->work.message.is_error)
+        work_be_silent(&t->work);
     if (is_urgent)
         act(t, action);
     else if (t->question != QUESTION_NONE)
         answer_question(t, key);
-    else if (t->help_left > 1 && action != ACTION_CANCEL)
-        open_help(t, t->help_number + 1);
-    else if (t->help_left > 0)
-        close_help(t);
-    else if (t->canvas.is_too_small && action != ACTION_QUIT)
+    else if (t->stage.help_left > 0)
+        stage_turn_help(&t->stage, action == ACTION_CANCEL);
+    else if (t->stage.canvas.is_too_small && action != ACTION_QUIT)
         return;
     else if (!panel_takes(t, key))
         act(t, action);
@@ -388,8 +196,8 @@ static void take_key(struct tui *t, int key)
 
 static void take_mouse(struct tui *t, const struct event *event)
 {
-    if (panel_mouse(&t->panel, event))
-        panel_draw(&t->panel);
+    if (panel_mouse(&t->stage.panel, event))
+        panel_draw(&t->stage.panel);
     else
         pilot_mouse(&t->pilot, event);
     follow_pick(t);
@@ -397,18 +205,19 @@ static void take_mouse(struct tui *t, const struct event *event)
 
 static void take_event(struct tui *t, const struct event *event)
 {
-    enum palette palette = t->canvas.palette;
+    struct stage *st = &t->stage;
+    enum palette palette = st->canvas.display.palette;
 
     if (event->kind == EVENT_KEY) {
         take_key(t, event->key);
     } else if (event->kind == EVENT_MOUSE) {
-        if (t->has_mouse && t->help_left == 0 && !t->canvas.is_too_small)
+        if (t->has_mouse && st->help_left == 0 && !st->canvas.is_too_small)
             take_mouse(t, event);
     } else {
-        if (canvas_answer(&t->canvas, event))
-            layout(t);
-        if (t->canvas.palette != palette)
-            refresh_soon(t);
+        if (canvas_answer(&st->canvas, event))
+            stage_layout(st);
+        if (st->canvas.display.palette != palette)
+            stage_refresh(st);
     }
 }
 
@@ -451,146 +260,11 @@ static void take_signals(struct tui *t)
         case SIGTSTP: suspend(t); break;
         case SIGCONT:
             term_resume();
-            layout(t);
+            stage_layout(&t->stage);
             break;
-        case SIGWINCH: layout(t); break;
+        case SIGWINCH: stage_layout(&t->stage); break;
         default: break;
         }
-    }
-}
-
-/* ---- drawing ---- */
-
-static void format_status(struct tui *t, char text[STATUS_BYTES])
-{
-    const struct film *film = film_of(t);
-    const struct backend *backend = render_backend(t->work.session->render);
-    const struct keys *keys = &t->work.session->options->keys;
-    char help[KEYS_NAME_BYTES], quit[KEYS_NAME_BYTES], hint[48];
-    char load[KEYS_NAME_BYTES];
-    struct status status = {
-        .is_live = t->work.is_live,
-        .is_orbiting = t->pilot.steer.is_orbiting,
-        .is_halted = t->work.is_halted,
-        .is_started = t->work.is_started,
-        .load_key = t->work.has_changed_files ? load : NULL,
-        .progress = &t->work.progress,
-        .device = backend->device,
-        .thread_count = backend->thread_count,
-        .width_px = film->width,
-        .height_px = film->height,
-        .colors = palette_name(t->canvas.palette),
-        .hint = hint,
-    };
-
-    keys_first_name(keys, ACTION_RELOAD, load);
-    keys_first_name(keys, ACTION_HELP, help);
-    keys_first_name(keys, ACTION_QUIT, quit);
-    snprintf(hint, sizeof hint, "%s help  %s quit", help, quit);
-    status_format(text, term_size().cols, &status);
-}
-
-static void update_status(struct tui *t, uint64_t now_ns)
-{
-    static const char *const questions[] = {
-        [QUESTION_QUIT] =
-            "The render is not saved. Quit? y: yes, p: save it, other: no",
-        [QUESTION_EDIT] = "Changes of materials or light are not saved. Quit? "
-                          "y: yes, s: save, other: no",
-        [QUESTION_LIVE] =
-            "The render is not saved. Leave it? y: yes, p: save it, other: no",
-        [QUESTION_RESTART] = "The render is not saved. Start anew? y: yes, p: "
-                             "save it, other: no",
-    };
-    char text[STATUS_BYTES];
-
-    if (t->question != QUESTION_NONE) {
-        status_message(text, term_size().cols, questions[t->question]);
-    } else if (now_ns < t->work.message.until_ns) {
-        status_message(text, term_size().cols, t->work.message.text);
-    } else if (t->canvas.has_status_row && t->inside.legend[0] != '\0') {
-        status_message(text, term_size().cols, t->inside.legend);
-    } else if (t->canvas.has_status_row) {
-        format_status(t, text);
-    } else {
-        if (t->canvas.has_status)
-            t->is_settled = false; /* the picture comes back there */
-        canvas_status(&t->canvas, NULL);
-        return;
-    }
-    canvas_status(&t->canvas, text);
-}
-
-static uint64_t frame_interval(const struct tui *t, uint64_t took_ns)
-{
-    uint64_t interval_ns = FRAME_FIRST_NS;
-
-    if (t->work.progress.spp_done > 0)
-        interval_ns =
-            t->work.progress.render_ns > OLD_NS ? FRAME_OLD_NS : FRAME_YOUNG_NS;
-    /* large windows must not take the time away from the render */
-    return interval_ns > 2 * took_ns ? interval_ns : 2 * took_ns;
-}
-
-static int frame_step(const struct tui *t)
-{
-    if (t->work.progress.state != RENDER_RUNNING)
-        return 0;
-    if (pace_is_slow(&t->canvas.pace))
-        return STEP_SLOW;
-    return t->work.progress.render_ns > SETTLING_NS ? STEP : 0;
-}
-
-static void show_messages(struct tui *t, uint64_t now_ns)
-{
-    if (t->work.message.until_ns != 0 && now_ns >= t->work.message.until_ns) {
-        t->work.message.until_ns = 0;
-        t->status_ns = 0;
-    }
-    if (now_ns < t->status_ns)
-        return;
-    update_status(t, now_ns);
-    t->status_ns = now_ns + STATUS_NS;
-}
-
-/* The terminal takes nothing any more: why? */
-static void lose_terminal(struct tui *t)
-{
-    take_signals(t);
-    if (t->is_ending)
-        return;
-    t->is_gone = true;
-    end(t, 128 + SIGHUP);
-}
-
-static void draw(struct tui *t, uint64_t now_ns)
-{
-    struct canvas *c = &t->canvas;
-    struct render *render = t->work.session->render;
-    bool is_running = t->work.progress.state == RENDER_RUNNING;
-    bool shows = !work_awaits_picture(&t->work) && !t->is_settled &&
-                 now_ns >= t->frame_ns;
-    enum canvas_result result;
-
-    show_messages(t, now_ns);
-    if (shows_gauge(t) && now_ns >= gauge_next_ns(&t->gauge, &t->work))
-        gauge_draw(&t->gauge, &t->work, c, now_ns);
-    if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
-        return;
-    result =
-        canvas_draw(c, shows ? render_film(render) : NULL, render_draft(render),
-                    inside_develop(&t->inside), frame_step(t));
-    if (t->inside.has_news)
-        t->status_ns = 0;
-    t->inside.has_news = false;
-    if (result == CANVAS_GONE) {
-        lose_terminal(t);
-    } else if (shows) {
-        uint64_t took_ns = clock_ns() - now_ns;
-
-        t->is_settled = result == CANVAS_DONE && !is_running;
-        t->frame_ns =
-            result == CANVAS_MORE ? 0 : now_ns + frame_interval(t, took_ns);
     }
 }
 
@@ -612,30 +286,8 @@ static uint64_t input_deadline_ns(const struct tui *t)
 /* When there is something to do if nothing happens. */
 static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
 {
-    uint64_t wake = earlier(pilot_next_ns(&t->pilot),
-                            earlier(input_deadline_ns(t),
-                                    pace_deadline_ns(&t->canvas.pace)));
-
-    wake = earlier(wake, t->work.files_ns);
-    if (work_awaits_picture(&t->work)) {
-        /* looked for often at first, seldom while a tree is built */
-        uint64_t waited_ns = now_ns - t->work.restarted_ns;
-        uint64_t pause_ns = waited_ns / 8;
-
-        pause_ns = pause_ns < MS_NS / 2 ? MS_NS / 2 : pause_ns;
-        wake = earlier(wake, now_ns + earlier(pause_ns, 20 * MS_NS));
-    } else if (t->work.must_restart) {
-        wake = now_ns;
-    } else if (!t->is_settled && pace_may_send(&t->canvas.pace)) {
-        wake = earlier(wake, t->frame_ns);
-    }
-    if (t->work.progress.state == RENDER_RUNNING || t->status_ns == 0)
-        wake = earlier(wake, t->status_ns);
-    if (shows_gauge(t))
-        wake = earlier(wake, gauge_next_ns(&t->gauge, &t->work));
-    if (t->work.message.until_ns != 0)
-        wake = earlier(wake, t->work.message.until_ns);
-    return wake;
+    return earlier(stage_next_ns(&t->stage, now_ns),
+                   earlier(pilot_next_ns(&t->pilot), input_deadline_ns(t)));
 }
 
 static void empty_events(int fd)
@@ -652,9 +304,7 @@ static void take_reload(struct tui *t)
     if (!work_end_reload(&t->work))
         return;
     pilot_renew(&t->pilot);
-    inside_renew(&t->inside);
-    panel_renew(&t->panel);
-    panel_draw(&t->panel);
+    stage_renew(&t->stage);
 }
 
 static void take_events(struct tui *t, struct pollfd fds[FDS])
@@ -679,7 +329,7 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);
-    pace_tick(&t->canvas.pace, now_ns);
+    pace_tick(&t->stage.canvas.pace, now_ns);
 }
 
 static void wait_for_events(struct tui *t)
@@ -706,23 +356,14 @@ static void wait_for_events(struct tui *t)
     take_events(t, fds);
 }
 
-/* A restart changes the picture, but the status line only in its time: while
- * the camera moves there are 60 a second. */
-static void look_at_work(struct tui *t)
+/* The terminal takes nothing any more: why? */
+static void lose_terminal(struct tui *t)
 {
-    const struct film *film = film_of(t);
-    uint64_t before_ns = t->work.restarted_ns;
-
-    work_look(&t->work);
-    if (film->width != t->width_px || film->height != t->height_px)
-        layout(t);
-    if (t->work.restarted_ns != before_ns) {
-        t->is_settled = false;
-        t->frame_ns = 0;
-    }
-    if (t->work.has_changed)
-        refresh_soon(t);
-    t->work.has_changed = false;
+    take_signals(t);
+    if (t->is_ending)
+        return;
+    t->is_gone = true;
+    end(t, 128 + SIGHUP);
 }
 
 static void loop(struct tui *t)
@@ -731,22 +372,12 @@ static void loop(struct tui *t)
         uint64_t now_ns = clock_ns();
 
         pilot_step(&t->pilot, now_ns);
-        inside_step(&t->inside);
-        look_at_work(t);
-        draw(t, now_ns);
+        stage_look(&t->stage);
+        if (!stage_draw(&t->stage, now_ns))
+            lose_terminal(t);
         if (!t->is_ending)
             wait_for_events(t);
     }
-}
-
-static bool open_screen(struct tui *t, struct error *err)
-{
-    if (!term_open(err))
-        return false;
-    canvas_init(&t->canvas, t->work.session->options);
-    inside_init(&t->inside, &t->work, &t->canvas, &t->pilot.cursor);
-    layout(t);
-    return true;
 }
 
 /* A line that is lost is nobody's wish: the picture is kept, whatever it is.
@@ -764,12 +395,10 @@ static void close_screen(struct tui *t)
     if (t->status == 128 + SIGHUP || t->status == 128 + SIGTERM)
         term_ignore_ends(); /* shells send SIGHUP again */
     if (!t->is_gone)
-        canvas_drain(&t->canvas, &t->input);
+        canvas_drain(&t->stage.canvas, &t->input);
     /* else it might put our signals back when they are no longer ours */
     machines_abandon_device(&t->work.session->machines);
     term_close(t->is_gone);
-    canvas_free(&t->canvas);
-    gauge_free(&t->gauge);
     render_halt(t->work.session->render);
     work_finish_saving(&t->work);
     keep_picture(t);
@@ -783,20 +412,20 @@ bool tui_run(struct session *s, int *status, struct error *err)
 {
     const char *stats_path = s->options->stats_path;
     struct tui t = {.has_mouse = true};
-    struct fit fit = canvas_expect(s->options, s->crop.width, s->crop.height);
     bool ok;
 
-    set_draft(s, &fit);
+    stage_expect(s);
     if (stats_path && !stats_check(stats_path, err))
         return false;
     if (!work_init(&t.work, s, err))
         return false;
-    pilot_init(&t.pilot, &t.work, &t.canvas);
-    panel_init(&t.panel, &t.work, &t.canvas);
-    ok = open_screen(&t, err);
+    pilot_init(&t.pilot, &t.work, &t.stage.canvas);
+    stage_init(&t.stage, &t.work, &t.pilot);
+    ok = term_open(err);
     if (ok) {
+        stage_open(&t.stage);
         if (s->notice[0] != '\0')
-            work_say_long(&t.work, s->notice);
+            work_say_long(&t.work, "%s", s->notice);
         s->notice[0] = '\0';
         /* not before: it puts back the signals that it has found */
         if (s->options->backend != BACKEND_CPU)
@@ -807,8 +436,7 @@ bool tui_run(struct session *s, int *status, struct error *err)
         session_look(s);
         ok = !stats_path || stats_write(s, stats_path, err);
     }
-    inside_free(&t.inside);
-    panel_free(&t.panel);
+    stage_free(&t.stage);
     pilot_free(&t.pilot);
     work_free(&t.work);
     return ok;

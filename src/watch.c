@@ -5,48 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/inotify.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "glim/file.h"
 #include "glim/util.h"
 
 /* A file is complete, or has this name now; `touch` and chmod too, for a file
  * may become readable. */
 #define EVENTS (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_ATTRIB)
 
-/* What tells a file from the same one later. */
-struct identity {
-    bool exists;
-    dev_t device;
-    ino_t inode;
-    off_t size_bytes;
-    struct timespec modified;
-};
-
 struct watched {
     char *path;
-    struct identity known;
+    struct file_identity known;
     bool is_listed; /* since watch_begin() */
 };
-
-static struct identity identify(const char *path)
-{
-    struct stat st;
-
-    if (stat(path, &st) != 0)
-        return (struct identity){.exists = false};
-    return (struct identity){true, st.st_dev, st.st_ino, st.st_size,
-                             st.st_mtim};
-}
-
-static bool is_same(const struct identity *a, const struct identity *b)
-{
-    return a->exists == b->exists && a->device == b->device &&
-           a->inode == b->inode && a->size_bytes == b->size_bytes &&
-           a->modified.tv_sec == b->modified.tv_sec &&
-           a->modified.tv_nsec == b->modified.tv_nsec;
-}
 
 void watch_init(struct watch *w)
 {
@@ -59,20 +30,29 @@ void watch_begin(struct watch *w)
         w->files[i].is_listed = false;
 }
 
-void watch_add(struct watch *w, const char *path)
+static struct watched *find(struct watch *w, const char *path)
 {
     for (size_t i = 0; i < w->file_count; i++) {
-        if (strcmp(w->files[i].path, path) == 0) {
-            w->files[i].is_listed = true;
-            return;
-        }
+        if (strcmp(w->files[i].path, path) == 0)
+            return &w->files[i];
+    }
+    return NULL;
+}
+
+void watch_add(struct watch *w, const char *path)
+{
+    struct watched *known = find(w, path);
+
+    if (known) {
+        known->is_listed = true;
+        return;
     }
     if (w->file_count == w->capacity) {
         w->capacity = w->capacity == 0 ? 8 : 2 * w->capacity;
         w->files = xrealloc(w->files, w->capacity * sizeof w->files[0]);
     }
     w->files[w->file_count++] =
-        (struct watched){xstrdup(path), identify(path), true};
+        (struct watched){xstrdup(path), file_identify(path), true};
 }
 
 static void watch_folder_of(int fd, const char *path)
@@ -129,24 +109,43 @@ bool watch_has_changed(const struct watch *w)
     bool has_changed = false;
 
     for (size_t i = 0; i < w->file_count; i++) {
-        struct identity now = identify(w->files[i].path);
+        struct file_identity now = file_identify(w->files[i].path);
 
         if (w->files[i].known.exists && !now.exists)
             return false;
-        has_changed |= !is_same(&now, &w->files[i].known);
+        has_changed |= !file_is_same(&now, &w->files[i].known);
     }
     return has_changed;
 }
 
-void watch_settle(struct watch *w, const char *path)
+void watch_settle(struct watch *w)
 {
     for (size_t i = 0; i < w->file_count; i++) {
         struct watched *f = &w->files[i];
-        struct identity now = identify(f->path);
+        struct file_identity now = file_identify(f->path);
 
-        if (now.exists && (!path || strcmp(path, f->path) == 0))
+        if (now.exists)
             f->known = now;
     }
+}
+
+void watch_wrote(struct watch *w, const char *path,
+                 const struct file_identity *identity)
+{
+    struct watched *f = find(w, path);
+
+    if (f)
+        f->known = *identity;
+}
+
+void watch_replaced(struct watch *w, const char *path,
+                    const struct file_change *change)
+{
+    struct watched *f = find(w, path);
+
+    if (f &&
+        (!change->before.exists || file_is_same(&f->known, &change->before)))
+        f->known = change->after;
 }
 
 void watch_free(struct watch *w)

@@ -2,13 +2,10 @@
 #include "glim/work.h"
 
 #include <inttypes.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "glim/file.h"
-#include "glim/picture.h"
-#include "glim/xdg.h"
 
 #define MESSAGE_NS UINT64_C(4000000000)
 #define LONG_NS    UINT64_C(10000000000)
@@ -23,35 +20,66 @@
 /* How often files are looked at where the system does not watch them. */
 #define LOOK_NS UINT64_C(1000000000)
 
-static void say(struct work *w, const char *text, uint64_t until_ns)
+static void __attribute__((format(printf, 3, 0)))
+say(struct work *w, uint64_t until_ns, const char *format, va_list values)
 {
-    snprintf(w->message.text, sizeof w->message.text, "%s", text);
+    vsnprintf(w->message.text, sizeof w->message.text, format, values);
     w->message.is_error = false;
     w->message.until_ns = until_ns;
     w->has_changed = true;
 }
 
-void work_say(struct work *w, const char *text)
+void work_say(struct work *w, const char *format, ...)
 {
-    say(w, text, clock_ns() + MESSAGE_NS);
+    va_list values;
+
+    va_start(values, format);
+    say(w, clock_ns() + MESSAGE_NS, format, values);
+    va_end(values);
 }
 
-void work_say_long(struct work *w, const char *text)
+void work_say_long(struct work *w, const char *format, ...)
 {
-    say(w, text, clock_ns() + LONG_NS);
+    va_list values;
+
+    va_start(values, format);
+    say(w, clock_ns() + LONG_NS, format, values);
+    va_end(values);
 }
 
 void work_say_error(struct work *w, const char *text)
 {
-    say(w, text, UINT64_MAX);
+    snprintf(w->message.text, sizeof w->message.text, "%s", text);
     w->message.is_error = true;
+    w->message.until_ns = UINT64_MAX;
+    w->has_changed = true;
 }
 
-static void add_result(struct work *w, const char *text)
+void work_be_silent(struct work *w)
+{
+    w->message = (struct message){0};
+    w->has_changed = true;
+}
+
+struct keys_name work_key(const struct work *w, enum action action)
+{
+    return keys_first_name(&w->session->options->keys, action);
+}
+
+void work_add_result(struct work *w, const char *text)
 {
     w->results = xrealloc(w->results,
                           ((size_t)w->result_count + 1) * sizeof w->results[0]);
     w->results[w->result_count++] = xstrdup(text);
+}
+
+static void watch_files(struct work *w)
+{
+    watch_begin(&w->watch);
+    session_watch(w->session, &w->watch);
+    watch_end(&w->watch);
+    w->watched_sky = w->session->sky;
+    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
 static void restart(struct work *w)
@@ -69,17 +97,11 @@ static void restart(struct work *w)
     w->is_halted = false;
     w->saved_samples = 0;
     w->saving_samples = 0; /* these are of the picture before */
+    if (w->session->sky != w->watched_sky)
+        watch_files(w); /* of another image from now on */
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
     w->progress.first_picture_ns = 0; /* for the next look to find */
-}
-
-static void watch_files(struct work *w)
-{
-    watch_begin(&w->watch);
-    session_watch(w->session, &w->watch);
-    watch_end(&w->watch);
-    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
 bool work_init(struct work *w, struct session *session, struct error *err)
@@ -174,7 +196,8 @@ bool work_has_unsaved_edit(const struct work *w)
 bool work_may_move(struct work *w)
 {
     if (!w->is_live)
-        work_say(w, "the camera moves in live mode: space goes there");
+        work_say(w, "the camera moves in live mode: %s goes there",
+                 work_key(w, ACTION_MODE).text);
     return w->is_live;
 }
 
@@ -190,19 +213,21 @@ void work_set_live(struct work *w, bool is_live)
         return;
     }
     render_halt(w->session->render);
-    work_say(w, "normal mode: Enter starts the render, space goes back");
+    work_say(w, "normal mode: %s starts the render, %s goes back",
+             work_key(w, ACTION_START).text, work_key(w, ACTION_MODE).text);
 }
 
 static void start_normal(struct work *w)
 {
     w->is_started = true;
-    w->message.until_ns = 0;
+    work_be_silent(w);
     restart(w);
 }
 
 static void say_done(struct work *w)
 {
-    work_say(w, "the render is done: p saves it, space goes to live mode");
+    work_say(w, "the render is done: %s saves it, %s goes to live mode",
+             work_key(w, ACTION_SAVE).text, work_key(w, ACTION_MODE).text);
 }
 
 void work_start_or_halt(struct work *w)
@@ -243,7 +268,8 @@ void work_restart(struct work *w)
     if (w->is_live || w->is_started)
         restart(w);
     else
-        work_say(w, "nothing is rendered yet: Enter starts");
+        work_say(w, "nothing is rendered yet: %s starts",
+                 work_key(w, ACTION_START).text);
 }
 
 /* ---- backends ---- */
@@ -251,17 +277,13 @@ void work_restart(struct work *w)
 static void use(struct work *w, struct backend *backend)
 {
     struct machines *m = &w->session->machines;
-    char *text;
 
     render_use(w->session->render, backend);
     restart(w);
     if (backend == m->device)
-        text =
-            xformat("%s renders; self-test: %s", backend->device, m->verdict);
+        work_say(w, "%s renders; self-test: %s", backend->device, m->verdict);
     else
-        text = xstrdup("the CPU renders");
-    work_say(w, text);
-    free(text);
+        work_say(w, "the CPU renders");
 }
 
 void work_begin_device(struct work *w)
@@ -277,7 +299,8 @@ void work_switch_backend(struct work *w)
     struct machines *m = &w->session->machines;
 
     if (!w->is_live) {
-        work_say(w, "the backend changes in live mode: space goes there");
+        work_say(w, "the backend changes in live mode: %s goes there",
+                 work_key(w, ACTION_MODE).text);
     } else if (session_uses_device(w->session)) {
         use(w, m->cpu);
     } else if (m->device != NULL) {
@@ -301,14 +324,15 @@ void work_end_device(struct work *w)
         if (w->is_live)
             use(w, m->device);
         else
-            work_say(w, "OpenCL: the device is up: b takes it in live mode");
+            work_say(w, "OpenCL: the device is up: %s takes it in live mode",
+                     work_key(w, ACTION_BACKEND).text);
     } else if (w->session->options->backend == BACKEND_AUTO) {
-        work_say(w, err.text);
+        work_say(w, "%s", err.text);
     } else {
         work_say_error(w, err.text);
         if (log != NULL && *log != '\0')
-            add_result(w, log);
-        add_result(w, err.text);
+            work_add_result(w, log);
+        work_add_result(w, err.text);
     }
     free(log);
 }
@@ -334,7 +358,8 @@ void work_reload(struct work *w)
     struct error err;
 
     if (!w->is_live) {
-        work_say(w, "files are loaded in live mode: space goes there");
+        work_say(w, "files are loaded in live mode: %s goes there",
+                 work_key(w, ACTION_MODE).text);
         return;
     }
     if (work_has_unsaved_edit(w)) {
@@ -342,7 +367,7 @@ void work_reload(struct work *w)
                     "in the panel ^S saves, u undoes");
         return;
     }
-    watch_settle(&w->watch, NULL); /* what changes from here on is new again */
+    watch_settle(&w->watch); /* what changes from here on is new again */
     w->has_changed_files = false;
     if (reload_begin(&w->reload, &err))
         work_say_long(w, "loading ...");
@@ -355,17 +380,14 @@ static void say_loaded(struct work *w)
 {
     const struct report *r = &w->session->report;
     uint64_t count = 0;
-    char *text;
 
     for (int i = 0; i < r->entry_count; i++)
         count += r->entries[i].count;
     if (count > 0)
-        text = xformat("loaded, %" PRIu64 " warning%s: %s", count,
-                       count == 1 ? "" : "s", r->entries[0].text);
+        work_say(w, "loaded, %" PRIu64 " warning%s: %s", count,
+                 count == 1 ? "" : "s", r->entries[0].text);
     else
-        text = xformat("loaded %s", w->session->scene.path);
-    work_say(w, text);
-    free(text);
+        work_say(w, "loaded %s", w->session->scene.path);
 }
 
 bool work_end_reload(struct work *w)
@@ -386,188 +408,6 @@ bool work_end_reload(struct work *w)
     }
     session_close(&fresh);
     return ok;
-}
-
-/* The scene's name without folder and ending. */
-static char *scene_name(const struct work *w)
-{
-    char *stem = path_stem(w->session->scene.path);
-    const char *slash = strrchr(stem, '/');
-    char *name = xstrdup(slash ? slash + 1 : stem);
-
-    free(stem);
-    return name;
-}
-
-void work_save_picture(struct work *w, const char *ending)
-{
-    struct render_progress now = render_progress(w->session->render);
-    struct error err;
-    char *stem;
-
-    if (now.samples == 0) {
-        work_say(w, "nothing to save yet");
-        return;
-    }
-    stem = scene_name(w);
-    if (saver_begin(&w->saver, render_film(w->session->render),
-                    session_develop(w->session), stem, ending, &err)) {
-        w->saving_samples = now.samples;
-        snprintf(w->saving_spp, sizeof w->saving_spp, "%" PRIu64 " spp",
-                 now.spp_done);
-        work_say_long(w, "saving ...");
-    } else {
-        work_say_error(w, err.text);
-    }
-    free(stem);
-}
-
-bool work_finish_saving(struct work *w)
-{
-    const struct film *film = render_film(w->session->render);
-    struct error err;
-    char *name, *text;
-
-    if (!w->saver.is_busy)
-        return true;
-    name = saver_finish(&w->saver, &err);
-    if (!name) {
-        work_say_error(w, err.text);
-        add_result(w, err.text);
-        return false;
-    }
-    text = xformat("saved %s %dx%d, %s", name, film->width, film->height,
-                   w->saving_spp);
-    work_say(w, text);
-    add_result(w, text);
-    w->saved_samples = w->saving_samples;
-    free(text);
-    free(name);
-    return true;
-}
-
-void work_save_text(struct work *w, const struct text_style *style)
-{
-    struct render_progress now = render_progress(w->session->render);
-    struct error err;
-    char *stem, *text, *name = NULL;
-    size_t size_bytes;
-
-    if (now.samples == 0) {
-        work_say(w, "nothing to save yet");
-        return;
-    }
-    stem = scene_name(w);
-    if (text_of_film(render_film(w->session->render),
-                     session_develop(w->session), style, &text, &size_bytes,
-                     &err)) {
-        name = file_write_numbered(stem, "ans", text, size_bytes, &err);
-        free(text);
-    }
-    free(stem);
-    if (!name) {
-        work_say_error(w, err.text);
-        return;
-    }
-    text = xformat("saved %s, text of %dx%d characters", name, style->cols,
-                   style->rows);
-    work_say(w, text);
-    add_result(w, text);
-    free(text);
-    free(name);
-}
-
-void work_save_view(struct work *w)
-{
-    struct session *s = w->session;
-    struct error err;
-    char *text;
-
-    s->view.has_camera = true; /* also one that was placed by the program */
-    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
-    if (!view_write(&s->view, s->view_path, &err)) {
-        work_say_error(w, err.text);
-        return;
-    }
-    edit_saved_view(&s->edit);
-    view_copy(&s->filed, &s->view);
-    watch_settle(&w->watch, s->view_path);
-    text = xformat("wrote the view to %s", s->view_path);
-    work_say(w, text);
-    add_result(w, text);
-    free(text);
-}
-
-bool work_save_edit(struct work *w)
-{
-    bool had_changed = watch_has_changed(&w->watch);
-    struct error err;
-    char *what;
-    bool ok = session_save_edit(w->session, &what, &err);
-
-    if (!had_changed)
-        watch_settle(&w->watch, NULL); /* what has changed was just written */
-    if (!ok) {
-        work_say_error(w, err.text);
-        return false;
-    }
-    w->files_ns = clock_ns(); /* what has changed may be loaded now */
-    work_say(w, what);
-    add_result(w, what);
-    free(what);
-    return true;
-}
-
-/* NULL if it cannot be written there. */
-static char *keep_as(struct work *w, const char *stem, struct error *err)
-{
-    char *kept = xformat("%s-kept", stem);
-    char *name =
-        picture_write_numbered(render_film(w->session->render),
-                               session_develop(w->session), kept, "png", err);
-
-    free(kept);
-    return name;
-}
-
-static char *keep_beside(struct work *w, struct error *err)
-{
-    char *stem = path_stem(w->session->scene.path);
-    char *name = keep_as(w, stem, err);
-
-    free(stem);
-    return name;
-}
-
-static char *keep_in_state(struct work *w, struct error *err)
-{
-    char *scene = scene_name(w);
-    char *stem = xdg_state_path(scene);
-    char *name = stem ? keep_as(w, stem, err) : NULL;
-
-    free(stem);
-    free(scene);
-    return name;
-}
-
-void work_keep(struct work *w)
-{
-    struct error err;
-    char *name, *text;
-
-    render_halt(w->session->render);
-    w->progress = render_progress(w->session->render);
-    if (w->progress.samples <= w->saved_samples)
-        return;
-    name = keep_beside(w, &err);
-    if (!name)
-        name = keep_in_state(w, &err);
-    text = name
-               ? xformat("kept %s, %" PRIu64 " spp", name, w->progress.spp_done)
-               : xstrdup(err.text);
-    add_result(w, text);
-    free(text);
-    free(name);
 }
 
 void work_free(struct work *w)

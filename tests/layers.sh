@@ -62,16 +62,16 @@ function check_include(name, is_system,    kernel)
     if (is_system) {
         if (kernel && stem != "dialect")
             fault("kernels include libc only in dialect.h: <" name ">")
-        if (name ~ /curses|^term(info|cap)?\.h$/ && stem !~ /^(tui.*|term)$/)
-            fault("only tui and term include <" name ">")
+        if (name ~ /curses|^term(info|cap)?\.h$/ && stem !~ /^(term|windows)$/)
+            fault("only term and windows include <" name ">")
         if (name ~ /^CL\// && stem !~ /^(cl_.*|backend_cl)$/)
             fault("only cl_* and backend_cl include <" name ">")
         return
     }
     if (kernel && name !~ /^kernels\//)
         fault("kernels include only kernels: \"" name "\"")
-    if (name == "kernels/path.h" && stem !~ /^(paths|trail)$/ && !kernel)
-        fault("only paths.c and trail.c include kernels/path.h")
+    if (name == "kernels/path.h" && stem !~ /^(paths|trail|first_hits)$/ && !kernel)
+        fault("only paths.c, trail.c and first_hits.c include kernels/path.h")
     if (name ~ /^(glim|kernels)\// && row_of(name) > row_of(path) &&
         row_of(path) >= 0)
         fault("row " row_of(path) " includes \"" name "\" of row " \

@@ -2,8 +2,7 @@
 /*
  * canvas.h - the picture, the status line and the help window on the terminal
  *
- * Knows where they are, what they cover and what the terminal can show; writes
- * frames as the pace allows.
+ * Knows where they are and what they cover; writes frames as the pace allows.
  *
  * Units:     terminal cells
  * Ownership: canvas_free() frees
@@ -14,14 +13,12 @@
 #define GLIM_CANVAS_H
 
 #include "glim/ansi.h"
-#include "glim/graphics.h"
-#include "glim/input.h"
-#include "glim/options.h"
+#include "glim/display.h"
 #include "glim/pace.h"
 #include "glim/status.h"
 #include "glim/swatches.h"
-#include "glim/term.h"
 #include "glim/text.h"
+#include "glim/windows.h"
 
 /* Draws into frames before they are shown. */
 struct painter {
@@ -33,17 +30,7 @@ struct painter {
 struct canvas {
     struct painter painter; /* none: films are shown as they are */
     struct pace pace;
-    enum palette palette;
-    bool palette_is_final;      /* no answer of the terminal changes it */
-    enum glyph_mode glyph_mode; /* what is wanted */
-    enum glyphs glyphs;
-    bool has_unicode;          /* characters beyond ASCII are seen as such */
-    bool unicode_is_final;     /* no answer of the terminal changes it */
-    bool has_sixel, has_kitty; /* the terminal has said so */
-    int sixel_colors;          /* 0: it has not said how many */
-    int cell_width_px, cell_height_px; /* 0: it has not said */
-    double cell_aspect;
-    bool aspect_is_final;
+    struct display display;
     bool has_status_row; /* else the line shows only what is urgent */
     bool is_too_small;
     bool has_all_answers; /* to what was asked at the start */
@@ -78,23 +65,16 @@ void canvas_init(struct canvas *c, const struct options *options);
 bool canvas_layout(struct canvas *c, int width_px, int height_px,
                    struct error *err);
 
-/* Takes an answer of the terminal. True if the layout must be done anew. */
+/* Takes an answer of the terminal. True if the layout must be done anew, as it
+ * must after a change of c->display. */
 bool canvas_answer(struct canvas *c, const struct event *event);
-
-/* The next palette, from most to least and round; the layout must be done
- * anew. */
-void canvas_next_palette(struct canvas *c);
-
-/* The next kind of glyphs that the terminal has, and round; the layout must be
- * done anew. */
-void canvas_next_glyphs(struct canvas *c);
 
 /* The text of the last row; NULL: none, the picture shows there. */
 void canvas_status(struct canvas *c, const char *text);
 
 /* Shows lines in the panel that the layout has left room for; c->swatches
  * stand left of them. */
-void canvas_show_panel(struct canvas *c, const struct term_line *panel_lines,
+void canvas_show_panel(struct canvas *c, const struct window_line *panel_lines,
                        int line_count);
 
 void canvas_open_window(struct canvas *c, const char *title,

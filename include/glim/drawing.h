@@ -18,6 +18,10 @@ void drawing_dot(struct frame *frame, double x, double y, uint32_t rgb);
 void drawing_line(struct frame *frame, double x0, double y0, double x1,
                   double y1, uint32_t rgb);
 
+/* The outline between two corners. */
+void drawing_box(struct frame *frame, double x0, double y0, double x1,
+                 double y1, uint32_t rgb);
+
 /* Between black at 0 and the colour at 1. */
 uint32_t drawing_dim(uint32_t rgb, double brightness);
 

@@ -10,6 +10,9 @@
 #ifndef GLIM_FILE_H
 #define GLIM_FILE_H
 
+#include <sys/types.h>
+#include <time.h>
+
 #include "glim/util.h"
 
 /* No greater file is read. */
@@ -19,6 +22,23 @@
  * is a NUL that is not counted. */
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err);
+
+/* What tells a file from the same one later. */
+struct file_identity {
+    bool exists;
+    dev_t device;
+    ino_t inode;
+    off_t size_bytes;
+    struct timespec modified;
+};
+
+struct file_identity file_identify(const char *path);
+bool file_is_same(const struct file_identity *a, const struct file_identity *b);
+
+/* A file that was read, changed and written again. */
+struct file_change {
+    struct file_identity before, after;
+};
 
 /* Fails, early, for what file_write() could not write: a folder, a device, no
  * such folder, no permission. Changes nothing. */
@@ -30,6 +50,12 @@ bool file_check(const char *path, struct error *err);
  * set. */
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
+
+/* As file_write(), but fails if the file is no longer what change->before says:
+ * what someone else has written meanwhile is not lost. change->after is the
+ * new one then. */
+bool file_replace(const char *path, const void *data, size_t size_bytes,
+                  struct file_change *change, struct error *err);
 
 /* Writes STEM.ENDING, or STEM-2.ENDING, STEM-3.ENDING, ... : the first name
  * that is free; never replaces a file. The name is for free(); NULL: failed. */

@@ -32,6 +32,7 @@ struct film {
     int width, height;
     struct sum *sums; /* 3 a pixel; guarded by locks[y % FILM_LOCKS] */
     uint64_t *counts; /* samples of a pixel; guarded likewise */
+    bool *has_row;    /* whether a row has any; guarded likewise */
     pthread_mutex_t locks[FILM_LOCKS];
     atomic_uint_least64_t samples; /* of all pixels */
     atomic_uint_least64_t rays;

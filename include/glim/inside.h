@@ -3,9 +3,7 @@
  * inside.h - pictures of what happens inside: other views than light, and
  * drawings over any of them
  *
- * A view with samples of its own (preview, normals, uvs, depth, materials) is
- * rendered as a draft; the cost of rays and the samples of pixels are counted
- * here. Boxes of the tree, scattered directions and a path are drawn over the
+ * Boxes of the tree, scattered directions and a path are drawn over the
  * picture; those two stay where they were picked while the camera moves.
  *
  * Units:     frames' pixels
@@ -17,24 +15,9 @@
 #ifndef GLIM_INSIDE_H
 #define GLIM_INSIDE_H
 
-#include "glim/bvh.h"
-#include "glim/cost.h"
 #include "glim/cursor.h"
-#include "glim/false_color.h"
+#include "glim/show.h"
 #include "glim/trail.h"
-
-enum inside_view {
-    INSIDE_LIGHT,
-    INSIDE_PREVIEW,
-    INSIDE_NORMALS,
-    INSIDE_FACES,
-    INSIDE_UVS,
-    INSIDE_DEPTH,
-    INSIDE_MATERIALS,
-    INSIDE_COST,
-    INSIDE_SAMPLES,
-    INSIDE_VIEWS
-};
 
 enum inside_drawing {
     INSIDE_NOTHING,
@@ -48,21 +31,8 @@ struct inside {
     struct work *work;
     struct canvas *canvas;
     struct cursor *cursor;
-    enum inside_view view;
+    struct show show;
     enum inside_drawing drawing;
-    char legend[256]; /* of the view; "": of light there is none */
-    bool has_news;    /* in the legend; the screen clears it */
-
-    struct bvh bvh; /* built when it is first wanted */
-    bool has_bvh;
-    struct pool *pool; /* likewise */
-
-    float *numbers; /* of the frame that was painted last, or of its film */
-    size_t number_capacity;
-    struct cost *costs; /* of cost_camera and so many pixels */
-    struct camera cost_camera;
-    int cost_width, cost_height;
-
     uint32_t level; /* of boxes */
     /* where lobes and path begin: a pixel of a picture that was */
     struct camera camera;
@@ -81,11 +51,9 @@ struct inside {
 void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
                  struct cursor *cursor);
 
-/* Does what the action says of views and drawings. False if it is not one. */
+/* Does what the action says of views and drawings, and saves what is shown.
+ * False if it is not one. */
 bool inside_act(struct inside *in, enum action action);
-
-/* How films are to be shown: colours of a preview are as they are. */
-struct develop inside_develop(const struct inside *in);
 
 /* Nothing is drawn over the picture any more. */
 void inside_stop_drawing(struct inside *in);

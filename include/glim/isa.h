@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
  * isa.h - which of the CPU's samples run: those for the best instructions that
- * the processor has, or those that the person names
+ * the processor has, or those that the person names, without what the scene
+ * does not need
  *
  * Units:     none
  * Ownership: static
@@ -13,13 +14,17 @@
 
 #include "glim/paths.h"
 
-/* The i-th that this processor can run, the fastest first; NULL behind the
- * last, which is paths_plain. */
+/* For the i-th set of instructions of this processor, the fastest first, with
+ * all features; NULL behind the last. */
 const struct paths *isa_at(int i);
 
 const struct paths *isa_best(void);
 
 /* NULL if there is none of this name, or the processor cannot run it. */
 const struct paths *isa_named(const char *name, struct error *err);
+
+/* The smallest build for the instructions of `paths` that does all features of
+ * a world; paths itself if there is none. */
+const struct paths *isa_fit(const struct paths *paths, uint32_t features);
 
 #endif

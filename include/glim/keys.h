@@ -2,8 +2,9 @@
 /*
  * keys.h - which key does what, and the help that says so
  *
- * The one table is in keys.c; the configuration file may give actions other
- * keys. The manual and the README list the lines of the help: a test compares.
+ * The tables are in keys.c; the configuration file may give actions other keys,
+ * but for those of the panel. The manual and the README list the lines of the
+ * help: a test compares.
  *
  * Units:     keys are bytes or enum input_key; 0 is none
  * Ownership: strings live as long as the program
@@ -83,6 +84,29 @@ enum action {
     ACTIONS
 };
 
+/* What keys do in the panel, where they are the same for everybody. */
+enum panel_action {
+    PANEL_NONE,
+    PANEL_UP,
+    PANEL_DOWN,
+    PANEL_LESS,
+    PANEL_MORE,
+    PANEL_PAGE_UP,
+    PANEL_PAGE_DOWN,
+    PANEL_ENTER,
+    PANEL_MUCH_LESS,
+    PANEL_MUCH_MORE,
+    PANEL_TYPE,
+    PANEL_HSV,
+    PANEL_NEXT_PAGE,
+    PANEL_COPY,
+    PANEL_UNDO,
+    PANEL_REDO,
+    PANEL_COMPARE,
+    PANEL_SAVE,
+    PANEL_LEAVE
+};
+
 /* Keys that an action can have. */
 #define KEYS_MAX 4
 
@@ -111,13 +135,14 @@ const char *keys_action_name(enum action action);
  * word such as PgUp. 0: there is none. */
 int keys_find_key(const char *name, size_t length);
 
-#define KEYS_NAME_BYTES 8
+struct keys_name {
+    char text[8];
+};
 
-void keys_key_name(char name[KEYS_NAME_BYTES], int key);
+struct keys_name keys_key_name(int key);
 
 /* The name of an action's first key, or "no key". */
-void keys_first_name(const struct keys *k, enum action action,
-                     char name[KEYS_NAME_BYTES]);
+struct keys_name keys_first_name(const struct keys *k, enum action action);
 
 struct keys_help {
     char keys[32];
@@ -126,5 +151,9 @@ struct keys_help {
 
 /* Line `line` of the help, from 0; false behind the last. */
 bool keys_help(const struct keys *k, int line, struct keys_help *help);
+
+/* The same for the panel. */
+enum panel_action keys_panel_action(int key);
+bool keys_panel_help(int line, struct keys_help *help);
 
 #endif

@@ -4,13 +4,13 @@
  * light
  *
  * A knob has a name, a text, perhaps a place on a scale and a colour; it is
- * turned by steps or set by what was typed. All goes through the edit's
+ * turned by steps, or set by knob_text.h. All goes through the edit's
  * history. What values mean for a material is material_from_source()'s to say.
  *
  * Units:     those of MTL and view files
  * Ownership: none
  * Threads:   one thread at a time
- * Errors:    a typed text that does not fit: what was expected
+ * Errors:    none
  */
 #ifndef GLIM_KNOB_H
 #define GLIM_KNOB_H
@@ -26,8 +26,28 @@ struct knob_target {
     bool by_hsv;    /* colours are turned by hue, saturation, value */
 };
 
+/* What a knob turns. */
+enum knob_id {
+    KNOB_KIND,
+    KNOB_COLOR,
+    KNOB_CHANNEL, /* and the two after it */
+    KNOB_ROUGHNESS = KNOB_CHANNEL + 3,
+    KNOB_COAT,
+    KNOB_IOR,
+    KNOB_GLOW,
+    KNOB_GLOW_COLOR,
+    KNOB_COVER,
+    KNOB_ASSIGNED,
+    KNOB_SKY_IMAGE,
+    KNOB_SKY_STRENGTH,
+    KNOB_SKY_ROTATION,
+    KNOB_EXPOSURE,
+    KNOB_TONE,
+    KNOB_MAP /* and the others after it */
+};
+
 struct knob {
-    int id;
+    int id; /* enum knob_id */
     const char *label;
     char text[64];
     double place; /* on a scale from 0 to 1; below 0: there is none */
@@ -45,8 +65,5 @@ int knobs_list(const struct edit *edit, const struct scene *scene,
 /* Turns a knob by some steps; what has two states goes to the other. */
 void knob_turn(struct edit *edit, const struct knob_target *target, int id,
                int steps);
-
-bool knob_type(struct edit *edit, const struct knob_target *target, int id,
-               const char *text, struct error *err);
 
 #endif

@@ -10,7 +10,8 @@
  * Ownership: borrows the text, which need not end in NUL; lex_rest() returns
  *            memory for free()
  * Threads:   none
- * Errors:    by the result; the caller knows what it wanted
+ * Errors:    by the result; the caller knows what it wanted. Of lex_file() a
+ *            file that cannot be read
  */
 #ifndef GLIM_LEX_H
 #define GLIM_LEX_H
@@ -18,6 +19,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "glim/util.h"
 
 struct lex {
     const char *p, *end;
@@ -31,6 +34,13 @@ struct word {
 
 /* Skips a UTF-8 byte order mark. */
 void lex_init(struct lex *lex, const char *text, size_t size_bytes);
+
+/* Reads the file and calls `take_line` at the beginning of each of its lines;
+ * what that leaves of a line is skipped. Ends with the first that fails. */
+bool lex_file(const char *path,
+              bool (*take_line)(void *context, struct lex *lex,
+                                struct error *err),
+              void *context, struct error *err);
 
 /* Moves over blanks and joined lines. */
 void lex_skip_blanks(struct lex *lex);

@@ -16,6 +16,7 @@
 #ifndef GLIM_MTL_SAVE_H
 #define GLIM_MTL_SAVE_H
 
+#include "glim/file.h"
 #include "glim/scene.h"
 
 struct mtl_change {
@@ -34,9 +35,10 @@ bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
                  size_t change_count, char **new_text, size_t *new_size_bytes,
                  struct error *err);
 
-/* Reads the file as it is now and replaces it atomically. */
+/* Reads the file as it is now and replaces it atomically. *change says what was
+ * replaced by what; what someone else writes at the same time is not. */
 bool mtl_save(const struct scene *scene, const char *path,
               const struct mtl_change *changes, size_t change_count,
-              struct error *err);
+              struct file_change *change, struct error *err);
 
 #endif

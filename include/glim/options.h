@@ -32,6 +32,20 @@ enum glyph_mode {
     GLYPH_KITTY
 };
 
+/* What a picture shows of a scene. */
+enum show_kind {
+    SHOW_LIGHT,
+    SHOW_PREVIEW,
+    SHOW_NORMALS,
+    SHOW_FACES,
+    SHOW_UVS,
+    SHOW_DEPTH,
+    SHOW_MATERIALS,
+    SHOW_COST,
+    SHOW_SAMPLES,
+    SHOW_KINDS
+};
+
 enum backend_choice {
     BACKEND_CPU,
     BACKEND_OPENCL,
@@ -51,6 +65,7 @@ struct options {
     bool has_max_bounces;
     uint32_t seed;
     bool batch;
+    enum show_kind show; /* in batch mode */
     bool up_is_z;
     bool has_crop;
     struct rect crop;
@@ -90,6 +105,9 @@ enum palette options_palette(enum color_mode mode);
 
 /* What the cells are made of; pixels have half blocks as the fall-back. */
 enum glyphs options_glyphs(enum glyph_mode mode);
+
+/* Names of enum show_kind, as far as files can show it, and NULL. */
+extern const char *const options_shows[];
 
 /* The text of --help. */
 extern const char options_help[];

@@ -32,9 +32,11 @@ struct pace {
     int outstanding;   /* requests without an answer */
     uint64_t asked_ns; /* when the last request went out */
     uint64_t first_asked_ns;
-    uint64_t rtt_min_ns; /* the quickest answer so far */
+    uint64_t rtt_min_ns;  /* the quickest answer so far, */
+    size_t rtt_min_bytes; /* to so many */
     size_t frame_bytes;
-    double rate; /* bytes a second; 0: not known */
+    double bytes, seconds; /* of late frames beyond that: smoothed */
+    double rate;           /* of them, bytes a second; 0: not known */
     size_t budget_bytes;
     bool first_frame_sent;
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * paths.h - the CPU's samples, compiled once for each set of instructions
+ * paths.h - the CPU's samples, compiled for sets of instructions and of
+ * features
  *
- * src/paths.c is built several times; all give the same bits. isa.h chooses.
+ * src/paths.c is built several times, as the Makefile says; all give the same
+ * bits. isa.h chooses.
  *
  * Units:     as kernels/path.h
  * Ownership: static
@@ -16,15 +18,12 @@
 #include "kernels/path_types.h"
 
 struct paths {
-    const char *name;
+    const char *name;  /* of the instructions */
+    uint32_t features; /* enum feature: those of worlds that it can do */
 
     /* path_samples() of kernels/path.h; w is within a struct wide_world. */
     void (*samples)(const struct world *w, uint32_t x, uint32_t y,
                     uint64_t first, uint32_t count, struct path_sample *out);
 };
-
-extern const struct paths paths_plain; /* what every processor can run */
-extern const struct paths paths_avx2;  /* x86-64 only */
-extern const struct paths paths_avx512;
 
 #endif

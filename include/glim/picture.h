@@ -34,4 +34,10 @@ char *picture_write_numbered(struct film *film, struct develop how,
                              const char *stem, const char *ending,
                              struct error *err);
 
+/* The same for what is no film, as PNG. */
+bool picture_write_frame(const struct frame *frame, const char *path,
+                         struct error *err);
+char *picture_write_frame_numbered(const struct frame *frame, const char *stem,
+                                   struct error *err);
+
 #endif

@@ -26,6 +26,9 @@ struct scale {
 extern const struct scale scale_unit;  /* 0 to 1 */
 extern const struct scale scale_hue;   /* degrees */
 extern const struct scale scale_light; /* radiance, or what multiplies it */
+extern const struct scale scale_ior;
+extern const struct scale scale_rotation; /* degrees */
+extern const struct scale scale_exposure; /* stops */
 
 /* The value some steps on. */
 double scale_turned(const struct scale *scale, double value, int steps);

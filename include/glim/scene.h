@@ -14,6 +14,7 @@
 #ifndef GLIM_SCENE_H
 #define GLIM_SCENE_H
 
+#include "glim/guide.h"
 #include "glim/lights.h"
 #include "glim/material.h"
 #include "glim/report.h"
@@ -79,6 +80,7 @@ struct scene {
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
     bool has_emitters;
     struct lights lights;
+    struct guide guide;
     float linear_of_srgb[256];
 };
 

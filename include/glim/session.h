@@ -73,9 +73,11 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err);
 bool session_take_edit(struct session *s);
 
 /* Writes changed materials into their MTL files, and if assignments or light
- * have changed, these into the view file, the rest of which stays. *what is a
- * line about it, for free(). What was written before an error is saved. */
-bool session_save_edit(struct session *s, char **what, struct error *err);
+ * have changed, these into the view file, the rest of which stays. The watch is
+ * told of it. *what is a line about it, for free(). What was written before an
+ * error is saved. */
+bool session_save_edit(struct session *s, struct watch *watch, char **what,
+                       struct error *err);
 
 /* As view and edit say. */
 struct develop session_develop(const struct session *s);

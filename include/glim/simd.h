@@ -2,14 +2,11 @@
 /*
  * simd.h - four and eight floats at once: AVX2, SSE2, or plain loops
  *
- * Arithmetic is that of floats, lane by lane, without contraction. f8_min and
- * f8_max return the second number where one is NaN. Masks have a bit a lane,
- * lane 0 the lowest.
- *
- * Some are for distances that need not have the same bits everywhere:
- * f8_mul_sub rounds once or twice; of two negative numbers f8_later and
- * f8_sooner return any, and the first of f8_before is not negative; f8_further
- * goes on by so many floats, or a little more.
+ * f4 is the arithmetic of floats, lane by lane, without contraction. f8 is for
+ * distances, which need not have the same bits everywhere: f8_mul_sub rounds
+ * once or twice; of two negative numbers f8_later and f8_sooner return any, and
+ * f8_before is for a first number that is not negative; f8_further goes on by
+ * so many floats, or a little more. Masks have a bit a lane, lane 0 the lowest.
  *
  * Units:     none
  * Ownership: none
@@ -228,16 +225,6 @@ static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
 #endif
 }
 
-static inline f8 f8_min(f8 a, f8 b)
-{
-    return _mm256_min_ps(a, b);
-}
-
-static inline f8 f8_max(f8 a, f8 b)
-{
-    return _mm256_max_ps(a, b);
-}
-
 /* The bits of positive floats sort as these do, and integers are compared in a
  * quarter of the time. */
 static inline f8 f8_later(f8 a, f8 b)
@@ -292,24 +279,14 @@ static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
                 f4_sub(f4_mul(a.hi, b.hi), c.hi)};
 }
 
-static inline f8 f8_min(f8 a, f8 b)
-{
-    return (f8){f4_min(a.lo, b.lo), f4_min(a.hi, b.hi)};
-}
-
-static inline f8 f8_max(f8 a, f8 b)
+static inline f8 f8_later(f8 a, f8 b)
 {
     return (f8){f4_max(a.lo, b.lo), f4_max(a.hi, b.hi)};
 }
 
-static inline f8 f8_later(f8 a, f8 b)
-{
-    return f8_max(a, b);
-}
-
 static inline f8 f8_sooner(f8 a, f8 b)
 {
-    return f8_min(a, b);
+    return (f8){f4_min(a.lo, b.lo), f4_min(a.hi, b.hi)};
 }
 
 static inline f8 f8_further(f8 a, int steps)

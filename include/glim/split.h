@@ -27,20 +27,23 @@
 /* The low corner, then the high one negated: a minimum joins boxes. The fourth
  * number of the first half holds the bits of a triangle's number. */
 struct box {
-    _Alignas(32) float planes[8];
+    _Alignas(16) float planes[8];
 };
 
 static inline struct box box_empty(void)
 {
     struct box b;
 
-    f8_store(b.planes, f8_all(FLOAT_MAX));
+    f4_store(b.planes, f4_all(FLOAT_MAX));
+    f4_store(b.planes + 4, f4_all(FLOAT_MAX));
     return b;
 }
 
 static inline void box_join(struct box *a, const struct box *b)
 {
-    f8_store(a->planes, f8_min(f8_load(a->planes), f8_load(b->planes)));
+    for (int i = 0; i < 8; i += 4)
+        f4_store(a->planes + i,
+                 f4_min(f4_load(a->planes + i), f4_load(b->planes + i)));
 }
 
 static inline struct box box_of_point(struct vec3 p)

@@ -31,6 +31,9 @@ struct steer {
 /* For a scene between these corners. */
 void steer_init(struct steer *s, const double lo[3], const double hi[3]);
 
+/* The scene is between other corners now: what was chosen stays. */
+void steer_resize(struct steer *s, const double lo[3], const double hi[3]);
+
 /* Moves by the time that keys were held since the last call. True if the view
  * has changed. */
 bool steer_step(struct steer *s, struct view *view, uint64_t now_ns);

@@ -3,9 +3,9 @@
  * term.h - the terminal: opened, asked, written to, and given back whatever
  * happens
  *
- * curses owns the terminal, the status line and the windows; the picture is
- * written past it with term_write(). There is one terminal, so there is one
- * state, in term.c.
+ * curses owns the terminal and what windows.h draws; the picture is written
+ * past it with term_write(). There is one terminal, so there is one state, in
+ * term.c.
  *
  * Units:     terminal cells
  * Ownership: texts stay the caller's
@@ -22,10 +22,6 @@ struct term_size {
     int cols, rows;
     double cell_aspect;                /* height over width; 0: not known */
     int cell_width_px, cell_height_px; /* likewise */
-};
-
-struct term_rect {
-    int col, row, cols, rows;
 };
 
 /* Takes over signals, enters the screen and asks the terminal what it can; its
@@ -72,7 +68,7 @@ void term_resume(void);
 /* Drops what was typed or answered and not read. */
 void term_forget_input(void);
 
-/* Follows a new size, and empties the screen at the next term_update(). */
+/* Follows a new size, and empties the screen at the next windows_update(). */
 void term_relayout(void);
 
 void term_set_mouse(bool is_on);
@@ -81,42 +77,5 @@ void term_set_mouse(bool is_on);
  * have said that they can. */
 void term_use_sync(void);
 bool term_has_sync(void);
-
-/* Puts text in the last row, reversed; NULL empties it. Shown, like a window
- * that was opened or closed, by term_update(). */
-void term_status(const char *text);
-
-/* A window with these lines and a title, in the middle or in the corner at the
- * top right; where it is. One at a time. */
-struct term_rect term_open_window(const char *title, const char *const *texts,
-                                  int text_count);
-/* The same at the left edge, above the last row. */
-struct term_rect term_open_panel(const char *title, const char *const *texts,
-                                 int text_count);
-struct term_rect term_open_corner(const char *title, const char *const *texts,
-                                  int text_count);
-
-/* Replaces the lines of the window, by as long ones. */
-void term_set_window(const char *const *texts, int text_count);
-void term_close_window(void);
-
-enum term_look { TERM_PLAIN, TERM_SELECTED, TERM_TITLE, TERM_HINT };
-
-struct term_line {
-    char text[64];
-    enum term_look look;
-};
-
-/* Lines at the right edge, cols wide with a bar at their left, down to the row
- * above the last; where they are. Shown in place of those before. */
-struct term_rect term_show_panel(const struct term_line *panel_lines,
-                                 int line_count, int cols);
-void term_hide_panel(void);
-
-/* Text in the middle of an empty screen. */
-void term_notice(const char *text);
-
-/* Writes what changed. The cursor is in the last row, column 0, afterwards. */
-void term_update(void);
 
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * text.h - a film as lines of coloured text
+ * text.h - a picture as lines of coloured text
  *
- * The cells are those that the screen shows of the same film at the same size.
+ * The cells are those that the screen shows of the same at the same size.
  *
  * Units:     terminal cells
  * Ownership: the text is for free()
- * Threads:   any; the film may be in use
+ * Threads:   any
  * Errors:    memory
  */
 #ifndef GLIM_TEXT_H
@@ -20,8 +20,11 @@ struct text_style {
     enum glyphs glyphs;
 };
 
-bool text_of_film(struct film *film, struct develop how,
-                  const struct text_style *style, char **text,
-                  size_t *size_bytes, struct error *err);
+/* The frame that such a text is made of, for frame_free(). */
+bool text_frame_init(struct frame *frame, const struct text_style *style,
+                     struct error *err);
+
+bool text_of_frame(const struct frame *frame, const struct text_style *style,
+                   char **text, size_t *size_bytes, struct error *err);
 
 #endif

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * view.h - the small text file beside a scene: where the camera stands, what
- * the sky is, how the picture is exposed
+ * view.h - where the camera stands, what the sky is, how the picture is exposed
  *
  * Units:     file units of the scene, degrees, pixels, radiance, stops
- * Ownership: view_free() frees what is in it; sky_path is relative to the
- * file's folder in the file, and ready for open() in the struct Threads:   one
- * thread at a time Errors:    an unreadable file, a malformed or impossible
- * value: file:line
+ * Ownership: view_free() frees what is in it
+ * Threads:   one thread at a time
+ * Errors:    an impossible camera
  */
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
 
 #include "glim/assign.h"
-#include "glim/report.h"
 #include "glim/util.h"
 #include "kernels/tone.h"
 
@@ -37,7 +34,7 @@ struct view {
     double background[3]; /* constant radiance */
     bool has_background;
     int max_bounces; /* -1: no limit */
-    char *sky_path;  /* NULL: none */
+    char *sky_path;  /* for open(); NULL: none */
     double sky_strength;
     double sky_rotation_deg;
     double aperture; /* diameter of the lens; 0: a pinhole */
@@ -49,21 +46,11 @@ struct view {
     struct assigns assigns;
 };
 
-/* Names of enum tone in the file. */
+/* Names of enum tone. */
 extern const char *const view_tones[TONES];
 
 /* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
 void view_init(struct view *view);
-
-/* Reads `key value` lines over what `view` holds. An unknown key is a warning.
- */
-bool view_read(struct view *view, const char *path, struct report *report,
-               struct error *err);
-
-/* Writes the file, atomically. Lines of a file that is there keep their order,
- * and those with an unknown key or none stay as they are. A sky path is written
- * relative to the file's folder where that is possible. */
-bool view_write(const struct view *view, const char *path, struct error *err);
 
 /* True if eye, at and fovy make a camera; else the text says what is wrong. */
 bool view_check(const struct view *view, const char *place, struct error *err);

@@ -15,8 +15,7 @@
 #ifndef GLIM_WATCH_H
 #define GLIM_WATCH_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "glim/file.h"
 
 struct watched;
 
@@ -44,8 +43,16 @@ void watch_drain(struct watch *w);
 /* True if a file is not as it was known, and none is gone. */
 bool watch_has_changed(const struct watch *w);
 
-/* This file, or with NULL each one, is known as it is now. */
-void watch_settle(struct watch *w, const char *path);
+/* Each file is known as it is now. */
+void watch_settle(struct watch *w);
+
+/* This program has written the whole file. */
+void watch_wrote(struct watch *w, const char *path,
+                 const struct file_identity *identity);
+
+/* It has changed a part of it: if the rest was known before, all is known. */
+void watch_replaced(struct watch *w, const char *path,
+                    const struct file_change *change);
 
 void watch_free(struct watch *w);
 

@@ -52,19 +52,6 @@ struct wide {
     uint32_t block_count;
 };
 
-/* What a child is, from the root of its tree. */
-static inline const struct wide_node *wide_node_at(const struct wide_node *root,
-                                                   uint32_t child)
-{
-    return (const void *)((const char *)root + (size_t)child * (WIDE_UNIT / 8));
-}
-
-static inline const struct tri_block *
-wide_block_at(const struct wide_node *root, uint32_t child)
-{
-    return (const void *)wide_node_at(root, child & ~(WIDE_LEAF | WIDE_MORE));
-}
-
 /* What the CPU's samples read. Ray queries get the world, and find the tree
  * behind it. */
 struct wide_world {

@@ -98,6 +98,18 @@ static inline float wide_far(float t)
     return f_min(t * WIDEN, FLOAT_MAX);
 }
 
+static inline const struct wide_node *wide_node_at(const struct wide_node *root,
+                                                   uint32_t child)
+{
+    return (const void *)((const char *)root + (size_t)child * (WIDE_UNIT / 8));
+}
+
+static inline const struct tri_block *
+wide_block_at(const struct wide_node *root, uint32_t child)
+{
+    return (const void *)wide_node_at(root, child & ~(WIDE_LEAF | WIDE_MORE));
+}
+
 /* A node's lines, or those of a block and something behind it. */
 static inline void wide_prefetch(const struct wide_node *root, uint32_t child)
 {

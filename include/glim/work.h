@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * work.h - what the screen renders and what of it is saved: live and normal
- * mode, starting and halting, on which backend, pictures and views as files,
- * messages about it
+ * work.h - what the screen renders: live and normal mode, starting and halting,
+ * on which backend, files that change, messages about it
  *
  * Live mode renders without a limit and starts anew at every change. Normal
  * mode renders one view to the samples of -s; it can be halted, and what it has
@@ -19,7 +18,6 @@
 #include "glim/reload.h"
 #include "glim/saver.h"
 #include "glim/session.h"
-#include "glim/text.h"
 
 struct message {
     char text[sizeof(struct error)];
@@ -43,6 +41,7 @@ struct work {
     bool has_changed_files; /* since they were loaded */
     uint64_t files_ns;      /* when to look at them, or load them with --watch;
                                UINT64_MAX: when the watch says so */
+    uint32_t watched_sky;   /* its number in the edit */
     uint64_t restarted_ns;
 
     uint64_t saved_samples;  /* of this picture, in a file */
@@ -56,9 +55,21 @@ struct work {
 /* Starts to render in live mode. */
 bool work_init(struct work *w, struct session *session, struct error *err);
 
-void work_say(struct work *w, const char *text);
-void work_say_long(struct work *w, const char *text);
+/* Shown for a while, or for longer; an error stays until a key. */
+void work_say(struct work *w, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void work_say_long(struct work *w, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 void work_say_error(struct work *w, const char *text);
+
+/* The status line comes back. */
+void work_be_silent(struct work *w);
+
+/* The key of an action, for messages that tell what to do next. */
+struct keys_name work_key(const struct work *w, enum action action);
+
+/* Printed when the screen is closed. */
+void work_add_result(struct work *w, const char *text);
 
 /* Looks how far the render is, and restarts it if the view has changed and the
  * look before has found a picture. */
@@ -108,27 +119,6 @@ void work_look_at_files(struct work *w);
  * edited and not saved would be lost: it is refused. */
 void work_reload(struct work *w);
 bool work_end_reload(struct work *w);
-
-/* Begins to save the picture as STEM.ENDING or the next free name in the
- * current folder. The saver's event_fd says when work_finish_saving() has the
- * result. */
-void work_save_picture(struct work *w, const char *ending);
-
-/* Writes the picture as text, as STEM.ans or the next free name. */
-void work_save_text(struct work *w, const struct text_style *style);
-
-/* Waits for the picture that is being saved, if any. False if that failed. */
-bool work_finish_saving(struct work *w);
-
-void work_save_view(struct work *w);
-
-/* Writes changed materials and light to their files. False if that failed. */
-bool work_save_edit(struct work *w);
-
-/* Halts, and writes what no file has yet as STEM-kept.png beside the scene, or
- * into the folder of the person's state, or the next free name: for when nobody
- * is there to save it. */
-void work_keep(struct work *w);
 
 void work_free(struct work *w);
 

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 # render.sh - renders the pictures that the README shows (`make gallery`)
 #
-# Small and clean rather than large and noisy; takes some minutes. screen.png
-# is a picture of a real terminal and is not made here.
+# Small and clean rather than large and noisy; takes some minutes. screen.png,
+# panel.png, boxes.png and progress.png are pictures of a real terminal and are
+# not made here.
 set -eu
 cd "$(dirname "$0")/../.."
 glim=${BUILD:-build/release}/glim
@@ -20,3 +21,5 @@ render glass_mirror 320 700
 render interior 320 700
 render skylit 320 300
 render lights200 320 500
+"$glim" -b -w 400 --show normals -o scenes/gallery/normals.png \
+    scenes/materials.obj

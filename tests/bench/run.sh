@@ -80,6 +80,25 @@ bench_sharing() {
     done
 }
 
+# Whole renders, and what leaving out what a scene lacks brings.
+bench_builds() {
+    echo
+    echo 'builds: 480x270, 4 spp, a core, medians of 5'
+    set -- scenes/*.obj
+    for scene in bunny sponza_part; do
+        file=../shared/scenes-real/$scene/$scene.obj
+        [ ! -e "$file" ] || set -- "$@" "$file"
+    done
+    "$build/bench/builds" "$@"
+}
+
+# What can be had at 60 pictures a second.
+bench_frames() {
+    echo
+    echo "frames: samples a pixel that fit into 16.7 ms, $(nproc) threads"
+    "$build/bench/frames" scenes/cornell.obj scenes/interior.obj
+}
+
 halts() { # ARGUMENTS for each scene
     for scene in scenes/cornell.obj scenes/interior.obj \
         ../shared/scenes-real/sponza_part/sponza_part.obj; do
@@ -144,7 +163,7 @@ bench_sampling() {
 }
 
 machine
-for name in threads sharing halts previews load device sampling; do
+for name in builds frames threads sharing halts previews load device sampling; do
     if wanted "$name"; then
         "bench_$name"
     fi

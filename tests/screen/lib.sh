@@ -102,8 +102,8 @@ wait_for()
     tries=0
     until screen | grep -q -e "$1"; do
         tries=$((tries + 1))
-        [ $tries -lt 300 ] || die "waited for: $1"
-        sleep 0.1
+        [ $tries -lt 600 ] || die "waited for: $1"
+        sleep 0.05
     done
 }
 
@@ -113,9 +113,9 @@ wait_for_rows()
     tries=0
     until [ "$(rows_with "$2")" = "$1" ]; do
         tries=$((tries + 1))
-        [ $tries -lt 300 ] ||
+        [ $tries -lt 600 ] ||
             die "waited for $1 rows of $2, found $(rows_with "$2")"
-        sleep 0.1
+        sleep 0.05
     done
 }
 
@@ -124,8 +124,8 @@ wait_until_gone()
     tries=0
     while screen | grep -q -e "$1"; do
         tries=$((tries + 1))
-        [ $tries -lt 300 ] || die "waited for the end of: $1"
-        sleep 0.1
+        [ $tries -lt 600 ] || die "waited for the end of: $1"
+        sleep 0.05
     done
 }
 
@@ -135,8 +135,8 @@ wait_until()
     tries=0
     until "$@"; do
         tries=$((tries + 1))
-        [ $tries -lt 300 ] || die "waited for: $*"
-        sleep 0.1
+        [ $tries -lt 600 ] || die "waited for: $*"
+        sleep 0.05
     done
 }
 

@@ -1,11 +1,12 @@
-#!/bin/sh
+#!/bin/bash
 # SPDX-License-Identifier: MIT
 # run.sh - the screen: scripts that press keys in tmux and look at the cells
 #
 # Runs cases/NAME.sh in an empty folder, each with a tmux server of its own. A
 # script fails where a command of it fails; status 77 skips it, its last line
-# says why. BUILD names the folder with the program (build/release); arguments
-# name the cases (all).
+# says why. BUILD names the folder with the program (build/release), JOBS says how
+# many cases run at once: they wait most of the time. Arguments name the cases
+# (all).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 root=$PWD
@@ -42,32 +43,42 @@ if ! command -v tmux >/dev/null; then
 fi
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
-passed=0
-failed=0
+mkdir "$work/failed" "$work/passed"
 
-for name in "$@"; do
-    out=$work/$name.out
+# Runs a case and prints what came of it at once, so that cases do not mix.
+run_case()
+{
+    local name=$1 out=$work/$1.out status
+
     mkdir "$work/$name"
     XDG_STATE_HOME=$work/$name.state
-    export XDG_STATE_HOME
     SOCKET=$work/$name.tmux
-    export SOCKET
+    export XDG_STATE_HOME SOCKET
     (cd "$work/$name" && timeout --kill-after=5 180 \
         sh -eu -c '. "$SCREEN/lib.sh"; . "$SCREEN/cases/$0.sh"' "$name") \
         >"$out" 2>&1 </dev/null
     status=$?
-    if [ $status != 0 ] && [ $status != 77 ]; then
-        echo "FAIL $name (exit $status)"
-        cat "$out"
-        tmux -S "$SOCKET" capture-pane -p 2>&1 | sed 's/^/    | /'
-        failed=$((failed + 1))
-    elif [ $status = 77 ]; then
+    if [ $status = 77 ]; then
         echo "skip $name ($(tail -n 1 "$out"))"
-    else
+    elif [ $status = 0 ]; then
         echo "ok $name"
-        passed=$((passed + 1))
+        : >"$work/passed/$name"
+    else
+        printf '%s\n%s\n%s\n' "FAIL $name (exit $status)" "$(cat "$out")" \
+            "$(tmux -S "$SOCKET" capture-pane -p 2>&1 | sed 's/^/    | /')"
+        : >"$work/failed/$name"
     fi
     tmux -S "$SOCKET" kill-server 2>/dev/null
+}
+
+running=0
+for name in "$@"; do
+    [ $running -lt "${JOBS:-$(($(nproc) + 1))}" ] || wait -n
+    run_case "$name" &
+    running=$(jobs -r | wc -l)
 done
+wait
+passed=$(find "$work/passed" -type f | wc -l)
+failed=$(find "$work/failed" -type f | wc -l)
 echo "screen: $passed passed, $failed failed"
-[ $failed = 0 ] && [ $passed -gt 0 ]
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ]

@@ -20,6 +20,7 @@
 #include "glim/restyle.h"
 #include "glim/scene.h"
 #include "glim/selftest.h"
+#include "glim/view_file.h"
 #include "kernels/features.h"
 
 static const char *const scenes[] = {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "kernels/traverse.h"
 
+#include "many.h"
 #include "trees.h"
-
-/* Enough for several parts that threads share. */
-#define MANY 70000
 
 static struct bvh build_by(const struct world *w, int thread_count)
 {

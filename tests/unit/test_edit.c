@@ -12,6 +12,7 @@
 #include "folder.h"
 #include "glim/file.h"
 #include "glim/session.h"
+#include "glim/view_file.h"
 
 static char root[4096]; /* where the scenes are */
 
@@ -64,10 +65,11 @@ static void restart(struct session *s)
 
 static void save(struct session *s)
 {
+    struct watch nothing = {.fd = -1};
     struct error err;
     char *what;
 
-    check_or_say(session_save_edit(s, &what, &err), err.text);
+    check_or_say(session_save_edit(s, &nothing, &what, &err), err.text);
     free(what);
 }
 

@@ -157,6 +157,37 @@ static void test_write(void **state)
     assert_int_equal(count_files("w"), 1);
 }
 
+/* What someone else has written since it was read is left alone, whether in
+ * place, by a new file of the same length, or where there was none. */
+static void test_replace(void **state)
+{
+    struct file_change change = {.before = file_identify("r/a")};
+    struct file_identity first;
+    struct error err;
+
+    (void)state;
+    mkdir("r", 0700);
+    assert_true(file_replace("r/a", "one", 3, &change, &err));
+    has("r/a", "one");
+    first = change.after;
+    assert_false(file_replace("r/a", "new", 3, &change, &err));
+    assert_string_equal(err.text,
+                        "r/a: someone else has written it at the same time: "
+                        "nothing is saved");
+    change.before = first;
+    assert_true(file_replace("r/a", "two", 3, &change, &err));
+    change.before = change.after;
+    put("r/a", "theirs");
+    assert_false(file_replace("r/a", "three", 5, &change, &err));
+    has("r/a", "theirs");
+    change.before = file_identify("r/a");
+    put("r/b", "others");
+    assert_int_equal(rename("r/b", "r/a"), 0);
+    assert_false(file_replace("r/a", "three", 5, &change, &err));
+    has("r/a", "others");
+    assert_int_equal(count_files("r"), 1);
+}
+
 static void test_must_be_new(void **state)
 {
     struct error err;
@@ -351,11 +382,12 @@ static void test_paths(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_read),         cmocka_unit_test(test_read_errors),
-        cmocka_unit_test(test_write),        cmocka_unit_test(test_must_be_new),
-        cmocka_unit_test(test_numbered),     cmocka_unit_test(test_links),
-        cmocka_unit_test(test_write_errors), cmocka_unit_test(test_permissions),
-        cmocka_unit_test(test_disk_full),    cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_read),        cmocka_unit_test(test_read_errors),
+        cmocka_unit_test(test_write),       cmocka_unit_test(test_replace),
+        cmocka_unit_test(test_must_be_new), cmocka_unit_test(test_numbered),
+        cmocka_unit_test(test_links),       cmocka_unit_test(test_write_errors),
+        cmocka_unit_test(test_permissions), cmocka_unit_test(test_disk_full),
+        cmocka_unit_test(test_paths),
     };
 
     return cmocka_run_group_tests_name("file", tests, make_folder,

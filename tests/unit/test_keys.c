@@ -111,7 +111,7 @@ static void chosen_keys_replace_those_of_the_table(void **state)
 
 static void names_come_back(void **state)
 {
-    char name[KEYS_NAME_BYTES];
+    struct keys_name name;
 
     (void)state;
     for (int action = 1; action < ACTIONS; action++) {
@@ -126,8 +126,8 @@ static void names_come_back(void **state)
     for (int key = 1; key < INPUT_OTHER; key++) {
         if (key >= 128 && key < INPUT_UP)
             continue; /* none that a terminal sends */
-        keys_key_name(name, key);
-        assert_int_equal(keys_find_key(name, strlen(name)), key);
+        name = keys_key_name(key);
+        assert_int_equal(keys_find_key(name.text, strlen(name.text)), key);
     }
     assert_int_equal(keys_find_key("^A", 2), 1);
     assert_int_equal(keys_find_key("PgUp", 4), INPUT_PAGE_UP);
@@ -140,17 +140,13 @@ static void names_come_back(void **state)
 static void first_names(void **state)
 {
     struct keys k = {0};
-    char name[KEYS_NAME_BYTES];
 
     (void)state;
     choose(&k, ACTION_MOUSE, 0, 0);
     keys_settle(&k, false);
-    keys_first_name(&k, ACTION_HELP, name);
-    assert_string_equal(name, "?");
-    keys_first_name(&k, ACTION_MODE, name);
-    assert_string_equal(name, "space");
-    keys_first_name(&k, ACTION_MOUSE, name);
-    assert_string_equal(name, "no key");
+    assert_string_equal(keys_first_name(&k, ACTION_HELP).text, "?");
+    assert_string_equal(keys_first_name(&k, ACTION_MODE).text, "space");
+    assert_string_equal(keys_first_name(&k, ACTION_MOUSE).text, "no key");
 }
 
 /* Every action but capitals of the same is in the help once; lines fit. */
@@ -168,14 +164,15 @@ static void help_names_every_key(void **state)
             strcat(strcat(all, help.keys), " ");
         }
         for (int action = 1; action < ACTIONS; action++) {
-            char name[KEYS_NAME_BYTES + 2] = " ";
+            char name[16];
 
             if (action >= ACTION_LOOK_UP && action <= ACTION_LOOK_RIGHT)
                 strcpy(name, " arrows");
             else if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9)
                 strcpy(name, " 1-9");
             else
-                keys_key_name(name + 1, k.keys[action][0]);
+                snprintf(name, sizeof name, " %s",
+                         keys_key_name(k.keys[action][0]).text);
             check_has(all, strcat(name, " "));
         }
     }
@@ -236,15 +233,15 @@ static char manual_char(const char **p)
     return *(*p)++;
 }
 
-static void manual_lists_the_same_keys(void **state)
+/* Compares the items of a section with lines of the help. */
+static void check_manual(const char *begin,
+                         bool line_of(int line, struct keys_help *help))
 {
-    struct keys k = table_keys(false);
-    char *text = section("man/glim.1", ".Sh KEYS\n", "\n.El\n");
+    char *text = section("man/glim.1", begin, "\n.El\n");
     char *item = text;
     struct keys_help help;
     int line = 0;
 
-    (void)state;
     for (; (item = strstr(item, "\n.It Ic ")); line++) {
         char keys[64] = "";
         size_t length = 0;
@@ -252,11 +249,44 @@ static void manual_lists_the_same_keys(void **state)
 
         while (*p != '\n' && length < sizeof keys - 1)
             keys[length++] = manual_char(&p);
-        assert_true(keys_help(&k, line, &help));
+        assert_true(line_of(line, &help));
         assert_string_equal(keys, help.keys);
     }
-    assert_false(keys_help(&k, line, &help));
+    assert_false(line_of(line, &help));
     free(text);
+}
+
+static bool table_help(int line, struct keys_help *help)
+{
+    struct keys k = table_keys(false);
+
+    return keys_help(&k, line, help);
+}
+
+static void manual_lists_the_same_keys(void **state)
+{
+    (void)state;
+    check_manual(".Sh KEYS\n", table_help);
+    check_manual(".Sh PANEL\n", keys_panel_help);
+}
+
+/* Each key has one meaning there, and each line fits into the help. */
+static void panel_keys_are_told(void **state)
+{
+    struct keys_help help;
+    int seen = 0;
+
+    (void)state;
+    for (int i = 0; keys_panel_help(i, &help); i++) {
+        assert_in_range(strlen(help.keys), 1, 7);
+        assert_in_range(strlen(help.text), 1, HELP_ENTRY_COLS - 8);
+    }
+    for (int key = 1; key <= INPUT_F1; key++)
+        seen += keys_panel_action(key) != PANEL_NONE;
+    assert_int_equal(seen, 4 + 2 + 2 + 1 + 13 + 8);
+    assert_int_equal(keys_panel_action(0), PANEL_NONE);
+    assert_int_equal(keys_panel_action('w'), PANEL_NONE);
+    assert_int_equal(keys_panel_action('U'), PANEL_REDO);
 }
 
 static void readme_lists_the_same_keys(void **state)
@@ -318,24 +348,29 @@ static void help_has_pages(void **state)
     struct keys k = table_keys(false);
     struct keys_help help;
     struct help_page page;
-    int total = 1; /* the note */
 
     (void)state;
-    while (keys_help(&k, total - 1, &help))
-        total++;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        int room = cases[i].columns * cases[i].rows;
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof cases[0]; i++) {
+        bool in_panel = i % 2 == 1;
+        int cols = cases[i / 2].cols, rows = cases[i / 2].rows;
+        int room = cases[i / 2].columns * rows;
+        int total = 1; /* the note */
         int found = 0;
 
+        for (int line = 0; keys_help(&k, line, &help); line++)
+            total++;
+        for (int line = 0; in_panel && keys_panel_help(line, &help); line++)
+            total++;
         for (int n = 0; n == 0 || n < page.page_count; n++) {
-            help_page(&page, &k, "the note", n, cases[i].cols, cases[i].rows);
+            help_page(&page, &k, in_panel, "the note", n, cols, rows);
             assert_int_equal(page.page_count, (total + room - 1) / room);
-            assert_in_range(page.line_count, 1, cases[i].rows);
+            assert_in_range(page.line_count, 1, rows);
             for (int row = 0; row < page.line_count; row++) {
-                if (cases[i].cols >= HELP_ENTRY_COLS)
-                    check_at_most((double)strlen(page.lines[row]),
-                                  cases[i].cols);
+                if (cols >= HELP_ENTRY_COLS)
+                    check_at_most((double)strlen(page.lines[row]), cols);
                 for (int line = 0; keys_help(&k, line, &help); line++)
+                    found += strstr(page.lines[row], help.text) != NULL;
+                for (int line = 0; keys_panel_help(line, &help); line++)
                     found += strstr(page.lines[row], help.text) != NULL;
                 found += strstr(page.lines[row], "the note") != NULL;
             }
@@ -356,6 +391,7 @@ int main(void)
         cmocka_unit_test(help_names_every_key),
         cmocka_unit_test(help_shows_chosen_keys),
         cmocka_unit_test(manual_lists_the_same_keys),
+        cmocka_unit_test(panel_keys_are_told),
         cmocka_unit_test(readme_lists_the_same_keys),
         cmocka_unit_test(manual_lists_the_actions),
         cmocka_unit_test(help_has_pages),

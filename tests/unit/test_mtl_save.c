@@ -498,6 +498,7 @@ static void test_save(void **state)
     char *path = xformat("%s/s.mtl", folder);
     struct mtl_source after;
     struct mtl_change change;
+    struct file_change written;
     struct loaded l;
     struct error err;
     struct stat st;
@@ -512,14 +513,15 @@ static void test_save(void **state)
     redden(&after);
     change = (struct mtl_change){"m", NULL, &l.scene.material_origins[1].source,
                                  &after};
-    check_or_say(mtl_save(&l.scene, path, &change, 1, &err), err.text);
+    check_or_say(mtl_save(&l.scene, path, &change, 1, &written, &err),
+                 err.text);
     assert_int_equal(stat(path, &st), 0);
     assert_int_equal(st.st_mode & 0777, 0640);
     assert_true(file_read(path, &text, &size_bytes, &err));
     assert_string_equal(text, "newmtl m\nKd 1 0.5 0.25\n");
     free(text);
     assert_int_equal(unlink(path), 0);
-    assert_false(mtl_save(&l.scene, path, &change, 1, &err));
+    assert_false(mtl_save(&l.scene, path, &change, 1, &written, &err));
     check_has(err.text, "no such file");
     unload(&l);
     free(path);

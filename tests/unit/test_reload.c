@@ -8,7 +8,8 @@
 
 #include <unistd.h>
 
-#include "glim/work.h"
+#include "glim/view_file.h"
+#include "glim/work_save.h"
 
 #define OBJ                                                                  \
     "mtllib s.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 2 " \
@@ -120,6 +121,7 @@ static void cameras_stay(void **state)
 static void numbered_views_are_taken(void **state)
 {
     struct session s, fresh;
+    struct file_change change;
     struct error err;
 
     (void)state;
@@ -131,7 +133,7 @@ static void numbered_views_are_taken(void **state)
     s.view.eye[0] = 7;
     s.view.shots[2] = view_pose(&s.view);
     s.view.has_shot[2] = true;
-    check_or_say(view_write(&s.view, "s.view", &err), err.text);
+    check_or_say(view_write(&s.view, "s.view", &change, &err), err.text);
     session_close(&s);
     check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
     s.view.shots[3].eye[0] = 5; /* by the person, in no file */
@@ -313,6 +315,59 @@ static void own_views_are_no_change(void **state)
     close_work(&w, &s);
 }
 
+/* Nor is a changed material; what someone else writes behind it is one. */
+static void own_materials_are_no_change(void **state)
+{
+    struct session s;
+    struct work w;
+    struct mtl_source red;
+
+    (void)state;
+    open_work(&w, &s);
+    red = s.edit.now.sources[1];
+    red.kd.rgb[0] = .125;
+    edit_material(&s.edit, 1, &red);
+    assert_true(work_save_edit(&w));
+    work_look_at_files(&w);
+    assert_false(w.has_changed_files);
+    put("s.mtl", MTL "\n");
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    /* and stays one when the next save takes it over */
+    red.kd.rgb[0] = .25;
+    edit_material(&s.edit, 1, &red);
+    assert_true(work_save_edit(&w));
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    close_work(&w, &s);
+}
+
+/* An image of the sky that was chosen in the panel is watched at once, also one
+ * that has still to be mended. */
+static void chosen_skies_are_watched(void **state)
+{
+    struct session s;
+    struct work w;
+    struct mood mood;
+
+    (void)state;
+    open_work(&w, &s);
+    mood = s.edit.now.mood;
+    mood.sky = edit_sky(&s.edit, "sky.png");
+    edit_mood(&s.edit, &mood);
+    put("sky.png", "no image");
+    w.must_restart = session_take_edit(&s);
+    assert_true(w.must_restart);
+    while (w.must_restart)
+        work_look(&w);
+    work_look_at_files(&w);
+    assert_false(w.has_changed_files);
+    put("sky.png", "no image either");
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    close_work(&w, &s);
+}
+
 static int enter_folder(void **state)
 {
     return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
@@ -330,6 +385,8 @@ int main(void)
         cmocka_unit_test(watched_files_are_loaded_at_once),
         cmocka_unit_test(unwatched_files_are_looked_at),
         cmocka_unit_test(own_views_are_no_change),
+        cmocka_unit_test(own_materials_are_no_change),
+        cmocka_unit_test(chosen_skies_are_watched),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

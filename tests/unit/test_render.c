@@ -69,6 +69,7 @@ static struct render_job job_of(const struct mesh *m, uint64_t spp)
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = spp};
 
+    job.world.settings.features = FEATURES_ALL;
     return job;
 }
 

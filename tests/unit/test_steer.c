@@ -109,6 +109,31 @@ static void orbits_while_keys_are_held(void **state)
     check_close(v.eye[1], 0, 1e-12);
 }
 
+/* A scene that is loaded anew twice as large is crossed in the same time, at
+ * the speed that was chosen. */
+static void speeds_follow_the_scene(void **state)
+{
+    const double far[3] = {2 * hi[0] - lo[0], 2 * hi[1] - lo[1],
+                           2 * hi[2] - lo[2]};
+    double moved[2];
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct steer s;
+        struct view v = make_view();
+
+        steer_init(&s, lo, hi);
+        steer_change_speed(&s, 3);
+        if (i == 1)
+            steer_resize(&s, lo, far);
+        motion_press(&s.motion, MOTION_FORWARD, 1, 1000 * MS);
+        steer_step(&s, &v, 1000 * MS);
+        moved[i] = -v.eye[2];
+    }
+    assert_true(moved[0] > 0);
+    check_close(moved[1] / moved[0], 2, 1e-12);
+}
+
 static void hold(struct steer *s, struct view *v, enum motion_axis axis,
                  int sign, int taps)
 {
@@ -202,6 +227,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(speed_is_a_part_of_the_scene),
         cmocka_unit_test(speed_has_ends),
+        cmocka_unit_test(speeds_follow_the_scene),
         cmocka_unit_test(drag_turns_by_what_is_seen),
         cmocka_unit_test(orbits_while_keys_are_held),
         cmocka_unit_test(widens_and_narrows_alike),

@@ -28,12 +28,15 @@ static struct film make_film(void)
 static void check_text(const struct text_style *style, const char *expected)
 {
     struct film film = make_film();
+    struct frame frame;
     struct error err;
     size_t size_bytes;
     char *text;
 
-    assert_true(text_of_film(&film, develop_linear(0), style, &text,
-                             &size_bytes, &err));
+    assert_true(text_frame_init(&frame, style, &err));
+    film_preview(&film, NULL, develop_linear(0), &frame);
+    assert_true(text_of_frame(&frame, style, &text, &size_bytes, &err));
+    frame_free(&frame);
     assert_int_equal(size_bytes, strlen(expected));
     assert_memory_equal(text, expected, size_bytes);
     free(text);

@@ -11,6 +11,9 @@
 
 #include "glim/util.h"
 #include "glim/view.h"
+#include "glim/view_file.h"
+
+static struct file_change change; /* of what was written last */
 
 /* In the test's folder; the name lives until the next call. */
 static const char *file(const char *name)
@@ -393,7 +396,7 @@ static void test_round_trip(void **state)
 
     (void)state;
     view_init(&view);
-    assert_true(view_write(&view, file("w.view"), &err));
+    assert_true(view_write(&view, file("w.view"), &change, &err));
     view_init(&again);
     assert_true(view_read(&again, file("w.view"), &report, &err));
     is_same(&view, &again);
@@ -419,7 +422,7 @@ static void test_round_trip(void **state)
                                   .up = {0, 1},
                                   .fovy_deg = 3};
     view.has_shot[0] = view.has_shot[8] = true;
-    assert_true(view_write(&view, file("w.view"), &err));
+    assert_true(view_write(&view, file("w.view"), &change, &err));
     assert_true(view_read(&again, file("w.view"), &report, &err));
     is_same(&view, &again);
     assert_int_equal(report.entry_count, 0);
@@ -434,7 +437,7 @@ static void test_text(void **state)
     (void)state;
     read_text(&view, "eye 278 273 -800\nat 278 273 0\nfovy 39.3077\n"
                      "res 256 256\nsky s.hdr\nexposure -.5\n");
-    assert_true(view_write(&view, file("x.view"), &err));
+    assert_true(view_write(&view, file("x.view"), &change, &err));
     FILE *f = fopen(file("x.view"), "r");
     assert_non_null(f);
     fread(text, 1, sizeof text - 1, f);
@@ -476,7 +479,7 @@ static void test_lines_are_kept(void **state)
     view.exposure = 2;
     view.has_shot[3] = true;
     view.shots[3] = view_pose(&view);
-    assert_true(view_write(&view, path, &err));
+    assert_true(view_write(&view, path, &change, &err));
     is_file(path, "# my room\r\nfovy 30\n\n  # the door\neye 7 5 6\n"
                   "assign door oak\nat 0 0 0\n"
                   "shutter 2 \\\n eye\n"
@@ -516,7 +519,7 @@ static void test_sky_names(void **state)
 
         view_init(&view);
         view.sky_path = xstrdup(cases[i].sky);
-        assert_true(view_write(&view, cases[i].view_path, &err));
+        assert_true(view_write(&view, cases[i].view_path, &change, &err));
         view_free(&view);
         FILE *f = fopen(cases[i].view_path, "r");
         assert_non_null(f);
@@ -530,7 +533,7 @@ static void test_sky_names(void **state)
     struct view view;
     view_init(&view);
     view.sky_path = xstrdup("two\nlines");
-    assert_false(view_write(&view, "bad.view", &err));
+    assert_false(view_write(&view, "bad.view", &change, &err));
     assert_int_not_equal(access("bad.view", F_OK), 0);
     view_free(&view);
     assert_int_equal(chdir("/"), 0);

@@ -80,14 +80,45 @@ static void writing_in_place_is_noticed(void **state)
     put(paths[PLAIN], "three");
     assert_true(is_told(&w));
     assert_true(watch_has_changed(&w));
-    watch_settle(&w, paths[LINK]); /* another one */
-    assert_true(watch_has_changed(&w));
-    watch_settle(&w, paths[PLAIN]);
+    watch_settle(&w);
     assert_false(watch_has_changed(&w));
     put(paths[PLAIN], "three, and more");
     assert_true(is_told(&w));
     assert_true(watch_has_changed(&w));
-    watch_settle(&w, NULL);
+    watch_settle(&w);
+    assert_false(watch_has_changed(&w));
+    watch_free(&w);
+}
+
+/* What this program writes is no news, but what someone else writes before or
+ * after it is. */
+static void own_writing_is_known(void **state)
+{
+    struct file_change change;
+    struct error err;
+    struct watch w;
+
+    (void)state;
+    begin(&w);
+    change.before = file_identify(paths[PLAIN]);
+    assert_true(file_replace(paths[PLAIN], "own", 3, &change, &err));
+    assert_true(watch_has_changed(&w));
+    watch_replaced(&w, paths[LINK], &change); /* another one */
+    assert_true(watch_has_changed(&w));
+    watch_replaced(&w, paths[PLAIN], &change);
+    assert_false(watch_has_changed(&w));
+    put(paths[PLAIN], "theirs");
+    assert_true(watch_has_changed(&w));
+    change.before = file_identify(paths[PLAIN]);
+    assert_true(file_replace(paths[PLAIN], "own", 3, &change, &err));
+    watch_replaced(&w, paths[PLAIN], &change);
+    assert_true(watch_has_changed(&w)); /* theirs was not loaded */
+    watch_wrote(&w, paths[PLAIN], &change.after);
+    assert_false(watch_has_changed(&w));
+    unlink(paths[PLAIN]); /* nothing of theirs is left */
+    change.before = file_identify(paths[PLAIN]);
+    assert_true(file_replace(paths[PLAIN], "again", 5, &change, &err));
+    watch_replaced(&w, paths[PLAIN], &change);
     assert_false(watch_has_changed(&w));
     watch_free(&w);
 }
@@ -99,7 +130,7 @@ static void renaming_over_is_noticed(void **state)
     (void)state;
     begin(&w);
     put(paths[OTHER], "one"); /* is on the list itself */
-    watch_settle(&w, NULL);
+    watch_settle(&w);
     watch_drain(&w);
     assert_int_equal(rename(paths[OTHER], paths[PLAIN]), 0);
     assert_true(is_told(&w));
@@ -143,7 +174,7 @@ static void a_file_that_is_gone_is_waited_for(void **state)
     begin(&w);
     unlink(paths[PLAIN]);
     assert_false(watch_has_changed(&w));
-    watch_settle(&w, NULL);
+    watch_settle(&w);
     watch_begin(&w); /* a list without it, as it could not be loaded */
     watch_add(&w, paths[LINK]);
     watch_end(&w);
@@ -191,6 +222,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_has_changed_at_first),
         cmocka_unit_test(writing_in_place_is_noticed),
+        cmocka_unit_test(own_writing_is_known),
         cmocka_unit_test(renaming_over_is_noticed),
         cmocka_unit_test(new_files_are_noticed),
         cmocka_unit_test(targets_of_links_are_noticed),

@@ -1,9 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "glim/wide_hit.h"
+#define ISA "avx2"
 
-#include "isa_trees.h"
-
-int main(void)
-{
-    return run_isa_trees("avx2");
-}
+#include "test_wide.c"

@@ -1,9 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "glim/wide_hit.h"
+#define ISA "avx512"
 
-#include "isa_trees.h"
-
-int main(void)
-{
-    return run_isa_trees("avx512");
-}
+#include "test_wide.c"

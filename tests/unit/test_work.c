@@ -9,7 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/work.h"
+#include "glim/view_file.h"
+#include "glim/work_save.h"
 
 static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
                                     "s-kept.png", "s.ans",  "s-2.ans"};
@@ -381,15 +382,19 @@ static void texts_are_written(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
     struct text_style style = {8, 2, PALETTE_MONO, GLYPHS_HALF};
+    struct frame frame;
+    struct error err;
 
+    assert_true(text_frame_init(&frame, &style, &err));
     work_set_live(w, false);
     work_start_or_halt(w);
     run_to_end(w);
-    work_save_text(w, &style);
+    work_save_text(w, &frame, &style);
     assert_string_equal(w->message.text, "saved s.ans, text of 8x2 characters");
-    work_save_text(w, &style);
+    work_save_text(w, &frame, &style);
     assert_string_equal(w->message.text,
                         "saved s-2.ans, text of 8x2 characters");
+    frame_free(&frame);
     assert_int_equal(w->result_count, 2);
     assert_true(work_has_unsaved(w));
     for (size_t i = 5; i < sizeof names / sizeof names[0]; i++) {
@@ -404,6 +409,23 @@ static void texts_are_written(void **state)
         assert_null(fgets(line, sizeof line, in));
         fclose(in);
     }
+}
+
+/* A person who gave the modes another key is told that one. */
+static void messages_name_the_chosen_keys(void **state)
+{
+    struct fixture *f = *state;
+    const int chosen[KEYS_MAX] = {'j'};
+
+    keys_choose(&f->options.keys, ACTION_MODE, chosen);
+    keys_settle(&f->options.keys, false);
+    work_set_live(&f->work, false);
+    assert_false(work_may_move(&f->work));
+    assert_string_equal(f->work.message.text,
+                        "the camera moves in live mode: j goes there");
+    work_restart(&f->work);
+    assert_string_equal(f->work.message.text,
+                        "nothing is rendered yet: Enter starts");
 }
 
 int main(void)
@@ -426,6 +448,7 @@ int main(void)
         WORK_TEST(failures_are_messages),
         WORK_TEST(views_are_written),
         WORK_TEST(texts_are_written),
+        WORK_TEST(messages_name_the_chosen_keys),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -19,40 +19,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Triangles of many sizes; every tenth is where the one before is. */
-static inline void mesh_add_many(struct mesh *m, uint32_t count, uint64_t seed)
-{
-    struct vec3 a = {0, 0, 0};
-
-    for (uint32_t i = 0; i < count; i++) {
-        float size = ldexpf(0.5f, -(int)(check_random(&seed) * 8));
-
-        if (i % 10 != 9)
-            a = random_point(&seed, 0.8f);
-        mesh_add(m, a, v3_add(a, random_point(&seed, size)),
-                 v3_add(a, random_point(&seed, size)), 0);
-    }
-}
-
-static bool v3_is_between(struct vec3 p, struct vec3 lo, struct vec3 hi)
-{
-    return p.x >= lo.x && p.y >= lo.y && p.z >= lo.z && p.x <= hi.x &&
-           p.y <= hi.y && p.z <= hi.z;
-}
-
-/* With room for what rounding does to rays. */
-static inline bool box_holds(struct vec3 lo, struct vec3 hi,
-                             const struct vec3 p[3])
-{
-    const struct vec3 pad = {BOX_PAD / 2, BOX_PAD / 2, BOX_PAD / 2};
-
-    for (int k = 0; k < 3; k++)
-        if (!v3_is_between(v3_sub(p[k], pad), lo, hi) ||
-            !v3_is_between(v3_add(p[k], pad), lo, hi))
-            return false;
-    return true;
-}
-
 /* Random rays; every fourth from far outside, every eighth along an axis with
  * zero components, every sixteenth from a vertex. */
 static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)

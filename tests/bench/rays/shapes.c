@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "glim/mtl.h"
+#include "glim/view_file.h"
 #include "kernels/rng.h"
 
 /* Octaves of a terrain's height. */

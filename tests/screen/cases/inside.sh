@@ -36,6 +36,16 @@ colors_are 1 "128;128;255"
 keys n
 wait_for "FACES"
 colors_are 2 "128;128;255" "128;128;0"
+# what is seen is what is saved, but not as light
+keys p
+wait_for "saved walls.png 100x50, as it is shown"
+keys x
+wait_for "saved walls.ans, text of 60x15 characters"
+grep -q "48;2;128;128;255m" walls.ans
+grep -q "48;2;128;128;0m" walls.ans
+keys P
+wait_for "only light is saved as HDR: N goes back"
+wait_for "FACES"
 keys n
 wait_for "UVS"
 colors_are 1 "64;64;64"
@@ -63,6 +73,9 @@ keys '>'
 wait_for "boxes of level 1 of"
 keys '<' '<'
 wait_for "boxes of level 0 of"
+keys p
+wait_for "saved walls-2.png 100x50, as it is shown"
+cmp -s walls.png walls-2.png && die "boxes are not in the file"
 # what is in the middle, until something is picked
 keys t
 wait_for "directions from pixel 50 25"

@@ -16,6 +16,11 @@ wait_for "│\[Materials\]  Objects   Light"
 expect "│>    l                 diffuse"
 expect "     light      1          ===......"
 wait_for "LIVE"
+# the help begins with the panel's own keys
+keys '?'
+wait_for "arrows  choose; change by a step"
+keys Escape
+wait_until_gone "choose; change"
 # by hand: red light, typed
 keys Enter
 keys Down Down Down Down Down Down Down Down
@@ -29,6 +34,17 @@ expect " l \*"
 keys w
 sleep 0.3
 expect "│>    of colour  #ff0000"
+# a type is not typed: Enter goes to the next, and back with the undo
+keys Up Up Up Up Up Up Up Up
+wait_for "│>    type       diffuse"
+keys 5
+wait_for "changed with the arrows, or Enter"
+keys Enter
+wait_for "│>    type       [^d ]"
+keys u
+wait_for "│>    type       diffuse"
+keys Down Down Down Down Down Down Down Down
+wait_for "│>    of colour  #ff0000"
 # half as bright by the arrows: one step of undo
 keys Up
 keys Left Left Left

@@ -26,6 +26,14 @@ glim -b -s 1 -o orange.png flat.obj 2>/dev/null
 printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground 0 .5 0\n' >flat.view
 glim -b -s 1 -o green.png flat.obj 2>/dev/null
 
+load() # and do not wait until the screen says something else
+{
+    keys l
+    wait_for "loaded wall.obj"
+    keys Escape
+    wait_until_gone "loaded wall.obj"
+}
+
 story() # options: which backend
 {
     wall 0 >wall.obj
@@ -40,8 +48,7 @@ story() # options: which backend
     shines 0 .5 0 | write wall.mtl
     wait_for "LIVE  changed: l loads"
     wait_for_rows 20 "$ORANGE"
-    keys l
-    wait_for "loaded wall.obj"
+    load
     wait_for_rows 20 "$GREEN"
     wait_for "LIVE .* $machine"
     reject "changed"
@@ -57,7 +64,7 @@ story() # options: which backend
     shines .5 .2 0 >wall.mtl # in place
     keys x                   # takes the message away
     wait_for "changed: l loads"
-    keys l
+    load
     wait_for_rows 20 "$ORANGE"
 
     # the image
@@ -67,35 +74,35 @@ story() # options: which backend
     shines 1 1 1 | write wall.mtl
     map=
     wait_for "changed: l loads"
-    keys l
-    wait_for "loaded wall.obj"
+    load
     wait_for_rows 20 "$ORANGE"
     cp green.png wall.png
     wait_for "changed: l loads"
-    keys l
+    load
     wait_for_rows 20 "$GREEN"
 
     # the geometry: behind the camera there is only the background
     wall 9 | write wall.obj
     wait_for "changed: l loads"
-    keys l
-    wait_until_gone "changed: l loads"
+    load
     wait_for_rows 0 "$GREEN"
     # the view: another background, the camera stays where it has gone
     printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground .5 .2 0\n' |
         write wall.view
     wait_for "changed: l loads"
-    keys l
+    load
     wait_for_rows 20 "$ORANGE"
     keys c
     wait_for "wrote the view"
+    keys Escape
+    wait_until_gone "wrote the view"
     grep -q "^eye 0 [^ ]* [34]\." wall.view || die "the camera: $(cat wall.view)"
     sleep 0.5
     reject "changed" # by ourselves
     # another shape of the picture: 50x100 pixels are 20 columns in 20 rows
     sed 's/^res .*/res 50 100/' wall.view | write wall.view
     wait_for "changed: l loads"
-    keys l
+    load
     wait_for "LIVE .* 50x100"
     wait_for_rows 20 "$ORANGE"
     [ "$(screen_colors | sed -n 10p | grep -o "${ORANGE}m *" |

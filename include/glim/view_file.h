@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/*
+ * view_file.h - the small text file beside a scene that keeps its view
+ *
+ * Units:     as view.h
+ * Ownership: nothing of a file's text is kept
+ * Threads:   one thread at a time
+ * Errors:    an unreadable file, a malformed or impossible value: file:line
+ */
+#ifndef GLIM_VIEW_FILE_H
+#define GLIM_VIEW_FILE_H
+
+#include "glim/file.h"
+#include "glim/report.h"
+#include "glim/view.h"
+
+/* Reads `key value` lines over what `view` holds. An unknown key is a warning.
+ */
+bool view_read(struct view *view, const char *path, struct report *report,
+               struct error *err);
+
+/* Writes the file, atomically. Lines of a file that is there keep their order,
+ * and those with an unknown key or none stay as they are. A sky path is written
+ * relative to the file's folder where that is possible. *change says what was
+ * replaced by what; one that someone else writes at the same time is not. */
+bool view_write(const struct view *view, const char *path,
+                struct file_change *change, struct error *err);
+
+#endif

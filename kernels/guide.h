@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+/*
+ * guide.h - directions that light comes from through glass and off metal
+ *
+ * What light samples cannot find, and chance rarely: src/guide.c has traced
+ * photons, and a grid over the scene says for each of its cells how much came
+ * from which of GUIDE_BINS directions (Jensen 1995, "Importance driven path
+ * tracing using the photon map"). At what is diffuse a direction is drawn from
+ * the cell with the probability that is the cell's share, else from the BSDF;
+ * its density is that of the mixture (Vorba et al. 2014, "On-line learning of
+ * parametric mixture models for light transport simulation", 5.2), so that any
+ * table is right, and a good one fast.
+ *
+ * Bins are the squares of an octahedral map, whose Jacobian needs no
+ * trigonometry: on |x| + |y| + |z| = 1, seen along y, dw = (|x| + |y| + |z|)^3
+ * dA for a unit vector.
+ *
+ * Units:     normalised scene units, densities per solid angle
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef KERNELS_GUIDE_H
+#define KERNELS_GUIDE_H
+
+#include "kernels/vertex.h"
+
+#define GUIDE_BINS (GUIDE_SIDE * GUIDE_SIDE)
+
+/* A mirror, or as good as one: what it throws on other things is for guiding.
+ */
+#define GUIDE_ALPHA_MAX 0.3f
+
+/* Where guiding helps: the BSDF hardly knows where to look. */
+static inline bool guide_helps(const struct bsdf *b)
+{
+    return b->kind == MATERIAL_DIFFUSE || b->kind == MATERIAL_ROUGH_DIFFUSE ||
+           (b->kind == MATERIAL_PLASTIC && !v3_is_zero(b->color));
+}
+
+/* The cell that p is in or, outside the grid, nearest to. */
+static inline uint32_t guide_cell(const struct guide_grid *g, struct vec3 p)
+{
+    struct vec3 at = v3_scale(v3_sub(p, g->lo), g->cells_a_unit);
+    uint32_t x = (uint32_t)f_min(f_max(at.x, 0.0f), (float)(g->width - 1));
+    uint32_t y = (uint32_t)f_min(f_max(at.y, 0.0f), (float)(g->height - 1));
+    uint32_t z = (uint32_t)f_min(f_max(at.z, 0.0f), (float)(g->depth - 1));
+
+    return (z * g->height + y) * g->width + x;
+}
+
+/* Where in guide_sums those of the cell around p are; NO_INDEX: it has none. */
+static inline uint32_t guide_at(const struct world *w, struct vec3 p)
+{
+    if (w->settings.guide.width == 0)
+        return NO_INDEX;
+    return w->guide_cells[guide_cell(&w->settings.guide, p)];
+}
+
+static inline float guide_sign(float x)
+{
+    return x < 0.0f ? -1.0f : 1.0f;
+}
+
+/* Turns the square's corners over its edges: the half below y = 0, and back. */
+static inline struct vec2 guide_fold(struct vec2 p)
+{
+    return v2((1.0f - fabsf(p.y)) * guide_sign(p.x),
+              (1.0f - fabsf(p.x)) * guide_sign(p.y));
+}
+
+static inline float guide_norm(struct vec3 d)
+{
+    return fabsf(d.x) + fabsf(d.y) + fabsf(d.z);
+}
+
+/* The bin that unit vector d is in. */
+static inline uint32_t guide_bin(struct vec3 d)
+{
+    float scale = 1.0f / guide_norm(d);
+    struct vec2 p = v2(d.x * scale, d.z * scale);
+    float half = 0.5f * (float)GUIDE_SIDE;
+    float last = (float)(GUIDE_SIDE - 1);
+
+    if (d.y < 0.0f)
+        p = guide_fold(p);
+    return (uint32_t)f_min(f_max((p.y + 1.0f) * half, 0.0f), last) *
+               GUIDE_SIDE +
+           (uint32_t)f_min(f_max((p.x + 1.0f) * half, 0.0f), last);
+}
+
+/* The direction at (x, y) of the whole map, both in [0, GUIDE_SIDE]. */
+static inline struct vec3 guide_direction(float x, float y)
+{
+    float step = 2.0f / (float)GUIDE_SIDE;
+    struct vec2 p = v2(x * step - 1.0f, y * step - 1.0f);
+    float height = 1.0f - fabsf(p.x) - fabsf(p.y);
+
+    if (height < 0.0f)
+        p = guide_fold(p);
+    return v3_unit(v3(p.x, height, p.y));
+}
+
+/* How often, of one, the cell is asked: its last sum. */
+static inline float guide_share(const struct world *w, uint32_t cell)
+{
+    return w->guide_sums[cell + GUIDE_BINS - 1];
+}
+
+static inline float guide_sum_before(const struct world *w, uint32_t cell,
+                                     uint32_t bin)
+{
+    return bin == 0 ? 0.0f : w->guide_sums[cell + bin - 1];
+}
+
+/* Density of guide_sample() at the unit vector d, times the cell's share. */
+static inline float guide_pdf(const struct world *w, uint32_t cell,
+                              struct vec3 d)
+{
+    uint32_t bin = guide_bin(d);
+    float norm = guide_norm(d);
+
+    return (w->guide_sums[cell + bin] - guide_sum_before(w, cell, bin)) *
+           (0.25f * (float)GUIDE_BINS) / (norm * norm * norm);
+}
+
+/* A direction for u.x below the cell's share. */
+static inline struct vec3 guide_sample(const struct world *w, uint32_t cell,
+                                       struct vec2 u)
+{
+    uint32_t bin = 0;
+    float before, part;
+
+    /* the first bin whose sum is above u.x */
+    for (uint32_t jump = GUIDE_BINS / 2; jump > 0; jump /= 2)
+        if (w->guide_sums[cell + bin + jump - 1] <= u.x)
+            bin += jump;
+    before = guide_sum_before(w, cell, bin);
+    part = f_min((u.x - before) / (w->guide_sums[cell + bin] - before), 1.0f);
+    return guide_direction((float)(bin % GUIDE_SIDE) + part,
+                           (float)(bin / GUIDE_SIDE) + u.y);
+}
+
+/* Draws a direction from the mixture; false if there is none, or the face is in
+ * its way. The sample's weight and density are as if the BSDF had drawn it, and
+ * *scale is multiplied by the BSDF's density over the mixture's: roulette would
+ * end the paths that were worth finding, and weights of light samples need no
+ * look-up, for those of any two densities sum to 1. */
+static inline bool guide_scatter(const struct world *w, uint32_t cell,
+                                 const struct vertex *v, const struct bsdf *b,
+                                 struct vec3 wo, struct vec2 u, float choice,
+                                 struct bsdf_sample *s, struct vec3 *wi,
+                                 float *scale)
+{
+    float share = guide_share(w, cell);
+    struct vec3 local, f;
+    float pdf;
+
+    if (u.x < share) {
+        *wi = guide_sample(w, cell, u);
+        local = vertex_to_local(v, *wi);
+        f = bsdf_terms(b, wo, local, &pdf);
+        if (!sample_density(s, local, f, pdf))
+            return false;
+    } else {
+        u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);
+        if (!bsdf_sample(b, wo, u, choice, s))
+            return false;
+        *wi = v3_unit(vertex_to_world(v, s->wi));
+    }
+    if (s->is_delta)
+        *scale /= 1.0f - share;
+    else
+        *scale *= s->pdf / ((1.0f - share) * s->pdf + guide_pdf(w, cell, *wi));
+    return vertex_sides_agree(v, *wi, s->wi.z);
+}
+
+#endif

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "glim/work_save.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glim/file.h"
+#include "glim/picture.h"
+#include "glim/view_file.h"
+#include "glim/xdg.h"
+
+/* The scene's name without folder and ending. */
+static char *scene_name(const struct work *w)
+{
+    char *stem = path_stem(w->session->scene.path);
+    const char *slash = strrchr(stem, '/');
+    char *name = xstrdup(slash ? slash + 1 : stem);
+
+    free(stem);
+    return name;
+}
+
+void work_save_picture(struct work *w, const char *ending)
+{
+    struct render_progress now = render_progress(w->session->render);
+    struct error err;
+    char *stem;
+
+    if (now.samples == 0) {
+        work_say(w, "nothing to save yet");
+        return;
+    }
+    stem = scene_name(w);
+    if (saver_begin(&w->saver, render_film(w->session->render),
+                    session_develop(w->session), stem, ending, &err)) {
+        w->saving_samples = now.samples;
+        snprintf(w->saving_spp, sizeof w->saving_spp, "%" PRIu64 " spp",
+                 now.spp_done);
+        work_say_long(w, "saving ...");
+    } else {
+        work_say_error(w, err.text);
+    }
+    free(stem);
+}
+
+bool work_finish_saving(struct work *w)
+{
+    const struct film *film = render_film(w->session->render);
+    struct error err;
+    char *name, *text;
+
+    if (!w->saver.is_busy)
+        return true;
+    name = saver_finish(&w->saver, &err);
+    if (!name) {
+        work_say_error(w, err.text);
+        work_add_result(w, err.text);
+        return false;
+    }
+    text = xformat("saved %s %dx%d, %s", name, film->width, film->height,
+                   w->saving_spp);
+    work_say(w, "%s", text);
+    work_add_result(w, text);
+    w->saved_samples = w->saving_samples;
+    free(text);
+    free(name);
+    return true;
+}
+
+static void say_saved(struct work *w, char *text)
+{
+    work_say(w, "%s", text);
+    work_add_result(w, text);
+    free(text);
+}
+
+void work_save_frame(struct work *w, const struct frame *frame)
+{
+    char *stem = scene_name(w);
+    struct error err;
+    char *name = picture_write_frame_numbered(frame, stem, &err);
+
+    free(stem);
+    if (name)
+        say_saved(w, xformat("saved %s %dx%d, as it is shown", name,
+                             frame->width, frame->height));
+    else
+        work_say_error(w, err.text);
+    free(name);
+}
+
+void work_save_text(struct work *w, const struct frame *frame,
+                    const struct text_style *style)
+{
+    char *stem = scene_name(w);
+    struct error err;
+    char *text, *name = NULL;
+    size_t size_bytes;
+
+    if (text_of_frame(frame, style, &text, &size_bytes, &err)) {
+        name = file_write_numbered(stem, "ans", text, size_bytes, &err);
+        free(text);
+    }
+    free(stem);
+    if (name)
+        say_saved(w, xformat("saved %s, text of %dx%d characters", name,
+                             style->cols, style->rows));
+    else
+        work_say_error(w, err.text);
+    free(name);
+}
+
+void work_save_view(struct work *w)
+{
+    struct session *s = w->session;
+    struct file_change change;
+    struct error err;
+    char *text;
+
+    s->view.has_camera = true; /* also one that was placed by the program */
+    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
+    if (!view_write(&s->view, s->view_path, &change, &err)) {
+        work_say_error(w, err.text);
+        return;
+    }
+    edit_saved_view(&s->edit);
+    view_copy(&s->filed, &s->view);
+    watch_wrote(&w->watch, s->view_path, &change.after);
+    text = xformat("wrote the view to %s", s->view_path);
+    work_say(w, "%s", text);
+    work_add_result(w, text);
+    free(text);
+}
+
+bool work_save_edit(struct work *w)
+{
+    struct error err;
+    char *what;
+
+    if (!session_save_edit(w->session, &w->watch, &what, &err)) {
+        work_say_error(w, err.text);
+        return false;
+    }
+    w->files_ns = clock_ns(); /* what has changed may be loaded now */
+    work_say(w, "%s", what);
+    work_add_result(w, what);
+    free(what);
+    return true;
+}
+
+/* NULL if it cannot be written there. */
+static char *keep_as(struct work *w, const char *stem, struct error *err)
+{
+    char *kept = xformat("%s-kept", stem);
+    char *name =
+        picture_write_numbered(render_film(w->session->render),
+                               session_develop(w->session), kept, "png", err);
+
+    free(kept);
+    return name;
+}
+
+static char *keep_beside(struct work *w, struct error *err)
+{
+    char *stem = path_stem(w->session->scene.path);
+    char *name = keep_as(w, stem, err);
+
+    free(stem);
+    return name;
+}
+
+static char *keep_in_state(struct work *w, struct error *err)
+{
+    char *scene = scene_name(w);
+    char *stem = xdg_state_path(scene);
+    char *name = stem ? keep_as(w, stem, err) : NULL;
+
+    free(stem);
+    free(scene);
+    return name;
+}
+
+void work_keep(struct work *w)
+{
+    struct error err;
+    char *name, *text;
+
+    render_halt(w->session->render);
+    w->progress = render_progress(w->session->render);
+    if (w->progress.samples <= w->saved_samples)
+        return;
+    name = keep_beside(w, &err);
+    if (!name)
+        name = keep_in_state(w, &err);
+    text = name
+               ? xformat("kept %s, %" PRIu64 " spp", name, w->progress.spp_done)
+               : xstrdup(err.text);
+    work_add_result(w, text);
+    free(text);
+    free(name);
+}

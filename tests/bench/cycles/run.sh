@@ -1,0 +1,71 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# What `make bench-cycles` runs: camera paths a second of Blender's Cycles and of
+# glim, which take turns, on the scenes of ../shared/scenes-bench. BUILD: the
+# folder of the program; FILTER: a scene; ROUNDS: medians of so many.
+set -eu
+build=${BUILD:-build/release}
+shared=${GLIM_SHARED:-../shared}/scenes-bench
+rounds=${ROUNDS:-3}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+missing() {
+    echo "skip bench-cycles: no $1"
+    exit 0
+}
+
+median() { # COLUMN FILE
+    cut -d ' ' -f "$1" "$work/$2" | sort -g | awk '{ v[NR] = $1 }
+        END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
+}
+
+# Both print millions of paths a second, by the clock and by what the processor
+# did for one thread: what runs beside hardly counts there.
+
+# Between 4 and 36 samples a pixel: what it takes to begin does not count.
+cycles() { # OBJ THREADS
+    blender -b --factory-startup -P tests/bench/cycles/cycles.py -- "$1" "$2" \
+        4 36 2>"$work/log" | awk '$1 == "cycles" { s[$2] = $3; busy[$2] = $4 }
+        END { n = 32 * 256 * 256 / 1e6
+            print n / (s[36] - s[4]), n / (busy[36] - busy[4]) }'
+}
+
+# Loading counts, but takes milliseconds.
+glim() { # OBJ THREADS
+    (
+        "$build/glim" -b -c "$work/view" -d 64 -s 128 -t "$2" \
+            --stats "$work/stats" -o "$work/picture.pfm" "$1" 2>"$work/log"
+        times >"$work/times"
+    )
+    sed -n 's/.*"render_s": \([0-9.]*\).*/\1/p' "$work/stats" |
+        tr 'ms\n' '   ' | cat - "$work/times" | tr 'ms\n' '   ' |
+        awk '{ n = 128 * 256 * 256 / 1e6
+            print n / $1, n / (60 * ($6 + $8) + $7 + $9) }'
+}
+
+command -v blender >/dev/null || missing 'blender (Debian: blender)'
+[ -d "$shared" ] || missing "$shared"
+sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1
+echo "load $(cut -d ' ' -f 1-3 /proc/loadavg); medians of $rounds"
+echo '                      Mpaths/s by the clock         by the processor'
+echo 'scene        threads  Cycles  glim  ratio   Cycles  glim  ratio'
+for scene in cornell many_lights sky; do
+    case $scene in *"${FILTER:-}"*) ;; *) continue ;; esac
+    obj=$shared/$scene/$scene.obj
+    grep -v max_bounces "$shared/$scene/camera.txt" >"$work/view"
+    for threads in 1 $(nproc); do
+        : >"$work/cycles"
+        : >"$work/glim"
+        i=0
+        while [ "$i" -lt "$rounds" ]; do
+            cycles "$obj" "$threads" >>"$work/cycles"
+            glim "$obj" "$threads" >>"$work/glim"
+            i=$((i + 1))
+        done
+        echo "$scene $threads $(median 1 cycles) $(median 1 glim)" \
+            "$(median 2 cycles) $(median 2 glim)" |
+            awk '{ printf "%-12s %7d %7.2f %5.2f %6.2f %8.2f %5.2f %6.2f\n",
+                $1, $2, $3, $4, $4 / $3, $5, $6, $6 / $5 }'
+    done
+done

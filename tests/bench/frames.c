@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+/*
+ * frames - how many samples a pixel fit into a frame of 1/60 s, by size of the
+ * picture and bounces: whole pictures, from the restart until the last sample
+ * is in the film. 2^n samples are tried; "-" is where not one fits.
+ *
+ * usage: frames SCENE...
+ */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "glim/session.h"
+
+#define FRAME_NS  (1000000000u / 60)
+#define ROUNDS    9
+#define SPP_MOST  256
+#define UNLIMITED 999
+
+/* Text windows of 80x24 and 200x60 cells by halves, then screens. */
+static const struct {
+    int width, height;
+} sizes[] = {{80, 48}, {200, 120}, {320, 180}, {640, 360}, {1280, 720}};
+
+static const int depths[] = {0, 1, 2, 4, 8, UNLIMITED};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* The fastest of some pictures: what else runs only adds to them. */
+static uint64_t picture_ns(struct session *s, uint64_t spp)
+{
+    uint64_t best_ns = UINT64_MAX;
+    struct error err;
+
+    for (int i = 0; i < ROUNDS; i++) {
+        uint64_t begin_ns = clock_ns(), time_ns;
+
+        if (!session_restart(s, spp, &err)) {
+            fprintf(stderr, "frames: %s\n", err.text);
+            exit(1);
+        }
+        render_wait(s->render, -1);
+        time_ns = clock_ns() - begin_ns;
+        if (time_ns < best_ns)
+            best_ns = time_ns;
+    }
+    return best_ns;
+}
+
+/* 0: not one. */
+static uint64_t spp_that_fits(const char *path, int width, int height,
+                              int bounces)
+{
+    struct options o = {.scene_path = path,
+                        .width_px = width,
+                        .height_px = height,
+                        .max_bounces = bounces};
+    static struct session s;
+    struct error err;
+    uint64_t spp = 1;
+
+    if (!session_open(&s, &o, clock_ns(), &err)) {
+        fprintf(stderr, "frames: %s\n", err.text);
+        exit(1);
+    }
+    picture_ns(&s, 1); /* builds the tree */
+    while (spp <= SPP_MOST && picture_ns(&s, spp) <= FRAME_NS)
+        spp *= 2;
+    session_close(&s);
+    return spp / 2;
+}
+
+static void print_table(const char *path)
+{
+    printf("%-26s bounces:", path);
+    for (size_t d = 0; d < COUNT(depths); d++)
+        if (depths[d] == UNLIMITED)
+            printf("%6s", "any");
+        else
+            printf("%6d", depths[d]);
+    for (size_t i = 0; i < COUNT(sizes); i++) {
+        printf("\n%26dx%-7d ", sizes[i].width, sizes[i].height);
+        for (size_t d = 0; d < COUNT(depths); d++) {
+            uint64_t spp =
+                spp_that_fits(path, sizes[i].width, sizes[i].height, depths[d]);
+
+            if (spp == 0)
+                printf("%6s", "-");
+            else
+                printf("%6d", (int)spp);
+            fflush(stdout);
+        }
+    }
+    printf("\n");
+}
+
+int main(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++)
+        print_table(argv[i]);
+    return 0;
+}
