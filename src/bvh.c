@@ -564,5 +564,5 @@ void bvh_free(struct bvh *bvh)
     free(bvh->nodes);
     free(bvh->tris);
     free(bvh->leaf_tris);
-    *bvh = (struct bvh){0};
+    *bvh = (struct bvh){NULL, 0, NULL, NULL, 0, 0};
 }

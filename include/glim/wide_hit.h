@@ -24,7 +24,8 @@
 #define DIRECTION_MIN 0x1p-60f
 
 /* Both ends of a box are this much further apart for a ray; see BOX_WIDEN. A
- * step from one float to the next is at least FLOAT_EPSILON of it. */
+ * step from one float to the next is at least FLOAT_EPSILON of it; one more,
+ * for f8_before() leaves the end out. */
 #define WIDEN       (1.0f + 2.0f * BOX_WIDEN)
 #define WIDEN_STEPS 33
 
