@@ -51,7 +51,10 @@
     M(light_node, axis_y, 160) M(light_node, axis_z, 192)                    \
     M(light_node, spread, 224) M(light_node, power, 256)                     \
     M(light_node, child, 288)                                                \
-    S(settings, 176) M(settings, camera, 0) M(settings, sky, 72)             \
+    S(guide_grid, 32) M(guide_grid, lo, 0) M(guide_grid, cells_a_unit, 12)   \
+    M(guide_grid, width, 16) M(guide_grid, height, 20)                       \
+    M(guide_grid, depth, 24) M(guide_grid, cell_count, 28)                   \
+    S(settings, 208) M(settings, camera, 0) M(settings, sky, 72)             \
     M(settings, max_vertices, 104) M(settings, seed, 108)                    \
     M(settings, features, 112) M(settings, direct, 116)                      \
     M(settings, order, 120) M(settings, sample, 124)                         \
@@ -61,6 +64,7 @@
     M(settings, material_count, 152) M(settings, texture_count, 156)         \
     M(settings, texel_count, 160) M(settings, light_count, 164)              \
     M(settings, light_node_count, 168) M(settings, sky_sum_count, 172)       \
+    M(settings, guide, 176)                                                  \
     S(ray, 36) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
     M(ray, from, 32)                                                         \
     S(path_sample, 20) M(path_sample, radiance, 0) M(path_sample, rays, 12)  \
