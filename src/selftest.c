@@ -71,6 +71,8 @@ static bool make_scene(struct scene *scene, uint32_t features,
         if ((scene_material_features(scene, m) & ~features) != 0)
             *m = material_default();
     }
+    if ((features & FEATURE_GUIDE) == 0)
+        guide_free(&scene->guide);
     return ok;
 }
 
