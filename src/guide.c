@@ -265,6 +265,17 @@ static bool photon_scatter(struct photon *p, const struct bsdf *b,
     return true;
 }
 
+/* Photons see no colours, so that one that is edited leaves the table as it is:
+ * what casts is white, the rest grey. */
+static struct material without_colors(struct material m)
+{
+    float grey = casts(&m) ? 1.0f : 0.5f;
+
+    m.color = m.coat = v3(grey, grey, grey);
+    m.color_texture = m.coat_texture = NO_INDEX;
+    return m;
+}
+
 static void photon_follow(struct pass *pass, struct photon p, uint32_t i)
 {
     const struct world *w = &pass->wide.world;
@@ -279,7 +290,7 @@ static void photon_follow(struct pass *pass, struct photon p, uint32_t i)
         p.ray.t_max = FLOAT_MAX;
         if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
             return;
-        m = w->materials[w->tris[h.tri].material];
+        m = without_colors(w->materials[w->tris[h.tri].material]);
         if (!vertex_at(w, &m, p.ray, h, &v))
             return;
         b = bsdf_at(w, &m, &v);
@@ -397,6 +408,13 @@ bool guide_build(struct guide *guide, const struct world *w, struct error *err)
     if (!ok || guide->grid.cell_count == 0)
         guide_free(guide);
     return ok || fail(err, "out of memory for the table of caustics");
+}
+
+bool guides_differ(const struct material *a, const struct material *b)
+{
+    struct material x = without_colors(*a), y = without_colors(*b);
+
+    return memcmp(&x, &y, sizeof x) != 0;
 }
 
 void guide_lend(const struct guide *guide, struct world *world)

@@ -15,6 +15,7 @@ struct next {
     struct lights lights;
     bool has_lights;
     struct guide guide;
+    bool has_guide;
 };
 
 static bool out_of_memory(const struct scene *scene, struct error *err)
@@ -169,15 +170,19 @@ static bool make_materials(struct scene *scene, const struct style *style,
 
 /* ---- lights, caustics ---- */
 
-static bool needs_lights(const struct scene *scene, const struct next *next)
+/* Is there a material in use, or a triangle, whose material is another in what
+ * `differ` looks at? */
+static bool
+any_differs(const struct scene *scene, const struct next *next,
+            bool (*differ)(const struct material *, const struct material *))
 {
     for (uint32_t i = 0; i < scene->material_count; i++)
         if (scene->material_is_used[i] &&
-            lights_differ(&scene->materials[i], &next->materials[i]))
+            differ(&scene->materials[i], &next->materials[i]))
             return true;
     for (uint32_t i = 0; next->tris != NULL && i < scene->tri_count; i++)
-        if (lights_differ(&scene->materials[scene->tris[i].material],
-                          &next->materials[next->tris[i].material]))
+        if (differ(&scene->materials[scene->tris[i].material],
+                   &next->materials[next->tris[i].material]))
             return true;
     return false;
 }
@@ -201,20 +206,23 @@ static bool make_lights(struct scene *scene, const struct style *style,
 {
     struct world arrays = next_arrays(scene, style, next);
 
-    if (!needs_lights(scene, next))
+    if (!any_differs(scene, next, lights_differ))
         return true;
     next->has_lights = lights_build(&next->lights, &arrays, err);
     return next->has_lights;
 }
 
-/* Each colour says how many photons go on. */
 static bool make_guide(struct scene *scene, const struct style *style,
                        struct next *next, struct error *err)
 {
     struct world arrays = next_arrays(scene, style, next);
 
+    if (!next->has_lights && next->textures == NULL &&
+        !any_differs(scene, next, guides_differ))
+        return true;
     lights_lend(next->has_lights ? &next->lights : &scene->lights, &arrays);
-    return guide_build(&next->guide, &arrays, err);
+    next->has_guide = guide_build(&next->guide, &arrays, err);
+    return next->has_guide;
 }
 
 /* ---- all ---- */
@@ -270,8 +278,10 @@ static void swap_in(struct scene *scene, const struct style *style,
         lights_free(&scene->lights);
         scene->lights = next->lights;
     }
-    guide_free(&scene->guide);
-    scene->guide = next->guide;
+    if (next->has_guide) {
+        guide_free(&scene->guide);
+        scene->guide = next->guide;
+    }
 }
 
 static void drop(struct next *next)

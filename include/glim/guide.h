@@ -35,6 +35,9 @@ struct guide {
 bool guide_build(struct guide *guide, const struct world *world,
                  struct error *err);
 
+/* Of two materials: would the table be another? */
+bool guides_differ(const struct material *a, const struct material *b);
+
 /* Lends the table to the world. */
 void guide_lend(const struct guide *guide, struct world *world);
 
