@@ -79,14 +79,14 @@ static inline uint32_t guide_bin(struct vec3 d)
 {
     float scale = 1.0f / guide_norm(d);
     struct vec2 p = v2(d.x * scale, d.z * scale);
-    float half = 0.5f * (float)GUIDE_SIDE;
+    float middle = 0.5f * (float)GUIDE_SIDE;
     float last = (float)(GUIDE_SIDE - 1);
 
     if (d.y < 0.0f)
         p = guide_fold(p);
-    return (uint32_t)f_min(f_max((p.y + 1.0f) * half, 0.0f), last) *
+    return (uint32_t)f_min(f_max((p.y + 1.0f) * middle, 0.0f), last) *
                GUIDE_SIDE +
-           (uint32_t)f_min(f_max((p.x + 1.0f) * half, 0.0f), last);
+           (uint32_t)f_min(f_max((p.x + 1.0f) * middle, 0.0f), last);
 }
 
 /* The direction at (x, y) of the whole map, both in [0, GUIDE_SIDE]. */
@@ -153,14 +153,14 @@ static inline bool guide_scatter(const struct world *w, uint32_t cell,
                                  float *scale)
 {
     float share = guide_share(w, cell);
-    struct vec3 local, f;
+    struct vec3 drawn, f;
     float pdf;
 
     if (u.x < share) {
         *wi = guide_sample(w, cell, u);
-        local = vertex_to_local(v, *wi);
-        f = bsdf_terms(b, wo, local, &pdf);
-        if (!sample_density(s, local, f, pdf))
+        drawn = vertex_to_local(v, *wi);
+        f = bsdf_terms(b, wo, drawn, &pdf);
+        if (!sample_density(s, drawn, f, pdf))
             return false;
     } else {
         u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);

@@ -30,30 +30,24 @@ static inline bool sum_accepts(float x)
  * 2^62 count as 2^62, and sums stop at 2^63. */
 static inline void sum_add(GLOBAL struct sum *s, float x)
 {
-    uint32_t bits = float_bits(x) & 0x7fffffffu;
-    uint32_t exponent = bits >> 23;
-    uint64_t mantissa = bits & 0x7fffffu;
+    uint32_t exponent = float_bits(x) >> 23 & 255u;
+    uint64_t mantissa = (float_bits(x) & 0x7fffffu) | 0x800000u;
     uint64_t lo = 0;
     uint64_t hi = 0;
-    int32_t shift; /* of the mantissa, against units of 2^-64 */
 
-    if (exponent != 0)
-        mantissa |= 0x800000u;
-    else
-        exponent = 1;
-    shift = (int32_t)exponent - 150 + 64;
-    if (shift <= -24)
+    if (exponent < 127 - 64) /* 0 and denormal numbers, too */
         return;
-    if (exponent >= 127 + 62) {
-        hi = (uint64_t)1 << 62;
-    } else if (shift < 0) {
-        lo = mantissa >> (uint32_t)-shift;
-    } else if (shift < 64) {
-        lo = mantissa << (uint32_t)shift;
-        if (shift > 40)
-            hi = mantissa >> (uint32_t)(64 - shift);
+    if (exponent < 150 - 64) {
+        lo = mantissa >> (150 - 64 - exponent);
+    } else if (exponent < 150) {
+        uint32_t shift = exponent - (150 - 64);
+
+        lo = mantissa << shift;
+        hi = mantissa >> 1 >> (63 - shift); /* a shift by 64 is none */
+    } else if (exponent < 127 + 62) {
+        hi = mantissa << (exponent - 150);
     } else {
-        hi = mantissa << (uint32_t)(shift - 64);
+        hi = (uint64_t)1 << 62;
     }
     s->lo += lo;
     s->hi += hi + (s->lo < lo ? 1 : 0);

@@ -193,7 +193,6 @@ struct settings {
     uint32_t sample;   /* enum sample_kind */
     float sky_share;   /* probability that a light sample is one of the sky, */
     float light_share; /* of the lights; what is left is none at all */
-    struct guide_grid guide;
 
     /* lengths of the world's arrays */
     uint32_t tri_count;
@@ -206,6 +205,8 @@ struct settings {
     uint32_t light_count;
     uint32_t light_node_count;
     uint32_t sky_sum_count;
+
+    struct guide_grid guide;
 };
 
 /* What a sample reads, nothing more. nodes and leaf_tris belong to the

@@ -65,12 +65,16 @@ static bool make_scene(struct scene *scene, uint32_t features,
         scene_finish(scene, &report, err);
 
     report_free(&report);
+    if ((features & FEATURE_GUIDE) == 0)
+        guide_free(&scene->guide);
     for (uint32_t i = 0; ok && i < scene->material_count; i++) {
         struct material *m = &scene->materials[i];
 
         if ((scene_material_features(scene, m) & ~features) != 0)
             *m = material_default();
     }
+    if ((features & FEATURE_GUIDE) == 0)
+        guide_free(&scene->guide);
     return ok;
 }
 

@@ -2,6 +2,7 @@
 #include "glim/stage.h"
 
 #include <stdio.h>
+#include <time.h>
 
 #include "glim/help.h"
 #include "glim/panel_draw.h"
@@ -25,9 +26,18 @@
 
 #define STATUS_NS (250 * MS_NS)
 
+/* While nothing but samples come, frames have a twelfth of a core: the rest is
+ * the render's. */
+#define FRAME_SHARE 12
+
 static uint64_t earlier(uint64_t a, uint64_t b)
 {
     return a < b ? a : b;
+}
+
+static uint64_t later(uint64_t a, uint64_t b)
+{
+    return a > b ? a : b;
 }
 
 static const struct film *film_of(const struct stage *st)
@@ -275,15 +285,27 @@ static void update_status(struct stage *st, uint64_t now_ns)
     canvas_status(&st->canvas, text);
 }
 
-static uint64_t frame_interval(const struct stage *st, uint64_t took_ns)
+/* Processor time of this thread. */
+static uint64_t used_ns(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (uint64_t)t.tv_sec * S_NS + (uint64_t)t.tv_nsec;
+}
+
+/* Until the next frame after one that took so long, of which it used so much of
+ * the processor. */
+static uint64_t frame_interval(const struct stage *st, uint64_t took_ns,
+                               uint64_t cpu_ns)
 {
     uint64_t interval_ns = FRAME_FIRST_NS;
 
     if (st->work->progress.spp_done > 0)
         interval_ns = st->work->progress.render_ns > OLD_NS ? FRAME_OLD_NS
                                                             : FRAME_YOUNG_NS;
-    /* large windows must not take the time away from the render */
-    return interval_ns > 2 * took_ns ? interval_ns : 2 * took_ns;
+    interval_ns = later(interval_ns, FRAME_SHARE * cpu_ns);
+    return later(interval_ns, 2 * took_ns); /* where writing blocks */
 }
 
 static int frame_step(const struct stage *st)
@@ -315,6 +337,7 @@ bool stage_draw(struct stage *st, uint64_t now_ns)
     bool is_running = st->work->progress.state == RENDER_RUNNING;
     bool shows = !work_awaits_picture(st->work) && !st->is_settled &&
                  now_ns >= st->frame_ns;
+    uint64_t begin_ns = used_ns();
     enum canvas_result result;
 
     show_messages(st, now_ns);
@@ -333,7 +356,9 @@ bool stage_draw(struct stage *st, uint64_t now_ns)
 
         st->is_settled = result == CANVAS_DONE && !is_running;
         st->frame_ns =
-            result == CANVAS_MORE ? 0 : now_ns + frame_interval(st, took_ns);
+            result == CANVAS_MORE
+                ? 0
+                : now_ns + frame_interval(st, took_ns, used_ns() - begin_ns);
     }
     return result != CANVAS_GONE;
 }

@@ -10,7 +10,7 @@
  * no truth.
  *
  * A function of the scene alone. Measured for a glass ball and a gold one: 20
- * ms and .6 times the error.
+ * ms and .66 times the error.
  *
  * Units:     normalised scene units
  * Ownership: guide_free() frees; a zeroed struct is a scene without a table

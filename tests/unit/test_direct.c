@@ -2,7 +2,7 @@
 /*
  * test_direct.c - light that is chosen, light that is met by chance, and both
  * weighed have the same mean in every scene that glim ships, and both weighed
- * has the least error
+ * has the least error; without the guide of caustics it is the same mean, too
  */
 #include <math.h>
 #include <stdlib.h>
@@ -21,10 +21,13 @@ static const char *const scenes[] = {
 #define HEIGHT 27
 #define SPP    16
 #define SEEDS  24
-#define MODES  3
+#define MODES  4
+
+/* After those of enum direct: both weighed, without the guide. */
+#define UNGUIDED 3
 
 /* Welch's t with at least 23 degrees is beyond this in 1e-5 of the cases;
- * there are 6 scenes, 3 channels and 2 pairs: one false alarm in 2,800 choices
+ * there are 6 scenes, 3 channels and 3 pairs: one false alarm in 1,850 choices
  * of seeds. They are fixed. */
 #define T_LIMIT 5.6
 
@@ -49,24 +52,26 @@ static void fill_sky_table(struct scene *s)
                  err.text);
 }
 
-static void render_seed(struct session *s, enum direct direct, uint32_t seed,
-                        float *rgb)
+static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
 {
-    struct render_job job = {.geometry_changed = direct == 0 && seed == 1,
+    struct render_job job = {.geometry_changed = mode == 0 && seed == 1,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = SPP};
     struct error err;
 
     check_or_say(scene_world(&s->scene, &s->view, seed, &job.world, &err),
                  err.text);
-    job.world.settings.direct = direct;
+    if (mode == UNGUIDED)
+        guide_lend(&(struct guide){.cells = NULL}, &job.world);
+    else
+        job.world.settings.direct = (uint32_t)mode;
     check_or_say(render_start(s->render, &job, &err), err.text);
     assert_true(render_wait(s->render, 300000));
     assert_int_equal(render_progress(s->render).non_finite, 0);
     film_linear(render_film(s->render), rgb);
 }
 
-static void measure(struct session *s, enum direct direct, struct outcome *o)
+static void measure(struct session *s, int mode, struct outcome *o)
 {
     enum { NUMBERS = 3 * WIDTH * HEIGHT };
     static float rgb[NUMBERS];
@@ -78,7 +83,7 @@ static void measure(struct session *s, enum direct direct, struct outcome *o)
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
         double mean[3] = {0, 0, 0};
 
-        render_seed(s, direct, seed, rgb);
+        render_seed(s, mode, seed, rgb);
         for (int i = 0; i < NUMBERS; i++) {
             double x = (double)rgb[i];
 
@@ -116,6 +121,7 @@ static void same_mean(void **state)
         s.view.height_px = HEIGHT;
         measure(&s, DIRECT_MIS, &outcomes[DIRECT_MIS]);
         measure(&s, DIRECT_CHANCE, &outcomes[DIRECT_CHANCE]);
+        measure(&s, UNGUIDED, &outcomes[UNGUIDED]);
         fill_sky_table(&s.scene);
         measure(&s, DIRECT_LIGHTS, &outcomes[DIRECT_LIGHTS]);
         for (int k = DIRECT_LIGHTS; k < MODES; k++)
@@ -130,13 +136,16 @@ static void same_mean(void **state)
                                 scenes[i], c, k, a->mean[c], b->mean[c]);
                 check_at_most(fabs(t), T_LIMIT);
             }
-        print_message("%s: noise %.3g, lights alone %.3g, chance alone %.3g\n",
+        print_message("%s: noise %.3g, lights alone %.3g, chance alone %.3g, "
+                      "without guide %.3g\n",
                       scenes[i], outcomes[0].noise, outcomes[1].noise,
-                      outcomes[2].noise);
+                      outcomes[2].noise, outcomes[UNGUIDED].noise);
         check_at_most(outcomes[DIRECT_MIS].noise,
                       1.1 * outcomes[DIRECT_LIGHTS].noise);
         check_at_most(outcomes[DIRECT_MIS].noise,
                       1.1 * outcomes[DIRECT_CHANCE].noise);
+        check_at_most(outcomes[DIRECT_MIS].noise,
+                      1.1 * outcomes[UNGUIDED].noise);
         session_close(&s);
     }
 }

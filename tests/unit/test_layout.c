@@ -59,12 +59,12 @@
     M(settings, features, 112) M(settings, direct, 116)                      \
     M(settings, order, 120) M(settings, sample, 124)                         \
     M(settings, sky_share, 128) M(settings, light_share, 132)                \
-    M(settings, guide, 136)                                                  \
-    M(settings, tri_count, 168) M(settings, position_count, 172)             \
-    M(settings, normal_count, 176) M(settings, uv_count, 180)                \
-    M(settings, material_count, 184) M(settings, texture_count, 188)         \
-    M(settings, texel_count, 192) M(settings, light_count, 196)              \
-    M(settings, light_node_count, 200) M(settings, sky_sum_count, 204)       \
+    M(settings, tri_count, 136) M(settings, position_count, 140)             \
+    M(settings, normal_count, 144) M(settings, uv_count, 148)                \
+    M(settings, material_count, 152) M(settings, texture_count, 156)         \
+    M(settings, texel_count, 160) M(settings, light_count, 164)              \
+    M(settings, light_node_count, 168) M(settings, sky_sum_count, 172)       \
+    M(settings, guide, 176)                                                  \
     S(ray, 36) M(ray, o, 0) M(ray, d, 12) M(ray, t_max, 24) M(ray, key, 28)  \
     M(ray, from, 32)                                                         \
     S(path_sample, 20) M(path_sample, radiance, 0) M(path_sample, rays, 12)  \

@@ -36,7 +36,13 @@ extern const struct paths paths_whole, paths_hashed, paths_uniform,
     paths_throughput, paths_shadows;
 
 /* What a scene must have for a technique to matter. */
-enum need { NEED_NOTHING, NEED_LIGHT_SAMPLES, NEED_LIGHTS, NEED_SKY_TABLE };
+enum need {
+    NEED_NOTHING,
+    NEED_LIGHT_SAMPLES,
+    NEED_LIGHTS,
+    NEED_SKY_TABLE,
+    NEED_GUIDE
+};
 
 /* All techniques, or all but the one that is named. */
 static const struct technique {
@@ -45,24 +51,28 @@ static const struct technique {
     enum direct direct;
     enum sky_use sky_use;
     enum need need;
+    bool is_unguided;
 } techniques[] = {
-    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_CHANCE, NEED_NOTHING},
+    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_CHANCE, NEED_NOTHING,
+     false},
     {"first integrator", &paths_hashed, DIRECT_CHANCE, SKY_WITH_CHANCE,
-     NEED_NOTHING},
+     NEED_NOTHING, true},
     {"without light samples", &paths_whole, DIRECT_CHANCE, SKY_WITH_CHANCE,
-     NEED_LIGHT_SAMPLES},
+     NEED_LIGHT_SAMPLES, false},
     {"without light by chance", &paths_whole, DIRECT_LIGHTS, SKY_ALONE,
-     NEED_LIGHT_SAMPLES},
+     NEED_LIGHT_SAMPLES, false},
     {"without sobol points", &paths_hashed, DIRECT_MIS, SKY_WITH_CHANCE,
-     NEED_NOTHING},
+     NEED_NOTHING, false},
     {"without the light tree", &paths_uniform, DIRECT_MIS, SKY_WITH_CHANCE,
-     NEED_LIGHTS},
+     NEED_LIGHTS, false},
     {"without compensation", &paths_whole, DIRECT_MIS, SKY_ALONE,
-     NEED_SKY_TABLE},
+     NEED_SKY_TABLE, false},
     {"without root in roulette", &paths_throughput, DIRECT_MIS, SKY_WITH_CHANCE,
-     NEED_NOTHING},
+     NEED_NOTHING, false},
     {"with all shadow rays", &paths_shadows, DIRECT_MIS, SKY_WITH_CHANCE,
-     NEED_LIGHT_SAMPLES},
+     NEED_LIGHT_SAMPLES, false},
+    {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_CHANCE, NEED_GUIDE,
+     true},
 };
 
 enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
@@ -150,6 +160,7 @@ static bool matters(const struct technique *t, const struct settings *s)
     case NEED_LIGHT_SAMPLES: return s->light_count > 0 || s->sky_share > 0;
     case NEED_LIGHTS: return s->light_count > 1;
     case NEED_SKY_TABLE: return s->sky_share > 0;
+    case NEED_GUIDE: return s->guide.cell_count > 0;
     case NEED_NOTHING: break;
     }
     return true;
@@ -222,6 +233,8 @@ static bool measure_round(struct measurement *m, int technique, int round,
         return true;
     if (t->sky_use == SKY_ALONE)
         sky_lend(&m->whole_sky, &world);
+    if (t->is_unguided)
+        guide_lend(&(struct guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
     render_use(s->render, m->bench->backends[technique]);
     return measure_world(m, c, round, &world, err);
