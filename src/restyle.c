@@ -172,9 +172,9 @@ static bool make_materials(struct scene *scene, const struct style *style,
 
 /* Is there a material in use, or a triangle, whose material is another in what
  * `differ` looks at? */
-static bool
-any_differs(const struct scene *scene, const struct next *next,
-            bool (*differ)(const struct material *, const struct material *))
+static bool any_differs(const struct scene *scene, const struct next *next,
+                        bool (*differ)(const struct material *,
+                                       const struct material *))
 {
     for (uint32_t i = 0; i < scene->material_count; i++)
         if (scene->material_is_used[i] &&
