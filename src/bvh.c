@@ -564,5 +564,5 @@ void bvh_free(struct bvh *bvh)
     free(bvh->nodes);
     free(bvh->tris);
     free(bvh->leaf_tris);
-    *bvh = (struct bvh){NULL, 0, NULL, NULL, 0, 0};
+    memset(bvh, 0, sizeof *bvh);
 }
