@@ -63,10 +63,9 @@ struct photon {
 
 static bool casts(const struct material *m)
 {
-    return m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS ||
-                   m->kind == MATERIAL_METAL
-               ? m->alpha < GUIDE_ALPHA_MAX
-               : false;
+    return m->alpha < GUIDE_ALPHA_MAX &&
+           (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS ||
+            m->kind == MATERIAL_METAL);
 }
 
 static double mean(struct vec3 color)

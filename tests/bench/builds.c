@@ -11,24 +11,12 @@
 
 #include "glim/isa.h"
 #include "glim/session.h"
+#include "tests/bench/median.h"
 
 #define ROUNDS 5
 #define WIDTH  480
 #define HEIGHT 270
 #define SPP    4
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-
-    return x < y ? -1 : x > y;
-}
-
-static double median(double *values)
-{
-    qsort(values, ROUNDS, sizeof *values, compare);
-    return values[ROUNDS / 2];
-}
 
 /* Of all workers together: what other programs leave of the machine does not
  * matter to it. */
@@ -88,7 +76,7 @@ static void bench(const char *path)
         whole[i] = rate(&s, FEATURE_FIRST_HIT, &p);
         fit[i] = rate(&s, 0, &p);
     }
-    double all = median(whole), own = median(fit);
+    double all = median(whole, ROUNDS), own = median(fit, ROUNDS);
     printf("%-50s %9.3f %7.2f %9.2f %9.3f\n", path, own,
            own * (double)p.rays / (double)p.samples,
            (double)p.rays / (double)p.samples, own / all);

@@ -11,24 +11,12 @@
 #include "glim/backend_cl.h"
 #include "glim/cl_environment.h"
 #include "glim/session.h"
+#include "tests/bench/median.h"
 
 #define ROUNDS 5
 #define SPP    4
 
 enum contestant { CPU, FULL, SPECIAL, CONTESTANTS };
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-
-    return x < y ? -1 : x > y;
-}
-
-static double median(double *values)
-{
-    qsort(values, ROUNDS, sizeof *values, compare);
-    return values[ROUNDS / 2];
-}
 
 /* Millions of samples a second. */
 static double rate(struct session *s, struct backend *backend)
@@ -84,9 +72,10 @@ static void bench(const char *path, int threads)
     for (int i = 0; i < ROUNDS; i++)
         for (int k = 0; k < CONTESTANTS; k++)
             rates[k][i] = rate(&s, backends[k]);
-    double cpu = median(rates[CPU]), full = median(rates[FULL]);
+    double cpu = median(rates[CPU], ROUNDS);
+    double full = median(rates[FULL], ROUNDS);
     printf("%-28s %7.3f %7.3f %7.2f %9.2f\n", path, cpu, full, full / cpu,
-           median(rates[SPECIAL]) / full);
+           median(rates[SPECIAL], ROUNDS) / full);
     render_use(s.render, backends[CPU]);
     backends[FULL]->destroy(backends[FULL]);
     backends[SPECIAL]->destroy(backends[SPECIAL]);

@@ -22,9 +22,10 @@
 
 #include "chart.h"
 #include "reference.h"
+#include "tests/bench/median.h"
 
 #define POINTS     7 /* 1 to 64 samples a pixel */
-#define ROUNDS_MAX 32
+#define ROUNDS_MAX MEDIAN_MAX
 #define HEIGHT_PX  56
 
 /* References of 256x256 pixels, too many here, become 64x64. */
@@ -137,22 +138,6 @@ struct measurement {
     float *rgb;
     struct curve curves[TECHNIQUES];
 };
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
-static double median(const double *values, int count)
-{
-    double sorted[ROUNDS_MAX];
-
-    memcpy(sorted, values, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, compare);
-    return (sorted[(count - 1) / 2] + sorted[count / 2]) / 2;
-}
 
 static bool matters(const struct technique *t, const struct settings *s)
 {

@@ -17,6 +17,7 @@
 #include "glim/isa.h"
 #include "glim/pool.h"
 #include "glim/wide.h"
+#include "tests/bench/median.h"
 
 #define REPEATS     7
 #define THREADS_MAX 2
@@ -93,19 +94,6 @@ static void time_heat(struct pool *pool, struct heat *h, struct times *times,
     times->cpu_s[repeat] = cpu_s(pool) - before_s;
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
-static double median(double *values)
-{
-    qsort(values, REPEATS, sizeof *values, compare_doubles);
-    return values[REPEATS / 2];
-}
-
 /* A line that says how many answers agree with glim's. */
 static void compare_answers(const struct contest *c, const struct ray_set *set,
                             int racer)
@@ -145,8 +133,8 @@ static void race(struct contest *c, struct pool *pool, const char *name,
             time_heat(pool, &h, &times[i], repeat);
         }
     for (int i = 0; i < RACERS; i++) {
-        s[i] = median(times[i].s);
-        rate[i] = threads * set->count * 1e-6 / median(times[i].cpu_s);
+        s[i] = median(times[i].s, REPEATS);
+        rate[i] = threads * set->count * 1e-6 / median(times[i].cpu_s, REPEATS);
     }
     printf("  %-8s %d %8.3f %8.3f %8.3f   %6.2f %6.2f   %6.2f %6.2f\n", name,
            threads, rate[GLIM], rate[ROBUST], rate[FAST],
