@@ -7,7 +7,7 @@
  * estimation), and by chance, where the path meets one; the power heuristic
  * weighs both (Veach 1997, 9.2). Whoever includes this file supplies
  *     bool hit_closest(const struct world *, struct ray, struct hit *);
- *     void hits_closest(const struct world *, const struct ray *,
+ *     bool hits_closest(const struct world *, const struct ray *,
  *                       uint32_t count, struct hit *);
  *     bool hit_any(const struct world *, struct ray, uint32_t tri);
  * first: traverse.h, or faster ones that find the same hits.
@@ -375,7 +375,8 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
     struct ray rays[SAMPLE_BLOCK];
     struct hit hits[SAMPLE_BLOCK];
     struct points points;
-    bool share = count >= POINTS_MIN;
+    struct points *shared = count >= POINTS_MIN ? &points : NULL;
+    bool is_known;
 
     if (count == 0)
         return;
@@ -383,22 +384,20 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
     for (uint32_t i = 0; i < count; i++) {
         samplers[i] = path_sampler(&w->settings, x, y, first + i);
         points.reversed_index[i] = samplers[i].reversed_index;
-        share = share && samplers[i].key == samplers[0].key;
+        if (samplers[i].key != samplers[0].key)
+            shared = NULL;
     }
     for (uint32_t i = count; i < SAMPLE_BLOCK; i++)
         points.reversed_index[i] = 0;
     points.key = samplers[0].key;
     for (uint32_t i = 0; i < count; i++) {
-        rays[i] = path_ray(&w->settings, x, y, samplers[i],
-                           share ? &points : NULL, i);
+        rays[i] = path_ray(&w->settings, x, y, samplers[i], shared, i);
         rays[i].key = ray_key(samplers[i], 1);
     }
-    hits_closest(w, rays, count, hits);
+    is_known = hits_closest(w, rays, count, hits);
     for (uint32_t i = 0; i < count; i++)
-        out[i] =
-            path_run(w,
-                     path_open(rays[i], samplers[i], share ? &points : NULL, i),
-                     &hits[i]);
+        out[i] = path_run(w, path_open(rays[i], samplers[i], shared, i),
+                          is_known ? &hits[i] : NULL);
 }
 
 #endif

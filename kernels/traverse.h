@@ -138,12 +138,15 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     }
 }
 
-/* Of each ray. */
-static inline void hits_closest(const struct world *w, const struct ray *rays,
+/* Nearest hits of rays that go much the same way: false, which is no answer. */
+static inline bool hits_closest(const struct world *w, const struct ray *rays,
                                 uint32_t count, struct hit *hits)
 {
-    for (uint32_t i = 0; i < count; i++)
-        hit_closest(w, rays[i], &hits[i]);
+    (void)w;
+    (void)rays;
+    (void)count;
+    (void)hits;
+    return false;
 }
 
 /* True if anything is hit before r.t_max, or at r.t_max with a number below

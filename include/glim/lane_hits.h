@@ -60,7 +60,7 @@ static inline bool lane_take(const struct lane_hits *h, uint32_t lane,
 
 /* tri_hit() for triangle i of a block; rarely needed, unless surfaces have
  * holes. */
-static __attribute__((noinline)) bool
+static __attribute__((noinline, flatten)) bool
 lane_decide(const struct world *w, const struct ray *r, const struct shear *s,
             const struct tri_block *b, uint32_t i, struct hit *best)
 {

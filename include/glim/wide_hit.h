@@ -84,10 +84,9 @@ static inline f8 wide_planes(const struct wide_node *n, size_t offset,
 /* Which children a ray enters before t_far, and where; as box_entry(). Of
  * rays, `first` is the one that is before all others along each axis, `last`
  * the one behind. */
-static inline uint32_t wide_enter(const struct wide_node *n,
-                                  const struct wide_ray *first,
-                                  const struct wide_ray *last, float t_far,
-                                  f8 *entries)
+static inline __attribute__((always_inline)) uint32_t
+wide_enter(const struct wide_node *n, const struct wide_ray *first,
+           const struct wide_ray *last, float t_far, f8 *entries)
 {
     f8 in[3], out[3], leave;
 
@@ -266,6 +265,9 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     return hit->tri != NO_INDEX;
 }
 
+/* So many rays are worth a group. */
+#define GROUP_MIN 2
+
 /* The rays that are before and behind all of a group along an axis. False if
  * some go up it, some down. */
 static inline bool wide_bound(struct wide_ray *first, struct wide_ray *last,
@@ -300,25 +302,24 @@ meet_group(void *query, const struct tri_block *block, uint32_t more)
     }
 }
 
-/* hit_closest() of 1 to GROUP_RAYS rays. */
-static inline void hits_closest(const struct world *w, const struct ray *rays,
+/* hit_closest() of up to GROUP_RAYS rays; false, without an answer, if they are
+ * better off alone. */
+static inline bool hits_closest(const struct world *w, const struct ray *rays,
                                 uint32_t count, struct hit *hits)
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
     struct wide_ray first, last;
     struct ray_group g;
 
-    if (nodes == NULL || !group_begin(&g, w, rays, count, hits) ||
+    if (nodes == NULL || count < GROUP_MIN ||
+        !group_begin(&g, w, rays, count, hits) ||
         !wide_bound(&first, &last, 0, &g) ||
-        !wide_bound(&first, &last, 1, &g) ||
-        !wide_bound(&first, &last, 2, &g)) {
-        for (uint32_t i = 0; i < count; i++)
-            hit_closest(w, rays[i], &hits[i]);
-        return;
-    }
+        !wide_bound(&first, &last, 1, &g) || !wide_bound(&first, &last, 2, &g))
+        return false;
     for (uint32_t i = 0; i < count; i++)
         hits[i] = no_hit(rays[i]);
     wide_walk(nodes, &first, &last, g.far, meet_group, &g);
+    return true;
 }
 
 /* As hit_any() of kernels/traverse.h. */

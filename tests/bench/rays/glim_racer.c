@@ -43,7 +43,10 @@ static void coherent(const void *tree, const struct ray *rays, uint32_t count,
         uint32_t left = count - i;
         uint32_t lanes = left < GROUP_RAYS ? left : GROUP_RAYS;
 
-        hits_closest(&w->world, rays + i, lanes, hits);
+        if (!hits_closest(&w->world, rays + i, lanes, hits)) {
+            closest(tree, rays + i, lanes, answers + i);
+            continue;
+        }
         for (uint32_t k = 0; k < lanes; k++)
             answers[i + k] = (struct answer){hits[k].t, hits[k].tri};
     }
