@@ -3,7 +3,7 @@
  * rays - glim's ray queries beside Embree's: the same rays in one process,
  * medians of repeats that take turns, every hit compared
  *
- * usage: rays SHARED [PART of the meshes' names [ISA]]
+ * usage: rays SHARED [PART of the meshes' names, or of "scaling" [ISA]]
  */
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "embree_racer.h"
+#include "scaling.h"
 #include "sets.h"
 #include "shapes.h"
 
@@ -286,6 +287,8 @@ int main(int argc, char **argv)
     for (int i = 0; ok && i < SHAPES; i++)
         if (strstr(shape_names[i], part) != NULL)
             ok = run_shape(i, argv[1], paths, &err);
+    if (ok && strstr("scaling", part) != NULL)
+        ok = scaling_run(racer_of(paths), &err);
     if (!ok) {
         fprintf(stderr, "rays: %s\n", err.text);
         return 1;
