@@ -74,8 +74,8 @@ static bool time_size(struct racer r, struct pool *pool, uint32_t across,
         printf("  %9u %8.3f %6.1f", count, build_s,
                (double)wide_bytes(&tree) / count);
         for (int i = 0; i < TIMED; i++) {
-            ns[i] = ray_ns(&r, &sets[timed[i]], timed[i] == SET_SHADOW,
-                           answers);
+            ns[i] =
+                ray_ns(&r, &sets[timed[i]], timed[i] == SET_SHADOW, answers);
             printf(" %8.1f", ns[i]);
         }
         printf("\n");
