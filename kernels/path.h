@@ -7,6 +7,8 @@
  * estimation), and by chance, where the path meets one; the power heuristic
  * weighs both (Veach 1997, 9.2). Whoever includes this file supplies
  *     bool hit_closest(const struct world *, struct ray, struct hit *);
+ *     void hits_closest(const struct world *, const struct ray *,
+ *                       uint32_t count, struct hit *);
  *     bool hit_any(const struct world *, struct ray, uint32_t tri);
  * first: traverse.h, or faster ones that find the same hits.
  *
@@ -325,14 +327,19 @@ static inline struct path path_open(struct ray r, struct sampler sampler,
 }
 
 /* Goes on to vertex `vertex`, counted from 1, and scatters there: *h is what it
- * met. False if the path has ended. */
+ * meets, which may be known. False if the path has ended. */
 static inline bool path_advance(const struct world *w, struct path *p,
-                                uint32_t vertex, struct hit *h)
+                                uint32_t vertex, const struct hit *known,
+                                struct hit *h)
 {
     p->ray.key = ray_key(p->sampler, vertex);
     p->ray.t_max = FLOAT_MAX;
     p->out.rays++;
-    if (!hit_closest(w, p->ray, h)) {
+    if (known != NULL)
+        *h = *known;
+    else
+        hit_closest(w, p->ray, h);
+    if (h->tri == NO_INDEX) {
         if (w->settings.sample <= SAMPLE_PREVIEW)
             path_add_sky(w, p);
         return false;
@@ -340,13 +347,14 @@ static inline bool path_advance(const struct world *w, struct path *p,
     return path_step(w, p, *h, vertex);
 }
 
-/* To its end. */
-static inline struct path_sample path_run(const struct world *w, struct path p)
+/* To its end; what it meets first may be known. */
+static inline struct path_sample path_run(const struct world *w, struct path p,
+                                          const struct hit *first)
 {
     uint32_t vertex = 1;
     struct hit h;
 
-    while (path_advance(w, &p, vertex, &h))
+    while (path_advance(w, &p, vertex, vertex == 1 ? first : NULL, &h))
         vertex++;
     return p.out;
 }
@@ -354,19 +362,23 @@ static inline struct path_sample path_run(const struct world *w, struct path p)
 static inline struct path_sample path_trace(const struct world *w, struct ray r,
                                             struct sampler sampler)
 {
-    return path_run(w, path_open(r, sampler, NULL, 0));
+    return path_run(w, path_open(r, sampler, NULL, 0), NULL);
 }
 
-/* Samples first .. first + count - 1 of pixel (x, y); count is 1 to
+/* Samples first .. first + count - 1 of pixel (x, y); count is at most
  * SAMPLE_BLOCK. */
 static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                                 uint64_t first, uint32_t count,
                                 struct path_sample *out)
 {
     struct sampler samplers[SAMPLE_BLOCK];
+    struct ray rays[SAMPLE_BLOCK];
+    struct hit hits[SAMPLE_BLOCK];
     struct points points;
     bool share = count >= POINTS_MIN;
 
+    if (count == 0)
+        return;
     points.known = 0;
     for (uint32_t i = 0; i < count; i++) {
         samplers[i] = path_sampler(&w->settings, x, y, first + i);
@@ -377,11 +389,16 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
         points.reversed_index[i] = 0;
     points.key = samplers[0].key;
     for (uint32_t i = 0; i < count; i++) {
-        struct points *p = share ? &points : NULL;
-        struct ray r = path_ray(&w->settings, x, y, samplers[i], p, i);
-
-        out[i] = path_run(w, path_open(r, samplers[i], p, i));
+        rays[i] = path_ray(&w->settings, x, y, samplers[i],
+                           share ? &points : NULL, i);
+        rays[i].key = ray_key(samplers[i], 1);
     }
+    hits_closest(w, rays, count, hits);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] =
+            path_run(w,
+                     path_open(rays[i], samplers[i], share ? &points : NULL, i),
+                     &hits[i]);
 }
 
 #endif

@@ -138,6 +138,14 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     }
 }
 
+/* Of each ray. */
+static inline void hits_closest(const struct world *w, const struct ray *rays,
+                                uint32_t count, struct hit *hits)
+{
+    for (uint32_t i = 0; i < count; i++)
+        hit_closest(w, rays[i], &hits[i]);
+}
+
 /* True if anything is hit before r.t_max, or at r.t_max with a number below
  * `tri`: hit_closest() would not find the triangle `tri`, which the ray meets
  * there. No order, the first find ends it. */

@@ -63,7 +63,7 @@ void trail_follow(struct trail *t, const struct world *w, uint32_t x,
         struct path before = p;
         struct hit h;
 
-        goes_on = path_advance(w, &p, (uint32_t)++t->vertices, &h);
+        goes_on = path_advance(w, &p, (uint32_t)++t->vertices, NULL, &h);
         if (t->count == TRAIL_STEPS)
             continue;
         t->steps[t->count++] = (struct trail_step){

@@ -13,7 +13,7 @@
 #ifndef GLIM_WIDE_HIT_H
 #define GLIM_WIDE_HIT_H
 
-#include "glim/block_hit.h"
+#include "glim/group_hit.h"
 
 /* Entries that wait: all but one child of a node a level. */
 #define WIDE_STACK (TRAVERSE_STACK * (WIDE_CHILDREN - 1) + 1)
@@ -28,6 +28,13 @@
  * for f8_before() leaves the end out. */
 #define WIDEN       (1.0f + 2.0f * BOX_WIDEN)
 #define WIDEN_STEPS 33
+
+static inline struct hit no_hit(struct ray r)
+{
+    struct hit none = {r.t_max, 0.0f, 0.0f, 0.0f, NO_INDEX};
+
+    return none;
+}
 
 static inline const struct wide *wide_of(const struct world *w)
 {
@@ -74,16 +81,20 @@ static inline f8 wide_planes(const struct wide_node *n, size_t offset,
     return f8_mul_sub(f8_load(planes), inverse, start);
 }
 
-/* Which children the ray enters before t_far, and where; as box_entry(). */
+/* Which children a ray enters before t_far, and where; as box_entry(). Of
+ * rays, `first` is the one that is before all others along each axis, `last`
+ * the one behind. */
 static inline uint32_t wide_enter(const struct wide_node *n,
-                                  const struct wide_ray *r, float t_far,
+                                  const struct wide_ray *first,
+                                  const struct wide_ray *last, float t_far,
                                   f8 *entries)
 {
     f8 in[3], out[3], leave;
 
     for (int i = 0; i < 3; i++) {
-        in[i] = wide_planes(n, r->near[i], r->inverse[i], r->start[i]);
-        out[i] = wide_planes(n, r->far[i], r->inverse[i], r->start[i]);
+        in[i] =
+            wide_planes(n, first->near[i], first->inverse[i], first->start[i]);
+        out[i] = wide_planes(n, last->far[i], last->inverse[i], last->start[i]);
     }
     *entries = f8_later(f8_later(in[0], in[1]), f8_later(in[2], f8_all(0.0f)));
     leave = f8_sooner(f8_sooner(out[0], out[1]), out[2]);
@@ -117,11 +128,6 @@ static inline void wide_prefetch(const struct wide_node *root, uint32_t child)
 
     for (size_t i = 0; i < sizeof *root; i += 64)
         __builtin_prefetch(p + i);
-}
-
-static inline uint32_t lowest(uint32_t mask)
-{
-    return (uint32_t)__builtin_ctz(mask);
 }
 
 /* A child that waits: the bits of the distance at which it is entered, which
@@ -189,28 +195,28 @@ static inline uint32_t wide_choose(const struct wide_node *nodes,
     return (uint32_t)a;
 }
 
-/* Nearest hit up to r.t_max. */
-static inline bool hit_closest(const struct world *w, struct ray r,
-                               struct hit *hit)
+/* What a walk does where it meets blocks, of which `more` follow the first.
+ * Says how far hits are still of interest. */
+typedef float wide_leaf(void *query, const struct tri_block *block,
+                        uint32_t more);
+
+/* Meets the leaves that are entered before t_max, nearest first; see
+ * wide_enter(). */
+static inline __attribute__((always_inline)) void
+wide_walk(const struct wide_node *nodes, const struct wide_ray *first,
+          const struct wide_ray *last, float t_max, wide_leaf *leaf,
+          void *query)
 {
-    const struct wide_node *nodes = wide_of(w)->nodes;
-    struct wide_ray ray = wide_ray_of(r);
-    struct shear shear = block_shear_of(r);
     uint64_t stack[WIDE_STACK];
     uint64_t *top = stack;
-    float t_far = wide_far(r.t_max);
+    float t_far = wide_far(t_max);
     uint32_t at = 0;
 
-    hit->t = r.t_max;
-    hit->b0 = hit->b1 = hit->b2 = 0.0f;
-    hit->tri = NO_INDEX;
-    if (nodes == NULL)
-        return false;
     for (;;) {
         if ((at & WIDE_LEAF) == 0) {
             const struct wide_node *n = wide_node_at(nodes, at);
             f8 enter;
-            uint32_t mask = wide_enter(n, &ray, t_far, &enter);
+            uint32_t mask = wide_enter(n, first, last, t_far, &enter);
 
             if (mask != 0) {
                 at = n->child[lowest(mask)];
@@ -219,17 +225,100 @@ static inline bool hit_closest(const struct world *w, struct ray r,
                 continue;
             }
         } else {
-            blocks_hit(w, &r, &shear, wide_block_at(nodes, at), at & WIDE_MORE,
-                       hit);
-            t_far = wide_far(hit->t);
+            t_far =
+                wide_far(leaf(query, wide_block_at(nodes, at), at & WIDE_MORE));
         }
         do {
             if (top == stack)
-                return hit->tri != NO_INDEX;
+                return;
             top--;
         } while (*top >> 32 > float_bits(t_far));
         at = (uint32_t)*top;
     }
+}
+
+struct wide_query {
+    const struct world *world;
+    struct block_ray ray;
+    struct hit *hit;
+};
+
+static inline __attribute__((always_inline)) float
+meet_blocks(void *query, const struct tri_block *block, uint32_t more)
+{
+    struct wide_query *q = query;
+
+    blocks_hit(q->world, &q->ray, block, more, q->hit);
+    return q->hit->t;
+}
+
+/* Nearest hit up to r.t_max. */
+static inline bool hit_closest(const struct world *w, struct ray r,
+                               struct hit *hit)
+{
+    const struct wide_node *nodes = wide_of(w)->nodes;
+    struct wide_query query = {w, block_ray_of(r), hit};
+    struct wide_ray ray = wide_ray_of(r);
+
+    *hit = no_hit(r);
+    if (nodes != NULL)
+        wide_walk(nodes, &ray, &ray, r.t_max, meet_blocks, &query);
+    return hit->tri != NO_INDEX;
+}
+
+/* The rays that are before and behind all of a group along an axis. False if
+ * some go up it, some down. */
+static inline bool wide_bound(struct wide_ray *first, struct wide_ray *last,
+                              int axis, const struct ray_group *g)
+{
+    const float *o = g->lanes.o[axis], *d = g->lanes.d[axis];
+    float o_lo = o[0], o_hi = o[0], d_lo = d[0], d_hi = d[0];
+    uint32_t is_down;
+
+    for (uint32_t i = 1; i < g->count; i++) {
+        o_lo = f_min(o_lo, o[i]);
+        o_hi = f_max(o_hi, o[i]);
+        d_lo = f_min(d_lo, d[i]);
+        d_hi = f_max(d_hi, d[i]);
+    }
+    is_down = float_bits(d_lo) >> 31;
+    wide_ray_axis(first, axis, is_down ? o_lo : o_hi, is_down ? d_lo : d_hi);
+    wide_ray_axis(last, axis, is_down ? o_hi : o_lo, is_down ? d_hi : d_lo);
+    return is_down == float_bits(d_hi) >> 31;
+}
+
+static inline __attribute__((always_inline)) float
+meet_group(void *query, const struct tri_block *block, uint32_t more)
+{
+    struct ray_group *g = query;
+
+    for (;; more--, block++) {
+        for (uint32_t i = 0; i < BLOCK_TRIS && block->tri[i] != NO_INDEX; i++)
+            group_meet(g, block, i);
+        if (more == 0)
+            return g->far;
+    }
+}
+
+/* hit_closest() of 1 to GROUP_RAYS rays. */
+static inline void hits_closest(const struct world *w, const struct ray *rays,
+                                uint32_t count, struct hit *hits)
+{
+    const struct wide_node *nodes = wide_of(w)->nodes;
+    struct wide_ray first, last;
+    struct ray_group g;
+
+    if (nodes == NULL || !group_begin(&g, w, rays, count, hits) ||
+        !wide_bound(&first, &last, 0, &g) ||
+        !wide_bound(&first, &last, 1, &g) ||
+        !wide_bound(&first, &last, 2, &g)) {
+        for (uint32_t i = 0; i < count; i++)
+            hit_closest(w, rays[i], &hits[i]);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        hits[i] = no_hit(rays[i]);
+    wide_walk(nodes, &first, &last, g.far, meet_group, &g);
 }
 
 /* As hit_any() of kernels/traverse.h. */
@@ -237,7 +326,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
     struct wide_ray ray = wide_ray_of(r);
-    struct shear shear = block_shear_of(r);
+    struct block_ray block_ray = block_ray_of(r);
     float t_far = wide_far(r.t_max);
     struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
     uint32_t stack[WIDE_STACK];
@@ -250,7 +339,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
         if ((at & WIDE_LEAF) == 0) {
             const struct wide_node *n = wide_node_at(nodes, at);
             f8 enter;
-            uint32_t mask = wide_enter(n, &ray, t_far, &enter);
+            uint32_t mask = wide_enter(n, &ray, &ray, t_far, &enter);
 
             if (mask != 0) {
                 for (; (mask & (mask - 1)) != 0; mask &= mask - 1) {
@@ -261,7 +350,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
                 at = n->child[lowest(mask)];
                 continue;
             }
-        } else if (blocks_hit(w, &r, &shear, wide_block_at(nodes, at),
+        } else if (blocks_hit(w, &block_ray, wide_block_at(nodes, at),
                               at & WIDE_MORE, &h)) {
             return true;
         }

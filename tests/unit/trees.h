@@ -41,11 +41,78 @@ static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
     return r;
 }
 
+#define GROUP 8
+
+/* Neighbours of a random ray, or all the same one, or rays that go anywhere;
+ * some from one point, some within a plane across an axis, some that end, some
+ * that leave a triangle. */
+static uint32_t random_group(const struct mesh *m, uint64_t *seed, int i,
+                             struct ray rays[GROUP])
+{
+    static const float spreads[] = {0.0f, 1e-4f, 0.02f, 1.0f};
+    float spread = spreads[i % 4];
+    struct ray first = random_ray(m, seed, i / 4);
+    uint32_t count = 1 + (uint32_t)(GROUP * check_random(seed));
+
+    for (uint32_t k = 0; k < count; k++) {
+        struct ray *r = &rays[k];
+
+        *r = first;
+        r->key = k;
+        r->d = v3_add(first.d, random_point(seed, spread));
+        if (i % 3 == 0)
+            r->o = v3_add(first.o, random_point(seed, 0.2f * spread));
+        if (i % 7 == 0)
+            r->d.z = k % 2 == 0 ? 0.0f : -0.0f;
+        if (i % 5 == 0)
+            r->t_max = (float)check_random(seed);
+        if (i % 9 == 0)
+            r->from = 1 + (uint32_t)(check_random(seed) * m->tri_count);
+        r->d = v3_unit(r->d);
+    }
+    return count;
+}
+
+/* tri_hit() of every triangle. */
+static bool meet_all(const struct mesh *m, struct ray r, struct hit *best)
+{
+    struct shear s = shear_of(r);
+
+    *best = (struct hit){r.t_max, 0, 0, 0, NO_INDEX};
+    for (uint32_t i = 0; i < m->tri_count; i++) {
+        const struct vec3 *p = &m->positions[3 * i];
+
+        tri_hit(&m->world, r, s, (struct leaf_tri){p[0], p[1], p[2], i}, best);
+    }
+    return best->tri != NO_INDEX;
+}
+
+static void compare_groups(const struct mesh *m, int groups, uint64_t seed)
+{
+    int hits = 0;
+
+    for (int i = 0; i < groups; i++) {
+        struct ray rays[GROUP];
+        struct hit got[GROUP];
+        uint32_t count = random_group(m, &seed, i, rays);
+
+        hits_closest(&m->world, rays, count, got);
+        for (uint32_t k = 0; k < count; k++) {
+            struct hit want;
+
+            hits += meet_all(m, rays[k], &want);
+            assert_memory_equal(&got[k], &want, sizeof want);
+        }
+    }
+    assert_true(hits > groups / 20);
+}
+
 static void compare(struct mesh *m, int rays, uint64_t seed)
 {
     int hits = 0;
 
     mesh_finish(m);
+    compare_groups(m, rays / 10, seed);
     assert_true(m->bvh.depth < TRAVERSE_STACK);
     assert_int_equal(m->bvh.leaf_tri_count, m->tri_count);
     for (int i = 0; i < rays; i++) {
@@ -117,6 +184,27 @@ static void ties_agree(void **state)
                     mesh_add_box(&m, v3(x0, -h, z0), v3(x0 + h, 0, z0 + h), 0);
             }
     compare(&m, RAYS, 3);
+}
+
+/* Half of the rays pass each triangle. */
+static void holes_agree(void **state)
+{
+    struct mesh m = {0};
+    uint64_t seed = 7;
+
+    (void)state;
+    m.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    m.materials[0].opacity = 0.5f;
+    m.world.settings.features = FEATURE_COVERAGE;
+    for (int i = 0; i < 100; i++) {
+        struct vec3 a = random_point(&seed, 0.7f);
+
+        mesh_add(&m, a, v3_add(a, random_point(&seed, 0.7f)),
+                 v3_add(a, random_point(&seed, 0.7f)), 0);
+    }
+    mesh_finish(&m);
+    compare_groups(&m, RAYS / 10, 8);
+    mesh_free(&m);
 }
 
 /* STRESS G4, G19: needles of aspect 1e2 to 1e6. */
@@ -198,6 +286,8 @@ static void empty_worlds_are_missed(void **state)
     mesh_finish(&m);
     assert_false(hit_closest(&m.world, r, &h));
     assert_false(hit_any(&m.world, r, NO_INDEX));
+    hits_closest(&m.world, &r, 1, &h);
+    assert_int_equal(h.tri, NO_INDEX);
     mesh_free(&m);
 }
 
@@ -207,6 +297,7 @@ static int run_trees(void)
         cmocka_unit_test(soup_agrees),
         cmocka_unit_test(sphere_in_box_agrees),
         cmocka_unit_test(ties_agree),
+        cmocka_unit_test(holes_agree),
         cmocka_unit_test(needles_agree),
         cmocka_unit_test(nested_sizes_agree),
         cmocka_unit_test(identical_triangles_build),

@@ -33,4 +33,20 @@ static void any(const void *tree, const struct ray *rays, uint32_t count,
     }
 }
 
-const struct racer RACER = {NULL, closest, any, closest, 0.0, 0.0};
+static void coherent(const void *tree, const struct ray *rays, uint32_t count,
+                     struct answer *answers)
+{
+    const struct wide_world *w = tree;
+    struct hit hits[GROUP_RAYS];
+
+    for (uint32_t i = 0; i < count; i += GROUP_RAYS) {
+        uint32_t left = count - i;
+        uint32_t lanes = left < GROUP_RAYS ? left : GROUP_RAYS;
+
+        hits_closest(&w->world, rays + i, lanes, hits);
+        for (uint32_t k = 0; k < lanes; k++)
+            answers[i + k] = (struct answer){hits[k].t, hits[k].tri};
+    }
+}
+
+const struct racer RACER = {NULL, closest, any, coherent, 0.0, 0.0};

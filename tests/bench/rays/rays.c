@@ -57,10 +57,13 @@ struct times {
 };
 
 /* Logarithms of ratios, for the geometric mean. */
-static struct {
+struct mean {
     double robust, fast;
     int count;
-} total;
+};
+
+/* Of rays that the scene has sent elsewhere, and of the camera's in groups. */
+static struct mean scattered, grouped;
 
 static void trace_chunk(void *context, uint32_t item, int worker)
 {
@@ -118,10 +121,11 @@ static void compare_answers(const struct contest *c, const struct ray_set *set,
            set->count, hits, names[racer], ties, faults);
 }
 
-/* Times the queries; `queries` has one for each racer. */
+/* Times the queries, of which there is one for each racer, and compares what
+ * one thread has found. The ratios go into the mean, or NULL. */
 static void race(struct contest *c, struct pool *pool, const char *name,
                  const struct ray_set *set, racer_query *const *queries,
-                 bool counts)
+                 struct mean *mean)
 {
     int threads = pool_thread_count(pool);
     struct times times[RACERS];
@@ -141,12 +145,23 @@ static void race(struct contest *c, struct pool *pool, const char *name,
            threads, rate[GLIM], rate[ROBUST], rate[FAST],
            rate[GLIM] / rate[ROBUST], rate[GLIM] / rate[FAST],
            s[ROBUST] / s[GLIM], s[FAST] / s[GLIM]);
+    if (threads == 1) {
+        compare_answers(c, set, ROBUST);
+        compare_answers(c, set, FAST);
+    }
     fflush(stdout);
-    if (!counts)
+    if (mean == NULL)
         return;
-    total.robust += log(rate[GLIM] / rate[ROBUST]);
-    total.fast += log(rate[GLIM] / rate[FAST]);
-    total.count++;
+    mean->robust += log(rate[GLIM] / rate[ROBUST]);
+    mean->fast += log(rate[GLIM] / rate[FAST]);
+    mean->count++;
+}
+
+static void print_mean(const char *rays, const struct mean *m)
+{
+    if (m->count > 0)
+        printf("geometric mean of %s: robust %.2f fast %.2f\n", rays,
+               exp(m->robust / m->count), exp(m->fast / m->count));
 }
 
 static void race_all(struct contest *c, struct pool *pool)
@@ -157,16 +172,13 @@ static void race_all(struct contest *c, struct pool *pool)
         for (int i = 0; i < RACERS; i++)
             queries[i] =
                 k == SET_SHADOW ? c->racers[i].any : c->racers[i].closest;
-        race(c, pool, set_names[k], &c->sets[k], queries, k != SET_PRIMARY);
-        if (pool_thread_count(pool) > 1)
-            continue;
-        compare_answers(c, &c->sets[k], ROBUST);
-        compare_answers(c, &c->sets[k], FAST);
+        race(c, pool, set_names[k], &c->sets[k], queries,
+             k != SET_PRIMARY ? &scattered : NULL);
     }
     racer_query *const coherent[RACERS] = {c->racers[GLIM].coherent,
                                            c->racers[ROBUST].coherent,
                                            c->racers[FAST].coherent};
-    race(c, pool, "packets", &c->sets[SET_PRIMARY], coherent, false);
+    race(c, pool, "groups", &c->sets[SET_PRIMARY], coherent, &grouped);
 }
 
 static const struct racer *racer_of(const struct paths *paths)
@@ -293,8 +305,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "rays: %s\n", err.text);
         return 1;
     }
-    if (total.count > 0)
-        printf("geometric mean: robust %.2f fast %.2f\n",
-               exp(total.robust / total.count), exp(total.fast / total.count));
+    print_mean("bounces and shadow rays", &scattered);
+    print_mean("groups of camera rays", &grouped);
     return 0;
 }

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+/*
+ * lane_hits.h - what becomes of a triangle test in lanes
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   any
+ * Errors:    none
+ */
+#ifndef GLIM_LANE_HITS_H
+#define GLIM_LANE_HITS_H
+
+#include "glim/wide.h"
+#include "kernels/traverse_leaf.h"
+
+#define LANES_MAX 8
+
+static inline uint32_t lowest(uint32_t mask)
+{
+    return (uint32_t)__builtin_ctz(mask);
+}
+
+/* Bits of lanes, and what triangle_hit() computes in them. */
+struct lane_hits {
+    uint32_t sure;   /* met at a distance above 0 and not beyond t_max */
+    uint32_t unsure; /* triangle_hit() has to say */
+    _Alignas(32) float t[LANES_MAX];
+    _Alignas(32) float edges[3][LANES_MAX];
+};
+
+/* Where surfaces have holes, tri_hit() says what is met. */
+static inline void lane_hits_doubt(const struct world *w, struct lane_hits *h)
+{
+    if (HAS(FEATURE_COVERAGE) &&
+        (w->settings.features & FEATURE_COVERAGE) != 0) {
+        h->unsure |= h->sure;
+        h->sure = 0;
+    }
+}
+
+/* The rule of tri_hit() for a lane that is sure; true if it is a nearer hit. */
+static inline bool lane_take(const struct lane_hits *h, uint32_t lane,
+                             const struct ray *r, uint32_t tri,
+                             struct hit *best)
+{
+    float t = h->t[lane];
+    float det;
+
+    if (tri + 1u == r->from || t > best->t ||
+        (t == best->t && tri >= best->tri))
+        return false;
+    det = h->edges[0][lane] + (h->edges[1][lane] + h->edges[2][lane]);
+    best->t = t;
+    best->b0 = h->edges[0][lane] / det;
+    best->b1 = h->edges[1][lane] / det;
+    best->b2 = h->edges[2][lane] / det;
+    best->tri = tri;
+    return true;
+}
+
+/* tri_hit() for triangle i of a block; rarely needed, unless surfaces have
+ * holes. */
+static __attribute__((noinline)) bool
+lane_decide(const struct world *w, const struct ray *r, const struct shear *s,
+            const struct tri_block *b, uint32_t i, struct hit *best)
+{
+    struct leaf_tri t = {
+        {b->corners[0][0][i], b->corners[0][1][i], b->corners[0][2][i]},
+        {b->corners[1][0][i], b->corners[1][1][i], b->corners[1][2][i]},
+        {b->corners[2][0][i], b->corners[2][1][i], b->corners[2][2][i]},
+        b->tri[i]};
+
+    return tri_hit(w, *r, *s, t, best);
+}
+
+#endif
