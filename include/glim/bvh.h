@@ -3,7 +3,7 @@
  * bvh.h - bounding volume hierarchy: binned SAH, flattened depth-first
  *
  * Wald, Boulos and Shirley 2007; Wald 2007 (binning); Pharr et al., PBR 4th
- * ed., 7.3. Below BVH_SAH_DEPTH nodes are split in halves by count, so that no
+ * ed., 7.3. Far down, nodes are split in halves by count, so that no
  * tree is deeper than the traversal's stack.
  *
  * The same triangles give the same tree, whatever the number of threads.
