@@ -9,6 +9,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "glim/reinsert.h"
 #include "glim/splitter.h"
 #include "kernels/traverse.h"
 
@@ -238,12 +239,12 @@ bool bvh_build_nodes(struct bvh *bvh, const struct world *w,
         return true;
     ok = begin(&b, w, leaves, pool) && build(&b);
     end(&b);
-    if (!ok) {
+    bvh->leaf_tri_count = w->settings.tri_count;
+    if (!ok || !bvh_reinsert(bvh)) {
         bvh_free(bvh);
         return fail(err, "out of memory for the tree of %u triangles",
                     w->settings.tri_count);
     }
-    bvh->leaf_tri_count = w->settings.tri_count;
     assert(bvh->depth < TRAVERSE_STACK);
     return true;
 }
