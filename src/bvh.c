@@ -252,7 +252,7 @@ bool bvh_build_nodes(struct bvh *bvh, const struct world *w,
 bool bvh_build(struct bvh *bvh, const struct world *w, struct pool *pool,
                struct error *err)
 {
-    const struct bvh_leaves leaves = {0, TRIANGLE_COST, 8};
+    const struct bvh_leaves leaves = {0, 0, TRIANGLE_COST, 8};
 
     if (!bvh_build_nodes(bvh, w, &leaves, pool, err))
         return false;

@@ -7,6 +7,10 @@
  * any number of triangles, and all of them fit TRAVERSE_STACK. */
 #define SAH_DEPTH 60
 
+/* Of the area of all. Measured: the same from 1e-4 to 1e-3, but 1 % of memory
+ * instead of 7. */
+#define LARGE_PART 1e-3f
+
 /* Boxes that a thread takes at once from a large range. */
 #define CHUNK 4096
 
@@ -73,17 +77,25 @@ struct range splitter_all(struct splitter *s)
         box_join(&all.bounds, &s->workers[i].bounds);
         box_join(&all.centers, &s->workers[i].centers[0]);
     }
+    s->large_area = LARGE_PART * box_area(&all.bounds);
     return all;
 }
 
 /* ---- by one thread ---- */
+
+/* For blocks that are tested at once. */
+static uint32_t bits_for(const struct splitter *s, const struct range *r)
+{
+    return box_area(&r->bounds) >= s->large_area ? s->leaves->large_bits
+                                                 : s->leaves->block_bits;
+}
 
 static bool is_leaf(const struct splitter *s, const struct range *r,
                     const struct split *split)
 {
     const struct bvh_leaves *leaves = s->leaves;
     float area = box_area(&r->bounds);
-    float blocks = blocks_of(r->count, leaves->block_bits);
+    float blocks = blocks_of(r->count, bits_for(s, r));
 
     return r->count <= leaves->most &&
            (split->axis < 0 ||
@@ -99,7 +111,7 @@ static bool choose_split(const struct splitter *s, const struct range *r,
     struct box bounds[2];
     uint32_t left;
 
-    *split = bins_split(bins, r->count, s->leaves->block_bits, bounds);
+    *split = bins_split(bins, r->count, bits_for(s, r), bounds);
     if (r->depth >= SAH_DEPTH)
         split->axis = -1;
     if (is_leaf(s, r, split))

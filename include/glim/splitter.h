@@ -36,6 +36,7 @@ struct splitter {
     struct box *buffers[2];
     struct splitter_worker *workers;
     uint32_t worker_count;
+    float large_area; /* of what is a large node */
     /* what all threads work on */
     const struct world *world;
     const struct range *range;
