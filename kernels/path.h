@@ -227,7 +227,7 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     struct vec3 wi;
 
     if (HAS(FEATURE_GUIDE) && guide_helps(b))
-        cell = guide_at(w, v->p);
+        cell = guide_at(w, v->p, v->ng);
     if (cell != NO_INDEX) {
         if (!guide_scatter(w, cell, v, b, wo, direction, choice, &s, &wi,
                            &p->scale))

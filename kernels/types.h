@@ -146,8 +146,13 @@ struct light_node {
 
 /* Directions on a side of the octahedral map in guide.h: a power of two. */
 #define GUIDE_SIDE 16
+#define GUIDE_BINS (GUIDE_SIDE * GUIDE_SIDE)
 
-/* Cubes in the box around the scene, x fastest, z slowest. */
+/* Ways that surfaces face: along either side of an axis, most of all. */
+#define GUIDE_FACINGS 6
+
+/* Cubes in the box around the scene, of GUIDE_FACINGS cells each, x next to
+ * fastest, z slowest. */
 struct guide_grid {
     struct vec3 lo; /* the box's corner */
     float cells_a_unit;
@@ -229,7 +234,7 @@ struct world {
     GLOBAL const struct light_node *light_nodes; /* none for one light */
     GLOBAL const float *sky_sums;       /* see kernels/sky.h; none: no table */
     GLOBAL const uint32_t *guide_cells; /* see kernels/guide.h */
-    GLOBAL const float *guide_sums;     /* GUIDE_SIDE^2 for each of these */
+    GLOBAL const float *guide_sums;     /* GUIDE_BINS for each of these */
 };
 
 struct ray {

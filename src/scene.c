@@ -323,10 +323,8 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     arrays = scene_arrays(scene);
-    if (!lights_build(&scene->lights, &arrays, err))
-        return false;
-    lights_lend(&scene->lights, &arrays);
-    return guide_build(&scene->guide, &arrays, err);
+    guide_outdate(&scene->guide);
+    return lights_build(&scene->lights, &arrays, err);
 }
 
 bool scene_load_sky(struct scene *scene, const struct view *view,
@@ -518,6 +516,19 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
         sky.height = scene->sky_height;
     }
     return sky;
+}
+
+bool scene_guide(struct scene *scene, const struct view *view,
+                 struct error *err)
+{
+    struct world w = scene_arrays(scene);
+    struct vec3 color = make_sky(scene, view).color;
+    double sky = ((double)color.x + (double)color.y + (double)color.z) / 3;
+
+    lights_lend(&scene->lights, &w);
+    if (scene->sky_texels != NULL)
+        sky *= scene->sky_table.mean;
+    return guide_update(&scene->guide, &w, sky, err);
 }
 
 static bool has_texture(const struct material *m)
