@@ -196,14 +196,16 @@ static const struct racer *racer_of(const struct paths *paths)
 static bool build_glim(struct contest *c, const struct paths *paths,
                        struct error *err)
 {
+    struct pool *pool = pool_create(usable_threads(), err);
     uint64_t begin_ns = clock_ns();
-    bool ok = wide_build(&c->tree, &c->shape.world, NULL, err);
+    bool ok = pool != NULL && wide_build(&c->tree, &c->shape.world, pool, err);
 
     c->world = (struct wide_world){c->shape.world, &c->tree};
     c->racers[GLIM] = *racer_of(paths);
     c->racers[GLIM].tree = &c->world;
     c->racers[GLIM].build_s = seconds_between(begin_ns, clock_ns());
     c->racers[GLIM].bytes = (double)wide_bytes(&c->tree);
+    pool_destroy(pool);
     return ok;
 }
 
