@@ -367,7 +367,9 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
     struct points points;
     bool share = count >= POINTS_MIN;
 
-    points.known = 0;
+    for (uint32_t i = 0; i < POINT_VERTICES; i++)
+        points.known_from[i] = POINT_KINDS;
+    points.known_from[POINTS_CAMERA] = DIMENSION_LENS + 1;
     for (uint32_t i = 0; i < count; i++) {
         samplers[i] = path_sampler(&w->settings, x, y, first + i);
         points.reversed_index[i] = samplers[i].reversed_index;

@@ -17,11 +17,10 @@
 #include "kernels/path_types.h"
 #include "kernels/rng.h"
 
-/* Dimensions at a vertex, and vertices that are computed ahead, the camera the
- * first: what comes later few paths ask for. One bit for each dimension in a
- * word. */
+/* Kinds of dimensions at a vertex, and vertices that are computed ahead, the
+ * camera the first: what comes later few paths ask for. */
 #define POINT_KINDS    4u
-#define POINT_VERTICES 8u
+#define POINT_VERTICES 16u
 
 /* The vertex of the dimensions below DIMENSION_BOUNCE. */
 #define POINTS_CAMERA 0u
@@ -29,24 +28,31 @@
 struct points {
     uint32_t key; /* that all have */
     uint32_t reversed_index[SAMPLE_BLOCK];
-    uint32_t known; /* bit vertex x kinds + kind: is computed */
+    uint32_t known_from[POINT_VERTICES]; /* this kind on */
     float x[POINT_VERTICES * POINT_KINDS][SAMPLE_BLOCK];
     float y[POINT_VERTICES * POINT_KINDS][SAMPLE_BLOCK];
 };
 
-static inline void points_compute(struct points *p, uint32_t slot,
-                                  uint32_t dimension)
+/* `kind` and those behind it: who asks for the first kind asks for the others
+ * as well, and steps of one number wait for each other, those of four need
+ * not. */
+static inline void points_compute(struct points *p, uint32_t vertex,
+                                  uint32_t kind)
 {
     struct sampler any = {p->key, 0};
-    uint32_t key = dimension_key(any, dimension);
 
-    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
-        struct bits2 b = sobol_point(p->reversed_index[i], key);
+    for (uint32_t k = kind; k < p->known_from[vertex]; k++) {
+        uint32_t key = dimension_key(any, vertex * DIMENSION_STRIDE + k);
+        uint32_t slot = vertex * POINT_KINDS + k;
 
-        p->x[slot][i] = unit_float(b.x);
-        p->y[slot][i] = unit_float(b.y);
+        for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
+            struct bits2 b = sobol_point(p->reversed_index[i], key);
+
+            p->x[slot][i] = unit_float(b.x);
+            p->y[slot][i] = unit_float(b.y);
+        }
     }
-    p->known |= 1u << slot;
+    p->known_from[vertex] = kind;
 }
 
 /* random_2d() of sample i at a vertex, the first of which is 1; `kind` is one
@@ -56,13 +62,12 @@ static inline struct vec2 points_2d(struct points *p, uint32_t i,
                                     struct sampler s, uint32_t vertex,
                                     uint32_t kind)
 {
-    uint32_t dimension = vertex * DIMENSION_STRIDE + kind;
     uint32_t slot = vertex * POINT_KINDS + kind;
 
     if (p == NULL || vertex >= POINT_VERTICES)
-        return random_2d(s, dimension);
-    if ((p->known >> slot & 1u) == 0)
-        points_compute(p, slot, dimension);
+        return random_2d(s, vertex * DIMENSION_STRIDE + kind);
+    if (kind < p->known_from[vertex])
+        points_compute(p, vertex, kind);
     return v2(p->x[slot][i], p->y[slot][i]);
 }
 
