@@ -57,14 +57,12 @@ static inline float triangle_pdf(struct vec3 p0, struct vec3 p1, struct vec3 p2,
 static inline struct hit triangle_point(struct vec2 u)
 {
     struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
+    bool is_above = u.y > u.x;
+    float less = 0.5f * f_min(u.x, u.y);
+    float more = f_max(u.x, u.y) - less;
 
-    if (u.y > u.x) {
-        h.b0 = 0.5f * u.x;
-        h.b1 = u.y - h.b0;
-    } else {
-        h.b1 = 0.5f * u.y;
-        h.b0 = u.x - h.b1;
-    }
+    h.b0 = f_pick(is_above, less, more);
+    h.b1 = f_pick(is_above, more, less);
     h.b2 = f_max(1.0f - h.b0 - h.b1, 0.0f);
     return h;
 }
