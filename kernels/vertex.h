@@ -58,10 +58,10 @@ static inline bool vertex_at(const struct world *w, const struct material *m,
     struct vec3 p2 = w->positions[t.v[2]];
     struct vec3 wo = v3_neg(r.d);
 
-    if (!triangle_normal(p0, p1, p2, &v->ng))
+    if (v3_is_zero(t.ng))
         return false;
-    v->is_outside = v3_dot(v->ng, wo) > 0.0f;
-    v->ng = v3_scale(v->ng, minus_if(!v->is_outside));
+    v->is_outside = v3_dot(t.ng, wo) > 0.0f;
+    v->ng = v3_scale(t.ng, minus_if(!v->is_outside));
     v->n = shading_normal(w, t, h, v->ng, wo);
     v->p = hit_inside(h, p0, p1, p2, &v->p_error);
     v->is_lifted = false;

@@ -7,7 +7,6 @@
 
 #include "glim/footprint.h"
 #include "glim/light_tree.h"
-#include "kernels/hit.h"
 #include "kernels/texture.h"
 
 /* Of all lights together: no light is without any. */
@@ -77,8 +76,9 @@ static bool make_emitter(const struct world *w, uint32_t tri,
     double twice_area =
         (double)v3_length(v3_cross(v3_sub(p1, p0), v3_sub(p2, p0)));
 
-    if (!(twice_area > AREA_LEAST) || !triangle_normal(p0, p1, p2, &e->normal))
+    if (!(twice_area > AREA_LEAST) || v3_is_zero(t->ng))
         return false;
+    e->normal = t->ng;
     radiance = mean_radiance(w, t, footprints);
     e->power = twice_area * radiance;
     *glare += e->power / 2 * radiance;
@@ -87,6 +87,21 @@ static bool make_emitter(const struct world *w, uint32_t tri,
     e->hi = v3(f_max(p0.x, f_max(p1.x, p2.x)), f_max(p0.y, f_max(p1.y, p2.y)),
                f_max(p0.z, f_max(p1.z, p2.z)));
     return e->power > 0;
+}
+
+static struct light make_light(const struct world *w, uint32_t tri)
+{
+    const struct tri *t = &w->tris[tri];
+    const struct material *m = &w->materials[t->material];
+    struct light l = {.tri = tri, .texture = NO_INDEX, .emission = m->emission};
+
+    if (t->vt[0] != NO_INDEX)
+        l.texture = m->emission_texture;
+    for (int i = 0; i < 3; i++)
+        l.corners[i] = w->positions[t->v[i]];
+    l.twice = v3_cross(v3_sub(l.corners[1], l.corners[0]),
+                       v3_sub(l.corners[2], l.corners[0]));
+    return l;
 }
 
 /* Finds the emitters among `candidate_count` triangles of shining materials. */
@@ -112,7 +127,7 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
         total += e->power;
         l->tri_lights[i] = l->light_count;
         e->light = l->light_count;
-        l->lights[l->light_count++].tri = i;
+        l->lights[l->light_count++] = make_light(w, i);
     }
     for (uint32_t i = 0; i < l->light_count; i++)
         (*emitters)[i].power = fmax((*emitters)[i].power / total, POWER_LEAST);

@@ -10,6 +10,7 @@
 #include "glim/image.h"
 #include "glim/obj.h"
 #include "glim/textures.h"
+#include "kernels/hit.h"
 
 /* Without a limit a path ends here; roulette ends it long before. */
 #define VERTICES_MAX 1000
@@ -237,6 +238,18 @@ static void turn_tris(struct scene *scene)
     }
 }
 
+static void find_normals(struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        struct tri *t = &scene->tris[i];
+
+        if (!triangle_normal(scene->positions[t->v[0]],
+                             scene->positions[t->v[1]],
+                             scene->positions[t->v[2]], &t->ng))
+            t->ng = v3(0.0f, 0.0f, 0.0f);
+    }
+}
+
 static bool shines(const struct material *m)
 {
     return m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0;
@@ -314,6 +327,7 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         return false;
     drop_tris(scene, report, tri_is_usable);
     turn_tris(scene);
+    find_normals(scene);
     if (scene->tri_count == 0)
         report_add(report, "scenes without a face",
                    "%s: found no face that can be seen: only the background is "

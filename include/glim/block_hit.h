@@ -18,6 +18,23 @@
 #include "glim/wide.h"
 #include "kernels/traverse_leaf.h"
 
+/* As shear_of(), without branches: no processor can predict them for rays in
+ * all directions. */
+static inline struct shear block_shear_of(struct ray r)
+{
+    const float d[5] = {r.d.x, r.d.y, r.d.z, r.d.x, r.d.y};
+    uint32_t x = float_bits(fabsf(r.d.x));
+    uint32_t y = float_bits(fabsf(r.d.y));
+    uint32_t z = float_bits(fabsf(r.d.z));
+    uint32_t x_is_largest = (uint32_t)(x > y) & (uint32_t)(x > z);
+    uint32_t y_is_largest = (uint32_t)(y >= x) & (uint32_t)(y > z);
+    uint32_t axis = 2u - 2u * x_is_largest - y_is_largest;
+    struct shear s = {r.o, d[axis + 1] / d[axis], d[axis + 2] / d[axis],
+                      1.0f / d[axis], axis};
+
+    return s;
+}
+
 /* Bits of lanes, and what triangle_hit() computes in them. */
 struct block_hits {
     uint32_t sure;   /* met at a distance above 0 and not beyond t_max */
@@ -52,8 +69,8 @@ static inline struct block_corners block_shear(const struct tri_block *block,
 {
     const float o[3] = {s->o.x, s->o.y, s->o.z};
     uint32_t kz = s->axis;
-    uint32_t kx = 9u >> 2 * kz & 3u;  /* 1, 2, 0 */
-    uint32_t ky = 18u >> 2 * kz & 3u; /* 2, 0, 1 */
+    uint32_t kx = kz == 2 ? 0 : kz + 1;
+    uint32_t ky = kx == 2 ? 0 : kx + 1;
     struct block_corners c;
 
     for (int i = 0; i < 3; i++) {

@@ -195,7 +195,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
     struct wide_ray ray = wide_ray_of(r);
-    struct shear shear = shear_of(r);
+    struct shear shear = block_shear_of(r);
     uint64_t stack[WIDE_STACK];
     uint64_t *top = stack;
     float t_far = wide_far(r.t_max);
@@ -237,7 +237,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
     struct wide_ray ray = wide_ray_of(r);
-    struct shear shear = shear_of(r);
+    struct shear shear = block_shear_of(r);
     float t_far = wide_far(r.t_max);
     struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
     uint32_t stack[WIDE_STACK];
