@@ -32,6 +32,7 @@ struct tri {
     uint32_t vn[3];
     uint32_t vt[3];
     uint32_t material;
+    struct vec3 ng; /* unit normal as it is wound; 0 if rounding leaves none */
 };
 
 enum material_kind {
@@ -120,11 +121,16 @@ struct leaf_tri {
     uint32_t tri;
 };
 
-/* A triangle that shines, and the way to it from the root of the light tree:
- * three bits a level, ten levels a word, the first lowest. */
+/* A triangle that shines, with what a sample of it needs, and the way to it
+ * from the root of the light tree: three bits a level, ten levels a word, the
+ * first lowest. */
 struct light {
     uint32_t tri;
     uint32_t path[2];
+    uint32_t texture; /* multiplies emission; NO_INDEX: none */
+    struct vec3 corners[3];
+    struct vec3 twice; /* a normal, twice as long as the triangle is large */
+    struct vec3 emission;
 };
 
 #define LIGHT_LEVELS 20

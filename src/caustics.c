@@ -96,14 +96,15 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     const struct world *w = &s->w->world;
     struct vec2 choice = photon_2d(i, 0, 0);
     uint32_t light = tri_list_choose(&s->lights, choice.x);
-    struct vec3 a[3], b[3], na, nb, from, to, error, d;
+    struct vec3 na = w->tris[light].ng;
+    struct vec3 nb, a[3], b[3], from, to, error, d;
     float cos_a, cos_b;
 
     p->aim = tri_list_choose(&s->casters, choice.y);
     tri_corners(w, light, a);
     tri_corners(w, p->aim, b);
-    if (!triangle_normal(a[0], a[1], a[2], &na) ||
-        !triangle_normal(b[0], b[1], b[2], &nb))
+    nb = w->tris[p->aim].ng;
+    if (v3_is_zero(na) || v3_is_zero(nb))
         return false;
     to =
         hit_point(triangle_point(photon_2d(i, 1, 0)), b[0], b[1], b[2], &error);

@@ -86,11 +86,12 @@ static bool leave(const struct world *w, struct hit h, struct vec3 side,
 {
     struct vec3 p[3], at, error;
 
-    tri_corners(w, h.tri, p);
-    if (!triangle_normal(p[0], p[1], p[2], n))
+    *n = w->tris[h.tri].ng;
+    if (v3_is_zero(*n))
         return false;
     if (v3_dot(*n, side) < 0.0f)
         *n = v3_neg(*n);
+    tri_corners(w, h.tri, p);
     at = hit_inside(h, p[0], p[1], p[2], &error);
     r->o = leave_surface(at, error, *n);
     r->from = h.tri + 1;

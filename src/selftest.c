@@ -57,6 +57,7 @@ static bool make_scene(struct scene *scene, uint32_t features,
                        struct error *err)
 {
     struct report report = {0};
+    struct world arrays;
     bool ok =
         mtl_add_default(scene, err) &&
         mtl_parse(scene, materials, sizeof materials - 1, "self-test", &report,
@@ -71,6 +72,8 @@ static bool make_scene(struct scene *scene, uint32_t features,
         if ((scene_material_features(scene, m) & ~features) != 0)
             *m = material_default();
     }
+    arrays = scene_arrays(scene);
+    ok = ok && lights_build(&scene->lights, &arrays, err);
     return ok;
 }
 
