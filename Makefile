@@ -47,7 +47,8 @@ FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 SETS := lamps images shiny
 FEATURES_lamps := FEATURE_EMITTERS
 FLAGS_lamps := -DFLATTEN
-FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE
+FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE | \
+	FEATURE_GUIDE
 FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
 	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH | \
 	FEATURE_GUIDE
@@ -208,7 +209,7 @@ bench-error: $(B)/error/error build/bench-error/scenes
 		tee build/bench-error/report.txt; exit $$(cat build/bench-error/status)
 
 ## bench-rays: rays a second beside Embree 3 (Debian's libembree-dev);
-##             FILTER=PART of the meshes' names, ISA=avx2
+##             FILTER=PART of the meshes' names or of scaling, ISA=avx2
 bench-rays:
 	@echo '#include <embree3/rtcore.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 		{ echo 'bench-rays: needs Embree 3: install libembree-dev'; exit 1; }

@@ -25,7 +25,7 @@ enum feature {
     FEATURE_EMITTERS = 256,   /* surfaces that shine */
     FEATURE_BUMPS = 512,      /* maps of heights or normals */
     FEATURE_FIRST_HIT = 1024, /* samples are no light: see first_hit.h */
-    FEATURE_GUIDE = 2048      /* directions from photons: see guide.h */
+    FEATURE_GUIDE = 2048      /* directions of hidden light: guide.h */
 };
 
 #define FEATURES_ALL 4095u

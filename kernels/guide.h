@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * guide.h - directions that light comes from through glass and off metal
+ * guide.h - directions that light comes from which is hard to find
  *
- * What light samples cannot find, and chance rarely: src/guide.c has traced
- * photons, and a grid over the scene says for each of its cells how much came
- * from which of GUIDE_BINS directions (Jensen 1995, "Importance driven path
+ * What light samples cannot find, and chance rarely: caustics, and the sky
+ * through windows. src/guide.c has traced some rays, and a grid over the scene
+ * says for each way that surfaces face in each of its cubes how much came from
+ * which of GUIDE_BINS directions (Jensen 1995, "Importance driven path
  * tracing using the photon map"). At what is diffuse a direction is drawn from
  * the cell with the probability that is the cell's share, else from the BSDF;
  * its density is that of the mixture (Vorba et al. 2014, "On-line learning of
@@ -25,8 +26,6 @@
 
 #include "kernels/vertex.h"
 
-#define GUIDE_BINS (GUIDE_SIDE * GUIDE_SIDE)
-
 /* A mirror, or as good as one: what it throws on other things is for guiding.
  */
 #define GUIDE_ALPHA_MAX 0.3f
@@ -38,23 +37,40 @@ static inline bool guide_helps(const struct bsdf *b)
            (b->kind == MATERIAL_PLASTIC && !v3_is_zero(b->color));
 }
 
-/* The cell that p is in or, outside the grid, nearest to. */
-static inline uint32_t guide_cell(const struct guide_grid *g, struct vec3 p)
+/* Of GUIDE_FACINGS, for a unit normal. */
+static inline uint32_t guide_facing(struct vec3 n)
+{
+    struct vec3 m = v3(fabsf(n.x), fabsf(n.y), fabsf(n.z));
+
+    if (m.x > m.y && m.x > m.z)
+        return n.x < 0.0f ? 1u : 0u;
+    if (m.y > m.z)
+        return n.y < 0.0f ? 3u : 2u;
+    return n.z < 0.0f ? 5u : 4u;
+}
+
+/* The cell of a surface with this normal: in the cube that p is in or, outside
+ * the grid, nearest to. */
+static inline uint32_t guide_cell(const struct guide_grid *g, struct vec3 p,
+                                  struct vec3 n)
 {
     struct vec3 at = v3_scale(v3_sub(p, g->lo), g->cells_a_unit);
     uint32_t x = (uint32_t)f_min(f_max(at.x, 0.0f), (float)(g->width - 1));
     uint32_t y = (uint32_t)f_min(f_max(at.y, 0.0f), (float)(g->height - 1));
     uint32_t z = (uint32_t)f_min(f_max(at.z, 0.0f), (float)(g->depth - 1));
 
-    return (z * g->height + y) * g->width + x;
+    return ((z * g->height + y) * g->width + x) * GUIDE_FACINGS +
+           guide_facing(n);
 }
 
-/* Where in guide_sums those of the cell around p are; NO_INDEX: it has none. */
-static inline uint32_t guide_at(const struct world *w, struct vec3 p)
+/* Where in guide_sums those of the surface's cell are; NO_INDEX: it has none.
+ */
+static inline uint32_t guide_at(const struct world *w, struct vec3 p,
+                                struct vec3 n)
 {
     if (w->settings.guide.width == 0)
         return NO_INDEX;
-    return w->guide_cells[guide_cell(&w->settings.guide, p)];
+    return w->guide_cells[guide_cell(&w->settings.guide, p, n)];
 }
 
 static inline float guide_sign(float x)

@@ -33,22 +33,20 @@ static inline float v3_axis(struct vec3 v, uint32_t axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+/* Without branches: no processor can predict them for rays in all directions.
+ */
 static inline struct shear shear_of(struct ray r)
 {
-    struct shear s;
-    float ax = fabsf(r.d.x);
-    float ay = fabsf(r.d.y);
-    float az = fabsf(r.d.z);
-    float dx, dy, dz;
+    const float d[5] = {r.d.x, r.d.y, r.d.z, r.d.x, r.d.y};
+    uint32_t x = float_bits(fabsf(r.d.x));
+    uint32_t y = float_bits(fabsf(r.d.y));
+    uint32_t z = float_bits(fabsf(r.d.z));
+    uint32_t x_is_largest = (uint32_t)(x > y) & (uint32_t)(x > z);
+    uint32_t y_is_largest = (uint32_t)(y >= x) & (uint32_t)(y > z);
+    uint32_t axis = 2u - 2u * x_is_largest - y_is_largest;
+    struct shear s = {r.o, d[axis + 1] / d[axis], d[axis + 2] / d[axis],
+                      1.0f / d[axis], axis};
 
-    s.o = r.o;
-    s.axis = ax > ay ? (ax > az ? 0u : 2u) : (ay > az ? 1u : 2u);
-    dx = s.axis == 0 ? r.d.y : s.axis == 1 ? r.d.z : r.d.x;
-    dy = s.axis == 0 ? r.d.z : s.axis == 1 ? r.d.x : r.d.y;
-    dz = v3_axis(r.d, s.axis);
-    s.sz = 1.0f / dz;
-    s.sx = dx / dz;
-    s.sy = dy / dz;
     return s;
 }
 
@@ -294,13 +292,8 @@ static inline struct vec3 leave_surface(struct vec3 p, struct vec3 error,
         fabsf(ng.x) * error.x + fabsf(ng.y) * error.y + fabsf(ng.z) * error.z;
     struct vec3 o = v3_add(p, v3_scale(ng, distance));
 
-    if (ng.x != 0.0f)
-        o.x = float_step(o.x, ng.x > 0.0f);
-    if (ng.y != 0.0f)
-        o.y = float_step(o.y, ng.y > 0.0f);
-    if (ng.z != 0.0f)
-        o.z = float_step(o.z, ng.z > 0.0f);
-    return o;
+    return v3(float_step(o.x, ng.x), float_step(o.y, ng.y),
+              float_step(o.z, ng.z));
 }
 
 /* The unit normal by the winding of the file. Edges are scaled first, so that

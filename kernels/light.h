@@ -25,7 +25,8 @@ struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
     struct vec3 radiance; /* that comes along it if nothing is in the way */
     float pdf;            /* of wi per solid angle; above 0 and finite */
-    uint32_t tri;         /* NO_INDEX: the sky */
+    uint32_t light;       /* NO_INDEX: the sky */
+    uint32_t tri;         /* of the light; NO_INDEX: the sky */
     struct vec3 p;        /* on the triangle */
 };
 
@@ -40,14 +41,13 @@ static inline struct vec3 emission_at(const struct world *w,
 }
 
 /* Density per solid angle, seen from the receiver, of a point that is uniform
- * on a triangle: distance^2 / (cosine area); to_point leads there. 0 where it
- * is not finite: such points are not sampled. */
-static inline float triangle_pdf(struct vec3 p0, struct vec3 p1, struct vec3 p2,
-                                 struct vec3 to_point)
+ * on the light: distance^2 / (cosine area); to_point leads there. 0 where it is
+ * not finite: such points are not sampled. */
+static inline float light_point_pdf(struct light l, struct vec3 to_point)
 {
-    struct vec3 twice = v3_cross(v3_sub(p1, p0), v3_sub(p2, p0));
     float square = v3_dot(to_point, to_point);
-    float pdf = 2.0f * square * sqrtf(square) / fabsf(v3_dot(to_point, twice));
+    float pdf =
+        2.0f * square * sqrtf(square) / fabsf(v3_dot(to_point, l.twice));
 
     return pdf <= FLOAT_MAX ? pdf : 0.0f;
 }
@@ -57,51 +57,53 @@ static inline float triangle_pdf(struct vec3 p0, struct vec3 p1, struct vec3 p2,
 static inline struct hit triangle_point(struct vec2 u)
 {
     struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
+    bool is_above = u.y > u.x;
+    float less = 0.5f * f_min(u.x, u.y);
+    float more = f_max(u.x, u.y) - less;
 
-    if (u.y > u.x) {
-        h.b0 = 0.5f * u.x;
-        h.b1 = u.y - h.b0;
-    } else {
-        h.b1 = 0.5f * u.y;
-        h.b0 = u.x - h.b1;
-    }
+    h.b0 = f_pick(is_above, less, more);
+    h.b1 = f_pick(is_above, more, less);
     h.b2 = f_max(1.0f - h.b0 - h.b1, 0.0f);
     return h;
+}
+
+/* Emitted radiance of a light at a hit on it. */
+static inline struct vec3 light_radiance(const struct world *w, struct light l,
+                                         struct hit h)
+{
+    struct vec3 radiance = l.emission;
+
+    if (HAS(FEATURE_TEXTURES) && l.texture != NO_INDEX)
+        radiance =
+            v3_mul(radiance,
+                   texture_at(w, l.texture, uv_at(w, w->tris[l.tri], h)).color);
+    if (HAS(FEATURE_COVERAGE) && (w->settings.features & FEATURE_COVERAGE) != 0)
+        radiance = v3_scale(radiance, coverage_at(w, h));
+    return radiance;
 }
 
 static inline bool sample_triangle(const struct world *w,
                                    const struct receiver *r, struct vec2 point,
                                    struct vec2 choice, struct light_sample *s)
 {
-    uint32_t light;
     float probability =
-        w->settings.light_share * light_tree_choose(w, r, choice, &light);
+        w->settings.light_share * light_tree_choose(w, r, choice, &s->light);
     struct hit h = triangle_point(point);
-    struct vec3 p0, p1, p2, p_error, to_point;
-    struct material m;
-    struct tri t;
+    struct vec3 p_error, to_point;
+    struct light l;
 
     if (!(probability > 0.0f))
         return false;
-    h.tri = w->lights[light].tri;
-    t = w->tris[h.tri];
-    p0 = w->positions[t.v[0]];
-    p1 = w->positions[t.v[1]];
-    p2 = w->positions[t.v[2]];
-    s->tri = h.tri;
-    s->p = hit_point(h, p0, p1, p2, &p_error);
+    l = w->lights[s->light];
+    h.tri = l.tri;
+    s->tri = l.tri;
+    s->p = hit_point(h, l.corners[0], l.corners[1], l.corners[2], &p_error);
     to_point = v3_sub(s->p, r->p);
-    s->pdf = probability * triangle_pdf(p0, p1, p2, to_point);
+    s->pdf = probability * light_point_pdf(l, to_point);
     if (!(s->pdf > 0.0f))
         return false;
     s->wi = v3_unit(to_point);
-    m = w->materials[t.material];
-    s->radiance =
-        emission_at(w, &m,
-                    t.vt[0] != NO_INDEX ? uv_at(w, t, h) : v2(0.0f, 0.0f),
-                    t.vt[0] != NO_INDEX);
-    if ((w->settings.features & FEATURE_COVERAGE) != 0)
-        s->radiance = v3_scale(s->radiance, coverage_at(w, h));
+    s->radiance = light_radiance(w, l, h);
     return true;
 }
 
@@ -113,14 +115,11 @@ static inline float light_pdf_at(const struct world *w,
 {
     uint32_t light =
         w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
-    struct tri t;
 
     if (light == NO_INDEX)
         return 0.0f;
-    t = w->tris[tri];
     return w->settings.light_share * light_tree_probability(w, r, light) *
-           triangle_pdf(w->positions[t.v[0]], w->positions[t.v[1]],
-                        w->positions[t.v[2]], v3_sub(p, r->p));
+           light_point_pdf(w->lights[light], v3_sub(p, r->p));
 }
 
 /* Density of light_sample() at the unit vector wi that leads to the sky. */
@@ -140,7 +139,7 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
         s->wi = sky_sample(w, point);
         s->radiance = sky_terms(w, s->wi, &s->pdf);
         s->pdf *= w->settings.sky_share;
-        s->tri = NO_INDEX;
+        s->light = s->tri = NO_INDEX;
         s->p = r->p;
         return s->pdf > 0.0f;
     }

@@ -30,11 +30,13 @@ struct receiver {
 /* Levels that one random number of 24 bits decides: 9 bits of it. */
 #define LIGHT_LEVELS_A_NUMBER 3u
 
-/* How much the eight children may shine at the receiver, summed up to and with
- * each. The ball around a child's box, seen under the angle of its radius,
- * lifts both cosines: cos(a - b) <= cos a + sin b where it is not negative. */
+/* How much the eight children may shine at the receiver, summed up: before each
+ * of them, and at the end. The ball around a child's box, seen under the angle
+ * of its radius, lifts both cosines: cos(a - b) <= cos a + sin b where it is
+ * not negative. */
 static inline void light_sums(const struct world *w, uint32_t node,
-                              const struct receiver *r, float sums[LIGHT_WIDTH])
+                              const struct receiver *r,
+                              float sums[LIGHT_WIDTH + 1])
 {
     float behind = r->transmits ? -1.0f : 1.0f;
     float parts[LIGHT_WIDTH];
@@ -57,17 +59,16 @@ static inline void light_sums(const struct world *w, uint32_t node,
                    (f_min(in, 1.0f) + LIGHT_COSINE_SLACK) *
                    (f_min(out, 1.0f) + LIGHT_COSINE_SLACK);
     }
-    sums[0] = parts[0];
-    for (uint32_t i = 1; i < LIGHT_WIDTH; i++)
-        sums[i] = sums[i - 1] + parts[i];
+    sums[0] = 0.0f;
+    for (uint32_t i = 0; i < LIGHT_WIDTH; i++)
+        sums[i + 1] = sums[i] + parts[i];
 }
 
 /* The probability of child i: of the interval that a number can fall in. */
-static inline float light_child_share(const float sums[LIGHT_WIDTH], uint32_t i)
+static inline float light_child_share(const float sums[LIGHT_WIDTH + 1],
+                                      uint32_t i)
 {
-    float before = i == 0 ? 0.0f : sums[i - 1];
-
-    return (sums[i] - before) / sums[LIGHT_WIDTH - 1];
+    return (sums[i + 1] - sums[i]) / sums[LIGHT_WIDTH];
 }
 
 /* A light and, as result, its probability; 0: none. `choice` is two random
@@ -84,21 +85,19 @@ static inline float light_tree_choose(const struct world *w,
     if (w->settings.light_count < 2)
         return (float)w->settings.light_count;
     for (uint32_t level = 0;; level++) {
-        float sums[LIGHT_WIDTH];
-        float before;
+        float sums[LIGHT_WIDTH + 1];
         uint32_t i = 0;
 
         if (level == LIGHT_LEVELS_A_NUMBER)
             u = choice.y;
         light_sums(w, at, r, sums);
-        u *= sums[LIGHT_WIDTH - 1];
-        for (uint32_t k = 0; k < LIGHT_WIDTH - 1; k++)
+        u *= sums[LIGHT_WIDTH];
+        for (uint32_t k = 1; k < LIGHT_WIDTH; k++)
             i += u >= sums[k] ? 1u : 0u;
         probability *= light_child_share(sums, i);
         if (!(probability > 0.0f))
             return 0.0f;
-        before = i == 0 ? 0.0f : sums[i - 1];
-        u = f_min((u - before) / (sums[i] - before), UNIT_FLOAT_MAX);
+        u = f_min((u - sums[i]) / (sums[i + 1] - sums[i]), UNIT_FLOAT_MAX);
         at = w->light_nodes[at].child[i];
         if ((at & LIGHT_LEAF) != 0) {
             *light = at & ~LIGHT_LEAF;
@@ -122,7 +121,7 @@ static inline float light_tree_probability(const struct world *w,
     for (uint32_t level = 0; (at & LIGHT_LEAF) == 0; level++) {
         uint32_t bits = level < LIGHT_LEVELS / 2 ? l.path[0] : l.path[1];
         uint32_t i = bits >> 3 * (level % (LIGHT_LEVELS / 2)) & 7u;
-        float sums[LIGHT_WIDTH];
+        float sums[LIGHT_WIDTH + 1];
 
         light_sums(w, at, r, sums);
         probability *= light_child_share(sums, i);

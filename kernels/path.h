@@ -24,7 +24,6 @@
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
-#include "kernels/points.h"
 #include "kernels/roulette.h"
 #include "kernels/start.h"
 #include "kernels/vertex.h"
@@ -32,10 +31,14 @@
 /* Paths without a limit of their own end here, counted. */
 #define PATH_HARD_STOP 1000u
 
-/* So many samples are worth computing their random numbers together. */
-#ifndef POINTS_MIN
-#define POINTS_MIN 3
+/* 1: eight random numbers take the time of one, in loops that compilers turn
+ * into vector code, and are computed together; 0: each when it is asked for. */
+#ifndef HAS_WIDE_VECTORS
+#define HAS_WIDE_VECTORS 0
 #endif
+
+/* Vertices whose numbers are computed together. */
+#define VERTICES_AHEAD 2u
 
 /* Between the keys of a vertex's next ray and of its shadow ray. */
 #define SHADOW_KEY 0x10000u
@@ -44,8 +47,7 @@
 struct path {
     struct ray ray;
     struct sampler sampler;
-    struct points *points; /* or NULL; this path's numbers are those at */
-    uint32_t lane;
+    struct vec2 numbers[VERTICES_AHEAD * DIMENSION_KINDS];
     struct vec3 beta; /* what radiance that comes along the ray counts, */
     float scale;      /* apart from this, which roulette does not see */
     float pdf;        /* of the ray's direction; 0: no light sample has it */
@@ -60,10 +62,30 @@ static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
     return v3_mul(v3_scale(p->beta, p->scale * weight), radiance);
 }
 
-static inline struct vec2 path_2d(struct path *p, uint32_t vertex,
+/* Random numbers at a vertex, the first of which is 1; `kind` is one of enum
+ * dimension's that are counted from DIMENSION_BOUNCE. */
+static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
+                                    uint32_t kind)
+{
+    return random_2d(s, vertex * DIMENSION_STRIDE + kind);
+}
+
+/* Before the first path_2d() at a vertex. */
+static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+{
+    if (!HAS_WIDE_VECTORS || (vertex - 1) % VERTICES_AHEAD != 0)
+        return;
+    for (uint32_t i = 0; i < VERTICES_AHEAD * DIMENSION_KINDS; i++)
+        p->numbers[i] = vertex_2d(p->sampler, vertex + i / DIMENSION_KINDS,
+                                  i % DIMENSION_KINDS);
+}
+
+static inline struct vec2 path_2d(const struct path *p, uint32_t vertex,
                                   uint32_t kind)
 {
-    return points_2d(p->points, p->lane, p->sampler, vertex, kind);
+    if (!HAS_WIDE_VECTORS)
+        return vertex_2d(p->sampler, vertex, kind);
+    return p->numbers[(vertex - 1) % VERTICES_AHEAD * DIMENSION_KINDS + kind];
 }
 
 static inline void path_add(struct path *p, struct vec3 radiance, float weight)
@@ -134,14 +156,13 @@ static inline bool light_is_seen(const struct world *w, struct path *p,
 {
     struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, key, v->face};
 
-    if (s->tri != NO_INDEX) {
-        struct tri t = w->tris[s->tri];
+    if (s->light != NO_INDEX) {
+        struct light l = w->lights[s->light];
         struct hit h;
 
         r.d = v3_unit(v3_sub(s->p, r.o));
-        if (!triangle_hit(r, shear_of(r), w->positions[t.v[0]],
-                          w->positions[t.v[1]], w->positions[t.v[2]], FLOAT_MAX,
-                          &h))
+        if (!triangle_hit(r, shear_of(r), l.corners[0], l.corners[1],
+                          l.corners[2], FLOAT_MAX, &h))
             return false;
         r.t_max = h.t;
     }
@@ -229,7 +250,7 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     struct vec3 wi;
 
     if (HAS(FEATURE_GUIDE) && guide_helps(b))
-        cell = guide_at(w, v->p);
+        cell = guide_at(w, v->p, v->ng);
     if (cell != NO_INDEX) {
         if (!guide_scatter(w, cell, v, b, wo, direction, choice, &s, &wi,
                            &p->scale))
@@ -293,6 +314,7 @@ static inline bool path_step(const struct world *w, struct path *p,
     if (!bsdf_is_glass(&b))
         vertex_lift(w, h.tri, h, &v);
     wo = vertex_to_local(&v, v3_neg(p->ray.d));
+    path_prepare_2d(p, vertex);
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
@@ -304,17 +326,13 @@ static inline bool path_step(const struct world *w, struct path *p,
            path_survives(p, vertex, lobe.y);
 }
 
-/* A path that begins with this ray. Its random numbers are the sampler's; with
- * points, which has them for eight samples, those of sample `lane`. */
-static inline struct path path_open(struct ray r, struct sampler sampler,
-                                    struct points *points, uint32_t lane)
+/* A path that begins with this ray. */
+static inline struct path path_open(struct ray r, struct sampler sampler)
 {
     struct path p;
 
     p.ray = r;
     p.sampler = sampler;
-    p.points = points;
-    p.lane = lane;
     p.beta = v3(1.0f, 1.0f, 1.0f);
     p.scale = 1.0f;
     p.pdf = 0.0f;
@@ -362,7 +380,7 @@ static inline struct path_sample path_run(const struct world *w, struct path p,
 static inline struct path_sample path_trace(const struct world *w, struct ray r,
                                             struct sampler sampler)
 {
-    return path_run(w, path_open(r, sampler, NULL, 0), NULL);
+    return path_run(w, path_open(r, sampler), NULL);
 }
 
 /* Samples first .. first + count - 1 of pixel (x, y); count is at most
@@ -374,29 +392,23 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
     struct sampler samplers[SAMPLE_BLOCK];
     struct ray rays[SAMPLE_BLOCK];
     struct hit hits[SAMPLE_BLOCK];
-    struct points points;
-    struct points *shared = count >= POINTS_MIN ? &points : NULL;
+    struct vec2 points[SAMPLE_BLOCK];
+    uint32_t lanes = HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count;
     bool is_known;
 
     if (count == 0)
         return;
-    points.known = 0;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < lanes; i++)
         samplers[i] = path_sampler(&w->settings, x, y, first + i);
-        points.reversed_index[i] = samplers[i].reversed_index;
-        if (samplers[i].key != samplers[0].key)
-            shared = NULL;
-    }
-    for (uint32_t i = count; i < SAMPLE_BLOCK; i++)
-        points.reversed_index[i] = 0;
-    points.key = samplers[0].key;
+    for (uint32_t i = 0; i < lanes; i++)
+        points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
     for (uint32_t i = 0; i < count; i++) {
-        rays[i] = path_ray(&w->settings, x, y, samplers[i], shared, i);
+        rays[i] = path_ray(&w->settings, x, y, points[i], samplers[i]);
         rays[i].key = ray_key(samplers[i], 1);
     }
     is_known = hits_closest(w, rays, count, hits);
     for (uint32_t i = 0; i < count; i++)
-        out[i] = path_run(w, path_open(rays[i], samplers[i], shared, i),
+        out[i] = path_run(w, path_open(rays[i], samplers[i]),
                           is_known ? &hits[i] : NULL);
 }
 

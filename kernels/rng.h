@@ -39,7 +39,8 @@ enum dimension {
     DIMENSION_LIGHT_POSITION = 0,
     DIMENSION_LIGHT_CHOICE = 1,
     DIMENSION_BSDF_DIRECTION = 2,
-    DIMENSION_BSDF_LOBE = 3 /* and roulette */
+    DIMENSION_BSDF_LOBE = 3, /* and roulette */
+    DIMENSION_KINDS = 4      /* of those at a vertex */
 };
 
 /* Samples of a pixel in a draft, and its longest side: a pixel and one of four

@@ -17,16 +17,15 @@ static inline struct vec2 disk_from_square(struct vec2 u)
 {
     float a = 2.0f * u.x - 1.0f;
     float b = 2.0f * u.y - 1.0f;
-    float angle;
+    bool is_wide = fabsf(a) > fabsf(b);
+    float radius = f_pick(is_wide, a, b);
+    float angle = PI * 0.25f * (f_pick(is_wide, b, a) / radius);
+    float along = radius * cos_small(angle);
+    float across = radius * sin_small(angle);
 
-    if (a == 0.0f && b == 0.0f)
+    if (radius == 0.0f)
         return v2(0.0f, 0.0f);
-    if (fabsf(a) > fabsf(b)) {
-        angle = PI * 0.25f * (b / a);
-        return v2(a * cos_small(angle), a * sin_small(angle));
-    }
-    angle = PI * 0.25f * (a / b);
-    return v2(b * sin_small(angle), b * cos_small(angle));
+    return v2(f_pick(is_wide, along, across), f_pick(is_wide, across, along));
 }
 
 /* Density cosine / pi. */

@@ -11,7 +11,7 @@
 #define KERNELS_START_H
 
 #include "kernels/camera.h"
-#include "kernels/points.h"
+#include "kernels/rng.h"
 
 struct path_start {
     struct ray ray;
@@ -27,23 +27,19 @@ static inline struct sampler path_sampler(const struct settings *s, uint32_t x,
                : sampler_start(x, y, index, s->seed);
 }
 
-/* The camera's ray of a sample of pixel (x, y); points, or NULL, are as in
- * path_open() of path.h. */
+/* The camera's ray of a sample through a point of pixel (x, y). */
 static inline struct ray path_ray(const struct settings *s, uint32_t x,
-                                  uint32_t y, struct sampler sampler,
-                                  struct points *points, uint32_t lane)
+                                  uint32_t y, struct vec2 point,
+                                  struct sampler sampler)
 {
     struct ray r;
 
     if (s->sample != SAMPLE_LIGHT)
         return camera_ray(s->camera, x, y, v2(0.5f, 0.5f));
-    r = camera_ray(s->camera, x, y,
-                   points_2d(points, lane, sampler, POINTS_CAMERA,
-                             DIMENSION_PIXEL));
+    r = camera_ray(s->camera, x, y, point);
     if (s->camera.lens_radius > 0.0f)
         r = camera_through_lens(s->camera, r,
-                                points_2d(points, lane, sampler, POINTS_CAMERA,
-                                          DIMENSION_LENS));
+                                random_2d(sampler, DIMENSION_LENS));
     return r;
 }
 
@@ -53,7 +49,8 @@ static inline struct path_start path_begin(const struct settings *s, uint32_t x,
     struct path_start start;
 
     start.sampler = path_sampler(s, x, y, index);
-    start.ray = path_ray(s, x, y, start.sampler, NULL, 0);
+    start.ray = path_ray(s, x, y, random_2d(start.sampler, DIMENSION_PIXEL),
+                         start.sampler);
     return start;
 }
 

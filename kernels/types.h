@@ -32,6 +32,7 @@ struct tri {
     uint32_t vn[3];
     uint32_t vt[3];
     uint32_t material;
+    struct vec3 ng; /* unit normal as it is wound; 0 if rounding leaves none */
 };
 
 enum material_kind {
@@ -120,11 +121,16 @@ struct leaf_tri {
     uint32_t tri;
 };
 
-/* A triangle that shines, and the way to it from the root of the light tree:
- * three bits a level, ten levels a word, the first lowest. */
+/* A triangle that shines, with what a sample of it needs, and the way to it
+ * from the root of the light tree: three bits a level, ten levels a word, the
+ * first lowest. */
 struct light {
     uint32_t tri;
     uint32_t path[2];
+    uint32_t texture; /* multiplies emission; NO_INDEX: none */
+    struct vec3 corners[3];
+    struct vec3 twice; /* a normal, twice as long as the triangle is large */
+    struct vec3 emission;
 };
 
 #define LIGHT_LEVELS 20
@@ -146,8 +152,13 @@ struct light_node {
 
 /* Directions on a side of the octahedral map in guide.h: a power of two. */
 #define GUIDE_SIDE 16
+#define GUIDE_BINS (GUIDE_SIDE * GUIDE_SIDE)
 
-/* Cubes in the box around the scene, x fastest, z slowest. */
+/* Ways that surfaces face: along either side of an axis, most of all. */
+#define GUIDE_FACINGS 6
+
+/* Cubes in the box around the scene, of GUIDE_FACINGS cells each, x next to
+ * fastest, z slowest. */
 struct guide_grid {
     struct vec3 lo; /* the box's corner */
     float cells_a_unit;
@@ -229,7 +240,7 @@ struct world {
     GLOBAL const struct light_node *light_nodes; /* none for one light */
     GLOBAL const float *sky_sums;       /* see kernels/sky.h; none: no table */
     GLOBAL const uint32_t *guide_cells; /* see kernels/guide.h */
-    GLOBAL const float *guide_sums;     /* GUIDE_SIDE^2 for each of these */
+    GLOBAL const float *guide_sums;     /* GUIDE_BINS for each of these */
 };
 
 struct ray {

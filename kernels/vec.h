@@ -184,10 +184,25 @@ static inline float atan2_rad(float y, float x)
     return y < 0.0f ? -a : a;
 }
 
+/* -1 or 1, without a branch: processors cannot predict the sides of surfaces,
+ * and each that they get wrong costs as much as a square root. */
+static inline float minus_if(bool is_minus)
+{
+    return bits_float(0x3f800000u | (uint32_t)is_minus << 31);
+}
+
+/* c ? a : b in the same way. */
+static inline float f_pick(bool c, float a, float b)
+{
+    uint32_t mask = 0u - (uint32_t)c;
+
+    return bits_float((float_bits(a) & mask) | (float_bits(b) & ~mask));
+}
+
 /* A right-handed frame around the unit vector n (Duff et al. 2017). */
 static inline void frame_around(struct vec3 n, struct vec3 *t, struct vec3 *b)
 {
-    float sign = n.z < 0.0f ? -1.0f : 1.0f;
+    float sign = minus_if(n.z < 0.0f);
     float a = -1.0f / (sign + n.z);
     float c = n.x * n.y * a;
 
@@ -195,16 +210,16 @@ static inline void frame_around(struct vec3 n, struct vec3 *t, struct vec3 *b)
     *b = v3(c, sign + n.y * n.y * a, -n.y);
 }
 
-/* The next float away from zero's side that `up` names. Finite x. */
-static inline float float_step(float x, bool up)
+/* The next float on the side of `way`, or x itself where that is 0. Finite x.
+ * Hardly a branch, as in minus_if(). */
+static inline float float_step(float x, float way)
 {
-    uint32_t bits = float_bits(x);
+    uint32_t moves = way != 0.0f;
+    uint32_t grows = (x > 0.0f) == (way > 0.0f);
 
-    if (x == 0.0f)
-        return bits_float(up ? 1u : 0x80000001u);
-    if ((x > 0.0f) == up)
-        return bits_float(bits + 1u);
-    return bits_float(bits - 1u);
+    if (x == 0.0f && moves)
+        return bits_float((float_bits(way) & 0x80000000u) | 1u);
+    return bits_float(float_bits(x) + moves * (2u * grows - 1u));
 }
 
 #endif

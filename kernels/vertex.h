@@ -45,8 +45,7 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
         return ng;
     n = v3_scale(n, 1.0f / length);
     /* exporters write normals and winding that disagree: go by the face */
-    if (v3_dot(n, ng) < 0.0f)
-        n = v3_neg(n);
+    n = v3_scale(n, minus_if(v3_dot(n, ng) < 0.0f));
     return v3_dot(n, wo) > 0.0f ? n : ng;
 }
 
@@ -59,11 +58,10 @@ static inline bool vertex_at(const struct world *w, const struct material *m,
     struct vec3 p2 = w->positions[t.v[2]];
     struct vec3 wo = v3_neg(r.d);
 
-    if (!triangle_normal(p0, p1, p2, &v->ng))
+    if (v3_is_zero(t.ng))
         return false;
-    v->is_outside = v3_dot(v->ng, wo) > 0.0f;
-    if (!v->is_outside)
-        v->ng = v3_neg(v->ng);
+    v->is_outside = v3_dot(t.ng, wo) > 0.0f;
+    v->ng = v3_scale(t.ng, minus_if(!v->is_outside));
     v->n = shading_normal(w, t, h, v->ng, wo);
     v->p = hit_inside(h, p0, p1, p2, &v->p_error);
     v->is_lifted = false;

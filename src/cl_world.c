@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "glim/cl_world.h"
+#include "glim/guide_part.h"
 
 /* What an array of the world is on the host. */
 struct source {
@@ -52,11 +53,9 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
         [CL_ARRAY_LIGHT_NODES] = SOURCE(w->light_nodes, s->light_node_count),
         [CL_ARRAY_SKY_SUMS] = SOURCE(w->sky_sums, s->sky_sum_count),
         [CL_ARRAY_GUIDE_CELLS] =
-            SOURCE(w->guide_cells,
-                   (size_t)s->guide.width * s->guide.height * s->guide.depth),
+            SOURCE(w->guide_cells, guide_cell_count(&s->guide)),
         [CL_ARRAY_GUIDE_SUMS] =
-            SOURCE(w->guide_sums,
-                   (size_t)s->guide.cell_count * GUIDE_SIDE * GUIDE_SIDE),
+            SOURCE(w->guide_sums, (size_t)s->guide.cell_count * GUIDE_BINS),
     };
 
     for (int i = 0; i < CL_ARRAY_COUNT; i++) {

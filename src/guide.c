@@ -5,160 +5,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/wide_hit.h"
-#include "kernels/guide.h"
-#include "kernels/light.h"
-#include "kernels/rng.h"
-
-/* Tried; about half of them arrive. On two balls four times as many leave 8 %
- * less error, and the first picture would wait for them. */
-#define PHOTONS 16384u
-
-/* Of their random numbers, which no sample of a pixel has. */
-#define PHOTON_DIMENSION 0x10000u
-#define PHOTON_STRIDE    2u
-#define PHOTON_KEY       0x6a09e667u
-
-/* Where a photon ends that is still in glass. */
-#define PHOTON_VERTICES 12u
+#include "glim/caustics.h"
+#include "glim/openings.h"
+#include "glim/tri_list.h"
+#include "glim/wide.h"
+#include "kernels/vec.h"
 
 /* Along the longest side of the scene. On two balls 8 to 16 leave the same
  * error within 2 %, and many sums do not stay near. */
 #define CELLS_A_SIDE 10
 
-/* How often the table is asked at most, and where it is half as often: where
- * caustics bring this part of what all lights would shed on the box around the
- * scene. Tried on two balls: twice as much leaves 4 % more error. */
+/* How often the table is asked for one kind of light at most, and where that
+ * is as much as the rest it is asked half as often. */
 #define SHARE_MOST 0.5
-#define SHARE_HALF 0.25
 
-/* Cells that are asked less often have no table: half of them on two balls, for
- * 3 % more error and 7 % less time. */
+/* Cells that would be asked less often for it are not: half of them on two
+ * balls, for 3 % more error and 7 % less time. */
 #define SHARE_LEAST 0.05
 
 /* A tree for more would take longer than the first picture. */
 #define TRIS_MOST 200000u
 
-/* Triangles, chosen by a weight. */
-struct list {
-    uint32_t *tris;
-    double *sums; /* of the weights up to and with each */
-    uint32_t count;
+/* The table while it is made. */
+struct table {
+    uint32_t *cells;
+    float *sums;
+    uint32_t cell_count;
 };
-
-struct pass {
-    struct wide_world wide;
-    struct wide tree;
-    struct list lights;  /* by power */
-    struct list casters; /* by area */
-    struct guide *guide;
-    float *flux; /* GUIDE_BINS for each cell of the grid */
-};
-
-struct photon {
-    struct ray ray;
-    float flux;
-    uint32_t aim; /* the triangle that it has to meet first */
-};
-
-static bool casts(const struct material *m)
-{
-    return m->alpha < GUIDE_ALPHA_MAX &&
-           (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS ||
-            m->kind == MATERIAL_METAL);
-}
-
-static double mean(struct vec3 color)
-{
-    return ((double)color.x + (double)color.y + (double)color.z) / 3;
-}
-
-static void corners(const struct world *w, uint32_t tri, struct vec3 p[3])
-{
-    for (uint32_t k = 0; k < 3; k++)
-        p[k] = w->positions[w->tris[tri].v[k]];
-}
-
-static double area_of(const struct world *w, uint32_t tri)
-{
-    struct vec3 p[3];
-
-    corners(w, tri, p);
-    return 0.5 *
-           (double)v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
-}
-
-/* ---- what shines, and what casts ---- */
-
-static bool list_init(struct list *l, uint32_t capacity)
-{
-    l->tris = alloc_array(capacity, sizeof *l->tris);
-    l->sums = alloc_array(capacity, sizeof *l->sums);
-    return l->tris != NULL && l->sums != NULL;
-}
-
-static double list_total(const struct list *l)
-{
-    return l->count > 0 ? l->sums[l->count - 1] : 0;
-}
-
-static void list_add(struct list *l, uint32_t tri, double weight)
-{
-    double total = list_total(l);
-
-    l->tris[l->count] = tri;
-    l->sums[l->count++] = total + weight;
-}
-
-/* For u in [0, 1). */
-static uint32_t list_choose(const struct list *l, float u)
-{
-    double sum = (double)u * list_total(l);
-    uint32_t low = 0, high = l->count - 1;
-
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-
-        if (l->sums[middle] <= sum)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return l->tris[low];
-}
-
-static void list_free(struct list *l)
-{
-    free(l->tris);
-    free(l->sums);
-}
-
-static bool find_lists(struct pass *p)
-{
-    const struct world *w = &p->wide.world;
-
-    if (!list_init(&p->lights, w->settings.light_count) ||
-        !list_init(&p->casters, w->settings.tri_count))
-        return false;
-    for (uint32_t i = 0; i < w->settings.light_count; i++) {
-        uint32_t tri = w->lights[i].tri;
-
-        list_add(&p->lights, tri,
-                 area_of(w, tri) *
-                     mean(w->materials[w->tris[tri].material].emission));
-    }
-    for (uint32_t i = 0; i < w->settings.tri_count; i++)
-        if (casts(&w->materials[w->tris[i].material]))
-            list_add(&p->casters, i, area_of(w, i));
-    return true;
-}
 
 /* ---- the grid ---- */
-
-static uint32_t cell_count(const struct guide_grid *g)
-{
-    return g->width * g->height * g->depth;
-}
 
 static uint32_t cells_along(float length, const struct guide_grid *g)
 {
@@ -173,7 +48,7 @@ static double make_grid(const struct world *w, struct guide_grid *g)
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct vec3 p[3];
 
-        corners(w, i, p);
+        tri_corners(w, i, p);
         for (int k = 0; k < 3; k++) {
             lo = v3(f_min(lo.x, p[k].x), f_min(lo.y, p[k].y),
                     f_min(lo.z, p[k].z));
@@ -190,242 +65,184 @@ static double make_grid(const struct world *w, struct guide_grid *g)
     return 2.0 * (double)(size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
-/* ---- photons ---- */
+/* ---- the parts ---- */
 
-static struct vec2 photon_2d(uint32_t photon, uint32_t vertex, uint32_t kind)
+static double power_of(const struct world *w)
 {
-    struct sampler s = {PHOTON_KEY, reverse_bits(photon)};
+    double power = 0;
 
-    return random_2d(s, PHOTON_DIMENSION + PHOTON_STRIDE * vertex + kind);
+    for (uint32_t i = 0; i < w->settings.light_count; i++)
+        power += tri_power(w, w->lights[i].tri);
+    return power;
 }
 
-/* From a light to something that casts: uniform points on both make a flux per
- * photon of radiance, cosines and areas over distance^2. False if the face is
- * turned away. */
-static bool photon_open(const struct pass *pass, uint32_t i, struct photon *p)
+static bool find_parts(struct guide *g, const struct world *w, bool has_sky,
+                       struct error *err)
 {
-    const struct world *w = &pass->wide.world;
-    struct vec2 choice = photon_2d(i, 0, 0);
-    uint32_t light = list_choose(&pass->lights, choice.x);
-    struct vec3 a[3], b[3], na, nb, from, to, error, d;
-    float cos_a, cos_b;
+    struct wide tree = {.nodes = NULL};
+    struct wide_world wide = {.world = *w, .tree = &tree};
+    bool wants_caustics = g->caustics.flux == NULL && caustics_possible(w);
+    bool wants_openings = g->openings.flux == NULL && has_sky;
+    double box;
+    bool ok;
 
-    p->aim = list_choose(&pass->casters, choice.y);
-    corners(w, light, a);
-    corners(w, p->aim, b);
-    if (!triangle_normal(a[0], a[1], a[2], &na) ||
-        !triangle_normal(b[0], b[1], b[2], &nb))
-        return false;
-    to =
-        hit_point(triangle_point(photon_2d(i, 1, 0)), b[0], b[1], b[2], &error);
-    from = hit_inside(triangle_point(photon_2d(i, 1, 1)), a[0], a[1], a[2],
-                      &error);
-    d = v3_sub(to, from);
-    if (!(v3_dot(d, d) > 0.0f))
-        return false;
-    p->ray.d = v3_unit(d);
-    cos_a = v3_dot(na, p->ray.d);
-    cos_b = v3_dot(nb, p->ray.d);
-    if (cos_b > 0.0f &&
-        w->materials[w->tris[p->aim].material].kind == MATERIAL_GLASS)
-        return false;
-    p->ray.o = leave_surface(from, error, cos_a > 0.0f ? na : v3_neg(na));
-    p->ray.key = hash_u32(i);
-    p->ray.from = light + 1;
-    p->flux = fabsf(cos_a * cos_b) / v3_dot(d, d);
-    return true;
+    if (!wants_caustics && !wants_openings)
+        return true;
+    box = make_grid(w, &g->grid);
+    g->lights = 2 * power_of(w) / box;
+    ok = wide_build(&tree, w, NULL, err);
+    if (ok && wants_caustics)
+        ok = guide_part_init(&g->caustics, &g->grid) &&
+             caustics_find(&wide, &g->grid, box, &g->caustics);
+    if (ok && wants_openings)
+        ok = guide_part_init(&g->openings, &g->grid) &&
+             openings_find(&wide, &g->grid, &g->openings);
+    wide_free(&tree);
+    return ok;
 }
 
-static void deposit(struct pass *pass, const struct photon *p, struct vec3 at)
-{
-    size_t cell = guide_cell(&pass->guide->grid, at);
+/* ---- the table ---- */
 
-    pass->flux[cell * GUIDE_BINS + guide_bin(v3_neg(p->ray.d))] += p->flux;
+/* How often the table is asked for this light in a cell with so much of it and
+ * of other light. */
+static double share_of(double total, double rest)
+{
+    double share = total > 0 ? SHARE_MOST * total / (total + rest) : 0;
+
+    return share < SHARE_LEAST ? 0 : share;
 }
 
-/* Sends the photon on from a vertex; roulette keeps the flux as it is. */
-static bool photon_scatter(struct photon *p, const struct bsdf *b,
-                           const struct vertex *v, uint32_t i, uint32_t vertex)
+/* Adds a part's sums, the last of which is `share`. */
+static void add_sums(const struct guide_part *part, uint32_t cell, double total,
+                     double share, float *sums)
 {
-    struct vec3 wo = vertex_to_local(v, v3_neg(p->ray.d));
-    struct vec2 choice = photon_2d(i, vertex + 1, 1);
-    struct bsdf_sample s;
-    struct vec3 wi;
-
-    if (!bsdf_sample(b, wo, photon_2d(i, vertex + 1, 0), choice.x, &s) ||
-        !(choice.y < v3_max(s.weight)))
-        return false;
-    wi = v3_unit(vertex_to_world(v, s.wi));
-    if (!vertex_sides_agree(v, wi, s.wi.z))
-        return false;
-    p->ray.o = vertex_leave(v, s.wi.z);
-    p->ray.d = wi;
-    p->ray.from = v->face;
-    return true;
-}
-
-/* Photons see no colours, so that one that is edited leaves the table as it is:
- * what casts is white, the rest grey. */
-static struct material without_colors(struct material m)
-{
-    float grey = casts(&m) ? 1.0f : 0.5f;
-
-    m.color = m.coat = v3(grey, grey, grey);
-    m.color_texture = m.coat_texture = NO_INDEX;
-    return m;
-}
-
-static void photon_follow(struct pass *pass, struct photon p, uint32_t i)
-{
-    const struct world *w = &pass->wide.world;
-    uint32_t landed = 0;
-
-    for (uint32_t vertex = 1; vertex <= PHOTON_VERTICES; vertex++) {
-        struct material m;
-        struct vertex v;
-        struct bsdf b;
-        struct hit h;
-
-        p.ray.t_max = FLOAT_MAX;
-        if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
-            return;
-        m = without_colors(w->materials[w->tris[h.tri].material]);
-        if (!vertex_at(w, &m, p.ray, h, &v))
-            return;
-        b = bsdf_at(w, &m, &v);
-        if (guide_helps(&b)) {
-            deposit(pass, &p, v.p);
-            if (++landed == 2)
-                return;
-        }
-        if (!photon_scatter(&p, &b, &v, i, vertex))
-            return;
-    }
-}
-
-/* ---- sums ---- */
-
-static double total_of(const float *flux)
-{
-    double total = 0;
-
-    for (uint32_t i = 0; i < GUIDE_BINS; i++)
-        total += (double)flux[i];
-    return total;
-}
-
-/* How often a cell's table is asked; `half` is the flux where that is half as
- * often as can be. */
-static double share_of(double total, double half)
-{
-    return SHARE_MOST * total / (total + half);
-}
-
-static void fill_sums(const float *flux, double total, double share,
-                      float *sums)
-{
+    const float *flux = part->flux + (size_t)cell * GUIDE_BINS;
     double sum = 0;
 
-    for (uint32_t i = 0; i < GUIDE_BINS; i++) {
+    for (uint32_t i = 0; i < GUIDE_BINS && share > 0; i++) {
         sum += (double)flux[i];
-        sums[i] = (float)(sum / total * share);
+        sums[i] += (float)(sum / total * share);
     }
 }
 
-static bool make_cells(struct pass *p, double half)
+/* The sums of a cell; false if none are worth their time. */
+static bool fill_sums(const struct guide *g, uint32_t cell, double lights,
+                      float *sums)
 {
-    struct guide *g = p->guide;
-    uint32_t count = cell_count(&g->grid);
+    const struct guide_part *parts[2] = {&g->caustics, &g->openings};
+    const double other[2] = {0, lights};
+    double totals[2] = {0, 0}, shares[2] = {0, 0};
+    double scale;
 
-    g->cells = alloc_array(count, sizeof *g->cells);
-    if (g->cells == NULL)
-        return false;
-    for (uint32_t i = 0; i < count; i++) {
-        double total = total_of(p->flux + (size_t)i * GUIDE_BINS);
-
-        g->cells[i] = share_of(total, half) < SHARE_LEAST
-                          ? NO_INDEX
-                          : g->grid.cell_count++ * (uint32_t)GUIDE_BINS;
-    }
-    g->sums =
-        alloc_array((size_t)g->grid.cell_count * GUIDE_BINS, sizeof *g->sums);
-    if (g->sums == NULL)
-        return false;
-    for (uint32_t i = 0; i < count; i++)
-        if (g->cells[i] != NO_INDEX) {
-            const float *flux = p->flux + (size_t)i * GUIDE_BINS;
-            double total = total_of(flux);
-
-            fill_sums(flux, total, share_of(total, half),
-                      g->sums + g->cells[i]);
+    for (int i = 0; i < 2; i++)
+        if (parts[i]->flux != NULL) {
+            totals[i] = guide_part_total(parts[i], cell);
+            shares[i] =
+                share_of(totals[i], (double)parts[i]->rest[cell] + other[i]);
         }
+    if (shares[0] + shares[1] == 0)
+        return false;
+    /* as if one were asked after the other */
+    scale = 1 - shares[0] * shares[1] / (shares[0] + shares[1]);
+    memset(sums, 0, GUIDE_BINS * sizeof *sums);
+    for (int i = 0; i < 2; i++)
+        add_sums(parts[i], cell, totals[i], scale * shares[i], sums);
     return true;
 }
 
-/* Photons have no unit of their own: each stands for the lights' power times
- * the casters' area over their number. */
-static double half_flux(const struct pass *p, double box)
+static bool make_table(const struct guide *g, double lights, struct table *t)
 {
-    double cell = 1 / (double)p->guide->grid.cells_a_unit;
+    uint32_t count = guide_cell_count(&g->grid);
 
-    return SHARE_HALF * 2 * M_PI * PHOTONS / list_total(&p->casters) * cell *
-           cell / box;
-}
-
-static bool run(struct pass *p)
-{
-    double box = make_grid(&p->wide.world, &p->guide->grid);
-
-    p->flux = alloc_array((size_t)cell_count(&p->guide->grid) * GUIDE_BINS,
-                          sizeof *p->flux);
-    if (p->flux == NULL)
+    t->cells = alloc_array(count, sizeof *t->cells);
+    t->sums = alloc_array((size_t)count * GUIDE_BINS, sizeof *t->sums);
+    if (t->cells == NULL || t->sums == NULL)
         return false;
-    for (uint32_t i = 0; i < PHOTONS; i++) {
-        struct photon photon;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t first = t->cell_count * (uint32_t)GUIDE_BINS;
 
-        if (photon_open(p, i, &photon))
-            photon_follow(p, photon, i);
+        t->cells[i] = NO_INDEX;
+        if (fill_sums(g, i, lights, t->sums + first)) {
+            t->cells[i] = first;
+            t->cell_count++;
+        }
     }
-    return make_cells(p, half_flux(p, box));
+    return true;
 }
 
-bool guide_build(struct guide *guide, const struct world *w, struct error *err)
+static void take_table(struct guide *g, struct table *t)
 {
-    struct pass p = {.wide = {.world = *w, .tree = &p.tree}, .guide = guide};
-    bool ok = true;
+    free(g->cells);
+    free(g->sums);
+    if (t->cell_count == 0) {
+        free(t->cells);
+        free(t->sums);
+        *t = (struct table){.cells = NULL};
+    }
+    g->cells = t->cells;
+    g->sums = t->sums;
+    g->grid.cell_count = t->cell_count;
+}
 
-    guide_free(guide);
-    if (w->settings.light_count == 0 || w->settings.tri_count > TRIS_MOST)
+static bool update(struct guide *g, const struct world *w, double sky,
+                   struct error *err)
+{
+    struct table t = {.cells = NULL};
+
+    if (w->settings.tri_count > 0 && w->settings.tri_count <= TRIS_MOST) {
+        if (!find_parts(g, w, sky > 0, err))
+            return false;
+        if (!make_table(g, sky > 0 ? g->lights / sky : INFINITY, &t)) {
+            free(t.cells);
+            free(t.sums);
+            return false;
+        }
+    }
+    take_table(g, &t);
+    return true;
+}
+
+bool guide_update(struct guide *g, const struct world *w, double sky,
+                  struct error *err)
+{
+    if (g->is_current && g->sky == sky)
         return true;
-    ok = find_lists(&p);
-    if (ok && list_total(&p.lights) > 0 && list_total(&p.casters) > 0)
-        ok = wide_build(&p.tree, &p.wide.world, NULL, err) && run(&p);
-    wide_free(&p.tree);
-    list_free(&p.lights);
-    list_free(&p.casters);
-    free(p.flux);
-    if (!ok || guide->grid.cell_count == 0)
-        guide_free(guide);
-    return ok || fail(err, "out of memory for the table of caustics");
+    if (!update(g, w, sky, err)) {
+        guide_outdate(g);
+        return fail(err, "out of memory for the table of directions");
+    }
+    g->sky = sky;
+    g->is_current = true;
+    return true;
+}
+
+void guide_outdate(struct guide *g)
+{
+    guide_part_free(&g->caustics);
+    guide_part_free(&g->openings);
+    g->is_current = false;
 }
 
 bool guides_differ(const struct material *a, const struct material *b)
 {
-    struct material x = without_colors(*a), y = without_colors(*b);
+    struct material x = caustics_material(*a), y = caustics_material(*b);
 
     return memcmp(&x, &y, sizeof x) != 0;
 }
 
-void guide_lend(const struct guide *guide, struct world *world)
+void guide_lend(const struct guide *g, struct world *world)
 {
-    world->settings.guide = guide->grid;
-    world->guide_cells = guide->cells;
-    world->guide_sums = guide->sums;
+    world->settings.guide = (struct guide_grid){.width = 0};
+    if (g->cells != NULL)
+        world->settings.guide = g->grid;
+    world->guide_cells = g->cells;
+    world->guide_sums = g->sums;
 }
 
-void guide_free(struct guide *guide)
+void guide_free(struct guide *g)
 {
-    free(guide->cells);
-    free(guide->sums);
-    memset(guide, 0, sizeof *guide);
+    guide_outdate(g);
+    free(g->cells);
+    free(g->sums);
+    *g = (struct guide){.cells = NULL};
 }

@@ -7,10 +7,8 @@
 
 #include "glim/wide_hit.h"
 
-/* Where vectors are narrow, eight numbers together take no less time than eight
- * alone: 3 to 7 % more of the whole. */
-#ifndef __AVX2__
-#define POINTS_MIN (SAMPLE_BLOCK + 1)
+#ifdef __AVX2__
+#define HAS_WIDE_VECTORS 1
 #endif
 
 #include "kernels/path.h"

@@ -14,8 +14,6 @@ struct next {
     struct texture *textures;
     struct lights lights;
     bool has_lights;
-    struct guide guide;
-    bool has_guide;
 };
 
 static bool out_of_memory(const struct scene *scene, struct error *err)
@@ -168,7 +166,7 @@ static bool make_materials(struct scene *scene, const struct style *style,
     return ok;
 }
 
-/* ---- lights, caustics ---- */
+/* ---- lights, directions ---- */
 
 /* Is there a material in use, or a triangle, whose material is another in what
  * `differ` looks at? */
@@ -212,17 +210,10 @@ static bool make_lights(struct scene *scene, const struct style *style,
     return next->has_lights;
 }
 
-static bool make_guide(struct scene *scene, const struct style *style,
-                       struct next *next, struct error *err)
+static bool needs_guide(const struct scene *scene, const struct next *next)
 {
-    struct world arrays = next_arrays(scene, style, next);
-
-    if (!next->has_lights && next->textures == NULL &&
-        !any_differs(scene, next, guides_differ))
-        return true;
-    lights_lend(next->has_lights ? &next->lights : &scene->lights, &arrays);
-    next->has_guide = guide_build(&next->guide, &arrays, err);
-    return next->has_guide;
+    return next->has_lights || next->textures != NULL ||
+           any_differs(scene, next, guides_differ);
 }
 
 /* ---- all ---- */
@@ -278,10 +269,6 @@ static void swap_in(struct scene *scene, const struct style *style,
         lights_free(&scene->lights);
         scene->lights = next->lights;
     }
-    if (next->has_guide) {
-        guide_free(&scene->guide);
-        scene->guide = next->guide;
-    }
 }
 
 static void drop(struct next *next)
@@ -291,7 +278,6 @@ static void drop(struct next *next)
     free(next->tris);
     free(next->textures);
     lights_free(&next->lights);
-    guide_free(&next->guide);
 }
 
 bool scene_is_styled(const struct scene *scene, const struct style *style)
@@ -317,12 +303,13 @@ bool scene_restyle(struct scene *scene, const struct style *style,
     ok = (grow_names(scene, style) && make_tris(scene, style, &next)) ||
          out_of_memory(scene, err);
     ok = ok && make_materials(scene, style, &next, err) &&
-         make_lights(scene, style, &next, err) &&
-         make_guide(scene, style, &next, err);
+         make_lights(scene, style, &next, err);
     if (!ok) {
         drop(&next);
         return false;
     }
+    if (needs_guide(scene, &next))
+        guide_outdate(&scene->guide);
     swap_in(scene, style, &next);
     take_sources(scene, style);
     scene_find_emitters(scene);

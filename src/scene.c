@@ -10,14 +10,13 @@
 #include "glim/image.h"
 #include "glim/obj.h"
 #include "glim/textures.h"
+#include "kernels/hit.h"
 
 /* Without a limit a path ends here; roulette ends it long before. */
 #define VERTICES_MAX 1000
 
 /* The sine of the angle below which `up` is parallel to the view. */
 #define PARALLEL 1e-6
-
-#define PI 3.14159265358979323846
 
 /* A framed scene is seen from this far above, with this much air around. */
 #define FRAME_ELEVATION_DEG 20
@@ -237,6 +236,18 @@ static void turn_tris(struct scene *scene)
     }
 }
 
+static void find_normals(struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        struct tri *t = &scene->tris[i];
+
+        if (!triangle_normal(scene->positions[t->v[0]],
+                             scene->positions[t->v[1]],
+                             scene->positions[t->v[2]], &t->ng))
+            t->ng = v3(0.0f, 0.0f, 0.0f);
+    }
+}
+
 static bool shines(const struct material *m)
 {
     return m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0;
@@ -314,6 +325,7 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         return false;
     drop_tris(scene, report, tri_is_usable);
     turn_tris(scene);
+    find_normals(scene);
     if (scene->tri_count == 0)
         report_add(report, "scenes without a face",
                    "%s: found no face that can be seen: only the background is "
@@ -323,10 +335,8 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     arrays = scene_arrays(scene);
-    if (!lights_build(&scene->lights, &arrays, err))
-        return false;
-    lights_lend(&scene->lights, &arrays);
-    return guide_build(&scene->guide, &arrays, err);
+    guide_outdate(&scene->guide);
+    return lights_build(&scene->lights, &arrays, err);
 }
 
 bool scene_load_sky(struct scene *scene, const struct view *view,
@@ -365,7 +375,7 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
 /* Half the field of view along the narrower side of the picture. */
 static double narrow_angle_rad(const struct view *view)
 {
-    double half = view->fovy_deg * PI / 360;
+    double half = view->fovy_deg * M_PI / 360;
 
     if (view->width_px < view->height_px)
         half = atan(tan(half) * view->width_px / view->height_px);
@@ -374,7 +384,7 @@ static double narrow_angle_rad(const struct view *view)
 
 void scene_frame(const struct scene *scene, struct view *view)
 {
-    double elevation = FRAME_ELEVATION_DEG * PI / 180;
+    double elevation = FRAME_ELEVATION_DEG * M_PI / 180;
     double radius = 0;
     double distance;
 
@@ -473,7 +483,7 @@ static void add_lens(const struct scene *scene, const struct view *view,
 static bool make_camera(const struct scene *scene, const struct view *view,
                         struct camera *camera, struct error *err)
 {
-    double tangent = tan(view->fovy_deg * PI / 360);
+    double tangent = tan(view->fovy_deg * M_PI / 360);
     double forward[3], right[3], up[3], eye[3];
 
     for (int k = 0; k < 3; k++) {
@@ -504,7 +514,7 @@ static bool make_camera(const struct scene *scene, const struct view *view,
 
 static struct sky make_sky(const struct scene *scene, const struct view *view)
 {
-    double angle = view->sky_rotation_deg * PI / 180;
+    double angle = view->sky_rotation_deg * M_PI / 180;
     double one[3] = {1, 1, 1};
     struct sky sky = {
         .color = scaled(view->background, 1),
@@ -518,6 +528,19 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
         sky.height = scene->sky_height;
     }
     return sky;
+}
+
+bool scene_guide(struct scene *scene, const struct view *view,
+                 struct error *err)
+{
+    struct world w = scene_arrays(scene);
+    struct vec3 color = make_sky(scene, view).color;
+    double sky = ((double)color.x + (double)color.y + (double)color.z) / 3;
+
+    lights_lend(&scene->lights, &w);
+    if (scene->sky_texels != NULL)
+        sky *= scene->sky_table.mean;
+    return guide_update(&scene->guide, &w, sky, err);
 }
 
 static bool has_texture(const struct material *m)

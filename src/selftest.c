@@ -57,6 +57,7 @@ static bool make_scene(struct scene *scene, uint32_t features,
                        struct error *err)
 {
     struct report report = {0};
+    struct world arrays;
     bool ok =
         mtl_add_default(scene, err) &&
         mtl_parse(scene, materials, sizeof materials - 1, "self-test", &report,
@@ -65,21 +66,19 @@ static bool make_scene(struct scene *scene, uint32_t features,
         scene_finish(scene, &report, err);
 
     report_free(&report);
-    if ((features & FEATURE_GUIDE) == 0)
-        guide_free(&scene->guide);
     for (uint32_t i = 0; ok && i < scene->material_count; i++) {
         struct material *m = &scene->materials[i];
 
         if ((scene_material_features(scene, m) & ~features) != 0)
             *m = material_default();
     }
-    if ((features & FEATURE_GUIDE) == 0)
-        guide_free(&scene->guide);
+    arrays = scene_arrays(scene);
+    ok = ok && lights_build(&scene->lights, &arrays, err);
     return ok;
 }
 
-static bool make_job(const struct scene *scene, struct render_job *job,
-                     struct error *err)
+static bool make_job(struct scene *scene, uint32_t features,
+                     struct render_job *job, struct error *err)
 {
     struct view view;
     bool ok;
@@ -96,7 +95,8 @@ static bool make_job(const struct scene *scene, struct render_job *job,
     view.at[1] = 1.3;
     view.fovy_deg = 75;
     view.background[0] = view.background[1] = view.background[2] = 0.5;
-    ok = scene_world(scene, &view, 1, &job->world, err);
+    ok = ((features & FEATURE_GUIDE) == 0 || scene_guide(scene, &view, err)) &&
+         scene_world(scene, &view, 1, &job->world, err);
     view_free(&view);
     return ok;
 }
@@ -165,7 +165,7 @@ bool selftest_run(struct backend *cpu, struct backend *device,
     struct render_job job;
     float rgb[2][3 * SIDE * SIDE];
     bool ok = make_scene(&scene, features, err) &&
-              make_job(&scene, &job, err) &&
+              make_job(&scene, features, &job, err) &&
               render_with(cpu, &job, rgb[0], err) &&
               render_with(device, &job, rgb[1], err) &&
               judge(rgb[0], rgb[1], verdict, err);

@@ -131,12 +131,12 @@ static bool apply_edit(struct session *s, struct error *err)
     if (!scene_restyle(&s->scene, &style, err))
         return false;
     edit_to_view(&s->edit, edit_shown(&s->edit), &s->scene, &s->view);
-    if (s->sky == edit_shown(&s->edit)->mood.sky)
-        return true;
-    s->sky = edit_shown(&s->edit)->mood.sky;
-    if (!scene_load_sky(&s->scene, &s->view, &s->report, &why))
-        snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
-    return true;
+    if (s->sky != edit_shown(&s->edit)->mood.sky) {
+        s->sky = edit_shown(&s->edit)->mood.sky;
+        if (!scene_load_sky(&s->scene, &s->view, &s->report, &why))
+            snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
+    }
+    return scene_guide(&s->scene, &s->view, err);
 }
 
 bool session_load(struct session *s, const struct options *options,

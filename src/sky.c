@@ -98,6 +98,12 @@ static void fill_rows(const double *rows, uint32_t height, double total,
     sums[height] = 1;
 }
 
+static void free_sums(struct sky_table *table)
+{
+    free(table->sums);
+    table->sums = NULL;
+}
+
 bool sky_build(struct sky_table *table, const struct vec3 *texels,
                uint32_t width, uint32_t height, enum sky_use use,
                struct error *err)
@@ -110,6 +116,7 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
     double *rows;
 
     sky_free(table);
+    table->mean = mean;
     if (!(mean > 0))
         return true;
     rows = alloc_array(height, sizeof *rows);
@@ -131,7 +138,7 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
     if (total > ROUNDING * 4 * M_PI * mean)
         fill_rows(rows, height, total, table->sums);
     else
-        sky_free(table);
+        free_sums(table);
     free(rows);
     return true;
 }
@@ -152,6 +159,6 @@ void sky_lend(const struct sky_table *table, struct world *world)
 
 void sky_free(struct sky_table *table)
 {
-    free(table->sums);
-    table->sums = NULL;
+    free_sums(table);
+    table->mean = 0;
 }

@@ -30,11 +30,9 @@ static bool is_same(struct vec3 a, struct vec3 b)
 static enum trail_way side_of(const struct world *w, struct hit h,
                               struct vec3 before, struct vec3 after)
 {
-    const struct tri *t = &w->tris[h.tri];
-    struct vec3 ng;
+    struct vec3 ng = w->tris[h.tri].ng;
 
-    if (!triangle_normal(w->positions[t->v[0]], w->positions[t->v[1]],
-                         w->positions[t->v[2]], &ng))
+    if (v3_is_zero(ng))
         return TRAIL_ENDED;
     return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f ? TRAIL_REFLECTED
                                                          : TRAIL_TRANSMITTED;
@@ -55,7 +53,7 @@ void trail_follow(struct trail *t, const struct world *w, uint32_t x,
                   uint32_t y, uint64_t index)
 {
     struct path_start start = path_begin(&w->settings, x, y, index);
-    struct path p = path_open(start.ray, start.sampler, NULL, 0);
+    struct path p = path_open(start.ray, start.sampler);
     bool goes_on = true;
 
     t->count = t->vertices = 0;

@@ -3,8 +3,8 @@
  * bvh.h - bounding volume hierarchy: binned SAH, flattened depth-first
  *
  * Wald, Boulos and Shirley 2007; Wald 2007 (binning); Pharr et al., PBR 4th
- * ed., 7.3. Below BVH_SAH_DEPTH nodes are split in halves by count, so that no
- * tree is deeper than the traversal's stack.
+ * ed., 7.3; then as reinsert.h says. Far down, nodes are split in halves by
+ * count, so that no tree is deeper than the traversal's stack.
  *
  * The same triangles give the same tree, whatever the number of threads.
  *
@@ -32,8 +32,9 @@ struct bvh {
 /* What the leaves are to be: 1 << block_bits triangles are tested at once. */
 struct bvh_leaves {
     uint32_t block_bits;
-    float block_cost; /* in visits of a node */
-    uint32_t most;    /* triangles; more are split whatever it costs */
+    uint32_t large_bits; /* in nodes that many rays meet, as if so many were */
+    float block_cost;    /* in visits of a node */
+    uint32_t most;       /* triangles; more are split whatever it costs */
 };
 
 /* The tree for queries that test one triangle after the other, with leaf_tris.

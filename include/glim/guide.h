@@ -1,39 +1,43 @@
 // SPDX-License-Identifier: MIT
 /*
- * guide.h - the table of directions that caustics come from
+ * guide.h - the table of directions that light comes from which is hard to find
  *
- * Photons leave the lights for the glass and the mirrors alone (the projection
- * maps of Jensen 1996, "Global illumination using photon maps"), go through,
- * and are counted on the two next diffuse surfaces: the caustic, and what it
- * lights. The table only says where to look, kernels/guide.h weighs what is
- * found: that few photons make it, and that it has no textures, costs time and
- * no truth.
+ * Caustics (caustics.h), and the sky where it is seen through openings
+ * (openings.h). The table only says where to look, kernels/guide.h weighs what
+ * is found: that it is made of few rays and has no textures costs time and no
+ * truth. A function of the scene and its sky, not of the eye.
  *
- * A function of the scene alone. Measured for a glass ball and a gold one: 20
- * ms and .66 times the error.
- *
- * Units:     normalised scene units
+ * Units:     normalised scene units, radiance
  * Ownership: guide_free() frees; a zeroed struct is a scene without a table
- * Threads:   one thread builds; read only after
+ * Threads:   one thread updates, while nobody renders; read only otherwise
  * Errors:    memory
  */
 #ifndef GLIM_GUIDE_H
 #define GLIM_GUIDE_H
 
-#include "glim/util.h"
-#include "kernels/types.h"
+#include "glim/guide_part.h"
 
 struct guide {
-    struct guide_grid grid;
-    uint32_t *cells; /* as kernels/guide.h reads them */
+    uint32_t *cells; /* as kernels/guide.h reads them; NULL: there are none */
     float *sums;
+    struct guide_grid grid;
+    /* what they are made of */
+    struct guide_part caustics, openings; /* NULL: not searched for */
+    double lights; /* mean radiance that all lights would shed on a box */
+    double sky;    /* that the cells suit */
+    bool is_current;
 };
 
-/* Reads all of a world's arrays but the sky; it has its lights. There is no
- * table where nothing shines or casts caustics, nor for scenes so large that it
- * would keep the first picture waiting. */
-bool guide_build(struct guide *guide, const struct world *world,
-                 struct error *err);
+/* Brings the table to what suits the world, which has its lights, and a sky of
+ * this mean radiance. Searches only for what the scene has not been searched
+ * for since guide_outdate(); there is no table for scenes so large that it
+ * would keep the first picture waiting. Arrays that were lent live until the
+ * new ones do. */
+bool guide_update(struct guide *guide, const struct world *world, double sky,
+                  struct error *err);
+
+/* The world is another. */
+void guide_outdate(struct guide *guide);
 
 /* Of two materials: would the table be another? */
 bool guides_differ(const struct material *a, const struct material *b);

@@ -2,10 +2,8 @@
 /*
  * lights.h - the triangles that shine, and the tree that finds them
  *
- * Built like a bounding volume hierarchy, by the surface area orientation
- * heuristic of Conty Estevez and Kulla 2018, 4.3. O(n log n); below
- * LIGHT_SAH_DEPTH nodes are split in halves by count, so that the way to every
- * light fits LIGHT_LEVELS.
+ * A triangle is a light if it sheds enough to be worth sampling; light_tree.h
+ * builds the tree.
  *
  * Units:     normalised scene units
  * Ownership: lights_free() frees; a zeroed struct is a scene without lights

@@ -99,6 +99,12 @@ bool scene_finish(struct scene *scene, struct report *report,
 bool scene_load_sky(struct scene *scene, const struct view *view,
                     struct report *report, struct error *err);
 
+/* Makes the table that leads paths to light that is hard to find, if there is
+ * none yet for the scene as it is and the view's sky. Without it pictures are
+ * as bright, and noisier. */
+bool scene_guide(struct scene *scene, const struct view *view,
+                 struct error *err);
+
 /* Sets eye and at so that the whole scene is seen, keeping fovy, size and up.
  */
 void scene_frame(const struct scene *scene, struct view *view);

@@ -21,6 +21,7 @@
 
 struct sky_table {
     float *sums; /* as kernels/sky.h reads them; NULL: nothing to sample */
+    double mean; /* radiance of the image */
 };
 
 enum sky_use {

@@ -92,7 +92,10 @@ static bool bench_lights(uint32_t count, struct error *err)
         tris[i] = (struct tri){{3 * i, 3 * i + 1, 3 * i + 2},
                                {NO_INDEX, NO_INDEX, NO_INDEX},
                                {NO_INDEX, NO_INDEX, NO_INDEX},
-                               0};
+                               0,
+                               {0, 0, 0}};
+        triangle_normal(positions[3 * i], positions[3 * i + 1],
+                        positions[3 * i + 2], &tris[i].ng);
     }
     uint64_t begin_ns = clock_ns();
     ok = ok ? lights_build(&lights, &w, err) : fail(err, "out of memory");

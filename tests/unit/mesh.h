@@ -15,7 +15,7 @@
 #include "check.h"
 #include "glim/material.h"
 #include "glim/wide.h"
-#include "kernels/vec.h"
+#include "kernels/hit.h"
 
 #define MESH_MATERIALS 8
 
@@ -39,8 +39,10 @@ static inline void mesh_add(struct mesh *m, struct vec3 a, struct vec3 b,
     struct tri t = {{3 * n, 3 * n + 1, 3 * n + 2},
                     {NO_INDEX, NO_INDEX, NO_INDEX},
                     {NO_INDEX, NO_INDEX, NO_INDEX},
-                    material};
+                    material,
+                    {0, 0, 0}};
 
+    triangle_normal(a, b, c, &t.ng);
     m->positions = realloc(m->positions, (3 * n + 3) * sizeof *m->positions);
     m->tris = realloc(m->tris, (n + 1) * sizeof *m->tris);
     assert_non_null(m->positions);

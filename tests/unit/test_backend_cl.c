@@ -83,7 +83,8 @@ static void open_pair(struct pair *p, const char *path, int width, int height)
     assert_non_null(cpu);
     check_or_say(view_read(&p->view, view_path, &report, &err) &&
                      scene_load(&p->scene, path, false, &report, &err) &&
-                     scene_load_sky(&p->scene, &p->view, &report, &err),
+                     scene_load_sky(&p->scene, &p->view, &report, &err) &&
+                     scene_guide(&p->scene, &p->view, &err),
                  err.text);
     p->view.width_px = width;
     p->view.height_px = height;

@@ -96,11 +96,49 @@ static void boxes_hold_what_is_below(void **state)
     mesh_free(&m);
 }
 
+/* Two squares of two triangles side by side. */
+static void add_domino(struct mesh *m, float x, float size)
+{
+    for (int i = 0; i < 2; i++) {
+        float left = x + (float)i * size, right = left + size;
+
+        mesh_add_quad(m, v3(left, 0, 0), v3(right, 0, 0), v3(right, size, 0),
+                      v3(left, size, 0), 0);
+    }
+}
+
+/* Parted, a domino costs as much as one block of four, and half of what two
+ * blocks of two would cost. */
+static void large_triangles_lie_apart(void **state)
+{
+    const struct bvh_leaves leaves = {2, 1, 4.0f, 16};
+    uint32_t of_two = 0, of_four = 0;
+    struct mesh m = {0};
+    struct bvh bvh = {0};
+    struct error err;
+
+    (void)state;
+    add_domino(&m, 0, 1);
+    add_domino(&m, 4, 0.01f);
+    mesh_finish(&m);
+    assert_true(bvh_build_nodes(&bvh, &m.world, &leaves, NULL, &err));
+    for (uint32_t i = 0; i < bvh.node_count; i++) {
+        of_two += bvh.nodes[i].count == 2;
+        of_four += bvh.nodes[i].count == 4;
+    }
+    assert_int_equal(bvh.node_count, 5);
+    assert_int_equal(of_two, 2);
+    assert_int_equal(of_four, 1);
+    bvh_free(&bvh);
+    mesh_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_build_the_same_tree),
         cmocka_unit_test(boxes_hold_what_is_below),
+        cmocka_unit_test(large_triangles_lie_apart),
     };
 
     return run_trees() + cmocka_run_group_tests(tests, NULL, NULL);

@@ -100,7 +100,7 @@ static void check_same_scene(const struct scene *a, const struct scene *b)
     if (a->guide.grid.cell_count > 0)
         assert_memory_equal(a->guide.sums, b->guide.sums,
                             a->guide.grid.cell_count * sizeof(float) *
-                                GUIDE_SIDE * GUIDE_SIDE);
+                                GUIDE_BINS);
     assert_int_equal(scene_features(a), scene_features(b));
     assert_int_equal(a->has_emitters, b->has_emitters);
 }

@@ -2,43 +2,47 @@
 /*
  * test_guide.c - the table of directions: its density, its samples, that any
  * table leaves pictures as bright as they are, and that the one that is built
- * points to where caustics come from
+ * points to where caustics come from, and to windows
  */
 #include "glim/guide.h"
+#include "glim/tri_list.h"
 #include "truth.h"
-
-#define BINS (GUIDE_SIDE * GUIDE_SIDE)
 
 /* Parts of the sphere: rows of equal cos(theta), columns of phi. */
 #define ROWS    12
 #define COLUMNS 24
 
-/* A table of 2 x 2 x 2 cells on [-1, 1]^3, of which the last has no sums.
- * Half of the bins are empty, the others differ by up to 100 times. */
+/* A table of 2 x 2 x 2 cubes on [-1, 1]^3, of which the last has no sums, nor
+ * have surfaces that face down. Half of the bins are empty, the others differ
+ * by up to 100 times. */
 struct table {
-    uint32_t cells[8];
-    float sums[7 * BINS];
+    uint32_t cells[8 * GUIDE_FACINGS];
+    float sums[7 * GUIDE_BINS];
     struct guide guide;
 };
 
 static void table_init(struct table *t, double share, uint64_t seed)
 {
     for (uint32_t cell = 0; cell < 7; cell++) {
-        double flux[BINS], total = 0, sum = 0;
+        double flux[GUIDE_BINS], total = 0, sum = 0;
 
-        for (int i = 0; i < BINS; i++) {
+        for (int i = 0; i < GUIDE_BINS; i++) {
             double u = check_random(&seed);
 
             flux[i] = u < 0.5 ? 0 : pow(100, check_random(&seed));
             total += flux[i];
         }
-        for (int i = 0; i < BINS; i++) {
+        for (int i = 0; i < GUIDE_BINS; i++) {
             sum += flux[i];
-            t->sums[cell * BINS + (uint32_t)i] = (float)(sum / total * share);
+            t->sums[cell * GUIDE_BINS + (uint32_t)i] =
+                (float)(sum / total * share);
         }
-        t->cells[cell] = cell * BINS;
     }
-    t->cells[7] = NO_INDEX;
+    for (uint32_t i = 0; i < 8 * GUIDE_FACINGS; i++) {
+        bool has_none = i / GUIDE_FACINGS == 7 || i % GUIDE_FACINGS == 3;
+
+        t->cells[i] = has_none ? NO_INDEX : i / GUIDE_FACINGS * GUIDE_BINS;
+    }
     t->guide = (struct guide){
         .grid = {.lo = {-1, -1, -1}, .cells_a_unit = 1, 2, 2, 2, 7},
         .cells = t->cells,
@@ -128,19 +132,23 @@ static void density_and_samples(void **state)
 /* Every cell's own sums; beside the grid those of the nearest. */
 static void cells(void **state)
 {
+    struct vec3 up = v3_unit(v3(.3f, .5f, -.4f));
     struct world w = {.settings = {.seed = 0}};
     struct table t;
 
     (void)state;
-    assert_int_equal(guide_at(&w, v3(0, 0, 0)), NO_INDEX);
+    assert_int_equal(guide_at(&w, v3(0, 0, 0), up), NO_INDEX);
     table_init(&t, 0.5, 1);
     guide_lend(&t.guide, &w);
-    assert_int_equal(guide_at(&w, v3(-.5f, -.5f, -.5f)), 0);
-    assert_int_equal(guide_at(&w, v3(.5f, -.5f, -.5f)), BINS);
-    assert_int_equal(guide_at(&w, v3(-.5f, .5f, -.5f)), 2 * BINS);
-    assert_int_equal(guide_at(&w, v3(-.5f, -.5f, .5f)), 4 * BINS);
-    assert_int_equal(guide_at(&w, v3(.5f, .5f, .5f)), NO_INDEX);
-    assert_int_equal(guide_at(&w, v3(9, -9, -9)), BINS);
+    assert_int_equal(guide_at(&w, v3(-.5f, -.5f, -.5f), up), 0);
+    assert_int_equal(guide_at(&w, v3(.5f, -.5f, -.5f), up), GUIDE_BINS);
+    assert_int_equal(guide_at(&w, v3(-.5f, .5f, -.5f), up), 2 * GUIDE_BINS);
+    assert_int_equal(guide_at(&w, v3(-.5f, -.5f, .5f), up), 4 * GUIDE_BINS);
+    assert_int_equal(guide_at(&w, v3(.5f, .5f, .5f), up), NO_INDEX);
+    assert_int_equal(guide_at(&w, v3(9, -9, -9), up), GUIDE_BINS);
+    assert_int_equal(guide_at(&w, v3(9, -9, -9), v3_neg(up)), NO_INDEX);
+    assert_int_equal(guide_at(&w, v3(9, -9, -9), v3(-.8f, -.6f, 0)),
+                     GUIDE_BINS);
 }
 
 /* In a closed box that emits 1 and has albedo a there is 1 / (1 - a) of light:
@@ -186,11 +194,12 @@ static void lamp_and_wall(struct stage *s, enum material_kind kind)
     lights_lend(&s->lights, &s->mesh.world);
 }
 
-static void built(struct stage *s, struct guide *g)
+static void built(struct stage *s, float sky, struct guide *g)
 {
     struct error err;
 
-    check_or_say(guide_build(g, &s->mesh.world, &err), err.text);
+    guide_outdate(g);
+    check_or_say(guide_update(g, &s->mesh.world, (double)sky, &err), err.text);
 }
 
 /* On the floor the light that the mirror throws comes from the lamp's image. */
@@ -204,11 +213,11 @@ static void mirrors_point_to_images(void **state)
     (void)state;
     lamp_and_wall(&s, MATERIAL_METAL);
     s.mesh.materials[1].alpha = 0;
-    built(&s, &g);
+    built(&s, 0, &g);
     guide_lend(&g, &s.mesh.world);
     for (float x = -.4f; x < .45f; x += .1f) {
         struct vec3 p = v3(x, 0, 0);
-        uint32_t cell = guide_at(&s.mesh.world, p);
+        uint32_t cell = guide_at(&s.mesh.world, p, v3(0, 1, 0));
         struct vec3 d = v3_unit(v3_sub(image, p));
         double sure = 0;
         uint64_t random = 1;
@@ -240,23 +249,177 @@ static void only_where_it_helps(void **state)
 
     (void)state;
     lamp_and_wall(&s, MATERIAL_DIFFUSE);
-    built(&s, &g);
-    assert_true(g.cells == NULL && g.sums == NULL && g.grid.width == 0);
+    built(&s, 0, &g);
+    assert_true(g.cells == NULL && g.sums == NULL);
     s.mesh.materials[1] = mesh_material(MATERIAL_METAL, .9f);
     s.mesh.materials[1].alpha = 1;
-    built(&s, &g);
+    built(&s, 0, &g);
     assert_null(g.cells);
     s.mesh.materials[1].alpha = 0;
-    built(&s, &g);
-    built(&s, &again);
-    count = (size_t)g.grid.cell_count * BINS;
+    built(&s, 0, &g);
+    built(&s, 0, &again);
+    count = (size_t)g.grid.cell_count * GUIDE_BINS;
     assert_true(count > 0);
     assert_memory_equal(&g.grid, &again.grid, sizeof g.grid);
     assert_memory_equal(g.sums, again.sums, count * sizeof *g.sums);
     s.mesh.world.settings.light_count = 0;
-    built(&s, &g);
+    built(&s, 0, &g);
     assert_null(g.cells);
     guide_free(&again);
+    stage_free(&s);
+}
+
+/* ---- openings ---- */
+
+/* Of the room [-1, 1]^3 the wall at x = -1 has a window: y and z of its sides.
+ */
+static const float window[2][2] = {{-.2f, .5f}, {-.4f, .4f}};
+
+static void add_wall(struct mesh *m, float y0, float y1, float z0, float z1,
+                     uint32_t material)
+{
+    mesh_add_quad(m, v3(-1, y0, z0), v3(-1, y0, z1), v3(-1, y1, z1),
+                  v3(-1, y1, z0), material);
+}
+
+/* Material 0 is the walls', 1 the pane's, 2 the lamp's. */
+static void room(struct stage *s, bool has_pane)
+{
+    struct mesh *m = &s->mesh;
+    const float *y = window[0], *z = window[1];
+
+    *s = (struct stage){.mesh = {.positions = NULL}};
+    m->materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
+    m->materials[1] = mesh_material(MATERIAL_THIN_GLASS, 1);
+    m->materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
+    m->materials[2].emission = v3(1, 1, 1);
+    for (int k = -1; k <= 1; k += 2) {
+        float e = (float)k;
+
+        mesh_add_quad(m, v3(-1, e, -1), v3(-1, e, 1), v3(1, e, 1), v3(1, e, -1),
+                      0);
+        mesh_add_quad(m, v3(-1, -1, e), v3(-1, 1, e), v3(1, 1, e), v3(1, -1, e),
+                      0);
+    }
+    mesh_add_quad(m, v3(1, -1, -1), v3(1, -1, 1), v3(1, 1, 1), v3(1, 1, -1), 0);
+    add_wall(m, -1, y[0], -1, 1, 0);
+    add_wall(m, y[1], 1, -1, 1, 0);
+    add_wall(m, y[0], y[1], -1, z[0], 0);
+    add_wall(m, y[0], y[1], z[1], 1, 0);
+    if (has_pane)
+        add_wall(m, y[0], y[1], z[0], z[1], 1);
+    mesh_add_quad(m, v3(0, .9f, 0), v3(0, .9f, .1f), v3(.1f, .9f, .1f),
+                  v3(.1f, .9f, 0), 2);
+}
+
+/* Does a ray from p go through the window, or a bin and a cell beside it? */
+static bool goes_out(struct vec3 p, struct vec3 d)
+{
+    float t = (-1 - p.x) / d.x, y = p.y + t * d.y, z = p.z + t * d.z;
+    float near = (.2f + .13f * t) / -d.x;
+
+    return d.x < 0 && y > window[0][0] - near && y < window[0][1] + near &&
+           z > window[1][0] - near && z < window[1][1] + near;
+}
+
+/* The part of the table's directions for p that lead to the window; -1: p has
+ * none. */
+static double part_out(const struct world *w, struct vec3 p, struct vec3 n)
+{
+    uint32_t cell = guide_at(w, p, n);
+    uint64_t random = 1;
+    double part = 0;
+
+    if (cell == NO_INDEX)
+        return -1;
+    for (int i = 0; i < 1000; i++) {
+        float u = (float)check_random(&random) * .999f * guide_share(w, cell);
+
+        part += goes_out(p, guide_sample(w, cell,
+                                         v2(u, (float)check_random(&random))))
+                    ? .001
+                    : 0;
+    }
+    return part;
+}
+
+/* From all over the floor and the wall opposite. */
+static void windows_are_found(void **state)
+{
+    struct guide g = {.cells = NULL};
+    struct stage s;
+    int found = 0;
+
+    (void)state;
+    room(&s, true);
+    stage_finish(&s);
+    built(&s, 1, &g);
+    guide_lend(&g, &s.mesh.world);
+    for (float x = -.7f; x < .95f; x += .2f)
+        for (float z = -.9f; z < .95f; z += .2f) {
+            const double parts[2] = {
+                part_out(&s.mesh.world, v3(x, -1, z), v3(0, 1, 0)),
+                part_out(&s.mesh.world, v3(1, x, z), v3(-1, 0, 0)),
+            };
+
+            for (int i = 0; i < 2; i++)
+                if (parts[i] >= 0) {
+                    check_at_most(.97, parts[i]);
+                    found++;
+                }
+        }
+    assert_true(found > 140);
+    /* what faces outwards is in the open */
+    assert_int_equal(guide_at(&s.mesh.world, v3(1, 0, 0), v3(1, 0, 0)),
+                     NO_INDEX);
+    guide_free(&g);
+    stage_free(&s);
+}
+
+static void only_where_the_sky_is_hidden(void **state)
+{
+    struct guide g = {.cells = NULL};
+    struct error err;
+    struct stage s;
+
+    (void)state;
+    room(&s, false);
+    stage_finish(&s);
+    built(&s, 0, &g);
+    assert_null(g.cells);
+    check_or_say(guide_update(&g, &s.mesh.world, 1, &err), err.text);
+    assert_non_null(g.cells);
+    check_or_say(guide_update(&g, &s.mesh.world, 0, &err), err.text);
+    assert_null(g.cells);
+    lights_lend(&s.lights, &s.mesh.world);
+    built(&s, 1, &g);
+    assert_non_null(g.cells);
+    built(&s, 1e-4f, &g); /* which the lamp outshines */
+    assert_null(g.cells);
+    stage_free(&s);
+
+    room(&s, true);
+    s.mesh.materials[1] = mesh_material(MATERIAL_DIFFUSE, .5f);
+    stage_finish(&s);
+    built(&s, 1, &g); /* behind a shutter */
+    assert_null(g.cells);
+    stage_free(&s);
+
+    s = (struct stage){.mesh = {.positions = NULL}};
+    s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
+    mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_add_quad(&s.mesh, v3(-9, -1, -9), v3(-9, -1, 9), v3(9, -1, 9),
+                  v3(9, -1, -9), 0);
+    stage_finish(&s);
+    built(&s, 1, &g);
+    for (uint32_t i = 0; i < s.mesh.world.settings.tri_count; i++) {
+        struct vec3 p[3];
+
+        tri_corners(&s.mesh.world, i, p);
+        guide_lend(&g, &s.mesh.world);
+        assert_int_equal(guide_at(&s.mesh.world, p[0], v3(0, 1, 0)), NO_INDEX);
+    }
+    guide_free(&g);
     stage_free(&s);
 }
 
@@ -268,6 +431,8 @@ int main(void)
         cmocka_unit_test(any_table_is_right),
         cmocka_unit_test(mirrors_point_to_images),
         cmocka_unit_test(only_where_it_helps),
+        cmocka_unit_test(windows_are_found),
+        cmocka_unit_test(only_where_the_sky_is_hidden),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,8 +20,8 @@
 #define LAYOUT(S, M)                                                         \
     S(vec2, 8) M(vec2, x, 0) M(vec2, y, 4)                                   \
     S(vec3, 12) M(vec3, x, 0) M(vec3, y, 4) M(vec3, z, 8)                    \
-    S(tri, 40) M(tri, v, 0) M(tri, vn, 12) M(tri, vt, 24)                    \
-    M(tri, material, 36)                                                     \
+    S(tri, 52) M(tri, v, 0) M(tri, vn, 12) M(tri, vt, 24)                    \
+    M(tri, material, 36) M(tri, ng, 40)                                      \
     S(material, 96) M(material, color, 0) M(material, alpha, 12)             \
     M(material, emission, 16) M(material, ior, 28) M(material, kind, 32)     \
     M(material, color_texture, 36) M(material, emission_texture, 40)         \
@@ -45,7 +45,8 @@
     M(node, count, 28)                                                       \
     S(leaf_tri, 40) M(leaf_tri, p0, 0) M(leaf_tri, p1, 12)                   \
     M(leaf_tri, p2, 24) M(leaf_tri, tri, 36)                                 \
-    S(light, 12) M(light, tri, 0) M(light, path, 4)                          \
+    S(light, 76) M(light, tri, 0) M(light, path, 4) M(light, texture, 12)      \
+    M(light, corners, 16) M(light, twice, 52) M(light, emission, 64) \
     S(light_node, 320) M(light_node, x, 0) M(light_node, y, 32)              \
     M(light_node, z, 64) M(light_node, radius, 96) M(light_node, axis_x, 128)\
     M(light_node, axis_y, 160) M(light_node, axis_z, 192)                    \

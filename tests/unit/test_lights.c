@@ -253,17 +253,17 @@ static void clusters_are_not_underrated(void **state)
         }
         for (uint32_t n = 0; n < lights.node_count; n++) {
             const struct light_node *node = &lights.nodes[n];
-            float sums[LIGHT_WIDTH];
+            float sums[LIGHT_WIDTH + 1];
 
             light_sums(&m.world, n, &r, sums);
             for (int i = 0; i < LIGHT_WIDTH; i++) {
                 struct vec3 to =
                     v3_sub(v3(node->x[i], node->y[i], node->z[i]), r.p);
-                double share = (double)(sums[i] - (i > 0 ? sums[i - 1] : 0));
+                double share = (double)(sums[i + 1] - sums[i]);
 
                 if (v3_length(to) < 2 * node->radius[i] || below[n][i] <= 0)
                     continue;
-                check_at_most(below[n][i] / 4, share + 1e-6 * (double)sums[7]);
+                check_at_most(below[n][i] / 4, share + 1e-6 * (double)sums[8]);
                 checked++;
             }
         }

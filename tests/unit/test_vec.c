@@ -58,10 +58,11 @@ static void steps_are_nextafter(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        assert_true(float_step(values[i], true) ==
+        assert_true(float_step(values[i], 0.5f) ==
                     nextafterf(values[i], INFINITY));
-        assert_true(float_step(values[i], false) ==
+        assert_true(float_step(values[i], -0.5f) ==
                     nextafterf(values[i], -INFINITY));
+        assert_true(float_step(values[i], 0.0f) == values[i]);
     }
 }
 

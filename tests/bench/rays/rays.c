@@ -3,7 +3,7 @@
  * rays - glim's ray queries beside Embree's: the same rays in one process,
  * medians of repeats that take turns, every hit compared
  *
- * usage: rays SHARED [PART of the meshes' names [ISA]]
+ * usage: rays SHARED [PART of the meshes' names, or of "scaling" [ISA]]
  */
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "embree_racer.h"
+#include "scaling.h"
 #include "sets.h"
 #include "shapes.h"
 
@@ -195,14 +196,16 @@ static const struct racer *racer_of(const struct paths *paths)
 static bool build_glim(struct contest *c, const struct paths *paths,
                        struct error *err)
 {
+    struct pool *pool = pool_create(usable_threads(), err);
     uint64_t begin_ns = clock_ns();
-    bool ok = wide_build(&c->tree, &c->shape.world, NULL, err);
+    bool ok = pool != NULL && wide_build(&c->tree, &c->shape.world, pool, err);
 
     c->world = (struct wide_world){c->shape.world, &c->tree};
     c->racers[GLIM] = *racer_of(paths);
     c->racers[GLIM].tree = &c->world;
     c->racers[GLIM].build_s = seconds_between(begin_ns, clock_ns());
     c->racers[GLIM].bytes = (double)wide_bytes(&c->tree);
+    pool_destroy(pool);
     return ok;
 }
 
@@ -298,6 +301,8 @@ int main(int argc, char **argv)
     for (int i = 0; ok && i < SHAPES; i++)
         if (strstr(shape_names[i], part) != NULL)
             ok = run_shape(i, argv[1], paths, &err);
+    if (ok && strstr("scaling", part) != NULL)
+        ok = scaling_run(racer_of(paths), &err);
     if (!ok) {
         fprintf(stderr, "rays: %s\n", err.text);
         return 1;

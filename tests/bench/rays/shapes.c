@@ -117,8 +117,24 @@ static bool load_file(struct scene *s, const char *name, const char *shared,
     return ok;
 }
 
-bool shape_load(struct shape *shape, int i, const char *shared,
-                struct error *err)
+/* The world as the view sees it, if the scene was loaded. */
+static bool finish(struct shape *shape, struct view *view, bool is_loaded,
+                   struct error *err)
+{
+    bool ok;
+
+    view->width_px = WIDTH_PX;
+    view->height_px = HEIGHT_PX;
+    ok = is_loaded && scene_world(&shape->scene, view, 0, &shape->world, err);
+    /* no holes: Embree's rays would not pass them */
+    shape->world.settings.features = 0;
+    view_free(view);
+    if (!ok)
+        shape_free(shape);
+    return ok;
+}
+
+bool shape_make_terrain(struct shape *shape, uint32_t across, struct error *err)
 {
     struct report report = {0};
     struct view view;
@@ -126,20 +142,25 @@ bool shape_load(struct shape *shape, int i, const char *shared,
 
     *shape = (struct shape){.scene.path = NULL};
     view_init(&view);
-    ok = columns[i] == 0
-             ? load_file(&shape->scene, shape_names[i], shared, &view, &report,
-                         err)
-             : load_terrain(&shape->scene, columns[i], &view, &report, err);
-    view.width_px = WIDTH_PX;
-    view.height_px = HEIGHT_PX;
-    ok = ok && scene_world(&shape->scene, &view, 0, &shape->world, err);
-    /* no holes: Embree's rays would not pass them */
-    shape->world.settings.features = 0;
-    view_free(&view);
+    ok = load_terrain(&shape->scene, across, &view, &report, err);
     report_free(&report);
-    if (!ok)
-        shape_free(shape);
-    return ok;
+    return finish(shape, &view, ok, err);
+}
+
+bool shape_load(struct shape *shape, int i, const char *shared,
+                struct error *err)
+{
+    struct report report = {0};
+    struct view view;
+    bool ok;
+
+    if (columns[i] != 0)
+        return shape_make_terrain(shape, columns[i], err);
+    *shape = (struct shape){.scene.path = NULL};
+    view_init(&view);
+    ok = load_file(&shape->scene, shape_names[i], shared, &view, &report, err);
+    report_free(&report);
+    return finish(shape, &view, ok, err);
 }
 
 void shape_free(struct shape *shape)

@@ -25,6 +25,11 @@ extern const char *const shape_names[SHAPES];
 /* False with an empty text: there is no such file below `shared`. */
 bool shape_load(struct shape *shape, int i, const char *shared,
                 struct error *err);
+
+/* Squares along x, half as many along z; each is two triangles. */
+bool shape_make_terrain(struct shape *shape, uint32_t across,
+                        struct error *err);
+
 void shape_free(struct shape *shape);
 
 #endif

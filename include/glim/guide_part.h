@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/*
+ * guide_part.h - what one kind of light would add to the table of directions
+ *
+ * Units:     flux and rest in one unit, any: only their ratio counts
+ * Ownership: guide_part_free() frees; a zeroed struct is one that was not made
+ * Threads:   one thread makes it; read only after
+ * Errors:    memory, by false
+ */
+#ifndef GLIM_GUIDE_PART_H
+#define GLIM_GUIDE_PART_H
+
+#include <stdlib.h>
+
+#include "glim/util.h"
+#include "kernels/types.h"
+
+struct guide_part {
+    float *flux; /* that comes from each of the GUIDE_BINS of each cell */
+    float *rest; /* of each cell: what other light it has */
+};
+
+static inline uint32_t guide_cell_count(const struct guide_grid *g)
+{
+    return g->width * g->height * g->depth * GUIDE_FACINGS;
+}
+
+static inline bool guide_part_init(struct guide_part *part,
+                                   const struct guide_grid *g)
+{
+    size_t count = guide_cell_count(g);
+
+    part->flux = alloc_array(count * GUIDE_BINS, sizeof *part->flux);
+    part->rest = alloc_array(count, sizeof *part->rest);
+    return part->flux != NULL && part->rest != NULL;
+}
+
+/* What comes to a cell from all directions. */
+static inline double guide_part_total(const struct guide_part *part,
+                                      uint32_t cell)
+{
+    double total = 0;
+
+    for (uint32_t i = 0; i < GUIDE_BINS; i++)
+        total += (double)part->flux[cell * (size_t)GUIDE_BINS + i];
+    return total;
+}
+
+static inline void guide_part_free(struct guide_part *part)
+{
+    free(part->flux);
+    free(part->rest);
+    *part = (struct guide_part){NULL, NULL};
+}
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/*
+ * scaling.h - what more triangles cost a ray
+ *
+ * Units:     seconds
+ * Ownership: none
+ * Threads:   all build, one traces
+ * Errors:    memory
+ */
+#ifndef RAYS_SCALING_H
+#define RAYS_SCALING_H
+
+#include "glim/util.h"
+#include "racer.h"
+
+/* Prints times of glim's rays in terrains of 1,000 to 10 million triangles, and
+ * what each doubling adds. The racer's tree is not read. */
+bool scaling_run(const struct racer *racer, struct error *err);
+
+#endif
