@@ -3,6 +3,10 @@
  * Large ranges of triangles are split by all threads together. What is left are
  * parts, each of which one thread makes a tree of. Where a part ends depends on
  * its size alone.
+ *
+ * No triangle is in two leaves. Measured: in the tree that reinsert.h makes,
+ * spatial splits (Stich, Friedrich and Dietrich 2009) make rooms slower: rays
+ * through them take 0 to 30 % longer.
  */
 #include "glim/bvh.h"
 

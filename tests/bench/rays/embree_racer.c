@@ -160,7 +160,7 @@ void embree_build(struct embree *e, const struct world *world,
     enum RTCBuildQuality quality =
         kind == EMBREE_FAST ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
     char settings[32];
-    uint64_t begin_ns;
+    struct spent begin;
     RTCGeometry g;
     RTCScene scene;
     long before;
@@ -181,13 +181,13 @@ void embree_build(struct embree *e, const struct world *world,
     rtcAttachGeometry(scene, g);
     rtcReleaseGeometry(g);
     before = atomic_load(&bytes_held);
-    begin_ns = clock_ns();
+    begin = spent_now();
     rtcCommitScene(scene);
     e->racer = (struct racer){e,
                               closest,
                               any,
                               coherent,
-                              seconds_between(begin_ns, clock_ns()),
+                              spent_since(begin),
                               (double)(atomic_load(&bytes_held) - before)};
 }
 

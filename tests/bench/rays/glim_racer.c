@@ -52,4 +52,4 @@ static void coherent(const void *tree, const struct ray *rays, uint32_t count,
     }
 }
 
-const struct racer RACER = {NULL, closest, any, coherent, 0.0, 0.0};
+const struct racer RACER = {NULL, closest, any, coherent, {0.0, 0.0}, 0.0};

@@ -12,6 +12,8 @@
 
 #include "kernels/types.h"
 
+#include "spent.h"
+
 struct answer {
     float t;      /* of a nearest hit */
     uint32_t tri; /* NO_INDEX: nothing hit; 0 if anything is enough */
@@ -26,7 +28,7 @@ struct racer {
     racer_query *closest;
     racer_query *any;
     racer_query *coherent; /* nearest hits of neighbours */
-    double build_s;
+    struct spent build;
     double bytes; /* of the tree */
 };
 

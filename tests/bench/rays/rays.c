@@ -21,6 +21,7 @@
 #include "tests/bench/median.h"
 
 #define REPEATS     7
+#define BUILDS      3
 #define THREADS_MAX 2
 
 /* Rays of a job. */
@@ -31,13 +32,16 @@
 #define T_TOLERANCE 1e-5f
 #define T_ROUNDING  0x1p-23f
 
-enum { GLIM, ROBUST, FAST, RACERS };
+enum { GLIM, ROBUST, FAST, RACERS, MEDIUM = RACERS, BUILDERS };
+
+static const enum embree_kind embree_kinds[BUILDERS] = {
+    [ROBUST] = EMBREE_ROBUST, [FAST] = EMBREE_FAST, [MEDIUM] = EMBREE_MEDIUM};
 
 struct contest {
     struct shape shape;
     struct wide tree;
     struct wide_world world;
-    struct embree embrees[RACERS]; /* GLIM's is none */
+    struct embree embrees[BUILDERS]; /* GLIM's is none */
     struct racer racers[RACERS];
     struct ray_set sets[SETS];
     struct answer *answers[RACERS];
@@ -194,52 +198,76 @@ static const struct racer *racer_of(const struct paths *paths)
 }
 
 static bool build_glim(struct contest *c, const struct paths *paths,
-                       struct error *err)
+                       struct pool *pool, struct error *err)
 {
-    struct pool *pool = pool_create(usable_threads(), err);
-    uint64_t begin_ns = clock_ns();
-    bool ok = pool != NULL && wide_build(&c->tree, &c->shape.world, pool, err);
+    struct spent begin = spent_now();
+    bool ok = wide_build(&c->tree, &c->shape.world, pool, err);
 
     c->world = (struct wide_world){c->shape.world, &c->tree};
     c->racers[GLIM] = *racer_of(paths);
     c->racers[GLIM].tree = &c->world;
-    c->racers[GLIM].build_s = seconds_between(begin_ns, clock_ns());
+    c->racers[GLIM].build = spent_since(begin);
     c->racers[GLIM].bytes = (double)wide_bytes(&c->tree);
-    pool_destroy(pool);
     return ok;
 }
 
-static void print_build(const char *name, const struct racer *r,
-                        uint32_t tri_count)
+/* Lines that say what the trees take. */
+static void print_builds(const struct contest *c,
+                         struct spent times[BUILDERS][BUILDS])
 {
-    printf("  %-14s %7.3f s %7.1f bytes a triangle\n", name, r->build_s,
-           r->bytes / tri_count);
+    static const char *const names[BUILDERS] = {"glim", "Embree robust",
+                                                "Embree fast", "Embree medium"};
+
+    for (int i = 0; i < BUILDERS; i++) {
+        const struct racer *r =
+            i == GLIM ? &c->racers[GLIM] : &c->embrees[i].racer;
+        double s[BUILDS], cpu_s[BUILDS];
+
+        for (int k = 0; k < BUILDS; k++) {
+            s[k] = times[i][k].s;
+            cpu_s[k] = times[i][k].cpu_s;
+        }
+        printf("  %-14s %8.4f s, %8.4f of the processor; %5.1f bytes a "
+               "triangle\n",
+               names[i], median(s, BUILDS), median(cpu_s, BUILDS),
+               r->bytes / c->shape.world.settings.tri_count);
+    }
 }
 
-static void build_embrees(struct contest *c)
+/* Trees by turns, each with as many threads. */
+static bool build_all(struct contest *c, const struct paths *paths,
+                      struct error *err)
 {
-    const struct world *w = &c->shape.world;
-    struct embree medium = {.scene = NULL};
+    struct pool *pool = pool_create(usable_threads(), err);
+    struct spent times[BUILDERS][BUILDS];
+    bool ok = pool != NULL;
 
-    embree_build(&medium, w, EMBREE_MEDIUM, usable_threads());
-    embree_build(&c->embrees[ROBUST], w, EMBREE_ROBUST, usable_threads());
-    embree_build(&c->embrees[FAST], w, EMBREE_FAST, usable_threads());
-    print_build("glim", &c->racers[GLIM], w->settings.tri_count);
-    print_build("Embree robust", &c->embrees[ROBUST].racer,
-                w->settings.tri_count);
-    print_build("Embree medium", &medium.racer, w->settings.tri_count);
-    print_build("Embree fast", &c->embrees[FAST].racer, w->settings.tri_count);
-    embree_free(&medium);
+    for (int k = 0; ok && k < BUILDS; k++) {
+        ok = build_glim(c, paths, pool, err);
+        times[GLIM][k] = c->racers[GLIM].build;
+        for (int i = ROBUST; i < BUILDERS; i++) {
+            embree_free(&c->embrees[i]);
+            embree_build(&c->embrees[i], &c->shape.world, embree_kinds[i],
+                         usable_threads());
+            times[i][k] = c->embrees[i].racer.build;
+        }
+    }
+    pool_destroy(pool);
+    if (!ok)
+        return false;
+    print_builds(c, times);
+    embree_free(&c->embrees[MEDIUM]);
     for (int i = ROBUST; i < RACERS; i++)
         c->racers[i] = c->embrees[i].racer;
+    return true;
 }
 
 static void contest_free(struct contest *c)
 {
-    for (int i = 0; i < RACERS; i++) {
+    for (int i = 0; i < RACERS; i++)
         free(c->answers[i]);
+    for (int i = 0; i < BUILDERS; i++)
         embree_free(&c->embrees[i]);
-    }
     sets_free(c->sets);
     wide_free(&c->tree);
     shape_free(&c->shape);
@@ -256,11 +284,11 @@ static bool run_shape(int shape, const char *shared, const struct paths *paths,
                shared);
         return true;
     }
-    ok = ok && build_glim(&c, paths, err);
-    if (ok) {
+    if (ok)
         printf("%s: %u triangles\n", shape_names[shape],
                c.shape.world.settings.tri_count);
-        build_embrees(&c);
+    ok = ok && build_all(&c, paths, err);
+    if (ok) {
         sets_make(c.sets, &c.shape.world, &c.racers[GLIM]);
         for (int i = 0; i < RACERS; i++)
             c.answers[i] =
