@@ -146,19 +146,26 @@ static inline void path_add_emission(const struct world *w, struct path *p,
              chance_weight(w, p->pdf, light_pdf));
 }
 
+static inline uint32_t shadow_key(const struct path *p, uint32_t vertex)
+{
+    return ray_key(p->sampler, SHADOW_KEY + vertex);
+}
+
 /* Would a ray from here find this light by chance? It is aimed anew, as a ray
- * does not begin in the vertex itself. */
+ * does not begin in the vertex itself; of unit length it need not be. */
 static inline bool light_is_seen(const struct world *w, struct path *p,
                                  const struct vertex *v, float cosine,
-                                 const struct light_sample *s, uint32_t key)
+                                 const struct light_sample *s, uint32_t vertex)
 {
-    struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, key, v->face};
+    struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, 0, v->face};
 
+    if (HAS(FEATURE_COVERAGE))
+        r.key = shadow_key(p, vertex);
     if (s->light != NO_INDEX) {
         struct light l = w->lights[s->light];
         struct hit h;
 
-        r.d = v3_unit(v3_sub(s->p, r.o));
+        r.d = v3_sub(s->p, r.o);
         if (!triangle_hit(r, shear_of(r), l.corners[0], l.corners[1],
                           l.corners[2], FLOAT_MAX, &h))
             return false;
@@ -169,7 +176,7 @@ static inline bool light_is_seen(const struct world *w, struct path *p,
 }
 
 /* False if roulette saves the shadow ray for this light. */
-static inline bool shadow_survives(const struct path *p, uint32_t key,
+static inline bool shadow_survives(const struct path *p, uint32_t vertex,
                                    struct vec3 *light)
 {
     float q = shadow_survival(*light, p->out.radiance);
@@ -177,7 +184,7 @@ static inline bool shadow_survives(const struct path *p, uint32_t key,
     if (!(q < 1.0f))
         return true;
     /* never 0: what is all but impossible must not be divided by */
-    if (!(1.0f - unit_float(hash_u32(key)) < q))
+    if (!(1.0f - unit_float(hash_u32(shadow_key(p, vertex))) < q))
         return false;
     *light = v3_scale(*light, 1.0f / q);
     return true;
@@ -190,7 +197,6 @@ static inline void path_add_direct(const struct world *w, struct path *p,
 {
     struct light_sample s;
     struct vec3 wi, light;
-    uint32_t key;
     float pdf;
 
     if (!light_sample(w, &p->from, path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
@@ -205,9 +211,8 @@ static inline void path_add_direct(const struct world *w, struct path *p,
     light =
         path_part(p, light,
                   bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
-    key = ray_key(p->sampler, SHADOW_KEY + vertex);
-    if (shadow_survives(p, key, &light) &&
-        light_is_seen(w, p, v, wi.z, &s, key))
+    if (shadow_survives(p, vertex, &light) &&
+        light_is_seen(w, p, v, wi.z, &s, vertex))
         p->out.radiance = v3_add(p->out.radiance, light);
 }
 
@@ -347,7 +352,8 @@ static inline struct path path_open(struct ray r, struct sampler sampler)
 static inline bool path_advance(const struct world *w, struct path *p,
                                 uint32_t vertex, struct hit *h)
 {
-    p->ray.key = ray_key(p->sampler, vertex);
+    if (HAS(FEATURE_COVERAGE))
+        p->ray.key = ray_key(p->sampler, vertex);
     p->ray.t_max = FLOAT_MAX;
     p->out.rays++;
     if (!hit_closest(w, p->ray, h)) {
