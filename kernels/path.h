@@ -69,7 +69,7 @@ static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
 }
 
 /* Before the first path_2d() at a vertex. */
-static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+VECTORISED static inline void path_prepare_2d(struct path *p, uint32_t vertex)
 {
     if (!HAS_WIDE_VECTORS || (vertex - 1) % VERTICES_AHEAD != 0)
         return;
@@ -381,6 +381,18 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     return path_run(w, path_open(r, sampler));
 }
 
+/* Where samples first .. first + count - 1 of pixel (x, y) begin in it, and
+ * their samplers. */
+VECTORISED static inline void
+path_points(const struct settings *s, uint32_t x, uint32_t y, uint64_t first,
+            uint32_t count, struct sampler *samplers, struct vec2 *points)
+{
+    for (uint32_t i = 0; i < count; i++)
+        samplers[i] = path_sampler(s, x, y, first + i);
+    for (uint32_t i = 0; i < count; i++)
+        points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
+}
+
 /* Samples first .. first + count - 1 of pixel (x, y); count is 1 to
  * SAMPLE_BLOCK. */
 static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
@@ -389,12 +401,9 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
 {
     struct sampler samplers[SAMPLE_BLOCK];
     struct vec2 points[SAMPLE_BLOCK];
-    uint32_t lanes = HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count;
 
-    for (uint32_t i = 0; i < lanes; i++)
-        samplers[i] = path_sampler(&w->settings, x, y, first + i);
-    for (uint32_t i = 0; i < lanes; i++)
-        points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
+    path_points(&w->settings, x, y, first,
+                HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count, samplers, points);
     for (uint32_t i = 0; i < count; i++) {
         struct ray r = path_ray(&w->settings, x, y, points[i], samplers[i]);
 
