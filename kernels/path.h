@@ -330,21 +330,19 @@ static inline bool path_step(const struct world *w, struct path *p,
 }
 
 /* A path that begins with this ray. */
-static inline struct path path_open(struct ray r, struct sampler sampler)
+static inline void path_open(struct path *p, struct ray r,
+                             struct sampler sampler)
 {
-    struct path p;
-
-    p.ray = r;
-    p.sampler = sampler;
-    p.beta = v3(1.0f, 1.0f, 1.0f);
-    p.scale = 1.0f;
-    p.pdf = 0.0f;
-    p.from.p = r.o;
-    p.from.n = r.d;
-    p.from.transmits = true;
-    p.out.radiance = v3(0.0f, 0.0f, 0.0f);
-    p.out.rays = p.out.cut = 0;
-    return p;
+    p->ray = r;
+    p->sampler = sampler;
+    p->beta = v3(1.0f, 1.0f, 1.0f);
+    p->scale = 1.0f;
+    p->pdf = 0.0f;
+    p->from.p = r.o;
+    p->from.n = r.d;
+    p->from.transmits = true;
+    p->out.radiance = v3(0.0f, 0.0f, 0.0f);
+    p->out.rays = p->out.cut = 0;
 }
 
 /* Goes on to vertex `vertex`, counted from 1, and scatters there: *h is what it
@@ -365,20 +363,23 @@ static inline bool path_advance(const struct world *w, struct path *p,
 }
 
 /* To its end. */
-static inline struct path_sample path_run(const struct world *w, struct path p)
+static inline struct path_sample path_run(const struct world *w, struct path *p)
 {
     uint32_t vertex = 1;
     struct hit h;
 
-    while (path_advance(w, &p, vertex, &h))
+    while (path_advance(w, p, vertex, &h))
         vertex++;
-    return p.out;
+    return p->out;
 }
 
 static inline struct path_sample path_trace(const struct world *w, struct ray r,
                                             struct sampler sampler)
 {
-    return path_run(w, path_open(r, sampler));
+    struct path p;
+
+    path_open(&p, r, sampler);
+    return path_run(w, &p);
 }
 
 /* Where samples first .. first + count - 1 of pixel (x, y) begin in it, and
@@ -401,13 +402,14 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
 {
     struct sampler samplers[SAMPLE_BLOCK];
     struct vec2 points[SAMPLE_BLOCK];
+    struct path p;
 
     path_points(&w->settings, x, y, first,
                 HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count, samplers, points);
     for (uint32_t i = 0; i < count; i++) {
-        struct ray r = path_ray(&w->settings, x, y, points[i], samplers[i]);
-
-        out[i] = path_run(w, path_open(r, samplers[i]));
+        path_open(&p, path_ray(&w->settings, x, y, points[i], samplers[i]),
+                  samplers[i]);
+        out[i] = path_run(w, &p);
     }
 }
 
