@@ -143,7 +143,9 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
         s->p = r->p;
         return s->pdf > 0.0f;
     }
-    choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;
+    /* a division that most scenes do without */
+    if (w->settings.light_share != 1.0f)
+        choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;
     if (!(choice.x < 1.0f))
         return false;
     return sample_triangle(w, r, point, choice, s);

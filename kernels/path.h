@@ -71,7 +71,7 @@ static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
 }
 
 /* Before the first path_2d() at a vertex. */
-static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+VECTORISED static inline void path_prepare_2d(struct path *p, uint32_t vertex)
 {
     if (!HAS_WIDE_VECTORS || (vertex - 1) % VERTICES_AHEAD != 0)
         return;
@@ -148,19 +148,26 @@ static inline void path_add_emission(const struct world *w, struct path *p,
              chance_weight(w, p->pdf, light_pdf));
 }
 
+static inline uint32_t shadow_key(const struct path *p, uint32_t vertex)
+{
+    return ray_key(p->sampler, SHADOW_KEY + vertex);
+}
+
 /* Would a ray from here find this light by chance? It is aimed anew, as a ray
- * does not begin in the vertex itself. */
+ * does not begin in the vertex itself; of unit length it need not be. */
 static inline bool light_is_seen(const struct world *w, struct path *p,
                                  const struct vertex *v, float cosine,
-                                 const struct light_sample *s, uint32_t key)
+                                 const struct light_sample *s, uint32_t vertex)
 {
-    struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, key, v->face};
+    struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, 0, v->face};
 
+    if (HAS(FEATURE_COVERAGE))
+        r.key = shadow_key(p, vertex);
     if (s->light != NO_INDEX) {
         struct light l = w->lights[s->light];
         struct hit h;
 
-        r.d = v3_unit(v3_sub(s->p, r.o));
+        r.d = v3_sub(s->p, r.o);
         if (!triangle_hit(r, shear_of(r), l.corners[0], l.corners[1],
                           l.corners[2], FLOAT_MAX, &h))
             return false;
@@ -171,7 +178,7 @@ static inline bool light_is_seen(const struct world *w, struct path *p,
 }
 
 /* False if roulette saves the shadow ray for this light. */
-static inline bool shadow_survives(const struct path *p, uint32_t key,
+static inline bool shadow_survives(const struct path *p, uint32_t vertex,
                                    struct vec3 *light)
 {
     float q = shadow_survival(*light, p->out.radiance);
@@ -179,7 +186,7 @@ static inline bool shadow_survives(const struct path *p, uint32_t key,
     if (!(q < 1.0f))
         return true;
     /* never 0: what is all but impossible must not be divided by */
-    if (!(1.0f - unit_float(hash_u32(key)) < q))
+    if (!(1.0f - unit_float(hash_u32(shadow_key(p, vertex))) < q))
         return false;
     *light = v3_scale(*light, 1.0f / q);
     return true;
@@ -192,7 +199,6 @@ static inline void path_add_direct(const struct world *w, struct path *p,
 {
     struct light_sample s;
     struct vec3 wi, light;
-    uint32_t key;
     float pdf;
 
     if (!light_sample(w, &p->from, path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
@@ -207,9 +213,8 @@ static inline void path_add_direct(const struct world *w, struct path *p,
     light =
         path_part(p, light,
                   bsdf_eta_scale(b, wi) * light_weight(w, s.pdf, pdf) / s.pdf);
-    key = ray_key(p->sampler, SHADOW_KEY + vertex);
-    if (shadow_survives(p, key, &light) &&
-        light_is_seen(w, p, v, wi.z, &s, key))
+    if (shadow_survives(p, vertex, &light) &&
+        light_is_seen(w, p, v, wi.z, &s, vertex))
         p->out.radiance = v3_add(p->out.radiance, light);
 }
 
@@ -327,21 +332,19 @@ static inline bool path_step(const struct world *w, struct path *p,
 }
 
 /* A path that begins with this ray. */
-static inline struct path path_open(struct ray r, struct sampler sampler)
+static inline void path_open(struct path *p, struct ray r,
+                             struct sampler sampler)
 {
-    struct path p;
-
-    p.ray = r;
-    p.sampler = sampler;
-    p.beta = v3(1.0f, 1.0f, 1.0f);
-    p.scale = 1.0f;
-    p.pdf = 0.0f;
-    p.from.p = r.o;
-    p.from.n = r.d;
-    p.from.transmits = true;
-    p.out.radiance = v3(0.0f, 0.0f, 0.0f);
-    p.out.rays = p.out.cut = 0;
-    return p;
+    p->ray = r;
+    p->sampler = sampler;
+    p->beta = v3(1.0f, 1.0f, 1.0f);
+    p->scale = 1.0f;
+    p->pdf = 0.0f;
+    p->from.p = r.o;
+    p->from.n = r.d;
+    p->from.transmits = true;
+    p->out.radiance = v3(0.0f, 0.0f, 0.0f);
+    p->out.rays = p->out.cut = 0;
 }
 
 /* Goes on to vertex `vertex`, counted from 1, and scatters there: *h is what it
@@ -350,7 +353,8 @@ static inline bool path_advance(const struct world *w, struct path *p,
                                 uint32_t vertex, const struct hit *known,
                                 struct hit *h)
 {
-    p->ray.key = ray_key(p->sampler, vertex);
+    if (HAS(FEATURE_COVERAGE))
+        p->ray.key = ray_key(p->sampler, vertex);
     p->ray.t_max = FLOAT_MAX;
     p->out.rays++;
     if (known != NULL)
@@ -366,21 +370,36 @@ static inline bool path_advance(const struct world *w, struct path *p,
 }
 
 /* To its end; what it meets first may be known. */
-static inline struct path_sample path_run(const struct world *w, struct path p,
+static inline struct path_sample path_run(const struct world *w, struct path *p,
                                           const struct hit *first)
 {
     uint32_t vertex = 1;
     struct hit h;
 
-    while (path_advance(w, &p, vertex, vertex == 1 ? first : NULL, &h))
+    while (path_advance(w, p, vertex, vertex == 1 ? first : NULL, &h))
         vertex++;
-    return p.out;
+    return p->out;
 }
 
 static inline struct path_sample path_trace(const struct world *w, struct ray r,
                                             struct sampler sampler)
 {
-    return path_run(w, path_open(r, sampler), NULL);
+    struct path p;
+
+    path_open(&p, r, sampler);
+    return path_run(w, &p, NULL);
+}
+
+/* Where samples first .. first + count - 1 of pixel (x, y) begin in it, and
+ * their samplers. */
+VECTORISED static inline void
+path_points(const struct settings *s, uint32_t x, uint32_t y, uint64_t first,
+            uint32_t count, struct sampler *samplers, struct vec2 *points)
+{
+    for (uint32_t i = 0; i < count; i++)
+        samplers[i] = path_sampler(s, x, y, first + i);
+    for (uint32_t i = 0; i < count; i++)
+        points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
 }
 
 /* Samples first .. first + count - 1 of pixel (x, y); count is at most
@@ -390,26 +409,26 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                                 struct path_sample *out)
 {
     struct sampler samplers[SAMPLE_BLOCK];
+    struct vec2 points[SAMPLE_BLOCK];
     struct ray rays[SAMPLE_BLOCK];
     struct hit hits[SAMPLE_BLOCK];
-    struct vec2 points[SAMPLE_BLOCK];
-    uint32_t lanes = HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count;
+    struct path p;
     bool is_known;
 
     if (count == 0)
         return;
-    for (uint32_t i = 0; i < lanes; i++)
-        samplers[i] = path_sampler(&w->settings, x, y, first + i);
-    for (uint32_t i = 0; i < lanes; i++)
-        points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
+    path_points(&w->settings, x, y, first,
+                HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count, samplers, points);
     for (uint32_t i = 0; i < count; i++) {
         rays[i] = path_ray(&w->settings, x, y, points[i], samplers[i]);
-        rays[i].key = ray_key(samplers[i], 1);
+        if (HAS(FEATURE_COVERAGE))
+            rays[i].key = ray_key(samplers[i], 1);
     }
     is_known = hits_closest(w, rays, count, hits);
-    for (uint32_t i = 0; i < count; i++)
-        out[i] = path_run(w, path_open(rays[i], samplers[i]),
-                          is_known ? &hits[i] : NULL);
+    for (uint32_t i = 0; i < count; i++) {
+        path_open(&p, rays[i], samplers[i]);
+        out[i] = path_run(w, &p, is_known ? &hits[i] : NULL);
+    }
 }
 
 #endif

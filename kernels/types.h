@@ -245,7 +245,7 @@ struct world {
 
 struct ray {
     struct vec3 o;
-    struct vec3 d; /* unit length */
+    struct vec3 d; /* unit length; of shadow rays to surfaces any */
     float t_max;
     uint32_t key;  /* of the sample, for decisions at holes */
     uint32_t from; /* 1 + the triangle it leaves, which is flat: it cannot

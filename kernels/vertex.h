@@ -18,8 +18,9 @@
 struct vertex {
     struct vec3 p;
     struct vec3 p_error;
-    struct vec3 ng; /* unit, on the eye's side */
-    struct vec3 n;  /* unit shading normal, wo.n > 0 */
+    struct vec3 above; /* where a ray begins that leaves upwards */
+    struct vec3 ng;    /* unit, on the eye's side */
+    struct vec3 n;     /* unit shading normal, wo.n > 0 */
     struct vec2 uv;
     bool has_uv;
     bool is_outside;  /* the eye is on the side of the file's normal */
@@ -64,6 +65,7 @@ static inline bool vertex_at(const struct world *w, const struct material *m,
     v->ng = v3_scale(t.ng, minus_if(!v->is_outside));
     v->n = shading_normal(w, t, h, v->ng, wo);
     v->p = hit_inside(h, p0, p1, p2, &v->p_error);
+    v->above = leave_surface(v->p, v->p_error, v->ng);
     v->is_lifted = false;
     v->face = h.tri + 1u;
     v->has_uv = t.vt[0] != NO_INDEX;
@@ -144,6 +146,7 @@ static inline void vertex_lift(const struct world *w, uint32_t tri,
     if (v->is_lifted) {
         v->p = v3_add(v->p, up);
         v->p_error = v3_scale(v->p_error, 2.0f);
+        v->above = leave_surface(v->p, v->p_error, v->ng);
         v->face = 0;
     }
 }
@@ -170,7 +173,7 @@ static inline struct vertex vertex_of_face(struct vertex v)
 /* Where a ray begins that leaves upwards, by its cosine to n, or downwards. */
 static inline struct vec3 vertex_leave(const struct vertex *v, float z)
 {
-    return leave_surface(v->p, v->p_error, z > 0.0f ? v->ng : v3_neg(v->ng));
+    return z > 0.0f ? v->above : leave_surface(v->p, v->p_error, v3_neg(v->ng));
 }
 
 #endif

@@ -53,9 +53,10 @@ void trail_follow(struct trail *t, const struct world *w, uint32_t x,
                   uint32_t y, uint64_t index)
 {
     struct path_start start = path_begin(&w->settings, x, y, index);
-    struct path p = path_open(start.ray, start.sampler);
     bool goes_on = true;
+    struct path p;
 
+    path_open(&p, start.ray, start.sampler);
     t->count = t->vertices = 0;
     while (goes_on) {
         struct path before = p;
