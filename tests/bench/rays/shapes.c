@@ -49,10 +49,9 @@ static void add_square(struct scene *s, uint32_t a, uint32_t across)
 
     for (int k = 0; k < 2; k++)
         s->tris[s->tri_count++] =
-            (struct tri){{corners[k][0], corners[k][1], corners[k][2]},
-                         {NO_INDEX, NO_INDEX, NO_INDEX},
-                         {NO_INDEX, NO_INDEX, NO_INDEX},
-                         0};
+            (struct tri){.v = {corners[k][0], corners[k][1], corners[k][2]},
+                         .vn = {NO_INDEX, NO_INDEX, NO_INDEX},
+                         .vt = {NO_INDEX, NO_INDEX, NO_INDEX}};
 }
 
 /* What obj_read() would have read. */
