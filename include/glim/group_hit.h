@@ -52,7 +52,8 @@ static inline void group_put(struct ray_group *g, uint32_t lane,
     g->t[lane] = r->t_max;
 }
 
-/* As shear_of(); false if the rays differ in the axis. */
+/* As shear_of(). False if the rays differ in the axis: then they cannot be
+ * tested together. */
 static inline bool group_shear(struct f8_rays *r)
 {
     f8 x = f8_abs(f8_load(r->d[0]));
@@ -81,8 +82,8 @@ static inline float group_far(const struct ray_group *g)
     return far;
 }
 
-/* For 1 to GROUP_RAYS rays. False if they cannot be tested together. */
-static inline bool group_begin(struct ray_group *g, const struct world *w,
+/* For 1 to GROUP_RAYS rays; group_shear() has to follow. */
+static inline void group_begin(struct ray_group *g, const struct world *w,
                                const struct ray *rays, uint32_t count,
                                struct hit *hits)
 {
@@ -97,7 +98,6 @@ static inline bool group_begin(struct ray_group *g, const struct world *w,
     for (uint32_t i = 0; i < GROUP_RAYS; i++)
         group_put(g, i, i < count ? &rays[i] : &none);
     g->far = group_far(g);
-    return group_shear(&g->lanes);
 }
 
 static inline void group_meet(struct ray_group *g,

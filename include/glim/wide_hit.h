@@ -265,11 +265,14 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     return hit->tri != NO_INDEX;
 }
 
-/* So many rays are worth a group. */
-#define GROUP_MIN 2
+/* So many rays are worth a group, if at a distance of 1 they are no further
+ * apart than this. Measured with lenses: at a third of it 10 % less time for a
+ * picture without bounces, at twice as much 20 % more. */
+#define GROUP_MIN    2
+#define GROUP_SPREAD 0x1p-5f
 
 /* The rays that are before and behind all of a group along an axis. False if
- * some go up it, some down. */
+ * some go up it, some down, or too far apart. */
 static inline bool wide_bound(struct wide_ray *first, struct wide_ray *last,
                               int axis, const struct ray_group *g)
 {
@@ -286,7 +289,8 @@ static inline bool wide_bound(struct wide_ray *first, struct wide_ray *last,
     is_down = float_bits(d_lo) >> 31;
     wide_ray_axis(first, axis, is_down ? o_lo : o_hi, is_down ? d_lo : d_hi);
     wide_ray_axis(last, axis, is_down ? o_hi : o_lo, is_down ? d_hi : d_lo);
-    return is_down == float_bits(d_hi) >> 31;
+    return is_down == float_bits(d_hi) >> 31 &&
+           (o_hi - o_lo) + (d_hi - d_lo) <= GROUP_SPREAD;
 }
 
 static inline __attribute__((always_inline)) float
@@ -311,10 +315,12 @@ static inline bool hits_closest(const struct world *w, const struct ray *rays,
     struct wide_ray first, last;
     struct ray_group g;
 
-    if (nodes == NULL || count < GROUP_MIN ||
-        !group_begin(&g, w, rays, count, hits) ||
-        !wide_bound(&first, &last, 0, &g) ||
-        !wide_bound(&first, &last, 1, &g) || !wide_bound(&first, &last, 2, &g))
+    if (nodes == NULL || count < GROUP_MIN)
+        return false;
+    group_begin(&g, w, rays, count, hits);
+    if (!wide_bound(&first, &last, 0, &g) ||
+        !wide_bound(&first, &last, 1, &g) ||
+        !wide_bound(&first, &last, 2, &g) || !group_shear(&g.lanes))
         return false;
     for (uint32_t i = 0; i < count; i++)
         hits[i] = no_hit(rays[i]);

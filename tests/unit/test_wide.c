@@ -15,8 +15,7 @@ static void instructions_are_missing(void **state)
     skip();
 }
 
-/* From one point through a window, whose corners are on either side of an axis
- * or not. */
+/* From one point through a row of others. */
 static bool is_group(uint32_t count, float left, float width)
 {
     struct mesh m = {0};
@@ -47,7 +46,8 @@ static void neighbours_are_a_group(void **state)
     assert_true(is_group(GROUP / 2, 0.2f, 0.01f));
     assert_false(is_group(1, 0.2f, 0.01f));
     assert_false(is_group(GROUP, -0.005f, 0.01f));
-    assert_false(is_group(GROUP, 0.95f, 0.1f));
+    assert_false(is_group(GROUP, 0.995f, 0.01f));
+    assert_false(is_group(GROUP, 0.2f, 0.1f));
 }
 
 int main(void)

@@ -43,13 +43,12 @@ static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
 
 #define GROUP 8
 
-/* Neighbours of a random ray, or all the same one, or rays that go anywhere;
- * some from one point, some within a plane across an axis, some that end, some
- * that leave a triangle. */
+/* Neighbours of a random ray, or all the same one; some from one point, some
+ * within a plane across an axis, some that end, some that leave a triangle. */
 static uint32_t random_group(const struct mesh *m, uint64_t *seed, int i,
                              struct ray rays[GROUP])
 {
-    static const float spreads[] = {0.0f, 1e-4f, 0.02f, 1.0f};
+    static const float spreads[] = {0.0f, 1e-4f, 2e-3f, 0.01f};
     float spread = spreads[i % 4];
     struct ray first = random_ray(m, seed, i / 4);
     uint32_t count = 1 + (uint32_t)(GROUP * check_random(seed));
