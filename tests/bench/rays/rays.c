@@ -161,10 +161,11 @@ static void race(struct contest *c, struct pool *pool, const char *name,
     mean->count++;
 }
 
+/* `rays` names them, and ends in a blank, if it is not all that counts. */
 static void print_mean(const char *rays, const struct mean *m)
 {
     if (m->count > 0)
-        printf("geometric mean of %s: robust %.2f fast %.2f\n", rays,
+        printf("%sgeometric mean: robust %.2f fast %.2f\n", rays,
                exp(m->robust / m->count), exp(m->fast / m->count));
 }
 
@@ -335,7 +336,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "rays: %s\n", err.text);
         return 1;
     }
-    print_mean("bounces and shadow rays", &scattered);
-    print_mean("groups of camera rays", &grouped);
+    print_mean("groups of camera rays, ", &grouped);
+    print_mean("", &scattered);
     return 0;
 }
