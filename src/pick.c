@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "glim/scene_world.h"
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/texture.h"

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/scene_world.h"
 #include "glim/material.h"
 #include "glim/mtl.h"
 #include "glim/obj.h"

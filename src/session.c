@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "glim/scene_world.h"
 #include "glim/file.h"
 #include "glim/mtl_save.h"
 #include "glim/view_file.h"

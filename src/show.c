@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/scene_world.h"
 #include "glim/drawing.h"
 #include "glim/first_hits.h"
 #include "glim/projection.h"

@@ -99,21 +99,6 @@ bool scene_finish(struct scene *scene, struct report *report,
 bool scene_load_sky(struct scene *scene, const struct view *view,
                     struct report *report, struct error *err);
 
-/* Makes the table that leads paths to light that is hard to find, if there is
- * none yet for the scene as it is and the view's sky. Without it pictures are
- * as bright, and noisier. */
-bool scene_guide(struct scene *scene, const struct view *view,
-                 struct error *err);
-
-/* Sets eye and at so that the whole scene is seen, keeping fovy, size and up.
- */
-void scene_frame(const struct scene *scene, struct view *view);
-
-/* Fills all of *world but nodes and leaf_tris. False for an impossible camera.
- */
-bool scene_world(const struct scene *scene, const struct view *view,
-                 uint32_t seed, struct world *world, struct error *err);
-
 /* The part of a world that no view changes. */
 struct world scene_arrays(const struct scene *scene);
 
@@ -127,10 +112,6 @@ void scene_find_emitters(struct scene *scene);
 uint32_t scene_features(const struct scene *scene);
 uint32_t scene_material_features(const struct scene *scene,
                                  const struct material *material);
-
-/* True if the view's up runs along its direction: scene_world() then takes
- * another axis for it. */
-bool scene_up_is_parallel(const struct view *view);
 
 /* True if both have the same triangles at the same places, whatever their
  * materials, normals and texture coordinates. */

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "glim/scene_world.h"
 #include "glim/isa.h"
 #include "glim/session.h"
 #include "tests/bench/median.h"

@@ -22,6 +22,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "glim/scene_world.h"
 #include "glim/backend_cl.h"
 #include "glim/cl_environment.h"
 #include "glim/isa.h"

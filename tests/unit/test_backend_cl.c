@@ -12,6 +12,7 @@
 #include <time.h>
 
 #include "check.h"
+#include "glim/scene_world.h"
 #include "glim/backend_cl.h"
 #include "glim/cl_device.h"
 #include "glim/cl_environment.h"

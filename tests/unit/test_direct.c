@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "glim/scene_world.h"
 #include "glim/session.h"
 #include "glim/sky.h"
 

@@ -11,6 +11,7 @@
 #include "check.h"
 #include "mesh.h"
 
+#include "glim/scene_world.h"
 #include "glim/session.h"
 #include "kernels/camera.h"
 #include "kernels/rng.h"

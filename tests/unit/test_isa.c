@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "glim/scene_world.h"
 #include "glim/isa.h"
 #include "glim/session.h"
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "glim/scene_world.h"
 #include "glim/scene.h"
 
 #include "kernels/traverse.h"

@@ -8,6 +8,7 @@
 
 #include "check.h"
 #include "folder.h"
+#include "glim/scene_world.h"
 #include "glim/bvh.h"
 #include "glim/pick.h"
 #include "kernels/start.h"

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "glim/scene_world.h"
 #include "glim/obj.h"
 #include "glim/scene.h"
 

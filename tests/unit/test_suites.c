@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "glim/scene_world.h"
 #include "glim/file.h"
 #include "glim/mtl.h"
 #include "glim/obj.h"

@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+#include "glim/scene_world.h"
 #include "glim/cost.h"
 #include "glim/session.h"
 #include "glim/trail.h"

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "glim/scene_world.h"
 #include "glim/session.h"
 #include "truth.h"
 

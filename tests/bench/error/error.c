@@ -21,6 +21,7 @@
 #include <unistd.h>
 
 #include "chart.h"
+#include "glim/scene_world.h"
 #include "reference.h"
 #include "tests/bench/median.h"
 

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "glim/scene_world.h"
 #include "glim/file.h"
 #include "glim/image.h"
 #include "glim/picture.h"

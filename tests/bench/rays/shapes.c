@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "glim/scene_world.h"
 #include "glim/mtl.h"
 #include "glim/view_file.h"
 #include "kernels/rng.h"
