@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/scene_world.h"
 #include "glim/material.h"
 #include "glim/mtl.h"
 #include "glim/obj.h"
 #include "glim/render.h"
 #include "glim/scene.h"
+#include "glim/scene_world.h"
 
 #define SIDE 16
 #define SPP  4

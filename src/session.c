@@ -8,9 +8,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/scene_world.h"
 #include "glim/file.h"
 #include "glim/mtl_save.h"
+#include "glim/scene_world.h"
 #include "glim/view_file.h"
 
 #define SIDE_MAX 65536

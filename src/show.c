@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/scene_world.h"
 #include "glim/drawing.h"
 #include "glim/first_hits.h"
 #include "glim/projection.h"
+#include "glim/scene_world.h"
 #include "kernels/tone.h"
 
 /* What is rendered for it, and what is said of it. */
