@@ -122,6 +122,10 @@ static inline void mesh_finish(struct mesh *m)
     struct error err;
     struct world *w = &m->world;
 
+    /* corners may have been moved */
+    for (struct tri *t = m->tris; t < m->tris + m->tri_count; t++)
+        triangle_normal(m->positions[t->v[0]], m->positions[t->v[1]],
+                        m->positions[t->v[2]], &t->ng);
     w->positions = m->positions;
     w->tris = m->tris;
     w->settings.tri_count = m->tri_count;
