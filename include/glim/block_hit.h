@@ -29,23 +29,6 @@ static inline f4 f4_ray(const float *place)
 #define LANES_RAYS 1
 #include "glim/lanes_hit.h"
 
-/* As shear_of(), without branches: no processor can predict them for rays in
- * all directions. */
-static inline struct shear block_shear_of(struct ray r)
-{
-    const float d[5] = {r.d.x, r.d.y, r.d.z, r.d.x, r.d.y};
-    uint32_t x = float_bits(fabsf(r.d.x));
-    uint32_t y = float_bits(fabsf(r.d.y));
-    uint32_t z = float_bits(fabsf(r.d.z));
-    uint32_t x_is_largest = (uint32_t)(x > y) & (uint32_t)(x > z);
-    uint32_t y_is_largest = (uint32_t)(y >= x) & (uint32_t)(y > z);
-    uint32_t axis = 2u - 2u * x_is_largest - y_is_largest;
-    struct shear s = {r.o, d[axis + 1] / d[axis], d[axis + 2] / d[axis],
-                      1.0f / d[axis], axis};
-
-    return s;
-}
-
 /* A ray as tests of blocks want it. */
 struct block_ray {
     struct ray ray;
@@ -55,7 +38,7 @@ struct block_ray {
 
 static inline struct block_ray block_ray_of(struct ray r)
 {
-    struct shear s = block_shear_of(r);
+    struct shear s = shear_of(r);
     struct block_ray b = {r,
                           s,
                           {{{r.o.x}, {r.o.y}, {r.o.z}},
