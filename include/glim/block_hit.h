@@ -34,9 +34,11 @@ struct block_ray {
     struct ray ray;
     struct shear shear;
     struct f4_rays lanes;
+    uint32_t passed[2]; /* triangles that it cannot meet */
 };
 
-static inline struct block_ray block_ray_of(struct ray r)
+/* A ray that may end at triangle `tri`, which then is no hit. */
+static inline struct block_ray block_ray_of(struct ray r, uint32_t tri)
 {
     struct shear s = shear_of(r);
     struct block_ray b = {r,
@@ -46,7 +48,8 @@ static inline struct block_ray block_ray_of(struct ray r)
                            {s.sx},
                            {s.sy},
                            {s.sz},
-                           s.axis}};
+                           s.axis},
+                          {r.from - 1u, tri}};
 
     return b;
 }
@@ -61,12 +64,14 @@ blocks_hit(const struct world *w, const struct block_ray *r,
     struct lane_hits h;
 
     for (;; more--, block++) {
-        if (f4_test(block, 0, &r->lanes, f4_all(best->t), &h)) {
-            lane_hits_doubt(w, &h);
+        uint32_t passed = f4_which(block->tri, r->passed[0]) |
+                          f4_which(block->tri, r->passed[1]);
+
+        if (f4_test(block, 0, &r->lanes, f4_all(best->t), ~passed, &h)) {
             for (; h.sure != 0; h.sure &= h.sure - 1) {
                 uint32_t i = lowest(h.sure);
 
-                found |= lane_take(&h, i, &r->ray, block->tri[i], best);
+                found |= lane_take(w, &h, i, &r->ray, block->tri[i], best);
             }
             for (; h.unsure != 0; h.unsure &= h.unsure - 1)
                 found |= lane_decide(w, &r->ray, &r->shear, block,
