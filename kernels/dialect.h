@@ -20,7 +20,7 @@ typedef ushort uint16_t;
 typedef uint uint32_t;
 typedef ulong uint64_t;
 
-#define VECTORISED
+#define FLATTENED
 #define GLOBAL        __global
 #define CONSTANT      __constant
 #define sqrtf(x)      sqrt(x)
@@ -38,9 +38,9 @@ typedef ulong uint64_t;
 #include <stdint.h>
 #include <string.h>
 
-/* Functions with loops over lanes: what they call becomes part of them, or the
- * loops would not become vector code. */
-#define VECTORISED __attribute__((flatten))
+/* What such a function calls becomes part of it: loops over lanes would not
+ * become vector code, nor would walks through trees keep their vectors. */
+#define FLATTENED __attribute__((flatten))
 #define GLOBAL
 #define CONSTANT static const
 
