@@ -39,8 +39,9 @@ typedef ulong uint64_t;
 #include <string.h>
 
 /* Functions with loops over lanes: what they call becomes part of them, or the
- * loops would not become vector code. */
-#define VECTORISED __attribute__((flatten))
+ * loops would not become vector code; where they become part of others, it is
+ * chance whether a loop is unrolled first. Not `inline`. */
+#define VECTORISED __attribute__((noinline, flatten, unused))
 #define GLOBAL
 #define CONSTANT static const
 

@@ -70,14 +70,20 @@ static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
     return random_2d(s, vertex * DIMENSION_STRIDE + kind);
 }
 
-/* Before the first path_2d() at a vertex. */
-VECTORISED static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+/* All numbers at VERTICES_AHEAD vertices. */
+VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
+                                   struct vec2 *numbers)
 {
-    if (!HAS_WIDE_VECTORS || (vertex - 1) % VERTICES_AHEAD != 0)
-        return;
     for (uint32_t i = 0; i < VERTICES_AHEAD * DIMENSION_KINDS; i++)
-        p->numbers[i] = vertex_2d(p->sampler, vertex + i / DIMENSION_KINDS,
-                                  i % DIMENSION_KINDS);
+        numbers[i] =
+            vertex_2d(s, vertex + i / DIMENSION_KINDS, i % DIMENSION_KINDS);
+}
+
+/* Before the first path_2d() at a vertex. */
+static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+{
+    if (HAS_WIDE_VECTORS && (vertex - 1) % VERTICES_AHEAD == 0)
+        vertices_2d(p->sampler, vertex, p->numbers);
 }
 
 static inline struct vec2 path_2d(const struct path *p, uint32_t vertex,
@@ -392,9 +398,10 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
 
 /* Where samples first .. first + count - 1 of pixel (x, y) begin in it, and
  * their samplers. */
-VECTORISED static inline void
-path_points(const struct settings *s, uint32_t x, uint32_t y, uint64_t first,
-            uint32_t count, struct sampler *samplers, struct vec2 *points)
+VECTORISED static void path_points(const struct settings *s, uint32_t x,
+                                   uint32_t y, uint64_t first, uint32_t count,
+                                   struct sampler *samplers,
+                                   struct vec2 *points)
 {
     for (uint32_t i = 0; i < count; i++)
         samplers[i] = path_sampler(s, x, y, first + i);

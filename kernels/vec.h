@@ -210,16 +210,4 @@ static inline void frame_around(struct vec3 n, struct vec3 *t, struct vec3 *b)
     *b = v3(c, sign + n.y * n.y * a, -n.y);
 }
 
-/* The next float on the side of `way`, or x itself where that is 0. Finite x.
- * Hardly a branch, as in minus_if(). */
-static inline float float_step(float x, float way)
-{
-    uint32_t moves = way != 0.0f;
-    uint32_t grows = (x > 0.0f) == (way > 0.0f);
-
-    if (x == 0.0f && moves)
-        return bits_float((float_bits(way) & 0x80000000u) | 1u);
-    return bits_float(float_bits(x) + moves * (2u * grows - 1u));
-}
-
 #endif
