@@ -308,6 +308,8 @@ static inline bool path_step(const struct world *w, struct path *p,
     struct vec3 wo;
     struct vec2 lobe;
 
+    /* first, as it takes long and waits for nothing */
+    path_prepare_2d(p, vertex);
     if (!vertex_at(w, &m, p->ray, h, &v))
         return false;
     b = bsdf_at(w, &m, &v);
@@ -325,7 +327,6 @@ static inline bool path_step(const struct world *w, struct path *p,
     if (!bsdf_is_glass(&b))
         vertex_lift(w, h.tri, h, &v);
     wo = vertex_to_local(&v, v3_neg(p->ray.d));
-    path_prepare_2d(p, vertex);
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);

@@ -191,12 +191,13 @@ static inline float minus_if(bool is_minus)
     return bits_float(0x3f800000u | (uint32_t)is_minus << 31);
 }
 
-/* c ? a : b in the same way. */
-static inline float f_pick(bool c, float a, float b)
+/* x and y exchanged if so, in the same way. */
+static inline struct vec2 v2_swap_if(bool is_swapped, struct vec2 v)
 {
-    uint32_t mask = 0u - (uint32_t)c;
+    uint32_t x = float_bits(v.x), y = float_bits(v.y);
+    uint32_t changes = (x ^ y) & (0u - (uint32_t)is_swapped);
 
-    return bits_float((float_bits(a) & mask) | (float_bits(b) & ~mask));
+    return v2(bits_float(x ^ changes), bits_float(y ^ changes));
 }
 
 /* A right-handed frame around the unit vector n (Duff et al. 2017). */
