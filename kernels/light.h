@@ -75,7 +75,7 @@ static inline struct vec3 light_radiance(const struct world *w, struct light l,
         radiance =
             v3_mul(radiance,
                    texture_at(w, l.texture, uv_at(w, w->tris[l.tri], h)).color);
-    if (HAS(FEATURE_COVERAGE) && (w->settings.features & FEATURE_COVERAGE) != 0)
+    if (has_coverage(w))
         radiance = v3_scale(radiance, coverage_at(w, h));
     return radiance;
 }

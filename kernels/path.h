@@ -167,7 +167,7 @@ static inline bool light_is_seen(const struct world *w, struct path *p,
 {
     struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, 0, v->face};
 
-    if (HAS(FEATURE_COVERAGE))
+    if (has_coverage(w))
         r.key = shadow_key(p, vertex);
     if (s->light != NO_INDEX) {
         struct light l = w->lights[s->light];
@@ -360,7 +360,7 @@ static inline bool path_advance(const struct world *w, struct path *p,
                                 uint32_t vertex, const struct hit *known,
                                 struct hit *h)
 {
-    if (HAS(FEATURE_COVERAGE))
+    if (has_coverage(w))
         p->ray.key = ray_key(p->sampler, vertex);
     p->ray.t_max = FLOAT_MAX;
     p->out.rays++;
@@ -429,7 +429,7 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
                 HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count, samplers, points);
     for (uint32_t i = 0; i < count; i++) {
         rays[i] = path_ray(&w->settings, x, y, points[i], samplers[i]);
-        if (HAS(FEATURE_COVERAGE))
+        if (has_coverage(w))
             rays[i].key = ray_key(samplers[i], 1);
     }
     is_known = hits_closest(w, rays, count, hits);
