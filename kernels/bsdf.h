@@ -20,11 +20,19 @@
 #include "kernels/metal.h"
 #include "kernels/plastic.h"
 
+/* Lambert's law; in builds that have no other nothing is asked. */
+static inline bool bsdf_is_lambert(const struct bsdf *m)
+{
+    return !HAS(FEATURE_ROUGH_DIFFUSE | FEATURE_METAL | FEATURE_GLASS |
+                FEATURE_PLASTIC) ||
+           m->kind == MATERIAL_DIFFUSE;
+}
+
 /* Nothing scatters: a lamp, for one. */
 static inline bool bsdf_is_black(const struct bsdf *m)
 {
     return v3_is_zero(m->color) &&
-           (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_ROUGH_DIFFUSE);
+           (bsdf_is_lambert(m) || m->kind == MATERIAL_ROUGH_DIFFUSE);
 }
 
 /* All lobes are deltas: f is zero wherever a light could be sampled. */
@@ -63,7 +71,7 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
         return glass_terms(m, wo, wi, pdf);
     if (wi.z < 0.0f)
         return v3(0.0f, 0.0f, 0.0f);
-    if (m->kind == MATERIAL_DIFFUSE)
+    if (bsdf_is_lambert(m))
         return lambert_terms(m, wi, pdf);
     if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_terms(m, wo, wi, pdf);
@@ -104,7 +112,7 @@ static inline bool bsdf_sample(const struct bsdf *m, struct vec3 wo,
 {
     if (!(wo.z > COSINE_MIN))
         return false;
-    if (m->kind == MATERIAL_DIFFUSE)
+    if (bsdf_is_lambert(m))
         return lambert_sample(m, u, s);
     if (HAS(FEATURE_ROUGH_DIFFUSE) && m->kind == MATERIAL_ROUGH_DIFFUSE)
         return eon_sample(m, wo, u, s);

@@ -21,6 +21,7 @@ typedef uint uint32_t;
 typedef ulong uint64_t;
 
 #define FLATTENED
+#define VECTORISED
 #define GLOBAL        __global
 #define CONSTANT      __constant
 #define sqrtf(x)      sqrt(x)
@@ -38,9 +39,14 @@ typedef ulong uint64_t;
 #include <stdint.h>
 #include <string.h>
 
-/* What such a function calls becomes part of it: loops over lanes would not
- * become vector code, nor would walks through trees keep their vectors. */
+/* What such a function calls becomes part of it: walks through trees would not
+ * keep their vectors in registers. */
 #define FLATTENED __attribute__((flatten))
+
+/* Functions with loops over lanes, which would not become vector code with
+ * calls in them; where they become part of others, it is chance whether a loop
+ * is unrolled first. Not `inline`. */
+#define VECTORISED __attribute__((noinline, flatten, unused))
 #define GLOBAL
 #define CONSTANT static const
 

@@ -236,7 +236,8 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
 }
 
 /* Where a hit is, with a bound of its rounding error on each axis: from the
- * barycentrics, so that the distance travelled does not matter. */
+ * barycentrics, so that the distance travelled does not matter. It has seven
+ * roundings, and leave_surface() has less than two more. */
 static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
                                     struct vec3 p1, struct vec3 p2,
                                     struct vec3 *error)
@@ -245,9 +246,9 @@ static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
     struct vec3 b = v3_scale(p1, h.b1);
     struct vec3 c = v3_scale(p2, h.b2);
 
-    *error = v3((fabsf(a.x) + fabsf(b.x) + fabsf(c.x)) * GAMMA(7),
-                (fabsf(a.y) + fabsf(b.y) + fabsf(c.y)) * GAMMA(7),
-                (fabsf(a.z) + fabsf(b.z) + fabsf(c.z)) * GAMMA(7));
+    *error = v3((fabsf(a.x) + fabsf(b.x) + fabsf(c.x)) * GAMMA(9),
+                (fabsf(a.y) + fabsf(b.y) + fabsf(c.y)) * GAMMA(9),
+                (fabsf(a.z) + fabsf(b.z) + fabsf(c.z)) * GAMMA(9));
     return v3_add(v3_add(a, b), c);
 }
 
@@ -283,17 +284,19 @@ static inline struct vec3 hit_inside(struct hit h, struct vec3 p0,
     return hit_point(h, p0, p1, p2, error);
 }
 
+/* How far in front of its face a ray begins at least: where a plane's
+ * coordinate is 0 there is no error. Lost in rounding elsewhere. */
+#define LEAVE_MIN 0x1p-100f
+
 /* The origin of a ray that leaves p on the side of the unit normal ng: out of
- * reach of p's error, then one float further on each axis. */
+ * reach of p's error, which has room for the rounding here. */
 static inline struct vec3 leave_surface(struct vec3 p, struct vec3 error,
                                         struct vec3 ng)
 {
     float distance =
         fabsf(ng.x) * error.x + fabsf(ng.y) * error.y + fabsf(ng.z) * error.z;
-    struct vec3 o = v3_add(p, v3_scale(ng, distance));
 
-    return v3(float_step(o.x, ng.x), float_step(o.y, ng.y),
-              float_step(o.z, ng.z));
+    return v3_add(p, v3_scale(ng, distance + LEAVE_MIN));
 }
 
 /* The unit normal by the winding of the file. Edges are scaled first, so that

@@ -57,12 +57,10 @@ static inline float light_point_pdf(struct light l, struct vec3 to_point)
 static inline struct hit triangle_point(struct vec2 u)
 {
     struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
-    bool is_above = u.y > u.x;
     float less = 0.5f * f_min(u.x, u.y);
-    float more = f_max(u.x, u.y) - less;
 
-    h.b0 = f_pick(is_above, less, more);
-    h.b1 = f_pick(is_above, more, less);
+    h.b0 = u.x - less;
+    h.b1 = u.y - less;
     h.b2 = f_max(1.0f - h.b0 - h.b1, 0.0f);
     return h;
 }
@@ -77,7 +75,7 @@ static inline struct vec3 light_radiance(const struct world *w, struct light l,
         radiance =
             v3_mul(radiance,
                    texture_at(w, l.texture, uv_at(w, w->tris[l.tri], h)).color);
-    if (HAS(FEATURE_COVERAGE) && (w->settings.features & FEATURE_COVERAGE) != 0)
+    if (has_coverage(w))
         radiance = v3_scale(radiance, coverage_at(w, h));
     return radiance;
 }

@@ -97,12 +97,12 @@ static inline float light_tree_choose(const struct world *w,
         probability *= light_child_share(sums, i);
         if (!(probability > 0.0f))
             return 0.0f;
-        u = f_min((u - sums[i]) / (sums[i + 1] - sums[i]), UNIT_FLOAT_MAX);
         at = w->light_nodes[at].child[i];
         if ((at & LIGHT_LEAF) != 0) {
             *light = at & ~LIGHT_LEAF;
             return probability;
         }
+        u = f_min((u - sums[i]) / (sums[i + 1] - sums[i]), UNIT_FLOAT_MAX);
     }
 }
 

@@ -70,14 +70,20 @@ static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
     return random_2d(s, vertex * DIMENSION_STRIDE + kind);
 }
 
-/* Before the first path_2d() at a vertex. */
-FLATTENED static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+/* All numbers at VERTICES_AHEAD vertices. */
+VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
+                                   struct vec2 *numbers)
 {
-    if (!HAS_WIDE_VECTORS || (vertex - 1) % VERTICES_AHEAD != 0)
-        return;
     for (uint32_t i = 0; i < VERTICES_AHEAD * DIMENSION_KINDS; i++)
-        p->numbers[i] = vertex_2d(p->sampler, vertex + i / DIMENSION_KINDS,
-                                  i % DIMENSION_KINDS);
+        numbers[i] =
+            vertex_2d(s, vertex + i / DIMENSION_KINDS, i % DIMENSION_KINDS);
+}
+
+/* Before the first path_2d() at a vertex. */
+static inline void path_prepare_2d(struct path *p, uint32_t vertex)
+{
+    if (HAS_WIDE_VECTORS && (vertex - 1) % VERTICES_AHEAD == 0)
+        vertices_2d(p->sampler, vertex, p->numbers);
 }
 
 static inline struct vec2 path_2d(const struct path *p, uint32_t vertex,
@@ -161,7 +167,7 @@ static inline bool light_is_seen(const struct world *w, struct path *p,
 {
     struct ray r = {vertex_leave(v, cosine), s->wi, FLOAT_MAX, 0, v->face};
 
-    if (HAS(FEATURE_COVERAGE))
+    if (has_coverage(w))
         r.key = shadow_key(p, vertex);
     if (s->light != NO_INDEX) {
         struct light l = w->lights[s->light];
@@ -304,6 +310,8 @@ static inline bool path_step(const struct world *w, struct path *p,
     struct vec3 wo;
     struct vec2 lobe;
 
+    /* first, as it takes long and waits for nothing */
+    path_prepare_2d(p, vertex);
     if (!vertex_at(w, &m, p->ray, h, &v))
         return false;
     b = bsdf_at(w, &m, &v);
@@ -321,7 +329,6 @@ static inline bool path_step(const struct world *w, struct path *p,
     if (!bsdf_is_glass(&b))
         vertex_lift(w, h.tri, h, &v);
     wo = vertex_to_local(&v, v3_neg(p->ray.d));
-    path_prepare_2d(p, vertex);
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
@@ -355,7 +362,7 @@ static inline bool path_advance(const struct world *w, struct path *p,
                                 uint32_t vertex, const struct hit *known,
                                 struct hit *h)
 {
-    if (HAS(FEATURE_COVERAGE))
+    if (has_coverage(w))
         p->ray.key = ray_key(p->sampler, vertex);
     p->ray.t_max = FLOAT_MAX;
     p->out.rays++;
@@ -393,9 +400,10 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
 }
 
 /* Where samples begin in their pixels, and their samplers. */
-FLATTENED static inline void
-path_points(const struct settings *s, const struct sample_place *places,
-            uint32_t count, struct sampler *samplers, struct vec2 *points)
+VECTORISED static void path_points(const struct settings *s,
+                                   const struct sample_place *places,
+                                   uint32_t count, struct sampler *samplers,
+                                   struct vec2 *points)
 {
     for (uint32_t i = 0; i < count; i++)
         samplers[i] =
@@ -427,7 +435,7 @@ static inline void path_samples(const struct world *w,
     for (uint32_t i = 0; i < count; i++) {
         rays[i] =
             path_ray(&w->settings, all[i].x, all[i].y, points[i], samplers[i]);
-        if (HAS(FEATURE_COVERAGE))
+        if (has_coverage(w))
             rays[i].key = ray_key(samplers[i], 1);
     }
     is_known = hits_closest(w, rays, count, hits);

@@ -22,16 +22,22 @@ struct tally {
     uint32_t cut_paths;  /* ended at the hard stop */
 };
 
+/* The bits of 2^62. Above are those of larger numbers, of infinity and NaN, and
+ * of all that is negative. */
+#define SUM_LARGE 0x5e800000u
+
 /* Adds one channel of a sample; what sum_accepts() refuses counts as 0. */
 static inline void channel_add(GLOBAL struct sum *sum, float x, uint32_t *bad,
                                uint32_t *full)
 {
-    if (!sum_accepts(x)) {
-        *bad = 1;
-        return;
+    if (float_bits(x) > SUM_LARGE) { /* rare: one comparison for all */
+        if (!sum_accepts(x)) {
+            *bad = 1;
+            return;
+        }
+        if (x > 0x1p62f)
+            *full = 1;
     }
-    if (x > 0x1p62f)
-        *full = 1;
     sum_add(sum, x);
 }
 

@@ -15,17 +15,17 @@
 /* Concentric map of the square to the unit disk (Shirley and Chiu 1997). */
 static inline struct vec2 disk_from_square(struct vec2 u)
 {
-    float a = 2.0f * u.x - 1.0f;
-    float b = 2.0f * u.y - 1.0f;
-    bool is_wide = fabsf(a) > fabsf(b);
-    float radius = f_pick(is_wide, a, b);
-    float angle = PI * 0.25f * (f_pick(is_wide, b, a) / radius);
-    float along = radius * cos_small(angle);
-    float across = radius * sin_small(angle);
+    struct vec2 p = v2(2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f);
+    bool is_high = !(fabsf(p.x) > fabsf(p.y));
+    float radius, angle;
 
+    p = v2_swap_if(is_high, p);
+    radius = p.x;
     if (radius == 0.0f)
         return v2(0.0f, 0.0f);
-    return v2(f_pick(is_wide, along, across), f_pick(is_wide, across, along));
+    angle = PI * 0.25f * (p.y / radius);
+    return v2_swap_if(is_high,
+                      v2(radius * cos_small(angle), radius * sin_small(angle)));
 }
 
 /* Density cosine / pi. */

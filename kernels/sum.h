@@ -37,13 +37,11 @@ static inline void sum_add(GLOBAL struct sum *s, float x)
 
     if (exponent < 127 - 64) /* 0 and denormal numbers, too */
         return;
-    if (exponent < 150 - 64) {
-        lo = mantissa >> (150 - 64 - exponent);
+    if (exponent < 127) { /* below 1 */
+        lo = mantissa << 40 >> (126 - exponent);
     } else if (exponent < 150) {
-        uint32_t shift = exponent - (150 - 64);
-
-        lo = mantissa << shift;
-        hi = mantissa >> 1 >> (63 - shift); /* a shift by 64 is none */
+        lo = mantissa << (exponent - (150 - 64));
+        hi = mantissa >> (150 - exponent);
     } else if (exponent < 127 + 62) {
         hi = mantissa << (exponent - 150);
     } else {

@@ -112,6 +112,13 @@ static inline bool is_hole(const struct world *w, uint32_t texture,
            texture_at(w, texture, uv).alpha < 0.5f;
 }
 
+/* Does any surface let rays pass? */
+static inline bool has_coverage(const struct world *w)
+{
+    return HAS(FEATURE_COVERAGE) &&
+           (w->settings.features & FEATURE_COVERAGE) != 0;
+}
+
 /* The share of rays that a hit stops: none in holes of the colour texture's
  * alpha and of the opacity texture, elsewhere the opacity. */
 static inline float coverage_at(const struct world *w, struct hit h)

@@ -42,9 +42,7 @@ static inline bool hit_wins(const struct world *w, struct ray r, struct hit h,
 {
     if (h.t > best->t || (h.t == best->t && h.tri >= best->tri))
         return false;
-    return !HAS(FEATURE_COVERAGE) ||
-           (w->settings.features & FEATURE_COVERAGE) == 0 ||
-           hit_is_solid(w, r, h);
+    return !has_coverage(w) || hit_is_solid(w, r, h);
 }
 
 /* Tests one triangle; true if it is a nearer hit. */

@@ -191,12 +191,13 @@ static inline float minus_if(bool is_minus)
     return bits_float(0x3f800000u | (uint32_t)is_minus << 31);
 }
 
-/* c ? a : b in the same way. */
-static inline float f_pick(bool c, float a, float b)
+/* x and y exchanged if so, in the same way. */
+static inline struct vec2 v2_swap_if(bool is_swapped, struct vec2 v)
 {
-    uint32_t mask = 0u - (uint32_t)c;
+    uint32_t x = float_bits(v.x), y = float_bits(v.y);
+    uint32_t changes = (x ^ y) & (0u - (uint32_t)is_swapped);
 
-    return bits_float((float_bits(a) & mask) | (float_bits(b) & ~mask));
+    return v2(bits_float(x ^ changes), bits_float(y ^ changes));
 }
 
 /* A right-handed frame around the unit vector n (Duff et al. 2017). */
@@ -208,18 +209,6 @@ static inline void frame_around(struct vec3 n, struct vec3 *t, struct vec3 *b)
 
     *t = v3(1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x);
     *b = v3(c, sign + n.y * n.y * a, -n.y);
-}
-
-/* The next float on the side of `way`, or x itself where that is 0. Finite x.
- * Hardly a branch, as in minus_if(). */
-static inline float float_step(float x, float way)
-{
-    uint32_t moves = way != 0.0f;
-    uint32_t grows = (x > 0.0f) == (way > 0.0f);
-
-    if (x == 0.0f && moves)
-        return bits_float((float_bits(way) & 0x80000000u) | 1u);
-    return bits_float(float_bits(x) + moves * (2u * grows - 1u));
 }
 
 #endif

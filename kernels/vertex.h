@@ -97,7 +97,7 @@ bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
         b.alpha *= roughness * roughness;
     }
     b.kind = m->kind;
-    if (has_maps && m->metal_texture != NO_INDEX &&
+    if (HAS(FEATURE_METAL) && has_maps && m->metal_texture != NO_INDEX &&
         m->metalness * texture_at(w, m->metal_texture, v->uv).alpha >= 0.5f)
         b.kind = MATERIAL_METAL;
     b.eta = m->ior;

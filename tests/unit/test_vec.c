@@ -52,20 +52,6 @@ static void frames_are_orthonormal(void **state)
     }
 }
 
-static void steps_are_nextafter(void **state)
-{
-    const float values[] = {0.0f, 1.0f, -1.0f, 1e-45f, -1e-45f, 3e38f, -2.5f};
-
-    (void)state;
-    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
-        assert_true(float_step(values[i], 0.5f) ==
-                    nextafterf(values[i], INFINITY));
-        assert_true(float_step(values[i], -0.5f) ==
-                    nextafterf(values[i], -INFINITY));
-        assert_true(float_step(values[i], 0.0f) == values[i]);
-    }
-}
-
 /* Moments of the cosine distribution: E z = 2/3, E z^2 = 1/2, E x^2 = 1/4. */
 static void hemisphere_has_cosine_moments(void **state)
 {
@@ -95,7 +81,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(angles_agree_with_libm),
         cmocka_unit_test(frames_are_orthonormal),
-        cmocka_unit_test(steps_are_nextafter),
         cmocka_unit_test(hemisphere_has_cosine_moments),
     };
 
