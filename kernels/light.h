@@ -3,8 +3,8 @@
  * light.h - what shines: emissive surfaces and the sky, and directions to them
  *
  * light_sample() draws a direction from a receiver to a light, for next-event
- * estimation; light_pdf_at() and sky_light_pdf() are its density at what a ray
- * has met by chance, to weigh both (Veach 1997, 9.2). Densities of a sample
+ * estimation; light_pdf_at() and sky_light_terms() have its density at what a
+ * ray has met by chance, to weigh both (Veach 1997, 9.2). Densities of a sample
  * and of the same point met by chance are the same bits.
  *
  * Units:     normalised scene units, radiance, densities per solid angle
@@ -122,10 +122,36 @@ static inline float light_pdf_at(const struct world *w,
            light_point_pdf(w->lights[light], v3_sub(p, r->p));
 }
 
-/* Density of light_sample() at the unit vector wi that leads to the sky. */
-static inline float sky_light_pdf(const struct world *w, struct vec3 wi)
+/* Radiance of the sky in direction wi, a unit vector, and the density of
+ * light_sample() there. Without a table the sky is drawn by the cosine at the
+ * receiver: another look at what is open beside the path's own. */
+static inline struct vec3 sky_light_terms(const struct world *w,
+                                          const struct receiver *r,
+                                          struct vec3 wi, float *pdf)
 {
-    return w->settings.sky_share * sky_pdf(w, wi);
+    struct vec3 radiance;
+
+    if (sky_has_table(w)) {
+        radiance = sky_terms(w, wi, pdf);
+    } else {
+        radiance = sky_radiance(w, wi);
+        *pdf = f_max(v3_dot(wi, r->n), 0.0f) * (1.0f / PI);
+    }
+    *pdf *= w->settings.sky_share;
+    return radiance;
+}
+
+static inline struct vec3 sky_direction(const struct world *w,
+                                        const struct receiver *r, struct vec2 u)
+{
+    struct vec3 d, t, b;
+
+    if (sky_has_table(w))
+        return sky_sample(w, u);
+    d = cosine_hemisphere(u);
+    frame_around(r->n, &t, &b);
+    return v3_unit(v3_add(v3_add(v3_scale(t, d.x), v3_scale(b, d.y)),
+                          v3_scale(r->n, d.z)));
 }
 
 /* A direction towards a light; false if there is none to sample here, or by
@@ -135,10 +161,9 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
                                 struct vec2 point, struct vec2 choice,
                                 struct light_sample *s)
 {
-    if (sky_has_table(w) && choice.x < w->settings.sky_share) {
-        s->wi = sky_sample(w, point);
-        s->radiance = sky_terms(w, s->wi, &s->pdf);
-        s->pdf *= w->settings.sky_share;
+    if (choice.x < w->settings.sky_share) {
+        s->wi = sky_direction(w, r, point);
+        s->radiance = sky_light_terms(w, r, s->wi, &s->pdf);
         s->light = s->tri = NO_INDEX;
         s->p = r->p;
         return s->pdf > 0.0f;

@@ -127,11 +127,11 @@ static inline float light_weight(const struct world *w, float light_pdf,
 static inline void path_add_sky(const struct world *w, struct path *p)
 {
     float pdf = 0.0f;
-    struct vec3 radiance = p->pdf > 0.0f ? sky_terms(w, p->ray.d, &pdf)
-                                         : sky_radiance(w, p->ray.d);
+    struct vec3 radiance = p->pdf > 0.0f
+                               ? sky_light_terms(w, &p->from, p->ray.d, &pdf)
+                               : sky_radiance(w, p->ray.d);
 
-    path_add(p, radiance,
-             chance_weight(w, p->pdf, w->settings.sky_share * pdf));
+    path_add(p, radiance, chance_weight(w, p->pdf, pdf));
 }
 
 static inline void path_add_emission(const struct world *w, struct path *p,
@@ -222,12 +222,10 @@ static inline void path_add_direct(const struct world *w, struct path *p,
 static inline bool wants_light_sample(const struct world *w,
                                       const struct bsdf *b)
 {
-    bool has_lights = false;
+    bool has_lights = w->settings.sky_share > 0.0f;
 
     if (HAS(FEATURE_EMITTERS))
-        has_lights = w->settings.light_count > 0;
-    if (HAS(FEATURE_SKY_IMAGE))
-        has_lights = has_lights || w->settings.sky_share > 0.0f;
+        has_lights = has_lights || w->settings.light_count > 0;
     return has_lights && w->settings.direct != DIRECT_CHANCE &&
            !bsdf_is_delta(b);
 }
