@@ -15,6 +15,7 @@
 #ifndef KERNELS_LIGHT_H
 #define KERNELS_LIGHT_H
 
+#include "kernels/guide.h"
 #include "kernels/hit.h"
 #include "kernels/light_tree.h"
 #include "kernels/sample.h"
@@ -23,7 +24,8 @@
 
 struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
-    struct vec3 radiance; /* that comes along it if nothing is in the way */
+    struct vec3 radiance; /* that comes along it if nothing is in the way, by
+                             how much rarer it is drawn than pdf says */
     float pdf;            /* of wi per solid angle; above 0 and finite */
     uint32_t light;       /* NO_INDEX: the sky */
     uint32_t tri;         /* of the light; NO_INDEX: the sky */
@@ -122,6 +124,11 @@ static inline float light_pdf_at(const struct world *w,
            light_point_pdf(w->lights[light], v3_sub(p, r->p));
 }
 
+static inline float sky_cosine_pdf(const struct receiver *r, struct vec3 wi)
+{
+    return f_max(v3_dot(wi, r->n), 0.0f) * (1.0f / PI);
+}
+
 /* Radiance of the sky in direction wi, a unit vector, and the density of
  * light_sample() there. Without a table the sky is drawn by the cosine at the
  * receiver: another look at what is open beside the path's own. */
@@ -135,35 +142,48 @@ static inline struct vec3 sky_light_terms(const struct world *w,
         radiance = sky_terms(w, wi, pdf);
     } else {
         radiance = sky_radiance(w, wi);
-        *pdf = f_max(v3_dot(wi, r->n), 0.0f) * (1.0f / PI);
+        *pdf = sky_cosine_pdf(r, wi);
     }
     *pdf *= w->settings.sky_share;
     return radiance;
 }
 
+/* A direction to the sky, and how much more often sky_light_terms() says that
+ * it is drawn than it is: where there is no table the cell of the guide is
+ * asked as well, if there is one. As in guide_scatter(), weights do not know.
+ */
 static inline struct vec3 sky_direction(const struct world *w,
-                                        const struct receiver *r, struct vec2 u)
+                                        const struct receiver *r, uint32_t cell,
+                                        struct vec2 u, float *ratio)
 {
-    struct vec3 d, t, b;
+    struct vec3 wi;
+    float share;
 
+    *ratio = 1.0f;
     if (sky_has_table(w))
         return sky_sample(w, u);
-    d = cosine_hemisphere(u);
-    frame_around(r->n, &t, &b);
-    return v3_unit(v3_add(v3_add(v3_scale(t, d.x), v3_scale(b, d.y)),
-                          v3_scale(r->n, d.z)));
+    if (!HAS(FEATURE_GUIDE) || cell == NO_INDEX)
+        return cosine_around(r->n, u);
+    share = guide_share(w, cell);
+    wi = u.x < share ? guide_sample(w, cell, u)
+                     : cosine_around(r->n, guide_rest(u, share));
+    *ratio = guide_ratio(w, cell, wi, sky_cosine_pdf(r, wi));
+    return wi;
 }
 
 /* A direction towards a light; false if there is none to sample here, or by
- * choice.x not this time. Whether it is above the surface and free is for the
+ * choice.x not this time. `cell` is the receiver's in the guide, or NO_INDEX.
+ * Whether it is above the surface and free is for the
  * caller to find. */
 static inline bool light_sample(const struct world *w, const struct receiver *r,
-                                struct vec2 point, struct vec2 choice,
-                                struct light_sample *s)
+                                uint32_t cell, struct vec2 point,
+                                struct vec2 choice, struct light_sample *s)
 {
     if (choice.x < w->settings.sky_share) {
-        s->wi = sky_direction(w, r, point);
-        s->radiance = sky_light_terms(w, r, s->wi, &s->pdf);
+        float ratio;
+
+        s->wi = sky_direction(w, r, cell, point, &ratio);
+        s->radiance = v3_scale(sky_light_terms(w, r, s->wi, &s->pdf), ratio);
         s->light = s->tri = NO_INDEX;
         s->p = r->p;
         return s->pdf > 0.0f;

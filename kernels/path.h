@@ -52,6 +52,7 @@ struct path {
     float scale;      /* apart from this, which roulette does not see */
     float pdf;        /* of the ray's direction; 0: no light sample has it */
     struct receiver from; /* where the ray began, if pdf is not 0 */
+    uint32_t cell;        /* there of the guide, or NO_INDEX */
     struct path_sample out;
 };
 
@@ -201,7 +202,8 @@ static inline void path_add_direct(const struct world *w, struct path *p,
     struct vec3 wi, light;
     float pdf;
 
-    if (!light_sample(w, &p->from, path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
+    if (!light_sample(w, &p->from, p->cell,
+                      path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
                       path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &s))
         return;
     wi = vertex_to_local(v, s.wi);
@@ -248,14 +250,11 @@ static inline bool path_scatter(const struct world *w, struct path *p,
                                 struct vec3 wo, struct vec2 direction,
                                 float choice)
 {
-    uint32_t cell = NO_INDEX;
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (HAS(FEATURE_GUIDE) && guide_helps(b))
-        cell = guide_at(w, v->p, v->ng);
-    if (cell != NO_INDEX) {
-        if (!guide_scatter(w, cell, v, b, wo, direction, choice, &s, &wi,
+    if (HAS(FEATURE_GUIDE) && p->cell != NO_INDEX) {
+        if (!guide_scatter(w, p->cell, v, b, wo, direction, choice, &s, &wi,
                            &p->scale))
             return false;
     } else if (!vertex_scatter(v, b, wo, direction, choice, &s, &wi)) {
@@ -321,6 +320,9 @@ static inline bool path_step(const struct world *w, struct path *p,
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
+    p->cell = NO_INDEX;
+    if (HAS(FEATURE_GUIDE) && guide_helps(&b))
+        p->cell = guide_at(w, v.p, v.ng);
     if (wants_light_sample(w, &b))
         path_add_direct(w, p, &b, &v, wo, vertex);
     lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);

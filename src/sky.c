@@ -146,8 +146,8 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
 /* What the lights leave, or half. */
 static float share_of(const struct sky_table *table, const struct settings *s)
 {
-    bool is_black = v3_is_zero(s->sky.color) ||
-                    (s->sky.width != 0 && !(table->mean > 0));
+    bool is_black =
+        v3_is_zero(s->sky.color) || (s->sky.width != 0 && !(table->mean > 0));
 
     if (is_black)
         return 0;
