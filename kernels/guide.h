@@ -140,6 +140,22 @@ static inline float guide_pdf(const struct world *w, uint32_t cell,
            (0.25f * (float)GUIDE_BINS) / (norm * norm * norm);
 }
 
+/* How much more often the BSDF, or whatever else is asked in the other cases,
+ * draws the unit vector d, where its density is pdf, than the mixture of it and
+ * the cell does. */
+static inline float guide_ratio(const struct world *w, uint32_t cell,
+                                struct vec3 d, float pdf)
+{
+    return pdf / ((1.0f - guide_share(w, cell)) * pdf + guide_pdf(w, cell, d));
+}
+
+/* What is left of u.x, no less than the cell's share, for the other cases. */
+static inline struct vec2 guide_rest(struct vec2 u, float share)
+{
+    u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);
+    return u;
+}
+
 /* A direction for u.x below the cell's share. */
 static inline struct vec3 guide_sample(const struct world *w, uint32_t cell,
                                        struct vec2 u)
@@ -179,15 +195,14 @@ static inline bool guide_scatter(const struct world *w, uint32_t cell,
         if (!sample_density(s, drawn, f, pdf))
             return false;
     } else {
-        u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);
-        if (!bsdf_sample(b, wo, u, choice, s))
+        if (!bsdf_sample(b, wo, guide_rest(u, share), choice, s))
             return false;
         *wi = v3_unit(vertex_to_world(v, s->wi));
     }
     if (s->is_delta)
         *scale /= 1.0f - share;
     else
-        *scale *= s->pdf / ((1.0f - share) * s->pdf + guide_pdf(w, cell, *wi));
+        *scale *= guide_ratio(w, cell, *wi, s->pdf);
     return vertex_sides_agree(v, *wi, s->wi.z);
 }
 

@@ -3,8 +3,8 @@
  * light.h - what shines: emissive surfaces and the sky, and directions to them
  *
  * light_sample() draws a direction from a receiver to a light, for next-event
- * estimation; light_pdf_at() and sky_light_pdf() are its density at what a ray
- * has met by chance, to weigh both (Veach 1997, 9.2). Densities of a sample
+ * estimation; light_pdf_at() and sky_light_terms() have its density at what a
+ * ray has met by chance, to weigh both (Veach 1997, 9.2). Densities of a sample
  * and of the same point met by chance are the same bits.
  *
  * Units:     normalised scene units, radiance, densities per solid angle
@@ -15,6 +15,7 @@
 #ifndef KERNELS_LIGHT_H
 #define KERNELS_LIGHT_H
 
+#include "kernels/guide.h"
 #include "kernels/hit.h"
 #include "kernels/light_tree.h"
 #include "kernels/sample.h"
@@ -23,7 +24,8 @@
 
 struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
-    struct vec3 radiance; /* that comes along it if nothing is in the way */
+    struct vec3 radiance; /* that comes along it if nothing is in the way, by
+                             how much rarer it is drawn than pdf says */
     float pdf;            /* of wi per solid angle; above 0 and finite */
     uint32_t light;       /* NO_INDEX: the sky */
     uint32_t tri;         /* of the light; NO_INDEX: the sky */
@@ -120,23 +122,66 @@ static inline float light_pdf_at(const struct world *w,
            light_point_pdf(w->lights[light], v3_sub(p, r->p));
 }
 
-/* Density of light_sample() at the unit vector wi that leads to the sky. */
-static inline float sky_light_pdf(const struct world *w, struct vec3 wi)
+static inline float sky_cosine_pdf(const struct receiver *r, struct vec3 wi)
 {
-    return w->settings.sky_share * sky_pdf(w, wi);
+    return f_max(v3_dot(wi, r->n), 0.0f) * (1.0f / PI);
+}
+
+/* Radiance of the sky in direction wi, a unit vector, and the density of
+ * light_sample() there. Without a table the sky is drawn by the cosine at the
+ * receiver: another look at what is open beside the path's own. */
+static inline struct vec3 sky_light_terms(const struct world *w,
+                                          const struct receiver *r,
+                                          struct vec3 wi, float *pdf)
+{
+    struct vec3 radiance;
+
+    if (sky_has_table(w)) {
+        radiance = sky_terms(w, wi, pdf);
+    } else {
+        radiance = sky_radiance(w, wi);
+        *pdf = sky_cosine_pdf(r, wi);
+    }
+    *pdf *= w->settings.sky_share;
+    return radiance;
+}
+
+/* A direction to the sky, and how much more often sky_light_terms() says that
+ * it is drawn than it is: where there is no table the cell of the guide is
+ * asked as well, if there is one. As in guide_scatter(), weights do not know.
+ */
+static inline struct vec3 sky_direction(const struct world *w,
+                                        const struct receiver *r, uint32_t cell,
+                                        struct vec2 u, float *ratio)
+{
+    struct vec3 wi;
+    float share;
+
+    *ratio = 1.0f;
+    if (sky_has_table(w))
+        return sky_sample(w, u);
+    if (!HAS(FEATURE_GUIDE) || cell == NO_INDEX)
+        return cosine_around(r->n, u);
+    share = guide_share(w, cell);
+    wi = u.x < share ? guide_sample(w, cell, u)
+                     : cosine_around(r->n, guide_rest(u, share));
+    *ratio = guide_ratio(w, cell, wi, sky_cosine_pdf(r, wi));
+    return wi;
 }
 
 /* A direction towards a light; false if there is none to sample here, or by
- * choice.x not this time. Whether it is above the surface and free is for the
+ * choice.x not this time. `cell` is the receiver's in the guide, or NO_INDEX.
+ * Whether it is above the surface and free is for the
  * caller to find. */
 static inline bool light_sample(const struct world *w, const struct receiver *r,
-                                struct vec2 point, struct vec2 choice,
-                                struct light_sample *s)
+                                uint32_t cell, struct vec2 point,
+                                struct vec2 choice, struct light_sample *s)
 {
-    if (sky_has_table(w) && choice.x < w->settings.sky_share) {
-        s->wi = sky_sample(w, point);
-        s->radiance = sky_terms(w, s->wi, &s->pdf);
-        s->pdf *= w->settings.sky_share;
+    if (choice.x < w->settings.sky_share) {
+        float ratio;
+
+        s->wi = sky_direction(w, r, cell, point, &ratio);
+        s->radiance = v3_scale(sky_light_terms(w, r, s->wi, &s->pdf), ratio);
         s->light = s->tri = NO_INDEX;
         s->p = r->p;
         return s->pdf > 0.0f;

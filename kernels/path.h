@@ -52,6 +52,7 @@ struct path {
     float scale;      /* apart from this, which roulette does not see */
     float pdf;        /* of the ray's direction; 0: no light sample has it */
     struct receiver from; /* where the ray began, if pdf is not 0 */
+    uint32_t cell;        /* there of the guide, or NO_INDEX */
     struct path_sample out;
 };
 
@@ -133,11 +134,11 @@ static inline float light_weight(const struct world *w, float light_pdf,
 static inline void path_add_sky(const struct world *w, struct path *p)
 {
     float pdf = 0.0f;
-    struct vec3 radiance = p->pdf > 0.0f ? sky_terms(w, p->ray.d, &pdf)
-                                         : sky_radiance(w, p->ray.d);
+    struct vec3 radiance = p->pdf > 0.0f
+                               ? sky_light_terms(w, &p->from, p->ray.d, &pdf)
+                               : sky_radiance(w, p->ray.d);
 
-    path_add(p, radiance,
-             chance_weight(w, p->pdf, w->settings.sky_share * pdf));
+    path_add(p, radiance, chance_weight(w, p->pdf, pdf));
 }
 
 static inline void path_add_emission(const struct world *w, struct path *p,
@@ -209,7 +210,8 @@ path_add_direct(const struct world *w, struct path *p, const struct bsdf *b,
     struct vec3 wi, light;
     float pdf;
 
-    if (!light_sample(w, &p->from, path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
+    if (!light_sample(w, &p->from, p->cell,
+                      path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
                       path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &s))
         return;
     wi = vertex_to_local(v, s.wi);
@@ -230,12 +232,10 @@ path_add_direct(const struct world *w, struct path *p, const struct bsdf *b,
 static inline bool wants_light_sample(const struct world *w,
                                       const struct bsdf *b)
 {
-    bool has_lights = false;
+    bool has_lights = w->settings.sky_share > 0.0f;
 
     if (HAS(FEATURE_EMITTERS))
-        has_lights = w->settings.light_count > 0;
-    if (HAS(FEATURE_SKY_IMAGE))
-        has_lights = has_lights || w->settings.sky_share > 0.0f;
+        has_lights = has_lights || w->settings.light_count > 0;
     return has_lights && w->settings.direct != DIRECT_CHANCE &&
            !bsdf_is_delta(b);
 }
@@ -258,14 +258,11 @@ static inline bool path_scatter(const struct world *w, struct path *p,
                                 struct vec3 wo, struct vec2 direction,
                                 float choice)
 {
-    uint32_t cell = NO_INDEX;
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (HAS(FEATURE_GUIDE) && guide_helps(b))
-        cell = guide_at(w, v->p, v->ng);
-    if (cell != NO_INDEX) {
-        if (!guide_scatter(w, cell, v, b, wo, direction, choice, &s, &wi,
+    if (HAS(FEATURE_GUIDE) && p->cell != NO_INDEX) {
+        if (!guide_scatter(w, p->cell, v, b, wo, direction, choice, &s, &wi,
                            &p->scale))
             return false;
     } else if (!vertex_scatter(v, b, wo, direction, choice, &s, &wi)) {
@@ -332,6 +329,9 @@ static inline bool path_step(const struct world *w, struct path *p,
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
+    p->cell = NO_INDEX;
+    if (HAS(FEATURE_GUIDE) && guide_helps(&b))
+        p->cell = guide_at(w, v.p, v.ng);
     if (wants_light_sample(w, &b))
         path_add_direct(w, p, &b, &v, wo, vertex);
     lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);

@@ -36,4 +36,14 @@ static inline struct vec3 cosine_hemisphere(struct vec2 u)
     return v3(p.x, p.y, sqrtf(f_max(1.0f - p.x * p.x - p.y * p.y, 0.0f)));
 }
 
+/* The same around the unit vector n. */
+static inline struct vec3 cosine_around(struct vec3 n, struct vec2 u)
+{
+    struct vec3 d = cosine_hemisphere(u), t, b;
+
+    frame_around(n, &t, &b);
+    return v3_unit(
+        v3_add(v3_add(v3_scale(t, d.x), v3_scale(b, d.y)), v3_scale(n, d.z)));
+}
+
 #endif

@@ -133,7 +133,7 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
 /* Whether sky_sample() may be called. */
 static inline bool sky_has_table(const struct world *w)
 {
-    return HAS(FEATURE_SKY_IMAGE) && w->settings.sky_share > 0.0f;
+    return HAS(FEATURE_SKY_IMAGE) && w->settings.sky_sum_count > 0;
 }
 
 /* Density of sky_sample() at a direction whose place in the image is uv. */

@@ -7,6 +7,7 @@
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"
+#include "kernels/sample.h"
 
 /* On surfaces, by area, on either side; and looks from each. */
 #define PLACES 4096u
@@ -123,16 +124,6 @@ static bool sees_sky(const struct world *w, struct ray r, struct hit *h)
     return false;
 }
 
-/* By the cosine around n. */
-static struct vec3 look(struct vec3 n, struct vec2 u)
-{
-    struct vec3 d = cosine_hemisphere(u), t, b;
-
-    frame_around(n, &t, &b);
-    return v3_unit(
-        v3_add(v3_add(v3_scale(t, d.x), v3_scale(b, d.y)), v3_scale(n, d.z)));
-}
-
 /* Does what the look has met see the sky, in a direction by chance? */
 static bool is_lit(const struct world *w, struct ray look_ray, struct hit h,
                    uint32_t i)
@@ -142,7 +133,7 @@ static bool is_lit(const struct world *w, struct ray look_ray, struct hit h,
 
     if (h.tri == NO_INDEX || !leave(w, h, v3_neg(look_ray.d), &r, &n))
         return false;
-    r.d = look(n, number(i, DECISION_BOUNCE));
+    r.d = cosine_around(n, number(i, DECISION_BOUNCE));
     return sees_sky(w, r, &h);
 }
 
@@ -188,7 +179,7 @@ static void look_around(struct search *s, uint32_t i)
     for (uint32_t k = i * LOOKS; k < (i + 1) * LOOKS; k++) {
         bool is_blocked;
 
-        p->ray.d = look(p->n, number(k, DECISION_LOOK));
+        p->ray.d = cosine_around(p->n, number(k, DECISION_LOOK));
         is_blocked = !sees_sky(w, p->ray, &met);
         if (!is_blocked && seen++ < OPEN_LOOKS)
             s->marks[s->mark_count + seen - 1] = leave_box(s->grid, p->ray);

@@ -143,18 +143,30 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
     return true;
 }
 
+/* What the lights leave, or half. */
+static float share_of(const struct sky_table *table, const struct settings *s)
+{
+    bool is_black =
+        v3_is_zero(s->sky.color) || (s->sky.width != 0 && !(table->mean > 0));
+
+    if (is_black)
+        return 0;
+    if (s->light_count == 0)
+        return 1;
+    return table->sums != NULL ? SHARE_BESIDE_LIGHTS : 1 - s->light_share;
+}
+
 void sky_lend(const struct sky_table *table, struct world *world)
 {
+    struct settings *s = &world->settings;
+
     world->sky_sums = table->sums;
-    world->settings.sky_share = 0;
-    world->settings.sky_sum_count = 0;
-    if (table->sums == NULL || v3_is_zero(world->settings.sky.color))
+    s->sky_share = share_of(table, s);
+    s->sky_sum_count = 0;
+    if (table->sums == NULL || s->sky_share == 0)
         return;
-    world->settings.sky_sum_count =
-        sky_row_sums(world->settings.sky, world->settings.sky.height);
-    world->settings.sky_share =
-        world->settings.light_count > 0 ? SHARE_BESIDE_LIGHTS : 1;
-    world->settings.light_share = 1 - world->settings.sky_share;
+    s->sky_sum_count = sky_row_sums(s->sky, s->sky.height);
+    s->light_share = 1 - s->sky_share;
 }
 
 void sky_free(struct sky_table *table)

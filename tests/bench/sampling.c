@@ -50,16 +50,20 @@ static double time_samples(const struct world *w, double *pdf_ns)
         struct vec2 u = point(i, 10);
 
         r.p = v3(u.x, 0, u.y);
-        if (light_sample(w, &r, u, point(i, 11), &samples[i]))
+        if (light_sample(w, &r, NO_INDEX, u, point(i, 11), &samples[i]))
             total += samples[i].pdf;
     }
     sample_ns = ns_since(begin_ns);
     begin_ns = clock_ns();
     for (uint32_t i = 0; i < SAMPLES; i++) {
+        float pdf;
+
         r.p = v3(samples[i].wi.x, 0, samples[i].wi.y);
-        total += samples[i].tri != NO_INDEX
-                     ? light_pdf_at(w, &r, samples[i].tri, samples[i].p)
-                     : sky_light_pdf(w, samples[i].wi);
+        if (samples[i].tri != NO_INDEX)
+            pdf = light_pdf_at(w, &r, samples[i].tri, samples[i].p);
+        else
+            sky_light_terms(w, &r, samples[i].wi, &pdf);
+        total += pdf;
     }
     *pdf_ns = ns_since(begin_ns);
     return sample_ns;

@@ -6,6 +6,7 @@
  */
 #include "stage.h"
 #include "tests/unit/mesh.h"
+#include "tests/unit/sky_pdf.h"
 
 #include "glim/blackbody.h"
 #include "glim/lights.h"
@@ -332,7 +333,7 @@ static bool is_light(const struct world *w, const struct receiver *r,
                      const struct light_sample *s)
 {
     float sum = s->radiance.x + s->radiance.y + s->radiance.z;
-    float again = s->tri == NO_INDEX ? sky_light_pdf(w, s->wi)
+    float again = s->tri == NO_INDEX ? sky_light_pdf(w, r, s->wi)
                                      : light_pdf_at(w, r, s->tri, s->p);
 
     return isfinite(sum) && sum >= 0.0f && isfinite(s->pdf) && s->pdf > 0.0f &&
@@ -363,7 +364,8 @@ static void check_light_extremes(void)
         struct light_sample s;
 
         r.p = v3_add(from, v3_scale(away[i / 225000], distances[i / 5625 % 8]));
-        if (!light_sample(&m.world, &r, v2(ends[i % 5], ends[i / 5 % 5]),
+        if (!light_sample(&m.world, &r, NO_INDEX,
+                          v2(ends[i % 5], ends[i / 5 % 5]),
                           v2(ends[i / 25 % 5], ends[i / 125 % 5]), &s))
             continue;
         drawn++;

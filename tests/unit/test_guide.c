@@ -151,6 +151,56 @@ static void cells(void **state)
                      GUIDE_BINS);
 }
 
+/* Light samples of a sky that shines 1 everywhere, by the cosine or by a table
+ * of nonsense: moments of the upper half of the sphere. */
+static void light_samples_of_a_flat_sky(void **state)
+{
+    enum { SAMPLES = 400000 };
+    const struct receiver r = {{-.5f, -.5f, -.5f}, {.6f, .8f, 0}, false};
+    const double truths[3] = {M_PI, 2 * M_PI / 3, 0};
+    const struct sky_table none = {.sums = NULL};
+    struct world w = {.settings = {.sky = {.color = {1, 1, 1}}}};
+    struct table t;
+    uint64_t random = 11;
+
+    (void)state;
+    table_init(&t, 0.4, 7);
+    guide_lend(&t.guide, &w);
+    sky_lend(&none, &w);
+    for (int guided = 0; guided < 2; guided++) {
+        double sums[3] = {0, 0, 0}, squares[3] = {0, 0, 0};
+
+        for (int i = 0; i < SAMPLES; i++) {
+            struct vec2 u[2];
+            struct light_sample s;
+            double x[3];
+
+            for (int k = 0; k < 2; k++)
+                u[k] = v2((float)check_random(&random) * 0.999999f,
+                          (float)check_random(&random) * 0.999999f);
+            if (!light_sample(&w, &r,
+                              guided ? guide_at(&w, r.p, r.n) : NO_INDEX, u[0],
+                              u[1], &s))
+                continue; /* below the surface */
+            x[0] = (double)s.radiance.x / (double)s.pdf *
+                   (double)v3_dot(s.wi, r.n);
+            x[1] = x[0] * (double)v3_dot(s.wi, r.n);
+            x[2] = x[0] * (double)s.wi.z;
+            for (int k = 0; k < 3; k++) {
+                sums[k] += x[k];
+                squares[k] += x[k] * x[k];
+            }
+        }
+        /* beyond 5 standard deviations: once in 300,000 choices of seeds */
+        for (int k = 0; k < 3; k++) {
+            double mean = sums[k] / SAMPLES;
+            double variance = fmax(squares[k] / SAMPLES - mean * mean, 0);
+
+            check_close(mean, truths[k], 5 * sqrt(variance / SAMPLES) + 1e-5);
+        }
+    }
+}
+
 /* In a closed box that emits 1 and has albedo a there is 1 / (1 - a) of light:
  * a table of nonsense finds that much. */
 static void any_table_is_right(void **state)
@@ -427,6 +477,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(density_and_samples),
+        cmocka_unit_test(light_samples_of_a_flat_sky),
         cmocka_unit_test(cells),
         cmocka_unit_test(any_table_is_right),
         cmocka_unit_test(mirrors_point_to_images),

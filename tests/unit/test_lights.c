@@ -12,6 +12,7 @@
 #include "check.h"
 #include "lambert.h"
 #include "mesh.h"
+#include "sky_pdf.h"
 
 /* Means of n numbers are compared with the truth within 4.9 standard errors:
  * once in a million by chance; seeds are fixed. */
@@ -390,7 +391,7 @@ static void sample_and_density_agree(void **state)
             struct receiver r = any_receiver(&seed);
             struct light_sample s;
 
-            if (!light_sample(&m.world, &r, any_choice(&seed),
+            if (!light_sample(&m.world, &r, NO_INDEX, any_choice(&seed),
                               any_choice(&seed), &s))
                 continue;
             found++;
@@ -417,7 +418,7 @@ static double irradiance(const struct world *w, const struct receiver *r, int n,
         struct vec2 point = any_choice(seed);
         double e = 0;
 
-        if (light_sample(w, r, point, any_choice(seed), &s))
+        if (light_sample(w, r, NO_INDEX, point, any_choice(seed), &s))
             e = (double)(s.radiance.x * f_max(v3_dot(s.wi, r->n), 0) / s.pdf);
         sum += e;
         squares += e * e;
@@ -562,11 +563,12 @@ static void sky_and_lamps_share(void **state)
             struct light_sample s;
             int lamp;
 
-            if (!light_sample(&m.world, &r, point, any_choice(&seed), &s))
+            if (!light_sample(&m.world, &r, NO_INDEX, point, any_choice(&seed),
+                              &s))
                 continue;
             lamp = s.tri != NO_INDEX ? 1 : 0;
             assert_true(s.pdf == (lamp ? light_pdf_at(&m.world, &r, s.tri, s.p)
-                                       : sky_light_pdf(&m.world, s.wi)));
+                                       : sky_light_pdf(&m.world, &r, s.wi)));
             sums[lamp] += 1 / (double)s.pdf;
             squares[lamp] += pow((double)s.pdf, -2);
         }
@@ -619,7 +621,7 @@ static void odd_lights_are_borne(void **state)
     (void)state;
     finish(&m, &lights);
     assert_int_equal(lights.light_count, 0);
-    assert_false(light_sample(&m.world, &r, v2(0, 0), v2(0, 0), &s));
+    assert_false(light_sample(&m.world, &r, NO_INDEX, v2(0, 0), v2(0, 0), &s));
     discard(&m, &lights);
 
     m = (struct mesh){0};
@@ -640,11 +642,12 @@ static void odd_lights_are_borne(void **state)
     assert_int_equal(lights.tri_lights[1], NO_INDEX);
     assert_true(light_pdf_at(&m.world, &r, 1, o) == 0);
     check_close(sum_of_probabilities(&m.world, &r), 1, 1e-6);
-    assert_true(light_sample(&m.world, &r, v2(0.3f, 0.6f), v2(0, 0), &s));
+    assert_true(
+        light_sample(&m.world, &r, NO_INDEX, v2(0.3f, 0.6f), v2(0, 0), &s));
     /* at the lamp itself, and in its plane: no density that is not a number */
     r.p = s.p;
     for (int i = 0; i < 2; i++) {
-        if (light_sample(&m.world, &r, v2(0.3f, 0.6f), v2(0, 0), &s))
+        if (light_sample(&m.world, &r, NO_INDEX, v2(0.3f, 0.6f), v2(0, 0), &s))
             assert_true(s.pdf > 0 && s.pdf <= FLOAT_MAX);
         r.p.x += 3;
     }
@@ -795,7 +798,8 @@ static void holes_do_not_shine(void **state)
         struct light_sample s;
         struct vec2 point = any_choice(&seed);
 
-        assert_true(light_sample(&m.world, &r, point, any_choice(&seed), &s));
+        assert_true(
+            light_sample(&m.world, &r, NO_INDEX, point, any_choice(&seed), &s));
         if (fabsf(s.p.x) > 1e-2f && fabsf(s.p.x) < 0.49f) /* clear of edges */
             assert_true(s.radiance.x == (s.p.x < 0 ? 0 : 0.25f));
         solid += s.radiance.x > 0;

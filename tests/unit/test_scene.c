@@ -497,7 +497,7 @@ static void test_sky(void **state)
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
     check_vec(w.settings.sky.color, .25, .5, 8);
     assert_int_equal(w.settings.sky.width, 0);
-    assert_true(w.settings.sky_share == 0 && w.settings.light_share == 0);
+    assert_true(w.settings.sky_share == 1 && w.settings.light_share == 0);
 
     put("two.png", two_texels, sizeof two_texels);
     view.sky_path = strdup("two.png");

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/*
+ * sky_pdf.h - the density of light samples at a direction to the sky
+ *
+ * Units:     per solid angle
+ * Ownership: none
+ * Threads:   any
+ * Errors:    none
+ */
+#ifndef TESTS_SKY_PDF_H
+#define TESTS_SKY_PDF_H
+
+#include "kernels/light.h"
+
+static inline float sky_light_pdf(const struct world *w,
+                                  const struct receiver *r, struct vec3 wi)
+{
+    float pdf;
+
+    sky_light_terms(w, r, wi, &pdf);
+    return pdf;
+}
+
+#endif
