@@ -41,7 +41,7 @@ typedef ulong uint64_t;
 
 /* What such a function calls becomes part of it: walks through trees would not
  * keep their vectors in registers. */
-#define FLATTENED __attribute__((flatten))
+#define FLATTENED  __attribute__((flatten))
 
 /* Functions with loops over lanes, which would not become vector code with
  * calls in them; where they become part of others, it is chance whether a loop
