@@ -63,7 +63,7 @@ static void fill_leaf(const struct builder *b, const struct range *r,
 
 static struct node node_of(const struct range *r)
 {
-    const float *p = r->bounds.planes;
+    const float *p = r->extent.bounds.planes;
     struct node n = {
         .lo = v3(p[0] - BOX_PAD, p[1] - BOX_PAD, p[2] - BOX_PAD),
         .hi = v3(BOX_PAD - p[4], BOX_PAD - p[5], BOX_PAD - p[6]),

@@ -20,14 +20,14 @@
 /* Boxes that lie side by side. */
 struct range {
     uint32_t first, count, depth;
-    uint32_t buffer;            /* which of the two they are in */
-    struct box bounds, centers; /* joined */
+    uint32_t buffer; /* which of the two they are in */
+    struct extent extent;
 };
 
 /* What a thread needs for itself. */
 struct splitter_worker {
     struct bins bins;
-    struct box bounds, centers[2]; /* of sides */
+    struct extent extents[2]; /* of sides */
 };
 
 struct splitter {
@@ -42,7 +42,7 @@ struct splitter {
     const struct range *range;
     struct split split;
     struct range *sides;
-    uint32_t (*chunk_sides)[2]; /* how many go to each side, then where */
+    uint32_t (*chunk_sides)[2]; /* how many go to each side, then where to */
 };
 
 /* For the world's triangles. False if memory is out. */
