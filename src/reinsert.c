@@ -162,7 +162,7 @@ static void write_node(const struct writer *w, const struct branch *from)
 /* Looks at the place beside a node, where `saved` is for what is above. True if
  * there may be a better one below, where *saved is for what is above that: the
  * node grows to hold ours, and the new node is no smaller than ours. */
-static bool look_at(struct search *s, uint32_t at, float *saved)
+static inline bool look_at(struct search *s, uint32_t at, float *saved)
 {
     const struct branch *b = &s->tree->nodes[at];
     float joined = box_joined_area(&b->bounds, &s->node->bounds);
@@ -176,14 +176,13 @@ static bool look_at(struct search *s, uint32_t at, float *saved)
     return !is_closed(b) && *saved - s->node->area > s->gain;
 }
 
-/* At a node and below. Of children the one that grows less comes first. */
+/* Of children the one that grows less comes first. */
 static void look_below(struct search *s, struct visit v)
 {
     struct visit stack[TRAVERSE_STACK + 1];
     uint32_t depth = 0;
 
-    if (look_at(s, v.at, &v.saved))
-        stack[depth++] = v;
+    stack[depth++] = v;
     while (depth > 0 && s->tree->visits_left > 1) {
         v = stack[--depth];
         if (v.saved - s->node->area <= s->gain)
@@ -201,6 +200,12 @@ static void look_below(struct search *s, struct visit v)
     }
 }
 
+static inline void look_from(struct search *s, uint32_t at, float saved)
+{
+    if (look_at(s, at, &saved))
+        look_below(s, (struct visit){at, saved});
+}
+
 /* The best place for a node, by itself where there is none that is better.
  * Without the node its parent is gone, and the nodes above that shrink to what
  * hangs on the way up. */
@@ -211,12 +216,10 @@ static uint32_t find_place(struct tree *t, uint32_t node)
     struct box rest = t->nodes[node ^ 1].bounds;
     float saved = t->nodes[n->parent].area;
 
-    look_below(&s, (struct visit){node ^ 1, saved});
+    look_from(&s, node ^ 1, saved);
     for (uint32_t at = n->parent; at != 0; at = t->nodes[at].parent) {
-        const struct branch *other = &t->nodes[at ^ 1];
-
-        look_below(&s, (struct visit){at ^ 1, saved});
-        box_join(&rest, &other->bounds);
+        look_from(&s, at ^ 1, saved);
+        box_join(&rest, &t->nodes[at ^ 1].bounds);
         saved += t->nodes[t->nodes[at].parent].area - box_area(&rest);
     }
     return s.at;

@@ -57,24 +57,24 @@ void bins_clear(struct bins *bins, uint32_t count, const struct box *centers)
     }
 }
 
-/* Where a box is, on each axis, in bins from the first one. */
-static f4 place_of(const struct binning *b, const struct box *box)
+/* The bins in which a box is, as goes_right() says for one axis. */
+static f4 bins_of(const struct binning *b, const struct box *box)
 {
     f4 center = f4_sub(f4_load(box->planes), f4_load(box->planes + 4));
+    f4 bin = f4_mul(f4_sub(center, f4_load(b->first)), f4_load(b->scale));
 
-    return f4_mul(f4_sub(center, f4_load(b->first)), f4_load(b->scale));
+    return f4_min(bin, f4_all((float)(b->count - 1)));
 }
 
 void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
               uint32_t stride)
 {
     const struct binning binning = bins->binning;
-    const f4 last = f4_all((float)(binning.count - 1));
 
     for (uint32_t i = 0; i < count; i += stride) {
         _Alignas(16) uint32_t at[4];
 
-        f4_store_counts(at, f4_min(place_of(&binning, &boxes[i]), last));
+        f4_store_counts(at, bins_of(&binning, &boxes[i]));
         for (int axis = 0; axis < 3; axis++) {
             box_join(&bins->boxes[at[axis]][axis], &boxes[i]);
             bins->counts[at[axis]][axis]++;
@@ -169,7 +169,7 @@ struct split bins_split(const struct bins *bins, uint32_t block_bits)
     uint32_t found = 0;
 
     f4_store(least, sweep_costs(bins, block_bits, costs));
-    s.cost = fminf(fminf(least[0], least[1]), least[2]);
+    s.cost = f_min(f_min(least[0], least[1]), least[2]);
     if (!(s.cost < INFINITY))
         return s;
     while (!(found = 7 & f4_not_above(costs[s.bin], f4_all(s.cost))))
@@ -180,44 +180,37 @@ struct split bins_split(const struct bins *bins, uint32_t block_bits)
 
 /* ---- sides ---- */
 
-/* What the place on the split's axis has to reach. */
-static f4 limit_of(const struct split *s)
+static bool goes_right(const struct split *s, const struct box *box)
 {
-    _Alignas(16) float limits[4];
+    float center = box->planes[s->axis] - box->planes[4 + s->axis];
+    float from_first = center - s->binning.first[s->axis];
 
-    f4_store(limits, f4_all(INFINITY));
-    limits[s->axis] = (float)s->bin;
-    return f4_load(limits);
+    return from_first * s->binning.scale[s->axis] >= (float)s->bin;
 }
 
 uint32_t split_count(const struct split *s, const struct box *boxes,
                      uint32_t count)
 {
-    const struct binning binning = s->binning;
-    const f4 limit = limit_of(s);
+    const struct split split = *s;
     uint32_t right = 0;
 
     for (uint32_t i = 0; i < count; i++)
-        right += f4_not_above(limit, place_of(&binning, &boxes[i])) != 0;
+        right += goes_right(&split, &boxes[i]);
     return right;
 }
 
-/* Nothing is predicted: that fails for every other box. */
+/* Without a branch, which would be foretold wrongly for every other box. */
 uint32_t split_part(const struct split *s, const struct box *boxes,
                     uint32_t count, struct box *left, struct box *right)
 {
-    const struct binning binning = s->binning;
-    const f4 limit = limit_of(s);
-    struct box *begin = left;
+    const struct split split = *s;
+    size_t last = (size_t)(right - left) - 1, left_count = 0;
 
-    right--;
     for (uint32_t i = 0; i < count; i++) {
-        struct box box = boxes[i];
-        bool goes_right = f4_not_above(limit, place_of(&binning, &box)) != 0;
+        size_t side = goes_right(&split, &boxes[i]);
 
-        *(goes_right ? right : left) = box;
-        right -= goes_right;
-        left += !goes_right;
+        left[left_count + (last - i) * side] = boxes[i];
+        left_count += side ^ 1;
     }
-    return (uint32_t)(left - begin);
+    return (uint32_t)left_count;
 }

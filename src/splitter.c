@@ -268,7 +268,7 @@ bool splitter_init(struct splitter *s, const struct world *w,
     *s = (struct splitter){.leaves = leaves, .pool = pool, .world = w};
     s->worker_count = pool != NULL ? (uint32_t)pool_thread_count(pool) : 1;
     s->workers = alloc_aligned(s->worker_count, sizeof *s->workers);
-    s->chunk_sides = alloc_array(chunks_of(count), sizeof *s->chunk_sides);
+    s->chunk_sides = alloc_aligned(chunks_of(count), sizeof *s->chunk_sides);
     for (int i = 0; i < 2; i++)
         s->buffers[i] = alloc_aligned(count, sizeof *s->buffers[i]);
     return s->workers != NULL && s->chunk_sides != NULL &&
