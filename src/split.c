@@ -32,7 +32,7 @@ struct extent extent_of(const struct box *boxes, uint32_t count)
  * 4 at the bottom cost them nothing. */
 static uint32_t bin_count_for(uint32_t count)
 {
-    return count > 64 ? SPLIT_BINS : count > 16 ? 16 : count > 4 ? 8 : 4;
+    return count > 256 ? SPLIT_BINS : count > 16 ? 16 : count > 4 ? 8 : 4;
 }
 
 /* Centres too close to each other for bins count as one. */
