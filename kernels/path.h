@@ -390,24 +390,25 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     return path_run(w, &p, NULL);
 }
 
-/* Where samples first .. first + count - 1 of pixel (x, y) begin in it, and
- * their samplers. */
+/* Where samples begin in their pixels, and their samplers. */
 VECTORISED static inline void
-path_points(const struct settings *s, uint32_t x, uint32_t y, uint64_t first,
+path_points(const struct settings *s, const struct sample_place *places,
             uint32_t count, struct sampler *samplers, struct vec2 *points)
 {
     for (uint32_t i = 0; i < count; i++)
-        samplers[i] = path_sampler(s, x, y, first + i);
+        samplers[i] =
+            path_sampler(s, places[i].x, places[i].y, places[i].index);
     for (uint32_t i = 0; i < count; i++)
         points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
 }
 
-/* Samples first .. first + count - 1 of pixel (x, y); count is at most
- * SAMPLE_BLOCK. */
-static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
-                                uint64_t first, uint32_t count,
-                                struct path_sample *out)
+/* At most SAMPLE_BLOCK samples; those of one pixel, or of neighbours, take less
+ * time. */
+static inline void path_samples(const struct world *w,
+                                const struct sample_place *places,
+                                uint32_t count, struct path_sample *out)
 {
+    struct sample_place all[SAMPLE_BLOCK];
     struct sampler samplers[SAMPLE_BLOCK];
     struct vec2 points[SAMPLE_BLOCK];
     struct ray rays[SAMPLE_BLOCK];
@@ -417,10 +418,13 @@ static inline void path_samples(const struct world *w, uint32_t x, uint32_t y,
 
     if (count == 0)
         return;
-    path_points(&w->settings, x, y, first,
-                HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count, samplers, points);
+    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++)
+        all[i] = places[i < count ? i : 0];
+    path_points(&w->settings, all, HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count,
+                samplers, points);
     for (uint32_t i = 0; i < count; i++) {
-        rays[i] = path_ray(&w->settings, x, y, points[i], samplers[i]);
+        rays[i] =
+            path_ray(&w->settings, all[i].x, all[i].y, points[i], samplers[i]);
         if (HAS(FEATURE_COVERAGE))
             rays[i].key = ray_key(samplers[i], 1);
     }

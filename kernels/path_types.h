@@ -12,8 +12,14 @@
 
 #include "kernels/types.h"
 
-/* Samples of one pixel that are computed together, at most. */
+/* Samples that are computed together, at most. */
 #define SAMPLE_BLOCK 8
+
+/* Sample `index` of pixel (x, y) of the whole picture. */
+struct sample_place {
+    uint32_t x, y;
+    uint64_t index;
+};
 
 struct path_sample {
     struct vec3 radiance;

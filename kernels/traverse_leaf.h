@@ -36,6 +36,17 @@ static inline bool hit_is_solid(const struct world *w, struct ray r,
            unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) < coverage;
 }
 
+/* Is what the ray meets nearer than the best, and there? */
+static inline bool hit_wins(const struct world *w, struct ray r, struct hit h,
+                            const struct hit *best)
+{
+    if (h.t > best->t || (h.t == best->t && h.tri >= best->tri))
+        return false;
+    return !HAS(FEATURE_COVERAGE) ||
+           (w->settings.features & FEATURE_COVERAGE) == 0 ||
+           hit_is_solid(w, r, h);
+}
+
 /* Tests one triangle; true if it is a nearer hit. */
 static inline bool tri_hit(const struct world *w, struct ray r, struct shear s,
                            struct leaf_tri t, struct hit *best)
@@ -45,13 +56,10 @@ static inline bool tri_hit(const struct world *w, struct ray r, struct shear s,
     /* the test would say so as well, but slowly */
     if (t.tri + 1u == r.from)
         return false;
-    if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h) ||
-        (h.t == best->t && t.tri >= best->tri))
+    if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
         return false;
     h.tri = t.tri;
-    if (HAS(FEATURE_COVERAGE) &&
-        (w->settings.features & FEATURE_COVERAGE) != 0 &&
-        !hit_is_solid(w, r, h))
+    if (!hit_wins(w, r, h, best))
         return false;
     *best = h;
     return true;

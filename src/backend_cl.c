@@ -11,33 +11,19 @@
 #include <stdlib.h>
 
 #include "glim/bvh.h"
+#include "glim/cl_film.h"
 #include "glim/cl_kernels.h"
 #include "glim/cl_source.h"
 #include "glim/cl_world.h"
 #include "kernels/start.h"
-#include "kernels/task.h"
-
-/* Work-items in a group: keeps the groups' overhead small and halting quick
- * on a CPU, and is whole warps on GPUs. */
-#define GROUP 64
 
 #define TASK_PATHS_FIRST 8192
 #define TASK_PATHS_MIN   512
 #define TASK_PATHS_MAX   (1u << 20) /* what a tally can count */
 #define TASK_NS          6000000    /* to be aimed at */
 
-/* Between readings of finished rows, and how much is read at once. */
-#define READ_NS    25000000
-#define READ_BYTES (4u << 20)
-
-#define PIXEL_SUMS_BYTES (3 * sizeof(struct sum))
-
-/* Rows of a pass's grid that are on their way to the host. */
-struct reading {
-    uint32_t first, count;
-    struct sum *sums; /* of whole rows of the film */
-    uint64_t *counts;
-};
+/* Between readings of finished rows. */
+#define READ_NS 25000000
 
 /* A task in the queue. */
 struct slot {
@@ -47,7 +33,7 @@ struct slot {
     uint32_t capacity; /* paths */
     struct task task;
     struct tally result;
-    struct reading reading;
+    struct cl_reading reading;
     uint64_t begin_ns;
     cl_event done; /* NULL: the slot is free */
 };
@@ -66,14 +52,8 @@ struct backend_cl {
     cl_mem cancel;
     const struct cancel *cancel_source;
 
-    struct film *film;
-    uint32_t x0, y0;
-    cl_mem sums;
-    cl_mem counts;
-    struct sum *host_sums; /* a CPU device: the memory of these buffers; */
-    uint64_t *host_counts; /* others: NULL */
-    size_t pixel_capacity;
-    uint32_t reading_rows; /* that a reading has room for */
+    struct cl_film film;
+    uint32_t x0, y0; /* of the film in the picture */
     struct slot slots[2];
     uint32_t task_paths;
     uint64_t done_ns; /* when the last task ended */
@@ -125,97 +105,13 @@ static void cl_unload(struct backend *base)
     base->tree_bytes = 0;
 }
 
-static bool set_arguments(struct backend_cl *b, cl_kernel kernel, cl_uint first,
-                          const cl_mem *buffers, cl_uint count,
-                          struct error *err)
-{
-    for (cl_uint i = 0; i < count; i++)
-        if (!call_done(b,
-                       b->machine.api->SetKernelArg(kernel, first + i,
-                                                    sizeof *buffers,
-                                                    &buffers[i]),
-                       "clSetKernelArg", err))
-            return false;
-    return true;
-}
-
-static bool enqueue(struct backend_cl *b, cl_kernel kernel, size_t count,
-                    struct error *err)
-{
-    size_t local = GROUP;
-    size_t global = (count + GROUP - 1) / GROUP * GROUP;
-
-    return call_done(b,
-                     b->machine.api->EnqueueNDRangeKernel(b->machine.queue,
-                                                          kernel, 1, NULL,
-                                                          &global, &local, 0,
-                                                          NULL, NULL),
-                     "clEnqueueNDRangeKernel", err);
-}
-
 static void free_slot(struct backend_cl *b, struct slot *s)
 {
     cl_machine_drop(&b->machine, &s->starts);
     cl_machine_drop(&b->machine, &s->samples);
     cl_machine_drop(&b->machine, &s->tally);
-    free(s->reading.sums);
-    free(s->reading.counts);
+    cl_reading_free(&s->reading);
     *s = (struct slot){0};
-}
-
-static void free_film(struct backend_cl *b)
-{
-    cl_machine_drop(&b->machine, &b->sums);
-    cl_machine_drop(&b->machine, &b->counts);
-    free(b->host_sums);
-    free(b->host_counts);
-    b->host_sums = NULL;
-    b->host_counts = NULL;
-    b->pixel_capacity = 0;
-}
-
-static bool make_film(struct backend_cl *b, size_t pixel_count,
-                      struct error *err)
-{
-    const struct cl_machine *m = &b->machine;
-    bool is_cpu = m->device->is_cpu;
-
-    free_film(b);
-    if (is_cpu) {
-        b->host_sums = alloc_array(pixel_count, PIXEL_SUMS_BYTES);
-        b->host_counts = alloc_array(pixel_count, sizeof *b->host_counts);
-        if (b->host_sums == NULL || b->host_counts == NULL)
-            return fail(err, "out of memory for a picture of %zu pixels",
-                        pixel_count);
-    }
-    b->sums = cl_machine_buffer(m, b->host_sums, pixel_count * PIXEL_SUMS_BYTES,
-                                true, err);
-    if (b->sums != NULL)
-        b->counts =
-            cl_machine_buffer(m, b->host_counts, pixel_count * sizeof(uint64_t),
-                              true, err);
-    if (b->counts == NULL)
-        return false;
-    b->pixel_capacity = pixel_count;
-    return true;
-}
-
-/* A CPU's memory is read as it is. */
-static bool make_reading(struct backend_cl *b, struct reading *r,
-                         struct error *err)
-{
-    size_t pixels = (size_t)b->film->width * b->reading_rows;
-
-    if (b->host_sums != NULL)
-        return true;
-    free(r->sums);
-    free(r->counts);
-    r->sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
-    r->counts = alloc_array(pixels, sizeof *r->counts);
-    if (r->sums == NULL || r->counts == NULL)
-        return fail(err, "out of memory for %u rows of the picture",
-                    b->reading_rows);
-    return true;
 }
 
 static bool clear_film(struct backend_cl *b, size_t pixel_count,
@@ -228,8 +124,9 @@ static bool clear_film(struct backend_cl *b, size_t pixel_count,
                      b->machine.api->SetKernelArg(clear, 0, sizeof count,
                                                   &count),
                      "clSetKernelArg", err) &&
-           set_arguments(b, clear, 1, (cl_mem[]){b->sums, b->counts}, 2, err) &&
-           enqueue(b, clear, pixel_count, err);
+           cl_machine_set(&b->machine, clear, 1,
+                          (cl_mem[]){b->film.sums, b->film.counts}, 2, err) &&
+           cl_machine_enqueue(&b->machine, clear, pixel_count, err);
 }
 
 /* The special kernels if they can do all that the world needs. */
@@ -253,19 +150,14 @@ static bool cl_begin(struct backend *base, const struct world *world,
 {
     struct backend_cl *b = (struct backend_cl *)base;
     size_t pixel_count = (size_t)film->width * (size_t)film->height;
-    size_t row_bytes =
-        (size_t)film->width * (PIXEL_SUMS_BYTES + sizeof(uint64_t));
 
     choose_kernels(b, world->settings.features);
-    b->film = film;
     b->x0 = (uint32_t)x0;
     b->y0 = (uint32_t)y0;
-    b->reading_rows = (uint32_t)(READ_BYTES / row_bytes) + 1;
     return cl_world_update(&b->world, &b->machine, world, &b->bvh, err) &&
-           (pixel_count <= b->pixel_capacity ||
-            make_film(b, pixel_count, err)) &&
-           make_reading(b, &b->slots[0].reading, err) &&
-           make_reading(b, &b->slots[1].reading, err) &&
+           cl_film_begin(&b->film, &b->machine, film, err) &&
+           cl_reading_begin(&b->slots[0].reading, &b->film, err) &&
+           cl_reading_begin(&b->slots[1].reading, &b->film, err) &&
            clear_film(b, pixel_count, err);
 }
 
@@ -317,66 +209,43 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
                          b->machine.queue, s->tally, &none.samples,
                          sizeof none.samples, 0, sizeof none, 0, NULL, NULL),
                      "clEnqueueFillBuffer", err) &&
-           set_arguments(b, k->generate, 1,
-                         (cl_mem[]){b->cancel,
-                                    b->world.buffers[CL_ARRAY_SETTINGS],
-                                    b->counts, s->starts},
-                         4, err) &&
-           set_arguments(b, k->trace, 1,
-                         (cl_mem[]){b->cancel, s->starts, s->samples}, 3,
-                         err) &&
-           set_arguments(b, k->trace, 4, b->world.buffers, CL_ARRAY_COUNT,
-                         err) &&
-           set_arguments(b, k->add, 1,
-                         (cl_mem[]){s->samples, b->sums, b->counts, s->tally},
-                         4, err) &&
-           enqueue(b, k->generate, paths, err) &&
-           enqueue(b, k->trace, paths, err) &&
-           enqueue(b, k->add, s->task.count, err);
-}
-
-/* Reads one of the device's film buffers, some whole rows a stride apart. */
-static cl_int read_rows(struct backend_cl *b, cl_mem buffer, void *to,
-                        size_t pixel_bytes, uint32_t stride,
-                        const struct reading *r)
-{
-    size_t row_bytes = (size_t)b->film->width * pixel_bytes;
-    const size_t from[3] = {0, r->first, 0};
-    const size_t origin[3] = {0, 0, 0};
-    const size_t region[3] = {row_bytes, r->count, 1};
-
-    return b->machine.api->EnqueueReadBufferRect(b->machine.queue, buffer,
-                                                 CL_FALSE, from, origin, region,
-                                                 row_bytes * stride, 0,
-                                                 row_bytes, 0, to, 0, NULL,
-                                                 NULL);
+           cl_machine_set(&b->machine, k->generate, 1,
+                          (cl_mem[]){b->cancel,
+                                     b->world.buffers[CL_ARRAY_SETTINGS],
+                                     b->film.counts, s->starts},
+                          4, err) &&
+           cl_machine_set(&b->machine, k->trace, 1,
+                          (cl_mem[]){b->cancel, s->starts, s->samples}, 3,
+                          err) &&
+           cl_machine_set(&b->machine, k->trace, 4, b->world.buffers,
+                          CL_ARRAY_COUNT, err) &&
+           cl_machine_set(&b->machine, k->add, 1,
+                          (cl_mem[]){s->samples, b->film.sums, b->film.counts,
+                                     s->tally},
+                          4, err) &&
+           cl_machine_enqueue(&b->machine, k->generate, paths, err) &&
+           cl_machine_enqueue(&b->machine, k->trace, paths, err) &&
+           cl_machine_enqueue(&b->machine, k->add, s->task.count, err);
 }
 
 /* Puts the reading of what the queued tasks compute behind them, by whole
  * rows: the last one may be read again. */
 static bool enqueue_reading(struct backend_cl *b, struct progress *p,
-                            struct reading *r, struct error *err)
+                            struct cl_reading *r, struct error *err)
 {
     uint32_t stride = (uint32_t)p->pass->stride;
     uint32_t end = (p->next + p->columns - 1) / p->columns;
 
     r->first = p->read / p->columns;
-    r->count = (uint32_t)smaller(end - r->first, b->reading_rows);
+    r->count = (uint32_t)smaller(end - r->first, b->film.reading_rows);
     p->read = (uint32_t)smaller(p->next, (r->first + r->count) * p->columns);
     b->read_ns = clock_ns();
-    return call_done(b,
-                     read_rows(b, b->sums, r->sums, PIXEL_SUMS_BYTES, stride,
-                               r),
-                     "clEnqueueReadBufferRect", err) &&
-           call_done(b,
-                     read_rows(b, b->counts, r->counts, sizeof *r->counts,
-                               stride, r),
-                     "clEnqueueReadBufferRect", err);
+    return cl_reading_enqueue(r, &b->film, &b->machine, stride, err);
 }
 
 static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
 {
-    return b->host_sums == NULL && now_ns >= b->read_ns + READ_NS;
+    return !cl_film_is_shared(&b->film) && now_ns >= b->read_ns + READ_NS;
 }
 
 /* Gives the device the next points of the pass. */
@@ -394,7 +263,7 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
                             .count = (uint32_t)smaller(points, left),
                             .columns = p->columns,
                             .stride = (uint32_t)p->pass->stride,
-                            .width = (uint32_t)b->film->width,
+                            .width = (uint32_t)b->film.film->width,
                             .x0 = b->x0,
                             .y0 = b->y0};
     s->begin_ns = clock_ns();
@@ -410,37 +279,6 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
                                             &s->result, 0, NULL, &s->done),
                      "clEnqueueReadBuffer", err) &&
            call_done(b, api->Flush(b->machine.queue), "clFlush", err);
-}
-
-static void store_reading(struct backend_cl *b, uint32_t stride,
-                          struct reading *r)
-{
-    size_t width = (size_t)b->film->width;
-
-    for (uint32_t i = 0; i < r->count; i++)
-        film_store_row(b->film, 0, (int)((r->first + i) * stride), 1,
-                       b->film->width, r->sums + 3 * width * i,
-                       r->counts + width * i);
-    r->count = 0;
-}
-
-/* The points of a task that is done, from the memory of a CPU device. Nothing
- * writes to them before the next pass. */
-static void store_points(struct backend_cl *b, const struct task *t)
-{
-    uint32_t end = t->first + t->count;
-
-    for (uint32_t point = t->first; point < end;) {
-        uint32_t row = point / t->columns;
-        uint32_t row_end = (uint32_t)smaller(end, (row + 1) * t->columns);
-        size_t at = (size_t)row * t->stride * t->width;
-
-        film_store_row(b->film, (int)(point % t->columns * t->stride),
-                       (int)(row * t->stride), (int)t->stride,
-                       (int)(row_end - point), b->host_sums + 3 * at,
-                       b->host_counts + at);
-        point = row_end;
-    }
 }
 
 /* The next tasks take about TASK_NS. */
@@ -466,11 +304,11 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
 {
     if (!cl_machine_wait(&b->machine, &s->done, err))
         return false;
-    film_count_more(b->film, &s->result);
-    if (b->host_sums != NULL)
-        store_points(b, &s->task);
+    film_count_more(b->film.film, &s->result);
+    if (cl_film_is_shared(&b->film))
+        cl_film_store_points(&b->film, &s->task);
     else
-        store_reading(b, s->task.stride, &s->reading);
+        cl_reading_store(&s->reading, &b->film, s->task.stride);
     if (!cancel_requested(cancel))
         adapt(b, s);
     return true;
@@ -480,14 +318,14 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
 static bool read_rest(struct backend_cl *b, struct progress *p,
                       struct error *err)
 {
-    struct reading *r = &b->slots[0].reading;
+    struct cl_reading *r = &b->slots[0].reading;
 
-    while (b->host_sums == NULL && p->read < p->next) {
+    while (!cl_film_is_shared(&b->film) && p->read < p->next) {
         if (!enqueue_reading(b, p, r, err) ||
             !call_done(b, b->machine.api->Finish(b->machine.queue), "clFinish",
                        err))
             return false;
-        store_reading(b, (uint32_t)p->pass->stride, r);
+        cl_reading_store(r, &b->film, (uint32_t)p->pass->stride);
     }
     return true;
 }
@@ -542,11 +380,12 @@ static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
                                 const struct cancel *cancel, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
+    const struct film *film = b->film.film;
     uint32_t stride = (uint32_t)pass->stride;
     struct progress p = {
         .pass = pass,
-        .columns = ((uint32_t)b->film->width + stride - 1) / stride,
-        .rows = ((uint32_t)b->film->height + stride - 1) / stride,
+        .columns = ((uint32_t)film->width + stride - 1) / stride,
+        .rows = ((uint32_t)film->height + stride - 1) / stride,
     };
 
     b->done_ns = 0;
@@ -565,7 +404,7 @@ static void cl_destroy(struct backend *base)
 
     for (int i = 0; i < 2; i++)
         free_slot(b, &b->slots[i]);
-    free_film(b);
+    cl_film_free(&b->film, &b->machine);
     cl_unload(base);
     cl_machine_drop(&b->machine, &b->cancel);
     cl_kernels_free(&b->next, &b->machine);

@@ -58,29 +58,60 @@ static uint32_t shuffled(const struct job *j, uint32_t item)
     return item;
 }
 
+/* Samples of some pixels of a row: those of each follow those of the one
+ * before. */
+struct row {
+    int counts[BLOCK_SIDE];
+    uint32_t count; /* in all */
+    struct sample_place places[BLOCK_SIDE * SAMPLE_BLOCK];
+    struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
+};
+
+/* What pixels x, x + stride, ... of row y lack. */
+static void row_begin(struct row *r, const struct job *j, int x, int y,
+                      int pixel_count)
+{
+    const struct backend_cpu *b = j->backend;
+
+    r->count = 0;
+    for (int i = 0; i < pixel_count; i++) {
+        int px = x + i * j->pass.stride;
+        uint32_t before = r->count;
+
+        for (uint64_t k = film_count(b->film, px, y); k < j->pass.target; k++)
+            r->places[r->count++] =
+                (struct sample_place){(uint32_t)(b->x0 + px),
+                                      (uint32_t)(b->y0 + y), k};
+        r->counts[i] = (int)(r->count - before);
+    }
+}
+
+/* The pixels of which all is among the first `done` samples. */
+static int row_pixels(const struct row *r, uint32_t done, int pixel_count)
+{
+    int whole = 0;
+
+    while (whole < pixel_count && (uint32_t)r->counts[whole] <= done)
+        done -= (uint32_t)r->counts[whole++];
+    return whole;
+}
+
 /* Brings the pixels x, x + stride, ... of row y up to the target. False if
- * cancelled on the way; what was computed is in the film. */
+ * cancelled on the way; the pixels that were done are in the film. */
 static bool render_row(const struct job *j, int x, int y, int pixel_count)
 {
     const struct backend_cpu *b = j->backend;
-    struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
-    int counts[BLOCK_SIDE];
-    int done = 0;
+    struct row r;
+    uint32_t done = 0, n;
 
-    for (; done < pixel_count && !cancel_requested(j->cancel); done++) {
-        int px = x + done * j->pass.stride;
-        uint64_t first = film_count(b->film, px, y);
-        uint32_t count =
-            first < j->pass.target ? (uint32_t)(j->pass.target - first) : 0;
-
-        counts[done] = (int)count;
-        if (count != 0)
-            b->fit->samples(&b->world.world, (uint32_t)(b->x0 + px),
-                            (uint32_t)(b->y0 + y), first, count,
-                            samples + done * SAMPLE_BLOCK);
+    row_begin(&r, j, x, y, pixel_count);
+    for (; done < r.count && !cancel_requested(j->cancel); done += n) {
+        n = r.count - done < SAMPLE_BLOCK ? r.count - done : SAMPLE_BLOCK;
+        b->fit->samples(&b->world.world, r.places + done, n, r.samples + done);
     }
-    film_add_row(b->film, x, y, j->pass.stride, done, samples, counts);
-    return done == pixel_count;
+    film_add_row(b->film, x, y, j->pass.stride,
+                 row_pixels(&r, done, pixel_count), r.samples, r.counts);
+    return done == r.count;
 }
 
 static void render_block(void *context, uint32_t item, int worker)

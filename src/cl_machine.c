@@ -6,6 +6,10 @@
 /* Between looks at a device whose driver would spin. */
 #define POLL_NS 100000
 
+/* Work-items in a group: keeps the groups' overhead small and halting quick
+ * on a CPU, and is whole warps on GPUs. */
+#define GROUP 64
+
 bool cl_machine_check(const struct cl_machine *m, cl_int code, const char *call,
                       struct error *err)
 {
@@ -85,6 +89,32 @@ void cl_machine_drop(const struct cl_machine *m, cl_mem *buffer)
     if (*buffer != NULL)
         m->api->ReleaseMemObject(*buffer);
     *buffer = NULL;
+}
+
+bool cl_machine_set(const struct cl_machine *m, cl_kernel kernel, cl_uint first,
+                    const cl_mem *buffers, cl_uint count, struct error *err)
+{
+    for (cl_uint i = 0; i < count; i++)
+        if (!cl_machine_check(m,
+                              m->api->SetKernelArg(kernel, first + i,
+                                                   sizeof *buffers,
+                                                   &buffers[i]),
+                              "clSetKernelArg", err))
+            return false;
+    return true;
+}
+
+bool cl_machine_enqueue(const struct cl_machine *m, cl_kernel kernel,
+                        size_t count, struct error *err)
+{
+    size_t local = GROUP;
+    size_t global = (count + GROUP - 1) / GROUP * GROUP;
+
+    return cl_machine_check(m,
+                            m->api->EnqueueNDRangeKernel(m->queue, kernel, 1,
+                                                         NULL, &global, &local,
+                                                         0, NULL, NULL),
+                            "clEnqueueNDRangeKernel", err);
 }
 
 bool cl_machine_wait(const struct cl_machine *m, cl_event *event,

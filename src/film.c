@@ -117,7 +117,7 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
         if (counts[i] > 0 && f->counts[at] == 0)
             memset(sums, 0, 3 * sizeof *sums);
         for (int s = 0; s < counts[i]; s++)
-            pixel_add(sums, samples[i * SAMPLE_BLOCK + s], &tally);
+            pixel_add(sums, *samples++, &tally);
         f->counts[at] += (uint64_t)counts[i];
     }
     row_unlock(f, y);

@@ -20,9 +20,10 @@ static void trace_row(void *context, uint32_t y, int worker)
 
     (void)worker;
     for (int x = 0; x < j->width; x++) {
+        struct sample_place place = {(uint32_t)x, y, 0};
         struct path_sample sample;
 
-        path_samples(j->world, (uint32_t)x, y, 0, 1, &sample);
+        path_samples(j->world, &place, 1, &sample);
         row[3 * x] = sample.radiance.x;
         row[3 * x + 1] = sample.radiance.y;
         row[3 * x + 2] = sample.radiance.z;

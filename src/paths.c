@@ -23,10 +23,10 @@
 __attribute__((flatten))
 #endif
 static void
-samples(const struct world *w, uint32_t x, uint32_t y, uint64_t first,
+samples(const struct world *w, const struct sample_place *places,
         uint32_t count, struct path_sample *out)
 {
-    path_samples(w, x, y, first, count, out);
+    path_samples(w, places, count, out);
 }
 
 const struct paths PATHS = {PATHS_NAME, FEATURES, samples};

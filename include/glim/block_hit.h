@@ -29,33 +29,18 @@ static inline f4 f4_ray(const float *place)
 #define LANES_RAYS 1
 #include "glim/lanes_hit.h"
 
-/* As shear_of(), without branches: no processor can predict them for rays in
- * all directions. */
-static inline struct shear block_shear_of(struct ray r)
-{
-    const float d[5] = {r.d.x, r.d.y, r.d.z, r.d.x, r.d.y};
-    uint32_t x = float_bits(fabsf(r.d.x));
-    uint32_t y = float_bits(fabsf(r.d.y));
-    uint32_t z = float_bits(fabsf(r.d.z));
-    uint32_t x_is_largest = (uint32_t)(x > y) & (uint32_t)(x > z);
-    uint32_t y_is_largest = (uint32_t)(y >= x) & (uint32_t)(y > z);
-    uint32_t axis = 2u - 2u * x_is_largest - y_is_largest;
-    struct shear s = {r.o, d[axis + 1] / d[axis], d[axis + 2] / d[axis],
-                      1.0f / d[axis], axis};
-
-    return s;
-}
-
 /* A ray as tests of blocks want it. */
 struct block_ray {
     struct ray ray;
     struct shear shear;
     struct f4_rays lanes;
+    uint32_t passed[2]; /* triangles that it cannot meet */
 };
 
-static inline struct block_ray block_ray_of(struct ray r)
+/* A ray that may end at triangle `tri`, which then is no hit. */
+static inline struct block_ray block_ray_of(struct ray r, uint32_t tri)
 {
-    struct shear s = block_shear_of(r);
+    struct shear s = shear_of(r);
     struct block_ray b = {r,
                           s,
                           {{{r.o.x}, {r.o.y}, {r.o.z}},
@@ -63,7 +48,8 @@ static inline struct block_ray block_ray_of(struct ray r)
                            {s.sx},
                            {s.sy},
                            {s.sz},
-                           s.axis}};
+                           s.axis},
+                          {r.from - 1u, tri}};
 
     return b;
 }
@@ -78,12 +64,14 @@ blocks_hit(const struct world *w, const struct block_ray *r,
     struct lane_hits h;
 
     for (;; more--, block++) {
-        if (f4_test(block, 0, &r->lanes, f4_all(best->t), &h)) {
-            lane_hits_doubt(w, &h);
+        uint32_t passed = f4_which(block->tri, r->passed[0]) |
+                          f4_which(block->tri, r->passed[1]);
+
+        if (f4_test(block, 0, &r->lanes, f4_all(best->t), ~passed, &h)) {
             for (; h.sure != 0; h.sure &= h.sure - 1) {
                 uint32_t i = lowest(h.sure);
 
-                found |= lane_take(&h, i, &r->ray, block->tri[i], best);
+                found |= lane_take(w, &h, i, &r->ray, block->tri[i], best);
             }
             for (; h.unsure != 0; h.unsure &= h.unsure - 1)
                 found |= lane_decide(w, &r->ray, &r->shear, block,

@@ -37,6 +37,14 @@ cl_mem cl_machine_buffer(const struct cl_machine *m, const void *data,
 /* Releases *buffer, if any, and sets it to NULL. */
 void cl_machine_drop(const struct cl_machine *m, cl_mem *buffer);
 
+/* Sets buffers as a kernel's arguments from number `first` on. */
+bool cl_machine_set(const struct cl_machine *m, cl_kernel kernel, cl_uint first,
+                    const cl_mem *buffers, cl_uint count, struct error *err);
+
+/* Puts a kernel for so many work-items, or some more, into the queue. */
+bool cl_machine_enqueue(const struct cl_machine *m, cl_kernel kernel,
+                        size_t count, struct error *err);
+
 /* Waits for an event without burning a core, and releases it. */
 bool cl_machine_wait(const struct cl_machine *m, cl_event *event,
                      struct error *err);

@@ -66,8 +66,8 @@ void film_free(struct film *film);
  * that adds to it. */
 uint64_t film_count(const struct film *film, int x, int y);
 
-/* Adds count samples to each of pixels x, x + stride, ... of row y:
- * samples[i * 8 + s] is sample s of pixel i, and counts[i] says how many. */
+/* Adds samples to pixels x, x + stride, ... of row y, counts[i] to pixel i: the
+ * samples of each follow those of the one before. */
 void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
                   const struct path_sample *samples, const int *counts);
 

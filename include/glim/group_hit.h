@@ -105,13 +105,12 @@ static inline void group_meet(struct ray_group *g,
 {
     struct lane_hits h;
 
-    if (!f8_test(block, i, &g->lanes, f8_load(g->t), &h))
+    if (!f8_test(block, i, &g->lanes, f8_load(g->t), ~0u, &h))
         return;
-    lane_hits_doubt(g->world, &h);
     for (; h.sure != 0; h.sure &= h.sure - 1) {
         uint32_t k = lowest(h.sure);
 
-        lane_take(&h, k, &g->rays[k], block->tri[i], &g->hits[k]);
+        lane_take(g->world, &h, k, &g->rays[k], block->tri[i], &g->hits[k]);
         g->t[k] = g->hits[k].t;
     }
     for (; h.unsure != 0; h.unsure &= h.unsure - 1) {

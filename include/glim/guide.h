@@ -16,6 +16,7 @@
 #define GLIM_GUIDE_H
 
 #include "glim/guide_part.h"
+#include "glim/util.h"
 
 struct guide {
     uint32_t *cells; /* as kernels/guide.h reads them; NULL: there are none */

@@ -10,9 +10,8 @@
 #ifndef GLIM_GUIDE_PART_H
 #define GLIM_GUIDE_PART_H
 
-#include <stdlib.h>
+#include <stdbool.h>
 
-#include "glim/util.h"
 #include "kernels/types.h"
 
 struct guide_part {
@@ -25,32 +24,10 @@ static inline uint32_t guide_cell_count(const struct guide_grid *g)
     return g->width * g->height * g->depth * GUIDE_FACINGS;
 }
 
-static inline bool guide_part_init(struct guide_part *part,
-                                   const struct guide_grid *g)
-{
-    size_t count = guide_cell_count(g);
-
-    part->flux = alloc_array(count * GUIDE_BINS, sizeof *part->flux);
-    part->rest = alloc_array(count, sizeof *part->rest);
-    return part->flux != NULL && part->rest != NULL;
-}
+bool guide_part_init(struct guide_part *part, const struct guide_grid *g);
+void guide_part_free(struct guide_part *part);
 
 /* What comes to a cell from all directions. */
-static inline double guide_part_total(const struct guide_part *part,
-                                      uint32_t cell)
-{
-    double total = 0;
-
-    for (uint32_t i = 0; i < GUIDE_BINS; i++)
-        total += (double)part->flux[cell * (size_t)GUIDE_BINS + i];
-    return total;
-}
-
-static inline void guide_part_free(struct guide_part *part)
-{
-    free(part->flux);
-    free(part->rest);
-    *part = (struct guide_part){NULL, NULL};
-}
+double guide_part_total(const struct guide_part *part, uint32_t cell);
 
 #endif

@@ -28,38 +28,23 @@ struct lane_hits {
     _Alignas(32) float edges[3][LANES_MAX];
 };
 
-/* Where surfaces have holes, tri_hit() says what is met. */
-static inline void lane_hits_doubt(const struct world *w, struct lane_hits *h)
-{
-    if (HAS(FEATURE_COVERAGE) &&
-        (w->settings.features & FEATURE_COVERAGE) != 0) {
-        h->unsure |= h->sure;
-        h->sure = 0;
-    }
-}
-
 /* The rule of tri_hit() for a lane that is sure; true if it is a nearer hit. */
-static inline bool lane_take(const struct lane_hits *h, uint32_t lane,
-                             const struct ray *r, uint32_t tri,
+static inline bool lane_take(const struct world *w, const struct lane_hits *h,
+                             uint32_t lane, const struct ray *r, uint32_t tri,
                              struct hit *best)
 {
+    float u = h->edges[0][lane], v = h->edges[1][lane], s = h->edges[2][lane];
     float t = h->t[lane];
-    float det;
+    float det = u + (v + s);
+    struct hit met = {t, u / det, v / det, s / det, tri};
 
-    if (tri + 1u == r->from || t > best->t ||
-        (t == best->t && tri >= best->tri))
+    if (tri + 1u == r->from || !hit_wins(w, *r, met, best))
         return false;
-    det = h->edges[0][lane] + (h->edges[1][lane] + h->edges[2][lane]);
-    best->t = t;
-    best->b0 = h->edges[0][lane] / det;
-    best->b1 = h->edges[1][lane] / det;
-    best->b2 = h->edges[2][lane] / det;
-    best->tri = tri;
+    *best = met;
     return true;
 }
 
-/* tri_hit() for triangle i of a block; rarely needed, unless surfaces have
- * holes. */
+/* tri_hit() for triangle i of a block; rarely needed. */
 static __attribute__((noinline, flatten)) bool
 lane_decide(const struct world *w, const struct ray *r, const struct shear *s,
             const struct tri_block *b, uint32_t i, struct hit *best)

@@ -131,9 +131,10 @@ static inline LANES OF(distance)(const struct tri_block *block, uint32_t at,
     return t;
 }
 
-/* False if all of the rays pass by: of block's triangles from `at` on. */
+/* False if all of the rays pass by: of block's triangles from `at` on. Lanes
+ * that are not wanted count as having done so. */
 static inline bool OF(test)(const struct tri_block *block, uint32_t at,
-                            const struct RAYS *r, LANES t_max,
+                            const struct RAYS *r, LANES t_max, uint32_t wanted,
                             struct lane_hits *h)
 {
     struct CORNERS c = OF(shear)(block, at, r);
@@ -143,8 +144,9 @@ static inline bool OF(test)(const struct tri_block *block, uint32_t at,
         OF(sub)(OF(mul)(c.x[0], c.y[2]), OF(mul)(c.y[0], c.x[2])),
         OF(sub)(OF(mul)(c.x[1], c.y[0]), OF(mul)(c.y[1], c.x[0])),
     };
-    uint32_t met = OF(not_above)(zero, OF(least)(edges)) |
-                   OF(not_above)(OF(most)(edges), zero);
+    uint32_t met = (OF(not_above)(zero, OF(least)(edges)) |
+                    OF(not_above)(OF(most)(edges), zero)) &
+                   wanted;
     uint32_t is_exact;
     LANES t;
 

@@ -22,8 +22,8 @@ struct paths {
     uint32_t features; /* enum feature: those of worlds that it can do */
 
     /* path_samples() of kernels/path.h; w is within a struct wide_world. */
-    void (*samples)(const struct world *w, uint32_t x, uint32_t y,
-                    uint64_t first, uint32_t count, struct path_sample *out);
+    void (*samples)(const struct world *w, const struct sample_place *places,
+                    uint32_t count, struct path_sample *out);
 };
 
 #endif

@@ -147,6 +147,15 @@ static inline uint32_t f4_same(f4 a, f4 b, f4 c)
         _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
 }
 
+/* Where one of four numbers is n. */
+static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
+{
+    __m128i same = _mm_cmpeq_epi32(_mm_load_si128((const void *)p),
+                                   _mm_set1_epi32((int)n));
+
+    return (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(same));
+}
+
 /* There x, y elsewhere. */
 static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
 {
@@ -286,6 +295,15 @@ static inline uint32_t f4_same(f4 a, f4 b, f4 c)
 
     for (int i = 0; i < 4; i++)
         mask |= (a.v[i] == b.v[i] && a.v[i] == c.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (p[i] == n ? 1u : 0u) << i;
     return mask;
 }
 

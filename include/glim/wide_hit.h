@@ -256,7 +256,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
                                struct hit *hit)
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
-    struct wide_query query = {w, block_ray_of(r), hit};
+    struct wide_query query = {w, block_ray_of(r, NO_INDEX), hit};
     struct wide_ray ray = wide_ray_of(r);
 
     *hit = no_hit(r);
@@ -333,7 +333,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     const struct wide_node *nodes = wide_of(w)->nodes;
     struct wide_ray ray = wide_ray_of(r);
-    struct block_ray block_ray = block_ray_of(r);
+    struct block_ray block_ray = block_ray_of(r, tri);
     float t_far = wide_far(r.t_max);
     struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
     uint32_t stack[WIDE_STACK];

@@ -5,12 +5,14 @@
  * rounds are interleaved
  *
  * usage: builds SCENE...
+ *        builds --once own|whole SCENE   one small picture, for a counter of
+ *                                        instructions, and its samples
  */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "glim/scene_world.h"
-#include "glim/isa.h"
 #include "glim/session.h"
 #include "tests/bench/median.h"
 
@@ -18,6 +20,11 @@
 #define WIDTH  480
 #define HEIGHT 270
 #define SPP    4
+
+/* A small picture's are taken by eight, as most are of a long render. */
+#define SMALL_SPP    64
+#define SMALL_WIDTH  24
+#define SMALL_HEIGHT 12
 
 /* Of all workers together: what other programs leave of the machine does not
  * matter to it. */
@@ -34,12 +41,12 @@ static uint64_t cpu_ns(const struct session *s)
 /* Millions of samples a second; *p is the last picture's progress, 0 before the
  * first, which builds the tree. Features that no scene has choose the build for
  * all: samples are light, and leave what they do not need alone. */
-static double rate(struct session *s, uint32_t more_features,
-                   struct render_progress *p)
+static double rate(struct session *s, uint32_t more_features, struct rect crop,
+                   uint64_t spp, struct render_progress *p)
 {
     struct render_job job = {.geometry_changed = p->samples == 0,
-                             .crop = {0, 0, WIDTH, HEIGHT},
-                             .spp = SPP};
+                             .crop = crop,
+                             .spp = spp};
     uint64_t begin_ns = cpu_ns(s);
     struct error err;
 
@@ -57,25 +64,32 @@ static double rate(struct session *s, uint32_t more_features,
     return (double)p->samples * 1e3 / (double)(cpu_ns(s) - begin_ns);
 }
 
-static void bench(const char *path)
+static void open_scene(struct session *s, const char *path)
 {
     struct options o = {.scene_path = path,
                         .max_bounces = -1,
                         .width_px = WIDTH,
                         .height_px = HEIGHT};
+    struct error err;
+
+    if (session_open(s, &o, clock_ns(), &err))
+        return;
+    fprintf(stderr, "builds: %s\n", err.text);
+    exit(1);
+}
+
+static void bench(const char *path)
+{
+    const struct rect crop = {0, 0, WIDTH, HEIGHT};
     double whole[ROUNDS], fit[ROUNDS];
     struct render_progress p = {0};
     struct session s;
-    struct error err;
 
-    if (!session_open(&s, &o, clock_ns(), &err)) {
-        fprintf(stderr, "builds: %s\n", err.text);
-        exit(1);
-    }
-    rate(&s, 0, &p); /* loads code and data */
+    open_scene(&s, path);
+    rate(&s, 0, crop, SPP, &p); /* loads code and data */
     for (int i = 0; i < ROUNDS; i++) {
-        whole[i] = rate(&s, FEATURE_FIRST_HIT, &p);
-        fit[i] = rate(&s, 0, &p);
+        whole[i] = rate(&s, FEATURE_FIRST_HIT, crop, SPP, &p);
+        fit[i] = rate(&s, 0, crop, SPP, &p);
     }
     double all = median(whole, ROUNDS), own = median(fit, ROUNDS);
     printf("%-50s %9.3f %7.2f %9.2f %9.3f\n", path, own,
@@ -84,8 +98,25 @@ static void bench(const char *path)
     session_close(&s);
 }
 
+static void once(const char *build, const char *path)
+{
+    const struct rect crop = {WIDTH / 2, HEIGHT / 2, SMALL_WIDTH, SMALL_HEIGHT};
+    struct render_progress p = {0};
+    struct session s;
+
+    open_scene(&s, path);
+    rate(&s, strcmp(build, "whole") == 0 ? FEATURE_FIRST_HIT : 0, crop,
+         SMALL_SPP, &p);
+    printf("%llu\n", (unsigned long long)p.samples);
+    session_close(&s);
+}
+
 int main(int argc, char **argv)
 {
+    if (argc == 4 && strcmp(argv[1], "--once") == 0) {
+        once(argv[2], argv[3]);
+        return 0;
+    }
     printf("%-50s %9s %7s %9s %9s\n", "scene", "Msampl/s", "Mrays/s",
            "rays/path", "own/whole");
     for (int i = 1; i < argc; i++)

@@ -80,16 +80,42 @@ bench_sharing() {
     done
 }
 
+scenes() {
+    ls scenes/*.obj
+    for scene in bunny sponza_part; do
+        ls "../shared/scenes-real/$scene/$scene.obj" 2>/dev/null || :
+    done
+}
+
 # Whole renders, and what leaving out what a scene lacks brings.
 bench_builds() {
     echo
     echo 'builds: 480x270, 4 spp, a core, medians of 5'
-    set -- scenes/*.obj
-    for scene in bunny sponza_part; do
-        file=../shared/scenes-real/$scene/$scene.obj
-        [ ! -e "$file" ] || set -- "$@" "$file"
+    # shellcheck disable=SC2046 # names without spaces
+    "$build/bench/builds" $(scenes)
+}
+
+# instructions BUILD SCENE: of a sample, by valgrind, which knows AVX2 at most
+instructions() {
+    n=$(valgrind --tool=callgrind --toggle-collect=samples \
+        --callgrind-out-file=/dev/null --log-file="$work/valgrind.log" \
+        "$build/bench/builds" --once "$1" "$2")
+    all=$(sed -n 's/.*Collected : *//p' "$work/valgrind.log")
+    echo $((all / n))
+}
+
+# What specialised builds save, without a clock.
+bench_instructions() {
+    echo
+    if ! command -v valgrind >/dev/null; then
+        echo 'instructions: skipped: no valgrind here'
+        return 0
+    fi
+    printf '%-50s %9s %9s\n' 'instructions a sample' whole own
+    for scene in $(scenes); do
+        printf '%-50s %9s %9s\n' "$scene" "$(instructions whole "$scene")" \
+            "$(instructions own "$scene")"
     done
-    "$build/bench/builds" "$@"
 }
 
 # What can be had at 60 pictures a second.
@@ -163,7 +189,7 @@ bench_sampling() {
 }
 
 machine
-for name in builds frames threads sharing halts previews load device sampling; do
+for name in builds instructions frames threads sharing halts previews load device sampling; do
     if wanted "$name"; then
         "bench_$name"
     fi

@@ -42,7 +42,6 @@ static inline void mesh_add(struct mesh *m, struct vec3 a, struct vec3 b,
                     material,
                     {0, 0, 0}};
 
-    triangle_normal(a, b, c, &t.ng);
     m->positions = realloc(m->positions, (3 * n + 3) * sizeof *m->positions);
     m->tris = realloc(m->tris, (n + 1) * sizeof *m->tris);
     assert_non_null(m->positions);
@@ -116,16 +115,21 @@ static inline struct material mesh_material(uint32_t kind, float color)
     return m;
 }
 
+/* Once the corners stay where they are. */
+static inline void mesh_set_normals(struct mesh *m)
+{
+    for (struct tri *t = m->tris; t < m->tris + m->tri_count; t++)
+        triangle_normal(m->positions[t->v[0]], m->positions[t->v[1]],
+                        m->positions[t->v[2]], &t->ng);
+}
+
 /* Builds the trees and the world; the camera and the sky stay the caller's. */
 static inline void mesh_finish(struct mesh *m)
 {
     struct error err;
     struct world *w = &m->world;
 
-    /* corners may have been moved */
-    for (struct tri *t = m->tris; t < m->tris + m->tri_count; t++)
-        triangle_normal(m->positions[t->v[0]], m->positions[t->v[1]],
-                        m->positions[t->v[2]], &t->ng);
+    mesh_set_normals(m);
     w->positions = m->positions;
     w->tris = m->tris;
     w->settings.tri_count = m->tri_count;

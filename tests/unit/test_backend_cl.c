@@ -8,18 +8,20 @@
  * differ is printed.
  */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <time.h>
 
 #include "check.h"
-#include "glim/scene_world.h"
 #include "glim/backend_cl.h"
+#include "glim/cl_api.h"
 #include "glim/cl_device.h"
 #include "glim/cl_environment.h"
 #include "glim/isa.h"
 #include "glim/render.h"
 #include "glim/restyle.h"
 #include "glim/scene.h"
+#include "glim/scene_world.h"
 #include "glim/selftest.h"
 #include "glim/view_file.h"
 #include "kernels/features.h"
@@ -416,6 +418,63 @@ static void halts(void **state)
     close_pair(&p);
 }
 
+/* The driver's own functions, and how many calls of them succeed. */
+static struct cl_api driver;
+static atomic_int calls_left;
+
+static cl_int CL_API_CALL dying_enqueue(cl_command_queue queue,
+                                        cl_kernel kernel, cl_uint dimensions,
+                                        const size_t *offset,
+                                        const size_t *global,
+                                        const size_t *local, cl_uint wait_count,
+                                        const cl_event *waits, cl_event *done)
+{
+    if (atomic_fetch_sub(&calls_left, 1) <= 0)
+        return CL_DEVICE_NOT_AVAILABLE;
+    return driver.EnqueueNDRangeKernel(queue, kernel, dimensions, offset,
+                                       global, local, wait_count, waits, done);
+}
+
+static cl_int CL_API_CALL dying_wait(cl_uint count, const cl_event *events)
+{
+    if (atomic_fetch_sub(&calls_left, 1) <= 0)
+        return CL_DEVICE_NOT_AVAILABLE;
+    return driver.WaitForEvents(count, events);
+}
+
+/* A device that is lost in the midst of a picture, at one call or the next: the
+ * render fails with its name, nothing writes later, and should it come back, it
+ * is as good as before. */
+static void losses(void **state)
+{
+    struct cl_api *api;
+    struct error err;
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    api = (struct cl_api *)(uintptr_t)cl_api_open(&err);
+    driver = *api;
+    open_pair(&p, "scenes/cornell.obj", 240, 160);
+    for (int calls = 0; calls < 60; calls++) {
+        struct render_progress progress;
+
+        atomic_store(&calls_left, calls);
+        api->EnqueueNDRangeKernel = dying_enqueue;
+        api->WaitForEvents = dying_wait;
+        start(&p, 1, (struct rect){0, 0, 240, 160}, 100, 3);
+        assert_true(render_wait(p.renders[1], 300000));
+        progress = render_progress(p.renders[1]);
+        *api = driver;
+        assert_int_equal(progress.state, RENDER_FAILED);
+        assert_non_null(strstr(progress.error.text, device->device));
+        assert_non_null(strstr(progress.error.text, "CL_DEVICE_NOT_AVAILABLE"));
+    }
+    render_both(&p, (struct rect){0, 0, 240, 160}, 5, 3);
+    close_pair(&p);
+}
+
 /* Only what has changed is uploaded before a restart. */
 static void buffers(void **state)
 {
@@ -448,7 +507,7 @@ int main(void)
         cmocka_unit_test(drafts),         cmocka_unit_test(first_hits),
         cmocka_unit_test(edits),          cmocka_unit_test(special_builds),
         cmocka_unit_test(self_tests),     cmocka_unit_test(halts),
-        cmocka_unit_test(buffers),
+        cmocka_unit_test(losses),         cmocka_unit_test(buffers),
     };
 
     return cmocka_run_group_tests(tests, open_device, close_device);

@@ -110,7 +110,7 @@ static void film_shows_means_and_fills_gaps(void **state)
     struct error err;
     float rgb[3 * 64 * 48];
     float numbers[64 * 48];
-    struct path_sample samples[8 * SAMPLE_BLOCK];
+    struct path_sample samples[8];
     int counts[8] = {2, 1, 0, 0, 0, 0, 0, 0};
 
     (void)state;
@@ -120,7 +120,7 @@ static void film_shows_means_and_fills_gaps(void **state)
         assert_true(rgb[i] == 0.0f);
     samples[0] = grey(1.0f);
     samples[1] = grey(3.0f);
-    samples[SAMPLE_BLOCK] = grey(8.0f);
+    samples[2] = grey(8.0f);
     film_add_row(&film, 0, 0, 32, 2, samples, counts); /* (0,0) and (32,0) */
     film_counts(&film, numbers);
     for (int i = 0; i < 64 * 48; i++)
@@ -162,7 +162,7 @@ static void bad_samples_count_as_zero(void **state)
     struct film film;
     struct error err;
     float rgb[3];
-    struct path_sample samples[SAMPLE_BLOCK];
+    struct path_sample samples[4];
     const int counts[1] = {4};
 
     (void)state;
@@ -184,14 +184,14 @@ static void preview_averages(void **state)
     struct film film;
     struct frame frame;
     struct error err;
-    struct path_sample samples[8 * SAMPLE_BLOCK];
+    struct path_sample samples[8];
     int counts[8];
 
     (void)state;
     assert_true(film_init(&film, 64, 48, &err));
     for (int i = 0; i < 8; i++) {
         counts[i] = 1;
-        samples[i * SAMPLE_BLOCK] = grey(i % 2 == 0 ? 0.4f : 0.6f);
+        samples[i] = grey(i % 2 == 0 ? 0.4f : 0.6f);
     }
     for (int y = 0; y < 48; y++)
         for (int x = 0; x < 64; x += 8)
@@ -211,12 +211,12 @@ static void preview_averages(void **state)
 
 static void fill(struct film *film, float value)
 {
-    struct path_sample samples[8 * SAMPLE_BLOCK];
+    struct path_sample samples[8];
     int counts[8];
 
     for (int i = 0; i < 8; i++) {
         counts[i] = 1;
-        samples[i * SAMPLE_BLOCK] = grey(value);
+        samples[i] = grey(value);
     }
     for (int y = 0; y < film->height; y++)
         for (int x = 0; x < film->width; x += 8)

@@ -34,10 +34,11 @@ static void look_down(struct world *w, double half)
 static struct vec3 sample_of(enum sample_kind kind, uint32_t x, uint32_t y,
                              uint64_t index)
 {
+    struct sample_place place = {x, y, index};
     struct path_sample s;
 
     mesh.world.settings.sample = kind;
-    path_samples(&mesh.world, x, y, index, 1, &s);
+    path_samples(&mesh.world, &place, 1, &s);
     assert_int_equal(s.rays, 1);
     assert_int_equal(s.cut, 0);
     return s.radiance;

@@ -77,6 +77,7 @@ static void finish(struct mesh *m, struct lights *lights)
         m->materials[LAMP] = mesh_material(MATERIAL_DIFFUSE, 0);
         m->materials[LAMP].emission = v3(1, 2, 3);
     }
+    mesh_set_normals(m);
     m->world.positions = m->positions;
     m->world.tris = m->tris;
     m->world.settings.tri_count = m->tri_count;

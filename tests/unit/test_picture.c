@@ -49,8 +49,7 @@ static void make_film(struct film *film, int width, int height,
                       float (*value)(int x, int y, int c))
 {
     struct error err;
-    struct path_sample *samples =
-        calloc((size_t)width * SAMPLE_BLOCK, sizeof *samples);
+    struct path_sample *samples = calloc((size_t)width, sizeof *samples);
     int *counts = calloc((size_t)width, sizeof *counts);
 
     assert_non_null(samples);
@@ -58,7 +57,7 @@ static void make_film(struct film *film, int width, int height,
     assert_true(film_init(film, width, height, &err));
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
-            samples[x * SAMPLE_BLOCK].radiance =
+            samples[x].radiance =
                 (struct vec3){value(x, y, 0), value(x, y, 1), value(x, y, 2)};
             counts[x] = 1;
         }

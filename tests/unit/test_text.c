@@ -15,10 +15,10 @@ static struct film make_film(void)
 
     assert_true(film_init(&film, 4, 4, &err));
     for (int y = 0; y < 4; y++) {
-        struct path_sample samples[4 * SAMPLE_BLOCK] = {0};
+        struct path_sample samples[4] = {0};
 
         for (int x = 0; x < 4; x++)
-            samples[x * SAMPLE_BLOCK].radiance =
+            samples[x].radiance =
                 (struct vec3){y < 2, y < 2 ? 0.0f : 0.5f, 0.0f};
         film_add_row(&film, 0, y, 1, 4, samples, counts);
     }
