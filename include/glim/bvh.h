@@ -29,7 +29,8 @@ struct bvh {
     uint32_t depth; /* no leaf is deeper */
 };
 
-/* What the leaves are to be: 1 << block_bits triangles are tested at once. */
+/* What the leaves are to be: 1 << block_bits triangles are tested at once, and
+ * are never parted. */
 struct bvh_leaves {
     uint32_t block_bits;
     uint32_t large_bits; /* in nodes that many rays meet, as if so many were */

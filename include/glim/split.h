@@ -4,9 +4,9 @@
  *
  * Wald 2007, "On fast construction of SAH-based bounding volume hierarchies".
  * Boxes are put into bins by their centres, on all three axes at once; of the
- * planes between bins the one with the least expected cost is taken. Nothing
- * depends on the order in which boxes come, so bins that threads filled can be
- * joined.
+ * planes between bins the one with the least expected cost is taken; some of
+ * the boxes are enough to find it. Nothing depends on the order in which boxes
+ * come, but for that.
  *
  * Units:     normalised scene units
  * Ownership: none
@@ -83,18 +83,7 @@ static inline void box_set_tri(struct box *b, uint32_t tri)
     memcpy(&b->planes[3], &tri, sizeof tri);
 }
 
-/* Twice the centre, as a box. */
-static inline struct box box_center(const struct box *b)
-{
-    f4 center = f4_sub(f4_load(b->planes), f4_load(b->planes + 4));
-    struct box c;
-
-    f4_store(c.planes, center);
-    f4_store(c.planes + 4, f4_sub(f4_all(0.0f), center));
-    return c;
-}
-
-/* Joined boxes, and their centres. */
+/* Joined boxes, and twice their centres. */
 struct extent {
     struct box bounds, centers;
 };

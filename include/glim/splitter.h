@@ -3,7 +3,8 @@
  * splitter.h - splits sets of boxes in two, by one thread or by all
  *
  * Boxes of a set lie side by side in one of two buffers; a split copies them to
- * the other. What threads join does not depend on who came first.
+ * the other. Some of a large set choose the plane for all. What threads join
+ * does not depend on who came first.
  *
  * Units:     normalised scene units
  * Ownership: splitter_free() frees; a zeroed struct is none
@@ -42,7 +43,7 @@ struct splitter {
     const struct range *range;
     struct split split;
     struct range *sides;
-    uint32_t (*chunk_sides)[2]; /* how many go to each side, then where to */
+    uint32_t (*chunk_sides)[2]; /* how many go to each side, then where */
 };
 
 /* For the world's triangles. False if memory is out. */
