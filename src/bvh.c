@@ -63,7 +63,7 @@ static void fill_leaf(const struct builder *b, const struct range *r,
 
 static struct node node_of(const struct range *r)
 {
-    const float *p = r->bounds.planes;
+    const float *p = r->extent.bounds.planes;
     struct node n = {
         .lo = v3(p[0] - BOX_PAD, p[1] - BOX_PAD, p[2] - BOX_PAD),
         .hi = v3(BOX_PAD - p[4], BOX_PAD - p[5], BOX_PAD - p[6]),
@@ -102,7 +102,7 @@ static void build_part(void *context, uint32_t item, int worker)
     own->worker = worker;
     own->node_count = own->depth = 0;
     build_tree(b, own, &part->range);
-    part->nodes = alloc_array(own->node_count, sizeof *part->nodes);
+    part->nodes = alloc_aligned(own->node_count, sizeof *part->nodes);
     if (part->nodes == NULL)
         return;
     memcpy(part->nodes, own->nodes, own->node_count * sizeof *part->nodes);
@@ -182,7 +182,7 @@ static bool join_parts(struct builder *b)
         if (part->depth > bvh->depth)
             bvh->depth = part->depth;
     }
-    bvh->nodes = alloc_array(bvh->node_count, sizeof *bvh->nodes);
+    bvh->nodes = alloc_aligned(bvh->node_count, sizeof *bvh->nodes);
     if (bvh->nodes == NULL)
         return false;
     pool_each(b->splitter.pool, b->part_count, place_part, b);
@@ -197,13 +197,13 @@ static bool begin(struct builder *b, const struct world *w,
 
     if (!splitter_init(&b->splitter, w, leaves, pool))
         return false;
-    b->bvh->tris = alloc_array(count, sizeof *b->bvh->tris);
+    b->bvh->tris = alloc_aligned(count, sizeof *b->bvh->tris);
     b->makers = xcalloc(b->splitter.worker_count, sizeof *b->makers);
     if (b->bvh->tris == NULL)
         return false;
     for (uint32_t i = 0; i < b->splitter.worker_count; i++) {
         b->makers[i].nodes =
-            alloc_array(2 * part_max, sizeof *b->makers[i].nodes);
+            alloc_aligned(2 * part_max, sizeof *b->makers[i].nodes);
         if (b->makers[i].nodes == NULL)
             return false;
     }
@@ -260,7 +260,7 @@ bool bvh_build(struct bvh *bvh, const struct world *w, struct pool *pool,
 
     if (!bvh_build_nodes(bvh, w, &leaves, pool, err))
         return false;
-    bvh->leaf_tris = alloc_array(bvh->leaf_tri_count, sizeof *bvh->leaf_tris);
+    bvh->leaf_tris = alloc_aligned(bvh->leaf_tri_count, sizeof *bvh->leaf_tris);
     if (bvh->leaf_tris == NULL) {
         bvh_free(bvh);
         return fail(err, "out of memory for the leaves of %u triangles",

@@ -303,7 +303,7 @@ static bool build(struct builder *b, struct pool *pool)
     struct wide *wide = b->wide;
     uint32_t root;
 
-    b->fits = alloc_array(b->bvh->node_count, sizeof *b->fits);
+    b->fits = alloc_aligned(b->bvh->node_count, sizeof *b->fits);
     if (b->fits == NULL)
         return false;
     fill_fits(b);

@@ -26,10 +26,11 @@ struct bvh {
     uint32_t *tris;             /* numbers, as the leaves have them */
     struct leaf_tri *leaf_tris; /* the same with corners, or NULL */
     uint32_t leaf_tri_count;
-    uint32_t depth;
+    uint32_t depth; /* no leaf is deeper */
 };
 
-/* What the leaves are to be: 1 << block_bits triangles are tested at once. */
+/* What the leaves are to be: 1 << block_bits triangles are tested at once, and
+ * are never parted. */
 struct bvh_leaves {
     uint32_t block_bits;
     uint32_t large_bits; /* in nodes that many rays meet, as if so many were */

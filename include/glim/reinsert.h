@@ -8,7 +8,8 @@
  * optimization of bounding volume hierarchies"); the search for that place is
  * the one of Meister and Bittner 2018, "Parallel reinsertion for bounding
  * volume hierarchy optimization". Only large nodes are moved, as a ray meets a
- * node as often as that is large, and there are few of them in any tree.
+ * node as often as that is large, and there are few of them in any tree; what
+ * is below the smallest of them moves as a whole.
  *
  * The same tree becomes the same tree; leaves stay what they are.
  *

@@ -41,6 +41,11 @@ static inline f4 f4_all(float x)
     return _mm_set1_ps(x);
 }
 
+static inline f4 f4_of(float x, float y, float z)
+{
+    return _mm_set_ps(0.0f, z, y, x);
+}
+
 static inline f4 f4_add(f4 a, f4 b)
 {
     return _mm_add_ps(a, b);
@@ -74,6 +79,55 @@ static inline f4 f4_min(f4 a, f4 b)
 static inline f4 f4_max(f4 a, f4 b)
 {
     return _mm_max_ps(a, b);
+}
+
+/* 0 where it is above the most. */
+static inline f4 f4_up_to(f4 a, f4 most)
+{
+    return _mm_and_ps(a, _mm_cmple_ps(a, most));
+}
+
+/* Of whole numbers below 2^31. */
+static inline f4 f4_of_counts(const uint32_t *p)
+{
+    return _mm_cvtepi32_ps(_mm_load_si128((const void *)p));
+}
+
+/* Without what is behind the point, as f4_whole(). */
+static inline void f4_store_counts(uint32_t *p, f4 a)
+{
+    _mm_store_si128((void *)p, _mm_cvttps_epi32(a));
+}
+
+static inline f4 f4_whole(f4 a)
+{
+    return _mm_cvtepi32_ps(_mm_cvttps_epi32(a));
+}
+
+/* Of the first three numbers the sum, and the sum of products of two. */
+static inline float f4_sum3(f4 a)
+{
+    f4 second = _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1));
+
+    return _mm_cvtss_f32(
+        _mm_add_ss(_mm_add_ss(a, second), _mm_movehl_ps(a, a)));
+}
+
+static inline float f4_pairs3(f4 a)
+{
+    return f4_sum3(
+        _mm_mul_ps(a, _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1))));
+}
+
+/* Of three vectors all first numbers, all second and all third ones; the last
+ * lane is as the one before. */
+static inline void f4_transpose(f4 a, f4 b, f4 c, f4 to[3])
+{
+    f4 low = _mm_unpacklo_ps(a, b), high = _mm_unpackhi_ps(a, b);
+
+    to[0] = _mm_shuffle_ps(low, c, _MM_SHUFFLE(0, 0, 1, 0));
+    to[1] = _mm_shuffle_ps(low, c, _MM_SHUFFLE(1, 1, 3, 2));
+    to[2] = _mm_shuffle_ps(high, c, _MM_SHUFFLE(2, 2, 1, 0));
 }
 
 static inline uint32_t f4_not_above(f4 a, f4 b)
@@ -138,6 +192,13 @@ static inline f4 f4_all(float x)
     F4_EACH(r, x);
 }
 
+static inline f4 f4_of(float x, float y, float z)
+{
+    f4 r = {{x, y, z, 0.0f}};
+
+    return r;
+}
+
 static inline f4 f4_add(f4 a, f4 b)
 {
     F4_EACH(r, a.v[i] + b.v[i]);
@@ -171,6 +232,43 @@ static inline f4 f4_min(f4 a, f4 b)
 static inline f4 f4_max(f4 a, f4 b)
 {
     F4_EACH(r, a.v[i] > b.v[i] ? a.v[i] : b.v[i]);
+}
+
+static inline f4 f4_up_to(f4 a, f4 most)
+{
+    F4_EACH(r, a.v[i] <= most.v[i] ? a.v[i] : 0.0f);
+}
+
+static inline f4 f4_of_counts(const uint32_t *p)
+{
+    F4_EACH(r, (float)p[i]);
+}
+
+static inline void f4_store_counts(uint32_t *p, f4 a)
+{
+    for (int i = 0; i < 4; i++)
+        p[i] = (uint32_t)a.v[i];
+}
+
+static inline f4 f4_whole(f4 a)
+{
+    F4_EACH(r, (float)(uint32_t)a.v[i]);
+}
+
+static inline float f4_sum3(f4 a)
+{
+    return a.v[0] + a.v[1] + a.v[2];
+}
+
+static inline float f4_pairs3(f4 a)
+{
+    return a.v[0] * a.v[1] + a.v[1] * a.v[2] + a.v[2] * a.v[0];
+}
+
+static inline void f4_transpose(f4 a, f4 b, f4 c, f4 to[3])
+{
+    for (int i = 0; i < 3; i++)
+        to[i] = (f4){{a.v[i], b.v[i], c.v[i], c.v[i]}};
 }
 
 static inline uint32_t f4_not_above(f4 a, f4 b)

@@ -4,9 +4,9 @@
  *
  * Wald 2007, "On fast construction of SAH-based bounding volume hierarchies".
  * Boxes are put into bins by their centres, on all three axes at once; of the
- * planes between bins the one with the least expected cost is taken. Nothing
- * depends on the order in which boxes come, so bins that threads filled can be
- * joined.
+ * planes between bins the one with the least expected cost is taken; some of
+ * the boxes are enough to find it. Nothing depends on the order in which boxes
+ * come, but for that.
  *
  * Units:     normalised scene units
  * Ownership: none
@@ -48,19 +48,26 @@ static inline void box_join(struct box *a, const struct box *b)
 
 static inline struct box box_of_point(struct vec3 p)
 {
-    struct box b = {{p.x, p.y, p.z, 0.0f, -p.x, -p.y, -p.z, 0.0f}};
+    f4 corner = f4_of(p.x, p.y, p.z);
+    struct box b;
 
+    f4_store(b.planes, corner);
+    f4_store(b.planes + 4, f4_sub(f4_all(0.0f), corner));
     return b;
 }
 
-/* Half of the surface; 0 for an empty box. */
+/* Half of the surface of the box that two join, neither empty. */
+static inline float box_joined_area(const struct box *a, const struct box *b)
+{
+    f4 lo = f4_min(f4_load(a->planes), f4_load(b->planes));
+    f4 hi = f4_min(f4_load(a->planes + 4), f4_load(b->planes + 4));
+
+    return f4_pairs3(f4_sub(f4_sub(f4_all(0.0f), hi), lo));
+}
+
 static inline float box_area(const struct box *b)
 {
-    float x = -b->planes[4] - b->planes[0];
-    float y = -b->planes[5] - b->planes[1];
-    float z = -b->planes[6] - b->planes[2];
-
-    return x >= 0.0f ? x * y + y * z + z * x : 0.0f;
+    return box_joined_area(b, b);
 }
 
 static inline uint32_t box_tri(const struct box *b)
@@ -76,15 +83,20 @@ static inline void box_set_tri(struct box *b, uint32_t tri)
     memcpy(&b->planes[3], &tri, sizeof tri);
 }
 
-/* Twice the centre, as a box. */
-static inline struct box box_center(const struct box *b)
-{
-    f4 center = f4_sub(f4_load(b->planes), f4_load(b->planes + 4));
-    struct box c;
+/* Joined boxes, and twice their centres. */
+struct extent {
+    struct box bounds, centers;
+};
 
-    f4_store(c.planes, center);
-    f4_store(c.planes + 4, f4_sub(f4_all(0.0f), center));
-    return c;
+static inline struct extent extent_empty(void)
+{
+    return (struct extent){box_empty(), box_empty()};
+}
+
+static inline void extent_join(struct extent *a, const struct extent *b)
+{
+    box_join(&a->bounds, &b->bounds);
+    box_join(&a->centers, &b->centers);
 }
 
 /* How centres fall into bins: of each axis the first centre and bins a unit, 0
@@ -96,15 +108,10 @@ struct binning {
 
 struct bins {
     struct binning binning;
-    struct box boxes[3][SPLIT_BINS];
-    uint32_t counts[3][SPLIT_BINS];
+    uint32_t box_count;
+    struct box boxes[SPLIT_BINS][3];
+    _Alignas(16) uint32_t counts[SPLIT_BINS][4]; /* the last is of no axis */
 };
-
-/* So many triangles are tested at once: 1 << block_bits. */
-static inline float blocks_of(uint32_t count, uint32_t block_bits)
-{
-    return (float)((count + (1u << block_bits) - 1) >> block_bits);
-}
 
 struct split {
     struct binning binning;
@@ -113,36 +120,32 @@ struct split {
     uint32_t bin; /* the first that goes right */
 };
 
-/* The bins in which a box is. */
-static inline void bins_of(const struct binning *b, const struct box *box,
-                           float at[4])
+/* So many triangles are tested at once: 1 << block_bits. */
+static inline float blocks_of(uint32_t count, uint32_t block_bits)
 {
-    f4 center = f4_sub(f4_load(box->planes), f4_load(box->planes + 4));
-    f4 bin = f4_mul(f4_sub(center, f4_load(b->first)), f4_load(b->scale));
-
-    f4_store(at, f4_min(bin, f4_all((float)(b->count - 1))));
+    return (float)((count + (1u << block_bits) - 1) >> block_bits);
 }
 
-/* As bins_of() of that axis says. */
-static inline bool split_goes_right(const struct split *s,
-                                    const struct box *box)
-{
-    float center = box->planes[s->axis] - box->planes[4 + s->axis];
+/* The extent of all boxes. */
+struct extent extent_of(const struct box *boxes, uint32_t count);
 
-    return (center - s->binning.first[s->axis]) * s->binning.scale[s->axis] >=
-           (float)s->bin;
-}
-
-/* Empty bins for so many boxes with such centres (joined by box_join()). */
+/* Empty bins for so many boxes with such centres. */
 void bins_clear(struct bins *bins, uint32_t count, const struct box *centers);
-void bins_add(struct bins *bins, const struct box *boxes, uint32_t count);
-void bins_join(struct bins *bins, const struct bins *other);
 
-/* The cheapest plane, and the boxes of both sides. */
-struct split bins_split(const struct bins *bins, uint32_t count,
-                        uint32_t block_bits, struct box sides[2]);
+/* Every box at such a distance from the one before. */
+void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
+              uint32_t stride);
 
-/* How many boxes go left. */
-uint32_t bins_left(const struct bins *bins, const struct split *s);
+/* The cheapest plane. */
+struct split bins_split(const struct bins *bins, uint32_t block_bits);
+
+/* How many boxes go right. */
+uint32_t split_count(const struct split *s, const struct box *boxes,
+                     uint32_t count);
+
+/* Copies boxes: those that go left to `left` and what follows, the others to
+ * what is before `right`, backwards. Returns how many went left. */
+uint32_t split_part(const struct split *s, const struct box *boxes,
+                    uint32_t count, struct box *left, struct box *right);
 
 #endif

@@ -3,7 +3,8 @@
  * splitter.h - splits sets of boxes in two, by one thread or by all
  *
  * Boxes of a set lie side by side in one of two buffers; a split copies them to
- * the other. What threads join does not depend on who came first.
+ * the other. Some of a large set choose the plane for all. What threads join
+ * does not depend on who came first.
  *
  * Units:     normalised scene units
  * Ownership: splitter_free() frees; a zeroed struct is none
@@ -20,14 +21,14 @@
 /* Boxes that lie side by side. */
 struct range {
     uint32_t first, count, depth;
-    uint32_t buffer;            /* which of the two they are in */
-    struct box bounds, centers; /* joined */
+    uint32_t buffer; /* which of the two they are in */
+    struct extent extent;
 };
 
 /* What a thread needs for itself. */
 struct splitter_worker {
     struct bins bins;
-    struct box bounds, centers[2]; /* of sides */
+    struct extent extents[2]; /* of sides */
 };
 
 struct splitter {

@@ -89,7 +89,7 @@ static void boxes_hold_what_is_below(void **state)
     mesh_finish(&m);
     look_at_node(&s, 0, 0);
     assert_int_equal(s.nodes, m.bvh.node_count);
-    assert_int_equal(s.depth, m.bvh.depth);
+    assert_in_range(m.bvh.depth, s.depth, TRAVERSE_STACK - 1);
     for (uint32_t i = 0; i < MANY; i++)
         assert_true(s.tris[i]);
     free(s.tris);

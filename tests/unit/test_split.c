@@ -26,24 +26,24 @@ static void random_boxes(struct box *boxes, uint32_t count, uint64_t seed)
     }
 }
 
-static struct box centers_of(const struct box *boxes, uint32_t count)
-{
-    struct box centers = box_empty();
-
-    for (uint32_t i = 0; i < count; i++) {
-        struct box center = box_center(&boxes[i]);
-
-        box_join(&centers, &center);
-    }
-    return centers;
-}
-
 static void fill(struct bins *bins, const struct box *boxes, uint32_t count)
 {
-    struct box centers = centers_of(boxes, count);
+    struct extent all = extent_of(boxes, count);
 
-    bins_clear(bins, count, &centers);
-    bins_add(bins, boxes, count);
+    bins_clear(bins, count, &all.centers);
+    bins_add(bins, boxes, count, 1);
+}
+
+/* The bin of an axis, of so many. */
+static uint32_t bin_of(const struct box *box, const struct box *centers,
+                       int axis, uint32_t bin_count)
+{
+    float first = centers->planes[axis];
+    float length = -centers->planes[4 + axis] - first;
+    float center = box->planes[axis] - box->planes[4 + axis];
+    uint32_t bin = (uint32_t)((center - first) * ((float)bin_count / length));
+
+    return bin >= bin_count ? bin_count - 1 : bin;
 }
 
 /* Half the surface of what lies in [lo, hi) of the bins of an axis, times its
@@ -53,17 +53,12 @@ static double cost_of(const struct box *boxes, uint32_t count,
                       uint32_t lo, uint32_t hi, uint32_t block)
 {
     double low[3] = {9, 9, 9}, high[3] = {-9, -9, -9};
-    float first = centers->planes[axis];
-    float length = -centers->planes[4 + axis] - first;
     uint32_t n = 0;
 
     for (uint32_t i = 0; i < count; i++) {
         const float *p = boxes[i].planes;
-        float center = p[axis] - p[4 + axis];
-        uint32_t bin =
-            (uint32_t)((center - first) * ((float)bin_count / length));
+        uint32_t bin = bin_of(&boxes[i], centers, axis, bin_count);
 
-        bin = bin >= bin_count ? bin_count - 1 : bin;
         if (bin < lo || bin >= hi)
             continue;
         n++;
@@ -77,6 +72,27 @@ static double cost_of(const struct box *boxes, uint32_t count,
                   : (x * y + y * z + z * x) * ((n + block - 1) / block);
 }
 
+/* Each box is on its side, once. */
+static void check_sides(const struct split *s, const struct box *boxes,
+                        uint32_t count, const struct box *centers)
+{
+    static struct box sides[BOXES];
+    static bool seen[BOXES];
+    uint32_t lefts = split_part(s, boxes, count, sides, sides + count);
+
+    assert_int_equal(split_count(s, boxes, count), count - lefts);
+    assert_in_range(lefts, 1, count - 1);
+    memset(seen, 0, sizeof seen);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t bin = bin_of(&sides[i], centers, s->axis, s->binning.count);
+        uint32_t tri = box_tri(&sides[i]);
+
+        assert_int_equal(bin >= s->bin, i >= lefts);
+        assert_false(seen[tri]);
+        seen[tri] = true;
+    }
+}
+
 static void the_cheapest_plane_is_found(void **state)
 {
     static struct box boxes[BOXES];
@@ -85,58 +101,79 @@ static void the_cheapest_plane_is_found(void **state)
     (void)state;
     for (uint32_t k = 0; k < 2 * sizeof counts / sizeof counts[0]; k++) {
         uint32_t count = counts[k / 2], bits = k % 2 * 2;
-        struct box centers, sides[2];
+        double least = INFINITY;
+        struct extent all;
         struct bins bins;
         struct split s;
-        double least = INFINITY;
-        uint32_t rights = 0;
 
         random_boxes(boxes, count, k);
-        centers = centers_of(boxes, count);
+        all = extent_of(boxes, count);
         fill(&bins, boxes, count);
-        s = bins_split(&bins, count, bits, sides);
+        s = bins_split(&bins, bits);
         for (int axis = 0; axis < 3; axis++)
             for (uint32_t bin = 1; bin < s.binning.count; bin++)
                 least =
-                    fmin(least, cost_of(boxes, count, &centers, axis,
+                    fmin(least, cost_of(boxes, count, &all.centers, axis,
                                         s.binning.count, 0, bin, 1u << bits) +
-                                    cost_of(boxes, count, &centers, axis,
+                                    cost_of(boxes, count, &all.centers, axis,
                                             s.binning.count, bin, SPLIT_BINS,
                                             1u << bits));
         check_close(s.cost / least, 1, 1e-5);
-        for (uint32_t i = 0; i < count; i++) {
-            bool right = split_goes_right(&s, &boxes[i]);
-
-            rights += right;
-            for (int i_plane = 0; i_plane < 8; i_plane++)
-                if (i_plane % 4 != 3)
-                    assert_true(sides[right].planes[i_plane] <=
-                                boxes[i].planes[i_plane]);
-        }
-        assert_int_equal(bins_left(&bins, &s), count - rights);
-        assert_in_range(rights, 1, count - 1);
+        check_sides(&s, boxes, count, &all.centers);
     }
 }
 
-static void bins_of_threads_can_be_joined(void **state)
+static void extents_hold_all_boxes_and_no_more(void **state)
 {
     static struct box boxes[BOXES];
-    struct bins all, half, other;
-    struct box centers;
+
+    (void)state;
+    for (uint32_t count = 1; count <= BOXES; count += 1 + count / 2) {
+        struct extent all;
+
+        random_boxes(boxes, count, count);
+        all = extent_of(boxes, count);
+        for (int axis = 0; axis < 3; axis++) {
+            float least[4] = {9, 9, 9, 9};
+
+            for (uint32_t i = 0; i < count; i++) {
+                float lo = boxes[i].planes[axis];
+                float hi = boxes[i].planes[4 + axis];
+
+                least[0] = fminf(least[0], lo);
+                least[1] = fminf(least[1], hi);
+                least[2] = fminf(least[2], lo - hi);
+                least[3] = fminf(least[3], hi - lo);
+            }
+            assert_true(all.bounds.planes[axis] == least[0]);
+            assert_true(all.bounds.planes[4 + axis] == least[1]);
+            assert_true(all.centers.planes[axis] == least[2]);
+            assert_true(all.centers.planes[4 + axis] == least[3]);
+        }
+    }
+}
+
+static void strides_leave_out_boxes(void **state)
+{
+    static struct box boxes[BOXES], some[BOXES];
+    struct bins of_all, of_some;
+    struct extent all;
+    uint32_t count = 0;
 
     (void)state;
     random_boxes(boxes, BOXES, 7);
-    centers = centers_of(boxes, BOXES);
-    fill(&all, boxes, BOXES);
-    bins_clear(&half, BOXES, &centers);
-    bins_clear(&other, BOXES, &centers);
-    bins_add(&half, boxes + 1000, BOXES - 1000);
-    bins_add(&other, boxes, 1000);
-    bins_join(&half, &other);
+    for (uint32_t i = 0; i < BOXES; i += 7)
+        some[count++] = boxes[i];
+    all = extent_of(boxes, BOXES);
+    bins_clear(&of_all, BOXES, &all.centers);
+    bins_clear(&of_some, BOXES, &all.centers);
+    bins_add(&of_all, boxes, BOXES, 7);
+    bins_add(&of_some, some, count, 1);
+    assert_int_equal(of_all.box_count, count);
     for (int axis = 0; axis < 3; axis++)
-        for (uint32_t i = 0; i < all.binning.count; i++) {
-            assert_int_equal(all.counts[axis][i], half.counts[axis][i]);
-            assert_memory_equal(&all.boxes[axis][i], &half.boxes[axis][i],
+        for (uint32_t i = 0; i < of_all.binning.count; i++) {
+            assert_int_equal(of_all.counts[i][axis], of_some.counts[i][axis]);
+            assert_memory_equal(&of_all.boxes[i][axis], &of_some.boxes[i][axis],
                                 3 * sizeof(float));
         }
 }
@@ -144,7 +181,7 @@ static void bins_of_threads_can_be_joined(void **state)
 /* Also where bins would be smaller than any float. */
 static void equal_centres_have_no_plane(void **state)
 {
-    struct box boxes[8], sides[2];
+    struct box boxes[8];
     struct bins bins;
 
     (void)state;
@@ -153,7 +190,7 @@ static void equal_centres_have_no_plane(void **state)
             boxes[i] = box_of_point(
                 v3(0.5f, k == 0 ? 0.25f : (float)i * 1e-44f, -0.5f));
         fill(&bins, boxes, 8);
-        assert_int_equal(bins_split(&bins, 8, 0, sides).axis, -1);
+        assert_int_equal(bins_split(&bins, 0).axis, -1);
     }
 }
 
@@ -161,7 +198,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_cheapest_plane_is_found),
-        cmocka_unit_test(bins_of_threads_can_be_joined),
+        cmocka_unit_test(extents_hold_all_boxes_and_no_more),
+        cmocka_unit_test(strides_leave_out_boxes),
         cmocka_unit_test(equal_centres_have_no_plane),
     };
 
