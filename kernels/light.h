@@ -148,7 +148,7 @@ static inline struct vec3 sky_light_terms(const struct world *w,
 
 /* A direction to the sky, and how much more often sky_light_terms() says that
  * it is drawn than it is: where there is no table the cell of the guide is
- * asked as well, if there is one. As in guide_scatter(), weights do not know.
+ * asked as well, if there is one. As in guide_scatter(), weights need not know.
  */
 static inline struct vec3 sky_direction(const struct world *w,
                                         const struct receiver *r, uint32_t cell,
@@ -171,8 +171,7 @@ static inline struct vec3 sky_direction(const struct world *w,
 
 /* A direction towards a light; false if there is none to sample here, or by
  * choice.x not this time. `cell` is the receiver's in the guide, or NO_INDEX.
- * Whether it is above the surface and free is for the
- * caller to find. */
+ * Whether it is above the surface and free is for the caller to find. */
 static inline bool light_sample(const struct world *w, const struct receiver *r,
                                 uint32_t cell, struct vec2 point,
                                 struct vec2 choice, struct light_sample *s)

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Camera paths a second of Cycles, for tests/bench/cycles/run.sh.
 
-usage: blender -b --factory-startup -P cycles.py -- SCENE.obj THREADS SPP...
+usage: blender -b --factory-startup -P cycles.py -- SCENE.obj THREADS OUT SPP...
 
 SCENE.obj has diffuse and shining materials; camera.txt beside it has the view.
 Prints "cycles SPP SECONDS SECONDS": of rendering that many samples a pixel, and
-of the processor for it. Whatever trades
-truth for speed is off, as in glim: clamps, filters, adaptive sampling,
+of the processor for it. OUT0.pfm and OUT1.pfm become two pictures of the last
+number, with other noise. Whatever trades truth for speed is off, as in glim: clamps, filters, adaptive sampling,
 denoising. Paths have the scene's limit of bounces.
 """
+import array
 import math
 import os
 import sys
@@ -94,8 +95,21 @@ def set_up(scene, view, threads):
     scene.world = world
 
 
+def save(scene, path):
+    """Writes what was rendered as PFM."""
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_depth = "32"
+    bpy.data.images["Render Result"].save_render(path + ".exr")
+    image = bpy.data.images.load(path + ".exr")
+    rgba = image.pixels[:]
+    rgb = [x for i, x in enumerate(rgba) if i % 4 != 3]
+    with open(path, "wb") as out:
+        out.write(b"PF\n%d %d\n-1.0\n" % tuple(image.size))
+        array.array("f", rgb).tofile(out)
+
+
 def main():
-    path, threads, *counts = sys.argv[sys.argv.index("--") + 1:]
+    path, threads, out, *counts = sys.argv[sys.argv.index("--") + 1:]
     folder = os.path.dirname(os.path.abspath(path))
     view = numbers(os.path.join(folder, "camera.txt"))
     lines = materials(os.path.splitext(path)[0] + ".mtl")
@@ -114,6 +128,10 @@ def main():
         bpy.ops.render.render()
         print("cycles", spp, time.monotonic() - begin,
               time.process_time() - busy)
+    for seed in range(2):
+        scene.cycles.seed = seed
+        bpy.ops.render.render()
+        save(scene, f"{out}{seed}.pfm")
 
 
 main()

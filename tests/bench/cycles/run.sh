@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # What `make bench-cycles` runs: camera paths a second of Blender's Cycles and of
-# glim, which take turns, on the scenes of ../shared/scenes-bench. BUILD: the
-# folder of the program; FILTER: a scene; ROUNDS: medians of so many.
+# glim, which take turns, on the scenes of ../shared/scenes-bench, and how many
+# times less noise (variance) glim's picture has at equal time. BUILD: the folder
+# of the program; FILTER: a scene; ROUNDS: medians of so many.
 set -eu
 build=${BUILD:-build/release}
 shared=${GLIM_SHARED:-../shared}/scenes-bench
@@ -23,19 +24,23 @@ median() { # COLUMN FILE
 # Both print millions of paths a second, by the clock and by what the processor
 # did for one thread: what runs beside hardly counts there.
 
+noise() { # OF: of its two pictures
+    python3 tests/bench/cycles/noise.py "$work/$1"0.pfm "$work/$1"1.pfm
+}
+
 # Between 4 and 36 samples a pixel: what it takes to begin does not count.
 cycles() { # OBJ THREADS
     blender -b --factory-startup -P tests/bench/cycles/cycles.py -- "$1" "$2" \
-        4 36 2>"$work/log" | awk '$1 == "cycles" { s[$2] = $3; busy[$2] = $4 }
+        "$work/cycles" 4 36 2>"$work/log" | awk '$1 == "cycles" { s[$2] = $3; busy[$2] = $4 }
         END { n = 32 * 256 * 256 / 1e6
             print n / (s[36] - s[4]), n / (busy[36] - busy[4]) }'
 }
 
 # Loading counts, but takes milliseconds.
-glim() { # OBJ THREADS
+glim() { # OBJ THREADS SEED
     (
-        "$build/glim" -b -c "$work/view" -d 64 -s 128 -t "$2" \
-            --stats "$work/stats" -o "$work/picture.pfm" "$1" 2>"$work/log"
+        "$build/glim" -b -c "$work/view" -d 64 -s 128 -t "$2" --seed "$3" \
+            --stats "$work/stats" -o "$work/glim$3.pfm" "$1" 2>"$work/log"
         times >"$work/times"
     )
     sed -n 's/.*"render_s": \([0-9.]*\).*/\1/p' "$work/stats" |
@@ -48,8 +53,8 @@ command -v blender >/dev/null || missing 'blender (Debian: blender)'
 [ -d "$shared" ] || missing "$shared"
 sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1
 echo "load $(cut -d ' ' -f 1-3 /proc/loadavg); medians of $rounds"
-echo '                      Mpaths/s by the clock         by the processor'
-echo 'scene        threads  Cycles  glim  ratio   Cycles  glim  ratio'
+echo '                      Mpaths/s by the clock         by the processor     less'
+echo 'scene        threads  Cycles  glim  ratio   Cycles  glim  ratio    noise'
 for scene in cornell many_lights sky; do
     case $scene in *"${FILTER:-}"*) ;; *) continue ;; esac
     obj=$shared/$scene/$scene.obj
@@ -60,12 +65,14 @@ for scene in cornell many_lights sky; do
         i=0
         while [ "$i" -lt "$rounds" ]; do
             cycles "$obj" "$threads" >>"$work/cycles"
-            glim "$obj" "$threads" >>"$work/glim"
+            glim "$obj" "$threads" 0 >>"$work/glim"
             i=$((i + 1))
         done
+        glim "$obj" "$threads" 1 >/dev/null
         echo "$scene $threads $(median 1 cycles) $(median 1 glim)" \
-            "$(median 2 cycles) $(median 2 glim)" |
-            awk '{ printf "%-12s %7d %7.2f %5.2f %6.2f %8.2f %5.2f %6.2f\n",
-                $1, $2, $3, $4, $4 / $3, $5, $6, $6 / $5 }'
+            "$(median 2 cycles) $(median 2 glim) $(noise cycles) $(noise glim)" |
+            awk '{ printf "%-12s %7d %7.2f %5.2f %6.2f %8.2f %5.2f %6.2f %8.2f\n",
+                $1, $2, $3, $4, $4 / $3, $5, $6, $6 / $5,
+                $7 * 36 / $5 / ($8 * 128 / $6) }'
     done
 done
