@@ -18,7 +18,9 @@ void cl_film_free(struct cl_film *f, const struct cl_machine *m)
     cl_machine_drop(m, &f->counts);
     free(f->host_sums);
     free(f->host_counts);
-    *f = (struct cl_film){0};
+    f->host_sums = NULL;
+    f->host_counts = NULL;
+    f->pixel_capacity = 0;
 }
 
 static bool make_film(struct cl_film *f, const struct cl_machine *m,
