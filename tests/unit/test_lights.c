@@ -795,7 +795,7 @@ static void holes_do_not_shine(void **state)
     m.world.settings.features = FEATURE_COVERAGE;
     finish(&m, &lights);
     for (int i = 0; i < 1000; i++) {
-        struct light_sample s;
+        struct light_sample s = {.pdf = 0};
         struct vec2 point = any_choice(&seed);
 
         assert_true(
