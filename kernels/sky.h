@@ -100,7 +100,7 @@ static inline uint32_t sky_row_sums(struct sky s, uint32_t row)
     return s.height + 1u + row * (s.width + 1u);
 }
 
-/* A direction with density sky_pdf(). Only if the world has a table. */
+/* A direction with density sky_table_pdf(). Only if the world has a table. */
 static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
 {
     struct sky s = w->settings.sky;
@@ -152,23 +152,13 @@ static inline float sky_table_pdf(const struct world *w, struct vec2 uv)
            sky_texel_angle(s, row);
 }
 
-/* Density of sky_sample() at the unit vector d; 0 without a table. */
-static inline float sky_pdf(const struct world *w, struct vec3 d)
-{
-    return sky_has_table(w) ? sky_table_pdf(w, sky_uv(w->settings.sky, d))
-                            : 0.0f;
-}
-
-/* sky_radiance(), and sky_pdf() with it, at the unit vector d. */
+/* sky_radiance(), and the density of sky_sample(), at the unit vector d. Only
+ * if the world has a table. */
 static inline struct vec3 sky_terms(const struct world *w, struct vec3 d,
                                     float *pdf)
 {
-    struct vec2 uv;
+    struct vec2 uv = sky_uv(w->settings.sky, d);
 
-    *pdf = 0.0f;
-    if (!sky_has_table(w))
-        return sky_radiance(w, d);
-    uv = sky_uv(w->settings.sky, d);
     *pdf = sky_table_pdf(w, uv);
     return sky_image_at(w, uv);
 }
