@@ -104,19 +104,14 @@ static inline f4 f4_whole(f4 a)
     return _mm_cvtepi32_ps(_mm_cvttps_epi32(a));
 }
 
-/* Of the first three numbers the sum, and the sum of products of two. */
-static inline float f4_sum3(f4 a)
-{
-    f4 second = _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1));
-
-    return _mm_cvtss_f32(
-        _mm_add_ss(_mm_add_ss(a, second), _mm_movehl_ps(a, a)));
-}
-
+/* The sum of the products of two of the first three numbers. */
 static inline float f4_pairs3(f4 a)
 {
-    return f4_sum3(
-        _mm_mul_ps(a, _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1))));
+    f4 b = _mm_mul_ps(a, _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1)));
+    f4 second = _mm_shuffle_ps(b, b, _MM_SHUFFLE(1, 1, 1, 1));
+
+    return _mm_cvtss_f32(
+        _mm_add_ss(_mm_add_ss(b, second), _mm_movehl_ps(b, b)));
 }
 
 /* Of three vectors all first numbers, all second and all third ones; the last
@@ -253,11 +248,6 @@ static inline void f4_store_counts(uint32_t *p, f4 a)
 static inline f4 f4_whole(f4 a)
 {
     F4_EACH(r, (float)(uint32_t)a.v[i]);
-}
-
-static inline float f4_sum3(f4 a)
-{
-    return a.v[0] + a.v[1] + a.v[2];
 }
 
 static inline float f4_pairs3(f4 a)
