@@ -297,6 +297,12 @@ static inline bool path_survives(struct path *p, uint32_t vertex, float u)
     return true;
 }
 
+/* Do paths go on from what they meet first? */
+static inline bool goes_on(const struct world *w)
+{
+    return !HAS(FEATURE_FIRST_HIT) || w->settings.sample == SAMPLE_LIGHT;
+}
+
 /* What the path does at a vertex. False if it ends there. */
 static inline bool path_step(const struct world *w, struct path *p,
                              struct hit h, uint32_t vertex)
@@ -308,11 +314,12 @@ static inline bool path_step(const struct world *w, struct path *p,
     struct vec2 lobe;
 
     /* first, as it takes long and waits for nothing */
-    path_prepare_2d(p, vertex);
+    if (goes_on(w))
+        path_prepare_2d(p, vertex);
     if (!vertex_at(w, &m, p->ray, h, &v))
         return false;
     b = bsdf_at(w, &m, &v);
-    if (HAS(FEATURE_FIRST_HIT) && w->settings.sample != SAMPLE_LIGHT) {
+    if (!goes_on(w)) {
         p->out.radiance = first_hit(w, &m, &b, &v, p->ray, h);
         return false;
     }
