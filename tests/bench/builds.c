@@ -26,6 +26,12 @@
 #define SMALL_WIDTH  24
 #define SMALL_HEIGHT 12
 
+static _Noreturn void stop(const struct error *err)
+{
+    fprintf(stderr, "builds: %s\n", err->text);
+    exit(1);
+}
+
 /* Of all workers together: what other programs leave of the machine does not
  * matter to it. */
 static uint64_t cpu_ns(const struct session *s)
@@ -50,15 +56,11 @@ static double rate(struct session *s, uint32_t more_features, struct rect crop,
     uint64_t begin_ns = cpu_ns(s);
     struct error err;
 
-    if (!scene_world(&s->scene, &s->view, 0, &job.world, &err)) {
-        fprintf(stderr, "builds: %s\n", err.text);
-        exit(1);
-    }
+    if (!scene_world(&s->scene, &s->view, 0, &job.world, &err))
+        stop(&err);
     job.world.settings.features |= more_features;
-    if (!render_start(s->render, &job, &err)) {
-        fprintf(stderr, "builds: %s\n", err.text);
-        exit(1);
-    }
+    if (!render_start(s->render, &job, &err))
+        stop(&err);
     render_wait(s->render, -1);
     *p = render_progress(s->render);
     return (double)p->samples * 1e3 / (double)(cpu_ns(s) - begin_ns);
@@ -72,10 +74,8 @@ static void open_scene(struct session *s, const char *path)
                         .height_px = HEIGHT};
     struct error err;
 
-    if (session_open(s, &o, clock_ns(), &err))
-        return;
-    fprintf(stderr, "builds: %s\n", err.text);
-    exit(1);
+    if (!session_open(s, &o, clock_ns(), &err))
+        stop(&err);
 }
 
 static void bench(const char *path)

@@ -6,8 +6,9 @@ usage: blender -b --factory-startup -P cycles.py -- SCENE.obj THREADS OUT SPP...
 SCENE.obj has diffuse and shining materials; camera.txt beside it has the view.
 Prints "cycles SPP SECONDS SECONDS": of rendering that many samples a pixel, and
 of the processor for it. OUT0.pfm and OUT1.pfm become two pictures of the last
-number, with other noise. Whatever trades truth for speed is off, as in glim: clamps, filters, adaptive sampling,
-denoising. Paths have the scene's limit of bounces.
+number, with other noise. Whatever trades truth for speed is off, as in glim:
+clamps, filters, adaptive sampling, denoising. Paths have the scene's limit of
+bounces.
 """
 import array
 import math
@@ -128,10 +129,10 @@ def main():
         bpy.ops.render.render()
         print("cycles", spp, time.monotonic() - begin,
               time.process_time() - busy)
-    for seed in range(2):
-        scene.cycles.seed = seed
-        bpy.ops.render.render()
-        save(scene, f"{out}{seed}.pfm")
+    save(scene, out + "0.pfm")
+    scene.cycles.seed = 1
+    bpy.ops.render.render()
+    save(scene, out + "1.pfm")
 
 
 main()
