@@ -170,13 +170,14 @@ static inline bool light_is_seen(const struct world *w, struct path *p,
 
     if (has_coverage(w))
         r.key = shadow_key(p, vertex);
-    if (s->light != NO_INDEX) {
-        struct light l = w->lights[s->light];
+    if (s->tri != NO_INDEX) {
+        struct tri t = w->tris[s->tri];
         struct hit h;
 
         r.d = v3_sub(s->p, r.o);
-        if (!triangle_hit(r, shear_of(r), l.corners[0], l.corners[1],
-                          l.corners[2], FLOAT_MAX, &h))
+        if (!triangle_hit(r, shear_of(r), w->positions[t.v[0]],
+                          w->positions[t.v[1]], w->positions[t.v[2]], FLOAT_MAX,
+                          &h))
             return false;
         r.t_max = h.t;
     }
