@@ -27,8 +27,7 @@ struct light_sample {
     struct vec3 radiance; /* that comes along it if nothing is in the way, by
                              how much rarer it is drawn than pdf says */
     float pdf;            /* of wi per solid angle; above 0 and finite */
-    uint32_t light;       /* NO_INDEX: the sky */
-    uint32_t tri;         /* of the light; NO_INDEX: the sky */
+    uint32_t tri;         /* NO_INDEX: the sky */
     struct vec3 p;        /* on the triangle */
 };
 
@@ -42,14 +41,16 @@ static inline struct vec3 emission_at(const struct world *w,
     return v3_mul(m->emission, texture_at(w, m->emission_texture, uv).color);
 }
 
-/* Density per solid angle, seen from the receiver, of a point that is uniform
- * on the light: distance^2 / (cosine area); to_point leads there. 0 where it is
- * not finite: such points are not sampled. */
-static inline float light_point_pdf(struct light l, struct vec3 to_point)
+/* Density per solid angle, seen from the receiver, of a point of a light:
+ * distance^2 / cosine times its density per area; to_point leads there, and
+ * `part` is the triangle that it is on. 0 where it is not finite: such points
+ * are not sampled. */
+static inline float light_point_pdf(const struct world *w, uint32_t light,
+                                    uint32_t part, struct vec3 to_point)
 {
     float square = v3_dot(to_point, to_point);
-    float pdf =
-        2.0f * square * sqrtf(square) / fabsf(v3_dot(to_point, l.twice));
+    float pdf = 2.0f * square * sqrtf(square) /
+                fabsf(v3_dot(to_point, w->lights[light].twice[part]));
 
     return pdf <= FLOAT_MAX ? pdf : 0.0f;
 }
@@ -67,43 +68,73 @@ static inline struct hit triangle_point(struct vec2 u)
     return h;
 }
 
+/* The same of two triangles that share a side: those of a parallelogram on
+ * either side of a diagonal. Both keep u.x and u.y for their second and third
+ * corners, the other one turned by half a turn. */
+static inline struct hit pair_point(struct vec2 u, uint32_t *part)
+{
+    struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
+    bool is_second = u.x + u.y > 1.0f;
+
+    h.b1 = is_second ? 1.0f - u.x : u.x;
+    h.b2 = is_second ? 1.0f - u.y : u.y;
+    h.b0 = f_max(1.0f - h.b1 - h.b2, 0.0f);
+    *part = is_second ? 1u : 0u;
+    return h;
+}
+
+/* The same place by the mesh's order of the corners. */
+static inline struct hit hit_turned(struct hit h, uint32_t turn)
+{
+    const float b[5] = {h.b0, h.b1, h.b2, h.b0, h.b1};
+
+    h.b0 = b[turn];
+    h.b1 = b[turn + 1];
+    h.b2 = b[turn + 2];
+    return h;
+}
+
 /* Emitted radiance of a light at a hit on it. */
-static inline struct vec3 light_radiance(const struct world *w, struct light l,
+static inline struct vec3 light_radiance(const struct world *w, uint32_t light,
                                          struct hit h)
 {
-    struct vec3 radiance = l.emission;
+    struct vec3 radiance = w->lights[light].emission;
+    uint32_t texture = w->lights[light].texture;
 
-    if (HAS(FEATURE_TEXTURES) && l.texture != NO_INDEX)
+    if (HAS(FEATURE_TEXTURES) && texture != NO_INDEX)
         radiance =
             v3_mul(radiance,
-                   texture_at(w, l.texture, uv_at(w, w->tris[l.tri], h)).color);
+                   texture_at(w, texture, uv_at(w, w->tris[h.tri], h)).color);
     if (has_coverage(w))
         radiance = v3_scale(radiance, coverage_at(w, h));
     return radiance;
 }
 
-static inline bool sample_triangle(const struct world *w,
-                                   const struct receiver *r, struct vec2 point,
-                                   struct vec2 choice, struct light_sample *s)
+static inline bool sample_surface(const struct world *w,
+                                  const struct receiver *r, struct vec2 point,
+                                  struct vec2 choice, struct light_sample *s)
 {
+    uint32_t light, part = 0;
     float probability =
-        w->settings.light_share * light_tree_choose(w, r, choice, &s->light);
-    struct hit h = triangle_point(point);
+        w->settings.light_share * light_tree_choose(w, r, choice, &light);
     struct vec3 p_error, to_point;
-    struct light l;
+    struct hit h;
 
     if (!(probability > 0.0f))
         return false;
-    l = w->lights[s->light];
-    h.tri = l.tri;
-    s->tri = l.tri;
-    s->p = hit_point(h, l.corners[0], l.corners[1], l.corners[2], &p_error);
+    h = w->lights[light].tris[1] == NO_INDEX ? triangle_point(point)
+                                             : pair_point(point, &part);
+    s->tri = h.tri = w->lights[light].tris[part];
+    s->p = hit_point(h, w->lights[light].corners[2 * part],
+                     w->lights[light].corners[1 + 2 * part],
+                     w->lights[light].corners[3 - 2 * part], &p_error);
     to_point = v3_sub(s->p, r->p);
-    s->pdf = probability * light_point_pdf(l, to_point);
+    s->pdf = probability * light_point_pdf(w, light, part, to_point);
     if (!(s->pdf > 0.0f))
         return false;
     s->wi = v3_unit(to_point);
-    s->radiance = light_radiance(w, l, h);
+    s->radiance =
+        light_radiance(w, light, hit_turned(h, w->lights[light].turns[part]));
     return true;
 }
 
@@ -115,11 +146,13 @@ static inline float light_pdf_at(const struct world *w,
 {
     uint32_t light =
         w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
+    uint32_t part;
 
     if (light == NO_INDEX)
         return 0.0f;
+    part = w->lights[light].tris[1] == tri ? 1u : 0u;
     return w->settings.light_share * light_tree_probability(w, r, light) *
-           light_point_pdf(w->lights[light], v3_sub(p, r->p));
+           light_point_pdf(w, light, part, v3_sub(p, r->p));
 }
 
 static inline float sky_cosine_pdf(const struct receiver *r, struct vec3 wi)
@@ -181,7 +214,7 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
 
         s->wi = sky_direction(w, r, cell, point, &ratio);
         s->radiance = v3_scale(sky_light_terms(w, r, s->wi, &s->pdf), ratio);
-        s->light = s->tri = NO_INDEX;
+        s->tri = NO_INDEX;
         s->p = r->p;
         return s->pdf > 0.0f;
     }
@@ -190,7 +223,7 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
         choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;
     if (!(choice.x < 1.0f))
         return false;
-    return sample_triangle(w, r, point, choice, s);
+    return sample_surface(w, r, point, choice, s);
 }
 
 #endif

@@ -112,14 +112,13 @@ static inline float light_tree_probability(const struct world *w,
                                            const struct receiver *r,
                                            uint32_t light)
 {
-    struct light l = w->lights[light];
     float probability = 1.0f;
     uint32_t at = 0;
 
     if (w->settings.light_count < 2)
         return 1.0f;
     for (uint32_t level = 0; (at & LIGHT_LEAF) == 0; level++) {
-        uint32_t bits = level < LIGHT_LEVELS / 2 ? l.path[0] : l.path[1];
+        uint32_t bits = w->lights[light].path[level / (LIGHT_LEVELS / 2)];
         uint32_t i = bits >> 3 * (level % (LIGHT_LEVELS / 2)) & 7u;
         float sums[LIGHT_WIDTH + 1];
 

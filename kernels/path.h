@@ -196,10 +196,10 @@ struct path_light {
 
 /* Chooses a light for the vertex. False if there is none, or its shadow ray is
  * not worth tracing. */
-static inline bool path_choose_light(const struct world *w,
-                                     const struct path *p, const struct bsdf *b,
-                                     const struct vertex *v, struct vec3 wo,
-                                     uint32_t vertex, struct path_light *l)
+FLATTENED static inline bool
+path_choose_light(const struct world *w, const struct path *p,
+                  const struct bsdf *b, const struct vertex *v, struct vec3 wo,
+                  uint32_t vertex, struct path_light *l)
 {
     struct vec3 wi;
     float pdf;
@@ -236,12 +236,12 @@ path_add_light(const struct world *w, struct path *p, const struct vertex *v,
 
     if (has_coverage(w))
         r.key = shadow_key(p, vertex);
-    if (l->at.light != NO_INDEX) {
-        struct light to = w->lights[l->at.light];
+    if (l->at.tri != NO_INDEX) {
+        struct tri t = w->tris[l->at.tri];
 
         r.d = v3_sub(l->at.p, r.o);
-        r.t_max =
-            aimed_distance(r, to.corners[0], to.corners[1], to.corners[2]);
+        r.t_max = aimed_distance(r, w->positions[t.v[0]], w->positions[t.v[1]],
+                                 w->positions[t.v[2]]);
         if (!(r.t_max > 0.0f))
             return;
     }

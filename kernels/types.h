@@ -121,15 +121,18 @@ struct leaf_tri {
     uint32_t tri;
 };
 
-/* A triangle that shines, with what a sample of it needs, and the way to it
- * from the root of the light tree: three bits a level, ten levels a word, the
- * first lowest. */
+/* What shines, with what a sample of it needs: a triangle, or two that share a
+ * side, each sampled half the time; and the way to it from the root of the
+ * light tree: three bits a level, ten levels a word, the first lowest. Of the
+ * corners of the two around both, those of the first triangle are 0, 1 and 3,
+ * of the second 2, 3 and 1. */
 struct light {
-    uint32_t tri;
+    uint32_t tris[2]; /* the second NO_INDEX: one triangle */
     uint32_t path[2];
-    uint32_t texture; /* multiplies emission; NO_INDEX: none */
-    struct vec3 corners[3];
-    struct vec3 twice; /* a normal, twice as long as the triangle is large */
+    uint32_t texture;  /* multiplies emission; NO_INDEX: none */
+    uint32_t turns[2]; /* of these corners, where the mesh's begin */
+    struct vec3 corners[4];
+    struct vec3 twice[2]; /* normals, 2 / density of a point long */
     struct vec3 emission;
 };
 

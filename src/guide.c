@@ -72,7 +72,9 @@ static double power_of(const struct world *w)
     double power = 0;
 
     for (uint32_t i = 0; i < w->settings.light_count; i++)
-        power += tri_power(w, w->lights[i].tri);
+        for (uint32_t k = 0; k < 2; k++)
+            if (w->lights[i].tris[k] != NO_INDEX)
+                power += tri_power(w, w->lights[i].tris[k]);
     return power;
 }
 

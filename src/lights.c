@@ -25,6 +25,12 @@
 #define GLARE_FULL  0.1
 #define SHARE_LEAST 0.1
 
+/* Two triangles that are sampled half the time each: their normals' angle, as a
+ * cosine, which the tree knows of one only, and how much more one may shine.
+ * The density is of the triangle itself, whatever they are. */
+#define FLAT_COSINE 0.999999f
+#define PAIR_RATIO  1.5
+
 static bool shines(const struct material *m)
 {
     return v3_max(m->emission) > 0.0f && m->opacity > 0.0f;
@@ -63,6 +69,16 @@ static double mean_radiance(const struct world *w, const struct tri *t,
     return mean * (double)m->opacity;
 }
 
+static struct vec3 low(struct vec3 a, struct vec3 b)
+{
+    return v3(f_min(a.x, b.x), f_min(a.y, b.y), f_min(a.z, b.z));
+}
+
+static struct vec3 high(struct vec3 a, struct vec3 b)
+{
+    return v3(f_max(a.x, b.x), f_max(a.y, b.y), f_max(a.z, b.z));
+}
+
 /* False if the triangle is not worth sampling. *glare grows by its own. */
 static bool make_emitter(const struct world *w, uint32_t tri,
                          const struct footprint_sums *footprints,
@@ -82,26 +98,104 @@ static bool make_emitter(const struct world *w, uint32_t tri,
     radiance = mean_radiance(w, t, footprints);
     e->power = twice_area * radiance;
     *glare += e->power / 2 * radiance;
-    e->lo = v3(f_min(p0.x, f_min(p1.x, p2.x)), f_min(p0.y, f_min(p1.y, p2.y)),
-               f_min(p0.z, f_min(p1.z, p2.z)));
-    e->hi = v3(f_max(p0.x, f_max(p1.x, p2.x)), f_max(p0.y, f_max(p1.y, p2.y)),
-               f_max(p0.z, f_max(p1.z, p2.z)));
+    e->lo = low(p0, low(p1, p2));
+    e->hi = high(p0, high(p1, p2));
     return e->power > 0;
+}
+
+static struct vec3 corner(const struct world *w, uint32_t tri, uint32_t k)
+{
+    return w->positions[w->tris[tri].v[k % 3]];
+}
+
+/* Twice as long as the triangle is large. */
+static struct vec3 long_normal(const struct world *w, uint32_t tri)
+{
+    struct vec3 p = corner(w, tri, 0);
+
+    return v3_cross(v3_sub(corner(w, tri, 1), p), v3_sub(corner(w, tri, 2), p));
 }
 
 static struct light make_light(const struct world *w, uint32_t tri)
 {
     const struct tri *t = &w->tris[tri];
     const struct material *m = &w->materials[t->material];
-    struct light l = {.tri = tri, .texture = NO_INDEX, .emission = m->emission};
+    struct light l = {.tris = {tri, NO_INDEX},
+                      .texture = NO_INDEX,
+                      .corners = {corner(w, tri, 0), corner(w, tri, 1),
+                                  corner(w, tri, 2), corner(w, tri, 2)},
+                      .twice = {long_normal(w, tri)},
+                      .emission = m->emission};
 
     if (t->vt[0] != NO_INDEX)
         l.texture = m->emission_texture;
-    for (int i = 0; i < 3; i++)
-        l.corners[i] = w->positions[t->v[i]];
-    l.twice = v3_cross(v3_sub(l.corners[1], l.corners[0]),
-                       v3_sub(l.corners[2], l.corners[0]));
     return l;
+}
+
+static bool is_same_place(struct vec3 a, struct vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Whether the triangles share a side, run through in opposite directions; *i
+ * and *k are their corners off it. */
+static bool share_side(const struct world *w, uint32_t a, uint32_t b,
+                       uint32_t *i, uint32_t *k)
+{
+    for (*i = 0; *i < 3; (*i)++)
+        for (*k = 0; *k < 3; (*k)++)
+            if (is_same_place(corner(w, a, *i + 1), corner(w, b, *k + 2)) &&
+                is_same_place(corner(w, a, *i + 2), corner(w, b, *k + 1)))
+                return true;
+    return false;
+}
+
+/* Makes one light of the last and the triangle that made `e`, if they are alike
+ * enough to be sampled equally often, as one face. */
+static bool join_light(const struct world *w, struct light *l,
+                       struct emitter *last, uint32_t tri,
+                       const struct emitter *e)
+{
+    struct light other = make_light(w, tri);
+    uint32_t i, k;
+
+    if (l->tris[0] + 1 != tri || l->tris[1] != NO_INDEX ||
+        l->texture != other.texture ||
+        lights_differ(&w->materials[w->tris[l->tris[0]].material],
+                      &w->materials[w->tris[tri].material]) ||
+        !(v3_dot(e->normal, last->normal) > FLAT_COSINE) ||
+        fmax(e->power, last->power) >
+            PAIR_RATIO * fmin(e->power, last->power) ||
+        !share_side(w, l->tris[0], tri, &i, &k))
+        return false;
+    l->corners[0] = corner(w, l->tris[0], i);
+    l->corners[1] = corner(w, l->tris[0], i + 1);
+    l->corners[2] = corner(w, tri, k);
+    l->corners[3] = corner(w, l->tris[0], i + 2);
+    l->tris[1] = tri;
+    l->turns[0] = (3 - i) % 3;
+    l->turns[1] = (3 - k) % 3;
+    l->twice[0] = v3_scale(l->twice[0], 2.0f);
+    l->twice[1] = v3_scale(other.twice[0], 2.0f);
+    last->power += e->power;
+    last->lo = low(last->lo, e->lo);
+    last->hi = high(last->hi, e->hi);
+    return true;
+}
+
+/* Unless it becomes a part of the last one. */
+static void add_light(const struct world *w, struct lights *l,
+                      struct emitter *emitters, uint32_t tri,
+                      const struct emitter *e)
+{
+    uint32_t n = l->light_count;
+
+    if (n > 0 && join_light(w, &l->lights[n - 1], &emitters[n - 1], tri, e))
+        return;
+    l->lights[n] = make_light(w, tri);
+    emitters[n] = *e;
+    emitters[n].light = n;
+    l->light_count++;
 }
 
 /* Finds the emitters among `candidate_count` triangles of shining materials. */
@@ -118,16 +212,15 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
     if (*emitters == NULL || l->lights == NULL || l->tri_lights == NULL)
         return fail(err, "out of memory for %u lights", candidate_count);
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
-        struct emitter *e = &(*emitters)[l->light_count];
+        struct emitter e;
 
         l->tri_lights[i] = NO_INDEX;
         if (!shines(&w->materials[w->tris[i].material]) ||
-            !make_emitter(w, i, footprints, e, &l->glare))
+            !make_emitter(w, i, footprints, &e, &l->glare))
             continue;
-        total += e->power;
-        l->tri_lights[i] = l->light_count;
-        e->light = l->light_count;
-        l->lights[l->light_count++] = make_light(w, i);
+        total += e.power;
+        add_light(w, l, *emitters, i, &e);
+        l->tri_lights[i] = l->light_count - 1;
     }
     for (uint32_t i = 0; i < l->light_count; i++)
         (*emitters)[i].power = fmax((*emitters)[i].power / total, POWER_LEAST);

@@ -2,8 +2,9 @@
 /*
  * lights.h - the triangles that shine, and the tree that finds them
  *
- * A triangle is a light if it sheds enough to be worth sampling; light_tree.h
- * builds the tree.
+ * A triangle is a light if it sheds enough to be worth sampling; with the next
+ * one it is a single light if both are much the same and make one flat face, as
+ * the halves of a quad do. light_tree.h builds the tree.
  *
  * Units:     normalised scene units
  * Ownership: lights_free() frees; a zeroed struct is a scene without lights
@@ -17,7 +18,7 @@
 #include "kernels/types.h"
 
 struct lights {
-    struct light *lights; /* in the order of their triangles */
+    struct light *lights; /* in the order of their first triangles */
     uint32_t light_count;
     uint32_t *tri_lights;
     struct light_node *nodes;

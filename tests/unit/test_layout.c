@@ -45,8 +45,9 @@
     M(node, count, 28)                                                       \
     S(leaf_tri, 40) M(leaf_tri, p0, 0) M(leaf_tri, p1, 12)                   \
     M(leaf_tri, p2, 24) M(leaf_tri, tri, 36)                                 \
-    S(light, 76) M(light, tri, 0) M(light, path, 4) M(light, texture, 12)      \
-    M(light, corners, 16) M(light, twice, 52) M(light, emission, 64) \
+    S(light, 112) M(light, tris, 0) M(light, path, 8) M(light, texture, 16)  \
+    M(light, turns, 20) M(light, corners, 28) M(light, twice, 76)            \
+    M(light, emission, 100)                                                  \
     S(light_node, 320) M(light_node, x, 0) M(light_node, y, 32)              \
     M(light_node, z, 64) M(light_node, radius, 96) M(light_node, axis_x, 128)\
     M(light_node, axis_y, 160) M(light_node, axis_z, 192)                    \

@@ -289,7 +289,7 @@ static void all_surfaces_shine_as_they_scatter(void **state)
                                     .truth = {(double)truth.x, (double)truth.y,
                                               (double)truth.z},
                                     .systematic = 1e-4, /* of the midpoints */
-                                    .paths = 2048}));
+                                    .paths = 4096}));
         stage_free(&s);
     }
 }

@@ -88,7 +88,8 @@ static bool shadow(const struct world *w, struct vec2 u, struct vec2 choice,
     r->d = sun;
     if (count > 0) {
         const struct light *l = &w->lights[(uint32_t)(choice.x * (float)count)];
-        const uint32_t *v = w->tris[l->tri].v;
+        bool is_second = l->tris[1] != NO_INDEX && choice.y < 0.5f;
+        const uint32_t *v = w->tris[l->tris[is_second ? 1 : 0]].v;
         float root = sqrtf(u.x);
         struct vec3 p =
             v3_add(v3_add(v3_scale(w->positions[v[0]], 1.0f - root),
