@@ -147,17 +147,24 @@ static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
     return above.hi / slope.hi;
 }
 
+/* All the same. Processors cannot predict which of a lamp's triangles it is:
+ * no branch between the two comparisons. */
+static inline bool are_same(float a, float b, float c)
+{
+    return ((uint32_t)(a == b) & (uint32_t)(a == c)) != 0;
+}
+
 /* The distance to a triangle that lies across an axis: one division, the same
  * for all triangles in that plane, so that those which share a place tie. False
  * if it lies otherwise. */
 static inline bool axis_distance(struct ray r, struct vec3 p0, struct vec3 p1,
                                  struct vec3 p2, float *t)
 {
-    if (p0.x == p1.x && p0.x == p2.x)
+    if (are_same(p0.x, p1.x, p2.x))
         *t = (p0.x - r.o.x) / r.d.x;
-    else if (p0.y == p1.y && p0.y == p2.y)
+    else if (are_same(p0.y, p1.y, p2.y))
         *t = (p0.y - r.o.y) / r.d.y;
-    else if (p0.z == p1.z && p0.z == p2.z)
+    else if (are_same(p0.z, p1.z, p2.z))
         *t = (p0.z - r.o.z) / r.d.z;
     else
         return false;

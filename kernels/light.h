@@ -74,12 +74,14 @@ static inline struct hit triangle_point(struct vec2 u)
 static inline struct hit pair_point(struct vec2 u, uint32_t *part)
 {
     struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
-    bool is_second = u.x + u.y > 1.0f;
+    float turn;
 
-    h.b1 = is_second ? 1.0f - u.x : u.x;
-    h.b2 = is_second ? 1.0f - u.y : u.y;
+    /* without a branch, which would be wrong every other time */
+    *part = (uint32_t)(u.x + u.y > 1.0f);
+    turn = (float)*part;
+    h.b1 = fabsf(turn - u.x);
+    h.b2 = fabsf(turn - u.y);
     h.b0 = f_max(1.0f - h.b1 - h.b2, 0.0f);
-    *part = is_second ? 1u : 0u;
     return h;
 }
 

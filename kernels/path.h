@@ -299,12 +299,8 @@ static inline bool path_survives(struct path *p, uint32_t vertex, float u)
 {
     float q = survival(p->beta, vertex);
 
-    if (q >= 1.0f)
-        return true;
-    if (!(u < q))
-        return false;
     p->beta = v3_scale(p->beta, 1.0f / q);
-    return true;
+    return u < q;
 }
 
 /* Samples are paths: they go on from what they meet first. */

@@ -19,12 +19,14 @@
 #include "kernels/vec.h"
 
 /* With which probability a path goes on that counts beta after this vertex, the
- * first of which is 1. 1 or more: surely; 0 or NaN: never. */
+ * first of which is 1. 0: never, also where beta is no number. Without branches,
+ * as vertices come in no order that could be foreseen. */
 static inline float survival(struct vec3 beta, uint32_t vertex)
 {
     float q = sqrtf(v3_max(beta));
+    float is_first = (float)((uint32_t)(vertex == 1) & (uint32_t)(q > 0.0f));
 
-    return vertex == 1 && q > 0.0f ? 1.0f : q;
+    return f_max(f_min(1.0f, q), is_first);
 }
 
 /* With which probability a shadow ray is traced that would add `light` to a
