@@ -3,26 +3,47 @@
 
 /* ---- extents ---- */
 
+/* An extent, but for the sign of `last`. */
+struct reach {
+    f4 lo, hi, first, last;
+};
+
+static inline struct reach reach_none(void)
+{
+    f4 most = f4_all(FLOAT_MAX);
+
+    return (struct reach){most, most, most, f4_all(-FLOAT_MAX)};
+}
+
+static inline void reach_add(struct reach *r, const struct box *box)
+{
+    f4 lo = f4_load(box->planes), hi = f4_load(box->planes + 4);
+    f4 center = f4_sub(lo, hi);
+
+    r->lo = f4_min(r->lo, lo);
+    r->hi = f4_min(r->hi, hi);
+    r->first = f4_min(r->first, center);
+    r->last = f4_max(r->last, center);
+}
+
+/* Two at once: a minimum takes four times as long as until the next can begin.
+ */
 struct extent extent_of(const struct box *boxes, uint32_t count)
 {
-    struct extent e = extent_empty();
-    f4 lo = f4_load(e.bounds.planes), hi = lo, first = lo;
-    f4 last = f4_all(-FLOAT_MAX);
+    struct reach a = reach_none(), b = a;
+    struct extent e;
 
-    for (uint32_t i = 0; i < count; i++) {
-        f4 box_lo = f4_load(boxes[i].planes);
-        f4 box_hi = f4_load(boxes[i].planes + 4);
-        f4 center = f4_sub(box_lo, box_hi);
-
-        lo = f4_min(lo, box_lo);
-        hi = f4_min(hi, box_hi);
-        first = f4_min(first, center);
-        last = f4_max(last, center);
+    for (uint32_t i = 0; i + 1 < count; i += 2) {
+        reach_add(&a, &boxes[i]);
+        reach_add(&b, &boxes[i + 1]);
     }
-    f4_store(e.bounds.planes, lo);
-    f4_store(e.bounds.planes + 4, hi);
-    f4_store(e.centers.planes, first);
-    f4_store(e.centers.planes + 4, f4_sub(f4_all(0.0f), last));
+    if (count % 2 != 0)
+        reach_add(&a, &boxes[count - 1]);
+    f4_store(e.bounds.planes, f4_min(a.lo, b.lo));
+    f4_store(e.bounds.planes + 4, f4_min(a.hi, b.hi));
+    f4_store(e.centers.planes, f4_min(a.first, b.first));
+    f4_store(e.centers.planes + 4,
+             f4_sub(f4_all(0.0f), f4_max(a.last, b.last)));
     return e;
 }
 
@@ -41,15 +62,14 @@ void bins_clear(struct bins *bins, uint32_t count, const struct box *centers)
 {
     struct binning *b = &bins->binning;
     const struct box empty = box_empty();
-    f4 first = f4_load(centers->planes);
-    f4 last = f4_sub(f4_all(0.0f), f4_load(centers->planes + 4));
+    const float *p = centers->planes;
+    f4 first = f4_of(p[0], p[1], p[2]), last = f4_of(-p[4], -p[5], -p[6]);
 
     b->count = bin_count_for(count);
     f4_store(b->first, first);
     f4_store(b->scale,
              f4_up_to(f4_div(f4_all((float)b->count), f4_sub(last, first)),
                       f4_all(FLOAT_MAX)));
-    b->first[3] = b->scale[3] = 0.0f;
     bins->box_count = 0;
     for (uint32_t i = 0; i < b->count; i++) {
         struct bin *bin = &bins->bins[i];
