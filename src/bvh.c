@@ -231,9 +231,16 @@ static bool build(struct builder *b)
     return join_parts(b);
 }
 
-bool bvh_build_nodes(struct bvh *bvh, const struct world *w,
-                     const struct bvh_leaves *leaves, struct pool *pool,
-                     struct error *err)
+static bool fail_for(struct bvh *bvh, const struct world *w, struct error *err)
+{
+    bvh_free(bvh);
+    return fail(err, "out of memory for the tree of %u triangles",
+                w->settings.tri_count);
+}
+
+bool bvh_split(struct bvh *bvh, const struct world *w,
+               const struct bvh_leaves *leaves, struct pool *pool,
+               struct error *err)
 {
     struct builder b = {.bvh = bvh};
     bool ok;
@@ -244,11 +251,18 @@ bool bvh_build_nodes(struct bvh *bvh, const struct world *w,
     ok = begin(&b, w, leaves, pool) && build(&b);
     end(&b);
     bvh->leaf_tri_count = w->settings.tri_count;
-    if (!ok || !bvh_reinsert(bvh)) {
-        bvh_free(bvh);
-        return fail(err, "out of memory for the tree of %u triangles",
-                    w->settings.tri_count);
-    }
+    assert(bvh->depth < TRAVERSE_STACK);
+    return ok || fail_for(bvh, w, err);
+}
+
+bool bvh_build_nodes(struct bvh *bvh, const struct world *w,
+                     const struct bvh_leaves *leaves, struct pool *pool,
+                     struct error *err)
+{
+    if (!bvh_split(bvh, w, leaves, pool, err))
+        return false;
+    if (!bvh_reinsert(bvh))
+        return fail_for(bvh, w, err);
     assert(bvh->depth < TRAVERSE_STACK);
     return true;
 }
@@ -261,11 +275,8 @@ bool bvh_build(struct bvh *bvh, const struct world *w, struct pool *pool,
     if (!bvh_build_nodes(bvh, w, &leaves, pool, err))
         return false;
     bvh->leaf_tris = alloc_aligned(bvh->leaf_tri_count, sizeof *bvh->leaf_tris);
-    if (bvh->leaf_tris == NULL) {
-        bvh_free(bvh);
-        return fail(err, "out of memory for the leaves of %u triangles",
-                    w->settings.tri_count);
-    }
+    if (bvh->leaf_tris == NULL)
+        return fail_for(bvh, w, err);
     for (uint32_t i = 0; i < bvh->leaf_tri_count; i++) {
         const struct tri *t = &w->tris[bvh->tris[i]];
 

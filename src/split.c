@@ -3,36 +3,58 @@
 
 /* ---- extents ---- */
 
+/* An extent, but for the sign of `last`. */
+struct reach {
+    f4 lo, hi, first, last;
+};
+
+static inline struct reach reach_none(void)
+{
+    f4 most = f4_all(FLOAT_MAX);
+
+    return (struct reach){most, most, most, f4_all(-FLOAT_MAX)};
+}
+
+static inline void reach_add(struct reach *r, const struct box *box)
+{
+    f4 lo = f4_load(box->planes), hi = f4_load(box->planes + 4);
+    f4 center = f4_sub(lo, hi);
+
+    r->lo = f4_min(r->lo, lo);
+    r->hi = f4_min(r->hi, hi);
+    r->first = f4_min(r->first, center);
+    r->last = f4_max(r->last, center);
+}
+
+/* Two at once: a minimum takes four times as long as until the next can begin.
+ */
 struct extent extent_of(const struct box *boxes, uint32_t count)
 {
-    struct extent e = extent_empty();
-    f4 lo = f4_load(e.bounds.planes), hi = lo, first = lo;
-    f4 last = f4_all(-FLOAT_MAX);
+    struct reach a = reach_none(), b = a;
+    struct extent e;
 
-    for (uint32_t i = 0; i < count; i++) {
-        f4 box_lo = f4_load(boxes[i].planes);
-        f4 box_hi = f4_load(boxes[i].planes + 4);
-        f4 center = f4_sub(box_lo, box_hi);
-
-        lo = f4_min(lo, box_lo);
-        hi = f4_min(hi, box_hi);
-        first = f4_min(first, center);
-        last = f4_max(last, center);
+    for (uint32_t i = 0; i + 1 < count; i += 2) {
+        reach_add(&a, &boxes[i]);
+        reach_add(&b, &boxes[i + 1]);
     }
-    f4_store(e.bounds.planes, lo);
-    f4_store(e.bounds.planes + 4, hi);
-    f4_store(e.centers.planes, first);
-    f4_store(e.centers.planes + 4, f4_sub(f4_all(0.0f), last));
+    if (count % 2 != 0)
+        reach_add(&a, &boxes[count - 1]);
+    f4_store(e.bounds.planes, f4_min(a.lo, b.lo));
+    f4_store(e.bounds.planes + 4, f4_min(a.hi, b.hi));
+    f4_store(e.centers.planes, f4_min(a.first, b.first));
+    f4_store(e.centers.planes + 4,
+             f4_sub(f4_all(0.0f), f4_max(a.last, b.last)));
     return e;
 }
 
 /* ---- bins ---- */
 
-/* Fewer for fewer boxes. Measured: 32 at the top save rays 5 %, but not below;
- * 4 at the bottom cost them nothing. */
+/* Fewer for fewer boxes. Measured, by nodes and blocks that rays meet: 32 at
+ * the top save 5 %; twice as many below save no more than 0.2 %, and take a
+ * tenth of the time that trees take. */
 static uint32_t bin_count_for(uint32_t count)
 {
-    return count > 256 ? SPLIT_BINS : count > 16 ? 16 : count > 4 ? 8 : 4;
+    return count > 256 ? SPLIT_BINS : count > 128 ? 16 : count > 16 ? 8 : 4;
 }
 
 /* Centres too close to each other for bins count as one. */
@@ -40,20 +62,21 @@ void bins_clear(struct bins *bins, uint32_t count, const struct box *centers)
 {
     struct binning *b = &bins->binning;
     const struct box empty = box_empty();
-    f4 first = f4_load(centers->planes);
-    f4 last = f4_sub(f4_all(0.0f), f4_load(centers->planes + 4));
+    const float *p = centers->planes;
+    f4 first = f4_of(p[0], p[1], p[2]), last = f4_of(-p[4], -p[5], -p[6]);
 
     b->count = bin_count_for(count);
     f4_store(b->first, first);
     f4_store(b->scale,
              f4_up_to(f4_div(f4_all((float)b->count), f4_sub(last, first)),
                       f4_all(FLOAT_MAX)));
-    b->first[3] = b->scale[3] = 0.0f;
     bins->box_count = 0;
     for (uint32_t i = 0; i < b->count; i++) {
+        struct bin *bin = &bins->bins[i];
+
         for (int axis = 0; axis < 3; axis++)
-            bins->boxes[i][axis] = empty;
-        memset(bins->counts[i], 0, sizeof bins->counts[i]);
+            bin->boxes[axis] = empty;
+        memset(bin->counts, 0, sizeof bin->counts);
     }
 }
 
@@ -72,15 +95,18 @@ void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
     const struct binning binning = bins->binning;
 
     for (uint32_t i = 0; i < count; i += stride) {
+        const struct box box = boxes[i];
         _Alignas(16) uint32_t at[4];
 
-        f4_store_counts(at, bins_of(&binning, &boxes[i]));
+        f4_store_counts(at, bins_of(&binning, &box));
         for (int axis = 0; axis < 3; axis++) {
-            box_join(&bins->boxes[at[axis]][axis], &boxes[i]);
-            bins->counts[at[axis]][axis]++;
+            struct bin *bin = &bins->bins[at[axis]];
+
+            box_join(&bin->boxes[axis], &box);
+            bin->counts[axis]++;
         }
-        bins->box_count++;
     }
+    bins->box_count += (count + stride - 1) / stride;
 }
 
 /* ---- the plane ---- */
@@ -123,7 +149,7 @@ static void sweep_right(const struct bins *bins, f4 areas[SPLIT_BINS])
 
     front_clear(&f);
     for (uint32_t i = bins->binning.count - 1; i > 0; i--) {
-        front_join(&f, bins->boxes[i]);
+        front_join(&f, bins->bins[i].boxes);
         areas[i] = front_areas(&f);
     }
 }
@@ -151,8 +177,8 @@ static f4 sweep_costs(const struct bins *bins, uint32_t block_bits,
     sweep_right(bins, right_areas);
     front_clear(&f);
     for (uint32_t i = 1; i < bins->binning.count; i++) {
-        front_join(&f, bins->boxes[i - 1]);
-        left = f4_add(left, f4_of_counts(bins->counts[i - 1]));
+        front_join(&f, bins->bins[i - 1].boxes);
+        left = f4_add(left, f4_of_counts(bins->bins[i - 1].counts));
         costs[i] = f4_add(f4_mul(front_areas(&f), blocks(left, block_bits)),
                           f4_mul(right_areas[i],
                                  blocks(f4_sub(all, left), block_bits)));

@@ -43,7 +43,12 @@ struct bvh_leaves {
 bool bvh_build(struct bvh *bvh, const struct world *world, struct pool *pool,
                struct error *err);
 
-/* The tree alone, for such leaves. */
+/* The tree by splits from the top down, for such leaves. */
+bool bvh_split(struct bvh *bvh, const struct world *world,
+               const struct bvh_leaves *leaves, struct pool *pool,
+               struct error *err);
+
+/* The tree alone: splits, and then as reinsert.h says. */
 bool bvh_build_nodes(struct bvh *bvh, const struct world *world,
                      const struct bvh_leaves *leaves, struct pool *pool,
                      struct error *err);

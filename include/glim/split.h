@@ -106,11 +106,16 @@ struct binning {
     uint32_t count;
 };
 
+/* The bins at one place of each axis, in two lines of memory. */
+struct bin {
+    _Alignas(128) struct box boxes[3];
+    _Alignas(16) uint32_t counts[4]; /* the last is of no axis */
+};
+
 struct bins {
     struct binning binning;
     uint32_t box_count;
-    struct box boxes[SPLIT_BINS][3];
-    _Alignas(16) uint32_t counts[SPLIT_BINS][4]; /* the last is of no axis */
+    struct bin bins[SPLIT_BINS];
 };
 
 struct split {

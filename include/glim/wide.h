@@ -4,10 +4,8 @@
  *
  * A node's boxes are arrays of eight, so that one step tests all; up to four
  * triangles lie side by side in a block (Wald, Benthin and Boulos 2008,
- * "Getting rid of packets"). Which nodes of the binary tree become children is
- * the cheapest choice by the surface area heuristic (Ylitie, Karras and Laine
- * 2017, "Efficient incoherent ray traversal on GPUs through compressed wide
- * BVHs", 3.1).
+ * "Getting rid of packets"). Which nodes of the binary tree become children
+ * says wide_fit.h.
  *
  * Units:     normalised scene units
  * Ownership: wide_free() frees; a zeroed struct is a tree without triangles
@@ -28,6 +26,9 @@
 #define WIDE_UNIT 32
 #define WIDE_LEAF 4u
 #define WIDE_MORE 3u
+
+/* So many triangles can be below a leaf. */
+#define WIDE_LEAF_TRIS ((WIDE_MORE + 1) * BLOCK_TRIS)
 
 struct wide_node {
     /* near and far planes are picked by the ray's signs: [axis][low or high] */

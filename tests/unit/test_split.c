@@ -172,8 +172,10 @@ static void strides_leave_out_boxes(void **state)
     assert_int_equal(of_all.box_count, count);
     for (int axis = 0; axis < 3; axis++)
         for (uint32_t i = 0; i < of_all.binning.count; i++) {
-            assert_int_equal(of_all.counts[i][axis], of_some.counts[i][axis]);
-            assert_memory_equal(&of_all.boxes[i][axis], &of_some.boxes[i][axis],
+            const struct bin *a = &of_all.bins[i], *b = &of_some.bins[i];
+
+            assert_int_equal(a->counts[axis], b->counts[axis]);
+            assert_memory_equal(&a->boxes[axis], &b->boxes[axis],
                                 3 * sizeof(float));
         }
 }

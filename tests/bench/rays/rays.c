@@ -17,11 +17,12 @@
 
 #include "glim/isa.h"
 #include "glim/pool.h"
+#include "glim/reinsert.h"
 #include "glim/wide.h"
 #include "tests/bench/median.h"
 
 #define REPEATS     7
-#define BUILDS      3
+#define BUILDS      5
 #define THREADS_MAX 2
 
 /* Rays of a job. */
@@ -32,7 +33,17 @@
 #define T_TOLERANCE 1e-5f
 #define T_ROUNDING  0x1p-23f
 
-enum { GLIM, ROBUST, FAST, RACERS, MEDIUM = RACERS, BUILDERS };
+/* Those that trace, those that build, and what lines say of builds. */
+enum {
+    GLIM,
+    ROBUST,
+    FAST,
+    RACERS,
+    MEDIUM = RACERS,
+    BUILDERS,
+    BINNED = BUILDERS, /* glim's tree without reinsertion */
+    BUILD_LINES
+};
 
 static const enum embree_kind embree_kinds[BUILDERS] = {
     [ROBUST] = EMBREE_ROBUST, [FAST] = EMBREE_FAST, [MEDIUM] = EMBREE_MEDIUM};
@@ -201,9 +212,12 @@ static const struct racer *racer_of(const struct paths *paths)
 static bool build_glim(struct contest *c, const struct paths *paths,
                        struct pool *pool, struct error *err)
 {
-    struct spent begin = spent_now();
-    bool ok = wide_build(&c->tree, &c->shape.world, pool, err);
+    struct spent begin;
+    bool ok;
 
+    wide_free(&c->tree);
+    begin = spent_now();
+    ok = wide_build(&c->tree, &c->shape.world, pool, err);
     c->world = (struct wide_world){c->shape.world, &c->tree};
     c->racers[GLIM] = *racer_of(paths);
     c->racers[GLIM].tree = &c->world;
@@ -212,25 +226,57 @@ static bool build_glim(struct contest *c, const struct paths *paths,
     return ok;
 }
 
-/* Lines that say what the trees take. */
-static void print_builds(const struct contest *c,
-                         struct spent times[BUILDERS][BUILDS])
+/* What reinsertion takes of that. */
+static bool time_reinsertion(const struct contest *c, struct pool *pool,
+                             struct spent *spent, struct error *err)
 {
-    static const char *const names[BUILDERS] = {"glim", "Embree robust",
-                                                "Embree fast", "Embree medium"};
+    struct bvh bvh = {.nodes = NULL};
+    bool ok = bvh_split(&bvh, &c->shape.world, &wide_leaves, pool, err);
+    struct spent begin = spent_now();
 
-    for (int i = 0; i < BUILDERS; i++) {
+    ok = ok && bvh_reinsert(&bvh);
+    *spent = spent_since(begin);
+    bvh_free(&bvh);
+    return ok;
+}
+
+static struct spent median_of(const struct spent times[BUILDS])
+{
+    double s[BUILDS], cpu_s[BUILDS];
+
+    for (int k = 0; k < BUILDS; k++) {
+        s[k] = times[k].s;
+        cpu_s[k] = times[k].cpu_s;
+    }
+    return (struct spent){median(s, BUILDS), median(cpu_s, BUILDS)};
+}
+
+/* Lines that say what the trees take, and Embree's how many times as long as
+ * glim's of the same kind. */
+static void print_builds(const struct contest *c,
+                         struct spent times[BUILD_LINES][BUILDS])
+{
+    static const struct {
+        const char *name;
+        int glims; /* of the same kind */
+    } lines[BUILD_LINES] = {[GLIM] = {"glim", GLIM},
+                            [BINNED] = {"glim binned", BINNED},
+                            [ROBUST] = {"Embree robust", BINNED},
+                            [MEDIUM] = {"Embree medium", BINNED},
+                            [FAST] = {"Embree fast", GLIM}};
+    static const int order[BUILD_LINES] = {GLIM, FAST, BINNED, MEDIUM, ROBUST};
+
+    for (int i = 0; i < BUILD_LINES; i++) {
+        int k = order[i], glims = lines[k].glims;
+        struct spent spent = median_of(times[k]);
+        struct spent own = median_of(times[glims]);
         const struct racer *r =
-            i == GLIM ? &c->racers[GLIM] : &c->embrees[i].racer;
-        double s[BUILDS], cpu_s[BUILDS];
+            k == glims ? &c->racers[GLIM] : &c->embrees[k].racer;
 
-        for (int k = 0; k < BUILDS; k++) {
-            s[k] = times[i][k].s;
-            cpu_s[k] = times[i][k].cpu_s;
-        }
-        printf("  %-14s %8.4f s, %8.4f of the processor; %5.1f bytes a "
-               "triangle\n",
-               names[i], median(s, BUILDS), median(cpu_s, BUILDS),
+        printf("  %-14s %8.4f s %8.4f of the processor  %6.2f %6.2f  %5.1f "
+               "bytes a triangle\n",
+               lines[k].name, spent.s, spent.cpu_s, spent.s / own.s,
+               spent.cpu_s / own.cpu_s,
                r->bytes / c->shape.world.settings.tri_count);
     }
 }
@@ -240,12 +286,17 @@ static bool build_all(struct contest *c, const struct paths *paths,
                       struct error *err)
 {
     struct pool *pool = pool_create(usable_threads(), err);
-    struct spent times[BUILDERS][BUILDS];
+    struct spent times[BUILD_LINES][BUILDS];
     bool ok = pool != NULL;
 
     for (int k = 0; ok && k < BUILDS; k++) {
-        ok = build_glim(c, paths, pool, err);
-        times[GLIM][k] = c->racers[GLIM].build;
+        struct spent whole, part = {0.0, 0.0};
+
+        ok = build_glim(c, paths, pool, err) &&
+             time_reinsertion(c, pool, &part, err);
+        times[GLIM][k] = whole = c->racers[GLIM].build;
+        times[BINNED][k] =
+            (struct spent){whole.s - part.s, whole.cpu_s - part.cpu_s};
         for (int i = ROBUST; i < BUILDERS; i++) {
             embree_free(&c->embrees[i]);
             embree_build(&c->embrees[i], &c->shape.world, embree_kinds[i],
@@ -325,7 +376,11 @@ int main(int argc, char **argv)
                " threads'\nprocessor time; ratios of that, then of time by the"
                " clock.\n"
                "  rays     threads glim   robust     fast  /robust  /fast "
-               " /robust  /fast\n",
+               " /robust  /fast\n"
+               "Trees take seconds by the clock, then of the processor; ratios"
+               " of both: fast over\nglim, the others over `binned`, which is"
+               " glim without the time of reinsertion, a\nstep that they do not"
+               " have.\n",
                paths->name);
     for (int i = 0; ok && i < SHAPES; i++)
         if (strstr(shape_names[i], part) != NULL)
