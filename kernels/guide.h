@@ -197,7 +197,7 @@ static inline bool guide_scatter(const struct world *w, uint32_t cell,
     } else {
         if (!bsdf_sample(b, wo, guide_rest(u, share), choice, s))
             return false;
-        *wi = v3_unit(vertex_to_world(v, s->wi));
+        *wi = v3_unit_again(vertex_to_world(v, s->wi));
     }
     if (s->is_delta)
         *scale /= 1.0f - share;

@@ -235,6 +235,18 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     return true;
 }
 
+/* The distance that triangle_hit() finds, for a ray that is aimed at a point of
+ * the triangle; no more than 0 if it cannot meet it. */
+static inline float aimed_distance(struct ray r, struct vec3 p0, struct vec3 p1,
+                                   struct vec3 p2)
+{
+    struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
+
+    if (!axis_distance(r, p0, p1, p2, &h.t))
+        triangle_hit(r, shear_of(r), p0, p1, p2, FLOAT_MAX, &h);
+    return h.t <= FLOAT_MAX ? h.t : 0.0f;
+}
+
 /* Where a hit is, with a bound of its rounding error on each axis: from the
  * barycentrics, so that the distance travelled does not matter. It has seven
  * roundings, and leave_surface() has less than two more. */

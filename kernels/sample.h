@@ -42,7 +42,7 @@ static inline struct vec3 cosine_around(struct vec3 n, struct vec2 u)
     struct vec3 d = cosine_hemisphere(u), t, b;
 
     frame_around(n, &t, &b);
-    return v3_unit(
+    return v3_unit_again(
         v3_add(v3_add(v3_scale(t, d.x), v3_scale(b, d.y)), v3_scale(n, d.z)));
 }
 

@@ -87,6 +87,13 @@ static inline struct vec3 v3_unit(struct vec3 a)
     return v3_scale(a, 1.0f / v3_length(a));
 }
 
+/* v3_unit() of a vector whose length is 1 but for rounding: a step of Newton's
+ * in place of a root and a division. */
+static inline struct vec3 v3_unit_again(struct vec3 a)
+{
+    return v3_scale(a, 1.5f - 0.5f * v3_dot(a, a));
+}
+
 static inline float v3_max(struct vec3 a)
 {
     return f_max(a.x, f_max(a.y, a.z));

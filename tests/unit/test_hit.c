@@ -78,6 +78,38 @@ static void hits_agree_with_long_double(void **state)
     assert_true(hits > 20000 && misses > 500000);
 }
 
+/* As far as triangle_hit() says, to the bit, which only edges can escape, and
+ * not behind the ray. */
+static void aimed_rays_end_at_the_triangle(void **state)
+{
+    uint64_t seed = 9;
+    int missed = 0;
+
+    (void)state;
+    for (int i = 0; i < 200000; i++) {
+        struct vec3 p0 = point(&seed), p1 = point(&seed), p2 = point(&seed);
+        float u = (float)check_random(&seed), v = (float)check_random(&seed);
+        struct hit h = {0.0f, 1.0f - f_max(u, v), f_min(u, v), 0.0f, 0};
+        struct vec3 o = point(&seed), error;
+        struct ray r = {o, o, FLOAT_MAX, 0, 0};
+        float t;
+
+        h.b2 = f_max(u, v) - f_min(u, v);
+        if (i % 2 == 0)
+            p1.y = p2.y = p0.y;
+        r.d = v3_sub(hit_point(h, p0, p1, p2, &error), r.o);
+        t = aimed_distance(r, p0, p1, p2);
+        check_close(t, (double)intersect(r, p0, p1, p2).t, 1e-3);
+        if (triangle_hit(r, shear_of(r), p0, p1, p2, FLOAT_MAX, &h))
+            assert_true(h.t == t);
+        else
+            missed++;
+        r.d = v3_neg(r.d);
+        assert_true(!(aimed_distance(r, p0, p1, p2) > 0.0f));
+    }
+    check_at_most(missed, 20);
+}
+
 /* STRESS G4: hits of needles are on the needle, whatever its weights. */
 static void needles_are_hit_where_they_are(void **state)
 {
@@ -317,6 +349,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hits_agree_with_long_double),
+        cmocka_unit_test(aimed_rays_end_at_the_triangle),
         cmocka_unit_test(needles_are_hit_where_they_are),
         cmocka_unit_test(faces_in_one_plane_tie),
         cmocka_unit_test(windings_tie),

@@ -52,6 +52,25 @@ static void frames_are_orthonormal(void **state)
     }
 }
 
+static void nearly_unit_vectors_become_unit(void **state)
+{
+    uint64_t seed = 2;
+
+    (void)state;
+    for (int i = 0; i < 100000; i++) {
+        struct vec3 a = v3((float)(check_random(&seed) - 0.5),
+                           (float)(check_random(&seed) - 0.5),
+                           (float)(check_random(&seed) - 0.5));
+        float off = (float)(2e-4 * (check_random(&seed) - 0.5));
+        struct vec3 b = v3_unit_again(v3_scale(v3_unit(a), 1.0f + off));
+        double square = (double)b.x * (double)b.x + (double)b.y * (double)b.y +
+                        (double)b.z * (double)b.z;
+
+        check_close(sqrt(square), 1, 3e-7);
+        check_close(v3_length(v3_cross(v3_unit(a), b)), 0, 1e-6);
+    }
+}
+
 /* Moments of the cosine distribution: E z = 2/3, E z^2 = 1/2, E x^2 = 1/4. */
 static void hemisphere_has_cosine_moments(void **state)
 {
@@ -81,6 +100,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(angles_agree_with_libm),
         cmocka_unit_test(frames_are_orthonormal),
+        cmocka_unit_test(nearly_unit_vectors_become_unit),
         cmocka_unit_test(hemisphere_has_cosine_moments),
     };
 
