@@ -12,8 +12,9 @@
 /* Where splits by cost end: 11 levels of halves hold 2^33 lights. */
 #define LIGHT_SAH_DEPTH (LIGHT_LEVELS - 11)
 
-/* Keeps 1 / distance^2 finite; below any distance between points that float
- * coordinates near 1 can tell apart. */
+/* A quarter of its square, squared, is a normal float that can be divided by;
+ * below any distance between points that float coordinates near 1 can tell
+ * apart. */
 #define RADIUS_LEAST 1e-9f
 
 struct builder {

@@ -95,6 +95,41 @@ static void points_are_uniform_on_parallelograms(void **state)
     }
 }
 
+/* As likely as both its halves on the other side, which something keeps apart;
+ * 2 % are for the nearer places. The tree's ball is around all of it. */
+static void both_halves_count(void **state)
+{
+    const struct vec3 p = {0.5f, 1, 0}, x = {0.01f, 0, 0}, z = {0, 0, 0.01f};
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct mesh m = {0};
+    struct lights lights;
+    float whole, halves;
+    uint32_t i;
+
+    (void)state;
+    mesh_add_quad(&m, p, v3_add(p, x), v3_add(v3_add(p, x), z), v3_add(p, z),
+                  LAMP);
+    mesh_add(&m, v3_neg(p), v3_neg(x), v3_neg(z), 0);
+    for (int half = 0; half < 2; half++) {
+        struct vec3 at = v3(-p.x, p.y, 0);
+
+        mesh_add(&m, at, v3_sub(at, z), v3_sub(at, x), LAMP);
+        mesh_add(&m, at, x, z, 0);
+    }
+    finish(&m, &lights);
+    assert_int_equal(lights.light_count, 3);
+    whole = light_tree_probability(&m.world, &r, 0);
+    halves = light_tree_probability(&m.world, &r, 1) +
+             light_tree_probability(&m.world, &r, 2);
+    check_close(whole, halves, 0.02);
+    i = lights.lights[0].path[0] & 7;
+    check_close(lights.nodes[0].x[i], 0.505, 1e-6);
+    check_close(lights.nodes[0].y[i], 1, 1e-6);
+    check_close(lights.nodes[0].z[i], 0.005, 1e-6);
+    check_close(lights.nodes[0].radius[i], sqrt(0.5) / 100, 1e-6);
+    discard(&m, &lights);
+}
+
 static uint32_t count_lights(struct mesh *m)
 {
     struct lights lights;
@@ -153,6 +188,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quads_obey_lambert),
         cmocka_unit_test(points_are_uniform_on_parallelograms),
+        cmocka_unit_test(both_halves_count),
         cmocka_unit_test(unlike_triangles_are_two_lights),
     };
 
