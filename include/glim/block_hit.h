@@ -10,7 +10,7 @@
 #ifndef GLIM_BLOCK_HIT_H
 #define GLIM_BLOCK_HIT_H
 
-#include "glim/simd.h"
+#include "glim/f4.h"
 #include "glim/wide.h"
 #include "kernels/traverse_leaf.h"
 

@@ -11,6 +11,7 @@
 #define GLIM_GROUP_HIT_H
 
 #include "glim/block_hit.h"
+#include "glim/f8.h"
 
 #define GROUP_RAYS 8
 

@@ -19,7 +19,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "glim/simd.h"
+#include "glim/f4.h"
 #include "kernels/vec.h"
 
 #define SPLIT_BINS 32

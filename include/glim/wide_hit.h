@@ -13,6 +13,7 @@
 #ifndef GLIM_WIDE_HIT_H
 #define GLIM_WIDE_HIT_H
 
+#include "glim/f8.h"
 #include "glim/group_hit.h"
 
 /* Entries that wait: all but one child of a node a level. */

@@ -130,6 +130,17 @@ static inline void discard(struct mesh *m, struct lights *lights)
     mesh_free(m);
 }
 
+/* Of all lights that a receiver may choose. */
+static inline double sum_of_probabilities(const struct world *w,
+                                          const struct receiver *r)
+{
+    double sum = 0;
+
+    for (uint32_t i = 0; i < w->settings.light_count; i++)
+        sum += (double)light_tree_probability(w, r, i);
+    return sum;
+}
+
 /* Irradiance by n independent light samples, and its standard error. */
 static inline double irradiance(const struct world *w, const struct receiver *r,
                                 int n, uint64_t *seed, double *error)
