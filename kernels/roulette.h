@@ -19,8 +19,8 @@
 #include "kernels/vec.h"
 
 /* With which probability a path goes on that counts beta after this vertex, the
- * first of which is 1. 0: never, also where beta is no number. Without branches,
- * as vertices come in no order that could be foreseen. */
+ * first of which is 1. 0: never, also where beta is no number. Without
+ * branches, as vertices come in no order that could be foreseen. */
 static inline float survival(struct vec3 beta, uint32_t vertex)
 {
     float q = sqrtf(v3_max(beta));
