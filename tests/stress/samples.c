@@ -23,7 +23,7 @@ static float played_survival(struct vec3 beta, uint32_t vertex)
     if (played == ROULETTE_OURS)
         return survival(beta, vertex);
     if (played == ROULETTE_PLAIN)
-        return v3_max(beta);
+        return f_min(v3_max(beta), 1.0f);
     return v3_max(beta) > 0.0f ? 1.0f : 0.0f;
 }
 
