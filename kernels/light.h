@@ -140,14 +140,19 @@ static inline bool sample_surface(const struct world *w,
     return true;
 }
 
+/* The light that a triangle is, or is a part of; NO_INDEX: none. */
+static inline uint32_t light_of(const struct world *w, uint32_t tri)
+{
+    return w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
+}
+
 /* Density of light_sample() at point p of a triangle that a ray from the
  * receiver has met. */
 static inline float light_pdf_at(const struct world *w,
                                  const struct receiver *r, uint32_t tri,
                                  struct vec3 p)
 {
-    uint32_t light =
-        w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
+    uint32_t light = light_of(w, tri);
     uint32_t part;
 
     if (light == NO_INDEX)

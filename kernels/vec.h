@@ -105,6 +105,17 @@ static inline bool v3_is_zero(struct vec3 a)
     return (float_bits(a.x) | float_bits(a.y) | float_bits(a.z)) << 1 == 0;
 }
 
+/* The corners of the box around a and b. */
+static inline struct vec3 v3_low(struct vec3 a, struct vec3 b)
+{
+    return v3(f_min(a.x, b.x), f_min(a.y, b.y), f_min(a.z, b.z));
+}
+
+static inline struct vec3 v3_high(struct vec3 a, struct vec3 b)
+{
+    return v3(f_max(a.x, b.x), f_max(a.y, b.y), f_max(a.z, b.z));
+}
+
 /* a + s (b - a), componentwise. */
 static inline struct vec3 v3_lerp(struct vec3 a, struct vec3 b, float s)
 {

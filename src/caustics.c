@@ -72,14 +72,12 @@ static bool find_lists(struct search *s)
     if (!tri_list_init(&s->lights, 2 * w->settings.light_count) ||
         !tri_list_init(&s->casters, w->settings.tri_count))
         return false;
-    for (uint32_t i = 0; i < w->settings.light_count; i++)
-        for (uint32_t k = 0; k < 2; k++)
-            if (w->lights[i].tris[k] != NO_INDEX)
-                tri_list_add(&s->lights, w->lights[i].tris[k],
-                             tri_power(w, w->lights[i].tris[k]));
-    for (uint32_t i = 0; i < w->settings.tri_count; i++)
+    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
+        if (light_of(w, i) != NO_INDEX)
+            tri_list_add(&s->lights, i, tri_power(w, i));
         if (casts(&w->materials[w->tris[i].material]))
             tri_list_add(&s->casters, i, tri_area(w, i));
+    }
     return true;
 }
 

@@ -54,10 +54,8 @@ static struct cluster cluster_empty(void)
 
 static void cluster_add(struct cluster *a, const struct cluster *b)
 {
-    a->lo = v3(f_min(a->lo.x, b->lo.x), f_min(a->lo.y, b->lo.y),
-               f_min(a->lo.z, b->lo.z));
-    a->hi = v3(f_max(a->hi.x, b->hi.x), f_max(a->hi.y, b->hi.y),
-               f_max(a->hi.z, b->hi.z));
+    a->lo = v3_low(a->lo, b->lo);
+    a->hi = v3_high(a->hi, b->hi);
     a->axis = v3_add(a->axis, b->axis);
     a->power += b->power;
     a->count += b->count;

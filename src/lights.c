@@ -69,40 +69,6 @@ static double mean_radiance(const struct world *w, const struct tri *t,
     return mean * (double)m->opacity;
 }
 
-static struct vec3 low(struct vec3 a, struct vec3 b)
-{
-    return v3(f_min(a.x, b.x), f_min(a.y, b.y), f_min(a.z, b.z));
-}
-
-static struct vec3 high(struct vec3 a, struct vec3 b)
-{
-    return v3(f_max(a.x, b.x), f_max(a.y, b.y), f_max(a.z, b.z));
-}
-
-/* False if the triangle is not worth sampling. *glare grows by its own. */
-static bool make_emitter(const struct world *w, uint32_t tri,
-                         const struct footprint_sums *footprints,
-                         struct emitter *e, double *glare)
-{
-    const struct tri *t = &w->tris[tri];
-    struct vec3 p0 = w->positions[t->v[0]];
-    struct vec3 p1 = w->positions[t->v[1]];
-    struct vec3 p2 = w->positions[t->v[2]];
-    double radiance;
-    double twice_area =
-        (double)v3_length(v3_cross(v3_sub(p1, p0), v3_sub(p2, p0)));
-
-    if (!(twice_area > AREA_LEAST) || v3_is_zero(t->ng))
-        return false;
-    e->normal = t->ng;
-    radiance = mean_radiance(w, t, footprints);
-    e->power = twice_area * radiance;
-    *glare += e->power / 2 * radiance;
-    e->lo = low(p0, low(p1, p2));
-    e->hi = high(p0, high(p1, p2));
-    return e->power > 0;
-}
-
 static struct vec3 corner(const struct world *w, uint32_t tri, uint32_t k)
 {
     return w->positions[w->tris[tri].v[k % 3]];
@@ -114,6 +80,29 @@ static struct vec3 long_normal(const struct world *w, uint32_t tri)
     struct vec3 p = corner(w, tri, 0);
 
     return v3_cross(v3_sub(corner(w, tri, 1), p), v3_sub(corner(w, tri, 2), p));
+}
+
+/* False if the triangle is not worth sampling. *glare grows by its own. */
+static bool make_emitter(const struct world *w, uint32_t tri,
+                         const struct footprint_sums *footprints,
+                         struct emitter *e, double *glare)
+{
+    const struct tri *t = &w->tris[tri];
+    double twice_area = (double)v3_length(long_normal(w, tri));
+    double radiance;
+
+    if (!(twice_area > AREA_LEAST) || v3_is_zero(t->ng))
+        return false;
+    e->normal = t->ng;
+    radiance = mean_radiance(w, t, footprints);
+    e->power = twice_area * radiance;
+    *glare += e->power / 2 * radiance;
+    e->lo = e->hi = corner(w, tri, 0);
+    for (uint32_t k = 1; k < 3; k++) {
+        e->lo = v3_low(e->lo, corner(w, tri, k));
+        e->hi = v3_high(e->hi, corner(w, tri, k));
+    }
+    return e->power > 0;
 }
 
 static struct light make_light(const struct world *w, uint32_t tri)
@@ -150,17 +139,17 @@ static bool share_side(const struct world *w, uint32_t a, uint32_t b,
     return false;
 }
 
-/* Makes one light of the last and the triangle that made `e`, if they are alike
- * enough to be sampled equally often, as one face. */
+/* Makes one light of the last and the triangle of `other`, which made `e`, if
+ * they are alike enough to be sampled equally often, as one face. */
 static bool join_light(const struct world *w, struct light *l,
-                       struct emitter *last, uint32_t tri,
+                       struct emitter *last, const struct light *other,
                        const struct emitter *e)
 {
-    struct light other = make_light(w, tri);
+    uint32_t tri = other->tris[0];
     uint32_t i, k;
 
     if (l->tris[0] + 1 != tri || l->tris[1] != NO_INDEX ||
-        l->texture != other.texture ||
+        l->texture != other->texture ||
         lights_differ(&w->materials[w->tris[l->tris[0]].material],
                       &w->materials[w->tris[tri].material]) ||
         !(v3_dot(e->normal, last->normal) > FLAT_COSINE) ||
@@ -176,10 +165,10 @@ static bool join_light(const struct world *w, struct light *l,
     l->turns[0] = (3 - i) % 3;
     l->turns[1] = (3 - k) % 3;
     l->twice[0] = v3_scale(l->twice[0], 2.0f);
-    l->twice[1] = v3_scale(other.twice[0], 2.0f);
+    l->twice[1] = v3_scale(other->twice[0], 2.0f);
     last->power += e->power;
-    last->lo = low(last->lo, e->lo);
-    last->hi = high(last->hi, e->hi);
+    last->lo = v3_low(last->lo, e->lo);
+    last->hi = v3_high(last->hi, e->hi);
     return true;
 }
 
@@ -188,11 +177,12 @@ static void add_light(const struct world *w, struct lights *l,
                       struct emitter *emitters, uint32_t tri,
                       const struct emitter *e)
 {
+    struct light light = make_light(w, tri);
     uint32_t n = l->light_count;
 
-    if (n > 0 && join_light(w, &l->lights[n - 1], &emitters[n - 1], tri, e))
+    if (n > 0 && join_light(w, &l->lights[n - 1], &emitters[n - 1], &light, e))
         return;
-    l->lights[n] = make_light(w, tri);
+    l->lights[n] = light;
     emitters[n] = *e;
     emitters[n].light = n;
     l->light_count++;

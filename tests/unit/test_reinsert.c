@@ -23,10 +23,8 @@ static double area(struct vec3 lo, struct vec3 hi)
 
 static void join(struct node *n, const struct node *m)
 {
-    n->lo = v3(f_min(n->lo.x, m->lo.x), f_min(n->lo.y, m->lo.y),
-               f_min(n->lo.z, m->lo.z));
-    n->hi = v3(f_max(n->hi.x, m->hi.x), f_max(n->hi.y, m->hi.y),
-               f_max(n->hi.z, m->hi.z));
+    n->lo = v3_low(n->lo, m->lo);
+    n->hi = v3_high(n->hi, m->hi);
 }
 
 static void grove_init(struct grove *g)
