@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
+#include "chi_square.h"
 
 #include <math.h>
 #include <string.h>
@@ -135,14 +136,6 @@ static double expected_shares(const struct chart *c, const struct bsdf *m,
     return total;
 }
 
-/* Chi-square's upper tail as a normal deviate (Wilson and Hilferty 1931). */
-static double chi_square_deviate(double chi2, int degrees)
-{
-    double v = 2.0 / (9 * degrees);
-
-    return (cbrt(chi2 / degrees) - 1 + v) / sqrt(v);
-}
-
 /* Beyond 5.2 deviations once in 1e7 by chance; 265 tests, so one false alarm
  * in 38,000 choices of the seed, which is fixed. */
 #define DEVIATE_MAX 5.2
@@ -154,9 +147,8 @@ static void check_density(const struct bsdf *m, float mu)
     struct vec3 wo = direction(mu);
     struct chart c = chart_of(m);
     uint64_t seed = 1;
-    double chi2 = 0, rest = 0, rest_count = 0;
+    struct chi_square chi = chi_begin();
     double total = expected_shares(&c, m, wo, shares);
-    int degrees = -1;
 
     memset(counts, 0, sizeof counts);
     for (int i = 0; i < DRAWS; i++) {
@@ -175,27 +167,15 @@ static void check_density(const struct bsdf *m, float mu)
     check_close(total + shares[CELLS], 1,
                 2e-3 + 6 * sqrt(shares[CELLS] * (1 - shares[CELLS]) / DRAWS));
     shares[CELLS] = fmax(1 - total, 0);
-    for (int k = 0; k <= CELLS; k++) {
-        double expected = shares[k] * DRAWS;
-
-        if (expected < 5) {
-            rest += expected;
-            rest_count += counts[k];
-            continue;
-        }
-        chi2 += pow(counts[k] - expected, 2) / expected;
-        degrees++;
-    }
-    if (rest >= 5) {
-        chi2 += pow(rest_count - rest, 2) / rest;
-        degrees++;
-    } else {
-        check_at_most(rest_count, rest + 6 * sqrt(rest) + 20);
-    }
-    if (degrees > 0 && chi_square_deviate(chi2, degrees) > DEVIATE_MAX) {
-        print_error("kind %u alpha %g eta %g cosine %g: chi-square %g of %d\n",
-                    m->kind, (double)m->alpha, (double)m->eta, (double)mu, chi2,
-                    degrees);
+    for (int k = 0; k <= CELLS; k++)
+        chi_add(&chi, shares[k] * DRAWS, counts[k]);
+    chi_end(&chi);
+    /* of cells that are too few for chi-square */
+    check_at_most(chi.rest_count, chi.rest + 6 * sqrt(chi.rest) + 20);
+    if (chi.degrees > 0 && chi_deviate(&chi) > DEVIATE_MAX) {
+        print_error("kind %u alpha %g eta %g cosine %g: chi-square %g of %g\n",
+                    m->kind, (double)m->alpha, (double)m->eta, (double)mu,
+                    chi.sum, chi.degrees);
         assert_true(false);
     }
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "check.h"
+#include "chi_square.h"
 #include "lambert.h"
 #include "lamps.h"
 
@@ -51,7 +52,7 @@ static void quads_obey_lambert(void **state)
 static void points_are_uniform_on_parallelograms(void **state)
 {
     const int side = 16, n = 200000;
-    const double cells = side * side, spread = 2 / (9 * (cells - 1));
+    const double cells = side * side;
     const struct vec3 *ring = rings[1];
     const struct vec3 a = v3_sub(ring[1], ring[0]),
                       b = v3_sub(ring[3], ring[0]);
@@ -65,7 +66,7 @@ static void points_are_uniform_on_parallelograms(void **state)
         int counts[16 * 16] = {0};
         struct mesh m = {0};
         struct lights lights;
-        double chi = 0;
+        struct chi_square chi = chi_begin();
 
         add_ring(&m, ring, turns);
         finish(&m, &lights);
@@ -88,9 +89,8 @@ static void points_are_uniform_on_parallelograms(void **state)
                    (int)fmin(fmax(t * side, 0), side - 1)]++;
         }
         for (int i = 0; i < side * side; i++)
-            chi += pow(counts[i] - n / cells, 2) / (n / cells);
-        check_at_most(fabs(cbrt(chi / (cells - 1)) - (1 - spread)),
-                      Z_LIMIT * sqrt(spread));
+            chi_add(&chi, n / cells, counts[i]);
+        check_at_most(fabs(chi_deviate(&chi)), Z_LIMIT);
         discard(&m, &lights);
     }
 }

@@ -7,6 +7,7 @@
 #include "glim/lights.h"
 
 #include "check.h"
+#include "chi_square.h"
 #include "lambert.h"
 #include "lamps.h"
 #include "mesh.h"
@@ -33,8 +34,7 @@ static void probabilities_add_up(void **state)
     }
 }
 
-/* Chi-square over the lights, those with fewer than 5 expected taken together.
- * Wilson and Hilferty's cube root is normal; 20 are tried. */
+/* Chi-square over the lights; 20 are tried. */
 static void choices_follow_probabilities(void **state)
 {
     const int n = 200000;
@@ -48,8 +48,7 @@ static void choices_follow_probabilities(void **state)
     for (int k = 0; k < 20; k++) {
         struct receiver r = any_receiver(&seed);
         int counts[100] = {0};
-        double chi = 0, rest = 0, degrees = -1;
-        int rest_count = 0;
+        struct chi_square chi = chi_begin();
 
         for (int i = 0; i < n; i++) {
             uint32_t light;
@@ -59,23 +58,11 @@ static void choices_follow_probabilities(void **state)
             assert_true(p == light_tree_probability(&m.world, &r, light));
             counts[light]++;
         }
-        for (uint32_t i = 0; i < 100; i++) {
-            double p = n * (double)light_tree_probability(&m.world, &r, i);
-
-            if (p < 5) {
-                rest += p;
-                rest_count += counts[i];
-                continue;
-            }
-            chi += pow(counts[i] - p, 2) / p;
-            degrees++;
-        }
-        if (rest >= 5) {
-            chi += pow(rest_count - rest, 2) / rest;
-            degrees++;
-        }
-        check_at_most(fabs(cbrt(chi / degrees) - (1 - 2 / (9 * degrees))),
-                      Z_LIMIT * sqrt(2 / (9 * degrees)));
+        for (uint32_t i = 0; i < 100; i++)
+            chi_add(&chi, n * (double)light_tree_probability(&m.world, &r, i),
+                    counts[i]);
+        chi_end(&chi);
+        check_at_most(fabs(chi_deviate(&chi)), Z_LIMIT);
     }
     discard(&m, &lights);
 }
