@@ -41,7 +41,7 @@ KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # the others need, for each set of features, of which src/isa.c takes the first
 # that will do: walls and lamps, images on them, most materials.
 ISAS := $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),avx2 avx512)
-FLAGS_avx2 := -mavx2 -mfma -mbmi -mlzcnt
+FLAGS_avx2 := -mavx2 -mfma -mbmi
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
 SETS := lamps images shiny

@@ -13,7 +13,7 @@
 #ifndef KERNELS_SUM_H
 #define KERNELS_SUM_H
 
-#include "kernels/dialect.h"
+#include "kernels/vec.h"
 
 struct sum {
     uint64_t lo; /* units of 2^-64 */
@@ -23,36 +23,43 @@ struct sum {
 /* False for NaN, infinities and negative numbers (-0 is 0). */
 static inline bool sum_accepts(float x)
 {
-    return x >= 0.0f && x <= 3.402823466e38f;
+    return x >= 0.0f && x <= FLOAT_MAX;
+}
+
+/* Adds one sum to another; sums stop at 2^63. */
+static inline void sum_join(GLOBAL struct sum *s, struct sum x)
+{
+    uint64_t large = s->hi | x.hi; /* two that have stopped are 0 again */
+
+    s->lo += x.lo;
+    s->hi += x.hi + (s->lo < x.lo ? 1 : 0);
+    if ((large | s->hi) >> 63) {
+        s->hi = (uint64_t)1 << 63;
+        s->lo = 0;
+    }
 }
 
 /* Adds x, which sum_accepts(). Bits below 2^-64 are cut off; values above
- * 2^62 count as 2^62, and sums stop at 2^63. */
+ * 2^62 count as 2^62. */
 static inline void sum_add(GLOBAL struct sum *s, float x)
 {
     uint32_t exponent = float_bits(x) >> 23 & 255u;
     uint64_t mantissa = (float_bits(x) & 0x7fffffu) | 0x800000u;
-    uint64_t lo = 0;
-    uint64_t hi = 0;
+    struct sum value = {0, 0};
 
     if (exponent < 127 - 64) /* 0 and denormal numbers, too */
         return;
     if (exponent < 127) { /* below 1 */
-        lo = mantissa << 40 >> (126 - exponent);
+        value.lo = mantissa << 40 >> (126 - exponent);
     } else if (exponent < 150) {
-        lo = mantissa << (exponent - (150 - 64));
-        hi = mantissa >> (150 - exponent);
+        value.lo = mantissa << (exponent - (150 - 64));
+        value.hi = mantissa >> (150 - exponent);
     } else if (exponent < 127 + 62) {
-        hi = mantissa << (exponent - 150);
+        value.hi = mantissa << (exponent - 150);
     } else {
-        hi = (uint64_t)1 << 62;
+        value.hi = (uint64_t)1 << 62;
     }
-    s->lo += lo;
-    s->hi += hi + (s->lo < lo ? 1 : 0);
-    if (s->hi >> 63) {
-        s->hi = (uint64_t)1 << 63;
-        s->lo = 0;
-    }
+    sum_join(s, value);
 }
 
 /* sum / count, within two units in the last place. count is not 0. */

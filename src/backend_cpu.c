@@ -15,7 +15,7 @@ struct backend_cpu {
     struct backend base;
     const struct paths *paths; /* that can do every world */
     struct pool *pool;
-    struct wide tree;
+    struct wide *tree; /* from load() */
     /* from begin() */
     const struct paths *fit; /* that can do this one */
     struct wide_world world;
@@ -135,19 +135,20 @@ static void render_block(void *context, uint32_t item, int worker)
 }
 
 static bool cpu_load(struct backend *base, const struct world *world,
-                     struct error *err)
+                     struct wide *tree, struct error *err)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    if (!wide_build(&b->tree, world, b->pool, err))
+    if (tree->nodes == NULL && !wide_build(tree, world, b->pool, err))
         return false;
-    base->tree_bytes = wide_bytes(&b->tree);
+    b->tree = tree;
+    base->tree_bytes = wide_bytes(tree);
     return true;
 }
 
 static void cpu_unload(struct backend *base)
 {
-    wide_free(&((struct backend_cpu *)base)->tree);
+    ((struct backend_cpu *)base)->tree = NULL;
     base->tree_bytes = 0;
 }
 
@@ -159,7 +160,7 @@ static bool cpu_begin(struct backend *base, const struct world *world,
     (void)err;
     b->fit = isa_fit(b->paths, world->settings.features);
     b->world.world = *world;
-    b->world.tree = &b->tree;
+    b->world.tree = b->tree;
     b->film = film;
     b->x0 = x0;
     b->y0 = y0;
@@ -194,7 +195,6 @@ static void cpu_destroy(struct backend *base)
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     pool_destroy(b->pool);
-    cpu_unload(base);
     free(b);
 }
 

@@ -90,9 +90,14 @@ static const char *text_path(const struct options *o)
 
 /* Whole minutes may lie between this and the writing: mistakes are worth
  * finding now. */
-static bool check_outputs(const struct options *o, struct error *err)
+static bool check_outputs(const struct session *s, struct error *err)
 {
-    if (o->stats_path && !stats_check(o->stats_path, err))
+    const struct options *o = s->options;
+
+    if (o->stats_path && (!session_spares(s, "--stats", o->stats_path, err) ||
+                          !stats_check(o->stats_path, err)))
+        return false;
+    if (o->output_path && !session_spares(s, "-o", o->output_path, err))
         return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
@@ -444,7 +449,7 @@ bool batch_run(struct session *s, int *status, struct error *err)
     struct show show;
     bool ok;
 
-    if (!check_outputs(s->options, err))
+    if (!check_outputs(s, err))
         return false;
     show_init(&show, s);
     *status = 0;

@@ -12,10 +12,11 @@
 
 #include <assert.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "glim/reinsert.h"
 #include "glim/splitter.h"
-#include "kernels/traverse.h"
+#include "kernels/traverse_leaf.h"
 
 /* Triangles of a part: what stays in a core's cache. */
 #define PART_MAX 16384
@@ -27,23 +28,15 @@
 struct part {
     struct range range;
     uint32_t right; /* the part that is the node's right child; 0: a tree */
-    struct node *nodes;
     uint32_t node_count, depth;
     uint32_t first_node; /* in the whole */
-};
-
-/* Where a thread makes the tree of a part. */
-struct maker {
-    int worker;
-    struct node *nodes;
-    uint32_t node_count, depth;
 };
 
 struct builder {
     struct splitter splitter;
     struct bvh *bvh;
-    struct maker *makers; /* one a thread */
-    struct part *parts;   /* depth-first */
+    struct node *nodes; /* room for two a triangle, see nodes_of() */
+    struct part *parts; /* depth-first */
     uint32_t part_count;
     size_t part_capacity;
 };
@@ -72,42 +65,39 @@ static struct node node_of(const struct range *r)
     return n;
 }
 
+/* Where the tree of a part is made: it has less than two nodes a triangle. */
+static struct node *nodes_of(const struct builder *b, const struct part *part)
+{
+    return b->nodes + 2 * (size_t)part->range.first;
+}
+
 /* Recursion is as deep as the tree: below TRAVERSE_STACK. */
-static void build_tree(struct builder *b, struct maker *own,
+static void build_tree(struct builder *b, struct part *part, int worker,
                        const struct range *r)
 {
-    uint32_t index = own->node_count++;
+    uint32_t index = part->node_count++;
+    struct node *n = &nodes_of(b, part)[index];
     struct range sides[2];
 
-    own->nodes[index] = node_of(r);
-    if (r->depth > own->depth)
-        own->depth = r->depth;
-    if (!splitter_split(&b->splitter, own->worker, r, sides)) {
-        fill_leaf(b, r, &own->nodes[index]);
+    *n = node_of(r);
+    if (r->depth > part->depth)
+        part->depth = r->depth;
+    if (!splitter_split(&b->splitter, worker, r, sides)) {
+        fill_leaf(b, r, n);
         return;
     }
-    build_tree(b, own, &sides[0]);
-    own->nodes[index].next = own->node_count;
-    build_tree(b, own, &sides[1]);
+    build_tree(b, part, worker, &sides[0]);
+    n->next = part->node_count;
+    build_tree(b, part, worker, &sides[1]);
 }
 
 static void build_part(void *context, uint32_t item, int worker)
 {
     struct builder *b = context;
     struct part *part = &b->parts[item];
-    struct maker *own = &b->makers[worker];
 
-    if (part->right != 0)
-        return;
-    own->worker = worker;
-    own->node_count = own->depth = 0;
-    build_tree(b, own, &part->range);
-    part->nodes = alloc_aligned(own->node_count, sizeof *part->nodes);
-    if (part->nodes == NULL)
-        return;
-    memcpy(part->nodes, own->nodes, own->node_count * sizeof *part->nodes);
-    part->node_count = own->node_count;
-    part->depth = own->depth;
+    if (part->right == 0)
+        build_tree(b, part, worker, &part->range);
 }
 
 /* ---- the top ---- */
@@ -162,7 +152,7 @@ static void place_part(void *context, uint32_t item, int worker)
         return;
     }
     for (uint32_t i = 0; i < part->node_count; i++) {
-        to[i] = part->nodes[i];
+        to[i] = nodes_of(b, part)[i];
         if (to[i].count == 0)
             to[i].next += part->first_node;
     }
@@ -175,8 +165,6 @@ static bool join_parts(struct builder *b)
     for (uint32_t i = 0; i < b->part_count; i++) {
         struct part *part = &b->parts[i];
 
-        if (part->right == 0 && part->nodes == NULL)
-            return false;
         part->first_node = bvh->node_count;
         bvh->node_count += part->right != 0 ? 1 : part->node_count;
         if (part->depth > bvh->depth)
@@ -193,30 +181,17 @@ static bool begin(struct builder *b, const struct world *w,
                   const struct bvh_leaves *leaves, struct pool *pool)
 {
     uint32_t count = w->settings.tri_count;
-    uint32_t part_max = count < PART_MAX ? count : PART_MAX;
 
     if (!splitter_init(&b->splitter, w, leaves, pool))
         return false;
     b->bvh->tris = alloc_aligned(count, sizeof *b->bvh->tris);
-    b->makers = xcalloc(b->splitter.worker_count, sizeof *b->makers);
-    if (b->bvh->tris == NULL)
-        return false;
-    for (uint32_t i = 0; i < b->splitter.worker_count; i++) {
-        b->makers[i].nodes =
-            alloc_aligned(2 * part_max, sizeof *b->makers[i].nodes);
-        if (b->makers[i].nodes == NULL)
-            return false;
-    }
-    return true;
+    b->nodes = alloc_aligned(2 * (size_t)count, sizeof *b->nodes);
+    return b->bvh->tris != NULL && b->nodes != NULL;
 }
 
 static void end(struct builder *b)
 {
-    for (uint32_t i = 0; b->makers != NULL && i < b->splitter.worker_count; i++)
-        free(b->makers[i].nodes);
-    for (uint32_t i = 0; i < b->part_count; i++)
-        free(b->parts[i].nodes);
-    free(b->makers);
+    free(b->nodes);
     free(b->parts);
     splitter_free(&b->splitter);
 }

@@ -2,6 +2,7 @@
 #include "glim/caustics.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "glim/tri_list.h"
 #include "kernels/guide.h"
@@ -25,12 +26,21 @@
  * as much leaves 4 % more error. */
 #define REST 0.25
 
+/* Diffuse surfaces on which a photon is counted. */
+#define LANDINGS 2u
+
+/* Where a photon has landed: in which of the table's bins, with what flux. */
+struct landing {
+    size_t bin;
+    float flux;
+};
+
 struct search {
     const struct wide_world *w;
     const struct guide_grid *grid;
-    struct guide_part *part;
-    struct tri_list lights;  /* by power */
-    struct tri_list casters; /* by area */
+    struct tri_list lights;   /* by power */
+    struct tri_list casters;  /* by area */
+    struct landing *landings; /* LANDINGS of each photon */
 };
 
 struct photon {
@@ -56,13 +66,17 @@ struct material caustics_material(struct material m)
     return m;
 }
 
+/* Triangles are many: they are asked whose the materials are only if one of
+ * these casts. */
 bool caustics_possible(const struct world *w)
 {
-    bool found = false;
+    bool may = false, found = false;
 
-    for (uint32_t i = 0; i < w->settings.tri_count && !found; i++)
+    for (uint32_t i = 0; i < w->settings.material_count && !may; i++)
+        may = w->settings.light_count > 0 && casts(&w->materials[i]);
+    for (uint32_t i = 0; may && i < w->settings.tri_count && !found; i++)
         found = casts(&w->materials[w->tris[i].material]);
-    return found && w->settings.light_count > 0;
+    return found;
 }
 
 static bool find_lists(struct search *s)
@@ -126,12 +140,14 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     return true;
 }
 
-static void deposit(struct search *s, const struct photon *p,
-                    const struct vertex *v)
+static struct landing landing_of(const struct search *s, const struct photon *p,
+                                 const struct vertex *v)
 {
     size_t cell = guide_cell(s->grid, v->p, v->ng);
+    struct landing l = {cell * GUIDE_BINS + guide_bin(v3_neg(p->ray.d)),
+                        p->flux};
 
-    s->part->flux[cell * GUIDE_BINS + guide_bin(v3_neg(p->ray.d))] += p->flux;
+    return l;
 }
 
 /* Sends the photon on from a vertex; roulette keeps the flux as it is. */
@@ -155,9 +171,10 @@ static bool photon_scatter(struct photon *p, const struct bsdf *b,
     return true;
 }
 
-static void photon_follow(struct search *s, struct photon p, uint32_t i)
+static void photon_follow(const struct search *s, struct photon p, uint32_t i)
 {
     const struct world *w = &s->w->world;
+    struct landing *landings = &s->landings[i * LANDINGS];
     uint32_t landed = 0;
 
     for (uint32_t vertex = 1; vertex <= PHOTON_VERTICES; vertex++) {
@@ -174,8 +191,8 @@ static void photon_follow(struct search *s, struct photon p, uint32_t i)
             return;
         b = bsdf_at(w, &m, &v);
         if (guide_helps(&b)) {
-            deposit(s, &p, &v);
-            if (++landed == 2)
+            landings[landed++] = landing_of(s, &p, &v);
+            if (landed == LANDINGS)
                 return;
         }
         if (!photon_scatter(&p, &b, &v, i, vertex))
@@ -183,34 +200,46 @@ static void photon_follow(struct search *s, struct photon p, uint32_t i)
     }
 }
 
+static void photon_send(void *context, uint32_t i, int worker)
+{
+    const struct search *s = context;
+    struct photon p;
+
+    (void)worker;
+    if (photon_open(s, i, &p))
+        photon_follow(s, p, i);
+}
+
 /* Photons have no unit of their own: each stands for the lights' power times
  * the casters' area over their number. */
-static void fill_rest(struct search *s, double box)
+static void fill_rest(const struct search *s, double box,
+                      struct guide_part *part)
 {
     double cell = 1 / (double)s->grid->cells_a_unit;
     double rest = REST * 2 * M_PI * PHOTONS / tri_list_total(&s->casters) *
                   cell * cell / box;
 
     for (uint32_t i = 0; i < guide_cell_count(s->grid); i++)
-        s->part->rest[i] = (float)rest;
+        part->rest[i] = (float)rest;
 }
 
 bool caustics_find(const struct wide_world *w, const struct guide_grid *grid,
-                   double box, struct guide_part *part)
+                   double box, struct pool *pool, struct guide_part *part)
 {
-    struct search s = {.w = w, .grid = grid, .part = part};
+    struct search s = {.w = w, .grid = grid};
     bool ok = find_lists(&s);
 
+    s.landings = alloc_array((size_t)PHOTONS * LANDINGS, sizeof *s.landings);
+    ok = ok && s.landings != NULL;
     if (ok && tri_list_total(&s.lights) > 0 && tri_list_total(&s.casters) > 0) {
-        for (uint32_t i = 0; i < PHOTONS; i++) {
-            struct photon photon;
-
-            if (photon_open(&s, i, &photon))
-                photon_follow(&s, photon, i);
-        }
-        fill_rest(&s, box);
+        pool_each(pool, PHOTONS, photon_send, &s);
+        /* in order, whoever sent them */
+        for (uint32_t i = 0; i < PHOTONS * LANDINGS; i++)
+            part->flux[s.landings[i].bin] += s.landings[i].flux;
+        fill_rest(&s, box, part);
     }
     tri_list_free(&s.lights);
     tri_list_free(&s.casters);
+    free(s.landings);
     return ok;
 }

@@ -240,8 +240,11 @@ static bool fail_copy(struct cl_probe *probe, char *output, int status,
     if (WIFSIGNALED(status))
         fail(err, "OpenCL: the driver crashed (%s)%s%s",
              strsignal(WTERMSIG(status)), *said != '\0' ? ": " : "", said);
-    else
+    else if (*said != '\0')
         fail(err, "%s", said);
+    else
+        fail(err, "OpenCL: the self-test ended with status %d",
+             WEXITSTATUS(status));
     *probe = (struct cl_probe){.log = output};
     free(line);
     return false;

@@ -17,8 +17,7 @@ struct cl_start {
     pthread_t thread;
     int event_fd;
     atomic_bool is_unwanted;
-    atomic_bool is_over;
-    /* read after is_over */
+    /* read when the thread has ended */
     struct backend *backend;
     char *verdict;
     char *log;
@@ -99,7 +98,6 @@ static void *start_main(void *argument)
     uint64_t one = 1;
 
     bring_up(s);
-    atomic_store(&s->is_over, true);
     if (write(s->event_fd, &one, sizeof one) < 0) {
         /* the counter of an event descriptor has room for 1 */
     }
@@ -133,11 +131,6 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
 int cl_start_event_fd(const struct cl_start *s)
 {
     return s->event_fd;
-}
-
-bool cl_start_is_over(const struct cl_start *s)
-{
-    return atomic_load(&s->is_over);
 }
 
 /* Behind the end of the thread. */

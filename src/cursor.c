@@ -2,7 +2,6 @@
 #include "glim/cursor.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #define TEXT_BYTES 256
 
@@ -163,7 +162,6 @@ bool cursor_click(struct cursor *c, int col, int row)
 
 bool cursor_need_pick(struct cursor *c)
 {
-
     if (c->canvas->has_cursor)
         return pick_under(c);
     if (c->has_pick)

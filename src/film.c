@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "glim/film.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "kernels/tone.h"
@@ -256,10 +258,8 @@ static void total_add(struct total *t, const struct sum *sums, uint64_t count)
 {
     if (count == 0)
         return;
-    for (int c = 0; c < 3; c++) {
-        t->sums[c].lo += sums[c].lo;
-        t->sums[c].hi += sums[c].hi + (t->sums[c].lo < sums[c].lo ? 1 : 0);
-    }
+    for (int c = 0; c < 3; c++)
+        sum_join(&t->sums[c], sums[c]);
     t->count += count;
 }
 

@@ -7,8 +7,8 @@
 
 #include "glim/caustics.h"
 #include "glim/openings.h"
+#include "glim/split.h"
 #include "glim/tri_list.h"
-#include "glim/wide.h"
 #include "kernels/light.h"
 
 /* Along the longest side of the scene. On two balls 8 to 16 leave the same
@@ -22,9 +22,6 @@
 /* Cells that would be asked less often for it are not: half of them on two
  * balls, for 3 % more error and 7 % less time. */
 #define SHARE_LEAST 0.05
-
-/* A tree for more would take longer than the first picture. */
-#define TRIS_MOST 200000u
 
 /* The table while it is made. */
 struct table {
@@ -44,6 +41,7 @@ static uint32_t cells_along(float length, const struct guide_grid *g)
 static double make_grid(const struct world *w, struct guide_grid *g)
 {
     struct vec3 lo = w->positions[w->tris[0].v[0]], hi = lo, size;
+    struct box box;
 
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct vec3 p[3];
@@ -60,7 +58,8 @@ static double make_grid(const struct world *w, struct guide_grid *g)
     g->width = cells_along(size.x, g);
     g->height = cells_along(size.y, g);
     g->depth = cells_along(size.z, g);
-    return 2.0 * (double)(size.x * size.y + size.y * size.z + size.z * size.x);
+    box = box_of_corners(lo, hi);
+    return 2.0 * (double)box_area(&box);
 }
 
 /* ---- the parts ---- */
@@ -75,29 +74,32 @@ static double power_of(const struct world *w)
     return power;
 }
 
-static bool find_parts(struct guide *g, const struct world *w, bool has_sky,
-                       struct error *err)
+static bool wants_caustics(const struct guide *g, const struct world *w)
 {
-    struct wide tree = {.nodes = NULL};
-    struct wide_world wide = {.world = *w, .tree = &tree};
-    bool wants_caustics = g->caustics.flux == NULL && caustics_possible(w);
-    bool wants_openings = g->openings.flux == NULL && has_sky;
-    double box;
-    bool ok;
+    return g->caustics.flux == NULL && caustics_possible(w);
+}
 
-    if (!wants_caustics && !wants_openings)
+static bool wants_openings(const struct guide *g, double sky)
+{
+    return g->openings.flux == NULL && sky > 0;
+}
+
+static bool find_parts(struct guide *g, const struct wide_world *w, double sky,
+                       struct pool *pool)
+{
+    bool has_caustics = wants_caustics(g, &w->world);
+    bool has_openings = wants_openings(g, sky);
+    double box;
+
+    if (!has_caustics && !has_openings)
         return true;
-    box = make_grid(w, &g->grid);
-    g->lights = 2 * power_of(w) / box;
-    ok = wide_build(&tree, w, NULL, err);
-    if (ok && wants_caustics)
-        ok = guide_part_init(&g->caustics, &g->grid) &&
-             caustics_find(&wide, &g->grid, box, &g->caustics);
-    if (ok && wants_openings)
-        ok = guide_part_init(&g->openings, &g->grid) &&
-             openings_find(&wide, &g->grid, &g->openings);
-    wide_free(&tree);
-    return ok;
+    box = make_grid(&w->world, &g->grid);
+    g->lights = 2 * power_of(&w->world) / box;
+    return (!has_caustics ||
+            (guide_part_init(&g->caustics, &g->grid) &&
+             caustics_find(w, &g->grid, box, pool, &g->caustics))) &&
+           (!has_openings || (guide_part_init(&g->openings, &g->grid) &&
+                              openings_find(w, &g->grid, pool, &g->openings)));
 }
 
 /* ---- the table ---- */
@@ -183,13 +185,13 @@ static void take_table(struct guide *g, struct table *t)
     g->grid.cell_count = t->cell_count;
 }
 
-static bool update(struct guide *g, const struct world *w, double sky,
-                   struct error *err)
+static bool update(struct guide *g, const struct wide_world *w, double sky,
+                   struct pool *pool)
 {
     struct table t = {.cells = NULL};
 
-    if (w->settings.tri_count > 0 && w->settings.tri_count <= TRIS_MOST) {
-        if (!find_parts(g, w, sky > 0, err))
+    if (w->world.settings.tri_count > 0) {
+        if (!find_parts(g, w, sky, pool))
             return false;
         if (!make_table(g, sky > 0 ? g->lights / sky : INFINITY, &t)) {
             free(t.cells);
@@ -201,12 +203,23 @@ static bool update(struct guide *g, const struct world *w, double sky,
     return true;
 }
 
-bool guide_update(struct guide *g, const struct world *w, double sky,
-                  struct error *err)
+static bool is_done(const struct guide *g, double sky)
 {
-    if (g->is_current && g->sky == sky)
+    return g->is_current && g->sky == sky;
+}
+
+bool guide_needs_rays(const struct guide *g, const struct world *w, double sky)
+{
+    return !is_done(g, sky) && w->settings.tri_count > 0 &&
+           (wants_caustics(g, w) || wants_openings(g, sky));
+}
+
+bool guide_update(struct guide *g, const struct wide_world *w, double sky,
+                  struct pool *pool, struct error *err)
+{
+    if (is_done(g, sky))
         return true;
-    if (!update(g, w, sky, err)) {
+    if (!update(g, w, sky, pool)) {
         guide_outdate(g);
         return fail(err, "out of memory for the table of directions");
     }

@@ -4,11 +4,20 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "glim/columns.h"
+
 #include "kernels/vec.h"
+
+#define MATERIAL_COLS  10
+#define MATERIAL_BYTES 64
+#define PLACE_COLS     17
+#define PDF_COLS       6
+#define NUMBERS_BYTES  64
 
 #define DEGREES (180.0 / 3.14159265358979324)
 
-const char *legend_material(const struct scene *scene, uint32_t tri)
+/* The name of the material of a triangle, or words for none. */
+static const char *material_of(const struct scene *scene, uint32_t tri)
 {
     const char *name = scene->material_names[scene->tris[tri].material];
 
@@ -40,29 +49,48 @@ static double file_coordinate(const struct scene *scene, float x, int axis)
     return fabs(from_file) * scene->scale < 1e-6 ? 0 : from_file;
 }
 
+/* With the most digits, up to three, with which they take no more than so many
+ * columns: a number that is cut is another one. */
+static void format_numbers(char text[NUMBERS_BYTES], const double *values,
+                           int count, int cols)
+{
+    int length = cols + 1;
+
+    for (int digits = 3; digits > 0 && length > cols; digits--) {
+        length = 0;
+        for (int i = 0; i < count; i++)
+            length += snprintf(text + length, (size_t)(NUMBERS_BYTES - length),
+                               i > 0 ? " %.*g" : "%.*g", digits, values[i]);
+    }
+}
+
 static void add_step(struct legend *l, const struct scene *scene,
                      const struct trail_step *s, int number)
 {
     bool goes_on = s->way == TRAIL_REFLECTED || s->way == TRAIL_TRANSMITTED;
-    char place[32] = "";
-    char pdf[16] = "";
+    double pdf = (double)s->pdf;
+    double place[3] = {file_coordinate(scene, s->to.x, 0),
+                       file_coordinate(scene, s->to.y, 1),
+                       file_coordinate(scene, s->to.z, 2)};
+    char place_text[NUMBERS_BYTES] = "";
+    char pdf_text[NUMBERS_BYTES] = "";
+    char material[MATERIAL_BYTES];
 
     if (s->way != TRAIL_SKY)
-        snprintf(place, sizeof place, "%.3g %.3g %.3g",
-                 file_coordinate(scene, s->to.x, 0),
-                 file_coordinate(scene, s->to.y, 1),
-                 file_coordinate(scene, s->to.z, 2));
-    if (goes_on)
-        snprintf(pdf, sizeof pdf, s->pdf > 0.0f ? "%.3g" : "delta",
-                 (double)s->pdf);
+        format_numbers(place_text, place, 3, PLACE_COLS);
+    if (goes_on && pdf > 0)
+        format_numbers(pdf_text, &pdf, 1, PDF_COLS);
+    else if (goes_on)
+        snprintf(pdf_text, sizeof pdf_text, "delta");
+    columns_fit(material, sizeof material,
+                s->way == TRAIL_SKY ? "" : material_of(scene, s->hit.tri),
+                MATERIAL_COLS);
     snprintf(next_line(l), LEGEND_BYTES,
-             "%2d %-10.10s %-17.17s %-8s %4.2f %4.2f %4.2f %-6.6s %.2g %.2g "
-             "%.2g",
-             number,
-             s->way == TRAIL_SKY ? "" : legend_material(scene, s->hit.tri),
-             place, way_name(s), (double)s->throughput.x,
-             (double)s->throughput.y, (double)s->throughput.z, pdf,
-             (double)s->light.x, (double)s->light.y, (double)s->light.z);
+             "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
+             material, PLACE_COLS, place_text, way_name(s),
+             (double)s->throughput.x, (double)s->throughput.y,
+             (double)s->throughput.z, PDF_COLS, pdf_text, (double)s->light.x,
+             (double)s->light.y, (double)s->light.z);
 }
 
 void legend_trail(struct legend *l, const struct scene *scene,
@@ -106,8 +134,7 @@ void legend_lobes(struct legend *l, const struct scene *scene,
         deltas += pdf == 0.0f ? 1 : 0;
     }
     snprintf(next_line(l), LEGEND_BYTES, "%.40s, seen %.1f degrees off n",
-             legend_material(scene, lobes->tri),
-             acos((double)cosine) * DEGREES);
+             material_of(scene, lobes->tri), acos((double)cosine) * DEGREES);
     add_direction(l, "n normal, green", lobes->n);
     add_direction(l, "t tangent, red", lobes->t);
     add_direction(l, "b bitangent, blue", lobes->b);

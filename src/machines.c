@@ -8,13 +8,11 @@
 bool machines_open(struct machines *m, const struct options *options,
                    struct error *err)
 {
-    int threads = options->thread_count;
     const struct paths *paths =
         options->paths != NULL ? options->paths : isa_best();
 
     *m = (struct machines){.options = options};
-    m->cpu = backend_cpu_create(threads != 0 ? threads : usable_threads(),
-                                paths, err);
+    m->cpu = backend_cpu_create(options_threads(options), paths, err);
     return m->cpu != NULL;
 }
 

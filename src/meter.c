@@ -119,7 +119,7 @@ static void format_time(char *line, const struct render_progress *p)
 
 /* ---- diagrams ---- */
 
-/* The speed in half a column of the plot, and whether there is one. */
+/* The speed in half a column of the plot; 0 where there is none. */
 static double speed_at(const struct speeds *s, int i)
 {
     return i < s->count ? speeds_at(s, i) : 0;

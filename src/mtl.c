@@ -102,7 +102,7 @@ uint32_t mtl_find(const struct scene *scene, const char *name)
 static char *texture_key(const char *path, const struct texture *t)
 {
     char *key = NULL;
-    int length = asprintf(&key, "%g %g %g %g %u %u %s", (double)t->scale.x,
+    int length = asprintf(&key, "%a %a %a %a %u %u %s", (double)t->scale.x,
                           (double)t->scale.y, (double)t->offset.x,
                           (double)t->offset.y, t->is_clamped, t->is_data, path);
 

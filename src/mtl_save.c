@@ -122,13 +122,14 @@ static bool find_commented_map(const struct writer *w,
     return is_found;
 }
 
-static void print_pair(FILE *to, const char *option, struct vec2 v)
+/* The third number is that of texels that lie in depth: the default. */
+static void print_pair(FILE *to, const char *option, struct vec2 v, int third)
 {
     char x[NUMBER_TEXT_BYTES], y[NUMBER_TEXT_BYTES];
 
     number_format(x, (double)v.x);
     number_format(y, (double)v.y);
-    fprintf(to, "%s %s %s 0 ", option, x, y);
+    fprintf(to, "%s %s %s %d ", option, x, y, third);
 }
 
 /* What follows the key of a map: options and the name. */
@@ -144,9 +145,9 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
 
     if (to != NULL) {
         if (t->scale.x != 1 || t->scale.y != 1)
-            print_pair(to, "-s", t->scale);
+            print_pair(to, "-s", t->scale, 1);
         if (t->offset.x != 0 || t->offset.y != 0)
-            print_pair(to, "-o", t->offset);
+            print_pair(to, "-o", t->offset, 0);
         if (t->is_clamped != 0)
             fputs("-clamp on ", to);
         number_format(bump, s->bump_scale);
@@ -205,10 +206,11 @@ static bool write_change(struct writer *w, const struct mtl_change *c)
     };
     static mtl_aliases kd = {"Kd"}, ks = {"Ks"}, tf = {"Tf"};
     struct mtl_block block;
-    bool ok = c->copied_from == NULL ||
-              mtl_text_append_block(&w->text, c->name, c->copied_from);
+    bool ok = true;
 
-    if (ok && !mtl_text_find_block(&w->text, c->name, &block)) {
+    if (c->copied_from != NULL) {
+        ok = mtl_text_append_block(&w->text, c->name, c->copied_from);
+    } else if (!mtl_text_find_block(&w->text, c->name, &block)) {
         /* somebody has removed it from the file: it comes back */
         struct mtl_source none = mtl_source_empty();
         struct mtl_change whole = {c->name, c->name, &none, c->after};

@@ -132,8 +132,9 @@ bool mtl_text_find_block(const struct mtl_text *t, const char *name,
     return is_found;
 }
 
-bool mtl_text_find(const struct mtl_text *t, const struct mtl_block *b,
-                   mtl_aliases keys, struct mtl_statement *found)
+/* The last statement of a block with one of these keys. */
+static bool find_statement(const struct mtl_text *t, const struct mtl_block *b,
+                           mtl_aliases keys, struct mtl_statement *found)
 {
     struct lex lex = mtl_text_lex(t, b->newmtl.end);
     struct mtl_statement s;
@@ -179,7 +180,7 @@ bool mtl_text_set(struct mtl_text *t, const char *name, mtl_aliases keys,
 
     if (!mtl_text_find_block(t, name, &b))
         return false;
-    if (!mtl_text_find(t, &b, keys, &s))
+    if (!find_statement(t, &b, keys, &s))
         return mtl_text_insert(t, &b, keys[0], value);
     word = (struct word){t->bytes + s.key, s.key_end - s.key};
     if (word_is(word, keys[0]) && s.value > s.key_end)
@@ -195,7 +196,8 @@ bool mtl_text_remove(struct mtl_text *t, const char *name, mtl_aliases keys)
     struct mtl_statement s;
     struct mtl_block b;
 
-    while (mtl_text_find_block(t, name, &b) && mtl_text_find(t, &b, keys, &s)) {
+    while (mtl_text_find_block(t, name, &b) &&
+           find_statement(t, &b, keys, &s)) {
         size_t length = s.value_end - s.key;
 
         if (!s.has_comment)
@@ -211,7 +213,8 @@ bool mtl_text_comment(struct mtl_text *t, const char *name, mtl_aliases keys)
     struct mtl_statement s;
     struct mtl_block b;
 
-    while (mtl_text_find_block(t, name, &b) && mtl_text_find(t, &b, keys, &s)) {
+    while (mtl_text_find_block(t, name, &b) &&
+           find_statement(t, &b, keys, &s)) {
         char *rest = rest_of(t, &s);
         struct lex lex = mtl_text_lex(t, s.key_end);
         size_t end;
@@ -237,6 +240,9 @@ bool mtl_text_append_block(struct mtl_text *t, const char *name,
                            const char *copied_from)
 {
     bool is_open = t->size > 0 && !ends_line(t->bytes[t->size - 1]);
+    size_t length = strlen(name);
+    /* or a backslash at the end would join the next line to the name */
+    const char *blank = length > 0 && name[length - 1] == '\\' ? " " : "";
     struct mtl_block b;
     size_t begin = 0, end = 0; /* of what is copied: nothing */
     char *text;
@@ -246,9 +252,9 @@ bool mtl_text_append_block(struct mtl_text *t, const char *name,
         begin = b.newmtl.end;
         end = b.last.end;
     }
-    text =
-        xformat("%s%snewmtl %s%s%.*s", is_open ? t->line_end : "", t->line_end,
-                name, t->line_end, (int)(end - begin), t->bytes + begin);
+    text = xformat("%s%snewmtl %s%s%s%.*s", is_open ? t->line_end : "",
+                   t->line_end, name, blank, t->line_end, (int)(end - begin),
+                   t->bytes + begin);
     ok = mtl_text_splice(t, t->size, 0, text);
     free(text);
     return ok;

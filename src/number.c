@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* A uint64_t holds any 19 digits. */
 #define DIGITS_MAX 19
@@ -64,21 +63,27 @@ static bool is_digit(const char *p, const char *end)
     return p < end && (unsigned char)(*p - '0') <= 9;
 }
 
+/* Whether the text begins so, in any case. The word has small letters of ASCII,
+ * which tolower() does not find in every locale. */
+static bool begins_with(const char *p, const char *end, const char *word)
+{
+    for (; *word != '\0'; p++, word++)
+        if (p == end || (*p | 0x20) != *word)
+            return false;
+    return true;
+}
+
 /* "nan", "inf" and "infinity" in any case. */
 static bool parse_word(const char **p, const char *end, double *value)
 {
     static const struct {
         const char *word;
-        size_t length;
         double value;
-    } words[] = {{"infinity", 8, INFINITY},
-                 {"inf", 3, INFINITY},
-                 {"nan", 3, NAN}};
+    } words[] = {{"infinity", INFINITY}, {"inf", INFINITY}, {"nan", NAN}};
 
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if ((size_t)(end - *p) >= words[i].length &&
-            strncasecmp(*p, words[i].word, words[i].length) == 0) {
-            *p += words[i].length;
+        if (begins_with(*p, end, words[i].word)) {
+            *p += strlen(words[i].word);
             *value = words[i].value;
             return true;
         }

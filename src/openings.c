@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "glim/openings.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "glim/tri_list.h"
@@ -60,15 +61,32 @@ struct mark {
     uint32_t axis;
 };
 
+/* What the looks around a place have found. */
+struct looks {
+    struct place place;
+    struct mark marks[OPEN_LOOKS]; /* of the first that saw the sky */
+    uint32_t seen;                 /* looks that did */
+    uint32_t bounces, lit;         /* looks that bounced, and saw it then */
+    bool is_there;                 /* the place has a side */
+};
+
+/* Of an aim: how much of the sky, from which bin of directions. */
+struct beam {
+    uint32_t bin;
+    float flux;
+};
+
 struct search {
     const struct wide_world *w;
     const struct guide_grid *grid;
     struct guide_part *part;
     struct tri_list surfaces;
-    struct place *places;
+    struct looks *looks;  /* of all places */
+    struct place *places; /* those that are not in the open */
     uint32_t place_count;
     struct mark *marks;
     uint32_t mark_count;
+    struct beam *beams; /* of their aims */
     /* of each cell: places, those of them that are not in the open, their looks
      * that bounced, and those of these that saw the sky then */
     float *tried, *enclosed, *bounces, *lit;
@@ -158,68 +176,106 @@ static struct mark leave_box(const struct guide_grid *g, struct ray r)
     return m;
 }
 
-/* Looks around place i. It and what it has found are kept if it is not in the
- * open. */
-static void look_around(struct search *s, uint32_t i)
+static void look(const struct search *s, struct looks *l, uint32_t k)
 {
     const struct world *w = &s->w->world;
-    struct hit at = triangle_point(number(i, DECISION_POINT)), met;
-    struct vec2 side = number(i, DECISION_SIDE);
-    struct place *p = &s->places[s->place_count];
-    uint32_t seen = 0, bounces = 0, lit = 0;
+    struct ray *r = &l->place.ray;
+    struct hit met;
+    bool is_blocked;
 
-    at.tri = tri_list_choose(&s->surfaces, number(i, DECISION_TRI).x);
-    p->ray.key = hash_u32(i);
-    if (!leave(w, at,
-               guide_direction(side.x * (float)GUIDE_SIDE,
-                               side.y * (float)GUIDE_SIDE),
-               &p->ray, &p->n))
-        return;
-    p->cell = guide_cell(s->grid, p->ray.o, p->n);
-    for (uint32_t k = i * LOOKS; k < (i + 1) * LOOKS; k++) {
-        bool is_blocked;
-
-        p->ray.d = cosine_around(p->n, number(k, DECISION_LOOK));
-        is_blocked = !sees_sky(w, p->ray, &met);
-        if (!is_blocked && seen++ < OPEN_LOOKS)
-            s->marks[s->mark_count + seen - 1] = leave_box(s->grid, p->ray);
-        if (k % BOUNCE_EVERY == 0) {
-            bounces++;
-            lit += is_blocked && is_lit(w, p->ray, met, k) ? 1 : 0;
-        }
+    r->d = cosine_around(l->place.n, number(k, DECISION_LOOK));
+    is_blocked = !sees_sky(w, *r, &met);
+    if (!is_blocked && l->seen++ < OPEN_LOOKS)
+        l->marks[l->seen - 1] = leave_box(s->grid, *r);
+    if (k % BOUNCE_EVERY == 0) {
+        l->bounces++;
+        l->lit += is_blocked && is_lit(w, *r, met, k) ? 1 : 0;
     }
-    s->tried[p->cell]++;
-    if (seen > OPEN_LOOKS)
-        return;
-    s->enclosed[p->cell]++;
-    s->place_count++;
-    s->mark_count += seen;
-    s->bounces[p->cell] += (float)bounces;
-    s->lit[p->cell] += (float)lit;
 }
 
-/* Counts marks that are in sight, as parts of the sky's opening around them. */
-static void aim(struct search *s, uint32_t i)
+static void look_around(void *context, uint32_t i, int worker)
 {
-    const struct place *p = &s->places[i];
-    float cell = 1.0f / s->grid->cells_a_unit;
-    float *flux = s->part->flux + (size_t)p->cell * GUIDE_BINS;
+    const struct search *s = context;
+    struct hit at = triangle_point(number(i, DECISION_POINT));
+    struct vec2 side = number(i, DECISION_SIDE);
+    struct looks *l = &s->looks[i];
+    struct place *p = &l->place;
 
+    (void)worker;
+    at.tri = tri_list_choose(&s->surfaces, number(i, DECISION_TRI).x);
+    p->ray.key = hash_u32(i);
+    l->is_there = leave(&s->w->world, at,
+                        guide_direction(side.x * (float)GUIDE_SIDE,
+                                        side.y * (float)GUIDE_SIDE),
+                        &p->ray, &p->n);
+    if (!l->is_there)
+        return;
+    p->cell = guide_cell(s->grid, p->ray.o, p->n);
+    for (uint32_t k = i * LOOKS; k < (i + 1) * LOOKS; k++)
+        look(s, l, k);
+}
+
+/* Keeps a place and what it has found if it is not in the open. */
+static void keep(struct search *s, const struct looks *l)
+{
+    uint32_t cell = l->place.cell;
+
+    if (!l->is_there)
+        return;
+    s->tried[cell]++;
+    if (l->seen > OPEN_LOOKS)
+        return;
+    s->enclosed[cell]++;
+    s->bounces[cell] += (float)l->bounces;
+    s->lit[cell] += (float)l->lit;
+    s->places[s->place_count++] = l->place;
+    for (uint32_t i = 0; i < l->seen; i++)
+        s->marks[s->mark_count++] = l->marks[i];
+}
+
+/* What a mark that is in sight brings, as a part of the sky's opening around
+ * it. */
+static struct beam aim_at(const struct search *s, const struct place *p,
+                          const struct mark *m)
+{
+    float cell = 1.0f / s->grid->cells_a_unit;
+    struct vec3 d = v3_sub(m->at, p->ray.o);
+    float distance2 = v3_dot(d, d), cosine;
+    struct ray r = p->ray;
+    struct beam b = {0, 0.0f};
+    struct hit met;
+
+    if (!(distance2 > 0.0f))
+        return b;
+    r.d = v3_unit(d);
+    cosine = v3_dot(r.d, p->n);
+    if (cosine > 0.0f && sees_sky(&s->w->world, r, &met)) {
+        b.bin = guide_bin(r.d);
+        b.flux =
+            cosine * fabsf(v3_axis(r.d, m->axis)) / (distance2 + cell * cell);
+    }
+    return b;
+}
+
+static void aim(void *context, uint32_t i, int worker)
+{
+    const struct search *s = context;
+
+    (void)worker;
     for (uint32_t k = i * AIMS; k < (i + 1) * AIMS; k++) {
         float u = number(k, DECISION_AIM).x;
-        const struct mark *m = &s->marks[(uint32_t)(u * (float)s->mark_count)];
-        struct vec3 d = v3_sub(m->at, p->ray.o);
-        float distance2 = v3_dot(d, d), cosine;
-        struct ray r = p->ray;
-        struct hit met;
 
-        if (!(distance2 > 0.0f))
-            continue;
-        r.d = v3_unit(d);
-        cosine = v3_dot(r.d, p->n);
-        if (cosine > 0.0f && sees_sky(&s->w->world, r, &met))
-            flux[guide_bin(r.d)] += cosine * fabsf(v3_axis(r.d, m->axis)) /
-                                    (distance2 + cell * cell);
+        s->beams[k] = aim_at(s, &s->places[i],
+                             &s->marks[(uint32_t)(u * (float)s->mark_count)]);
+    }
+}
+
+static void add_beams(struct search *s)
+{
+    for (uint32_t k = 0; k < s->place_count * AIMS; k++) {
+        size_t cell = s->places[k / AIMS].cell;
+
+        s->part->flux[cell * GUIDE_BINS + s->beams[k].bin] += s->beams[k].flux;
     }
 }
 
@@ -273,37 +329,50 @@ static bool search_init(struct search *s)
     const struct world *w = &s->w->world;
     uint32_t count = guide_cell_count(s->grid);
 
+    s->looks = alloc_array(PLACES, sizeof *s->looks);
     s->places = alloc_array(PLACES, sizeof *s->places);
     s->marks = alloc_array((size_t)PLACES * OPEN_LOOKS, sizeof *s->marks);
+    s->beams = alloc_array((size_t)PLACES * AIMS, sizeof *s->beams);
     s->tried = alloc_array(count, sizeof *s->tried);
     s->enclosed = alloc_array(count, sizeof *s->enclosed);
     s->bounces = alloc_array(count, sizeof *s->bounces);
     s->lit = alloc_array(count, sizeof *s->lit);
     if (!tri_list_init(&s->surfaces, w->settings.tri_count) ||
-        s->places == NULL || s->marks == NULL || s->tried == NULL ||
-        s->enclosed == NULL || s->bounces == NULL || s->lit == NULL)
+        s->looks == NULL || s->places == NULL || s->marks == NULL ||
+        s->beams == NULL || s->tried == NULL || s->enclosed == NULL ||
+        s->bounces == NULL || s->lit == NULL)
         return false;
     for (uint32_t i = 0; i < w->settings.tri_count; i++)
         tri_list_add(&s->surfaces, i, tri_area(w, i));
     return true;
 }
 
+/* What is found in parallel is added in order. */
+static void find(struct search *s, struct pool *pool)
+{
+    pool_each(pool, PLACES, look_around, s);
+    for (uint32_t i = 0; i < PLACES; i++)
+        keep(s, &s->looks[i]);
+    if (s->mark_count == 0)
+        return;
+    pool_each(pool, s->place_count, aim, s);
+    add_beams(s);
+    finish(s);
+}
+
 bool openings_find(const struct wide_world *w, const struct guide_grid *grid,
-                   struct guide_part *part)
+                   struct pool *pool, struct guide_part *part)
 {
     struct search s = {.w = w, .grid = grid, .part = part};
     bool ok = search_init(&s);
 
-    for (uint32_t i = 0; ok && i < PLACES; i++)
-        look_around(&s, i);
-    if (s.mark_count > 0) {
-        for (uint32_t i = 0; i < s.place_count; i++)
-            aim(&s, i);
-        finish(&s);
-    }
+    if (ok)
+        find(&s, pool);
     tri_list_free(&s.surfaces);
+    free(s.looks);
     free(s.places);
     free(s.marks);
+    free(s.beams);
     free(s.tried);
     free(s.enclosed);
     free(s.bounces);

@@ -201,6 +201,12 @@ static bool check_batch(const struct options *o, struct error *err)
                     "-o: found '%s', expected a name that ends in .png, .hdr "
                     "or .pfm, or - for standard output",
                     o->output_path);
+    if (o->output_path && o->stats_path && !takes_output &&
+        strcmp(o->output_path, o->stats_path) == 0)
+        return fail(err,
+                    "--stats: found '%s', the file of -o, expected "
+                    "another one",
+                    o->stats_path);
     if (takes_output && is_standard_output(o->stats_path))
         return fail(err,
                     "--stats: standard output is taken by %s, expected the "
@@ -240,6 +246,11 @@ static bool check_together(const struct options *o, struct error *err)
         return fail(err, "no scene given, expected: glim [options] scene.obj "
                          "(see glim --help)");
     return check_batch(o, err) && check_show(o, err);
+}
+
+int options_threads(const struct options *o)
+{
+    return o->thread_count != 0 ? o->thread_count : usable_threads();
 }
 
 enum palette options_palette(enum color_mode mode)

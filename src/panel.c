@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "glim/panel.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "glim/knob_text.h"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/columns.h"
 #include "glim/look.h"
 
 /* Rows beside list and knobs: pages, a title, two of hints. */
@@ -12,6 +13,13 @@
 #define LIST_MIN   3
 
 #define BAR_COLS 9
+
+/* Of the columns that foreign names have. */
+#define NAME_COLS  17
+#define OTHER_COLS 13
+#define TITLE_COLS 32
+#define VALUE_COLS 20
+#define NAME_BYTES 100
 
 /* What there is to draw on. */
 struct sheet {
@@ -71,12 +79,18 @@ static void add_item(struct panel *p, struct sheet *s, uint32_t i)
     uint32_t material = is_object ? selection_material_of(&p->selection, i) : i;
     const struct mtl_source *source = &edit_shown(e)->sources[material];
     bool is_selected = i == selection_index(&p->selection);
-    char text[64];
+    char text[WINDOW_LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
     double rgb[3];
 
-    snprintf(text, sizeof text, "%s    %-17.17s %.13s", is_selected ? ">" : " ",
-             panel_name(is_object ? scene_of(p)->object_names[i] : e->names[i]),
-             is_object ? panel_name(e->names[material]) : look_kind(source));
+    columns_fit(name, sizeof name,
+                panel_name(is_object ? scene_of(p)->object_names[i]
+                                     : e->names[i]),
+                NAME_COLS);
+    columns_cut(other, sizeof other,
+                is_object ? panel_name(e->names[material]) : look_kind(source),
+                OTHER_COLS);
+    snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
+             other);
     look_swatch(source, rgb);
     swatches_set(s->swatches, s->count, rgb);
     add_line(s, is_selected && !p->is_in_knobs ? WINDOW_SELECTED : WINDOW_PLAIN,
@@ -108,7 +122,7 @@ static void add_list(struct panel *p, struct sheet *s, int rows)
 static void add_title(struct panel *p, struct sheet *s)
 {
     const struct edit *e = edit_of(p);
-    char text[64];
+    char text[WINDOW_LINE_BYTES], name[NAME_BYTES];
 
     if (e->is_comparing)
         snprintf(text, sizeof text, " as saved: x goes back");
@@ -117,12 +131,19 @@ static void add_title(struct panel *p, struct sheet *s)
                  edit_has_unsaved_view(e) ? " *" : "");
     else if (!selection_has_one(&p->selection))
         snprintf(text, sizeof text, " nothing to edit");
-    else if (p->selection.page == KNOB_OBJECT)
-        snprintf(text, sizeof text, " %.34s",
-                 panel_name(scene_of(p)->object_names[p->selection.object]));
-    else
-        snprintf(text, sizeof text, " %.32s%s", e->names[p->selection.material],
-                 edit_is_saved(e, p->selection.material) ? "" : " *");
+    else {
+        bool is_object = p->selection.page == KNOB_OBJECT;
+
+        columns_cut(name, sizeof name,
+                    is_object
+                        ? panel_name(
+                              scene_of(p)->object_names[p->selection.object])
+                        : e->names[p->selection.material],
+                    TITLE_COLS);
+        snprintf(text, sizeof text, " %s%s", name,
+                 is_object || edit_is_saved(e, p->selection.material) ? ""
+                                                                      : " *");
+    }
     add_line(s, WINDOW_TITLE, text);
 }
 
@@ -139,10 +160,11 @@ static void add_knob(struct panel *p, struct sheet *s, const struct knob *k,
                      bool is_selected)
 {
     char bar[BAR_COLS + 1];
-    char text[64];
+    char text[WINDOW_LINE_BYTES], value[NAME_BYTES];
     size_t length = strlen(p->typed);
 
     format_bar(bar, k->place);
+    columns_cut(value, sizeof value, k->text, VALUE_COLS);
     if (is_selected && p->is_typing)
         snprintf(text, sizeof text, "     %-10s %.18s_", k->label,
                  length > 18 ? p->typed + length - 18 : p->typed);
@@ -150,7 +172,7 @@ static void add_knob(struct panel *p, struct sheet *s, const struct knob *k,
         snprintf(text, sizeof text, "     %-10s %-10.10s %s", k->label, k->text,
                  bar);
     else
-        snprintf(text, sizeof text, "     %-10s %.20s", k->label, k->text);
+        snprintf(text, sizeof text, "     %-10s %s", k->label, value);
     if (is_selected)
         text[0] = '>';
     if (k->has_color)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "glim/picture.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "glim/pilot.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "glim/camera.h"

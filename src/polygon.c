@@ -7,14 +7,17 @@
 
 #include "glim/util.h"
 
-/* Cells and corners looked at per corner before the rest is cut blindly: no
- * file may take longer than its size explains. Outlines that do not cross
- * themselves needed up to 62, rings with rough edges and coasts of 100,000
- * corners among them. */
-#define WORK_PER_CORNER 250
-#define WORK_AT_LEAST   20000
+/* Cells and corners looked at before the rest is cut blindly: no file may take
+ * longer than its size explains. Outlines that do not cross themselves needed
+ * up to 830 per corner: straight sides of thousands of corners, rings with
+ * rough edges, coasts and battlements among them. */
+#define WORK_AT_LEAST        20000
+#define WORK_PER_CORNER      1000
+#define MANY_CORNERS         65536
+#define WORK_PER_MORE_CORNER 100
 
-#define GRID_SIDE_MAX 4096
+/* Corners in vain after which ears are looked for beside the last one. */
+#define SCARCE_MISSES 16
 
 /* next[] of a corner that is not in the ring (any more). */
 #define NOT_LINKED 0xffffffffu
@@ -224,59 +227,25 @@ static uint32_t link_corners(struct polygon *g, const double *corners,
     return count;
 }
 
-static uint32_t cell_along(double x, double origin, double scale, uint32_t side)
-{
-    double cell = (x - origin) * scale;
-
-    if (!(cell > 0))
-        return 0;
-    return cell < side ? (uint32_t)cell : side - 1;
-}
-
-static uint32_t cell_of(const struct polygon *g, struct point2 p)
-{
-    return cell_along(p.y, g->cell_origin.y, g->cell_scale_y, g->side) *
-               g->side +
-           cell_along(p.x, g->cell_origin.x, g->cell_scale_x, g->side);
-}
-
-static void size_grid(struct polygon *g, uint32_t n)
-{
-    struct point2 lo = g->points[0];
-    struct point2 hi = lo;
-
-    for (uint32_t i = 1; i < n; i++) {
-        lo.x = fmin(lo.x, g->points[i].x);
-        lo.y = fmin(lo.y, g->points[i].y);
-        hi.x = fmax(hi.x, g->points[i].x);
-        hi.y = fmax(hi.y, g->points[i].y);
-    }
-    g->side = (uint32_t)sqrt(n);
-    if (g->side > GRID_SIDE_MAX)
-        g->side = GRID_SIDE_MAX;
-    g->cell_origin = lo;
-    g->cell_scale_x = g->side / (hi.x - lo.x);
-    g->cell_scale_y = g->side / (hi.y - lo.y);
-}
-
 /* Sorts the reflex corners into the cells. */
 static void fill_grid(struct polygon *g, uint32_t n)
 {
-    uint32_t cell_count = g->side * g->side;
+    uint32_t cell_count = g->grid.side * g->grid.side;
     uint32_t *starts = g->cell_starts;
     uint32_t i = 0;
 
     memset(starts, 0, (cell_count + 1) * sizeof *starts);
     do {
         g->is_reflex[i] = !(turn(g, g->prev[i], i, g->next[i]) > 0);
-        starts[cell_of(g, g->points[i])] += g->is_reflex[i];
+        starts[plane_grid_cell(&g->grid, g->points[i])] += g->is_reflex[i];
         i = g->next[i];
     } while (i != 0);
     for (uint32_t c = 1; c <= cell_count; c++)
         starts[c] += starts[c - 1];
     for (i = n; i-- > 0;) {
         if (g->next[i] != NOT_LINKED && g->is_reflex[i])
-            g->cell_corners[--starts[cell_of(g, g->points[i])]] = i;
+            g->cell_corners[--starts[plane_grid_cell(&g->grid, g->points[i])]] =
+                i;
     }
 }
 
@@ -302,33 +271,40 @@ static bool is_in_the_way(const struct polygon *g, enum ear_rule rule,
            !same_point(at, g->points[ear[2]]);
 }
 
-/* Looks at the reflex corners in the cells that the ear's box meets. */
+/* Whether one of the reflex corners in the cells is in the way. */
+static bool has_corner_in(struct polygon *g, enum ear_rule rule,
+                          const uint32_t ear[3], uint32_t first, uint32_t last)
+{
+    uint32_t begin = g->cell_starts[first];
+    uint32_t end = g->cell_starts[last + 1];
+
+    g->work += 1 + end - begin;
+    for (uint32_t i = begin; i < end; i++) {
+        uint32_t p = g->cell_corners[i];
+
+        if (g->next[p] == NOT_LINKED || !g->is_reflex[p] || p == ear[0] ||
+            p == ear[1] || p == ear[2])
+            continue;
+        if (is_in_the_way(g, rule, ear, p))
+            return true;
+    }
+    return false;
+}
+
+/* Looks at the cells that the ear meets. */
 static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
                          const uint32_t ear[3])
 {
-    struct point2 a = g->points[ear[0]];
-    struct point2 b = g->points[ear[1]];
-    struct point2 c = g->points[ear[2]];
-    struct point2 lo = {fmin(fmin(a.x, b.x), c.x), fmin(fmin(a.y, b.y), c.y)};
-    struct point2 hi = {fmax(fmax(a.x, b.x), c.x), fmax(fmax(a.y, b.y), c.y)};
-    uint32_t first = cell_of(g, lo);
-    uint32_t last = cell_of(g, hi);
-    uint32_t width = last % g->side - first % g->side;
+    struct plane_triangle t =
+        plane_grid_triangle(&g->grid, g->points[ear[0]], g->points[ear[1]],
+                            g->points[ear[2]]);
 
-    for (uint32_t row = first; row <= last; row += g->side) {
-        uint32_t begin = g->cell_starts[row];
-        uint32_t end = g->cell_starts[row + width + 1];
+    for (uint32_t row = t.first_row; row <= t.last_row; row++) {
+        uint32_t first, last;
 
-        g->work += 1 + end - begin;
-        for (uint32_t i = begin; i < end; i++) {
-            uint32_t p = g->cell_corners[i];
-
-            if (g->next[p] == NOT_LINKED || !g->is_reflex[p] || p == ear[0] ||
-                p == ear[1] || p == ear[2])
-                continue;
-            if (is_in_the_way(g, rule, ear, p))
-                return false;
-        }
+        plane_grid_row(&g->grid, &t, row, &first, &last);
+        if (has_corner_in(g, rule, ear, first, last))
+            return false;
     }
     return true;
 }
@@ -374,35 +350,47 @@ static void cut_off(struct polygon *g, uint32_t b)
     g->is_reflex[c] = !(turn(g, a, c, g->next[c]) > 0);
 }
 
+static uint64_t work_limit(uint32_t count)
+{
+    uint64_t more = count > MANY_CORNERS ? count - MANY_CORNERS : 0;
+
+    return WORK_AT_LEAST + (count - more) * WORK_PER_CORNER +
+           more * WORK_PER_MORE_CORNER;
+}
+
+/* Going on beside an ear would make a fan of slivers. But on long straight
+ * sides, and in narrow places without other branches, nothing else is an ear
+ * but what the last cut has made one, at either end of it by turns. */
 static void cut_ears(struct polygon *g, uint32_t count)
 {
-    uint64_t work_max = WORK_AT_LEAST + (uint64_t)count * WORK_PER_CORNER;
+    uint64_t work_max = work_limit(count);
     enum ear_rule rule = EAR_CLEAR;
     uint32_t misses = 0;
     uint32_t b = 0;
+    bool is_scarce = false;
+    bool is_back = false;
 
     for (g->work = 0; count > 3; g->work++) {
+        uint32_t a = g->prev[b];
         uint32_t c = g->next[b];
 
         if (g->work > work_max)
             rule = EAR_ANY;
-        if (is_ear(g, rule, b)) {
-            double area = turn(g, g->prev[b], b, c);
-
-            g->crosses_itself |= area < 0 || rule == EAR_CONVEX;
-            cut_off(g, b);
-            count--;
-            misses = 0;
-            rule = EAR_CLEAR;
-            /* Going on at c would make a fan of slivers. */
-            b = g->next[c];
-        } else {
-            b = c;
-            if (++misses >= count) {
-                misses = 0;
+        if (!is_ear(g, rule, b)) {
+            b = is_back ? a : c;
+            if (++misses % count == 0)
                 rule++;
-            }
+            continue;
         }
+        g->crosses_itself |= turn(g, a, b, c) < 0 || rule == EAR_CONVEX;
+        cut_off(g, b);
+        count--;
+        if (misses > 1) /* neither end of the last cut */
+            is_scarce = misses > SCARCE_MISSES;
+        is_back = is_scarce && !is_back;
+        b = !is_scarce ? g->next[c] : is_back ? c : a;
+        misses = 0;
+        rule = EAR_CLEAR;
     }
     g->crosses_itself |= turn(g, g->prev[b], b, g->next[b]) < 0;
     emit(g, g->prev[b], b, g->next[b]);
@@ -421,7 +409,7 @@ bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
     count = link_corners(g, corners, n);
     if (count < 3)
         return emit_fan(g, 3);
-    size_grid(g, n);
+    g->grid = plane_grid_over(g->points, n);
     fill_grid(g, n);
     cut_ears(g, count);
     return true;

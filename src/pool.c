@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "glim/pool.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -136,7 +137,7 @@ struct pool *pool_create(int thread_count, struct error *err)
 {
     struct pool *p = xcalloc(1, sizeof *p);
     int started = 0;
-    int reason = 0;
+    int reason = ENOMEM;
 
     p->workers = xcalloc((size_t)thread_count, sizeof *p->workers);
     p->shares = aligned_alloc(64, (size_t)thread_count * sizeof *p->shares);

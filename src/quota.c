@@ -8,7 +8,7 @@
 
 #define PATH_BYTES 4096
 
-/* Reads the first line; "" if there is none. */
+/* Reads the first line; false if there is none. */
 static bool first_line(const char *path, char *line, int line_bytes)
 {
     FILE *f = fopen(path, "re");

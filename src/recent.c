@@ -84,11 +84,11 @@ void recent_add(const char *path)
 /* Names are foreign text. */
 static void print_path(FILE *out, const char *path)
 {
-    for (; *path != '\0'; path++) {
-        unsigned char c = (unsigned char)*path;
+    char *shown = xstrdup(path);
 
-        fputc(c < ' ' || c == 127 ? '?' : c, out);
-    }
+    replace_controls(shown);
+    fputs(shown, out);
+    free(shown);
 }
 
 static char *path_of_answer(const struct recent *r, const char *answer)

@@ -2,9 +2,10 @@
 #include "glim/reinsert.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "glim/split.h"
-#include "kernels/traverse.h"
+#include "kernels/traverse_leaf.h"
 
 /* Nodes of these parts of the root's area and above are moved, the larger ones
  * first: thrice. Measured: smaller ones make trees cheaper by less than 1 %,
@@ -71,10 +72,7 @@ struct reader {
 
 static struct box box_of(const struct node *n)
 {
-    struct box box = box_of_point(n->lo), high = box_of_point(n->hi);
-
-    box_join(&box, &high);
-    return box;
+    return box_of_corners(n->lo, n->hi);
 }
 
 /* What is at `first` and below are so many nodes. Recursion is as deep as the

@@ -110,7 +110,8 @@ static enum pass_result run_to(struct render *r, uint64_t target,
 static enum pass_result load(struct render *r)
 {
     uint64_t begin_ns = clock_ns();
-    bool ok = r->backend->load(r->backend, &r->job.world, &r->error);
+    bool ok =
+        r->backend->load(r->backend, &r->job.world, r->job.tree, &r->error);
 
     pthread_mutex_lock(&r->lock);
     r->build_ns = clock_ns() - begin_ns;
@@ -346,14 +347,9 @@ bool render_start(struct render *r, const struct render_job *job,
     return true;
 }
 
-void render_halt_async(struct render *r)
-{
-    cancel_request(&r->cancel);
-}
-
 void render_halt(struct render *r)
 {
-    render_halt_async(r);
+    cancel_request(&r->cancel);
     render_wait(r, -1);
 }
 

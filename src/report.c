@@ -8,21 +8,6 @@
 
 #include "glim/util.h"
 
-/* Names in files are foreign text: no control character of theirs may reach
- * the terminal. In UTF-8 the C1 controls are c2 80 to c2 9f. */
-static void replace_controls(char *text)
-{
-    unsigned char before = 0;
-
-    for (char *p = text; *p != '\0'; p++) {
-        unsigned char c = (unsigned char)*p;
-
-        if (c < 0x20 || c == 0x7f || (before == 0xc2 && c < 0xa0))
-            *p = '?';
-        before = c;
-    }
-}
-
 static struct report_entry *find(const struct report *r, const char *kind)
 {
     for (int i = 0; i < r->entry_count; i++) {

@@ -106,8 +106,8 @@ static void drop_tris(struct scene *scene, struct report *report,
         if (!is_usable(scene, &scene->tris[i])) {
             report_add(report, "triangles without area",
                        "%s: found a triangle without area in face %" PRIu32
-                       ", counted from 0: triangle dropped",
-                       scene->path, scene->tri_faces[i]);
+                       " of the file: triangle dropped",
+                       scene->path, scene->tri_faces[i] + 1);
             continue;
         }
         scene->tris[kept] = scene->tris[i];
@@ -322,6 +322,7 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     arrays = scene_arrays(scene);
+    wide_free(&scene->tree);
     guide_outdate(&scene->guide);
     return lights_build(&scene->lights, &arrays, err);
 }
@@ -472,5 +473,6 @@ void scene_free(struct scene *scene)
     lights_free(&scene->lights);
     sky_free(&scene->sky_table);
     guide_free(&scene->guide);
+    wide_free(&scene->tree);
     memset(scene, 0, sizeof *scene);
 }

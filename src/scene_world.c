@@ -174,17 +174,28 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
     return sky;
 }
 
-bool scene_guide(struct scene *scene, const struct view *view,
+bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
                  struct error *err)
 {
-    struct world w = scene_arrays(scene);
+    struct wide_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
     struct vec3 color = make_sky(scene, view).color;
     double sky = ((double)color.x + (double)color.y + (double)color.z) / 3;
 
-    lights_lend(&scene->lights, &w);
+    struct pool *pool;
+    bool ok;
+
+    lights_lend(&scene->lights, &w.world);
     if (scene->sky_texels != NULL)
         sky *= scene->sky_table.mean;
-    return guide_update(&scene->guide, &w, sky, err);
+    if (!guide_needs_rays(&scene->guide, &w.world, sky))
+        return guide_update(&scene->guide, &w, sky, NULL, err);
+    /* without threads this one works */
+    pool = thread_count > 1 ? pool_create(thread_count, err) : NULL;
+    ok = (scene->tree.nodes != NULL ||
+          wide_build(&scene->tree, &w.world, pool, err)) &&
+         guide_update(&scene->guide, &w, sky, pool, err);
+    pool_destroy(pool);
+    return ok;
 }
 
 bool scene_world(const struct scene *scene, const struct view *view,

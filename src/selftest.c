@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "glim/material.h"
@@ -84,7 +83,8 @@ static bool make_job(struct scene *scene, uint32_t features,
     struct view view;
     bool ok;
 
-    *job = (struct render_job){.geometry_changed = true,
+    *job = (struct render_job){.tree = &scene->tree,
+                               .geometry_changed = true,
                                .crop = {0, 0, SIDE, SIDE},
                                .spp = SPP};
     view_init(&view);
@@ -96,7 +96,8 @@ static bool make_job(struct scene *scene, uint32_t features,
     view.at[1] = 1.3;
     view.fovy_deg = 75;
     view.background[0] = view.background[1] = view.background[2] = 0.5;
-    ok = ((features & FEATURE_GUIDE) == 0 || scene_guide(scene, &view, err)) &&
+    ok = ((features & FEATURE_GUIDE) == 0 ||
+          scene_guide(scene, &view, 1, err)) &&
          scene_world(scene, &view, 1, &job->world, err);
     view_free(&view);
     return ok;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "glim/session.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -137,7 +136,7 @@ static bool apply_edit(struct session *s, struct error *err)
         if (!scene_load_sky(&s->scene, &s->view, &s->report, &why))
             snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     }
-    return scene_guide(&s->scene, &s->view, err);
+    return scene_guide(&s->scene, &s->view, options_threads(s->options), err);
 }
 
 bool session_load(struct session *s, const struct options *options,
@@ -203,6 +202,14 @@ static void swap_loaded(struct session *a, struct session *b)
     memcpy(a->notice, b->notice, sizeof a->notice);
 }
 
+static void swap_trees(struct scene *a, struct scene *b)
+{
+    struct wide tree = a->tree;
+
+    a->tree = b->tree;
+    b->tree = tree;
+}
+
 /* The same triangles need no new tree. But a device knows arrays by their
  * addresses, and has seen those of the scene that goes only if it has begun to
  * render it: before that their addresses might come again. */
@@ -215,6 +222,8 @@ void session_take(struct session *s, struct session *fresh)
     /* these are the edit's, of which there is another one now */
     assigns_copy(&s->view.assigns, &fresh->filed.assigns);
     swap_loaded(s, fresh);
+    if (!s->geometry_changed)
+        swap_trees(&s->scene, &fresh->scene);
 }
 
 void session_watch(const struct session *s, struct watch *watch)
@@ -235,9 +244,26 @@ void session_watch(const struct session *s, struct watch *watch)
     free(camera);
 }
 
+bool session_spares(const struct session *s, const char *option,
+                    const char *path, struct error *err)
+{
+    struct watch files;
+    bool is_read;
+
+    watch_init(&files);
+    session_watch(s, &files);
+    is_read = watch_has(&files, path);
+    watch_free(&files);
+    return !is_read || fail(err,
+                            "%s: found '%s', which the scene is read from, "
+                            "expected another file",
+                            option, path);
+}
+
 bool session_restart(struct session *s, uint64_t spp, struct error *err)
 {
-    struct render_job job = {.geometry_changed = s->geometry_changed,
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = s->geometry_changed,
                              .crop = s->crop,
                              .spp = spp};
     uint32_t features;
@@ -247,9 +273,14 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
         job.draft_height = s->draft_height;
     }
     render_halt(s->render);
+    /* until a device has seen these arrays: it must not know the next ones by
+     * their addresses */
+    s->geometry_changed = true;
     if (!apply_edit(s, err) ||
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
+    if (session_uses_device(s)) /* which has another */
+        wide_free(&s->scene.tree);
     features = job.world.settings.features;
     if (spp == 0 && s->sample != SAMPLE_LIGHT) {
         job.world.settings.sample = s->sample;
@@ -258,12 +289,8 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
     s->restart_ns = clock_ns();
     s->speeds = (struct speeds){0};
     load_begin(&s->load, render_backend(s->render));
-    if (!render_start(s->render, &job, err)) {
-        /* a device has not seen these arrays: it must not know the next ones
-         * by their addresses */
-        s->geometry_changed = true;
+    if (!render_start(s->render, &job, err))
         return false;
-    }
     s->geometry_changed = false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
         machines_specialise(&s->machines, features);
@@ -329,8 +356,24 @@ static size_t collect(const struct session *s, uint32_t file,
     return count;
 }
 
+/* Materials that were written, and the names of the files. */
+struct written {
+    size_t count;
+    char *files; /* NULL: none */
+};
+
+static void note_written(struct written *w, size_t count, const char *path)
+{
+    char *files =
+        w->files == NULL ? xstrdup(path) : xformat("%s, %s", w->files, path);
+
+    free(w->files);
+    w->files = files;
+    w->count += count;
+}
+
 static bool save_file(struct session *s, uint32_t file, struct watch *watch,
-                      size_t *written, struct error *err)
+                      struct written *written, struct error *err)
 {
     const char *path = s->scene.mtl_paths[file];
     struct mtl_change *changes =
@@ -341,11 +384,12 @@ static bool save_file(struct session *s, uint32_t file, struct watch *watch,
     bool ok =
         count == 0 || mtl_save(&s->scene, path, changes, count, &change, err);
 
-    if (ok && count > 0)
+    if (ok && count > 0) {
         watch_replaced(watch, path, &change);
+        note_written(written, count, path);
+    }
     for (size_t i = 0; ok && i < count; i++)
         edit_saved_material(&s->edit, materials[i]);
-    *written += count;
     free(changes);
     free(materials);
     return ok;
@@ -375,33 +419,38 @@ static bool save_light(struct session *s, struct watch *watch,
     return ok;
 }
 
+/* NULL: the view file was not written. */
+static char *say_written(const struct written *w, const char *view_path)
+{
+    if (w->count == 0 && view_path == NULL)
+        return xstrdup("nothing has changed since it was saved");
+    if (w->count == 0)
+        return xformat("wrote %s", view_path);
+    return xformat("wrote %zu material%s to %s%s%s", w->count,
+                   w->count == 1 ? "" : "s", w->files,
+                   view_path != NULL ? ", and " : "",
+                   view_path != NULL ? view_path : "");
+}
+
 bool session_save_edit(struct session *s, struct watch *watch, char **what,
                        struct error *err)
 {
     bool has_light = edit_has_unsaved_view(&s->edit);
-    size_t written = 0;
+    struct written written = {0};
+    bool ok = true;
 
     if (edit_has_unsaved_materials(&s->edit) && s->scene.mtl_path_count == 0)
         return fail(err,
                     "%s: found no MTL file of this scene, expected one to "
                     "write the materials to",
                     s->scene.path);
-    for (uint32_t i = 0; i < s->scene.mtl_path_count; i++)
-        if (!save_file(s, i, watch, &written, err))
-            return false;
-    if (has_light && !save_light(s, watch, err))
-        return false;
-    if (written == 0 && !has_light)
-        *what = xstrdup("nothing has changed since it was saved");
-    else if (written == 0)
-        *what = xformat("wrote %s", s->view_path);
-    else
-        *what =
-            xformat("wrote %zu material%s to %s%s%s%s", written,
-                    written == 1 ? "" : "s", s->scene.mtl_paths[0],
-                    s->scene.mtl_path_count > 1 ? " and others" : "",
-                    has_light ? ", and " : "", has_light ? s->view_path : "");
-    return true;
+    for (uint32_t i = 0; ok && i < s->scene.mtl_path_count; i++)
+        ok = save_file(s, i, watch, &written, err);
+    ok = ok && (!has_light || save_light(s, watch, err));
+    if (ok)
+        *what = say_written(&written, has_light ? s->view_path : NULL);
+    free(written.files);
+    return ok;
 }
 
 struct develop session_develop(const struct session *s)

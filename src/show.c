@@ -87,10 +87,8 @@ bool show_need_tree(struct show *s, struct error *err)
 
 static bool need_pool(struct show *s, struct error *err)
 {
-    int threads = s->session->options->thread_count;
-
     if (!s->pool)
-        s->pool = pool_create(threads != 0 ? threads : usable_threads(), err);
+        s->pool = pool_create(options_threads(s->session->options), err);
     return s->pool != NULL;
 }
 
@@ -120,8 +118,12 @@ bool show_set(struct show *s, enum show_kind kind, struct error *err)
 
 static bool need_numbers(struct show *s, size_t count)
 {
-    return grow_array((void **)&s->numbers, &s->number_capacity, count,
-                      sizeof *s->numbers);
+    void *numbers = s->numbers;
+    bool ok =
+        grow_array(&numbers, &s->number_capacity, count, sizeof *s->numbers);
+
+    s->numbers = numbers;
+    return ok;
 }
 
 /* Pixel i of n in the other's length, from 0. */
@@ -210,7 +212,7 @@ static void paint_draft(struct show *s, struct film *draft, struct frame *frame)
     paint_numbers(s, frame, draft->width, draft->height);
 }
 
-static void paint_samples(struct show *s, struct film *film,
+static bool paint_samples(struct show *s, struct film *film,
                           struct frame *frame)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
@@ -218,7 +220,7 @@ static void paint_samples(struct show *s, struct film *film,
     double sum = 0;
 
     if (!need_numbers(s, pixels))
-        return;
+        return false;
     film_counts(film, s->numbers);
     range = number_range_of(s->numbers, pixels, 1);
     fill_heat(s, frame, film->width, film->height, range.hi);
@@ -226,6 +228,7 @@ static void paint_samples(struct show *s, struct film *film,
         sum += s->numbers[i];
     say(s, "SAMPLES  of a pixel, black 0, white %.0f; mean %.2f",
         (double)range.hi, sum / (double)pixels);
+    return true;
 }
 
 /* Counts anew what another camera or frame sees. */
@@ -252,14 +255,14 @@ static bool count_costs(struct show *s, const struct frame *frame)
     return true;
 }
 
-static void paint_costs(struct show *s, struct frame *frame)
+static bool paint_costs(struct show *s, struct frame *frame)
 {
     size_t pixels = (size_t)frame->width * (size_t)frame->height;
     struct number_range range;
     double boxes = 0, triangles = 0;
 
     if (!count_costs(s, frame) || !need_numbers(s, pixels))
-        return;
+        return false;
     for (size_t i = 0; i < pixels; i++) {
         boxes += s->costs[i].boxes;
         triangles += s->costs[i].triangles;
@@ -271,6 +274,7 @@ static void paint_costs(struct show *s, struct frame *frame)
         "COST  tests of a camera ray, black 0, white %.0f; mean %.1f "
         "boxes, %.1f triangles",
         (double)range.hi, boxes / (double)pixels, triangles / (double)pixels);
+    return true;
 }
 
 void show_paint(struct show *s, struct film *film, struct film *draft,
@@ -294,6 +298,12 @@ static void paint_preview(const struct show *s, struct frame *frame)
         frame->rgb[i] = (uint8_t)srgb_byte(s->numbers[i]);
 }
 
+static bool fail_memory(const struct frame *frame, struct error *err)
+{
+    return fail(err, "out of memory for the numbers of %dx%d pixels",
+                frame->width, frame->height);
+}
+
 /* The numbers of the frame's own pixels. */
 static bool find_numbers(struct show *s, const struct frame *frame,
                          struct error *err)
@@ -304,8 +314,7 @@ static bool find_numbers(struct show *s, const struct frame *frame,
         !find_world(s, &w, err))
         return false;
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
-        return fail(err, "out of memory for the numbers of %dx%d pixels",
-                    frame->width, frame->height);
+        return fail_memory(frame, err);
     w.settings.camera = show_camera(s, &w.settings.camera, frame);
     w.settings.sample = kinds[s->kind].sample;
     w.settings.features |= FEATURE_FIRST_HIT;
@@ -318,8 +327,9 @@ bool show_picture(struct show *s, struct film *film, struct frame *frame,
 {
     switch (s->kind) {
     case SHOW_LIGHT: film_preview(film, NULL, show_develop(s), frame); break;
-    case SHOW_SAMPLES: paint_samples(s, film, frame); break;
-    case SHOW_COST: paint_costs(s, frame); break;
+    case SHOW_SAMPLES:
+        return paint_samples(s, film, frame) || fail_memory(frame, err);
+    case SHOW_COST: return paint_costs(s, frame) || fail_memory(frame, err);
     default:
         if (!find_numbers(s, frame, err))
             return false;

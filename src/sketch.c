@@ -48,10 +48,11 @@ static bool add_box(struct level *l, const struct camera *c,
                     const struct node *n)
 {
     struct vec3 middle = v3_scale(v3_add(n->lo, n->hi), 0.5f);
+    void *boxes = l->boxes;
 
-    if (!grow_array((void **)&l->boxes, &l->capacity, l->count + 1u,
-                    sizeof *l->boxes))
+    if (!grow_array(&boxes, &l->capacity, l->count + 1u, sizeof *l->boxes))
         return false;
+    l->boxes = boxes;
     l->boxes[l->count++] =
         (struct near_box){n->lo, n->hi,
                           v3_dot(v3_sub(middle, c->eye), c->forward)};

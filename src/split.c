@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "glim/split.h"
 
+#include <math.h>
+#include <string.h>
+
 /* ---- extents ---- */
 
 /* An extent, but for the sign of `last`. */

@@ -2,6 +2,7 @@
 #include "glim/splitter.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Where splits by cost end and halving by count begins: 32 more levels hold
  * any number of triangles, and all of them fit TRAVERSE_STACK. */

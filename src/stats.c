@@ -199,10 +199,7 @@ bool stats_write(const struct session *s, const char *path, struct error *err)
     if (fclose(to) != 0) {
         ok = fail(err, "%s: %s", path, strerror(errno));
     } else if (strcmp(path, "-") == 0) {
-        ok = fwrite(text, 1, size_bytes, stdout) == size_bytes &&
-             fflush(stdout) == 0;
-        if (!ok)
-            fail(err, "standard output: %s", strerror(errno));
+        ok = file_write_stdout(text, size_bytes, err);
     } else {
         ok = file_write(path, text, size_bytes, false, NULL, err);
     }

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "glim/columns.h"
+
 #define FIELD_BYTES 48
 
 enum field {
@@ -172,15 +174,8 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
 
 void status_message(char text[STATUS_BYTES], int cols, const char *message)
 {
-    int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;
-    int i = 0;
-
-    if (room > 0)
-        text[i++] = ' ';
-    for (; *message && i < room; message++) {
-        unsigned char c = (unsigned char)*message;
-
-        text[i++] = c < ' ' || c == 127 ? '?' : (char)c;
-    }
-    text[i] = '\0';
+    text[0] = '\0';
+    if (cols > 0)
+        text[0] = ' ';
+    columns_cut(text + (cols > 0), STATUS_BYTES - 1, message, cols - 1);
 }

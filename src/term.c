@@ -228,6 +228,15 @@ static void ask(void)
     term_write(text, (size_t)length);
 }
 
+/* What term_open() takes before there is a screen. */
+static void give_back(void)
+{
+    xmalloc_set_hook(NULL);
+    give_signals_back();
+    close(term.signal_pipe[0]);
+    close(term.signal_pipe[1]);
+}
+
 bool term_open(struct error *err)
 {
     const char *name;
@@ -248,7 +257,7 @@ bool term_open(struct error *err)
     term.screen = newterm(name, stdout, stdin);
     if (!term.screen) {
         is_open = 0;
-        give_signals_back();
+        give_back();
         return fail(err, "TERM=%s: no screen", name);
     }
     set_modes();
@@ -300,15 +309,12 @@ void term_close(bool is_gone)
         leave_screen();
     }
     is_open = 0;
-    xmalloc_set_hook(NULL);
     windows_close();
     windows_hide_panel();
     if (!is_gone)
         tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
     delscreen(term.screen);
-    give_signals_back();
-    close(term.signal_pipe[0]);
-    close(term.signal_pipe[1]);
+    give_back();
 }
 
 enum palette term_palette(bool *is_final)

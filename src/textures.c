@@ -6,6 +6,7 @@
 
 #include "glim/image.h"
 #include "glim/material.h"
+#include "glim/pool.h"
 
 /* texture.first is 32 bits wide. */
 #define TEXELS_MAX UINT64_C(0xffffffff)
@@ -81,33 +82,116 @@ static bool shares_texels(struct scene *scene, uint32_t index)
     return false;
 }
 
-/* An unreadable image leaves the texture without texels. */
-static bool load(struct scene *scene, uint32_t index, struct report *report,
+/* The image of a texture. */
+struct reading {
+    uint32_t texture;
+    const char *path;
+    bool is_repeat; /* of one before: is read if its texels are not shared */
+    bool is_read, is_there;
+    struct image image;
+    struct error why; /* if it was read and is not there */
+};
+
+static struct reading reading_of(const struct scene *scene, uint32_t texture)
+{
+    return (struct reading){.texture = texture,
+                            .path = scene->texture_paths[texture]};
+}
+
+static void read_image(struct reading *r)
+{
+    r->is_there = image_read_8bit(&r->image, r->path, &r->why);
+    r->is_read = true;
+}
+
+static void read_ahead(void *context, uint32_t item, int worker)
+{
+    struct reading *readings = context;
+
+    (void)worker;
+    if (!readings[item].is_repeat)
+        read_image(&readings[item]);
+}
+
+/* Takes the image, which may have been read ahead. An unreadable one leaves the
+ * texture without texels. */
+static bool take(struct scene *scene, struct reading *r, struct report *report,
                  struct error *err)
 {
-    const char *path = scene->texture_paths[index];
-    struct image image = {0};
-    struct error why;
-    bool ok = true;
-
-    if (shares_texels(scene, index))
+    if (shares_texels(scene, r->texture))
         return true;
-    if (!image_read_8bit(&image, path, &why)) {
-        report_add_named(report, "lost textures", path,
-                         "%s: the texture is not used", why.text);
-        return true;
-    }
-    if ((uint64_t)image.width * (uint64_t)image.height >
-        TEXELS_MAX - scene->texel_count)
-        report_add_named(report, "lost textures", path,
+    if (!r->is_read)
+        read_image(r);
+    if (!r->is_there)
+        report_add_named(report, "lost textures", r->path,
+                         "%s: the texture is not used", r->why.text);
+    else if ((uint64_t)r->image.width * (uint64_t)r->image.height >
+             TEXELS_MAX - scene->texel_count)
+        report_add_named(report, "lost textures", r->path,
                          "%s: found more than 4e9 texels in all textures: the "
                          "texture is not used",
-                         path);
+                         r->path);
     else
-        ok = append(scene, &image, &scene->textures[index], err);
-    image_free(&image);
+        return append(scene, &r->image, &scene->textures[r->texture], err);
+    return true;
+}
+
+/* ---- many at once ---- */
+
+/* Images that wait to be taken, for each thread: some take longer. */
+#define IMAGES_EACH 2
+
+static bool is_repeat(const struct scene *scene, const uint32_t *textures,
+                      uint32_t index)
+{
+    const char *path = scene->texture_paths[textures[index]];
+
+    for (uint32_t i = 0; i < index; i++)
+        if (strcmp(scene->texture_paths[textures[i]], path) == 0)
+            return true;
+    return false;
+}
+
+/* Reads some images by all threads, and takes them in order. */
+static bool load_some(struct scene *scene, struct reading *readings,
+                      uint32_t count, struct pool *pool, struct report *report,
+                      struct error *err)
+{
+    bool ok = true;
+
+    pool_each(pool, count, read_ahead, readings);
+    for (uint32_t i = 0; i < count; i++) {
+        ok = ok && take(scene, &readings[i], report, err);
+        image_free(&readings[i].image);
+    }
     return ok;
 }
+
+static bool load_all(struct scene *scene, const uint32_t *textures,
+                     uint32_t count, struct report *report, struct error *err)
+{
+    /* without threads this one reads */
+    struct pool *pool = count > 1 ? pool_create(usable_threads(), err) : NULL;
+    uint32_t at_once =
+        pool ? IMAGES_EACH * (uint32_t)pool_thread_count(pool) : 1;
+    struct reading *readings = xcalloc(at_once, sizeof *readings);
+    bool ok = true;
+
+    for (uint32_t i = 0; ok && i < count; i += at_once) {
+        uint32_t n = count - i < at_once ? count - i : at_once;
+
+        for (uint32_t k = 0; k < n; k++) {
+            readings[k] = reading_of(scene, textures[i + k]);
+            readings[k].is_repeat = is_repeat(scene, textures, i + k);
+        }
+        ok = load_some(scene, readings, n, pool, report, err);
+    }
+    free(readings);
+    pool_destroy(pool);
+    return ok;
+}
+
+/* ---- materials ---- */
 
 static bool is_black(const struct vec3 *c)
 {
@@ -165,10 +249,16 @@ bool textures_load_for(struct scene *scene, struct material *m,
 
     list_maps(m, maps);
     for (int i = 0; i < MAPS; i++) {
+        struct reading r;
+        bool ok;
+
         if (maps[i] == NO_INDEX || scene->texture_is_tried[maps[i]])
             continue;
         scene->texture_is_tried[maps[i]] = true;
-        if (!load(scene, maps[i], report, err))
+        r = reading_of(scene, maps[i]);
+        ok = take(scene, &r, report, err);
+        image_free(&r.image);
+        if (!ok)
             return false;
     }
     settle(scene, &m->color_texture, &m->color, 1, MATERIAL_GREY);
@@ -184,22 +274,46 @@ bool textures_load_for(struct scene *scene, struct material *m,
     return true;
 }
 
+/* Those that used materials name, in their order; their number. */
+static uint32_t list_textures(struct scene *scene, const bool *is_used,
+                              uint32_t *textures)
+{
+    uint32_t count = 0;
+
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        uint32_t maps[MAPS];
+
+        list_maps(&scene->materials[i], maps);
+        for (int k = 0; is_used[i] && k < MAPS; k++)
+            if (maps[k] != NO_INDEX && !scene->texture_is_tried[maps[k]]) {
+                scene->texture_is_tried[maps[k]] = true;
+                textures[count++] = maps[k];
+            }
+    }
+    return count;
+}
+
 bool textures_load(struct scene *scene, struct report *report,
                    struct error *err)
 {
     bool *is_used = alloc_array(scene->material_count, sizeof *is_used);
-    bool ok = is_used != NULL;
+    uint32_t *textures = alloc_array(scene->texture_count, sizeof *textures);
+    bool ok;
 
     free(scene->texture_is_tried);
     scene->texture_is_tried =
         alloc_array(scene->texture_count, sizeof *scene->texture_is_tried);
-    if (!ok || scene->texture_is_tried == NULL)
-        ok = fail(err, "%s: out of memory for the textures", scene->path);
+    ok = (is_used != NULL && textures != NULL &&
+          scene->texture_is_tried != NULL) ||
+         fail(err, "%s: out of memory for the textures", scene->path);
     for (uint32_t i = 0; ok && i < scene->tri_count; i++)
         is_used[scene->tris[i].material] = true;
+    ok = ok && load_all(scene, textures,
+                        list_textures(scene, is_used, textures), report, err);
     for (uint32_t i = 0; ok && i < scene->material_count; i++)
-        if (is_used[i])
+        if (is_used[i]) /* nothing is left to read: what is lost is known */
             ok = textures_load_for(scene, &scene->materials[i], report, err);
     free(is_used);
+    free(textures);
     return ok;
 }

@@ -415,7 +415,8 @@ bool tui_run(struct session *s, int *status, struct error *err)
     bool ok;
 
     stage_expect(s);
-    if (stats_path && !stats_check(stats_path, err))
+    if (stats_path && (!session_spares(s, "--stats", stats_path, err) ||
+                       !stats_check(stats_path, err)))
         return false;
     if (!work_init(&t.work, s, err))
         return false;

@@ -118,6 +118,19 @@ bool watch_has_changed(const struct watch *w)
     return has_changed;
 }
 
+bool watch_has(const struct watch *w, const char *path)
+{
+    struct file_identity it = file_identify(path);
+
+    for (size_t i = 0; i < w->file_count && it.exists; i++) {
+        struct file_identity now = file_identify(w->files[i].path);
+
+        if (file_is_same(&now, &it))
+            return true;
+    }
+    return false;
+}
+
 void watch_settle(struct watch *w)
 {
     for (size_t i = 0; i < w->file_count; i++) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "glim/wide.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>

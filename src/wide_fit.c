@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kernels/vec.h"
+#include "glim/split.h"
 
 /* Nodes below what one thread takes. */
 #define SPAN_NODES 4096
@@ -25,9 +25,9 @@ struct fitter {
 
 static float area_of(const struct node *n)
 {
-    float x = n->hi.x - n->lo.x, y = n->hi.y - n->lo.y, z = n->hi.z - n->lo.z;
+    struct box box = box_of_corners(n->lo, n->hi);
 
-    return x * y + y * z + z * x;
+    return box_area(&box);
 }
 
 static float leaf_cost(const struct wide_fits *f, uint32_t node)

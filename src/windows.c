@@ -2,10 +2,30 @@
 #include "glim/windows.h"
 
 #include <curses.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "glim/columns.h"
+#include "glim/util.h"
 
 static WINDOW *window;
 static WINDOW *panel;
+
+/* Bytes of a column: a character, and some that combine with it. */
+#define COLUMN_BYTES 16
+
+/* Puts exactly so many columns where the cursor is. */
+static void add_columns(WINDOW *to, const char *text, int cols)
+{
+    if (cols <= 0)
+        return;
+
+    size_t size_bytes = (size_t)cols * COLUMN_BYTES + 1;
+    char *line = xmalloc(size_bytes);
+    columns_fit(line, size_bytes, text, cols);
+    waddstr(to, line);
+    free(line);
+}
 
 void windows_status(const char *text)
 {
@@ -14,32 +34,8 @@ void windows_status(const char *text)
     if (!text)
         return;
     attron(A_REVERSE);
-    addnstr(text, COLS);
-    for (int col = getcurx(stdscr); col < COLS && getcury(stdscr) == LINES - 1;
-         col++)
-        addch(' ');
+    add_columns(stdscr, text, COLS);
     attroff(A_REVERSE);
-}
-
-/* Bytes of the text's first `cols` columns: each character has one. */
-static int bytes_of(const char *text, int cols)
-{
-    int i = 0;
-
-    for (; text[i] != '\0'; i++) {
-        if (((unsigned char)text[i] & 0xc0) != 0x80 && cols-- == 0)
-            break;
-    }
-    return i;
-}
-
-static int cols_of(const char *text)
-{
-    int cols = 0;
-
-    for (; *text; text++)
-        cols += ((unsigned char)*text & 0xc0) != 0x80;
-    return cols;
 }
 
 void windows_set(const char *const *texts, int text_count)
@@ -49,17 +45,19 @@ void windows_set(const char *const *texts, int text_count)
     if (!window)
         return;
     getmaxyx(window, rows, cols);
-    for (int i = 0; i < text_count && i < rows - 2; i++)
-        mvwaddnstr(window, i + 1, 2, texts[i], bytes_of(texts[i], cols - 4));
+    for (int i = 0; i < text_count && i < rows - 2; i++) {
+        wmove(window, i + 1, 2);
+        add_columns(window, texts[i], cols - 4);
+    }
 }
 
 static struct window_rect window_size(const char *title,
                                       const char *const *texts, int text_count)
 {
-    struct window_rect r = {0, 0, cols_of(title) + 6, text_count + 2};
+    struct window_rect r = {0, 0, columns_of(title) + 6, text_count + 2};
 
     for (int i = 0; i < text_count; i++) {
-        int cols = cols_of(texts[i]) + 4;
+        int cols = columns_of(texts[i]) + 4;
 
         r.cols = cols > r.cols ? cols : r.cols;
     }
@@ -143,8 +141,8 @@ struct window_rect windows_show_panel(const struct window_line *panel_lines,
     mvwvline(panel, 0, 0, 0, r.rows);
     for (int i = 0; i < line_count && i < r.rows; i++) {
         wattrset(panel, attribute_of(panel_lines[i].look));
-        mvwprintw(panel, i, 1, "%-*.*s", cols - 1, cols - 1,
-                  panel_lines[i].text);
+        wmove(panel, i, 1);
+        add_columns(panel, panel_lines[i].text, cols - 1);
     }
     wattrset(panel, A_NORMAL);
     /* the picture and swatches were written past curses */

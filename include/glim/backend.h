@@ -31,14 +31,16 @@ struct backend {
     const char *device; /* its name and that of its driver's version, */
     const char *driver; /* or NULL */
     int thread_count;
-    uint64_t tree_bytes; /* of what load() built */
+    uint64_t tree_bytes; /* of what load() built, or found */
 
-    /* New geometry: builds what the ray queries need. The arrays of the world
-     * must stay until the next load() or destroy(). */
+    /* New geometry: builds what the ray queries need. That is *tree, of the
+     * world's triangles, for those that have no other, if it is not made yet.
+     * It and the arrays of the world must stay until the next load() or
+     * destroy(). */
     bool (*load)(struct backend *b, const struct world *world,
-                 struct error *err);
+                 struct wide *tree, struct error *err);
 
-    /* Frees what load() built: another backend renders now. */
+    /* Frees what load() built but the tree: another backend renders now. */
     void (*unload)(struct backend *b);
 
     /* A new picture: the film is empty, its corner is pixel (x0, y0) of the

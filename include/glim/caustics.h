@@ -5,18 +5,19 @@
  * Photons leave the lights for the glass and the mirrors alone (the projection
  * maps of Jensen 1996, "Global illumination using photon maps"), go through,
  * and are counted on the two next diffuse surfaces: the caustic, and what it
- * lights. Measured for a glass ball and a gold one: 20 ms and .66 times the
- * error.
+ * lights. Measured for a glass ball and a gold one: 20 ms of one thread and .66
+ * times the error.
  *
  * Units:     normalised scene units
  * Ownership: the caller's, also if it fails
- * Threads:   the caller's
+ * Threads:   those of the pool, or without one the caller's
  * Errors:    memory, by false
  */
 #ifndef GLIM_CAUSTICS_H
 #define GLIM_CAUSTICS_H
 
 #include "glim/guide_part.h"
+#include "glim/pool.h"
 #include "glim/wide_hit.h"
 
 /* The material as photons see it, without colours: what they come from is
@@ -28,6 +29,6 @@ bool caustics_possible(const struct world *w);
 
 /* `box` is the surface of the box around the scene. */
 bool caustics_find(const struct wide_world *w, const struct guide_grid *grid,
-                   double box, struct guide_part *part);
+                   double box, struct pool *pool, struct guide_part *part);
 
 #endif

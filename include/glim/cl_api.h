@@ -28,31 +28,22 @@
     X(CreateContext)           \
     X(ReleaseContext)          \
     X(CreateCommandQueue)      \
-    X(RetainCommandQueue)      \
     X(ReleaseCommandQueue)     \
     X(CreateProgramWithSource) \
     X(BuildProgram)            \
     X(GetProgramBuildInfo)     \
-    X(RetainProgram)           \
     X(ReleaseProgram)          \
     X(CreateKernel)            \
     X(SetKernelArg)            \
-    X(GetKernelWorkGroupInfo)  \
-    X(RetainKernel)            \
     X(ReleaseKernel)           \
     X(CreateBuffer)            \
-    X(RetainMemObject)         \
     X(ReleaseMemObject)        \
     X(EnqueueNDRangeKernel)    \
     X(EnqueueReadBuffer)       \
     X(EnqueueReadBufferRect)   \
-    X(EnqueueWriteBuffer)      \
     X(EnqueueFillBuffer)       \
     X(WaitForEvents)           \
     X(GetEventInfo)            \
-    X(SetEventCallback)        \
-    X(GetEventProfilingInfo)   \
-    X(RetainEvent)             \
     X(ReleaseEvent)            \
     X(Flush)                   \
     X(Finish)

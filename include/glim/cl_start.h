@@ -21,7 +21,6 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
 
 /* A descriptor that becomes readable when the device is up, or is not. */
 int cl_start_event_fd(const struct cl_start *start);
-bool cl_start_is_over(const struct cl_start *start);
 
 /* Waits, and returns the backend, or NULL if nothing came of it. *verdict is
  * that of the self-test, *log what a compiler or a driver said; both for

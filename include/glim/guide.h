@@ -9,7 +9,8 @@
  *
  * Units:     normalised scene units, radiance
  * Ownership: guide_free() frees; a zeroed struct is a scene without a table
- * Threads:   one thread updates, while nobody renders; read only otherwise
+ * Threads:   one thread updates, with those of a pool, if it has one, while
+ *            nobody renders; read only otherwise
  * Errors:    memory
  */
 #ifndef GLIM_GUIDE_H
@@ -17,6 +18,7 @@
 
 #include "glim/guide_part.h"
 #include "glim/util.h"
+#include "glim/wide.h"
 
 struct guide {
     uint32_t *cells; /* as kernels/guide.h reads them; NULL: there are none */
@@ -29,13 +31,16 @@ struct guide {
     bool is_current;
 };
 
+/* Would guide_update() trace rays? Else it needs no tree. */
+bool guide_needs_rays(const struct guide *guide, const struct world *world,
+                      double sky);
+
 /* Brings the table to what suits the world, which has its lights, and a sky of
  * this mean radiance. Searches only for what the scene has not been searched
- * for since guide_outdate(); there is no table for scenes so large that it
- * would keep the first picture waiting. Arrays that were lent live until the
- * new ones do. */
-bool guide_update(struct guide *guide, const struct world *world, double sky,
-                  struct error *err);
+ * for since guide_outdate(). Arrays that were lent live until the new ones do.
+ */
+bool guide_update(struct guide *guide, const struct wide_world *world,
+                  double sky, struct pool *pool, struct error *err);
 
 /* The world is another. */
 void guide_outdate(struct guide *guide);

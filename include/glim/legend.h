@@ -33,7 +33,4 @@ void legend_trail(struct legend *l, const struct scene *scene,
 void legend_lobes(struct legend *l, const struct scene *scene,
                   const struct trail_lobes *lobes);
 
-/* The name of the material of a triangle, or words for none. */
-const char *legend_material(const struct scene *scene, uint32_t tri);
-
 #endif

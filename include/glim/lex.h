@@ -66,7 +66,8 @@ bool lex_number(struct lex *lex, double *value);
 
 bool word_is(struct word word, const char *text);
 
-/* The word for a message: at most 40 bytes of it; "end of line" if empty. */
+/* The word for a message: at most 40 bytes of it; "the end of the line"
+ * if empty. */
 struct word_text {
     char text[64];
 };

@@ -55,12 +55,9 @@ struct lex mtl_text_lex(const struct mtl_text *t, size_t at);
 bool mtl_text_has_key(const struct mtl_text *t, const struct mtl_statement *s,
                       mtl_aliases keys);
 
-/* The last block of this name, and the last statement of a block with one of
- * these keys. False if there is none. */
+/* The last block of this name. False if there is none. */
 bool mtl_text_find_block(const struct mtl_text *t, const char *name,
                          struct mtl_block *b);
-bool mtl_text_find(const struct mtl_text *t, const struct mtl_block *b,
-                   mtl_aliases keys, struct mtl_statement *found);
 
 /* A statement of its own behind the last one of the block, as far from the
  * margin as that. */

@@ -103,6 +103,9 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err);
 /* What a mode that is not COLOR_AUTO means. */
 enum palette options_palette(enum color_mode mode);
 
+/* Threads of the CPU that work. */
+int options_threads(const struct options *o);
+
 /* What the cells are made of; pixels have half blocks as the fall-back. */
 enum glyphs options_glyphs(enum glyph_mode mode);
 

@@ -19,9 +19,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct point2 {
-    double x, y;
-};
+#include "glim/plane_grid.h"
 
 /* Storage that is used again for the next polygon. */
 struct polygon {
@@ -34,9 +32,7 @@ struct polygon {
     uint32_t *prev, *next;
     bool *is_reflex;
     uint32_t *cell_starts, *cell_corners;
-    double cell_scale_x, cell_scale_y; /* cells per unit */
-    struct point2 cell_origin;
-    uint32_t side; /* cells along either side of the grid */
+    struct plane_grid grid;
     uint64_t work;
 };
 

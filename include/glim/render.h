@@ -12,10 +12,10 @@
  * (enum sample_kind), is a draft only, and the film stays empty.
  *
  * Units:     samples a pixel (spp), pixels, nanoseconds
- * Ownership: the backend and the world's arrays stay the caller's and must
- *            live until render_use(), render_halt() or render_destroy()
- * Threads:   all functions from one thread (the main one), except
- *            render_halt_async() from any
+ * Ownership: the backend, the world's arrays and its tree stay the caller's
+ *            and must live until render_use(), render_halt() or
+ *            render_destroy()
+ * Threads:   all functions from one thread (the main one)
  * Errors:    render_start() for memory; a failing backend shows in the progress
  */
 #ifndef GLIM_RENDER_H
@@ -30,6 +30,7 @@ struct rect {
 
 struct render_job {
     struct world world;
+    struct wide *tree;     /* of its triangles, for backends to share */
     bool geometry_changed; /* since the last start: the backend loads anew */
     struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
@@ -87,9 +88,6 @@ void render_resume(struct render *r, uint64_t spp);
 /* One more sample of every pixel, and one more still if it is under way; then
  * halts by itself. False if the render is done or has failed. */
 bool render_step(struct render *r);
-
-/* Asks for a halt without waiting; for a thread that is not the main one. */
-void render_halt_async(struct render *r);
 
 /* Blocks until the state is not RENDER_RUNNING or timeout_ms has passed (-1:
  * no limit). True if it is not running. */

@@ -14,7 +14,6 @@
 #define GLIM_SAVER_H
 
 #include <pthread.h>
-#include <stdatomic.h>
 
 #include "glim/film.h"
 

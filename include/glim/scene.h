@@ -81,6 +81,7 @@ struct scene {
     bool has_emitters;
     struct lights lights;
     struct guide guide;
+    struct wide tree; /* of the triangles; without nodes: nobody needs one */
     float linear_of_srgb[256];
 };
 

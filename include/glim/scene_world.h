@@ -14,8 +14,9 @@
 
 /* Makes the table that leads paths to light that is hard to find, if there is
  * none yet for the scene as it is and the view's sky. Without it pictures are
- * as bright, and noisier. */
-bool scene_guide(struct scene *scene, const struct view *view,
+ * as bright, and noisier. So many threads make it, and the scene's tree for it
+ * if there is none yet. */
+bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
                  struct error *err);
 
 /* Sets eye and at so that the whole scene is seen, keeping fovy, size and up.

@@ -64,6 +64,11 @@ void session_take(struct session *s, struct session *fresh);
  * read if they were there. */
 void session_watch(const struct session *s, struct watch *watch);
 
+/* False, with a message, if what the option names would be written over one of
+ * these files. */
+bool session_spares(const struct session *s, const char *option,
+                    const char *path, struct error *err);
+
 /* Halts and starts from sample 0 with the current view and edit. spp 0: no
  * limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);

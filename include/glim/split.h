@@ -46,14 +46,18 @@ static inline void box_join(struct box *a, const struct box *b)
                  f4_min(f4_load(a->planes + i), f4_load(b->planes + i)));
 }
 
-static inline struct box box_of_point(struct vec3 p)
+static inline struct box box_of_corners(struct vec3 lo, struct vec3 hi)
 {
-    f4 corner = f4_of(p.x, p.y, p.z);
     struct box b;
 
-    f4_store(b.planes, corner);
-    f4_store(b.planes + 4, f4_sub(f4_all(0.0f), corner));
+    f4_store(b.planes, f4_of(lo.x, lo.y, lo.z));
+    f4_store(b.planes + 4, f4_sub(f4_all(0.0f), f4_of(hi.x, hi.y, hi.z)));
     return b;
+}
+
+static inline struct box box_of_point(struct vec3 p)
+{
+    return box_of_corners(p, p);
 }
 
 /* Half of the surface of the box that two join, neither empty. */
@@ -65,6 +69,7 @@ static inline float box_joined_area(const struct box *a, const struct box *b)
     return f4_pairs3(f4_sub(f4_sub(f4_all(0.0f), hi), lo));
 }
 
+/* Half of its surface. */
 static inline float box_area(const struct box *b)
 {
     return box_joined_area(b, b);

@@ -9,7 +9,7 @@
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: work and pilot stay the caller's and outlive it; stage_free()
- * frees the rest
+ *            frees the rest
  * Threads:   main only
  * Errors:    become messages
  */

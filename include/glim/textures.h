@@ -4,7 +4,7 @@
  *
  * Units:     texels, row 0 at the top
  * Ownership: the scene owns paths and texels
- * Threads:   one thread
+ * Threads:   one calls, all that the process may use read
  * Errors:    memory; an image that cannot be read is a warning
  */
 #ifndef GLIM_TEXTURES_H

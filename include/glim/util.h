@@ -19,7 +19,11 @@ struct error {
     char text[1024];
 };
 
-/* Formats the text and returns false. Longer texts are cut. */
+/* Makes text that may quote files one line, in which nothing moves a terminal's
+ * cursor. */
+void replace_controls(char *text);
+
+/* Formats the text without controls and returns false. Longer texts are cut. */
 bool fail(struct error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -43,6 +43,9 @@ void watch_drain(struct watch *w);
 /* True if a file is not as it was known, and none is gone. */
 bool watch_has_changed(const struct watch *w);
 
+/* Whether one of the files is this one, by whatever name. */
+bool watch_has(const struct watch *w, const char *path);
+
 /* Each file is known as it is now. */
 void watch_settle(struct watch *w);
 

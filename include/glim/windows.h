@@ -38,8 +38,10 @@ void windows_close(void);
 
 enum window_look { WINDOW_PLAIN, WINDOW_SELECTED, WINDOW_TITLE, WINDOW_HINT };
 
+#define WINDOW_LINE_BYTES 256
+
 struct window_line {
-    char text[64];
+    char text[WINDOW_LINE_BYTES];
     enum window_look look;
 };
 

@@ -50,7 +50,8 @@ static uint64_t cpu_ns(const struct session *s)
 static double rate(struct session *s, uint32_t more_features, struct rect crop,
                    uint64_t spp, struct render_progress *p)
 {
-    struct render_job job = {.geometry_changed = p->samples == 0,
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = p->samples == 0,
                              .crop = crop,
                              .spp = spp};
     uint64_t begin_ns = cpu_ns(s);

@@ -202,11 +202,12 @@ static inline struct view make_view(const struct stage *s,
     return view;
 }
 
-static inline void render_seed(struct stage *s, const struct scene *scene,
+static inline void render_seed(struct stage *s, struct scene *scene,
                                const struct view *view, const struct shot *shot,
                                uint32_t seed, struct outcome *o)
 {
-    struct render_job job = {.geometry_changed = seed == shot->seed,
+    struct render_job job = {.tree = &scene->tree,
+                             .geometry_changed = seed == shot->seed,
                              .crop = {0, 0, view->width_px, view->height_px},
                              .spp = shot->spp > 0 ? shot->spp : 64};
     struct error err;

@@ -87,7 +87,7 @@ static void open_pair(struct pair *p, const char *path, int width, int height)
     check_or_say(view_read(&p->view, view_path, &report, &err) &&
                      scene_load(&p->scene, path, false, &report, &err) &&
                      scene_load_sky(&p->scene, &p->view, &report, &err) &&
-                     scene_guide(&p->scene, &p->view, &err),
+                     scene_guide(&p->scene, &p->view, 1, &err),
                  err.text);
     p->view.width_px = width;
     p->view.height_px = height;
@@ -113,7 +113,8 @@ static void close_pair(struct pair *p)
 static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                   uint32_t seed)
 {
-    struct render_job job = {.geometry_changed = !p->keeps_geometry,
+    struct render_job job = {.tree = &p->scene.tree,
+                             .geometry_changed = !p->keeps_geometry,
                              .crop = crop,
                              .spp = spp,
                              .draft_width = p->draft_width,

@@ -55,7 +55,8 @@ static void fill_sky_table(struct scene *s)
 
 static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
 {
-    struct render_job job = {.geometry_changed = mode == 0 && seed == 1,
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = mode == 0 && seed == 1,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = SPP};
     struct error err;

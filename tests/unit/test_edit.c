@@ -11,6 +11,7 @@
 #include "check.h"
 #include "folder.h"
 #include "glim/file.h"
+#include "glim/mtl.h"
 #include "glim/session.h"
 #include "glim/view_file.h"
 
@@ -63,14 +64,19 @@ static void restart(struct session *s)
     render_wait(s->render, -1);
 }
 
-static void save(struct session *s)
+static char *saved(struct session *s)
 {
     struct watch nothing = {.fd = -1};
     struct error err;
     char *what;
 
     check_or_say(session_save_edit(s, &nothing, &what, &err), err.text);
-    free(what);
+    return what;
+}
+
+static void save(struct session *s)
+{
+    free(saved(s));
 }
 
 /* The arrays that samples read. */
@@ -394,6 +400,35 @@ static void test_saved_files(void **state)
 }
 
 /* Lines that name what is not there do nothing, and are kept. */
+/* The line about it names what was written, and no more. */
+static void test_what_was_saved(void **state)
+{
+    static const char *const names[] = {"glass", "lamp"};
+    static const char *const lines[] = {
+        "wrote 1 material to b.mtl", "wrote 2 materials to a.mtl, b.mtl",
+        "nothing has changed since it was saved"};
+    struct session s;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    for (size_t i = 0; i < 3; i++) {
+        char *what;
+
+        for (size_t k = 0; i < 2 && k <= i; k++) {
+            uint32_t material = mtl_find(&s.scene, names[k]);
+            struct mtl_source source = s.edit.now.sources[material];
+
+            source.kd = (struct mtl_color){{.25 * (double)(1 + i), 0, 0}, 1};
+            edit_material(&s.edit, material, &source);
+        }
+        what = saved(&s);
+        assert_string_equal(what, lines[i]);
+        free(what);
+    }
+    session_close(&s);
+}
+
 static void test_lost_assignments(void **state)
 {
     struct session s;
@@ -523,6 +558,7 @@ int main(void)
         cmocka_unit_test(test_swaps),
         cmocka_unit_test(test_textures_come_into_use),
         cmocka_unit_test(test_saved_files),
+        cmocka_unit_test(test_what_was_saved),
         cmocka_unit_test(test_lost_assignments),
         cmocka_unit_test(test_wrong_lines),
     };

@@ -263,6 +263,27 @@ static void previews_add_the_draft(void **state)
     film_free(&draft);
 }
 
+/* More light than a sum holds, in some pixels of the film or in each of them,
+ * is white. */
+static void previews_of_too_much_light_are_white(void **state)
+{
+    struct film film;
+    struct frame frame;
+    struct error err;
+
+    (void)state;
+    assert_true(film_init(&film, 64, 48, &err));
+    assert_true(frame_init(&frame, 32, 24, &err));
+    for (int i = 0; i < 3; i++) { /* a sum stops with the third */
+        fill(&film, 3e38f);
+        film_preview(&film, NULL, develop_linear(0.0f), &frame);
+        for (int k = 0; k < 3 * 32 * 24; k++)
+            assert_int_equal(frame.rgb[k], 255);
+    }
+    frame_free(&frame);
+    film_free(&film);
+}
+
 static void films_too_large_are_refused(void **state)
 {
     struct film film;
@@ -340,6 +361,7 @@ int main(void)
         cmocka_unit_test(bad_samples_count_as_zero),
         cmocka_unit_test(preview_averages),
         cmocka_unit_test(previews_add_the_draft),
+        cmocka_unit_test(previews_of_too_much_light_are_white),
         cmocka_unit_test(films_too_large_are_refused),
     };
 

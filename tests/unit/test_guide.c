@@ -249,7 +249,8 @@ static void built(struct stage *s, float sky, struct guide *g)
     struct error err;
 
     guide_outdate(g);
-    check_or_say(guide_update(g, &s->mesh.world, (double)sky, &err), err.text);
+    check_or_say(guide_update(g, &s->mesh.wide_world, (double)sky, NULL, &err),
+                 err.text);
 }
 
 /* On the floor the light that the mirror throws comes from the lamp's image. */
@@ -437,9 +438,9 @@ static void only_where_the_sky_is_hidden(void **state)
     stage_finish(&s);
     built(&s, 0, &g);
     assert_null(g.cells);
-    check_or_say(guide_update(&g, &s.mesh.world, 1, &err), err.text);
+    check_or_say(guide_update(&g, &s.mesh.wide_world, 1, NULL, &err), err.text);
     assert_non_null(g.cells);
-    check_or_say(guide_update(&g, &s.mesh.world, 0, &err), err.text);
+    check_or_say(guide_update(&g, &s.mesh.wide_world, 0, NULL, &err), err.text);
     assert_null(g.cells);
     lights_lend(&s.lights, &s.mesh.world);
     built(&s, 1, &g);
@@ -473,9 +474,47 @@ static void only_where_the_sky_is_hidden(void **state)
     stage_free(&s);
 }
 
+/* Caustics and openings: bit for bit. */
+static void threads_change_nothing(void **state)
+{
+    struct error err;
+    struct pool *pool = pool_create(3, &err);
+
+    (void)state;
+    assert_non_null(pool);
+    for (int sky = 0; sky < 2; sky++) {
+        struct guide alone = {.cells = NULL}, together = {.cells = NULL};
+        struct stage s;
+
+        if (sky == 1) {
+            room(&s, false);
+            stage_finish(&s);
+        } else {
+            lamp_and_wall(&s, MATERIAL_METAL);
+        }
+        built(&s, (float)sky, &alone);
+        check_or_say(guide_update(&together, &s.mesh.wide_world, sky, pool,
+                                  &err),
+                     err.text);
+        assert_non_null(alone.cells);
+        assert_int_equal(alone.grid.cell_count, together.grid.cell_count);
+        assert_memory_equal(alone.cells, together.cells,
+                            guide_cell_count(&alone.grid) *
+                                sizeof *alone.cells);
+        assert_memory_equal(alone.sums, together.sums,
+                            alone.grid.cell_count * GUIDE_BINS *
+                                sizeof *alone.sums);
+        guide_free(&alone);
+        guide_free(&together);
+        stage_free(&s);
+    }
+    pool_destroy(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(density_and_samples),
         cmocka_unit_test(light_samples_of_a_flat_sky),
         cmocka_unit_test(cells),

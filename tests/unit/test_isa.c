@@ -42,7 +42,8 @@ static void a_build_fits(void **state)
 
 static void render(struct session *s, uint32_t more_features, float *rgb)
 {
-    struct render_job job = {.geometry_changed = true,
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = true,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = SPP};
     struct error err;

@@ -44,6 +44,28 @@ static void paths_show_their_last_steps(void **state)
     check_has(l.lines[6], " sky ");
 }
 
+/* Numbers lose digits where there is no room, never their ends. */
+static void numbers_are_not_cut(void **state)
+{
+    struct scene far = scene;
+    struct trail trail = {.count = 1, .vertices = 1};
+    struct legend l;
+
+    (void)state;
+    far.center[0] = -12400; /* to (-12396, 0.00702, -0.124) with the scale */
+    far.center[1] = 0.00702;
+    far.center[2] = -0.124;
+    trail.steps[0] = (struct trail_step){.to = {1, 0, 0},
+                                         .way = TRAIL_REFLECTED,
+                                         .pdf = 1230};
+    legend_trail(&l, &far, &trail, 1);
+    check_has(l.lines[1], " -1e+04 0.007 -0.1 reflect ");
+    check_has(l.lines[1], " 1e+03  0 0 0");
+    far.center[0] = -4;
+    legend_trail(&l, &far, &trail, 1);
+    check_has(l.lines[1], " 0 0.00702 -0.124  reflect ");
+}
+
 static void surfaces_show_their_frame(void **state)
 {
     struct trail_lobes lobes = {.n = {0, 0, 1},
@@ -70,6 +92,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paths_show_their_last_steps),
+        cmocka_unit_test(numbers_are_not_cut),
         cmocka_unit_test(surfaces_show_their_frame),
     };
 

@@ -180,6 +180,56 @@ static void an_image_is_read_once(void **state)
     unload(&l);
 }
 
+#define MANY 40
+
+/* Whoever reads the images, they are taken in the order of their materials;
+ * every fifth is the one before, and number 7 is lost. */
+static void many_images_are_read(void **state)
+{
+    uint32_t expected = 0;
+    struct scene scene = {0};
+    struct report report = {0};
+    struct error err;
+    char path[32];
+    FILE *obj = fopen("many.obj", "w"), *mtl = fopen("many.mtl", "w");
+
+    (void)state;
+    assert_non_null(obj);
+    assert_non_null(mtl);
+    fputs("mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n", obj);
+    for (int i = 0; i < MANY; i++) {
+        const uint8_t pixels[6] = {(uint8_t)i, 1, 2, 3, (uint8_t)i, 5};
+
+        snprintf(path, sizeof path, "m%d.tga", i);
+        if (i != 7)
+            write_image(path, 1 + i % 2, 1, 3, pixels);
+        fprintf(mtl, "newmtl m%d\nmap_Kd m%d.tga\n", i, i % 5 == 4 ? i - 1 : i);
+        fprintf(obj, "usemtl m%d\nf 1/1 2/1 3/1\n", i);
+    }
+    assert_int_equal(fclose(obj), 0);
+    assert_int_equal(fclose(mtl), 0);
+    assert_true(scene_load(&scene, "many.obj", false, &report, &err));
+    assert_int_equal(report.entry_count, 1);
+    for (int i = 0; i < MANY; i++) {
+        uint32_t map = scene.materials[1 + i].color_texture;
+        int image = i % 5 == 4 ? i - 1 : i;
+
+        if (i == 7) {
+            assert_int_equal(map, NO_INDEX);
+            continue;
+        }
+        assert_int_equal(scene.textures[map].width, 1 + image % 2);
+        assert_int_equal(scene.texels[scene.textures[map].first] & 0xff, image);
+        if (image == i) {
+            assert_int_equal(scene.textures[map].first, expected);
+            expected += scene.textures[map].width;
+        }
+    }
+    assert_int_equal(scene.texel_count, expected);
+    scene_free(&scene);
+    report_free(&report);
+}
+
 /* Numbers are not decoded: grey 51 is 0.2, 204 is 0.8. */
 static const uint8_t two[6] = {51, 51, 51, 204, 204, 204};
 
@@ -343,6 +393,7 @@ int main(void)
         cmocka_unit_test(options_move_and_scale),
         cmocka_unit_test(clamped_borders_go_on),
         cmocka_unit_test(an_image_is_read_once),
+        cmocka_unit_test(many_images_are_read),
         cmocka_unit_test(roughness_is_multiplied),
         cmocka_unit_test(metal_is_chosen_by_its_map),
         cmocka_unit_test(holes_are_cut_by_their_map),

@@ -337,6 +337,18 @@ static void test_map_options(void **state)
     }
 }
 
+/* The last bit of a number makes it another texture. */
+static void test_maps_of_other_scales_are_not_shared(void **state)
+{
+    struct loaded l = load("newmtl a\nmap_Kd -s 1.0000001 1 t.png\n"
+                           "newmtl b\nmap_Kd t.png\n");
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(l.scene.texture_count, 2);
+    unload(&l);
+}
+
 static void test_maps_are_shared(void **state)
 {
     struct loaded l =
@@ -478,6 +490,7 @@ int main(void)
         cmocka_unit_test(test_what_is_not_used),
         cmocka_unit_test(test_map_options),
         cmocka_unit_test(test_maps_are_shared),
+        cmocka_unit_test(test_maps_of_other_scales_are_not_shared),
         cmocka_unit_test(test_maps_of_numbers),
         cmocka_unit_test(test_bumps),
         cmocka_unit_test(test_paths_of_other_machines),

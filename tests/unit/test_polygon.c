@@ -292,6 +292,76 @@ static void test_large_and_concave_is_quick(void **state)
     free(o.points);
 }
 
+/* Corners along the straight sides of a polygon: a side's, but for its ends,
+ * are none of an ear until the one beside it is cut. */
+static struct outline with_corners_on_sides(const double (*corners)[2],
+                                            uint32_t count, uint32_t per_side)
+{
+    struct outline o = outline_of(count * per_side);
+
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = corners[i];
+        const double *b = corners[(i + 1) % count];
+
+        for (uint32_t k = 0; k < per_side; k++)
+            add_point(&o, a[0] + (b[0] - a[0]) * k / per_side,
+                      a[1] + (b[1] - a[1]) * k / per_side);
+    }
+    return o;
+}
+
+static void test_long_straight_sides(void **state)
+{
+    static const double ell[6][2] = {{0, 0}, {4, 0}, {4, 1},
+                                     {1, 1}, {1, 4}, {0, 4}};
+
+    (void)state;
+    for (uint32_t per_side = 5; per_side <= 5000; per_side *= 10) {
+        struct outline o = with_corners_on_sides(ell, 6, per_side);
+
+        check_cut(&o, "L with corners on its sides");
+        free(o.points);
+    }
+}
+
+/* A band that is wound up: only its ends have ears in the end. */
+static void test_spirals(void **state)
+{
+    (void)state;
+    for (uint32_t n = 50; n <= 50000; n *= 10) {
+        struct outline o = outline_of(2 * n);
+
+        for (uint32_t i = 0; i < n; i++)
+            add_point(&o, 0.05 * i * cos(0.05 * i), 0.05 * i * sin(0.05 * i));
+        for (uint32_t i = n; i-- > 0;)
+            add_point(&o, (0.05 * i + 2) * cos(0.05 * i),
+                      (0.05 * i + 2) * sin(0.05 * i));
+        check_cut(&o, "spiral");
+        free(o.points);
+    }
+}
+
+/* A wide and a narrow one. */
+static void test_smooth_rings(void **state)
+{
+    static const double inner[] = {0.5, 1.5};
+    uint32_t n = 10000;
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct outline o = outline_of(2 * n + 2);
+
+        for (uint32_t i = 0; i <= n; i++)
+            add_point(&o, 2 * cos(2 * PI * (i % n) / n),
+                      2 * sin(2 * PI * (i % n) / n));
+        for (uint32_t i = n + 1; i-- > 0;)
+            add_point(&o, inner[k] * cos(2 * PI * (i % n) / n),
+                      inner[k] * sin(2 * PI * (i % n) / n));
+        check_cut(&o, "smooth ring");
+        free(o.points);
+    }
+}
+
 /* No answer is right, but there is one, in time proportional to the size. */
 static void test_outlines_that_cross_themselves(void **state)
 {
@@ -360,6 +430,9 @@ int main(void)
         cmocka_unit_test(test_random),
         cmocka_unit_test(test_coincident_corners),
         cmocka_unit_test(test_large_and_concave_is_quick),
+        cmocka_unit_test(test_long_straight_sides),
+        cmocka_unit_test(test_spirals),
+        cmocka_unit_test(test_smooth_rings),
         cmocka_unit_test(test_outlines_that_cross_themselves),
         cmocka_unit_test(test_any_plane_and_any_size),
     };

@@ -54,27 +54,35 @@ static void render(struct session *s, float *pixels)
     film_linear(render_film(s->render), pixels);
 }
 
-/* Writes a file, lets an open session take it, and compares with a new one. */
-static void is_taken(const char *name, const char *text, bool has_same_shape)
+/* Writes a file, lets the open session take it, and compares with a new one. */
+static void takes(struct session *s, const char *name, const char *text,
+                  bool has_same_shape)
 {
     float before[FLOATS], taken[FLOATS], opened[FLOATS];
-    struct session s, fresh;
+    struct session fresh;
     struct error err;
 
-    open_scene(&s);
-    render(&s, before);
+    render(s, before);
     put(name, text);
     check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
-    session_take(&s, &fresh);
+    session_take(s, &fresh);
     session_close(&fresh);
-    assert_int_equal(s.geometry_changed, !has_same_shape);
-    render(&s, taken);
-    session_close(&s);
-    check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
-    render(&s, opened);
-    session_close(&s);
+    assert_int_equal(s->geometry_changed, !has_same_shape);
+    render(s, taken);
+    session_close(s);
+    check_or_say(session_open(s, &options, clock_ns(), &err), err.text);
+    render(s, opened);
+    session_close(s);
     check_or_say(memcmp(taken, before, sizeof taken) != 0, text);
     assert_memory_equal(taken, opened, sizeof taken);
+}
+
+static void is_taken(const char *name, const char *text, bool has_same_shape)
+{
+    struct session s;
+
+    open_scene(&s);
+    takes(&s, name, text, has_same_shape);
 }
 
 static void changed_files_are_taken(void **state)
@@ -91,6 +99,22 @@ static void changed_files_are_taken(void **state)
     is_taken("s.obj",
              "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 3 2\nf 1 2 4\n",
              false);
+}
+
+/* Nothing but the picture needs a tree where a lamp is the only light: the new
+ * scene comes without one. */
+static void trees_stay(void **state)
+{
+    struct session s;
+    struct error err;
+
+    (void)state;
+    put("s.obj", OBJ);
+    put("s.mtl", "newmtl m\nKe 1 2 3\n");
+    put("s.view", "eye 0 0 5\nat 0 0 0\nres 24 16\nbackground 0 0 0\n");
+    check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
+    assert_null(s.scene.tree.nodes);
+    takes(&s, "s.mtl", "newmtl m\nKe 3 2 1\n", true);
 }
 
 /* A camera that the person has moved stays where the file's has not changed. */
@@ -377,6 +401,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(changed_files_are_taken),
+        cmocka_unit_test(trees_stay),
         cmocka_unit_test(cameras_stay),
         cmocka_unit_test(numbered_views_are_taken),
         cmocka_unit_test(framed_cameras_stay),

@@ -62,9 +62,10 @@ static void close_render(struct render *r)
     backend->destroy(backend);
 }
 
-static struct render_job job_of(const struct mesh *m, uint64_t spp)
+static struct render_job job_of(struct mesh *m, uint64_t spp)
 {
     struct render_job job = {.world = m->world,
+                             .tree = &m->wide,
                              .geometry_changed = true,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = spp};

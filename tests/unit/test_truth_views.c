@@ -66,8 +66,10 @@ static void render_means(const char *scene, const char *view, double *means,
                         .view_path = view,
                         .max_bounces = -1,
                         .batch = true};
-    struct render_job job = {.geometry_changed = true, .spp = SPP};
     struct session s;
+    struct render_job job = {.tree = &s.scene.tree,
+                             .geometry_changed = true,
+                             .spp = SPP};
     struct error err;
     float *rgb;
     int count;

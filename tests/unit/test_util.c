@@ -19,8 +19,8 @@ static void test_fail(void **state)
     assert_false(fail(&err, "%s:%d: found '%s'", "a.obj", 3, "x"));
     assert_string_equal(err.text, "a.obj:3: found 'x'");
     /* one line, and nothing that a terminal would obey */
-    fail(&err, "a\nb\033[2Jc\177\t");
-    assert_string_equal(err.text, "a?b?[2Jc??");
+    fail(&err, "a\nb\033[2Jc\177\t\xc2\x9b z\xc3\xa4");
+    assert_string_equal(err.text, "a?b?[2Jc??\xc2? z\xc3\xa4");
     char *text = xformat("%02000d", 7);
     fail(&err, "%s", text);
     free(text);

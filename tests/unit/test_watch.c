@@ -92,6 +92,25 @@ static void writing_in_place_is_noticed(void **state)
 
 /* What this program writes is no news, but what someone else writes before or
  * after it is. */
+static void files_are_known_by_any_name(void **state)
+{
+    struct watch w;
+    char other_way[192];
+
+    (void)state;
+    begin(&w);
+    snprintf(other_way, sizeof other_way, "%s/below/../plain", folder);
+    assert_true(watch_has(&w, paths[PLAIN]));
+    assert_true(watch_has(&w, other_way));
+    assert_true(watch_has(&w, paths[TARGET])); /* the link is on the list */
+    assert_false(watch_has(&w, paths[OTHER])); /* listed, but not there */
+    snprintf(other_way, sizeof other_way, "%s/same", folder);
+    put(other_way, "one");
+    assert_false(watch_has(&w, other_way));
+    unlink(other_way);
+    watch_free(&w);
+}
+
 static void own_writing_is_known(void **state)
 {
     struct file_change change;
@@ -222,6 +241,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_has_changed_at_first),
         cmocka_unit_test(writing_in_place_is_noticed),
+        cmocka_unit_test(files_are_known_by_any_name),
         cmocka_unit_test(own_writing_is_known),
         cmocka_unit_test(renaming_over_is_noticed),
         cmocka_unit_test(new_files_are_noticed),

@@ -176,6 +176,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
 {
     struct session *s = &m->session;
     struct render_job job = {.world = *world,
+                             .tree = &s->scene.tree,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
                              .spp = 1};

@@ -135,7 +135,8 @@ static bool is_fresh(const char *path, const char *scene_path)
 static bool render_half(struct session *s, enum direct direct, int half,
                         const char *path, struct error *err)
 {
-    struct render_job job = {.geometry_changed = true,
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = true,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
                              .spp = HALF_SPP};

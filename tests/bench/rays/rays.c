@@ -23,6 +23,7 @@
 
 #define REPEATS     7
 #define BUILDS      5
+#define SETTLE_NS   20000000
 #define THREADS_MAX 2
 
 /* Rays of a job. */
@@ -281,6 +282,13 @@ static void print_builds(const struct contest *c,
     }
 }
 
+/* Embree's threads spin for a while when their work is done: they would take
+ * the processors of whoever comes next. */
+static void settle(void)
+{
+    nanosleep(&(struct timespec){.tv_nsec = SETTLE_NS}, NULL);
+}
+
 /* Trees by turns, each with as many threads. */
 static bool build_all(struct contest *c, const struct paths *paths,
                       struct error *err)
@@ -292,6 +300,7 @@ static bool build_all(struct contest *c, const struct paths *paths,
     for (int k = 0; ok && k < BUILDS; k++) {
         struct spent whole, part = {0.0, 0.0};
 
+        settle();
         ok = build_glim(c, paths, pool, err) &&
              time_reinsertion(c, pool, &part, err);
         times[GLIM][k] = whole = c->racers[GLIM].build;
@@ -299,6 +308,7 @@ static bool build_all(struct contest *c, const struct paths *paths,
             (struct spent){whole.s - part.s, whole.cpu_s - part.cpu_s};
         for (int i = ROBUST; i < BUILDERS; i++) {
             embree_free(&c->embrees[i]);
+            settle();
             embree_build(&c->embrees[i], &c->shape.world, embree_kinds[i],
                          usable_threads());
             times[i][k] = c->embrees[i].racer.build;
@@ -369,6 +379,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: rays SHARED [PART [ISA]]\n");
         return 2;
     }
+    memory_init();
     if (argc > 3 && argv[3][0] != '\0')
         ok = (paths = isa_named(argv[3], &err)) != NULL;
     if (ok)

@@ -17,6 +17,14 @@ if [ -e /dev/full ]; then
     echo "exit $?"
     cat err
 fi
+echo 'what is read is not written over, whatever its name is:'
+ln -s box.mtl link.png
+run $b -o link.png box.obj
+run $b -o out.png --stats box.obj box.obj
+run -b --ansi 8x4 -o ./box.view box.obj
+run $b -o out.png --stats out.png box.obj
+head -n 1 box.obj box.mtl
+rm link.png
 echo 'no room: the old picture stays'
 echo old >out.pfm
 (

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+# Foreign names in the panel: what stands behind them is in one column, whatever
+# they are made of, and none of them gets into the next row.
+wide='日本語の材料名前がとても長い'
+odd=$(printf 'tab\tand\033[31m')
+: >names.mtl
+printf 'mtllib names.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\n' >names.obj
+for name in plain ünïcödé "$wide" "$odd" "$(printf '%0200d' 0)"; do
+    printf 'newmtl %s\nKd 1 1 1\n' "$name" >>names.mtl
+    printf 'o of %s\nusemtl %s\nf 1 2 3\n' "$name" "$name" >>names.obj
+done
+size=80x24
+start names.obj
+wait_for LIVE
+keys Tab
+wait_for "│>    plain             diffuse"
+expect "│     ünïcödé           diffuse"
+expect "│     日本語の材料名前  diffuse"
+expect "│     tab?and?\[31m      diffuse"
+expect "│     00000000000000000 diffuse"
+keys Tab
+wait_for "│>    of plain          plain"
+expect "│     of ünïcödé        ünïcödé"
+expect "│     of 日本語の材料名 日本語の材料"
+expect "│     of tab?and?\[31m   tab?and?\[31m"
+# every row has the bar
+[ "$(screen | grep -c '│')" = 23 ] || die "a row has lost its bar"
+keys q
+wait_for "^exit 0"
