@@ -86,6 +86,32 @@ static void add_step(struct pilot *p)
     history_add(&p->history, &pose);
 }
 
+static void say_lens(struct pilot *p)
+{
+    const struct view *v = view_of(p);
+
+    if (p->held == ACTION_NARROWER || p->held == ACTION_WIDER)
+        work_say(p->work, "field of view %.3g degrees", v->fovy_deg);
+    else if (p->held != ACTION_CLOSE && p->held != ACTION_OPEN)
+        return;
+    else if (v->aperture > 0)
+        work_say(p->work, "lens open by %.3g", v->aperture);
+    else
+        work_say(p->work, "a pinhole: everything is sharp");
+}
+
+static void steer_held(struct pilot *p, uint64_t now_ns)
+{
+    if (now_ns < motion_next_ns(&p->steer.motion) ||
+        !steer_step(&p->steer, view_of(p), now_ns))
+        return;
+    p->work->must_restart = true;
+    p->cursor.must_look = p->canvas->has_cursor;
+    say_lens(p);
+}
+
+/* The first step is taken at once: keys that came together with this one see
+ * the view that it makes. */
 static void press(struct pilot *p, const struct move *move)
 {
     uint64_t now_ns = clock_ns();
@@ -97,6 +123,7 @@ static void press(struct pilot *p, const struct move *move)
     p->held = move->action;
     p->held_ns = now_ns;
     motion_press(&p->steer.motion, move->axis, move->sign, now_ns);
+    steer_held(p, now_ns);
 }
 
 /* True if the camera may jump now; what is held is let go. */
@@ -113,20 +140,6 @@ static void jump(struct pilot *p, const struct pose *pose)
     add_step(p);
     view_set_pose(view_of(p), pose);
     p->work->must_restart = true;
-}
-
-static void say_lens(struct pilot *p)
-{
-    const struct view *v = view_of(p);
-
-    if (p->held == ACTION_NARROWER || p->held == ACTION_WIDER)
-        work_say(p->work, "field of view %.3g degrees", v->fovy_deg);
-    else if (p->held != ACTION_CLOSE && p->held != ACTION_OPEN)
-        return;
-    else if (v->aperture > 0)
-        work_say(p->work, "lens open by %.3g", v->aperture);
-    else
-        work_say(p->work, "a pinhole: everything is sharp");
 }
 
 static void change_speed(struct pilot *p, int steps)
@@ -383,12 +396,7 @@ void pilot_mouse(struct pilot *p, const struct event *event)
 
 void pilot_step(struct pilot *p, uint64_t now_ns)
 {
-    if (now_ns >= motion_next_ns(&p->steer.motion) &&
-        steer_step(&p->steer, view_of(p), now_ns)) {
-        p->work->must_restart = true;
-        p->cursor.must_look = p->canvas->has_cursor;
-        say_lens(p);
-    }
+    steer_held(p, now_ns);
     cursor_step(&p->cursor);
 }
 

@@ -1,26 +1,28 @@
 # SPDX-License-Identifier: MIT
 # Keys and mouse turn around what is picked, as far from it as before.
 lamp_scene
-# Distance of the eye from the point (0, 0, 0), and its x, after keys.
+# Presses these keys and writes the view, all at once; the eye is as far from the
+# point (0, 0, 0) as before, its x has this sign.
 orbited()
 {
+    sign=$1
+    shift
     rm -f lamp.view
-    keys c
+    keys "$@" c
     wait_until test -s lamp.view
-    awk -v sign="$1" '$1 == "eye" {
+    awk -v sign="$sign" '$1 == "eye" {
         d = sqrt($2 * $2 + $3 * $3 + $4 * $4) - 5
         ok = d < 1e-3 && d > -1e-3 && sign * $2 > 0.1
     } END { exit !ok }' lamp.view || {
         cat lamp.view
-        die "expected an eye 5 from the origin, $1"
+        die "expected an eye 5 from the origin, $sign"
     }
 }
 start --cell-aspect 2 lamp.obj
 wait_for "▀"
 keys o
 wait_for "orbit the middle"
-keys Right Right Right
-orbited 1
+orbited 1 Right Right Right
 keys o
 wait_for "look around"
 keys u
