@@ -5,9 +5,12 @@ cp /etc/OpenCL/vendors/pocl.icd . 2>/dev/null || skip "no PoCL here"
 export OCL_ICD_VENDORS=$PWD
 take box
 
+# Without the device's name, which is that of the processor.
 device()
 {
-    run_untimed -b --backend opencl "$@" | sed 's/on [^:]*: the ker/on D: the ker/'
+    run_untimed -b --backend opencl "$@" |
+        sed 's/on [^:]*: the ker/on D: the ker/; s/device [^:]*:/device D:/
+            s/Device [^:]* failed/Device D failed/'
 }
 
 for options in "" "-d 2 --seed 9" "--crop 7,3,30,20 -s 20" "-w 61 -h 1"; do
@@ -60,5 +63,4 @@ tail -n 3 err | sed 's/path.h:[0-9:]*/path.h:N/; s/^[0-9]* error/N error/'
 device --kernels nowhere -w 8 -h 8 -s 1 -o a.png box.obj
 
 echo '- a device with too little memory'
-POCL_MEMORY_LIMIT=1 device -w 2400 -h 2400 -s 1 -d 0 -o a.pfm box.obj |
-    sed 's/device [^:]*:/device D:/'
+POCL_MEMORY_LIMIT=1 device -w 2400 -h 2400 -s 1 -d 0 -o a.pfm box.obj
