@@ -260,14 +260,12 @@ bool session_spares(const struct session *s, const char *option,
                             option, path);
 }
 
-static bool restart(struct session *s, uint64_t spp, uint64_t steps,
-                    struct error *err)
+bool session_restart(struct session *s, uint64_t spp, struct error *err)
 {
     struct render_job job = {.tree = &s->scene.tree,
                              .geometry_changed = s->geometry_changed,
                              .crop = s->crop,
-                             .spp = spp,
-                             .steps = steps};
+                             .spp = spp};
     uint32_t features;
 
     if (spp == 0) {
@@ -297,16 +295,6 @@ static bool restart(struct session *s, uint64_t spp, uint64_t steps,
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
         machines_specialise(&s->machines, features);
     return true;
-}
-
-bool session_restart(struct session *s, uint64_t spp, struct error *err)
-{
-    return restart(s, spp, 0, err);
-}
-
-bool session_restart_by_step(struct session *s, uint64_t spp, struct error *err)
-{
-    return restart(s, spp, 1, err);
 }
 
 bool session_take_edit(struct session *s)

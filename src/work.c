@@ -82,15 +82,13 @@ static void watch_files(struct work *w)
     w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
-typedef bool start_function(struct session *, uint64_t spp, struct error *);
-
-static void restart_by(struct work *w, start_function *start)
+static void restart(struct work *w)
 {
     uint64_t spp = w->is_live ? 0 : w->session->options->spp;
     struct error err;
 
     saver_wait_copied(&w->saver);
-    if (!start(w->session, spp, &err))
+    if (!session_restart(w->session, spp, &err))
         work_say_error(w, err.text);
     if (w->session->notice[0] != '\0')
         work_say_error(w, w->session->notice);
@@ -104,11 +102,6 @@ static void restart_by(struct work *w, start_function *start)
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
     w->progress.first_picture_ns = 0; /* for the next look to find */
-}
-
-static void restart(struct work *w)
-{
-    restart_by(w, session_restart);
 }
 
 bool work_init(struct work *w, struct session *session, struct error *err)
@@ -224,11 +217,11 @@ void work_set_live(struct work *w, bool is_live)
              work_key(w, ACTION_START).text, work_key(w, ACTION_MODE).text);
 }
 
-static void start_normal(struct work *w, start_function *start)
+static void start_normal(struct work *w)
 {
     w->is_started = true;
     work_be_silent(w);
-    restart_by(w, start);
+    restart(w);
 }
 
 static void say_done(struct work *w)
@@ -243,7 +236,7 @@ void work_start_or_halt(struct work *w)
 
     w->has_changed = true;
     if (!w->is_live && !w->is_started) {
-        start_normal(w, session_restart);
+        start_normal(w);
     } else if (w->progress.state == RENDER_RUNNING) {
         render_halt(render);
         w->is_halted = true;
@@ -261,12 +254,9 @@ void work_step(struct work *w)
     struct render *render = w->session->render;
 
     w->has_changed = true;
-    if (!w->is_live && !w->is_started) {
-        start_normal(w, session_restart_by_step);
-        w->is_halted = true;
-    } else {
-        w->is_halted = render_step(render);
-    }
+    if (!w->is_live && !w->is_started)
+        start_normal(w);
+    w->is_halted = render_step(render);
     w->progress = render_progress(render);
     if (!w->is_halted)
         say_done(w);

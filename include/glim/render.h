@@ -34,8 +34,6 @@ struct render_job {
     bool geometry_changed; /* since the last start: the backend loads anew */
     struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
-    uint64_t steps;        /* samples a pixel until it halts, as by
-                              render_step(); 0: it goes on */
     /* pixels of the draft, as many as are shown; it has no more than the film,
      * and there is none without columns or rows */
     int draft_width, draft_height;

@@ -73,10 +73,6 @@ bool session_spares(const struct session *s, const char *option,
  * limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
 
-/* As that, but halts by itself after the first step, as render_step() does. */
-bool session_restart_by_step(struct session *s, uint64_t spp,
-                             struct error *err);
-
 /* True if the scene or its light are to be others than what is rendered; takes
  * over what needs no new picture. */
 bool session_take_edit(struct session *s);
