@@ -100,10 +100,10 @@ void stage_open(struct stage *st)
     stage_layout(st);
 }
 
-void stage_renew(struct stage *st)
+void stage_renew(struct stage *st, const struct selection_names *names)
 {
     inside_renew(&st->inside);
-    panel_renew(&st->panel);
+    panel_renew(&st->panel, names);
     panel_draw(&st->panel);
 }
 

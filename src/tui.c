@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -307,10 +308,14 @@ static void empty_events(int fd)
 
 static void take_reload(struct tui *t)
 {
-    if (!work_end_reload(&t->work))
-        return;
-    pilot_renew(&t->pilot);
-    stage_renew(&t->stage);
+    struct selection_names names = selection_names(&t->stage.panel.selection);
+
+    if (work_end_reload(&t->work)) {
+        pilot_renew(&t->pilot);
+        stage_renew(&t->stage, &names);
+    }
+    free(names.material);
+    free(names.object);
 }
 
 /* Keys last: they find what is done by then. */
