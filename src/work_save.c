@@ -120,7 +120,13 @@ void work_save_view(struct work *w)
     char *text;
 
     if (w->reload.is_busy) { /* which has read the file, or not yet */
-        work_say(w, "not written: the scene is being loaded");
+        if (w->is_live)
+            work_say(w, "not written: the scene is being loaded");
+        else
+            work_say(w,
+                     "not written: a loaded scene waits for live mode: %s goes "
+                     "there",
+                     work_key(w, ACTION_MODE).text);
         return;
     }
     s->view.has_camera = true; /* also one that was placed by the program */
