@@ -252,13 +252,9 @@ static void take_escape(struct sequence *s, const unsigned char *p,
     case '^':
     case '_':
     case 'X': take_string(s, p, length); break;
-    case ESC:
+    default: /* a key that came soon; Alt and a key are the same bytes */
         s->length = 1;
         set_key(s, ESC);
-        break;
-    default: /* Alt and a key */
-        s->length = 2;
-        set_key(s, INPUT_OTHER);
         break;
     }
     if (s->length == 0 && length >= SEQUENCE_MAX)

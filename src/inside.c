@@ -300,7 +300,7 @@ static void show(struct inside *in, enum show_kind kind)
     s->sample = show_sample(in->show.kind);
     in->work->has_changed = true;
     if (in->work->is_live && s->sample != before)
-        in->work->must_restart = true;
+        work_restart(in->work); /* the film has other numbers until then */
 }
 
 /* Normal mode renders light and nothing else. */

@@ -221,6 +221,16 @@ static void make_glass(struct material *m, uint32_t kind,
     m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
 }
 
+/* Maya writes illum 4 with these for whatever is opaque: a sheet without
+ * refraction or tint would be nothing at all. */
+static bool is_no_sheet(const struct mtl_source *s)
+{
+    const double *tf = s->tf.rgb;
+
+    return s->ni.line != 0 && s->ni.value == 1 && s->tf.line != 0 &&
+           tf[0] == 1 && tf[1] == 1 && tf[2] == 1;
+}
+
 static bool is_black(const struct vec3 *c)
 {
     return c->x == 0 && c->y == 0 && c->z == 0;
@@ -259,6 +269,13 @@ static void make_opaque(struct material *m, int illum,
     bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
 
     m->opacity = (float)opacity(s, at);
+    if (m->opacity <= 0)
+        report_add(at->report, "materials that are not seen",
+                   "%s:%" PRIu64 ": found %s %g: what has this material is not "
+                   "seen",
+                   at->path, s->d.line != 0 ? s->d.line : s->tr.line,
+                   s->d.line != 0 ? "d" : "Tr",
+                   s->d.line != 0 ? s->d.value : s->tr.value);
     m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
     m->color =
         reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
@@ -310,7 +327,7 @@ struct material material_from_source(const struct mtl_source *s,
 
     if (illum == 6 || illum == 7)
         make_glass(&m, MATERIAL_GLASS, s, &at);
-    else if (illum == 4 || illum == 9)
+    else if ((illum == 4 || illum == 9) && !is_no_sheet(s))
         make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
     else
         make_opaque(&m, illum, s, &at);

@@ -5,9 +5,6 @@
  * slipping on. */
 #define HELD_NS 150000000u
 
-/* After a stall the camera must not jump. */
-#define LEAP_NS 100000000u
-
 void motion_press(struct motion *m, enum motion_axis axis, int sign,
                   uint64_t now_ns)
 {
@@ -30,11 +27,7 @@ bool motion_step(struct motion *m, uint64_t now_ns, double seconds[MOTION_AXES])
         if (m->sign[i] == 0)
             continue;
         if (to_ns > m->from_ns[i]) {
-            uint64_t span_ns = to_ns - m->from_ns[i];
-
-            if (span_ns > LEAP_NS)
-                span_ns = LEAP_NS;
-            seconds[i] = m->sign[i] * (double)span_ns * 1e-9;
+            seconds[i] = m->sign[i] * (double)(to_ns - m->from_ns[i]) * 1e-9;
             m->from_ns[i] = to_ns;
             has_moved = true;
         }

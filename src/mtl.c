@@ -121,14 +121,16 @@ static uint32_t name_texture(struct names *names, const char *path,
 
 /* The number of the texture, a new one without texels if need be. */
 static uint32_t add_texture(struct parser *p, const char *path,
-                            const struct texture *texture)
+                            const struct texture *texture, uint64_t line)
 {
     struct scene *scene = p->scene;
     uint32_t index = name_texture(&p->textures, path, texture);
     size_t needed = (size_t)scene->texture_count + 1;
     size_t texture_capacity = p->texture_capacity;
+    size_t path_capacity = p->texture_capacity;
     void *textures = scene->textures;
     void *paths = scene->texture_paths;
+    void *origins = scene->texture_origins;
     char *copy;
 
     if (index == NO_NAME || index < scene->texture_count)
@@ -137,14 +139,20 @@ static uint32_t add_texture(struct parser *p, const char *path,
                     sizeof *scene->textures))
         return NO_NAME;
     scene->textures = textures;
-    if (!grow_array(&paths, &p->texture_capacity, needed,
+    if (!grow_array(&paths, &path_capacity, needed,
                     sizeof *scene->texture_paths))
         return NO_NAME;
     scene->texture_paths = paths;
+    if (!grow_array(&origins, &p->texture_capacity, needed,
+                    sizeof *scene->texture_origins))
+        return NO_NAME;
+    scene->texture_origins = origins;
     copy = strdup(path);
     if (copy == NULL)
         return NO_NAME;
     scene->texture_paths[scene->texture_count] = copy;
+    scene->texture_origins[scene->texture_count] =
+        (struct texture_origin){p->file, line};
     scene->textures[scene->texture_count++] = *texture;
     return index;
 }
@@ -313,7 +321,7 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
     path = map_path(p, name);
     if (bump_scale != NULL)
         *bump_scale = o.bump_scale;
-    *texture = add_texture(p, path, &o.texture);
+    *texture = add_texture(p, path, &o.texture, line);
     free(path);
     free(name);
     return *texture != NO_NAME || out_of_memory(p);

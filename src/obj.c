@@ -35,6 +35,7 @@ struct parser {
     struct faces faces;
     uint32_t object, material;
     bool has_objects; /* an o statement: g is only a group */
+    bool has_colors;  /* of vertices: was said */
 };
 
 static bool out_of_memory(const struct parser *p)
@@ -73,6 +74,22 @@ static bool grow(struct parser *p, void **array, size_t *capacity,
            out_of_memory(p);
 }
 
+/* Behind the place stand a weight, a colour or both. */
+static void look_for_color(struct parser *p)
+{
+    double ignored;
+    int count = 0;
+
+    while (!lex_at_line_end(&p->lex) && lex_number(&p->lex, &ignored))
+        count++;
+    p->has_colors = count >= 3;
+    if (p->has_colors)
+        report_add(p->report, "vertices with colours",
+                   "%s:%" PRIu64 ": found the colour of a vertex: glim has "
+                   "colours of materials and textures only",
+                   p->path, p->lex.line);
+}
+
 static bool read_position(struct parser *p)
 {
     struct scene *scene = p->scene;
@@ -87,6 +104,8 @@ static bool read_position(struct parser *p)
     memcpy(scene->file_positions + 3 * (size_t)scene->position_count, xyz,
            sizeof xyz);
     scene->position_count++;
+    if (!p->has_colors && !lex_at_line_end(&p->lex))
+        look_for_color(p);
     return true;
 }
 
@@ -266,11 +285,32 @@ static bool read_mtllib(struct parser *p)
     return ok;
 }
 
+/* Curves and surfaces that are no faces come in many statements. */
+static bool is_free_form(struct word key)
+{
+    static const char *const keys[] = {"cstype", "deg",  "bmat", "step", "curv",
+                                       "curv2",  "surf", "parm", "trim", "hole",
+                                       "scrv",   "sp",   "end",  "con",  "vp"};
+
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        if (word_is(key, keys[i]))
+            return true;
+    }
+    return false;
+}
+
 static bool skip_unknown(struct parser *p, struct word key)
 {
     char name[64];
     int length = key.length < 40 ? (int)key.length : 40;
 
+    if (is_free_form(key)) {
+        report_add(p->report, "statements of free forms",
+                   "%s:%" PRIu64 ": found '%.*s': free-form curves and "
+                   "surfaces are not drawn",
+                   p->path, p->lex.line, length, key.start);
+        return true;
+    }
     p->statement_count--;
     snprintf(name, sizeof name, "%.*s", length, key.start);
     report_add_named(p->report, "unknown statements", name,

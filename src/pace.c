@@ -69,20 +69,35 @@ static void learn_rate(struct pace *p, size_t bytes, double seconds)
         p->budget_bytes = budget < BUDGET_MIN ? BUDGET_MIN : (size_t)budget;
 }
 
+/* Nothing tells how fast the line is where all frames are as large as the
+ * quickest: they become smaller, down to what has passed in time before, and
+ * from there on larger, until one tells. */
+static void look_for_rate(struct pace *p)
+{
+    double sure = p->sure_rate * FRAME_SECONDS;
+
+    if ((double)p->budget_bytes > sure && p->budget_bytes > 2 * BUDGET_MIN)
+        p->budget_bytes -= p->budget_bytes / 8;
+    else if (p->frame_bytes > p->budget_bytes / 2 &&
+             p->budget_bytes <= BUDGET_MAX / 2)
+        p->budget_bytes *= 2;
+}
+
 /* What a frame took more than the quickest, for what it was larger, is the
- * line's: neither the way nor a start that was slow are in it. Where all are as
- * large as the quickest they become smaller, until one tells. */
+ * line's: neither the way nor a start that was slow are in it. */
 static void learn_from_answer(struct pace *p, uint64_t rtt_ns)
 {
+    double least = (double)p->frame_bytes / ((double)(rtt_ns + 1) * 1e-9);
+
+    p->sure_rate = least > p->sure_rate ? least : p->sure_rate;
     if (rtt_ns <= p->rtt_min_ns) {
         p->rtt_min_ns = rtt_ns;
         p->rtt_min_bytes = p->frame_bytes;
     } else if (p->frame_bytes > p->rtt_min_bytes + MEASURE_BYTES) {
         learn_rate(p, p->frame_bytes - p->rtt_min_bytes,
                    (double)(rtt_ns - p->rtt_min_ns) * 1e-9);
-    } else if (p->frame_bytes > MEASURE_BYTES &&
-               p->budget_bytes > 2 * BUDGET_MIN) {
-        p->budget_bytes -= p->budget_bytes / 8;
+    } else if (p->frame_bytes > MEASURE_BYTES) {
+        look_for_rate(p);
     }
 }
 

@@ -36,16 +36,20 @@ void panel_free(struct panel *p)
     selection_free(&p->selection);
 }
 
-void panel_renew(struct panel *p)
+void panel_renew(struct panel *p, const struct selection_names *names)
 {
-    struct panel before = *p;
+    struct selection before = p->selection;
 
-    panel_init(p, before.work, before.canvas);
-    p->selection.page = before.selection.page;
-    p->selection.by_hsv = before.selection.by_hsv;
-    if (before.is_open)
-        panel_open(p);
-    panel_free(&before);
+    selection_init(&p->selection, before.session);
+    p->selection.page = before.page;
+    p->selection.by_hsv = before.by_hsv;
+    if (!selection_find(&p->selection, names)) {
+        p->is_typing = false;
+        p->is_in_knobs = false;
+        p->knob = p->knob_top = 0;
+    }
+    selection_settle(&p->selection);
+    selection_free(&before);
 }
 
 void panel_select(struct panel *p, const struct pick *pick)

@@ -110,14 +110,21 @@ static void steer_held(struct pilot *p, uint64_t now_ns)
     say_lens(p);
 }
 
-/* The first step is taken at once: keys that came together with this one see
- * the view that it makes. */
+/* The rest of a tap at once: what looks at the view then finds the same,
+ * however soon its key comes. */
+static void land(struct pilot *p)
+{
+    steer_held(p, UINT64_MAX);
+}
+
+/* What was held until now is not lost where the loop was late. */
 static void press(struct pilot *p, const struct move *move)
 {
     uint64_t now_ns = clock_ns();
 
     if (!work_may_move(p->work))
         return;
+    steer_held(p, now_ns);
     if (move->action != p->held || now_ns - p->held_ns > HELD_NS)
         add_step(p);
     p->held = move->action;
@@ -267,10 +274,23 @@ static void focus(struct pilot *p)
 
 /* ---- numbered views ---- */
 
-static void keep_view(struct pilot *p, int number)
+static int number_of(enum action action)
 {
+    return (int)action - ACTION_VIEW_1 + 1;
+}
+
+static bool is_number(enum action action)
+{
+    return action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9;
+}
+
+void pilot_keep_view(struct pilot *p, enum action action)
+{
+    int number = number_of(action);
     struct view *v = view_of(p);
 
+    if (!is_number(action))
+        return;
     v->shots[number - 1] = view_pose(v);
     v->has_shot[number - 1] = true;
     work_say(p->work, "this is view %d: %s writes it to the view file", number,
@@ -288,28 +308,18 @@ static void go_to_view(struct pilot *p, int number)
     }
 }
 
-static void use_number(struct pilot *p, enum action action)
-{
-    int number = (int)action - ACTION_VIEW_1 + 1;
-
-    if (p->is_keeping)
-        keep_view(p, number);
-    else
-        go_to_view(p, number);
-    p->is_keeping = false;
-}
-
 /* ---- all of it ---- */
 
 bool pilot_act(struct pilot *p, enum action action)
 {
     const struct move *move = find_move(action);
 
-    if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9) {
-        use_number(p, action);
+    if (!move)
+        land(p);
+    if (is_number(action)) {
+        go_to_view(p, number_of(action));
         return true;
     }
-    p->is_keeping = false;
     if (cursor_act(&p->cursor, action)) {
         if (p->cursor.has_pick)
             find_pivot(p);
@@ -329,10 +339,6 @@ bool pilot_act(struct pilot *p, enum action action)
     case ACTION_UNDO: travel(p, true); break;
     case ACTION_REDO: travel(p, false); break;
     case ACTION_RESET: reset(p); break;
-    case ACTION_KEEP:
-        p->is_keeping = true;
-        work_say(p->work, "which number for this view: 1 to 9?");
-        break;
     default: return false;
     }
     return true;

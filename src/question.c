@@ -20,6 +20,7 @@ static const struct {
     [QUESTION_RESTART] = {"The render is not saved. Start anew? y: yes, p: "
                           "save it, other: no",
                           'p'},
+    [QUESTION_NUMBER] = {"Which number for this view? 1 to 9, other: none", 0},
 };
 
 const char *question_text(enum question question)

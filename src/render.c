@@ -342,7 +342,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
-    go(r, 0);
+    go(r, job->steps);
     pthread_mutex_unlock(&r->lock);
     return true;
 }

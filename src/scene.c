@@ -467,6 +467,7 @@ void scene_free(struct scene *scene)
     free_strings(scene->mtl_paths, scene->mtl_path_count);
     free(scene->textures);
     free(scene->texture_is_tried);
+    free(scene->texture_origins);
     free_strings(scene->texture_paths, scene->texture_count);
     free(scene->texels);
     free(scene->sky_texels);

@@ -2,6 +2,9 @@
 #include "glim/selection.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include "glim/mtl.h"
 
 void selection_init(struct selection *s, struct session *session)
 {
@@ -86,6 +89,36 @@ void selection_settle(struct selection *s)
     selection_move(s, -1);
     if (!is_in_list(s))
         selection_set(s, next_in_list(s, 0, 1));
+}
+
+struct selection_names selection_names(const struct selection *s)
+{
+    const struct scene *scene = &s->session->scene;
+
+    return (struct selection_names){
+        xstrdup(s->material < s->session->edit.material_count
+                    ? s->session->edit.names[s->material]
+                    : ""),
+        xstrdup(s->object < scene->object_count ? scene->object_names[s->object]
+                                                : "")};
+}
+
+bool selection_find(struct selection *s, const struct selection_names *names)
+{
+    const struct scene *scene = &s->session->scene;
+    uint32_t material = mtl_find(scene, names->material);
+    uint32_t object = 0;
+
+    while (object < scene->object_count &&
+           strcmp(scene->object_names[object], names->object) != 0)
+        object++;
+    if (material != NO_INDEX)
+        s->material = material;
+    if (object < scene->object_count)
+        s->object = object;
+    return s->page == KNOB_MATERIAL ? material != NO_INDEX
+           : s->page == KNOB_OBJECT ? object < scene->object_count
+                                    : true;
 }
 
 struct knob_target selection_target(const struct selection *s)

@@ -260,12 +260,14 @@ bool session_spares(const struct session *s, const char *option,
                             option, path);
 }
 
-bool session_restart(struct session *s, uint64_t spp, struct error *err)
+static bool begin(struct session *s, uint64_t spp, uint64_t steps,
+                  struct error *err)
 {
     struct render_job job = {.tree = &s->scene.tree,
                              .geometry_changed = s->geometry_changed,
                              .crop = s->crop,
-                             .spp = spp};
+                             .spp = spp,
+                             .steps = steps};
     uint32_t features;
 
     if (spp == 0) {
@@ -295,6 +297,16 @@ bool session_restart(struct session *s, uint64_t spp, struct error *err)
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
         machines_specialise(&s->machines, features);
     return true;
+}
+
+bool session_restart(struct session *s, uint64_t spp, struct error *err)
+{
+    return begin(s, spp, 0, err);
+}
+
+bool session_step(struct session *s, uint64_t spp, struct error *err)
+{
+    return begin(s, spp, 1, err);
 }
 
 bool session_take_edit(struct session *s)

@@ -100,10 +100,10 @@ void stage_open(struct stage *st)
     stage_layout(st);
 }
 
-void stage_renew(struct stage *st)
+void stage_renew(struct stage *st, const struct selection_names *names)
 {
     inside_renew(&st->inside);
-    panel_renew(&st->panel);
+    panel_renew(&st->panel, names);
     panel_draw(&st->panel);
 }
 
@@ -145,7 +145,7 @@ static void open_help(struct stage *st, int number)
              palette_name(st->canvas.display.palette),
              canvas_glyphs_name(&st->canvas));
     if (pace->state == PACE_ANSWERS)
-        snprintf(note, sizeof note, "%s, %s, answers in %.1f ms",
+        snprintf(note, sizeof note, "%s, %s, %.3g ms away",
                  palette_name(st->canvas.display.palette),
                  canvas_glyphs_name(&st->canvas),
                  (double)pace->rtt_min_ns * 1e-6);

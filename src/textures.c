@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "glim/textures.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,6 +114,17 @@ static void read_ahead(void *context, uint32_t item, int worker)
         read_image(&readings[item]);
 }
 
+/* Says where the texture is named first, and why it is not there. */
+static void report_lost(const struct scene *scene, const struct reading *r,
+                        struct report *report, const char *why)
+{
+    struct texture_origin o = scene->texture_origins[r->texture];
+
+    report_add_named(report, "lost textures", r->path,
+                     "%s:%" PRIu64 ": %s: the texture is not used",
+                     scene->mtl_paths[o.file], o.line, why);
+}
+
 /* Takes the image, which may have been read ahead. An unreadable one leaves the
  * texture without texels. */
 static bool take(struct scene *scene, struct reading *r, struct report *report,
@@ -123,14 +135,11 @@ static bool take(struct scene *scene, struct reading *r, struct report *report,
     if (!r->is_read)
         read_image(r);
     if (!r->is_there)
-        report_add_named(report, "lost textures", r->path,
-                         "%s: the texture is not used", r->why.text);
+        report_lost(scene, r, report, r->why.text);
     else if ((uint64_t)r->image.width * (uint64_t)r->image.height >
              TEXELS_MAX - scene->texel_count)
-        report_add_named(report, "lost textures", r->path,
-                         "%s: found more than 4e9 texels in all textures: the "
-                         "texture is not used",
-                         r->path);
+        report_lost(scene, r, report,
+                    "found more than 4e9 texels in all textures");
     else
         return append(scene, &r->image, &scene->textures[r->texture], err);
     return true;

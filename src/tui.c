@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -58,6 +59,7 @@ static void switch_mouse(struct tui *t)
 static void suspend(struct tui *t)
 {
     canvas_drain(&t->stage.canvas, &t->input);
+    t->input.length = 0; /* what was typed behind it is for the shell */
     term_suspend();
     stage_layout(&t->stage);
 }
@@ -132,10 +134,13 @@ static void restart(struct tui *t)
 
 static void act(struct tui *t, enum action action)
 {
-    /* the pilot first: it may wait for a number */
-    if (pilot_act(&t->pilot, action) || stage_act(&t->stage, action))
+    if (pilot_act(&t->pilot, action))
+        return;
+    work_settle(&t->work);
+    if (stage_act(&t->stage, action))
         return;
     switch (action) {
+    case ACTION_KEEP: ask(t, QUESTION_NUMBER); break;
     case ACTION_MODE: change_mode(t); break;
     case ACTION_START: work_start_or_halt(&t->work); break;
     case ACTION_STEP: work_step(&t->work); break;
@@ -158,7 +163,10 @@ static void answer_question(struct tui *t, int key)
     enum answer answer = question_answer(question, key);
 
     ask(t, QUESTION_NONE);
-    if (answer == ANSWER_SAVE && question == QUESTION_EDIT) {
+    if (question == QUESTION_NUMBER) {
+        pilot_keep_view(&t->pilot,
+                        keys_action(&t->work.session->options->keys, key));
+    } else if (answer == ANSWER_SAVE && question == QUESTION_EDIT) {
         if (work_save_edit(&t->work))
             quit(t);
     } else if (answer == ANSWER_SAVE) {
@@ -179,8 +187,7 @@ static void take_key(struct tui *t, int key)
     bool is_urgent = action == ACTION_INTERRUPT || action == ACTION_ABORT ||
                      action == ACTION_SUSPEND || action == ACTION_REDRAW;
 
-    if (t->work.message.is_error)
-        work_be_silent(&t->work);
+    work_be_heard(&t->work);
     if (is_urgent)
         act(t, action);
     else if (t->question != QUESTION_NONE)
@@ -301,20 +308,25 @@ static void empty_events(int fd)
 
 static void take_reload(struct tui *t)
 {
-    if (!work_end_reload(&t->work))
-        return;
-    pilot_renew(&t->pilot);
-    stage_renew(&t->stage);
+    struct selection_names names = selection_names(&t->stage.panel.selection);
+
+    if (work_end_reload(&t->work)) {
+        pilot_renew(&t->pilot);
+        stage_renew(&t->stage, &names);
+    }
+    free(names.material);
+    free(names.object);
 }
 
+/* Keys last: they find what is done by then. */
 static void take_events(struct tui *t, struct pollfd fds[FDS])
 {
     uint64_t now_ns;
 
     if (fds[1].revents)
         take_signals(t);
-    if (fds[0].revents && !t->is_ending)
-        take_input(t);
+    if (t->is_ending)
+        return;
     if (fds[2].revents) {
         empty_events(fds[2].fd); /* work_look() sees what it says */
     }
@@ -326,6 +338,8 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
         work_look_at_files(&t->work);
     if (fds[6].revents)
         take_reload(t);
+    if (fds[0].revents)
+        take_input(t);
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);

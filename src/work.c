@@ -25,6 +25,7 @@ say(struct work *w, uint64_t until_ns, const char *format, va_list values)
 {
     vsnprintf(w->message.text, sizeof w->message.text, format, values);
     w->message.is_error = false;
+    w->message.said_ns = clock_ns();
     w->message.until_ns = until_ns;
     w->has_changed = true;
 }
@@ -51,6 +52,7 @@ void work_say_error(struct work *w, const char *text)
 {
     snprintf(w->message.text, sizeof w->message.text, "%s", text);
     w->message.is_error = true;
+    w->message.said_ns = clock_ns();
     w->message.until_ns = UINT64_MAX;
     w->has_changed = true;
 }
@@ -58,6 +60,17 @@ void work_say_error(struct work *w, const char *text)
 void work_be_silent(struct work *w)
 {
     w->message = (struct message){0};
+    w->has_changed = true;
+}
+
+void work_be_heard(struct work *w)
+{
+    struct message *m = &w->message;
+
+    if (!m->is_error)
+        return;
+    m->is_error = false;
+    m->until_ns = m->said_ns + MESSAGE_NS;
     w->has_changed = true;
 }
 
@@ -82,19 +95,20 @@ static void watch_files(struct work *w)
     w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
-static void restart(struct work *w)
+static void begin(struct work *w, bool is_step)
 {
     uint64_t spp = w->is_live ? 0 : w->session->options->spp;
     struct error err;
 
     saver_wait_copied(&w->saver);
-    if (!session_restart(w->session, spp, &err))
+    if (!(is_step ? session_step(w->session, spp, &err)
+                  : session_restart(w->session, spp, &err)))
         work_say_error(w, err.text);
     if (w->session->notice[0] != '\0')
         work_say_error(w, w->session->notice);
     w->session->notice[0] = '\0';
     w->must_restart = false;
-    w->is_halted = false;
+    w->is_halted = is_step;
     w->saved_samples = 0;
     w->saving_samples = 0; /* these are of the picture before */
     if (w->session->sky != w->watched_sky)
@@ -102,6 +116,11 @@ static void restart(struct work *w)
     w->restarted_ns = clock_ns();
     w->progress = render_progress(w->session->render);
     w->progress.first_picture_ns = 0; /* for the next look to find */
+}
+
+static void restart(struct work *w)
+{
+    begin(w, false);
 }
 
 bool work_init(struct work *w, struct session *session, struct error *err)
@@ -180,10 +199,16 @@ void work_look(struct work *w)
         restart(w);
 }
 
+void work_settle(struct work *w)
+{
+    if (w->must_restart)
+        restart(w);
+}
+
 bool work_has_unsaved(const struct work *w)
 {
     return !w->is_live && w->is_started &&
-           w->progress.samples > w->saved_samples;
+           render_progress(w->session->render).samples > w->saved_samples;
 }
 
 bool work_has_unsaved_edit(const struct work *w)
@@ -217,11 +242,11 @@ void work_set_live(struct work *w, bool is_live)
              work_key(w, ACTION_START).text, work_key(w, ACTION_MODE).text);
 }
 
-static void start_normal(struct work *w)
+static void start_normal(struct work *w, bool is_step)
 {
     w->is_started = true;
     work_be_silent(w);
-    restart(w);
+    begin(w, is_step);
 }
 
 static void say_done(struct work *w)
@@ -236,7 +261,7 @@ void work_start_or_halt(struct work *w)
 
     w->has_changed = true;
     if (!w->is_live && !w->is_started) {
-        start_normal(w);
+        start_normal(w, false);
     } else if (w->progress.state == RENDER_RUNNING) {
         render_halt(render);
         w->is_halted = true;
@@ -254,8 +279,10 @@ void work_step(struct work *w)
     struct render *render = w->session->render;
 
     w->has_changed = true;
-    if (!w->is_live && !w->is_started)
-        start_normal(w);
+    if (!w->is_live && !w->is_started) {
+        start_normal(w, true);
+        return;
+    }
     w->is_halted = render_step(render);
     w->progress = render_progress(render);
     if (!w->is_halted)

@@ -36,8 +36,10 @@ void work_save_picture(struct work *w, const char *ending)
     if (saver_begin(&w->saver, render_film(w->session->render),
                     session_develop(w->session), stem, ending, &err)) {
         w->saving_samples = now.samples;
-        snprintf(w->saving_spp, sizeof w->saving_spp, "%" PRIu64 " spp",
-                 now.spp_done);
+        snprintf(w->saving_what, sizeof w->saving_what,
+                 "%dx%d, %" PRIu64 " spp",
+                 render_film(w->session->render)->width,
+                 render_film(w->session->render)->height, now.spp_done);
         work_say_long(w, "saving ...");
     } else {
         work_say_error(w, err.text);
@@ -47,7 +49,6 @@ void work_save_picture(struct work *w, const char *ending)
 
 bool work_finish_saving(struct work *w)
 {
-    const struct film *film = render_film(w->session->render);
     struct error err;
     char *name, *text;
 
@@ -59,8 +60,7 @@ bool work_finish_saving(struct work *w)
         work_add_result(w, err.text);
         return false;
     }
-    text = xformat("saved %s %dx%d, %s", name, film->width, film->height,
-                   w->saving_spp);
+    text = xformat("saved %s %s", name, w->saving_what);
     work_say(w, "%s", text);
     work_add_result(w, text);
     w->saved_samples = w->saving_samples;
@@ -119,6 +119,16 @@ void work_save_view(struct work *w)
     struct error err;
     char *text;
 
+    if (w->reload.is_busy) { /* which has read the file, or not yet */
+        if (w->is_live)
+            work_say(w, "not written: the scene is being loaded");
+        else
+            work_say(w,
+                     "not written: a loaded scene waits for live mode: %s goes "
+                     "there",
+                     work_key(w, ACTION_MODE).text);
+        return;
+    }
     s->view.has_camera = true; /* also one that was placed by the program */
     edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
     if (!view_write(&s->view, s->view_path, &change, &err)) {

@@ -12,8 +12,8 @@
 
 /* The path of the file `name` as written in the file `beside`: relative to its
  * folder. If there is none: without backslashes before blanks, with \ for /,
- * and at last without its folders, which were those of another machine.
- * NULL: none exists. */
+ * then without its folders, which were those of another machine, and at last
+ * with other capital and small letters. NULL: none exists. */
 char *asset_find(const char *beside, const char *name);
 
 #endif

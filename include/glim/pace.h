@@ -37,6 +37,7 @@ struct pace {
     size_t frame_bytes;
     double bytes, seconds; /* of late frames beyond that: smoothed */
     double rate;           /* of them, bytes a second; 0: not known */
+    double sure_rate;      /* the way included, of the best frame so far */
     size_t budget_bytes;
     bool first_frame_sent;
 };

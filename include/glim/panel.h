@@ -42,8 +42,9 @@ void panel_init(struct panel *p, struct work *work, struct canvas *canvas);
 void panel_open(struct panel *p);
 void panel_close(struct panel *p);
 
-/* After the scene was loaded anew: what was selected is of the one before. */
-void panel_renew(struct panel *p);
+/* After the scene was loaded anew: what had these names is selected, and what
+ * was being typed goes on. */
+void panel_renew(struct panel *p, const struct selection_names *names);
 
 /* Does what the key means here. False if it is not the panel's. */
 bool panel_key(struct panel *p, int key);

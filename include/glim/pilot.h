@@ -27,14 +27,16 @@ struct pilot {
     uint64_t held_ns;
     bool drag_is_new; /* no step of undo yet */
     struct cursor cursor;
-    bool is_keeping; /* the next key says the number of a view */
 };
 
 void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas);
 
 /* Does what the action says of camera and cursor. False if it is not the
- * pilot's. */
+ * pilot's. Any but a move ends what is moving, where it would have ended. */
 bool pilot_act(struct pilot *p, enum action action);
+
+/* Gives the view the number of an ACTION_VIEW_1 to _9; no other action does. */
+void pilot_keep_view(struct pilot *p, enum action action);
 
 void pilot_mouse(struct pilot *p, const struct event *event);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * question.h - what is asked before something is lost
+ * question.h - what is asked, most of it before something is lost
  *
  * Units:     keys are bytes or enum input_key
  * Ownership: strings live as long as the program
@@ -15,7 +15,8 @@ enum question {
     QUESTION_QUIT,
     QUESTION_EDIT, /* quit without what was edited */
     QUESTION_LIVE, /* leave normal mode */
-    QUESTION_RESTART
+    QUESTION_RESTART,
+    QUESTION_NUMBER /* of a view: the answer is an action */
 };
 
 /* With the keys that answer it; NULL for none. */

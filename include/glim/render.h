@@ -34,6 +34,7 @@ struct render_job {
     bool geometry_changed; /* since the last start: the backend loads anew */
     struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
+    uint64_t steps;        /* as of render_step(): halts then; 0: does not */
     /* pixels of the draft, as many as are shown; it has no more than the film,
      * and there is none without columns or rows */
     int draft_width, draft_height;

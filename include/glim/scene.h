@@ -24,6 +24,11 @@
 #include "kernels/types.h"
 
 /* What a material was made from. */
+struct texture_origin {
+    uint32_t file; /* number of the MTL file */
+    uint64_t line;
+};
+
 struct material_origin {
     struct mtl_source source;
     uint32_t file; /* of mtl_paths; NO_INDEX: none */
@@ -65,7 +70,8 @@ struct scene {
 
     struct texture *textures;
     char **texture_paths;
-    bool *texture_is_tried; /* its image was looked for */
+    struct texture_origin *texture_origins; /* the first statements of them */
+    bool *texture_is_tried;                 /* its image was looked for */
     uint32_t texture_count;
     uint32_t *texels;
     size_t texel_count;

@@ -44,6 +44,14 @@ void selection_move(struct selection *s, int steps);
 /* What was selected may have gone: takes one beside it. */
 void selection_settle(struct selection *s);
 
+/* The names of what is selected, for free(), and the same by them in what was
+ * loaded anew; false if what the page shows has gone. */
+struct selection_names {
+    char *material, *object;
+};
+struct selection_names selection_names(const struct selection *s);
+bool selection_find(struct selection *s, const struct selection_names *names);
+
 /* The knobs of what is selected; 0: there is nothing. */
 int selection_knobs(const struct selection *s, struct knob knobs[KNOBS_MAX]);
 struct knob_target selection_target(const struct selection *s);

@@ -73,6 +73,9 @@ bool session_spares(const struct session *s, const char *option,
  * limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
 
+/* The same, but it halts after the first sample of every pixel. */
+bool session_step(struct session *s, uint64_t spp, struct error *err);
+
 /* True if the scene or its light are to be others than what is rendered; takes
  * over what needs no new picture. */
 bool session_take_edit(struct session *s);

@@ -65,7 +65,7 @@ bool stage_act(struct stage *st, enum action action);
 void stage_turn_help(struct stage *st, bool closes);
 
 /* After the scene was loaded anew. */
-void stage_renew(struct stage *st);
+void stage_renew(struct stage *st, const struct selection_names *names);
 
 /* Looks how far the work is, and what of it there is to show. */
 void stage_look(struct stage *st);

@@ -21,7 +21,8 @@
 
 struct message {
     char text[sizeof(struct error)];
-    bool is_error;     /* stays until a key */
+    bool is_error; /* stays until a key */
+    uint64_t said_ns;
     uint64_t until_ns; /* 0: none */
 };
 
@@ -46,7 +47,7 @@ struct work {
 
     uint64_t saved_samples;  /* of this picture, in a file */
     uint64_t saving_samples; /* that the saver will have written */
-    char saving_spp[32];
+    char saving_what[64];    /* its size and samples */
 
     char **results; /* a line for each file */
     int result_count;
@@ -55,7 +56,8 @@ struct work {
 /* Starts to render in live mode. */
 bool work_init(struct work *w, struct session *session, struct error *err);
 
-/* Shown for a while, or for longer; an error stays until a key. */
+/* Shown for a while, or for longer; an error stays until a key, and so long at
+ * least. */
 void work_say(struct work *w, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void work_say_long(struct work *w, const char *format, ...)
@@ -64,6 +66,10 @@ void work_say_error(struct work *w, const char *text);
 
 /* The status line comes back. */
 void work_be_silent(struct work *w);
+
+/* A key was pressed: an error goes, at its time. It may have come while
+ * somebody typed on. */
+void work_be_heard(struct work *w);
 
 /* The key of an action, for messages that tell what to do next. */
 struct keys_name work_key(const struct work *w, enum action action);
@@ -74,6 +80,10 @@ void work_add_result(struct work *w, const char *text);
 /* Looks how far the render is, and restarts it if the view has changed and the
  * look before has found a picture. */
 void work_look(struct work *w);
+
+/* Restarts now if the view has changed, for what is to be done with the film.
+ */
+void work_settle(struct work *w);
 
 /* True until there is a picture to show after a restart: a rough one, and where
  * a draft is soon whole, that. */

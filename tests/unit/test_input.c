@@ -70,7 +70,6 @@ static void keys_are_keys(void **state)
         {"\033[1~", INPUT_HOME},
         {"\033OM", '\r'}, /* Enter of the keypad */
         {"\033[15~", INPUT_OTHER},
-        {"\033x", INPUT_OTHER}, /* Alt-x is not x */
     };
 
     (void)state;
@@ -83,6 +82,22 @@ static void keys_are_keys(void **state)
         }
     }
     assert_int_equal(only("\xc3\xa9", 2).key, INPUT_OTHER); /* e acute */
+}
+
+/* Bytes that come together are the keys that they are one by one; Alt and a key
+ * are such bytes. */
+static void escape_and_a_key_are_two(void **state)
+{
+    struct input in = {.length = 0};
+    struct event e;
+
+    (void)state;
+    input_feed(&in, "\033q", 2);
+    assert_true(input_next(&in, false, &e));
+    assert_int_equal(e.key, 27);
+    assert_true(input_next(&in, false, &e));
+    assert_int_equal(e.key, 'q');
+    assert_false(input_next(&in, false, &e));
 }
 
 static void answers_are_answers(void **state)
@@ -232,6 +247,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keys_are_keys),
+        cmocka_unit_test(escape_and_a_key_are_two),
         cmocka_unit_test(answers_are_answers),
         cmocka_unit_test(the_rest_is_dropped),
         cmocka_unit_test(mouse_reports),

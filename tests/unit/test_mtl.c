@@ -97,6 +97,12 @@ static void test_kinds(void **state)
          0.09950371902099893, 2.5},
         {"Ni 1\nPr .5\nillum 6", MATERIAL_GLASS, 1, .25, 1},
         {"Tf .25\nNi .75\nillum 4", MATERIAL_THIN_GLASS, .25, 0, .75},
+        {"Tf .25\nNi 1\nillum 4", MATERIAL_THIN_GLASS, .25, 0, 1},
+        {"Ni 1\nillum 4", MATERIAL_THIN_GLASS, 1, 0, 1},
+        /* as Maya writes what is opaque */
+        {"illum 4\nKd .25\nTf 1 1 1\nNi 1.00", MATERIAL_DIFFUSE, .25, 0, 1.5},
+        {"illum 4\nKd .5\nTf 1 1 1\nNi 1\nKs .5\nNs 6", MATERIAL_PLASTIC, .5,
+         .5, 1.5},
         {"Ni 1000000\nPr .5\nillum 9", MATERIAL_THIN_GLASS, 1, 0, 1e6},
     };
 

@@ -303,7 +303,7 @@ static void test_lines_and_blanks(void **state)
     check_clean("v 0 0 0\nv 1 \\\n 0 \\\r\n 0\nv 0 1\\\r 0\nf 1 2 \\\n3\n", 1);
     /* comments end with paths of folders */
     check_clean("# c:\\models\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 1);
-    check_clean("v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nvt 0 0 0\nvt 1\n"
+    check_clean("v 0 0 0 1\nv 1 0 0 0.5\nv 0 1 0\nvt 0 0 0\nvt 1\n"
                 "s off\nl 1 2\np 1\nf 1 2 3 # x\n",
                 1);
     check_clean("v 0 0 0\\", 0);
@@ -368,7 +368,7 @@ static void test_not_an_obj_file(void **state)
 
 static void test_unknown_statements(void **state)
 {
-    struct loaded l = load_good(SQUARE "vw 1\ncurv 1\nvw 2\nvw\nf 1 2 3\n", 1);
+    struct loaded l = load_good(SQUARE "vw 1\nlod 1\nvw 2\nvw\nf 1 2 3\n", 1);
 
     (void)state;
     assert_int_equal(l.report.entry_count, 2);
@@ -376,8 +376,32 @@ static void test_unknown_statements(void **state)
                         "a.obj:5: found 'vw', which glim does not use");
     assert_int_equal(l.report.entries[0].count, 3);
     assert_string_equal(l.report.entries[1].text,
-                        "a.obj:6: found 'curv', which glim does not use");
+                        "a.obj:6: found 'lod', which glim does not use");
     unload(&l);
+}
+
+/* Behind a place: a weight is nothing to say, a colour is. */
+static void test_colors_of_vertices(void **state)
+{
+    static const char said[] =
+        "a.obj:1: found the colour of a vertex: glim has colours of materials "
+        "and textures only";
+
+    (void)state;
+    check_clean("v 0 0 0 1\nv 1 0 0 1 # a b c\nv 0 1 0 1\nf 1 2 3\n", 1);
+    check_warned("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", 1,
+                 said, 1);
+    check_warned("v 0 0 0 1 .5 .5 .5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 1, said, 1);
+}
+
+static void test_free_forms(void **state)
+{
+    (void)state;
+    check_warned(SQUARE "cstype bspline\ndeg 3\ncurv 0 1 1 2\nend\nf 1 2 3\n",
+                 1,
+                 "a.obj:5: found 'cstype': free-form curves and surfaces are "
+                 "not drawn",
+                 4);
 }
 
 static void test_objects(void **state)
@@ -493,6 +517,8 @@ int main(void)
         cmocka_unit_test(test_long_line),
         cmocka_unit_test(test_not_an_obj_file),
         cmocka_unit_test(test_unknown_statements),
+        cmocka_unit_test(test_colors_of_vertices),
+        cmocka_unit_test(test_free_forms),
         cmocka_unit_test(test_objects),
         cmocka_unit_test(test_face_numbers),
         cmocka_unit_test(test_unknown_materials),

@@ -104,6 +104,42 @@ static void lucky_answers_make_no_fast_line(void **state)
     check_at_most((double)worst_ns * 1e-9, 0.3);
 }
 
+/* Frames of this size over the line, whose answers come up to 40 ms late by
+ * chance, the first one by 16 ms; the bytes of the last of 200. */
+static size_t last_of_late(struct line *l, size_t want)
+{
+    struct pace p;
+    uint64_t now_ns = SEC;
+    uint32_t noise = 1;
+    size_t size = 0;
+
+    pace_init(&p, now_ns);
+    pace_answer(&p, line_send(l, now_ns, 50) + 16 * MS);
+    for (int i = 0; i < 200; i++) {
+        uint64_t answer_ns;
+
+        size = want < p.budget_bytes ? want : p.budget_bytes;
+        answer_ns = line_send(l, now_ns, size);
+        noise = noise * 1664525u + 1013904223u;
+        answer_ns += (noise >> 16) % 40 * MS;
+        pace_sent(&p, size, true, now_ns, now_ns);
+        pace_answer(&p, answer_ns);
+        now_ns = answer_ns + MS;
+    }
+    return size;
+}
+
+/* On a busy machine: the line next to the program carries whole frames. */
+static void late_answers_make_no_slow_line(void **state)
+{
+    struct line fast = {.bytes_per_s = 50e6, .way_ns = MS / 5};
+    struct line far = {.bytes_per_s = 50e6, .way_ns = 200 * MS};
+
+    (void)state;
+    assert_int_equal(last_of_late(&fast, 400000), 400000);
+    assert_int_equal(last_of_late(&far, 400000), 400000);
+}
+
 static void fast_line_is_not_held_back(void **state)
 {
     struct line l = {.bytes_per_s = 50e6, .way_ns = MS / 5};
@@ -196,6 +232,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slow_line_has_no_backlog),
         cmocka_unit_test(lucky_answers_make_no_fast_line),
+        cmocka_unit_test(late_answers_make_no_slow_line),
         cmocka_unit_test(fast_line_is_not_held_back),
         cmocka_unit_test(first_frame_does_not_wait),
         cmocka_unit_test(mute_terminal_is_not_waited_for),

@@ -347,6 +347,63 @@ static void saving_takes_a_copy(void **state)
     assert_memory_equal(first, second, sizes[0]);
 }
 
+/* Other sizes may have come meanwhile. */
+static void what_is_said_is_what_was_saved(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+    work_save_picture(w, "png");
+    saver_wait_copied(&w->saver);
+    w->session->crop.width = 20;
+    work_set_live(w, true);
+    assert_true(work_finish_saving(w));
+    assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
+}
+
+/* Without a look since it was begun. */
+static void a_young_picture_is_unsaved_too(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    assert_true(render_wait(w->session->render, 10000));
+    assert_true(work_has_unsaved(w));
+}
+
+/* The thread that loads may have read the file as it was: the camera would go
+ * back to that. */
+static void no_view_is_written_under_a_reload(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_reload(w);
+    w->session->view.eye[0] = 7;
+    work_save_view(w);
+    assert_int_equal(access("s.view", F_OK), -1);
+    assert_true(work_end_reload(w));
+    assert_true(w->session->view.eye[0] == 7);
+    work_save_view(w);
+    assert_int_equal(access("s.view", F_OK), 0);
+}
+
+/* An error that comes while somebody types is not gone with the next key. */
+static void errors_are_seen(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    work_say_error(w, "broken");
+    assert_true(w->message.until_ns == UINT64_MAX);
+    work_be_heard(w);
+    assert_string_equal(w->message.text, "broken");
+    check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
+    work_be_heard(w);
+    check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
+}
+
 static void failures_are_messages(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
@@ -446,6 +503,10 @@ int main(void)
         WORK_TEST(what_a_file_has_is_not_kept),
         WORK_TEST(saving_never_replaces),
         WORK_TEST(saving_takes_a_copy),
+        WORK_TEST(what_is_said_is_what_was_saved),
+        WORK_TEST(a_young_picture_is_unsaved_too),
+        WORK_TEST(no_view_is_written_under_a_reload),
+        WORK_TEST(errors_are_seen),
         WORK_TEST(failures_are_messages),
         WORK_TEST(views_are_written),
         WORK_TEST(texts_are_written),

@@ -8,6 +8,7 @@ keys '?'
 wait_for "save a new PNG file"
 expect "Q e *move down, up"
 expect "any key closes"
+expect "half blocks, [0-9.]* ms away" # whole: it fits into its column
 # no picture shines through the window
 row=$(screen_colors | grep "save a new PNG")
 inside=${row#*│}

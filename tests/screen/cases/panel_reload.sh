@@ -24,11 +24,18 @@ grep -q '^Ns 7$' lamp.mtl || die "lamp.mtl: $(cat lamp.mtl)"
 grep -q '^Ke 1 0 0$' lamp.mtl || die "lamp.mtl: $(cat lamp.mtl)"
 wait_for "LIVE .*spp"
 reject "changed"
+# the same is selected, and what is being typed goes on
+expect "│>    of colour  #ff0000"
+raw_keys '#00'
+wait_for "│>    of colour  #00_"
+printf 'newmtl first\nKd 1 1 1\nnewmtl l\nKd 0 0 0\nKe 1 0 0\n' >lamp.mtl
+wait_for "loaded lamp.obj"
+wait_for "│>    of colour  #00_"
+expect "│ l$"
 # saved by ourselves
-keys Enter Down Down Down Down Down Down Down Down
-wait_for "│>    of colour  #ff0000"
-raw_keys '#00ff00'
+raw_keys 'ff00'
 keys Enter
+wait_for "│>    of colour  #00ff00"
 keys C-s
 wait_for "wrote 1 material to lamp.mtl"
 sleep 1

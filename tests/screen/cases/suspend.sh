@@ -21,6 +21,11 @@ for way in key signal; do
     wait_for_rows 15 "48;2;188;124;0"
     reject "here"
 done
+# what was typed behind it is not for glim
+raw_keys "$(printf '\032q')"
+wait_for "Stopped"
+keys fg Enter
+wait_for "LIVE"
 keys q
 wait_for "glim flat.obj"
 keys exit Enter

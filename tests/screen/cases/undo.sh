@@ -48,7 +48,9 @@ wait_for "undone"
 keys 3
 wait_for "no view 3 yet"
 keys k
-wait_for "which number"
+wait_for "Which number"
+sleep 5 # as long as it takes
+expect "Which number"
 keys 3
 wait_for "this is view 3"
 keys k x 4 # the x is no number: nothing is kept

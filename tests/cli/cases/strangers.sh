@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+# Files as other programs write them: what they name is found, what is not drawn
+# is said once.
+b="-b -w 8 -h 4 -s 1 -o out.png"
+face='v -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n'
+# names of a system that does not tell A from a
+mkdir -p Maps
+printf "newmtl a\nmap_Ke maps\\\\WALL.png\n" >walls.mtl
+printf "mtllib WALLS.MTL\nusemtl a\n$face" >walls.obj
+run_untimed -b -w 8 -h 4 -s 1 -o Maps/Wall.PNG walls.obj
+run_untimed $b walls.obj
+# a texture that is not there, with the line that names it
+printf 'newmtl a\nKd 1 1 1\nmap_Kd none\\wood.jpg\n' >wood.mtl
+printf "mtllib wood.mtl\nusemtl a\n$face" >wood.obj
+run_untimed $b wood.obj
+# colours of vertices, weights
+printf 'v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 1 1 0 0 0 1\nf 1 2 3\n' >colors.obj
+run_untimed $b colors.obj
+printf 'v -1 -1 0 1\nv 1 -1 0 1\nv 1 1 0 1\nf 1 2 3\n' >weights.obj
+run_untimed $b weights.obj
+# surfaces that are no faces
+printf "${face}cstype bspline\ndeg 3 3\nsurf 0 1 0 1 1 2 3\nend\n" >forms.obj
+run_untimed $b forms.obj
+# what cannot be seen
+printf 'newmtl a\nKd 1 1 1\nTr 1\n' >unseen.mtl
+printf "mtllib unseen.mtl\nusemtl a\n$face" >unseen.obj
+run_untimed $b unseen.obj
