@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "glim/event_fd.h"
 #include "glim/panel_draw.h"
 #include "glim/question.h"
 #include "glim/stage.h"
@@ -290,15 +291,6 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
                    earlier(pilot_next_ns(&t->pilot), input_deadline_ns(t)));
 }
 
-static void empty_events(int fd)
-{
-    uint64_t count;
-
-    if (read(fd, &count, sizeof count) < 0) {
-        /* nothing there */
-    }
-}
-
 static void take_reload(struct tui *t)
 {
     if (!work_end_reload(&t->work))
@@ -315,9 +307,8 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
         take_signals(t);
     if (fds[0].revents && !t->is_ending)
         take_input(t);
-    if (fds[2].revents) {
-        empty_events(fds[2].fd); /* work_look() sees what it says */
-    }
+    if (fds[2].revents)
+        event_fd_clear(fds[2].fd); /* work_look() sees what it says */
     if (fds[3].revents)
         work_finish_saving(&t->work);
     if (fds[4].revents)
