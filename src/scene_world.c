@@ -180,7 +180,6 @@ bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
     struct wide_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
     struct vec3 color = make_sky(scene, view).color;
     double sky = channels_mean(color);
-
     struct pool *pool;
     bool ok;
 
