@@ -46,7 +46,7 @@ echo '- no linker for what is not compiled yet'
 echo '- a cache that is no folder'
 : >file
 POCL_CACHE_DIR=$PWD/file device -w 8 -h 8 -s 1 -o a.png box.obj |
-    sed "s|$PWD|PWD|"
+    sed "s|$PWD|PWD|; s/pthread[^:]* failed/D failed/; s/pthread[^:]*:/D:/"
 
 echo '- kernels from a folder, whole and broken'
 cp -r "$root/kernels" kernels
@@ -56,7 +56,8 @@ same device.pfm cpu.pfm
 sed -i '0,/^{$/s//{ oops;/' kernels/path.h
 device --kernels kernels -w 8 -h 8 -s 1 -o a.png box.obj >err
 grep -c "^error: kernels/path.h:[0-9]*:[0-9]*: use of undeclared identifier 'oops'" err
-tail -n 3 err | sed 's/path.h:[0-9:]*/path.h:N/; s/^[0-9]* error/N error/'
+tail -n 3 err |
+    sed 's/path.h:[0-9:]*/path.h:N/; s/^[0-9]* error/N error/; s/pthread[^:]*:/D:/'
 device --kernels nowhere -w 8 -h 8 -s 1 -o a.png box.obj
 
 echo '- a device with too little memory'
