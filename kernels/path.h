@@ -28,9 +28,6 @@
 #include "kernels/start.h"
 #include "kernels/vertex.h"
 
-/* Paths without a limit of their own end here, counted. */
-#define PATH_HARD_STOP 1000u
-
 /* 1: eight random numbers take the time of one, in loops that compilers turn
  * into vector code, and are computed together; 0: each when it is asked for. */
 #ifndef HAS_WIDE_VECTORS

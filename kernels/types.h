@@ -195,6 +195,10 @@ enum order {
     ORDER_DRAFT        /* pixels spread their error; DRAFT_SPP samples */
 };
 
+/* Paths without a limit of their own end here, counted; roulette ends them long
+ * before. */
+#define PATH_HARD_STOP 1000u
+
 /* What a sample reads beside arrays. */
 struct settings {
     struct camera camera;

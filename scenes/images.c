@@ -8,7 +8,6 @@
 
 #include "glim/stb.h"
 
-#define PI         3.14159265358979323846
 #define SIDE_MAX   256
 #define SKY_WIDTH  256
 #define SKY_HEIGHT 128
@@ -204,7 +203,7 @@ static struct color sky_radiance(double x, double y, double z)
     const double sx = .68, sy = .42, sz = .60;
     double size = sqrt(sx * sx + sy * sy + sz * sz);
     double angle_deg =
-        acos(fmin(1, (x * sx + y * sy + z * sz) / size)) * 180 / PI;
+        acos(fmin(1, (x * sx + y * sy + z * sz) / size)) * 180 / M_PI;
     double disc = 1 / (1 + exp((angle_deg - 7) * 2));
     double glow = .6 * exp(-angle_deg / 18);
     struct color c = y > 0 ? mix_colors(horizon, zenith, pow(y, .45)) : ground;
@@ -237,8 +236,8 @@ static void write_sky(const char *folder)
 
     for (int row = 0; row < SKY_HEIGHT; row++) {
         for (int col = 0; col < SKY_WIDTH; col++) {
-            double theta = PI * (row + .5) / SKY_HEIGHT;
-            double phi = 2 * PI * ((col + .5) / SKY_WIDTH - .5);
+            double theta = M_PI * (row + .5) / SKY_HEIGHT;
+            double phi = 2 * M_PI * ((col + .5) / SKY_WIDTH - .5);
 
             put_rgbe(sky_radiance(sin(theta) * sin(phi), cos(theta),
                                   -sin(theta) * cos(phi)),

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI                3.14159265358979323846
 #define SPHERE_POINTS_MAX 1024
 #define PROFILE_MAX       64
 
@@ -98,7 +97,7 @@ void mesh_box(struct mesh *m, struct point foot, struct point size,
 {
     static const int faces[6][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7},
                                     {2, 0, 4, 6}, {4, 5, 7, 6}, {2, 3, 1, 0}};
-    double c = cos(turn_deg * PI / 180), s = sin(turn_deg * PI / 180);
+    double c = cos(turn_deg * M_PI / 180), s = sin(turn_deg * M_PI / 180);
     struct point p[8];
 
     for (int i = 0; i < 8; i++) { /* bit 0: right, 1: back, 2: top */
@@ -239,7 +238,7 @@ static void end_normal(const double (*profile)[2], int count, int segment,
         return;
     memcpy(own, n, sizeof own);
     segment_normal(profile, other, next);
-    if (own[0] * next[0] + own[1] * next[1] < cos(50 * PI / 180))
+    if (own[0] * next[0] + own[1] * next[1] < cos(50 * M_PI / 180))
         return;
     n[0] = own[0] + next[0];
     n[1] = own[1] + next[1];
@@ -282,7 +281,7 @@ void mesh_lathe(struct mesh *m, struct point foot, const double (*profile)[2],
         is_tip[k] = profile[k][0] == 0;
         rings[k] = m->v + 1;
         for (int i = 0; i < (is_tip[k] ? 1 : segments); i++) {
-            double angle = 2 * PI * i / segments;
+            double angle = 2 * M_PI * i / segments;
 
             put_v(m, add(foot, (struct point){profile[k][0] * cos(angle),
                                               profile[k][1],
@@ -297,7 +296,7 @@ void mesh_lathe(struct mesh *m, struct point foot, const double (*profile)[2],
 
             end_normal(profile, count, k, end, n);
             for (int i = 0; i < segments; i++) {
-                double angle = 2 * PI * i / segments;
+                double angle = 2 * M_PI * i / segments;
 
                 put_vn(m, (struct point){n[0] * cos(angle), n[1],
                                          n[0] * sin(angle)});

@@ -2,7 +2,6 @@
 #include "glim/batch.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <poll.h>
 #include <signal.h>
@@ -12,6 +11,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "glim/event_fd.h"
 #include "glim/file.h"
 #include "glim/picture.h"
 #include "glim/show.h"
@@ -30,10 +30,10 @@ static const struct {
 
 #define STOP_SIGNAL_COUNT (int)(sizeof stop_signals / sizeof stop_signals[0])
 
-/* What a handler may touch: the first signal, and the pipe that wakes poll().
+/* What a handler may touch: the first signal, and what wakes poll().
  * Later signals change nothing, so the picture is saved in peace. */
 static volatile sig_atomic_t stop_signal;
-static int wake_pipe[2];
+static int wake_fd;
 
 static void on_stop_signal(int number)
 {
@@ -41,9 +41,7 @@ static void on_stop_signal(int number)
 
     if (stop_signal == 0)
         stop_signal = number;
-    /* a full pipe wakes as well */
-    if (write(wake_pipe[1], "", 1) < 0)
-        errno = saved_errno;
+    event_fd_set(wake_fd);
     errno = saved_errno;
 }
 
@@ -52,8 +50,9 @@ static bool catch_signals(struct error *err)
     struct sigaction action = {.sa_handler = on_stop_signal,
                                .sa_flags = SA_RESTART};
 
-    if (pipe2(wake_pipe, O_NONBLOCK | O_CLOEXEC) != 0)
-        return fail(err, "cannot make a pipe: %s", strerror(errno));
+    wake_fd = event_fd_open("signals", err);
+    if (wake_fd < 0)
+        return false;
     sigemptyset(&action.sa_mask);
     for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
         struct sigaction old;
@@ -195,14 +194,6 @@ static void bar_erase(struct bar *bar)
     bar->shown_cols = 0;
 }
 
-static void read_empty(int fd)
-{
-    char bytes[64];
-
-    while (read(fd, bytes, sizeof bytes) > 0)
-        continue;
-}
-
 /* Until all samples are done or a signal comes; halted then. */
 static void wait_for_end(struct session *s)
 {
@@ -210,7 +201,7 @@ static void wait_for_end(struct session *s)
     bool looks = bar.is_wanted || s->options->stats_path;
     struct pollfd fds[2] = {{.fd = render_event_fd(s->render),
                              .events = POLLIN},
-                            {.fd = wake_pipe[0], .events = POLLIN}};
+                            {.fd = wake_fd, .events = POLLIN}};
 
     for (;;) {
         struct render_progress p = session_look(s);
@@ -220,7 +211,7 @@ static void wait_for_end(struct session *s)
         bar_draw(&bar, &p);
         poll(fds, 2, looks ? DRAW_MS : -1);
         if (fds[0].revents & POLLIN)
-            read_empty(fds[0].fd);
+            event_fd_clear(fds[0].fd);
     }
     bar_erase(&bar);
     render_halt(s->render);

@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-#define PI_D        3.14159265358979323846
-#define RAD_PER_DEG (PI_D / 180)
+#include "glim/angle.h"
 
 /* From the poles: the picture must not turn about its middle. */
 #define POLE_RAD 0.01
@@ -122,7 +121,7 @@ void camera_turn(struct view *view, double right_rad, double up_rad)
     cross(level, up, across);
     make_unit(level);
     polar = acos(fmax(-1.0, fmin(1.0, dot(axes.forward, up)))) - up_rad;
-    polar = fmax(POLE_RAD, fmin(PI_D - POLE_RAD, polar));
+    polar = fmax(POLE_RAD, fmin(M_PI - POLE_RAD, polar));
     azimuth_cos = cos(right_rad);
     azimuth_sin = sin(right_rad);
     for (int i = 0; i < 3; i++) {
@@ -170,7 +169,7 @@ static void stand_before(double right, double left, double slope, double *x,
 
 void camera_frame(struct view *view, const double lo[3], const double hi[3])
 {
-    double slope_y = CAMERA_FILL * tan(view->fovy_deg * RAD_PER_DEG / 2);
+    double slope_y = CAMERA_FILL * tan(angle_rad(view->fovy_deg) / 2);
     double slope_x = slope_y * view->width_px / view->height_px;
     double right = -INFINITY, left = -INFINITY;
     double above = -INFINITY, below = -INFINITY;
@@ -221,8 +220,8 @@ double camera_depth(const struct view *view, const double point[3])
 
 void camera_widen(struct view *view, double factor)
 {
-    double half_rad = atan(factor * tan(view->fovy_deg * RAD_PER_DEG / 2));
+    double half_rad = atan(factor * tan(angle_rad(view->fovy_deg) / 2));
 
     view->fovy_deg =
-        fmax(FOVY_MIN_DEG, fmin(FOVY_MAX_DEG, 2 * half_rad / RAD_PER_DEG));
+        fmax(FOVY_MIN_DEG, fmin(FOVY_MAX_DEG, angle_deg(2 * half_rad)));
 }

@@ -8,9 +8,6 @@
 
 #include "glim/drawing.h"
 
-#define SYNC_BEGIN "\033[?2026h"
-#define SYNC_END   "\033[?2026l"
-
 /* The longest round trip that is waited for at the end. */
 #define DRAIN_NS UINT64_C(500000000)
 
@@ -338,7 +335,7 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
     }
     if (has_updated) {
         if (has_sync)
-            term_write(SYNC_BEGIN, sizeof SYNC_BEGIN - 1);
+            term_write(TERM_SYNC_BEGIN, sizeof TERM_SYNC_BEGIN - 1);
         windows_update();
         if (!write_swatches(c))
             return CANVAS_GONE;
@@ -346,7 +343,7 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
     }
     ansi_begin(a);
     if (has_sync && !has_updated)
-        ansi_text(a, SYNC_BEGIN);
+        ansi_text(a, TERM_SYNC_BEGIN);
     before = a->length;
     if (film)
         is_complete = add_picture(c, film, draft, how, step);
@@ -356,7 +353,7 @@ enum canvas_result canvas_draw(struct canvas *c, struct film *film,
     if (a->length > before)
         ansi_end(a, term_size().rows - 1);
     if (has_sync)
-        ansi_text(a, SYNC_END);
+        ansi_text(a, TERM_SYNC_END);
     if (asks)
         ansi_text(a, PACE_REQUEST);
     uint64_t begin_ns = clock_ns();

@@ -66,8 +66,8 @@ struct material caustics_material(struct material m)
     return m;
 }
 
-/* Triangles are many: they are asked whose the materials are only if one of
- * these casts. */
+/* Triangles are many: whether one of them has a material that casts is asked
+ * only if there is such a material. */
 bool caustics_possible(const struct world *w)
 {
     bool may = false, found = false;

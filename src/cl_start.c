@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "glim/cl_start.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include "glim/cl_probe.h"
+#include "glim/event_fd.h"
 #include "glim/thread.h"
 
 struct cl_start {
@@ -95,12 +94,9 @@ static void bring_up(struct cl_start *s)
 static void *start_main(void *argument)
 {
     struct cl_start *s = argument;
-    uint64_t one = 1;
 
     bring_up(s);
-    if (write(s->event_fd, &one, sizeof one) < 0) {
-        /* the counter of an event descriptor has room for 1 */
-    }
+    event_fd_set(s->event_fd);
     return NULL;
 }
 
@@ -112,9 +108,8 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
 
     s->request = *request;
     s->old = backend;
-    s->event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    s->event_fd = event_fd_open("OpenCL", err);
     if (s->event_fd < 0) {
-        fail(err, "OpenCL: no event descriptor: %s", strerror(errno));
         free(s);
         return NULL;
     }

@@ -38,7 +38,6 @@ void cost_of_pixels(struct pool *pool, const struct world *world, int width,
                     int height, struct cost *costs)
 {
     struct job j = {world, width, costs};
-    struct cancel never = {0};
 
-    pool_run(pool, (uint32_t)height, count_row, &j, &never);
+    pool_each(pool, (uint32_t)height, count_row, &j);
 }

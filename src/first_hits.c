@@ -34,8 +34,7 @@ void first_hits_of_pixels(struct pool *pool, const struct world *world,
                           int width, int height, float *numbers)
 {
     struct job j = {world, width, numbers};
-    struct cancel never = {0};
 
     assert(world->settings.sample != SAMPLE_LIGHT);
-    pool_run(pool, (uint32_t)height, trace_row, &j, &never);
+    pool_each(pool, (uint32_t)height, trace_row, &j);
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "glim/channels.h"
 #include "kernels/texture.h"
 
 /* Bands of a triangle, at most. */
@@ -34,7 +35,7 @@ bool footprint_init(struct footprint_sums *f, const struct world *w,
         for (uint32_t x = 0; x < t.width; x++) {
             struct vec3 c = v3_mul(m->emission, texel(w, t, x, y).color);
 
-            row += ((double)c.x + (double)c.y + (double)c.z) / 3;
+            row += channels_mean(c);
             above[stride + x + 1] = above[x + 1] + row;
         }
     }

@@ -62,6 +62,19 @@ static bool fail_decoding(const struct source *s, struct error *err)
                 s->path, reason ? reason : "out of memory");
 }
 
+/* A side as a file's header has it. */
+static bool take_side(const struct source *s, double number, int *side,
+                      struct error *err)
+{
+    if (!(number >= 1 && number <= INT_MAX) || number != floor(number))
+        return fail(err,
+                    "%s: found a side of %g pixels, expected a whole number "
+                    "from 1 to %d",
+                    s->path, number, IMAGE_SIDE_MAX);
+    *side = (int)number;
+    return true;
+}
+
 /* PFM: "PF" or "Pf", width, height, scale, one white space; rows from the
  * bottom up, little endian if the scale is negative. */
 struct pfm {
@@ -91,14 +104,9 @@ static bool pfm_header(struct source *s, struct pfm *pfm, struct error *err)
             return fail(err, "%s: expected width, height and scale after 'P%c'",
                         s->path, s->data[1]);
     }
-    for (int i = 0; i < 2; i++) {
-        if (!(numbers[i] >= 1 && numbers[i] <= INT_MAX) ||
-            numbers[i] != floor(numbers[i]))
-            return fail(err, "%s: found a side of %g pixels, expected 1 to %d",
-                        s->path, numbers[i], IMAGE_SIDE_MAX);
-    }
-    s->width = (int)numbers[0];
-    s->height = (int)numbers[1];
+    if (!take_side(s, numbers[0], &s->width, err) ||
+        !take_side(s, numbers[1], &s->height, err))
+        return false;
     pfm->values = p + 1;
     pfm->channels = s->data[1] == 'F' ? 3 : 1;
     pfm->is_big_endian = numbers[2] > 0;
@@ -162,6 +170,16 @@ static bool is_hdr(const struct source *s)
     return false;
 }
 
+static bool skip_text(const char **p, const char *end, const char *text)
+{
+    size_t length = strlen(text);
+
+    if ((size_t)(end - *p) < length || memcmp(*p, text, length) != 0)
+        return false;
+    *p += length;
+    return true;
+}
+
 /* Lines of text up to an empty one, then "-Y height +X width". *pixels is what
  * follows. */
 static bool hdr_header(struct source *s, const char **pixels, struct error *err)
@@ -173,21 +191,15 @@ static bool hdr_header(struct source *s, const char **pixels, struct error *err)
 
     if (!p || !memmem(s->data, (size_t)(p - s->data), format, strlen(format)))
         return fail(err, "%s: expected a header with %s", s->path, format);
-    p += 2;
-    bool ok = end - p > 3 && memcmp(p, "-Y ", 3) == 0;
-    p += 3;
-    ok = ok && number_parse(&p, end, &height) && end - p > 4 &&
-         memcmp(p, " +X ", 4) == 0;
-    p += 4;
-    ok = ok && number_parse(&p, end, &width) && p < end && *p == '\n' &&
-         height >= 1 && height <= INT_MAX && width >= 1 && width <= INT_MAX;
-    if (!ok)
+    p += strlen(blank);
+    if (!skip_text(&p, end, "-Y ") || !number_parse(&p, end, &height) ||
+        !skip_text(&p, end, " +X ") || !number_parse(&p, end, &width) ||
+        !skip_text(&p, end, "\n"))
         return fail(err, "%s: expected '-Y height +X width' after the header",
                     s->path);
-    s->width = (int)width;
-    s->height = (int)height;
-    *pixels = p + 1;
-    return expect_limits(s, err);
+    *pixels = p;
+    return take_side(s, width, &s->width, err) &&
+           take_side(s, height, &s->height, err) && expect_limits(s, err);
 }
 
 /* One row with its four channels apart, each in runs (128 + n: n times the

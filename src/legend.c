@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "glim/angle.h"
 #include "glim/columns.h"
 
 #include "kernels/vec.h"
@@ -13,8 +14,6 @@
 #define PLACE_COLS     17
 #define PDF_COLS       6
 #define NUMBERS_BYTES  64
-
-#define DEGREES (180.0 / 3.14159265358979324)
 
 /* The name of the material of a triangle, or words for none. */
 static const char *material_of(const struct scene *scene, uint32_t tri)
@@ -134,7 +133,7 @@ void legend_lobes(struct legend *l, const struct scene *scene,
         deltas += pdf == 0.0f ? 1 : 0;
     }
     snprintf(next_line(l), LEGEND_BYTES, "%.40s, seen %.1f degrees off n",
-             material_of(scene, lobes->tri), acos((double)cosine) * DEGREES);
+             material_of(scene, lobes->tri), angle_deg(acos((double)cosine)));
     add_direction(l, "n normal, green", lobes->n);
     add_direction(l, "t tangent, red", lobes->t);
     add_direction(l, "b bitangent, blue", lobes->b);

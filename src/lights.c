@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/channels.h"
 #include "glim/footprint.h"
 #include "glim/light_tree.h"
 #include "kernels/texture.h"
@@ -45,14 +46,11 @@ bool lights_differ(const struct material *a, const struct material *b)
            a->opacity != b->opacity;
 }
 
-/* The mean of the channels: errors of all three count alike. */
 static double mean_radiance(const struct world *w, const struct tri *t,
                             const struct footprint_sums *footprints)
 {
     const struct material *m = &w->materials[t->material];
-    double mean = ((double)m->emission.x + (double)m->emission.y +
-                   (double)m->emission.z) /
-                  3;
+    double mean = channels_mean(m->emission);
 
     if (m->emission_texture != NO_INDEX && t->vt[0] != NO_INDEX) {
         const struct footprint_sums *f = &footprints[t->material];
@@ -286,9 +284,7 @@ out:
  * power times radiance at distance 1. */
 static float light_share(const struct lights *lights, const struct sky *sky)
 {
-    double radiance =
-        ((double)sky->color.x + (double)sky->color.y + (double)sky->color.z) /
-        3;
+    double radiance = channels_mean(sky->color);
     double ratio = lights->glare / (M_PI * radiance * radiance);
 
     if (lights->light_count == 0)

@@ -154,6 +154,15 @@ static bool ends_line(char c)
     return c == '\n' || c == '\r';
 }
 
+/* What goes between a text and the end of its line: a backslash would join the
+ * next line to it. */
+static const char *blank_behind(const char *text)
+{
+    size_t length = strlen(text);
+
+    return length > 0 && text[length - 1] == '\\' ? " " : "";
+}
+
 bool mtl_text_insert(struct mtl_text *t, const struct mtl_block *b,
                      const char *key, const char *value)
 {
@@ -161,8 +170,9 @@ bool mtl_text_insert(struct mtl_text *t, const struct mtl_block *b,
     int indent = (int)(last->key - last->line);
     const char *margin = t->bytes + last->line;
     bool is_open = !ends_line(t->bytes[last->end - 1]);
-    char *line = xformat("%s%.*s%s %s%s", is_open ? t->line_end : "", indent,
-                         margin, key, value, is_open ? "" : t->line_end);
+    char *line =
+        xformat("%s%.*s%s %s%s%s", is_open ? t->line_end : "", indent, margin,
+                key, value, blank_behind(value), is_open ? "" : t->line_end);
     bool ok = mtl_text_splice(t, last->end, 0, line);
 
     free(line);
@@ -225,8 +235,8 @@ bool mtl_text_comment(struct mtl_text *t, const char *name, mtl_aliases keys)
         end = (size_t)(lex.p - t->bytes);
         if (rest == NULL)
             return false;
-        line = xformat("#%.*s %s", (int)(s.key_end - s.key), t->bytes + s.key,
-                       rest);
+        line = xformat("#%.*s %s%s", (int)(s.key_end - s.key), t->bytes + s.key,
+                       rest, blank_behind(rest));
         ok = mtl_text_splice(t, s.key, end - s.key, line);
         free(line);
         free(rest);
@@ -240,9 +250,6 @@ bool mtl_text_append_block(struct mtl_text *t, const char *name,
                            const char *copied_from)
 {
     bool is_open = t->size > 0 && !ends_line(t->bytes[t->size - 1]);
-    size_t length = strlen(name);
-    /* or a backslash at the end would join the next line to the name */
-    const char *blank = length > 0 && name[length - 1] == '\\' ? " " : "";
     struct mtl_block b;
     size_t begin = 0, end = 0; /* of what is copied: nothing */
     char *text;
@@ -253,8 +260,8 @@ bool mtl_text_append_block(struct mtl_text *t, const char *name,
         end = b.last.end;
     }
     text = xformat("%s%snewmtl %s%s%s%.*s", is_open ? t->line_end : "",
-                   t->line_end, name, blank, t->line_end, (int)(end - begin),
-                   t->bytes + begin);
+                   t->line_end, name, blank_behind(name), t->line_end,
+                   (int)(end - begin), t->bytes + begin);
     ok = mtl_text_splice(t, t->size, 0, text);
     free(text);
     return ok;

@@ -8,9 +8,9 @@
 
 #include "glim/isa.h"
 #include "glim/number.h"
+#include "glim/view.h"
 
 /* Beyond these a value is a slip of the finger, not a wish. */
-#define SIDE_MAX    65536
 #define SPP_MAX     1000000000000u
 #define THREADS_MAX 1024
 #define BOUNCES_MAX 999
@@ -136,7 +136,8 @@ static bool set_crop(struct options *o, const struct option_given *g,
             goto wrong;
         memcpy(text, p, length);
         text[length] = '\0';
-        if (!parse_digits(text, SIDE_MAX, &number) || (i > 1 && number == 0))
+        if (!parse_digits(text, VIEW_SIDE_MAX, &number) ||
+            (i > 1 && number == 0))
             goto wrong;
         *parts[i] = (int)number;
         p += length + 1;
@@ -147,7 +148,7 @@ wrong:
     return fail(err,
                 "%s: found '%s', expected X,Y,W,H: four whole numbers up to "
                 "%d, W and H above 0",
-                g->shown, g->value, SIDE_MAX);
+                g->shown, g->value, VIEW_SIDE_MAX);
 }
 
 static bool set_cell_aspect(struct options *o, const struct option_given *g,
@@ -264,8 +265,9 @@ bool option_set(struct options *o, const struct option_given *g,
         return given_text(g, &path, err) && option_set_scene(o, path, err);
     }
     case OPTION_VIEW: return given_text(g, &o->view_path, err);
-    case OPTION_WIDTH: return whole_int(g, 1, SIDE_MAX, &o->width_px, err);
-    case OPTION_HEIGHT: return whole_int(g, 1, SIDE_MAX, &o->height_px, err);
+    case OPTION_WIDTH: return whole_int(g, 1, VIEW_SIDE_MAX, &o->width_px, err);
+    case OPTION_HEIGHT:
+        return whole_int(g, 1, VIEW_SIDE_MAX, &o->height_px, err);
     case OPTION_SPP:
         o->has_spp = true;
         return whole_number(g, 1, SPP_MAX, &o->spp, err);

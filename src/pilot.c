@@ -9,8 +9,6 @@
  * than keyboards wait before they repeat. */
 #define HELD_NS UINT64_C(700000000)
 
-#define TEXT_BYTES 256
-
 /* Actions that last as long as their key is held. */
 static const struct move {
     enum action action;

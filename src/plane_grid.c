@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+/* Whoever sorts into the cells has an array of them: of 64 MiB then. */
 #define SIDE_MAX 4096
 
 /* More than rounding can move a point, in cells. */
@@ -27,6 +28,7 @@ struct plane_grid plane_grid_over(const struct point2 *points, uint32_t count)
     struct point2 lo = points[0];
     struct point2 hi = lo;
     uint32_t side = (uint32_t)sqrt(count);
+    struct plane_grid g = {.side = side < SIDE_MAX ? side : SIDE_MAX};
 
     for (uint32_t i = 1; i < count; i++) {
         lo.x = lesser(lo.x, points[i].x);
@@ -34,12 +36,10 @@ struct plane_grid plane_grid_over(const struct point2 *points, uint32_t count)
         hi.x = greater(hi.x, points[i].x);
         hi.y = greater(hi.y, points[i].y);
     }
-    side = side < SIDE_MAX ? side : SIDE_MAX;
-    return (
-        struct plane_grid){.origin = lo,
-                           .scale = {lesser(side / (hi.x - lo.x), SCALE_MAX),
-                                     lesser(side / (hi.y - lo.y), SCALE_MAX)},
-                           .side = side};
+    g.origin = lo;
+    g.scale.x = lesser(g.side / (hi.x - lo.x), SCALE_MAX);
+    g.scale.y = lesser(g.side / (hi.y - lo.y), SCALE_MAX);
+    return g;
 }
 
 /* The place in cells: their numbers are the whole parts. */

@@ -1,31 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "glim/reload.h"
 
-#include <errno.h>
 #include <string.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "glim/event_fd.h"
 #include "glim/thread.h"
 
 bool reload_init(struct reload *r, const struct options *options,
                  struct error *err)
 {
-    *r = (struct reload){.event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK),
+    *r = (struct reload){.event_fd = event_fd_open("reload", err),
                          .options = options};
-    return r->event_fd >= 0 ||
-           fail(err, "reload: no event descriptor: %s", strerror(errno));
+    return r->event_fd >= 0;
 }
 
 static void *reload_main(void *argument)
 {
     struct reload *r = argument;
-    uint64_t one = 1;
 
     r->is_loaded = session_load(&r->fresh, r->options, clock_ns(), &r->error);
-    if (write(r->event_fd, &one, sizeof one) < 0) {
-        /* the counter is full: it is readable anyway */
-    }
+    event_fd_set(r->event_fd);
     return NULL;
 }
 
@@ -45,13 +40,9 @@ bool reload_begin(struct reload *r, struct error *err)
 
 bool reload_end(struct reload *r, struct session *fresh, struct error *err)
 {
-    uint64_t count;
-
     pthread_join(r->thread, NULL);
     r->is_busy = false;
-    if (read(r->event_fd, &count, sizeof count) < 0) {
-        /* nothing there: it was read before */
-    }
+    event_fd_clear(r->event_fd);
     *fresh = r->fresh;
     r->fresh = (struct session){0}; /* the caller owns it now */
     if (!r->is_loaded)

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "glim/render.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "glim/event_fd.h"
 #include "glim/projection.h"
 #include "glim/thread.h"
 
@@ -226,7 +225,6 @@ static enum pass_result run(struct render *r)
 static void *render_main(void *argument)
 {
     struct render *r = argument;
-    uint64_t one = 1;
 
     pthread_mutex_lock(&r->lock);
     for (;;) {
@@ -245,9 +243,7 @@ static void *render_main(void *argument)
                    : result == PASS_CANCELLED ? RENDER_IDLE
                                               : RENDER_FAILED;
         pthread_cond_broadcast(&r->end);
-        if (write(r->event_fd, &one, sizeof one) < 0) {
-            /* the counter is full: it is readable anyway */
-        }
+        event_fd_set(r->event_fd);
     }
     pthread_mutex_unlock(&r->lock);
     return NULL;
@@ -260,9 +256,8 @@ struct render *render_create(struct backend *backend, struct error *err)
     int reason;
 
     r->backend = backend;
-    r->event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    r->event_fd = event_fd_open("render", err);
     if (r->event_fd < 0) {
-        fail(err, "render: no event descriptor: %s", strerror(errno));
         free(r);
         return NULL;
     }

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "glim/saver.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "glim/event_fd.h"
 #include "glim/picture.h"
 #include "glim/thread.h"
 
 bool saver_init(struct saver *s, struct error *err)
 {
-    *s = (struct saver){.event_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
+    *s = (struct saver){.event_fd = event_fd_open("saver", err)};
     if (s->event_fd < 0)
-        return fail(err, "saver: no event descriptor: %s", strerror(errno));
+        return false;
     pthread_mutex_init(&s->lock, NULL);
     pthread_cond_init(&s->copied, NULL);
     return true;
@@ -47,7 +46,6 @@ static void *saver_main(void *argument)
     struct saver *s = argument;
     struct film copy = {0};
     bool ok = copy_film(&copy, s->film, &s->error);
-    uint64_t one = 1;
 
     pthread_mutex_lock(&s->lock);
     s->has_copied = true;
@@ -57,9 +55,7 @@ static void *saver_main(void *argument)
         s->name = picture_write_numbered(&copy, s->how, s->stem, s->ending,
                                          &s->error);
     film_free(&copy);
-    if (write(s->event_fd, &one, sizeof one) < 0) {
-        /* the counter is full: it is readable anyway */
-    }
+    event_fd_set(s->event_fd);
     return NULL;
 }
 
@@ -99,15 +95,11 @@ void saver_wait_copied(struct saver *s)
 
 char *saver_finish(struct saver *s, struct error *err)
 {
-    uint64_t count;
-
     pthread_join(s->thread, NULL);
     s->is_busy = false;
     free(s->stem);
     s->stem = NULL;
-    if (read(s->event_fd, &count, sizeof count) < 0) {
-        /* nothing there: it was read before */
-    }
+    event_fd_clear(s->event_fd);
     if (!s->name)
         *err = s->error;
     return s->name;

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Without a limit a path ends here; roulette ends it long before. */
-#define VERTICES_MAX 1000
+#include "glim/angle.h"
+#include "glim/channels.h"
 
 /* The sine of the angle below which `up` is parallel to the view. */
 #define PARALLEL 1e-6
@@ -20,7 +20,7 @@
 /* Half the field of view along the narrower side of the picture. */
 static double narrow_angle_rad(const struct view *view)
 {
-    double half = view->fovy_deg * M_PI / 360;
+    double half = angle_rad(view->fovy_deg) / 2;
 
     if (view->width_px < view->height_px)
         half = atan(tan(half) * view->width_px / view->height_px);
@@ -29,7 +29,7 @@ static double narrow_angle_rad(const struct view *view)
 
 void scene_frame(const struct scene *scene, struct view *view)
 {
-    double elevation = FRAME_ELEVATION_DEG * M_PI / 180;
+    double elevation = angle_rad(FRAME_ELEVATION_DEG);
     double radius = 0;
     double distance;
 
@@ -127,7 +127,7 @@ static void add_lens(const struct scene *scene, const struct view *view,
 static bool make_camera(const struct scene *scene, const struct view *view,
                         struct camera *camera, struct error *err)
 {
-    double tangent = tan(view->fovy_deg * M_PI / 360);
+    double tangent = tan(angle_rad(view->fovy_deg) / 2);
     double forward[3], right[3], up[3], eye[3];
 
     for (int k = 0; k < 3; k++) {
@@ -158,7 +158,7 @@ static bool make_camera(const struct scene *scene, const struct view *view,
 
 static struct sky make_sky(const struct scene *scene, const struct view *view)
 {
-    double angle = view->sky_rotation_deg * M_PI / 180;
+    double angle = angle_rad(view->sky_rotation_deg);
     double one[3] = {1, 1, 1};
     struct sky sky = {
         .color = scaled(view->background, 1),
@@ -179,8 +179,7 @@ bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
 {
     struct wide_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
     struct vec3 color = make_sky(scene, view).color;
-    double sky = ((double)color.x + (double)color.y + (double)color.z) / 3;
-
+    double sky = channels_mean(color);
     struct pool *pool;
     bool ok;
 
@@ -207,8 +206,9 @@ bool scene_world(const struct scene *scene, const struct view *view,
     lights_lend(&scene->lights, &w);
     sky_lend(&scene->sky_table, &w);
     guide_lend(&scene->guide, &w);
-    w.settings.max_vertices =
-        view->max_bounces < 0 ? VERTICES_MAX : (uint32_t)view->max_bounces + 1;
+    w.settings.max_vertices = view->max_bounces < 0
+                                  ? PATH_HARD_STOP
+                                  : (uint32_t)view->max_bounces + 1;
     w.settings.seed = seed;
     w.settings.features = scene_features(scene);
     if (!view_check(view, "camera", err) ||

@@ -12,8 +12,6 @@
 #include "glim/scene_world.h"
 #include "glim/view_file.h"
 
-#define SIDE_MAX 65536
-
 /* An overcast noon: bright enough for exposure 0, a little blue. */
 static const double soft_sky[3] = {0.7, 0.8, 0.9};
 
@@ -46,7 +44,7 @@ static int other_side(int side, int from, int to)
 {
     double other = round((double)side * to / from);
 
-    return other < 1.0 ? 1 : other > SIDE_MAX ? SIDE_MAX : (int)other;
+    return other < 1.0 ? 1 : other > VIEW_SIDE_MAX ? VIEW_SIDE_MAX : (int)other;
 }
 
 /* The command line wins over the view file. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "glim/channels.h"
 #include "kernels/sky.h"
 
 /* What is left of a constant sky after subtraction is rounding. */
@@ -18,12 +19,9 @@ struct image {
     uint32_t width, height;
 };
 
-/* The mean of the channels: errors of all three count alike. */
 static double radiance(const struct image *im, uint32_t x, uint32_t y)
 {
-    struct vec3 c = im->texels[(size_t)y * im->width + x];
-
-    return ((double)c.x + (double)c.y + (double)c.z) / 3;
+    return channels_mean(im->texels[(size_t)y * im->width + x]);
 }
 
 /* The mean of a linear interpolation over a texel is 3/4 of its own value and

@@ -174,8 +174,7 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
 
 void status_message(char text[STATUS_BYTES], int cols, const char *message)
 {
-    text[0] = '\0';
     if (cols > 0)
-        text[0] = ' ';
-    columns_cut(text + (cols > 0), STATUS_BYTES - 1, message, cols - 1);
+        *text++ = ' ';
+    columns_cut(text, STATUS_BYTES - 1, message, cols - 1);
 }

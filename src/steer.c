@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "glim/angle.h"
 #include "glim/camera.h"
 
 /* Through the whole scene in about three seconds. */
@@ -24,9 +25,6 @@
  * is far off is blurred by as many radians, less than a pixel. */
 #define APERTURE_LEAST    1e-3
 #define APERTURE_GREATEST 1.0
-
-#define PI_D        3.14159265358979323846
-#define RAD_PER_DEG (PI_D / 180)
 
 void steer_init(struct steer *s, const double lo[3], const double hi[3])
 {
@@ -95,7 +93,7 @@ static bool drag(struct steer *s, struct view *view, const struct event *e,
 {
     double right = (e->x - s->drag_x) * shape / fit->cols;
     double down = (double)(e->y - s->drag_y) / fit->rows;
-    double height_rad = view->fovy_deg * RAD_PER_DEG;
+    double height_rad = angle_rad(view->fovy_deg);
 
     s->drag_x = e->x;
     s->drag_y = e->y;
@@ -103,7 +101,7 @@ static bool drag(struct steer *s, struct view *view, const struct event *e,
         return false;
     s->has_dragged = true;
     if (s->drag_orbits)
-        camera_orbit(view, s->pivot, -right * PI_D, down * PI_D);
+        camera_orbit(view, s->pivot, -right * M_PI, down * M_PI);
     else
         camera_turn(view, right * height_rad, -down * height_rad);
     return true;

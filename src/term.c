@@ -21,9 +21,6 @@
 #define MOUSE_ON  "\033[?1002h\033[?1006h"
 #define MOUSE_OFF "\033[?1002l\033[?1006l"
 
-#define SYNC_BEGIN "\033[?2026h"
-#define SYNC_END   "\033[?2026l"
-
 /* Can it synchronize, how large is a cell, is it there, what is it. */
 #define QUESTIONS "\033[?2026$p\033[16t\033[5n\033[c"
 
@@ -39,7 +36,7 @@
 /* Everything that may be on, for the handlers of faults. Terminals skip what
  * they do not know. */
 static const char restore_text[] =
-    SYNC_END MOUSE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
+    TERM_SYNC_END MOUSE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
 
 static const int stop_signals[] = {SIGTERM, SIGHUP, SIGINT, SIGQUIT};
 static const int other_signals[] = {SIGTSTP, SIGCONT, SIGWINCH};
@@ -292,8 +289,8 @@ static void leave_screen(void)
 
 static void write_restoring(void)
 {
-    static const char text[] = SYNC_END MOUSE_OFF "\033[m";
-    size_t skip = term.has_sync ? 0 : sizeof SYNC_END - 1;
+    static const char text[] = TERM_SYNC_END MOUSE_OFF "\033[m";
+    size_t skip = term.has_sync ? 0 : sizeof TERM_SYNC_END - 1;
 
     must_stop = 0; /* this must get through */
     term_write(text + skip, sizeof text - 1 - skip);

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "glim/channels.h"
 #include "kernels/vec.h"
 
 bool tri_list_init(struct tri_list *l, uint32_t capacity)
@@ -68,5 +69,5 @@ double tri_power(const struct world *w, uint32_t tri)
 {
     struct vec3 e = w->materials[w->tris[tri].material].emission;
 
-    return tri_area(w, tri) * (((double)e.x + (double)e.y + (double)e.z) / 3);
+    return tri_area(w, tri) * channels_mean(e);
 }

@@ -9,6 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "glim/event_fd.h"
 #include "glim/panel_draw.h"
 #include "glim/question.h"
 #include "glim/stage.h"
@@ -297,15 +298,6 @@ static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
                    earlier(pilot_next_ns(&t->pilot), input_deadline_ns(t)));
 }
 
-static void empty_events(int fd)
-{
-    uint64_t count;
-
-    if (read(fd, &count, sizeof count) < 0) {
-        /* nothing there */
-    }
-}
-
 static void take_reload(struct tui *t)
 {
     struct selection_names names = selection_names(&t->stage.panel.selection);
@@ -327,9 +319,8 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
         take_signals(t);
     if (t->is_ending)
         return;
-    if (fds[2].revents) {
-        empty_events(fds[2].fd); /* work_look() sees what it says */
-    }
+    if (fds[2].revents)
+        event_fd_clear(fds[2].fd); /* work_look() sees what it says */
     if (fds[3].revents)
         work_finish_saving(&t->work);
     if (fds[4].revents)

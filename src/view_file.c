@@ -15,9 +15,6 @@
 /* Their squares and differences are still finite. */
 #define GREATEST 1e30
 
-/* As the command line: 65536 squared fits no memory, but is no nonsense. */
-#define SIDE_MAX 65536
-
 /* The neighbours of what fovy must not be. */
 #define FOVY_LEAST    1e-6
 #define FOVY_GREATEST 179.999999
@@ -58,7 +55,8 @@ static const struct key {
      "3 numbers from -1e30 to 1e30"},
     {"fovy", KEY_FOVY, 1, false, FOVY_LEAST, FOVY_GREATEST,
      "an angle above 0 and below 180 degrees"},
-    {"res", KEY_RES, 2, true, 1, SIDE_MAX, "2 whole numbers from 1 to 65536"},
+    {"res", KEY_RES, 2, true, 1, VIEW_SIDE_MAX,
+     "2 whole numbers from 1 to 65536"},
     {"background", KEY_BACKGROUND, 3, false, 0, GREATEST,
      "3 numbers from 0 to 1e30"},
     {"max_bounces", KEY_MAX_BOUNCES, 1, true, -1, INT_MAX,

@@ -33,10 +33,10 @@ struct backend {
     int thread_count;
     uint64_t tree_bytes; /* of what load() built, or found */
 
-    /* New geometry: builds what the ray queries need. That is *tree, of the
-     * world's triangles, for those that have no other, if it is not made yet.
-     * It and the arrays of the world must stay until the next load() or
-     * destroy(). */
+    /* New geometry: builds what the ray queries need. For backends that have
+     * none of their own this is *tree, which others may have built before. It
+     * and the arrays of the world must stay until the next load() or destroy().
+     */
     bool (*load)(struct backend *b, const struct world *world,
                  struct wide *tree, struct error *err);
 

@@ -18,7 +18,7 @@
  * at 80x24. */
 #define LEGEND_STEPS 6
 #define LEGEND_LINES (LEGEND_STEPS + 2)
-#define LEGEND_BYTES 160
+#define LEGEND_BYTES 256
 
 struct legend {
     char lines[LEGEND_LINES][LEGEND_BYTES];

@@ -8,8 +8,8 @@
  * the box around it does.
  *
  * Units:     any
- * Ownership: holds nothing
- * Threads:   safe
+ * Ownership: none
+ * Threads:   any
  * Errors:    none
  */
 #ifndef GLIM_PLANE_GRID_H

@@ -73,8 +73,10 @@ void term_relayout(void);
 
 void term_set_mouse(bool is_on);
 
-/* The terminal holds back what is written until the end. For terminals that
- * have said that they can. */
+/* Between them the terminal holds back what is written. For terminals that have
+ * said that they can. */
+#define TERM_SYNC_BEGIN "\033[?2026h"
+#define TERM_SYNC_END   "\033[?2026l"
 void term_use_sync(void);
 bool term_has_sync(void);
 

@@ -17,6 +17,10 @@
 /* Views that have a number: 1 to 9 in the file, from 0 here. */
 #define VIEW_SHOTS 9
 
+/* Neither side of a picture is longer: its square fits no memory, but is no
+ * nonsense. */
+#define VIEW_SIDE_MAX 65536
+
 /* The camera of a view: what moves, and what is undone. */
 struct pose {
     double eye[3], at[3], up[3];

@@ -38,6 +38,7 @@ void windows_close(void);
 
 enum window_look { WINDOW_PLAIN, WINDOW_SELECTED, WINDOW_TITLE, WINDOW_HINT };
 
+/* The columns of a panel, in characters of several bytes. */
 #define WINDOW_LINE_BYTES 256
 
 struct window_line {

@@ -137,7 +137,7 @@ static inline void mesh_finish(struct mesh *m)
     w->settings.material_count = MESH_MATERIALS;
     w->materials = m->materials;
     if (w->settings.max_vertices == 0)
-        w->settings.max_vertices = 1000;
+        w->settings.max_vertices = PATH_HARD_STOP;
     assert_true(bvh_build(&m->bvh, w, NULL, &err));
     w->nodes = m->bvh.nodes;
     w->leaf_tris = m->bvh.leaf_tris;

@@ -44,7 +44,10 @@ static void put_scene(void)
     put("s.view", view);
 }
 
+/* Pictures of one pixel: what is compared is what they are made from. */
 static struct options options = {.scene_path = "s.obj",
+                                 .width_px = 1,
+                                 .height_px = 1,
                                  .spp = 1,
                                  .max_bounces = -1,
                                  .thread_count = 1};
@@ -399,7 +402,6 @@ static void test_saved_files(void **state)
     session_close(&s);
 }
 
-/* Lines that name what is not there do nothing, and are kept. */
 /* The line about it names what was written, and no more. */
 static void test_what_was_saved(void **state)
 {
@@ -429,6 +431,7 @@ static void test_what_was_saved(void **state)
     session_close(&s);
 }
 
+/* Lines that name what is not there do nothing, and are kept. */
 static void test_lost_assignments(void **state)
 {
     struct session s;

@@ -201,7 +201,11 @@ static void test_hdr_errors(void **state)
     put_text("e.hdr", HDR_HEAD "-Y 1");
     both_fail("e.hdr", "e.hdr: expected '-Y height +X width'");
     put_text("e.hdr", HDR_HEAD "-Y nan +X 1\n1234");
-    both_fail("e.hdr", "e.hdr: expected '-Y height +X width'");
+    both_fail("e.hdr", "e.hdr: found a side of nan pixels, expected a whole");
+    put_text("e.hdr", HDR_HEAD "-Y 1.5 +X 1\n1234");
+    both_fail("e.hdr", "e.hdr: found a side of 1.5 pixels, expected a whole");
+    put_text("e.hdr", HDR_HEAD "-Y 1 +X 1.5\n1234");
+    both_fail("e.hdr", "e.hdr: found a side of 1.5 pixels, expected a whole");
     put_text("e.hdr", HDR_HEAD "-Y 99999 +X 99999\n1234");
     both_fail("e.hdr", "e.hdr: found 99999x99999 pixels, expected sides");
     put("e.hdr", no_end, sizeof no_end - 1);

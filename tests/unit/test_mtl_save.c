@@ -235,6 +235,44 @@ static void test_maps_come_back(void **state)
     free(old);
 }
 
+/* A backslash that ends a name never joins the next line to it. */
+static void test_backslashes(void **state)
+{
+    static const char on[] = "newmtl m\nmap_Kd a.png\\ \nNi 1\n";
+    static const char off[] = "newmtl m\n#map_Kd a.png\\ \nNi 1\n";
+    struct mtl_source without;
+    struct mtl_change change;
+    struct loaded l;
+    size_t size_bytes;
+    char *path = xformat("%s/a.mtl", folder);
+    char *image = xformat("%s/a.png\\", folder);
+    char *got;
+    struct error err;
+
+    (void)state;
+    assert_true(file_write(image, "", 0, false, NULL, &err));
+    load(&l, path, on, strlen(on));
+    without = l.scene.material_origins[1].source;
+    switch_map(&without);
+    change = (struct mtl_change){"m", NULL, &l.scene.material_origins[1].source,
+                                 &without};
+    got = rewrite(&l.scene, path, on, strlen(on), &change, 1, &size_bytes);
+    assert_string_equal(got, off);
+    free(got);
+    change.before = &without;
+    change.after = &l.scene.material_origins[1].source;
+    got = rewrite(&l.scene, path, off, strlen(off), &change, 1, &size_bytes);
+    assert_string_equal(got, on);
+    free(got);
+    got = rewrite(&l.scene, path, "newmtl m\n\nNi 1\n", 15, &change, 1,
+                  &size_bytes);
+    assert_string_equal(got, "newmtl m\n\nNi 1\nmap_Kd a.png\\ \n");
+    free(got);
+    unload(&l);
+    free(path);
+    free(image);
+}
+
 /* A duplicate has its pattern's unknown statements and comes last. */
 static void test_duplicates(void **state)
 {
@@ -546,6 +584,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_statements),
         cmocka_unit_test(test_maps_come_back),
+        cmocka_unit_test(test_backslashes),
         cmocka_unit_test(test_duplicates),
         cmocka_unit_test(test_names_end_in_backslashes),
         cmocka_unit_test(test_our_files),

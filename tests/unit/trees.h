@@ -2,7 +2,8 @@
 /*
  * trees.h - what any tree's ray queries must find: what brute force finds
  *
- * Include the queries first.
+ * hit_closest(), hits_closest() and hit_any() are those of the header that is
+ * included before this one.
  *
  * Units:     normalised scene units
  * Ownership: none
@@ -15,6 +16,8 @@
 #include "brute.h"
 #include "check.h"
 #include "mesh.h"
+
+#include "kernels/traverse_leaf.h"
 
 #include <math.h>
 #include <string.h>

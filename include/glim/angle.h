@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+/*
+ * angle.h - degrees for people, radians for sines
+ *
+ * Units:     as the names say
+ * Ownership: none
+ * Threads:   any
+ * Errors:    none
+ */
+#ifndef GLIM_ANGLE_H
+#define GLIM_ANGLE_H
+
+#include <math.h>
+
+static inline double angle_rad(double degrees)
+{
+    return degrees * M_PI / 180;
+}
+
+static inline double angle_deg(double radians)
+{
+    return radians * 180 / M_PI;
+}
+
+#endif
