@@ -121,11 +121,9 @@ static bool leave(const struct world *w, struct hit h, struct vec3 side,
     return true;
 }
 
-static bool is_glass(const struct world *w, uint32_t tri)
+static bool is_glass(const struct material *m)
 {
-    uint32_t kind = w->materials[w->tris[tri].material].kind;
-
-    return kind == MATERIAL_GLASS || kind == MATERIAL_THIN_GLASS;
+    return m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS;
 }
 
 /* Panes before the sky, or HIDDEN: *h is what is in the way, and h->tri
@@ -138,7 +136,7 @@ static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
     for (int i = 0; i <= PANES; i++) {
         if (!hit_closest(w, r, h))
             return i;
-        if (!is_glass(w, h->tri))
+        if (!is_glass(&w->materials[w->tris[h->tri].material]))
             return HIDDEN;
         if (!leave(w, *h, r.d, &r, &n))
             break;
@@ -350,8 +348,8 @@ static bool has_glass(const struct world *w)
 {
     bool has = false;
 
-    for (uint32_t i = 0; i < w->settings.tri_count && !has; i++)
-        has = is_glass(w, i);
+    for (uint32_t i = 0; i < w->settings.material_count && !has; i++)
+        has = is_glass(&w->materials[i]);
     return has;
 }
 
