@@ -23,8 +23,8 @@
 #define SHARE_GLAZED 0.25
 
 /* How often light samples of the sky are led to where it is seen. .75 leaves 4
- * to 8 % less variance in rooms, and as much more in an arcade and where a window
- * is smaller than a bin. */
+ * to 8 % less variance in rooms, and as much more in an arcade and where a
+ * window is smaller than a bin. */
 #define SHARE_SKY 0.5
 
 /* What brings less of the light is not worth its time: of caustics that is half

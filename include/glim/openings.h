@@ -11,8 +11,8 @@
  * whether that sees the sky, and of what colour it is.
  *
  * Measured: light samples that are led there leave .5 times the variance in
- * rooms of albedo .5, .7 times in one of .9, .35 under the image of a sky; paths
- * that are led behind panes .6 times; 30 ms of one thread.
+ * rooms of albedo .5, .7 times in one of .9, .35 under the image of a sky;
+ * paths that are led behind panes .6 times; 30 ms of one thread.
  *
  * Units:     normalised scene units; flux as the sky's part of the cosine
  *            weighted hemisphere
