@@ -2,15 +2,20 @@
 /*
  * guide.h - directions that light comes from which is hard to find
  *
- * What light samples cannot find, and chance rarely: caustics, and the sky
- * through windows. src/guide.c has traced some rays, and a grid over the scene
- * says for each way that surfaces face in each of its cubes how much came from
- * which of GUIDE_BINS directions (Jensen 1995, "Importance driven path
- * tracing using the photon map"). At what is diffuse a direction is drawn from
- * the cell with the probability that is the cell's share, else from the BSDF;
- * its density is that of the mixture (Vorba et al. 2014, "On-line learning of
- * parametric mixture models for light transport simulation", 5.2), so that any
- * table is right, and a good one fast.
+ * What chance finds rarely: caustics, and the sky through windows. src/guide.c
+ * has traced some rays, and a grid over the scene says for each way that
+ * surfaces face in each of its cubes how much came from which of GUIDE_BINS
+ * directions (Jensen 1995, "Importance driven path tracing using the photon
+ * map"). At what is diffuse a direction is drawn from the cell's table with the
+ * probability that is the table's share, else as elsewhere; its density is that
+ * of the mixture (Vorba et al. 2014, "On-line learning of parametric mixture
+ * models for light transport simulation", 5.2), so that any table is right, and
+ * a good one fast.
+ *
+ * What light samples can find they are led to, and paths only to the rest:
+ * caustics, and the sky behind panes. A path that is led to a window has left
+ * the room, and one that stays counts 1 / (1 - share) times as much at each
+ * vertex, which in a white room is many times more after the many it has there.
  *
  * Bins are the squares of an octahedral map, whose Jacobian needs no
  * trigonometry: on |x| + |y| + |z| = 1, seen along y, dw = (|x| + |y| + |z|)^3
@@ -63,13 +68,20 @@ static inline uint32_t guide_cell(const struct guide_grid *g, struct vec3 p,
            guide_facing(n);
 }
 
-/* Where in guide_sums those of the surface's cell are; NO_INDEX: it has none.
- */
-static inline uint32_t guide_at(const struct world *w, struct vec3 p,
-                                struct vec3 n)
+/* A cell without directions. */
+static inline struct guide_cell guide_none(void)
+{
+    struct guide_cell none = {NO_INDEX, NO_INDEX};
+
+    return none;
+}
+
+/* What the surface's cell has. */
+static inline struct guide_cell guide_at(const struct world *w, struct vec3 p,
+                                         struct vec3 n)
 {
     if (w->settings.guide.width == 0)
-        return NO_INDEX;
+        return guide_none();
     return w->guide_cells[guide_cell(&w->settings.guide, p, n)];
 }
 
@@ -117,47 +129,47 @@ static inline struct vec3 guide_direction(float x, float y)
     return v3_unit(v3(p.x, height, p.y));
 }
 
-/* How often, of one, the cell is asked: its last sum. */
-static inline float guide_share(const struct world *w, uint32_t cell)
+/* How often, of one, the table that begins at `first` is asked: its last sum.
+ */
+static inline float guide_share(const struct world *w, uint32_t first)
 {
-    return w->guide_sums[cell + GUIDE_BINS - 1];
+    return w->guide_sums[first + GUIDE_BINS - 1];
 }
 
-static inline float guide_sum_before(const struct world *w, uint32_t cell,
+static inline float guide_sum_before(const struct world *w, uint32_t first,
                                      uint32_t bin)
 {
-    return bin == 0 ? 0.0f : w->guide_sums[cell + bin - 1];
+    return bin == 0 ? 0.0f : w->guide_sums[first + bin - 1];
 }
 
-/* Density of guide_sample() at the unit vector d, times the cell's share. */
-static inline float guide_pdf(const struct world *w, uint32_t cell,
+/* Density of guide_sample() at the unit vector d, times the table's share. */
+static inline float guide_pdf(const struct world *w, uint32_t first,
                               struct vec3 d)
 {
     uint32_t bin = guide_bin(d);
     float norm = guide_norm(d);
 
-    return (w->guide_sums[cell + bin] - guide_sum_before(w, cell, bin)) *
+    return (w->guide_sums[first + bin] - guide_sum_before(w, first, bin)) *
            (0.25f * (float)GUIDE_BINS) / (norm * norm * norm);
 }
 
-/* How much more often the BSDF, or whatever else is asked in the other cases,
- * draws the unit vector d, where its density is pdf, than the mixture of it and
- * the cell does. */
-static inline float guide_ratio(const struct world *w, uint32_t cell,
-                                struct vec3 d, float pdf)
+/* Density at the unit vector d of the mixture of the table and of what is asked
+ * in the other cases, where that has density pdf. */
+static inline float guide_mixed_pdf(const struct world *w, uint32_t first,
+                                    struct vec3 d, float pdf)
 {
-    return pdf / ((1.0f - guide_share(w, cell)) * pdf + guide_pdf(w, cell, d));
+    return (1.0f - guide_share(w, first)) * pdf + guide_pdf(w, first, d);
 }
 
-/* What is left of u.x, no less than the cell's share, for the other cases. */
+/* What is left of u.x, no less than the table's share, for the other cases. */
 static inline struct vec2 guide_rest(struct vec2 u, float share)
 {
     u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);
     return u;
 }
 
-/* A direction for u.x below the cell's share. */
-static inline struct vec3 guide_sample(const struct world *w, uint32_t cell,
+/* A direction for u.x below the table's share. */
+static inline struct vec3 guide_sample(const struct world *w, uint32_t first,
                                        struct vec2 u)
 {
     uint32_t bin = 0;
@@ -165,10 +177,10 @@ static inline struct vec3 guide_sample(const struct world *w, uint32_t cell,
 
     /* the first bin whose sum is above u.x */
     for (uint32_t jump = GUIDE_BINS / 2; jump > 0; jump /= 2)
-        if (w->guide_sums[cell + bin + jump - 1] <= u.x)
+        if (w->guide_sums[first + bin + jump - 1] <= u.x)
             bin += jump;
-    before = guide_sum_before(w, cell, bin);
-    part = f_min((u.x - before) / (w->guide_sums[cell + bin] - before), 1.0f);
+    before = guide_sum_before(w, first, bin);
+    part = f_min((u.x - before) / (w->guide_sums[first + bin] - before), 1.0f);
     return guide_direction((float)(bin % GUIDE_SIDE) + part,
                            (float)(bin / GUIDE_SIDE) + u.y);
 }
@@ -178,18 +190,18 @@ static inline struct vec3 guide_sample(const struct world *w, uint32_t cell,
  * *scale is multiplied by the BSDF's density over the mixture's: roulette would
  * end the paths that were worth finding, and weights of light samples need no
  * look-up, for those of any two densities sum to 1. */
-static inline bool guide_scatter(const struct world *w, uint32_t cell,
+static inline bool guide_scatter(const struct world *w, uint32_t first,
                                  const struct vertex *v, const struct bsdf *b,
                                  struct vec3 wo, struct vec2 u, float choice,
                                  struct bsdf_sample *s, struct vec3 *wi,
                                  float *scale)
 {
-    float share = guide_share(w, cell);
+    float share = guide_share(w, first);
     struct vec3 drawn, f;
     float pdf;
 
     if (u.x < share) {
-        *wi = guide_sample(w, cell, u);
+        *wi = guide_sample(w, first, u);
         drawn = vertex_to_local(v, *wi);
         f = bsdf_terms(b, wo, drawn, &pdf);
         if (!sample_density(s, drawn, f, pdf))
@@ -202,7 +214,7 @@ static inline bool guide_scatter(const struct world *w, uint32_t cell,
     if (s->is_delta)
         *scale /= 1.0f - share;
     else
-        *scale *= guide_ratio(w, cell, *wi, s->pdf);
+        *scale *= s->pdf / guide_mixed_pdf(w, first, *wi, s->pdf);
     return vertex_sides_agree(v, *wi, s->wi.z);
 }
 

@@ -24,8 +24,7 @@
 
 struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
-    struct vec3 radiance; /* that comes along it if nothing is in the way, by
-                             how much rarer it is drawn than pdf says */
+    struct vec3 radiance; /* that comes along it if nothing is in the way */
     float pdf;            /* of wi per solid angle; above 0 and finite */
     uint32_t tri;         /* NO_INDEX: the sky */
     struct vec3 p;        /* on the triangle */
@@ -169,10 +168,12 @@ static inline float sky_cosine_pdf(const struct receiver *r, struct vec3 wi)
 
 /* Radiance of the sky in direction wi, a unit vector, and the density of
  * light_sample() there. Without a table the sky is drawn by the cosine at the
- * receiver: another look at what is open beside the path's own. */
+ * receiver: another look at what is open beside the path's own. `first` is the
+ * receiver's table of the guide, which is asked as well, or NO_INDEX. */
 static inline struct vec3 sky_light_terms(const struct world *w,
                                           const struct receiver *r,
-                                          struct vec3 wi, float *pdf)
+                                          uint32_t first, struct vec3 wi,
+                                          float *pdf)
 {
     struct vec3 radiance;
 
@@ -182,45 +183,38 @@ static inline struct vec3 sky_light_terms(const struct world *w,
         radiance = sky_radiance(w, wi);
         *pdf = sky_cosine_pdf(r, wi);
     }
+    if (HAS(FEATURE_GUIDE) && first != NO_INDEX)
+        *pdf = guide_mixed_pdf(w, first, wi, *pdf);
     *pdf *= w->settings.sky_share;
     return radiance;
 }
 
-/* A direction to the sky, and how much more often sky_light_terms() says that
- * it is drawn than it is: where there is no table the cell of the guide is
- * asked as well, if there is one. As in guide_scatter(), weights need not know.
- */
+/* A direction to the sky. */
 static inline struct vec3 sky_direction(const struct world *w,
-                                        const struct receiver *r, uint32_t cell,
-                                        struct vec2 u, float *ratio)
+                                        const struct receiver *r,
+                                        uint32_t first, struct vec2 u)
 {
-    struct vec3 wi;
-    float share;
+    if (HAS(FEATURE_GUIDE) && first != NO_INDEX) {
+        float share = guide_share(w, first);
 
-    *ratio = 1.0f;
-    if (sky_has_table(w))
-        return sky_sample(w, u);
-    if (!HAS(FEATURE_GUIDE) || cell == NO_INDEX)
-        return cosine_around(r->n, u);
-    share = guide_share(w, cell);
-    wi = u.x < share ? guide_sample(w, cell, u)
-                     : cosine_around(r->n, guide_rest(u, share));
-    *ratio = guide_ratio(w, cell, wi, sky_cosine_pdf(r, wi));
-    return wi;
+        if (u.x < share)
+            return guide_sample(w, first, u);
+        u = guide_rest(u, share);
+    }
+    return sky_has_table(w) ? sky_sample(w, u) : cosine_around(r->n, u);
 }
 
 /* A direction towards a light; false if there is none to sample here, or by
- * choice.x not this time. `cell` is the receiver's in the guide, or NO_INDEX.
- * Whether it is above the surface and free is for the caller to find. */
+ * choice.x not this time. `first` is the receiver's table of the guide, or
+ * NO_INDEX. Whether it is above the surface and free is for the caller to find.
+ */
 static inline bool light_sample(const struct world *w, const struct receiver *r,
-                                uint32_t cell, struct vec2 point,
+                                uint32_t first, struct vec2 point,
                                 struct vec2 choice, struct light_sample *s)
 {
     if (choice.x < w->settings.sky_share) {
-        float ratio;
-
-        s->wi = sky_direction(w, r, cell, point, &ratio);
-        s->radiance = v3_scale(sky_light_terms(w, r, s->wi, &s->pdf), ratio);
+        s->wi = sky_direction(w, r, first, point);
+        s->radiance = sky_light_terms(w, r, first, s->wi, &s->pdf);
         s->tri = NO_INDEX;
         s->p = r->p;
         return s->pdf > 0.0f;

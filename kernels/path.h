@@ -48,8 +48,8 @@ struct path {
     struct vec3 beta; /* what radiance that comes along the ray counts, */
     float scale;      /* apart from this, which roulette does not see */
     float pdf;        /* of the ray's direction; 0: no light sample has it */
-    struct receiver from; /* where the ray began, if pdf is not 0 */
-    uint32_t cell;        /* there of the guide, or NO_INDEX */
+    struct receiver from;   /* where the ray began, if pdf is not 0 */
+    struct guide_cell cell; /* there of the guide */
     struct path_sample out;
 };
 
@@ -131,9 +131,10 @@ static inline float light_weight(const struct world *w, float light_pdf,
 static inline void path_add_sky(const struct world *w, struct path *p)
 {
     float pdf = 0.0f;
-    struct vec3 radiance = p->pdf > 0.0f
-                               ? sky_light_terms(w, &p->from, p->ray.d, &pdf)
-                               : sky_radiance(w, p->ray.d);
+    struct vec3 radiance =
+        p->pdf > 0.0f
+            ? sky_light_terms(w, &p->from, p->cell.sky, p->ray.d, &pdf)
+            : sky_radiance(w, p->ray.d);
 
     path_add(p, radiance, chance_weight(w, p->pdf, pdf));
 }
@@ -203,7 +204,7 @@ path_choose_light(const struct world *w, const struct path *p,
 
     l->radiance = v3(0.0f, 0.0f, 0.0f);
     if (!wants_light_sample(w, b) ||
-        !light_sample(w, &p->from, p->cell,
+        !light_sample(w, &p->from, p->cell.sky,
                       path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
                       path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &l->at))
         return false;
@@ -268,9 +269,9 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (HAS(FEATURE_GUIDE) && p->cell != NO_INDEX) {
-        if (!guide_scatter(w, p->cell, v, b, wo, direction, choice, &s, &wi,
-                           &p->scale))
+    if (HAS(FEATURE_GUIDE) && p->cell.ways != NO_INDEX) {
+        if (!guide_scatter(w, p->cell.ways, v, b, wo, direction, choice, &s,
+                           &wi, &p->scale))
             return false;
     } else if (!vertex_scatter(v, b, wo, direction, choice, &s, &wi)) {
         /* clear glass whose normal leans loses nothing: its face bends what
@@ -341,7 +342,7 @@ static inline bool path_step(const struct world *w, struct path *p,
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
-    p->cell = NO_INDEX;
+    p->cell = guide_none();
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
     /* The next ray waits for neither the light nor its shadow ray: drawn before

@@ -22,7 +22,8 @@ __kernel void trace_paths(
     __global const struct leaf_tri *leaf_tris,
     __global const struct light *lights, __global const uint *tri_lights,
     __global const struct light_node *light_nodes,
-    __global const float *sky_sums, __global const uint *guide_cells,
+    __global const float *sky_sums,
+    __global const struct guide_cell *guide_cells,
     __global const float *guide_sums)
 {
     uint i = (uint)get_global_id(0);

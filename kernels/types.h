@@ -166,7 +166,13 @@ struct guide_grid {
     struct vec3 lo; /* the box's corner */
     float cells_a_unit;
     uint32_t width, height, depth; /* cells; 0: there is no grid */
-    uint32_t cell_count;           /* with directions */
+    uint32_t table_count;          /* of directions that cells have */
+};
+
+/* Where in guide_sums a cell's directions begin; NO_INDEX: it has none. */
+struct guide_cell {
+    uint32_t ways; /* for a path to go on, */
+    uint32_t sky;  /* and for light samples of the sky */
 };
 
 /* How light is gathered where a path could meet it by chance as well. The
@@ -245,9 +251,9 @@ struct world {
     GLOBAL const struct light *lights;
     GLOBAL const uint32_t *tri_lights;           /* NO_INDEX where it is dark */
     GLOBAL const struct light_node *light_nodes; /* none for one light */
-    GLOBAL const float *sky_sums;       /* see kernels/sky.h; none: no table */
-    GLOBAL const uint32_t *guide_cells; /* see kernels/guide.h */
-    GLOBAL const float *guide_sums;     /* GUIDE_BINS for each of these */
+    GLOBAL const float *sky_sums; /* see kernels/sky.h; none: no table */
+    GLOBAL const struct guide_cell *guide_cells; /* see kernels/guide.h */
+    GLOBAL const float *guide_sums; /* GUIDE_BINS of each table there */
 };
 
 struct ray {

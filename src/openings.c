@@ -5,10 +5,12 @@
 #include <stdlib.h>
 
 #include "glim/tri_list.h"
+#include "glim/wide_hit.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"
 #include "kernels/sample.h"
+#include "kernels/texture.h"
 
 /* On surfaces, by area, on either side; and looks from each. */
 #define PLACES 4096u
@@ -26,11 +28,11 @@
 #define AIMS 32u
 
 /* Panes of glass that are looked through, as if they did not bend. */
-#define PANES 4
+#define PANES  4
+#define HIDDEN (-1)
 
-/* The rest of the light as a multiple of its first bounce. Measured in a room:
- * 1 to 3 leave the same error within 8 %. */
-#define BOUNCES 2.0
+/* All bounces as a multiple of the first, in a white room without a way out. */
+#define BOUNCES_MOST 1000.0
 
 /* So many of the mean of all cells are added to a cell's, which may be few. */
 #define MEAN_BOUNCES 16.0
@@ -50,6 +52,7 @@ enum decision {
 
 /* On a side of a surface, not in the open. */
 struct place {
+    struct hit at;
     struct ray ray; /* from there, anywhere */
     struct vec3 n;
     uint32_t cell;
@@ -74,12 +77,13 @@ struct looks {
 struct beam {
     uint32_t bin;
     float flux;
+    bool is_glazed; /* came through panes */
 };
 
 struct search {
     const struct wide_world *w;
     const struct guide_grid *grid;
-    struct guide_part *part;
+    struct openings *found;
     struct tri_list surfaces;
     struct looks *looks;  /* of all places */
     struct place *places; /* those that are not in the open */
@@ -117,29 +121,28 @@ static bool leave(const struct world *w, struct hit h, struct vec3 side,
     return true;
 }
 
-static bool is_glass(const struct world *w, uint32_t tri)
+static bool is_glass(const struct material *m)
 {
-    uint32_t kind = w->materials[w->tris[tri].material].kind;
-
-    return kind == MATERIAL_GLASS || kind == MATERIAL_THIN_GLASS;
+    return m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS;
 }
 
-/* If not, *h is what is in the way, and h->tri NO_INDEX for too many panes. */
-static bool sees_sky(const struct world *w, struct ray r, struct hit *h)
+/* Panes before the sky, or HIDDEN: *h is what is in the way, and h->tri
+ * NO_INDEX for too many panes. */
+static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
 {
     struct vec3 n;
 
     r.t_max = FLOAT_MAX;
     for (int i = 0; i <= PANES; i++) {
         if (!hit_closest(w, r, h))
-            return true;
-        if (!is_glass(w, h->tri))
-            return false;
+            return i;
+        if (!is_glass(&w->materials[w->tris[h->tri].material]))
+            return HIDDEN;
         if (!leave(w, *h, r.d, &r, &n))
             break;
     }
     h->tri = NO_INDEX;
-    return false;
+    return HIDDEN;
 }
 
 /* Does what the look has met see the sky, in a direction by chance? */
@@ -152,7 +155,7 @@ static bool is_lit(const struct world *w, struct ray look_ray, struct hit h,
     if (h.tri == NO_INDEX || !leave(w, h, v3_neg(look_ray.d), &r, &n))
         return false;
     r.d = cosine_around(n, number(i, DECISION_BOUNCE));
-    return sees_sky(w, r, &h);
+    return panes_to_sky(w, r, &h) != HIDDEN;
 }
 
 static struct mark leave_box(const struct guide_grid *g, struct ray r)
@@ -184,7 +187,7 @@ static void look(const struct search *s, struct looks *l, uint32_t k)
     bool is_blocked;
 
     r->d = cosine_around(l->place.n, number(k, DECISION_LOOK));
-    is_blocked = !sees_sky(w, *r, &met);
+    is_blocked = panes_to_sky(w, *r, &met) == HIDDEN;
     if (!is_blocked && l->seen++ < OPEN_LOOKS)
         l->marks[l->seen - 1] = leave_box(s->grid, *r);
     if (k % BOUNCE_EVERY == 0) {
@@ -196,15 +199,15 @@ static void look(const struct search *s, struct looks *l, uint32_t k)
 static void look_around(void *context, uint32_t i, int worker)
 {
     const struct search *s = context;
-    struct hit at = triangle_point(number(i, DECISION_POINT));
     struct vec2 side = number(i, DECISION_SIDE);
     struct looks *l = &s->looks[i];
     struct place *p = &l->place;
 
     (void)worker;
-    at.tri = tri_list_choose(&s->surfaces, number(i, DECISION_TRI).x);
+    p->at = triangle_point(number(i, DECISION_POINT));
+    p->at.tri = tri_list_choose(&s->surfaces, number(i, DECISION_TRI).x);
     p->ray.key = hash_u32(i);
-    l->is_there = leave(&s->w->world, at,
+    l->is_there = leave(&s->w->world, p->at,
                         guide_direction(side.x * (float)GUIDE_SIDE,
                                         side.y * (float)GUIDE_SIDE),
                         &p->ray, &p->n);
@@ -242,14 +245,19 @@ static struct beam aim_at(const struct search *s, const struct place *p,
     struct vec3 d = v3_sub(m->at, p->ray.o);
     float distance2 = v3_dot(d, d), cosine;
     struct ray r = p->ray;
-    struct beam b = {0, 0.0f};
+    struct beam b = {0, 0.0f, false};
     struct hit met;
+    int panes;
 
     if (!(distance2 > 0.0f))
         return b;
     r.d = v3_unit(d);
     cosine = v3_dot(r.d, p->n);
-    if (cosine > 0.0f && sees_sky(&s->w->world, r, &met)) {
+    if (!(cosine > 0.0f))
+        return b;
+    panes = panes_to_sky(&s->w->world, r, &met);
+    if (panes != HIDDEN) {
+        b.is_glazed = panes > 0;
         b.bin = guide_bin(r.d);
         b.flux =
             cosine * fabsf(v3_axis(r.d, m->axis)) / (distance2 + cell * cell);
@@ -273,9 +281,12 @@ static void aim(void *context, uint32_t i, int worker)
 static void add_beams(struct search *s)
 {
     for (uint32_t k = 0; k < s->place_count * AIMS; k++) {
+        const struct beam *b = &s->beams[k];
+        struct guide_part *part =
+            b->is_glazed ? &s->found->glazed : &s->found->open;
         size_t cell = s->places[k / AIMS].cell;
 
-        s->part->flux[cell * GUIDE_BINS + s->beams[k].bin] += s->beams[k].flux;
+        part->flux[cell * GUIDE_BINS + b->bin] += b->flux;
     }
 }
 
@@ -288,40 +299,68 @@ static double sum_of(const float *numbers, size_t count)
     return sum;
 }
 
-/* What other light a cell has where its openings bring e: what bounces, and
- * all of it at its places in the open, which are not to be led there. `lit` is
- * the part of all bounces that saw the sky. */
-static double rest_of(const struct search *s, uint32_t cell, double e,
-                      double lit)
+/* From sums to means of the cell's enclosed places; `scale` is for the flux.
+ * Other light is what bounces, and all of it at the cell's places in the open,
+ * which are not to be led there. */
+static void finish_cell(struct search *s, uint32_t cell, double scale)
 {
-    double bounced = BOUNCES * ((double)s->lit[cell] + MEAN_BOUNCES * lit) /
-                     ((double)s->bounces[cell] + MEAN_BOUNCES);
+    struct openings *o = s->found;
+    struct guide_part *parts[2] = {&o->open, &o->glazed};
+    double all = (double)s->tried[cell] / (double)s->enclosed[cell];
+    double totals[2] = {0, 0};
 
-    return (e + bounced) * (double)s->tried[cell] / (double)s->enclosed[cell] -
-           e;
+    for (int i = 0; i < 2 && parts[i]->flux != NULL; i++) {
+        float *flux = parts[i]->flux + (size_t)cell * GUIDE_BINS;
+
+        for (uint32_t k = 0; k < GUIDE_BINS; k++)
+            flux[k] *= (float)(scale / (double)s->enclosed[cell]);
+        totals[i] = guide_part_total(parts[i], cell);
+    }
+    for (int i = 0; i < 2 && parts[i]->flux != NULL; i++)
+        parts[i]->rest[cell] =
+            (float)(all * (totals[0] + totals[1]) - totals[i]);
+    o->bounced[cell] =
+        (float)(all * ((double)s->lit[cell] + MEAN_BOUNCES * o->escape) /
+                ((double)s->bounces[cell] + MEAN_BOUNCES));
 }
 
-/* Makes sums to means of the cells' enclosed places: all aims have found as
- * much of the sky as all looks. */
+/* All aims have found as much of the sky as all looks. */
 static void finish(struct search *s)
 {
+    struct openings *o = s->found;
     uint32_t count = guide_cell_count(s->grid);
     double found = (double)s->mark_count / LOOKS;
-    double arrived = sum_of(s->part->flux, (size_t)count * GUIDE_BINS);
-    double lit = sum_of(s->lit, count) / sum_of(s->bounces, count);
+    double arrived = sum_of(o->open.flux, (size_t)count * GUIDE_BINS);
 
+    if (o->glazed.flux != NULL)
+        arrived += sum_of(o->glazed.flux, (size_t)count * GUIDE_BINS);
     if (!(arrived > 0))
         return;
-    for (uint32_t i = 0; i < count; i++) {
-        float *flux = s->part->flux + (size_t)i * GUIDE_BINS;
+    o->escape = sum_of(s->lit, count) / sum_of(s->bounces, count);
+    for (uint32_t i = 0; i < count; i++)
+        if (s->enclosed[i] > 0.0f)
+            finish_cell(s, i, found / arrived);
+    for (uint32_t i = 0; i < s->place_count; i++)
+        o->walls[o->wall_count++] = s->places[i].at;
+}
 
-        if (s->enclosed[i] == 0.0f)
-            continue;
-        for (uint32_t k = 0; k < GUIDE_BINS; k++)
-            flux[k] *= (float)(found / arrived / (double)s->enclosed[i]);
-        s->part->rest[i] =
-            (float)rest_of(s, i, guide_part_total(s->part, i), lit);
-    }
+static bool has_glass(const struct world *w)
+{
+    bool has = false;
+
+    for (uint32_t i = 0; i < w->settings.material_count && !has; i++)
+        has = is_glass(&w->materials[i]);
+    return has;
+}
+
+static bool openings_init(struct openings *o, const struct wide_world *w,
+                          const struct guide_grid *grid)
+{
+    o->bounced = alloc_array(guide_cell_count(grid), sizeof *o->bounced);
+    o->walls = alloc_array(PLACES, sizeof *o->walls);
+    return o->bounced != NULL && o->walls != NULL &&
+           guide_part_init(&o->open, grid) &&
+           (!has_glass(&w->world) || guide_part_init(&o->glazed, grid));
 }
 
 static bool search_init(struct search *s)
@@ -361,10 +400,10 @@ static void find(struct search *s, struct pool *pool)
 }
 
 bool openings_find(const struct wide_world *w, const struct guide_grid *grid,
-                   struct pool *pool, struct guide_part *part)
+                   struct pool *pool, struct openings *openings)
 {
-    struct search s = {.w = w, .grid = grid, .part = part};
-    bool ok = search_init(&s);
+    struct search s = {.w = w, .grid = grid, .found = openings};
+    bool ok = openings_init(openings, w, grid) && search_init(&s);
 
     if (ok)
         find(&s, pool);
@@ -378,4 +417,35 @@ bool openings_find(const struct wide_world *w, const struct guide_grid *grid,
     free(s.bounces);
     free(s.lit);
     return ok;
+}
+
+static double color_at(const struct world *w, struct hit h)
+{
+    struct tri t = w->tris[h.tri];
+    const struct material *m = &w->materials[t.material];
+    struct vec3 c = m->color;
+
+    if (m->color_texture != NO_INDEX && t.vt[0] != NO_INDEX)
+        c = v3_mul(c, texture_at(w, m->color_texture, uv_at(w, t, h)).color);
+    return ((double)c.x + (double)c.y + (double)c.z) / 3;
+}
+
+/* As between walls that all see each other alike: of what leaves them some
+ * escapes, and of the rest they return their colour's part. */
+double openings_bounces(const struct openings *o, const struct world *w)
+{
+    double color = 0;
+
+    for (uint32_t i = 0; i < o->wall_count; i++)
+        color += color_at(w, o->walls[i]) / o->wall_count;
+    return color / fmax(1 - color * (1 - o->escape), 1 / BOUNCES_MOST);
+}
+
+void openings_free(struct openings *o)
+{
+    guide_part_free(&o->open);
+    guide_part_free(&o->glazed);
+    free(o->bounced);
+    free(o->walls);
+    *o = (struct openings){.bounced = NULL};
 }

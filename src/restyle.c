@@ -310,6 +310,7 @@ bool scene_restyle(struct scene *scene, const struct style *style,
     }
     if (needs_guide(scene, &next))
         guide_outdate(&scene->guide);
+    guide_recolor(&scene->guide);
     swap_in(scene, style, &next);
     take_sources(scene, style);
     scene_find_emitters(scene);

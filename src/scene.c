@@ -412,7 +412,7 @@ uint32_t scene_features(const struct scene *scene)
 {
     uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
 
-    if (scene->guide.grid.cell_count > 0)
+    if (scene->guide.grid.table_count > 0)
         features |= FEATURE_GUIDE;
     for (uint32_t i = 0; i < scene->material_count; i++)
         if (scene->material_is_used[i])

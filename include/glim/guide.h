@@ -4,8 +4,8 @@
  *
  * Caustics (caustics.h), and the sky where it is seen through openings
  * (openings.h). The table only says where to look, kernels/guide.h weighs what
- * is found: that it is made of few rays and has no textures costs time and no
- * truth. A function of the scene and its sky, not of the eye.
+ * is found: that it is made of few rays costs time and no truth. A function of
+ * the scene and its sky, not of the eye.
  *
  * Units:     normalised scene units, radiance
  * Ownership: guide_free() frees; a zeroed struct is a scene without a table
@@ -16,16 +16,17 @@
 #ifndef GLIM_GUIDE_H
 #define GLIM_GUIDE_H
 
-#include "glim/guide_part.h"
+#include "glim/openings.h"
 #include "glim/util.h"
-#include "glim/wide.h"
 
 struct guide {
-    uint32_t *cells; /* as kernels/guide.h reads them; NULL: there are none */
+    struct guide_cell
+        *cells; /* as kernels/guide.h reads them; NULL: there are none */
     float *sums;
     struct guide_grid grid;
     /* what they are made of */
-    struct guide_part caustics, openings; /* NULL: not searched for */
+    struct guide_part caustics; /* NULL: not searched for */
+    struct openings openings;
     double lights; /* mean radiance that all lights would shed on a box */
     double sky;    /* that the cells suit */
     bool is_current;
@@ -45,7 +46,10 @@ bool guide_update(struct guide *guide, const struct wide_world *world,
 /* The world is another. */
 void guide_outdate(struct guide *guide);
 
-/* Of two materials: would the table be another? */
+/* Only colours are. */
+void guide_recolor(struct guide *guide);
+
+/* Of two materials: would the rays meet or do anything else? */
 bool guides_differ(const struct material *a, const struct material *b);
 
 /* Lends the table to the world. */

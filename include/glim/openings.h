@@ -8,26 +8,43 @@
  * place rays are aimed at these marks: what arrives is counted. As the table
  * decides only where to look, marks lie simply where looks left the box around
  * the scene. What else lights a place is guessed from what its looks have met:
- * whether that sees the sky.
+ * whether that sees the sky, and of what colour it is.
  *
- * Measured: .58 times the error in a room with a window, .70 times in an
- * arcade; 30 ms of one thread.
+ * Measured: light samples that are led there leave .5 times the variance in
+ * rooms of albedo .5, .7 times in one of .9, .35 under the image of a sky;
+ * paths that are led behind panes .6 times; 30 ms of one thread.
  *
  * Units:     normalised scene units; flux as the sky's part of the cosine
  *            weighted hemisphere
- * Ownership: the caller's, also if it fails
- * Threads:   those of the pool, or without one the caller's
- * Errors:    memory, by false
+ * Ownership: openings_free() frees, also if the search fails; a zeroed struct
+ * is one that was not made Threads:   those of the pool, or without one the
+ * caller's Errors:    memory, by false
  */
 #ifndef GLIM_OPENINGS_H
 #define GLIM_OPENINGS_H
 
 #include "glim/guide_part.h"
 #include "glim/pool.h"
-#include "glim/wide_hit.h"
+#include "glim/wide.h"
+
+struct openings {
+    struct guide_part open;   /* for light samples; NULL: not searched for */
+    struct guide_part glazed; /* behind panes, where none of these arrive; NULL:
+                                 there is no glass */
+    float *bounced; /* of each cell: what comes by one wall if all are white */
+    struct hit *walls; /* some places of surfaces that are not in the open */
+    uint32_t wall_count;
+    double escape; /* how much of what leaves a wall meets no other */
+};
 
 /* The sky shines 1 from everywhere. */
 bool openings_find(const struct wide_world *w, const struct guide_grid *grid,
-                   struct pool *pool, struct guide_part *part);
+                   struct pool *pool, struct openings *openings);
+
+/* All light that comes by walls as a multiple of `bounced`: the walls' colours
+ * may be others than when they were found. */
+double openings_bounces(const struct openings *openings, const struct world *w);
+
+void openings_free(struct openings *openings);
 
 #endif

@@ -62,7 +62,7 @@ static double time_samples(const struct world *w, double *pdf_ns)
         if (samples[i].tri != NO_INDEX)
             pdf = light_pdf_at(w, &r, samples[i].tri, samples[i].p);
         else
-            sky_light_terms(w, &r, samples[i].wi, &pdf);
+            sky_light_terms(w, &r, NO_INDEX, samples[i].wi, &pdf);
         total += pdf;
     }
     *pdf_ns = ns_since(begin_ns);

@@ -17,7 +17,7 @@ static inline float sky_light_pdf(const struct world *w,
 {
     float pdf;
 
-    sky_light_terms(w, r, wi, &pdf);
+    sky_light_terms(w, r, NO_INDEX, wi, &pdf);
     return pdf;
 }
 

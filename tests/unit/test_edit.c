@@ -105,10 +105,10 @@ static void check_same_scene(const struct scene *a, const struct scene *b)
     if (a->lights.node_count > 0)
         assert_memory_equal(a->lights.nodes, b->lights.nodes,
                             a->lights.node_count * sizeof *a->lights.nodes);
-    assert_int_equal(a->guide.grid.cell_count, b->guide.grid.cell_count);
-    if (a->guide.grid.cell_count > 0)
+    assert_int_equal(a->guide.grid.table_count, b->guide.grid.table_count);
+    if (a->guide.grid.table_count > 0)
         assert_memory_equal(a->guide.sums, b->guide.sums,
-                            a->guide.grid.cell_count * sizeof(float) *
+                            a->guide.grid.table_count * sizeof(float) *
                                 GUIDE_BINS);
     assert_int_equal(scene_features(a), scene_features(b));
     assert_int_equal(a->has_emitters, b->has_emitters);

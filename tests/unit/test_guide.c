@@ -16,7 +16,7 @@
  * have surfaces that face down. Half of the bins are empty, the others differ
  * by up to 100 times. */
 struct table {
-    uint32_t cells[8 * GUIDE_FACINGS];
+    struct guide_cell cells[8 * GUIDE_FACINGS];
     float sums[7 * GUIDE_BINS];
     struct guide guide;
 };
@@ -40,8 +40,10 @@ static void table_init(struct table *t, double share, uint64_t seed)
     }
     for (uint32_t i = 0; i < 8 * GUIDE_FACINGS; i++) {
         bool has_none = i / GUIDE_FACINGS == 7 || i % GUIDE_FACINGS == 3;
+        uint32_t first = i / GUIDE_FACINGS * GUIDE_BINS;
 
-        t->cells[i] = has_none ? NO_INDEX : i / GUIDE_FACINGS * GUIDE_BINS;
+        t->cells[i] =
+            has_none ? guide_none() : (struct guide_cell){first, first};
     }
     t->guide = (struct guide){
         .grid = {.lo = {-1, -1, -1}, .cells_a_unit = 1, 2, 2, 2, 7},
@@ -129,6 +131,16 @@ static void density_and_samples(void **state)
     check_at_most(chi2, degrees + 5 * sqrt(2.0 * degrees));
 }
 
+static uint32_t ways_at(const struct world *w, struct vec3 p, struct vec3 n)
+{
+    return guide_at(w, p, n).ways;
+}
+
+static uint32_t sky_at(const struct world *w, struct vec3 p, struct vec3 n)
+{
+    return guide_at(w, p, n).sky;
+}
+
 /* Every cell's own sums; beside the grid those of the nearest. */
 static void cells(void **state)
 {
@@ -137,39 +149,49 @@ static void cells(void **state)
     struct table t;
 
     (void)state;
-    assert_int_equal(guide_at(&w, v3(0, 0, 0), up), NO_INDEX);
+    assert_int_equal(ways_at(&w, v3(0, 0, 0), up), NO_INDEX);
     table_init(&t, 0.5, 1);
     guide_lend(&t.guide, &w);
-    assert_int_equal(guide_at(&w, v3(-.5f, -.5f, -.5f), up), 0);
-    assert_int_equal(guide_at(&w, v3(.5f, -.5f, -.5f), up), GUIDE_BINS);
-    assert_int_equal(guide_at(&w, v3(-.5f, .5f, -.5f), up), 2 * GUIDE_BINS);
-    assert_int_equal(guide_at(&w, v3(-.5f, -.5f, .5f), up), 4 * GUIDE_BINS);
-    assert_int_equal(guide_at(&w, v3(.5f, .5f, .5f), up), NO_INDEX);
-    assert_int_equal(guide_at(&w, v3(9, -9, -9), up), GUIDE_BINS);
-    assert_int_equal(guide_at(&w, v3(9, -9, -9), v3_neg(up)), NO_INDEX);
-    assert_int_equal(guide_at(&w, v3(9, -9, -9), v3(-.8f, -.6f, 0)),
-                     GUIDE_BINS);
+    assert_int_equal(ways_at(&w, v3(-.5f, -.5f, -.5f), up), 0);
+    assert_int_equal(ways_at(&w, v3(.5f, -.5f, -.5f), up), GUIDE_BINS);
+    assert_int_equal(ways_at(&w, v3(-.5f, .5f, -.5f), up), 2 * GUIDE_BINS);
+    assert_int_equal(ways_at(&w, v3(-.5f, -.5f, .5f), up), 4 * GUIDE_BINS);
+    assert_int_equal(ways_at(&w, v3(.5f, .5f, .5f), up), NO_INDEX);
+    assert_int_equal(ways_at(&w, v3(9, -9, -9), up), GUIDE_BINS);
+    assert_int_equal(ways_at(&w, v3(9, -9, -9), v3_neg(up)), NO_INDEX);
+    assert_int_equal(ways_at(&w, v3(9, -9, -9), v3(-.8f, -.6f, 0)), GUIDE_BINS);
 }
 
 /* Light samples of a sky that shines 1 everywhere, by the cosine or by a table
- * of nonsense: moments of the upper half of the sphere. */
+ * of its image, and by the guide's table of nonsense: moments of the upper half
+ * of the sphere. */
 static void light_samples_of_a_flat_sky(void **state)
 {
     enum { SAMPLES = 400000 };
     const struct receiver r = {{-.5f, -.5f, -.5f}, {.6f, .8f, 0}, false};
     const double truths[3] = {M_PI, 2 * M_PI / 3, 0};
-    const struct sky_table none = {.sums = NULL};
-    struct world w = {.settings = {.sky = {.color = {1, 1, 1}}}};
+    struct vec3 image[8];
+    struct world w = {.settings = {.sky = {.color = {1, 1, 1},
+                                           .rotation_cos = 1}},
+                      .sky_texels = image};
+    struct sky_table tables[2] = {{.sums = NULL}};
     struct table t;
+    struct error err;
     uint64_t random = 11;
 
     (void)state;
     table_init(&t, 0.4, 7);
     guide_lend(&t.guide, &w);
-    sky_lend(&none, &w);
-    for (int guided = 0; guided < 2; guided++) {
+    for (int i = 0; i < 8; i++)
+        image[i] = v3(1, 1, 1);
+    check_or_say(sky_build(&tables[1], image, 4, 2, SKY_ALONE, &err), err.text);
+    for (int way = 0; way < 4; way++) {
+        bool guided = way % 2 == 1;
         double sums[3] = {0, 0, 0}, squares[3] = {0, 0, 0};
 
+        w.settings.sky.width = way < 2 ? 0 : 4;
+        w.settings.sky.height = way < 2 ? 0 : 2;
+        sky_lend(&tables[way / 2], &w);
         for (int i = 0; i < SAMPLES; i++) {
             struct vec2 u[2];
             struct light_sample s;
@@ -178,9 +200,9 @@ static void light_samples_of_a_flat_sky(void **state)
             for (int k = 0; k < 2; k++)
                 u[k] = v2((float)check_random(&random) * 0.999999f,
                           (float)check_random(&random) * 0.999999f);
-            if (!light_sample(&w, &r,
-                              guided ? guide_at(&w, r.p, r.n) : NO_INDEX, u[0],
-                              u[1], &s))
+            if (!light_sample(&w, &r, guided ? sky_at(&w, r.p, r.n) : NO_INDEX,
+                              u[0], u[1], &s) ||
+                v3_dot(s.wi, r.n) < 0.0f)
                 continue; /* below the surface */
             x[0] = (double)s.radiance.x / (double)s.pdf *
                    (double)v3_dot(s.wi, r.n);
@@ -199,6 +221,7 @@ static void light_samples_of_a_flat_sky(void **state)
             check_close(mean, truths[k], 5 * sqrt(variance / SAMPLES) + 1e-5);
         }
     }
+    sky_free(&tables[1]);
 }
 
 /* In a closed box that emits 1 and has albedo a there is 1 / (1 - a) of light:
@@ -268,7 +291,7 @@ static void mirrors_point_to_images(void **state)
     guide_lend(&g, &s.mesh.world);
     for (float x = -.4f; x < .45f; x += .1f) {
         struct vec3 p = v3(x, 0, 0);
-        uint32_t cell = guide_at(&s.mesh.world, p, v3(0, 1, 0));
+        uint32_t cell = ways_at(&s.mesh.world, p, v3(0, 1, 0));
         struct vec3 d = v3_unit(v3_sub(image, p));
         double sure = 0;
         uint64_t random = 1;
@@ -309,7 +332,7 @@ static void only_where_it_helps(void **state)
     s.mesh.materials[1].alpha = 0;
     built(&s, 0, &g);
     built(&s, 0, &again);
-    count = (size_t)g.grid.cell_count * GUIDE_BINS;
+    count = (size_t)g.grid.table_count * GUIDE_BINS;
     assert_true(count > 0);
     assert_memory_equal(&g.grid, &again.grid, sizeof g.grid);
     assert_memory_equal(g.sums, again.sums, count * sizeof *g.sums);
@@ -375,9 +398,8 @@ static bool goes_out(struct vec3 p, struct vec3 d)
 
 /* The part of the table's directions for p that lead to the window; -1: p has
  * none. */
-static double part_out(const struct world *w, struct vec3 p, struct vec3 n)
+static double part_out(const struct world *w, uint32_t cell, struct vec3 p)
 {
-    uint32_t cell = guide_at(w, p, n);
     uint64_t random = 1;
     double part = 0;
 
@@ -394,37 +416,127 @@ static double part_out(const struct world *w, struct vec3 p, struct vec3 n)
     return part;
 }
 
-/* From all over the floor and the wall opposite. */
+/* From all over the floor and the wall opposite: by light samples, or by paths
+ * if these would end at a pane. */
 static void windows_are_found(void **state)
 {
-    struct guide g = {.cells = NULL};
-    struct stage s;
-    int found = 0;
+    (void)state;
+    for (int has_pane = 0; has_pane < 2; has_pane++) {
+        uint32_t (*at)(const struct world *, struct vec3, struct vec3) =
+            has_pane ? ways_at : sky_at;
+        uint32_t (*not_at)(const struct world *, struct vec3, struct vec3) =
+            has_pane ? sky_at : ways_at;
+        struct guide g = {.cells = NULL};
+        struct stage s;
+        struct world *w = &s.mesh.world;
+        int found = 0;
+
+        room(&s, has_pane);
+        stage_finish(&s);
+        built(&s, 1, &g);
+        guide_lend(&g, w);
+        for (float x = -.7f; x < .95f; x += .2f)
+            for (float z = -.9f; z < .95f; z += .2f) {
+                const struct vec3 p[2] = {v3(x, -1, z), v3(1, x, z)};
+                const struct vec3 n[2] = {v3(0, 1, 0), v3(-1, 0, 0)};
+
+                for (int i = 0; i < 2; i++) {
+                    double part = part_out(w, at(w, p[i], n[i]), p[i]);
+
+                    assert_int_equal(not_at(w, p[i], n[i]), NO_INDEX);
+                    if (part >= 0) {
+                        check_at_most(.97, part);
+                        found++;
+                    }
+                }
+            }
+        assert_true(found > 140);
+        /* what faces outwards is in the open */
+        assert_int_equal(at(w, v3(1, 0, 0), v3(1, 0, 0)), NO_INDEX);
+        guide_free(&g);
+        stage_free(&s);
+    }
+}
+
+/* Standard error of the floor's radiance under a sky of 1. */
+static double noise(struct stage *s, const struct guide *g)
+{
+    const struct claim c = {.eye = {.6f, .1f, .4f},
+                            .at = {.1f, -1, .1f},
+                            .paths = 1000};
+
+    stage_gather(s, DIRECT_MIS);
+    guide_lend(g, &s->mesh.world);
+    return claim_estimate(&s->mesh.world, &c).error[0];
+}
+
+/* The whiter the walls, the more light comes by way of them: windows are looked
+ * for less, and where that is all but in vain, not at all. */
+static void white_rooms_are_left_alone(void **state)
+{
+    const struct guide none = {.cells = NULL};
 
     (void)state;
-    room(&s, true);
-    stage_finish(&s);
-    built(&s, 1, &g);
-    guide_lend(&g, &s.mesh.world);
-    for (float x = -.7f; x < .95f; x += .2f)
-        for (float z = -.9f; z < .95f; z += .2f) {
-            const double parts[2] = {
-                part_out(&s.mesh.world, v3(x, -1, z), v3(0, 1, 0)),
-                part_out(&s.mesh.world, v3(1, x, z), v3(-1, 0, 0)),
-            };
+    for (int has_pane = 0; has_pane < 2; has_pane++) {
+        double shares[2] = {0, 0};
 
-            for (int i = 0; i < 2; i++)
-                if (parts[i] >= 0) {
-                    check_at_most(.97, parts[i]);
-                    found++;
-                }
+        for (int is_white = 0; is_white < 2; is_white++) {
+            struct vec3 p = {.1f, -1, .1f}, up = {0, 1, 0};
+            struct guide g = {.cells = NULL};
+            uint32_t first;
+            struct stage s;
+
+            room(&s, has_pane);
+            s.mesh.materials[2].emission = v3(0, 0, 0);
+            s.mesh.world.settings.sky.color = v3(1, 1, 1);
+            stage_finish(&s);
+            built(&s, 1, &g); /* of grey walls */
+            s.mesh.materials[0] =
+                mesh_material(MATERIAL_DIFFUSE, is_white ? .98f : .3f);
+            guide_recolor(&g);
+            check_or_say(guide_update(&g, &s.mesh.wide_world, 1, NULL, NULL),
+                         "");
+            guide_lend(&g, &s.mesh.world);
+            first = (has_pane ? ways_at : sky_at)(&s.mesh.world, p, up);
+            if (first != NO_INDEX)
+                shares[is_white] = (double)guide_share(&s.mesh.world, first);
+            /* the errors of errors of 32 means are an eighth each */
+            check_at_most(noise(&s, &g),
+                          (is_white ? 1.5 : .9) * noise(&s, &none));
+            guide_free(&g);
+            stage_free(&s);
         }
-    assert_true(found > 140);
-    /* what faces outwards is in the open */
-    assert_int_equal(guide_at(&s.mesh.world, v3(1, 0, 0), v3(1, 0, 0)),
-                     NO_INDEX);
-    guide_free(&g);
-    stage_free(&s);
+        check_at_most(.1, shares[0]);
+        check_at_most(shares[1], .5 * shares[0]);
+    }
+}
+
+/* Walls of albedo .7 that emit .3 under a sky of 1: all is 1. */
+static void rooms_in_balance(void **state)
+{
+    (void)state;
+    for (int has_pane = 0; has_pane < 2; has_pane++) {
+        struct guide g = {.cells = NULL};
+        struct claim c = {.eye = {.6f, .1f, .4f},
+                          .at = {.1f, -1, .1f},
+                          .truth = GREY(1),
+                          .paths = 2000,
+                          /* behind panes there are none */
+                          .without = 1 << DIRECT_LIGHTS};
+        struct stage s;
+
+        room(&s, has_pane);
+        s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .7f);
+        s.mesh.materials[0].emission = v3(.3f, .3f, .3f);
+        s.mesh.world.settings.sky.color = v3(1, 1, 1);
+        stage_finish(&s);
+        built(&s, 1, &g); /* as if nothing else shone */
+        assert_true(g.grid.table_count > 0);
+        guide_lend(&g, &s.mesh.world);
+        check_claim(&s, c);
+        guide_free(&g);
+        stage_free(&s);
+    }
 }
 
 static void only_where_the_sky_is_hidden(void **state)
@@ -468,7 +580,7 @@ static void only_where_the_sky_is_hidden(void **state)
 
         tri_corners(&s.mesh.world, i, p);
         guide_lend(&g, &s.mesh.world);
-        assert_int_equal(guide_at(&s.mesh.world, p[0], v3(0, 1, 0)), NO_INDEX);
+        assert_int_equal(sky_at(&s.mesh.world, p[0], v3(0, 1, 0)), NO_INDEX);
     }
     guide_free(&g);
     stage_free(&s);
@@ -497,12 +609,12 @@ static void threads_change_nothing(void **state)
                                   &err),
                      err.text);
         assert_non_null(alone.cells);
-        assert_int_equal(alone.grid.cell_count, together.grid.cell_count);
+        assert_int_equal(alone.grid.table_count, together.grid.table_count);
         assert_memory_equal(alone.cells, together.cells,
                             guide_cell_count(&alone.grid) *
                                 sizeof *alone.cells);
         assert_memory_equal(alone.sums, together.sums,
-                            alone.grid.cell_count * GUIDE_BINS *
+                            alone.grid.table_count * GUIDE_BINS *
                                 sizeof *alone.sums);
         guide_free(&alone);
         guide_free(&together);
@@ -522,6 +634,8 @@ int main(void)
         cmocka_unit_test(mirrors_point_to_images),
         cmocka_unit_test(only_where_it_helps),
         cmocka_unit_test(windows_are_found),
+        cmocka_unit_test(white_rooms_are_left_alone),
+        cmocka_unit_test(rooms_in_balance),
         cmocka_unit_test(only_where_the_sky_is_hidden),
     };
 

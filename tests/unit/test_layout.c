@@ -55,7 +55,8 @@
     M(light_node, child, 288)                                                \
     S(guide_grid, 32) M(guide_grid, lo, 0) M(guide_grid, cells_a_unit, 12)   \
     M(guide_grid, width, 16) M(guide_grid, height, 20)                       \
-    M(guide_grid, depth, 24) M(guide_grid, cell_count, 28)                   \
+    M(guide_grid, depth, 24) M(guide_grid, table_count, 28)                  \
+    S(guide_cell, 8) M(guide_cell, ways, 0) M(guide_cell, sky, 4)            \
     S(settings, 208) M(settings, camera, 0) M(settings, sky, 72)             \
     M(settings, max_vertices, 104) M(settings, seed, 108)                    \
     M(settings, features, 112) M(settings, direct, 116)                      \

@@ -146,7 +146,7 @@ static bool matters(const struct technique *t, const struct settings *s)
     case NEED_LIGHT_SAMPLES: return s->light_count > 0 || s->sky_share > 0;
     case NEED_LIGHTS: return s->light_count > 1;
     case NEED_SKY_TABLE: return s->sky_share > 0;
-    case NEED_GUIDE: return s->guide.cell_count > 0;
+    case NEED_GUIDE: return s->guide.table_count > 0;
     case NEED_NOTHING: break;
     }
     return true;
