@@ -17,8 +17,9 @@
  * Units:     normalised scene units; flux as the sky's part of the cosine
  *            weighted hemisphere
  * Ownership: openings_free() frees, also if the search fails; a zeroed struct
- * is one that was not made Threads:   those of the pool, or without one the
- * caller's Errors:    memory, by false
+ *            is one that was not made
+ * Threads:   those of the pool, or without one the caller's
+ * Errors:    memory, by false
  */
 #ifndef GLIM_OPENINGS_H
 #define GLIM_OPENINGS_H

@@ -42,7 +42,17 @@ if ! command -v tmux >/dev/null; then
     exit 0
 fi
 work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
+
+# Also where the run is broken off: programs in tmux would go on.
+end_all()
+{
+    for socket in "$work"/*.tmux; do
+        tmux -S "$socket" kill-server 2>/dev/null
+    done
+    rm -rf "$work"
+}
+trap end_all EXIT
+trap 'exit 143' TERM
 mkdir "$work/failed" "$work/passed"
 
 # Runs a case and prints what came of it at once, so that cases do not mix.
