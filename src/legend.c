@@ -10,7 +10,8 @@
 #include "kernels/vec.h"
 
 #define MATERIAL_COLS  10
-#define MATERIAL_BYTES 64
+#define LOBES_COLS     40 /* of the material's name where it has a line */
+#define MATERIAL_BYTES 160
 #define PLACE_COLS     17
 #define PDF_COLS       6
 #define NUMBERS_BYTES  64
@@ -121,6 +122,7 @@ void legend_lobes(struct legend *l, const struct scene *scene,
     struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
     float cosine = f_min(v3_dot(lobes->wo, lobes->n), 1.0f);
     float lo = 0.0f, hi = 0.0f;
+    char material[MATERIAL_BYTES];
     int deltas = 0;
 
     l->count = 0;
@@ -132,8 +134,10 @@ void legend_lobes(struct legend *l, const struct scene *scene,
         lo = i == 0 ? pdf : f_min(lo, pdf);
         deltas += pdf == 0.0f ? 1 : 0;
     }
-    snprintf(next_line(l), LEGEND_BYTES, "%.40s, seen %.1f degrees off n",
-             material_of(scene, lobes->tri), angle_deg(acos((double)cosine)));
+    columns_cut(material, sizeof material, material_of(scene, lobes->tri),
+                LOBES_COLS);
+    snprintf(next_line(l), LEGEND_BYTES, "%s, seen %.1f degrees off n",
+             material, angle_deg(acos((double)cosine)));
     add_direction(l, "n normal, green", lobes->n);
     add_direction(l, "t tangent, red", lobes->t);
     add_direction(l, "b bitangent, blue", lobes->b);

@@ -4,6 +4,9 @@
  */
 #include "check.h"
 
+#include <locale.h>
+#include <string.h>
+
 #include "glim/legend.h"
 
 static char none[] = "", red_paint[] = "red paint";
@@ -88,12 +91,32 @@ static void surfaces_show_their_frame(void **state)
     check_has(l.lines[5], "0.500  0.000  0.000"); /* what ends weighs nothing */
 }
 
+/* A name is cut between characters: 40 columns are 20 of these. */
+static void names_are_cut_whole(void **state)
+{
+    char wide[21 * 3 + 1] = "";
+    char *wide_names[] = {none, wide};
+    struct trail_lobes lobes = {.n = {0, 0, 1}, .wo = {0, 0, 1}, .tri = 1};
+    struct scene named = scene;
+    struct legend l;
+
+    (void)state;
+    for (int i = 0; i < 21; i++)
+        strcat(wide, "\u5149");
+    named.material_names = wide_names;
+    assert_non_null(setlocale(LC_CTYPE, "C.UTF-8"));
+    legend_lobes(&l, &named, &lobes);
+    assert_int_equal(strcspn(l.lines[0], ","), 20 * strlen("\u5149"));
+    check_has(l.lines[0], "\u5149, seen 0.0 degrees");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paths_show_their_last_steps),
         cmocka_unit_test(numbers_are_not_cut),
         cmocka_unit_test(surfaces_show_their_frame),
+        cmocka_unit_test(names_are_cut_whole),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
