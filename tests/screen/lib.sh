@@ -140,14 +140,23 @@ wait_until()
     done
 }
 
+# A look may fall into the middle of a frame: for a second it is taken again.
 expect()
 {
-    screen | grep -q -e "$1" || die "not on the screen: $1"
+    for _ in $(seq 20); do
+        ! screen | grep -q -e "$1" || return 0
+        sleep 0.05
+    done
+    die "not on the screen: $1"
 }
 
 reject()
 {
-    ! screen | grep -q -e "$1" || die "on the screen: $1"
+    for _ in $(seq 20); do
+        screen | grep -q -e "$1" || return 0
+        sleep 0.05
+    done
+    die "on the screen: $1"
 }
 
 # Waits for the end with this status, and that everything is as before; with

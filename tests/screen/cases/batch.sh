@@ -48,8 +48,7 @@ keys n n
 wait_for "NORMALS"
 keys Space
 wait_for "normal mode"
-[ "$(screen_colors | grep -c '48;2;188;188;255m')" = 0 ] ||
-    die "normals are shown as light"
+wait_until eval "! screen_colors | grep -q '48;2;188;188;255m'"
 keys Space
 wait_for_rows 20 "$YELLOW"
 # a number is for the question, not for the value

@@ -24,6 +24,6 @@ expect "│     of ünïcödé        ünïcödé"
 expect "│     of 日本語の材料名 日本語の材料"
 expect "│     of tab?and?\[31m   tab?and?\[31m"
 # every row has the bar
-[ "$(screen | grep -c '│')" = 23 ] || die "a row has lost its bar"
+wait_until eval "screen | grep -c '│' | grep -qx 23"
 keys q
 wait_for "^exit 0"
