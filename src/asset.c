@@ -61,17 +61,11 @@ static char *in_any_case(const char *path)
 
     if (access(path, F_OK) == 0)
         return xstrdup(path);
-    if (slash == NULL || slash == path) {
-        name = name_in_folder(slash ? "/" : ".", slash ? path + 1 : path);
-        found = name && slash ? xformat("/%s", name) : NULL;
-        if (found == NULL)
-            return name;
-        free(name);
-        return found;
-    }
+    if (slash == NULL)
+        return name_in_folder(".", path);
     folder = xformat("%.*s", (int)(slash - path), path);
-    real = in_any_case(folder);
-    name = real ? name_in_folder(real, slash + 1) : NULL;
+    real = slash == path ? xstrdup("") : in_any_case(folder);
+    name = real ? name_in_folder(*real ? real : "/", slash + 1) : NULL;
     if (name != NULL)
         found = xformat("%s/%s", real, name);
     free(folder);

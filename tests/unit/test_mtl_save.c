@@ -273,6 +273,20 @@ static void test_backslashes(void **state)
     free(image);
 }
 
+/* Into a file that does not have it. */
+static void check_written_whole(const struct loaded *l, const char *name,
+                                const struct mtl_source *after,
+                                const char *expected)
+{
+    struct mtl_change change = {name, NULL,
+                                &l->scene.material_origins[1].source, after};
+    size_t size_bytes;
+    char *got = rewrite(&l->scene, "a.mtl", "", 0, &change, 1, &size_bytes);
+
+    assert_string_equal(got, expected);
+    free(got);
+}
+
 /* A duplicate has its pattern's unknown statements and comes last. */
 static void test_duplicates(void **state)
 {
@@ -296,12 +310,8 @@ static void test_duplicates(void **state)
                              "newmtl n\nKd 1 1 1\n\n"
                              "newmtl m copy\nKd 1 0.5 0.25\naniso .3 # x\n");
     free(got);
-    /* somebody else has removed the block: it is written whole */
-    change = (struct mtl_change){"m", NULL, &l.scene.material_origins[1].source,
-                                 &after};
-    got = rewrite(&l.scene, "a.mtl", "", 0, &change, 1, &size_bytes);
-    assert_string_equal(got, "\nnewmtl m\nKd 1 0.5 0.25\n");
-    free(got);
+    /* somebody else has removed the block */
+    check_written_whole(&l, "m", &after, "\nnewmtl m\nKd 1 0.5 0.25\n");
     unload(&l);
 }
 
@@ -310,21 +320,14 @@ static void test_names_end_in_backslashes(void **state)
 {
     static const char text[] = "newmtl m\\ \nKd 0 0 0\n";
     struct mtl_source after;
-    struct mtl_change change;
     struct loaded l;
-    size_t size_bytes;
-    char *got;
 
     (void)state;
     load(&l, "a.mtl", text, strlen(text));
     assert_string_equal(l.scene.material_names[1], "m\\");
     after = l.scene.material_origins[1].source;
     redden(&after);
-    change = (struct mtl_change){"m\\", NULL,
-                                 &l.scene.material_origins[1].source, &after};
-    got = rewrite(&l.scene, "a.mtl", "", 0, &change, 1, &size_bytes);
-    assert_string_equal(got, "\nnewmtl m\\ \nKd 1 0.5 0.25\n");
-    free(got);
+    check_written_whole(&l, "m\\", &after, "\nnewmtl m\\ \nKd 1 0.5 0.25\n");
     unload(&l);
 }
 

@@ -81,6 +81,13 @@ static void run_to_end(struct work *w)
     work_look(w);
 }
 
+static void render_whole(struct work *w)
+{
+    work_set_live(w, false);
+    work_start_or_halt(w);
+    run_to_end(w);
+}
+
 static void live_mode_has_nothing_to_lose(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
@@ -249,9 +256,7 @@ static void steps_after_a_halt_make_the_same_picture(void **state)
     float whole[32 * 16 * 3], stepped[32 * 16 * 3];
 
     f->options.spp = 40;
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    run_to_end(w);
+    render_whole(w);
     assert_int_equal(w->progress.spp_done, 40);
     film_linear(render_film(w->session->render), whole);
     work_restart(w);
@@ -273,9 +278,7 @@ static void what_no_file_has_is_kept(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
 
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    run_to_end(w);
+    render_whole(w);
     work_keep(w);
     assert_int_equal(access("s-kept.png", F_OK), 0);
     assert_int_equal(w->result_count, 1);
@@ -286,9 +289,7 @@ static void what_a_file_has_is_not_kept(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
 
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    run_to_end(w);
+    render_whole(w);
     work_save_picture(w, "png");
     assert_true(work_finish_saving(w));
     work_keep(w);
@@ -303,9 +304,7 @@ static void saving_never_replaces(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
 
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    run_to_end(w);
+    render_whole(w);
     for (int i = 0; i < 2; i++) {
         work_save_picture(w, "png");
         saver_wait_copied(&w->saver);
@@ -326,9 +325,7 @@ static void saving_takes_a_copy(void **state)
     char first[65536], second[65536];
     size_t sizes[2];
 
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    run_to_end(w);
+    render_whole(w);
     work_save_picture(w, "png");
     assert_true(work_finish_saving(w));
     work_save_picture(w, "png");
@@ -352,9 +349,7 @@ static void what_is_said_is_what_was_saved(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
 
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    run_to_end(w);
+    render_whole(w);
     work_save_picture(w, "png");
     saver_wait_copied(&w->saver);
     w->session->crop.width = 20;
@@ -444,9 +439,7 @@ static void texts_are_written(void **state)
     struct error err;
 
     assert_true(text_frame_init(&frame, &style, &err));
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    run_to_end(w);
+    render_whole(w);
     work_save_text(w, &frame, &style);
     assert_string_equal(w->message.text, "saved s.ans, text of 8x2 characters");
     work_save_text(w, &frame, &style);
