@@ -7,14 +7,18 @@
 
 #include "glim/util.h"
 
-/* Cells and corners looked at before the rest is cut blindly: no file may take
- * longer than its size explains. Outlines that do not cross themselves needed
- * up to 830 per corner: straight sides of thousands of corners, rings with
- * rough edges, coasts and battlements among them. */
-#define WORK_AT_LEAST        20000
-#define WORK_PER_CORNER      1000
-#define MANY_CORNERS         65536
-#define WORK_PER_MORE_CORNER 100
+/* Polygons of more corners are swept over. */
+#define EARS_MOST 100
+
+/* Corners looked at before the rest is cut blindly: no file may take longer
+ * than its size explains. */
+#define WORK_AT_LEAST   20000
+#define WORK_PER_CORNER 1000
+#define MANY_CORNERS    65536
+
+/* Rounding of coordinates as numbers in files have it, in parts of the largest:
+ * a few units in the last place of a double. */
+#define ROUNDING 1e-15
 
 /* Corners in vain after which ears are looked for beside the last one. */
 #define SCARCE_MISSES 16
@@ -47,10 +51,9 @@ static bool reserve(struct polygon *g, uint32_t corner_count)
     g->prev = alloc_array(n, sizeof *g->prev);
     g->next = alloc_array(n, sizeof *g->next);
     g->is_reflex = alloc_array(n, sizeof *g->is_reflex);
-    g->cell_starts = alloc_array(n + 1, sizeof *g->cell_starts);
-    g->cell_corners = alloc_array(n, sizeof *g->cell_corners);
+    g->reflex = alloc_array(n, sizeof *g->reflex);
     if (!g->triangles || !g->points || !g->prev || !g->next || !g->is_reflex ||
-        !g->cell_starts || !g->cell_corners) {
+        !g->reflex) {
         polygon_free(g);
         return false;
     }
@@ -65,8 +68,7 @@ void polygon_free(struct polygon *g)
     free(g->prev);
     free(g->next);
     free(g->is_reflex);
-    free(g->cell_starts);
-    free(g->cell_corners);
+    free(g->reflex);
     memset(g, 0, sizeof *g);
 }
 
@@ -107,6 +109,16 @@ static void offset(const double *corners, double scale, uint32_t i,
 {
     for (int k = 0; k < 3; k++)
         to[k] = corners[3 * (size_t)i + k] * scale - corners[k] * scale;
+}
+
+static double most_along(const double *corners, double scale, uint32_t n,
+                         int axis)
+{
+    double most = 0;
+
+    for (uint32_t i = 0; i < n; i++)
+        most = fmax(most, fabs(corners[3 * (size_t)i + axis] * scale));
+    return most;
 }
 
 /* Twice the area as a vector (Newell's method: right for corners that are not
@@ -156,6 +168,8 @@ static bool project(struct polygon *g, const double *corners, uint32_t n)
         offset(corners, scale, i, p);
         g->points[i] = (struct point2){p[x], p[y]};
     }
+    g->noise.x = ROUNDING * most_along(corners, scale, n, x);
+    g->noise.y = ROUNDING * most_along(corners, scale, n, y);
     return true;
 }
 
@@ -227,26 +241,17 @@ static uint32_t link_corners(struct polygon *g, const double *corners,
     return count;
 }
 
-/* Sorts the reflex corners into the cells. */
-static void fill_grid(struct polygon *g, uint32_t n)
+static void list_reflex_corners(struct polygon *g)
 {
-    uint32_t cell_count = g->grid.side * g->grid.side;
-    uint32_t *starts = g->cell_starts;
     uint32_t i = 0;
 
-    memset(starts, 0, (cell_count + 1) * sizeof *starts);
+    g->reflex_count = 0;
     do {
         g->is_reflex[i] = !(turn(g, g->prev[i], i, g->next[i]) > 0);
-        starts[plane_grid_cell(&g->grid, g->points[i])] += g->is_reflex[i];
+        if (g->is_reflex[i])
+            g->reflex[g->reflex_count++] = i;
         i = g->next[i];
     } while (i != 0);
-    for (uint32_t c = 1; c <= cell_count; c++)
-        starts[c] += starts[c - 1];
-    for (i = n; i-- > 0;) {
-        if (g->next[i] != NOT_LINKED && g->is_reflex[i])
-            g->cell_corners[--starts[plane_grid_cell(&g->grid, g->points[i])]] =
-                i;
-    }
 }
 
 static bool same_point(struct point2 a, struct point2 b)
@@ -271,39 +276,17 @@ static bool is_in_the_way(const struct polygon *g, enum ear_rule rule,
            !same_point(at, g->points[ear[2]]);
 }
 
-/* Whether one of the reflex corners in the cells is in the way. */
-static bool has_corner_in(struct polygon *g, enum ear_rule rule,
-                          const uint32_t ear[3], uint32_t first, uint32_t last)
+static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
+                         const uint32_t ear[3])
 {
-    uint32_t begin = g->cell_starts[first];
-    uint32_t end = g->cell_starts[last + 1];
+    for (uint32_t i = 0; i < g->reflex_count; i++) {
+        uint32_t p = g->reflex[i];
 
-    g->work += 1 + end - begin;
-    for (uint32_t i = begin; i < end; i++) {
-        uint32_t p = g->cell_corners[i];
-
+        g->work++;
         if (g->next[p] == NOT_LINKED || !g->is_reflex[p] || p == ear[0] ||
             p == ear[1] || p == ear[2])
             continue;
         if (is_in_the_way(g, rule, ear, p))
-            return true;
-    }
-    return false;
-}
-
-/* Looks at the cells that the ear meets. */
-static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
-                         const uint32_t ear[3])
-{
-    struct plane_triangle t =
-        plane_grid_triangle(&g->grid, g->points[ear[0]], g->points[ear[1]],
-                            g->points[ear[2]]);
-
-    for (uint32_t row = t.first_row; row <= t.last_row; row++) {
-        uint32_t first, last;
-
-        plane_grid_row(&g->grid, &t, row, &first, &last);
-        if (has_corner_in(g, rule, ear, first, last))
             return false;
     }
     return true;
@@ -350,20 +333,14 @@ static void cut_off(struct polygon *g, uint32_t b)
     g->is_reflex[c] = !(turn(g, a, c, g->next[c]) > 0);
 }
 
-static uint64_t work_limit(uint32_t count)
-{
-    uint64_t more = count > MANY_CORNERS ? count - MANY_CORNERS : 0;
-
-    return WORK_AT_LEAST + (count - more) * WORK_PER_CORNER +
-           more * WORK_PER_MORE_CORNER;
-}
-
 /* Going on beside an ear would make a fan of slivers. But on long straight
  * sides, and in narrow places without other branches, nothing else is an ear
  * but what the last cut has made one, at either end of it by turns. */
 static void cut_ears(struct polygon *g, uint32_t count)
 {
-    uint64_t work_max = work_limit(count);
+    uint64_t work_max =
+        WORK_AT_LEAST +
+        WORK_PER_CORNER * (count < MANY_CORNERS ? count : MANY_CORNERS);
     enum ear_rule rule = EAR_CLEAR;
     uint32_t misses = 0;
     uint32_t b = 0;
@@ -406,11 +383,19 @@ bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
     g->crosses_itself = false;
     if (n == 3 || !project(g, corners, n) || is_convex(g, n))
         return emit_fan(g, n);
+    if (n > EARS_MOST) {
+        enum monotone_result result = monotone_cut(
+            g->points, n, g->noise, g->triangles, &g->triangle_count);
+
+        if (result != MONOTONE_CROSSING)
+            return result == MONOTONE_DONE;
+        g->triangle_count = 0;
+        g->crosses_itself = true;
+    }
     count = link_corners(g, corners, n);
     if (count < 3)
         return emit_fan(g, 3);
-    g->grid = plane_grid_over(g->points, n);
-    fill_grid(g, n);
+    list_reflex_corners(g);
     cut_ears(g, count);
     return true;
 }

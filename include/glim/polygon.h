@@ -19,7 +19,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "glim/plane_grid.h"
+#include "glim/monotone.h"
 
 /* Storage that is used again for the next polygon. */
 struct polygon {
@@ -31,8 +31,9 @@ struct polygon {
     struct point2 *points;
     uint32_t *prev, *next;
     bool *is_reflex;
-    uint32_t *cell_starts, *cell_corners;
-    struct plane_grid grid;
+    uint32_t *reflex; /* corners that were reflex at first */
+    uint32_t reflex_count;
+    struct point2 noise;
     uint64_t work;
 };
 
