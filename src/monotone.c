@@ -53,7 +53,8 @@ struct sweep {
     uint32_t splits_left;
     struct point2 noise;
     uint32_t (*triangles)[3];
-    uint32_t triangle_count, triangle_max;
+    uint32_t triangle_count;
+    uint64_t triangle_max;
 };
 
 /* Twice the area of a, b, c: above 0 if they turn left. Noise is 0. */
@@ -426,6 +427,20 @@ static int compare_sites(const void *a, const void *b)
     return (p->corner > q->corner) - (p->corner < q->corner);
 }
 
+/* Sorts the corners. Those of a vertical line get the same x, for noise must not
+ * mix up their order. */
+static void sort_sites(struct sweep *s, uint32_t n)
+{
+    double x = -INFINITY;
+
+    qsort(s->sites, n, sizeof *s->sites, compare_sites);
+    for (uint32_t i = 0; i < n; i++) {
+        x = s->sites[i].at.x - x > 4 * s->noise.x ? s->sites[i].at.x : x;
+        s->sites[i].at.x = x;
+    }
+    qsort(s->sites, n, sizeof *s->sites, compare_sites);
+}
+
 /* Edge i + 1 goes from corner i to the next. */
 static void make_sites(struct sweep *s, const struct point2 *points, uint32_t n)
 {
@@ -433,7 +448,7 @@ static void make_sites(struct sweep *s, const struct point2 *points, uint32_t n)
 
     for (uint32_t i = 0; i < n; i++)
         s->sites[i] = (struct site){points[i], i, NONE};
-    qsort(s->sites, n, sizeof *s->sites, compare_sites);
+    sort_sites(s, n);
     for (uint32_t i = 0; i < n; i++) {
         struct site site = s->sites[i];
         uint32_t from = site.corner + 1;
@@ -512,7 +527,7 @@ enum monotone_result monotone_cut(const struct point2 *points, uint32_t count,
                       .splits_left = count,
                       .noise = noise,
                       .triangles = triangles,
-                      .triangle_max = count - 2};
+                      .triangle_max = 2 * (uint64_t)count};
     enum monotone_result result = MONOTONE_NO_MEMORY;
 
     if (s.sites && s.edges && s.links)

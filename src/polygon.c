@@ -46,7 +46,7 @@ static bool reserve(struct polygon *g, uint32_t corner_count)
     n = n < 2 * g->capacity ? 2 * g->capacity : n;
     n = n < 64 ? 64 : n;
     polygon_free(g);
-    g->triangles = alloc_array(n, sizeof *g->triangles);
+    g->triangles = alloc_array(2 * n, sizeof *g->triangles);
     g->points = alloc_array(n, sizeof *g->points);
     g->prev = alloc_array(n, sizeof *g->prev);
     g->next = alloc_array(n, sizeof *g->next);
@@ -336,7 +336,7 @@ static void cut_off(struct polygon *g, uint32_t b)
 /* Going on beside an ear would make a fan of slivers. But on long straight
  * sides, and in narrow places without other branches, nothing else is an ear
  * but what the last cut has made one, at either end of it by turns. */
-static void cut_ears(struct polygon *g, uint32_t count)
+static void cut_ring(struct polygon *g, uint32_t count)
 {
     uint64_t work_max =
         WORK_AT_LEAST +
@@ -373,9 +373,23 @@ static void cut_ears(struct polygon *g, uint32_t count)
     emit(g, g->prev[b], b, g->next[b]);
 }
 
+static void cut_ears(struct polygon *g, const double *corners, uint32_t n)
+{
+    uint32_t count = link_corners(g, corners, n);
+
+    g->triangle_count = 0;
+    g->crosses_itself = false;
+    if (count < 3) {
+        emit_fan(g, 3);
+        return;
+    }
+    list_reflex_corners(g);
+    cut_ring(g, count);
+}
+
 bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
 {
-    uint32_t count;
+    enum monotone_result result;
 
     if (!reserve(g, n))
         return false;
@@ -383,19 +397,17 @@ bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
     g->crosses_itself = false;
     if (n == 3 || !project(g, corners, n) || is_convex(g, n))
         return emit_fan(g, n);
-    if (n > EARS_MOST) {
-        enum monotone_result result = monotone_cut(
-            g->points, n, g->noise, g->triangles, &g->triangle_count);
-
-        if (result != MONOTONE_CROSSING)
-            return result == MONOTONE_DONE;
-        g->triangle_count = 0;
+    if (n <= EARS_MOST) {
+        cut_ears(g, corners, n);
+        if (!g->crosses_itself)
+            return true;
+    }
+    result = monotone_cut(g->points, n, g->noise, g->triangles,
+                          &g->triangle_count);
+    g->crosses_itself = result == MONOTONE_CROSSING;
+    if (g->crosses_itself) {
+        cut_ears(g, corners, n);
         g->crosses_itself = true;
     }
-    count = link_corners(g, corners, n);
-    if (count < 3)
-        return emit_fan(g, 3);
-    list_reflex_corners(g);
-    cut_ears(g, count);
-    return true;
+    return result != MONOTONE_NO_MEMORY;
 }
