@@ -318,6 +318,21 @@ static inline struct vec3 leave_surface(struct vec3 p, struct vec3 error,
     return v3_add(p, v3_scale(ng, distance + LEAVE_MIN));
 }
 
+/* Scales v until its largest component is 1. False if that is 0. Of numbers
+ * below 2^-128 the reciprocal is infinite: those grow by a power of two first.
+ */
+static inline bool v3_enlarge(struct vec3 *v)
+{
+    float most = f_max(fabsf(v->x), f_max(fabsf(v->y), fabsf(v->z)));
+
+    if (most < 0x1p-64f) {
+        *v = v3_scale(*v, 0x1p64f);
+        most *= 0x1p64f;
+    }
+    *v = v3_scale(*v, 1.0f / most);
+    return most > 0.0f;
+}
+
 /* The unit normal by the winding of the file. Edges are scaled first, so that
  * small triangles do not underflow. False if rounding leaves none. */
 static inline bool triangle_normal(struct vec3 p0, struct vec3 p1,
@@ -325,18 +340,17 @@ static inline bool triangle_normal(struct vec3 p0, struct vec3 p1,
 {
     struct vec3 e1 = v3_sub(p1, p0);
     struct vec3 e2 = v3_sub(p2, p0);
-    float m1 = f_max(fabsf(e1.x), f_max(fabsf(e1.y), fabsf(e1.z)));
-    float m2 = f_max(fabsf(e2.x), f_max(fabsf(e2.y), fabsf(e2.z)));
     struct vec3 n;
-    float m;
 
-    if (!(m1 > 0.0f && m2 > 0.0f))
+    if (!v3_enlarge(&e1) || !v3_enlarge(&e2))
         return false;
-    n = v3_cross(v3_scale(e1, 1.0f / m1), v3_scale(e2, 1.0f / m2));
-    m = f_max(fabsf(n.x), f_max(fabsf(n.y), fabsf(n.z)));
-    if (!(m > 0.0f))
+    n = v3_cross(e1, e2);
+    if (!v3_enlarge(&n))
         return false;
-    *ng = v3_unit(v3_scale(n, 1.0f / m));
+    n = v3_unit(n);
+    if (!(v3_dot(n, n) < 2.0f)) /* no number, for corners at infinity */
+        return false;
+    *ng = n;
     return true;
 }
 

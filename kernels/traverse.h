@@ -94,7 +94,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     best->t = r.t_max;
     best->b0 = best->b1 = best->b2 = 0.0f;
     best->tri = NO_INDEX;
-    if (w->settings.tri_count == 0 ||
+    if (w->settings.tri_count == 0 || !ray_is_finite(r) ||
         box_entry(slabs, w->nodes[0].lo, w->nodes[0].hi, best->t) > best->t)
         return false;
     for (;;) {
@@ -160,7 +160,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
     uint32_t depth = 0;
     struct hit h;
 
-    if (w->settings.tri_count == 0)
+    if (w->settings.tri_count == 0 || !ray_is_finite(r))
         return false;
     h.t = r.t_max;
     h.tri = tri;

@@ -32,7 +32,7 @@ struct tri {
     uint32_t vn[3];
     uint32_t vt[3];
     uint32_t material;
-    struct vec3 ng; /* unit normal as it is wound; 0 if rounding leaves none */
+    struct vec3 ng; /* unit normal as it is wound */
 };
 
 enum material_kind {

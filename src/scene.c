@@ -70,7 +70,7 @@ static bool is_finite(const double p[3])
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
-static bool file_tri_is_usable(const struct scene *scene, const struct tri *t)
+static bool file_tri_is_usable(const struct scene *scene, struct tri *t)
 {
     const double *p[3];
 
@@ -82,23 +82,24 @@ static bool file_tri_is_usable(const struct scene *scene, const struct tri *t)
     return has_area(p[0], p[1], p[2]);
 }
 
-static bool tri_is_usable(const struct scene *scene, const struct tri *t)
+/* Whether the triangle has a unit normal, which it is given. */
+static bool tri_gets_normal(const struct scene *scene, struct tri *t)
 {
+    const struct vec3 *v[3];
     double p[3][3];
 
     for (int k = 0; k < 3; k++) {
-        const struct vec3 *v = &scene->positions[t->v[k]];
-
-        p[k][0] = (double)v->x;
-        p[k][1] = (double)v->y;
-        p[k][2] = (double)v->z;
+        v[k] = &scene->positions[t->v[k]];
+        p[k][0] = (double)v[k]->x;
+        p[k][1] = (double)v[k]->y;
+        p[k][2] = (double)v[k]->z;
     }
-    return has_area(p[0], p[1], p[2]);
+    return has_area(p[0], p[1], p[2]) &&
+           triangle_normal(*v[0], *v[1], *v[2], &t->ng);
 }
 
 static void drop_tris(struct scene *scene, struct report *report,
-                      bool (*is_usable)(const struct scene *,
-                                        const struct tri *))
+                      bool (*is_usable)(const struct scene *, struct tri *))
 {
     uint32_t kept = 0;
 
@@ -223,18 +224,6 @@ static void turn_tris(struct scene *scene)
     }
 }
 
-static void find_normals(struct scene *scene)
-{
-    for (uint32_t i = 0; i < scene->tri_count; i++) {
-        struct tri *t = &scene->tris[i];
-
-        if (!triangle_normal(scene->positions[t->v[0]],
-                             scene->positions[t->v[1]],
-                             scene->positions[t->v[2]], &t->ng))
-            t->ng = v3(0.0f, 0.0f, 0.0f);
-    }
-}
-
 static bool shines(const struct material *m)
 {
     return m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0;
@@ -310,9 +299,8 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
     find_scale(scene);
     if (!fill_positions(scene, err))
         return false;
-    drop_tris(scene, report, tri_is_usable);
     turn_tris(scene);
-    find_normals(scene);
+    drop_tris(scene, report, tri_gets_normal);
     if (scene->tri_count == 0)
         report_add(report, "scenes without a face",
                    "%s: found no face that can be seen: only the background is "

@@ -4,9 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/traverse_leaf.h"
+
 /* Where splits by cost end and halving by count begins: 32 more levels hold
  * any number of triangles, and all of them fit TRAVERSE_STACK. */
 #define SAH_DEPTH 60
+
+_Static_assert(SAH_DEPTH + 32 < TRAVERSE_STACK, "trees are as deep");
 
 /* Of the area of all. Measured: the same from 1e-4 to 1e-3, but 1 % of memory
  * instead of 7. */

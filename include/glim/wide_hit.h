@@ -201,7 +201,10 @@ typedef float wide_leaf(void *query, const struct tri_block *block,
                         uint32_t more);
 
 /* Meets the leaves that are entered before t_max, nearest first; see
- * wide_enter(). */
+ * wide_enter(). For rays that ray_is_finite(): their planes' distances are
+ * finite, so that boxes at infinity, which stand for no child, are not entered.
+ * Every node is met once at most, and WIDE_STACK is enough for trees as deep as
+ * bvh.h promises. */
 static inline __attribute__((always_inline)) void
 wide_walk(const struct wide_node *nodes, const struct wide_ray *first,
           const struct wide_ray *last, float t_max, wide_leaf *leaf,
@@ -261,7 +264,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     struct wide_ray ray = wide_ray_of(r);
 
     *hit = no_hit(r);
-    if (nodes != NULL)
+    if (nodes != NULL && ray_is_finite(r))
         wide_walk(nodes, &ray, &ray, r.t_max, meet_blocks, &query);
     return hit->tri != NO_INDEX;
 }
@@ -319,7 +322,7 @@ static inline bool hits_closest(const struct world *w, const struct ray *rays,
     if (nodes == NULL || count < GROUP_MIN)
         return false;
     group_begin(&g, w, rays, count, hits);
-    if (!wide_bound(&first, &last, 0, &g) ||
+    if (!group_is_finite(&g) || !wide_bound(&first, &last, 0, &g) ||
         !wide_bound(&first, &last, 1, &g) ||
         !wide_bound(&first, &last, 2, &g) || !group_shear(&g.lanes))
         return false;
@@ -341,7 +344,7 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
     uint32_t *top = stack;
     uint32_t at = 0;
 
-    if (nodes == NULL)
+    if (nodes == NULL || !ray_is_finite(r))
         return false;
     for (;;) {
         if ((at & WIDE_LEAF) == 0) {

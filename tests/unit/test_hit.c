@@ -260,6 +260,60 @@ static void edges_are_left_inwards(void **state)
     mesh_free(&m);
 }
 
+/* A normal does not depend on the triangle's size, down to the last numbers
+ * that a float has, nor on how much longer one edge is than the other,
+ * while their ratio is a float. */
+static void normals_do_not_depend_on_size(void **state)
+{
+    uint64_t seed = 9;
+
+    (void)state;
+    for (int k = 40; k >= -149; k--)
+        for (int j = k; j >= -149 && j > k - 149; j -= 7) {
+            float a = ldexpf(1, k), b = ldexpf(1, j);
+            const struct vec3 o = {0, 0, 0}, z = {0, 0, b};
+            struct vec3 ng = o;
+
+            assert_true(triangle_normal(v3(a, 0, 0), o, z, &ng));
+            assert_true(ng.x == 0 && ng.y == 1 && ng.z == 0);
+            assert_true(triangle_normal(o, z, v3(a, 0, 0), &ng));
+            assert_true(ng.x == 0 && ng.y == 1 && ng.z == 0);
+        }
+    for (int i = 0; i < 1000; i++) {
+        struct vec3 p[3], ng, small;
+
+        for (int k = 0; k < 3;
+             k++) /* few digits, so that small ones have all */
+            p[k] = v3(roundf(point(&seed).x * 64), roundf(point(&seed).y * 64),
+                      roundf(point(&seed).z * 64));
+        if (!triangle_normal(p[0], p[1], p[2], &ng))
+            continue;
+        for (int k = 0; k < 3; k++)
+            p[k] = v3_scale(p[k], 0x1p-149f);
+        assert_true(triangle_normal(p[0], p[1], p[2], &small));
+        assert_memory_equal(&ng, &small, sizeof ng);
+    }
+}
+
+static void nothing_else_has_a_normal(void **state)
+{
+    const struct vec3 o = {0, 0, 0}, x = {1, 0, 0}, y = {0, 1, 0};
+    const float wrong[] = {NAN, INFINITY, -INFINITY};
+    struct vec3 ng;
+
+    (void)state;
+    assert_false(triangle_normal(o, o, o, &ng));
+    assert_false(triangle_normal(o, x, x, &ng));
+    assert_false(triangle_normal(o, x, v3_scale(x, 0x1p-149f), &ng));
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        for (int k = 0; k < 9; k++) {
+            struct vec3 p[3] = {o, x, y};
+
+            (&p[0].x)[k] = wrong[i];
+            assert_false(triangle_normal(p[0], p[1], p[2], &ng));
+        }
+}
+
 /* A ray that leaves a face must not hit it again, and hits the face opposite:
  * over all angles, sizes and places. */
 static void no_ray_hits_its_own_face(void **state)
@@ -355,6 +409,8 @@ int main(void)
         cmocka_unit_test(windings_tie),
         cmocka_unit_test(closed_meshes_do_not_leak),
         cmocka_unit_test(edges_are_left_inwards),
+        cmocka_unit_test(normals_do_not_depend_on_size),
+        cmocka_unit_test(nothing_else_has_a_normal),
         cmocka_unit_test(no_ray_hits_its_own_face),
         cmocka_unit_test(near_sheets_are_both_hit),
     };

@@ -164,6 +164,34 @@ static void test_triangles_too_small_for_floats(void **state)
     unload(&l);
 }
 
+/* Beside an edge of 5e38 one of 1 is 2^-129 long, which has no reciprocal: the
+ * first face keeps its normal, and of the second rounding leaves nothing. */
+static void test_needles_keep_their_normals(void **state)
+{
+    static const char *const others[] = {"v 0 1 0", "v 0 1e-9 0", "v 0 1e30 0"};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char text[128];
+        struct loaded l;
+
+        snprintf(text, sizeof text,
+                 "v -5e38 0 0\nv 0 0 0\nv 0 0 1\n%s\nf 1 2 3\nf 1 4 3\n",
+                 others[i]);
+        l = load(text);
+        assert_in_range(l.scene.tri_count, 1, 2);
+        assert_int_equal(l.scene.tri_count + l.scene.dropped_count, 2);
+        assert_int_equal(l.report.entry_count, l.scene.dropped_count);
+        assert_true(fabsf(l.scene.tris[0].ng.y) == 1);
+        for (uint32_t k = 0; k < l.scene.tri_count; k++)
+            check_close(hypot(hypot((double)l.scene.tris[k].ng.x,
+                                    (double)l.scene.tris[k].ng.y),
+                              (double)l.scene.tris[k].ng.z),
+                        1, 1e-6);
+        unload(&l);
+    }
+}
+
 static void test_unused_vertices_have_no_effect(void **state)
 {
     struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e9 0 0\nv nan 0 0\n"
@@ -576,6 +604,7 @@ int main(void)
         cmocka_unit_test(test_normalization),
         cmocka_unit_test(test_triangles_without_area),
         cmocka_unit_test(test_triangles_too_small_for_floats),
+        cmocka_unit_test(test_needles_keep_their_normals),
         cmocka_unit_test(test_unused_vertices_have_no_effect),
         cmocka_unit_test(test_no_faces),
         cmocka_unit_test(test_copies_begin_alike),

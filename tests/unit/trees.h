@@ -258,17 +258,81 @@ static void identical_triangles_build(void **state)
     mesh_free(&m);
 }
 
-/* STRESS G9: a chain that halves 200 times cannot outgrow the stack. */
+/* Numbers that a ray must not have. */
+static const float wrong[] = {NAN, -NAN, INFINITY, -INFINITY};
+
+#define WRONG (sizeof wrong / sizeof *wrong)
+
+/* A ray that meets the mesh, if it were not for some of its numbers: of which
+ * there is one way for each count below WRONGS. */
+#define WRONGS 15625 /* (1 + WRONG)^6 */
+
+static struct ray wrong_ray(struct ray r, uint32_t way)
+{
+    for (int i = 0; i < 6; i++, way /= 1 + WRONG)
+        if (way % (1 + WRONG) != 0)
+            (i < 3 ? &r.o.x : &r.d.x)[i % 3] = wrong[way % (1 + WRONG) - 1];
+    return r;
+}
+
+static void check_misses(const struct mesh *m, uint32_t way)
+{
+    const struct ray right = {
+        {0.5f, 0.1f, 2}, v3_unit(v3(-0.2f, -0.1f, -1)), 9, 0, 0};
+    struct ray rays[GROUP];
+    struct hit hits[GROUP];
+    uint32_t at = way % GROUP;
+
+    for (uint32_t k = 0; k < GROUP; k++)
+        rays[k] = right;
+    assert_true(hit_closest(&m->world, right, &hits[0]));
+    rays[at] = wrong_ray(right, way);
+    assert_false(hit_closest(&m->world, rays[at], &hits[0]));
+    assert_int_equal(hits[0].tri, NO_INDEX);
+    assert_false(hit_any(&m->world, rays[at], NO_INDEX));
+    if (hits_closest(&m->world, rays, GROUP, hits))
+        assert_int_equal(hits[at].tri, NO_INDEX);
+    rays[at] = right;
+    rays[at].t_max = NAN;
+    assert_false(hit_closest(&m->world, rays[at], &hits[0]));
+    assert_false(hit_any(&m->world, rays[at], NO_INDEX));
+}
+
+/* Trees of one node to many, most with nodes that lack children. */
+static void rays_that_are_no_numbers_miss(void **state)
+{
+    (void)state;
+    for (int boxes = 1; boxes <= 27; boxes *= 3) {
+        struct mesh m = {0};
+
+        for (int k = 1; k <= boxes; k++) {
+            float s = (float)k / (float)boxes;
+
+            mesh_add_box(&m, v3(-s, -s, -s), v3(s, s, s), 0);
+        }
+        mesh_finish(&m);
+        for (uint32_t way = 1; way < WRONGS; way++)
+            check_misses(&m, way);
+        mesh_free(&m);
+    }
+}
+
+/* STRESS G9: a chain that halves 209 times, from the largest scale to the
+ * smallest float, cannot outgrow the stack. */
 static void deep_chains_stay_bounded(void **state)
 {
     struct mesh m = {0};
 
     (void)state;
-    for (int k = 0; k < 140; k++) {
-        float x = ldexpf(1.0f, -k);
+    for (int k = 0; k <= 209; k++) {
+        float x = ldexpf(1.0f, 60 - k);
 
         mesh_add(&m, v3(x, 0, 0), v3(x, x, 0), v3(x, 0, x), 0);
     }
+    mesh_finish(&m);
+    assert_true(m.bvh.depth < TRAVERSE_STACK);
+    bvh_free(&m.bvh);
+    wide_free(&m.wide);
     for (int k = 0; k < 100000; k++)
         mesh_add(&m, v3(1e-42f, 0, 0), v3(0, 1e-42f, 0), v3(0, 0, 1e-42f), 0);
     mesh_finish(&m);
@@ -301,6 +365,7 @@ static int run_trees(void)
         cmocka_unit_test(nested_sizes_agree),
         cmocka_unit_test(identical_triangles_build),
         cmocka_unit_test(deep_chains_stay_bounded),
+        cmocka_unit_test(rays_that_are_no_numbers_miss),
         cmocka_unit_test(empty_worlds_are_missed),
     };
 

@@ -1,0 +1,16 @@
+# Beside an edge of 5e38 one of 1 has no reciprocal: its normal was none, and
+# what left the face was a ray that never ended.
+printf 'v %s\n' '-5e38 0 0' '0 0 0' '0 0 1' '0 1 0' >needle.obj
+printf 'f 1 2 3\nf 1 4 3\n' >>needle.obj
+printf 'v %s\n' '0 0 0' '0 0 1' '0 .79 1' '0 1 0' '-1e38 0 0' '0 0 -1e38' \
+    >corners.obj
+printf 'f 5 1 2\nf 1 4 3 6\n' >>corners.obj
+for name in needle corners; do
+    for isa in plain avx2 avx512; do
+        glim -b -w 8 -h 8 -s 1 --isa $isa -o $name.$isa.pfm $name.obj \
+            >$isa.out 2>&1 || grep -q 'none of this processor' $isa.out ||
+            echo "$name $isa: $?"
+    done
+    run_untimed -b -w 8 -h 8 -s 1 -t 1 -o $name.png $name.obj |
+        grep -v "crosses itself" # what a polygon is cut into is not meant here
+done
