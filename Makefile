@@ -16,6 +16,11 @@ SAY = $(if $(filter 1,$(V)),@:,@printf '  %-5s %s\n')
 THREADS ?= 1
 ROUNDS ?= 5
 
+# What `make fuzz` compiles with, as only clang has libFuzzer, and the seconds
+# that it gives to each target.
+FUZZ_CC ?= clang
+TIME ?= 60
+
 # What `make run` opens.
 SCENE ?= scenes/cornell.obj
 
@@ -61,6 +66,10 @@ UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 STRESSES := $(patsubst tests/stress/%.c,$(B)/stress/%,$(wildcard \
 	tests/stress/*.c))
+FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard \
+	tests/fuzz/fuzz_*.c))
+# A fuzzer brings its own main(); without one, files are read.
+FUZZ_MAIN := $(if $(findstring fuzzer,$(SAN)),-fsanitize=fuzzer,$(B)/fuzz/replay.o)
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 	%/scenes.c,$(wildcard tests/bench/error/*.c))) $(patsubst \
@@ -73,7 +82,7 @@ MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
 C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
-	tests/bench/error tests/bench/rays tests/stress tests/tools, \
+	tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \
 	$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
@@ -126,8 +135,15 @@ $(eval $(call program,unit,-lcmocka))
 $(foreach i,$(ISAS),$(eval $(B)/unit/test_wide_$(i): \
 	private ALL_CFLAGS += $(FLAGS_$(i))))
 $(eval $(call program,bench))
+$(eval $(call program,fuzz,$(FUZZ_MAIN)))
 $(eval $(call program,stress,-lcmocka))
 $(eval $(call program,tools))
+
+$(FUZZERS): $(filter %.o,$(FUZZ_MAIN))
+$(B)/fuzz/%.o: tests/fuzz/%.c $(B)/flags
+	@mkdir -p $(@D)
+	$(SAY) CC $<
+	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
 $(B)/error/%.o: tests/bench/error/%.c $(B)/flags
 	@mkdir -p $(@D)
@@ -193,7 +209,18 @@ test:
 	@+$(MAKE_ALL) tests
 	@BUILD=$(B) SAN='$(SAN)' tests/run.sh
 
-tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES)
+tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
+	$(FUZZERS)
+
+## fuzz: invents inputs that break what reads files, options and keys;
+##       TIME=60 seconds for each target, FILTER=PART of a target's name
+fuzz:
+	@CC='$(FUZZ_CC)' tests/tools/deps.sh build fuzz
+	@+$(MAKE_ALL) CC='$(FUZZ_CC)' SAN=fuzzer-no-link,address,undefined \
+		CFLAGS='$(if $(filter file,$(origin CFLAGS)),-O1 -g,$(CFLAGS))' search
+
+search: $(FUZZERS)
+	@BUILD=$(B) TIME='$(TIME)' FILTER='$(FILTER)' tests/fuzz/search.sh
 
 ## bench: measures speed, halting and threads; FILTER=NAME for one of them
 bench: $(B)/glim $(BENCHES)
@@ -309,8 +336,9 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests bench bench-error bench-rays bench-cycles stress scenes tables \
-	gallery install uninstall deps format lint clean help FORCE
+.PHONY: all run test tests fuzz search bench bench-error bench-rays \
+	bench-cycles stress scenes tables gallery install uninstall deps format \
+	lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \
-	$(STRESSES:=.d) $(TOOLS:=.d) $(ERROR_BENCH:.o=.d) \
-	$(RAYS_BENCH:.o=.d) $(B)/error/scenes.d
+	$(STRESSES:=.d) $(FUZZERS:=.d) $(B)/fuzz/replay.d $(TOOLS:=.d) \
+	$(ERROR_BENCH:.o=.d) $(RAYS_BENCH:.o=.d) $(B)/error/scenes.d

@@ -128,11 +128,11 @@ static double part_of_light(const struct guide_part *part, uint32_t cell,
 static void add_sums(const struct guide_part *part, uint32_t cell, double total,
                      double share, float *sums)
 {
-    const float *flux = part->flux + (size_t)cell * GUIDE_BINS;
+    size_t first = (size_t)cell * GUIDE_BINS;
     double sum = 0;
 
     for (uint32_t i = 0; i < GUIDE_BINS && share > 0; i++) {
-        sum += (double)flux[i];
+        sum += (double)part->flux[first + i];
         sums[i] += (float)(sum / total * share);
     }
 }

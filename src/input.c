@@ -261,21 +261,30 @@ static void take_escape(struct sequence *s, const unsigned char *p,
         s->length = length;
 }
 
+/* Bytes of the UTF-8 character that begins so; 1: none does. */
+static size_t character_bytes(unsigned char first)
+{
+    if (first < 0xc2 || first > 0xf4)
+        return 1;
+    return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+}
+
 /* Bytes of one character in UTF-8 are one key. */
 static void take_character(struct sequence *s, const unsigned char *p,
                            size_t length)
 {
+    size_t count = character_bytes(p[0]);
     size_t i = 1;
 
-    if (p[0] < 0x80) {
-        s->length = 1;
-        set_key(s, p[0] == '\n' ? '\r' : p[0]);
-        return;
-    }
-    while (i < length && i < 4 && (p[i] & 0xc0) == 0x80)
+    while (i < length && i < count && (p[i] & 0xc0) == 0x80)
         i++;
+    if (i == length && i < count)
+        return;
     s->length = i;
-    set_key(s, INPUT_OTHER);
+    if (p[0] < 0x80)
+        set_key(s, p[0] == '\n' ? '\r' : p[0]);
+    else
+        set_key(s, INPUT_OTHER);
 }
 
 bool input_next(struct input *in, bool nothing_follows, struct event *event)
@@ -290,7 +299,9 @@ bool input_next(struct input *in, bool nothing_follows, struct event *event)
         if (s.length == 0) {
             if (!nothing_follows)
                 return false;
-            if (in->length == 1)
+            if (in->bytes[0] != ESC)
+                set_key(&s, INPUT_OTHER);
+            else if (in->length == 1)
                 set_key(&s, ESC);
             s.length = in->length;
         }

@@ -3,7 +3,8 @@
 # run.sh - runs every test and ends with "N passed, N failed"
 #
 # BUILD names the folder with the programs (build/release). FILTER=WORD runs
-# only the parts whose name has it: layers, man, scenes, a test_x, cli, screen.
+# only the parts whose name has it: layers, man, scenes, a test_x, fuzz, cli,
+# screen.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build/release}
@@ -11,7 +12,7 @@ export BUILD=${BUILD:-build/release}
 POCL_CACHE_DIR=$(realpath "$BUILD")/pocl
 export POCL_CACHE_DIR
 export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
-SAN=${SAN-}
+export SAN=${SAN-}
 FILTER=${FILTER-}
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
@@ -116,6 +117,7 @@ for program in tests/unit/test_*.c; do
     name=$(basename "$program" .c)
     wanted "$name" && run_unit "$BUILD/unit/$name"
 done
+wanted fuzz && run_script fuzz tests/fuzz/run.sh
 wanted cli && run_script cli tests/cli/run.sh
 wanted screen && run_script screen tests/screen/run.sh
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # deps.sh - finds what is missing and installs only that from Debian
 #
-# usage: deps.sh [-v] build|test|lint...
+# usage: deps.sh [-v] build|test|fuzz|lint...
 # Looks for the headers and the programs themselves, so that a library from
 # elsewhere counts. -v says what was found, too. When nothing is missing, a
 # stamp in build/ makes the next call cheap; `make clean` forgets it.
@@ -95,6 +95,12 @@ look()
             need_program pgrep procps
             need_program mandoc mandoc
             ;;
+        fuzz)
+            need_program "${compiler%% *}" "$compiler_package"
+            # Debian has libFuzzer beside the other runtimes of its clang
+            need_library "libclang_rt.fuzzer-$(uname -m).a" \
+                "libclang-rt-$($compiler -dumpversion | cut -d. -f1)-dev"
+            ;;
         lint)
             need_program clang-format clang-format
             need_program clang-tidy clang-tidy
@@ -102,7 +108,7 @@ look()
             need_program mandoc mandoc
             ;;
         *)
-            echo "deps.sh: what is '$part'? build, test or lint" >&2
+            echo "deps.sh: what is '$part'? build, test, fuzz or lint" >&2
             exit 2
             ;;
         esac

@@ -70,6 +70,10 @@ static void keys_are_keys(void **state)
         {"\033[1~", INPUT_HOME},
         {"\033OM", '\r'}, /* Enter of the keypad */
         {"\033[15~", INPUT_OTHER},
+        {"\xc3\xa4", INPUT_OTHER}, /* characters beyond ASCII are one key */
+        {"\xe2\x82\xac", INPUT_OTHER},
+        {"\xf0\x9f\x98\x80", INPUT_OTHER},
+        {"\xe4", INPUT_OTHER}, /* in Latin-1 */
     };
 
     (void)state;

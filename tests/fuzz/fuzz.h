@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+/*
+ * fuzz.h - what the fuzz targets have in common: files for the functions that
+ * read files, and checks
+ *
+ * Each fuzz_X.c has one function, LLVMFuzzerTestOneInput(). libFuzzer calls it
+ * with inputs that it invents; replay.c calls it with files.
+ *
+ * Units:     bytes
+ * Ownership: paths live as long as the program
+ * Threads:   one
+ * Errors:    abort(), with a line that says what was wrong
+ */
+#ifndef TESTS_FUZZ_H
+#define TESTS_FUZZ_H
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "glim/report.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* Ends the program with the place and the text if the condition is false. */
+#define require(condition, text)                                       \
+    do {                                                               \
+        if (!(condition)) {                                            \
+            fprintf(stderr, "%s:%d: not %s: %s\n", __FILE__, __LINE__, \
+                    #condition, text);                                 \
+            abort();                                                   \
+        }                                                              \
+    } while (0)
+
+/* The folder in which the process keeps its files: in TMPDIR, which the scripts
+ * set and remove. */
+static inline const char *fuzz_folder(void)
+{
+    static char folder[256];
+    const char *parent = getenv("TMPDIR");
+
+    if (folder[0] == '\0') {
+        snprintf(folder, sizeof folder, "%s/glim-fuzz-XXXXXX",
+                 parent ? parent : "/tmp");
+        require(mkdtemp(folder), folder);
+    }
+    return folder;
+}
+
+/* Writes a file into the folder, or removes it if bytes is NULL. The path is
+ * for free(). */
+static inline char *fuzz_put(const char *name, const void *bytes, size_t size)
+{
+    char path[512];
+    FILE *f;
+
+    snprintf(path, sizeof path, "%s/%s", fuzz_folder(), name);
+    if (bytes == NULL) {
+        unlink(path);
+        return strdup(path);
+    }
+    f = fopen(path, "wb");
+    require(f != NULL, path);
+    require(fwrite(bytes, 1, size, f) == size, path);
+    require(fclose(f) == 0, path);
+    return strdup(path);
+}
+
+/* The part up to the next separator, which it takes from *p; NULL: there is no
+ * part any more. */
+static inline const char *fuzz_part(const char **p, const char *end,
+                                    size_t *size)
+{
+    static const char separator[] = "\n====\n";
+    const char *part = *p;
+    const char *next;
+
+    if (part == NULL)
+        return NULL;
+    next = memmem(part, (size_t)(end - part), separator, strlen(separator));
+    *size = (size_t)((next != NULL ? next + 1 : end) - part);
+    *p = next != NULL ? next + strlen(separator) : NULL;
+    return part;
+}
+
+/* Writes the files of a scene: the OBJ file, the MTL file, the view file and an
+ * image, with lines "====" between them. Those that the input does not have are
+ * not there. Returns the path of the OBJ file for free(). */
+static inline char *fuzz_put_scene(const uint8_t *data, size_t size)
+{
+    static const char *const names[] = {"scene.obj", "scene.mtl", "scene.view",
+                                        "Maps/image.png"};
+    const char *p = (const char *)data;
+    char path[512];
+
+    snprintf(path, sizeof path, "%s/Maps", fuzz_folder());
+    mkdir(path, 0700);
+    for (int i = 0; i < 4; i++) {
+        size_t part_size = 0;
+        const char *part = fuzz_part(&p, (const char *)data + size, &part_size);
+
+        free(fuzz_put(names[i], part, part_size));
+    }
+    snprintf(path, sizeof path, "%s/scene.obj", fuzz_folder());
+    return strdup(path);
+}
+
+/* Bytes of the UTF-8 character at p, which ends with NUL; 0: there is none. */
+static inline int fuzz_character_bytes(const unsigned char *p)
+{
+    int count = *p < 0x80                  ? 1
+                : *p >= 0xc2 && *p <= 0xdf ? 2
+                : *p >= 0xe0 && *p <= 0xef ? 3
+                : *p >= 0xf0 && *p <= 0xf4 ? 4
+                                           : 0;
+
+    for (int i = 1; i < count; i++)
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+    return count;
+}
+
+/* A message is one line without anything that a terminal obeys: C0, DEL, and C1
+ * as a character or as a byte alone. */
+static inline void fuzz_check_message(const char *text)
+{
+    const unsigned char *p = (const unsigned char *)text;
+
+    require(*p != '\0', "an empty message");
+    while (*p != '\0') {
+        int count = fuzz_character_bytes(p);
+        int code = count == 2 ? (*p & 0x1f) << 6 | (p[1] & 0x3f) : *p;
+
+        require(code >= 0x20 && code != 0x7f, text);
+        require(count > 2 || code < 0x80 || code > 0x9f, text);
+        p += count > 0 ? count : 1;
+    }
+}
+
+static inline void fuzz_check_report(const struct report *report)
+{
+    for (int i = 0; i < report->entry_count; i++)
+        fuzz_check_message(report->entries[i].text);
+}
+
+#endif

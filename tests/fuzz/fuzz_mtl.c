@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+/*
+ * MTL text, with the files that its maps name. Whatever it says, materials have
+ * values that can be rendered.
+ */
+#include <math.h>
+
+#include "fuzz.h"
+#include "glim/mtl.h"
+
+static int is_light(struct vec3 c)
+{
+    return c.x >= 0 && c.y >= 0 && c.z >= 0 && isfinite(c.x) && isfinite(c.y) &&
+           isfinite(c.z);
+}
+
+static int is_reflectance(struct vec3 c)
+{
+    return is_light(c) && c.x <= 1 && c.y <= 1 && c.z <= 1;
+}
+
+static int is_texture(const struct scene *scene, uint32_t index)
+{
+    return index == NO_INDEX || index < scene->texture_count;
+}
+
+static void check_material(const struct scene *scene, const struct material *m)
+{
+    require(is_reflectance(m->color), "colour");
+    require(is_reflectance(m->coat), "coat");
+    require(is_light(m->emission), "emission");
+    require(m->alpha >= 0 && m->alpha <= 1, "roughness");
+    require(m->opacity >= 0 && m->opacity <= 1, "opacity");
+    require(m->ior > 0 && isfinite(m->ior), "index of refraction");
+    require(isfinite(m->bump_scale), "height of bumps");
+    require(is_texture(scene, m->color_texture) &&
+                is_texture(scene, m->emission_texture) &&
+                is_texture(scene, m->coat_texture) &&
+                is_texture(scene, m->alpha_texture) &&
+                is_texture(scene, m->metal_texture) &&
+                is_texture(scene, m->opacity_texture) &&
+                is_texture(scene, m->normal_texture) &&
+                is_texture(scene, m->bump_texture),
+            "textures");
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char *image = fuzz_put("a.png", "", 0);
+    char *path = fuzz_put("a.mtl", NULL, 0);
+    struct scene scene = {.path = NULL};
+    struct report report = {0};
+    struct error err = {""};
+
+    if (!mtl_parse(&scene, (const char *)data, size, path, &report, &err))
+        fuzz_check_message(err.text);
+    for (uint32_t i = 0; i < scene.material_count; i++)
+        check_material(&scene, &scene.materials[i]);
+    fuzz_check_report(&report);
+    report_free(&report);
+    scene_free(&scene);
+    free(path);
+    free(image);
+    return 0;
+}

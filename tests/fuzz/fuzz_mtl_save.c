@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+/*
+ * MTL files that are read, edited as in the panel, saved, and read again: each
+ * material is then what the panel has shown. The first byte says how many edits
+ * there are, three bytes are an edit, and the rest is the file.
+ */
+#include "fuzz.h"
+#include "glim/knob.h"
+#include "glim/material.h"
+#include "glim/mtl.h"
+#include "glim/session.h"
+
+#define EDITS_MAX 16
+
+/* Numbers of textures in a material. */
+#define MAPS 8
+
+static const uint32_t *const *maps_of(const struct material *m)
+{
+    static const uint32_t *maps[MAPS];
+
+    maps[0] = &m->color_texture;
+    maps[1] = &m->emission_texture;
+    maps[2] = &m->coat_texture;
+    maps[3] = &m->alpha_texture;
+    maps[4] = &m->metal_texture;
+    maps[5] = &m->opacity_texture;
+    maps[6] = &m->normal_texture;
+    maps[7] = &m->bump_texture;
+    return maps;
+}
+
+static void load(struct session *s, const struct options *options)
+{
+    struct error err = {""};
+
+    require(session_load(s, options, 0, &err), err.text);
+}
+
+/* What a map alone has a use for counts only beside the map. */
+static struct material material_of(const struct session *s, uint32_t i)
+{
+    struct report report = {0};
+    struct material m =
+        material_from_source(&s->edit.now.sources[i], "", &report);
+
+    report_free(&report);
+    if (m.bump_texture == NO_INDEX)
+        m.bump_scale = 0;
+    if (m.metal_texture == NO_INDEX)
+        m.metalness = 0;
+    return m;
+}
+
+static void check_maps(const struct session *a, const struct material *m,
+                       const struct session *b, const struct material *n)
+{
+    const uint32_t *of_a[MAPS];
+
+    memcpy(of_a, maps_of(m), sizeof of_a);
+    for (int i = 0; i < MAPS; i++) {
+        uint32_t p = *of_a[i], q = *maps_of(n)[i];
+
+        require((p == NO_INDEX) == (q == NO_INDEX), "a map");
+        if (p == NO_INDEX)
+            continue;
+        require(strcmp(a->scene.texture_paths[p], b->scene.texture_paths[q]) ==
+                    0,
+                a->scene.texture_paths[p]);
+        require(memcmp(&a->scene.textures[p].scale, &b->scene.textures[q].scale,
+                       sizeof(struct texture) -
+                           offsetof(struct texture, scale)) == 0,
+                a->scene.texture_paths[p]);
+    }
+}
+
+/* The same colours and numbers, and the same images looked up alike. */
+static void check_material(const struct session *a, const struct material *m,
+                           const struct session *b, const struct material *n,
+                           const char *name)
+{
+    struct material x = *m, y = *n;
+
+    check_maps(a, m, b, n);
+    for (int i = 0; i < MAPS; i++) {
+        *(uint32_t *)(uintptr_t)maps_of(&x)[i] = 0;
+        *(uint32_t *)(uintptr_t)maps_of(&y)[i] = 0;
+    }
+    require(memcmp(&x, &y, sizeof x) == 0, name);
+}
+
+static void edit(struct session *s, const uint8_t *bytes)
+{
+    struct edit *e = &s->edit;
+    uint32_t material = bytes[0] % e->material_count;
+    struct knob_target target = {.page = KNOB_MATERIAL, .index = material};
+    struct knob knobs[KNOBS_MAX];
+    int count;
+
+    edit_break(e);
+    if (bytes[1] == 255)
+        edit_undo(e);
+    else if (bytes[1] == 254)
+        edit_duplicate(e, material);
+    if (bytes[1] >= 254 || material == 0 || !e->now.is_there[material])
+        return;
+    count = knobs_list(e, &s->scene, &target, knobs);
+    knob_turn(e, &target, knobs[bytes[1] % count].id, bytes[2] - 128);
+}
+
+static void save(struct session *s)
+{
+    struct error err = {""};
+    struct watch watch;
+    char *what;
+
+    watch_init(&watch);
+    require(session_save_edit(s, &watch, &what, &err), err.text);
+    free(what);
+    watch_free(&watch);
+}
+
+/* Reads the file again, which has all materials and no others. */
+static void check_saved(const struct session *s, const struct options *options)
+{
+    struct session back;
+    uint32_t there = 0;
+
+    load(&back, options);
+    for (uint32_t i = 0; i < s->edit.material_count; i++) {
+        const char *name = s->edit.names[i];
+        uint32_t other = mtl_find(&back.scene, name);
+        struct material m, n;
+
+        if (!s->edit.now.is_there[i])
+            continue;
+        there++;
+        require(other != NO_INDEX, name);
+        m = material_of(s, i);
+        n = material_of(&back, other);
+        check_material(s, &m, &back, &n, name);
+    }
+    require(there == back.scene.material_count, "as many materials");
+    session_close(&back);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const char obj[] = "mtllib a.mtl\n";
+    size_t edits = size > 0 ? data[0] % (EDITS_MAX + 1) : 0;
+    size_t begin = 1 + 3 * edits;
+    struct options options;
+    struct session s;
+    struct error err = {""};
+    char *path, *mtl, *image;
+
+    if (size < begin)
+        return 0;
+    path = fuzz_put("a.obj", obj, strlen(obj));
+    mtl = fuzz_put("a.mtl", data + begin, size - begin);
+    image = fuzz_put("a.png", "", 0);
+    options_init(&options);
+    options.scene_path = path;
+    options.thread_count = 1;
+    if (session_load(&s, &options, 0, &err)) {
+        for (size_t i = 0; i < edits; i++)
+            edit(&s, data + 1 + 3 * i);
+        save(&s);
+        check_saved(&s, &options);
+    }
+    session_close(&s);
+    free(path);
+    free(mtl);
+    free(image);
+    return 0;
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/*
+ * A scene that is loaded with its materials and images, which are looked for
+ * under the names that it has for them: all that it holds can be rendered.
+ * fuzz_put_scene() says what the input is.
+ */
+#include <math.h>
+
+#include "fuzz.h"
+#include "glim/scene.h"
+
+static int is_index(uint32_t index, uint32_t count)
+{
+    return index == NO_INDEX || index < count;
+}
+
+static int is_finite(struct vec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+static void check_tris(const struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        const struct tri *t = &scene->tris[i];
+
+        require(t->material < scene->material_count, "a material");
+        require(scene->tri_objects[i] < scene->object_count, "an object");
+        require(is_finite(t->ng), "a normal");
+        for (int k = 0; k < 3; k++) {
+            require(t->v[k] < scene->position_count, "a vertex");
+            require(is_finite(scene->positions[t->v[k]]), "a place");
+            require(is_index(t->vn[k], scene->normal_count), "a normal");
+            require(is_index(t->vt[k], scene->uv_count), "coordinates");
+        }
+    }
+}
+
+static void check_textures(const struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        const struct texture *t = &scene->textures[i];
+
+        require((uint64_t)t->first + (uint64_t)t->width * t->height <=
+                    scene->texel_count,
+                "texels");
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char *path = fuzz_put_scene(data, size);
+    struct scene scene = {.path = NULL};
+    struct report report = {0};
+    struct error err = {""};
+
+    if (scene_load(&scene, path, false, &report, &err)) {
+        check_tris(&scene);
+        check_textures(&scene);
+    } else {
+        fuzz_check_message(err.text);
+    }
+    fuzz_check_report(&report);
+    report_free(&report);
+    scene_free(&scene);
+    free(path);
+    return 0;
+}

@@ -1,0 +1,65 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# search.sh - what `make fuzz` runs: each target with inputs that it invents
+#
+# BUILD names the folder with the targets. TIME is in seconds, for each of them;
+# FILTER=PART of a name picks some. Inputs that reach new code are kept in
+# build/fuzz/NAME for the next time, those that break something in
+# build/fuzz/found. An input has a minute and 2 GiB. The last line is
+# "N passed, N failed".
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+shared=${GLIM_SHARED:-../shared}/suites
+work=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+mkdir -p build/fuzz/found
+export TMPDIR=$work
+export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
+passed=0
+failed=0
+
+# Files of others that end so, for the target to begin with.
+seeds() # NAME ENDING...
+{
+    local ending
+
+    mkdir -p "$work/$1"
+    for ending in "${@:2}"; do
+        [ -d "$shared" ] && find "$shared" -name "*.$ending" -size -64k \
+            -exec cp --backup=numbered -t "$work/$1" {} +
+    done
+}
+
+search() # NAME
+{
+    local name=$1
+
+    case $name in
+    obj | scene) seeds "$name" obj ;;
+    mtl) seeds mtl mtl ;;
+    view) seeds view view ;;
+    image) seeds image png jpg tga ;;
+    *) seeds "$name" ;;
+    esac
+    mkdir -p "build/fuzz/$name"
+    if nice "$BUILD/fuzz/fuzz_$name" -max_total_time="${TIME:-60}" \
+        -timeout=60 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1 \
+        -artifact_prefix="build/fuzz/found/$name-" "build/fuzz/$name" \
+        "tests/fuzz/corpus/$name" "$work/$name" >"$work/log" 2>&1; then
+        passed=$((passed + 1))
+        echo "ok $name ($(sed -n 's/^stat::number_of_executed_units: *//p' \
+            "$work/log") inputs)"
+    else
+        failed=$((failed + 1))
+        tail -n 60 "$work/log"
+        echo "FAIL $name: reproduce with $BUILD/fuzz/fuzz_$name FILE"
+    fi
+}
+
+for target in tests/fuzz/fuzz_*.c; do
+    name=$(basename "$target" .c)
+    name=${name#fuzz_}
+    [[ $name == *"${FILTER-}"* ]] && search "$name"
+done
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ]
