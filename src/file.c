@@ -30,8 +30,16 @@ static bool fail_errno(struct error *err, const char *path)
                     "%s: someone else has written it at the same time: nothing "
                     "is saved",
                     path);
-    default: return fail(err, "%s: %s", path, strerror(errno));
+    case ENAMETOOLONG:
+        if (strlen(path) >= PATH_MAX)
+            return fail(err,
+                        "found a file name of %zu bytes, expected fewer than "
+                        "%d: %.40s...",
+                        strlen(path), PATH_MAX, path);
+        break;
+    default: break;
     }
+    return fail(err, "%s: %s", path, strerror(errno));
 }
 
 static const char *kind_of(mode_t mode)
