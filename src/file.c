@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "glim/quota.h"
+
 /* As many links in a row as the kernel follows. */
 #define LINKS_MAX 40
 
@@ -63,14 +65,18 @@ static bool expect_regular(const char *path, const struct stat *st,
 /* More than the machine has would end in its out-of-memory killer. */
 static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
 {
-    int64_t memory_bytes =
-        (int64_t)sysconf(_SC_PHYS_PAGES) * (int64_t)sysconf(_SC_PAGESIZE);
-    int64_t most_bytes =
-        memory_bytes < FILE_BYTES_MAX ? memory_bytes : FILE_BYTES_MAX;
+    struct memory_quota memory = quota_memory("");
 
-    return size_bytes <= most_bytes ||
-           fail(err, "%s: found %.1f GiB, expected %.1f GiB at most", path,
-                (double)size_bytes / (1 << 30), (double)most_bytes / (1 << 30));
+    if (size_bytes > FILE_BYTES_MAX)
+        return fail(err, "%s: found %.1f GiB, expected %d GiB at most", path,
+                    (double)size_bytes / (1 << 30),
+                    (int)(FILE_BYTES_MAX >> 30));
+    return (uint64_t)size_bytes <= memory.size_bytes ||
+           fail(err,
+                "%s: found %.1f GiB, expected no more than the %.1f GiB "
+                "of memory %s",
+                path, (double)size_bytes / (1 << 30),
+                (double)memory.size_bytes / (1 << 30), memory.place);
 }
 
 /* -1 and errno, or what there was before the end. */
