@@ -2,11 +2,13 @@
 /*
  * quota.h - how much processor time and memory this process may use
  *
- * What cannot be read limits nothing. `root` is "" for the system's own files:
- * proc/self/cgroup and sys/fs/cgroup are read below it.
+ * `root` is "" for the system's own files: proc/self/cgroup and sys/fs/cgroup
+ * are read below it.
  *
  * Units:     processors, bytes
+ * Ownership: none
  * Threads:   any
+ * Errors:    none: what cannot be read limits nothing
  */
 #ifndef GLIM_QUOTA_H
 #define GLIM_QUOTA_H
