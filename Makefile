@@ -164,7 +164,7 @@ $(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o \
-	$(B)/file.o $(B)/quota.o $(B)/util.o
+	$(B)/file.o $(B)/temp_file.o $(B)/quota.o $(B)/util.o
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 

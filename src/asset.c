@@ -2,6 +2,9 @@
 #include "glim/asset.h"
 
 #include <dirent.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -32,10 +35,12 @@ static void remove_escapes(char *name)
     *to = '\0';
 }
 
-/* What the folder calls the file, or the first such name. */
-static char *name_in_folder(const char *folder, const char *name)
+/* The folder's entry that equals `name` but for capital and small letters, the
+ * first by strcmp() of several. NULL: there is none. */
+static char *name_in_folder(int folder, const char *name)
 {
-    DIR *entries = opendir(folder);
+    int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *entries = copy >= 0 ? fdopendir(copy) : NULL;
     struct dirent *entry;
     char *found = NULL;
 
@@ -48,48 +53,78 @@ static char *name_in_folder(const char *folder, const char *name)
     }
     if (entries != NULL)
         closedir(entries);
+    else if (copy >= 0)
+        close(copy);
     return found;
 }
 
-/* The file of this path but for capital and small letters, which other systems
- * do not tell apart. */
-static char *in_any_case(const char *path)
+/* Gives the part of a path the letters that the folder has: a name of the same
+ * length, in place. False: the folder has no such entry. */
+static bool correct_part(int folder, char *part)
 {
-    const char *slash = strrchr(path, '/');
-    char *folder, *real, *name;
-    char *found = NULL;
+    char *found;
 
-    if (access(path, F_OK) == 0)
-        return xstrdup(path);
-    if (slash == NULL)
-        return name_in_folder(".", path);
-    folder = xformat("%.*s", (int)(slash - path), path);
-    real = slash == path ? xstrdup("") : in_any_case(folder);
-    name = real ? name_in_folder(*real ? real : "/", slash + 1) : NULL;
-    if (name != NULL)
-        found = xformat("%s/%s", real, name);
-    free(folder);
-    free(real);
-    free(name);
-    return found;
+    if (*part == '\0' || faccessat(folder, part, F_OK, 0) == 0)
+        return true;
+    found = name_in_folder(folder, part);
+    if (found != NULL)
+        memcpy(part, found, strlen(part));
+    free(found);
+    return found != NULL;
+}
+
+/* Looks each part of the path up in the folder that the parts before it name,
+ * and corrects its letters: some systems do not tell capital ones from small
+ * ones. */
+static bool correct_letters(char *path)
+{
+    int folder = open(*path == '/' ? "/" : ".", O_PATH | O_CLOEXEC);
+    bool ok = folder >= 0;
+
+    for (char *part = path; ok; part++) {
+        char *slash = strchrnul(part, '/');
+        bool is_last = *slash == '\0';
+        int next;
+
+        *slash = '\0';
+        ok = correct_part(folder, part);
+        if (is_last)
+            break;
+        next = ok && *part != '\0'
+                   ? openat(folder, part, O_PATH | O_DIRECTORY | O_CLOEXEC)
+                   : folder;
+        *slash = '/';
+        if (next != folder) {
+            close(folder);
+            folder = next;
+            ok = folder >= 0;
+        }
+        part = slash;
+    }
+    if (folder >= 0)
+        close(folder);
+    return ok;
 }
 
 static char *find_in_any_case(const char *beside, const char *name)
 {
     char *path = path_beside(beside, name);
-    char *found = in_any_case(path);
 
+    if (correct_letters(path))
+        return path;
     free(path);
-    return found;
+    return NULL;
 }
 
 char *asset_find(const char *beside, const char *name)
 {
-    char *found = *name == '\0' ? NULL : if_exists(beside, name);
-    char *other;
+    char *found, *other;
     const char *last;
 
-    if (found != NULL || *name == '\0')
+    if (*name == '\0' || strlen(name) >= PATH_MAX)
+        return NULL;
+    found = if_exists(beside, name);
+    if (found != NULL)
         return found;
     other = xstrdup(name);
     remove_escapes(other);

@@ -11,6 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "glim/quota.h"
+#include "glim/temp_file.h"
+
 /* As many links in a row as the kernel follows. */
 #define LINKS_MAX 40
 
@@ -30,8 +33,16 @@ static bool fail_errno(struct error *err, const char *path)
                     "%s: someone else has written it at the same time: nothing "
                     "is saved",
                     path);
-    default: return fail(err, "%s: %s", path, strerror(errno));
+    case ENAMETOOLONG:
+        if (strlen(path) >= PATH_MAX)
+            return fail(err,
+                        "found a file name of %zu bytes, expected fewer than "
+                        "%d: %.40s...",
+                        strlen(path), PATH_MAX, path);
+        break;
+    default: break;
     }
+    return fail(err, "%s: %s", path, strerror(errno));
 }
 
 static const char *kind_of(mode_t mode)
@@ -55,14 +66,18 @@ static bool expect_regular(const char *path, const struct stat *st,
 /* More than the machine has would end in its out-of-memory killer. */
 static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
 {
-    int64_t memory_bytes =
-        (int64_t)sysconf(_SC_PHYS_PAGES) * (int64_t)sysconf(_SC_PAGESIZE);
-    int64_t most_bytes =
-        memory_bytes < FILE_BYTES_MAX ? memory_bytes : FILE_BYTES_MAX;
+    struct memory_quota memory = quota_memory("");
 
-    return size_bytes <= most_bytes ||
-           fail(err, "%s: found %.1f GiB, expected %.1f GiB at most", path,
-                (double)size_bytes / (1 << 30), (double)most_bytes / (1 << 30));
+    if (size_bytes > FILE_BYTES_MAX)
+        return fail(err, "%s: found %.1f GiB, expected %d GiB at most", path,
+                    (double)size_bytes / (1 << 30),
+                    (int)(FILE_BYTES_MAX >> 30));
+    return (uint64_t)size_bytes <= memory.size_bytes ||
+           fail(err,
+                "%s: found %.1f GiB, expected no more than the %.1f GiB "
+                "of memory %s",
+                path, (double)size_bytes / (1 << 30),
+                (double)memory.size_bytes / (1 << 30), memory.place);
 }
 
 /* -1 and errno, or what there was before the end. */
@@ -194,23 +209,6 @@ bool file_check(const char *path, struct error *err)
     return ok;
 }
 
-/* A new file with a name of its own in the folder; -1 and errno if there can
- * be none. The name is for free(). */
-static int open_temporary(const char *folder, mode_t mode, char **name)
-{
-    for (unsigned i = 0;; i++) {
-        *name = xformat("%s/.glim-%d-%08x", folder, (int)getpid(),
-                        (unsigned)clock_ns() + i);
-        int fd = open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (fd >= 0)
-            return fd;
-        free(*name);
-        *name = NULL;
-        if (errno != EEXIST || i == 100)
-            return -1;
-    }
-}
-
 static bool write_all(int fd, const char *data, size_t size_bytes)
 {
     while (size_bytes > 0) {
@@ -223,21 +221,6 @@ static bool write_all(int fd, const char *data, size_t size_bytes)
         }
     }
     return true;
-}
-
-/* Gives the finished file its name. A link is made only where there is nothing
- * yet; file systems without links have a rename that does the same. */
-static bool publish(const char *temporary, const char *target, bool must_be_new)
-{
-    if (!must_be_new)
-        return rename(temporary, target) == 0;
-    if (link(temporary, target) == 0) {
-        unlink(temporary);
-        return true;
-    }
-    return (errno == EPERM || errno == EOPNOTSUPP) &&
-           renameat2(AT_FDCWD, temporary, AT_FDCWD, target, RENAME_NOREPLACE) ==
-               0;
 }
 
 /* Makes the name last as well. Some file systems cannot: no harm then. */
@@ -272,35 +255,49 @@ static bool fill_after(int fd, struct file_change *change)
     return true;
 }
 
-/* All steps until the file has its name; errno says what failed. */
-static bool replace(const char *folder, const char *target, const void *data,
-                    size_t size_bytes, bool must_be_new,
-                    struct file_change *change)
+/* What is written where, and what must be there before. */
+struct replacement {
+    const char *folder, *target;
+    const void *data;
+    size_t size_bytes;
+    bool must_be_new;
+    struct file_change *change; /* NULL: whatever it is now */
+};
+
+static bool expects_none(const struct replacement *r)
+{
+    return r->must_be_new || (r->change && !r->change->before.exists);
+}
+
+static bool fill(const struct replacement *r, int fd)
 {
     struct stat old;
-    bool keeps_mode = !must_be_new && stat(target, &old) == 0;
-    char *temporary;
-    int fd = open_temporary(folder, 0666, &temporary);
+    bool keeps_mode = !r->must_be_new && stat(r->target, &old) == 0;
 
-    if (fd < 0)
-        return false;
-    bool ok = (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) &&
-              write_all(fd, data, size_bytes) && fsync(fd) == 0 &&
-              (!change || fill_after(fd, change));
-    int reason = errno;
-    if (close(fd) != 0 && ok) {
-        ok = false;
-        reason = errno;
-    }
-    if (ok && ((change && !is_as_before(target, change)) ||
-               !publish(temporary, target, must_be_new))) {
-        ok = false;
-        reason = errno;
-    }
-    if (!ok)
-        unlink(temporary);
-    free(temporary);
-    errno = reason;
+    return (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) &&
+           write_all(fd, r->data, r->size_bytes) && fsync(fd) == 0 &&
+           (!r->change || fill_after(fd, r->change));
+}
+
+/* All steps until the file has its name; errno says what failed. */
+static bool replace_by(const struct replacement *r, bool has_name)
+{
+    struct temp_file t;
+    bool ok = temp_file_open(&t, r->folder, has_name, 0666) && fill(r, t.fd) &&
+              (!r->change || is_as_before(r->target, r->change)) &&
+              temp_file_publish(&t, r->target, expects_none(r));
+
+    return temp_file_close(&t) && ok;
+}
+
+/* The file has no name while it is written if that is possible here. */
+static bool replace(const struct replacement *r)
+{
+    bool ok = replace_by(r, false) ||
+              (errno != EEXIST && errno != ESTALE && replace_by(r, true));
+
+    if (!ok && errno == EEXIST && !r->must_be_new)
+        errno = ESTALE;
     return ok;
 }
 
@@ -310,9 +307,13 @@ static bool write_file(const char *path, const void *data, size_t size_bytes,
 {
     char *target = must_be_new ? xstrdup(path) : target_of(path);
     char *folder = folder_of(target);
+    struct replacement r = {folder,     target,      data,
+                            size_bytes, must_be_new, change};
     bool ok = must_be_new || file_check(path, err);
 
-    if (ok && !replace(folder, target, data, size_bytes, must_be_new, change)) {
+    if (ok)
+        temp_file_sweep(folder);
+    if (ok && !replace(&r)) {
         if (must_be_new && exists)
             *exists = errno == EEXIST;
         ok = fail_errno(err, path);

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "glim/quota.h"
 
 #include "kernels/tone.h"
 #include "kernels/vec.h"
@@ -37,12 +38,11 @@ bool film_init(struct film *f, int width, int height, struct error *err)
 {
     size_t pixels = (size_t)width * (size_t)height;
     size_t size_bytes = pixels * (3 * sizeof *f->sums + sizeof *f->counts);
-    size_t memory_bytes =
-        (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+    struct memory_quota memory = quota_memory("");
 
     *f = (struct film){.width = width, .height = height};
     /* the system would promise more than it has, and kill us later */
-    if (size_bytes < memory_bytes) {
+    if (size_bytes < memory.size_bytes) {
         f->sums = alloc_array(pixels, 3 * sizeof *f->sums);
         f->counts = alloc_array(pixels, sizeof *f->counts);
         f->has_row = alloc_array((size_t)height, sizeof *f->has_row);
@@ -52,11 +52,14 @@ bool film_init(struct film *f, int width, int height, struct error *err)
         free(f->counts);
         free(f->has_row);
         *f = (struct film){0};
-        return fail(err,
-                    "a picture of %dx%d pixels needs %.1f GiB of memory, "
-                    "found %.1f GiB",
-                    width, height, (double)size_bytes / (1 << 30),
-                    (double)memory_bytes / (1 << 30));
+        return fail(
+            err,
+            "a picture of %dx%d pixels needs %.1f GiB of memory, %s%.1f "
+            "GiB %s",
+            width, height, (double)size_bytes / (1 << 30),
+            size_bytes < memory.size_bytes ? "more than is left of the "
+                                           : "found ",
+            (double)memory.size_bytes / (1 << 30), memory.place);
     }
     for (int i = 0; i < FILM_LOCKS; i++)
         pthread_mutex_init(&f->locks[i], NULL);

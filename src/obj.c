@@ -2,6 +2,7 @@
 #include "glim/obj.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -223,9 +224,17 @@ static bool load_library(struct parser *p, const char *name, char *path)
 
 static bool load_library_named(struct parser *p, const char *name)
 {
+    size_t length = strlen(name);
     char *path = asset_find(p->path, name);
     bool ok;
 
+    if (length >= PATH_MAX) {
+        report_add(p->report, "material files with endless names",
+                   "%s:%" PRIu64 ": found a name of %zu bytes for mtllib, "
+                   "expected fewer than %d: its materials will be grey",
+                   p->path, p->lex.line, length, PATH_MAX);
+        return true;
+    }
     if (path == NULL) {
         report_add_named(p->report, "lost material files", name,
                          "%s:%" PRIu64 ": found no file '%s' for mtllib: its "

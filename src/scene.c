@@ -318,12 +318,15 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
 bool scene_load_sky(struct scene *scene, const struct view *view,
                     struct report *report, struct error *err)
 {
+    struct image_file file;
     struct image image = {0};
     struct sky_table table = {0};
     uint64_t clamped_count = 0;
 
     if (view->sky_path != NULL &&
-        !image_read_linear(&image, view->sky_path, &clamped_count, err))
+        (!image_open(&file, view->sky_path, IMAGE_LINEAR, textures_bytes(scene),
+                     err) ||
+         !image_decode(&file, &image, &clamped_count, err)))
         return false;
     if (clamped_count > 0)
         report_add(report, "skies with impossible values",

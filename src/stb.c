@@ -6,26 +6,46 @@
  */
 #include "glim/stb.h"
 
+#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "glim/image.h"
 
-static _Thread_local size_t limit_bytes;
+/* What the decoders may still take. */
+static _Thread_local size_t left_bytes;
+static _Thread_local bool is_out_of_memory;
 
-void stb_limit(size_t size_bytes)
+/* Counts what p, which may be NULL, has taken. */
+static void *count(void *p)
 {
-    limit_bytes = size_bytes;
+    size_t size_bytes = malloc_usable_size(p);
+
+    is_out_of_memory |= p == NULL;
+    left_bytes -= size_bytes < left_bytes ? size_bytes : left_bytes;
+    return p;
 }
 
 static void *limited_alloc(size_t size_bytes)
 {
-    return size_bytes <= limit_bytes ? calloc(1, size_bytes) : NULL;
+    return count(size_bytes <= left_bytes ? calloc(1, size_bytes) : NULL);
+}
+
+static void limited_free(void *p)
+{
+    left_bytes += malloc_usable_size(p);
+    free(p);
 }
 
 static void *limited_realloc(void *p, size_t size_bytes)
 {
-    return size_bytes <= limit_bytes ? realloc(p, size_bytes) : NULL;
+    size_t old_bytes = malloc_usable_size(p);
+    void *grown =
+        size_bytes <= left_bytes + old_bytes ? realloc(p, size_bytes) : NULL;
+
+    if (grown)
+        left_bytes += old_bytes;
+    return count(grown);
 }
 
 /* Reading past the end gives 0, as in stb. */
@@ -91,7 +111,7 @@ static void *copy_bytes(void *to, const void *from, size_t size_bytes)
 #define memcpy                copy_bytes
 #define STBI_MALLOC(size)     limited_alloc(size)
 #define STBI_REALLOC(p, size) limited_realloc(p, size)
-#define STBI_FREE(p)          free(p)
+#define STBI_FREE(p)          limited_free(p)
 #define STBI_MAX_DIMENSIONS   IMAGE_SIDE_MAX
 #define STBI_FAILURE_USERMSG
 #define STBI_ONLY_PNG
@@ -111,3 +131,15 @@ static void *copy_bytes(void *to, const void *from, size_t size_bytes)
 #if defined(__clang__)
 #pragma clang attribute pop
 #endif
+
+void stb_limit(size_t size_bytes)
+{
+    left_bytes = size_bytes;
+    is_out_of_memory = false;
+    stbi__g_failure_reason = NULL;
+}
+
+const char *stb_failure(void)
+{
+    return is_out_of_memory ? NULL : stbi__g_failure_reason;
+}

@@ -87,10 +87,11 @@ static bool shares_texels(struct scene *scene, uint32_t index)
 struct reading {
     uint32_t texture;
     const char *path;
-    bool is_repeat; /* of one before: is read if its texels are not shared */
-    bool is_read, is_there;
+    const struct reading *twin; /* an earlier one that reads the same texels */
+    struct image_file file;
+    bool is_open, is_there;
     struct image image;
-    struct error why; /* if it was read and is not there */
+    struct error why; /* if it is not there */
 };
 
 static struct reading reading_of(const struct scene *scene, uint32_t texture)
@@ -99,19 +100,28 @@ static struct reading reading_of(const struct scene *scene, uint32_t texture)
                             .path = scene->texture_paths[texture]};
 }
 
-static void read_image(struct reading *r)
+uint64_t textures_bytes(const struct scene *scene)
 {
-    r->is_there = image_read_8bit(&r->image, r->path, &r->why);
-    r->is_read = true;
+    uint64_t sky_pixels =
+        (uint64_t)scene->sky_width * (uint64_t)scene->sky_height;
+
+    return scene->texel_count * sizeof *scene->texels +
+           sky_pixels * (sizeof *scene->sky_texels + sizeof(float));
 }
 
-static void read_ahead(void *context, uint32_t item, int worker)
+static void open_image(struct reading *r, uint64_t held_bytes)
 {
-    struct reading *readings = context;
+    r->is_open = image_open(&r->file, r->path, IMAGE_8BIT, held_bytes, &r->why);
+}
+
+static void decode_image(void *context, uint32_t item, int worker)
+{
+    struct reading *r = (struct reading *)context + item;
+    uint64_t ignored;
 
     (void)worker;
-    if (!readings[item].is_repeat)
-        read_image(&readings[item]);
+    if (r->is_open)
+        r->is_there = image_decode(&r->file, &r->image, &ignored, &r->why);
 }
 
 /* Says where the texture is named first, and why it is not there. */
@@ -125,23 +135,24 @@ static void report_lost(const struct scene *scene, const struct reading *r,
                      scene->mtl_paths[o.file], o.line, why);
 }
 
-/* Takes the image, which may have been read ahead. An unreadable one leaves the
- * texture without texels. */
-static bool take(struct scene *scene, struct reading *r, struct report *report,
-                 struct error *err)
+/* Takes the image that was read. An unreadable one leaves the texture without
+ * texels. */
+static bool take(struct scene *scene, const struct reading *r,
+                 struct report *report, struct error *err)
 {
+    const struct reading *source = r->twin != NULL ? r->twin : r;
+    const struct image *image = &source->image;
+
     if (shares_texels(scene, r->texture))
         return true;
-    if (!r->is_read)
-        read_image(r);
-    if (!r->is_there)
-        report_lost(scene, r, report, r->why.text);
-    else if ((uint64_t)r->image.width * (uint64_t)r->image.height >
+    if (!source->is_there)
+        report_lost(scene, r, report, source->why.text);
+    else if ((uint64_t)image->width * (uint64_t)image->height >
              TEXELS_MAX - scene->texel_count)
         report_lost(scene, r, report,
                     "found more than 4e9 texels in all textures");
     else
-        return append(scene, &r->image, &scene->textures[r->texture], err);
+        return append(scene, image, &scene->textures[r->texture], err);
     return true;
 }
 
@@ -150,29 +161,55 @@ static bool take(struct scene *scene, struct reading *r, struct report *report,
 /* Images that wait to be taken, for each thread: some take longer. */
 #define IMAGES_EACH 2
 
-static bool is_repeat(const struct scene *scene, const uint32_t *textures,
-                      uint32_t index)
+static const struct reading *find_twin(const struct scene *scene,
+                                       const struct reading *readings,
+                                       uint32_t index)
 {
-    const char *path = scene->texture_paths[textures[index]];
+    const struct texture *t = scene->textures;
+    const struct reading *r = &readings[index];
 
     for (uint32_t i = 0; i < index; i++)
-        if (strcmp(scene->texture_paths[textures[i]], path) == 0)
-            return true;
-    return false;
+        if (t[readings[i].texture].is_data == t[r->texture].is_data &&
+            strcmp(readings[i].path, r->path) == 0)
+            return &readings[i];
+    return NULL;
 }
 
-/* Reads some images by all threads, and takes them in order. */
-static bool load_some(struct scene *scene, struct reading *readings,
-                      uint32_t count, struct pool *pool, struct report *report,
-                      struct error *err)
+/* Opens the images of the first textures, as many as there is memory for at the
+ * same time, but at least one; returns their number. One that has no room
+ * beside the others comes first the next time, so that only what the scene
+ * holds by then decides whether it is refused, not the number of threads. */
+static uint32_t open_some(struct scene *scene, const uint32_t *textures,
+                          uint32_t count, struct reading *readings)
+{
+    uint64_t held_bytes = textures_bytes(scene);
+
+    for (uint32_t i = 0; i < count; i++) {
+        struct reading *r = &readings[i];
+
+        *r = reading_of(scene, textures[i]);
+        r->twin = find_twin(scene, readings, i);
+        if (r->twin != NULL || shares_texels(scene, r->texture))
+            continue;
+        open_image(r, held_bytes);
+        if (r->file.is_beyond && i > 0)
+            return i;
+        if (r->is_open)
+            held_bytes += r->file.memory_bytes;
+    }
+    return count;
+}
+
+/* Takes images that were read by all threads, in order. */
+static bool take_some(struct scene *scene, struct reading *readings,
+                      uint32_t count, struct report *report, struct error *err)
 {
     bool ok = true;
 
-    pool_each(pool, count, read_ahead, readings);
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count; i++)
         ok = ok && take(scene, &readings[i], report, err);
+    for (uint32_t i = 0; i < count; i++)
         image_free(&readings[i].image);
-    }
     return ok;
 }
 
@@ -186,14 +223,12 @@ static bool load_all(struct scene *scene, const uint32_t *textures,
     struct reading *readings = xcalloc(at_once, sizeof *readings);
     bool ok = true;
 
-    for (uint32_t i = 0; ok && i < count; i += at_once) {
-        uint32_t n = count - i < at_once ? count - i : at_once;
+    for (uint32_t i = 0, n; ok && i < count; i += n) {
+        uint32_t wanted = count - i < at_once ? count - i : at_once;
 
-        for (uint32_t k = 0; k < n; k++) {
-            readings[k] = reading_of(scene, textures[i + k]);
-            readings[k].is_repeat = is_repeat(scene, textures, i + k);
-        }
-        ok = load_some(scene, readings, n, pool, report, err);
+        n = open_some(scene, textures + i, wanted, readings);
+        pool_each(pool, n, decode_image, readings);
+        ok = take_some(scene, readings, n, report, err);
     }
     free(readings);
     pool_destroy(pool);
@@ -265,6 +300,9 @@ bool textures_load_for(struct scene *scene, struct material *m,
             continue;
         scene->texture_is_tried[maps[i]] = true;
         r = reading_of(scene, maps[i]);
+        if (!shares_texels(scene, r.texture))
+            open_image(&r, textures_bytes(scene));
+        decode_image(&r, 0, 0);
         ok = take(scene, &r, report, err);
         image_free(&r.image);
         if (!ok)

@@ -13,7 +13,8 @@
 /* The path of the file `name` as written in the file `beside`: relative to its
  * folder. If there is none: without backslashes before blanks, with \ for /,
  * then without its folders, which were those of another machine, and at last
- * with other capital and small letters. NULL: none exists. */
+ * with other capital and small letters. NULL: none exists, as of a name of
+ * PATH_MAX bytes or more, which no system call takes. */
 char *asset_find(const char *beside, const char *name);
 
 #endif

@@ -44,8 +44,8 @@ struct file_change {
  * such folder, no permission. Changes nothing. */
 bool file_check(const char *path, struct error *err);
 
-/* Replaces the file atomically: temporary file beside it, fsync, rename. Keeps
- * the permissions of a file that was there; replaces what a link points to.
+/* Replaces the file atomically: temporary file in its folder, fsync, and the
+ * name at last (temp_file.h). Keeps the permissions of a file that was there; replaces what a link points to.
  * If must_be_new, an existing file is left alone and *exists (may be NULL) is
  * set. */
 bool file_write(const char *path, const void *data, size_t size_bytes,

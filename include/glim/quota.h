@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * quota.h - how much processor time the control group grants
+ * quota.h - how much processor time and memory this process may use
  *
- * Units:     processors
+ * `root` is "" for the system's own files: proc/self/cgroup and sys/fs/cgroup
+ * are read below it.
+ *
+ * Units:     processors, bytes
  * Ownership: none
  * Threads:   any
  * Errors:    none: what cannot be read limits nothing
@@ -10,9 +13,20 @@
 #ifndef GLIM_QUOTA_H
 #define GLIM_QUOTA_H
 
+#include <stdint.h>
+
 /* Processors that the quotas of this process's control group and of its
- * parents grant, rounded up; 0 if there is no quota. Reads proc/self/cgroup
- * and sys/fs/cgroup below root: "" for the system's own. */
+ * parents grant, rounded up; 0 if there is no quota. */
 int quota_processors(const char *root);
+
+/* The tightest of the limits on memory, in use or not. */
+struct memory_quota {
+    uint64_t size_bytes;
+    const char *place; /* reads well after "3.9 GiB": "under ulimit -v" */
+};
+
+/* Looks at the machine's memory, the control group with its parents, and the
+ * limits of the process. */
+struct memory_quota quota_memory(const char *root);
 
 #endif

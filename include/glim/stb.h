@@ -9,7 +9,7 @@
  * Units:     bytes, pixels
  * Ownership: what the decoders return is for free()
  * Threads:   any; the limit is the calling thread's own
- * Errors:    NULL; stbi_failure_reason() has the calling thread's reason
+ * Errors:    NULL; stb_failure() has the calling thread's reason
  */
 #ifndef GLIM_STB_H
 #define GLIM_STB_H
@@ -22,9 +22,12 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
-/* No single allocation of a decoder in this thread may be greater from now on:
- * a small file can ask for gigabytes. */
+/* The decoders in this thread may have no more memory at any time from now on:
+ * a small file can ask for gigabytes. Also forgets the last failure. */
 void stb_limit(size_t size_bytes);
+
+/* Why the last decoder since then has failed; NULL: for want of memory. */
+const char *stb_failure(void);
 
 /* False for a JPEG file with a Huffman table of more than 256 codes, which
  * stb_image 2.27 and before write behind its end: such files must not reach

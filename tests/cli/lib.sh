@@ -64,3 +64,16 @@ floats()
 {
     tail -c $(($2 * $3 * 12)) "$1" | od -A n -v -w12 -t f4
 }
+
+# Writes textured.obj, .mtl and .view: $1 faces under a white sky, each with an
+# image of its own, 1.tga and so on.
+textured()
+{
+    echo 'background 1 1 1' >textured.view
+    printf 'mtllib textured.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n' >textured.obj
+    printf 'vt 0 0\nvt 1 0\nvt 0 1\n' >>textured.obj
+    for i in $(seq "$1"); do
+        printf 'usemtl m%s\nf 1/1 2/2 3/3\n' "$i" >>textured.obj
+        printf 'newmtl m%s\nmap_Kd %s.tga\n' "$i" "$i"
+    done >textured.mtl
+}

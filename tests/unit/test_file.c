@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
+#include "files.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -13,59 +13,6 @@
 #include <unistd.h>
 
 #include "glim/file.h"
-
-static char folder[64];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[256];
-
-    (void)state;
-    snprintf(command, sizeof command, "chmod -R u+w %s; rm -rf %s", folder,
-             folder);
-    return chdir("/") == 0 && system(command) == 0 ? 0 : -1;
-}
-
-/* By the C library alone. */
-static void put(const char *path, const char *text)
-{
-    FILE *f = fopen(path, "w");
-
-    assert_non_null(f);
-    fputs(text, f);
-    assert_int_equal(fclose(f), 0);
-}
-
-static void has(const char *path, const char *expected)
-{
-    char text[256] = "";
-    FILE *f = fopen(path, "r");
-
-    assert_non_null(f);
-    size_t length = fread(text, 1, sizeof text - 1, f);
-    text[length] = '\0';
-    fclose(f);
-    assert_string_equal(text, expected);
-}
-
-static int count_files(const char *path)
-{
-    DIR *d = opendir(path);
-    int count = -2; /* . and .. */
-
-    assert_non_null(d);
-    while (readdir(d))
-        count++;
-    closedir(d);
-    return count;
-}
 
 static void read_fails(const char *path, const char *expected)
 {
@@ -390,6 +337,6 @@ int main(void)
         cmocka_unit_test(test_paths),
     };
 
-    return cmocka_run_group_tests_name("file", tests, make_folder,
-                                       remove_folder);
+    return cmocka_run_group_tests_name("file", tests, enter_folder,
+                                       leave_folder);
 }

@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -204,6 +205,55 @@ static void test_quota(void **state)
     assert_int_equal(system(command), 0);
 }
 
+static void memory_is(const char *root, uint64_t size_bytes, const char *place)
+{
+    struct memory_quota quota = quota_memory(root);
+
+    assert_string_equal(quota.place, place);
+    assert_int_equal(quota.size_bytes, size_bytes);
+}
+
+/* The tightest of all that limit memory is named. */
+static void test_memory_quota(void **state)
+{
+    char root[] = "/tmp/glim-test-XXXXXX", command[64];
+    uint64_t machine =
+        (uint64_t)sysconf(_SC_PHYS_PAGES) * (uint64_t)sysconf(_SC_PAGESIZE);
+    struct rlimit before, limit;
+
+    (void)state;
+    assert_int_equal(getrlimit(RLIMIT_DATA, &before), 0);
+    if (before.rlim_cur != RLIM_INFINITY)
+        skip();
+    assert_non_null(mkdtemp(root));
+    memory_is(root, machine, "in this machine");
+
+    put(root, "proc/self/cgroup", "0::/a/b\\n");
+    put(root, "sys/fs/cgroup/a/b/memory.max", "max\\n");
+    memory_is(root, machine, "in this machine");
+    put(root, "sys/fs/cgroup/a/memory.max", "300000000\\n");
+    memory_is(root, 300000000, "in the control group");
+    put(root, "sys/fs/cgroup/a/b/memory.max", "200000000\\n");
+    memory_is(root, 200000000, "in the control group");
+
+    /* version 1, where no limit is a number beyond all memory */
+    put(root, "proc/self/cgroup", "4:memory:/c\\n2:cpu,cpuacct:/d\\n");
+    memory_is(root, machine, "in this machine");
+    put(root, "sys/fs/cgroup/memory/c/memory.limit_in_bytes",
+        "9223372036854771712\\n");
+    memory_is(root, machine, "in this machine");
+    put(root, "sys/fs/cgroup/memory/c/memory.limit_in_bytes", "150000000\\n");
+    memory_is(root, 150000000, "in the control group");
+
+    limit = (struct rlimit){149999999, before.rlim_max};
+    assert_int_equal(setrlimit(RLIMIT_DATA, &limit), 0);
+    memory_is(root, 149999999, "under ulimit -d");
+    assert_int_equal(setrlimit(RLIMIT_DATA, &before), 0);
+
+    snprintf(command, sizeof command, "rm -rf %s", root);
+    assert_int_equal(system(command), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,6 +261,7 @@ int main(void)
         cmocka_unit_test(test_alloc_array),   cmocka_unit_test(test_grow_array),
         cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_clock),
         cmocka_unit_test(test_threads),       cmocka_unit_test(test_quota),
+        cmocka_unit_test(test_memory_quota),
     };
 
     return cmocka_run_group_tests_name("util", tests, NULL, NULL);

@@ -1,12 +1,39 @@
 # SPDX-License-Identifier: MIT
-# Killed at any time, the old picture or the new one is there, complete.
+# Killed at any time, the old picture or the new one is there, complete, and
+# beside it nothing, or what the next save removes.
 take box
-b="-b -w 200 -h 150 -s 1 -t 1"
+b="-b -w 96 -h 72 -s 1 -t 1"
 glim $b --seed 1 -o old.pfm box.obj 2>/dev/null
+begin=$(date +%s%N)
 glim $b --seed 2 -o new.pfm box.obj 2>/dev/null
-for i in 01 02 03 04 05 06 07 08 09 10 12 14; do
-    cp old.pfm out.pfm
-    timeout -s KILL 0.$i glim $b --seed 2 -o out.pfm box.obj 2>/dev/null
-    cmp -s out.pfm old.pfm || cmp -s out.pfm new.pfm || echo "torn at 0.$i s"
+took_us=$((($(date +%s%N) - begin) / 1000))
+
+# files without a name are known here; elsewhere some stay until the next save
+mkdir out
+case $(stat -f -c %T out) in
+ext* | xfs | btrfs | tmpfs) all='out/* out/.glim-*' ;;
+*) all='out/*' ;;
+esac
+
+whole()
+{
+    cmp -s "$1" old.pfm || cmp -s "$1" new.pfm || echo "$1 is torn"
+}
+
+# 200 moments, spread over a run and a bit; fewer of a slow program
+kills=$((80000000 / took_us))
+[ $kills -le 200 ] || kills=200
+for i in $(seq $kills); do
+    [ $((i % 2)) = 0 ] || cp old.pfm out/out.pfm
+    [ $((i % 4)) != 2 ] || rm -f out/out.pfm
+    moment_us=$((took_us * i * 11 / kills / 10))
+    timeout -s KILL $(printf %d.%06d $((moment_us / 1000000)) \
+        $((moment_us % 1000000))) \
+        glim $b --seed 2 -o out/out.pfm box.obj 2>/dev/null
+    for file in $all; do
+        [ ! -f "$file" ] || whole "$file"
+    done
 done 2>/dev/null
-echo done
+run_untimed $b --seed 2 -o out/out.pfm box.obj
+ls -A out
+same out/out.pfm new.pfm

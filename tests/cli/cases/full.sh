@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+# A disk that is full: the old file stays, one message says so, and nothing is
+# left behind.
+take box
+mkdir disk
+cat >fill.sh <<'SH'
+# a disk of its own, where that is allowed; else files of 8 KB at most
+if ! mount -t tmpfs -o size=16k none disk 2>/dev/null; then
+    trap '' XFSZ
+    ulimit -f 16
+fi
+echo old >disk/a.pfm
+for name in a.pfm b.png; do
+    glim -b -w 192 -h 144 -s 1 -o disk/$name box.obj 2>&1
+    echo "exit $?"
+done | sed 's/No space left on device/full/; s/File too large/full/'
+cat disk/a.pfm
+ls -A disk
+SH
+unshare -m true 2>/dev/null && own='unshare -m' || own=
+$own sh fill.sh

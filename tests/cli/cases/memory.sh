@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+# Images that the memory has no room for beside the others are refused in the
+# order of the file, before they are decoded.
+(ulimit -v 1000000; glim --version >/dev/null 2>&1) ||
+    skip "the sanitizers' own memory is beyond any limit"
+b="-b -w 8 -h 8 -s 1 -t 1 -o out.png"
+# threads take little of what is limited
+export MALLOC_ARENA_MAX=1
+ulimit -s 1024
+
+# a megabyte for 32 million pixels: runs of 128, as long as they may be
+{
+    printf '\0\0\012\0\0\0\0\0\0\0\0\0\100\037\240\017\030\0'
+    printf '%250000s' '' | sed 's/ /\xffabc/g'
+} >1.tga
+for i in 2 3 4 5 6; do
+    cp 1.tga $i.tga
+done
+textured 6
+ulimit -v 1000000
+run_untimed $b textured.obj
+sed -i 's/[2-6]\.tga/1.tga/' textured.mtl
+run_untimed $b textured.obj
+echo 'sky 2.tga' >textured.view
+run $b textured.obj
+printf 'sky small.tga\n' >textured.view
+{
+    printf '\0\0\012\0\0\0\0\0\0\0\0\0\240\017\240\017\030\0'
+    printf '%125000s' '' | sed 's/ /\xffabc/g'
+} >small.tga
+run_untimed $b textured.obj
+# four textures and that sky are too much
+textured 4
+echo 'sky small.tga' >textured.view
+run $b textured.obj
