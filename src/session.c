@@ -279,7 +279,8 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     if (!apply_edit(s, err) ||
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
-    if (session_uses_device(s)) /* which has another */
+    /* a device has another; moves on the screen ask this one for distances */
+    if (session_uses_device(s) && s->options->batch)
         wide_free(&s->scene.tree);
     features = job.world.settings.features;
     if (spp == 0 && s->sample != SAMPLE_LIGHT) {
