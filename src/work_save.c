@@ -8,7 +8,7 @@
 
 #include "glim/file.h"
 #include "glim/picture.h"
-#include "glim/view_file.h"
+#include "glim/session_save.h"
 #include "glim/xdg.h"
 
 /* The scene's name without folder and ending. */
@@ -117,6 +117,7 @@ void work_save_view(struct work *w)
     struct session *s = w->session;
     struct file_change change;
     struct error err;
+    const char *slash;
     char *text;
 
     if (w->reload.is_busy) { /* which has read the file, or not yet */
@@ -129,16 +130,16 @@ void work_save_view(struct work *w)
                      work_key(w, ACTION_MODE).text);
         return;
     }
-    s->view.has_camera = true; /* also one that was placed by the program */
-    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
-    if (!view_write(&s->view, s->view_path, &change, &err)) {
+    if (!session_save_view(s, &change, &err)) {
         work_say_error(w, err.text);
         return;
     }
-    edit_saved_view(&s->edit);
-    view_copy(&s->filed, &s->view);
     watch_wrote(&w->watch, s->view_path, &change.after);
-    text = xformat("wrote the view to %s", s->view_path);
+    slash = strrchr(s->view_path, '/');
+    text = change.is_kept
+               ? xformat("wrote the view to %s, the old one is %s~",
+                         s->view_path, slash ? slash + 1 : s->view_path)
+               : xformat("wrote the view to %s", s->view_path);
     work_say(w, "%s", text);
     work_add_result(w, text);
     free(text);
