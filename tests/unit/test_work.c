@@ -435,6 +435,23 @@ static void errors_are_seen(void **state)
     check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
 }
 
+/* 200 words of six characters a minute, a blank each: 50 ms a character. */
+static void long_messages_can_be_read(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    struct message *m = &w->message;
+    char text[201] = "";
+
+    work_say(w, "short");
+    check_close((double)(m->until_ns - m->said_ns), 4e9, 1);
+    memset(text, 'a', sizeof text - 1);
+    work_say(w, "%s", text);
+    assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
+    work_say_error(w, text);
+    work_be_heard(w);
+    assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
+}
+
 static void failures_are_messages(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
@@ -537,6 +554,7 @@ int main(void)
         WORK_TEST(a_young_picture_is_unsaved_too),
         WORK_TEST(no_view_is_written_under_a_reload),
         WORK_TEST(errors_are_seen),
+        WORK_TEST(long_messages_can_be_read),
         WORK_TEST(failures_are_messages),
         WORK_TEST(views_are_written),
         WORK_TEST(texts_are_written),
