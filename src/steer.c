@@ -7,23 +7,24 @@
 #include "glim/camera.h"
 
 /* Reaches a second that a key moves at first. A tap, which lasts 150 ms, moves
- * by a quarter of the way to the nearest surface; a key that is held towards a
+ * by a fifth of the way to the nearest surface; a key that is held towards a
  * wall comes nearer and nearer. */
-#define PACE 1.5
+#define PACE 1.0
 
 /* Bounds of the reach, as parts of the scene's size. The least lets the eye
- * pass a surface at last; the most crosses the scene in about three seconds;
- * the first is for a scene of which nothing is known yet. */
+ * pass a surface at last; the most crosses the scene in a few seconds; the
+ * first is for a scene of which nothing is known yet. */
 #define REACH_LEAST 0.002
-#define REACH_MOST  0.2
+#define REACH_MOST  0.25
 #define REACH_FIRST 0.05
 
 /* Away from the scene the reach grows with the distance, to that of so many
  * sizes: a key that is held for a minute must not take the eye to infinity. */
+#define AWAY      0.1
 #define AWAY_MOST 10.0
 
 /* Times as fast, for each second that a key is held, and at most. */
-#define RAMP      1.5
+#define RAMP      0.75
 #define RAMP_MOST 8.0
 
 #define SPEED_STEP 1.25
@@ -65,7 +66,7 @@ void steer_resize(struct steer *s, const double lo[3], const double hi[3])
 void steer_adapt(struct steer *s, double near, double away)
 {
     double far = fmin(away, AWAY_MOST * s->scene_size);
-    double least = fmax(REACH_LEAST * s->scene_size, REACH_MOST * far);
+    double least = fmax(REACH_LEAST * s->scene_size, AWAY * far);
 
     s->reach = fmax(least, fmin(near, REACH_MOST * s->scene_size));
 }
