@@ -207,6 +207,37 @@ void camera_frame(struct view *view, const double lo[3], const double hi[3])
     view->has_camera = true;
 }
 
+/* All corners lie beyond one of the planes through the eye that bound what is
+ * seen, or behind it. */
+bool camera_sees_box(const struct view *view, const double lo[3],
+                     const double hi[3])
+{
+    double slope_y = tan(angle_rad(view->fovy_deg) / 2);
+    double slope_x = slope_y * view->width_px / view->height_px;
+    double most[5] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    struct axes axes;
+
+    axes_of(view, &axes);
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3], x, y, z;
+
+        for (int i = 0; i < 3; i++)
+            p[i] = (corner >> i & 1 ? hi[i] : lo[i]) - view->eye[i];
+        x = dot(p, axes.right);
+        y = dot(p, axes.up);
+        z = dot(p, axes.forward);
+        most[0] = fmax(most[0], z);
+        most[1] = fmax(most[1], slope_x * z - x);
+        most[2] = fmax(most[2], slope_x * z + x);
+        most[3] = fmax(most[3], slope_y * z - y);
+        most[4] = fmax(most[4], slope_y * z + y);
+    }
+    for (int i = 0; i < 5; i++)
+        if (!(most[i] >= 0))
+            return false;
+    return true;
+}
+
 double camera_depth(const struct view *view, const double point[3])
 {
     struct axes axes;

@@ -112,14 +112,18 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
                 int *status, struct error *err)
 {
     bool ok = session_open(s, o, start_ns, err);
+    char *lost;
 
     report_print(&s->report, stderr);
     if (!ok)
         return false;
     if (o->batch)
         return batch_run(s, status, err);
+    lost = recent_find_lost();
     recent_add(o->scene_path);
-    return tui_run(s, status, err);
+    ok = tui_run(s, lost, status, err);
+    free(lost);
+    return ok;
 }
 
 /* Without any argument, at a terminal: one of the scenes that were opened last.

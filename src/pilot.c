@@ -58,12 +58,66 @@ void pilot_stop(struct pilot *p)
     p->held = ACTION_NONE;
 }
 
+/* The eye is somewhere else, without a way there. */
+static void forget_place(struct pilot *p)
+{
+    clearance_forget(&p->around);
+    p->said = CLEARANCE_AMONG;
+}
+
 void pilot_renew(struct pilot *p)
 {
     p->cursor.has_pick = false;
     p->cursor.is_pick_new = false;
     p->cursor.must_look = p->canvas->has_cursor;
+    forget_place(p);
     steer_resize(&p->steer, scene_of(p)->bounds_lo, scene_of(p)->bounds_hi);
+}
+
+/* ---- where the eye is ---- */
+
+/* The tree is the render thread's until it is loaded. */
+static void look_around(struct pilot *p)
+{
+    const struct scene *s = scene_of(p);
+
+    if (!render_is_loaded(p->work->session->render) || s->tree.nodes == NULL)
+        return;
+    clearance_follow(&p->around, s, view_of(p));
+    steer_adapt(&p->steer, p->around.near, p->around.away);
+}
+
+static void say_place(struct pilot *p)
+{
+    const struct clearance *c = &p->around;
+    struct keys_name key = work_key(p->work, ACTION_RESET);
+    const char *name;
+
+    if (c->place == CLEARANCE_INSIDE) {
+        name = cursor_object_name(&p->cursor, c->passed);
+        work_say_long(p->work, "inside of %.60s: %s returns", name, key.text);
+    } else if (c->place == CLEARANCE_OUTSIDE) {
+        work_say_long(p->work, "outside%s, behind a wall: %s returns",
+                      c->away > 0 ? " the scene" : "", key.text);
+    } else {
+        work_say_long(p->work, "nothing of the scene is in view: %s returns",
+                      key.text);
+    }
+    p->said_ns = p->work->message.said_ns;
+}
+
+/* After a move: who loses the scene is told so once; the message goes with its
+ * reason. */
+static void judge(struct pilot *p)
+{
+    look_around(p);
+    if (p->around.place == p->said)
+        return;
+    p->said = p->around.place;
+    if (p->said != CLEARANCE_AMONG)
+        say_place(p);
+    else if (p->said_ns == p->work->message.said_ns)
+        work_be_silent(p->work);
 }
 
 /* ---- moves ---- */
@@ -100,12 +154,22 @@ static void say_lens(struct pilot *p)
 
 static void steer_held(struct pilot *p, uint64_t now_ns)
 {
-    if (now_ns < motion_next_ns(&p->steer.motion) ||
-        !steer_step(&p->steer, view_of(p), now_ns))
+    uint64_t next_ns;
+    bool has_moved = false;
+
+    /* each step as long as what is around allows, also where the loop is late
+     */
+    while ((next_ns = motion_next_ns(&p->steer.motion)) <= now_ns &&
+           next_ns != UINT64_MAX) {
+        look_around(p);
+        has_moved |= steer_step(&p->steer, view_of(p), next_ns);
+    }
+    if (!has_moved)
         return;
     p->work->must_restart = true;
     p->cursor.must_look = p->canvas->has_cursor;
     say_lens(p);
+    judge(p);
 }
 
 /* The rest of a tap at once: what looks at the view then finds the same,
@@ -123,8 +187,10 @@ static void press(struct pilot *p, const struct move *move)
     if (!work_may_move(p->work))
         return;
     steer_held(p, now_ns);
-    if (move->action != p->held || now_ns - p->held_ns > HELD_NS)
+    if (move->action != p->held || now_ns - p->held_ns > HELD_NS) {
         add_step(p);
+        steer_begin(&p->steer, now_ns);
+    }
     p->held = move->action;
     p->held_ns = now_ns;
     motion_press(&p->steer.motion, move->axis, move->sign, now_ns);
@@ -144,14 +210,16 @@ static void jump(struct pilot *p, const struct pose *pose)
 {
     add_step(p);
     view_set_pose(view_of(p), pose);
+    forget_place(p);
     p->work->must_restart = true;
 }
 
 static void change_speed(struct pilot *p, int steps)
 {
     steer_change_speed(&p->steer, steps);
-    work_say(p->work, "speed %.3g of the scene's size a second",
-             p->steer.speed);
+    look_around(p);
+    work_say(p->work, "speed times %.3g: %.3g a second here", p->steer.speed,
+             steer_speed(&p->steer));
 }
 
 static void reset(struct pilot *p)
@@ -176,6 +244,7 @@ static void travel(struct pilot *p, bool is_back)
         return;
     }
     view_set_pose(view_of(p), &pose);
+    forget_place(p);
     p->work->must_restart = true;
     work_say(p->work, is_back ? "undone" : "done again");
 }
@@ -373,6 +442,7 @@ static void drag(struct pilot *p, const struct event *event)
     p->drag_is_new = false;
     p->held = ACTION_NONE;
     p->work->must_restart = true;
+    judge(p);
 }
 
 void pilot_mouse(struct pilot *p, const struct event *event)

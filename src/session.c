@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "glim/file.h"
-#include "glim/mtl_save.h"
 #include "glim/scene_world.h"
 #include "glim/view_file.h"
 
@@ -148,6 +147,7 @@ bool session_load(struct session *s, const struct options *options,
     view_init(&s->filed);
     if (!read_view(s, err))
         return false;
+    view_copy(&s->filed, &s->view);
     apply_options(s);
     if (!find_crop(s, err) ||
         !scene_load(&s->scene, options->scene_path, options->up_is_z,
@@ -158,7 +158,8 @@ bool session_load(struct session *s, const struct options *options,
     if (!view_check(&s->view, options->scene_path, err))
         return false;
     view_copy(&s->opened, &s->view);
-    view_copy(&s->filed, &s->view);
+    view_take_frame(&s->opened, &s->filed);
+    view_copy(&s->filed, &s->opened);
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
     s->sky = s->edit.now.mood.sky;
     if (!apply_edit(s, err))
@@ -219,6 +220,7 @@ void session_take(struct session *s, struct session *fresh)
     view_merge(&s->view, &s->filed, &fresh->filed);
     /* these are the edit's, of which there is another one now */
     assigns_copy(&s->view.assigns, &fresh->filed.assigns);
+    apply_options(s);
     swap_loaded(s, fresh);
     if (!s->geometry_changed)
         swap_trees(&s->scene, &fresh->scene);
@@ -279,7 +281,8 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     if (!apply_edit(s, err) ||
         !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
         return false;
-    if (session_uses_device(s)) /* which has another */
+    /* a device has another; moves on the screen ask this one for distances */
+    if (session_uses_device(s) && s->options->batch)
         wide_free(&s->scene.tree);
     features = job.world.settings.features;
     if (spp == 0 && s->sample != SAMPLE_LIGHT) {
@@ -319,148 +322,6 @@ bool session_take_edit(struct session *s)
            memcmp(v->background, m->background, sizeof v->background) != 0 ||
            v->sky_strength != m->sky_strength ||
            v->sky_rotation_deg != m->sky_rotation_deg;
-}
-
-/* ---- saving what was edited ---- */
-
-/* The material whose block a new one begins with: the nearest in a file. */
-static uint32_t pattern_of(const struct edit *e, uint32_t material)
-{
-    while (!e->saved.is_there[material])
-        material = e->copied_from[material];
-    return material;
-}
-
-/* The file in which a material is, or is to be. */
-static uint32_t file_of(const struct session *s, uint32_t material)
-{
-    const struct edit *e = &s->edit;
-
-    while (e->copied_from[material] != NO_INDEX)
-        material = e->copied_from[material];
-    return s->scene.material_origins[material].file != NO_INDEX
-               ? s->scene.material_origins[material].file
-               : 0;
-}
-
-/* The changes that belong to a file; their number. */
-static size_t collect(const struct session *s, uint32_t file,
-                      struct mtl_change *changes, uint32_t *materials)
-{
-    const struct edit *e = &s->edit;
-    size_t count = 0;
-
-    for (uint32_t i = 0; i < e->material_count; i++) {
-        uint32_t pattern = pattern_of(e, i);
-
-        if (edit_is_saved(e, i) || file_of(s, i) != file)
-            continue;
-        changes[count] = (struct mtl_change){
-            .name = e->names[i],
-            .copied_from = pattern != i ? e->names[pattern] : NULL,
-            .before = &e->saved.sources[pattern],
-            .after = &e->now.sources[i],
-        };
-        materials[count++] = i;
-    }
-    return count;
-}
-
-/* Materials that were written, and the names of the files. */
-struct written {
-    size_t count;
-    char *files; /* NULL: none */
-};
-
-static void note_written(struct written *w, size_t count, const char *path)
-{
-    char *files =
-        w->files == NULL ? xstrdup(path) : xformat("%s, %s", w->files, path);
-
-    free(w->files);
-    w->files = files;
-    w->count += count;
-}
-
-static bool save_file(struct session *s, uint32_t file, struct watch *watch,
-                      struct written *written, struct error *err)
-{
-    const char *path = s->scene.mtl_paths[file];
-    struct mtl_change *changes =
-        xcalloc(s->edit.material_count, sizeof *changes);
-    uint32_t *materials = xcalloc(s->edit.material_count, sizeof *materials);
-    size_t count = collect(s, file, changes, materials);
-    struct file_change change;
-    bool ok =
-        count == 0 || mtl_save(&s->scene, path, changes, count, &change, err);
-
-    if (ok && count > 0) {
-        watch_replaced(watch, path, &change);
-        note_written(written, count, path);
-    }
-    for (size_t i = 0; ok && i < count; i++)
-        edit_saved_material(&s->edit, materials[i]);
-    free(changes);
-    free(materials);
-    return ok;
-}
-
-/* Into the file as it is now: the camera in there is not this one's. */
-static bool save_light(struct session *s, struct watch *watch,
-                       struct error *err)
-{
-    struct file_change change;
-    struct report report = {0};
-    struct view view;
-    bool ok;
-
-    view_init(&view);
-    ok = access(s->view_path, F_OK) == 0
-             ? view_read(&view, s->view_path, &report, err)
-             : (view_copy(&view, &s->opened), true);
-    edit_to_view(&s->edit, &s->edit.now, &s->scene, &view);
-    ok = ok && view_write(&view, s->view_path, &change, err);
-    if (ok) {
-        edit_saved_view(&s->edit);
-        watch_replaced(watch, s->view_path, &change);
-    }
-    view_free(&view);
-    report_free(&report);
-    return ok;
-}
-
-/* NULL: the view file was not written. */
-static char *say_written(const struct written *w, const char *view_path)
-{
-    if (w->count == 0 && view_path == NULL)
-        return xstrdup("nothing has changed since it was saved");
-    if (w->count == 0)
-        return xformat("wrote %s", view_path);
-    return xformat("wrote %zu material%s to %s%s%s", w->count,
-                   w->count == 1 ? "" : "s", w->files,
-                   view_path != NULL ? ", and " : "",
-                   view_path != NULL ? view_path : "");
-}
-
-bool session_save_edit(struct session *s, struct watch *watch, char **what,
-                       struct error *err)
-{
-    bool has_light = edit_has_unsaved_view(&s->edit);
-    struct written written = {0};
-    bool ok = true;
-
-    if (edit_has_unsaved_materials(&s->edit) && s->scene.mtl_path_count == 0)
-        return fail(err,
-                    "%s: found no MTL file of this scene, expected one to "
-                    "write the materials to",
-                    s->scene.path);
-    for (uint32_t i = 0; ok && i < s->scene.mtl_path_count; i++)
-        ok = save_file(s, i, watch, &written, err);
-    ok = ok && (!has_light || save_light(s, watch, err));
-    if (ok)
-        *what = say_written(&written, has_light ? s->view_path : NULL);
-    free(written.files);
-    return ok;
 }
 
 struct develop session_develop(const struct session *s)

@@ -6,11 +6,30 @@
 #include "glim/angle.h"
 #include "glim/camera.h"
 
-/* Through the whole scene in about three seconds. */
-#define SPEED_START 0.3
-#define SPEED_STEP  1.25
-#define SPEED_MIN   1e-4
-#define SPEED_MAX   100.0
+/* Reaches a second that a key moves at first. A tap, which lasts 150 ms, moves
+ * by a fifth of the way to the nearest surface; a key that is held towards a
+ * wall comes nearer and nearer. */
+#define PACE 1.0
+
+/* Bounds of the reach, as parts of the scene's size. The least lets the eye
+ * pass a surface at last; the most crosses the scene in a few seconds; the
+ * first is for a scene of which nothing is known yet. */
+#define REACH_LEAST 0.002
+#define REACH_MOST  0.25
+#define REACH_FIRST 0.05
+
+/* Away from the scene the reach grows with the distance, to that of so many
+ * sizes: a key that is held for a minute must not take the eye to infinity. */
+#define AWAY      0.1
+#define AWAY_MOST 10.0
+
+/* Times as fast, for each second that a key is held, and at most. */
+#define RAMP      0.75
+#define RAMP_MOST 8.0
+
+#define SPEED_STEP 1.25
+#define SPEED_MIN  1e-3
+#define SPEED_MAX  1e3
 
 /* Radians a second. */
 #define LOOK_SPEED  0.9
@@ -28,7 +47,7 @@
 
 void steer_init(struct steer *s, const double lo[3], const double hi[3])
 {
-    *s = (struct steer){.speed = SPEED_START};
+    *s = (struct steer){.speed = 1};
     steer_resize(s, lo, hi);
 }
 
@@ -41,6 +60,31 @@ void steer_resize(struct steer *s, const double lo[3], const double hi[3])
     s->scene_size = sqrt(square);
     if (!(s->scene_size > 0) || isinf(s->scene_size))
         s->scene_size = 1; /* a scene without extent */
+    s->reach = REACH_FIRST * s->scene_size;
+}
+
+void steer_adapt(struct steer *s, double near, double away)
+{
+    double far = fmin(away, AWAY_MOST * s->scene_size);
+    double least = fmax(REACH_LEAST * s->scene_size, AWAY * far);
+
+    s->reach = fmax(least, fmin(near, REACH_MOST * s->scene_size));
+}
+
+double steer_speed(const struct steer *s)
+{
+    return s->speed * PACE * s->reach;
+}
+
+void steer_begin(struct steer *s, uint64_t now_ns)
+{
+    s->begun_ns = now_ns;
+}
+
+/* Times as fast as at first, after so many seconds. */
+static double ramp(double seconds)
+{
+    return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MOST);
 }
 
 static void turn(const struct steer *s, struct view *view,
@@ -71,7 +115,9 @@ static void open_lens(struct view *view, double seconds)
 bool steer_step(struct steer *s, struct view *view, uint64_t now_ns)
 {
     double seconds[MOTION_AXES];
-    double speed = s->speed * s->scene_size;
+    double held =
+        now_ns > s->begun_ns ? (double)(now_ns - s->begun_ns) * 1e-9 : 0;
+    double speed = steer_speed(s) * ramp(held);
 
     if (!motion_step(&s->motion, now_ns, seconds))
         return false;

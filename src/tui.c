@@ -385,7 +385,7 @@ static void loop(struct tui *t)
     }
 }
 
-/* A line that is lost is nobody's wish: the picture is kept, whatever it is.
+/* A line that is lost is nobody's wish: the picture is kept if it is worth it.
  * SIGTERM is an orderly end, as q is, but cannot ask: what q would ask about is
  * kept. Ctrl-C and Ctrl-\ are typed, and mean it. */
 static void keep_picture(struct tui *t)
@@ -412,8 +412,18 @@ static void close_screen(struct tui *t)
     fflush(stdout);
 }
 
+static void say_lost(struct tui *t, const char *path)
+{
+    char *text = xformat("picture of the lost session: %s", path);
+
+    work_say_long(&t->work, "%s", text);
+    work_add_result(&t->work, text); /* it is long, and the line is not */
+    free(text);
+}
+
 /* The render starts first, so that it works while the terminal is opened. */
-bool tui_run(struct session *s, int *status, struct error *err)
+bool tui_run(struct session *s, const char *lost, int *status,
+             struct error *err)
 {
     const char *stats_path = s->options->stats_path;
     struct tui t = {.has_mouse = true};
@@ -433,6 +443,8 @@ bool tui_run(struct session *s, int *status, struct error *err)
         if (s->notice[0] != '\0')
             work_say_long(&t.work, "%s", s->notice);
         s->notice[0] = '\0';
+        if (lost)
+            say_lost(&t, lost);
         /* not before: it puts back the signals that it has found */
         if (s->options->backend != BACKEND_CPU)
             work_begin_device(&t.work);

@@ -76,6 +76,14 @@ void view_set_pose(struct view *view, const struct pose *pose)
     view->focus = pose->focus;
 }
 
+void view_take_frame(struct view *view, const struct view *from)
+{
+    view->width_px = from->width_px;
+    view->height_px = from->height_px;
+    view->has_size = from->has_size;
+    view->max_bounces = from->max_bounces;
+}
+
 void view_copy(struct view *to, const struct view *from)
 {
     char *sky_path = from->sky_path ? xstrdup(from->sky_path) : NULL;

@@ -456,6 +456,24 @@ static bool read_old(const char *path, char **text, size_t *size_bytes,
     return true;
 }
 
+/* Before one text is replaced by another. */
+static bool keep_old(const char *path, const char *old_text, size_t old_bytes,
+                     const char *text, size_t size_bytes,
+                     struct file_change *change, struct error *err)
+{
+    char *name;
+
+    change->is_kept =
+        change->before.exists &&
+        (old_bytes != size_bytes || memcmp(old_text, text, size_bytes) != 0);
+    if (!change->is_kept)
+        return true;
+    name = xformat("%s~", path);
+    bool ok = file_write(name, old_text, old_bytes, false, NULL, err);
+    free(name);
+    return ok;
+}
+
 bool view_write(const struct view *view, const char *path,
                 struct file_change *change, struct error *err)
 {
@@ -478,10 +496,12 @@ bool view_write(const struct view *view, const char *path,
     char *sky = view->sky_path ? path_seen_from(path, view->sky_path) : NULL;
     write_over(to, old_text, old_bytes, view, sky);
     free(sky);
-    free(old_text);
     bool ok = fclose(to) == 0
-                  ? file_replace(path, text, size_bytes, change, err)
+                  ? keep_old(path, old_text, old_bytes, text, size_bytes,
+                             change, err) &&
+                        file_replace(path, text, size_bytes, change, err)
                   : fail(err, "%s: out of memory", path);
+    free(old_text);
     free(text);
     return ok;
 }

@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The least time for a message, and for each of its bytes: 200 words a minute
+ * are read. */
 #define MESSAGE_NS UINT64_C(4000000000)
+#define BYTE_NS    UINT64_C(60000000)
 #define LONG_NS    UINT64_C(10000000000)
 
 /* The draft's first sample of all pixels is waited for: half a frame at 60 Hz
@@ -20,13 +23,25 @@
 /* How often files are looked at where the system does not watch them. */
 #define LOOK_NS UINT64_C(1000000000)
 
-static void __attribute__((format(printf, 3, 0)))
-say(struct work *w, uint64_t until_ns, const char *format, va_list values)
+static uint64_t reading_ns(const char *text)
 {
+    uint64_t ns = strlen(text) * BYTE_NS;
+
+    return ns > MESSAGE_NS ? ns : MESSAGE_NS;
+}
+
+/* For `least_ns`, or as long as it takes to read. */
+static void __attribute__((format(printf, 3, 0)))
+say(struct work *w, uint64_t least_ns, const char *format, va_list values)
+{
+    uint64_t read_ns;
+
     vsnprintf(w->message.text, sizeof w->message.text, format, values);
     w->message.is_error = false;
     w->message.said_ns = clock_ns();
-    w->message.until_ns = until_ns;
+    read_ns = reading_ns(w->message.text);
+    w->message.until_ns =
+        w->message.said_ns + (read_ns > least_ns ? read_ns : least_ns);
     w->has_changed = true;
 }
 
@@ -35,7 +50,7 @@ void work_say(struct work *w, const char *format, ...)
     va_list values;
 
     va_start(values, format);
-    say(w, clock_ns() + MESSAGE_NS, format, values);
+    say(w, MESSAGE_NS, format, values);
     va_end(values);
 }
 
@@ -44,7 +59,7 @@ void work_say_long(struct work *w, const char *format, ...)
     va_list values;
 
     va_start(values, format);
-    say(w, clock_ns() + LONG_NS, format, values);
+    say(w, LONG_NS, format, values);
     va_end(values);
 }
 
@@ -70,7 +85,7 @@ void work_be_heard(struct work *w)
     if (!m->is_error)
         return;
     m->is_error = false;
-    m->until_ns = m->said_ns + MESSAGE_NS;
+    m->until_ns = m->said_ns + reading_ns(m->text);
     w->has_changed = true;
 }
 

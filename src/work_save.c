@@ -8,8 +8,11 @@
 
 #include "glim/file.h"
 #include "glim/picture.h"
-#include "glim/view_file.h"
-#include "glim/xdg.h"
+#include "glim/recent.h"
+#include "glim/session_save.h"
+
+/* A live picture is worth to be kept from this time on. */
+#define WORTH_NS UINT64_C(5000000000)
 
 /* The scene's name without folder and ending. */
 static char *scene_name(const struct work *w)
@@ -117,6 +120,7 @@ void work_save_view(struct work *w)
     struct session *s = w->session;
     struct file_change change;
     struct error err;
+    const char *slash;
     char *text;
 
     if (w->reload.is_busy) { /* which has read the file, or not yet */
@@ -129,16 +133,16 @@ void work_save_view(struct work *w)
                      work_key(w, ACTION_MODE).text);
         return;
     }
-    s->view.has_camera = true; /* also one that was placed by the program */
-    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
-    if (!view_write(&s->view, s->view_path, &change, &err)) {
+    if (!session_save_view(s, &change, &err)) {
         work_say_error(w, err.text);
         return;
     }
-    edit_saved_view(&s->edit);
-    view_copy(&s->filed, &s->view);
     watch_wrote(&w->watch, s->view_path, &change.after);
-    text = xformat("wrote the view to %s", s->view_path);
+    slash = strrchr(s->view_path, '/');
+    text = change.is_kept
+               ? xformat("wrote the view to %s, the old one is %s~",
+                         s->view_path, slash ? slash + 1 : s->view_path)
+               : xformat("wrote the view to %s", s->view_path);
     work_say(w, "%s", text);
     work_add_result(w, text);
     free(text);
@@ -160,54 +164,34 @@ bool work_save_edit(struct work *w)
     return true;
 }
 
-/* NULL if it cannot be written there. */
-static char *keep_as(struct work *w, const char *stem, struct error *err)
+/* What somebody would miss: a picture that no file has, and that took a while,
+ * or that q would ask about. */
+static bool is_worth_keeping(const struct work *w)
 {
-    char *kept = xformat("%s-kept", stem);
-    char *name =
-        picture_write_numbered(render_film(w->session->render),
-                               session_develop(w->session), kept, "png", err);
-
-    free(kept);
-    return name;
-}
-
-static char *keep_beside(struct work *w, struct error *err)
-{
-    char *stem = path_stem(w->session->scene.path);
-    char *name = keep_as(w, stem, err);
-
-    free(stem);
-    return name;
-}
-
-static char *keep_in_state(struct work *w, struct error *err)
-{
-    char *scene = scene_name(w);
-    char *stem = xdg_state_path(scene);
-    char *name = stem ? keep_as(w, stem, err) : NULL;
-
-    free(stem);
-    free(scene);
-    return name;
+    return w->progress.samples > w->saved_samples &&
+           (w->progress.render_ns >= WORTH_NS || work_has_unsaved(w) ||
+            work_has_unsaved_edit(w));
 }
 
 void work_keep(struct work *w)
 {
+    struct session *s = w->session;
     struct error err;
-    char *name, *text;
+    char *path, *text;
 
-    render_halt(w->session->render);
-    w->progress = render_progress(w->session->render);
-    if (w->progress.samples <= w->saved_samples)
+    render_halt(s->render);
+    w->progress = render_progress(s->render);
+    if (!is_worth_keeping(w))
         return;
-    name = keep_beside(w, &err);
-    if (!name)
-        name = keep_in_state(w, &err);
-    text = name
-               ? xformat("kept %s, %" PRIu64 " spp", name, w->progress.spp_done)
-               : xstrdup(err.text);
+    path = recent_lost_path();
+    if (!path)
+        text = xstrdup("not kept: found no folder for the person's state");
+    else if (picture_write(render_film(s->render), session_develop(s), path,
+                           &err))
+        text = xformat("kept %s, %" PRIu64 " spp", path, w->progress.spp_done);
+    else
+        text = xstrdup(err.text);
     work_add_result(w, text);
     free(text);
-    free(name);
+    free(path);
 }

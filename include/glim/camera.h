@@ -26,6 +26,10 @@ void camera_orbit(struct view *view, const double around[3], double right_rad,
  * at the depth of its centre. */
 void camera_frame(struct view *view, const double lo[3], const double hi[3]);
 
+/* False if no point of a box can be in the picture, wherever in it. */
+bool camera_sees_box(const struct view *view, const double lo[3],
+                     const double hi[3]);
+
 /* How far a point is from the eye along the look: where a lens focuses on it.
  * Negative behind the eye. */
 double camera_depth(const struct view *view, const double point[3]);

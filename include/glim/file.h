@@ -38,6 +38,7 @@ bool file_is_same(const struct file_identity *a, const struct file_identity *b);
 /* A file that was read, changed and written again. */
 struct file_change {
     struct file_identity before, after;
+    bool is_kept; /* what was before is in a file of the same name with a ~ */
 };
 
 /* Fails, early, for what file_write() could not write: a folder, a device, no

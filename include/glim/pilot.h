@@ -3,7 +3,9 @@
  * pilot.h - what keys and mouse do with the camera
  *
  * Moves are held keys or drags; each is one step of undo. What is picked is the
- * point to orbit and to focus on, and its object the one to frame.
+ * point to orbit and to focus on, and its object the one to frame. Who leaves a
+ * room through its wall, flies into a solid or sees nothing of the scene any
+ * more is told how to come back.
  *
  * Units:     nanoseconds of clock_ns(), terminal cells
  * Ownership: work and canvas stay the caller's and outlive the pilot;
@@ -14,6 +16,7 @@
 #ifndef GLIM_PILOT_H
 #define GLIM_PILOT_H
 
+#include "glim/clearance.h"
 #include "glim/cursor.h"
 #include "glim/history.h"
 #include "glim/steer.h"
@@ -27,6 +30,9 @@ struct pilot {
     uint64_t held_ns;
     bool drag_is_new; /* no step of undo yet */
     struct cursor cursor;
+    struct clearance around; /* of the eye, where it was last */
+    enum clearance_place said;
+    uint64_t said_ns; /* when, if it was a message */
 };
 
 void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * recent.h - the scenes that were opened last, to choose one
+ * recent.h - the scenes that were opened last, and the picture of a session
+ * that was lost
  *
  * The file `recent` in the folder of the person's state has a path a line, the
- * last opened first.
+ * last opened first. The one file `lost.png` beside it has the picture: a later
+ * one replaces it.
  *
  * Units:     none
  * Ownership: recent_free() frees a list
@@ -27,6 +29,14 @@ void recent_read(struct recent *r);
 
 /* Remembers this one as the last. */
 void recent_add(const char *path);
+
+/* Where the picture of a session is written that is being lost; for free(),
+ * NULL: nowhere. */
+char *recent_lost_path(void);
+
+/* The picture, if a session was lost since recent_add() was called last: so the
+ * next one tells of it, and only that. For free(); NULL: none. */
+char *recent_find_lost(void);
 
 /* Shows the list and lets the person choose by number, or write another name.
  * The path is for free(); NULL: none. */

@@ -94,6 +94,10 @@ bool render_step(struct render *r);
  * no limit). True if it is not running. */
 bool render_wait(struct render *r, int timeout_ms);
 
+/* True once the backend has the geometry of the last start: from then on it
+ * only reads the job's tree. */
+bool render_is_loaded(struct render *r);
+
 /* A file descriptor that becomes readable when the state changes from
  * RENDER_RUNNING; read it empty. */
 int render_event_fd(const struct render *r);

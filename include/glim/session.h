@@ -28,7 +28,8 @@ struct session {
     struct rect crop;   /* of the view's picture, that is rendered */
     struct edit edit;   /* of materials and light; session_restart() applies */
     uint32_t sky;       /* of the edit's skies, that was looked for last */
-    struct view filed;  /* as the view file has it */
+    struct view filed;  /* as the view file has it, or would: without what
+                           the command line says of this run */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
     struct report report;
@@ -79,13 +80,6 @@ bool session_step(struct session *s, uint64_t spp, struct error *err);
 /* True if the scene or its light are to be others than what is rendered; takes
  * over what needs no new picture. */
 bool session_take_edit(struct session *s);
-
-/* Writes changed materials into their MTL files, and if assignments or light
- * have changed, these into the view file, the rest of which stays. The watch is
- * told of it. *what is a line about it, for free(). What was written before an
- * error is saved. */
-bool session_save_edit(struct session *s, struct watch *watch, char **what,
-                       struct error *err);
 
 /* As view and edit say. */
 struct develop session_develop(const struct session *s);

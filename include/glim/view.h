@@ -67,6 +67,9 @@ void view_set_pose(struct view *view, const struct pose *pose);
 void view_merge(struct view *view, const struct view *before,
                 const struct view *after);
 
+/* Takes over size and bounces: what the command line may say for one run. */
+void view_take_frame(struct view *view, const struct view *from);
+
 /* `to` has been through view_init(). */
 void view_copy(struct view *to, const struct view *from);
 void view_free(struct view *view);

@@ -22,7 +22,9 @@ bool view_read(struct view *view, const char *path, struct report *report,
 /* Writes the file, atomically. Lines of a file that is there keep their order,
  * and those with an unknown key or none stay as they are. A sky path is written
  * relative to the file's folder where that is possible. *change says what was
- * replaced by what; one that someone else writes at the same time is not. */
+ * replaced by what; one that someone else writes at the same time is not. What
+ * is replaced by another text is kept: before, it is written to the file with
+ * the same name and a ~. */
 bool view_write(const struct view *view, const char *path,
                 struct file_change *change, struct error *err);
 

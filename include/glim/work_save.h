@@ -35,9 +35,8 @@ void work_save_view(struct work *w);
 /* Writes changed materials and light to their files. False if that failed. */
 bool work_save_edit(struct work *w);
 
-/* Halts, and writes what no file has yet as STEM-kept.png beside the scene, or
- * into the folder of the person's state, or the next free name: for when nobody
- * is there to save it. */
+/* Halts, and writes a picture that somebody would miss to recent_lost_path(),
+ * over the one before: for when nobody is there to save it. */
 void work_keep(struct work *w);
 
 #endif

@@ -12,7 +12,7 @@
 #include "folder.h"
 #include "glim/file.h"
 #include "glim/mtl.h"
-#include "glim/session.h"
+#include "glim/session_save.h"
 #include "glim/view_file.h"
 
 static char root[4096]; /* where the scenes are */

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
  * The list of scenes: the last one first, each once, none that is gone, twenty
- * at most; and what a person may answer.
+ * at most; what a person may answer; and when a lost picture is told of.
  */
 #include "check.h"
 #include "folder.h"
 
+#include <stdbool.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "glim/recent.h"
@@ -94,6 +96,47 @@ static void odd_names_are_left_out(void **state)
     assert_int_equal(r.count, 0);
 }
 
+/* Whether a start finds the picture; it then opens a scene. */
+static void start_finds(bool expected)
+{
+    char *lost = recent_find_lost();
+
+    assert_int_equal(lost != NULL, expected);
+    if (lost)
+        assert_string_equal(lost + strlen(lost) - 20, "/state/glim/lost.png");
+    free(lost);
+    usleep(20000); /* longer than the file system's clock ticks */
+    make_scene(1);
+}
+
+static void lose(void)
+{
+    char *path = recent_lost_path();
+    FILE *to;
+
+    assert_non_null(path);
+    usleep(20000);
+    to = fopen(path, "w");
+    assert_non_null(to);
+    assert_int_equal(fclose(to), 0);
+    free(path);
+}
+
+static void a_lost_picture_is_told_of_once(void **state)
+{
+    (void)state;
+    forget();
+    start_finds(false);
+    for (int i = 0; i < 2; i++) {
+        lose();
+        start_finds(true);
+        start_finds(false);
+    }
+    lose();
+    forget(); /* no list at all */
+    start_finds(true);
+}
+
 static void no_folder_remembers_nothing(void **state)
 {
     struct recent r;
@@ -103,6 +146,7 @@ static void no_folder_remembers_nothing(void **state)
     make_scene(1);
     recent_read(&r);
     assert_int_equal(r.count, 0);
+    assert_null(recent_find_lost());
     setenv("XDG_STATE_HOME", "state", 1); /* relative: ignored */
     setenv("HOME", "", 1);
     recent_read(&r);
@@ -157,6 +201,7 @@ int main(void)
         cmocka_unit_test(the_last_is_first_and_once),
         cmocka_unit_test(the_oldest_are_forgotten),
         cmocka_unit_test(odd_names_are_left_out),
+        cmocka_unit_test(a_lost_picture_is_told_of_once),
         cmocka_unit_test(no_folder_remembers_nothing),
         cmocka_unit_test(answers),
     };

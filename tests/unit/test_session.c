@@ -10,10 +10,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "glim/file.h"
-#include "glim/session.h"
+#include "glim/session_save.h"
 #include "glim/stats.h"
 
 #include <cmocka.h> /* last: it has a macro fail() */
@@ -25,7 +26,7 @@
 #define ODD "odd\"\\\n\xff\xc3\xa9.obj"
 
 static const char *const names[] = {"s.obj", "s.view",   "camera.txt", "o.view",
-                                    "s.mtl", "out.json", ODD};
+                                    "s.mtl", "out.json", "s.view~",    ODD};
 
 static char folder[] = "/tmp/glim-test-XXXXXX";
 
@@ -148,6 +149,110 @@ static void test_options_win(void **state)
     session_close(&s);
 }
 
+static void is_text(const char *name, const char *expected)
+{
+    struct error err;
+    size_t size_bytes;
+    char *text;
+
+    if (!file_read(name, &text, &size_bytes, &err))
+        fail_msg("%s", err.text);
+    assert_string_equal(text, expected);
+    free(text);
+}
+
+static void save_view(struct session *s)
+{
+    struct file_change change;
+    struct error err;
+
+    if (!session_save_view(s, &change, &err))
+        fail_msg("%s", err.text);
+}
+
+/* The size and the bounces of -w, -h and -d are for one run: the file keeps its
+ * own, or none, also when it is loaded anew meanwhile. */
+static void test_options_are_not_written(void **state)
+{
+    struct options o = options_for("s.obj");
+    struct session s, fresh;
+    struct error err;
+
+    (void)state;
+    put("s.obj", TRIANGLE);
+    put("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 200\nmax_bounces 4\n");
+    o.width_px = 150;
+    o.has_max_bounces = true;
+    o.max_bounces = 0;
+    open_session(&s, &o);
+    save_view(&s);
+    is_text("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 200\nmax_bounces 4\n");
+    assert_int_equal(s.view.width_px, 150);
+
+    put("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 100\nmax_bounces 5\n");
+    if (!session_load(&fresh, &o, clock_ns(), &err))
+        fail_msg("%s", err.text);
+    session_take(&s, &fresh);
+    session_close(&fresh);
+    assert_int_equal(s.view.width_px, 150); /* the option wins as before */
+    assert_int_equal(s.view.height_px, 50);
+    assert_int_equal(s.view.max_bounces, 0);
+    save_view(&s);
+    is_text("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 100\nmax_bounces 5\n");
+    session_close(&s);
+
+    unlink("s.view"); /* a new file says nothing of them */
+    o.height_px = 10;
+    open_session(&s, &o);
+    save_view(&s);
+    session_close(&s);
+    o = options_for("s.obj");
+    open_session(&s, &o);
+    assert_false(s.view.has_size);
+    assert_int_equal(s.view.width_px, 1024);
+    assert_int_equal(s.view.max_bounces, -1);
+    session_close(&s);
+}
+
+/* One step back: the text before the last change, whatever is written twice. */
+static void test_view_before_is_kept(void **state)
+{
+    const char *first = "# mine\n" CAMERA "up 0 1 0\nfovy 40\n";
+    const char *second = "# mine\neye 1 0 5\nat 0 0 0\nup 0 1 0\nfovy 40\n";
+    const char *third = "# mine\neye 2 0 5\nat 0 0 0\nup 0 1 0\nfovy 40\n";
+    struct options o = options_for("s.obj");
+    struct file_change change;
+    struct session s;
+    struct error err;
+
+    (void)state;
+    put("s.obj", TRIANGLE);
+    put("s.view", first);
+    open_session(&s, &o);
+    save_view(&s); /* nothing has changed: nothing is to be kept */
+    assert_int_equal(access("s.view~", F_OK), -1);
+    s.view.eye[0] = 1;
+    for (int i = 0; i < 2; i++) {
+        save_view(&s);
+        is_text("s.view", second);
+        is_text("s.view~", first);
+    }
+    s.view.eye[0] = 2;
+    save_view(&s);
+    is_text("s.view", third);
+    is_text("s.view~", second);
+
+    /* what cannot be kept is not replaced */
+    unlink("s.view~");
+    assert_int_equal(mkdir("s.view~", 0777), 0);
+    s.view.eye[0] = 3;
+    assert_false(session_save_view(&s, &change, &err));
+    assert_non_null(strstr(err.text, "s.view~: "));
+    is_text("s.view", third);
+    assert_int_equal(rmdir("s.view~"), 0);
+    session_close(&s);
+}
+
 static void test_light(void **state)
 {
     struct options o = options_for("s.obj");
@@ -266,6 +371,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_view_files, remove_files),
         cmocka_unit_test_teardown(test_options_win, remove_files),
+        cmocka_unit_test_teardown(test_options_are_not_written, remove_files),
+        cmocka_unit_test_teardown(test_view_before_is_kept, remove_files),
         cmocka_unit_test_teardown(test_light, remove_files),
         cmocka_unit_test_teardown(test_framing, remove_files),
         cmocka_unit_test_teardown(test_errors, remove_files),

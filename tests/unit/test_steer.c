@@ -17,20 +17,83 @@ static struct view make_view(void)
     return v;
 }
 
-static void speed_is_a_part_of_the_scene(void **state)
+/* That distance a second, for the first step of a key. */
+static void speed_follows_what_is_near(void **state)
 {
     struct steer s;
-    struct view v = make_view();
+
+    (void)state;
+    for (double near = 0.1; near < 1; near *= 2) {
+        struct view v = make_view();
+
+        steer_init(&s, lo, hi);
+        check_close(s.scene_size, 5, 1e-12);
+        steer_adapt(&s, near, 0);
+        check_close(steer_speed(&s), near, 1e-12);
+        steer_begin(&s, 1000 * MS);
+        motion_press(&s.motion, MOTION_FORWARD, 1, 1000 * MS);
+        assert_true(steer_step(&s, &v, 1000 * MS));
+        check_close(v.eye[2], -near / 60, 1e-6);
+        assert_false(steer_step(&s, &v, 1000 * MS));
+    }
+    steer_init(&s, lo, lo); /* a point */
+    assert_true(s.scene_size > 0 && steer_speed(&s) > 0);
+}
+
+/* At a wall and in the void there is still a way; far off the eye comes back in
+ * seconds, and goes away no faster than a number says. */
+static void speed_is_never_none(void **state)
+{
+    struct steer s;
+    double open, far;
 
     (void)state;
     steer_init(&s, lo, hi);
-    check_close(s.scene_size, 5, 1e-12);
-    motion_press(&s.motion, MOTION_FORWARD, 1, 1000 * MS);
-    assert_true(steer_step(&s, &v, 1000 * MS));
-    check_close(v.eye[2], -5 * s.speed / 60, 1e-6);
-    assert_false(steer_step(&s, &v, 1000 * MS));
-    steer_init(&s, lo, lo); /* a point */
-    assert_true(s.scene_size > 0);
+    steer_adapt(&s, 0, 0);
+    assert_true(steer_speed(&s) > 1e-3 * 5 && steer_speed(&s) < 1e-2 * 5);
+    steer_adapt(&s, INFINITY, 0);
+    open = steer_speed(&s);
+    assert_true(open > 0.1 * 5 && open < 5);
+    steer_adapt(&s, INFINITY, 5);
+    check_close(steer_speed(&s), open, 1e-12);
+    steer_adapt(&s, INFINITY, 20);
+    far = steer_speed(&s);
+    assert_true(far > open);
+    steer_adapt(&s, INFINITY, 40);
+    check_close(steer_speed(&s), 2 * far, 1e-12);
+    steer_adapt(&s, INFINITY, 1e17);
+    far = steer_speed(&s);
+    steer_adapt(&s, INFINITY, INFINITY);
+    assert_true(isfinite(steer_speed(&s)));
+    check_close(steer_speed(&s), far, 1e-12);
+}
+
+static double held(double seconds)
+{
+    struct steer s;
+    struct view v = make_view();
+    uint64_t end = 1000 * MS + (uint64_t)(1e9 * seconds);
+
+    steer_init(&s, lo, hi);
+    steer_adapt(&s, 0.5, 0);
+    steer_begin(&s, 1000 * MS);
+    for (uint64_t t = 1000 * MS; t < end; t += 30 * MS) {
+        motion_press(&s.motion, MOTION_FORWARD, 1, t);
+        steer_step(&s, &v, t);
+    }
+    return -v.eye[2];
+}
+
+/* The second second goes further than the first, a minute not for ever faster;
+ * and as far with the person's factor. */
+static void held_keys_get_faster(void **state)
+{
+    double one = held(1), two = held(2), ten = held(10), eleven = held(11);
+
+    (void)state;
+    assert_true(two - one > 1.5 * one);
+    assert_true(eleven - ten > two - one);
+    check_close(held(21) - held(20), eleven - ten, 0.1 * (eleven - ten));
 }
 
 static void speed_has_ends(void **state)
@@ -225,7 +288,9 @@ static void a_modified_drag_orbits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(speed_is_a_part_of_the_scene),
+        cmocka_unit_test(speed_follows_what_is_near),
+        cmocka_unit_test(speed_is_never_none),
+        cmocka_unit_test(held_keys_get_faster),
         cmocka_unit_test(speed_has_ends),
         cmocka_unit_test(speeds_follow_the_scene),
         cmocka_unit_test(drag_turns_by_what_is_seen),

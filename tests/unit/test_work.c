@@ -20,7 +20,10 @@ static char folder[] = "/tmp/glim-test-XXXXXX";
 static int enter_folder(void **state)
 {
     (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+    return mkdtemp(folder) && chdir(folder) == 0 &&
+                   setenv("XDG_STATE_HOME", folder, 1) == 0
+               ? 0
+               : -1;
 }
 
 static int leave_folder(void **state)
@@ -28,6 +31,7 @@ static int leave_folder(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
+    rmdir("glim");
     return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
 }
 
@@ -46,7 +50,7 @@ static int open_work(void **state)
     unlink("s.view");
     unlink("s.png");
     unlink("s-2.png");
-    unlink("s-kept.png");
+    unlink("glim/lost.png");
     if (!to || fputs("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", to) < 0 ||
         fclose(to) != 0)
         return -1;
@@ -274,15 +278,24 @@ static void steps_after_a_halt_make_the_same_picture(void **state)
     assert_memory_equal(whole, stepped, sizeof whole);
 }
 
+static bool is_kept(void)
+{
+    return access("glim/lost.png", F_OK) == 0;
+}
+
 static void what_no_file_has_is_kept(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
+    char expected[128];
 
+    snprintf(expected, sizeof expected, "kept %s/glim/lost.png, 3 spp", folder);
     render_whole(w);
-    work_keep(w);
-    assert_int_equal(access("s-kept.png", F_OK), 0);
-    assert_int_equal(w->result_count, 1);
-    assert_string_equal(w->results[0], "kept s-kept.png, 3 spp");
+    for (int i = 0; i < 2; i++) { /* in one file */
+        work_keep(w);
+        assert_true(is_kept());
+        assert_int_equal(w->result_count, i + 1);
+        assert_string_equal(w->results[i], expected);
+    }
 }
 
 static void what_a_file_has_is_not_kept(void **state)
@@ -293,11 +306,34 @@ static void what_a_file_has_is_not_kept(void **state)
     work_save_picture(w, "png");
     assert_true(work_finish_saving(w));
     work_keep(w);
-    assert_int_equal(access("s-kept.png", F_OK), -1);
+    assert_false(is_kept());
     work_restart(w); /* what follows is not in the file */
     run_to_end(w);
     work_keep(w);
-    assert_int_equal(access("s-kept.png", F_OK), 0);
+    assert_true(is_kept());
+}
+
+/* Of live mode: what has taken a while, or shows what was edited. */
+static void what_is_made_anew_at_once_is_not_kept(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+
+    while (w->progress.samples == 0)
+        work_look(w);
+    work_keep(w);
+    assert_false(is_kept());
+    w->session->edit.now.mood.exposure += 1;
+    work_keep(w);
+    assert_true(is_kept());
+    unlink("glim/lost.png");
+    w->session->edit.now.mood.exposure -= 1;
+    work_restart(w);
+    while (w->progress.render_ns < 5200000000u) {
+        usleep(100000);
+        work_look(w);
+    }
+    work_keep(w);
+    assert_true(is_kept());
 }
 
 static void saving_never_replaces(void **state)
@@ -399,6 +435,23 @@ static void errors_are_seen(void **state)
     check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
 }
 
+/* 200 words of six characters a minute, a blank each: 50 ms a character. */
+static void long_messages_can_be_read(void **state)
+{
+    struct work *w = &((struct fixture *)*state)->work;
+    struct message *m = &w->message;
+    char text[201] = "";
+
+    work_say(w, "short");
+    check_close((double)(m->until_ns - m->said_ns), 4e9, 1);
+    memset(text, 'a', sizeof text - 1);
+    work_say(w, "%s", text);
+    assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
+    work_say_error(w, text);
+    work_be_heard(w);
+    assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
+}
+
 static void failures_are_messages(void **state)
 {
     struct work *w = &((struct fixture *)*state)->work;
@@ -494,12 +547,14 @@ int main(void)
         WORK_TEST(steps_after_a_halt_make_the_same_picture),
         WORK_TEST(what_no_file_has_is_kept),
         WORK_TEST(what_a_file_has_is_not_kept),
+        WORK_TEST(what_is_made_anew_at_once_is_not_kept),
         WORK_TEST(saving_never_replaces),
         WORK_TEST(saving_takes_a_copy),
         WORK_TEST(what_is_said_is_what_was_saved),
         WORK_TEST(a_young_picture_is_unsaved_too),
         WORK_TEST(no_view_is_written_under_a_reload),
         WORK_TEST(errors_are_seen),
+        WORK_TEST(long_messages_can_be_read),
         WORK_TEST(failures_are_messages),
         WORK_TEST(views_are_written),
         WORK_TEST(texts_are_written),

@@ -40,7 +40,7 @@ wait_for "mouse off"
 raw_keys "$drag"
 moved x at 1 '==' 0
 raw_keys '+'
-wait_for "speed 0.375"
+wait_for "speed times 1.25: "
 # held for a second: a way that no single tap makes
 for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
     keys w

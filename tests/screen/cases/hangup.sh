@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-# The line is lost: the program ends by itself and keeps the picture, beside the
-# scene or in the state folder. So does SIGTERM with what q would ask about.
+# The line is lost: the program ends by itself and keeps a picture that took a
+# while, in one file in the state folder; the next start tells of it. So does
+# SIGTERM with what q would ask about.
 XDG_STATE_HOME=$PWD/state
 export XDG_STATE_HOME
+lost=state/glim/lost.png
 gone()
 {
     ! kill -0 "$pid" 2>/dev/null
@@ -12,62 +14,95 @@ is_whole()
 {
     cmp "$1" reference.png || die "$1 is not the picture"
 }
+# Nothing but the scene lies beside it, and nothing but one picture there.
+is_tidy()
+{
+    [ "$(ls -A scenes)" = "$(printf 'flat.obj\nflat.view')" ] ||
+        die "beside the scene: $(ls -A scenes)"
+    [ "$(ls -A state/glim | grep -v '^lost.png$')" = recent ] ||
+        die "in the state folder: $(ls -A state/glim)"
+}
+worth="LIVE .* \([5-9]\|[1-9][0-9]\) s "
 mkdir scenes
 flat_scene
 glim -b -s 1 -o reference.png flat.obj 2>/dev/null
 mv flat.obj flat.view scenes
+
+# a picture of a moment is nothing to keep
 start scenes/flat.obj
 wait_for "LIVE .* [1-9][0-9]* spp"
+kill -HUP "$(program_pid)"
+expect_end 129
+[ ! -e $lost ] || die "the picture of a moment was kept"
+fresh
+
+start scenes/flat.obj
+wait_for "$worth"
 pid=$(program_pid)
 mux kill-session
 wait_until gone
-is_whole scenes/flat-kept.png
-[ ! -e state/glim/flat-kept.png ] || die "more than one picture was kept"
-[ -z "$(find . -name '.glim-*')" ] || die "left: $(find . -name '.glim-*')"
+is_whole $lost
+is_tidy
 
-# again, with signals that go on while it is saved: nothing is replaced
+# told once, and with signals that go on while it is saved: it is replaced
 start -w 900 -h 600 scenes/flat.obj
-wait_for "LIVE .* [1-9][0-9]* spp"
+wait_for "^ picture of the lost session: /"
+keys Escape
+wait_for "$worth"
 pid=$(program_pid)
 for i in 1 2 3 4 5 6 7 8 9; do
     kill -HUP "$pid" 2>/dev/null || break
     sleep 0.01
 done
 expect_end 129
-expect "^kept scenes/flat-kept-2.png, [1-9][0-9]* spp"
-[ -s scenes/flat-kept-2.png ]
+expect "^picture of the lost session: /"
+expect "^kept .*"
+! cmp -s $lost reference.png || die "the picture before was not replaced"
+is_tidy
 
-# nothing can be written anywhere: it ends all the same
+# nothing can be written: it ends all the same, and the picture before stays
 fresh
+cp $lost before.png
 start_line "(ulimit -f 0; trap '' XFSZ; TERM=tmux-256color exec glim scenes/flat.obj)"
-wait_for "LIVE .* [1-9][0-9]* spp"
+wait_for "^ picture of the lost session: /"
+keys Escape
+wait_for "$worth"
 kill -HUP "$(program_pid)"
 expect_end 129
-expect "flat-kept.png: File to"
-[ ! -e state/glim/flat-kept.png ] || die "written despite the limit"
+expect "lost.png: File to"
+cmp $lost before.png || die "written despite the limit"
+is_tidy
 
 # SIGTERM asks nobody: only a render that would be lost is kept
 fresh
 start scenes/flat.obj
 wait_for "LIVE .* [1-9][0-9]* spp"
+keys Escape
+wait_for "$worth"
 kill -TERM "$(program_pid)"
 expect_end 143
-[ ! -e scenes/flat-kept-3.png ] || die "a live picture was kept"
+cmp $lost before.png || die "a live picture was kept"
 fresh
 start -s 1000000000 scenes/flat.obj
 wait_for "LIVE"
+reject "lost session" # it was told of
 keys Space Enter
 wait_for "NORMAL  [1-9][0-9]*/1000000000 spp"
 kill -TERM "$(program_pid)"
 expect_end 143
-expect "^kept scenes/flat-kept-3.png"
+expect "^kept "
+is_whole $lost
+is_tidy
 
 [ "$(id -u)" != 0 ] || exit 0 # may write everywhere
 fresh
-chmod a-w scenes
+chmod a-w state/glim
 start scenes/flat.obj
-wait_for "LIVE .* [1-9][0-9]* spp"
+wait_for "LIVE"
+keys Escape
+wait_for "$worth"
 kill -HUP "$(program_pid)"
 expect_end 129
-chmod u+w scenes
-is_whole state/glim/flat-kept.png
+expect "lost.png: \|glim: Permission"
+chmod u+w state/glim
+is_tidy

@@ -3,14 +3,14 @@
 flat_scene
 mkdir sub
 mv flat.obj flat.view sub
-start sub/flat.obj
+start -w 50 sub/flat.obj # for this run: the file keeps its size
 wait_for "LIVE .* [1-9][0-9]* spp"
 keys p
-wait_for "saved flat.png 100x50, [1-9][0-9]* spp"
+wait_for "saved flat.png 50x25, [1-9][0-9]* spp"
 keys p
-wait_for "saved flat-2.png 100x50"
+wait_for "saved flat-2.png 50x25"
 keys P
-wait_for "saved flat.hdr 100x50, [1-9][0-9]* spp"
+wait_for "saved flat.hdr 50x25, [1-9][0-9]* spp"
 head -n 1 flat.hdr | grep -q '^#?RADIANCE' || die "flat.hdr is no HDR picture"
 keys i # the message is seen without the status line, too
 wait_until_gone "saved"
@@ -19,14 +19,17 @@ wait_for "saved flat-3.png"
 wait_until_gone "saved"
 keys i
 wait_for "LIVE"
+cp sub/flat.view mine.view
 keys c
-wait_for "wrote the view to sub/flat.view"
+wait_for "wrote the view to sub/flat.view, the old one is flat.view~"
+cmp sub/flat.view~ mine.view || die "the view before is lost"
 keys q
 expect_end 0
 expect "^saved flat.png"
 expect "^saved flat-2.png"
 expect "^wrote the view to sub/flat.view"
 grep -q '^eye 0 0 5' sub/flat.view || die "$(cat sub/flat.view)"
+grep -q '^res 100 50' sub/flat.view || die "$(cat sub/flat.view)"
 [ -s flat.png ] && [ -s flat-2.png ] && [ -s flat-3.png ]
 [ "$(id -u)" != 0 ] || exit 0 # may write everywhere
 fresh
