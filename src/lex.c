@@ -12,7 +12,7 @@
 /* Longer words are cut in messages. */
 #define QUOTE_BYTES 40
 
-static bool is_blank(char c)
+bool lex_is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
@@ -55,7 +55,7 @@ void lex_skip_blanks(struct lex *lex)
     for (;;) {
         size_t n;
 
-        while (lex->p < lex->end && is_blank(*lex->p))
+        while (lex->p < lex->end && lex_is_blank(*lex->p))
             lex->p++;
         n = join_bytes(lex->p, lex->end);
         if (n == 0)
@@ -71,9 +71,10 @@ bool lex_at_line_end(struct lex *lex)
     return lex->p == lex->end || is_line_end(*lex->p) || *lex->p == '#';
 }
 
-void lex_next_line(struct lex *lex)
+bool lex_next_line(struct lex *lex)
 {
     bool in_comment = false;
+    size_t end_bytes;
 
     while (lex->p < lex->end && !is_line_end(*lex->p)) {
         size_t n = in_comment ? 0 : join_bytes(lex->p, lex->end);
@@ -82,13 +83,15 @@ void lex_next_line(struct lex *lex)
         lex->p += n == 0 ? 1 : n;
         lex->line += n != 0;
     }
-    lex->p += line_end_bytes(lex->p, lex->end);
+    end_bytes = line_end_bytes(lex->p, lex->end);
+    lex->p += end_bytes;
     lex->line++;
+    return end_bytes > 0;
 }
 
 static bool ends_word(const char *p, const char *end)
 {
-    return p == end || is_blank(*p) || is_line_end(*p) ||
+    return p == end || lex_is_blank(*p) || is_line_end(*p) ||
            (*p == '\\' && join_bytes(p, end) != 0);
 }
 
@@ -104,34 +107,52 @@ struct word lex_word(struct lex *lex)
     return word;
 }
 
+/* Bytes of the join at p, or 0: behind a '#' there are none. */
+static size_t rest_join_bytes(const char *p, const char *end, bool *in_comment)
+{
+    *in_comment |= *p == '#';
+    return *in_comment ? 0 : join_bytes(p, end);
+}
+
 char *lex_rest(struct lex *lex)
 {
-    struct lex start;
-    char *text;
+    bool in_comment = false;
     size_t length = 0;
+    const char *start;
+    char *text;
 
     lex_skip_blanks(lex);
-    start = *lex;
+    start = lex->p;
     while (lex->p < lex->end && !is_line_end(*lex->p)) {
-        size_t n = join_bytes(lex->p, lex->end);
+        size_t n = rest_join_bytes(lex->p, lex->end, &in_comment);
 
         lex->p += n == 0 ? 1 : n;
         lex->line += n != 0;
     }
-    text = malloc((size_t)(lex->p - start.p) + 1);
+    text = malloc((size_t)(lex->p - start) + 1);
     if (text == NULL)
         return NULL;
-    for (const char *p = start.p; p < lex->p; p++) {
-        size_t n = join_bytes(p, lex->p);
-
+    in_comment = false;
+    for (const char *p = start; p < lex->p;) {
+        size_t n = rest_join_bytes(p, lex->p, &in_comment);
         /* A NUL would end the name early, and two names could be one. */
-        text[length++] = n != 0 || *p == '\0' ? ' ' : *p;
-        p += n == 0 ? 0 : n - 1;
+        char c = n != 0 || *p == '\0' ? ' ' : *p;
+
+        if (length > 0 || !lex_is_blank(c))
+            text[length++] = c;
+        p += n == 0 ? 1 : n;
     }
-    while (length > 0 && is_blank(text[length - 1]))
+    while (length > 0 && lex_is_blank(text[length - 1]))
         length--;
     text[length] = '\0';
     return text;
+}
+
+const char *lex_rest_guard(const char *rest)
+{
+    size_t length = strlen(rest);
+
+    return length > 0 && rest[length - 1] == '\\' ? " " : "";
 }
 
 /* What printf() of Microsoft's libraries writes: 1.#INF, 1.#IND, 1.#QNAN and
@@ -170,23 +191,30 @@ bool lex_number(struct lex *lex, double *value)
     return false;
 }
 
-bool lex_file(const char *path,
-              bool (*take_line)(void *context, struct lex *lex,
-                                struct error *err),
-              void *context, struct error *err)
+bool lex_lines(const char *text, size_t size_bytes, lex_take_line *take_line,
+               void *context, struct error *err)
 {
     struct lex lex;
+
+    lex_init(&lex, text, size_bytes);
+    while (lex.p < lex.end) {
+        if (!take_line(context, &lex, err))
+            return false;
+        lex_next_line(&lex);
+    }
+    return true;
+}
+
+bool lex_file(const char *path, lex_take_line *take_line, void *context,
+              struct error *err)
+{
     char *text;
     size_t size_bytes;
-    bool ok = true;
+    bool ok;
 
     if (!file_read(path, &text, &size_bytes, err))
         return false;
-    lex_init(&lex, text, size_bytes);
-    while (ok && lex.p < lex.end) {
-        ok = take_line(context, &lex, err);
-        lex_next_line(&lex);
-    }
+    ok = lex_lines(text, size_bytes, take_line, context, err);
     free(text);
     return ok;
 }

@@ -37,18 +37,24 @@ struct mtl_source mtl_source_empty(void)
     return s;
 }
 
-static bool numbers_equal(const struct mtl_number *a,
-                          const struct mtl_number *b)
+/* What is no number is equal to itself. */
+static bool values_equal(double a, double b)
 {
-    return (a->line == 0) == (b->line == 0) &&
-           (a->line == 0 || a->value == b->value);
+    return a == b || (isnan(a) && isnan(b));
 }
 
-static bool colors_equal(const struct mtl_color *a, const struct mtl_color *b)
+bool mtl_number_equal(const struct mtl_number *a, const struct mtl_number *b)
 {
     return (a->line == 0) == (b->line == 0) &&
-           (a->line == 0 || (a->rgb[0] == b->rgb[0] && a->rgb[1] == b->rgb[1] &&
-                             a->rgb[2] == b->rgb[2]));
+           (a->line == 0 || values_equal(a->value, b->value));
+}
+
+bool mtl_color_equal(const struct mtl_color *a, const struct mtl_color *b)
+{
+    return (a->line == 0) == (b->line == 0) &&
+           (a->line == 0 || (values_equal(a->rgb[0], b->rgb[0]) &&
+                             values_equal(a->rgb[1], b->rgb[1]) &&
+                             values_equal(a->rgb[2], b->rgb[2])));
 }
 
 bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
@@ -57,15 +63,17 @@ bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
         if (a->maps[i] != b->maps[i])
             return false;
     return a->maps_off == b->maps_off && a->bump_scale == b->bump_scale &&
-           colors_equal(&a->kd, &b->kd) && colors_equal(&a->ks, &b->ks) &&
-           colors_equal(&a->ke, &b->ke) && colors_equal(&a->tf, &b->tf) &&
-           numbers_equal(&a->kelvin, &b->kelvin) &&
-           numbers_equal(&a->luminance, &b->luminance) &&
-           numbers_equal(&a->illum, &b->illum) &&
-           numbers_equal(&a->ns, &b->ns) && numbers_equal(&a->ni, &b->ni) &&
-           numbers_equal(&a->d, &b->d) && numbers_equal(&a->tr, &b->tr) &&
-           numbers_equal(&a->pr, &b->pr) && numbers_equal(&a->pm, &b->pm) &&
-           numbers_equal(&a->kd_roughness, &b->kd_roughness);
+           mtl_color_equal(&a->kd, &b->kd) && mtl_color_equal(&a->ks, &b->ks) &&
+           mtl_color_equal(&a->ke, &b->ke) && mtl_color_equal(&a->tf, &b->tf) &&
+           mtl_number_equal(&a->kelvin, &b->kelvin) &&
+           mtl_number_equal(&a->luminance, &b->luminance) &&
+           mtl_number_equal(&a->illum, &b->illum) &&
+           mtl_number_equal(&a->ns, &b->ns) &&
+           mtl_number_equal(&a->ni, &b->ni) && mtl_number_equal(&a->d, &b->d) &&
+           mtl_number_equal(&a->tr, &b->tr) &&
+           mtl_number_equal(&a->pr, &b->pr) &&
+           mtl_number_equal(&a->pm, &b->pm) &&
+           mtl_number_equal(&a->kd_roughness, &b->kd_roughness);
 }
 
 uint32_t mtl_source_map(const struct mtl_source *s, enum mtl_map map)

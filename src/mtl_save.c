@@ -31,8 +31,7 @@ static bool write_color(struct writer *w, const struct mtl_change *c,
 
     if (after->line == 0)
         return before->line == 0 || mtl_text_remove(&w->text, c->name, keys);
-    if (before->line != 0 &&
-        memcmp(before->rgb, after->rgb, sizeof before->rgb) == 0)
+    if (mtl_color_equal(before, after))
         return true;
     for (int i = 0; i < 3; i++)
         number_format(text[i], after->rgb[i]);
@@ -48,7 +47,7 @@ static bool write_number(struct writer *w, const struct mtl_change *c,
 
     if (after->line == 0)
         return before->line == 0 || mtl_text_remove(&w->text, c->name, keys);
-    if (before->line != 0 && before->value == after->value)
+    if (mtl_number_equal(before, after))
         return true;
     number_format(text, after->value);
     return mtl_text_set(&w->text, c->name, keys, text);
@@ -66,8 +65,8 @@ static bool write_light(struct writer *w, const struct mtl_change *c)
                            a->kelvin.line == 0 ? &a->ke : &none, &b->ke) &&
                (a->kelvin.line == 0 || b->ke.line != 0 ||
                 mtl_text_remove(&w->text, c->name, light_keys));
-    if (a->kelvin.line != 0 && a->kelvin.value == b->kelvin.value &&
-        a->luminance.value == b->luminance.value)
+    if (mtl_number_equal(&a->kelvin, &b->kelvin) &&
+        mtl_number_equal(&a->luminance, &b->luminance))
         return true;
     number_format(text[0], b->kelvin.value);
     number_format(text[1], b->luminance.value);

@@ -27,10 +27,9 @@ bool mtl_text_init(struct mtl_text *t, const char *text, size_t size_bytes)
     return t->bytes != NULL;
 }
 
-bool mtl_text_splice(struct mtl_text *t, size_t at, size_t removed,
-                     const char *insert)
+static bool splice(struct mtl_text *t, size_t at, size_t removed,
+                   const char *insert, size_t added)
 {
-    size_t added = strlen(insert);
     size_t behind = t->size - at - removed;
     char *bytes = t->bytes;
 
@@ -46,6 +45,12 @@ bool mtl_text_splice(struct mtl_text *t, size_t at, size_t removed,
     return true;
 }
 
+bool mtl_text_splice(struct mtl_text *t, size_t at, size_t removed,
+                     const char *insert)
+{
+    return splice(t, at, removed, insert, strlen(insert));
+}
+
 struct lex mtl_text_lex(const struct mtl_text *t, size_t at)
 {
     struct lex lex;
@@ -55,6 +60,24 @@ struct lex mtl_text_lex(const struct mtl_text *t, size_t at)
     else
         lex = (struct lex){t->bytes + at, t->bytes + t->size, 1};
     return lex;
+}
+
+/* Finds the values of a statement whose key and end are known. */
+static void find_value(const struct mtl_text *t, struct mtl_statement *s)
+{
+    struct lex lex = {t->bytes + s->key_end, t->bytes + s->end, 1};
+    bool is_option = false;
+
+    s->value = s->value_end = s->key_end;
+    while (!lex_at_line_end(&lex)) {
+        struct word word = lex_word(&lex);
+
+        if (s->value == s->key_end || is_option)
+            s->value = (size_t)(word.start - t->bytes);
+        s->value_end = (size_t)(lex.p - t->bytes);
+        is_option = word_is(word, "-halo");
+    }
+    s->has_comment = lex.p < lex.end && *lex.p == '#';
 }
 
 /* The next statement from *lex on, which moves behind its line. */
@@ -69,18 +92,10 @@ static bool next_statement(const struct mtl_text *t, struct lex *lex,
             continue;
         word = lex_word(lex);
         s->key = (size_t)(word.start - t->bytes);
-        s->key_end = s->value = s->value_end = s->key + word.length;
-        while (!lex_at_line_end(lex)) {
-            bool is_option = word_is(word, "-halo");
-
-            word = lex_word(lex);
-            if (s->value == s->key_end || is_option)
-                s->value = (size_t)(word.start - t->bytes);
-            s->value_end = (size_t)(lex->p - t->bytes);
-        }
-        s->has_comment = lex->p < lex->end && *lex->p == '#';
-        lex_next_line(lex);
+        s->key_end = s->key + word.length;
+        s->is_open = !lex_next_line(lex);
         s->end = (size_t)(lex->p - t->bytes);
+        find_value(t, s);
         return true;
     }
     return false;
@@ -149,18 +164,15 @@ static bool find_statement(const struct mtl_text *t, const struct mtl_block *b,
     return is_found;
 }
 
-static bool ends_line(char c)
+/* What closes a text that ends before its last line does. A backslash there has
+ * joined nothing: now it joins an empty line. So does a backslash before a
+ * carriage return, which the line feed belongs to. */
+static char *closing_of(const struct mtl_text *t)
 {
-    return c == '\n' || c == '\r';
-}
+    char last = t->size > 0 ? t->bytes[t->size - 1] : '\n';
+    bool joins = last == '\\' || last == '\r';
 
-/* What goes between a text and the end of its line: a backslash would join the
- * next line to it. */
-static const char *blank_behind(const char *text)
-{
-    size_t length = strlen(text);
-
-    return length > 0 && text[length - 1] == '\\' ? " " : "";
+    return xformat("%s%s", joins ? t->line_end : "", t->line_end);
 }
 
 bool mtl_text_insert(struct mtl_text *t, const struct mtl_block *b,
@@ -169,13 +181,14 @@ bool mtl_text_insert(struct mtl_text *t, const struct mtl_block *b,
     const struct mtl_statement *last = &b->last;
     int indent = (int)(last->key - last->line);
     const char *margin = t->bytes + last->line;
-    bool is_open = !ends_line(t->bytes[last->end - 1]);
+    char *closing = last->is_open ? closing_of(t) : xstrdup("");
     char *line =
-        xformat("%s%.*s%s %s%s%s", is_open ? t->line_end : "", indent, margin,
-                key, value, blank_behind(value), is_open ? "" : t->line_end);
+        xformat("%s%.*s%s %s%s%s", closing, indent, margin, key, value,
+                lex_rest_guard(value), last->is_open ? "" : t->line_end);
     bool ok = mtl_text_splice(t, last->end, 0, line);
 
     free(line);
+    free(closing);
     return ok;
 }
 
@@ -236,7 +249,7 @@ bool mtl_text_comment(struct mtl_text *t, const char *name, mtl_aliases keys)
         if (rest == NULL)
             return false;
         line = xformat("#%.*s %s%s", (int)(s.key_end - s.key), t->bytes + s.key,
-                       rest, blank_behind(rest));
+                       rest, lex_rest_guard(rest));
         ok = mtl_text_splice(t, s.key, end - s.key, line);
         free(line);
         free(rest);
@@ -246,23 +259,39 @@ bool mtl_text_comment(struct mtl_text *t, const char *name, mtl_aliases keys)
     return true;
 }
 
+/* Whether the text ends before its last line does. */
+static bool is_open(const struct mtl_text *t)
+{
+    struct lex lex = mtl_text_lex(t, 0);
+    bool has_end = true;
+
+    while (lex.p < lex.end)
+        has_end = lex_next_line(&lex);
+    return !has_end;
+}
+
 bool mtl_text_append_block(struct mtl_text *t, const char *name,
                            const char *copied_from)
 {
-    bool is_open = t->size > 0 && !ends_line(t->bytes[t->size - 1]);
+    char *closing = is_open(t) ? closing_of(t) : xstrdup("");
+    char *head = xformat("%s%snewmtl %s%s%s", closing, t->line_end, name,
+                         lex_rest_guard(name), t->line_end);
     struct mtl_block b;
-    size_t begin = 0, end = 0; /* of what is copied: nothing */
-    char *text;
-    bool ok;
+    size_t length = 0; /* of what is copied: nothing */
+    char *copy = NULL;
+    bool ok = true;
 
     if (mtl_text_find_block(t, copied_from, &b)) {
-        begin = b.newmtl.end;
-        end = b.last.end;
+        length = b.last.end - b.newmtl.end;
+        copy = alloc_array(length, 1);
+        ok = copy != NULL;
     }
-    text = xformat("%s%snewmtl %s%s%s%.*s", is_open ? t->line_end : "",
-                   t->line_end, name, blank_behind(name), t->line_end,
-                   (int)(end - begin), t->bytes + begin);
-    ok = mtl_text_splice(t, t->size, 0, text);
-    free(text);
+    if (ok && length > 0)
+        memcpy(copy, t->bytes + b.newmtl.end, length);
+    ok = ok && mtl_text_splice(t, t->size, 0, head) &&
+         splice(t, t->size, 0, copy != NULL ? copy : "", length);
+    free(copy);
+    free(head);
+    free(closing);
     return ok;
 }

@@ -32,15 +32,21 @@ struct word {
     size_t length;
 };
 
+/* Blanks within a line. */
+bool lex_is_blank(char c);
+
 /* Skips a UTF-8 byte order mark. */
 void lex_init(struct lex *lex, const char *text, size_t size_bytes);
 
-/* Reads the file and calls `take_line` at the beginning of each of its lines;
- * what that leaves of a line is skipped. Ends with the first that fails. */
-bool lex_file(const char *path,
-              bool (*take_line)(void *context, struct lex *lex,
-                                struct error *err),
-              void *context, struct error *err);
+/* Takes the line that begins at lex->p; what it leaves of it is skipped. */
+typedef bool lex_take_line(void *context, struct lex *lex, struct error *err);
+
+/* Calls `take_line` at the beginning of each line of the text, or of the file.
+ * Ends with the first that fails. */
+bool lex_lines(const char *text, size_t size_bytes, lex_take_line *take_line,
+               void *context, struct error *err);
+bool lex_file(const char *path, lex_take_line *take_line, void *context,
+              struct error *err);
 
 /* Moves over blanks and joined lines. */
 void lex_skip_blanks(struct lex *lex);
@@ -49,15 +55,20 @@ void lex_skip_blanks(struct lex *lex);
  * before it. */
 bool lex_at_line_end(struct lex *lex);
 
-/* Moves behind the end of the line. A comment is skipped as one. */
-void lex_next_line(struct lex *lex);
+/* Moves behind the end of the line. A comment is skipped as one. False if the
+ * text ended before the line did. */
+bool lex_next_line(struct lex *lex);
 
 /* The next word of the line; length 0 at its end. */
 struct word lex_word(struct lex *lex);
 
-/* The rest of the line without blanks around it. A name may hold '#'. NULL
- * when memory is out. */
+/* The rest of the line without blanks around it. A name may hold '#', but no
+ * line is joined behind one. NULL when memory is out. */
 char *lex_rest(struct lex *lex);
+
+/* What is written between such a rest and the end of its line, so that reading
+ * gives it back: a blank behind a backslash, which would join the next line. */
+const char *lex_rest_guard(const char *rest);
 
 /* A number that is a word of its own: 1e400 is infinite, and so are the words
  * nan, inf and what Microsoft's libraries write (1.#INF, -nan(ind)). False,

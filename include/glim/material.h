@@ -73,6 +73,8 @@ struct mtl_source {
 struct mtl_source mtl_source_empty(void);
 
 /* True if both say the same, wherever they say it. */
+bool mtl_number_equal(const struct mtl_number *a, const struct mtl_number *b);
+bool mtl_color_equal(const struct mtl_color *a, const struct mtl_color *b);
 bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
 
 /* The texture of a map that is there and not off, or NO_INDEX. */

@@ -33,6 +33,7 @@ struct mtl_statement {
     size_t value, value_end; /* the words after it, */
     size_t end;              /* behind the end of its line */
     bool has_comment;
+    bool is_open; /* the text ends before its line does */
 };
 
 /* A newmtl statement, and its last one (itself if there is no other). */

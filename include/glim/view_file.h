@@ -11,11 +11,9 @@
 #define GLIM_VIEW_FILE_H
 
 #include "glim/file.h"
-#include "glim/report.h"
-#include "glim/view.h"
+#include "glim/view_parse.h"
 
-/* Reads `key value` lines over what `view` holds. An unknown key is a warning.
- */
+/* view_parse() of a file. */
 bool view_read(struct view *view, const char *path, struct report *report,
                struct error *err);
 
@@ -27,5 +25,10 @@ bool view_read(struct view *view, const char *path, struct report *report,
  * the same name and a ~. */
 bool view_write(const struct view *view, const char *path,
                 struct file_change *change, struct error *err);
+
+/* The text that view_write() puts in the place of this one, for free(). */
+bool view_format(const struct view *view, const char *path,
+                 const char *old_text, size_t old_bytes, char **text,
+                 size_t *size_bytes, struct error *err);
 
 #endif
