@@ -8,7 +8,7 @@
 #include "glim/knob.h"
 #include "glim/material.h"
 #include "glim/mtl.h"
-#include "glim/session.h"
+#include "glim/session_save.h"
 
 #define EDITS_MAX 16
 
