@@ -77,6 +77,9 @@ char *path_beside(const char *beside, const char *name);
  * file lies below it, else absolutely. */
 char *path_seen_from(const char *beside, const char *path);
 
+/* Would writing to either path write the same file, which may not exist yet? */
+bool path_is_same(const char *a, const char *b);
+
 /* The path without the ending of its last part: a/b.obj gives a/b. */
 char *path_stem(const char *path);
 
