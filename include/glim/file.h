@@ -45,9 +45,9 @@ struct file_change {
 bool file_check(const char *path, struct error *err);
 
 /* Replaces the file atomically: temporary file in its folder, fsync, and the
- * name at last (temp_file.h). Keeps the permissions of a file that was there; replaces what a link points to.
- * If must_be_new, an existing file is left alone and *exists (may be NULL) is
- * set. */
+ * name at last (temp_file.h). Keeps the permissions of a file that was there;
+ * replaces what a link points to. If must_be_new, an existing file is left
+ * alone and *exists (may be NULL) is set. */
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
 
