@@ -27,7 +27,9 @@ skip()
 # sanitizers, whose own memory is beyond any limit.
 limit_memory()
 {
-    (ulimit -v "$1"; glim --version) >/dev/null 2>&1 && ulimit -v "$1"
+    # the inner shell tells of the abort, to nobody
+    (ulimit -v "$1"; glim --version || exit 1) >/dev/null 2>&1 &&
+        ulimit -v "$1"
 }
 
 # Puts the named scene with its files into the current folder.
