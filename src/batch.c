@@ -339,6 +339,21 @@ static void say_result(const struct session *s, const char *name,
                 p->non_finite);
 }
 
+/* A picture that was given a free name may have taken that of the statistics.
+ */
+static bool save_stats(const struct session *s, const char *picture,
+                       struct error *err)
+{
+    const char *path = s->options->stats_path;
+
+    if (path_is_same(picture, path))
+        return fail(err,
+                    "--stats: found '%s', where the picture is now, expected "
+                    "another file",
+                    path);
+    return stats_write(s, path, err);
+}
+
 static bool save_all(struct show *show, struct error *err)
 {
     struct session *s = show->session;
@@ -358,7 +373,7 @@ static bool save_all(struct show *show, struct error *err)
     if (ok)
         say_result(s, name, &p);
     if (ok && s->options->stats_path)
-        ok = stats_write(s, s->options->stats_path, err);
+        ok = save_stats(s, name, err);
     free(name);
     return ok;
 }

@@ -441,6 +441,19 @@ char *path_seen_from(const char *beside, const char *path)
     return name;
 }
 
+bool path_is_same(const char *a, const char *b)
+{
+    char *targets[2] = {target_of(a), target_of(b)};
+    char *real[2] = {real_path(targets[0]), real_path(targets[1])};
+    bool is_same = real[0] && real[1] && strcmp(real[0], real[1]) == 0;
+
+    for (int i = 0; i < 2; i++) {
+        free(targets[i]);
+        free(real[i]);
+    }
+    return is_same || strcmp(a, b) == 0;
+}
+
 char *path_stem(const char *path)
 {
     const char *slash = strrchr(path, '/');

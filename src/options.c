@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/file.h"
 #include "glim/option.h"
 #include "glim/picture.h"
 
@@ -202,7 +203,7 @@ static bool check_batch(const struct options *o, struct error *err)
                     "or .pfm, or - for standard output",
                     o->output_path);
     if (o->output_path && o->stats_path && !takes_output &&
-        strcmp(o->output_path, o->stats_path) == 0)
+        path_is_same(o->output_path, o->stats_path))
         return fail(err,
                     "--stats: found '%s', the file of -o, expected "
                     "another one",

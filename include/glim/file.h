@@ -46,9 +46,9 @@ struct file_change {
 bool file_check(const char *path, struct error *err);
 
 /* Replaces the file atomically: temporary file in its folder, fsync, and the
- * name at last (temp_file.h). Keeps the permissions of a file that was there; replaces what a link points to.
- * If must_be_new, an existing file is left alone and *exists (may be NULL) is
- * set. */
+ * name at last (temp_file.h). Keeps the permissions of a file that was there;
+ * replaces what a link points to. If must_be_new, an existing file is left
+ * alone and *exists (may be NULL) is set. */
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
 
@@ -77,6 +77,9 @@ char *path_beside(const char *beside, const char *name);
 /* How the file `beside` names the file at `path`: from its own folder on if the
  * file lies below it, else absolutely. */
 char *path_seen_from(const char *beside, const char *path);
+
+/* Would writing to either path write the same file, which may not exist yet? */
+bool path_is_same(const char *a, const char *b);
 
 /* The path without the ending of its last part: a/b.obj gives a/b. */
 char *path_stem(const char *path);

@@ -23,6 +23,15 @@ skip()
     exit 77
 }
 
+# Limits the memory to so many KB from now on. False for a program with
+# sanitizers, whose own memory is beyond any limit.
+limit_memory()
+{
+    # the inner shell tells of the abort, to nobody
+    (ulimit -v "$1"; glim --version || exit 1) >/dev/null 2>&1 &&
+        ulimit -v "$1"
+}
+
 # Puts the named scene with its files into the current folder.
 take()
 {

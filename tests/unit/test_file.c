@@ -311,6 +311,27 @@ static void path_is(char *path, const char *expected)
     free(path);
 }
 
+static void test_same_path(void **state)
+{
+    (void)state;
+    mkdir("same", 0777);
+    mkdir("same/sub", 0777);
+    put("same/there", "");
+    assert_int_equal(symlink("there", "same/link"), 0);
+    assert_int_equal(symlink("later", "same/dangling"), 0);
+    assert_int_equal(symlink("sub", "same/way"), 0);
+    assert_true(path_is_same("same/a", "same/a"));
+    assert_true(path_is_same("same/a", "./same//sub/../a"));
+    assert_true(path_is_same("same/there", "same/link"));
+    assert_true(path_is_same("same/dangling", "same/sub/../later"));
+    assert_true(path_is_same("same/way/a", "same/sub/a"));
+    assert_false(path_is_same("same/a", "same/b"));
+    assert_false(path_is_same("same/a", "same/sub/a"));
+    assert_false(path_is_same("same/link", "same/dangling"));
+    assert_false(path_is_same("none/a", "none/b"));
+    assert_true(path_is_same("none/a", "none/a"));
+}
+
 static void test_paths(void **state)
 {
     (void)state;
@@ -334,7 +355,7 @@ int main(void)
         cmocka_unit_test(test_must_be_new), cmocka_unit_test(test_numbered),
         cmocka_unit_test(test_links),       cmocka_unit_test(test_write_errors),
         cmocka_unit_test(test_permissions), cmocka_unit_test(test_disk_full),
-        cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_same_path),   cmocka_unit_test(test_paths),
     };
 
     return cmocka_run_group_tests_name("file", tests, enter_folder,

@@ -228,6 +228,12 @@ static void many_images_are_read(void **state)
     assert_int_equal(scene.texel_count, expected);
     scene_free(&scene);
     report_free(&report);
+    for (int i = 0; i < MANY; i++) {
+        snprintf(path, sizeof path, "m%d.tga", i);
+        unlink(path);
+    }
+    unlink("many.obj");
+    unlink("many.mtl");
 }
 
 /* Numbers are not decoded: grey 51 is 0.2, 204 is 0.8. */

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Images that the memory has no room for beside the others are refused in the
 # order of the file, before they are decoded.
-(ulimit -v 1000000; glim --version >/dev/null 2>&1) ||
-    skip "the sanitizers' own memory is beyond any limit"
 b="-b -w 8 -h 8 -s 1 -t 1 -o out.png"
 # threads take little of what is limited
 export MALLOC_ARENA_MAX=1
@@ -17,7 +15,7 @@ for i in 2 3 4 5 6; do
     cp 1.tga $i.tga
 done
 textured 6
-ulimit -v 1000000
+limit_memory 1000000 || skip "the sanitizers' own memory is beyond any limit"
 run_untimed $b textured.obj
 sed -i 's/[2-6]\.tga/1.tga/' textured.mtl
 run_untimed $b textured.obj

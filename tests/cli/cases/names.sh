@@ -2,8 +2,7 @@
 # Names that no file can have cost neither memory nor stack, and one line each.
 b="-b -w 8 -h 8 -s 1 -t 1 -o out.png"
 ulimit -s 1024
-# the sanitizers' own memory is beyond any limit
-(ulimit -v 400000; glim --version >/dev/null 2>&1) && ulimit -v 400000
+limit_memory 400000 || true
 slashes=$(printf '%60000s' '' | tr ' ' /)
 folders=$(printf '%30000s' '' | sed 's| |a/|g')
 triangle='v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n'

@@ -23,6 +23,15 @@ run $b -o link.png box.obj
 run $b -o out.png --stats box.obj box.obj
 run -b --ansi 8x4 -o ./box.view box.obj
 run $b -o out.png --stats out.png box.obj
+run $b -o out.png --stats ./out.png box.obj
+run $b -o folder.png/../out.png --stats "$PWD/out.png" box.obj |
+    sed "s|$PWD|HERE|"
+ln -s out.png other.json
+run $b -o out.png --stats other.json box.obj
+rm other.json
+run_untimed -b -w 8 -h 4 -s 1 --stats box.png box.obj
+kind box.png
+rm box.png
 head -n 1 box.obj box.mtl
 rm link.png
 echo 'no room: the old picture stays'
