@@ -68,8 +68,8 @@ static double turn(const struct sweep *s, uint32_t a, uint32_t b, uint32_t c)
     double x2 = r.x - p.x;
     double y2 = r.y - p.y;
     double area = x1 * y2 - y1 * x2;
-    double noise = s->noise.x * (fabs(y1) + fabs(y2)) +
-                   s->noise.y * (fabs(x1) + fabs(x2));
+    double noise =
+        s->noise.x * (fabs(y1) + fabs(y2)) + s->noise.y * (fabs(x1) + fabs(x2));
 
     return fabs(area) > noise ? area : 0;
 }
@@ -186,9 +186,8 @@ static bool insert(struct sweep *s, uint32_t e, uint32_t site)
          at = s->edges[at].child[side]) {
         bool is_sibling = s->edges[at].left == site;
         double where =
-            is_sibling
-                ? turn(s, site, s->edges[at].right, s->edges[e].right)
-                : side_of(s, at, site);
+            is_sibling ? turn(s, site, s->edges[at].right, s->edges[e].right)
+                       : side_of(s, at, site);
 
         if (where == 0)
             return is_sibling && unite(s, e, at);
@@ -263,8 +262,8 @@ static void extend(struct sweep *s, struct piece *piece, uint32_t site,
     while (s->links[top].below != NONE) {
         uint32_t b = s->links[top].site;
         uint32_t a = s->links[s->links[top].below].site;
-        double left = piece->is_upper ? turn(s, a, site, b)
-                                      : turn(s, a, b, site);
+        double left =
+            piece->is_upper ? turn(s, a, site, b) : turn(s, a, b, site);
 
         if (!is_opposite && !(left > 0))
             break;
@@ -409,8 +408,7 @@ static bool pass(struct sweep *s, uint32_t site)
     else if (!end_edges(s, site, first, below, &above))
         return false;
     end = s->edges[below].next;
-    return begin_edges(s, site) &&
-           begin_regions(s, site, below, end, above) &&
+    return begin_edges(s, site) && begin_regions(s, site, below, end, above) &&
            !cross(s, below, s->edges[below].next) &&
            !cross(s, s->edges[end].prev, end);
 }
@@ -427,8 +425,8 @@ static int compare_sites(const void *a, const void *b)
     return (p->corner > q->corner) - (p->corner < q->corner);
 }
 
-/* Sorts the corners. Those of a vertical line get the same x, for noise must not
- * mix up their order. */
+/* Sorts the corners. Those of a vertical line get the same x, for noise must
+ * not mix up their order. */
 static void sort_sites(struct sweep *s, uint32_t n)
 {
     double x = -INFINITY;
@@ -516,8 +514,7 @@ static bool sweep_over(struct sweep *s, const struct point2 *points, uint32_t n)
 }
 
 enum monotone_result monotone_cut(const struct point2 *points, uint32_t count,
-                                  struct point2 noise,
-                                  uint32_t (*triangles)[3],
+                                  struct point2 noise, uint32_t (*triangles)[3],
                                   uint32_t *triangle_count)
 {
     size_t n = count;
@@ -531,8 +528,8 @@ enum monotone_result monotone_cut(const struct point2 *points, uint32_t count,
     enum monotone_result result = MONOTONE_NO_MEMORY;
 
     if (s.sites && s.edges && s.links)
-        result = sweep_over(&s, points, count) ? MONOTONE_DONE
-                                               : MONOTONE_CROSSING;
+        result =
+            sweep_over(&s, points, count) ? MONOTONE_DONE : MONOTONE_CROSSING;
     free(s.sites);
     free(s.edges);
     free(s.links);

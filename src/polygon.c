@@ -37,6 +37,12 @@ enum ear_rule {
     EAR_ANY
 };
 
+/* Axes of three that stay, seen with the corners brought near 1. */
+struct plane {
+    double scale;
+    int x, y;
+};
+
 static bool reserve(struct polygon *g, uint32_t corner_count)
 {
     size_t n = corner_count;
@@ -111,16 +117,6 @@ static void offset(const double *corners, double scale, uint32_t i,
         to[k] = corners[3 * (size_t)i + k] * scale - corners[k] * scale;
 }
 
-static double most_along(const double *corners, double scale, uint32_t n,
-                         int axis)
-{
-    double most = 0;
-
-    for (uint32_t i = 0; i < n; i++)
-        most = fmax(most, fabs(corners[3 * (size_t)i + axis] * scale));
-    return most;
-}
-
 /* Twice the area as a vector (Newell's method: right for corners that are not
  * quite in a plane). */
 static void area_vector(const double *corners, double scale, uint32_t n,
@@ -140,37 +136,45 @@ static void area_vector(const double *corners, double scale, uint32_t n,
     }
 }
 
-/* Fills points, so that the outline is counter-clockwise; false if the polygon
- * has no area to look at. Dropping an axis is enough: lines stay lines. */
-static bool project(struct polygon *g, const double *corners, uint32_t n)
+/* Finds the axes that a counter-clockwise outline is seen along. False if the
+ * polygon has no area. Dropping an axis is enough: lines stay lines. */
+static bool find_plane(struct plane *plane, const double *corners, uint32_t n)
 {
-    double scale = scale_of(corners, n);
     double area[3];
     int axis = 0;
 
-    area_vector(corners, scale, n, area);
+    plane->scale = scale_of(corners, n);
+    area_vector(corners, plane->scale, n, area);
     for (int k = 1; k < 3; k++)
         axis = fabs(area[k]) > fabs(area[axis]) ? k : axis;
-    if (!(fabs(area[axis]) > 0))
-        return false;
+    plane->x = (axis + (area[axis] < 0 ? 2 : 1)) % 3;
+    plane->y = (axis + (area[axis] < 0 ? 1 : 2)) % 3;
+    return fabs(area[axis]) > 0;
+}
 
-    int x = (axis + 1) % 3;
-    int y = (axis + 2) % 3;
-    if (area[axis] < 0) {
-        int swap = x;
-
-        x = y;
-        y = swap;
-    }
+static void project(struct polygon *g, const struct plane *plane,
+                    const double *corners, uint32_t n)
+{
     for (uint32_t i = 0; i < n; i++) {
         double p[3];
 
-        offset(corners, scale, i, p);
-        g->points[i] = (struct point2){p[x], p[y]};
+        offset(corners, plane->scale, i, p);
+        g->points[i] = (struct point2){p[plane->x], p[plane->y]};
     }
-    g->noise.x = ROUNDING * most_along(corners, scale, n, x);
-    g->noise.y = ROUNDING * most_along(corners, scale, n, y);
-    return true;
+}
+
+/* How far rounding may have moved the corners. */
+static struct point2 noise_of(const struct plane *plane, const double *corners,
+                              uint32_t n)
+{
+    struct point2 most = {0, 0};
+
+    for (size_t i = 0; i < n; i++) {
+        most.x = fmax(most.x, fabs(corners[3 * i + plane->x]));
+        most.y = fmax(most.y, fabs(corners[3 * i + plane->y]));
+    }
+    return (struct point2){ROUNDING * (plane->scale * most.x),
+                           ROUNDING * (plane->scale * most.y)};
 }
 
 /* Above 0 if a, b, c turn left, below if right. What rounding may have made of
@@ -276,14 +280,31 @@ static bool is_in_the_way(const struct polygon *g, enum ear_rule rule,
            !same_point(at, g->points[ear[2]]);
 }
 
+static double least(double a, double b, double c)
+{
+    double ab = a < b ? a : b;
+
+    return ab < c ? ab : c;
+}
+
+/* The box keeps out corners far along the line of a needle, which rounding may
+ * put on all three edges. */
 static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
                          const uint32_t ear[3])
 {
+    struct point2 a = g->points[ear[0]];
+    struct point2 b = g->points[ear[1]];
+    struct point2 c = g->points[ear[2]];
+    struct point2 low = {least(a.x, b.x, c.x), least(a.y, b.y, c.y)};
+    struct point2 high = {-least(-a.x, -b.x, -c.x), -least(-a.y, -b.y, -c.y)};
+
     for (uint32_t i = 0; i < g->reflex_count; i++) {
         uint32_t p = g->reflex[i];
+        struct point2 at = g->points[p];
 
         g->work++;
-        if (g->next[p] == NOT_LINKED || !g->is_reflex[p] || p == ear[0] ||
+        if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y ||
+            g->next[p] == NOT_LINKED || !g->is_reflex[p] || p == ear[0] ||
             p == ear[1] || p == ear[2])
             continue;
         if (is_in_the_way(g, rule, ear, p))
@@ -390,20 +411,24 @@ static void cut_ears(struct polygon *g, const double *corners, uint32_t n)
 bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
 {
     enum monotone_result result;
+    struct plane plane;
 
     if (!reserve(g, n))
         return false;
     g->triangle_count = 0;
     g->crosses_itself = false;
-    if (n == 3 || !project(g, corners, n) || is_convex(g, n))
+    if (n == 3 || !find_plane(&plane, corners, n))
+        return emit_fan(g, n);
+    project(g, &plane, corners, n);
+    if (is_convex(g, n))
         return emit_fan(g, n);
     if (n <= EARS_MOST) {
         cut_ears(g, corners, n);
         if (!g->crosses_itself)
             return true;
     }
-    result = monotone_cut(g->points, n, g->noise, g->triangles,
-                          &g->triangle_count);
+    result = monotone_cut(g->points, n, noise_of(&plane, corners, n),
+                          g->triangles, &g->triangle_count);
     g->crosses_itself = result == MONOTONE_CROSSING;
     if (g->crosses_itself) {
         cut_ears(g, corners, n);

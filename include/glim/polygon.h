@@ -33,7 +33,6 @@ struct polygon {
     bool *is_reflex;
     uint32_t *reflex; /* corners that were reflex at first */
     uint32_t reflex_count;
-    struct point2 noise;
     uint64_t work;
 };
 

@@ -32,15 +32,15 @@ static void add_point(struct outline *o, double x, double y)
 /* Shoelace formula. */
 static double area_of(const struct outline *o)
 {
-    double sum = 0;
+    long double sum = 0;
 
     for (size_t i = 0; i < o->count; i++) {
         const double *p = o->points + 3 * i;
         const double *q = o->points + 3 * ((i + 1) % o->count);
 
-        sum += p[0] * q[1] - p[1] * q[0];
+        sum += (long double)p[0] * q[1] - (long double)p[1] * q[0];
     }
-    return sum / 2;
+    return (double)(sum / 2);
 }
 
 static double triangle_area(const struct outline *o, const uint32_t t[3])
@@ -52,13 +52,21 @@ static double triangle_area(const struct outline *o, const uint32_t t[3])
     return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
 }
 
+static int compare_edges(const void *a, const void *b)
+{
+    uint64_t p = *(const uint64_t *)a;
+    uint64_t q = *(const uint64_t *)b;
+
+    return (p > q) - (p < q);
+}
+
 /* Cuts, and checks that the triangles wind like the polygon and that their
  * areas, none of them negative, add up to its area. */
 static void check_cut(const struct outline *o, const char *name)
 {
     struct polygon g = {0};
     double area = area_of(o);
-    double sum = 0;
+    long double sum = 0;
 
     assert_true(polygon_cut(&g, o->points, o->count));
     assert_in_range(g.triangle_count, 1, o->count - 2);
@@ -72,8 +80,61 @@ static void check_cut(const struct outline *o, const char *name)
             _fail(__FILE__, __LINE__);
         }
     }
-    check_close(sum, fabs(area), 1e-12 * fabs(area));
+    check_close((double)sum, fabs(area), 1e-12 * fabs(area));
     assert_false(g.crosses_itself);
+    polygon_free(&g);
+}
+
+/* The same without a bound on how many triangles there are: an edge that is met
+ * by corners has more. */
+static void check_covers(const struct outline *o)
+{
+    struct polygon g = {0};
+    double sum = 0;
+
+    assert_true(polygon_cut(&g, o->points, o->count));
+    assert_false(g.crosses_itself);
+    for (uint32_t i = 0; i < g.triangle_count; i++) {
+        double area = triangle_area(o, g.triangles[i]);
+
+        assert_true(area > -1e-12);
+        sum += area;
+    }
+    check_close(sum, area_of(o), 1e-9 * sum);
+    polygon_free(&g);
+}
+
+/* Every edge of the outline is one of exactly one triangle, and every other
+ * edge one of two, from either side. */
+static void check_edges(const struct outline *o)
+{
+    struct polygon g = {0};
+    uint64_t *edges;
+    uint32_t n = 0;
+    uint32_t outer = 0;
+
+    assert_true(polygon_cut(&g, o->points, o->count));
+    assert_int_equal(g.triangle_count, o->count - 2);
+    edges = calloc(3 * (size_t)g.triangle_count, sizeof *edges);
+    assert_non_null(edges);
+    for (uint32_t i = 0; i < g.triangle_count; i++) {
+        for (int k = 0; k < 3; k++)
+            edges[n++] =
+                (uint64_t)g.triangles[i][k] << 32 | g.triangles[i][(k + 1) % 3];
+    }
+    qsort(edges, n, sizeof *edges, compare_edges);
+    for (uint32_t i = 0; i < n; i++) {
+        uint64_t back = edges[i] << 32 | edges[i] >> 32;
+
+        assert_true(i == 0 || edges[i] != edges[i - 1]);
+        if (bsearch(&back, edges, n, sizeof *edges, compare_edges))
+            continue;
+        assert_int_equal(edges[i] & 0xffffffffu,
+                         ((edges[i] >> 32) + 1) % o->count);
+        outer++;
+    }
+    assert_int_equal(outer, o->count);
+    free(edges);
     polygon_free(&g);
 }
 
@@ -232,7 +293,7 @@ static void test_random(void **state)
 
     (void)state;
     for (int round = 0; round < 3000; round++) {
-        uint32_t n = 4 + (uint32_t)(check_random(&random) * 60);
+        uint32_t n = 4 + (uint32_t)(check_random(&random) * 300);
         struct outline o = outline_of(2 * n + 2);
         struct outline ring = outline_of(2 * n + 2);
 
@@ -242,6 +303,7 @@ static void test_random(void **state)
             add_point(&o, r * cos(2 * PI * i / n), r * sin(2 * PI * i / n));
         }
         check_cut(&o, "random");
+        check_edges(&o);
         for (uint32_t i = 0; i <= n; i++)
             add_point(&ring, o.points[3 * (i % n)], o.points[3 * (i % n) + 1]);
         for (uint32_t i = n + 1; i-- > 0;) {
@@ -362,6 +424,99 @@ static void test_smooth_rings(void **state)
     }
 }
 
+static void test_a_million_corners(void **state)
+{
+    uint32_t n = 1000000;
+
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        struct outline o = outline_of(n);
+
+        for (uint32_t i = 0; i < n; i++) {
+            double r = kind == 1 && i % 2 == 1 ? 0.2 : 1;
+
+            add_point(&o, r * cos(2 * PI * i / n), r * sin(2 * PI * i / n));
+        }
+        /* as text of six digits has them: neither strictly convex nor all
+         * different */
+        for (size_t i = 0; kind == 2 && i < 3 * (size_t)n; i++)
+            o.points[i] = nearbyint(o.points[i] * 1e6) / 1e6;
+        check_cut(&o, "circle or star of a million");
+        free(o.points);
+    }
+}
+
+/* Walks around the walls of a random maze inside a box, in and out of it again
+ * at one place: each wall has no width, and its corners come up to four times.
+ */
+struct maze {
+    struct outline *outline;
+    uint64_t random;
+    bool seen[40][40];
+    bool leaves_out; /* corners half way along straight walls, at times */
+};
+
+static void walk(struct maze *m, int x, int y, int back)
+{
+    static const int step[4][2] = {{1, 0}, {0, -1}, {-1, 0}, {0, 1}};
+    bool is_seldom = m->leaves_out && check_random(&m->random) < 0.5;
+    bool has_turned = false;
+
+    m->seen[y][x] = true;
+    if (!is_seldom)
+        add_point(m->outline, x, y);
+    for (int k = 1; k < 4; k++) {
+        int way = (back + k) % 4;
+        int to_x = x + step[way][0];
+        int to_y = y + step[way][1];
+
+        if (to_x < 0 || to_y < 0 || to_x >= 40 || to_y >= 40 ||
+            m->seen[to_y][to_x] || check_random(&m->random) < 0.2)
+            continue;
+        if (is_seldom && !has_turned && k != 2)
+            add_point(m->outline, x, y);
+        has_turned = true;
+        walk(m, to_x, to_y, (way + 2) % 4);
+        add_point(m->outline, x, y);
+    }
+    if (is_seldom && !has_turned)
+        add_point(m->outline, x, y);
+}
+
+static void turn_around(struct outline *o, double angle)
+{
+    for (uint32_t i = 0; i < o->count; i++) {
+        double *p = o->points + 3 * (size_t)i;
+        double x = p[0];
+
+        p[0] = cos(angle) * x - sin(angle) * p[1];
+        p[1] = sin(angle) * x + cos(angle) * p[1];
+    }
+}
+
+/* The box is covered once, whatever is in it. */
+static void test_walls_without_width(void **state)
+{
+    (void)state;
+    for (uint64_t round = 0; round < 400; round++) {
+        struct outline o = outline_of(4 * 40 * 40 + 8);
+        struct maze m = {&o, round, .leaves_out = round % 4 >= 2};
+
+        add_point(&o, -1, -1);
+        add_point(&o, 40, -1);
+        add_point(&o, 40, 40);
+        add_point(&o, -1, 40);
+        add_point(&o, -1, 0);
+        walk(&m, 0, 0, 2);
+        add_point(&o, -1, 0);
+        if (round % 2 == 1)
+            turn_around(&o, (double)round);
+        check_close(area_of(&o), 41 * 41, 1e-9);
+        check_covers(&o);
+        free(o.points);
+    }
+}
+
 /* No answer is right, but there is one, in time proportional to the size. */
 static void test_outlines_that_cross_themselves(void **state)
 {
@@ -433,6 +588,8 @@ int main(void)
         cmocka_unit_test(test_long_straight_sides),
         cmocka_unit_test(test_spirals),
         cmocka_unit_test(test_smooth_rings),
+        cmocka_unit_test(test_a_million_corners),
+        cmocka_unit_test(test_walls_without_width),
         cmocka_unit_test(test_outlines_that_cross_themselves),
         cmocka_unit_test(test_any_plane_and_any_size),
     };
