@@ -125,6 +125,9 @@ endef
 $(eval $(call program,unit,-lcmocka))
 $(foreach i,$(ISAS),$(eval $(B)/unit/test_wide_$(i): \
 	private ALL_CFLAGS += $(FLAGS_$(i))))
+# It looks at what the loop of the screen believes, each time before it waits.
+$(B)/unit/test_term: private ALL_LDFLAGS += \
+	-Wl,--wrap=stage_next_ns,--wrap=term_read
 $(eval $(call program,bench))
 $(eval $(call program,stress,-lcmocka))
 $(eval $(call program,tools))
