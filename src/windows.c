@@ -125,7 +125,7 @@ static struct window_rect open_window(struct window_rect r, const char *title,
     window = newwin(r.rows, r.cols, r.row, r.col);
     if (!window)
         return (struct window_rect){0};
-    box(window, 0, 0);
+    box_set(window, NULL, NULL);
     mvwaddnstr(window, 0, 2, title, r.cols - 4);
     windows_set(texts, text_count);
     return r;
@@ -188,7 +188,7 @@ struct window_rect windows_show_panel(const struct window_line *panel_lines,
     if (!panel)
         return (struct window_rect){0};
     werase(panel);
-    mvwvline(panel, 0, 0, 0, r.rows);
+    mvwvline_set(panel, 0, 0, NULL, r.rows);
     for (int i = 0; i < line_count && i < r.rows; i++) {
         wattrset(panel, attribute_of(panel_lines[i].look));
         wmove(panel, i, 1);
@@ -315,8 +315,8 @@ static void put_cell(struct writer *w, const struct window_cell *cell, int col,
         put_line(w, cell->text[0]);
     else
         fprintf(w->to, "%ls", cell->text);
-    /* of other characters terminals may think otherwise than we */
-    w->row = cell->text[0] < 127 && cell->text[1] == L'\0' ? row : -1;
+    /* of others terminals may think otherwise than we */
+    w->row = wcwidth(cell->text[0]) == 1 && cell->text[1] == L'\0' ? row : -1;
     w->col = col + 1;
 }
 
@@ -347,7 +347,7 @@ void windows_update(void)
     if (!w.to)
         return;
     if (shown.must_clear)
-        fputs("\033[m\033[2J", w.to);
+        fputs("\033[m\033[H\033[J", w.to);
     shown.must_clear = false;
     for (int row = 0; row < shown.rows; row++) {
         for (int col = 0; col < shown.cols; col++)
