@@ -134,6 +134,9 @@ endef
 $(eval $(call program,unit,-lcmocka))
 $(foreach i,$(ISAS),$(eval $(B)/unit/test_wide_$(i): \
 	private ALL_CFLAGS += $(FLAGS_$(i))))
+# It looks at what the loop of the screen believes, each time before it waits.
+$(B)/unit/test_term: private ALL_LDFLAGS += \
+	-Wl,--wrap=stage_next_ns,--wrap=term_read
 $(eval $(call program,bench))
 $(eval $(call program,fuzz,$(FUZZ_MAIN)))
 $(eval $(call program,stress,-lcmocka))
@@ -254,9 +257,9 @@ bench-cycles: $(B)/glim
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
 ## stress: rows of what breaks path tracers, and other checks that take minutes;
-##         FILTER=NAME for one of them: samples geometry light sizes rays
-##         oclgrind valgrind
-stress: $(B)/glim $(STRESSES)
+##         FILTER=NAME for one of them: samples geometry light sizes keys
+##         rays oclgrind valgrind
+stress: $(B)/glim $(STRESSES) $(B)/unit/test_term
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
 ## scenes: writes the scenes in scenes/ anew from their generator

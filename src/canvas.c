@@ -26,6 +26,9 @@
 #define PANEL_COLS   38
 #define PICTURE_COLS 10
 
+/* Where swatches stand in the panel. */
+#define SWATCH_COL 2
+
 void canvas_init(struct canvas *c, const struct options *options)
 {
     *c = (struct canvas){.has_status_row = true};
@@ -73,9 +76,9 @@ static bool is_too_small(const struct term_size *size)
 static struct fit fit_to(const struct canvas *c, const struct term_size *size,
                          int width_px, int height_px)
 {
-    /* sixels in the last row would scroll the screen */
-    bool is_short =
-        c->has_status_row || display_pixels(&c->display) == GRAPHICS_SIXEL;
+    /* sixels in the last row would scroll the screen, on some a character */
+    bool is_short = c->has_status_row || term_scrolls_at_end() ||
+                    display_pixels(&c->display) == GRAPHICS_SIXEL;
 
     return cells_fit(width_px, height_px, size->cols - c->panel_cols,
                      size->rows - (is_short ? 1 : 0),
@@ -185,13 +188,18 @@ const char *canvas_glyphs_name(const struct canvas *c)
     return glyphs_name(c->display.glyphs);
 }
 
-/* Rows of the screen, which curses may have cleared to their ends. */
-static void forget_rows(struct canvas *c, int row, int rows)
+/* Text was there. */
+static void give_to_picture(struct canvas *c, struct ansi_rect rect)
 {
-    struct ansi_rect rect = {0, row - c->fit.row, c->ansi.cols, rows};
-
     ansi_forget(&c->ansi, rect);
     graphics_forget(&c->graphics, rect);
+}
+
+/* The last row of the screen, as a part of the picture. */
+static struct ansi_rect last_row(const struct canvas *c)
+{
+    return (struct ansi_rect){0, term_size().rows - 1 - c->fit.row, c->fit.cols,
+                              1};
 }
 
 void canvas_status(struct canvas *c, const char *text)
@@ -202,7 +210,8 @@ void canvas_status(struct canvas *c, const char *text)
     if (text)
         snprintf(c->status, sizeof c->status, "%s", text);
     windows_status(text);
-    forget_rows(c, term_size().rows - 1, 1);
+    if (!text)
+        give_to_picture(c, last_row(c));
     c->must_update = true;
 }
 
@@ -210,21 +219,27 @@ void canvas_show_panel(struct canvas *c, const struct window_line *panel_lines,
                        int line_count)
 {
     windows_show_panel(panel_lines, line_count, c->panel_cols);
+    for (int y = 0; y < c->swatches.cells.rows; y++) {
+        if (c->swatches.is_there[y])
+            windows_spare(y, SWATCH_COL, SWATCH_COLS);
+    }
     c->has_new_panel = true;
     c->must_update = true;
 }
 
-/* Curses has written the panel anew, with blanks for the swatches. */
 static bool write_swatches(struct canvas *c)
 {
     struct swatches *s = &c->swatches;
     struct term_size size = term_size();
+    struct ansi_rect window = c->window;
 
     if (!c->has_new_panel)
         return true;
     c->has_new_panel = false;
-    swatches_draw(s, c->display.palette, size.cols - c->panel_cols + 2, 0,
-                  size.rows - 1);
+    window.col += c->fit.col;
+    window.row += c->fit.row;
+    swatches_draw(s, c->display.palette, size.cols - c->panel_cols + SWATCH_COL,
+                  0, &window, size.rows - 1);
     return term_write(s->ansi.bytes, s->ansi.length);
 }
 
@@ -232,7 +247,6 @@ static void cover(struct canvas *c, struct window_rect r)
 {
     c->window = (struct ansi_rect){r.col - c->fit.col, r.row - c->fit.row,
                                    r.cols, r.rows};
-    forget_rows(c, r.row, r.rows);
     c->must_update = true;
 }
 
@@ -264,8 +278,9 @@ void canvas_set_corner(struct canvas *c, const char *const *texts,
 void canvas_close_window(struct canvas *c)
 {
     windows_close();
-    forget_rows(c, c->window.row + c->fit.row, c->window.rows);
+    give_to_picture(c, c->window);
     c->window = (struct ansi_rect){0};
+    c->has_new_panel = c->panel_cols > 0; /* it may have been below */
     c->must_update = true;
 }
 
@@ -295,8 +310,7 @@ static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
                              .covered_count = 1};
 
     if (c->has_status && !c->has_status_row) {
-        covered[1] = (struct ansi_rect){0, term_size().rows - 1 - c->fit.row,
-                                        c->fit.cols, 1};
+        covered[1] = last_row(c);
         draw.covered_count = 2;
     }
     film_preview(film, draft, how, &c->frame);
@@ -316,7 +330,7 @@ static bool add_picture(struct canvas *c, struct film *film, struct film *draft,
     return ansi_picture(&c->ansi, &c->cells, &draw);
 }
 
-/* One write() a frame; one more before curses writes its part. */
+/* One write() a frame; more before it if text has changed. */
 enum canvas_result canvas_draw(struct canvas *c, struct film *film,
                                struct film *draft, struct develop how, int step)
 {

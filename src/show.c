@@ -234,9 +234,11 @@ static bool paint_samples(struct show *s, struct film *film,
 /* Counts anew what another camera or frame sees. */
 static bool count_costs(struct show *s, const struct frame *frame)
 {
+    struct error ignored;
     struct world w;
 
-    if (!show_world(s, &w))
+    /* a scene that was loaded anew has no tree yet */
+    if (!show_need_tree(s, &ignored) || !show_world(s, &w))
         return false;
     w.settings.camera = show_camera(s, &w.settings.camera, frame);
     if (s->cost_width == frame->width && s->cost_height == frame->height &&

@@ -63,19 +63,23 @@ static int find_gaps(const struct swatches *s, struct ansi_rect *gaps)
 }
 
 void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
-                   int end_row)
+                   const struct ansi_rect *window, int end_row)
 {
-    struct ansi_rect *gaps = xcalloc((size_t)s->cells.rows, sizeof *gaps);
+    struct ansi_rect *covered =
+        xcalloc((size_t)s->cells.rows + 1, sizeof *covered);
+    int count = find_gaps(s, covered);
     struct ansi_draw how = {.col = col,
                             .row = row,
                             .budget_bytes = SIZE_MAX,
-                            .covered = gaps,
-                            .covered_count = find_gaps(s, gaps)};
+                            .covered = covered,
+                            .covered_count = count + 1};
 
+    covered[count] = (struct ansi_rect){window->col - col, window->row - row,
+                                        window->cols, window->rows};
     ansi_begin(&s->ansi);
     ansi_forget_all(&s->ansi);
     cells_from_frame(&s->cells, &s->frame, palette, GLYPHS_SPACE);
     ansi_picture(&s->ansi, &s->cells, &how);
     ansi_end(&s->ansi, end_row);
-    free(gaps);
+    free(covered);
 }

@@ -258,6 +258,7 @@ bool term_open(struct error *err)
         return fail(err, "TERM=%s: no screen", name);
     }
     set_modes();
+    refresh(); /* enters the screen */
     term.may_ask_colors = !is_simple(getenv("TERM"));
     term_relayout();
     windows_update();
@@ -306,8 +307,7 @@ void term_close(bool is_gone)
         leave_screen();
     }
     is_open = 0;
-    windows_close();
-    windows_hide_panel();
+    windows_free();
     if (!is_gone)
         tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
     delscreen(term.screen);
@@ -338,6 +338,11 @@ bool term_is_utf8(bool *may_learn)
      * it does not: its answer is not that terminal's */
     *may_learn = !(tmux && tmux[0]) && !is_simple(getenv("TERM"));
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+}
+
+bool term_scrolls_at_end(void)
+{
+    return tigetflag("am") > 0 && tigetflag("xenl") <= 0;
 }
 
 struct term_size term_size(void)
@@ -427,6 +432,7 @@ void term_resume(void)
 {
     is_open = 1;
     reset_prog_mode();
+    erase();
     refresh();
     curs_set(0);
     term_relayout();
@@ -446,10 +452,7 @@ void term_relayout(void)
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 &&
         w.ws_row > 0)
         resizeterm(w.ws_row, w.ws_col);
-    windows_close();
-    windows_hide_panel();
-    erase();
-    clearok(curscr, TRUE);
+    windows_clear();
 }
 
 void term_set_mouse(bool is_on)

@@ -30,10 +30,10 @@ void swatches_clear(struct swatches *s);
 /* Channels beyond 1 are shown as 1. */
 void swatches_set(struct swatches *s, int row, const double rgb[3]);
 
-/* All of them as what a terminal is sent, with the upper left cell at
- * (col, row) of the screen and the cursor in end_row at the end:
- * s->ansi.bytes, s->ansi.length. */
+/* All of them but for what a window of the screen covers, as what a terminal is
+ * sent, with the upper left cell at (col, row) of the screen and the cursor in
+ * end_row at the end: s->ansi.bytes, s->ansi.length. */
 void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
-                   int end_row);
+                   const struct ansi_rect *window, int end_row);
 
 #endif

@@ -3,9 +3,9 @@
  * term.h - the terminal: opened, asked, written to, and given back whatever
  * happens
  *
- * curses owns the terminal and what windows.h draws; the picture is written
- * past it with term_write(). There is one terminal, so there is one state, in
- * term.c.
+ * curses enters and leaves the screen; what is on it is written with
+ * term_write(), text by windows.h, the picture by canvas.h. There is one
+ * terminal, so there is one state, in term.c.
  *
  * Units:     terminal cells
  * Ownership: texts stay the caller's
@@ -41,6 +41,9 @@ enum palette term_palette(bool *is_final);
 /* True where characters beyond ASCII are drawn as such. *may_learn says that
  * the answer EVENT_CURSOR tells better: x is 2 then, else 3 or more. */
 bool term_is_utf8(bool *may_learn);
+
+/* True where a character in the last column of the last row scrolls. */
+bool term_scrolls_at_end(void);
 
 /* Also before term_open(), if the system knows it. */
 struct term_size term_size(void);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * windows.h - what curses draws: the status line, a window over the picture, a
- * panel beside it
+ * windows.h - the text on the screen: the status line, a window over the
+ * picture, a panel beside it
  *
- * Shown by windows_update(). There is one screen, so there is one state.
+ * They are windows of curses, which windows_update() writes; nothing else of
+ * the screen changes by that. There is one screen, so there is one state.
  *
  * Units:     terminal cells
  * Ownership: texts stay the caller's
@@ -13,11 +14,20 @@
 #ifndef GLIM_WINDOWS_H
 #define GLIM_WINDOWS_H
 
+#include <wchar.h>
+
 struct window_rect {
     int col, row, cols, rows;
 };
 
-/* Puts text in the last row, reversed; NULL empties it. */
+/* Closes all of them. The next update empties the screen, which is the
+ * picture's. */
+void windows_clear(void);
+
+/* At the end, before the screen is left. */
+void windows_free(void);
+
+/* Puts text in the last row, reversed; NULL leaves it to the picture. */
 void windows_status(const char *text);
 
 /* A window with these lines and a title, in the middle; where it is. One at a
@@ -52,10 +62,32 @@ struct window_rect windows_show_panel(const struct window_line *panel_lines,
                                       int line_count, int cols);
 void windows_hide_panel(void);
 
+/* Columns of the panel that something else writes. */
+void windows_spare(int row, int col, int cols);
+
 /* Text in the middle of an empty screen. */
 void windows_notice(const char *text);
 
-/* Writes what changed. The cursor is in the last row, column 0, afterwards. */
+/* Writes what changed; blanks once where the picture or a swatch will be. The
+ * cursor is in the last row, column 0, afterwards. */
 void windows_update(void);
+
+enum window_cell_kind {
+    WINDOW_CELL_SPARED, /* something else writes there */
+    WINDOW_CELL_TEXT,
+    WINDOW_CELL_TAIL /* the right half of a wide character */
+};
+
+/* A character, and those that combine with it. */
+#define WINDOW_CELL_CHARS 6
+
+struct window_cell {
+    enum window_cell_kind kind;
+    wchar_t text[WINDOW_CELL_CHARS];
+    unsigned attributes; /* of curses */
+};
+
+/* What the terminal shows since the last update. */
+const struct window_cell *windows_shown(int col, int row);
 
 #endif

@@ -151,7 +151,15 @@ stress_light() {
     rows light opencl
 }
 
-for name in samples geometry light sizes rays oclgrind valgrind; do
+# More random keys than `make test` presses, each time others.
+stress_keys() {
+    for seed in 101 102 103; do
+        check "keys, seed $seed" env TERM_KEYS=10000 TERM_SEED=$seed \
+            "$build/unit/test_term"
+    done
+}
+
+for name in samples geometry light sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The bytes go to a little terminal that knows what the standard says about
- * them (ECMA-48: CUP, CUF, SGR); what it shows must be the cells.
+ * The bytes go to a terminal of the tests (vt.h); what it shows must be the
+ * cells.
  */
 #include "check.h"
 
@@ -9,163 +9,39 @@
 #include <string.h>
 
 #include "glim/ansi.h"
+#include "vt.h"
 
 #define COLS 40
 #define ROWS 12
 
-struct screen {
-    struct cell cell[ROWS][COLS];
-    int row, col;
-    uint32_t fg, bg;
-};
+static struct vt vt;
 
-static void screen_clear(struct screen *s)
+static void forget_colors(void)
 {
-    memset(s, 0, sizeof *s);
-    s->fg = s->bg = CELL_DEFAULT;
+    vt.pen.fg = vt.pen.bg = CELL_DEFAULT;
 }
 
-static uint32_t sgr_color(const int *p, int count, int *used)
+static void show(const struct ansi *a)
 {
-    if (count >= 5 && p[1] == 2) {
-        *used = 5;
-        return (uint32_t)(p[2] << 16 | p[3] << 8 | p[4]);
-    }
-    assert_true(count >= 3 && p[1] == 5);
-    *used = 3;
-    return (uint32_t)p[2];
+    vt_write(&vt, a->bytes, a->length);
 }
 
-static void sgr(struct screen *s, const int *p, int count)
+/* Jumps, steps to the right and colours are all that is sent. */
+static void check_sequences(void)
 {
-    for (int i = 0; i < count;) {
-        int used = 1;
-
-        if (p[i] == 0)
-            s->fg = s->bg = CELL_DEFAULT;
-        else if (p[i] == 38)
-            s->fg = sgr_color(p + i, count - i, &used);
-        else if (p[i] == 48)
-            s->bg = sgr_color(p + i, count - i, &used);
-        else if (p[i] == 39)
-            s->fg = CELL_DEFAULT;
-        else if (p[i] == 49)
-            s->bg = CELL_DEFAULT;
-        else if (p[i] >= 30 && p[i] < 38)
-            s->fg = (uint32_t)p[i] - 30;
-        else if (p[i] >= 40 && p[i] < 48)
-            s->bg = (uint32_t)p[i] - 40;
-        else if (p[i] >= 90 && p[i] < 98)
-            s->fg = (uint32_t)p[i] - 82;
-        else if (p[i] >= 100 && p[i] < 108)
-            s->bg = (uint32_t)p[i] - 92;
-        else
-            _fail(__FILE__, __LINE__);
-        i += used;
-    }
+    for (int c = 0; c < 128; c++)
+        assert_true(!vt.seen[c] || strchr("HCm", c));
+    assert_string_equal(vt.moved, "");
+    assert_string_equal(vt.unknown, "");
 }
 
-static const char *control(struct screen *s, const char *p)
+static void check_shown(const struct cells *c, int col, int row)
 {
-    int params[16] = {0};
-    int count = 1;
-
-    for (; (*p >= '0' && *p <= '9') || *p == ';'; p++) {
-        if (*p == ';')
-            count++;
-        else
-            params[count - 1] = params[count - 1] * 10 + (*p - '0');
-    }
-    assert_true(count <= 16);
-    if (*p == 'm') {
-        sgr(s, params, count);
-    } else if (*p == 'H') {
-        s->row = params[0] - 1;
-        s->col = params[1] - 1;
-    } else {
-        assert_int_equal(*p, 'C');
-        s->col += params[0] ? params[0] : 1;
-    }
-    return p + 1;
-}
-
-static void print(struct screen *s, uint32_t glyph)
-{
-    assert_in_range(s->row, 0, ROWS - 1);
-    assert_in_range(s->col, 0, COLS - 1);
-    s->cell[s->row][s->col++] = (struct cell){s->fg, s->bg, glyph};
-}
-
-static const char *print_utf8(struct screen *s, const char *p)
-{
-    unsigned char first = (unsigned char)*p++;
-    int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : 1;
-    uint32_t glyph = first & (0x3fu >> more);
-
-    for (; more > 0; more--) {
-        assert_int_equal(*p & 0xc0, 0x80);
-        glyph = glyph << 6 | (uint32_t)(*p++ & 0x3f);
-    }
-    print(s, glyph);
-    return p;
-}
-
-static void screen_write_bytes(struct screen *s, const char *p, size_t length)
-{
-    const char *end = p + length;
-
-    while (p < end) {
-        if (*p == '\n') {
-            s->row++;
-            s->col = 0;
-            p++;
-        } else if (memcmp(p, "\033[", 2) == 0) {
-            p = control(s, p + 2);
-        } else if (*p & 0x80) {
-            p = print_utf8(s, p);
-        } else {
-            assert_in_range(*p, ' ', '~');
-            print(s, (uint32_t)*p++);
-        }
-    }
-}
-
-static void screen_write(struct screen *s, const struct ansi *a)
-{
-    screen_write_bytes(s, a->bytes, a->length);
-}
-
-/* Colours of the dots of a cell, whatever of its two is the foreground. */
-static void dots_of(const struct cell *cell, enum glyphs glyphs,
-                    uint32_t dots[GLYPH_DOTS_MAX])
-{
-    struct glyph_grid grid = glyphs_grid(glyphs);
-    unsigned mask;
-
-    assert_true(glyphs_mask(glyphs, cell->glyph, &mask));
-    for (int i = 0; i < grid.across * grid.down; i++)
-        dots[i] = mask >> i & 1 ? cell->fg : cell->bg;
-}
-
-static void check_shown(const struct screen *s, const struct cells *c, int col,
-                        int row)
-{
+    check_sequences();
     for (int y = 0; y < c->rows; y++) {
-        for (int x = 0; x < c->cols; x++) {
-            const struct cell *want = &c->cell[y * c->cols + x];
-            const struct cell *got = &s->cell[row + y][col + x];
-
-            uint32_t is[GLYPH_DOTS_MAX] = {0}, should[GLYPH_DOTS_MAX] = {0};
-
-            if (want->bg == CELL_DEFAULT) { /* a character, or its dots */
-                assert_int_equal(got->glyph, want->glyph);
-                assert_int_equal(got->bg, want->bg);
-                continue;
-            }
-            dots_of(got, c->glyphs, is);
-            dots_of(want, c->glyphs, should);
-            assert_memory_equal(is, should, sizeof is);
-        }
+        for (int x = 0; x < c->cols; x++)
+            assert_true(vt_shows(&vt.cell[row + y][col + x],
+                                 &c->cell[y * c->cols + x], c->glyphs));
     }
 }
 
@@ -242,11 +118,10 @@ static void screen_shows_the_cells(void **state)
     static const enum glyphs kinds[5] = {GLYPHS_HALF, GLYPHS_LOWER,
                                          GLYPHS_QUADRANT, GLYPHS_SEXTANT,
                                          GLYPHS_BRAILLE};
-    struct screen s;
     uint64_t seed = 5;
 
     (void)state;
-    screen_clear(&s);
+    vt_open(&vt, COLS, ROWS);
     for (int round = 0; round < 200; round++) {
         enum palette palette = (enum palette)(round / 10 % 4);
         double part = round % 10 == 0 ? 1.0 : 0.3;
@@ -256,10 +131,10 @@ static void screen_shows_the_cells(void **state)
         ansi_begin(&a);
         assert_true(ansi_picture(&a, &c, &how));
         ansi_end(&a, ROWS - 1);
-        screen_write(&s, &a);
-        check_shown(&s, &c, 4, 2);
-        assert_true(s.fg == CELL_DEFAULT && s.bg == CELL_DEFAULT);
-        assert_true(s.row == ROWS - 1 && s.col == 0);
+        show(&a);
+        check_shown(&c, 4, 2);
+        assert_true(vt.pen.fg == CELL_DEFAULT && vt.pen.bg == CELL_DEFAULT);
+        assert_true(vt.row == ROWS - 1 && vt.col == 0);
     }
     ansi_begin(&a);
     assert_true(ansi_picture(&a, &c, &how));
@@ -275,37 +150,36 @@ static void budget_is_kept(void **state)
     struct cells c = make_cells(COLS, ROWS);
     struct ansi a = make_ansi(COLS, ROWS);
     struct ansi_draw how = {.budget_bytes = 100};
-    struct screen s;
     uint64_t seed = 6;
     bool is_done = false;
     int frames = 0;
 
     (void)state;
-    screen_clear(&s);
+    vt_open(&vt, COLS, ROWS);
     scramble(&c, PALETTE_24BIT, 1.0, &seed);
     for (; !is_done; frames++) {
         ansi_begin(&a);
         is_done = ansi_picture(&a, &c, &how);
         assert_true(a.length < 100 + 56);
-        screen_write(&s, &a);
-        s.fg = s.bg = CELL_DEFAULT;
+        show(&a);
+        forget_colors();
         assert_true(frames < 10000);
     }
     assert_true(frames > 10);
-    check_shown(&s, &c, 0, 0);
+    check_shown(&c, 0, 0);
 
     /* a picture that never rests: all cells are drawn sooner or later */
-    screen_clear(&s);
+    vt_open(&vt, COLS, ROWS);
     ansi_forget_all(&a);
     for (int i = 0; i < 4 * frames; i++) {
         scramble(&c, PALETTE_24BIT, 1.0, &seed);
         ansi_begin(&a);
         ansi_picture(&a, &c, &how);
-        screen_write(&s, &a);
-        s.fg = s.bg = CELL_DEFAULT;
+        show(&a);
+        forget_colors();
     }
     for (int i = 0; i < COLS * ROWS; i++)
-        assert_int_not_equal(s.cell[i / COLS][i % COLS].glyph, 0);
+        assert_int_not_equal(vt.cell[i / COLS][i % COLS].glyph, 0);
     ansi_free(&a);
     cells_free(&c);
 }
@@ -351,32 +225,31 @@ static void covered_cells_stay(void **state)
     struct ansi_draw how = {.budget_bytes = SIZE_MAX,
                             .covered = covers,
                             .covered_count = 2};
-    struct screen s;
     uint64_t seed = 7;
 
     (void)state;
-    screen_clear(&s);
+    vt_open(&vt, COLS, ROWS);
     scramble(&c, PALETTE_256, 1.0, &seed);
     ansi_begin(&a);
     assert_true(ansi_picture(&a, &c, &how));
-    screen_write(&s, &a);
+    show(&a);
     for (int y = 0; y < ROWS; y++) {
         for (int x = 0; x < COLS; x++) {
             bool inside = (x >= 5 && x < 25 && y >= 2 && y < 8) ||
                           (x >= 25 && x < 28 && y >= 3 && y < 6);
 
-            assert_true((s.cell[y][x].glyph == 0) == inside);
+            assert_true((vt.cell[y][x].glyph == 0) == inside);
         }
     }
     how.covered_count = 0; /* the windows close: curses has cleared there */
     for (int y = 2; y < 8; y++)
-        memset(s.cell[y], 0, sizeof s.cell[y]);
+        memset(vt.cell[y], 0, sizeof vt.cell[y]);
     ansi_forget(&a, (struct ansi_rect){-3, 2, COLS + 9, 6});
     ansi_begin(&a);
     assert_true(ansi_picture(&a, &c, &how));
-    s.fg = s.bg = CELL_DEFAULT;
-    screen_write(&s, &a);
-    check_shown(&s, &c, 0, 0);
+    forget_colors();
+    show(&a);
+    check_shown(&c, 0, 0);
     ansi_free(&a);
     cells_free(&c);
 }
@@ -442,6 +315,16 @@ static void two_colors_stay_set(void **state)
     cells_free(&c);
 }
 
+/* As the system hands lines to a terminal. */
+static void print_lines(const char *text, size_t size_bytes)
+{
+    for (size_t i = 0; i < size_bytes; i++) {
+        if (text[i] == '\n')
+            vt_write(&vt, "\r", 1);
+        vt_write(&vt, text + i, 1);
+    }
+}
+
 /* Text for a file shows the same cells as the screen, on a screen without any
  * positions, and ends each line with the reader's own colours. */
 static void lines_show_the_cells(void **state)
@@ -449,7 +332,6 @@ static void lines_show_the_cells(void **state)
     static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_UPPER,
                                         GLYPHS_SEXTANT, GLYPHS_BRAILLE};
     struct cells c = make_cells(COLS, ROWS);
-    struct screen s;
     struct error err;
     uint64_t seed = 8;
 
@@ -458,7 +340,7 @@ static void lines_show_the_cells(void **state)
         size_t size_bytes;
         char *text;
 
-        screen_clear(&s);
+        vt_open(&vt, COLS, ROWS + 1);
         c.glyphs = kinds[round / 4];
         scramble(&c, (enum palette)(round % 4), 1.0, &seed);
         assert_true(ansi_lines(&c, &text, &size_bytes, &err));
@@ -473,9 +355,9 @@ static void lines_show_the_cells(void **state)
             assert_int_equal(text[i + 2 + strspn(text + i + 2, "0123456789;")],
                              'm');
         }
-        screen_write_bytes(&s, text, size_bytes);
-        assert_int_equal(s.row, ROWS);
-        check_shown(&s, &c, 0, 0);
+        print_lines(text, size_bytes);
+        assert_int_equal(vt.row, ROWS);
+        check_shown(&c, 0, 0);
         free(text);
     }
     cells_free(&c);

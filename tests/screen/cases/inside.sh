@@ -112,5 +112,7 @@ keys n
 wait_for "SAMPLES"
 keys n
 wait_until_gone "SAMPLES"
+# tmux restores the shell's screen whole only at the size that it had
+mux resize-window -x 60 -y 21
 keys q
 expect_end 0

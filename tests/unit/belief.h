@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+/*
+ * belief.h - what a child process that runs glim believes is on its screen
+ *
+ * Each time before it waits, the child describes its screen in shared memory,
+ * writes the string "told" to the terminal, and goes on when the parent has
+ * looked. The linker puts __wrap_stage_next_ns() and __wrap_term_read() in
+ * place of glim's (see the Makefile).
+ *
+ * Units:     cells, row 0 at the top
+ * Ownership: the test maps `shared`
+ * Threads:   the child's main
+ * Errors:    none
+ */
+#ifndef TESTS_BELIEF_H
+#define TESTS_BELIEF_H
+
+#include <curses.h>
+#include <semaphore.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "glim/stage.h"
+#include "vt.h"
+
+/* The child's longest pause: the parent need not wait for something to
+ * happen. */
+#define WAKE_NS UINT64_C(20000000)
+
+enum belief { BELIEF_TEXT, BELIEF_PICTURE, BELIEF_UNKNOWN };
+
+struct belief_cell {
+    enum belief kind;
+    struct vt_cell text;
+    struct cell picture;
+    enum glyphs glyphs;
+};
+
+static struct shared {
+    sem_t go; /* the parent has looked */
+    unsigned told;
+    unsigned long taken_bytes; /* of keys */
+    bool is_whole;             /* curses has nothing more to write */
+    int cols, rows;
+    struct belief_cell cell[VT_ROWS_MAX][VT_COLS_MAX];
+} * shared;
+
+static bool is_child;
+
+int __real_term_read(void *bytes, size_t size_bytes);
+uint64_t __real_stage_next_ns(const struct stage *st, uint64_t now_ns);
+int __wrap_term_read(void *bytes, size_t size_bytes);
+uint64_t __wrap_stage_next_ns(const struct stage *st, uint64_t now_ns);
+
+int __wrap_term_read(void *bytes, size_t size_bytes)
+{
+    int count = __real_term_read(bytes, size_bytes);
+
+    if (is_child && count > 0)
+        shared->taken_bytes += (unsigned long)count;
+    return count;
+}
+
+static void tell_text(void)
+{
+    for (int y = 0; y < shared->rows; y++) {
+        for (int x = 0; x < shared->cols; x++) {
+            const struct window_cell *shown = windows_shown(x, y);
+            struct belief_cell *cell = &shared->cell[y][x];
+            struct vt_cell *text = &cell->text;
+
+            memset(cell, 0, sizeof *cell);
+            text->fg = text->bg = CELL_DEFAULT;
+            text->glyph = shown->kind == WINDOW_CELL_TAIL
+                              ? VT_TAIL
+                              : (uint32_t)shown->text[0];
+            for (int i = 0; i < VT_COMBINED_MAX && text->glyph != VT_TAIL; i++)
+                text->combined[i] = (uint32_t)shown->text[i + 1];
+            if (shown->attributes & A_ALTCHARSET)
+                text->glyph = vt_line_drawing(text->glyph);
+            if (shown->attributes & term_attrs() & A_BOLD)
+                text->attributes |= VT_BOLD;
+            if (shown->attributes & term_attrs() & A_DIM)
+                text->attributes |= VT_DIM;
+            if (shown->attributes & A_REVERSE)
+                text->attributes |= VT_REVERSE;
+        }
+    }
+}
+
+static void tell_cells(const struct ansi *a, int col, int row)
+{
+    for (int y = 0; y < a->rows; y++) {
+        for (int x = 0; x < a->cols; x++) {
+            const struct cell *shown = &a->shown[y * a->cols + x];
+            struct belief_cell *cell = &shared->cell[row + y][col + x];
+
+            cell->kind = shown->glyph == 0 ? BELIEF_UNKNOWN : BELIEF_PICTURE;
+            cell->picture = *shown;
+            cell->glyphs = a->glyphs;
+        }
+    }
+}
+
+static void tell_picture(const struct canvas *c)
+{
+    struct belief_cell under[VT_ROWS_MAX][VT_COLS_MAX];
+    const struct ansi_rect *r = &c->window;
+
+    memcpy(under, shared->cell, sizeof under);
+    tell_cells(&c->ansi, c->fit.col, c->fit.row);
+    for (int y = r->row; y < r->row + r->rows; y++)
+        for (int x = r->col; x < r->col + r->cols; x++)
+            shared->cell[c->fit.row + y][c->fit.col + x] =
+                under[c->fit.row + y][c->fit.col + x];
+    if (c->has_status)
+        memcpy(shared->cell[shared->rows - 1], under[shared->rows - 1],
+               sizeof under[0]);
+}
+
+static bool covers(const struct ansi_rect *r, int col, int row)
+{
+    return row >= r->row && row < r->row + r->rows && col >= r->col &&
+           col < r->col + r->cols;
+}
+
+/* Blanks of curses, where there is none or a window covers it. */
+static void tell_swatches(const struct canvas *c)
+{
+    const struct swatches *s = &c->swatches;
+    int col = shared->cols - c->panel_cols + 2;
+
+    for (int y = 0; y < s->ansi.rows; y++) {
+        for (int x = 0; x < SWATCH_COLS; x++) {
+            const struct cell *shown = &s->ansi.shown[y * SWATCH_COLS + x];
+            struct belief_cell *cell = &shared->cell[y][col + x];
+
+            if (shown->glyph == 0 ||
+                covers(&c->window, col + x - c->fit.col, y - c->fit.row))
+                continue;
+            *cell = (struct belief_cell){BELIEF_PICTURE, cell->text, *shown,
+                                         s->ansi.glyphs};
+        }
+    }
+}
+
+static void tell(const struct canvas *c)
+{
+    shared->is_whole = !c->must_update && c->has_all_answers;
+    shared->cols = COLS;
+    shared->rows = LINES;
+    if (shared->is_whole)
+        tell_text();
+    if (shared->is_whole && !c->is_too_small) {
+        tell_picture(c);
+        if (c->panel_cols > 0)
+            tell_swatches(c);
+    }
+    shared->told++;
+    term_write("\033]told\033\\", 8);
+    while (sem_wait(&shared->go) != 0) {
+        /* a signal */
+    }
+}
+
+uint64_t __wrap_stage_next_ns(const struct stage *st, uint64_t now_ns)
+{
+    uint64_t next_ns = __real_stage_next_ns(st, now_ns);
+
+    if (!is_child)
+        return next_ns;
+    tell(&st->canvas);
+    return next_ns < now_ns + WAKE_NS ? next_ns : now_ns + WAKE_NS;
+}
+
+#endif
