@@ -227,8 +227,8 @@ bench-cycles: $(B)/glim
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
 ## stress: rows of what breaks path tracers, and other checks that take minutes;
-##         FILTER=NAME for one of them: samples geometry light sizes rays
-##         oclgrind valgrind
+##         FILTER=NAME for one of them: samples geometry light extremes
+##         sizes rays oclgrind valgrind
 stress: $(B)/glim $(STRESSES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 

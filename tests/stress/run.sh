@@ -151,7 +151,11 @@ stress_light() {
     rows light opencl
 }
 
-for name in samples geometry light sizes rays oclgrind valgrind; do
+stress_extremes() {
+    rows extremes
+}
+
+for name in samples geometry light extremes sizes rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi
