@@ -7,6 +7,7 @@
  * instructions, and perhaps on a device. What nothing finite in a file may do:
  * crash, make a sample that is not finite, or give two of them different bits.
  *
+ * Units:     file units, radiance
  * Ownership: extremes_close() frees all and removes the files
  * Threads:   one
  * Errors:    what the machine lacks ends the program

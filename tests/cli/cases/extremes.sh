@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Beside an edge of 5e38 one of 1 has no reciprocal: its normal was none, and
 # what left the face was a ray that never ended.
 printf 'v %s\n' '-5e38 0 0' '0 0 0' '0 0 1' '0 1 0' >needle.obj
