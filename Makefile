@@ -257,8 +257,8 @@ bench-cycles: $(B)/glim
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
 ## stress: rows of what breaks path tracers, and other checks that take minutes;
-##         FILTER=NAME for one of them: samples geometry light sizes keys
-##         rays oclgrind valgrind
+##         FILTER=NAME for one of them: samples geometry light extremes
+##         sizes keys rays oclgrind valgrind
 stress: $(B)/glim $(STRESSES) $(B)/unit/test_term
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 

@@ -53,11 +53,18 @@ struct path {
     struct path_sample out;
 };
 
+/* Factors and sums end at the largest float: an infinite one would make no
+ * number of a black channel. What is no number stays so, to be counted. */
+static inline float f_finite(float x)
+{
+    return f_min(FLOAT_MAX, x);
+}
+
 /* What radiance that comes along the path's ray is worth in the pixel. */
 static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
                                     float weight)
 {
-    return v3_mul(v3_scale(p->beta, p->scale * weight), radiance);
+    return v3_mul(v3_scale(p->beta, f_finite(p->scale * weight)), radiance);
 }
 
 /* Random numbers at a vertex, the first of which is 1; `kind` is one of enum
@@ -287,7 +294,7 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     p->ray.d = wi;
     p->ray.from = v->face;
     p->beta = v3_mul(p->beta, s.weight);
-    p->scale *= s.eta_scale;
+    p->scale = f_finite(p->scale * s.eta_scale);
     p->pdf = s.is_delta ? 0.0f : s.pdf;
     return true;
 }
@@ -396,7 +403,8 @@ static inline bool path_advance(const struct world *w, struct path *p,
     return path_step(w, p, *h, vertex);
 }
 
-/* To its end; what it meets first may be known. */
+/* To its end; what it meets first may be known. Light that no float can hold
+ * is more than a sum takes of it, which is counted there. */
 static inline struct path_sample path_run(const struct world *w, struct path *p,
                                           const struct hit *first)
 {
@@ -405,6 +413,8 @@ static inline struct path_sample path_run(const struct world *w, struct path *p,
 
     while (path_advance(w, p, vertex, vertex == 1 ? first : NULL, &h))
         vertex++;
+    p->out.radiance =
+        v3_low(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p->out.radiance);
     return p->out;
 }
 

@@ -27,7 +27,8 @@ static inline struct vec2 sky_uv(struct sky s, struct vec3 d)
               atan2_rad(sqrtf(x * x + z * z), d.y) * (1.0f / PI));
 }
 
-/* Radiance of the image at uv. Columns repeat, rows end at the poles. */
+/* Radiance of the image at uv, finite. Columns repeat, rows end at the poles.
+ */
 static inline struct vec3 sky_image_at(const struct world *w, struct vec2 uv)
 {
     struct sky s = w->settings.sky;
@@ -49,7 +50,8 @@ static inline struct vec3 sky_image_at(const struct world *w, struct vec2 uv)
                   w->sky_texels[f.y0 * s.width + f.x1], f.fx);
     bottom = v3_lerp(w->sky_texels[f.y1 * s.width + f.x0],
                      w->sky_texels[f.y1 * s.width + f.x1], f.fx);
-    return v3_mul(v3_lerp(top, bottom, f.fy), s.color);
+    return v3_low(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX),
+                  v3_mul(v3_lerp(top, bottom, f.fy), s.color));
 }
 
 /* Radiance that comes from direction d when nothing is in the way. */

@@ -26,11 +26,11 @@
 #define BOX_PAD   0x1p-20f
 #define BOX_WIDEN (16.0f * FLOAT_EPSILON)
 
-/* Rays that are no numbers, infinite, or begin further away than 2^64 meet
- * nothing: in a walk they would enter every box. */
+/* Rays with a number that is NaN or infinite meet nothing: all such numbers end
+ * up in this sum. */
 static inline bool ray_is_finite(struct ray r)
 {
-    return v3_dot(r.o, r.o) + v3_dot(r.d, r.d) <= FLOAT_MAX;
+    return fabsf(v3_dot(r.o, r.d)) <= FLOAT_MAX;
 }
 
 /* False where the surface lets this ray pass. */

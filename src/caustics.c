@@ -26,6 +26,10 @@
  * as much leaves 4 % more error. */
 #define REST 0.25
 
+/* Square of the distance below which a light and what casts are one place: the
+ * sum of all photons' flux, which is in inverse proportion, stays finite. */
+#define DISTANCE2_LEAST 1e-30f
+
 /* Diffuse surfaces on which a photon is counted. */
 #define LANDINGS 2u
 
@@ -125,7 +129,7 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     from = hit_inside(triangle_point(photon_2d(i, 1, 1)), a[0], a[1], a[2],
                       &error);
     d = v3_sub(to, from);
-    if (!(v3_dot(d, d) > 0.0f))
+    if (!(v3_dot(d, d) > DISTANCE2_LEAST))
         return false;
     p->ray.d = v3_unit(d);
     cos_a = v3_dot(na, p->ray.d);

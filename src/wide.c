@@ -145,6 +145,7 @@ static bool plan_all(struct builder *b, struct pool *pool)
         place_part(b->wide, &b->parts[i]);
         ok = ok && !b->parts[i].failed;
     }
+    b->wide->block_count++; /* of no triangles */
     return ok;
 }
 
@@ -166,7 +167,7 @@ static void fill_tri(const struct world *w, struct tri_block *block,
     block->tri[at] = tri;
 }
 
-/* What names a node or a block as a child. */
+/* What names a node, or with WIDE_LEAF a block, as a child. */
 static uint32_t child_at(const struct wide *wide, const void *place)
 {
     ptrdiff_t distance = (const char *)place - (const char *)wide->nodes;
@@ -233,7 +234,9 @@ static void fill_node(const struct builder *b, const struct part *part,
     }
     for (uint32_t i = p->count; i < WIDE_CHILDREN; i++) {
         fill_box(n, i, nowhere, nowhere);
-        n->child[i] = 0;
+        n->child[i] =
+            child_at(b->wide, &b->wide->blocks[b->wide->block_count - 1]) |
+            WIDE_LEAF;
     }
 }
 
@@ -295,6 +298,8 @@ static bool build(struct builder *b, struct pool *pool)
     if (wide->nodes == NULL)
         return false;
     wide->blocks = (void *)(wide->nodes + wide->node_count);
+    for (uint32_t i = 0; i < BLOCK_TRIS; i++)
+        fill_tri(b->world, &wide->blocks[wide->block_count - 1], i, NO_INDEX);
     pool_each(pool, b->part_count + 1, fill_part, b);
     return true;
 }

@@ -77,14 +77,12 @@ static inline bool group_shear(struct f8_rays *r)
 /* ray_is_finite() of all of them; lanes without a ray are NaN. */
 static inline bool group_is_finite(const struct ray_group *g)
 {
-    f8 square = f8_all(0.0f);
+    f8 sum = f8_all(0.0f);
 
-    for (int i = 0; i < 3; i++) {
-        f8 o = f8_load(g->lanes.o[i]), d = f8_load(g->lanes.d[i]);
-
-        square = f8_add(square, f8_add(f8_mul(o, o), f8_mul(d, d)));
-    }
-    return f8_not_above(square, f8_all(FLOAT_MAX)) == (1u << g->count) - 1;
+    for (int i = 0; i < 3; i++)
+        sum =
+            f8_add(sum, f8_mul(f8_load(g->lanes.o[i]), f8_load(g->lanes.d[i])));
+    return f8_not_above(f8_abs(sum), f8_all(FLOAT_MAX)) == (1u << g->count) - 1;
 }
 
 static inline float group_far(const struct ray_group *g)

@@ -33,7 +33,7 @@
 struct wide_node {
     /* near and far planes are picked by the ray's signs: [axis][low or high] */
     float planes[3][2][WIDE_CHILDREN]; /* no child: a box that nothing meets */
-    uint32_t child[WIDE_CHILDREN];
+    uint32_t child[WIDE_CHILDREN]; /* no child: the last block, if it does */
 };
 
 _Static_assert(sizeof(struct wide_node) % WIDE_UNIT == 0, "see WIDE_UNIT");
@@ -49,8 +49,9 @@ _Static_assert(sizeof(struct tri_block) % WIDE_UNIT == 0, "see WIDE_UNIT");
 struct wide {
     struct wide_node *nodes; /* 0 is the root */
     uint32_t node_count;
-    struct tri_block *blocks; /* behind the nodes in the same memory */
-    uint32_t block_count;
+    struct tri_block
+        *blocks;          /* behind the nodes in the same memory; the last */
+    uint32_t block_count; /* has no triangles */
 };
 
 /* What the CPU's samples read. Ray queries get the world, and find the tree

@@ -201,10 +201,9 @@ typedef float wide_leaf(void *query, const struct tri_block *block,
                         uint32_t more);
 
 /* Meets the leaves that are entered before t_max, nearest first; see
- * wide_enter(). For rays that ray_is_finite(): their planes' distances are
- * finite, so that boxes at infinity, which stand for no child, are not entered.
- * Every node is met once at most, and WIDE_STACK is enough for trees as deep as
- * bvh.h promises. */
+ * wide_enter(). Whatever the ray, every node is met once at most: children that
+ * are none name a leaf of no triangles. So WIDE_STACK is enough for trees as
+ * deep as bvh.h promises. */
 static inline __attribute__((always_inline)) void
 wide_walk(const struct wide_node *nodes, const struct wide_ray *first,
           const struct wide_ray *last, float t_max, wide_leaf *leaf,

@@ -159,7 +159,11 @@ stress_keys() {
     done
 }
 
-for name in samples geometry light sizes keys rays oclgrind valgrind; do
+stress_extremes() {
+    rows extremes
+}
+
+for name in samples geometry light extremes sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+/*
+ * extremes.h - random scenes of extreme numbers, rendered by everything here
+ *
+ * Scene n is a function of n. It is written as text into the current folder,
+ * loaded as a person's would be, and rendered on the CPU with each set of
+ * instructions, and perhaps on a device. What nothing finite in a file may do:
+ * crash, make a sample that is not finite, or give two of them different bits.
+ *
+ * Units:     file units, radiance
+ * Ownership: extremes_close() frees all and removes the files
+ * Threads:   one
+ * Errors:    what the machine lacks ends the program
+ */
+#ifndef TESTS_EXTREMES_H
+#define TESTS_EXTREMES_H
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glim/backend_cl.h"
+#include "glim/cl_environment.h"
+#include "glim/isa.h"
+#include "glim/scene_world.h"
+#include "glim/session.h"
+#include "tests/unit/check.h"
+
+#define EXTREMES_RENDERERS 5
+#define EXTREMES_SIDE      8
+#define EXTREMES_SPP       2
+
+struct extremes {
+    struct backend *backends[EXTREMES_RENDERERS]; /* the device is the last */
+    struct render *renders[EXTREMES_RENDERERS];
+    int count;
+    bool has_device;
+    /* so far */
+    uint32_t scenes, refused, on_device;
+    uint64_t samples, saturated;
+};
+
+/* ---- numbers and words ---- */
+
+static inline uint32_t one_of(uint64_t *seed, uint32_t count)
+{
+    return (uint32_t)(check_random(seed) * count);
+}
+
+/* Of all exponents that a float has, and some beyond. */
+static inline double any_size(uint64_t *seed)
+{
+    return pow(10, -50 + 100 * check_random(seed));
+}
+
+static inline double coordinate(uint64_t *seed)
+{
+    static const double odd[] = {0,     -0.0,  1e-45,  -1e-45, 1.2e-38,
+                                 1e-20, 1e-9,  1e6,    -1e9,   1e18,
+                                 -1e19, 1e30,  -1e38,  3.4e38, -3.4e38,
+                                 5e38,  1e300, -1e300, 1,      -1};
+    double sign = check_random(seed) < 0.5 ? -1 : 1;
+
+    switch (one_of(seed, 8)) {
+    case 0: return odd[one_of(seed, sizeof odd / sizeof *odd)];
+    case 1: return sign * any_size(seed);
+    default: return 2 * check_random(seed) - 1;
+    }
+}
+
+/* From 0 on, mostly in 0 to 1. */
+static inline double amount(uint64_t *seed)
+{
+    static const double odd[] = {0,      1,    1e-45, 1e-38, 1e-10,  0.999999,
+                                 1e6,    1e10, 4e18,  1e19,  1e30,   3e38,
+                                 3.4e38, 1e39, 1e300, 0.5,   1.0001, 2};
+
+    switch (one_of(seed, 4)) {
+    case 0: return odd[one_of(seed, sizeof odd / sizeof *odd)];
+    case 1: return any_size(seed);
+    default: return check_random(seed);
+    }
+}
+
+/* ---- files ---- */
+
+static inline FILE *extremes_file(const char *name)
+{
+    FILE *f = fopen(name, "wb");
+
+    if (f == NULL)
+        exit(2);
+    return f;
+}
+
+/* Four texels, one of them a hole; and a sky with all that floats have. */
+static inline void put_images(void)
+{
+    static const unsigned char tga[] = {0, 0, 2,   0,   0,   0, 0,  0,   0,
+                                        0, 0, 0,   2,   0,   2, 0,  32,  8,
+                                        0, 0, 0,   255, 255, 9, 99, 255, 1,
+                                        2, 3, 255, 50,  60,  7, 0};
+    static const float sky[] = {0, 1,     3.4e38f, 1e-45f, 1e10f, 0,
+                                1, 1e-3f, 0,       3e38f,  1,     1e30f};
+    FILE *f = extremes_file("t.tga");
+
+    fwrite(tga, 1, sizeof tga, f);
+    fclose(f);
+    f = extremes_file("sky.pfm");
+    fprintf(f, "PF\n2 2\n-1\n");
+    fwrite(sky, sizeof sky, 1, f);
+    fclose(f);
+}
+
+static inline void put_numbers(FILE *f, const char *key, int count,
+                               double (*number)(uint64_t *), uint64_t *seed)
+{
+    fprintf(f, "%s", key);
+    while (count-- > 0)
+        fprintf(f, " %.9g", number(seed));
+    fprintf(f, "\n");
+}
+
+static inline void put_any_material(FILE *f, int number, uint64_t *seed)
+{
+    static const char *const numbers[] = {"Ns", "Ni", "d",           "Tr",
+                                          "Pr", "Pm", "Kd_roughness"};
+    static const char *const colors[] = {"Kd", "Ks", "Ke", "Tf"};
+    static const char *const maps[] = {"map_Kd", "map_Ks",  "map_Ke",
+                                       "map_Pr", "map_Pm",  "map_d",
+                                       "norm",   "map_Bump"};
+
+    fprintf(f, "newmtl m%d\nillum %d\n", number, (int)one_of(seed, 11));
+    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++)
+        if (check_random(seed) < 0.5)
+            put_numbers(f, colors[i], check_random(seed) < 0.5 ? 1 : 3, amount,
+                        seed);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (check_random(seed) < 0.25)
+            put_numbers(f, numbers[i], 1, amount, seed);
+    if (check_random(seed) < 0.1)
+        fprintf(f, "Ke_blackbody %g %.9g\n", 500 + 5000 * check_random(seed),
+                amount(seed));
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
+        if (check_random(seed) < 0.1)
+            fprintf(f, "%s -o %.9g %.9g -s %.9g %.9g t.tga\n", maps[i],
+                    coordinate(seed), coordinate(seed), coordinate(seed),
+                    coordinate(seed));
+}
+
+static inline void put_faces(FILE *f, int materials, int vertices,
+                             uint64_t *seed)
+{
+    int count = 1 + (int)one_of(seed, 20);
+
+    while (count-- > 0) {
+        int corners = one_of(seed, 4) == 0 ? 4 : 3;
+        uint32_t kind = one_of(seed, 4);
+
+        fprintf(f, "usemtl m%d\nf", (int)one_of(seed, (uint32_t)materials));
+        for (int i = 0; i < corners; i++) {
+            int v = 1 + (int)one_of(seed, (uint32_t)vertices);
+
+            if (kind == 0)
+                fprintf(f, " %d", v);
+            else if (kind == 1)
+                fprintf(f, " %d//%d", v, v);
+            else
+                fprintf(f, " %d/%d%s", v, v, kind == 2 ? "" : "/1");
+        }
+        fprintf(f, "\n");
+    }
+}
+
+static inline void put_scene(uint64_t *seed)
+{
+    int materials = 1 + (int)one_of(seed, 5);
+    int vertices = 4 + (int)one_of(seed, 20);
+    FILE *f = extremes_file("a.mtl");
+
+    for (int i = 0; i < materials; i++)
+        put_any_material(f, i, seed);
+    fclose(f);
+    f = extremes_file("a.obj");
+    fprintf(f, "mtllib a.mtl\n");
+    for (int i = 0; i < vertices; i++) {
+        put_numbers(f, "v", 3, coordinate, seed);
+        put_numbers(f, "vn", 3, coordinate, seed);
+        put_numbers(f, "vt", 2, coordinate, seed);
+    }
+    put_faces(f, materials, vertices, seed);
+    fclose(f);
+}
+
+/* A number that the view's key takes. */
+static inline double up_to_1e30(uint64_t *seed)
+{
+    return fmin(amount(seed), 1e30);
+}
+
+static inline double place(uint64_t *seed)
+{
+    return fmax(-1e30, fmin(coordinate(seed), 1e30));
+}
+
+static inline void put_view(uint64_t *seed)
+{
+    FILE *f = extremes_file("a.view");
+
+    fprintf(f, "res %d %d\n", EXTREMES_SIDE, EXTREMES_SIDE);
+    if (check_random(seed) < 0.3) {
+        put_numbers(f, "eye", 3, place, seed);
+        put_numbers(f, "at", 3, place, seed);
+        put_numbers(f, "up", 3, place, seed);
+    }
+    if (check_random(seed) < 0.3)
+        fprintf(f, "fovy %.9g\n",
+                1e-6 + 179.99999 * pow(check_random(seed), 3));
+    if (check_random(seed) < 0.2)
+        put_numbers(f, "aperture", 1, up_to_1e30, seed);
+    if (check_random(seed) < 0.2)
+        put_numbers(f, "focus", 1, up_to_1e30, seed);
+    if (check_random(seed) < 0.3)
+        put_numbers(f, "background", 3, up_to_1e30, seed);
+    if (check_random(seed) < 0.2)
+        fprintf(f, "sky sky.pfm\nsky_rotation %g\n", 360 * check_random(seed));
+    if (check_random(seed) < 0.2)
+        put_numbers(f, "sky_strength", 1, up_to_1e30, seed);
+    if (check_random(seed) < 0.3)
+        fprintf(f, "max_bounces %d\n", (int)one_of(seed, 9));
+    fclose(f);
+}
+
+/* ---- pictures ---- */
+
+static inline void extremes_add(struct extremes *x, struct backend *backend,
+                                struct error *err)
+{
+    struct render *render = backend ? render_create(backend, err) : NULL;
+
+    if (render == NULL) {
+        printf("extremes: %s\n", err->text);
+        exit(2);
+    }
+    x->backends[x->count] = backend;
+    x->renders[x->count++] = render;
+}
+
+/* In an empty folder; the device is left out, with a word, if there is none. */
+static inline void extremes_open(struct extremes *x, bool on_device)
+{
+    struct cl_request request = {.features = FEATURES_ALL};
+    const struct paths *paths;
+    struct backend *device;
+    struct error err;
+    char *log = NULL;
+
+    *x = (struct extremes){.count = 0};
+    put_images();
+    for (int i = 0; (paths = isa_at(i)) != NULL; i++)
+        extremes_add(x, backend_cpu_create(1, paths, &err), &err);
+    if (!on_device)
+        return;
+    cl_environment_prepare(0);
+    device = backend_cl_create(&request, &log, &err);
+    free(log);
+    x->has_device = device != NULL;
+    if (device != NULL)
+        extremes_add(x, device, &err);
+    else
+        printf("skip: %s\n", err.text);
+}
+
+static inline void extremes_close(struct extremes *x)
+{
+    static const char *const files[] = {"a.obj", "a.mtl", "a.view", "t.tga",
+                                        "sky.pfm"};
+
+    for (int i = 0; i < x->count; i++) {
+        render_destroy(x->renders[i]);
+        x->backends[i]->destroy(x->backends[i]);
+    }
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        unlink(files[i]);
+}
+
+#define EXTREMES_NUMBERS ((size_t)3 * EXTREMES_SIDE * EXTREMES_SIDE)
+
+/* False, with a line, if it is not as it must be; `first` is the first one's
+ * picture. */
+static inline bool extremes_render(struct extremes *x, struct session *s,
+                                   int which, uint32_t number, float *first)
+{
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = true,
+                             .crop = s->crop,
+                             .spp = EXTREMES_SPP};
+    struct render *render = x->renders[which];
+    float rgb[EXTREMES_NUMBERS];
+    struct render_progress p;
+    struct error err;
+
+    if (!scene_world(&s->scene, &s->view, number, &job.world, &err))
+        return true; /* a camera that is out of the world */
+    if (!render_start(render, &job, &err) || !render_wait(render, 60000)) {
+        printf("scene %u: does not end\n", number);
+        exit(2);
+    }
+    p = render_progress(render);
+    film_linear(render_film(render), rgb);
+    render_halt(render);
+    if (which == 0) {
+        memcpy(first, rgb, sizeof rgb);
+        x->samples += p.samples;
+        x->saturated += p.saturated;
+    }
+    if (p.state == RENDER_DONE && p.non_finite == 0 &&
+        memcmp(first, rgb, sizeof rgb) == 0)
+        return true;
+    printf("scene %u, renderer %d: %s, %llu samples are not finite, %s\n",
+           number, which, p.state == RENDER_DONE ? "done" : p.error.text,
+           (unsigned long long)p.non_finite,
+           memcmp(first, rgb, sizeof rgb) == 0 ? "the same picture"
+                                               : "another picture");
+    return false;
+}
+
+/* Scene `number`, on the device as well if so. False, with a line, if it is not
+ * as it must be. */
+static inline bool extremes_check(struct extremes *x, uint32_t number,
+                                  bool on_device)
+{
+    uint64_t seed = number * UINT64_C(0x100000001b3) + 1;
+    int count = x->count - (x->has_device && !on_device);
+    float first[EXTREMES_NUMBERS] = {0};
+    struct options options;
+    struct session s;
+    struct error err;
+    bool ok = true;
+
+    put_scene(&seed);
+    put_view(&seed);
+    options_init(&options);
+    options.scene_path = "a.obj";
+    options.thread_count = 1;
+    x->scenes++;
+    if (session_load(&s, &options, 0, &err)) {
+        x->on_device += x->has_device && on_device;
+        for (int i = 0; i < count; i++)
+            ok = extremes_render(x, &s, i, number, first) && ok;
+    } else {
+        x->refused++;
+    }
+    session_close(&s);
+    return ok;
+}
+
+#endif

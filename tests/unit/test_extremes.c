@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "tests/stress/extremes.h"
+
+/* Of which so many are rendered on the device as well. */
+#define SCENES    300
+#define ON_DEVICE 15
+
+static void random_extremes_are_finite(void **state)
+{
+    struct extremes *x = *state;
+
+    for (uint32_t i = 0; i < SCENES; i++)
+        assert_true(extremes_check(x, i, i % (SCENES / ON_DEVICE) == 0));
+    assert_int_equal(x->scenes, SCENES);
+    assert_in_range(x->refused, 0, SCENES / 10);
+    assert_true(x->saturated > 0);
+}
+
+/* Two faces that shine at each other, as brightly as a float can say: light
+ * adds up to more. */
+static void facing_lamps_are_finite(void **state)
+{
+    struct extremes *x = *state;
+    struct options options;
+    struct session s;
+    struct error err;
+    float first[EXTREMES_NUMBERS];
+    FILE *f = extremes_file("a.mtl");
+
+    fprintf(f, "newmtl m\nKd .8 .8 0\nKe 3e38\n");
+    fclose(f);
+    f = extremes_file("a.obj");
+    fprintf(f,
+            "mtllib a.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+            "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 2 3 4\nf 8 7 6 5\n");
+    fclose(f);
+    f = extremes_file("a.view");
+    fprintf(f, "eye 0 0 .5\nat 0 0 0\nup 0 1 0\nres %d %d\n", EXTREMES_SIDE,
+            EXTREMES_SIDE);
+    fclose(f);
+    options_init(&options);
+    options.scene_path = "a.obj";
+    options.thread_count = 1;
+    assert_true(session_load(&s, &options, 0, &err));
+    x->samples = x->saturated = 0;
+    for (int i = 0; i < x->count; i++)
+        assert_true(extremes_render(x, &s, i, 0, first));
+    assert_int_equal(x->samples, EXTREMES_SPP * EXTREMES_SIDE * EXTREMES_SIDE);
+    assert_int_equal(x->saturated, x->samples);
+    for (size_t i = 0; i < EXTREMES_NUMBERS; i++)
+        assert_true(first[i] == 0x1p62f);
+    session_close(&s);
+}
+
+static char folder[] = "/tmp/glim-extremes-XXXXXX";
+static struct extremes extremes;
+
+static int open_all(void **state)
+{
+    if (mkdtemp(folder) == NULL || chdir(folder) != 0)
+        return -1;
+    extremes_open(&extremes, true);
+    *state = &extremes;
+    return 0;
+}
+
+static int close_all(void **state)
+{
+    extremes_close(*state);
+    return chdir("/") != 0 || rmdir(folder) != 0 ? -1 : 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(facing_lamps_are_finite),
+        cmocka_unit_test(random_extremes_are_finite),
+    };
+
+    return cmocka_run_group_tests(tests, open_all, close_all);
+}
