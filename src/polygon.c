@@ -16,8 +16,8 @@
 #define WORK_PER_CORNER 1000
 #define MANY_CORNERS    1024
 
-/* Triangles that are cut blindly. They overlap, and a ray meets most of them:
- * large outlines lose corners instead. */
+/* Triangles that are a guess. They overlap, and a ray meets most of them: large
+ * outlines lose corners instead. */
 #define REST_MOST 1000
 
 /* Rounding of coordinates as numbers in files have it, in parts of the largest:
@@ -386,7 +386,7 @@ static void cut_ring(struct polygon *g, uint32_t count)
             continue;
         }
         g->crosses_itself |= turn(g, a, b, c) < 0 || rule == EAR_CONVEX;
-        if (rule != EAR_ANY || count <= REST_MOST)
+        if (rule < EAR_CONVEX || count <= REST_MOST)
             emit(g, a, b, c);
         take_out(g, b);
         count--;
