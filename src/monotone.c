@@ -509,7 +509,7 @@ static bool sweep_over(struct sweep *s, const struct point2 *points, uint32_t n)
         if (!pass(s, site))
             return false;
     }
-    return s->edges[NONE].child[0] == NONE &&
+    return s->edges[NONE].child[0] == NONE && s->triangle_count > 0 &&
            s->triangle_count <= s->triangle_max && area_is_right(s, points, n);
 }
 

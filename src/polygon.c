@@ -7,14 +7,18 @@
 
 #include "glim/util.h"
 
-/* Polygons of more corners are swept over. */
+/* Polygons of more corners are swept over. A large fan is slow to trace. */
 #define EARS_MOST 100
 
 /* Corners looked at before the rest is cut blindly: no file may take longer
  * than its size explains. */
 #define WORK_AT_LEAST   20000
 #define WORK_PER_CORNER 1000
-#define MANY_CORNERS    65536
+#define MANY_CORNERS    1024
+
+/* Triangles that are a guess. They overlap, and a ray meets most of them: large
+ * outlines lose corners instead. */
+#define REST_MOST 1000
 
 /* Rounding of coordinates as numbers in files have it, in parts of the largest:
  * a few units in the last place of a double. */
@@ -89,8 +93,10 @@ static void emit(struct polygon *g, uint32_t a, uint32_t b, uint32_t c)
 
 static bool emit_fan(struct polygon *g, uint32_t n)
 {
-    for (uint32_t i = 2; i < n; i++)
-        emit(g, 0, i - 1, i);
+    uint32_t step = 1 + n / REST_MOST;
+
+    for (uint32_t i = 1; i < n - 1; i += step)
+        emit(g, 0, i, i + step < n ? i + step : n - 1);
     return true;
 }
 
@@ -341,12 +347,11 @@ static bool is_ear(struct polygon *g, enum ear_rule rule, uint32_t b)
                                   is_empty_ear(g, rule, ear));
 }
 
-static void cut_off(struct polygon *g, uint32_t b)
+static void take_out(struct polygon *g, uint32_t b)
 {
     uint32_t a = g->prev[b];
     uint32_t c = g->next[b];
 
-    emit(g, a, b, c);
     g->next[a] = c;
     g->prev[c] = a;
     g->next[b] = NOT_LINKED;
@@ -381,7 +386,9 @@ static void cut_ring(struct polygon *g, uint32_t count)
             continue;
         }
         g->crosses_itself |= turn(g, a, b, c) < 0 || rule == EAR_CONVEX;
-        cut_off(g, b);
+        if (rule < EAR_CONVEX || count <= REST_MOST)
+            emit(g, a, b, c);
+        take_out(g, b);
         count--;
         if (misses > 1) /* neither end of the last cut */
             is_scarce = misses > SCARCE_MISSES;
@@ -420,9 +427,9 @@ bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
     if (n == 3 || !find_plane(&plane, corners, n))
         return emit_fan(g, n);
     project(g, &plane, corners, n);
-    if (is_convex(g, n))
-        return emit_fan(g, n);
     if (n <= EARS_MOST) {
+        if (is_convex(g, n))
+            return emit_fan(g, n);
         cut_ears(g, corners, n);
         if (!g->crosses_itself)
             return true;

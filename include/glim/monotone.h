@@ -24,7 +24,7 @@ struct point2 {
 
 enum monotone_result {
     MONOTONE_DONE,
-    MONOTONE_CROSSING, /* the outline crosses itself */
+    MONOTONE_CROSSING, /* the outline crosses itself, or is all noise */
     MONOTONE_NO_MEMORY
 };
 

@@ -2,10 +2,11 @@
 /*
  * polygon.h - cuts polygons of any size into triangles
  *
- * A strictly convex polygon becomes a fan; others lose one ear after the other
- * (Meisters 1975), where only reflex corners can be in the way of an ear, and
- * a grid finds those. Polygons with holes, joined to the outline by a bridge,
- * have coincident corners: these are in nobody's way.
+ * A small polygon becomes a fan if it is strictly convex, or else loses one ear
+ * after the other (Meisters 1975), where only reflex corners can be in the way
+ * of an ear. Large polygons, and small ones that defeat ears, are swept over
+ * (monotone.h). What crosses itself loses ears as long as its size explains,
+ * and then is cut blindly.
  *
  * Units:     any
  * Ownership: polygon_free() frees; a zeroed struct is ready for use
@@ -37,7 +38,8 @@ struct polygon {
 };
 
 /* Fills triangles from the corners (3 doubles each, finite, at least 3). They
- * keep the polygon's winding. False when memory is out. */
+ * keep the polygon's winding. Of thousands of corners that cross themselves
+ * some have no triangle. False when memory is out. */
 bool polygon_cut(struct polygon *polygon, const double *corners,
                  uint32_t corner_count);
 
