@@ -357,6 +357,12 @@ bool edit_has_unsaved_view(const struct edit *e)
                   e->object_count * sizeof *e->now.assigned) != 0;
 }
 
+void edit_tidy_material(struct edit *e, uint32_t material, uint32_t pattern)
+{
+    e->now.sources[material] = mtl_source_needed(&e->saved.sources[pattern],
+                                                 &e->now.sources[material]);
+}
+
 void edit_saved_material(struct edit *e, uint32_t material)
 {
     e->saved.sources[material] = e->now.sources[material];

@@ -421,7 +421,9 @@ static void test_what_was_saved(void **state)
             uint32_t material = mtl_find(&s.scene, names[k]);
             struct mtl_source source = s.edit.now.sources[material];
 
+            /* one of them is the colour of a lamp, the other that of glass */
             source.kd = (struct mtl_color){{.25 * (double)(1 + i), 0, 0}, 1};
+            source.tf = source.kd;
             edit_material(&s.edit, material, &source);
         }
         what = saved(&s);
