@@ -387,16 +387,17 @@ struct mtl_source mtl_source_needed(const struct mtl_source *file,
     struct mtl_source s = *wanted;
     struct mtl_source candidate;
 
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        candidate = s;
-        memcpy((char *)&candidate + numbers[i], (const char *)file + numbers[i],
-               sizeof file->illum);
-        take_if_same(&s, &candidate);
-    }
+    /* first, so that Pm makes the metal and not the Ks of a coat */
     for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
         candidate = s;
         memcpy((char *)&candidate + colors[i], (const char *)file + colors[i],
                sizeof file->kd);
+        take_if_same(&s, &candidate);
+    }
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        candidate = s;
+        memcpy((char *)&candidate + numbers[i], (const char *)file + numbers[i],
+               sizeof file->illum);
         take_if_same(&s, &candidate);
     }
     candidate = s;

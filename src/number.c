@@ -274,7 +274,7 @@ double number_shortened(double value)
     const char *p = text;
     double shortened = value;
 
-    if (!(fabs(value) <= (double)FLT_MAX))
+    if (!(fabs(value) >= (double)FLT_MIN && fabs(value) <= (double)FLT_MAX))
         return value;
     number_format_float(text, (float)value);
     number_parse(&p, text + strlen(text), &shortened);

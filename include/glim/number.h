@@ -26,7 +26,7 @@ void number_format(char text[NUMBER_TEXT_BYTES], double value);
 void number_format_float(char text[NUMBER_TEXT_BYTES], float value);
 
 /* The number that the shortest text of its float stands for. Beyond the range
- * of floats the number itself. */
+ * of normal floats the number itself. */
 double number_shortened(double value);
 
 #endif

@@ -332,6 +332,10 @@ static void test_shortest(void **state)
         number_format(text, cases[i].value);
         assert_string_equal(text, cases[i].as_double);
     }
+    assert_true(number_shortened(1e-60) == 1e-60);
+    assert_true(number_shortened(1e60) == 1e60);
+    assert_true(number_shortened(0) == 0);
+    assert_true(number_shortened(0.1 + 0.2) == 0.3);
     for (int i = 0; i < 100000; i++) {
         uint32_t bits = (uint32_t)(next_random() >> 32);
         char text[NUMBER_TEXT_BYTES];
