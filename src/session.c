@@ -353,10 +353,7 @@ static size_t collect(struct session *s, uint32_t file,
     for (uint32_t i = 0; i < e->material_count; i++) {
         uint32_t pattern = pattern_of(e, i);
 
-        if (edit_is_saved(e, i) || file_of(s, i) != file)
-            continue;
-        edit_tidy_material(e, i, pattern);
-        if (edit_is_saved(e, i))
+        if (file_of(s, i) != file || !edit_tidy_material(e, i, pattern))
             continue;
         changes[count] = (struct mtl_change){
             .name = e->names[i],
