@@ -14,6 +14,7 @@
 #include "glim/event_fd.h"
 #include "glim/file.h"
 #include "glim/picture.h"
+#include "glim/print.h"
 #include "glim/show.h"
 #include "glim/stats.h"
 #include "glim/text.h"
@@ -168,9 +169,10 @@ static void bar_show(struct bar *bar, const char *text)
 
     if (cols > limit)
         cols = limit;
-    fprintf(stderr, "\r%.*s", cols, text);
+    fputc('\r', stderr);
+    print_text(stderr, "%.*s", cols, text);
     if (bar->shown_cols > cols)
-        fprintf(stderr, "%*s", bar->shown_cols - cols, "");
+        print_text(stderr, "%*s", bar->shown_cols - cols, "");
     bar->shown_cols = cols;
     fflush(stderr);
 }
@@ -325,18 +327,19 @@ static void say_result(const struct session *s, const char *name,
     const struct film *film = render_film(s->render);
 
     if (stop_signal != 0)
-        fprintf(stderr,
-                "stopped by %s at %" PRIu64 " of %" PRIu64 " spp: wrote %s\n",
-                signal_name(stop_signal), p->spp_done, p->spp_limit, name);
+        print_line(stderr,
+                   "stopped by %s at %" PRIu64 " of %" PRIu64 " spp: wrote %s",
+                   signal_name(stop_signal), p->spp_done, p->spp_limit, name);
     else
-        fprintf(stderr, "%s: %dx%d, %" PRIu64 " spp, %.1f s\n", name,
-                film->width, film->height, p->spp_done,
-                seconds_between(s->start_ns, clock_ns()));
+        print_line(stderr, "%s: %dx%d, %" PRIu64 " spp, %.1f s", name,
+                   film->width, film->height, p->spp_done,
+                   seconds_between(s->start_ns, clock_ns()));
     if (p->non_finite > 0)
-        fprintf(stderr,
-                "glim: warning: %" PRIu64 " samples were not finite and count "
-                "as black\n",
-                p->non_finite);
+        print_line(stderr,
+                   "glim: warning: %" PRIu64
+                   " samples were not finite and count "
+                   "as black",
+                   p->non_finite);
 }
 
 /* A picture that was given a free name may have taken that of the statistics.
@@ -363,10 +366,10 @@ static bool save_all(struct show *show, struct error *err)
 
     if (p.samples == 0) {
         /* an old picture is worth more than a black one */
-        fprintf(stderr,
-                "stopped by %s before the first sample: nothing "
-                "written\n",
-                signal_name(stop_signal));
+        print_line(stderr,
+                   "stopped by %s before the first sample: nothing "
+                   "written",
+                   signal_name(stop_signal));
         return true;
     }
     ok = save_picture(show, &name, err);
@@ -380,26 +383,28 @@ static bool save_all(struct show *show, struct error *err)
 
 static void warn_of_device(const struct error *err)
 {
-    fprintf(stderr, "glim: warning: %s; the CPU renders\n", err->text);
+    print_line(stderr, "glim: warning: %s; the CPU renders", err->text);
 }
 
-/* The device that the options want, if it comes up. That there is no GPU is
- * no news to those who let glim choose. */
-static void use_device(struct session *s)
+/* The device that the options want, if it comes up. Who names one wants no
+ * other machine. That there is no GPU is no news to those who let glim choose.
+ */
+static bool use_device(struct session *s, struct error *err)
 {
+    const struct options *o = s->options;
     struct machines *m = &s->machines;
-    struct error err;
     char *log = NULL;
+    bool is_up = machines_begin_device(m, scene_features(&s->scene), err) &&
+                 machines_end_device(m, &log, err);
 
-    if (machines_begin_device(m, scene_features(&s->scene), &err) &&
-        machines_end_device(m, &log, &err)) {
+    if (is_up)
         render_use(s->render, m->device);
-    } else if (s->options->backend != BACKEND_AUTO) {
-        if (log && *log != '\0')
-            fprintf(stderr, "%s\n", log);
-        warn_of_device(&err);
-    }
+    else if (log && (o->device || o->backend != BACKEND_AUTO))
+        print_lines(stderr, log);
     free(log);
+    if (!is_up && !o->device && o->backend != BACKEND_AUTO)
+        warn_of_device(err);
+    return is_up || !o->device;
 }
 
 /* Renders; a device that fails is replaced by the CPU, which starts anew. */
@@ -430,9 +435,9 @@ static bool run_show(struct show *show, struct error *err)
         show_set(show, s->options->show, err) && save_picture(show, &name, err);
 
     if (ok)
-        fprintf(stderr, "%s: %dx%d, %s, %.1f s\n", name, s->crop.width,
-                s->crop.height, options_shows[s->options->show],
-                seconds_between(s->start_ns, clock_ns()));
+        print_line(stderr, "%s: %dx%d, %s, %.1f s", name, s->crop.width,
+                   s->crop.height, options_shows[s->options->show],
+                   seconds_between(s->start_ns, clock_ns()));
     free(name);
     return ok;
 }
@@ -442,8 +447,8 @@ static bool run_light(struct show *show, int *status, struct error *err)
     struct session *s = show->session;
 
     /* before our signals are set: drivers put theirs over them */
-    if (s->options->backend != BACKEND_CPU)
-        use_device(s);
+    if (s->options->backend != BACKEND_CPU && !use_device(s, err))
+        return false;
     if (!catch_signals(err) || !render_all(s, err) || !save_all(show, err))
         return false;
     *status = stop_signal != 0 ? 128 + stop_signal : 0;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "glim/cl_environment.h"
+#include "glim/print.h"
 
 /* Drivers pad their names. */
 static char *trimmed(char *text)
@@ -18,6 +19,7 @@ static char *trimmed(char *text)
         length--;
     memmove(text, text + begin, length);
     text[length] = '\0';
+    print_replace(text);
     return text;
 }
 
@@ -261,17 +263,18 @@ void cl_devices_print(const struct cl_devices *list, FILE *out)
         device = wider(device, list->items[i].name);
         driver = wider(driver, list->items[i].driver_version);
     }
-    fprintf(out, "%2s  %-5s  %5s  %10s  %-10s  %-*s  %-*s  %s\n", "N", "kind",
-            "units", "memory", "version", driver, "driver", device, "device",
-            "platform");
+    print_line(out, "%2s  %-5s  %5s  %10s  %-10s  %-*s  %-*s  %s", "N", "kind",
+               "units", "memory", "version", driver, "driver", device, "device",
+               "platform");
     for (int i = 0; i < list->count; i++) {
         const struct cl_device *d = &list->items[i];
 
-        fprintf(out,
-                "%2d  %-5s  %5" PRIu32 "  %6.1f GiB  %-10.*s  %-*s  %-*s  %s\n",
-                i + 1, kind_of(d), d->compute_units,
-                (double)d->memory_bytes / (1 << 30), version_length(d->version),
-                d->version, driver, d->driver_version, device, d->name,
-                d->platform_name);
+        print_line(out,
+                   "%2d  %-5s  %5" PRIu32
+                   "  %6.1f GiB  %-10.*s  %-*s  %-*s  %s",
+                   i + 1, kind_of(d), d->compute_units,
+                   (double)d->memory_bytes / (1 << 30),
+                   version_length(d->version), d->version, driver,
+                   d->driver_version, device, d->name, d->platform_name);
     }
 }

@@ -16,6 +16,7 @@
 #include "glim/cl_source.h"
 #include "glim/file.h"
 #include "glim/isa.h"
+#include "glim/print.h"
 #include "glim/selftest.h"
 
 extern char **environ;
@@ -120,7 +121,7 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
     bool ok = false;
 
     if (log != NULL)
-        fputs(log, stderr);
+        print_lines(stderr, log);
     free(log);
     if (device == NULL)
         return false;
@@ -131,7 +132,8 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
     }
     if (ok) {
         name = cl_probe_device(device);
-        printf("%s\n%s\n", name, verdict);
+        print_line(stdout, "%s", name);
+        print_line(stdout, "%s", verdict);
         free(name);
     }
     device->destroy(device);

@@ -1,37 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "glim/columns.h"
 
-#include <stdbool.h>
 #include <string.h>
-#include <wchar.h>
 
-/* A character of the text as it is shown. */
-struct shown {
-    const char *bytes;
-    size_t size_bytes;  /* of what is shown */
-    size_t taken_bytes; /* of the text */
-    int cols;
-};
-
-static struct shown next_shown(const char *text)
-{
-    mbstate_t state = {0};
-    wchar_t c;
-    size_t n = mbrtowc(&c, text, strlen(text), &state);
-    bool is_character = n != 0 && n != (size_t)-1 && n != (size_t)-2;
-    int cols = is_character ? wcwidth(c) : -1;
-
-    if (cols < 0)
-        return (struct shown){"?", 1, is_character ? n : 1, 1};
-    return (struct shown){text, n, n, cols};
-}
+#include "glim/print.h"
 
 int columns_of(const char *text)
 {
     int cols = 0;
 
     while (*text != '\0') {
-        struct shown s = next_shown(text);
+        struct print_character s = print_first(text);
 
         cols += s.cols;
         text += s.taken_bytes;
@@ -44,7 +23,7 @@ int columns_cut(char *to, size_t size_bytes, const char *text, int cols)
     int used = 0;
 
     while (*text != '\0') {
-        struct shown s = next_shown(text);
+        struct print_character s = print_first(text);
 
         if (s.cols > cols - used || s.size_bytes >= size_bytes)
             break;

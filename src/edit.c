@@ -357,6 +357,15 @@ bool edit_has_unsaved_view(const struct edit *e)
                   e->object_count * sizeof *e->now.assigned) != 0;
 }
 
+bool edit_tidy_material(struct edit *e, uint32_t material, uint32_t pattern)
+{
+    if (edit_is_saved(e, material))
+        return false;
+    e->now.sources[material] = mtl_source_needed(&e->saved.sources[pattern],
+                                                 &e->now.sources[material]);
+    return !edit_is_saved(e, material);
+}
+
 void edit_saved_material(struct edit *e, uint32_t material)
 {
     e->saved.sources[material] = e->now.sources[material];

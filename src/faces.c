@@ -48,34 +48,36 @@ static bool resolve(int64_t index, uint32_t count, uint32_t *to)
 }
 
 static bool report_index(const struct faces *f, const struct lex *lex,
-                         const char *what, int64_t index, uint32_t count)
+                         const char *what, struct word index, uint32_t count)
 {
+    struct word_text text = word_cut(index);
+
     if (count == 0)
         report_add(f->report, "faces with a bad index",
-                   "%s:%" PRIu64 ": found %s %" PRId64 " in a face, expected "
-                   "none, for there are none so far: face dropped",
-                   f->path, lex->line, what, index);
+                   "%s:%" PRIu64 ": found %s %s in a face, expected none, for "
+                   "there are none so far: face dropped",
+                   f->path, lex->line, what, text.text);
     else
         report_add(f->report, "faces with a bad index",
-                   "%s:%" PRIu64 ": found %s %" PRId64 " in a face, expected 1 "
-                   "to %" PRIu32 " or -1 to -%" PRIu32 ": face dropped",
-                   f->path, lex->line, what, index, count, count);
+                   "%s:%" PRIu64 ": found %s %s in a face, expected 1 to "
+                   "%" PRIu32 " or -1 to -%" PRIu32 ": face dropped",
+                   f->path, lex->line, what, text.text, count, count);
     return false;
 }
 
 /* Where a file has no normals (or texture vertices) at all, somebody took them
  * out and left their numbers in the faces. */
 static bool was_taken_out(const struct faces *f, const struct lex *lex, int k,
-                          int64_t index, uint32_t count)
+                          int64_t index, struct word word, uint32_t count)
 {
     if (k == 0 || count > 0 || index < 1)
         return false;
     report_add(f->report,
                k == 1 ? "corners without their texture vertex"
                       : "corners without their normal",
-               "%s:%" PRIu64 ": found %s %" PRId64 " in a face, but the file "
-               "has none so far: face used without",
-               f->path, lex->line, corner_names[k], index);
+               "%s:%" PRIu64 ": found %s %s in a face, but the file has none "
+               "so far: face used without",
+               f->path, lex->line, corner_names[k], word_cut(word).text);
     return true;
 }
 
@@ -104,9 +106,11 @@ static bool parse_corner(const struct faces *f, const struct lex *lex,
         int64_t index;
 
         if (parse_index(&p, end, &index)) {
+            struct word text = {start, (size_t)(p - start)};
+
             if (!resolve(index, counts[k], &indices[k]) &&
-                !was_taken_out(f, lex, k, index, counts[k]))
-                return report_index(f, lex, corner_names[k], index, counts[k]);
+                !was_taken_out(f, lex, k, index, text, counts[k]))
+                return report_index(f, lex, corner_names[k], text, counts[k]);
         } else if (k == 0 || p != start) {
             return report_malformed(f, lex, word);
         }

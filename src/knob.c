@@ -264,6 +264,7 @@ static void turn_mood(const struct edit *e, struct mood *m,
     case KNOB_CHANNEL + 1:
     case KNOB_CHANNEL + 2:
         turn_channel(m->background, t, id - KNOB_CHANNEL, steps);
+        look_shorten(m->background);
         m->has_background = true;
         break;
     default: break;

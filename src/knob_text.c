@@ -140,8 +140,11 @@ static bool type_mood(struct edit *e, struct mood *m,
     case KNOB_EXPOSURE:
         return scale_parse(&scale_exposure, text, &m->exposure, err);
     default:
+        if (!type_color(m->background, 1e30, t, id, text, err))
+            return false;
+        look_shorten(m->background);
         m->has_background = true;
-        return type_color(m->background, 1e30, t, id, text, err);
+        return true;
     }
 }
 

@@ -225,15 +225,21 @@ bool word_is(struct word word, const char *text)
            memcmp(word.start, text, word.length) == 0;
 }
 
-struct word_text word_quote(struct word word)
+struct word_text word_cut(struct word word)
 {
-    struct word_text quote;
+    struct word_text cut;
     int length = word.length < QUOTE_BYTES ? (int)word.length : QUOTE_BYTES;
 
-    if (word.length == 0)
-        snprintf(quote.text, sizeof quote.text, "the end of the line");
-    else
-        snprintf(quote.text, sizeof quote.text, "'%.*s%s'", length, word.start,
-                 word.length > QUOTE_BYTES ? "..." : "");
+    snprintf(cut.text, sizeof cut.text, "%.*s%s", length, word.start,
+             word.length > QUOTE_BYTES ? "..." : "");
+    return cut;
+}
+
+struct word_text word_quote(struct word word)
+{
+    struct word_text quote = {"the end of the line"};
+
+    if (word.length > 0)
+        snprintf(quote.text, sizeof quote.text, "'%.60s'", word_cut(word).text);
     return quote;
 }

@@ -8,6 +8,7 @@
 #include "glim/channels.h"
 #include "glim/footprint.h"
 #include "glim/light_tree.h"
+#include "glim/material.h"
 #include "kernels/texture.h"
 
 /* Of all lights together: no light is without any. */
@@ -32,14 +33,9 @@
 #define FLAT_COSINE 0.999999f
 #define PAIR_RATIO  1.5
 
-static bool shines(const struct material *m)
-{
-    return v3_max(m->emission) > 0.0f && m->opacity > 0.0f;
-}
-
 bool lights_differ(const struct material *a, const struct material *b)
 {
-    if (!shines(a) && !shines(b))
+    if (!material_shines(a) && !material_shines(b))
         return false;
     return memcmp(&a->emission, &b->emission, sizeof a->emission) != 0 ||
            a->emission_texture != b->emission_texture ||
@@ -203,7 +199,7 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
         struct emitter e;
 
         l->tri_lights[i] = NO_INDEX;
-        if (!shines(&w->materials[w->tris[i].material]) ||
+        if (!material_shines(&w->materials[w->tris[i].material]) ||
             !make_emitter(w, i, footprints, &e, &l->glare))
             continue;
         total += e.power;
@@ -261,7 +257,7 @@ bool lights_build(struct lights *lights, const struct world *w,
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         uint32_t material = w->tris[i].material;
 
-        is_used[material] = shines(&w->materials[material]);
+        is_used[material] = material_shines(&w->materials[material]);
         candidate_count += is_used[material] ? 1 : 0;
     }
     ok = candidate_count == 0 ||

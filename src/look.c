@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "glim/number.h"
+
 /* An ordinary coat; see MATERIAL_COAT. */
 #define COAT_USUAL 0.5
 
@@ -76,14 +78,22 @@ void look_color(const struct mtl_source *source, double rgb[3])
         memcpy(rgb, c->rgb, sizeof c->rgb);
 }
 
+void look_shorten(double rgb[3])
+{
+    for (int i = 0; i < 3; i++)
+        rgb[i] = number_shortened(rgb[i]);
+}
+
 void look_put_number(struct mtl_number *n, double value)
 {
-    *n = (struct mtl_number){value, n->line != 0 ? n->line : 1};
+    *n = (struct mtl_number){number_shortened(value),
+                             n->line != 0 ? n->line : 1};
 }
 
 void look_put_color(struct mtl_color *c, const double rgb[3])
 {
     memcpy(c->rgb, rgb, sizeof c->rgb);
+    look_shorten(c->rgb);
     c->line = c->line != 0 ? c->line : 1;
 }
 

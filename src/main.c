@@ -23,6 +23,7 @@
 #include "glim/cl_probe.h"
 #include "glim/config.h"
 #include "glim/options.h"
+#include "glim/print.h"
 #include "glim/recent.h"
 #include "glim/session.h"
 #include "glim/tui.h"
@@ -47,7 +48,7 @@ static void fill_standard_files(void)
 
 static int complain(enum exit_status status, const struct error *err)
 {
-    fprintf(stderr, "glim: %s\n", err->text);
+    print_line(stderr, "glim: %s", err->text);
     return status;
 }
 
@@ -56,7 +57,8 @@ static int print_out(const char *text)
 {
     struct error err;
 
-    if (fputs(text, stdout) != EOF && fflush(stdout) == 0)
+    print_lines(stdout, text);
+    if (fflush(stdout) == 0 && !ferror(stdout))
         return EXIT_DONE;
     fail(&err, "standard output: %s", strerror(errno));
     return complain(EXIT_FAILED, &err);
@@ -114,9 +116,10 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     bool ok = session_open(s, o, start_ns, err);
     char *lost;
 
-    report_print(&s->report, stderr);
+    /* what was odd in a file counts only if there is something to render */
     if (!ok)
         return false;
+    report_print(&s->report, stderr);
     if (o->batch)
         return batch_run(s, status, err);
     lost = recent_find_lost();

@@ -4,6 +4,8 @@
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "glim/blackbody.h"
 
@@ -116,6 +118,12 @@ struct material material_default(void)
     };
 
     return m;
+}
+
+bool material_shines(const struct material *m)
+{
+    return (m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0) &&
+           m->opacity > 0;
 }
 
 static double unit_clamped(double x)
@@ -289,7 +297,7 @@ static void make_opaque(struct material *m, int illum,
         reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
     m->color_texture = map_kd;
     m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
-    m->metalness = s->pm.line != 0 ? (float)pm : 1;
+    m->metalness = is_mixed && s->pm.line != 0 ? (float)pm : 1;
     if (pm >= 0.5 && !is_mixed) {
         m->kind = MATERIAL_METAL;
         roughen(m, s, at);
@@ -347,4 +355,55 @@ struct material material_from_source(const struct mtl_source *s,
     m.emission = emission(&light, &at);
     m.emission_texture = mtl_source_map(s, MTL_MAP_KE);
     return m;
+}
+
+/* Where both give the same material the candidate is taken. */
+static void take_if_same(struct mtl_source *s,
+                         const struct mtl_source *candidate)
+{
+    struct report ignored = {0};
+    struct material a = material_from_source(s, "", &ignored);
+    struct material b = material_from_source(candidate, "", &ignored);
+
+    if (memcmp(&a, &b, sizeof a) == 0)
+        *s = *candidate;
+    report_free(&ignored);
+}
+
+struct mtl_source mtl_source_needed(const struct mtl_source *file,
+                                    const struct mtl_source *wanted)
+{
+    static const size_t numbers[] = {offsetof(struct mtl_source, illum),
+                                     offsetof(struct mtl_source, ns),
+                                     offsetof(struct mtl_source, ni),
+                                     offsetof(struct mtl_source, d),
+                                     offsetof(struct mtl_source, tr),
+                                     offsetof(struct mtl_source, pr),
+                                     offsetof(struct mtl_source, pm),
+                                     offsetof(struct mtl_source, kd_roughness)};
+    static const size_t colors[] = {offsetof(struct mtl_source, kd),
+                                    offsetof(struct mtl_source, ks),
+                                    offsetof(struct mtl_source, tf)};
+    struct mtl_source s = *wanted;
+    struct mtl_source candidate;
+
+    /* first, so that Pm makes the metal and not the Ks of a coat */
+    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
+        candidate = s;
+        memcpy((char *)&candidate + colors[i], (const char *)file + colors[i],
+               sizeof file->kd);
+        take_if_same(&s, &candidate);
+    }
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        candidate = s;
+        memcpy((char *)&candidate + numbers[i], (const char *)file + numbers[i],
+               sizeof file->illum);
+        take_if_same(&s, &candidate);
+    }
+    candidate = s;
+    candidate.ke = file->ke;
+    candidate.kelvin = file->kelvin;
+    candidate.luminance = file->luminance;
+    take_if_same(&s, &candidate);
+    return s;
 }

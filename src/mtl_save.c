@@ -126,8 +126,8 @@ static void print_pair(FILE *to, const char *option, struct vec2 v, int third)
 {
     char x[NUMBER_TEXT_BYTES], y[NUMBER_TEXT_BYTES];
 
-    number_format(x, (double)v.x);
-    number_format(y, (double)v.y);
+    number_format_float(x, v.x);
+    number_format_float(y, v.y);
     fprintf(to, "%s %s %s %d ", option, x, y, third);
 }
 

@@ -135,7 +135,7 @@ bool mtl_text_find_block(const struct mtl_text *t, const char *name,
 
             if (is_in)
                 b->end = s.line;
-            is_in = found != NULL && strcmp(found, name) == 0;
+            is_in = found != NULL && *found != '\0' && strcmp(found, name) == 0;
             is_found |= is_in;
             if (is_in)
                 *b = (struct mtl_block){s, s, t->size};

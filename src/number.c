@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "glim/number.h"
 
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stddef.h>
@@ -235,17 +236,47 @@ bool number_parse(const char **p, const char *end, double *value)
     return true;
 }
 
+/* Writes so many digits, and reads them. */
+static double format_digits(char text[NUMBER_TEXT_BYTES], double value,
+                            int digits)
+{
+    const char *p = text;
+    double back = 0;
+
+    snprintf(text, NUMBER_TEXT_BYTES, "%.*g", digits, value);
+    char *comma = strchr(text, ','); /* the locale's decimal point */
+    if (comma)
+        *comma = '.';
+    number_parse(&p, text + strlen(text), &back);
+    return back;
+}
+
+/* Six digits, trailing zeros left out, and more only where they are needed. */
 void number_format(char text[NUMBER_TEXT_BYTES], double value)
 {
     for (int digits = 6; digits <= 17; digits++) {
-        double back = 0;
-        const char *p = text;
-
-        snprintf(text, NUMBER_TEXT_BYTES, "%.*g", digits, value);
-        char *comma = strchr(text, ','); /* the locale's decimal point */
-        if (comma)
-            *comma = '.';
-        if (number_parse(&p, text + strlen(text), &back) && back == value)
+        if (format_digits(text, value, digits) == value)
             return;
     }
+}
+
+void number_format_float(char text[NUMBER_TEXT_BYTES], float value)
+{
+    for (int digits = 6; digits <= 9; digits++) {
+        if ((float)format_digits(text, (double)value, digits) == value)
+            return;
+    }
+}
+
+double number_shortened(double value)
+{
+    char text[NUMBER_TEXT_BYTES];
+    const char *p = text;
+    double shortened = value;
+
+    if (!(fabs(value) >= (double)FLT_MIN && fabs(value) <= (double)FLT_MAX))
+        return value;
+    number_format_float(text, (float)value);
+    number_parse(&p, text + strlen(text), &shortened);
+    return shortened;
 }

@@ -26,7 +26,7 @@ struct parser {
     struct report *report;
     struct error *err;
     struct lex lex;
-    uint64_t statement_count;
+    uint64_t statement_count, unknown_count;
     size_t position_capacity, normal_capacity, uv_capacity;
     struct names objects;
     struct names materials;   /* as used; 0 is "": none yet */
@@ -321,6 +321,7 @@ static bool skip_unknown(struct parser *p, struct word key)
         return true;
     }
     p->statement_count--;
+    p->unknown_count++;
     snprintf(name, sizeof name, "%.*s", length, key.start);
     report_add_named(p->report, "unknown statements", name,
                      "%s:%" PRIu64 ": found '%s', which glim does not use",
@@ -400,6 +401,12 @@ static bool parse_lines(struct parser *p)
     if (p->statement_count == 0)
         return fail(p->err, "%s: not an OBJ file: found no OBJ statement",
                     p->path);
+    /* a text in which some line begins with one of OBJ's words */
+    if (p->scene->position_count == 0 && p->unknown_count > p->statement_count)
+        return fail(p->err,
+                    "%s: not an OBJ file: found no vertex, and %" PRIu64
+                    " statements that are not OBJ's",
+                    p->path, p->unknown_count);
     return resolve_materials(p);
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "glim/file.h"
+#include "glim/print.h"
 #include "glim/util.h"
 #include "glim/xdg.h"
 
@@ -49,15 +50,17 @@ void recent_read(struct recent *r)
 static void write_list(const struct recent *r)
 {
     char *name = xdg_state_path("recent");
-    char *text = NULL;
-    size_t size_bytes = 0;
-    FILE *to = open_memstream(&text, &size_bytes);
+    char *text = xstrdup("");
     struct error ignored;
 
-    for (int i = 0; to && i < r->count; i++)
-        fprintf(to, "%s\n", r->paths[i]);
-    if (to && fclose(to) == 0 && name)
-        file_write(name, text, size_bytes, false, NULL, &ignored);
+    for (int i = 0; i < r->count; i++) {
+        char *longer = xformat("%s%s\n", text, r->paths[i]);
+
+        free(text);
+        text = longer;
+    }
+    if (name)
+        file_write(name, text, strlen(text), false, NULL, &ignored);
     free(text);
     free(name);
 }
@@ -109,16 +112,6 @@ char *recent_find_lost(void)
     return lost;
 }
 
-/* Names are foreign text. */
-static void print_path(FILE *out, const char *path)
-{
-    char *shown = xstrdup(path);
-
-    replace_controls(shown);
-    fputs(shown, out);
-    free(shown);
-}
-
 static char *path_of_answer(const struct recent *r, const char *answer)
 {
     char *end;
@@ -134,13 +127,10 @@ char *recent_choose(const struct recent *r, FILE *in, FILE *out)
     char *answer = NULL, *path = NULL;
     size_t capacity = 0;
 
-    for (int i = 0; i < r->count; i++) {
-        fprintf(out, "%3d  ", i + 1);
-        print_path(out, r->paths[i]);
-        fputc('\n', out);
-    }
+    for (int i = 0; i < r->count; i++)
+        print_line(out, "%3d  %s", i + 1, r->paths[i]);
     while (!path) {
-        fputs("number or name of a scene (Enter: 1, q: none): ", out);
+        print_text(out, "number or name of a scene (Enter: 1, q: none): ");
         fflush(out);
         if (getline(&answer, &capacity, in) < 0)
             break;
@@ -148,10 +138,8 @@ char *recent_choose(const struct recent *r, FILE *in, FILE *out)
         if (strcmp(answer, "q") == 0)
             break;
         path = path_of_answer(r, *answer == '\0' ? "1" : answer);
-        if (!path) {
-            print_path(out, answer);
-            fputs(": no such scene\n", out);
-        }
+        if (!path)
+            print_line(out, "%s: no such scene", answer);
     }
     free(answer);
     return path;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/print.h"
 #include "glim/util.h"
 
 static struct report_entry *find(const struct report *r, const char *kind)
@@ -34,7 +35,6 @@ add(struct report *r, const char *kind, const char *format, va_list args)
             xrealloc(r->entries, (size_t)r->capacity * sizeof *r->entries);
     }
     vsnprintf(text, sizeof text, format, args);
-    replace_controls(text);
     entry = &r->entries[r->entry_count++];
     entry->kind = xstrdup(kind);
     entry->text = xstrdup(text);
@@ -68,7 +68,6 @@ void report_add_named(struct report *r, const char *kind, const char *name,
     /* Long names that begin alike count as one. */
     char *named = xformat("%s '%.100s'", kind, name);
 
-    replace_controls(named);
     bool is_full =
         find(r, named) == NULL && count_named(r, kind) >= REPORT_NAMES_MAX;
     va_list args;
@@ -84,11 +83,11 @@ void report_print(const struct report *r, FILE *to)
     for (int i = 0; i < r->entry_count; i++) {
         const struct report_entry *entry = &r->entries[i];
 
-        fprintf(to, "glim: warning: %s", entry->text);
         if (entry->count > 1)
-            fprintf(to, " (and %" PRIu64 " more %s)", entry->count - 1,
-                    entry->kind);
-        fputc('\n', to);
+            print_line(to, "glim: warning: %s (and %" PRIu64 " more %s)",
+                       entry->text, entry->count - 1, entry->kind);
+        else
+            print_line(to, "glim: warning: %s", entry->text);
     }
 }
 

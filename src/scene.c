@@ -224,11 +224,6 @@ static void turn_tris(struct scene *scene)
     }
 }
 
-static bool shines(const struct material *m)
-{
-    return m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0;
-}
-
 static void fill_linear_of_srgb(float table[256])
 {
     for (int i = 0; i < 256; i++)
@@ -240,7 +235,7 @@ void scene_find_emitters(struct scene *scene)
     scene->has_emitters = false;
     for (uint32_t i = 0; i < scene->material_count; i++)
         scene->has_emitters |=
-            scene->material_is_used[i] && shines(&scene->materials[i]);
+            scene->material_is_used[i] && material_shines(&scene->materials[i]);
 }
 
 static bool find_used_materials(struct scene *scene, struct error *err)
@@ -376,7 +371,7 @@ uint32_t scene_material_features(const struct scene *scene,
     bool is_metal = m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX;
     uint32_t features = 0;
 
-    if (shines(m))
+    if (material_shines(m))
         features |= FEATURE_EMITTERS;
     if (has_texture(m))
         features |= FEATURE_TEXTURES;

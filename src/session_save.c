@@ -28,16 +28,16 @@ static uint32_t file_of(const struct session *s, uint32_t material)
 }
 
 /* The changes that belong to a file; their number. */
-static size_t collect(const struct session *s, uint32_t file,
+static size_t collect(struct session *s, uint32_t file,
                       struct mtl_change *changes, uint32_t *materials)
 {
-    const struct edit *e = &s->edit;
+    struct edit *e = &s->edit;
     size_t count = 0;
 
     for (uint32_t i = 0; i < e->material_count; i++) {
         uint32_t pattern = pattern_of(e, i);
 
-        if (edit_is_saved(e, i) || file_of(s, i) != file)
+        if (file_of(s, i) != file || !edit_tidy_material(e, i, pattern))
             continue;
         changes[count] = (struct mtl_change){
             .name = e->names[i],

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "glim/file.h"
+#include "glim/print.h"
 #include "glim/version.h"
 
 /* Bytes of the UTF-8 character at p, or 0 if there is none. */
@@ -30,8 +31,19 @@ static size_t utf8_length(const unsigned char *p)
     return length;
 }
 
+/* The number of the character in Unicode. */
+static uint32_t utf8_code(const unsigned char *p, size_t length)
+{
+    uint32_t code = length == 1 ? *p : *p & (0x7fu >> length);
+
+    for (size_t i = 1; i < length; i++)
+        code = code << 6 | (p[i] & 0x3fu);
+    return code;
+}
+
 /* A JSON string. File names may have any bytes: those that are no UTF-8
- * become U+FFFD, as JSON cannot hold them. */
+ * become U+FFFD, as JSON cannot hold them. What print.h does not show is
+ * escaped: it is never beyond U+FFFF. */
 static void write_string(FILE *to, const char *text)
 {
     const unsigned char *p = (const unsigned char *)text;
@@ -39,13 +51,12 @@ static void write_string(FILE *to, const char *text)
     fputc('"', to);
     while (*p) {
         size_t length = utf8_length(p);
+        uint32_t code = length == 0 ? 0xfffd : utf8_code(p, length);
 
-        if (length == 0)
-            fputs("\\ufffd", to);
+        if (length == 0 || !print_shows(code))
+            fprintf(to, "\\u%04" PRIx32, code);
         else if (*p == '"' || *p == '\\')
             fprintf(to, "\\%c", *p);
-        else if (*p < 0x20 || *p == 0x7f)
-            fprintf(to, "\\u%04x", *p);
         else
             fwrite(p, 1, length, to);
         p += length > 0 ? length : 1;

@@ -11,6 +11,7 @@
 
 #include "glim/event_fd.h"
 #include "glim/panel_draw.h"
+#include "glim/print.h"
 #include "glim/question.h"
 #include "glim/stage.h"
 #include "glim/stats.h"
@@ -408,7 +409,7 @@ static void close_screen(struct tui *t)
     work_finish_saving(&t->work);
     keep_picture(t);
     for (int i = 0; i < t->work.result_count && !t->is_gone; i++)
-        printf("%s\n", t->work.results[i]);
+        print_line(stdout, "%s", t->work.results[i]);
     fflush(stdout);
 }
 

@@ -2,7 +2,6 @@
 #include "glim/util.h"
 
 #include <sched.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +12,7 @@
 #include <malloc.h>
 #endif
 
+#include "glim/print.h"
 #include "glim/quota.h"
 
 /* What processors read at once. */
@@ -24,20 +24,6 @@
 /* set before the threads start */
 static void (*restore_terminal)(void);
 
-/* In UTF-8 the C1 controls are c2 80 to c2 9f. */
-void replace_controls(char *text)
-{
-    unsigned char before = 0;
-
-    for (char *p = text; *p != '\0'; p++) {
-        unsigned char c = (unsigned char)*p;
-
-        if (c < 0x20 || c == 0x7f || (before == 0xc2 && c < 0xa0))
-            *p = '?';
-        before = c;
-    }
-}
-
 bool fail(struct error *err, const char *format, ...)
 {
     va_list args;
@@ -45,7 +31,7 @@ bool fail(struct error *err, const char *format, ...)
     va_start(args, format);
     vsnprintf(err->text, sizeof err->text, format, args);
     va_end(args);
-    replace_controls(err->text);
+    print_replace(err->text);
     return false;
 }
 
@@ -108,15 +94,23 @@ char *xstrdup(const char *s)
     return checked(strdup(s));
 }
 
+char *xformat_list(const char *format, va_list values)
+{
+    char *text;
+    int length = vasprintf(&text, format, values);
+
+    return checked(length < 0 ? NULL : text);
+}
+
 char *xformat(const char *format, ...)
 {
-    va_list args;
+    va_list values;
     char *text;
 
-    va_start(args, format);
-    int length = vasprintf(&text, format, args);
-    va_end(args);
-    return checked(length < 0 ? NULL : text);
+    va_start(values, format);
+    text = xformat_list(format, values);
+    va_end(values);
+    return text;
 }
 
 void *alloc_array(size_t count, size_t size_bytes)

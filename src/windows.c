@@ -79,6 +79,14 @@ void windows_clear(void)
     shown.must_clear = true;
 }
 
+/* What a text takes of so many columns. */
+static int shown_columns(const char *text, int cols)
+{
+    int all = columns_of(text);
+
+    return all < cols ? all : cols;
+}
+
 void windows_status(const char *text)
 {
     move(LINES - 1, 0);
@@ -126,7 +134,8 @@ static struct window_rect open_window(struct window_rect r, const char *title,
     if (!window)
         return (struct window_rect){0};
     box_set(window, NULL, NULL);
-    mvwaddnstr(window, 0, 2, title, r.cols - 4);
+    wmove(window, 0, 2);
+    add_columns(window, title, shown_columns(title, r.cols - 4));
     windows_set(texts, text_count);
     return r;
 }
@@ -218,13 +227,14 @@ void windows_hide_panel(void)
 
 void windows_notice(const char *text)
 {
-    int length = (int)strlen(text);
+    int cols = columns_of(text);
 
     erase();
-    if (length <= COLS)
-        mvaddstr((LINES - 1) / 2, (COLS - length) / 2, text);
+    if (cols <= COLS)
+        move((LINES - 1) / 2, (COLS - cols) / 2);
     else
-        mvaddnstr(0, 0, text, LINES * COLS - 1);
+        move(0, 0);
+    add_columns(stdscr, text, shown_columns(text, LINES * COLS - 1));
 }
 
 /* ---- writing ---- */

@@ -354,6 +354,19 @@ void work_switch_backend(struct work *w)
     }
 }
 
+/* Each line is a result. */
+static void add_log(struct work *w, const char *log)
+{
+    while (*log != '\0') {
+        size_t length = strcspn(log, "\n");
+        char *line = xformat("%.*s", (int)length, log);
+
+        work_add_result(w, line);
+        free(line);
+        log += length + (log[length] == '\n');
+    }
+}
+
 void work_end_device(struct work *w)
 {
     struct machines *m = &w->session->machines;
@@ -372,8 +385,8 @@ void work_end_device(struct work *w)
         work_say(w, "%s", err.text);
     } else {
         work_say_error(w, err.text);
-        if (log != NULL && *log != '\0')
-            work_add_result(w, log);
+        if (log != NULL)
+            add_log(w, log);
         work_add_result(w, err.text);
     }
     free(log);

@@ -12,10 +12,14 @@ cd "$(dirname "$0")/.." || exit 1
 # bodies of stb's headers, and what backend.h declares.
 HEADERLESS='main stb backend_cpu'
 
+# The files that may use the C library's output: what they write are files'
+# texts. People read what goes through print.c.
+WRITERS='print assign mtl_save view_file cl_source stats'
+
 {
     find src include kernels scenes tests -name '*.[ch]' -o -name '*.cl'
     find kernels scenes tests .ci -name '*.sh' -o -path .ci/run
-} | sort | awk -v headerless="$HEADERLESS" '
+} | sort | awk -v headerless="$HEADERLESS" -v writers="$WRITERS" '
 function fault(text)
 {
     printf "%s: %s\n", path, text
@@ -88,6 +92,22 @@ function check_rows(    line)
         fault("is in no row of the table in CONTRIBUTING.md")
 }
 
+# foreign text reaches a terminal through print.c and add_columns() alone
+function check_output(line, number)
+{
+    if (line ~ /^ *(\/\*|\*)/)
+        return
+    if (line ~ /(^|[^a-z_A-Z0-9])(v?printf|puts|putchar|perror|psignal|v?dprintf)\(/)
+        fault("line " number ": people read what print.h writes")
+    if (!(stem in writer) &&
+        (line ~ /(^|[^a-z_A-Z0-9])(v?fprintf|fputs|putc|fwrite)\(/ ||
+         line ~ /(^|[^a-z_A-Z0-9])fputc\([^\047]/))
+        fault("line " number ": only writers of files do without print.h")
+    if (line ~ /(add|ins)n?w?str\(|printw\(|addw?ch\(|add_wch\(/ &&
+        line !~ /^    waddstr\(to, line\);$/)
+        fault("line " number ": texts of windows go through add_columns()")
+}
+
 function check_file(    line, number, head, is_ours, is_licensed)
 {
     stem = stem_of(path)
@@ -102,6 +122,8 @@ function check_file(    line, number, head, is_ours, is_licensed)
             head = head "\n" line
         if (!is_ours)
             continue
+        if (path ~ /^src\//)
+            check_output(line, number)
         if (line ~ /^[ \t]*#[ \t]*include[ \t]*"/) {
             split(line, part, "\"")
             check_include(part[2], 0)
@@ -131,6 +153,9 @@ BEGIN {
     n = split(headerless, list, " ")
     for (i = 1; i <= n; i++)
         exempt[list[i]] = 1
+    n = split(writers, list, " ")
+    for (i = 1; i <= n; i++)
+        writer[list[i]] = 1
     read_table()
 }
 

@@ -3,8 +3,7 @@
  * columns.h - text that must fit into columns of the terminal
  *
  * Names in files are foreign text: characters of none, one or two columns, in
- * the encoding of LC_CTYPE. What cannot be shown, control characters and bytes
- * that are no characters, becomes a question mark.
+ * the encoding of LC_CTYPE, of which print.h says what is shown.
  *
  * Units:     columns of the terminal; bytes where the name says so
  * Ownership: none

@@ -86,6 +86,11 @@ bool edit_is_saved(const struct edit *edit, uint32_t material);
 bool edit_has_unsaved_materials(const struct edit *edit);
 bool edit_has_unsaved_view(const struct edit *edit);
 
+/* For a material that is to be saved over what the files have of another or the
+ * same: takes back what was left by kinds that it has no more. False if there
+ * is nothing to save. */
+bool edit_tidy_material(struct edit *edit, uint32_t material, uint32_t pattern);
+
 /* A material's values, or assignments and mood, are in the files now. */
 void edit_saved_material(struct edit *edit, uint32_t material);
 void edit_saved_view(struct edit *edit);

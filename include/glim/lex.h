@@ -77,11 +77,12 @@ bool lex_number(struct lex *lex, double *value);
 
 bool word_is(struct word word, const char *text);
 
-/* The word for a message: at most 40 bytes of it; "the end of the line"
- * if empty. */
+/* The word for a message: at most 40 bytes of it; in quotes, or "the end of the
+ * line" if empty. */
 struct word_text {
     char text[64];
 };
+struct word_text word_cut(struct word word);
 struct word_text word_quote(struct word word);
 
 #endif

@@ -48,6 +48,10 @@ void look_set_kelvin(struct mtl_source *source, double kelvin);
 /* The colour that stands for it in a list: its light if it shines. */
 void look_swatch(const struct mtl_source *source, double rgb[3]);
 
+/* Rounds a colour as floats are, to what a file has in few digits: what a
+ * person sets is what will be read. */
+void look_shorten(double rgb[3]);
+
 /* A statement gets this value, and is there. */
 void look_put_number(struct mtl_number *number, double value);
 void look_put_color(struct mtl_color *color, const double rgb[3]);

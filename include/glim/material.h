@@ -85,8 +85,16 @@ struct mtl_color mtl_source_light(const struct mtl_source *source);
 
 struct material material_default(void);
 
+/* Whether light comes from it: what is not seen has none. */
+bool material_shines(const struct material *m);
+
 /* A black colour beside a map stays black here: textures_load() decides. */
 struct material material_from_source(const struct mtl_source *source,
                                      const char *path, struct report *report);
+
+/* The statements that a file must have to give the wanted material: where those
+ * that it has already give the same, they stay. */
+struct mtl_source mtl_source_needed(const struct mtl_source *file,
+                                    const struct mtl_source *wanted);
 
 #endif

@@ -56,7 +56,8 @@ struct lex mtl_text_lex(const struct mtl_text *t, size_t at);
 bool mtl_text_has_key(const struct mtl_text *t, const struct mtl_statement *s,
                       mtl_aliases keys);
 
-/* The last block of this name. False if there is none. */
+/* The last block of this name. False if there is none: one without a name is
+ * no material. */
 bool mtl_text_find_block(const struct mtl_text *t, const char *name,
                          struct mtl_block *b);
 

@@ -20,7 +20,13 @@ bool number_parse(const char **p, const char *end, double *value);
 /* Enough for every number_format(). */
 #define NUMBER_TEXT_BYTES 32
 
-/* The shortest of the usual forms that number_parse() reads back exactly. */
+/* The shortest of the usual forms that number_parse() reads back exactly; that
+ * of a float if rounding gives the same float. */
 void number_format(char text[NUMBER_TEXT_BYTES], double value);
+void number_format_float(char text[NUMBER_TEXT_BYTES], float value);
+
+/* The number that the shortest text of its float stands for. Beyond the range
+ * of normal floats the number itself. */
+double number_shortened(double value);
 
 #endif

@@ -10,6 +10,7 @@
 #ifndef GLIM_UTIL_H
 #define GLIM_UTIL_H
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,11 +20,8 @@ struct error {
     char text[1024];
 };
 
-/* Makes text that may quote files one line, in which nothing moves a terminal's
- * cursor. */
-void replace_controls(char *text);
-
-/* Formats the text without controls and returns false. Longer texts are cut. */
+/* Formats the text as print_replace() shows it and returns false. Longer texts
+ * are cut. */
 bool fail(struct error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -34,6 +32,8 @@ void *xcalloc(size_t count, size_t size_bytes);
 void *xrealloc(void *p, size_t size_bytes);
 char *xstrdup(const char *s);
 char *xformat(const char *format, ...) __attribute__((format(printf, 1, 2)));
+char *xformat_list(const char *format, va_list values)
+    __attribute__((format(printf, 1, 0)));
 void xmalloc_set_hook(void (*restore_terminal)(void));
 
 /* Before the first allocation: large arrays go back to the system when they are

@@ -10,6 +10,7 @@
 
 #include "check.h"
 #include "folder.h"
+#include "glim/look.h"
 #include "glim/file.h"
 #include "glim/mtl.h"
 #include "glim/session_save.h"
@@ -421,12 +422,52 @@ static void test_what_was_saved(void **state)
             uint32_t material = mtl_find(&s.scene, names[k]);
             struct mtl_source source = s.edit.now.sources[material];
 
+            /* one of them is the colour of a lamp, the other that of glass */
             source.kd = (struct mtl_color){{.25 * (double)(1 + i), 0, 0}, 1};
+            source.tf = source.kd;
             edit_material(&s.edit, material, &source);
         }
         what = saved(&s);
         assert_string_equal(what, lines[i]);
         free(what);
+    }
+    session_close(&s);
+}
+
+/* What kinds leave behind is not written; a statement that a kind needs is
+ * written later, although it was there once before. */
+static void test_kinds_leave_nothing(void **state)
+{
+    static const struct {
+        int turns; /* from what was saved before */
+        const char *wall;
+    } cases[] = {
+        {3, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 7\n"},
+        {4, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 3\n"
+            "\tPm 1\n"},
+        {-2, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 3\n"
+             "\tPm 0\n"},
+    };
+    struct session s;
+    struct error err;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        uint32_t wall = mtl_find(&s.scene, "wall");
+        struct mtl_source source = s.edit.now.sources[wall];
+        size_t size_bytes;
+        char *text;
+
+        for (int n = 0; n < abs(cases[i].turns); n++)
+            look_turn_kind(&source, cases[i].turns);
+        edit_material(&s.edit, wall, &source);
+        save(&s);
+        assert_false(edit_has_unsaved_materials(&s.edit));
+        assert_true(file_read("a.mtl", &text, &size_bytes, &err));
+        check_has(text, cases[i].wall);
+        free(text);
     }
     session_close(&s);
 }
@@ -562,6 +603,7 @@ int main(void)
         cmocka_unit_test(test_textures_come_into_use),
         cmocka_unit_test(test_saved_files),
         cmocka_unit_test(test_what_was_saved),
+        cmocka_unit_test(test_kinds_leave_nothing),
         cmocka_unit_test(test_lost_assignments),
         cmocka_unit_test(test_wrong_lines),
     };

@@ -14,6 +14,7 @@
 #include "check.h"
 #include "folder.h"
 #include "glim/file.h"
+#include "glim/look.h"
 #include "glim/mtl.h"
 #include "glim/mtl_save.h"
 
@@ -331,6 +332,51 @@ static void test_names_end_in_backslashes(void **state)
     unload(&l);
 }
 
+/* Kinds that a person only steps through leave nothing in the file. */
+static void test_what_is_needed(void **state)
+{
+    static const struct {
+        const char *text;
+        int turns;
+        const char *want;
+    } cases[] = {
+        {"newmtl m\nKd .5 .5 .5\n", 3,
+         "newmtl m\nKd .5 .5 .5\nTf 0.5 0.5 0.5\nillum 7\n"},
+        {"newmtl m\nKd .5 .5 .5\n", 2, "newmtl m\nKd .5 .5 .5\nPm 1\n"},
+        {"newmtl m\nKd .5 .5 .5\n", 1,
+         "newmtl m\nKd .5 .5 .5\nKs 0.5 0.5 0.5\n"},
+        {"newmtl m\nKd .5 .5 .5\n", 5, "newmtl m\nKd .5 .5 .5\n"},
+        {"newmtl m\nKd .5 .5 .5\nPm 0\nillum 2\n", -1,
+         "newmtl m\nKd .5 .5 .5\nPm 0\nillum 4\nTf 0.5 0.5 0.5\n"},
+        {"newmtl m\nillum 7\nTf .1 .2 .3\n", 1,
+         "newmtl m\nillum 4\nTf .1 .2 .3\n"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *text = cases[i].text;
+        const struct mtl_source *before;
+        struct mtl_source after, needed;
+        struct mtl_change change;
+        struct loaded l;
+        size_t size_bytes;
+        char *got;
+
+        load(&l, "a.mtl", text, strlen(text));
+        before = &l.scene.material_origins[1].source;
+        after = *before;
+        for (int n = 0; n < abs(cases[i].turns); n++)
+            look_turn_kind(&after, cases[i].turns);
+        needed = mtl_source_needed(before, &after);
+        change = (struct mtl_change){"m", NULL, before, &needed};
+        got = rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1,
+                      &size_bytes);
+        assert_string_equal(got, cases[i].want);
+        free(got);
+        unload(&l);
+    }
+}
+
 /* ---- all files at hand ---- */
 
 #define ROUNDS 40
@@ -590,6 +636,7 @@ int main(void)
         cmocka_unit_test(test_backslashes),
         cmocka_unit_test(test_duplicates),
         cmocka_unit_test(test_names_end_in_backslashes),
+        cmocka_unit_test(test_what_is_needed),
         cmocka_unit_test(test_our_files),
         cmocka_unit_test(test_shared_files),
         cmocka_unit_test(test_save),

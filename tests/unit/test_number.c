@@ -306,6 +306,50 @@ static void test_speed(void **state)
     free(text);
 }
 
+/* No shorter text gives the same float, and that of a double none of it. */
+static void test_shortest(void **state)
+{
+    static const struct {
+        double value;
+        const char *as_float, *as_double;
+    } cases[] = {
+        {0.5, "0.5", "0.5"},
+        {0.1, "0.1", "0.1"},
+        {0.1f, "0.1", "0.10000000149011612"},
+        {0.1 + 0.2, "0.3", "0.30000000000000004"},
+        {1.0 / 3, "0.33333334", "0.3333333333333333"},
+        {278.00000000000006, "278", "278.00000000000006"},
+        {16777217, "16777216", "16777217"},
+        {-0.0, "-0", "-0"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[NUMBER_TEXT_BYTES];
+
+        number_format_float(text, (float)cases[i].value);
+        assert_string_equal(text, cases[i].as_float);
+        number_format(text, cases[i].value);
+        assert_string_equal(text, cases[i].as_double);
+    }
+    assert_true(number_shortened(1e-60) == 1e-60);
+    assert_true(number_shortened(1e60) == 1e60);
+    assert_true(number_shortened(0) == 0);
+    assert_true(number_shortened(0.1 + 0.2) == 0.3);
+    for (int i = 0; i < 100000; i++) {
+        uint32_t bits = (uint32_t)(next_random() >> 32);
+        char text[NUMBER_TEXT_BYTES];
+        float value;
+
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value))
+            continue;
+        number_format_float(text, value);
+        assert_true(strtof(text, NULL) == value);
+        assert_true((float)number_shortened((double)value) == value);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -313,6 +357,7 @@ int main(void)
         cmocka_unit_test(test_nan),
         cmocka_unit_test(test_no_number),
         cmocka_unit_test(test_end),
+        cmocka_unit_test(test_shortest),
         cmocka_unit_test(test_random),
         cmocka_unit_test(test_halfway),
         cmocka_unit_test(test_long),

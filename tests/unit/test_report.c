@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -76,10 +77,21 @@ static void test_many_kinds(void **state)
 static void test_controls_do_not_reach_the_terminal(void **state)
 {
     struct report r = {0};
+    char *text = NULL;
+    size_t size_bytes;
+    FILE *to;
 
     (void)state;
-    report_add(&r, "names", "%s", "a\033[2Jb\nc\x7f\xc2\x9b z\xc3\xa4");
-    assert_string_equal(r.entries[0].text, "a?[2Jb?c?\xc2? z\xc3\xa4");
+    for (int i = 0; i < 2; i++)
+        report_add_named(&r, "names", "\033c", "%s",
+                         "a\033[2Jb\nc\x7f\xc2\x9b z\xc3\xa4");
+    to = open_memstream(&text, &size_bytes);
+    assert_non_null(to);
+    report_print(&r, to);
+    assert_int_equal(fclose(to), 0);
+    assert_string_equal(text, "glim: warning: a?[2Jb?c?? z\xc3\xa4 (and 1 more "
+                              "names '?c')\n");
+    free(text);
     report_free(&r);
 }
 
@@ -132,5 +144,6 @@ int main(void)
         cmocka_unit_test(test_names_of_a_kind),
     };
 
+    setlocale(LC_CTYPE, "C.UTF-8");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

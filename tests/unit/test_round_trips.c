@@ -368,6 +368,30 @@ static void test_copy_with_nul(void **state)
     unload(&l);
 }
 
+/* The material of what has none is copied from no block, also where one has no
+ * name. */
+static void test_copy_of_default(void **state)
+{
+    static const char bytes[] = "newmtl\nKd 1 0 0\nnewmtl a\nNi 3\n";
+    struct mtl_source none = mtl_source_empty();
+    struct mtl_change c = {"b", "", &none, &none};
+    struct loaded l;
+    struct error err;
+    char *text;
+    size_t size;
+
+    (void)state;
+    assert_true(load(&l, bytes, sizeof bytes - 1));
+    check_or_say(mtl_rewrite(&l.scene, "t.mtl", bytes, sizeof bytes - 1, &c, 1,
+                             &text, &size, &err),
+                 err.text);
+    static const char want[] = "newmtl\nKd 1 0 0\nnewmtl a\nNi 3\n\nnewmtl b\n";
+    assert_int_equal(size, sizeof want - 1);
+    assert_memory_equal(text, want, size);
+    free(text);
+    unload(&l);
+}
+
 static void test_random_mtl(void **state)
 {
     static const struct text words[] = {
@@ -440,6 +464,7 @@ int main(void)
         cmocka_unit_test(test_random_views),
         cmocka_unit_test(test_broken_mtl),
         cmocka_unit_test(test_copy_with_nul),
+        cmocka_unit_test(test_copy_of_default),
         cmocka_unit_test(test_random_mtl),
         cmocka_unit_test(test_shared_files),
     };

@@ -33,7 +33,11 @@ OCL_ICD_VENDORS=/nonexistent device -w 8 -h 8 -s 1 -o a.png box.obj
 OCL_ICD_VENDORS=/nonexistent run_untimed -b --backend auto -w 8 -h 8 -s 1 \
     -o a.png box.obj
 run_untimed -b --device 7 -w 8 -h 8 -s 1 -o a.png box.obj |
-    sed "s/ of 1 '.*';/ of 1 '...';/"
+    sed "s/ of 1 '.*'/ of 1 '...'/"
+run_untimed -b --device nosuch -w 8 -h 8 -s 1 -o a.png box.obj |
+    sed "s/ of 1 '.*'/ of 1 '...'/"
+OCL_ICD_VENDORS=/nonexistent run_untimed -b --device 1 -w 8 -h 8 -s 1 \
+    -o a.png box.obj
 
 echo '- no linker for what is not compiled yet'
 (

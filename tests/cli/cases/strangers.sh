@@ -25,3 +25,11 @@ run_untimed $b forms.obj
 printf 'newmtl a\nKd 1 1 1\nTr 1\n' >unseen.mtl
 printf "mtllib unseen.mtl\nusemtl a\n$face" >unseen.obj
 run_untimed $b unseen.obj
+# a lamp that cannot be seen is none
+printf 'newmtl a\nKe 9 9 9\nd 0\nnewmtl b\nKd .5 .5 .5\n' >lamp.mtl
+{
+    printf "mtllib lamp.mtl\nusemtl a\n$face"
+    printf 'v -9 -9 -5\nv 9 -9 -5\nv 0 9 -5\nusemtl b\nf 4 5 6\n'
+} >lamp.obj
+run_untimed -b -w 8 -h 4 -s 1 -o lamp.pfm lamp.obj
+floats lamp.pfm 8 4 | awk '{ n += $1 > 0 } END { print (n > 0 ? "lit" : "black") }'

@@ -43,6 +43,13 @@ keys '~'
 wait_for "LIVE"
 keys q
 expect_end 0
+# one that is not there
+fresh
+start --device nosuch flat.obj
+wait_for "found no device 'nosuch', expected one of 1 'pthread"
+wait_for_rows 20 "48;2;188;124;0"
+keys q
+expect_end 0
 # closed while the device is on its way
 fresh
 start -t 1 --backend opencl flat.obj

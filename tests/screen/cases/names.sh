@@ -27,3 +27,20 @@ expect "│     of tab?and?\[31m   tab?and?\[31m"
 wait_until eval "screen | grep -c '│' | grep -qx 23"
 keys q
 wait_for "^exit 0"
+fresh
+
+# the scene's own name, on the status line, in messages and in what is left
+# behind on the shell's screen
+odd=$(printf 'q\033]0;X\007\302\2331m')
+cp names.obj "$odd.obj"
+start "\"\$(printf 'q\\033]0;X\\007\\302\\2331m').obj\""
+wait_for LIVE
+keys c
+wait_for 'wrote the view to q?\]0;X??1m.view'
+keys p
+wait_for 'saved q?\]0;X??1m.png'
+keys q
+wait_for "^exit 0"
+expect '^wrote the view to q?\]0;X??1m.view'
+expect '^saved q?\]0;X??1m.png'
+[ "$(mux display-message -p '#{pane_title}')" != X ] || die "another title"
