@@ -32,12 +32,20 @@ B := build/$(VARIANT)
 
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
 	-Wmissing-prototypes -Wpointer-arith -Wcast-qual -Wwrite-strings \
-	-Wvla -Wundef -Wformat=2
+	-Wvla -Wundef -Wformat=2 -Werror=format-security
+X86_64 := $(findstring x86_64,$(shell $(CC) -dumpmachine))
+# For whoever finds a way to write where he should not. The checks of the C
+# library need the optimiser, and a sanitizer has its own.
+HARDENING := -fPIE -fstack-protector-strong -fstack-clash-protection \
+	$(if $(X86_64),-fcf-protection)
+FORTIFY = $(if $(SAN),,$(if $(filter-out -O0,$(filter -O%,$(CFLAGS))), \
+	-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2))
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
-	-fno-trapping-math \
-	-I. -Iinclude -pthread $(WARNINGS) $(CFLAGS) $(if $(SAN), \
+	-fno-trapping-math -I. -Iinclude -pthread $(WARNINGS) $(HARDENING) \
+	$(FORTIFY) $(CFLAGS) $(if $(SAN), \
 	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
-ALL_LDFLAGS = -pthread $(LDFLAGS) $(if $(SAN),-fsanitize=$(SAN))
+ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
+	$(if $(SAN),-fsanitize=$(SAN))
 LIBS = -lncursesw -ltinfo -lm -ldl
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
@@ -45,7 +53,7 @@ KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # src/paths.c is built for each set of instructions and, as the scene lacks what
 # the others need, for each set of features, of which src/isa.c takes the first
 # that will do: walls and lamps, images on them, most materials.
-ISAS := $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),avx2 avx512)
+ISAS := $(if $(X86_64),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256

@@ -3,8 +3,8 @@
 # run.sh - runs every test and ends with "N passed, N failed"
 #
 # BUILD names the folder with the programs (build/release). FILTER=WORD runs
-# only the parts whose name has it: layers, man, scenes, a test_x, fuzz, cli,
-# screen.
+# only the parts whose name has it: layers, man, scenes, hardening, a test_x,
+# fuzz, cli, screen.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build/release}
@@ -110,9 +110,34 @@ scenes_are_generated()
     return $status
 }
 
+# What the compiler and the linker can do against a bug that writes where it
+# should not is in the program.
+program_is_hardened()
+{
+    local status=0
+
+    has() # what to see, in which table
+    {
+        readelf -W "$2" "$BUILD/glim" | grep -Eq "$1" && return
+        echo "$BUILD/glim: readelf $2 does not show '$1'"
+        status=1
+    }
+    has 'Type: *DYN' --file-header
+    has GNU_RELRO --program-headers
+    has 'GNU_STACK.* RW ' --program-headers
+    has 'BIND_NOW|Flags:.* NOW' --dynamic
+    has __stack_chk_fail --dyn-syms
+    # a sanitizer has its own, and without the optimiser there is none
+    if [ -z "$SAN" ] && grep -Eq -e ' -O[1-3s]' "$BUILD/flags"; then
+        has __snprintf_chk --dyn-syms
+    fi
+    return $status
+}
+
 wanted layers && run_check layers tests/layers.sh
 wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1
 wanted scenes && run_check scenes scenes_are_generated
+wanted hardening && run_check hardening program_is_hardened
 for program in tests/unit/test_*.c; do
     name=$(basename "$program" .c)
     wanted "$name" && run_unit "$BUILD/unit/$name"

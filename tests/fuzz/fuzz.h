@@ -140,10 +140,22 @@ static inline void fuzz_check_message(const char *text)
     }
 }
 
+/* The same for each line that is printed of a report. */
 static inline void fuzz_check_report(const struct report *report)
 {
-    for (int i = 0; i < report->entry_count; i++)
-        fuzz_check_message(report->entries[i].text);
+    char *text = NULL, *next;
+    size_t size;
+    FILE *to = open_memstream(&text, &size);
+    int count = 0;
+
+    require(to != NULL, "memory");
+    report_print(report, to);
+    require(fclose(to) == 0, "memory");
+    next = text;
+    for (char *line; (line = strsep(&next, "\n")) != NULL && next; count++)
+        fuzz_check_message(line);
+    require(count == report->entry_count, text);
+    free(text);
 }
 
 #endif

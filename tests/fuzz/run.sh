@@ -31,7 +31,7 @@ generate()
     mkdir -p "$work/"{mtl,obj,scene}
     # a star polygon, whose edges cross nearly all others
     awk 'BEGIN {
-        n = 16000
+        n = 8000
         for (i = 0; i < n; i++) {
             a = 6.28318530717959 * i * (n / 2 - 1) / n
             printf "v %.9g %.9g %.9g\n", cos(a), sin(a), sin(i) / 1000

@@ -93,6 +93,7 @@ look()
             need_driver pocl.icd pocl-opencl-icd
             need_program tmux tmux
             need_program pgrep procps
+            need_program readelf binutils
             need_program mandoc mandoc
             ;;
         fuzz)

@@ -440,7 +440,7 @@ static void test_text(void **state)
     assert_true(view_write(&view, file("x.view"), &change, &err));
     FILE *f = fopen(file("x.view"), "r");
     assert_non_null(f);
-    fread(text, 1, sizeof text - 1, f);
+    assert_true(fread(text, 1, sizeof text - 1, f) > 0);
     fclose(f);
     assert_int_equal(text[0], '#');
     assert_string_equal(strstr(text, "eye"),
@@ -523,7 +523,7 @@ static void test_sky_names(void **state)
         view_free(&view);
         FILE *f = fopen(cases[i].view_path, "r");
         assert_non_null(f);
-        fread(text, 1, sizeof text - 1, f);
+        assert_true(fread(text, 1, sizeof text - 1, f) > 0);
         fclose(f);
         snprintf(line, sizeof line, "sky %s/%s\n", real, cases[i].sky);
         assert_string_equal(strstr(text, "sky"),
