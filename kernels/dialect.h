@@ -18,6 +18,7 @@
 typedef int int32_t;
 typedef ushort uint16_t;
 typedef uint uint32_t;
+typedef long int64_t;
 typedef ulong uint64_t;
 
 #define FLATTENED

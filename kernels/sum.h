@@ -62,10 +62,22 @@ static inline void sum_add(GLOBAL struct sum *s, float x)
     sum_join(s, value);
 }
 
+/* The sum as a float. The fraction is converted as a signed number, halved and
+ * rounded to odd if it is too large for one: the same float, without a branch
+ * that is as likely as not. */
+static inline float sum_float(struct sum s)
+{
+    uint64_t top = s.lo >> 63;
+    int64_t fraction = (int64_t)(s.lo >> top | (s.lo & top));
+    float unit = bits_float((uint32_t)(63 + top) << 23); /* 2^-64 or 2^-63 */
+
+    return (float)s.hi + (float)fraction * unit;
+}
+
 /* sum / count, within two units in the last place. count is not 0. */
 static inline float sum_mean(struct sum s, uint64_t count)
 {
-    return ((float)s.hi + (float)s.lo * 0x1p-64f) / (float)count;
+    return sum_float(s) / (float)count;
 }
 
 #endif

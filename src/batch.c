@@ -17,6 +17,7 @@
 #include "glim/print.h"
 #include "glim/show.h"
 #include "glim/stats.h"
+#include "glim/term.h"
 #include "glim/text.h"
 
 /* The bar is drawn this often, which also bounds what a slow link gets. */
@@ -220,7 +221,17 @@ static void wait_for_end(struct session *s)
     session_look(s);
 }
 
-/* No terminal is asked: the reader of a file may be another one. */
+/* No terminal is asked: the reader of a file may be another one, and is taken
+ * for one with Unicode. But letters alone are for anything: the locale says
+ * whether dots may replace them. */
+static enum glyphs text_glyphs(const struct options *o, enum palette palette)
+{
+    bool may_learn;
+    bool has_unicode = palette != PALETTE_MONO || term_is_utf8(&may_learn);
+
+    return options_glyphs(o->glyph, palette, has_unicode);
+}
+
 static enum palette text_palette(const struct options *o)
 {
     const char *no_color = getenv("NO_COLOR");
@@ -237,8 +248,9 @@ static bool save_text(struct show *show, char **name, struct error *err)
     struct fit fit =
         cells_fit(s->crop.width, s->crop.height, o->text_cols, o->text_rows,
                   o->cell_aspect > 0 ? o->cell_aspect : 2);
-    struct text_style style = {fit.cols, fit.rows, text_palette(o),
-                               options_glyphs(o->glyph)};
+    enum palette palette = text_palette(o);
+    struct text_style style = {fit.cols, fit.rows, palette,
+                               text_glyphs(o, palette)};
     const char *path = text_path(o);
     struct frame frame = {0};
     size_t size_bytes;

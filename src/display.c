@@ -19,15 +19,15 @@ static void choose_palette(struct display *d, enum color_mode mode)
         d->palette = options_palette(mode);
 }
 
-/* What is not asked for by name has a fall-back: half blocks for pixels, blanks
- * for half blocks. */
+static enum glyphs glyphs_of(const struct display *d, enum glyph_mode mode)
+{
+    return options_glyphs(mode, d->palette, d->has_unicode);
+}
+
 static void choose_glyphs(struct display *d, enum glyph_mode mode)
 {
-    bool is_by_name = mode != GLYPH_AUTO && mode < GLYPH_SIXEL;
-
     d->glyph_mode = mode;
-    d->glyphs =
-        is_by_name || d->has_unicode ? options_glyphs(mode) : GLYPHS_SPACE;
+    d->glyphs = glyphs_of(d, mode);
 }
 
 void display_init(struct display *d, const struct options *options)
@@ -38,8 +38,8 @@ void display_init(struct display *d, const struct options *options)
                           .aspect_is_final = options->cell_aspect > 0};
     d->has_unicode = term_is_utf8(&may_learn);
     d->unicode_is_final = !may_learn;
-    choose_glyphs(d, options->glyph);
     choose_palette(d, options->color);
+    choose_glyphs(d, options->glyph);
 }
 
 static bool is_cell_size(int width_px, int height_px)
@@ -84,6 +84,20 @@ enum graphics_kind display_pixels(const struct display *d)
                                                         : GRAPHICS_NONE;
 }
 
+const char *display_lack(const struct display *d)
+{
+    bool is_sixel = d->glyph_mode == GLYPH_SIXEL;
+
+    if (!is_sixel && d->glyph_mode != GLYPH_KITTY)
+        return NULL;
+    if (d->palette == PALETTE_MONO)
+        return is_sixel ? "sixels need colours" : "kitty pixels need colours";
+    if (display_pixels(d) == GRAPHICS_NONE)
+        return is_sixel ? "this terminal has not said it has sixels"
+                        : "this terminal has not said it has kitty pixels";
+    return "this terminal does not say how large a character is";
+}
+
 static bool take_cell_size(struct display *d, const struct event *event)
 {
     double before = d->cell_aspect;
@@ -107,6 +121,16 @@ static bool take_cell_size(struct display *d, const struct event *event)
     return fabs(before - aspect) > 0.01 * aspect;
 }
 
+static bool take_true_color(struct display *d)
+{
+    enum glyphs before = d->glyphs;
+
+    if (!d->palette_is_final)
+        d->palette = PALETTE_24BIT;
+    choose_glyphs(d, d->glyph_mode);
+    return d->glyphs != before;
+}
+
 /* Behind a character that begins with a byte outside ASCII: in column 2 if it
  * was one. */
 static bool take_cursor(struct display *d, const struct event *event)
@@ -123,10 +147,7 @@ static bool take_cursor(struct display *d, const struct event *event)
 bool display_answer(struct display *d, const struct event *event)
 {
     switch (event->kind) {
-    case EVENT_TRUE_COLOR:
-        if (!d->palette_is_final)
-            d->palette = PALETTE_24BIT;
-        break;
+    case EVENT_TRUE_COLOR: return take_true_color(d);
     case EVENT_SYNC: term_use_sync(); break;
     case EVENT_CELL_SIZE: return take_cell_size(d, event);
     case EVENT_CURSOR: return take_cursor(d, event);
@@ -145,6 +166,7 @@ void display_next_palette(struct display *d)
     d->palette_is_final = true;
     d->palette = d->palette == PALETTE_MONO ? PALETTE_24BIT
                                             : (enum palette)(d->palette - 1);
+    choose_glyphs(d, d->glyph_mode);
 }
 
 static bool has_mode(const struct display *d, enum glyph_mode mode)
@@ -165,14 +187,14 @@ void display_next_glyphs(struct display *d)
                                             GLYPH_SPACE,   GLYPH_ASCII,
                                             GLYPH_SIXEL,   GLYPH_KITTY};
     size_t count = sizeof modes / sizeof modes[0];
-    enum glyph_mode now = d->glyph_mode;
     size_t i = 0;
 
-    if (now == GLYPH_AUTO && !d->has_unicode)
-        now = GLYPH_SPACE;
-    while (i < count && modes[i] != now)
+    while (i < count && modes[i] != d->glyph_mode)
         i++;
-    if (i == count) /* upper, lower, auto: the like of half blocks */
+    if (i == count && d->glyph_mode == GLYPH_AUTO)
+        for (i = 0; i < count && glyphs_of(d, modes[i]) != d->glyphs;)
+            i++;
+    if (i == count) /* upper, lower: the like of half blocks */
         i = 0;
     do
         i = (i + 1) % count;

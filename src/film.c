@@ -2,22 +2,20 @@
 #include "glim/film.h"
 
 #include <math.h>
+#include <stdalign.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "glim/quota.h"
 
+#include "glim/area.h"
+#include "glim/f4.h"
+
 #include "kernels/tone.h"
 #include "kernels/vec.h"
 
-/* Pixels of a row that are read under one lock, into memory on the stack. */
+/* Pixels of a row that are worked on at once, in memory on the stack. */
 #define RUN 256
-
-/* Sums and count of some pixels together. */
-struct total {
-    struct sum sums[3];
-    uint64_t count;
-};
 
 static void row_lock(struct film *f, int y)
 {
@@ -159,31 +157,40 @@ void film_count_more(struct film *f, const struct tally *tally)
         atomic_fetch_add(&f->cut_paths, tally->cut_paths);
 }
 
-static void mean_of(const struct sum *sums, uint64_t count, float *rgb)
+static inline f4 mean_of(const struct sum *sums, uint64_t count)
 {
-    for (int c = 0; c < 3; c++)
-        rgb[c] = sum_mean(sums[c], count);
+    f4 all = f4_of(sum_float(sums[0]), sum_float(sums[1]), sum_float(sums[2]));
+
+    return f4_div(all, f4_all((float)count));
 }
 
 /* A pixel without samples: the mean of the nearest coarser grid point that has
  * some, or black. */
-static void coarse_mean(struct film *f, int x, int y, float *rgb)
+static f4 coarse_mean(struct film *f, int x, int y)
 {
-    rgb[0] = rgb[1] = rgb[2] = 0.0f;
-    for (int stride = 2; stride <= FILM_STRIDE_MAX; stride *= 2) {
+    f4 rgb = f4_all(0.0f);
+    bool found = false;
+
+    for (int stride = 2; !found && stride <= FILM_STRIDE_MAX; stride *= 2) {
         int cx = x - x % stride;
         int cy = y - y % stride;
         size_t at = pixel_index(f, cx, cy);
-        bool found;
 
         row_lock(f, cy);
         found = f->counts[at] != 0;
         if (found)
-            mean_of(f->sums + 3 * at, f->counts[at], rgb);
+            rgb = mean_of(f->sums + 3 * at, f->counts[at]);
         row_unlock(f, cy);
-        if (found)
-            return;
     }
+    return rgb;
+}
+
+static void put(f4 rgb, float *to)
+{
+    alignas(16) float from[4];
+
+    f4_store(from, rgb);
+    memcpy(to, from, 3 * sizeof *to);
 }
 
 /* Means of `count` pixels of row y from x0 on, 3 floats a pixel. */
@@ -197,14 +204,14 @@ static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
 
         rgb[3 * i] = -1.0f; /* no mean is negative */
         if (f->counts[at] != 0)
-            mean_of(f->sums + 3 * at, f->counts[at], rgb + 3 * i);
+            put(mean_of(f->sums + 3 * at, f->counts[at]), rgb + 3 * i);
         else
             has_gaps = true;
     }
     row_unlock(f, y);
     for (int i = 0; has_gaps && i < count; i++)
         if (rgb[3 * i] < 0.0f)
-            coarse_mean(f, x0 + i, y, rgb + 3 * i);
+            put(coarse_mean(f, x0 + i, y), rgb + 3 * i);
 }
 
 void film_linear(struct film *f, float *rgb)
@@ -230,14 +237,27 @@ static float exposure_factor(float stops)
     return exp2f(f_max(-126.0f, f_min(stops, 126.0f)));
 }
 
-static void expose(const float *rgb, float factor, uint32_t tone,
-                   uint8_t *bytes)
+/* Light as a screen shows it: 1 is its white. The fourth number stays 0. */
+static inline f4 show(f4 light, float factor, uint32_t tone)
 {
-    float shown[3] = {rgb[0] * factor, rgb[1] * factor, rgb[2] * factor};
+    alignas(16) float rgb[4];
 
-    tone_curve(tone, shown);
+    light = f4_mul(light, f4_all(factor));
+    if (tone != TONE_LINEAR) {
+        f4_store(rgb, light);
+        tone_curve(tone, rgb);
+        light = f4_of(rgb[0], rgb[1], rgb[2]);
+    }
+    return f4_min(light, f4_all(1.0f));
+}
+
+static void encode(f4 shown, uint8_t *bytes)
+{
+    alignas(16) float rgb[4];
+
+    f4_store(rgb, shown);
     for (int c = 0; c < 3; c++)
-        bytes[c] = (uint8_t)srgb_byte(shown[c]);
+        bytes[c] = (uint8_t)srgb_byte(rgb[c]);
 }
 
 void film_resolve(struct film *f, struct develop how, struct frame *frame)
@@ -250,99 +270,164 @@ void film_resolve(struct film *f, struct develop how, struct frame *frame)
             int count = f->width - x < RUN ? f->width - x : RUN;
 
             linear_run(f, x, y, count, rgb);
-            for (int i = 0; i < count; i++)
-                expose(rgb + 3 * i, factor, how.tone,
+            for (int i = 0; i < count; i++) {
+                f4 light = f4_of(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
+
+                encode(show(light, factor, how.tone),
                        frame->rgb + 3 * pixel_index(f, x + i, y));
+            }
         }
     }
 }
 
-static void total_add(struct total *t, const struct sum *sums, uint64_t count)
-{
-    if (count == 0)
-        return;
-    for (int c = 0; c < 3; c++)
-        sum_join(&t->sums[c], sums[c]);
-    t->count += count;
-}
-
-/* The part of `length` film pixels that belongs to pixel i of n. */
-static void span_of(int i, int n, int length, int *begin, int *end)
-{
-    *begin = (int)((int64_t)i * length / n);
-    *end = (int)((int64_t)(i + 1) * length / n);
-    if (*end <= *begin)
-        *end = *begin + 1;
-}
-
-/* Pixels of row y of a frame. */
-struct run {
-    const struct frame *frame;
-    int x, y, count;
+/* A sum of colours times their weights, and of these. */
+struct weighted {
+    alignas(16) float rgb_weight[4];
 };
 
-/* Adds what the film has where these pixels are. */
-static void add_run(struct film *f, const struct run *r, struct total *totals)
+/* Pixels of row y of a frame from x on, as sums over a film's pixels by area.
+ */
+struct run {
+    int x, y, count;
+    struct weighted shown[RUN]; /* each pixel as the screen shows it */
+    struct weighted light[RUN]; /* all samples alike, before the curve */
+};
+
+/* How films become a frame. */
+struct showing {
+    const struct frame *frame;
+    bool has_draft;
+    float factor;
+    uint32_t tone;
+};
+
+static inline void add(struct weighted *sum, f4 rgb, float weight)
 {
-    int x0, x1, y0, y1;
+    static const alignas(16) float one[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    f4 more = f4_mul(f4_add(rgb, f4_load(one)), f4_all(weight));
 
-    span_of(r->y, r->frame->height, f->height, &y0, &y1);
-    for (int y = y0; y < y1; y++) {
-        row_lock(f, y);
-        for (int i = 0; i < r->count && f->has_row[y]; i++) {
-            span_of(r->x + i, r->frame->width, f->width, &x0, &x1);
-            for (int x = x0; x < x1; x++) {
-                size_t at = pixel_index(f, x, y);
+    f4_store(sum->rgb_weight, f4_add(f4_load(sum->rgb_weight), more));
+}
 
-                total_add(&totals[i], f->sums + 3 * at, f->counts[at]);
-            }
+/* Pixels of few samples are too dark if each is toned: what is brighter than
+ * white is cut off, what is darker stays. Beside a draft a pixel is trusted
+ * from its second sample on, and wholly when the draft goes. */
+static inline float trust(const struct showing *s, uint64_t samples)
+{
+    if (!s->has_draft || samples >= FILM_YOUNG_SPP)
+        return 1.0f;
+    return (float)(samples - 1) / (FILM_YOUNG_SPP - 1);
+}
+
+/* Sums are in no cache: they come in the time that so many pixels take. */
+#define AHEAD 32
+
+/* Adds what row y of the film has where the run is, `height` of it. */
+static void add_row(const struct showing *how, const struct film *f, int y,
+                    float height, bool is_draft, struct run *r)
+{
+    struct showing s = *how;
+    struct area_walk w = area_walk(f->width, s.frame->width, r->x, r->count);
+    const uint64_t *counts = f->counts + pixel_index(f, 0, y);
+    const struct sum *sums = f->sums + 3 * pixel_index(f, 0, y);
+
+    while (area_walks(&w)) {
+        int x = w.from;
+        uint64_t samples = counts[x];
+        float trusted = 0.0f;
+        f4 light = f4_all(0.0f), shown = light;
+
+        if (x + AHEAD < f->width)
+            __builtin_prefetch(sums + 3 * (x + AHEAD));
+        if (samples != 0) {
+            light = mean_of(sums + 3 * x, samples);
+            trusted = is_draft ? 0.0f : trust(&s, samples);
         }
+        if (trusted > 0.0f)
+            shown = show(light, s.factor, s.tone);
+        do {
+            int i = w.to - r->x;
+            float area = height * area_step(&w);
+
+            if (trusted > 0.0f)
+                add(&r->shown[i], shown, area * trusted);
+            if (s.has_draft && samples != 0)
+                add(&r->light[i], light, area * (float)samples);
+        } while (w.from == x && area_walks(&w));
+    }
+}
+
+static void add_film(const struct showing *s, struct film *f, bool is_draft,
+                     struct run *r)
+{
+    struct area_walk w = area_walk(f->height, s->frame->height, r->y, 1);
+
+    while (area_walks(&w)) {
+        int y = w.from;
+        float height = area_step(&w);
+
+        row_lock(f, y);
+        if (f->has_row[y])
+            add_row(s, f, y, height, is_draft, r);
         row_unlock(f, y);
     }
 }
 
-/* A pixel of a frame where the film has no samples yet. */
-static void coarse_part(struct film *f, const struct run *r, int i, float *rgb)
+/* The nearest sample of a coarser grid, for pixel i of the run. */
+static f4 coarse_part(const struct showing *s, struct film *f,
+                      const struct run *r, int i)
 {
-    int x0, x1, y0, y1;
+    int64_t x = (2 * (int64_t)(r->x + i) + 1) * f->width;
+    int64_t y = (2 * (int64_t)r->y + 1) * f->height;
 
-    span_of(r->x + i, r->frame->width, f->width, &x0, &x1);
-    span_of(r->y, r->frame->height, f->height, &y0, &y1);
-    coarse_mean(f, (x0 + x1) / 2, (y0 + y1) / 2, rgb);
+    return coarse_mean(f, (int)(x / (2 * s->frame->width)),
+                       (int)(y / (2 * s->frame->height)));
 }
 
-static void preview_run(struct film *f, struct film *draft, float factor,
-                        uint32_t tone, const struct run *r)
+/* Pixel i of the run as the screen shows it. `whole` is the area of a pixel
+ * that is trusted: what is missing of it is light. */
+static f4 finish(const struct showing *s, struct film *film, struct film *draft,
+                 const struct run *r, int i)
 {
-    struct total totals[RUN] = {0};
+    float whole = (float)film->width * (float)film->height;
+    f4 sure = f4_load(r->shown[i].rgb_weight);
+    f4 light = f4_load(r->light[i].rgb_weight);
+    float sure_weight = r->shown[i].rgb_weight[3];
+    float light_weight = r->light[i].rgb_weight[3];
 
-    add_run(f, r, totals);
-    if (draft != NULL)
-        add_run(draft, r, totals);
-    for (int i = 0; i < r->count; i++) {
-        size_t at = (size_t)r->y * (size_t)r->frame->width + (size_t)(r->x + i);
-        float rgb[3];
-
-        if (totals[i].count != 0)
-            mean_of(totals[i].sums, totals[i].count, rgb);
-        else
-            coarse_part(draft != NULL ? draft : f, r, i, rgb);
-        expose(rgb, factor, tone, r->frame->rgb + 3 * at);
-    }
+    if (!draft && sure_weight > 0.0f)
+        return f4_div(sure, f4_all(sure_weight));
+    if (light_weight > 0.0f)
+        light = f4_div(light, f4_all(light_weight));
+    else
+        light = coarse_part(s, draft ? draft : film, r, i);
+    light = show(light, s->factor, s->tone);
+    if (!draft)
+        return light;
+    light = f4_mul(light, f4_all(1.0f - sure_weight / whole));
+    return f4_add(light, f4_div(sure, f4_all(whole)));
 }
 
-void film_preview(struct film *f, struct film *draft, struct develop how,
+void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame)
 {
-    float factor = exposure_factor(how.exposure);
+    struct showing s = {frame, draft != NULL, exposure_factor(how.exposure),
+                        how.tone};
 
-    for (int y = 0; y < frame->height; y++)
+    for (int y = 0; y < frame->height; y++) {
         for (int x = 0; x < frame->width; x += RUN) {
-            int count = frame->width - x < RUN ? frame->width - x : RUN;
+            int left = frame->width - x;
+            struct run r = {.x = x, .y = y, .count = left < RUN ? left : RUN};
+            size_t at = (size_t)y * (size_t)frame->width + (size_t)x;
 
-            preview_run(f, draft, factor, how.tone,
-                        &(struct run){frame, x, y, count});
+            add_film(&s, film, false, &r);
+            if (draft)
+                add_film(&s, draft, true, &r);
+            for (int i = 0; i < r.count; i++)
+                encode(finish(&s, film, draft, &r, i),
+                       frame->rgb + 3 * (at + (size_t)i));
         }
+    }
 }
 
 bool frame_init(struct frame *frame, int width, int height, struct error *err)

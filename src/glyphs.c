@@ -36,8 +36,8 @@ static const struct {
     [GLYPHS_QUADRANT] = {{2, 2}, "quadrants"},
     [GLYPHS_SEXTANT] = {{2, 3}, "sextants"},
     [GLYPHS_BRAILLE] = {{2, 4}, "braille"},
-    [GLYPHS_SPACE] = {{1, 2}, "blanks"},
-    [GLYPHS_ASCII] = {{1, 2}, "letters"},
+    [GLYPHS_SPACE] = {{1, 1}, "blanks"},
+    [GLYPHS_ASCII] = {{1, 1}, "letters"},
 };
 
 struct glyph_grid glyphs_grid(enum glyphs glyphs)

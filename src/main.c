@@ -129,14 +129,14 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     return ok;
 }
 
-/* Without any argument, at a terminal: one of the scenes that were opened last.
- * False if the person wants none; *path stays NULL where there is none. */
-static bool choose_scene(int argc, char **path)
+/* One of the scenes that were opened last, for free(). False if the person
+ * wants none; *path stays NULL where there is none, or no terminal. */
+static bool choose_scene(char **path)
 {
     struct recent recent;
     bool wants_one = true;
 
-    if (argc > 1 || !isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO))
+    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO))
         return true;
     recent_read(&recent);
     if (recent.count > 0) {
@@ -145,6 +145,43 @@ static bool choose_scene(int argc, char **path)
     }
     recent_free(&recent);
     return wants_one;
+}
+
+/* The command line with a scene before all else. */
+static bool parse_with_scene(struct options *o, char *scene, int argc,
+                             char **argv, struct error *err)
+{
+    static char option[] = "-f";
+    char **more = xcalloc((size_t)argc + 2, sizeof *more);
+    bool ok;
+
+    more[0] = argv[0];
+    more[1] = option;
+    more[2] = scene;
+    for (int i = 1; i < argc; i++)
+        more[i + 2] = argv[i];
+    ok = options_parse(o, argc + 2, more, err);
+    free(more);
+    return ok;
+}
+
+/* Asks for a scene where there is none: *scene, for free(). The error is empty
+ * if the person wants none. */
+static bool parse(struct options *o, int argc, char **argv, char **scene,
+                  struct error *err)
+{
+    struct options before = *o;
+
+    if (options_parse(o, argc, argv, err))
+        return true;
+    if (!o->lacks_scene)
+        return false;
+    if (!choose_scene(scene))
+        err->text[0] = '\0';
+    if (!*scene)
+        return false;
+    *o = before;
+    return parse_with_scene(o, *scene, argc, argv, err);
 }
 
 /* With the sets of instructions that this processor has, the first of which it
@@ -164,26 +201,22 @@ static int print_version(void)
 
 int main(int argc, char **argv)
 {
-    static char no_more_options[] = "--";
-    char *chosen[] = {argv[0], no_more_options, NULL, NULL};
     struct options options;
     struct session session;
     struct error err, config_err;
+    char *chosen = NULL;
     int status = EXIT_DONE;
 
     memory_init();
     fill_standard_files();
     /* the characters of the terminal; numbers keep their point */
     setlocale(LC_CTYPE, "");
-    if (!choose_scene(argc, &chosen[2]))
-        return EXIT_DONE;
-    uint64_t start_ns = clock_ns();
     options_init(&options);
     /* what is wrong there must not hide the help */
     bool has_config = config_read(&options, &config_err);
-    if (!options_parse(&options, chosen[2] ? 3 : argc,
-                       chosen[2] ? chosen : argv, &err))
-        return complain(EXIT_USAGE, &err);
+    if (!parse(&options, argc, argv, &chosen, &err))
+        return err.text[0] == '\0' ? EXIT_DONE : complain(EXIT_USAGE, &err);
+    uint64_t start_ns = clock_ns();
     if (options.show_help)
         return print_out(options_help);
     if (options.show_version)
@@ -204,6 +237,6 @@ int main(int argc, char **argv)
     if (!run(&session, &options, start_ns, &status, &err))
         status = complain(EXIT_FAILED, &err);
     session_close(&session);
-    free(chosen[2]);
+    free(chosen);
     return status;
 }

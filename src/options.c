@@ -57,7 +57,8 @@ const char options_help[] =
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
     "  --glyph KIND     half, upper, lower, quadrant, sextant, braille, space\n"
     "                   or ascii cells; sixel or kitty pixels; or auto:\n"
-    "                   half or space (default: auto)\n"
+    "                   half or space, without colours braille or ascii\n"
+    "                   (default: auto)\n"
     "  --cell-aspect R  height of a character over its width, 0.25 to 8\n"
     "                   (default: ask the terminal)\n"
     "  --watch          load files of the scene that have changed at once, "
@@ -243,9 +244,6 @@ static bool check_together(const struct options *o, struct error *err)
 {
     if (o->list_devices || o->probe)
         return true;
-    if (!o->scene_path)
-        return fail(err, "no scene given, expected: glim [options] scene.obj "
-                         "(see glim --help)");
     return check_batch(o, err) && check_show(o, err);
 }
 
@@ -266,9 +264,19 @@ enum palette options_palette(enum color_mode mode)
     return PALETTE_24BIT;
 }
 
-enum glyphs options_glyphs(enum glyph_mode mode)
+/* What is not asked for by name, and pixels where there are none. */
+static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
+{
+    if (palette == PALETTE_MONO)
+        return has_unicode ? GLYPHS_BRAILLE : GLYPHS_ASCII;
+    return has_unicode ? GLYPHS_HALF : GLYPHS_SPACE;
+}
+
+enum glyphs options_glyphs(enum glyph_mode mode, enum palette palette,
+                           bool has_unicode)
 {
     switch (mode) {
+    case GLYPH_HALF: return GLYPHS_HALF;
     case GLYPH_UPPER: return GLYPHS_UPPER;
     case GLYPH_LOWER: return GLYPHS_LOWER;
     case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
@@ -276,8 +284,11 @@ enum glyphs options_glyphs(enum glyph_mode mode)
     case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
     case GLYPH_SPACE: return GLYPHS_SPACE;
     case GLYPH_ASCII: return GLYPHS_ASCII;
-    default: return GLYPHS_HALF;
+    case GLYPH_AUTO:
+    case GLYPH_SIXEL:
+    case GLYPH_KITTY: break;
     }
+    return common_glyphs(palette, has_unicode);
 }
 
 /* GLIM_COLOR is what --color is where that is not given. */
@@ -353,6 +364,12 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
             return true; /* whatever else is on the line */
     }
     keys_settle(&o->keys, o->phoe_keys);
-    return settle_backend(o, err) && check_together(o, err) &&
-           take_environment(o, err);
+    if (!settle_backend(o, err) || !check_together(o, err) ||
+        !take_environment(o, err))
+        return false;
+    if (o->scene_path || o->list_devices || o->probe)
+        return true;
+    o->lacks_scene = !o->batch;
+    return fail(err, "no scene given, expected: glim [options] scene.obj "
+                     "(see glim --help)");
 }

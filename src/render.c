@@ -18,10 +18,6 @@
  * large as the film's. */
 #define DRAFT_STRIDE_MAX 8
 
-/* From then on the film is shown alone, and the screen is what a file would
- * be: each of its pixels has three times as many samples as the draft had. */
-#define DRAFT_SHOWN_SPP 16
-
 struct render {
     struct backend *backend;
     struct film film;
@@ -457,7 +453,7 @@ struct film *render_draft(struct render *r)
     bool is_young;
 
     pthread_mutex_lock(&r->lock);
-    is_young = r->spp_done < DRAFT_SHOWN_SPP;
+    is_young = r->spp_done < FILM_YOUNG_SPP;
     pthread_mutex_unlock(&r->lock);
     return is_young && r->draft.width > 0 ? &r->draft : NULL;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glim/area.h"
 #include "glim/drawing.h"
 #include "glim/first_hits.h"
 #include "glim/projection.h"
@@ -149,24 +150,27 @@ static void fill(const struct show *s, struct frame *frame, int width,
     }
 }
 
-/* The mean of what pixel (x, y) of the frame covers. */
+/* The mean, by area, of what pixel (x, y) of the frame covers. */
 static float mean_at(const struct show *s, const struct frame *frame, int x,
                      int y, int width, int height)
 {
-    int x0 = scaled(x, frame->width, width);
-    int y0 = scaled(y, frame->height, height);
-    int x1 = scaled(x + 1, frame->width, width);
-    int y1 = scaled(y + 1, frame->height, height);
-    float sum = 0;
-    int count = 0;
+    struct area_walk rows = area_walk(height, frame->height, y, 1);
+    float sum = 0, whole = 0;
 
-    for (int j = y0; j < y1 || j == y0; j++) {
-        for (int i = x0; i < x1 || i == x0; i++) {
-            sum += s->numbers[(size_t)j * (size_t)width + (size_t)i];
-            count++;
+    while (area_walks(&rows)) {
+        const float *row = s->numbers + (size_t)rows.from * (size_t)width;
+        float length = area_step(&rows);
+        struct area_walk cols = area_walk(width, frame->width, x, 1);
+
+        while (area_walks(&cols)) {
+            float number = row[cols.from];
+            float area = length * area_step(&cols);
+
+            sum += area * number;
+            whole += area;
         }
     }
-    return sum / (float)count;
+    return sum / whole;
 }
 
 /* The same for counts, one a pixel, up to the largest. */

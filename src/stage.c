@@ -26,6 +26,9 @@
 
 #define STATUS_NS (250 * MS_NS)
 
+/* A terminal that has not answered by then has no pixels. */
+#define LACK_NS S_NS
+
 /* While nothing but samples come, frames have a twelfth of a core: the rest is
  * the render's. */
 #define FRAME_SHARE 12
@@ -97,6 +100,7 @@ void stage_open(struct stage *st)
 {
     canvas_init(&st->canvas, st->work->session->options);
     inside_init(&st->inside, st->work, &st->canvas, &st->pilot->cursor);
+    st->lack_ns = clock_ns() + LACK_NS;
     stage_layout(st);
 }
 
@@ -317,8 +321,23 @@ static int frame_step(const struct stage *st)
     return st->work->progress.render_ns > SETTLING_NS ? STEP : 0;
 }
 
+/* Says it once if the pixels that the person has asked for are not there. */
+static void say_lack(struct stage *st, uint64_t now_ns)
+{
+    const struct canvas *c = &st->canvas;
+    const char *lack = display_lack(&c->display);
+    bool is_known = c->has_all_answers || now_ns >= st->lack_ns;
+
+    if (st->lack_ns == 0 || !is_known || st->work->message.until_ns != 0)
+        return;
+    st->lack_ns = 0;
+    if (lack && c->graphics.shape.kind == GRAPHICS_NONE)
+        work_say(st->work, "%s: %s", canvas_glyphs_name(c), lack);
+}
+
 static void show_messages(struct stage *st, uint64_t now_ns)
 {
+    say_lack(st, now_ns);
     if (st->work->message.until_ns != 0 &&
         now_ns >= st->work->message.until_ns) {
         st->work->message.until_ns = 0;
@@ -413,6 +432,8 @@ uint64_t stage_next_ns(const struct stage *st, uint64_t now_ns)
         next = earlier(next, gauge_next_ns(&st->gauge, w));
     if (w->message.until_ns != 0)
         next = earlier(next, w->message.until_ns);
+    else if (st->lack_ns != 0)
+        next = earlier(next, st->lack_ns);
     return earlier(next, pace_deadline_ns(&st->canvas.pace));
 }
 

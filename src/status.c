@@ -23,11 +23,12 @@ enum field {
     FIELDS
 };
 
-/* What goes first when there is no room. */
-static const enum field dispensable[] = {FIELD_COLORS,  FIELD_MACHINE,
-                                         FIELD_SIZE,    FIELD_SPEED,
-                                         FIELD_LEFT,    FIELD_ELAPSED,
-                                         FIELD_PERCENT, FIELD_SAMPLES};
+/* What goes first when there is no room: what a person knows or sees elsewhere
+ * (the meter has it all), last what a key has changed. */
+static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
+                                         FIELD_SPEED,   FIELD_LEFT,
+                                         FIELD_ELAPSED, FIELD_PERCENT,
+                                         FIELD_COLORS,  FIELD_SAMPLES};
 
 void status_duration(char *text, size_t size_bytes, uint64_t ns)
 {
@@ -154,7 +155,7 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
 
     format_fields(fields, s);
     for (size_t i = 0; i < sizeof dispensable / sizeof dispensable[0]; i++) {
-        if (length_of(fields) + hint + 1 <= room)
+        if (1 + length_of(fields) + hint + 1 <= room)
             break;
         fields[dispensable[i]][0] = '\0';
     }

@@ -6,14 +6,11 @@
 
 #include "kernels/tone.h"
 
-/* Pixels of a cell, one above the other. */
-#define CELL_PIXELS 2
-
 bool swatches_init(struct swatches *s, int rows, struct error *err)
 {
     *s = (struct swatches){.is_there = NULL};
     s->is_there = xcalloc((size_t)rows, sizeof *s->is_there);
-    if (frame_init(&s->frame, SWATCH_COLS, CELL_PIXELS * rows, err) &&
+    if (frame_init(&s->frame, SWATCH_COLS, rows, err) &&
         cells_init(&s->cells, SWATCH_COLS, rows, err) &&
         ansi_init(&s->ansi, SWATCH_COLS, rows, err))
         return true;
@@ -37,9 +34,9 @@ void swatches_clear(struct swatches *s)
 
 void swatches_set(struct swatches *s, int row, const double rgb[3])
 {
-    size_t first = (size_t)row * CELL_PIXELS * SWATCH_COLS;
+    size_t first = (size_t)row * SWATCH_COLS;
 
-    for (size_t i = 0; i < CELL_PIXELS * SWATCH_COLS; i++)
+    for (size_t i = 0; i < SWATCH_COLS; i++)
         for (size_t c = 0; c < 3; c++)
             s->frame.rgb[3 * (first + i) + c] =
                 (uint8_t)srgb_byte((float)rgb[c]);

@@ -50,6 +50,10 @@ void display_next_glyphs(struct display *d);
 /* The pixels that are wanted instead of cells. */
 enum graphics_kind display_pixels(const struct display *d);
 
+/* Why there are none although they are wanted, as the end of a sentence; NULL:
+ * nothing is amiss. The terminal has answered, or never will. */
+const char *display_lack(const struct display *d);
+
 /* Height of a cell over its width: what the person gave, what the terminal
  * answered, what the system says, what is common. */
 double display_cell_aspect(const struct display *d,

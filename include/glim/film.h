@@ -28,6 +28,9 @@
 /* The coarsest grid that the first pass begins with; a power of two. */
 #define FILM_STRIDE_MAX 32
 
+/* A film with fewer samples a pixel is shown with a draft, if there is one. */
+#define FILM_YOUNG_SPP 16
+
 struct film {
     int width, height;
     struct sum *sums; /* 3 a pixel; guarded by locks[y % FILM_LOCKS] */
@@ -91,8 +94,10 @@ void film_counts(struct film *film, float *counts);
  * its own memory. */
 void film_resolve(struct film *film, struct develop how, struct frame *frame);
 
-/* The same, averaged down to the frame's size (or repeated up to it), together
- * with the samples of a draft of the same picture; NULL: none. */
+/* The same in any size: in light, the mean of those pixels by area. With a
+ * draft of the same picture, NULL: none, it comes from the mean of all samples
+ * while the film has one a pixel, and from the film's pixels alone from
+ * FILM_YOUNG_SPP on. */
 void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame);
 

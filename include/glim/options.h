@@ -54,6 +54,7 @@ enum backend_choice {
 
 struct options {
     const char *scene_path;
+    bool lacks_scene;        /* and the screen needs one; all else is right */
     const char *view_path;   /* NULL: beside the scene */
     const char *output_path; /* NULL: STEM.png in batch mode */
     const char *stats_path;  /* NULL: none */
@@ -106,8 +107,10 @@ enum palette options_palette(enum color_mode mode);
 /* Threads of the CPU that work. */
 int options_threads(const struct options *o);
 
-/* What the cells are made of; pixels have half blocks as the fall-back. */
-enum glyphs options_glyphs(enum glyph_mode mode);
+/* What the cells are made of. Pixels have what is common as the fall-back: half
+ * blocks, without colours braille; blanks and letters without Unicode. */
+enum glyphs options_glyphs(enum glyph_mode mode, enum palette palette,
+                           bool has_unicode);
 
 /* Names of enum show_kind, as far as files can show it, and NULL. */
 extern const char *const options_shows[];

@@ -34,6 +34,8 @@ struct stage {
     int help_left;      /* with those behind it; 0: no help */
     const char *prompt; /* in the last line; NULL: nothing is asked */
 
+    uint64_t lack_ns; /* when to ask why there are no pixels; 0: never */
+
     bool is_settled;         /* nothing of the picture is left to be shown */
     uint64_t frame_ns;       /* when the next frame is due */
     uint64_t status_ns;      /* when to look for a new status line */

@@ -170,6 +170,13 @@ bench_previews() {
     done
 }
 
+# A film on its way to the screen's pixels.
+bench_screens() {
+    echo
+    echo 'screens: a film of 1920x1080 pixels in 200x60 cells, one thread'
+    "$build/bench/screens"
+}
+
 # Loading: a million triangles of text.
 bench_load() {
     echo
@@ -189,7 +196,7 @@ bench_sampling() {
 }
 
 machine
-for name in builds instructions frames threads sharing halts previews load device sampling; do
+for name in builds instructions frames threads sharing halts previews screens load device sampling; do
     if wanted "$name"; then
         "bench_$name"
     fi

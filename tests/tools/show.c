@@ -70,8 +70,7 @@ static bool show(const char *path, struct error *err)
         cells_init(&cells, fit.cols, fit.rows, err)) {
         shrink(&image, &frame);
         cells_from_frame(&cells, &frame,
-                         is_plain ? PALETTE_MONO : PALETTE_24BIT,
-                         is_plain ? GLYPHS_ASCII : GLYPHS_HALF);
+                         is_plain ? PALETTE_MONO : PALETTE_24BIT, GLYPHS_HALF);
         is_shown = print_cells(&cells, err);
     }
     cells_free(&cells);

@@ -52,9 +52,23 @@ static void two_pixels_make_a_half_block(void **state)
     assert_int_equal(c.cell[0].glyph, CELL_LOWER);
     assert_int_equal(c.cell[0].fg, 0x040506);
     assert_int_equal(c.cell[0].bg, 0x010203);
+    cells_free(&c);
+    frame_free(&f);
+}
+
+static void one_pixel_is_a_blank(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells_of(&f, 2, 1, GLYPHS_SPACE);
+
+    (void)state;
+    set(&f, 0, 0, 1, 2, 3);
+    set(&f, 1, 0, 4, 5, 6);
     cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_SPACE);
-    assert_int_equal(c.cell[0].glyph, ' ');
-    assert_int_equal(c.cell[0].bg, 0x030405); /* halves round up */
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(c.cell[i].glyph, ' ');
+        assert_int_equal(c.cell[i].bg, i == 0 ? 0x010203 : 0x040506);
+    }
     cells_free(&c);
     frame_free(&f);
 }
@@ -237,11 +251,10 @@ static void mono_is_characters_that_grow(void **state)
 static void ascii_keeps_the_hue(void **state)
 {
     struct frame f;
-    struct cells c = make_cells(&f, 1, 1);
+    struct cells c = make_cells_of(&f, 1, 1, GLYPHS_ASCII);
 
     (void)state;
     set(&f, 0, 0, 100, 50, 0);
-    set(&f, 0, 1, 100, 50, 0);
     cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_ASCII);
     assert_in_range(c.cell[0].glyph, '!', '~');
     assert_int_equal(c.cell[0].fg, 255 << 16 | 127 << 8);
@@ -319,6 +332,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mark_is_seen_in_every_palette),
         cmocka_unit_test(two_pixels_make_a_half_block),
+        cmocka_unit_test(one_pixel_is_a_blank),
         cmocka_unit_test(two_groups_are_the_best),
         cmocka_unit_test(mono_dots_keep_the_average),
         cmocka_unit_test(sixteen_keep_the_average),

@@ -263,6 +263,45 @@ static void previews_add_the_draft(void **state)
     film_free(&draft);
 }
 
+/* Pixels of light 8 and 0 by turns are white and black in a file: half the
+ * light of white. One sample a pixel shows their mean instead, FILM_YOUNG_SPP
+ * the file, with the draft or without, and what lies between no jump. */
+static void young_films_turn_into_files(void **state)
+{
+    struct path_sample samples[8];
+    int counts[8], before = 255;
+    struct film film, draft;
+    struct frame frame;
+    struct error err;
+
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        counts[i] = 1;
+        samples[i] = grey(i % 2 == 0 ? 8.0f : 0.0f);
+    }
+    assert_true(film_init(&film, 8, 8, &err));
+    assert_true(film_init(&draft, 8, 2, &err));
+    assert_true(frame_init(&frame, 4, 2, &err));
+    fill(&draft, 4.0f);
+    for (int spp = 1; spp <= FILM_YOUNG_SPP; spp++) {
+        for (int y = 0; y < 8; y++)
+            film_add_row(&film, 0, y, 1, 8, samples, counts);
+        film_preview(&film, &draft, develop_linear(0), &frame);
+        for (int i = 1; i < 4 * 2; i++)
+            assert_int_equal(frame.rgb[3 * i], frame.rgb[0]);
+        if (spp == 1)
+            assert_int_equal(frame.rgb[0], 255);
+        assert_in_range(frame.rgb[0], before - 6, before);
+        before = frame.rgb[0];
+    }
+    assert_int_equal(before, srgb_byte(0.5f));
+    film_preview(&film, NULL, develop_linear(0), &frame);
+    assert_int_equal(frame.rgb[0], before);
+    frame_free(&frame);
+    film_free(&film);
+    film_free(&draft);
+}
+
 /* More light than a sum holds, in some pixels of the film or in each of them,
  * is white. */
 static void previews_of_too_much_light_are_white(void **state)
@@ -361,6 +400,7 @@ int main(void)
         cmocka_unit_test(bad_samples_count_as_zero),
         cmocka_unit_test(preview_averages),
         cmocka_unit_test(previews_add_the_draft),
+        cmocka_unit_test(young_films_turn_into_files),
         cmocka_unit_test(previews_of_too_much_light_are_white),
         cmocka_unit_test(films_too_large_are_refused),
     };

@@ -126,6 +126,40 @@ static void narrow_windows_drop_fields(void **state)
     }
 }
 
+/* In 80 columns the mode, files, samples, colours and the hint have room,
+ * whatever the rest is, with the keys as they come. */
+static void eighty_columns_have_the_colors(void **state)
+{
+    static const char *const colors[] = {"24 bit", "256 colours", "16 colours",
+                                         "mono"};
+    struct render_progress p = half_done();
+    struct status s = {.progress = &p,
+                       .width_px = 65536,
+                       .height_px = 65536,
+                       .hint = "? help  q quit"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    p.render_ns = 100 * 3600 * SEC;
+    for (int i = 0; i < 64; i++) {
+        s.is_live = i & 1;
+        s.is_orbiting = i & 2;
+        s.is_halted = s.is_started = i & 4;
+        s.load_key = i & 8 ? "l" : NULL;
+        s.device = i & 16 ? "NVIDIA GeForce RTX 4090 Ti" : NULL;
+        p.spp_limit = i & 32 ? 16 : 0;
+        s.thread_count = 1024;
+        s.colors = colors[i % 4];
+        status_format(text, 80, &s);
+        check_has(text, s.colors);
+        check_has(text, s.hint);
+        if (s.load_key)
+            check_has(text, "changed: l loads");
+        if (s.is_live || s.is_started)
+            check_has(text, " spp ");
+    }
+}
+
 static void messages_are_clean(void **state)
 {
     char text[STATUS_BYTES];
@@ -146,6 +180,7 @@ int main(void)
         cmocka_unit_test(normal_mode_says_what_is_left),
         cmocka_unit_test(live_mode_has_no_end),
         cmocka_unit_test(narrow_windows_drop_fields),
+        cmocka_unit_test(eighty_columns_have_the_colors),
         cmocka_unit_test(messages_are_clean),
     };
 

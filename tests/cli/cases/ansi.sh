@@ -13,6 +13,9 @@ text --ansi 8x8 | cat -v
 text --ansi 8x8 --cell-aspect 1 --color 16 --glyph upper | cat -v
 NO_COLOR=1 text --ansi=4x4 -o - | cat -v
 NO_COLOR=1 text --ansi 4x4 --color 24bit | cat -v
+# letters are for any locale, dots for those that have them
+LC_ALL=C NO_COLOR=1 text --ansi=4x4 | cat -v
+LC_ALL=C.UTF-8 NO_COLOR=1 text --ansi=4x4
 NO_COLOR= GLIM_COLOR=mono text --ansi 4x4 --glyph braille | cat -v
 text --ansi 4x4 -o picture.ans
 text --ansi 4x4 >expected

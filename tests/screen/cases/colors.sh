@@ -14,7 +14,7 @@ wait_for "16 colours"
 has '\[4[0-9]m'
 keys C
 wait_for "mono"
-wait_for "[o%x+][o%x+][o%x+]"
+wait_for "⠅⠅⠅" # light of a quarter: two dots of eight
 keys C
 has '48;2;188;124;0m'
 keys q

@@ -31,6 +31,34 @@ for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@"
     keys q
     expect_end 0
 done
+# Pixels that are asked for and not there are missed in a word.
+for case in "sixel:sixels" "kitty:kitty pixels"; do
+    fresh
+    start --glyph ${case%%:*} lamp.obj
+    wait_for "half blocks: this terminal has not said it has ${case#*:}"
+    keys q
+    expect_end 0
+done
+mkdir -p config/glim
+echo 'option glyph sixel' >config/glim/config
+fresh
+start_line "XDG_CONFIG_HOME=\$PWD/config TERM=tmux-256color glim lamp.obj"
+wait_for "half blocks: this terminal has not said it has sixels"
+keys q
+expect_end 0
+fresh
+start --glyph sixel --color mono lamp.obj
+wait_for "braille: sixels need colours"
+keys q
+expect_end 0
+# Without colours dots are the first choice, and letters come next.
+fresh
+start_line "TERM=tmux-256color glim --color mono lamp.obj"
+wait_for "⣿⣿"
+keys G
+wait_for "letters"
+keys q
+expect_end 0
 fresh
 start --glyph ascii lamp.obj
 wait_for "@@@"

@@ -29,3 +29,16 @@ start_line "TERM=tmux-256color glim"
 wait_for "^  1  .*/flat.obj" # it was opened last
 keys q Enter
 expect_end 0
+# With options, but no scene, it is the same; they count.
+fresh
+start_line "TERM=tmux-256color glim --color mono -t 1"
+wait_for "^  1  .*/flat.obj"
+keys Enter
+wait_for "LIVE .* mono "
+keys q
+expect_end 0
+# What is wrong with them is said before anybody has to choose.
+fresh
+start_line "TERM=tmux-256color glim --device x --backend cpu"
+wait_for "^glim: --device: is for OpenCL"
+expect_end 2
