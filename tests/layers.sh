@@ -14,7 +14,7 @@ HEADERLESS='main stb backend_cpu'
 
 # The files that may use the C library's output: what they write are files'
 # texts. People read what goes through print.c.
-WRITERS='print assign mtl_save view_file cl_source stats'
+WRITERS='print assign mtl_save view_file cl_source stats windows'
 
 {
     find src include kernels scenes tests -name '*.[ch]' -o -name '*.cl'
