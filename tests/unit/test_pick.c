@@ -78,7 +78,7 @@ static void finds_what_the_render_finds(void **state)
     struct scene scene;
     struct view view = view_from(72, 73, 78);
     struct world w;
-    struct bvh bvh;
+    struct bvh bvh = {0};
     struct error err;
     uint32_t hit_count = 0;
 
