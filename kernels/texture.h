@@ -24,11 +24,12 @@ struct footprint {
     float fx, fy;
 };
 
-/* The column of u in a repeating row of n texels, and its right neighbour. */
+/* The column of u in a repeating row of n texels, and its right neighbour. An
+ * infinite or undefined u, of coordinates beyond what floats hold, is 1. */
 static inline void wrap_pair(float u, uint32_t n, uint32_t *a, uint32_t *b,
                              float *fraction)
 {
-    float x = (u - floorf(u)) * (float)n - 0.5f;
+    float x = f_min(u - floorf(u), 1.0f) * (float)n - 0.5f;
     float whole = floorf(x);
     int32_t i = (int32_t)whole;
 

@@ -154,6 +154,25 @@ static void options_move_and_scale(void **state)
     unload(&moved);
 }
 
+/* Coordinates and options that no float can hold together still show a texel's
+ * colour. */
+static void extreme_coordinates_have_colors(void **state)
+{
+    const float places[] = {0.5f, 3e38f, -3e38f, INFINITY, NAN};
+    struct loaded l;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&l, "Kd 1\nmap_Kd -s 3e38 -3e38 -o 1e38 1e38 six.tga");
+    for (int i = 0; i < 25; i++) {
+        struct vec3 c = surface(&l, places[i % 5], places[i / 5]).color;
+
+        assert_true(c.x >= 0 && c.x <= 1 && c.y >= 0 && c.y <= 1 && c.z >= 0 &&
+                    c.z <= 1);
+    }
+    unload(&l);
+}
+
 static void clamped_borders_go_on(void **state)
 {
     struct loaded l;
@@ -397,6 +416,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texels_are_met_in_their_centres),
         cmocka_unit_test(options_move_and_scale),
+        cmocka_unit_test(extreme_coordinates_have_colors),
         cmocka_unit_test(clamped_borders_go_on),
         cmocka_unit_test(an_image_is_read_once),
         cmocka_unit_test(many_images_are_read),
