@@ -30,6 +30,14 @@ struct light_sample {
     struct vec3 p;        /* on the triangle */
 };
 
+/* True if a material emits light. One that is invisible emits none. */
+static inline bool material_shines(const struct material *m)
+{
+    return (m->emission.x > 0.0f || m->emission.y > 0.0f ||
+            m->emission.z > 0.0f) &&
+           m->opacity > 0.0f;
+}
+
 /* Emitted radiance of a material at uv, the same to both sides. */
 static inline struct vec3 emission_at(const struct world *w,
                                       const struct material *m, struct vec2 uv,

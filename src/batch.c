@@ -229,16 +229,16 @@ static enum glyphs text_glyphs(const struct options *o, enum palette palette)
     bool may_learn;
     bool has_unicode = palette != PALETTE_MONO || term_is_utf8(&may_learn);
 
-    return options_glyphs(o->glyph, palette, has_unicode);
+    return display_glyphs(o->display.glyph, palette, has_unicode);
 }
 
 static enum palette text_palette(const struct options *o)
 {
     const char *no_color = getenv("NO_COLOR");
 
-    if (o->color == COLOR_AUTO && no_color && no_color[0] != '\0')
+    if (o->display.color == COLOR_AUTO && no_color && no_color[0] != '\0')
         return PALETTE_MONO;
-    return options_palette(o->color);
+    return display_palette(o->display.color);
 }
 
 static bool save_text(struct show *show, char **name, struct error *err)
@@ -247,7 +247,7 @@ static bool save_text(struct show *show, char **name, struct error *err)
     const struct options *o = s->options;
     struct fit fit =
         cells_fit(s->crop.width, s->crop.height, o->text_cols, o->text_rows,
-                  o->cell_aspect > 0 ? o->cell_aspect : 2);
+                  o->display.cell_aspect > 0 ? o->display.cell_aspect : 2);
     enum palette palette = text_palette(o);
     struct text_style style = {fit.cols, fit.rows, palette,
                                text_glyphs(o, palette)};

@@ -29,11 +29,11 @@
 /* Where swatches stand in the panel. */
 #define SWATCH_COL 2
 
-void canvas_init(struct canvas *c, const struct options *options)
+void canvas_init(struct canvas *c, const struct display_choice *choice)
 {
     *c = (struct canvas){.has_status_row = true};
     pace_init(&c->pace, clock_ns());
-    display_init(&c->display, options);
+    display_init(&c->display, choice);
 }
 
 /* Cells that are written over sixels replace them, over kitty's not. */
@@ -85,10 +85,10 @@ static struct fit fit_to(const struct canvas *c, const struct term_size *size,
                      display_cell_aspect(&c->display, size));
 }
 
-struct fit canvas_expect(const struct options *options, int width_px,
+struct fit canvas_expect(const struct display_choice *choice, int width_px,
                          int height_px)
 {
-    struct canvas c = {.display.cell_aspect = options->cell_aspect,
+    struct canvas c = {.display.cell_aspect = choice->cell_aspect,
                        .has_status_row = true};
     struct term_size size = term_size();
 

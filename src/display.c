@@ -10,18 +10,57 @@
 #define ASPECT_MIN  0.5
 #define ASPECT_MAX  5
 
+enum palette display_palette(enum color_mode mode)
+{
+    switch (mode) {
+    case COLOR_MONO: return PALETTE_MONO;
+    case COLOR_16: return PALETTE_16;
+    case COLOR_256: return PALETTE_256;
+    case COLOR_24BIT:
+    case COLOR_AUTO: break;
+    }
+    return PALETTE_24BIT;
+}
+
+/* What is not asked for by name, and pixels where there are none. */
+static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
+{
+    if (palette == PALETTE_MONO)
+        return has_unicode ? GLYPHS_BRAILLE : GLYPHS_ASCII;
+    return has_unicode ? GLYPHS_HALF : GLYPHS_SPACE;
+}
+
+enum glyphs display_glyphs(enum glyph_mode mode, enum palette palette,
+                           bool has_unicode)
+{
+    switch (mode) {
+    case GLYPH_HALF: return GLYPHS_HALF;
+    case GLYPH_UPPER: return GLYPHS_UPPER;
+    case GLYPH_LOWER: return GLYPHS_LOWER;
+    case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
+    case GLYPH_SEXTANT: return GLYPHS_SEXTANT;
+    case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
+    case GLYPH_SPACE: return GLYPHS_SPACE;
+    case GLYPH_ASCII: return GLYPHS_ASCII;
+    case GLYPH_AUTO:
+    case GLYPH_SIXEL:
+    case GLYPH_KITTY: break;
+    }
+    return common_glyphs(palette, has_unicode);
+}
+
 static void choose_palette(struct display *d, enum color_mode mode)
 {
     d->palette_is_final = true;
     if (mode == COLOR_AUTO)
         d->palette = term_palette(&d->palette_is_final);
     else
-        d->palette = options_palette(mode);
+        d->palette = display_palette(mode);
 }
 
 static enum glyphs glyphs_of(const struct display *d, enum glyph_mode mode)
 {
-    return options_glyphs(mode, d->palette, d->has_unicode);
+    return display_glyphs(mode, d->palette, d->has_unicode);
 }
 
 static void choose_glyphs(struct display *d, enum glyph_mode mode)
@@ -30,16 +69,16 @@ static void choose_glyphs(struct display *d, enum glyph_mode mode)
     d->glyphs = glyphs_of(d, mode);
 }
 
-void display_init(struct display *d, const struct options *options)
+void display_init(struct display *d, const struct display_choice *choice)
 {
     bool may_learn;
 
-    *d = (struct display){.cell_aspect = options->cell_aspect,
-                          .aspect_is_final = options->cell_aspect > 0};
+    *d = (struct display){.cell_aspect = choice->cell_aspect,
+                          .aspect_is_final = choice->cell_aspect > 0};
     d->has_unicode = term_is_utf8(&may_learn);
     d->unicode_is_final = !may_learn;
-    choose_palette(d, options->color);
-    choose_glyphs(d, options->glyph);
+    choose_palette(d, choice->color);
+    choose_glyphs(d, choice->glyph);
 }
 
 static bool is_cell_size(int width_px, int height_px)

@@ -8,7 +8,7 @@
 #include "glim/channels.h"
 #include "glim/footprint.h"
 #include "glim/light_tree.h"
-#include "glim/material.h"
+#include "kernels/light.h"
 #include "kernels/texture.h"
 
 /* Of all lights together: no light is without any. */

@@ -120,12 +120,6 @@ struct material material_default(void)
     return m;
 }
 
-bool material_shines(const struct material *m)
-{
-    return (m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0) &&
-           m->opacity > 0;
-}
-
 static double unit_clamped(double x)
 {
     if (!(x > 0))

@@ -161,7 +161,7 @@ static bool set_cell_aspect(struct options *o, const struct option_given *g,
         !(number >= 0.25 && number <= 8.0))
         return fail(err, "%s: found '%s', expected a number from 0.25 to 8",
                     g->shown, g->value);
-    o->cell_aspect = number;
+    o->display.cell_aspect = number;
     return true;
 }
 
@@ -239,7 +239,8 @@ static bool set_word(struct options *o, const struct option_given *g,
         if (!choice(g, colors, &index, err))
             return false;
         /* 24bit, as in COLORTERM, is the same */
-        o->color = index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
+        o->display.color =
+            index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
         o->has_color = true;
         return true;
     case OPTION_SHOW:
@@ -250,7 +251,7 @@ static bool set_word(struct options *o, const struct option_given *g,
     default:
         if (!choice(g, glyphs, &index, err))
             return false;
-        o->glyph = (enum glyph_mode)index;
+        o->display.glyph = (enum glyph_mode)index;
         return true;
     }
 }

@@ -194,7 +194,7 @@ static bool check_batch(const struct options *o, struct error *err)
                     "--ansi: is for batch mode, expected -b beside it (on the "
                     "screen %s saves a text)",
                     keys_first_name(&o->keys, ACTION_SAVE_TEXT).text);
-    if (o->text_cols > 0 && o->glyph >= GLYPH_SIXEL)
+    if (o->text_cols > 0 && o->display.glyph >= GLYPH_SIXEL)
         return fail(err, "--ansi: a text has no pixels, expected a --glyph "
                          "of cells beside it");
     if (o->output_path && o->text_cols == 0 &&
@@ -250,45 +250,6 @@ static bool check_together(const struct options *o, struct error *err)
 int options_threads(const struct options *o)
 {
     return o->thread_count != 0 ? o->thread_count : usable_threads();
-}
-
-enum palette options_palette(enum color_mode mode)
-{
-    switch (mode) {
-    case COLOR_MONO: return PALETTE_MONO;
-    case COLOR_16: return PALETTE_16;
-    case COLOR_256: return PALETTE_256;
-    case COLOR_24BIT:
-    case COLOR_AUTO: break;
-    }
-    return PALETTE_24BIT;
-}
-
-/* What is not asked for by name, and pixels where there are none. */
-static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
-{
-    if (palette == PALETTE_MONO)
-        return has_unicode ? GLYPHS_BRAILLE : GLYPHS_ASCII;
-    return has_unicode ? GLYPHS_HALF : GLYPHS_SPACE;
-}
-
-enum glyphs options_glyphs(enum glyph_mode mode, enum palette palette,
-                           bool has_unicode)
-{
-    switch (mode) {
-    case GLYPH_HALF: return GLYPHS_HALF;
-    case GLYPH_UPPER: return GLYPHS_UPPER;
-    case GLYPH_LOWER: return GLYPHS_LOWER;
-    case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
-    case GLYPH_SEXTANT: return GLYPHS_SEXTANT;
-    case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
-    case GLYPH_SPACE: return GLYPHS_SPACE;
-    case GLYPH_ASCII: return GLYPHS_ASCII;
-    case GLYPH_AUTO:
-    case GLYPH_SIXEL:
-    case GLYPH_KITTY: break;
-    }
-    return common_glyphs(palette, has_unicode);
 }
 
 /* GLIM_COLOR is what --color is where that is not given. */

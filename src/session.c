@@ -10,6 +10,7 @@
 #include "glim/file.h"
 #include "glim/scene_world.h"
 #include "glim/view_file.h"
+#include "glim/scene_load.h"
 
 /* An overcast noon: bright enough for exposure 0, a little blue. */
 static const double soft_sky[3] = {0.7, 0.8, 0.9};

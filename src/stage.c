@@ -6,6 +6,7 @@
 
 #include "glim/help.h"
 #include "glim/panel_draw.h"
+#include "glim/status.h"
 #include "glim/version.h"
 
 #define MS_NS UINT64_C(1000000)
@@ -65,7 +66,8 @@ static void set_draft(struct session *s, const struct fit *fit)
 
 void stage_expect(struct session *s)
 {
-    struct fit fit = canvas_expect(s->options, s->crop.width, s->crop.height);
+    struct fit fit =
+        canvas_expect(&s->options->display, s->crop.width, s->crop.height);
 
     set_draft(s, &fit);
 }
@@ -98,7 +100,7 @@ void stage_init(struct stage *st, struct work *work, struct pilot *pilot)
 
 void stage_open(struct stage *st)
 {
-    canvas_init(&st->canvas, st->work->session->options);
+    canvas_init(&st->canvas, &st->work->session->options->display);
     inside_init(&st->inside, st->work, &st->canvas, &st->pilot->cursor);
     st->lack_ns = clock_ns() + LACK_NS;
     stage_layout(st);

@@ -15,10 +15,12 @@
 #include "glim/ansi.h"
 #include "glim/display.h"
 #include "glim/pace.h"
-#include "glim/status.h"
 #include "glim/swatches.h"
 #include "glim/text.h"
 #include "glim/windows.h"
+
+/* The longest text of the status line, with its end. */
+#define STATUS_BYTES 1024
 
 /* Draws into frames before they are shown. */
 struct painter {
@@ -54,11 +56,11 @@ struct canvas {
 
 /* Where a picture of this size will go, as far as that is known before
  * term_open(). No columns: nowhere. */
-struct fit canvas_expect(const struct options *options, int width_px,
+struct fit canvas_expect(const struct display_choice *choice, int width_px,
                          int height_px);
 
 /* After term_open(). */
-void canvas_init(struct canvas *c, const struct options *options);
+void canvas_init(struct canvas *c, const struct display_choice *choice);
 
 /* Fits a picture of this size to the terminal's size of now; everything is
  * drawn anew. */

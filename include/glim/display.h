@@ -16,9 +16,32 @@
 
 #include "glim/graphics.h"
 #include "glim/input.h"
-#include "glim/options.h"
 #include "glim/palette.h"
 #include "glim/term.h"
+
+enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
+
+/* The cells of enum glyphs, or pixels where the terminal has them. */
+enum glyph_mode {
+    GLYPH_AUTO,
+    GLYPH_HALF,
+    GLYPH_UPPER,
+    GLYPH_LOWER,
+    GLYPH_QUADRANT,
+    GLYPH_SEXTANT,
+    GLYPH_BRAILLE,
+    GLYPH_SPACE,
+    GLYPH_ASCII,
+    GLYPH_SIXEL,
+    GLYPH_KITTY
+};
+
+/* What the person has asked for. */
+struct display_choice {
+    enum color_mode color;
+    enum glyph_mode glyph;
+    double cell_aspect; /* height of a cell over its width; 0: ask */
+};
 
 struct display {
     enum palette palette;
@@ -35,7 +58,15 @@ struct display {
 };
 
 /* After term_open(). */
-void display_init(struct display *d, const struct options *options);
+void display_init(struct display *d, const struct display_choice *choice);
+
+/* What a mode that is not COLOR_AUTO means. */
+enum palette display_palette(enum color_mode mode);
+
+/* What the cells are made of. Pixels have what is common as the fall-back: half
+ * blocks, without colours braille; blanks and letters without Unicode. */
+enum glyphs display_glyphs(enum glyph_mode mode, enum palette palette,
+                           bool has_unicode);
 
 /* Takes an answer of the terminal. True if cells are others than before, or of
  * another shape. */

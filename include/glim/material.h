@@ -85,9 +85,6 @@ struct mtl_color mtl_source_light(const struct mtl_source *source);
 
 struct material material_default(void);
 
-/* Whether light comes from it: what is not seen has none. */
-bool material_shines(const struct material *m);
-
 /* A black colour beside a map stays black here: textures_load() decides. */
 struct material material_from_source(const struct mtl_source *source,
                                      const char *path, struct report *report);

@@ -10,27 +10,10 @@
 #ifndef GLIM_OPTIONS_H
 #define GLIM_OPTIONS_H
 
-#include "glim/cells.h"
+#include "glim/display.h"
 #include "glim/keys.h"
 #include "glim/render.h"
 #include "glim/util.h"
-
-enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
-
-/* The cells of enum glyphs, or pixels where the terminal has them. */
-enum glyph_mode {
-    GLYPH_AUTO,
-    GLYPH_HALF,
-    GLYPH_UPPER,
-    GLYPH_LOWER,
-    GLYPH_QUADRANT,
-    GLYPH_SEXTANT,
-    GLYPH_BRAILLE,
-    GLYPH_SPACE,
-    GLYPH_ASCII,
-    GLYPH_SIXEL,
-    GLYPH_KITTY
-};
 
 /* What a picture shows of a scene. */
 enum show_kind {
@@ -78,11 +61,9 @@ struct options {
     bool watch;                /* changed files are loaded at once */
     bool phoe_keys;            /* W S A D Q E as phoe_ray had them */
     struct keys keys;
-    enum color_mode color;
+    struct display_choice display;
     bool has_color;
-    enum glyph_mode glyph;
     int text_cols, text_rows; /* batch mode writes text; 0: not */
-    double cell_aspect;       /* height of a cell over its width; 0: ask */
     bool show_help, show_version;
     bool list_devices; /* then there need be no scene */
     bool probe;        /* cl_probe.h: this is the copy; nor need there then */
@@ -101,16 +82,8 @@ bool options_set_taste(struct options *o, const char *name, const char *value,
  * keys. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
 
-/* What a mode that is not COLOR_AUTO means. */
-enum palette options_palette(enum color_mode mode);
-
 /* Threads of the CPU that work. */
 int options_threads(const struct options *o);
-
-/* What the cells are made of. Pixels have what is common as the fall-back: half
- * blocks, without colours braille; blanks and letters without Unicode. */
-enum glyphs options_glyphs(enum glyph_mode mode, enum palette palette,
-                           bool has_unicode);
 
 /* Names of enum show_kind, as far as files can show it, and NULL. */
 extern const char *const options_shows[];

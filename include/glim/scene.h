@@ -91,11 +91,6 @@ struct scene {
     float linear_of_srgb[256];
 };
 
-/* Loads an OBJ file with its MTL files and textures and finishes the scene.
- * up_is_z turns z-up models to y-up ((x, y, z) becomes (x, z, -y)). */
-bool scene_load(struct scene *scene, const char *path, bool up_is_z,
-                struct report *report, struct error *err);
-
 /* Drops triangles with a non-finite vertex or without area (counted in the
  * report), computes bounds, centre and scale, and fills positions from
  * file_positions. */

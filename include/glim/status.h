@@ -10,9 +10,8 @@
 #ifndef GLIM_STATUS_H
 #define GLIM_STATUS_H
 
+#include "glim/canvas.h"
 #include "glim/render.h"
-
-#define STATUS_BYTES 1024
 
 struct status {
     bool is_live;

@@ -27,7 +27,7 @@
 #include "glim/cl_environment.h"
 #include "glim/isa.h"
 #include "glim/render.h"
-#include "glim/scene.h"
+#include "glim/scene_load.h"
 #include "rows.h"
 
 #define SEEDS   12

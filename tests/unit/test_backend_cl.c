@@ -20,7 +20,7 @@
 #include "glim/isa.h"
 #include "glim/render.h"
 #include "glim/restyle.h"
-#include "glim/scene.h"
+#include "glim/scene_load.h"
 #include "glim/scene_world.h"
 #include "glim/selftest.h"
 #include "glim/view_file.h"

@@ -13,6 +13,7 @@
 
 #include "glim/clearance.h"
 #include "glim/steer.h"
+#include "glim/scene_load.h"
 
 #define MS UINT64_C(1000000)
 

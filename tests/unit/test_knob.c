@@ -13,6 +13,7 @@
 #include "glim/file.h"
 #include "glim/knob_text.h"
 #include "glim/look.h"
+#include "glim/scene_load.h"
 
 static uint64_t seed = 5;
 

@@ -7,7 +7,7 @@
 
 #include "check.h"
 #include "glim/scene_world.h"
-#include "glim/scene.h"
+#include "glim/scene_load.h"
 
 #include "kernels/traverse.h"
 

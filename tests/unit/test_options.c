@@ -77,9 +77,9 @@ static void test_defaults(void **state)
     assert_false(o.has_max_bounces);
     assert_int_equal(o.seed, 0);
     assert_false(o.batch || o.up_is_z || o.has_crop || o.phoe_keys);
-    assert_int_equal(o.color, COLOR_AUTO);
-    assert_int_equal(o.glyph, GLYPH_AUTO);
-    assert_true(o.cell_aspect == 0.0);
+    assert_int_equal(o.display.color, COLOR_AUTO);
+    assert_int_equal(o.display.glyph, GLYPH_AUTO);
+    assert_true(o.display.cell_aspect == 0.0);
     assert_false(o.show_help || o.show_version || o.list_devices);
     assert_int_equal(o.backend, BACKEND_CPU);
     assert_null(o.device);
@@ -115,26 +115,26 @@ static void test_every_option(void **state)
 static void test_words(void **state)
 {
     (void)state;
-    assert_int_equal(good("a --color 24").color, COLOR_24BIT);
-    assert_int_equal(good("a --color=24bit").color, COLOR_24BIT);
-    assert_int_equal(good("a --color 256").color, COLOR_256);
-    assert_int_equal(good("a --color 16").color, COLOR_16);
-    assert_int_equal(good("a --color mono").color, COLOR_MONO);
-    assert_int_equal(good("a --color auto").color, COLOR_AUTO);
-    assert_int_equal(good("a --glyph auto").glyph, GLYPH_AUTO);
-    assert_int_equal(good("a --glyph upper").glyph, GLYPH_UPPER);
-    assert_int_equal(good("a --glyph lower").glyph, GLYPH_LOWER);
-    assert_int_equal(good("a --glyph space").glyph, GLYPH_SPACE);
-    assert_int_equal(good("a --glyph ascii").glyph, GLYPH_ASCII);
-    assert_int_equal(good("a --glyph half").glyph, GLYPH_HALF);
-    assert_int_equal(good("a --glyph quadrant").glyph, GLYPH_QUADRANT);
-    assert_int_equal(good("a --glyph sextant").glyph, GLYPH_SEXTANT);
-    assert_int_equal(good("a --glyph braille").glyph, GLYPH_BRAILLE);
-    assert_int_equal(good("a --glyph sixel").glyph, GLYPH_SIXEL);
-    assert_int_equal(good("a --glyph kitty").glyph, GLYPH_KITTY);
+    assert_int_equal(good("a --color 24").display.color, COLOR_24BIT);
+    assert_int_equal(good("a --color=24bit").display.color, COLOR_24BIT);
+    assert_int_equal(good("a --color 256").display.color, COLOR_256);
+    assert_int_equal(good("a --color 16").display.color, COLOR_16);
+    assert_int_equal(good("a --color mono").display.color, COLOR_MONO);
+    assert_int_equal(good("a --color auto").display.color, COLOR_AUTO);
+    assert_int_equal(good("a --glyph auto").display.glyph, GLYPH_AUTO);
+    assert_int_equal(good("a --glyph upper").display.glyph, GLYPH_UPPER);
+    assert_int_equal(good("a --glyph lower").display.glyph, GLYPH_LOWER);
+    assert_int_equal(good("a --glyph space").display.glyph, GLYPH_SPACE);
+    assert_int_equal(good("a --glyph ascii").display.glyph, GLYPH_ASCII);
+    assert_int_equal(good("a --glyph half").display.glyph, GLYPH_HALF);
+    assert_int_equal(good("a --glyph quadrant").display.glyph, GLYPH_QUADRANT);
+    assert_int_equal(good("a --glyph sextant").display.glyph, GLYPH_SEXTANT);
+    assert_int_equal(good("a --glyph braille").display.glyph, GLYPH_BRAILLE);
+    assert_int_equal(good("a --glyph sixel").display.glyph, GLYPH_SIXEL);
+    assert_int_equal(good("a --glyph kitty").display.glyph, GLYPH_KITTY);
     assert_false(good("a --up y").up_is_z);
     assert_true(good("a --phoe-keys").phoe_keys);
-    assert_true(good("a --cell-aspect 1.5e0").cell_aspect == 1.5);
+    assert_true(good("a --cell-aspect 1.5e0").display.cell_aspect == 1.5);
     bad("a --color red",
         "--color: found 'red', expected 24, 256, 16, mono or auto");
     bad("a --glyph=",
@@ -303,15 +303,15 @@ static void test_environment(void **state)
 {
     (void)state;
     setenv("GLIM_COLOR", "256", 1);
-    assert_int_equal(good("a").color, COLOR_256);
-    assert_int_equal(good("a --color 16").color, COLOR_16);
-    assert_int_equal(good("a --color auto").color, COLOR_AUTO);
-    assert_int_equal(good("-b a").color, COLOR_AUTO);
-    assert_int_equal(good("-b --ansi 80x24 a").color, COLOR_256);
+    assert_int_equal(good("a").display.color, COLOR_256);
+    assert_int_equal(good("a --color 16").display.color, COLOR_16);
+    assert_int_equal(good("a --color auto").display.color, COLOR_AUTO);
+    assert_int_equal(good("-b a").display.color, COLOR_AUTO);
+    assert_int_equal(good("-b --ansi 80x24 a").display.color, COLOR_256);
     setenv("GLIM_COLOR", "red", 1);
     bad("a", "GLIM_COLOR: found 'red', expected 24, 256, 16, mono or auto");
     setenv("GLIM_COLOR", "", 1);
-    assert_int_equal(good("a").color, COLOR_AUTO);
+    assert_int_equal(good("a").display.color, COLOR_AUTO);
     unsetenv("GLIM_COLOR");
 }
 

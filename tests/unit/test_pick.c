@@ -11,6 +11,7 @@
 #include "glim/scene_world.h"
 #include "glim/bvh.h"
 #include "glim/pick.h"
+#include "glim/scene_load.h"
 #include "kernels/start.h"
 #include "kernels/traverse.h"
 

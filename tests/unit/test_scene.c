@@ -7,7 +7,7 @@
 #include "check.h"
 #include "glim/scene_world.h"
 #include "glim/obj.h"
-#include "glim/scene.h"
+#include "glim/scene_load.h"
 
 #define PI 3.14159265358979323846
 

@@ -14,7 +14,7 @@
 #include "glim/file.h"
 #include "glim/mtl.h"
 #include "glim/obj.h"
-#include "glim/scene.h"
+#include "glim/scene_load.h"
 
 struct loaded {
     struct scene scene;

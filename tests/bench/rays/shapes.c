@@ -7,6 +7,7 @@
 #include "glim/scene_world.h"
 #include "glim/mtl.h"
 #include "glim/view_file.h"
+#include "glim/scene_load.h"
 #include "kernels/rng.h"
 
 /* Octaves of a terrain's height. */
