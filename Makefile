@@ -41,7 +41,7 @@ HARDENING := -fPIE -fstack-protector-strong -fstack-clash-protection \
 FORTIFY = $(if $(SAN),,$(if $(filter-out -O0,$(filter -O%,$(CFLAGS))), \
 	-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2))
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
-	-fno-trapping-math -I. -Iinclude -pthread $(WARNINGS) $(HARDENING) \
+	-fno-trapping-math -I. -Isrc -pthread $(WARNINGS) $(HARDENING) \
 	$(FORTIFY) $(CFLAGS) $(if $(SAN), \
 	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
@@ -50,8 +50,8 @@ LIBS = -lncursesw -ltinfo -lm -ldl
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
-# src/paths.c is built for each set of instructions and, as the scene lacks what
-# the others need, for each set of features, of which src/isa.c takes the first
+# src/render/cpu_kernel.c is built for each set of instructions and, as the scene lacks what
+# the others need, for each set of features, of which src/render/cpu_dispatch.c takes the first
 # that will do: walls and lamps, images on them, most materials.
 ISAS := $(if $(X86_64),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi
@@ -67,7 +67,8 @@ FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
 	FEATURE_GUIDE
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
-OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(wildcard src/*.c)) $(B)/kernels.o \
+SOURCES := $(wildcard src/*.c src/*/*.c)
+OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
 	$(PATHS)
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
@@ -89,7 +90,7 @@ GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
-C_FILES = $(foreach d,src include/glim kernels scenes tests/unit tests/bench \
+C_FILES = $(foreach d,src src/* kernels scenes tests/unit tests/bench \
 	tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \
 	$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
@@ -101,6 +102,7 @@ $(B)/glim: $(OBJECTS) $(B)/flags
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(OBJECTS) $(LIBS)
 
 $(B)/%.o: src/%.c $(B)/flags
+	@mkdir -p $(@D)
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
@@ -108,7 +110,7 @@ $(B)/%.o: src/%.c $(B)/flags
 ISA = $(firstword $(subst _, ,$*))
 SET = $(word 2,$(subst _, ,$*))
 
-$(PATHS): $(B)/paths_%.o: src/paths.c $(B)/flags
+$(PATHS): $(B)/paths_%.o: src/render/cpu_kernel.c $(B)/flags
 	$(SAY) CC '$< ($*)'
 	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$(ISA)) $(FLAGS_$(SET)) -DPATHS=paths_$* \
 		-DPATHS_NAME='"$(ISA)"' $(if $(SET),-DFEATURES='($(FEATURES_$(SET)))') \
@@ -128,9 +130,9 @@ $(B)/scenes/%.o: scenes/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-$(B)/scenes/generate: $(GENERATOR) $(B)/stb.o
+$(B)/scenes/generate: $(GENERATOR) $(B)/picture/stb.o
 	$(SAY) LINK $@
-	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(GENERATOR) $(B)/stb.o -lm
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $(GENERATOR) $(B)/picture/stb.o -lm
 
 define program
 $(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
@@ -163,7 +165,7 @@ $(B)/error/%.o: tests/bench/error/%.c $(B)/flags
 
 # The CPU's samples with a function of the kernels replaced, and as they are,
 # all for the processor that measures.
-$(B)/error/paths_%.o: src/paths.c tests/bench/error/%.h $(B)/flags
+$(B)/error/paths_%.o: src/render/cpu_kernel.c tests/bench/error/%.h $(B)/flags
 	@mkdir -p $(@D)
 	$(SAY) CC '$< ($*)'
 	$(Q)$(CC) $(ALL_CFLAGS) -march=native -mprefer-vector-width=256 \
@@ -312,9 +314,9 @@ lint:
 	tests/layers.sh
 	clang-format --dry-run -Werror $(C_FILES)
 	cppcheck --quiet --std=c11 --error-exitcode=1 --inline-suppr \
-		--enable=warning,portability $(CPPCHECK_OFF) -I. -Iinclude src
+		--enable=warning,portability $(CPPCHECK_OFF) -I. -Isrc src
 	clang-tidy --quiet --warnings-as-errors='*' --checks='$(TIDY)' \
-		$(wildcard src/*.c) -- $(ALL_CFLAGS)
+		$(SOURCES) -- $(ALL_CFLAGS)
 	$(if $(filter %.cl,$(KERNELS)),! command -v clang >/dev/null || \
 		clang $(CL_FLAGS) $(filter %.cl,$(KERNELS)))
 	mandoc -T lint -W warning man/glim.1

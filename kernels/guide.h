@@ -2,7 +2,7 @@
 /*
  * guide.h - directions that light comes from which is hard to find
  *
- * What chance finds rarely: caustics, and the sky through windows. src/guide.c
+ * What chance finds rarely: caustics, and the sky through windows. src/light/path_guide.c
  * has traced some rays, and a grid over the scene says for each way that
  * surfaces face in each of its cubes how much came from which of GUIDE_BINS
  * directions (Jensen 1995, "Importance driven path tracing using the photon

@@ -2,7 +2,7 @@
 /*
  * sky.h - the dome around the scene: what it shines, and where most of it
  *
- * Directions are drawn from a table over the texels of the image (glim/sky.h)
+ * Directions are drawn from a table over the texels of the image (light/sky_table.h)
  * by inversion, which keeps stratified numbers stratified; inside a texel
  * uniformly by solid angle.
  *

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "glim/stb.h"
+#include "picture/stb.h"
 
 #define SIDE_MAX   256
 #define SKY_WIDTH  256

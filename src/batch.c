@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "glim/batch.h"
+#include "batch.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -11,14 +11,14 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "glim/event_fd.h"
-#include "glim/file.h"
-#include "glim/picture.h"
-#include "glim/print.h"
-#include "glim/show.h"
-#include "glim/stats.h"
-#include "glim/term.h"
-#include "glim/text.h"
+#include "base/event_fd.h"
+#include "base/file.h"
+#include "picture/image_write.h"
+#include "base/print.h"
+#include "inspect/view_modes.h"
+#include "session/stats_json.h"
+#include "terminal/tty.h"
+#include "terminal/ansi_text.h"
 
 /* The bar is drawn this often, which also bounds what a slow link gets. */
 #define DRAW_MS 100

@@ -16,19 +16,19 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/batch.h"
-#include "glim/cl_device.h"
-#include "glim/cl_environment.h"
-#include "glim/isa.h"
-#include "glim/cl_probe.h"
-#include "glim/config.h"
-#include "glim/options.h"
-#include "glim/print.h"
-#include "glim/recent.h"
-#include "glim/session.h"
-#include "glim/tui.h"
-#include "glim/util.h"
-#include "glim/version.h"
+#include "batch.h"
+#include "opencl/cl_device.h"
+#include "opencl/cl_environment.h"
+#include "render/cpu_dispatch.h"
+#include "opencl/cl_probe.h"
+#include "session/config.h"
+#include "session/command_line.h"
+#include "base/print.h"
+#include "session/recent.h"
+#include "session/session.h"
+#include "studio/event_loop.h"
+#include "base/util.h"
+#include "base/version.h"
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
 

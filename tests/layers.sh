@@ -75,7 +75,7 @@ function check_include(name, is_system,    kernel)
     if (kernel && name !~ /^kernels\//)
         fault("kernels include only kernels: \"" name "\"")
     if (name == "kernels/path.h" && stem !~ /^(paths|trail|first_hits)$/ && !kernel)
-        fault("only paths.c, trail.c and first_hits.c include kernels/path.h")
+        fault("only cpu_kernel.c, path_record.c and aov_picture.c include kernels/path.h")
     if (name ~ /^(glim|kernels)\// && row_of(name) > row_of(path) &&
         row_of(path) >= 0)
         fault("row " row_of(path) " includes \"" name "\" of row " \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
  * builds - samples a second of processor time in whole renders, and what the
- * build of paths.c for the scene's features brings beside the one for all;
+ * build of cpu_kernel.c for the scene's features brings beside the one for all;
  * rounds are interleaved
  *
  * usage: builds SCENE...
@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/scene_world.h"
-#include "glim/session.h"
+#include "scene/world.h"
+#include "session/session.h"
 #include "tests/bench/median.h"
 
 #define ROUNDS 5

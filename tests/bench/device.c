@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "glim/backend_cl.h"
-#include "glim/cl_environment.h"
-#include "glim/session.h"
+#include "opencl/backend_cl.h"
+#include "opencl/cl_environment.h"
+#include "session/session.h"
 #include "tests/bench/median.h"
 
 #define ROUNDS 5

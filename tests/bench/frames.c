@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "glim/session.h"
+#include "session/session.h"
 
 #define FRAME_NS  (1000000000u / 60)
 #define ROUNDS    9

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "glim/backend_cl.h"
-#include "glim/cl_environment.h"
-#include "glim/session.h"
+#include "opencl/backend_cl.h"
+#include "opencl/cl_environment.h"
+#include "session/session.h"
 
 static int compare(const void *a, const void *b)
 {

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "glim/cells.h"
-#include "glim/session.h"
+#include "terminal/cells.h"
+#include "session/session.h"
 
 #define COLS 200
 #define ROWS 60

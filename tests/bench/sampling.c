@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "glim/lights.h"
-#include "glim/sky.h"
+#include "light/lights.h"
+#include "light/sky_table.h"
 
 #include "kernels/light.h"
 #include "kernels/rng.h"

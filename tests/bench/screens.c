@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "glim/cells.h"
-#include "glim/view.h"
+#include "terminal/cells.h"
+#include "scene/view.h"
 
 #define WIDTH  1920
 #define HEIGHT 1080

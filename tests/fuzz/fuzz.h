@@ -21,7 +21,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "glim/report.h"
+#include "base/warnings.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "fuzz.h"
-#include "glim/image.h"
+#include "picture/image_read.h"
 
 static void check_size(const struct image *image)
 {

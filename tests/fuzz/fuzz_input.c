@@ -4,7 +4,7 @@
  * bytes come at once or in pieces of a size that the first byte says.
  */
 #include "fuzz.h"
-#include "glim/input.h"
+#include "terminal/tty_input.h"
 
 /* Longer sequences are dropped where they are broken, so pieces matter there.
  */

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "fuzz.h"
-#include "glim/mtl.h"
+#include "formats/mtl.h"
 
 static int is_light(struct vec3 c)
 {

@@ -5,10 +5,10 @@
  * there are, three bytes are an edit, and the rest is the file.
  */
 #include "fuzz.h"
-#include "glim/knob.h"
-#include "glim/material.h"
-#include "glim/mtl.h"
-#include "glim/session_save.h"
+#include "studio/parameter.h"
+#include "scene/material.h"
+#include "formats/mtl.h"
+#include "session/session_save.h"
 
 #define EDITS_MAX 16
 

@@ -8,7 +8,7 @@
 #include <strings.h>
 
 #include "fuzz.h"
-#include "glim/number.h"
+#include "base/decimal.h"
 
 static uint64_t bits_of(double value)
 {

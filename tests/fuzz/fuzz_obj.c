@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "fuzz.h"
-#include "glim/scene_load.h"
+#include "formats/scene_load.h"
 
 static int is_index(uint32_t index, uint32_t count)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* The command line: a line of the input is an argument. */
 #include "fuzz.h"
-#include "glim/options.h"
+#include "session/command_line.h"
 
 #define ARGUMENTS_MAX 64
 

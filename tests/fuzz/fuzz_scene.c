@@ -4,7 +4,7 @@
  * sample a pixel is rendered. fuzz_put_scene() says what the input is.
  */
 #include "fuzz.h"
-#include "glim/session.h"
+#include "session/session.h"
 
 static void render(struct session *s)
 {

@@ -4,7 +4,7 @@
  * read again from both. All three views are equal.
  */
 #include "fuzz.h"
-#include "glim/view_file.h"
+#include "formats/view_file.h"
 
 static int is_same_text(const char *a, const char *b)
 {

@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 
 #include "fuzz.h"
-#include "glim/file.h"
+#include "base/file.h"
 
 static void replay(const char *path, long mebibytes)
 {

@@ -20,11 +20,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/backend_cl.h"
-#include "glim/cl_environment.h"
-#include "glim/isa.h"
-#include "glim/scene_world.h"
-#include "glim/session.h"
+#include "opencl/backend_cl.h"
+#include "opencl/cl_environment.h"
+#include "render/cpu_dispatch.h"
+#include "scene/world.h"
+#include "session/session.h"
 #include "tests/unit/check.h"
 
 #define EXTREMES_RENDERERS 5

@@ -11,12 +11,12 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
-#include "glim/pool.h"
+#include "base/thread_pool.h"
 #include "rows.h"
 #include "tests/unit/brute.h"
 #include "tests/unit/mesh.h"
 
-#include "glim/wide_hit.h"
+#include "bvh/bvh8_traverse.h"
 #include "kernels/vertex.h"
 
 /* One item of work: so many rays from a seed of its own. */

@@ -8,9 +8,9 @@
 #include "tests/unit/mesh.h"
 #include "tests/unit/sky_pdf.h"
 
-#include "glim/blackbody.h"
-#include "glim/lights.h"
-#include "glim/sky.h"
+#include "picture/blackbody.h"
+#include "light/lights.h"
+#include "light/sky_table.h"
 #include "kernels/roulette.h"
 #include "kernels/traverse.h"
 

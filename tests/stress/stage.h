@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * stage.h - scenes that rows write as text, rendered and held to a number
+ * workspace.h - scenes that rows write as text, rendered and held to a number
  *
  * A row's scene is written into OBJ and MTL files, loaded as a person's would
  * be, and rendered with SEEDS seeds; the mean of all pixels has to agree with
@@ -22,12 +22,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/scene_world.h"
-#include "glim/backend_cl.h"
-#include "glim/cl_environment.h"
-#include "glim/isa.h"
-#include "glim/render.h"
-#include "glim/scene_load.h"
+#include "scene/world.h"
+#include "opencl/backend_cl.h"
+#include "opencl/cl_environment.h"
+#include "render/cpu_dispatch.h"
+#include "render/render_loop.h"
+#include "formats/scene_load.h"
 #include "rows.h"
 
 #define SEEDS   12

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * show.c - prints an image file as a small colour picture of half blocks
+ * view_modes.c - prints an image file as a small colour picture of half blocks
  *
  * For `make run` without a terminal, whose output lands in a log. With
  * NO_COLOR set it prints characters.
@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "glim/ansi.h"
-#include "glim/image.h"
+#include "terminal/ansi_diff.h"
+#include "picture/image_read.h"
 
 #define COLS        64
 #define ROWS_MAX    48

@@ -20,7 +20,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "glim/stage.h"
+#include "studio/workspace.h"
 #include "vt.h"
 
 /* The child's longest pause: the parent need not wait for something to

@@ -13,7 +13,7 @@
 #include <math.h>
 
 #include "check.h"
-#include "glim/lights.h"
+#include "light/lights.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"
 #include "mesh.h"

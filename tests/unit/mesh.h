@@ -13,8 +13,8 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "glim/material.h"
-#include "glim/wide.h"
+#include "scene/material.h"
+#include "bvh/bvh8.h"
 #include "kernels/hit.h"
 
 #define MESH_MATERIALS 8
@@ -28,7 +28,7 @@ struct mesh {
     struct wide wide;
     union {
         struct world world;
-        struct wide_world wide_world; /* for the queries of wide_hit.h */
+        struct wide_world wide_world; /* for the queries of bvh8_traverse.h */
     };
 };
 

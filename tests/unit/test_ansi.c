@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/ansi.h"
+#include "terminal/ansi_diff.h"
 #include "vt.h"
 
 #define COLS 40

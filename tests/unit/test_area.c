@@ -8,10 +8,10 @@
 
 #include "check.h"
 
-#include "glim/area.h"
-#include "glim/cells.h"
-#include "glim/color.h"
-#include "glim/session.h"
+#include "picture/area.h"
+#include "terminal/cells.h"
+#include "picture/color.h"
+#include "session/session.h"
 
 #define WIDTH  150
 #define HEIGHT 86

@@ -13,17 +13,17 @@
 #include <time.h>
 
 #include "check.h"
-#include "glim/backend_cl.h"
-#include "glim/cl_api.h"
-#include "glim/cl_device.h"
-#include "glim/cl_environment.h"
-#include "glim/isa.h"
-#include "glim/render.h"
-#include "glim/restyle.h"
-#include "glim/scene_load.h"
-#include "glim/scene_world.h"
-#include "glim/selftest.h"
-#include "glim/view_file.h"
+#include "opencl/backend_cl.h"
+#include "opencl/cl_api.h"
+#include "opencl/cl_device.h"
+#include "opencl/cl_environment.h"
+#include "render/cpu_dispatch.h"
+#include "render/render_loop.h"
+#include "scene/scene_materials.h"
+#include "formats/scene_load.h"
+#include "scene/world.h"
+#include "opencl/selftest.h"
+#include "formats/view_file.h"
 #include "kernels/features.h"
 
 static const char *const scenes[] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "glim/blackbody.h"
+#include "picture/blackbody.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "glim/camera.h"
+#include "studio/camera_moves.h"
 
 #define RAD 0.017453292519943295
 

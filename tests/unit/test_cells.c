@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "glim/cells.h"
+#include "terminal/cells.h"
 
 static struct cells make_cells_of(struct frame *frame, int cols, int rows,
                                   enum glyphs glyphs)

@@ -4,7 +4,7 @@
  */
 #include "check.h"
 
-#include "glim/cl_api.h"
+#include "opencl/cl_api.h"
 
 static void test_open(void **state)
 {

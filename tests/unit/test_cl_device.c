@@ -7,8 +7,8 @@
 
 #include <unistd.h>
 
-#include "glim/cl_device.h"
-#include "glim/cl_environment.h"
+#include "opencl/cl_device.h"
+#include "opencl/cl_environment.h"
 
 static char alpha[] = "Alpha Graphics";
 static char portable[] = "Portable Computing Language";

@@ -13,8 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "glim/cl_device.h"
-#include "glim/cl_environment.h"
+#include "opencl/cl_device.h"
+#include "opencl/cl_environment.h"
 
 /* Exit status of a child that finds no PoCL. */
 #define NO_POCL 77

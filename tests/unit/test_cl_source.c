@@ -10,9 +10,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/cl_device.h"
-#include "glim/cl_source.h"
-#include "glim/file.h"
+#include "opencl/cl_device.h"
+#include "opencl/cl_source.h"
+#include "base/file.h"
 
 /* By the C library alone. */
 static void put(const char *name, const char *text)

@@ -11,9 +11,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/clearance.h"
-#include "glim/steer.h"
-#include "glim/scene_load.h"
+#include "studio/clearance.h"
+#include "studio/camera_input.h"
+#include "formats/scene_load.h"
 
 #define MS UINT64_C(1000000)
 

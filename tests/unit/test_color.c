@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "check.h"
-#include "glim/color.h"
+#include "picture/color.h"
 
 /* Colours whose HSV anybody can look up, and greys. */
 static void known_colours(void **state)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "glim/columns.h"
+#include "base/text_width.h"
 
 /* Greek and Latin letters take one column, CJK and emoji two, what combines
  * with the letter before none: Unicode Standard Annex 11. */

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "check.h"
-#include "glim/scene_world.h"
-#include "glim/session.h"
-#include "glim/sky.h"
+#include "scene/world.h"
+#include "session/session.h"
+#include "light/sky_table.h"
 
 static const char *const scenes[] = {
     "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",

@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-#include "glim/dither.h"
+#include "terminal/dither.h"
 
 #define WIDTH  128
 #define HEIGHT 8

@@ -11,8 +11,8 @@
 #include "check.h"
 #include "mesh.h"
 
-#include "glim/scene_world.h"
-#include "glim/session.h"
+#include "scene/world.h"
+#include "session/session.h"
 #include "kernels/camera.h"
 #include "kernels/rng.h"
 

@@ -10,11 +10,11 @@
 
 #include "check.h"
 #include "folder.h"
-#include "glim/look.h"
-#include "glim/file.h"
-#include "glim/mtl.h"
-#include "glim/session_save.h"
-#include "glim/view_file.h"
+#include "studio/material_params.h"
+#include "base/file.h"
+#include "formats/mtl.h"
+#include "session/session_save.h"
+#include "formats/view_file.h"
 
 static char root[4096]; /* where the scenes are */
 

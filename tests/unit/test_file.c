@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "glim/file.h"
+#include "base/file.h"
 
 static void read_fails(const char *path, const char *expected)
 {

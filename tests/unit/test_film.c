@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "glim/film.h"
+#include "picture/film.h"
 #include "kernels/tone.h"
 
 /* STRESS C6: the mean keeps moving where float sums stand still. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
-#include "glim/glyphs.h"
+#include "terminal/glyphs.h"
 
 /* From the charts of the Unicode standard, where the dots are in the names:
  * "BLOCK SEXTANT-135", "QUADRANT UPPER LEFT AND ...", "BRAILLE PATTERN DOTS-".

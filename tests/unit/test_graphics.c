@@ -5,8 +5,8 @@
  */
 #include "pixels.h"
 
-#include "glim/graphics.h"
-#include "glim/kitty.h"
+#include "terminal/pixel_graphics.h"
+#include "terminal/kitty.h"
 
 #define COLS   40 /* no multiple of a tile's */
 #define ROWS   5

@@ -4,8 +4,8 @@
  * table leaves pictures as bright as they are, and that the one that is built
  * points to where caustics come from, and to windows
  */
-#include "glim/guide.h"
-#include "glim/tri_list.h"
+#include "light/path_guide.h"
+#include "light/triangle_cdf.h"
 #include "truth.h"
 
 /* Parts of the sphere: rows of equal cos(theta), columns of phi. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
-#include "glim/history.h"
+#include "studio/camera_history.h"
 
 static struct pose pose_at(double x)
 {

@@ -7,9 +7,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "glim/image.h"
-#include "glim/stb.h"
-#include "glim/util.h"
+#include "picture/image_read.h"
+#include "picture/stb.h"
+#include "base/util.h"
 
 static char folder[64];
 static char png_suite[500];

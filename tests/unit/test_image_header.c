@@ -7,8 +7,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "glim/image.h"
-#include "glim/quota.h"
+#include "picture/image_read.h"
+#include "base/cgroup_quota.h"
 
 /* What a file that promises gigabytes may make the process grow by. */
 #define GROWTH_KIB 8192

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "glim/input.h"
+#include "terminal/tty_input.h"
 
 #define EVENTS_MAX 64
 

@@ -3,9 +3,9 @@
 
 #include <stdlib.h>
 
-#include "glim/scene_world.h"
-#include "glim/isa.h"
-#include "glim/session.h"
+#include "scene/world.h"
+#include "render/cpu_dispatch.h"
+#include "session/session.h"
 
 static const char *const scenes[] = {
     "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",

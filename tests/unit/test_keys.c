@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "glim/file.h"
-#include "glim/help.h"
-#include "glim/input.h"
-#include "glim/keys.h"
+#include "base/file.h"
+#include "studio/help.h"
+#include "terminal/tty_input.h"
+#include "session/keymap.h"
 
 static struct keys table_keys(bool phoe)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pixels.h"
 
-#include "glim/kitty.h"
+#include "terminal/kitty.h"
 
 static struct kitty_pixels seen;
 

@@ -10,10 +10,10 @@
 
 #include "check.h"
 #include "folder.h"
-#include "glim/file.h"
-#include "glim/knob_text.h"
-#include "glim/look.h"
-#include "glim/scene_load.h"
+#include "base/file.h"
+#include "studio/parameter_text.h"
+#include "studio/material_params.h"
+#include "formats/scene_load.h"
 
 static uint64_t seed = 5;
 

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "glim/cl_environment.h"
-#include "glim/cl_machine.h"
-#include "glim/cl_source.h"
-#include "glim/util.h"
+#include "opencl/cl_environment.h"
+#include "opencl/cl_machine.h"
+#include "opencl/cl_source.h"
+#include "base/util.h"
 #include "kernels/camera.h"
 #include "kernels/pixel.h"
 #include "kernels/start.h"

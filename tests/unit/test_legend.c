@@ -7,7 +7,7 @@
 #include <locale.h>
 #include <string.h>
 
-#include "glim/legend.h"
+#include "inspect/overlay_text.h"
 
 static char none[] = "", red_paint[] = "red paint";
 static char *names[] = {none, red_paint};

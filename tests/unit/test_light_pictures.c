@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "glim/footprint.h"
-#include "glim/lights.h"
+#include "light/texture_power.h"
+#include "light/lights.h"
 #include "kernels/light.h"
 
 #include "check.h"

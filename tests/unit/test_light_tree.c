@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "glim/lights.h"
+#include "light/lights.h"
 
 #include "check.h"
 #include "chi_square.h"

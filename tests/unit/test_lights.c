@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "glim/lights.h"
+#include "light/lights.h"
 
 #include <math.h>
 
-#include "glim/sky.h"
+#include "light/sky_table.h"
 #include "kernels/light.h"
 
 #include "check.h"

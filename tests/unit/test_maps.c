@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "glim/scene_world.h"
-#include "glim/scene_load.h"
+#include "scene/world.h"
+#include "formats/scene_load.h"
 
 #include "kernels/traverse.h"
 

@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-#include "glim/meter.h"
+#include "studio/progress_text.h"
 
 #define S_NS UINT64_C(1000000000)
 

@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "glim/motion.h"
+#include "studio/held_keys.h"
 
 #define MS UINT64_C(1000000)
 

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "glim/material.h"
-#include "glim/mtl.h"
+#include "scene/material.h"
+#include "formats/mtl.h"
 
 struct loaded {
     struct scene scene;

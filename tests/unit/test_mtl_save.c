@@ -13,10 +13,10 @@
 
 #include "check.h"
 #include "folder.h"
-#include "glim/file.h"
-#include "glim/look.h"
-#include "glim/mtl.h"
-#include "glim/mtl_save.h"
+#include "base/file.h"
+#include "studio/material_params.h"
+#include "formats/mtl.h"
+#include "formats/mtl_save.h"
 
 struct loaded {
     struct scene scene;

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "glim/number.h"
-#include "glim/util.h"
+#include "base/decimal.h"
+#include "base/util.h"
 #include "locales.h"
 
 static uint64_t random_state = 1;

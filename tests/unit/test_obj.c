@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "glim/obj.h"
+#include "formats/obj.h"
 #include "locales.h"
 
 /* A unit square of four vertices, to which tests add faces. */

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/options.h"
+#include "session/command_line.h"
 
 #include <cmocka.h> /* last: it has a macro fail() */
 

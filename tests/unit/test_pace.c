@@ -5,7 +5,7 @@
  */
 #include "check.h"
 
-#include "glim/pace.h"
+#include "terminal/frame_pacing.h"
 
 #define MS  UINT64_C(1000000)
 #define SEC UINT64_C(1000000000)

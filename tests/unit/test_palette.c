@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
-#include "glim/palette.h"
+#include "terminal/palette.h"
 
 static void guesses(void **state)
 {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "glim/lights.h"
+#include "light/lights.h"
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"

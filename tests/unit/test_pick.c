@@ -8,10 +8,10 @@
 
 #include "check.h"
 #include "folder.h"
-#include "glim/scene_world.h"
-#include "glim/bvh.h"
-#include "glim/pick.h"
-#include "glim/scene_load.h"
+#include "scene/world.h"
+#include "bvh/bvh.h"
+#include "studio/pick.h"
+#include "formats/scene_load.h"
 #include "kernels/start.h"
 #include "kernels/traverse.h"
 

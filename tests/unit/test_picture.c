@@ -11,10 +11,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "glim/file.h"
-#include "glim/image.h"
-#include "glim/picture.h"
-#include "glim/stb.h"
+#include "base/file.h"
+#include "picture/image_read.h"
+#include "picture/image_write.h"
+#include "picture/stb.h"
 
 #define WIDTH  37
 #define HEIGHT 23

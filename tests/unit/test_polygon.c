@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "check.h"
-#include "glim/polygon.h"
+#include "formats/triangulate.h"
 
 #define PI 3.14159265358979323846
 

@@ -5,7 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "glim/pool.h"
+#include "base/thread_pool.h"
 
 #define ITEMS 10000
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "glim/print.h"
-#include "glim/util.h"
+#include "base/print.h"
+#include "base/util.h"
 
 static void check_shown(const char *text, const char *expected)
 {

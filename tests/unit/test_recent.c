@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/recent.h"
+#include "session/recent.h"
 
 static void make_scene(int number)
 {

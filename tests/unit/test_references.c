@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/file.h"
-#include "glim/session.h"
+#include "base/file.h"
+#include "session/session.h"
 
 #include "check.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
-#include "glim/reinsert.h"
+#include "bvh/bvh_reinsert.h"
 #include "kernels/traverse.h"
 
 #include <math.h>

@@ -8,8 +8,8 @@
 
 #include <unistd.h>
 
-#include "glim/view_file.h"
-#include "glim/work_save.h"
+#include "formats/view_file.h"
+#include "studio/save_commands.h"
 
 #define OBJ                                                                  \
     "mtllib s.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 2 " \

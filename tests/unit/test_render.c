@@ -10,8 +10,8 @@
 #include <immintrin.h>
 #endif
 
-#include "glim/isa.h"
-#include "glim/render.h"
+#include "render/cpu_dispatch.h"
+#include "render/render_loop.h"
 
 #define WIDTH  70 /* no multiple of a block */
 #define HEIGHT 43

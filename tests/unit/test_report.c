@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "glim/report.h"
+#include "base/warnings.h"
 
 /* What report_print() writes, in memory for free(). */
 static char *printed(const struct report *r)

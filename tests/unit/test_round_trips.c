@@ -9,9 +9,9 @@
 
 #include "check.h"
 #include "folder.h"
-#include "glim/mtl.h"
-#include "glim/mtl_save.h"
-#include "glim/view_file.h"
+#include "formats/mtl.h"
+#include "formats/mtl_save.h"
+#include "formats/view_file.h"
 
 #define ROUNDS     20000
 #define TEXT_BYTES 512

@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "glim/scene_world.h"
-#include "glim/obj.h"
-#include "glim/scene_load.h"
+#include "scene/world.h"
+#include "formats/obj.h"
+#include "formats/scene_load.h"
 
 #define PI 3.14159265358979323846
 

@@ -13,9 +13,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "glim/file.h"
-#include "glim/session_save.h"
-#include "glim/stats.h"
+#include "base/file.h"
+#include "session/session_save.h"
+#include "session/stats_json.h"
 
 #include <cmocka.h> /* last: it has a macro fail() */
 

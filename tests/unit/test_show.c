@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "folder.h"
-#include "glim/file.h"
-#include "glim/show.h"
+#include "base/file.h"
+#include "inspect/view_modes.h"
 
 #define WIDTH  48
 #define HEIGHT 32

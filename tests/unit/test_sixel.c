@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pixels.h"
 
-#include "glim/sixel.h"
+#include "terminal/sixel.h"
 
 static struct sixels seen;
 static uint8_t numbers[PIXELS_MAX];

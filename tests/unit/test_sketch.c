@@ -8,10 +8,10 @@
 
 #include <math.h>
 
-#include "glim/drawing.h"
-#include "glim/false_color.h"
-#include "glim/projection.h"
-#include "glim/sketch.h"
+#include "picture/raster.h"
+#include "inspect/false_color.h"
+#include "render/projection.h"
+#include "inspect/overlay.h"
 #include "kernels/camera.h"
 
 #define SIDE 40

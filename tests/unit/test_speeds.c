@@ -5,7 +5,7 @@
  */
 #include "check.h"
 
-#include "glim/speeds.h"
+#include "render/speeds.h"
 
 #define S_NS UINT64_C(1000000000)
 

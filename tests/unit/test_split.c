@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "glim/split.h"
+#include "bvh/sah_bins.h"
 
 #include <math.h>
 

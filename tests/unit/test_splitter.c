@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "glim/splitter.h"
+#include "bvh/sah_splitter.h"
 
 #include "check.h"
 #include "many.h"

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "glim/status.h"
+#include "studio/status_line.h"
 
 #define SEC UINT64_C(1000000000)
 

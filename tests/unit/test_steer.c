@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "glim/steer.h"
+#include "studio/camera_input.h"
 
 #define MS UINT64_C(1000000)
 

@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "glim/scene_world.h"
-#include "glim/file.h"
-#include "glim/mtl.h"
-#include "glim/obj.h"
-#include "glim/scene_load.h"
+#include "scene/world.h"
+#include "base/file.h"
+#include "formats/mtl.h"
+#include "formats/obj.h"
+#include "formats/scene_load.h"
 
 struct loaded {
     struct scene scene;

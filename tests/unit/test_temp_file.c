@@ -17,7 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "glim/file.h"
+#include "base/file.h"
 
 /* Makes a system call fail in this process, where all bits of one of its
  * arguments are set: as file systems and sandboxes do it. */

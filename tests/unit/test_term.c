@@ -24,8 +24,8 @@
 
 #include "belief.h"
 #include "folder.h"
-#include "glim/session.h"
-#include "glim/tui.h"
+#include "session/session.h"
+#include "studio/event_loop.h"
 
 #include <term.h> /* last: it takes short names for itself */
 

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "glim/text.h"
+#include "terminal/ansi_text.h"
 
 /* 4x4 pixels: red above, of light 1; below it green of a half, which is 188 in
  * sRGB (IEC 61966-2-1), at exposure 0. */

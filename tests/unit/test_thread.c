@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "glim/thread.h"
+#include "base/thread.h"
 
 #define HANDLED 7
 

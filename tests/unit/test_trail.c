@@ -8,10 +8,10 @@
 
 #include <math.h>
 
-#include "glim/scene_world.h"
-#include "glim/cost.h"
-#include "glim/session.h"
-#include "glim/trail.h"
+#include "scene/world.h"
+#include "inspect/traversal_cost.h"
+#include "session/session.h"
+#include "inspect/path_record.h"
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"

@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "glim/scene_world.h"
-#include "glim/session.h"
+#include "scene/world.h"
+#include "session/session.h"
 #include "truth.h"
 
 #define SPP 64

@@ -10,8 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "glim/quota.h"
-#include "glim/util.h"
+#include "base/cgroup_quota.h"
+#include "base/util.h"
 
 static void test_fail(void **state)
 {

@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "glim/util.h"
-#include "glim/view.h"
-#include "glim/view_file.h"
+#include "base/util.h"
+#include "scene/view.h"
+#include "formats/view_file.h"
 
 static struct file_change change; /* of what was written last */
 

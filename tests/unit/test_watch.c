@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "glim/util.h"
-#include "glim/watch.h"
+#include "base/util.h"
+#include "base/file_watch.h"
 
 static char paths[4][128];
 

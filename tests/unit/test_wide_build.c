@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "glim/wide_hit.h"
+#include "bvh/bvh8_traverse.h"
 
 #include "many.h"
 

@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glim/view_file.h"
-#include "glim/work_save.h"
+#include "formats/view_file.h"
+#include "studio/save_commands.h"
 
 static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
                                     "s-kept.png", "s.ans",  "s-2.ans"};

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "glim/xdg.h"
+#include "base/xdg.h"
 
 static void is_folder(const char *variable, const char *home,
                       const char *expected)

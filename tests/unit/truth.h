@@ -15,8 +15,8 @@
 
 #include <math.h>
 
-#include "glim/lights.h"
-#include "glim/sky.h"
+#include "light/lights.h"
+#include "light/sky_table.h"
 #include "mesh.h"
 
 #include "kernels/traverse.h"

@@ -20,7 +20,7 @@
 #include <string.h>
 #include <wchar.h>
 
-#include "glim/cells.h"
+#include "terminal/cells.h"
 
 #define VT_COLS_MAX 200
 #define VT_ROWS_MAX 80

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/file.h"
-#include "glim/stb.h"
+#include "base/file.h"
+#include "picture/stb.h"
 
 #define WIDTH  930
 #define HEIGHT 600

@@ -21,7 +21,7 @@
 #include <unistd.h>
 
 #include "chart.h"
-#include "glim/scene_world.h"
+#include "scene/world.h"
 #include "reference.h"
 #include "tests/bench/median.h"
 
@@ -32,7 +32,7 @@
 /* References of 256x256 pixels, too many here, become 64x64. */
 #define REDUCE 4
 
-/* Made of src/paths.c with one function replaced: see the headers in this
+/* Made of src/render/cpu_kernel.c with one function replaced: see the headers in this
  * folder. */
 extern const struct paths paths_whole, paths_hashed, paths_uniform,
     paths_throughput, paths_shadows;

@@ -6,10 +6,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "glim/scene_world.h"
-#include "glim/file.h"
-#include "glim/image.h"
-#include "glim/picture.h"
+#include "scene/world.h"
+#include "base/file.h"
+#include "picture/image_read.h"
+#include "picture/image_write.h"
 
 #define HALF_SPP 1024
 

@@ -11,7 +11,7 @@
 #ifndef ERROR_REFERENCE_H
 #define ERROR_REFERENCE_H
 
-#include "glim/session.h"
+#include "session/session.h"
 
 struct reference {
     int width, height;

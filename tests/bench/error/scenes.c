@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/file.h"
+#include "base/file.h"
 #include "scenes/mesh.h"
 
 static const char *folder;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glim/util.h"
+#include "base/util.h"
 
 /* What devices hold; only one builds at a time. */
 static atomic_long bytes_held;

@@ -3,7 +3,7 @@
  */
 #include "racer.h"
 
-#include "glim/wide_hit.h"
+#include "bvh/bvh8_traverse.h"
 
 #ifndef RACER
 #define RACER racer_plain

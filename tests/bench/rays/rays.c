@@ -15,10 +15,10 @@
 #include "sets.h"
 #include "shapes.h"
 
-#include "glim/isa.h"
-#include "glim/pool.h"
-#include "glim/reinsert.h"
-#include "glim/wide.h"
+#include "render/cpu_dispatch.h"
+#include "base/thread_pool.h"
+#include "bvh/bvh_reinsert.h"
+#include "bvh/bvh8.h"
 #include "tests/bench/median.h"
 
 #define REPEATS     7

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "glim/pool.h"
-#include "glim/wide.h"
+#include "base/thread_pool.h"
+#include "bvh/bvh8.h"
 #include "sets.h"
 #include "shapes.h"
 #include "tests/bench/median.h"

@@ -10,7 +10,7 @@
 #ifndef RAYS_SCALING_H
 #define RAYS_SCALING_H
 
-#include "glim/util.h"
+#include "base/util.h"
 #include "racer.h"
 
 /* Prints times of glim's rays in terrains of 1,000 to 10 million triangles, and

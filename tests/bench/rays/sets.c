@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "glim/util.h"
+#include "base/util.h"
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/rng.h"

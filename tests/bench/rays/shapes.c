@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "glim/scene_world.h"
-#include "glim/mtl.h"
-#include "glim/view_file.h"
-#include "glim/scene_load.h"
+#include "scene/world.h"
+#include "formats/mtl.h"
+#include "formats/view_file.h"
+#include "formats/scene_load.h"
 #include "kernels/rng.h"
 
 /* Octaves of a terrain's height. */

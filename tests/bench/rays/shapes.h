@@ -11,7 +11,7 @@
 #ifndef RAYS_SHAPES_H
 #define RAYS_SHAPES_H
 
-#include "glim/scene.h"
+#include "scene/scene.h"
 
 #define SHAPES 5
 

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "base/decimal.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A uint64_t holds any 19 digits. */
+#define DIGITS_MAX 19
+
+/* Half-way points between doubles have at most 768 significant digits: what
+ * comes after only says whether the number is above one. */
+#define DIGITS_THAT_COUNT 800
+
+/* Beyond any double, and far from overflow when added up. */
+#define EXPONENT_MAX 1000000000000LL
+
+__extension__ typedef unsigned __int128 wide_uint;
+
+/* The parts of a number; the value is digits * 10^exponent. */
+struct decimal {
+    const char *digits; /* from the first that is not 0; may hold a '.' */
+    const char *digits_end;
+    uint64_t mantissa; /* valid if digit_count <= DIGITS_MAX */
+    int64_t digit_count;
+    int64_t exponent;
+    bool is_negative;
+};
+
+static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                              1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                              1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+static const uint64_t integer_tens[] = {
+    1u,
+    10u,
+    100u,
+    1000u,
+    10000u,
+    100000u,
+    1000000u,
+    10000000u,
+    100000000u,
+    1000000000u,
+    10000000000u,
+    100000000000u,
+    1000000000000u,
+    10000000000000u,
+    100000000000000u,
+    1000000000000000u,
+    10000000000000000u,
+    100000000000000000u,
+    1000000000000000000u,
+    10000000000000000000u,
+};
+
+static bool is_digit(const char *p, const char *end)
+{
+    return p < end && (unsigned char)(*p - '0') <= 9;
+}
+
+/* Whether the text begins so, in any case. The word has small letters of ASCII,
+ * which tolower() does not find in every locale. */
+static bool begins_with(const char *p, const char *end, const char *word)
+{
+    for (; *word != '\0'; p++, word++)
+        if (p == end || (*p | 0x20) != *word)
+            return false;
+    return true;
+}
+
+/* "nan", "inf" and "infinity" in any case. */
+static bool parse_word(const char **p, const char *end, double *value)
+{
+    static const struct {
+        const char *word;
+        double value;
+    } words[] = {{"infinity", INFINITY}, {"inf", INFINITY}, {"nan", NAN}};
+
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (begins_with(*p, end, words[i].word)) {
+            *p += strlen(words[i].word);
+            *value = words[i].value;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Moves *p over "e-12", or not at all if no digit comes. */
+static int64_t parse_exponent(const char **p, const char *end)
+{
+    const char *q = *p;
+    int64_t exponent = 0;
+    bool is_negative = false;
+
+    if (q >= end || (*q != 'e' && *q != 'E'))
+        return 0;
+    q++;
+    if (q < end && (*q == '+' || *q == '-'))
+        is_negative = *q++ == '-';
+    if (!is_digit(q, end))
+        return 0;
+    for (; is_digit(q, end); q++) {
+        if (exponent < EXPONENT_MAX)
+            exponent = exponent * 10 + (*q - '0');
+    }
+    *p = q;
+    return is_negative ? -exponent : exponent;
+}
+
+/* Zeros before the first digit that counts; the mantissa overflows harmlessly
+ * beyond DIGITS_MAX. */
+static bool parse_digits(const char **p, const char *end, struct decimal *d)
+{
+    const char *q = *p;
+    const char *start = q;
+    const char *point = NULL;
+    uint64_t mantissa = 0;
+    int64_t length;
+
+    while (q < end && *q == '0')
+        q++;
+    d->digits = q;
+    for (; is_digit(q, end); q++)
+        mantissa = mantissa * 10 + (uint64_t)(*q - '0');
+    length = q - start;
+    d->digit_count = q - d->digits;
+    if (q < end && *q == '.') {
+        point = ++q;
+        if (d->digit_count == 0) {
+            while (q < end && *q == '0')
+                q++;
+            d->digits = q;
+        }
+        const char *first = q;
+        for (; is_digit(q, end); q++)
+            mantissa = mantissa * 10 + (uint64_t)(*q - '0');
+        d->digit_count += q - first;
+        length += q - point;
+    }
+    if (length == 0)
+        return false;
+    d->digits_end = q;
+    d->mantissa = mantissa;
+    d->exponent = point ? point - q : 0;
+    *p = q;
+    return true;
+}
+
+/* Correctly rounded, by one exact step and one rounding. Up to 2^53 and
+ * 10^22 both are doubles (Clinger 1990). Above, integers of 128 bits hold the
+ * product, or a quotient of at least 63 bits whose last bit also stands for
+ * the remainder. */
+static bool convert_fast(const struct decimal *d, double *value)
+{
+    int64_t e = d->exponent;
+
+    if (d->digit_count > DIGITS_MAX || e < -22 || e > 22)
+        return false;
+    if (d->mantissa <= UINT64_C(1) << 53) {
+        *value = e < 0 ? (double)d->mantissa / tens[-e]
+                       : (double)d->mantissa * tens[e];
+        return true;
+    }
+    if (e < -19 || e > 19)
+        return false;
+    if (e >= 0) {
+        *value = (double)((wide_uint)d->mantissa * integer_tens[e]);
+        return true;
+    }
+
+    int shift = __builtin_clzll(d->mantissa);
+    uint64_t divisor = integer_tens[-e];
+    wide_uint dividend = (wide_uint)(d->mantissa << shift) << 64;
+    wide_uint quotient = dividend / divisor;
+    if (quotient * divisor != dividend)
+        quotient |= 1;
+    *value = ldexp((double)quotient, -64 - shift);
+    return true;
+}
+
+/* Through strtod() on a text without a decimal point, which every locale reads
+ * alike. */
+static double convert_slow(const struct decimal *d)
+{
+    char text[DIGITS_THAT_COUNT + 32];
+    int64_t kept = 0;
+    int64_t exponent = d->exponent;
+    bool has_more = false;
+
+    for (const char *p = d->digits; p < d->digits_end; p++) {
+        if (*p == '.')
+            continue;
+        if (kept < DIGITS_THAT_COUNT)
+            text[kept++] = *p;
+        else
+            has_more |= *p != '0';
+    }
+    exponent += d->digit_count - kept;
+    if (has_more) {
+        text[kept++] = '1';
+        exponent--;
+    }
+    if (exponent > EXPONENT_MAX)
+        exponent = EXPONENT_MAX;
+    if (exponent < -EXPONENT_MAX)
+        exponent = -EXPONENT_MAX;
+    snprintf(text + kept, sizeof text - (size_t)kept, "e%" PRId64, exponent);
+    return strtod(text, NULL);
+}
+
+bool number_parse(const char **p, const char *end, double *value)
+{
+    const char *q = *p;
+    struct decimal d = {.is_negative = false};
+    double result = 0;
+
+    if (q < end && (*q == '+' || *q == '-'))
+        d.is_negative = *q++ == '-';
+    if (parse_digits(&q, end, &d)) {
+        if (q < end && (*q == 'e' || *q == 'E'))
+            d.exponent += parse_exponent(&q, end);
+        if (d.digit_count > 0 && !convert_fast(&d, &result))
+            result = convert_slow(&d);
+    } else if (!parse_word(&q, end, &result)) {
+        return false;
+    }
+    *p = q;
+    *value = d.is_negative ? -result : result;
+    return true;
+}
+
+/* Writes so many digits, and reads them. */
+static double format_digits(char text[NUMBER_TEXT_BYTES], double value,
+                            int digits)
+{
+    const char *p = text;
+    double back = 0;
+
+    snprintf(text, NUMBER_TEXT_BYTES, "%.*g", digits, value);
+    char *comma = strchr(text, ','); /* the locale's decimal point */
+    if (comma)
+        *comma = '.';
+    number_parse(&p, text + strlen(text), &back);
+    return back;
+}
+
+/* Six digits, trailing zeros left out, and more only where they are needed. */
+void number_format(char text[NUMBER_TEXT_BYTES], double value)
+{
+    for (int digits = 6; digits <= 17; digits++) {
+        if (format_digits(text, value, digits) == value)
+            return;
+    }
+}
+
+void number_format_float(char text[NUMBER_TEXT_BYTES], float value)
+{
+    for (int digits = 6; digits <= 9; digits++) {
+        if ((float)format_digits(text, (double)value, digits) == value)
+            return;
+    }
+}
+
+double number_shortened(double value)
+{
+    char text[NUMBER_TEXT_BYTES];
+    const char *p = text;
+    double shortened = value;
+
+    if (!(fabs(value) >= (double)FLT_MIN && fabs(value) <= (double)FLT_MAX))
+        return value;
+    number_format_float(text, (float)value);
+    number_parse(&p, text + strlen(text), &shortened);
+    return shortened;
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/*
+ * decimal.h - decimal numbers in text, fast and the same in every locale
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   any
+ * Errors:    a false result; the caller knows file and line
+ */
+#ifndef GLIM_DECIMAL_H
+#define GLIM_DECIMAL_H
+
+#include <stdbool.h>
+
+/* Reads a decimal number at *p, before end; moves *p behind it. Accepts nan,
+ * inf, +1, .5, 5., 1e400 (gives inf). The value is the nearest double. False:
+ * no number there, *p unmoved. */
+bool number_parse(const char **p, const char *end, double *value);
+
+/* Enough for every number_format(). */
+#define NUMBER_TEXT_BYTES 32
+
+/* The shortest of the usual forms that number_parse() reads back exactly; that
+ * of a float if rounding gives the same float. */
+void number_format(char text[NUMBER_TEXT_BYTES], double value);
+void number_format_float(char text[NUMBER_TEXT_BYTES], float value);
+
+/* The number that the shortest text of its float stands for. Beyond the range
+ * of normal floats the number itself. */
+double number_shortened(double value);
+
+#endif

@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: MIT
+#include "base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/cgroup_quota.h"
+#include "base/temp_file.h"
+
+/* As many links in a row as the kernel follows. */
+#define LINKS_MAX 40
+
+/* Names tried before a folder counts as full. */
+#define NUMBER_MAX 100000
+
+/* The system's words for errno, in ours where they are not plain. */
+static bool fail_errno(struct error *err, const char *path)
+{
+    switch (errno) {
+    case ENOENT: return fail(err, "%s: no such file or folder", path);
+    case ENOTDIR:
+        return fail(err, "%s: no such file: a part of it is not a folder",
+                    path);
+    case ESTALE:
+        return fail(err,
+                    "%s: someone else has written it at the same time: nothing "
+                    "is saved",
+                    path);
+    case ENAMETOOLONG:
+        if (strlen(path) >= PATH_MAX)
+            return fail(err,
+                        "found a file name of %zu bytes, expected fewer than "
+                        "%d: %.40s...",
+                        strlen(path), PATH_MAX, path);
+        break;
+    default: break;
+    }
+    return fail(err, "%s: %s", path, strerror(errno));
+}
+
+static const char *kind_of(mode_t mode)
+{
+    if (S_ISDIR(mode))
+        return "a folder";
+    if (S_ISFIFO(mode))
+        return "a pipe";
+    if (S_ISSOCK(mode))
+        return "a socket";
+    return "a device";
+}
+
+static bool expect_regular(const char *path, const struct stat *st,
+                           struct error *err)
+{
+    return S_ISREG(st->st_mode) || fail(err, "%s: found %s, expected a file",
+                                        path, kind_of(st->st_mode));
+}
+
+/* More than the machine has would end in its out-of-memory killer. */
+static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
+{
+    struct memory_quota memory = quota_memory("");
+
+    if (size_bytes > FILE_BYTES_MAX)
+        return fail(err, "%s: found %.1f GiB, expected %d GiB at most", path,
+                    (double)size_bytes / (1 << 30),
+                    (int)(FILE_BYTES_MAX >> 30));
+    return (uint64_t)size_bytes <= memory.size_bytes ||
+           fail(err,
+                "%s: found %.1f GiB, expected no more than the %.1f GiB "
+                "of memory %s",
+                path, (double)size_bytes / (1 << 30),
+                (double)memory.size_bytes / (1 << 30), memory.place);
+}
+
+/* -1 and errno, or what there was before the end. */
+static int64_t read_all(int fd, char *to, int64_t size_bytes)
+{
+    int64_t done = 0;
+
+    while (done < size_bytes) {
+        ssize_t n = read(fd, to + done, (size_t)(size_bytes - done));
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return -1;
+        if (n == 0)
+            break;
+        done += n;
+    }
+    return done;
+}
+
+static bool read_open_file(int fd, const char *path, char **text,
+                           size_t *size_bytes, struct error *err)
+{
+    struct stat st;
+
+    if (fstat(fd, &st) != 0)
+        return fail_errno(err, path);
+    if (!expect_regular(path, &st, err) || !expect_size(path, st.st_size, err))
+        return false;
+
+    char *memory = malloc((size_t)st.st_size + 1);
+    if (!memory)
+        return fail(err, "%s: out of memory for its %.1f MiB", path,
+                    (double)st.st_size / (1 << 20));
+    int64_t found = read_all(fd, memory, st.st_size);
+    if (found < 0) {
+        fail_errno(err, path);
+        free(memory);
+        return false;
+    }
+    memory[found] = '\0';
+    *text = memory;
+    *size_bytes = (size_t)found;
+    return true;
+}
+
+bool file_read(const char *path, char **text, size_t *size_bytes,
+               struct error *err)
+{
+    /* without O_NONBLOCK, opening a pipe waits for its writer */
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+
+    if (fd < 0)
+        return fail_errno(err, path);
+    bool ok = read_open_file(fd, path, text, size_bytes, err);
+    close(fd);
+    return ok;
+}
+
+static struct file_identity identity_of(const struct stat *st)
+{
+    return (struct file_identity){true, st->st_dev, st->st_ino, st->st_size,
+                                  st->st_mtim};
+}
+
+struct file_identity file_identify(const char *path)
+{
+    struct stat st;
+
+    if (stat(path, &st) != 0)
+        return (struct file_identity){.exists = false};
+    return identity_of(&st);
+}
+
+bool file_is_same(const struct file_identity *a, const struct file_identity *b)
+{
+    return a->exists == b->exists && a->device == b->device &&
+           a->inode == b->inode && a->size_bytes == b->size_bytes &&
+           a->modified.tv_sec == b->modified.tv_sec &&
+           a->modified.tv_nsec == b->modified.tv_nsec;
+}
+
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    if (!slash)
+        return xstrdup(".");
+    return slash == path ? xstrdup("/")
+                         : xformat("%.*s", (int)(slash - path), path);
+}
+
+/* Where writing to path ends: what its links point to, even if that does not
+ * exist yet. For free(). */
+static char *target_of(const char *path)
+{
+    char *target = xstrdup(path);
+    char link[PATH_MAX];
+
+    for (int i = 0; i < LINKS_MAX; i++) {
+        ssize_t length = readlink(target, link, sizeof link - 1);
+        if (length < 0)
+            break;
+        link[length] = '\0';
+        char *next = path_beside(target, link);
+        free(target);
+        target = next;
+    }
+    return target;
+}
+
+bool file_check(const char *path, struct error *err)
+{
+    char *target = target_of(path);
+    char *folder = folder_of(target);
+    struct stat st;
+    bool ok = true;
+
+    if (stat(target, &st) == 0) {
+        ok = expect_regular(path, &st, err) &&
+             (access(target, W_OK) == 0 || fail_errno(err, path));
+    } else if (errno != ENOENT || *path == '\0') {
+        ok = fail_errno(err, path);
+    }
+    if (ok && access(folder, W_OK | X_OK) != 0)
+        ok = fail_errno(err, folder);
+    free(folder);
+    free(target);
+    return ok;
+}
+
+static bool write_all(int fd, const char *data, size_t size_bytes)
+{
+    while (size_bytes > 0) {
+        ssize_t n = write(fd, data, size_bytes);
+        if (n < 0 && errno != EINTR)
+            return false;
+        if (n > 0) {
+            data += n;
+            size_bytes -= (size_t)n;
+        }
+    }
+    return true;
+}
+
+/* Makes the name last as well. Some file systems cannot: no harm then. */
+static void sync_folder(const char *folder)
+{
+    int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+
+    if (fd >= 0) {
+        fsync(fd);
+        close(fd);
+    }
+}
+
+/* ESTALE: it is not. */
+static bool is_as_before(const char *target, const struct file_change *change)
+{
+    struct file_identity now = file_identify(target);
+
+    if (file_is_same(&now, &change->before))
+        return true;
+    errno = ESTALE;
+    return false;
+}
+
+static bool fill_after(int fd, struct file_change *change)
+{
+    struct stat st;
+
+    if (fstat(fd, &st) != 0)
+        return false;
+    change->after = identity_of(&st);
+    return true;
+}
+
+/* What is written where, and what must be there before. */
+struct replacement {
+    const char *folder, *target;
+    const void *data;
+    size_t size_bytes;
+    bool must_be_new;
+    struct file_change *change; /* NULL: whatever it is now */
+};
+
+static bool expects_none(const struct replacement *r)
+{
+    return r->must_be_new || (r->change && !r->change->before.exists);
+}
+
+static bool fill(const struct replacement *r, int fd)
+{
+    struct stat old;
+    bool keeps_mode = !r->must_be_new && stat(r->target, &old) == 0;
+
+    return (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) &&
+           write_all(fd, r->data, r->size_bytes) && fsync(fd) == 0 &&
+           (!r->change || fill_after(fd, r->change));
+}
+
+/* All steps until the file has its name; errno says what failed. */
+static bool replace_by(const struct replacement *r, bool has_name)
+{
+    struct temp_file t;
+    bool ok = temp_file_open(&t, r->folder, has_name, 0666) && fill(r, t.fd) &&
+              (!r->change || is_as_before(r->target, r->change)) &&
+              temp_file_publish(&t, r->target, expects_none(r));
+
+    return temp_file_close(&t) && ok;
+}
+
+/* The file has no name while it is written if that is possible here. */
+static bool replace(const struct replacement *r)
+{
+    bool ok = replace_by(r, false) ||
+              (errno != EEXIST && errno != ESTALE && replace_by(r, true));
+
+    if (!ok && errno == EEXIST && !r->must_be_new)
+        errno = ESTALE;
+    return ok;
+}
+
+static bool write_file(const char *path, const void *data, size_t size_bytes,
+                       bool must_be_new, bool *exists,
+                       struct file_change *change, struct error *err)
+{
+    char *target = must_be_new ? xstrdup(path) : target_of(path);
+    char *folder = folder_of(target);
+    struct replacement r = {folder,     target,      data,
+                            size_bytes, must_be_new, change};
+    bool ok = must_be_new || file_check(path, err);
+
+    if (ok)
+        temp_file_sweep(folder);
+    if (ok && !replace(&r)) {
+        if (must_be_new && exists)
+            *exists = errno == EEXIST;
+        ok = fail_errno(err, path);
+    }
+    if (ok)
+        sync_folder(folder);
+    free(folder);
+    free(target);
+    return ok;
+}
+
+bool file_write(const char *path, const void *data, size_t size_bytes,
+                bool must_be_new, bool *exists, struct error *err)
+{
+    return write_file(path, data, size_bytes, must_be_new, exists, NULL, err);
+}
+
+bool file_replace(const char *path, const void *data, size_t size_bytes,
+                  struct file_change *change, struct error *err)
+{
+    return write_file(path, data, size_bytes, false, NULL, change, err);
+}
+
+bool file_write_stdout(const void *data, size_t size_bytes, struct error *err)
+{
+    const char *p = data;
+    size_t left = size_bytes;
+
+    while (left > 0) {
+        ssize_t n = write(STDOUT_FILENO, p, left);
+        if (n >= 0) {
+            p += n;
+            left -= (size_t)n;
+        } else if (errno == EAGAIN) {
+            /* whoever gave us the pipe made it non-blocking */
+            poll(&(struct pollfd){.fd = STDOUT_FILENO, .events = POLLOUT}, 1,
+                 -1);
+        } else if (errno != EINTR) {
+            return fail(err, "standard output: %s", strerror(errno));
+        }
+    }
+    return true;
+}
+
+char *file_write_numbered(const char *stem, const char *ending,
+                          const void *data, size_t size_bytes,
+                          struct error *err)
+{
+    char *path = xformat("%s.%s", stem, ending);
+
+    for (int i = 2; i <= NUMBER_MAX; i++) {
+        struct stat st;
+        /* looking first saves writing the file for each name that is taken */
+        bool exists = lstat(path, &st) == 0;
+
+        if (!exists && file_write(path, data, size_bytes, true, &exists, err))
+            return path;
+        if (!exists)
+            goto failed;
+        free(path);
+        path = xformat("%s-%d.%s", stem, i, ending);
+    }
+    fail(err, "%s: expected a free name", path);
+failed:
+    free(path);
+    return NULL;
+}
+
+bool folder_make(char *path)
+{
+    for (char *p = path + 1;; p++) {
+        char end = *p;
+
+        if (end != '/' && end != '\0')
+            continue;
+        *p = '\0';
+        bool ok = mkdir(path, 0700) == 0 || errno == EEXIST;
+        *p = end;
+        if (!ok || end == '\0')
+            return ok;
+    }
+}
+
+char *path_beside(const char *beside, const char *name)
+{
+    const char *slash = strrchr(beside, '/');
+
+    if (*name == '/' || !slash)
+        return xstrdup(name);
+    return xformat("%.*s%s", (int)(slash + 1 - beside), beside, name);
+}
+
+/* The path with its folder as the system knows it; NULL if there is no such
+ * folder. */
+static char *real_path(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = folder_of(path);
+    char *real = realpath(folder, NULL);
+    char *whole = NULL;
+
+    if (real)
+        whole = xformat("%s/%s", strcmp(real, "/") == 0 ? "" : real,
+                        slash ? slash + 1 : path);
+    free(real);
+    free(folder);
+    return whole;
+}
+
+char *path_seen_from(const char *beside, const char *path)
+{
+    char *real_beside = real_path(beside);
+    char *real = real_path(path);
+    char *name;
+
+    if (real && real_beside) {
+        size_t below = (size_t)(strrchr(real_beside, '/') + 1 - real_beside);
+        name = xstrdup(strncmp(real, real_beside, below) == 0 ? real + below
+                                                              : real);
+    } else {
+        name = xstrdup(path);
+    }
+    free(real);
+    free(real_beside);
+    return name;
+}
+
+bool path_is_same(const char *a, const char *b)
+{
+    char *targets[2] = {target_of(a), target_of(b)};
+    char *real[2] = {real_path(targets[0]), real_path(targets[1])};
+    bool is_same = real[0] && real[1] && strcmp(real[0], real[1]) == 0;
+
+    for (int i = 0; i < 2; i++) {
+        free(targets[i]);
+        free(real[i]);
+    }
+    return is_same || strcmp(a, b) == 0;
+}
+
+char *path_stem(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot && dot != name ? (size_t)(dot - path) : strlen(path);
+
+    return xformat("%.*s", (int)length, path);
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "base/file_watch.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include "base/util.h"
+
+/* A file is complete, or has this name now; `touch` and chmod too, for a file
+ * may become readable. */
+#define EVENTS (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_ATTRIB)
+
+struct watched {
+    char *path;
+    struct file_identity known;
+    bool is_listed; /* since watch_begin() */
+};
+
+void watch_init(struct watch *w)
+{
+    *w = (struct watch){.fd = -1};
+}
+
+void watch_begin(struct watch *w)
+{
+    for (size_t i = 0; i < w->file_count; i++)
+        w->files[i].is_listed = false;
+}
+
+static struct watched *find(struct watch *w, const char *path)
+{
+    for (size_t i = 0; i < w->file_count; i++) {
+        if (strcmp(w->files[i].path, path) == 0)
+            return &w->files[i];
+    }
+    return NULL;
+}
+
+void watch_add(struct watch *w, const char *path)
+{
+    struct watched *known = find(w, path);
+
+    if (known) {
+        known->is_listed = true;
+        return;
+    }
+    if (w->file_count == w->capacity) {
+        w->capacity = w->capacity == 0 ? 8 : 2 * w->capacity;
+        w->files = xrealloc(w->files, w->capacity * sizeof w->files[0]);
+    }
+    w->files[w->file_count++] =
+        (struct watched){xstrdup(path), file_identify(path), true};
+}
+
+static void watch_folder_of(int fd, const char *path)
+{
+    char *folder = path_beside(path, ".");
+
+    /* a folder that is not there has no files that change */
+    inotify_add_watch(fd, folder, EVENTS);
+    free(folder);
+}
+
+/* A link's own folder and that of the file: either may get another one. */
+static void watch_folders(int fd, const char *path)
+{
+    char target[PATH_MAX];
+
+    watch_folder_of(fd, path);
+    if (realpath(path, target))
+        watch_folder_of(fd, target);
+}
+
+void watch_end(struct watch *w)
+{
+    size_t kept = 0;
+
+    if (w->fd >= 0)
+        close(w->fd);
+    w->fd = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    for (size_t i = 0; i < w->file_count; i++) {
+        struct watched *f = &w->files[i];
+
+        bool is_gone = f->known.exists && access(f->path, F_OK) != 0;
+
+        if (!f->is_listed && !is_gone) {
+            free(f->path);
+            continue;
+        }
+        watch_folders(w->fd, f->path);
+        w->files[kept++] = *f;
+    }
+    w->file_count = kept;
+}
+
+void watch_drain(struct watch *w)
+{
+    char events[4096];
+
+    while (w->fd >= 0 && read(w->fd, events, sizeof events) > 0)
+        continue;
+}
+
+bool watch_has_changed(const struct watch *w)
+{
+    bool has_changed = false;
+
+    for (size_t i = 0; i < w->file_count; i++) {
+        struct file_identity now = file_identify(w->files[i].path);
+
+        if (w->files[i].known.exists && !now.exists)
+            return false;
+        has_changed |= !file_is_same(&now, &w->files[i].known);
+    }
+    return has_changed;
+}
+
+bool watch_has(const struct watch *w, const char *path)
+{
+    struct file_identity it = file_identify(path);
+
+    for (size_t i = 0; i < w->file_count && it.exists; i++) {
+        struct file_identity now = file_identify(w->files[i].path);
+
+        if (file_is_same(&now, &it))
+            return true;
+    }
+    return false;
+}
+
+void watch_settle(struct watch *w)
+{
+    for (size_t i = 0; i < w->file_count; i++) {
+        struct watched *f = &w->files[i];
+        struct file_identity now = file_identify(f->path);
+
+        if (now.exists)
+            f->known = now;
+    }
+}
+
+void watch_wrote(struct watch *w, const char *path,
+                 const struct file_identity *identity)
+{
+    struct watched *f = find(w, path);
+
+    if (f)
+        f->known = *identity;
+}
+
+void watch_replaced(struct watch *w, const char *path,
+                    const struct file_change *change)
+{
+    struct watched *f = find(w, path);
+
+    if (f &&
+        (!change->before.exists || file_is_same(&f->known, &change->before)))
+        f->known = change->after;
+}
+
+void watch_free(struct watch *w)
+{
+    for (size_t i = 0; i < w->file_count; i++)
+        free(w->files[i].path);
+    free(w->files);
+    if (w->fd >= 0)
+        close(w->fd);
+    watch_init(w);
+}

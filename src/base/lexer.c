@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "base/lexer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/decimal.h"
+
+/* Longer words are cut in messages. */
+#define QUOTE_BYTES 40
+
+bool lex_is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
+static bool is_line_end(char c)
+{
+    return c == '\n' || c == '\r';
+}
+
+void lex_init(struct lex *lex, const char *text, size_t size_bytes)
+{
+    lex->p = text;
+    lex->end = text + size_bytes;
+    lex->line = 1;
+    if (size_bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
+        lex->p += 3;
+}
+
+/* Bytes of a line's end at p: 0, 1 or 2. */
+static size_t line_end_bytes(const char *p, const char *end)
+{
+    if (p == end || !is_line_end(*p))
+        return 0;
+    return *p == '\r' && end - p > 1 && p[1] == '\n' ? 2 : 1;
+}
+
+/* Bytes of a backslash and the end of the line or text after it, or 0. */
+static size_t join_bytes(const char *p, const char *end)
+{
+    size_t n;
+
+    if (p == end || *p != '\\')
+        return 0;
+    n = line_end_bytes(p + 1, end);
+    return n == 0 && p + 1 < end ? 0 : n + 1;
+}
+
+void lex_skip_blanks(struct lex *lex)
+{
+    for (;;) {
+        size_t n;
+
+        while (lex->p < lex->end && lex_is_blank(*lex->p))
+            lex->p++;
+        n = join_bytes(lex->p, lex->end);
+        if (n == 0)
+            return;
+        lex->p += n;
+        lex->line++;
+    }
+}
+
+bool lex_at_line_end(struct lex *lex)
+{
+    lex_skip_blanks(lex);
+    return lex->p == lex->end || is_line_end(*lex->p) || *lex->p == '#';
+}
+
+bool lex_next_line(struct lex *lex)
+{
+    bool in_comment = false;
+    size_t end_bytes;
+
+    while (lex->p < lex->end && !is_line_end(*lex->p)) {
+        size_t n = in_comment ? 0 : join_bytes(lex->p, lex->end);
+
+        in_comment |= *lex->p == '#';
+        lex->p += n == 0 ? 1 : n;
+        lex->line += n != 0;
+    }
+    end_bytes = line_end_bytes(lex->p, lex->end);
+    lex->p += end_bytes;
+    lex->line++;
+    return end_bytes > 0;
+}
+
+static bool ends_word(const char *p, const char *end)
+{
+    return p == end || lex_is_blank(*p) || is_line_end(*p) ||
+           (*p == '\\' && join_bytes(p, end) != 0);
+}
+
+struct word lex_word(struct lex *lex)
+{
+    struct word word;
+
+    lex_skip_blanks(lex);
+    word.start = lex->p;
+    while (!ends_word(lex->p, lex->end))
+        lex->p++;
+    word.length = (size_t)(lex->p - word.start);
+    return word;
+}
+
+/* Bytes of the join at p, or 0: behind a '#' there are none. */
+static size_t rest_join_bytes(const char *p, const char *end, bool *in_comment)
+{
+    *in_comment |= *p == '#';
+    return *in_comment ? 0 : join_bytes(p, end);
+}
+
+char *lex_rest(struct lex *lex)
+{
+    bool in_comment = false;
+    size_t length = 0;
+    const char *start;
+    char *text;
+
+    lex_skip_blanks(lex);
+    start = lex->p;
+    while (lex->p < lex->end && !is_line_end(*lex->p)) {
+        size_t n = rest_join_bytes(lex->p, lex->end, &in_comment);
+
+        lex->p += n == 0 ? 1 : n;
+        lex->line += n != 0;
+    }
+    text = malloc((size_t)(lex->p - start) + 1);
+    if (text == NULL)
+        return NULL;
+    in_comment = false;
+    for (const char *p = start; p < lex->p;) {
+        size_t n = rest_join_bytes(p, lex->p, &in_comment);
+        /* A NUL would end the name early, and two names could be one. */
+        char c = n != 0 || *p == '\0' ? ' ' : *p;
+
+        if (length > 0 || !lex_is_blank(c))
+            text[length++] = c;
+        p += n == 0 ? 1 : n;
+    }
+    while (length > 0 && lex_is_blank(text[length - 1]))
+        length--;
+    text[length] = '\0';
+    return text;
+}
+
+const char *lex_rest_guard(const char *rest)
+{
+    size_t length = strlen(rest);
+
+    return length > 0 && rest[length - 1] == '\\' ? " " : "";
+}
+
+/* What printf() of Microsoft's libraries writes: 1.#INF, 1.#IND, 1.#QNAN and
+ * 1.#SNAN, with zeros for the digits that were asked for, or nan(ind). */
+static bool microsoft_number(struct word word, double *value)
+{
+    char text[16];
+    const char *p = text;
+
+    if (word.length < 6 || word.length >= sizeof text)
+        return false;
+    memcpy(text, word.start, word.length);
+    text[word.length] = '\0';
+    p += *p == '-' || *p == '+';
+    if (strncmp(p, "1.#INF", 6) == 0) {
+        *value = text[0] == '-' ? -INFINITY : INFINITY;
+        return true;
+    }
+    *value = NAN;
+    return strncmp(p, "1.#IND", 6) == 0 || strncmp(p, "1.#QNAN", 7) == 0 ||
+           strncmp(p, "1.#SNAN", 7) == 0 || strncmp(p, "nan(", 4) == 0;
+}
+
+bool lex_number(struct lex *lex, double *value)
+{
+    struct lex saved;
+
+    lex_skip_blanks(lex);
+    saved = *lex;
+    if (number_parse(&lex->p, lex->end, value) && ends_word(lex->p, lex->end))
+        return true;
+    *lex = saved;
+    if (microsoft_number(lex_word(lex), value))
+        return true;
+    *lex = saved;
+    return false;
+}
+
+bool lex_lines(const char *text, size_t size_bytes, lex_take_line *take_line,
+               void *context, struct error *err)
+{
+    struct lex lex;
+
+    lex_init(&lex, text, size_bytes);
+    while (lex.p < lex.end) {
+        if (!take_line(context, &lex, err))
+            return false;
+        lex_next_line(&lex);
+    }
+    return true;
+}
+
+bool lex_file(const char *path, lex_take_line *take_line, void *context,
+              struct error *err)
+{
+    char *text;
+    size_t size_bytes;
+    bool ok;
+
+    if (!file_read(path, &text, &size_bytes, err))
+        return false;
+    ok = lex_lines(text, size_bytes, take_line, context, err);
+    free(text);
+    return ok;
+}
+
+bool word_is(struct word word, const char *text)
+{
+    return strlen(text) == word.length &&
+           memcmp(word.start, text, word.length) == 0;
+}
+
+struct word_text word_cut(struct word word)
+{
+    struct word_text cut;
+    int length = word.length < QUOTE_BYTES ? (int)word.length : QUOTE_BYTES;
+
+    snprintf(cut.text, sizeof cut.text, "%.*s%s", length, word.start,
+             word.length > QUOTE_BYTES ? "..." : "");
+    return cut;
+}
+
+struct word_text word_quote(struct word word)
+{
+    struct word_text quote = {"the end of the line"};
+
+    if (word.length > 0)
+        snprintf(quote.text, sizeof quote.text, "'%.60s'", word_cut(word).text);
+    return quote;
+}

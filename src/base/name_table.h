@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+/*
+ * name_table.h - numbers names from 0 in the order they come, each once
+ *
+ * A hash table, so that a file with a million names loads as fast as its size
+ * lets one expect.
+ *
+ * Units:     none
+ * Ownership: names are copied; names_free() frees; a zeroed struct is empty
+ * Threads:   one thread at a time
+ * Errors:    NO_NAME when memory is out
+ */
+#ifndef GLIM_NAME_TABLE_H
+#define GLIM_NAME_TABLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define NO_NAME 0xffffffffu
+
+struct names {
+    char **items;
+    uint32_t count;
+    size_t capacity;
+    uint32_t *slots;     /* index into items + 1; 0: free */
+    uint32_t slot_count; /* a power of two */
+};
+
+/* The number of the name, which is added if it is new. */
+uint32_t names_add(struct names *names, const char *name);
+
+/* The number of the name, or NO_NAME. */
+uint32_t names_find(const struct names *names, const char *name);
+
+void names_free(struct names *names);
+
+#endif

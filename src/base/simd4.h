@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+/*
+ * simd4.h - four floats at once: SSE2, or plain loops
+ *
+ * The arithmetic of floats, lane by lane, without contraction. Masks have a bit
+ * a lane, lane 0 the lowest.
+ *
+ * Units:     none
+ * Ownership: none
+ * Threads:   none
+ * Errors:    none
+ */
+#ifndef GLIM_SIMD4_H
+#define GLIM_SIMD4_H
+
+#include <math.h>
+#include <stdint.h>
+
+#if defined(__SSE2__)
+
+#include <immintrin.h>
+
+typedef __m128 f4;
+
+static inline f4 f4_load(const float *p)
+{
+    return _mm_load_ps(p);
+}
+
+static inline void f4_store(float *p, f4 a)
+{
+    _mm_store_ps(p, a);
+}
+
+static inline f4 f4_all(float x)
+{
+    return _mm_set1_ps(x);
+}
+
+static inline f4 f4_of(float x, float y, float z)
+{
+    return _mm_set_ps(0.0f, z, y, x);
+}
+
+static inline f4 f4_add(f4 a, f4 b)
+{
+    return _mm_add_ps(a, b);
+}
+
+static inline f4 f4_sub(f4 a, f4 b)
+{
+    return _mm_sub_ps(a, b);
+}
+
+static inline f4 f4_mul(f4 a, f4 b)
+{
+    return _mm_mul_ps(a, b);
+}
+
+static inline f4 f4_div(f4 a, f4 b)
+{
+    return _mm_div_ps(a, b);
+}
+
+static inline f4 f4_abs(f4 a)
+{
+    return _mm_andnot_ps(_mm_set1_ps(-0.0f), a);
+}
+
+static inline f4 f4_min(f4 a, f4 b)
+{
+    return _mm_min_ps(a, b);
+}
+
+static inline f4 f4_max(f4 a, f4 b)
+{
+    return _mm_max_ps(a, b);
+}
+
+/* 0 where it is above the most. */
+static inline f4 f4_up_to(f4 a, f4 most)
+{
+    return _mm_and_ps(a, _mm_cmple_ps(a, most));
+}
+
+/* Of whole numbers below 2^31. */
+static inline f4 f4_of_counts(const uint32_t *p)
+{
+    return _mm_cvtepi32_ps(_mm_load_si128((const void *)p));
+}
+
+/* Without what is behind the point, as f4_whole(). */
+static inline void f4_store_counts(uint32_t *p, f4 a)
+{
+    _mm_store_si128((void *)p, _mm_cvttps_epi32(a));
+}
+
+static inline f4 f4_whole(f4 a)
+{
+    return _mm_cvtepi32_ps(_mm_cvttps_epi32(a));
+}
+
+/* The sum of the products of two of the first three numbers. */
+static inline float f4_pairs3(f4 a)
+{
+    f4 b = _mm_mul_ps(a, _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1)));
+    f4 second = _mm_shuffle_ps(b, b, _MM_SHUFFLE(1, 1, 1, 1));
+
+    return _mm_cvtss_f32(
+        _mm_add_ss(_mm_add_ss(b, second), _mm_movehl_ps(b, b)));
+}
+
+/* Of three vectors all first numbers, all second and all third ones; the last
+ * lane is as the one before. */
+static inline void f4_transpose(f4 a, f4 b, f4 c, f4 to[3])
+{
+    f4 low = _mm_unpacklo_ps(a, b), high = _mm_unpackhi_ps(a, b);
+
+    to[0] = _mm_shuffle_ps(low, c, _MM_SHUFFLE(0, 0, 1, 0));
+    to[1] = _mm_shuffle_ps(low, c, _MM_SHUFFLE(1, 1, 3, 2));
+    to[2] = _mm_shuffle_ps(high, c, _MM_SHUFFLE(2, 2, 1, 0));
+}
+
+static inline uint32_t f4_not_above(f4 a, f4 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+
+static inline uint32_t f4_below(f4 a, f4 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
+}
+
+/* Where a, b and c are the same. */
+static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+{
+    return (uint32_t)_mm_movemask_ps(
+        _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
+}
+
+/* Where one of four numbers is n. */
+static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
+{
+    __m128i same = _mm_cmpeq_epi32(_mm_load_si128((const void *)p),
+                                   _mm_set1_epi32((int)n));
+
+    return (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(same));
+}
+
+/* There x, y elsewhere. */
+static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+{
+    f4 same = _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));
+
+    return _mm_or_ps(_mm_and_ps(same, x), _mm_andnot_ps(same, y));
+}
+
+#else
+
+typedef struct {
+    float v[4];
+} f4;
+
+#define F4_EACH(result, value)  \
+    f4 result;                  \
+    for (int i = 0; i < 4; i++) \
+        result.v[i] = (value);  \
+    return result
+
+static inline f4 f4_load(const float *p)
+{
+    F4_EACH(r, p[i]);
+}
+
+static inline void f4_store(float *p, f4 a)
+{
+    for (int i = 0; i < 4; i++)
+        p[i] = a.v[i];
+}
+
+static inline f4 f4_all(float x)
+{
+    F4_EACH(r, x);
+}
+
+static inline f4 f4_of(float x, float y, float z)
+{
+    f4 r = {{x, y, z, 0.0f}};
+
+    return r;
+}
+
+static inline f4 f4_add(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] + b.v[i]);
+}
+
+static inline f4 f4_sub(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] - b.v[i]);
+}
+
+static inline f4 f4_mul(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] * b.v[i]);
+}
+
+static inline f4 f4_div(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] / b.v[i]);
+}
+
+static inline f4 f4_abs(f4 a)
+{
+    F4_EACH(r, fabsf(a.v[i]));
+}
+
+static inline f4 f4_min(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] < b.v[i] ? a.v[i] : b.v[i]);
+}
+
+static inline f4 f4_max(f4 a, f4 b)
+{
+    F4_EACH(r, a.v[i] > b.v[i] ? a.v[i] : b.v[i]);
+}
+
+static inline f4 f4_up_to(f4 a, f4 most)
+{
+    F4_EACH(r, a.v[i] <= most.v[i] ? a.v[i] : 0.0f);
+}
+
+static inline f4 f4_of_counts(const uint32_t *p)
+{
+    F4_EACH(r, (float)p[i]);
+}
+
+static inline void f4_store_counts(uint32_t *p, f4 a)
+{
+    for (int i = 0; i < 4; i++)
+        p[i] = (uint32_t)a.v[i];
+}
+
+static inline f4 f4_whole(f4 a)
+{
+    F4_EACH(r, (float)(uint32_t)a.v[i]);
+}
+
+static inline float f4_pairs3(f4 a)
+{
+    return a.v[0] * a.v[1] + a.v[1] * a.v[2] + a.v[2] * a.v[0];
+}
+
+static inline void f4_transpose(f4 a, f4 b, f4 c, f4 to[3])
+{
+    for (int i = 0; i < 3; i++)
+        to[i] = (f4){{a.v[i], b.v[i], c.v[i], c.v[i]}};
+}
+
+static inline uint32_t f4_not_above(f4 a, f4 b)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] <= b.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline uint32_t f4_below(f4 a, f4 b)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] < b.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (a.v[i] == b.v[i] && a.v[i] == c.v[i] ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
+{
+    uint32_t mask = 0;
+
+    for (int i = 0; i < 4; i++)
+        mask |= (p[i] == n ? 1u : 0u) << i;
+    return mask;
+}
+
+static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+{
+    F4_EACH(r, a.v[i] == b.v[i] && a.v[i] == c.v[i] ? x.v[i] : y.v[i]);
+}
+
+#endif
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "base/temp_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/util.h"
+
+/* Names tried before giving up; each differs by the clock already. */
+#define TRIES 100
+
+/* Process numbers of other hosts mean nothing here, and clocks differ. */
+#define OLD_S (24 * 60 * 60)
+
+/* Where process numbers have a meaning: this boot of this kernel, and in it the
+ * name space of processes, of which each container has one. 0: not known. */
+static uint32_t host_id(void)
+{
+    char boot[64];
+    struct stat space;
+    int fd = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);
+    ssize_t length = fd >= 0 ? read(fd, boot, sizeof boot) : -1;
+    uint64_t hash = 14695981039346656037u; /* FNV-1a */
+
+    if (fd >= 0)
+        close(fd);
+    if (length <= 0 || stat("/proc/self/ns/pid", &space) != 0)
+        return 0;
+    for (ssize_t i = 0; i < length; i++)
+        hash = (hash ^ (unsigned char)boot[i]) * 1099511628211u;
+    hash = (hash ^ (uint64_t)space.st_ino) * 1099511628211u;
+    return (uint32_t)(hash >> 32) | 1;
+}
+
+static char *temporary_name(uint32_t host, int pid, unsigned number)
+{
+    return xformat(".glim-%08" PRIx32 "-%d-%08x", host, pid, number);
+}
+
+static char *new_name(const char *folder, unsigned try)
+{
+    char *name =
+        temporary_name(host_id(), (int)getpid(), (unsigned)clock_ns() + try);
+    char *path = xformat("%s/%s", folder, name);
+
+    free(name);
+    return path;
+}
+
+static bool open_named(struct temp_file *t, mode_t mode)
+{
+    for (unsigned i = 0; i < TRIES; i++) {
+        t->name = new_name(t->folder, i);
+        t->fd = open(t->name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        if (t->fd >= 0)
+            return true;
+        free(t->name);
+        t->name = NULL;
+        if (errno != EEXIST)
+            break;
+    }
+    return false;
+}
+
+bool temp_file_open(struct temp_file *t, const char *folder, bool has_name,
+                    mode_t mode)
+{
+    *t = (struct temp_file){.fd = -1, .folder = folder};
+    if (has_name)
+        return open_named(t, mode);
+    t->fd = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+    return t->fd >= 0;
+}
+
+/* Gives a file without a name this one, if nothing has it. */
+static bool link_unnamed(const struct temp_file *t, const char *path)
+{
+    char self[64];
+
+    snprintf(self, sizeof self, "/proc/self/fd/%d", t->fd);
+    return linkat(AT_FDCWD, self, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
+}
+
+static bool link_temporarily(struct temp_file *t)
+{
+    for (unsigned i = 0; i < TRIES; i++) {
+        char *name = new_name(t->folder, i);
+        if (link_unnamed(t, name)) {
+            t->name = name;
+            return true;
+        }
+        free(name);
+        if (errno != EEXIST)
+            break;
+    }
+    return false;
+}
+
+static void forget_name(struct temp_file *t)
+{
+    free(t->name);
+    t->name = NULL;
+}
+
+/* A link is made only where there is nothing yet; file systems without links
+ * have a rename that does the same. */
+static bool publish_new(struct temp_file *t, const char *target)
+{
+    if (link(t->name, target) == 0)
+        return true; /* the temporary name goes when the file is closed */
+    if ((errno != EPERM && errno != EOPNOTSUPP) ||
+        renameat2(AT_FDCWD, t->name, AT_FDCWD, target, RENAME_NOREPLACE) != 0)
+        return false;
+    forget_name(t);
+    return true;
+}
+
+bool temp_file_publish(struct temp_file *t, const char *target,
+                       bool must_be_new)
+{
+    if (!t->name) {
+        if (link_unnamed(t, target))
+            return true;
+        if (errno != EEXIST || must_be_new || !link_temporarily(t))
+            return false;
+    } else if (must_be_new) {
+        return publish_new(t, target);
+    }
+    if (rename(t->name, target) != 0)
+        return false;
+    forget_name(t);
+    return true;
+}
+
+bool temp_file_close(struct temp_file *t)
+{
+    int reason = errno;
+    bool ok;
+
+    if (t->name)
+        unlink(t->name);
+    forget_name(t);
+    errno = reason;
+    ok = t->fd < 0 || close(t->fd) == 0;
+    t->fd = -1;
+    return ok;
+}
+
+/* Is it exactly what temporary_name() makes? */
+static bool parse_name(const char *name, uint32_t *host, int *pid)
+{
+    unsigned number;
+    char *same;
+    bool ok;
+
+    if (sscanf(name, ".glim-%8" SCNx32 "-%d-%8x", host, pid, &number) != 3)
+        return false;
+    same = temporary_name(*host, *pid, number);
+    ok = strcmp(name, same) == 0 && *pid > 0;
+    free(same);
+    return ok;
+}
+
+static bool is_left_over(int folder, const char *name, uint32_t here)
+{
+    uint32_t host;
+    struct stat st;
+    int pid;
+
+    if (!parse_name(name, &host, &pid) ||
+        fstatat(folder, name, &st, AT_SYMLINK_NOFOLLOW) != 0 ||
+        !S_ISREG(st.st_mode) || st.st_uid != geteuid())
+        return false;
+    if (host != 0 && host == here && kill(pid, 0) != 0 && errno == ESRCH)
+        return true;
+    return time(NULL) - st.st_mtime > OLD_S;
+}
+
+void temp_file_sweep(const char *folder)
+{
+    DIR *entries = opendir(folder);
+    uint32_t here = host_id();
+    struct dirent *entry;
+
+    if (!entries)
+        return;
+    while ((entry = readdir(entries)) != NULL)
+        if (is_left_over(dirfd(entries), entry->d_name, here))
+            unlinkat(dirfd(entries), entry->d_name, 0);
+    closedir(entries);
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+/*
+ * thread_pool.h - worker threads and cancellation
+ *
+ * A pool runs one job at a time: a function over the numbers 0..count-1. Each
+ * worker owns a range of them and steals half of another's when its own is
+ * done.
+ *
+ * Units:     none
+ * Ownership: pool_create() returns a pool for pool_destroy(); a job's context
+ *            stays the caller's and must outlive pool_run()
+ * Threads:   pool_run() from one thread at a time; cancel_request() from any
+ * Errors:    pool_create() fails when no thread can start; nothing else fails
+ */
+#ifndef GLIM_THREAD_POOL_H
+#define GLIM_THREAD_POOL_H
+
+#include <stdatomic.h>
+
+#include "base/util.h"
+
+/* An OpenCL kernel looks at it as one 32-bit word. */
+struct cancel {
+    atomic_uint requested;
+};
+
+static inline void cancel_request(struct cancel *c)
+{
+    atomic_store_explicit(&c->requested, 1, memory_order_release);
+}
+
+static inline void cancel_reset(struct cancel *c)
+{
+    atomic_store_explicit(&c->requested, 0, memory_order_relaxed);
+}
+
+static inline bool cancel_requested(const struct cancel *c)
+{
+    return atomic_load_explicit(&c->requested, memory_order_relaxed) != 0;
+}
+
+typedef void pool_job(void *context, uint32_t item, int worker);
+
+struct pool;
+
+/* Starts thread_count workers, with all signals blocked in them. */
+struct pool *pool_create(int thread_count, struct error *err);
+int pool_thread_count(const struct pool *pool);
+
+/* Processor time that a worker has used so far, in nanoseconds. */
+uint64_t pool_cpu_ns(const struct pool *pool, int worker);
+
+/* Runs job(context, i, worker) for all i below count; blocks until every
+ * worker is parked. When cancel is requested no further item is started.
+ * True if all items were run. */
+bool pool_run(struct pool *pool, uint32_t count, pool_job *job, void *context,
+              const struct cancel *cancel);
+
+/* The same without an end but the last item's. Without a pool, or for a single
+ * item, on the caller's thread, as worker 0. */
+void pool_each(struct pool *pool, uint32_t count, pool_job *job, void *context);
+
+void pool_destroy(struct pool *pool);
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "base/warnings.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/print.h"
+#include "base/util.h"
+
+static struct report_entry *find(const struct report *r, const char *kind)
+{
+    for (int i = 0; i < r->entry_count; i++) {
+        if (strcmp(r->entries[i].kind, kind) == 0)
+            return &r->entries[i];
+    }
+    return NULL;
+}
+
+/* The entry of this kind, made with the text if there is none yet. */
+__attribute__((format(printf, 3, 0))) static void
+add(struct report *r, const char *kind, const char *format, va_list args)
+{
+    struct report_entry *entry = find(r, kind);
+    char text[1024];
+
+    if (entry != NULL) {
+        entry->count++;
+        return;
+    }
+    if (r->entry_count == r->capacity) {
+        r->capacity = r->capacity == 0 ? 8 : 2 * r->capacity;
+        r->entries =
+            xrealloc(r->entries, (size_t)r->capacity * sizeof *r->entries);
+    }
+    vsnprintf(text, sizeof text, format, args);
+    entry = &r->entries[r->entry_count++];
+    entry->kind = xstrdup(kind);
+    entry->text = xstrdup(text);
+    entry->count = 1;
+}
+
+void report_add(struct report *r, const char *kind, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    add(r, kind, format, args);
+    va_end(args);
+}
+
+/* How many entries are of this kind with a name behind it. */
+static int count_named(const struct report *r, const char *kind)
+{
+    size_t length = strlen(kind);
+    int count = 0;
+
+    for (int i = 0; i < r->entry_count; i++)
+        count += strncmp(r->entries[i].kind, kind, length) == 0 &&
+                 strncmp(r->entries[i].kind + length, " '", 2) == 0;
+    return count;
+}
+
+void report_add_named(struct report *r, const char *kind, const char *name,
+                      const char *format, ...)
+{
+    /* Long names that begin alike count as one. */
+    char *named = xformat("%s '%.100s'", kind, name);
+
+    bool is_full =
+        find(r, named) == NULL && count_named(r, kind) >= REPORT_NAMES_MAX;
+    va_list args;
+
+    va_start(args, format);
+    add(r, is_full ? kind : named, format, args);
+    va_end(args);
+    free(named);
+}
+
+void report_print(const struct report *r, FILE *to)
+{
+    for (int i = 0; i < r->entry_count; i++) {
+        const struct report_entry *entry = &r->entries[i];
+
+        if (entry->count > 1)
+            print_line(to, "glim: warning: %s (and %" PRIu64 " more %s)",
+                       entry->text, entry->count - 1, entry->kind);
+        else
+            print_line(to, "glim: warning: %s", entry->text);
+    }
+}
+
+void report_free(struct report *r)
+{
+    for (int i = 0; i < r->entry_count; i++) {
+        free(r->entries[i].kind);
+        free(r->entries[i].text);
+    }
+    free(r->entries);
+    memset(r, 0, sizeof *r);
+}

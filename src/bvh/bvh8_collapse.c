@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/bvh8_collapse.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "bvh/sah_bins.h"
+
+/* Nodes below what one thread takes. */
+#define SPAN_NODES 4096
+
+/* Nodes that are all that is below the first, and that. */
+struct span {
+    uint32_t first, end;
+};
+
+struct fitter {
+    const struct wide_fits *fits;
+    struct span *spans;
+    uint32_t span_count;
+    size_t span_capacity;
+};
+
+/* ---- costs ---- */
+
+static float area_of(const struct node *n)
+{
+    struct box box = box_of_corners(n->lo, n->hi);
+
+    return box_area(&box);
+}
+
+static float leaf_cost(const struct wide_fits *f, uint32_t node)
+{
+    uint32_t tri_count = f->fits[node].tri_count;
+
+    if (tri_count > WIDE_LEAF_TRIS)
+        return INFINITY;
+    return WIDE_BLOCK_COST * area_of(&f->bvh->nodes[node]) *
+           (float)wide_blocks(tri_count);
+}
+
+/* The least costs of two nodes as k + 1 children together. */
+static void share_places(const struct wide_fit *left,
+                         const struct wide_fit *right,
+                         float costs[WIDE_CHILDREN])
+{
+    for (uint32_t k = 0; k < WIDE_CHILDREN; k++) {
+        costs[k] = INFINITY;
+        for (uint32_t i = 0; i < k; i++)
+            costs[k] =
+                f_min(left->costs[i] + right->costs[k - 1 - i], costs[k]);
+    }
+}
+
+static void fit_node(const struct wide_fits *f, uint32_t node)
+{
+    const struct node *n = &f->bvh->nodes[node];
+    struct wide_fit *fit = &f->fits[node];
+    float shared[WIDE_CHILDREN];
+
+    fit->tri_count = n->count;
+    if (n->count != 0) {
+        for (uint32_t k = 0; k < WIDE_CHILDREN; k++)
+            fit->costs[k] = leaf_cost(f, node);
+        return;
+    }
+    fit->tri_count = fit[1].tri_count + f->fits[n->next].tri_count;
+    share_places(&fit[1], &f->fits[n->next], shared);
+    fit->costs[0] =
+        f_min(leaf_cost(f, node), area_of(n) + shared[WIDE_CHILDREN - 1]);
+    for (uint32_t k = 1; k < WIDE_CHILDREN; k++)
+        fit->costs[k] = f_min(fit->costs[k - 1], shared[k]);
+}
+
+/* Children lie behind their parents. */
+static void fit_span(void *context, uint32_t item, int worker)
+{
+    const struct fitter *f = context;
+    struct span s = f->spans[item];
+
+    (void)worker;
+    while (s.end-- > s.first)
+        fit_node(f->fits, s.end);
+}
+
+static uint32_t right_of(const struct wide_fits *f, uint32_t node)
+{
+    return f->bvh->nodes[node].next;
+}
+
+/* Recursion is as deep as the tree, at most. */
+static bool find_spans(struct fitter *f, struct span s)
+{
+    uint32_t right = right_of(f->fits, s.first);
+    void *spans = f->spans;
+
+    if (s.end - s.first > SPAN_NODES)
+        return find_spans(f, (struct span){s.first + 1, right}) &&
+               find_spans(f, (struct span){right, s.end});
+    if (!grow_array(&spans, &f->span_capacity, (size_t)f->span_count + 1,
+                    sizeof *f->spans))
+        return false;
+    f->spans = spans;
+    f->spans[f->span_count++] = s;
+    return true;
+}
+
+static void fit_above_spans(const struct wide_fits *f, struct span s)
+{
+    uint32_t right = right_of(f, s.first);
+
+    if (s.end - s.first <= SPAN_NODES)
+        return;
+    fit_above_spans(f, (struct span){s.first + 1, right});
+    fit_above_spans(f, (struct span){right, s.end});
+    fit_node(f, s.first);
+}
+
+bool wide_fits_init(struct wide_fits *f, const struct bvh *bvh,
+                    struct pool *pool)
+{
+    const struct span all = {0, bvh->node_count};
+    struct fitter fitter = {.fits = f};
+    bool ok;
+
+    *f = (struct wide_fits){bvh,
+                            alloc_aligned(bvh->node_count, sizeof *f->fits)};
+    ok = f->fits != NULL && find_spans(&fitter, all);
+    if (ok) {
+        pool_each(pool, fitter.span_count, fit_span, &fitter);
+        fit_above_spans(f, all);
+    }
+    free(fitter.spans);
+    return ok;
+}
+
+void wide_fits_free(struct wide_fits *f)
+{
+    free(f->fits);
+    *f = (struct wide_fits){.fits = NULL};
+}
+
+/* ---- choices ---- */
+
+bool wide_fits_leaf(const struct wide_fits *f, uint32_t node)
+{
+    return leaf_cost(f, node) <= f->fits[node].costs[0];
+}
+
+/* How many of so many places go to the left of two nodes. */
+static uint32_t left_places(const struct wide_fit *left,
+                            const struct wide_fit *right, uint32_t places)
+{
+    uint32_t lefts = 1;
+    float least = INFINITY;
+
+    for (uint32_t i = 1; i < places; i++) {
+        float cost = left->costs[i - 1] + right->costs[places - i - 1];
+
+        if (cost < least) {
+            least = cost;
+            lefts = i;
+        }
+    }
+    return lefts;
+}
+
+/* Shares the places below a node, behind so many children. Returns how many
+ * there are then. */
+static uint32_t open_node(const struct wide_fits *f, uint32_t node,
+                          uint32_t places, uint32_t *children, uint32_t count)
+{
+    const uint32_t nodes[2] = {node + 1, right_of(f, node)};
+    uint32_t lefts =
+        left_places(&f->fits[nodes[0]], &f->fits[nodes[1]], places);
+
+    for (int i = 0; i < 2; i++) {
+        const float *costs = f->fits[nodes[i]].costs;
+        uint32_t n = i == 0 ? lefts : places - lefts;
+
+        while (n > 1 && costs[n - 2] <= costs[n - 1])
+            n--;
+        if (n == 1)
+            children[count++] = nodes[i];
+        else
+            count = open_node(f, nodes[i], n, children, count);
+    }
+    return count;
+}
+
+/* Rays that look for any hit take the last child first: leaves, for they may
+ * end it, and what is large. Measured: up to twice as many a second. Of areas,
+ * which are not negative, the bits are in the same order. */
+static uint32_t rank_of(const struct wide_fits *f, uint32_t node)
+{
+    return float_bits(area_of(&f->bvh->nodes[node])) |
+           (uint32_t)wide_fits_leaf(f, node) << 31;
+}
+
+static void sort_children(const struct wide_fits *f, uint32_t *children,
+                          uint32_t count)
+{
+    uint32_t ranks[WIDE_CHILDREN];
+
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t node = children[i], rank = rank_of(f, node);
+        uint32_t at = i;
+
+        for (; at > 0 && rank < ranks[at - 1]; at--) {
+            ranks[at] = ranks[at - 1];
+            children[at] = children[at - 1];
+        }
+        ranks[at] = rank;
+        children[at] = node;
+    }
+}
+
+/* A leaf is only asked for at the root. */
+uint32_t wide_fits_children(const struct wide_fits *f, uint32_t node,
+                            uint32_t children[WIDE_CHILDREN])
+{
+    uint32_t count = 1;
+
+    children[0] = node;
+    if (!wide_fits_leaf(f, node))
+        count = open_node(f, node, WIDE_CHILDREN, children, 0);
+    sort_children(f, children, count);
+    return count;
+}

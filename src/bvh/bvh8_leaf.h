@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/*
+ * bvh8_leaf.h - a ray against the triangles of a block, four at once
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   any
+ * Errors:    none
+ */
+#ifndef GLIM_BVH8_LEAF_H
+#define GLIM_BVH8_LEAF_H
+
+#include "base/simd4.h"
+#include "bvh/bvh8.h"
+#include "kernels/traverse_leaf.h"
+
+/* Each lane has a triangle. */
+static inline f4 f4_corner(const float *place)
+{
+    return f4_load(place);
+}
+
+static inline f4 f4_ray(const float *place)
+{
+    return f4_all(*place);
+}
+
+#define LANES      f4
+#define LANES_RAYS 1
+#include "bvh/simd_triangle.h"
+
+/* A ray as tests of blocks want it. */
+struct block_ray {
+    struct ray ray;
+    struct shear shear;
+    struct f4_rays lanes;
+    uint32_t passed[2]; /* triangles that it cannot meet */
+};
+
+/* A ray that may end at triangle `tri`, which then is no hit. */
+static inline struct block_ray block_ray_of(struct ray r, uint32_t tri)
+{
+    struct shear s = shear_of(r);
+    struct block_ray b = {r,
+                          s,
+                          {{{r.o.x}, {r.o.y}, {r.o.z}},
+                           {{r.d.x}, {r.d.y}, {r.d.z}},
+                           {s.sx},
+                           {s.sy},
+                           {s.sz},
+                           s.axis},
+                          {r.from - 1u, tri}};
+
+    return b;
+}
+
+/* As leaf_hit() of kernels/traverse.h, for `more` + 1 blocks. A call would make
+ * the walk put its vectors aside: 4 % of all. */
+static inline __attribute__((always_inline)) bool
+blocks_hit(const struct world *w, const struct block_ray *r,
+           const struct tri_block *block, uint32_t more, struct hit *best)
+{
+    bool found = false;
+    struct lane_hits h;
+
+    for (;; more--, block++) {
+        uint32_t passed = f4_which(block->tri, r->passed[0]) |
+                          f4_which(block->tri, r->passed[1]);
+
+        if (f4_test(block, 0, &r->lanes, f4_all(best->t), ~passed, &h)) {
+            for (; h.sure != 0; h.sure &= h.sure - 1) {
+                uint32_t i = lowest(h.sure);
+
+                found |= lane_take(w, &h, i, &r->ray, block->tri[i], best);
+            }
+            for (; h.unsure != 0; h.unsure &= h.unsure - 1)
+                found |= lane_decide(w, &r->ray, &r->shear, block,
+                                     lowest(h.unsure), best);
+        }
+        if (more == 0)
+            return found;
+    }
+}
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+/*
+ * ray_packet.h - rays that go much the same way against a triangle, all at once
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   any
+ * Errors:    none
+ */
+#ifndef GLIM_RAY_PACKET_H
+#define GLIM_RAY_PACKET_H
+
+#include "bvh/bvh8_leaf.h"
+#include "base/simd8.h"
+
+#define GROUP_RAYS 8
+
+/* Each lane has a ray. */
+static inline f8 f8_corner(const float *place)
+{
+    return f8_all(*place);
+}
+
+static inline f8 f8_ray(const float *place)
+{
+    return f8_load(place);
+}
+
+#define LANES      f8
+#define LANES_RAYS GROUP_RAYS
+#include "bvh/simd_triangle.h"
+
+/* Rays, and what they have met. */
+struct ray_group {
+    const struct world *world;
+    const struct ray *rays;
+    struct hit *hits;
+    uint32_t count;
+    struct f8_rays lanes;
+    _Alignas(32) float t[GROUP_RAYS]; /* of the hits */
+    float far;                        /* the largest of these */
+};
+
+static inline void group_put(struct ray_group *g, uint32_t lane,
+                             const struct ray *r)
+{
+    g->lanes.o[0][lane] = r->o.x;
+    g->lanes.o[1][lane] = r->o.y;
+    g->lanes.o[2][lane] = r->o.z;
+    g->lanes.d[0][lane] = r->d.x;
+    g->lanes.d[1][lane] = r->d.y;
+    g->lanes.d[2][lane] = r->d.z;
+    g->t[lane] = r->t_max;
+}
+
+/* As shear_of(). False if the rays differ in the axis: then they cannot be
+ * tested together. */
+static inline bool group_shear(struct f8_rays *r)
+{
+    f8 x = f8_abs(f8_load(r->d[0]));
+    f8 y = f8_abs(f8_load(r->d[1]));
+    f8 z = f8_abs(f8_load(r->d[2]));
+    uint32_t x_over_y = f8_below(y, x);
+    uint32_t is_x = x_over_y & f8_below(z, x);
+    uint32_t is_y = ~x_over_y & f8_below(z, y);
+    uint32_t all = (1u << GROUP_RAYS) - 1;
+    uint32_t axis = is_x == all ? 0 : is_y == all ? 1 : 2;
+    f8 along = f8_load(r->d[axis]);
+
+    f8_store(r->sx, f8_div(f8_load(r->d[(axis + 1) % 3]), along));
+    f8_store(r->sy, f8_div(f8_load(r->d[(axis + 2) % 3]), along));
+    f8_store(r->sz, f8_div(f8_all(1.0f), along));
+    r->axis = axis;
+    return axis != 2 || (is_x | is_y) == 0;
+}
+
+/* ray_is_finite() of all of them; lanes without a ray are NaN. */
+static inline bool group_is_finite(const struct ray_group *g)
+{
+    f8 sum = f8_all(0.0f);
+
+    for (int i = 0; i < 3; i++)
+        sum =
+            f8_add(sum, f8_mul(f8_load(g->lanes.o[i]), f8_load(g->lanes.d[i])));
+    return f8_not_above(f8_abs(sum), f8_all(FLOAT_MAX)) == (1u << g->count) - 1;
+}
+
+static inline float group_far(const struct ray_group *g)
+{
+    float far = g->t[0];
+
+    for (int i = 1; i < GROUP_RAYS; i++)
+        far = f_max(far, g->t[i]);
+    return far;
+}
+
+/* For 1 to GROUP_RAYS rays; group_shear() has to follow. */
+static inline void group_begin(struct ray_group *g, const struct world *w,
+                               const struct ray *rays, uint32_t count,
+                               struct hit *hits)
+{
+    struct ray none = rays[0]; /* meets nothing */
+
+    none.o = v3(NAN, NAN, NAN);
+    none.t_max = 0.0f;
+    g->world = w;
+    g->rays = rays;
+    g->hits = hits;
+    g->count = count;
+    for (uint32_t i = 0; i < GROUP_RAYS; i++)
+        group_put(g, i, i < count ? &rays[i] : &none);
+    g->far = group_far(g);
+}
+
+static inline void group_meet(struct ray_group *g,
+                              const struct tri_block *block, uint32_t i)
+{
+    struct lane_hits h;
+
+    if (!f8_test(block, i, &g->lanes, f8_load(g->t), ~0u, &h))
+        return;
+    for (; h.sure != 0; h.sure &= h.sure - 1) {
+        uint32_t k = lowest(h.sure);
+
+        lane_take(g->world, &h, k, &g->rays[k], block->tri[i], &g->hits[k]);
+        g->t[k] = g->hits[k].t;
+    }
+    for (; h.unsure != 0; h.unsure &= h.unsure - 1) {
+        uint32_t k = lowest(h.unsure);
+        struct shear s = {g->rays[k].o, g->lanes.sx[k], g->lanes.sy[k],
+                          g->lanes.sz[k], g->lanes.axis};
+
+        lane_decide(g->world, &g->rays[k], &s, block, i, &g->hits[k]);
+        g->t[k] = g->hits[k].t;
+    }
+    g->far = group_far(g);
+}
+
+#endif

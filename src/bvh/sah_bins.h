@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+/*
+ * sah_bins.h - where to split a set of boxes: binned surface area heuristic
+ *
+ * Wald 2007, "On fast construction of SAH-based bounding volume hierarchies".
+ * Boxes are put into bins by their centres, on all three axes at once; of the
+ * planes between bins the one with the least expected cost is taken; some of
+ * the boxes are enough to find it. Nothing depends on the order in which boxes
+ * come, but for that.
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   any, on bins of their own
+ * Errors:    none
+ */
+#ifndef GLIM_SAH_BINS_H
+#define GLIM_SAH_BINS_H
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/simd4.h"
+#include "kernels/vec.h"
+
+#define SPLIT_BINS 32
+
+/* The low corner, then the high one negated: a minimum joins boxes. The fourth
+ * number of the first half holds the bits of a triangle's number. */
+struct box {
+    _Alignas(16) float planes[8];
+};
+
+static inline struct box box_empty(void)
+{
+    struct box b;
+
+    f4_store(b.planes, f4_all(FLOAT_MAX));
+    f4_store(b.planes + 4, f4_all(FLOAT_MAX));
+    return b;
+}
+
+static inline void box_join(struct box *a, const struct box *b)
+{
+    for (int i = 0; i < 8; i += 4)
+        f4_store(a->planes + i,
+                 f4_min(f4_load(a->planes + i), f4_load(b->planes + i)));
+}
+
+static inline struct box box_of_corners(struct vec3 lo, struct vec3 hi)
+{
+    struct box b;
+
+    f4_store(b.planes, f4_of(lo.x, lo.y, lo.z));
+    f4_store(b.planes + 4, f4_sub(f4_all(0.0f), f4_of(hi.x, hi.y, hi.z)));
+    return b;
+}
+
+static inline struct box box_of_point(struct vec3 p)
+{
+    return box_of_corners(p, p);
+}
+
+/* Half of the surface of the box that two join, neither empty. */
+static inline float box_joined_area(const struct box *a, const struct box *b)
+{
+    f4 lo = f4_min(f4_load(a->planes), f4_load(b->planes));
+    f4 hi = f4_min(f4_load(a->planes + 4), f4_load(b->planes + 4));
+
+    return f4_pairs3(f4_sub(f4_sub(f4_all(0.0f), hi), lo));
+}
+
+/* Half of its surface. */
+static inline float box_area(const struct box *b)
+{
+    return box_joined_area(b, b);
+}
+
+static inline uint32_t box_tri(const struct box *b)
+{
+    uint32_t tri;
+
+    memcpy(&tri, &b->planes[3], sizeof tri);
+    return tri;
+}
+
+static inline void box_set_tri(struct box *b, uint32_t tri)
+{
+    memcpy(&b->planes[3], &tri, sizeof tri);
+}
+
+/* Joined boxes, and twice their centres. */
+struct extent {
+    struct box bounds, centers;
+};
+
+static inline struct extent extent_empty(void)
+{
+    return (struct extent){box_empty(), box_empty()};
+}
+
+static inline void extent_join(struct extent *a, const struct extent *b)
+{
+    box_join(&a->bounds, &b->bounds);
+    box_join(&a->centers, &b->centers);
+}
+
+/* How centres fall into bins: of each axis the first centre and bins a unit, 0
+ * where all centres agree. */
+struct binning {
+    _Alignas(16) float first[4], scale[4];
+    uint32_t count;
+};
+
+/* The bins at one place of each axis, in two lines of memory. */
+struct bin {
+    _Alignas(128) struct box boxes[3];
+    _Alignas(16) uint32_t counts[4]; /* the last is of no axis */
+};
+
+struct bins {
+    struct binning binning;
+    uint32_t box_count;
+    struct bin bins[SPLIT_BINS];
+};
+
+struct split {
+    struct binning binning;
+    float cost;   /* blocks of both sides, each times its area */
+    int axis;     /* -1: no plane parts the centres */
+    uint32_t bin; /* the first that goes right */
+};
+
+/* So many triangles are tested at once: 1 << block_bits. */
+static inline float blocks_of(uint32_t count, uint32_t block_bits)
+{
+    return (float)((count + (1u << block_bits) - 1) >> block_bits);
+}
+
+/* The extent of all boxes. */
+struct extent extent_of(const struct box *boxes, uint32_t count);
+
+/* Empty bins for so many boxes with such centres. */
+void bins_clear(struct bins *bins, uint32_t count, const struct box *centers);
+
+/* Every box at such a distance from the one before. */
+void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
+              uint32_t stride);
+
+/* The cheapest plane. */
+struct split bins_split(const struct bins *bins, uint32_t block_bits);
+
+/* How many boxes go right. */
+uint32_t split_count(const struct split *s, const struct box *boxes,
+                     uint32_t count);
+
+/* Copies boxes: those that go left to `left` and what follows, the others to
+ * what is before `right`, backwards. Returns how many went left. */
+uint32_t split_part(const struct split *s, const struct box *boxes,
+                    uint32_t count, struct box *left, struct box *right);
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+/*
+ * simd_hits.h - what becomes of a triangle test in lanes
+ *
+ * Units:     normalised scene units
+ * Ownership: none
+ * Threads:   any
+ * Errors:    none
+ */
+#ifndef GLIM_SIMD_HITS_H
+#define GLIM_SIMD_HITS_H
+
+#include "bvh/bvh8.h"
+#include "kernels/traverse_leaf.h"
+
+#define LANES_MAX 8
+
+static inline uint32_t lowest(uint32_t mask)
+{
+    return (uint32_t)__builtin_ctz(mask);
+}
+
+/* Bits of lanes, and what triangle_hit() computes in them. */
+struct lane_hits {
+    uint32_t sure;   /* met at a distance above 0 and not beyond t_max */
+    uint32_t unsure; /* triangle_hit() has to say */
+    _Alignas(32) float t[LANES_MAX];
+    _Alignas(32) float edges[3][LANES_MAX];
+};
+
+/* The rule of tri_hit() for a lane that is sure; true if it is a nearer hit. */
+static inline bool lane_take(const struct world *w, const struct lane_hits *h,
+                             uint32_t lane, const struct ray *r, uint32_t tri,
+                             struct hit *best)
+{
+    float u = h->edges[0][lane], v = h->edges[1][lane], s = h->edges[2][lane];
+    float t = h->t[lane];
+    float det = u + (v + s);
+    struct hit met = {t, u / det, v / det, s / det, tri};
+
+    if (tri + 1u == r->from || !hit_wins(w, *r, met, best))
+        return false;
+    *best = met;
+    return true;
+}
+
+/* tri_hit() for triangle i of a block; rarely needed. */
+static __attribute__((noinline, flatten)) bool
+lane_decide(const struct world *w, const struct ray *r, const struct shear *s,
+            const struct tri_block *b, uint32_t i, struct hit *best)
+{
+    struct leaf_tri t = {
+        {b->corners[0][0][i], b->corners[0][1][i], b->corners[0][2][i]},
+        {b->corners[1][0][i], b->corners[1][1][i], b->corners[1][2][i]},
+        {b->corners[2][0][i], b->corners[2][1][i], b->corners[2][2][i]},
+        b->tri[i]};
+
+    return tri_hit(w, *r, *s, t, best);
+}
+
+#endif

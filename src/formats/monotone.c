@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: MIT
+#include "formats/monotone.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/util.h"
+
+/* Index of no edge and of no link. Edge 0 lies below all others: its neighbours
+ * are the lowest and the highest edge, its first child is the tree's root. */
+#define NONE 0
+
+/* One or more corners at the same place, numbered from left to right, from the
+ * lower to the upper one where x is the same. */
+struct site {
+    struct point2 at;
+    uint32_t corner;
+    uint32_t edges; /* first of a list: edges that begin here, to be inserted */
+};
+
+/* The inside between two neighbouring edges of the sweep line, left of it and
+ * not yet cut: a stack of links for one monotone piece, or for two pieces that
+ * meet in their last site. */
+struct piece {
+    uint32_t top;
+    bool is_upper; /* the links above the lowest lie on the upper boundary */
+};
+
+struct region {
+    struct piece low, high; /* low.top is NONE outside the polygon */
+};
+
+struct link {
+    uint32_t site, below;
+};
+
+/* Coincident edges are one. */
+struct edge {
+    uint32_t left, right; /* sites */
+    int32_t winding;      /* of what is above, minus that of what is below */
+    uint32_t prev, next;  /* below and above it on the sweep line; or the list
+                             of the site */
+    uint32_t parent, child[2];
+    struct region region; /* above it */
+};
+
+struct sweep {
+    struct site *sites;
+    struct edge *edges;
+    struct link *links;
+    uint32_t site_count, link_count;
+    uint32_t splits_left;
+    struct point2 noise;
+    uint32_t (*triangles)[3];
+    uint32_t triangle_count;
+    uint64_t triangle_max;
+};
+
+/* Twice the area of a, b, c: above 0 if they turn left. Noise is 0. */
+static double turn(const struct sweep *s, uint32_t a, uint32_t b, uint32_t c)
+{
+    struct point2 p = s->sites[a].at;
+    struct point2 q = s->sites[b].at;
+    struct point2 r = s->sites[c].at;
+    double x1 = q.x - p.x;
+    double y1 = q.y - p.y;
+    double x2 = r.x - p.x;
+    double y2 = r.y - p.y;
+    double area = x1 * y2 - y1 * x2;
+    double noise =
+        s->noise.x * (fabs(y1) + fabs(y2)) + s->noise.y * (fabs(x1) + fabs(x2));
+
+    return fabs(area) > noise ? area : 0;
+}
+
+/* Above 0 if the site lies above the edge, 0 if they meet. */
+static double side_of(const struct sweep *s, uint32_t e, uint32_t site)
+{
+    const struct edge *edge = &s->edges[e];
+
+    return edge->right == site ? 0 : turn(s, edge->left, edge->right, site);
+}
+
+/* ---- the edges that the sweep line meets: a treap, threaded ---- */
+
+/* A random order of the edges (the finalizer of MurmurHash3). */
+static uint32_t priority(uint32_t e)
+{
+    e = (e ^ e >> 16) * 0x85ebca6bu;
+    e = (e ^ e >> 13) * 0xc2b2ae35u;
+    return e ^ e >> 16;
+}
+
+static void replace_child(struct sweep *s, uint32_t parent, uint32_t child,
+                          uint32_t by)
+{
+    s->edges[parent].child[s->edges[parent].child[1] == child] = by;
+    s->edges[by].parent = parent;
+}
+
+static void rotate_up(struct sweep *s, uint32_t e)
+{
+    uint32_t p = s->edges[e].parent;
+    int side = s->edges[p].child[1] == e;
+    uint32_t moved = s->edges[e].child[!side];
+
+    replace_child(s, s->edges[p].parent, p, e);
+    s->edges[p].child[side] = moved;
+    s->edges[moved].parent = p;
+    s->edges[e].child[!side] = p;
+    s->edges[p].parent = e;
+}
+
+static void attach(struct sweep *s, uint32_t e, uint32_t parent, int side)
+{
+    struct edge *edge = &s->edges[e];
+
+    edge->child[0] = edge->child[1] = NONE;
+    edge->parent = parent;
+    s->edges[parent].child[side] = e;
+    edge->prev = side ? parent : s->edges[parent].prev;
+    edge->next = side ? s->edges[parent].next : parent;
+    s->edges[edge->prev].next = e;
+    s->edges[edge->next].prev = e;
+    while (edge->parent != NONE && priority(e) > priority(edge->parent))
+        rotate_up(s, e);
+}
+
+static void detach(struct sweep *s, uint32_t e)
+{
+    struct edge *edge = &s->edges[e];
+
+    while (edge->child[0] != NONE && edge->child[1] != NONE) {
+        bool is_right = priority(edge->child[1]) > priority(edge->child[0]);
+
+        rotate_up(s, edge->child[is_right]);
+    }
+    replace_child(s, edge->parent, e, edge->child[edge->child[0] == NONE]);
+    s->edges[edge->prev].next = edge->next;
+    s->edges[edge->next].prev = edge->prev;
+}
+
+/* Lists an edge at its left end, for later. */
+static void put_off(struct sweep *s, uint32_t e, uint32_t site)
+{
+    s->edges[e].left = site;
+    s->edges[e].next = s->sites[site].edges;
+    s->sites[site].edges = e;
+}
+
+/* False for outlines that could take the time of many edges for each. */
+static bool split(struct sweep *s, uint32_t e, uint32_t site)
+{
+    if (s->splits_left == 0)
+        return false;
+    s->splits_left--;
+    put_off(s, e, site);
+    return true;
+}
+
+/* Two edges leave a site the same way: they are one as far as the nearer end,
+ * and the rest of the longer goes on from there. */
+static bool unite(struct sweep *s, uint32_t e, uint32_t with)
+{
+    struct edge *rest = &s->edges[e];
+    struct edge *edge = &s->edges[with];
+    uint32_t near = rest->right < edge->right ? rest->right : edge->right;
+    uint32_t far = rest->right < edge->right ? edge->right : rest->right;
+    int32_t winding = rest->right < edge->right ? edge->winding : rest->winding;
+
+    edge->winding += rest->winding;
+    edge->right = near;
+    rest->winding = winding;
+    rest->right = far;
+    return near == far || split(s, e, near);
+}
+
+/* Inserts an edge that begins at the site. */
+static bool insert(struct sweep *s, uint32_t e, uint32_t site)
+{
+    uint32_t parent = NONE;
+    int side = 0;
+
+    for (uint32_t at = s->edges[NONE].child[0]; at != NONE;
+         at = s->edges[at].child[side]) {
+        bool is_sibling = s->edges[at].left == site;
+        double where =
+            is_sibling ? turn(s, site, s->edges[at].right, s->edges[e].right)
+                       : side_of(s, at, site);
+
+        if (where == 0)
+            return is_sibling && unite(s, e, at);
+        parent = at;
+        side = where > 0;
+    }
+    attach(s, e, parent, side);
+    return true;
+}
+
+/* The lowest edge that meets the site, or NONE; *below is the edge under it. */
+static uint32_t find(const struct sweep *s, uint32_t site, uint32_t *below)
+{
+    uint32_t at = s->edges[NONE].child[0];
+    double side = 1;
+
+    *below = NONE;
+    while (at != NONE && (side = side_of(s, at, site)) != 0) {
+        *below = side > 0 ? at : *below;
+        at = s->edges[at].child[side > 0];
+    }
+    if (at == NONE)
+        return NONE;
+    while (s->edges[at].prev != NONE &&
+           side_of(s, s->edges[at].prev, site) == 0)
+        at = s->edges[at].prev;
+    *below = s->edges[at].prev;
+    return at;
+}
+
+/* Whether neighbours on the sweep line cross farther right. */
+static bool cross(const struct sweep *s, uint32_t low, uint32_t high)
+{
+    const struct edge *a = &s->edges[low];
+    const struct edge *b = &s->edges[high];
+
+    if (low == NONE || high == NONE || a->right == b->right)
+        return false;
+    return a->right < b->right ? side_of(s, high, a->right) > 0
+                               : side_of(s, low, b->right) < 0;
+}
+
+/* ---- monotone pieces ---- */
+
+static struct piece piece_from(struct sweep *s, uint32_t site)
+{
+    s->links[++s->link_count] = (struct link){site, NONE};
+    return (struct piece){s->link_count, false};
+}
+
+static void emit(struct sweep *s, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t n = s->triangle_count++;
+
+    if (n >= s->triangle_max)
+        return;
+    s->triangles[n][0] = s->sites[a].corner;
+    s->triangles[n][1] = s->sites[b].corner;
+    s->triangles[n][2] = s->sites[c].corner;
+}
+
+/* The piece goes on to a site on its upper or lower boundary. From the boundary
+ * opposite to the links all of them are seen, else those that are not beyond a
+ * reflex corner. */
+static void extend(struct sweep *s, struct piece *piece, uint32_t site,
+                   bool is_upper)
+{
+    bool is_opposite = is_upper != piece->is_upper;
+    uint32_t last = piece->top;
+    uint32_t top = last;
+
+    while (s->links[top].below != NONE) {
+        uint32_t b = s->links[top].site;
+        uint32_t a = s->links[s->links[top].below].site;
+        double left =
+            piece->is_upper ? turn(s, a, site, b) : turn(s, a, b, site);
+
+        if (!is_opposite && !(left > 0))
+            break;
+        if (piece->is_upper)
+            emit(s, a, site, b);
+        else
+            emit(s, a, b, site);
+        top = s->links[top].below;
+    }
+    if (is_opposite) {
+        top = last;
+        s->links[top].below = NONE;
+    }
+    s->links[++s->link_count] = (struct link){site, top};
+    *piece = (struct piece){s->link_count, is_upper};
+}
+
+static void finish(struct sweep *s, struct piece *piece, uint32_t site)
+{
+    if (piece->top != NONE)
+        extend(s, piece, site, !piece->is_upper);
+    piece->top = NONE;
+}
+
+/* The region's lower edge ends at the site. */
+static void extend_below(struct sweep *s, struct region *r, uint32_t site)
+{
+    if (r->low.top == NONE)
+        return;
+    if (r->high.top != NONE) {
+        finish(s, &r->low, site);
+        r->low = r->high;
+        r->high.top = NONE;
+    }
+    extend(s, &r->low, site, false);
+}
+
+/* The region's upper edge ends at the site. */
+static void extend_above(struct sweep *s, struct region *r, uint32_t site)
+{
+    if (r->low.top == NONE)
+        return;
+    finish(s, &r->high, site);
+    extend(s, &r->low, site, true);
+}
+
+/* Edges begin inside the region. A diagonal from its last site to this one
+ * parts it; what is above that is returned. */
+static struct region part(struct sweep *s, struct region *r, uint32_t site)
+{
+    struct region above = {.low = r->high};
+
+    if (r->low.top == NONE)
+        return above;
+    if (above.low.top == NONE) {
+        struct piece fresh = piece_from(s, s->links[r->low.top].site);
+
+        above.low = r->low.is_upper ? fresh : r->low;
+        r->low = r->low.is_upper ? r->low : fresh;
+    }
+    r->high.top = NONE;
+    extend(s, &r->low, site, true);
+    extend(s, &above.low, site, false);
+    return above;
+}
+
+/* ---- the sweep ---- */
+
+/* Takes the edges that meet the site off the sweep line. Returns the region
+ * above them; that below them stays with the edge below. */
+static bool end_edges(struct sweep *s, uint32_t site, uint32_t first,
+                      uint32_t below, struct region *above)
+{
+    uint32_t e = first;
+    uint32_t next;
+
+    extend_above(s, &s->edges[below].region, site);
+    for (bool is_last = false; !is_last; e = next) {
+        next = s->edges[e].next;
+        is_last = next == NONE || side_of(s, next, site) != 0;
+        *above = s->edges[e].region;
+        if (!is_last) {
+            finish(s, &above->low, site);
+            finish(s, &above->high, site);
+        }
+        detach(s, e);
+        if (s->edges[e].right != site && !split(s, e, site))
+            return false;
+    }
+    extend_below(s, above, site);
+    return true;
+}
+
+static bool begin_edges(struct sweep *s, uint32_t site)
+{
+    uint32_t e, next;
+
+    for (e = s->sites[site].edges; e != NONE; e = next) {
+        next = s->edges[e].next;
+        if (!insert(s, e, site))
+            return false;
+    }
+    return true;
+}
+
+/* Gives the edges that begin at the site their regions, from below. False if
+ * something winds around other than once or not at all. */
+static bool begin_regions(struct sweep *s, uint32_t site, uint32_t below,
+                          uint32_t end, struct region above)
+{
+    int32_t winding = s->edges[below].region.low.top != NONE;
+    bool is_inside = above.low.top != NONE;
+    uint32_t e = s->edges[below].next;
+
+    if (e == end) {
+        s->edges[below].region.high = above.low;
+        return winding == is_inside;
+    }
+    for (; e != end; e = s->edges[e].next) {
+        struct region *r = &s->edges[e].region;
+
+        winding += s->edges[e].winding;
+        if (winding != 0 && winding != 1)
+            return false;
+        memset(r, 0, sizeof *r);
+        if (s->edges[e].next == end)
+            *r = above;
+        else if (winding == 1)
+            r->low = piece_from(s, site);
+    }
+    return winding == is_inside;
+}
+
+static bool pass(struct sweep *s, uint32_t site)
+{
+    uint32_t below, end;
+    uint32_t first = find(s, site, &below);
+    struct region above;
+
+    if (first == NONE)
+        above = part(s, &s->edges[below].region, site);
+    else if (!end_edges(s, site, first, below, &above))
+        return false;
+    end = s->edges[below].next;
+    return begin_edges(s, site) && begin_regions(s, site, below, end, above) &&
+           !cross(s, below, s->edges[below].next) &&
+           !cross(s, s->edges[end].prev, end);
+}
+
+static int compare_sites(const void *a, const void *b)
+{
+    const struct site *p = a;
+    const struct site *q = b;
+
+    if (p->at.x != q->at.x)
+        return p->at.x < q->at.x ? -1 : 1;
+    if (p->at.y != q->at.y)
+        return p->at.y < q->at.y ? -1 : 1;
+    return (p->corner > q->corner) - (p->corner < q->corner);
+}
+
+/* Sorts the corners. Those of a vertical line get the same x, for noise must
+ * not mix up their order. */
+static void sort_sites(struct sweep *s, uint32_t n)
+{
+    double x = -INFINITY;
+
+    qsort(s->sites, n, sizeof *s->sites, compare_sites);
+    for (uint32_t i = 0; i < n; i++) {
+        x = s->sites[i].at.x - x > 4 * s->noise.x ? s->sites[i].at.x : x;
+        s->sites[i].at.x = x;
+    }
+    qsort(s->sites, n, sizeof *s->sites, compare_sites);
+}
+
+/* Edge i + 1 goes from corner i to the next. */
+static void make_sites(struct sweep *s, const struct point2 *points, uint32_t n)
+{
+    uint32_t count = 0;
+
+    for (uint32_t i = 0; i < n; i++)
+        s->sites[i] = (struct site){points[i], i, NONE};
+    sort_sites(s, n);
+    for (uint32_t i = 0; i < n; i++) {
+        struct site site = s->sites[i];
+        uint32_t from = site.corner + 1;
+        uint32_t to = site.corner == 0 ? n : site.corner;
+
+        if (count == 0 || s->sites[count - 1].at.x != site.at.x ||
+            s->sites[count - 1].at.y != site.at.y)
+            s->sites[count++] = site;
+        s->edges[from].left = count - 1;
+        s->edges[to].right = count - 1;
+    }
+    s->site_count = count;
+}
+
+static void make_edges(struct sweep *s, uint32_t n)
+{
+    for (uint32_t e = 1; e <= n; e++) {
+        struct edge *edge = &s->edges[e];
+        uint32_t from = edge->left;
+        uint32_t to = edge->right;
+
+        if (from == to)
+            continue;
+        edge->winding = from < to ? 1 : -1;
+        edge->right = from < to ? to : from;
+        put_off(s, e, from < to ? from : to);
+    }
+}
+
+/* Whether the triangles, none of them turned over, have the outline's area:
+ * the last word where noise has misled the sweep. */
+static bool area_is_right(const struct sweep *s, const struct point2 *points,
+                          uint32_t n)
+{
+    double area = 0;
+    double noise = 0;
+
+    for (uint32_t i = 0; i < n; i++) {
+        struct point2 p = points[i];
+        struct point2 q = points[i + 1 == n ? 0 : i + 1];
+
+        area += (p.x + q.x) * (q.y - p.y);
+        noise += s->noise.x * fabs(q.y - p.y) + s->noise.y * fabs(q.x - p.x);
+    }
+    for (uint32_t i = 0; i < s->triangle_count; i++) {
+        struct point2 p = points[s->triangles[i][0]];
+        struct point2 q = points[s->triangles[i][1]];
+        struct point2 r = points[s->triangles[i][2]];
+
+        area -= fabs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+    }
+    return fabs(area) <= n * noise; /* sums of n terms */
+}
+
+static bool sweep_over(struct sweep *s, const struct point2 *points, uint32_t n)
+{
+    make_sites(s, points, n);
+    make_edges(s, n);
+    for (uint32_t site = 0; site < s->site_count; site++) {
+        if (!pass(s, site))
+            return false;
+    }
+    return s->edges[NONE].child[0] == NONE && s->triangle_count > 0 &&
+           s->triangle_count <= s->triangle_max && area_is_right(s, points, n);
+}
+
+enum monotone_result monotone_cut(const struct point2 *points, uint32_t count,
+                                  struct point2 noise, uint32_t (*triangles)[3],
+                                  uint32_t *triangle_count)
+{
+    size_t n = count;
+    struct sweep s = {.sites = alloc_array(n, sizeof *s.sites),
+                      .edges = alloc_array(n + 1, sizeof *s.edges),
+                      .links = alloc_array(4 * n + 1, sizeof *s.links),
+                      .splits_left = count,
+                      .noise = noise,
+                      .triangles = triangles,
+                      .triangle_max = 2 * (uint64_t)count};
+    enum monotone_result result = MONOTONE_NO_MEMORY;
+
+    if (s.sites && s.edges && s.links)
+        result =
+            sweep_over(&s, points, count) ? MONOTONE_DONE : MONOTONE_CROSSING;
+    free(s.sites);
+    free(s.edges);
+    free(s.links);
+    *triangle_count = s.triangle_count;
+    return result;
+}

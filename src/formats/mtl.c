@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: MIT
+#include "formats/mtl.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/asset_path.h"
+#include "picture/blackbody.h"
+#include "base/file.h"
+#include "base/lexer.h"
+#include "formats/mtl_map.h"
+#include "scene/material.h"
+#include "base/name_table.h"
+
+struct parser {
+    struct scene *scene;
+    const char *path;
+    struct report *report;
+    struct error *err;
+    struct lex lex;
+    struct names materials; /* of the scene, numbered alike */
+    struct names textures;
+    size_t material_capacity;
+    size_t texture_capacity;
+    char *name; /* of the material that is being read; NULL: none */
+    uint64_t name_line;
+    uint32_t file; /* number of this one in scene->mtl_paths */
+    struct mtl_source source;
+};
+
+static bool out_of_memory(const struct parser *p)
+{
+    return fail(p->err, "%s:%" PRIu64 ": out of memory for the materials",
+                p->path, p->lex.line);
+}
+
+/* Room for one more material, its name and its origin. */
+static bool grow_materials(struct scene *scene, size_t *capacity)
+{
+    size_t needed = (size_t)scene->material_count + 1;
+    size_t material_capacity = *capacity;
+    size_t name_capacity = *capacity;
+    void *materials = scene->materials;
+    void *names = scene->material_names;
+    void *origins = scene->material_origins;
+
+    if (needed >= NO_INDEX || !grow_array(&materials, &material_capacity,
+                                          needed, sizeof *scene->materials))
+        return false;
+    scene->materials = materials;
+    if (!grow_array(&names, &name_capacity, needed,
+                    sizeof *scene->material_names))
+        return false;
+    scene->material_names = names;
+    if (!grow_array(&origins, capacity, needed,
+                    sizeof *scene->material_origins))
+        return false;
+    scene->material_origins = origins;
+    return true;
+}
+
+static bool add_material(struct scene *scene, size_t *capacity,
+                         const char *name, const struct material *material,
+                         const struct material_origin *origin)
+{
+    char *copy = strdup(name);
+
+    if (copy == NULL || !grow_materials(scene, capacity)) {
+        free(copy);
+        return false;
+    }
+    scene->material_names[scene->material_count] = copy;
+    scene->material_origins[scene->material_count] = *origin;
+    scene->materials[scene->material_count++] = *material;
+    return true;
+}
+
+bool mtl_add_default(struct scene *scene, struct error *err)
+{
+    struct material m = material_default();
+    struct material_origin origin = {mtl_source_empty(), NO_INDEX};
+    size_t capacity = 0;
+
+    if (scene->material_count > 0 ||
+        add_material(scene, &capacity, "", &m, &origin))
+        return true;
+    return fail(err, "out of memory for the materials");
+}
+
+uint32_t mtl_find(const struct scene *scene, const char *name)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (strcmp(scene->material_names[i], name) == 0)
+            return i;
+    }
+    return NO_INDEX;
+}
+
+/* One texture for each path and way to look it up; NULL when memory is out. */
+static char *texture_key(const char *path, const struct texture *t)
+{
+    char *key = NULL;
+    int length = asprintf(&key, "%a %a %a %a %u %u %s", (double)t->scale.x,
+                          (double)t->scale.y, (double)t->offset.x,
+                          (double)t->offset.y, t->is_clamped, t->is_data, path);
+
+    return length < 0 ? NULL : key;
+}
+
+static uint32_t name_texture(struct names *names, const char *path,
+                             const struct texture *texture)
+{
+    char *key = texture_key(path, texture);
+    uint32_t index = key == NULL ? NO_NAME : names_add(names, key);
+
+    free(key);
+    return index;
+}
+
+/* The number of the texture, a new one without texels if need be. */
+static uint32_t add_texture(struct parser *p, const char *path,
+                            const struct texture *texture, uint64_t line)
+{
+    struct scene *scene = p->scene;
+    uint32_t index = name_texture(&p->textures, path, texture);
+    size_t needed = (size_t)scene->texture_count + 1;
+    size_t texture_capacity = p->texture_capacity;
+    size_t path_capacity = p->texture_capacity;
+    void *textures = scene->textures;
+    void *paths = scene->texture_paths;
+    void *origins = scene->texture_origins;
+    char *copy;
+
+    if (index == NO_NAME || index < scene->texture_count)
+        return index;
+    if (!grow_array(&textures, &texture_capacity, needed,
+                    sizeof *scene->textures))
+        return NO_NAME;
+    scene->textures = textures;
+    if (!grow_array(&paths, &path_capacity, needed,
+                    sizeof *scene->texture_paths))
+        return NO_NAME;
+    scene->texture_paths = paths;
+    if (!grow_array(&origins, &p->texture_capacity, needed,
+                    sizeof *scene->texture_origins))
+        return NO_NAME;
+    scene->texture_origins = origins;
+    copy = strdup(path);
+    if (copy == NULL)
+        return NO_NAME;
+    scene->texture_paths[scene->texture_count] = copy;
+    scene->texture_origins[scene->texture_count] =
+        (struct texture_origin){p->file, line};
+    scene->textures[scene->texture_count++] = *texture;
+    return index;
+}
+
+/* The material that was being read is complete. */
+static bool finish_material(struct parser *p)
+{
+    struct material_origin origin = {p->source, p->file};
+    struct material m;
+    uint32_t index;
+
+    if (p->name == NULL)
+        return true;
+    if (*p->name == '\0') {
+        report_add(p->report, "materials without a name",
+                   "%s:%" PRIu64 ": found newmtl without a name: not used",
+                   p->path, p->name_line);
+        return true;
+    }
+    m = material_from_source(&p->source, p->path, p->report);
+    index = names_add(&p->materials, p->name);
+    if (index == NO_NAME)
+        return out_of_memory(p);
+    if (index < p->scene->material_count) {
+        report_add_named(p->report, "materials defined twice", p->name,
+                         "%s:%" PRIu64 ": found newmtl '%s' again: the later "
+                         "one is used",
+                         p->path, p->name_line, p->name);
+        p->scene->materials[index] = m;
+        p->scene->material_origins[index] = origin;
+        return true;
+    }
+    return add_material(p->scene, &p->material_capacity, p->name, &m,
+                        &origin) ||
+           out_of_memory(p);
+}
+
+static bool read_newmtl(struct parser *p)
+{
+    if (!finish_material(p))
+        return false;
+    free(p->name);
+    p->name_line = p->lex.line;
+    p->name = lex_rest(&p->lex);
+    p->source = mtl_source_empty();
+    return p->name != NULL || out_of_memory(p);
+}
+
+static bool expected(struct parser *p, struct word key, const char *what)
+{
+    return fail(p->err, "%s:%" PRIu64 ": found %s after %.*s, expected %s",
+                p->path, p->lex.line, word_quote(lex_word(&p->lex)).text,
+                (int)key.length, key.start, what);
+}
+
+static bool read_number(struct parser *p, struct word key,
+                        struct mtl_number *number)
+{
+    struct lex start = p->lex;
+
+    /* d has an option of its own */
+    if (!word_is(lex_word(&p->lex), "-halo"))
+        p->lex = start;
+    if (lex_at_line_end(&p->lex) || !lex_number(&p->lex, &number->value))
+        return expected(p, key, "a number");
+    number->line = p->lex.line;
+    return true;
+}
+
+/* One number is a grey. */
+static bool read_color(struct parser *p, struct word key,
+                       struct mtl_color *color)
+{
+    struct lex start = p->lex;
+    struct word word = lex_word(&p->lex);
+    int count = 0;
+
+    if (word_is(word, "spectral") || word_is(word, "xyz")) {
+        report_add(p->report, "spectral colours",
+                   "%s:%" PRIu64 ": found %.*s %.*s, expected a colour: not "
+                   "used",
+                   p->path, p->lex.line, (int)key.length, key.start,
+                   (int)word.length, word.start);
+        return true;
+    }
+    p->lex = start;
+    while (count < 3 && !lex_at_line_end(&p->lex)) {
+        if (!lex_number(&p->lex, &color->rgb[count++]))
+            return expected(p, key, "a number");
+    }
+    if (count == 1)
+        color->rgb[1] = color->rgb[2] = color->rgb[0];
+    else if (count != 3)
+        return expected(p, key, "1 or 3 numbers");
+    color->line = p->lex.line;
+    return true;
+}
+
+/* Ke_blackbody KELVIN [SCALE]: Ke as the colour of that temperature, with
+ * luminance SCALE or 1. */
+static bool read_blackbody(struct parser *p, struct word key)
+{
+    struct mtl_source *s = &p->source;
+    double kelvin, scale = 1;
+
+    if (lex_at_line_end(&p->lex) || !lex_number(&p->lex, &kelvin) ||
+        (!lex_at_line_end(&p->lex) && !lex_number(&p->lex, &scale)))
+        return expected(p, key, "a temperature and perhaps a luminance");
+    if (!(kelvin >= 0 && kelvin <= BLACKBODY_GREATEST)) {
+        report_add(p->report, "impossible temperatures",
+                   "%s:%" PRIu64 ": found %.*s %g, expected kelvins from 0 to "
+                   "%g: taken as 0",
+                   p->path, p->lex.line, (int)key.length, key.start, kelvin,
+                   BLACKBODY_GREATEST);
+        kelvin = 0;
+    }
+    s->kelvin = (struct mtl_number){kelvin, p->lex.line};
+    s->luminance = (struct mtl_number){scale, p->lex.line};
+    return true;
+}
+
+/* Ke after Ke_blackbody: the last of them counts. */
+static bool read_light(struct parser *p, struct word key)
+{
+    struct mtl_source *s = &p->source;
+
+    if (!read_color(p, key, &s->ke))
+        return false;
+    if (s->ke.line == p->lex.line) /* not spectral */
+        s->kelvin = s->luminance = (struct mtl_number){.line = 0};
+    return true;
+}
+
+/* The file that a map names, or as it is written if there is no such file. */
+static char *map_path(const struct parser *p, const char *name)
+{
+    char *found = asset_find(p->path, name);
+
+    return found != NULL ? found : path_beside(p->path, name);
+}
+
+/* bump_scale: set by -bm; NULL for maps without heights. */
+static bool read_map(struct parser *p, struct word key, bool is_data,
+                     uint32_t *texture, double *bump_scale)
+{
+    uint64_t line = p->lex.line;
+    struct map_options o;
+    char *name = map_read(&p->lex, &o);
+    char *path;
+
+    if (name == NULL)
+        return out_of_memory(p);
+    o.texture.is_data = is_data;
+    if (o.unknown_count > 0)
+        report_add(p->report, "maps with options",
+                   "%s:%" PRIu64 ": found options of %.*s other than -o, -s, "
+                   "-bm and -clamp: the texture is used without them",
+                   p->path, line, (int)key.length, key.start);
+    if (*name == '\0') {
+        report_add(p->report, "maps without a file",
+                   "%s:%" PRIu64 ": found %.*s without the name of a file",
+                   p->path, line, (int)key.length, key.start);
+        free(name);
+        return true;
+    }
+    path = map_path(p, name);
+    if (bump_scale != NULL)
+        *bump_scale = o.bump_scale;
+    *texture = add_texture(p, path, &o.texture, line);
+    free(path);
+    free(name);
+    return *texture != NO_NAME || out_of_memory(p);
+}
+
+static void skip_statement(struct parser *p, struct word key)
+{
+    char name[64];
+    int length = key.length < 40 ? (int)key.length : 40;
+
+    if (word_is(key, "Ka"))
+        return;
+    snprintf(name, sizeof name, "%.*s", length, key.start);
+    report_add_named(p->report, "unknown statements", name,
+                     "%s:%" PRIu64 ": found '%s', which glim does not use",
+                     p->path, p->lex.line, name);
+}
+
+static bool read_property(struct parser *p, struct word key)
+{
+    struct mtl_source *s = &p->source;
+    const struct {
+        const char *key;
+        struct mtl_color *color;
+        struct mtl_number *number;
+        uint32_t *texture;
+        double *bump_scale;
+        bool is_data;
+    } properties[] = {
+        {"Kd", .color = &s->kd},
+        {"Ks", .color = &s->ks},
+        {"Tf", .color = &s->tf},
+        {"Ns", .number = &s->ns},
+        {"Ni", .number = &s->ni},
+        {"d", .number = &s->d},
+        {"Tr", .number = &s->tr},
+        {"illum", .number = &s->illum},
+        {"Pr", .number = &s->pr},
+        {"Pm", .number = &s->pm},
+        {"Kd_roughness", .number = &s->kd_roughness},
+        {"map_Kd", .texture = &s->maps[MTL_MAP_KD]},
+        {"map_Ks", .texture = &s->maps[MTL_MAP_KS]},
+        {"map_Ke", .texture = &s->maps[MTL_MAP_KE]},
+        {"map_Pr", .texture = &s->maps[MTL_MAP_PR], .is_data = true},
+        {"map_Pm", .texture = &s->maps[MTL_MAP_PM], .is_data = true},
+        {"map_d", .texture = &s->maps[MTL_MAP_D], .is_data = true},
+        {"norm", .texture = &s->maps[MTL_MAP_NORM], .is_data = true},
+        {"bump", .texture = &s->maps[MTL_MAP_BUMP],
+         .bump_scale = &s->bump_scale, .is_data = true},
+        {"map_bump", .texture = &s->maps[MTL_MAP_BUMP],
+         .bump_scale = &s->bump_scale, .is_data = true},
+        {"map_Bump", .texture = &s->maps[MTL_MAP_BUMP],
+         .bump_scale = &s->bump_scale, .is_data = true},
+    };
+
+    if (word_is(key, "Ke"))
+        return read_light(p, key);
+    if (word_is(key, "Ke_blackbody"))
+        return read_blackbody(p, key);
+    for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
+        if (!word_is(key, properties[i].key))
+            continue;
+        if (properties[i].color != NULL)
+            return read_color(p, key, properties[i].color);
+        if (properties[i].number != NULL)
+            return read_number(p, key, properties[i].number);
+        return read_map(p, key, properties[i].is_data, properties[i].texture,
+                        properties[i].bump_scale);
+    }
+    skip_statement(p, key);
+    return true;
+}
+
+static bool parse_lines(struct parser *p)
+{
+    for (; p->lex.p < p->lex.end; lex_next_line(&p->lex)) {
+        struct word key;
+
+        if (lex_at_line_end(&p->lex))
+            continue;
+        key = lex_word(&p->lex);
+        if (word_is(key, "newmtl")) {
+            if (!read_newmtl(p))
+                return false;
+        } else if (p->name == NULL) {
+            report_add(p->report, "statements before newmtl",
+                       "%s:%" PRIu64 ": found %s, expected newmtl", p->path,
+                       p->lex.line, word_quote(key).text);
+        } else if (!read_property(p, key)) {
+            return false;
+        }
+    }
+    return finish_material(p);
+}
+
+/* What other files have brought keeps its numbers. */
+static bool add_known(struct parser *p)
+{
+    const struct scene *scene = p->scene;
+
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (names_add(&p->materials, scene->material_names[i]) == NO_NAME)
+            return false;
+    }
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        if (name_texture(&p->textures, scene->texture_paths[i],
+                         &scene->textures[i]) == NO_NAME)
+            return false;
+    }
+    return true;
+}
+
+/* Its number among the files that have brought materials. */
+static bool add_file(struct parser *p)
+{
+    struct scene *scene = p->scene;
+    size_t capacity = scene->mtl_path_count;
+    void *paths = scene->mtl_paths;
+    char *copy = strdup(p->path);
+
+    p->file = scene->mtl_path_count;
+    if (copy == NULL ||
+        !grow_array(&paths, &capacity, (size_t)p->file + 1, sizeof copy)) {
+        free(copy);
+        return false;
+    }
+    scene->mtl_paths = paths;
+    scene->mtl_paths[scene->mtl_path_count++] = copy;
+    return true;
+}
+
+bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
+               const char *path, struct report *report, struct error *err)
+{
+    struct parser p = {.scene = scene,
+                       .path = path,
+                       .report = report,
+                       .err = err};
+    bool ok = mtl_add_default(scene, err);
+
+    if (ok) {
+        lex_init(&p.lex, text, size_bytes);
+        p.material_capacity = scene->material_count;
+        p.texture_capacity = scene->texture_count;
+        ok = add_file(&p) && add_known(&p);
+        ok = ok ? parse_lines(&p) : out_of_memory(&p);
+    }
+    free(p.name);
+    names_free(&p.materials);
+    names_free(&p.textures);
+    return ok;
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "formats/mtl_map.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Steeper heights than these have no use. */
+#define BUMP_MAX 1e6
+
+enum map_option {
+    OPTION_OFFSET,
+    OPTION_SCALE,
+    OPTION_CLAMP,
+    OPTION_BUMP,
+    OPTION_OTHER
+};
+
+/* Options of a map and the words after each; -o -s -t have 1 to 3 numbers. */
+static const struct {
+    const char *name;
+    enum map_option option;
+    int least, most;
+} options[] = {
+    {"-blendu", OPTION_OTHER, 1, 1},  {"-blendv", OPTION_OTHER, 1, 1},
+    {"-bm", OPTION_BUMP, 1, 1},       {"-boost", OPTION_OTHER, 1, 1},
+    {"-cc", OPTION_OTHER, 1, 1},      {"-clamp", OPTION_CLAMP, 1, 1},
+    {"-imfchan", OPTION_OTHER, 1, 1}, {"-mm", OPTION_OTHER, 2, 2},
+    {"-o", OPTION_OFFSET, 1, 3},      {"-s", OPTION_SCALE, 1, 3},
+    {"-t", OPTION_OTHER, 1, 3},       {"-texres", OPTION_OTHER, 1, 1},
+    {"-type", OPTION_OTHER, 1, 1},
+};
+
+#define OPTION_COUNT (sizeof options / sizeof options[0])
+
+/* Numbers that a float holds. */
+static struct vec2 finite_pair(const double values[3], struct vec2 other)
+{
+    if (!(fabs(values[0]) <= (double)FLT_MAX) ||
+        !(fabs(values[1]) <= (double)FLT_MAX))
+        return other;
+    return (struct vec2){(float)values[0], (float)values[1]};
+}
+
+static size_t find_option(struct word word)
+{
+    size_t i = 0;
+
+    while (i < OPTION_COUNT && !word_is(word, options[i].name))
+        i++;
+    return i;
+}
+
+static void set_option(struct map_options *o, enum map_option option,
+                       const double values[3], struct word word)
+{
+    if (option == OPTION_OFFSET)
+        o->texture.offset = finite_pair(values, o->texture.offset);
+    else if (option == OPTION_SCALE)
+        o->texture.scale = finite_pair(values, o->texture.scale);
+    else if (option == OPTION_BUMP)
+        o->bump_scale = fabs(values[0]) <= BUMP_MAX ? values[0] : 1;
+    else if (option == OPTION_CLAMP)
+        o->texture.is_clamped = word_is(word, "on");
+    else
+        o->unknown_count++;
+}
+
+/* Reads an option and its values; false if there is none. */
+static bool read_option(struct lex *lex, struct map_options *o)
+{
+    struct lex start = *lex;
+    size_t i = find_option(lex_word(lex));
+    double values[3] = {0, 0, 0};
+    struct word word = {"", 0};
+    bool has_numbers;
+
+    if (i == OPTION_COUNT) {
+        *lex = start;
+        return false;
+    }
+    if (options[i].option == OPTION_SCALE || options[i].option == OPTION_BUMP)
+        values[0] = values[1] = 1;
+    has_numbers = options[i].most == 3 || options[i].option == OPTION_BUMP;
+    for (int n = 0; n < options[i].most; n++) {
+        if (has_numbers && lex_number(lex, &values[n]))
+            continue;
+        if (n >= options[i].least)
+            break;
+        word = lex_word(lex);
+    }
+    set_option(o, options[i].option, values, word);
+    return true;
+}
+
+/* Reads options that come after the name, which some programs write, and cuts
+ * them off. */
+static void cut_options(char *name, struct map_options *o)
+{
+    const char *end = name + strlen(name);
+    char *cut = NULL;
+
+    for (char *p = name; (p = strchr(p, ' ')) != NULL; p++) {
+        struct lex lex = {p + 1, end, 1};
+
+        if (p == name || p[1] != '-' || !read_option(&lex, o))
+            continue;
+        if (cut == NULL)
+            cut = p;
+    }
+    if (cut == NULL)
+        return;
+    while (cut > name && cut[-1] == ' ')
+        cut--;
+    *cut = '\0';
+}
+
+char *map_read(struct lex *lex, struct map_options *o)
+{
+    char *name;
+
+    *o = (struct map_options){.texture = {.scale = {1, 1}}, .bump_scale = 1};
+    while (read_option(lex, o))
+        continue;
+    name = lex_rest(lex);
+    if (name != NULL)
+        cut_options(name, o);
+    return name;
+}

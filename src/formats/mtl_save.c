@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "formats/mtl_save.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/asset_path.h"
+#include "formats/mtl_map.h"
+#include "formats/mtl_document.h"
+#include "base/decimal.h"
+
+static mtl_aliases light_keys = {"Ke", "Ke_blackbody"};
+static mtl_aliases blackbody_keys = {"Ke_blackbody", "Ke"};
+static mtl_aliases map_keys[MTL_MAPS] = {
+    {"map_Kd"}, {"map_Ks"}, {"map_Ke"}, {"map_Pr"},
+    {"map_Pm"}, {"map_d"},  {"norm"},   {"map_Bump", "map_bump", "bump"},
+};
+
+struct writer {
+    const struct scene *scene;
+    const char *path;
+    struct mtl_text text;
+};
+
+static bool write_color(struct writer *w, const struct mtl_change *c,
+                        mtl_aliases keys, const struct mtl_color *before,
+                        const struct mtl_color *after)
+{
+    char text[3][NUMBER_TEXT_BYTES], value[3 * NUMBER_TEXT_BYTES];
+
+    if (after->line == 0)
+        return before->line == 0 || mtl_text_remove(&w->text, c->name, keys);
+    if (mtl_color_equal(before, after))
+        return true;
+    for (int i = 0; i < 3; i++)
+        number_format(text[i], after->rgb[i]);
+    snprintf(value, sizeof value, "%s %s %s", text[0], text[1], text[2]);
+    return mtl_text_set(&w->text, c->name, keys, value);
+}
+
+static bool write_number(struct writer *w, const struct mtl_change *c,
+                         mtl_aliases keys, const struct mtl_number *before,
+                         const struct mtl_number *after)
+{
+    char text[NUMBER_TEXT_BYTES];
+
+    if (after->line == 0)
+        return before->line == 0 || mtl_text_remove(&w->text, c->name, keys);
+    if (mtl_number_equal(before, after))
+        return true;
+    number_format(text, after->value);
+    return mtl_text_set(&w->text, c->name, keys, text);
+}
+
+/* Ke or Ke_blackbody, whichever counts. */
+static bool write_light(struct writer *w, const struct mtl_change *c)
+{
+    static const struct mtl_color none = {.line = 0};
+    const struct mtl_source *a = c->before, *b = c->after;
+    char text[2][NUMBER_TEXT_BYTES], value[2 * NUMBER_TEXT_BYTES];
+
+    if (b->kelvin.line == 0)
+        return write_color(w, c, light_keys,
+                           a->kelvin.line == 0 ? &a->ke : &none, &b->ke) &&
+               (a->kelvin.line == 0 || b->ke.line != 0 ||
+                mtl_text_remove(&w->text, c->name, light_keys));
+    if (mtl_number_equal(&a->kelvin, &b->kelvin) &&
+        mtl_number_equal(&a->luminance, &b->luminance))
+        return true;
+    number_format(text[0], b->kelvin.value);
+    number_format(text[1], b->luminance.value);
+    snprintf(value, sizeof value, "%s %s", text[0], text[1]);
+    return mtl_text_set(&w->text, c->name, blackbody_keys, value);
+}
+
+/* Whether what stands at `at` is a statement of a map that means the texture.
+ */
+static bool is_map(const struct writer *w, size_t at, mtl_aliases keys,
+                   uint32_t texture)
+{
+    struct mtl_statement s = {.key = at};
+    struct lex lex = mtl_text_lex(&w->text, at);
+    struct map_options options;
+    struct word word = lex_word(&lex);
+    char *name, *path;
+    bool is_same;
+
+    s.key_end = at + word.length;
+    if (!mtl_text_has_key(&w->text, &s, keys))
+        return false;
+    name = map_read(&lex, &options);
+    path = name == NULL ? NULL : asset_find(w->path, name);
+    is_same =
+        path != NULL && strcmp(path, w->scene->texture_paths[texture]) == 0;
+    free(path);
+    free(name);
+    return is_same;
+}
+
+/* Finds the last comment of the block that was a statement of the map. */
+static bool find_commented_map(const struct writer *w,
+                               const struct mtl_block *b, mtl_aliases keys,
+                               uint32_t texture, size_t *at)
+{
+    struct lex lex = mtl_text_lex(&w->text, b->newmtl.end);
+    const char *end = w->text.bytes + b->end;
+    bool is_found = false;
+
+    for (; lex.p < end; lex_next_line(&lex)) {
+        size_t hash;
+
+        lex_skip_blanks(&lex);
+        hash = (size_t)(lex.p - w->text.bytes);
+        if (lex.p == end || *lex.p != '#' ||
+            !is_map(w, hash + 1, keys, texture))
+            continue;
+        *at = hash;
+        is_found = true;
+    }
+    return is_found;
+}
+
+/* The third number is that of texels that lie in depth: the default. */
+static void print_pair(FILE *to, const char *option, struct vec2 v, int third)
+{
+    char x[NUMBER_TEXT_BYTES], y[NUMBER_TEXT_BYTES];
+
+    number_format_float(x, v.x);
+    number_format_float(y, v.y);
+    fprintf(to, "%s %s %s %d ", option, x, y, third);
+}
+
+/* What follows the key of a map: options and the name. */
+static char *map_value(const struct writer *w, const struct mtl_source *s,
+                       enum mtl_map map)
+{
+    const struct texture *t = &w->scene->textures[s->maps[map]];
+    char *name = path_seen_from(w->path, w->scene->texture_paths[s->maps[map]]);
+    char bump[NUMBER_TEXT_BYTES];
+    char *text = NULL;
+    size_t size_bytes;
+    FILE *to = open_memstream(&text, &size_bytes);
+
+    if (to != NULL) {
+        if (t->scale.x != 1 || t->scale.y != 1)
+            print_pair(to, "-s", t->scale, 1);
+        if (t->offset.x != 0 || t->offset.y != 0)
+            print_pair(to, "-o", t->offset, 0);
+        if (t->is_clamped != 0)
+            fputs("-clamp on ", to);
+        number_format(bump, s->bump_scale);
+        if (map == MTL_MAP_BUMP && s->bump_scale != 1)
+            fprintf(to, "-bm %s ", bump);
+        fputs(name, to);
+        if (fclose(to) != 0) {
+            free(text);
+            text = NULL;
+        }
+    }
+    free(name);
+    return text;
+}
+
+static bool write_map(struct writer *w, const struct mtl_change *c,
+                      enum mtl_map map)
+{
+    bool was_on = mtl_source_map(c->before, map) != NO_INDEX;
+    bool is_on = mtl_source_map(c->after, map) != NO_INDEX;
+    struct mtl_block b;
+    size_t hash;
+    char *value;
+    bool ok;
+
+    if (was_on == is_on)
+        return true;
+    if (!is_on)
+        return mtl_text_comment(&w->text, c->name, map_keys[map]);
+    if (!mtl_text_find_block(&w->text, c->name, &b))
+        return false;
+    if (find_commented_map(w, &b, map_keys[map], c->after->maps[map], &hash))
+        return mtl_text_splice(&w->text, hash, 1, "");
+    value = map_value(w, c->after, map);
+    ok =
+        value != NULL && mtl_text_insert(&w->text, &b, map_keys[map][0], value);
+    free(value);
+    return ok;
+}
+
+static bool write_change(struct writer *w, const struct mtl_change *c)
+{
+    const struct mtl_source *a = c->before, *b = c->after;
+    const struct {
+        mtl_aliases keys;
+        const struct mtl_number *before, *after;
+    } numbers[] = {
+        {{"illum"}, &a->illum, &b->illum},
+        {{"Ns"}, &a->ns, &b->ns},
+        {{"Ni"}, &a->ni, &b->ni},
+        {{"d"}, &a->d, &b->d},
+        {{"Tr"}, &a->tr, &b->tr},
+        {{"Pr"}, &a->pr, &b->pr},
+        {{"Pm"}, &a->pm, &b->pm},
+        {{"Kd_roughness"}, &a->kd_roughness, &b->kd_roughness},
+    };
+    static mtl_aliases kd = {"Kd"}, ks = {"Ks"}, tf = {"Tf"};
+    struct mtl_block block;
+    bool ok = true;
+
+    if (c->copied_from != NULL) {
+        ok = mtl_text_append_block(&w->text, c->name, c->copied_from);
+    } else if (!mtl_text_find_block(&w->text, c->name, &block)) {
+        /* somebody has removed it from the file: it comes back */
+        struct mtl_source none = mtl_source_empty();
+        struct mtl_change whole = {c->name, c->name, &none, c->after};
+
+        return write_change(w, &whole);
+    }
+    ok = ok && write_color(w, c, kd, &a->kd, &b->kd) &&
+         write_color(w, c, ks, &a->ks, &b->ks) &&
+         write_color(w, c, tf, &a->tf, &b->tf) && write_light(w, c);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        ok = ok && write_number(w, c, numbers[i].keys, numbers[i].before,
+                                numbers[i].after);
+    for (int i = 0; i < MTL_MAPS; i++)
+        ok = ok && write_map(w, c, (enum mtl_map)i);
+    return ok;
+}
+
+bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
+                 size_t size_bytes, const struct mtl_change *changes,
+                 size_t change_count, char **new_text, size_t *new_size_bytes,
+                 struct error *err)
+{
+    struct writer w = {.scene = scene, .path = path};
+    bool ok;
+
+    ok = mtl_text_init(&w.text, text, size_bytes);
+    /* new ones copy blocks that are as the file has them */
+    for (size_t i = 0; ok && i < change_count; i++)
+        ok = changes[i].copied_from == NULL || write_change(&w, &changes[i]);
+    for (size_t i = 0; ok && i < change_count; i++)
+        ok = changes[i].copied_from != NULL || write_change(&w, &changes[i]);
+    if (!ok) {
+        free(w.text.bytes);
+        return fail(err, "%s: out of memory for the changed materials", path);
+    }
+    *new_text = w.text.bytes;
+    *new_size_bytes = w.text.size;
+    return true;
+}
+
+bool mtl_save(const struct scene *scene, const char *path,
+              const struct mtl_change *changes, size_t change_count,
+              struct file_change *change, struct error *err)
+{
+    char *text, *new_text;
+    size_t size_bytes, new_size_bytes;
+    bool ok;
+
+    change->before = file_identify(path);
+    if (!file_read(path, &text, &size_bytes, err))
+        return false;
+    ok = mtl_rewrite(scene, path, text, size_bytes, changes, change_count,
+                     &new_text, &new_size_bytes, err);
+    free(text);
+    if (!ok)
+        return false;
+    ok = file_replace(path, new_text, new_size_bytes, change, err);
+    free(new_text);
+    return ok;
+}

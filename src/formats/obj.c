@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: MIT
+#include "formats/obj.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/asset_path.h"
+#include "formats/faces.h"
+#include "base/file.h"
+#include "base/lexer.h"
+#include "formats/mtl.h"
+#include "base/name_table.h"
+
+/* Text has no NUL; UTF-16 and most binary files have one early. */
+#define BINARY_CHECK_BYTES 1024
+
+/* Beyond it a float no longer tells where in the texture it is. */
+#define UV_MAX 1e6
+
+struct parser {
+    struct scene *scene;
+    const char *path;
+    struct report *report;
+    struct error *err;
+    struct lex lex;
+    uint64_t statement_count, unknown_count;
+    size_t position_capacity, normal_capacity, uv_capacity;
+    struct names objects;
+    struct names materials;   /* as used; 0 is "": none yet */
+    uint64_t *material_lines; /* of their first use */
+    size_t material_line_capacity;
+    struct names libraries; /* paths of the MTL files read */
+    struct faces faces;
+    uint32_t object, material;
+    bool has_objects; /* an o statement: g is only a group */
+    bool has_colors;  /* of vertices: was said */
+};
+
+static bool out_of_memory(const struct parser *p)
+{
+    return fail(p->err, "%s:%" PRIu64 ": out of memory for the scene", p->path,
+                p->lex.line);
+}
+
+/* Reads `least` to `most` numbers; the others stay as they are. What follows
+ * them (weights, colours) is not used. */
+static bool read_numbers(struct parser *p, const char *key, int least, int most,
+                         double *values)
+{
+    for (int i = 0; i < most; i++) {
+        if (lex_number(&p->lex, &values[i]))
+            continue;
+        if (i >= least && lex_at_line_end(&p->lex))
+            return true;
+        return fail(p->err,
+                    "%s:%" PRIu64 ": found %s after %s, expected a number",
+                    p->path, p->lex.line, word_quote(lex_word(&p->lex)).text,
+                    key);
+    }
+    return true;
+}
+
+/* Room for one more of what may not be more than indices can tell. */
+static bool grow(struct parser *p, void **array, size_t *capacity,
+                 uint32_t count, size_t size_bytes)
+{
+    if (count == NO_INDEX - 1)
+        return fail(p->err,
+                    "%s:%" PRIu64 ": found more than 4294967294 vertices",
+                    p->path, p->lex.line);
+    return grow_array(array, capacity, (size_t)count + 1, size_bytes) ||
+           out_of_memory(p);
+}
+
+/* Behind the place stand a weight, a colour or both. */
+static void look_for_color(struct parser *p)
+{
+    double ignored;
+    int count = 0;
+
+    while (!lex_at_line_end(&p->lex) && lex_number(&p->lex, &ignored))
+        count++;
+    p->has_colors = count >= 3;
+    if (p->has_colors)
+        report_add(p->report, "vertices with colours",
+                   "%s:%" PRIu64 ": found the colour of a vertex: glim has "
+                   "colours of materials and textures only",
+                   p->path, p->lex.line);
+}
+
+static bool read_position(struct parser *p)
+{
+    struct scene *scene = p->scene;
+    double xyz[3];
+    void *array = scene->file_positions;
+
+    if (!read_numbers(p, "v", 3, 3, xyz) ||
+        !grow(p, &array, &p->position_capacity, scene->position_count,
+              sizeof xyz))
+        return false;
+    scene->file_positions = array;
+    memcpy(scene->file_positions + 3 * (size_t)scene->position_count, xyz,
+           sizeof xyz);
+    scene->position_count++;
+    if (!p->has_colors && !lex_at_line_end(&p->lex))
+        look_for_color(p);
+    return true;
+}
+
+/* Zero for a direction that there is none of. */
+static struct vec3 normalized(const double v[3])
+{
+    double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    struct vec3 n = {0, 0, 0};
+
+    if (!(most > 0) || !isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2]))
+        return n;
+
+    double x = v[0] / most;
+    double y = v[1] / most;
+    double z = v[2] / most;
+    double length = sqrt(x * x + y * y + z * z);
+    n.x = (float)(x / length);
+    n.y = (float)(y / length);
+    n.z = (float)(z / length);
+    return n;
+}
+
+static bool read_normal(struct parser *p)
+{
+    struct scene *scene = p->scene;
+    double xyz[3];
+    void *array = scene->normals;
+
+    if (!read_numbers(p, "vn", 3, 3, xyz) ||
+        !grow(p, &array, &p->normal_capacity, scene->normal_count,
+              sizeof *scene->normals))
+        return false;
+    scene->normals = array;
+    scene->normals[scene->normal_count++] = normalized(xyz);
+    return true;
+}
+
+/* Textures repeat, so whole numbers may go; what is no number becomes 0. */
+static float texture_coordinate(double x)
+{
+    if (!isfinite(x))
+        return 0;
+    return (float)(fabs(x) > UV_MAX ? x - floor(x) : x);
+}
+
+static bool read_uv(struct parser *p)
+{
+    struct scene *scene = p->scene;
+    double uv[2] = {0, 0};
+    void *array = scene->uvs;
+
+    if (!read_numbers(p, "vt", 1, 2, uv) ||
+        !grow(p, &array, &p->uv_capacity, scene->uv_count, sizeof *scene->uvs))
+        return false;
+    scene->uvs = array;
+    scene->uvs[scene->uv_count].x = texture_coordinate(uv[0]);
+    scene->uvs[scene->uv_count++].y = texture_coordinate(uv[1]);
+    return true;
+}
+
+static bool read_object(struct parser *p, bool is_group)
+{
+    char *name;
+
+    if (is_group && p->has_objects)
+        return true;
+    p->has_objects |= !is_group;
+    name = lex_rest(&p->lex);
+    p->object = name == NULL ? NO_NAME : names_add(&p->objects, name);
+    free(name);
+    return p->object != NO_NAME || out_of_memory(p);
+}
+
+static bool read_usemtl(struct parser *p)
+{
+    uint64_t line = p->lex.line;
+    char *name = lex_rest(&p->lex);
+    uint32_t known = p->materials.count;
+    void *lines = p->material_lines;
+
+    p->material = name == NULL ? NO_NAME : names_add(&p->materials, name);
+    free(name);
+    if (p->material == NO_NAME ||
+        !grow_array(&lines, &p->material_line_capacity, p->materials.count,
+                    sizeof *p->material_lines))
+        return out_of_memory(p);
+    p->material_lines = lines;
+    if (p->material == known)
+        p->material_lines[known] = line;
+    return true;
+}
+
+static bool load_library(struct parser *p, const char *name, char *path)
+{
+    uint32_t known = p->libraries.count;
+    uint32_t index = names_add(&p->libraries, path);
+    struct error why;
+    char *text;
+    size_t size_bytes;
+    bool ok;
+
+    if (index == NO_NAME)
+        return out_of_memory(p);
+    if (index < known)
+        return true;
+    if (!file_read(path, &text, &size_bytes, &why)) {
+        report_add_named(p->report, "lost material files", name, "%s",
+                         why.text);
+        return true;
+    }
+    ok = mtl_parse(p->scene, text, size_bytes, path, p->report, p->err);
+    free(text);
+    return ok;
+}
+
+static bool load_library_named(struct parser *p, const char *name)
+{
+    size_t length = strlen(name);
+    char *path = asset_find(p->path, name);
+    bool ok;
+
+    if (length >= PATH_MAX) {
+        report_add(p->report, "material files with endless names",
+                   "%s:%" PRIu64 ": found a name of %zu bytes for mtllib, "
+                   "expected fewer than %d: its materials will be grey",
+                   p->path, p->lex.line, length, PATH_MAX);
+        return true;
+    }
+    if (path == NULL) {
+        report_add_named(p->report, "lost material files", name,
+                         "%s:%" PRIu64 ": found no file '%s' for mtllib: its "
+                         "materials will be grey",
+                         p->path, p->lex.line, name);
+        return true;
+    }
+    ok = load_library(p, name, path);
+    free(path);
+    return ok;
+}
+
+/* The end of the first name of several: behind ".mtl" if that is in there,
+ * else at the next blank. Looks for it only until it is not found. */
+static char *first_name_end(char *names, bool *has_endings)
+{
+    char *p = names;
+
+    while (*has_endings && (p = strcasestr(p, ".mtl")) != NULL) {
+        p += strlen(".mtl");
+        if (*p == ' ' || *p == '\t' || *p == '\0')
+            return p;
+    }
+    *has_endings = false;
+    return names + strcspn(names, " \t");
+}
+
+static bool load_libraries(struct parser *p, char *names)
+{
+    bool has_endings = true;
+
+    for (char *name = names; *name != '\0';) {
+        char *end = first_name_end(name, &has_endings);
+        char *next = end + strspn(end, " \t");
+
+        *end = '\0';
+        if (!load_library_named(p, name))
+            return false;
+        name = next;
+    }
+    return true;
+}
+
+/* One name with blanks in it, or several. */
+static bool read_mtllib(struct parser *p)
+{
+    char *rest = lex_rest(&p->lex);
+    char *path;
+    bool ok;
+
+    if (rest == NULL)
+        return out_of_memory(p);
+    path = asset_find(p->path, rest);
+    ok = path != NULL ? load_library(p, rest, path) : load_libraries(p, rest);
+    free(path);
+    free(rest);
+    return ok;
+}
+
+/* Curves and surfaces that are no faces come in many statements. */
+static bool is_free_form(struct word key)
+{
+    static const char *const keys[] = {"cstype", "deg",  "bmat", "step", "curv",
+                                       "curv2",  "surf", "parm", "trim", "hole",
+                                       "scrv",   "sp",   "end",  "con",  "vp"};
+
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        if (word_is(key, keys[i]))
+            return true;
+    }
+    return false;
+}
+
+static bool skip_unknown(struct parser *p, struct word key)
+{
+    char name[64];
+    int length = key.length < 40 ? (int)key.length : 40;
+
+    if (is_free_form(key)) {
+        report_add(p->report, "statements of free forms",
+                   "%s:%" PRIu64 ": found '%.*s': free-form curves and "
+                   "surfaces are not drawn",
+                   p->path, p->lex.line, length, key.start);
+        return true;
+    }
+    p->statement_count--;
+    p->unknown_count++;
+    snprintf(name, sizeof name, "%.*s", length, key.start);
+    report_add_named(p->report, "unknown statements", name,
+                     "%s:%" PRIu64 ": found '%s', which glim does not use",
+                     p->path, p->lex.line, name);
+    return true;
+}
+
+static bool read_statement(struct parser *p)
+{
+    struct word key = lex_word(&p->lex);
+
+    p->statement_count++;
+    if (word_is(key, "v"))
+        return read_position(p);
+    if (word_is(key, "f"))
+        return faces_read(&p->faces, &p->lex, p->object, p->material, p->err);
+    if (word_is(key, "vn"))
+        return read_normal(p);
+    if (word_is(key, "vt"))
+        return read_uv(p);
+    if (word_is(key, "o") || word_is(key, "g"))
+        return read_object(p, *key.start == 'g');
+    if (word_is(key, "usemtl"))
+        return read_usemtl(p);
+    if (word_is(key, "mtllib"))
+        return read_mtllib(p);
+    if (word_is(key, "s") || word_is(key, "l") || word_is(key, "p"))
+        return true;
+    return skip_unknown(p, key);
+}
+
+/* Names were only numbered so far, for mtllib may come after usemtl. */
+static bool resolve_materials(struct parser *p)
+{
+    struct scene *scene = p->scene;
+    uint32_t *numbers = alloc_array(p->materials.count, sizeof *numbers);
+    struct names known = {0};
+    bool ok = numbers != NULL;
+
+    for (uint32_t i = 0; ok && i < scene->material_count; i++)
+        ok = names_add(&known, scene->material_names[i]) != NO_NAME;
+    for (uint32_t i = 0; ok && i < p->materials.count; i++) {
+        const char *name = p->materials.items[i];
+
+        numbers[i] = names_find(&known, name);
+        if (numbers[i] != NO_NAME)
+            continue;
+        numbers[i] = 0;
+        report_add_named(p->report, "unknown materials", name,
+                         "%s:%" PRIu64 ": found no material '%s': grey is used "
+                         "for it",
+                         p->path, p->material_lines[i], name);
+    }
+    for (uint32_t i = 0; ok && i < scene->tri_count; i++)
+        scene->tris[i].material = numbers[scene->tris[i].material];
+    free(numbers);
+    names_free(&known);
+    return ok || out_of_memory(p);
+}
+
+static bool looks_binary(const char *text, size_t size_bytes)
+{
+    size_t n =
+        size_bytes < BINARY_CHECK_BYTES ? size_bytes : BINARY_CHECK_BYTES;
+
+    return memchr(text, '\0', n) != NULL ||
+           (n >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 ||
+                       memcmp(text, "\xfe\xff", 2) == 0));
+}
+
+static bool parse_lines(struct parser *p)
+{
+    for (; p->lex.p < p->lex.end; lex_next_line(&p->lex)) {
+        if (!lex_at_line_end(&p->lex) && !read_statement(p))
+            return false;
+    }
+    if (p->statement_count == 0)
+        return fail(p->err, "%s: not an OBJ file: found no OBJ statement",
+                    p->path);
+    /* a text in which some line begins with one of OBJ's words */
+    if (p->scene->position_count == 0 && p->unknown_count > p->statement_count)
+        return fail(p->err,
+                    "%s: not an OBJ file: found no vertex, and %" PRIu64
+                    " statements that are not OBJ's",
+                    p->path, p->unknown_count);
+    return resolve_materials(p);
+}
+
+static bool begin(struct parser *p)
+{
+    void *lines = NULL;
+
+    if (p->scene->path == NULL)
+        p->scene->path = xstrdup(p->path);
+    if (!mtl_add_default(p->scene, p->err))
+        return false;
+    if (names_add(&p->objects, "") == NO_NAME ||
+        names_add(&p->materials, "") == NO_NAME ||
+        !grow_array(&lines, &p->material_line_capacity, 1,
+                    sizeof *p->material_lines))
+        return out_of_memory(p);
+    p->material_lines = lines;
+    return true;
+}
+
+bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
+               const char *path, struct report *report, struct error *err)
+{
+    struct parser p = {
+        .scene = scene,
+        .path = path,
+        .report = report,
+        .err = err,
+        .faces = {.scene = scene, .path = path, .report = report},
+    };
+    bool ok;
+
+    if (looks_binary(text, size_bytes))
+        return fail(err,
+                    "%s: not an OBJ file: found binary data or UTF-16, "
+                    "expected text",
+                    path);
+    lex_init(&p.lex, text, size_bytes);
+    ok = begin(&p) && parse_lines(&p);
+    /* the scene owns the names of its objects now */
+    scene->object_names = p.objects.items;
+    scene->object_count = p.objects.count;
+    p.objects.items = NULL;
+    p.objects.count = 0;
+    names_free(&p.objects);
+    names_free(&p.materials);
+    names_free(&p.libraries);
+    faces_free(&p.faces);
+    free(p.material_lines);
+    return ok;
+}
+
+bool obj_read(struct scene *scene, const char *path, struct report *report,
+              struct error *err)
+{
+    char *text;
+    size_t size_bytes;
+    bool ok;
+
+    if (!file_read(path, &text, &size_bytes, err))
+        return false;
+    ok = obj_parse(scene, text, size_bytes, path, report, err);
+    free(text);
+    return ok;
+}

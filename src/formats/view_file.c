@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "formats/view_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/decimal.h"
+
+bool view_read(struct view *view, const char *path, struct report *report,
+               struct error *err)
+{
+    char *text;
+    size_t size_bytes;
+    bool ok;
+
+    if (!file_read(path, &text, &size_bytes, err))
+        return false;
+    ok = view_parse(view, text, size_bytes, path, report, err);
+    free(text);
+    return ok;
+}
+
+static void write_numbers(FILE *to, const char *key, const double *values,
+                          int count)
+{
+    fputs(key, to);
+    for (int i = 0; i < count; i++) {
+        char text[NUMBER_TEXT_BYTES];
+        number_format(text, values[i]);
+        fprintf(to, " %s", text);
+    }
+}
+
+static void write_line(FILE *to, const char *key, const double *values,
+                       int count)
+{
+    write_numbers(to, key, values, count);
+    fputc('\n', to);
+}
+
+static void write_shots(FILE *to, const struct view *v)
+{
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        const struct pose *p = &v->shots[i];
+
+        if (!v->has_shot[i])
+            continue;
+        fprintf(to, "view %d", i + 1);
+        write_numbers(to, " eye", p->eye, 3);
+        write_numbers(to, " at", p->at, 3);
+        write_numbers(to, " up", p->up, 3);
+        write_numbers(to, " fovy", &p->fovy_deg, 1);
+        write_numbers(to, " aperture", &p->aperture, 1);
+        write_numbers(to, " focus", &p->focus, 1);
+        fputc('\n', to);
+    }
+}
+
+/* What is as view_init() made it is left out. */
+static void write_key(FILE *to, const struct view *v, enum view_key_id id,
+                      const char *sky)
+{
+    switch (id) {
+    case KEY_EYE:
+        if (v->has_camera)
+            write_line(to, "eye", v->eye, 3);
+        break;
+    case KEY_AT:
+        if (v->has_camera)
+            write_line(to, "at", v->at, 3);
+        break;
+    case KEY_UP: write_line(to, "up", v->up, 3); break;
+    case KEY_FOVY: write_line(to, "fovy", &v->fovy_deg, 1); break;
+    case KEY_RES:
+        if (v->has_size)
+            fprintf(to, "res %d %d\n", v->width_px, v->height_px);
+        break;
+    case KEY_BACKGROUND:
+        if (v->has_background)
+            write_line(to, "background", v->background, 3);
+        break;
+    case KEY_MAX_BOUNCES:
+        if (v->max_bounces >= 0)
+            fprintf(to, "max_bounces %d\n", v->max_bounces);
+        break;
+    case KEY_SKY:
+        if (sky)
+            fprintf(to, "sky %s%s\n", sky, lex_rest_guard(sky));
+        break;
+    case KEY_SKY_STRENGTH:
+        if (v->sky_strength < 1 || v->sky_strength > 1)
+            write_line(to, "sky_strength", &v->sky_strength, 1);
+        break;
+    case KEY_SKY_ROTATION:
+        if (v->sky_rotation_deg < 0 || v->sky_rotation_deg > 0)
+            write_line(to, "sky_rotation", &v->sky_rotation_deg, 1);
+        break;
+    case KEY_APERTURE:
+        if (v->aperture > 0)
+            write_line(to, "aperture", &v->aperture, 1);
+        break;
+    case KEY_FOCUS:
+        if (v->focus > 0)
+            write_line(to, "focus", &v->focus, 1);
+        break;
+    case KEY_EXPOSURE:
+        if (v->exposure < 0 || v->exposure > 0)
+            write_line(to, "exposure", &v->exposure, 1);
+        break;
+    case KEY_TONE:
+        if (v->tone != TONE_LINEAR)
+            fprintf(to, "tone %s\n", view_tones[v->tone]);
+        break;
+    case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
+    case KEY_VIEW: write_shots(to, v); break;
+    }
+}
+
+/* What is written while the lines of the old text are read. */
+struct writer {
+    FILE *to;
+    const struct view *view;
+    const char *sky; /* NULL: none */
+    bool is_written[VIEW_KEYS];
+    struct view_reader old; /* into a view that is dropped */
+};
+
+/* A line that ends where the text does gets an end of its own. A backslash
+ * there has joined nothing: now it joins an empty line. So does a backslash
+ * before a carriage return, which the line feed belongs to. */
+static void keep_line(FILE *to, const char *line, const struct lex *after,
+                      bool has_end)
+{
+    char last = after->p[-1];
+
+    fwrite(line, 1, (size_t)(after->p - line), to);
+    if (!has_end)
+        fputs(last == '\\' || last == '\r' ? "\n\n" : "\n", to);
+}
+
+/* The line as the view has it now, if it has a key; it ends where reading says
+ * so. */
+static void write_line_over(struct writer *w, struct lex *lex)
+{
+    const char *line = lex->p;
+    struct lex start = *lex;
+    const struct view_key *key =
+        lex_at_line_end(&start) ? NULL : view_find_key(lex_word(&start));
+    struct error ignored;
+    bool has_end;
+
+    view_parse_line(&w->old, lex, &ignored);
+    has_end = lex_next_line(lex);
+    if (!key) {
+        keep_line(w->to, line, lex, has_end);
+    } else if (!w->is_written[key - view_keys]) {
+        write_key(w->to, w->view, key->id, w->sky);
+        w->is_written[key - view_keys] = true;
+    }
+}
+
+/* The lines of `text`, those with a key as the view has it now; then the keys
+ * that were not there. */
+static void write_over(struct writer *w, const char *text, size_t size_bytes)
+{
+    struct lex lex;
+
+    lex_init(&lex, text, size_bytes);
+    while (lex.p < lex.end)
+        write_line_over(w, &lex);
+    for (size_t i = 0; i < VIEW_KEYS; i++) {
+        if (!w->is_written[i])
+            write_key(w->to, w->view, view_keys[i].id, w->sky);
+    }
+}
+
+/* How the file at `path` names the sky, for free(). A line has blanks around a
+ * name, not in front of one. */
+static char *sky_name(const char *sky_path, const char *path)
+{
+    char *name = path_seen_from(path, sky_path);
+    char *whole = *name == '\0' || lex_is_blank(*name) ? xformat("./%s", name)
+                                                       : xstrdup(name);
+
+    free(name);
+    return whole;
+}
+
+/* A line holds no name with a line end in it, or with a blank at its end. */
+static bool check_sky(const char *sky_path, const char *path, struct error *err)
+{
+    size_t length = strlen(sky_path);
+
+    if (strpbrk(sky_path, "\r\n"))
+        return fail(err,
+                    "%s: found a line end in the name of the sky, "
+                    "expected none",
+                    path);
+    if (length > 0 && lex_is_blank(sky_path[length - 1]))
+        return fail(err,
+                    "%s: found a blank at the end of the name of the sky, "
+                    "expected none",
+                    path);
+    return true;
+}
+
+bool view_format(const struct view *view, const char *path,
+                 const char *old_text, size_t old_bytes, char **text,
+                 size_t *size_bytes, struct error *err)
+{
+    struct report ignored = {0};
+    struct view scratch;
+    struct writer w = {.view = view,
+                       .old = {.view = &scratch,
+                               .path = path,
+                               .report = &ignored}};
+    char *sky = NULL;
+
+    if (view->sky_path && !check_sky(view->sky_path, path, err))
+        return false;
+    *text = NULL;
+    w.to = open_memstream(text, size_bytes);
+    if (!w.to)
+        return fail(err, "%s: out of memory", path);
+    if (view->sky_path)
+        sky = sky_name(view->sky_path, path);
+    w.sky = sky;
+    view_init(&scratch);
+    write_over(&w, old_text, old_bytes);
+    view_free(&scratch);
+    report_free(&ignored);
+    free(sky);
+    if (fclose(w.to) == 0)
+        return true;
+    free(*text);
+    return fail(err, "%s: out of memory", path);
+}
+
+/* The text of the file that will be replaced, or how a new one begins. */
+static bool read_old(const char *path, char **text, size_t *size_bytes,
+                     struct error *err)
+{
+    if (access(path, F_OK) == 0)
+        return file_read(path, text, size_bytes, err);
+    *text = xstrdup("# a view of a scene: points in the scene's units, angles "
+                    "in degrees,\n# background as radiance, exposure in "
+                    "stops\n");
+    *size_bytes = strlen(*text);
+    return true;
+}
+
+/* Before one text is replaced by another. */
+static bool keep_old(const char *path, const char *old_text, size_t old_bytes,
+                     const char *text, size_t size_bytes,
+                     struct file_change *change, struct error *err)
+{
+    char *name;
+
+    change->is_kept =
+        change->before.exists &&
+        (old_bytes != size_bytes || memcmp(old_text, text, size_bytes) != 0);
+    if (!change->is_kept)
+        return true;
+    name = xformat("%s~", path);
+    bool ok = file_write(name, old_text, old_bytes, false, NULL, err);
+    free(name);
+    return ok;
+}
+
+bool view_write(const struct view *view, const char *path,
+                struct file_change *change, struct error *err)
+{
+    char *old_text, *text;
+    size_t old_bytes, size_bytes;
+    bool ok;
+
+    change->before = file_identify(path);
+    if (!read_old(path, &old_text, &old_bytes, err))
+        return false;
+    ok = view_format(view, path, old_text, old_bytes, &text, &size_bytes, err);
+    if (ok) {
+        ok = keep_old(path, old_text, old_bytes, text, size_bytes, change,
+                      err) &&
+             file_replace(path, text, size_bytes, change, err);
+        free(text);
+    }
+    free(old_text);
+    return ok;
+}

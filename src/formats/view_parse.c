@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "formats/view_parse.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+
+/* Their squares and differences are still finite. */
+#define GREATEST 1e30
+
+/* The neighbours of what fovy must not be. */
+#define FOVY_LEAST    1e-6
+#define FOVY_GREATEST 179.999999
+
+const struct view_key view_keys[VIEW_KEYS] = {
+    {"eye", KEY_EYE, 3, false, -GREATEST, GREATEST,
+     "3 numbers from -1e30 to 1e30"},
+    {"at", KEY_AT, 3, false, -GREATEST, GREATEST,
+     "3 numbers from -1e30 to 1e30"},
+    {"up", KEY_UP, 3, false, -GREATEST, GREATEST,
+     "3 numbers from -1e30 to 1e30"},
+    {"fovy", KEY_FOVY, 1, false, FOVY_LEAST, FOVY_GREATEST,
+     "an angle above 0 and below 180 degrees"},
+    {"res", KEY_RES, 2, true, 1, VIEW_SIDE_MAX,
+     "2 whole numbers from 1 to 65536"},
+    {"background", KEY_BACKGROUND, 3, false, 0, GREATEST,
+     "3 numbers from 0 to 1e30"},
+    {"max_bounces", KEY_MAX_BOUNCES, 1, true, -1, INT_MAX,
+     "a whole number, or -1 for no limit"},
+    {"sky", KEY_SKY, 0, false, 0, 0, "an image file"},
+    {"sky_strength", KEY_SKY_STRENGTH, 1, false, 0, GREATEST,
+     "a number from 0 to 1e30"},
+    {"sky_rotation", KEY_SKY_ROTATION, 1, false, -1e6, 1e6,
+     "an angle from -1e6 to 1e6 degrees"},
+    {"aperture", KEY_APERTURE, 1, false, 0, GREATEST,
+     "a number from 0 to 1e30"},
+    {"focus", KEY_FOCUS, 1, false, 0, GREATEST, "a number from 0 to 1e30"},
+    {"exposure", KEY_EXPOSURE, 1, false, -100, 100,
+     "a number of stops from -100 to 100"},
+    {"tone", KEY_TONE, 0, false, 0, 0, "linear, reinhard or aces"},
+    {"assign", KEY_ASSIGN, 0, false, 0, 0, "two names"},
+    {"view", KEY_VIEW, 1, true, 1, VIEW_SHOTS, "a number from 1 to 9"},
+};
+
+static bool fail_at(const struct view_reader *r, struct word found,
+                    const char *expected, const char *key, struct error *err)
+{
+    return fail(err, "%s:%" PRIu64 ": found %s, expected %s for %s", r->path,
+                r->lex->line, word_quote(found).text, expected, key);
+}
+
+/* One number of the key, and nothing joined to it. */
+static bool read_number(struct view_reader *r, const struct view_key *key,
+                        double *value, struct error *err)
+{
+    struct lex before = *r->lex;
+    bool ok = !lex_at_line_end(r->lex) && lex_number(r->lex, value) &&
+              *value >= key->least && *value <= key->greatest &&
+              (!key->is_whole || *value == floor(*value));
+
+    if (ok)
+        return true;
+    struct word found = {.length = 0};
+    if (!lex_at_line_end(&before))
+        found = lex_word(&before);
+    return fail_at(r, found, key->expected, key->name, err);
+}
+
+static void store(struct view *view, enum view_key_id id, const double *v)
+{
+    switch (id) {
+    case KEY_EYE: memcpy(view->eye, v, sizeof view->eye); break;
+    case KEY_AT: memcpy(view->at, v, sizeof view->at); break;
+    case KEY_UP: memcpy(view->up, v, sizeof view->up); break;
+    case KEY_FOVY: view->fovy_deg = v[0]; break;
+    case KEY_RES:
+        view->width_px = (int)v[0];
+        view->height_px = (int)v[1];
+        view->has_size = true;
+        break;
+    case KEY_BACKGROUND:
+        memcpy(view->background, v, sizeof view->background);
+        view->has_background = true;
+        break;
+    case KEY_MAX_BOUNCES: view->max_bounces = (int)v[0]; break;
+    case KEY_SKY_STRENGTH: view->sky_strength = v[0]; break;
+    case KEY_SKY_ROTATION: view->sky_rotation_deg = v[0]; break;
+    case KEY_APERTURE: view->aperture = v[0]; break;
+    case KEY_FOCUS: view->focus = v[0]; break;
+    case KEY_EXPOSURE: view->exposure = v[0]; break;
+    case KEY_SKY:
+    case KEY_TONE:
+    case KEY_ASSIGN:
+    case KEY_VIEW: break;
+    }
+}
+
+/* The numbers of the key, into a view that may be another than the file's. */
+static bool read_numbers(struct view_reader *r, const struct view_key *key,
+                         struct view *view, struct error *err)
+{
+    double values[3] = {0};
+
+    for (int i = 0; i < key->count; i++) {
+        if (!read_number(r, key, &values[i], err))
+            return false;
+    }
+    if (key->id == KEY_UP && values[0] == 0 && values[1] == 0 && values[2] == 0)
+        return fail(err,
+                    "%s:%" PRIu64 ": found 0 0 0, expected a direction "
+                    "for up",
+                    r->path, r->lex->line);
+    store(view, key->id, values);
+    return true;
+}
+
+/* Other programs write background_map for sky. */
+const struct view_key *view_find_key(struct word name)
+{
+    for (size_t i = 0; i < VIEW_KEYS; i++) {
+        if (word_is(name, view_keys[i].name) ||
+            (view_keys[i].id == KEY_SKY && word_is(name, "background_map")))
+            return &view_keys[i];
+    }
+    return NULL;
+}
+
+static bool is_of_pose(const struct view_key *key)
+{
+    return key->id <= KEY_FOVY || key->id == KEY_APERTURE ||
+           key->id == KEY_FOCUS;
+}
+
+/* view N eye X Y Z at X Y Z ...: what is left out is as the keys above say. */
+static bool read_shot(struct view_reader *r, const struct view_key *view_key,
+                      struct error *err)
+{
+    uint64_t line = r->lex->line;
+    struct view shot = *r->view;
+    bool has_eye = false;
+    bool has_at = false;
+    char place[512];
+    double number;
+
+    if (!read_number(r, view_key, &number, err))
+        return false;
+    while (!lex_at_line_end(r->lex)) {
+        struct word name = lex_word(r->lex);
+        const struct view_key *key = view_find_key(name);
+
+        if (!key || !is_of_pose(key))
+            return fail_at(r, name, "eye, at, up, fovy, aperture or focus",
+                           view_key->name, err);
+        if (!read_numbers(r, key, &shot, err))
+            return false;
+        has_eye |= key->id == KEY_EYE;
+        has_at |= key->id == KEY_AT;
+    }
+    if (!has_eye || !has_at)
+        return fail_at(r, (struct word){.length = 0}, "eye and at",
+                       view_key->name, err);
+    snprintf(place, sizeof place, "%s:%" PRIu64, r->path, line);
+    if (!view_check(&shot, place, err))
+        return false;
+    r->view->shots[(int)number - 1] = view_pose(&shot);
+    r->view->has_shot[(int)number - 1] = true;
+    return true;
+}
+
+static bool read_sky(struct view_reader *r, struct error *err)
+{
+    char *name = lex_rest(r->lex);
+
+    if (!name || *name == '\0') {
+        free(name);
+        return fail(err,
+                    "%s:%" PRIu64 ": found no name, expected an image "
+                    "file for sky",
+                    r->path, r->lex->line);
+    }
+    free(r->view->sky_path);
+    r->view->sky_path = path_beside(r->path, name);
+    free(name);
+    return true;
+}
+
+static bool read_key(struct view_reader *r, const struct view_key *key,
+                     struct error *err)
+{
+    if (!read_numbers(r, key, r->view, err))
+        return false;
+    if (!lex_at_line_end(r->lex))
+        return fail_at(r, lex_word(r->lex), key->expected, key->name, err);
+    if (key->id == KEY_EYE)
+        r->eye_line = r->lex->line;
+    if (key->id == KEY_AT)
+        r->at_line = r->lex->line;
+    return true;
+}
+
+static bool read_tone(struct view_reader *r, const struct view_key *key,
+                      struct error *err)
+{
+    struct word name = {.length = 0};
+
+    if (!lex_at_line_end(r->lex))
+        name = lex_word(r->lex);
+    for (uint32_t i = 0; i < TONES; i++) {
+        if (!word_is(name, view_tones[i]) || !lex_at_line_end(r->lex))
+            continue;
+        r->view->tone = i;
+        return true;
+    }
+    return fail_at(r, name, key->expected, key->name, err);
+}
+
+static bool read_assign(struct view_reader *r, struct error *err)
+{
+    uint64_t line = r->lex->line;
+
+    return assigns_read(&r->view->assigns, r->lex) ||
+           fail(err,
+                "%s:%" PRIu64 ": found another line than assign OBJECT "
+                "MATERIAL, expected two names, those with blanks in quotes",
+                r->path, line);
+}
+
+bool view_parse_line(void *context, struct lex *lex, struct error *err)
+{
+    struct view_reader *r = context;
+
+    r->lex = lex;
+    if (lex_at_line_end(r->lex))
+        return true;
+    struct word name = lex_word(r->lex);
+    const struct view_key *key = view_find_key(name);
+    if (key && key->id == KEY_SKY)
+        return read_sky(r, err);
+    if (key && key->id == KEY_TONE)
+        return read_tone(r, key, err);
+    if (key && key->id == KEY_ASSIGN)
+        return read_assign(r, err);
+    if (key && key->id == KEY_VIEW)
+        return read_shot(r, key, err);
+    if (key)
+        return read_key(r, key, err);
+    report_add(r->report, "lines with an unknown key",
+               "%s:%" PRIu64 ": found the unknown key %s, skipped", r->path,
+               r->lex->line, word_quote(name).text);
+    return true;
+}
+
+/* A camera needs both points; which of them the file gave is known only at its
+ * end. */
+static bool finish_camera(struct view_reader *r, struct error *err)
+{
+    char place[512];
+    bool has_both = r->eye_line && r->at_line;
+    uint64_t line = r->eye_line > r->at_line ? r->eye_line : r->at_line;
+
+    if (line == 0)
+        return true;
+    if (!has_both && !r->view->has_camera)
+        return fail(err, "%s:%" PRIu64 ": found only '%s', expected eye and at",
+                    r->path, line, r->eye_line ? "eye" : "at");
+    r->view->has_camera = true;
+    snprintf(place, sizeof place, "%s:%" PRIu64, r->path, line);
+    return view_check(r->view, place, err);
+}
+
+bool view_parse(struct view *view, const char *text, size_t size_bytes,
+                const char *path, struct report *report, struct error *err)
+{
+    struct view_reader r = {.view = view, .path = path, .report = report};
+
+    return lex_lines(text, size_bytes, view_parse_line, &r, err) &&
+           finish_camera(&r, err);
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "inspect/overlay_text.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/angle.h"
+#include "base/text_width.h"
+
+#include "kernels/vec.h"
+
+#define MATERIAL_COLS  10
+#define LOBES_COLS     40 /* of the material's name where it has a line */
+#define MATERIAL_BYTES 160
+#define PLACE_COLS     17
+#define PDF_COLS       6
+#define NUMBERS_BYTES  64
+
+/* The name of the material of a triangle, or words for none. */
+static const char *material_of(const struct scene *scene, uint32_t tri)
+{
+    const char *name = scene->material_names[scene->tris[tri].material];
+
+    return *name ? name : "no material";
+}
+
+static char *next_line(struct legend *l)
+{
+    return l->lines[l->count++];
+}
+
+static const char *way_name(const struct trail_step *s)
+{
+    switch (s->way) {
+    case TRAIL_SKY: return "sky";
+    case TRAIL_ENDED: return "end";
+    case TRAIL_ROULETTE: return "roulette";
+    case TRAIL_REFLECTED: return "reflect";
+    case TRAIL_TRANSMITTED: break;
+    }
+    return "transmit";
+}
+
+/* In the file's units; what is rounding there is 0. */
+static double file_coordinate(const struct scene *scene, float x, int axis)
+{
+    double from_file = x / scene->scale + scene->center[axis];
+
+    return fabs(from_file) * scene->scale < 1e-6 ? 0 : from_file;
+}
+
+/* With the most digits, up to three, with which they take no more than so many
+ * columns: a number that is cut is another one. */
+static void format_numbers(char text[NUMBERS_BYTES], const double *values,
+                           int count, int cols)
+{
+    int length = cols + 1;
+
+    for (int digits = 3; digits > 0 && length > cols; digits--) {
+        length = 0;
+        for (int i = 0; i < count; i++)
+            length += snprintf(text + length, (size_t)(NUMBERS_BYTES - length),
+                               i > 0 ? " %.*g" : "%.*g", digits, values[i]);
+    }
+}
+
+static void add_step(struct legend *l, const struct scene *scene,
+                     const struct trail_step *s, int number)
+{
+    bool goes_on = s->way == TRAIL_REFLECTED || s->way == TRAIL_TRANSMITTED;
+    double pdf = (double)s->pdf;
+    double place[3] = {file_coordinate(scene, s->to.x, 0),
+                       file_coordinate(scene, s->to.y, 1),
+                       file_coordinate(scene, s->to.z, 2)};
+    char place_text[NUMBERS_BYTES] = "";
+    char pdf_text[NUMBERS_BYTES] = "";
+    char material[MATERIAL_BYTES];
+
+    if (s->way != TRAIL_SKY)
+        format_numbers(place_text, place, 3, PLACE_COLS);
+    if (goes_on && pdf > 0)
+        format_numbers(pdf_text, &pdf, 1, PDF_COLS);
+    else if (goes_on)
+        snprintf(pdf_text, sizeof pdf_text, "delta");
+    columns_fit(material, sizeof material,
+                s->way == TRAIL_SKY ? "" : material_of(scene, s->hit.tri),
+                MATERIAL_COLS);
+    snprintf(next_line(l), LEGEND_BYTES,
+             "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
+             material, PLACE_COLS, place_text, way_name(s),
+             (double)s->throughput.x, (double)s->throughput.y,
+             (double)s->throughput.z, PDF_COLS, pdf_text, (double)s->light.x,
+             (double)s->light.y, (double)s->light.z);
+}
+
+void legend_trail(struct legend *l, const struct scene *scene,
+                  const struct trail *trail, int count)
+{
+    int first = count > LEGEND_STEPS ? count - LEGEND_STEPS : 0;
+
+    l->count = 0;
+    snprintf(next_line(l), LEGEND_BYTES, "%2s %-10s %-17s %-8s %-14s %-6s %s",
+             "#", "material", "position", "way", "throughput", "pdf", "light");
+    for (int i = first; i < count; i++)
+        add_step(l, scene, &trail->steps[i], i + 1);
+    snprintf(next_line(l), LEGEND_BYTES,
+             "step %d of %d; radiance of the whole path %.4g %.4g %.4g", count,
+             trail->vertices, (double)trail->radiance.x,
+             (double)trail->radiance.y, (double)trail->radiance.z);
+}
+
+static void add_direction(struct legend *l, const char *name, struct vec3 d)
+{
+    /* + 0: -0 becomes 0 */
+    snprintf(next_line(l), LEGEND_BYTES, "%-22s %6.3f %6.3f %6.3f", name,
+             (double)d.x + 0, (double)d.y + 0, (double)d.z + 0);
+}
+
+void legend_lobes(struct legend *l, const struct scene *scene,
+                  const struct trail_lobes *lobes)
+{
+    struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
+    float cosine = f_min(v3_dot(lobes->wo, lobes->n), 1.0f);
+    float lo = 0.0f, hi = 0.0f;
+    char material[MATERIAL_BYTES];
+    int deltas = 0;
+
+    l->count = 0;
+    for (int i = 0; i < lobes->count; i++) {
+        float pdf = lobes->pdf[i];
+
+        sum = v3_add(sum, lobes->weight[i]);
+        hi = f_max(hi, pdf);
+        lo = i == 0 ? pdf : f_min(lo, pdf);
+        deltas += pdf == 0.0f ? 1 : 0;
+    }
+    columns_cut(material, sizeof material, material_of(scene, lobes->tri),
+                LOBES_COLS);
+    snprintf(next_line(l), LEGEND_BYTES, "%s, seen %.1f degrees off n",
+             material, angle_deg(acos((double)cosine)));
+    add_direction(l, "n normal, green", lobes->n);
+    add_direction(l, "t tangent, red", lobes->t);
+    add_direction(l, "b bitangent, blue", lobes->b);
+    snprintf(next_line(l), LEGEND_BYTES,
+             "%d of %d samples go on, %d as deltas; pdf %.3g to %.3g",
+             lobes->count, TRAIL_LOBES, deltas, (double)lo, (double)hi);
+    add_direction(l, "mean weight", v3_scale(sum, 1.0f / (float)TRAIL_LOBES));
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "inspect/path_record.h"
+
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+
+/* How far a ray into the sky is drawn: out of the scene, whose extent is below
+ * 2. */
+#define SKY_DISTANCE 4.0f
+
+static struct vec3 end_of(const struct world *w, struct ray r, struct hit h)
+{
+    const struct tri *t;
+    struct vec3 error;
+
+    if (h.tri == NO_INDEX)
+        return v3_add(r.o, v3_scale(r.d, SKY_DISTANCE));
+    t = &w->tris[h.tri];
+    return hit_point(h, w->positions[t->v[0]], w->positions[t->v[1]],
+                     w->positions[t->v[2]], &error);
+}
+
+static bool is_same(struct vec3 a, struct vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* On which side of the face does the path go on? */
+static enum trail_way side_of(const struct world *w, struct hit h,
+                              struct vec3 before, struct vec3 after)
+{
+    struct vec3 ng = w->tris[h.tri].ng;
+
+    if (v3_is_zero(ng))
+        return TRAIL_ENDED;
+    return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f ? TRAIL_REFLECTED
+                                                         : TRAIL_TRANSMITTED;
+}
+
+static enum trail_way way_of(const struct world *w, struct ray before,
+                             const struct path *after, struct hit h,
+                             bool goes_on)
+{
+    if (h.tri == NO_INDEX)
+        return TRAIL_SKY;
+    if (goes_on)
+        return side_of(w, h, before.d, after->ray.d);
+    return is_same(before.o, after->ray.o) ? TRAIL_ENDED : TRAIL_ROULETTE;
+}
+
+void trail_follow(struct trail *t, const struct world *w, uint32_t x,
+                  uint32_t y, uint64_t index)
+{
+    struct path_start start = path_begin(&w->settings, x, y, index);
+    bool goes_on = true;
+    struct path p;
+
+    path_open(&p, start.ray, start.sampler);
+    t->count = t->vertices = 0;
+    while (goes_on) {
+        struct path before = p;
+        struct hit h;
+
+        goes_on = path_advance(w, &p, (uint32_t)++t->vertices, NULL, &h);
+        if (t->count == TRAIL_STEPS)
+            continue;
+        t->steps[t->count++] = (struct trail_step){
+            .from = before.ray.o,
+            .to = end_of(w, before.ray, h),
+            .hit = h,
+            .throughput = v3_scale(before.beta, before.scale),
+            .light = v3_sub(p.out.radiance, before.out.radiance),
+            .way = way_of(w, before.ray, &p, h, goes_on),
+            .pdf = goes_on ? p.pdf : 0.0f,
+        };
+    }
+    t->radiance = p.out.radiance;
+}
+
+static void add_lobe(struct trail_lobes *l, const struct bsdf *b,
+                     const struct vertex *v, struct vec3 wo, struct sampler s)
+{
+    struct bsdf_sample sample;
+
+    if (!bsdf_sample(b, wo,
+                     random_2d(s, DIMENSION_BOUNCE + DIMENSION_BSDF_DIRECTION),
+                     random_2d(s, DIMENSION_BOUNCE + DIMENSION_BSDF_LOBE).x,
+                     &sample))
+        return;
+    l->wi[l->count] = vertex_to_world(v, sample.wi);
+    l->weight[l->count] = sample.weight;
+    l->pdf[l->count] = sample.pdf;
+    l->count++;
+}
+
+bool trail_scatter(struct trail_lobes *l, const struct world *w, uint32_t x,
+                   uint32_t y)
+{
+    struct ray r = camera_ray(w->settings.camera, x, y, v2(0.5f, 0.5f));
+    struct material m;
+    struct vertex v;
+    struct bsdf b;
+    struct hit h;
+
+    *l = (struct trail_lobes){0};
+    if (!hit_closest(w, r, &h))
+        return false;
+    m = w->materials[w->tris[h.tri].material];
+    if (!vertex_at(w, &m, r, h, &v))
+        return false;
+    b = bsdf_at(w, &m, &v);
+    l->p = v.p;
+    l->n = v.n;
+    l->t = v.t;
+    l->b = v.b;
+    l->wo = v3_neg(r.d);
+    l->distance = h.t;
+    l->tri = h.tri;
+    for (uint32_t i = 0; i < TRAIL_LOBES; i++)
+        add_lobe(l, &b, &v, vertex_to_local(&v, l->wo),
+                 sampler_start(x, y, i, w->settings.seed));
+    return true;
+}

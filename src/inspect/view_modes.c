@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+#include "inspect/view_modes.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/area.h"
+#include "picture/raster.h"
+#include "inspect/aov_picture.h"
+#include "render/projection.h"
+#include "scene/world.h"
+#include "kernels/tone.h"
+
+/* What is rendered for it, and what is said of it. */
+static const struct {
+    enum sample_kind sample;
+    const char *legend;
+} kinds[SHOW_KINDS] = {
+    [SHOW_LIGHT] = {SAMPLE_LIGHT, ""},
+    [SHOW_PREVIEW] = {SAMPLE_PREVIEW,
+                      "PREVIEW  colours as they are, lit from the eye"},
+    [SHOW_NORMALS] = {SAMPLE_NORMAL,
+                      "NORMALS  for shading: x red, y green, z blue"},
+    [SHOW_FACES] = {SAMPLE_FACE,
+                    "FACES  normals as wound: x red, y green, z blue"},
+    [SHOW_UVS] = {SAMPLE_UV, "UVS  u red, v green; grey: none"},
+    [SHOW_DEPTH] = {SAMPLE_DEPTH, "DEPTH"},
+    [SHOW_MATERIALS] = {SAMPLE_MATERIAL, "MATERIALS  a colour for each"},
+    [SHOW_COST] = {SAMPLE_PREVIEW, "COST"},
+    [SHOW_SAMPLES] = {SAMPLE_LIGHT, "SAMPLES"},
+};
+
+void show_init(struct show *s, struct session *session)
+{
+    *s = (struct show){.session = session};
+}
+
+enum sample_kind show_sample(enum show_kind kind)
+{
+    return kinds[kind].sample;
+}
+
+struct develop show_develop(const struct show *s)
+{
+    return s->kind == SHOW_PREVIEW ? develop_linear(0)
+                                   : session_develop(s->session);
+}
+
+static bool find_world(const struct show *s, struct world *w, struct error *err)
+{
+    struct session *of = s->session;
+
+    if (!scene_world(&of->scene, &of->view, of->options->seed, w, err))
+        return false;
+    w->nodes = s->bvh.nodes;
+    w->leaf_tris = s->bvh.leaf_tris;
+    return true;
+}
+
+bool show_world(const struct show *s, struct world *w)
+{
+    struct error ignored;
+
+    return find_world(s, w, &ignored);
+}
+
+struct camera show_camera(const struct show *s, const struct camera *camera,
+                          const struct frame *frame)
+{
+    struct rect r = s->session->crop;
+    struct projection_part part = {r.x,      r.y,          r.width,
+                                   r.height, frame->width, frame->height};
+
+    return projection_camera(camera, &part);
+}
+
+bool show_need_tree(struct show *s, struct error *err)
+{
+    struct world w;
+
+    if (!s->has_bvh)
+        s->has_bvh =
+            find_world(s, &w, err) && bvh_build(&s->bvh, &w, NULL, err);
+    return s->has_bvh;
+}
+
+static bool need_pool(struct show *s, struct error *err)
+{
+    if (!s->pool)
+        s->pool = pool_create(options_threads(s->session->options), err);
+    return s->pool != NULL;
+}
+
+/* The line below the picture, if it says something new. */
+static void __attribute__((format(printf, 2, 3)))
+say(struct show *s, const char *format, ...)
+{
+    char text[sizeof s->legend];
+    va_list values;
+
+    va_start(values, format);
+    vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    s->has_news |= strcmp(text, s->legend) != 0;
+    memcpy(s->legend, text, strlen(text) + 1);
+}
+
+bool show_set(struct show *s, enum show_kind kind, struct error *err)
+{
+    bool ok =
+        kind != SHOW_COST || (show_need_tree(s, err) && need_pool(s, err));
+
+    s->kind = ok ? kind : SHOW_LIGHT;
+    say(s, "%s", kinds[s->kind].legend);
+    return ok;
+}
+
+static bool need_numbers(struct show *s, size_t count)
+{
+    void *numbers = s->numbers;
+    bool ok =
+        grow_array(&numbers, &s->number_capacity, count, sizeof *s->numbers);
+
+    s->numbers = numbers;
+    return ok;
+}
+
+/* Pixel i of n in the other's length, from 0. */
+static int scaled(int i, int n, int length)
+{
+    return (int)((int64_t)i * length / n);
+}
+
+/* The frame in false colours of the numbers of a picture, 3 a pixel. */
+static void fill(const struct show *s, struct frame *frame, int width,
+                 int height, struct number_range range)
+{
+    for (int y = 0; y < frame->height; y++) {
+        for (int x = 0; x < frame->width; x++) {
+            size_t at =
+                (size_t)scaled(y, frame->height, height) * (size_t)width +
+                (size_t)scaled(x, frame->width, width);
+
+            drawing_dot(frame, x, y,
+                        false_color(kinds[s->kind].sample, s->numbers + 3 * at,
+                                    range));
+        }
+    }
+}
+
+/* The mean, by area, of what pixel (x, y) of the frame covers. */
+static float mean_at(const struct show *s, const struct frame *frame, int x,
+                     int y, int width, int height)
+{
+    struct area_walk rows = area_walk(height, frame->height, y, 1);
+    float sum = 0, whole = 0;
+
+    while (area_walks(&rows)) {
+        const float *row = s->numbers + (size_t)rows.from * (size_t)width;
+        float length = area_step(&rows);
+        struct area_walk cols = area_walk(width, frame->width, x, 1);
+
+        while (area_walks(&cols)) {
+            float number = row[cols.from];
+            float area = length * area_step(&cols);
+
+            sum += area * number;
+            whole += area;
+        }
+    }
+    return sum / whole;
+}
+
+/* The same for counts, one a pixel, up to the largest. */
+static void fill_heat(const struct show *s, struct frame *frame, int width,
+                      int height, float largest)
+{
+    for (int y = 0; y < frame->height; y++) {
+        for (int x = 0; x < frame->width; x++) {
+            float mean = mean_at(s, frame, x, y, width, height);
+
+            drawing_dot(frame, x, y,
+                        false_color_heat(largest > 0 ? mean / largest : 0));
+        }
+    }
+}
+
+static void say_depth(struct show *s, struct number_range r)
+{
+    double scale = s->session->scene.scale;
+
+    say(s, "DEPTH  from %.4g, white, to %.4g, dark", r.lo / scale,
+        r.hi / scale);
+}
+
+/* In false colours of the numbers that a picture of this size has. */
+static void paint_numbers(struct show *s, struct frame *frame, int width,
+                          int height)
+{
+    size_t pixels = (size_t)width * (size_t)height;
+    struct number_range range = number_range_of(s->numbers, pixels, 3);
+
+    fill(s, frame, width, height, range);
+    if (s->kind == SHOW_DEPTH)
+        say_depth(s, range);
+}
+
+static void paint_draft(struct show *s, struct film *draft, struct frame *frame)
+{
+    if (!draft ||
+        !need_numbers(s, 3 * (size_t)draft->width * (size_t)draft->height))
+        return;
+    film_linear(draft, s->numbers);
+    paint_numbers(s, frame, draft->width, draft->height);
+}
+
+static bool paint_samples(struct show *s, struct film *film,
+                          struct frame *frame)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    struct number_range range;
+    double sum = 0;
+
+    if (!need_numbers(s, pixels))
+        return false;
+    film_counts(film, s->numbers);
+    range = number_range_of(s->numbers, pixels, 1);
+    fill_heat(s, frame, film->width, film->height, range.hi);
+    for (size_t i = 0; i < pixels; i++)
+        sum += s->numbers[i];
+    say(s, "SAMPLES  of a pixel, black 0, white %.0f; mean %.2f",
+        (double)range.hi, sum / (double)pixels);
+    return true;
+}
+
+/* Counts anew what another camera or frame sees. */
+static bool count_costs(struct show *s, const struct frame *frame)
+{
+    struct error ignored;
+    struct world w;
+
+    /* a scene that was loaded anew has no tree yet */
+    if (!show_need_tree(s, &ignored) || !show_world(s, &w))
+        return false;
+    w.settings.camera = show_camera(s, &w.settings.camera, frame);
+    if (s->cost_width == frame->width && s->cost_height == frame->height &&
+        memcmp(&s->cost_camera, &w.settings.camera, sizeof s->cost_camera) == 0)
+        return true;
+    free(s->costs);
+    s->cost_width = 0;
+    s->costs = alloc_array((size_t)frame->width * (size_t)frame->height,
+                           sizeof *s->costs);
+    if (!s->costs)
+        return false;
+    cost_of_pixels(s->pool, &w, frame->width, frame->height, s->costs);
+    s->cost_camera = w.settings.camera;
+    s->cost_width = frame->width;
+    s->cost_height = frame->height;
+    return true;
+}
+
+static bool paint_costs(struct show *s, struct frame *frame)
+{
+    size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    struct number_range range;
+    double boxes = 0, triangles = 0;
+
+    if (!count_costs(s, frame) || !need_numbers(s, pixels))
+        return false;
+    for (size_t i = 0; i < pixels; i++) {
+        boxes += s->costs[i].boxes;
+        triangles += s->costs[i].triangles;
+        s->numbers[i] = (float)(s->costs[i].boxes + s->costs[i].triangles);
+    }
+    range = number_range_of(s->numbers, pixels, 1);
+    fill_heat(s, frame, frame->width, frame->height, range.hi);
+    say(s,
+        "COST  tests of a camera ray, black 0, white %.0f; mean %.1f "
+        "boxes, %.1f triangles",
+        (double)range.hi, boxes / (double)pixels, triangles / (double)pixels);
+    return true;
+}
+
+void show_paint(struct show *s, struct film *film, struct film *draft,
+                struct frame *frame)
+{
+    switch (s->kind) {
+    case SHOW_LIGHT:
+    case SHOW_PREVIEW: break;
+    case SHOW_COST: paint_costs(s, frame); break;
+    case SHOW_SAMPLES: paint_samples(s, film, frame); break;
+    default: paint_draft(s, draft, frame); break;
+    }
+}
+
+/* Numbers that are light are shown as such. */
+static void paint_preview(const struct show *s, struct frame *frame)
+{
+    size_t count = 3 * (size_t)frame->width * (size_t)frame->height;
+
+    for (size_t i = 0; i < count; i++)
+        frame->rgb[i] = (uint8_t)srgb_byte(s->numbers[i]);
+}
+
+static bool fail_memory(const struct frame *frame, struct error *err)
+{
+    return fail(err, "out of memory for the numbers of %dx%d pixels",
+                frame->width, frame->height);
+}
+
+/* The numbers of the frame's own pixels. */
+static bool find_numbers(struct show *s, const struct frame *frame,
+                         struct error *err)
+{
+    struct world w;
+
+    if (!show_need_tree(s, err) || !need_pool(s, err) ||
+        !find_world(s, &w, err))
+        return false;
+    if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
+        return fail_memory(frame, err);
+    w.settings.camera = show_camera(s, &w.settings.camera, frame);
+    w.settings.sample = kinds[s->kind].sample;
+    w.settings.features |= FEATURE_FIRST_HIT;
+    first_hits_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
+    return true;
+}
+
+bool show_picture(struct show *s, struct film *film, struct frame *frame,
+                  struct error *err)
+{
+    switch (s->kind) {
+    case SHOW_LIGHT: film_preview(film, NULL, show_develop(s), frame); break;
+    case SHOW_SAMPLES:
+        return paint_samples(s, film, frame) || fail_memory(frame, err);
+    case SHOW_COST: return paint_costs(s, frame) || fail_memory(frame, err);
+    default:
+        if (!find_numbers(s, frame, err))
+            return false;
+        if (s->kind == SHOW_PREVIEW)
+            paint_preview(s, frame);
+        else
+            paint_numbers(s, frame, frame->width, frame->height);
+        break;
+    }
+    return true;
+}
+
+void show_renew(struct show *s)
+{
+    bvh_free(&s->bvh);
+    s->has_bvh = false;
+    s->cost_width = 0;
+}
+
+void show_free(struct show *s)
+{
+    if (s->pool)
+        pool_destroy(s->pool);
+    bvh_free(&s->bvh);
+    free(s->numbers);
+    free(s->costs);
+    *s = (struct show){0};
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "light/guide_flux.h"
+
+#include <stdlib.h>
+
+#include "base/util.h"
+
+bool guide_part_init(struct guide_part *part, const struct guide_grid *g)
+{
+    size_t count = guide_cell_count(g);
+
+    part->flux = alloc_array(count * GUIDE_BINS, sizeof *part->flux);
+    part->rest = alloc_array(count, sizeof *part->rest);
+    return part->flux != NULL && part->rest != NULL;
+}
+
+double guide_part_total(const struct guide_part *part, uint32_t cell)
+{
+    double total = 0;
+
+    for (uint32_t i = 0; i < GUIDE_BINS; i++)
+        total += (double)part->flux[cell * (size_t)GUIDE_BINS + i];
+    return total;
+}
+
+void guide_part_free(struct guide_part *part)
+{
+    free(part->flux);
+    free(part->rest);
+    *part = (struct guide_part){NULL, NULL};
+}

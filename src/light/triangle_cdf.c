@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "light/triangle_cdf.h"
+
+#include <stdlib.h>
+
+#include "light/channels.h"
+#include "kernels/vec.h"
+
+bool tri_list_init(struct tri_list *l, uint32_t capacity)
+{
+    l->count = 0;
+    l->tris = alloc_array(capacity, sizeof *l->tris);
+    l->sums = alloc_array(capacity, sizeof *l->sums);
+    return l->tris != NULL && l->sums != NULL;
+}
+
+double tri_list_total(const struct tri_list *l)
+{
+    return l->count > 0 ? l->sums[l->count - 1] : 0;
+}
+
+void tri_list_add(struct tri_list *l, uint32_t tri, double weight)
+{
+    double total = tri_list_total(l);
+
+    l->tris[l->count] = tri;
+    l->sums[l->count++] = total + weight;
+}
+
+uint32_t tri_list_choose(const struct tri_list *l, float u)
+{
+    double sum = (double)u * tri_list_total(l);
+    uint32_t low = 0, high = l->count - 1;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+
+        if (l->sums[middle] <= sum)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return l->tris[low];
+}
+
+void tri_list_free(struct tri_list *l)
+{
+    free(l->tris);
+    free(l->sums);
+    *l = (struct tri_list){.tris = NULL};
+}
+
+void tri_corners(const struct world *w, uint32_t tri, struct vec3 p[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
+        p[k] = w->positions[w->tris[tri].v[k]];
+}
+
+double tri_area(const struct world *w, uint32_t tri)
+{
+    struct vec3 p[3];
+
+    tri_corners(w, tri, p);
+    return 0.5 *
+           (double)v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
+}
+
+double tri_power(const struct world *w, uint32_t tri)
+{
+    struct vec3 e = w->materials[w->tris[tri].material].emission;
+
+    return tri_area(w, tri) * channels_mean(e);
+}

@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: MIT
+/*
+ * A pass is cut into tasks: some points of its grid, for each of which the
+ * device makes the camera rays, traces the paths and adds them to its own
+ * film. Two tasks are in its queue, so that it never waits for the host. Rows
+ * that are complete are read back now and then, and all at the end of a pass.
+ */
+#include "opencl/backend_cl.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+
+#include "bvh/bvh.h"
+#include "opencl/cl_film.h"
+#include "opencl/cl_kernels.h"
+#include "opencl/cl_source.h"
+#include "opencl/cl_world.h"
+#include "kernels/start.h"
+
+#define TASK_PATHS_FIRST 8192
+#define TASK_PATHS_MIN   512
+#define TASK_PATHS_MAX   (1u << 20) /* what a tally can count */
+#define TASK_NS          6000000    /* to be aimed at */
+
+/* Between readings of finished rows. */
+#define READ_NS 25000000
+
+/* A task in the queue. */
+struct slot {
+    cl_mem starts;
+    cl_mem samples;
+    cl_mem tally;
+    uint32_t capacity; /* paths */
+    struct task task;
+    struct tally result;
+    struct cl_reading reading;
+    uint64_t begin_ns;
+    cl_event done; /* NULL: the slot is free */
+};
+
+struct backend_cl {
+    struct backend base;
+    struct cl_machine machine;
+    char *text;             /* of the kernels */
+    struct cl_kernels full; /* for the features of the request */
+    struct cl_kernels special;
+    const struct cl_kernels *kernels; /* that the picture is made with */
+    pthread_mutex_t lock;
+    struct cl_kernels next; /* guarded by lock: to be the special ones */
+    struct bvh bvh;
+    struct cl_world world;
+    cl_mem cancel;
+    const struct cancel *cancel_source;
+
+    struct cl_film film;
+    uint32_t x0, y0; /* of the film in the picture */
+    struct slot slots[2];
+    uint32_t task_paths;
+    uint64_t done_ns; /* when the last task ended */
+    uint64_t read_ns; /* when the last reading began */
+};
+
+/* What has been done of a pass. */
+struct progress {
+    const struct pass *pass;
+    uint32_t columns, rows; /* of its grid */
+    uint32_t next;          /* point that no task has yet */
+    uint32_t read;          /* point that no reading has yet */
+};
+
+static bool call_done(struct backend_cl *b, cl_int code, const char *call,
+                      struct error *err)
+{
+    return cl_machine_check(&b->machine, code, call, err);
+}
+
+static uint64_t smaller(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+/* ---- geometry, picture ---- */
+
+static bool cl_load(struct backend *base, const struct world *world,
+                    struct wide *tree, struct error *err)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+    struct pool *pool = pool_create(usable_threads(), err);
+    bool ok;
+
+    (void)tree;
+    cl_world_free(&b->world, &b->machine);
+    /* without threads this one builds */
+    ok = bvh_build(&b->bvh, world, pool, err);
+    pool_destroy(pool);
+    base->tree_bytes = bvh_bytes(&b->bvh);
+    return ok;
+}
+
+static void cl_unload(struct backend *base)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+
+    cl_world_free(&b->world, &b->machine);
+    bvh_free(&b->bvh);
+    base->tree_bytes = 0;
+}
+
+static void free_slot(struct backend_cl *b, struct slot *s)
+{
+    cl_machine_drop(&b->machine, &s->starts);
+    cl_machine_drop(&b->machine, &s->samples);
+    cl_machine_drop(&b->machine, &s->tally);
+    cl_reading_free(&s->reading);
+    *s = (struct slot){0};
+}
+
+static bool clear_film(struct backend_cl *b, size_t pixel_count,
+                       struct error *err)
+{
+    uint64_t count = pixel_count;
+    cl_kernel clear = b->kernels->clear;
+
+    return call_done(b,
+                     b->machine.api->SetKernelArg(clear, 0, sizeof count,
+                                                  &count),
+                     "clSetKernelArg", err) &&
+           cl_machine_set(&b->machine, clear, 1,
+                          (cl_mem[]){b->film.sums, b->film.counts}, 2, err) &&
+           cl_machine_enqueue(&b->machine, clear, pixel_count, err);
+}
+
+/* The special kernels if they can do all that the world needs. */
+static void choose_kernels(struct backend_cl *b, uint32_t features)
+{
+    pthread_mutex_lock(&b->lock);
+    if (b->next.program != NULL) {
+        cl_kernels_free(&b->special, &b->machine);
+        b->special = b->next;
+        b->next = (struct cl_kernels){0};
+    }
+    pthread_mutex_unlock(&b->lock);
+    b->kernels =
+        b->special.program != NULL && (features & ~b->special.features) == 0
+            ? &b->special
+            : &b->full;
+}
+
+static bool cl_begin(struct backend *base, const struct world *world,
+                     struct film *film, int x0, int y0, struct error *err)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+    size_t pixel_count = (size_t)film->width * (size_t)film->height;
+
+    choose_kernels(b, world->settings.features);
+    b->x0 = (uint32_t)x0;
+    b->y0 = (uint32_t)y0;
+    return cl_world_update(&b->world, &b->machine, world, &b->bvh, err) &&
+           cl_film_begin(&b->film, &b->machine, film, err) &&
+           cl_reading_begin(&b->slots[0].reading, &b->film, err) &&
+           cl_reading_begin(&b->slots[1].reading, &b->film, err) &&
+           clear_film(b, pixel_count, err);
+}
+
+/* ---- tasks ---- */
+
+static bool make_room(struct backend_cl *b, struct slot *s, uint32_t paths,
+                      struct error *err)
+{
+    const struct cl_machine *m = &b->machine;
+
+    if (s->tally == NULL)
+        s->tally = cl_machine_buffer(m, NULL, sizeof s->result, false, err);
+    if (s->tally == NULL)
+        return false;
+    if (paths <= s->capacity)
+        return true;
+    cl_machine_drop(m, &s->starts);
+    cl_machine_drop(m, &s->samples);
+    s->capacity = 0;
+    s->starts = cl_machine_buffer(m, NULL, paths * sizeof(struct path_start),
+                                  false, err);
+    if (s->starts != NULL)
+        s->samples =
+            cl_machine_buffer(m, NULL, paths * sizeof(struct path_sample),
+                              false, err);
+    if (s->samples == NULL)
+        return false;
+    s->capacity = paths;
+    return true;
+}
+
+/* The three kernels of a task. */
+static bool enqueue_task(struct backend_cl *b, struct slot *s,
+                         struct error *err)
+{
+    const struct cl_kernels *k = b->kernels;
+    const cl_kernel kernels[] = {k->generate, k->trace, k->add};
+    uint32_t paths = s->task.count * s->task.samples;
+    const struct tally none = {0};
+
+    for (int i = 0; i < 3; i++)
+        if (!call_done(b,
+                       b->machine.api->SetKernelArg(kernels[i], 0,
+                                                    sizeof s->task, &s->task),
+                       "clSetKernelArg", err))
+            return false;
+    return call_done(b,
+                     b->machine.api->EnqueueFillBuffer(
+                         b->machine.queue, s->tally, &none.samples,
+                         sizeof none.samples, 0, sizeof none, 0, NULL, NULL),
+                     "clEnqueueFillBuffer", err) &&
+           cl_machine_set(&b->machine, k->generate, 1,
+                          (cl_mem[]){b->cancel,
+                                     b->world.buffers[CL_ARRAY_SETTINGS],
+                                     b->film.counts, s->starts},
+                          4, err) &&
+           cl_machine_set(&b->machine, k->trace, 1,
+                          (cl_mem[]){b->cancel, s->starts, s->samples}, 3,
+                          err) &&
+           cl_machine_set(&b->machine, k->trace, 4, b->world.buffers,
+                          CL_ARRAY_COUNT, err) &&
+           cl_machine_set(&b->machine, k->add, 1,
+                          (cl_mem[]){s->samples, b->film.sums, b->film.counts,
+                                     s->tally},
+                          4, err) &&
+           cl_machine_enqueue(&b->machine, k->generate, paths, err) &&
+           cl_machine_enqueue(&b->machine, k->trace, paths, err) &&
+           cl_machine_enqueue(&b->machine, k->add, s->task.count, err);
+}
+
+/* Puts the reading of what the queued tasks compute behind them, by whole
+ * rows: the last one may be read again. */
+static bool enqueue_reading(struct backend_cl *b, struct progress *p,
+                            struct cl_reading *r, struct error *err)
+{
+    uint32_t stride = (uint32_t)p->pass->stride;
+    uint32_t end = (p->next + p->columns - 1) / p->columns;
+
+    r->first = p->read / p->columns;
+    r->count = (uint32_t)smaller(end - r->first, b->film.reading_rows);
+    p->read = (uint32_t)smaller(p->next, (r->first + r->count) * p->columns);
+    b->read_ns = clock_ns();
+    return cl_reading_enqueue(r, &b->film, &b->machine, stride, err);
+}
+
+static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
+{
+    return !cl_film_is_shared(&b->film) && now_ns >= b->read_ns + READ_NS;
+}
+
+/* Gives the device the next points of the pass. */
+static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
+                       struct error *err)
+{
+    uint32_t samples = p->pass->samples;
+    uint32_t points = b->task_paths / samples;
+    uint32_t left = p->columns * p->rows - p->next;
+    const struct cl_api *api = b->machine.api;
+
+    s->task = (struct task){.target = p->pass->target,
+                            .samples = samples,
+                            .first = p->next,
+                            .count = (uint32_t)smaller(points, left),
+                            .columns = p->columns,
+                            .stride = (uint32_t)p->pass->stride,
+                            .width = (uint32_t)b->film.film->width,
+                            .x0 = b->x0,
+                            .y0 = b->y0};
+    s->begin_ns = clock_ns();
+    s->reading.count = 0;
+    p->next += s->task.count;
+    return make_room(b, s, s->task.count * samples, err) &&
+           enqueue_task(b, s, err) &&
+           (!is_reading_due(b, s->begin_ns) ||
+            enqueue_reading(b, p, &s->reading, err)) &&
+           call_done(b,
+                     api->EnqueueReadBuffer(b->machine.queue, s->tally,
+                                            CL_FALSE, 0, sizeof s->result,
+                                            &s->result, 0, NULL, &s->done),
+                     "clEnqueueReadBuffer", err) &&
+           call_done(b, api->Flush(b->machine.queue), "clFlush", err);
+}
+
+/* The next tasks take about TASK_NS. */
+static void adapt(struct backend_cl *b, const struct slot *s)
+{
+    uint32_t paths = s->task.count * s->task.samples;
+    uint64_t now_ns = clock_ns();
+    uint64_t begin_ns = s->begin_ns > b->done_ns ? s->begin_ns : b->done_ns;
+    double wanted = (double)TASK_NS / (double)(now_ns - begin_ns + 1);
+
+    b->done_ns = now_ns;
+    if (paths < b->task_paths / 2)
+        return; /* the end of a pass says little */
+    wanted = wanted < 0.5 ? 0.5 : wanted > 2 ? 2 : wanted;
+    wanted *= b->task_paths;
+    b->task_paths = wanted < TASK_PATHS_MIN   ? TASK_PATHS_MIN
+                    : wanted > TASK_PATHS_MAX ? TASK_PATHS_MAX
+                                              : (uint32_t)wanted;
+}
+
+static bool finish_task(struct backend_cl *b, struct slot *s,
+                        const struct cancel *cancel, struct error *err)
+{
+    if (!cl_machine_wait(&b->machine, &s->done, err))
+        return false;
+    film_count_more(b->film.film, &s->result);
+    if (cl_film_is_shared(&b->film))
+        cl_film_store_points(&b->film, &s->task);
+    else
+        cl_reading_store(&s->reading, &b->film, s->task.stride);
+    if (!cancel_requested(cancel))
+        adapt(b, s);
+    return true;
+}
+
+/* Reads what no task had room or reason for. */
+static bool read_rest(struct backend_cl *b, struct progress *p,
+                      struct error *err)
+{
+    struct cl_reading *r = &b->slots[0].reading;
+
+    while (!cl_film_is_shared(&b->film) && p->read < p->next) {
+        if (!enqueue_reading(b, p, r, err) ||
+            !call_done(b, b->machine.api->Finish(b->machine.queue), "clFinish",
+                       err))
+            return false;
+        cl_reading_store(r, &b->film, (uint32_t)p->pass->stride);
+    }
+    return true;
+}
+
+/* On a CPU the kernels look at the host's own word. Elsewhere they would not
+ * see it change in time, or worse, see it late: there it stays 0. */
+static bool share_cancel(struct backend_cl *b, const struct cancel *cancel,
+                         struct error *err)
+{
+    static const uint32_t never = 0;
+    bool is_cpu = b->machine.device->is_cpu;
+
+    if (b->cancel_source == cancel)
+        return true;
+    cl_machine_drop(&b->machine, &b->cancel);
+    b->cancel =
+        cl_machine_buffer(&b->machine, is_cpu ? (const void *)cancel : &never,
+                          sizeof never, true, err);
+    b->cancel_source = b->cancel != NULL ? cancel : NULL;
+    return b->cancel != NULL;
+}
+
+/* Nothing of a failed pass may write to our memory later. */
+static void drain(struct backend_cl *b)
+{
+    b->machine.api->Finish(b->machine.queue);
+    for (int i = 0; i < 2; i++) {
+        if (b->slots[i].done != NULL)
+            b->machine.api->ReleaseEvent(b->slots[i].done);
+        b->slots[i].done = NULL;
+    }
+}
+
+static bool run_tasks(struct backend_cl *b, struct progress *p,
+                      const struct cancel *cancel, struct error *err)
+{
+    for (int turn = 0;; turn = 1 - turn) {
+        struct slot *s = &b->slots[turn];
+        bool has_more;
+
+        if (s->done != NULL && !finish_task(b, s, cancel, err))
+            return false;
+        has_more = !cancel_requested(cancel) && p->next < p->columns * p->rows;
+        if (has_more && !start_task(b, p, s, err))
+            return false;
+        if (!has_more && b->slots[1 - turn].done == NULL)
+            return read_rest(b, p, err);
+    }
+}
+
+static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
+                                const struct cancel *cancel, struct error *err)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+    const struct film *film = b->film.film;
+    uint32_t stride = (uint32_t)pass->stride;
+    struct progress p = {
+        .pass = pass,
+        .columns = ((uint32_t)film->width + stride - 1) / stride,
+        .rows = ((uint32_t)film->height + stride - 1) / stride,
+    };
+
+    b->done_ns = 0;
+    if (!share_cancel(b, cancel, err) || !run_tasks(b, &p, cancel, err)) {
+        drain(b);
+        return PASS_FAILED;
+    }
+    return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
+}
+
+/* ---- life ---- */
+
+static void cl_destroy(struct backend *base)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+
+    for (int i = 0; i < 2; i++)
+        free_slot(b, &b->slots[i]);
+    cl_film_free(&b->film, &b->machine);
+    cl_unload(base);
+    cl_machine_drop(&b->machine, &b->cancel);
+    cl_kernels_free(&b->next, &b->machine);
+    cl_kernels_free(&b->special, &b->machine);
+    cl_kernels_free(&b->full, &b->machine);
+    cl_machine_close(&b->machine);
+    pthread_mutex_destroy(&b->lock);
+    free(b->text);
+    free(b);
+}
+
+bool backend_cl_specialise(struct backend *base, uint32_t features, char **log,
+                           struct error *err)
+{
+    struct backend_cl *b = (struct backend_cl *)base;
+    struct cl_kernels kernels;
+
+    if (!cl_kernels_build(&kernels, &b->machine, b->text, features, log, err))
+        return false;
+    pthread_mutex_lock(&b->lock);
+    cl_kernels_free(&b->next, &b->machine);
+    b->next = kernels;
+    pthread_mutex_unlock(&b->lock);
+    return true;
+}
+
+static bool open_machine(struct cl_machine *m, const struct cl_request *r,
+                         struct error *err)
+{
+    if (!cl_machine_open(m, r->device, err))
+        return false;
+    if (!r->needs_gpu || m->device->is_gpu)
+        return true;
+    fail(err, "OpenCL: found no GPU, but %s", m->device->name);
+    cl_machine_close(m);
+    return false;
+}
+
+struct backend *backend_cl_create(const struct cl_request *r, char **log,
+                                  struct error *err)
+{
+    struct backend_cl *b = xcalloc(1, sizeof *b);
+
+    *log = NULL;
+    if (!open_machine(&b->machine, r, err)) {
+        free(b);
+        return NULL;
+    }
+    pthread_mutex_init(&b->lock, NULL);
+    b->task_paths = TASK_PATHS_FIRST;
+    b->base.name = "opencl";
+    b->base.device = b->machine.device->name;
+    b->base.driver = b->machine.device->driver_version;
+    b->base.thread_count = (int)b->machine.device->compute_units;
+    b->base.load = cl_load;
+    b->base.unload = cl_unload;
+    b->base.begin = cl_begin;
+    b->base.pass = cl_pass;
+    b->base.destroy = cl_destroy;
+    b->text = cl_source_text(r->kernels_path, err);
+    if (b->text != NULL &&
+        cl_kernels_build(&b->full, &b->machine, b->text, r->features, log, err))
+        return &b->base;
+    cl_destroy(&b->base);
+    return NULL;
+}

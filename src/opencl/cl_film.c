@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "opencl/cl_film.h"
+
+#include <stdlib.h>
+
+#include "base/util.h"
+
+/* How much is read at once. */
+#define READ_BYTES (4u << 20)
+
+#define PIXEL_SUMS_BYTES (3 * sizeof(struct sum))
+
+/* ---- the picture there ---- */
+
+void cl_film_free(struct cl_film *f, const struct cl_machine *m)
+{
+    cl_machine_drop(m, &f->sums);
+    cl_machine_drop(m, &f->counts);
+    free(f->host_sums);
+    free(f->host_counts);
+    f->host_sums = NULL;
+    f->host_counts = NULL;
+    f->pixel_capacity = 0;
+}
+
+static bool make_film(struct cl_film *f, const struct cl_machine *m,
+                      size_t pixel_count, struct error *err)
+{
+    cl_film_free(f, m);
+    if (m->device->is_cpu) {
+        f->host_sums = alloc_array(pixel_count, PIXEL_SUMS_BYTES);
+        f->host_counts = alloc_array(pixel_count, sizeof *f->host_counts);
+        if (f->host_sums == NULL || f->host_counts == NULL)
+            return fail(err, "out of memory for a picture of %zu pixels",
+                        pixel_count);
+    }
+    f->sums = cl_machine_buffer(m, f->host_sums, pixel_count * PIXEL_SUMS_BYTES,
+                                true, err);
+    if (f->sums != NULL)
+        f->counts =
+            cl_machine_buffer(m, f->host_counts, pixel_count * sizeof(uint64_t),
+                              true, err);
+    if (f->counts == NULL)
+        return false;
+    f->pixel_capacity = pixel_count;
+    return true;
+}
+
+bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
+                   struct film *film, struct error *err)
+{
+    size_t pixel_count = (size_t)film->width * (size_t)film->height;
+    size_t row_bytes =
+        (size_t)film->width * (PIXEL_SUMS_BYTES + sizeof(uint64_t));
+
+    if (pixel_count > f->pixel_capacity && !make_film(f, m, pixel_count, err))
+        return false;
+    f->film = film;
+    f->reading_rows = (uint32_t)(READ_BYTES / row_bytes) + 1;
+    return true;
+}
+
+void cl_film_store_points(struct cl_film *f, const struct task *t)
+{
+    uint32_t end = t->first + t->count;
+
+    for (uint32_t point = t->first; point < end;) {
+        uint32_t row = point / t->columns;
+        uint32_t next_row = (row + 1) * t->columns;
+        uint32_t row_end = end < next_row ? end : next_row;
+        size_t at = (size_t)row * t->stride * t->width;
+
+        film_store_row(f->film, (int)(point % t->columns * t->stride),
+                       (int)(row * t->stride), (int)t->stride,
+                       (int)(row_end - point), f->host_sums + 3 * at,
+                       f->host_counts + at);
+        point = row_end;
+    }
+}
+
+/* ---- readings ---- */
+
+bool cl_reading_begin(struct cl_reading *r, const struct cl_film *f,
+                      struct error *err)
+{
+    size_t pixels = (size_t)f->film->width * f->reading_rows;
+
+    if (cl_film_is_shared(f))
+        return true;
+    cl_reading_free(r);
+    r->sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
+    r->counts = alloc_array(pixels, sizeof *r->counts);
+    if (r->sums == NULL || r->counts == NULL)
+        return fail(err, "out of memory for %u rows of the picture",
+                    f->reading_rows);
+    return true;
+}
+
+void cl_reading_free(struct cl_reading *r)
+{
+    free(r->sums);
+    free(r->counts);
+    *r = (struct cl_reading){0};
+}
+
+/* Reads one of the device's buffers, some whole rows a stride apart. */
+static bool read_rows(const struct cl_reading *r, const struct cl_film *f,
+                      const struct cl_machine *m, cl_mem buffer, void *to,
+                      size_t pixel_bytes, uint32_t stride, struct error *err)
+{
+    size_t row_bytes = (size_t)f->film->width * pixel_bytes;
+    const size_t from[3] = {0, r->first, 0};
+    const size_t origin[3] = {0, 0, 0};
+    const size_t region[3] = {row_bytes, r->count, 1};
+
+    return cl_machine_check(
+        m,
+        m->api->EnqueueReadBufferRect(m->queue, buffer, CL_FALSE, from, origin,
+                                      region, row_bytes * stride, 0, row_bytes,
+                                      0, to, 0, NULL, NULL),
+        "clEnqueueReadBufferRect", err);
+}
+
+bool cl_reading_enqueue(struct cl_reading *r, const struct cl_film *f,
+                        const struct cl_machine *m, uint32_t stride,
+                        struct error *err)
+{
+    return read_rows(r, f, m, f->sums, r->sums, PIXEL_SUMS_BYTES, stride,
+                     err) &&
+           read_rows(r, f, m, f->counts, r->counts, sizeof *r->counts, stride,
+                     err);
+}
+
+void cl_reading_store(struct cl_reading *r, struct cl_film *f, uint32_t stride)
+{
+    size_t width = (size_t)f->film->width;
+
+    for (uint32_t i = 0; i < r->count; i++)
+        film_store_row(f->film, 0, (int)((r->first + i) * stride), 1,
+                       f->film->width, r->sums + 3 * width * i,
+                       r->counts + width * i);
+    r->count = 0;
+}

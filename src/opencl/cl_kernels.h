@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/*
+ * cl_kernels.h - the kernels, built for a device and for some features
+ *
+ * Units:     none
+ * Ownership: cl_kernels_free() releases; a zeroed struct has none; the log is
+ *            the caller's to free
+ * Threads:   one at a time
+ * Errors:    a text that does not compile: its first message, and the log
+ */
+#ifndef GLIM_CL_KERNELS_H
+#define GLIM_CL_KERNELS_H
+
+#include "opencl/cl_machine.h"
+
+struct cl_kernels {
+    cl_program program;
+    cl_kernel clear;
+    cl_kernel generate;
+    cl_kernel trace;
+    cl_kernel add;
+    uint32_t features;
+};
+
+/* Takes seconds where the driver has no build of this text yet. *log is what
+ * the compiler said if it failed, else NULL. */
+bool cl_kernels_build(struct cl_kernels *k, const struct cl_machine *m,
+                      const char *text, uint32_t features, char **log,
+                      struct error *err);
+
+void cl_kernels_free(struct cl_kernels *k, const struct cl_machine *m);
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "opencl/cl_source.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/name_table.h"
+
+/* How the kernels are named in #include and in messages, wherever they are. */
+#define PREFIX "kernels/"
+
+static const char *const entries[] = {
+    PREFIX "ray_generator.cl",
+    PREFIX "pathtracer.cl",
+    PREFIX "compositor.cl",
+    PREFIX "clear_buffers.cl",
+};
+
+struct splice {
+    const char *folder; /* NULL: within the program */
+    FILE *out;
+    struct names seen;
+};
+
+static char *read_within(const char *name, struct error *err)
+{
+    for (const struct cl_source_file *f = cl_source_files; f->name; f++) {
+        if (strcmp(f->name, name) == 0)
+            return xstrdup(f->text);
+    }
+    fail(err, "found no '%s' within the program", name);
+    return NULL;
+}
+
+/* The text of a file, for free(), or NULL. */
+static char *read_kernel(const char *folder, const char *name,
+                         struct error *err)
+{
+    if (!folder)
+        return read_within(name, err);
+
+    char *path = xformat("%s/%s", folder, name + strlen(PREFIX));
+    char *text = NULL;
+    size_t size_bytes;
+
+    file_read(path, &text, &size_bytes, err);
+    free(path);
+    return text;
+}
+
+/* The name in a line `#include "kernels/x.h"`, for free(), or NULL. */
+static char *included_name(const char *line)
+{
+    static const char *const parts[] = {"#", "include", "\""};
+
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        line += strspn(line, " \t");
+        if (strncmp(line, parts[i], strlen(parts[i])) != 0)
+            return NULL;
+        line += strlen(parts[i]);
+    }
+
+    size_t length = strcspn(line, "\"\n");
+    if (line[length] != '"' || strncmp(line, PREFIX, strlen(PREFIX)) != 0)
+        return NULL;
+    return xformat("%.*s", (int)length, line);
+}
+
+static bool splice_include(struct splice *s, const char *from, int line,
+                           const char *name, struct error *err);
+
+/* Writes the lines of the file `name`, each as one line, so that numbers
+ * stay. */
+static bool splice_text(struct splice *s, const char *name, const char *text,
+                        struct error *err)
+{
+    bool ok = true;
+
+    fprintf(s->out, "#line 1 \"%s\"\n", name);
+    for (int line = 1; ok && *text != '\0'; line++) {
+        char *included = included_name(text);
+        size_t length = strcspn(text, "\n");
+
+        if (included)
+            ok = splice_include(s, name, line, included, err);
+        else
+            fprintf(s->out, "%.*s\n", (int)length, text);
+        free(included);
+        text += length + (text[length] == '\n');
+    }
+    return ok;
+}
+
+/* Line `line` of the file `from` wants the file `name`. */
+static bool splice_include(struct splice *s, const char *from, int line,
+                           const char *name, struct error *err)
+{
+    struct error reason;
+
+    if (names_find(&s->seen, name) != NO_NAME) {
+        putc('\n', s->out);
+        return true;
+    }
+    if (names_add(&s->seen, name) == NO_NAME)
+        return fail(err, "out of memory for the kernels");
+
+    char *text = read_kernel(s->folder, name, &reason);
+    if (!text)
+        return fail(err, "%s:%d: %s", from, line, reason.text);
+    bool ok = splice_text(s, name, text, err);
+    free(text);
+    fprintf(s->out, "#line %d \"%s\"\n", line + 1, from);
+    return ok;
+}
+
+static bool splice_entries(struct splice *s, struct error *err)
+{
+    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
+        char *text = read_kernel(s->folder, entries[i], err);
+
+        if (!text)
+            return false;
+        bool ok = splice_text(s, entries[i], text, err);
+        free(text);
+        if (!ok)
+            return false;
+    }
+    return true;
+}
+
+char *cl_source_text(const char *folder, struct error *err)
+{
+    struct splice s = {.folder = folder};
+    char *text = NULL;
+    size_t size_bytes;
+
+    s.out = open_memstream(&text, &size_bytes);
+    if (!s.out) {
+        fail(err, "out of memory for the kernels");
+        return NULL;
+    }
+    bool ok = splice_entries(&s, err);
+    bool is_complete = !ferror(s.out);
+    if ((fclose(s.out) != 0 || !is_complete) && ok)
+        ok = fail(err, "out of memory for the kernels");
+    names_free(&s.seen);
+    if (ok)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* FNV-1a with 64 bits: the texts are ours, not an adversary's. */
+uint64_t cl_source_hash(const char *text)
+{
+    uint64_t h = 0xcbf29ce484222325u;
+
+    for (; *text != '\0'; text++)
+        h = (h ^ (unsigned char)*text) * 0x100000001b3u;
+    return h;
+}

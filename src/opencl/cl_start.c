@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "opencl/cl_start.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "opencl/cl_probe.h"
+#include "base/event_fd.h"
+#include "base/thread.h"
+
+struct cl_start {
+    struct cl_request request;
+    struct backend *old; /* to be specialised; NULL: a new one */
+    pthread_t thread;
+    int event_fd;
+    atomic_bool is_unwanted;
+    /* read when the thread has ended */
+    struct backend *backend;
+    char *verdict;
+    char *log;
+    struct error error;
+};
+
+/* Moves the texts of the probe to where the caller gets them. */
+static void keep_texts(struct cl_start *s, struct cl_probe *probe)
+{
+    free(s->verdict);
+    free(s->log);
+    s->verdict = probe->verdict;
+    s->log = probe->log;
+    probe->verdict = NULL;
+    probe->log = NULL;
+}
+
+static bool try_copy(struct cl_start *s, struct cl_probe *probe)
+{
+    bool ok = cl_probe_run(probe, &s->request, &s->is_unwanted, &s->error);
+
+    keep_texts(s, probe);
+    return ok;
+}
+
+static bool create(struct cl_start *s)
+{
+    char *log;
+
+    if (s->old == NULL)
+        s->backend = backend_cl_create(&s->request, &log, &s->error);
+    else if (backend_cl_specialise(s->old, s->request.features, &log,
+                                   &s->error))
+        s->backend = s->old;
+    if (log != NULL) {
+        free(s->log);
+        s->log = log;
+    }
+    return s->backend != NULL;
+}
+
+/* Another driver than the one that was tried may be worse. */
+static bool is_tried(const struct cl_start *s, const struct cl_probe *probe)
+{
+    char *device = cl_probe_device(s->backend);
+    bool ok = strcmp(device, probe->device) == 0;
+
+    free(device);
+    return ok;
+}
+
+static void drop_backend(struct cl_start *s)
+{
+    if (s->backend != NULL && s->backend != s->old)
+        s->backend->destroy(s->backend);
+    s->backend = NULL;
+}
+
+static void bring_up(struct cl_start *s)
+{
+    struct cl_probe probe = {0};
+    bool is_known = cl_probe_recall(&probe, &s->request);
+
+    if (is_known)
+        keep_texts(s, &probe);
+    if ((is_known || try_copy(s, &probe)) && create(s) && is_known &&
+        !is_tried(s, &probe)) {
+        cl_probe_free(&probe);
+        if (!try_copy(s, &probe))
+            drop_backend(s);
+    }
+    cl_probe_free(&probe);
+}
+
+static void *start_main(void *argument)
+{
+    struct cl_start *s = argument;
+
+    bring_up(s);
+    event_fd_set(s->event_fd);
+    return NULL;
+}
+
+struct cl_start *cl_start_begin(const struct cl_request *request,
+                                struct backend *backend, struct error *err)
+{
+    struct cl_start *s = xcalloc(1, sizeof *s);
+    int reason;
+
+    s->request = *request;
+    s->old = backend;
+    s->event_fd = event_fd_open("OpenCL", err);
+    if (s->event_fd < 0) {
+        free(s);
+        return NULL;
+    }
+    reason = thread_start(&s->thread, start_main, s);
+    if (reason != 0) {
+        fail(err, "OpenCL: no thread: %s", strerror(reason));
+        close(s->event_fd);
+        free(s);
+        return NULL;
+    }
+    return s;
+}
+
+int cl_start_event_fd(const struct cl_start *s)
+{
+    return s->event_fd;
+}
+
+/* Behind the end of the thread. */
+static struct backend *finish(struct cl_start *s, char **verdict, char **log,
+                              struct error *err)
+{
+    struct backend *backend = s->backend;
+
+    *verdict = s->verdict;
+    *log = s->log;
+    if (backend == NULL)
+        *err = s->error;
+    close(s->event_fd);
+    free(s);
+    return backend;
+}
+
+struct backend *cl_start_end(struct cl_start *s, char **verdict, char **log,
+                             struct error *err)
+{
+    pthread_join(s->thread, NULL);
+    return finish(s, verdict, log, err);
+}
+
+void cl_start_abandon(struct cl_start *s)
+{
+    struct error ignored;
+    char *verdict, *log;
+
+    atomic_store(&s->is_unwanted, true);
+    pthread_join(s->thread, NULL);
+    drop_backend(s);
+    finish(s, &verdict, &log, &ignored);
+    free(verdict);
+    free(log);
+}

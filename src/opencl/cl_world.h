@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/*
+ * cl_world.h - the arrays of a world on an OpenCL device
+ *
+ * Units:     none
+ * Ownership: cl_world_free() releases; a zeroed struct has nothing uploaded.
+ *            A device that is a CPU reads the host's arrays themselves
+ * Threads:   one at a time
+ * Errors:    an array that is larger than the device takes
+ */
+#ifndef GLIM_CL_WORLD_H
+#define GLIM_CL_WORLD_H
+
+#include "bvh/bvh.h"
+#include "opencl/cl_machine.h"
+
+/* In the order of trace_paths()'s arguments. */
+enum cl_array {
+    CL_ARRAY_SETTINGS,
+    CL_ARRAY_POSITIONS,
+    CL_ARRAY_NORMALS,
+    CL_ARRAY_UVS,
+    CL_ARRAY_TRIS,
+    CL_ARRAY_MATERIALS,
+    CL_ARRAY_TEXTURES,
+    CL_ARRAY_TEXELS,
+    CL_ARRAY_LINEAR_OF_SRGB,
+    CL_ARRAY_SKY_TEXELS,
+    CL_ARRAY_NODES,
+    CL_ARRAY_LEAF_TRIS,
+    CL_ARRAY_LIGHTS,
+    CL_ARRAY_TRI_LIGHTS,
+    CL_ARRAY_LIGHT_NODES,
+    CL_ARRAY_SKY_SUMS,
+    CL_ARRAY_GUIDE_CELLS,
+    CL_ARRAY_GUIDE_SUMS,
+    CL_ARRAY_COUNT
+};
+
+struct cl_world {
+    cl_mem buffers[CL_ARRAY_COUNT];
+    const void *sources[CL_ARRAY_COUNT]; /* where the contents came from */
+    size_t sizes_bytes[CL_ARRAY_COUNT];
+    uint32_t upload_count; /* since the beginning */
+};
+
+/* Uploads the settings and what has another address or size than before. */
+bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
+                     const struct world *world, const struct bvh *bvh,
+                     struct error *err);
+
+void cl_world_free(struct cl_world *c, const struct cl_machine *m);
+
+#endif

@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: MIT
+#include "picture/film.h"
+
+#include <math.h>
+#include <stdalign.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/cgroup_quota.h"
+
+#include "picture/area.h"
+#include "base/simd4.h"
+
+#include "kernels/tone.h"
+#include "kernels/vec.h"
+
+/* Pixels of a row that are worked on at once, in memory on the stack. */
+#define RUN 256
+
+static void row_lock(struct film *f, int y)
+{
+    pthread_mutex_lock(&f->locks[y % FILM_LOCKS]);
+}
+
+static void row_unlock(struct film *f, int y)
+{
+    pthread_mutex_unlock(&f->locks[y % FILM_LOCKS]);
+}
+
+static size_t pixel_index(const struct film *f, int x, int y)
+{
+    return (size_t)y * (size_t)f->width + (size_t)x;
+}
+
+bool film_init(struct film *f, int width, int height, struct error *err)
+{
+    size_t pixels = (size_t)width * (size_t)height;
+    size_t size_bytes = pixels * (3 * sizeof *f->sums + sizeof *f->counts);
+    struct memory_quota memory = quota_memory("");
+
+    *f = (struct film){.width = width, .height = height};
+    /* the system would promise more than it has, and kill us later */
+    if (size_bytes < memory.size_bytes) {
+        f->sums = alloc_array(pixels, 3 * sizeof *f->sums);
+        f->counts = alloc_array(pixels, sizeof *f->counts);
+        f->has_row = alloc_array((size_t)height, sizeof *f->has_row);
+    }
+    if (f->sums == NULL || f->counts == NULL || f->has_row == NULL) {
+        free(f->sums);
+        free(f->counts);
+        free(f->has_row);
+        *f = (struct film){0};
+        return fail(
+            err,
+            "a picture of %dx%d pixels needs %.1f GiB of memory, %s%.1f "
+            "GiB %s",
+            width, height, (double)size_bytes / (1 << 30),
+            size_bytes < memory.size_bytes ? "more than is left of the "
+                                           : "found ",
+            (double)memory.size_bytes / (1 << 30), memory.place);
+    }
+    for (int i = 0; i < FILM_LOCKS; i++)
+        pthread_mutex_init(&f->locks[i], NULL);
+    return true;
+}
+
+/* Only the counts: a sum is reset by the first sample that is added to it. And
+ * only rows that have some: while the camera moves, 60 times a second, these
+ * are few. */
+void film_clear(struct film *f)
+{
+    for (int y = 0; y < f->height; y++) {
+        row_lock(f, y);
+        if (f->has_row[y])
+            memset(f->counts + pixel_index(f, 0, y), 0,
+                   (size_t)f->width * sizeof *f->counts);
+        f->has_row[y] = false;
+        row_unlock(f, y);
+    }
+    atomic_store(&f->samples, 0);
+    atomic_store(&f->rays, 0);
+    atomic_store(&f->non_finite, 0);
+    atomic_store(&f->saturated, 0);
+    atomic_store(&f->cut_paths, 0);
+}
+
+void film_free(struct film *f)
+{
+    if (f->sums != NULL)
+        for (int i = 0; i < FILM_LOCKS; i++)
+            pthread_mutex_destroy(&f->locks[i]);
+    free(f->sums);
+    free(f->counts);
+    free(f->has_row);
+    *f = (struct film){0};
+}
+
+uint64_t film_count(const struct film *f, int x, int y)
+{
+    size_t at = pixel_index(f, x, y);
+
+    /* who asks will add: a whole film is in no cache, and samples take long
+     * enough for it to come */
+    __builtin_prefetch(f->sums + 3 * at);
+    __builtin_prefetch(f->sums + 3 * at + 2);
+    return f->counts[at];
+}
+
+void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
+                  const struct path_sample *samples, const int *counts)
+{
+    struct tally tally = {0};
+
+    row_lock(f, y);
+    f->has_row[y] = true;
+    for (int i = 0; i < pixel_count; i++) {
+        size_t at = pixel_index(f, x + i * stride, y);
+        struct sum *sums = f->sums + 3 * at;
+
+        if (counts[i] > 0 && f->counts[at] == 0)
+            memset(sums, 0, 3 * sizeof *sums);
+        for (int s = 0; s < counts[i]; s++)
+            pixel_add(sums, *samples++, &tally);
+        f->counts[at] += (uint64_t)counts[i];
+    }
+    row_unlock(f, y);
+    film_count_more(f, &tally);
+}
+
+void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
+                    const struct sum *sums, const uint64_t *counts)
+{
+    row_lock(f, y);
+    f->has_row[y] = true;
+    for (int i = 0; i < pixel_count; i++) {
+        int px = x + i * stride;
+        size_t from = (size_t)px;
+        size_t at = pixel_index(f, px, y);
+
+        if (f->counts[at] == counts[from])
+            continue;
+        memcpy(f->sums + 3 * at, sums + 3 * from, 3 * sizeof *sums);
+        f->counts[at] = counts[from];
+    }
+    row_unlock(f, y);
+}
+
+void film_count_more(struct film *f, const struct tally *tally)
+{
+    atomic_fetch_add(&f->samples, tally->samples);
+    atomic_fetch_add(&f->rays, tally->rays);
+    if (tally->non_finite != 0)
+        atomic_fetch_add(&f->non_finite, tally->non_finite);
+    if (tally->saturated != 0)
+        atomic_fetch_add(&f->saturated, tally->saturated);
+    if (tally->cut_paths != 0)
+        atomic_fetch_add(&f->cut_paths, tally->cut_paths);
+}
+
+static inline f4 mean_of(const struct sum *sums, uint64_t count)
+{
+    f4 all = f4_of(sum_float(sums[0]), sum_float(sums[1]), sum_float(sums[2]));
+
+    return f4_div(all, f4_all((float)count));
+}
+
+/* A pixel without samples: the mean of the nearest coarser grid point that has
+ * some, or black. */
+static f4 coarse_mean(struct film *f, int x, int y)
+{
+    f4 rgb = f4_all(0.0f);
+    bool found = false;
+
+    for (int stride = 2; !found && stride <= FILM_STRIDE_MAX; stride *= 2) {
+        int cx = x - x % stride;
+        int cy = y - y % stride;
+        size_t at = pixel_index(f, cx, cy);
+
+        row_lock(f, cy);
+        found = f->counts[at] != 0;
+        if (found)
+            rgb = mean_of(f->sums + 3 * at, f->counts[at]);
+        row_unlock(f, cy);
+    }
+    return rgb;
+}
+
+static void put(f4 rgb, float *to)
+{
+    alignas(16) float from[4];
+
+    f4_store(from, rgb);
+    memcpy(to, from, 3 * sizeof *to);
+}
+
+/* Means of `count` pixels of row y from x0 on, 3 floats a pixel. */
+static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
+{
+    bool has_gaps = false;
+
+    row_lock(f, y);
+    for (int i = 0; i < count; i++) {
+        size_t at = pixel_index(f, x0 + i, y);
+
+        rgb[3 * i] = -1.0f; /* no mean is negative */
+        if (f->counts[at] != 0)
+            put(mean_of(f->sums + 3 * at, f->counts[at]), rgb + 3 * i);
+        else
+            has_gaps = true;
+    }
+    row_unlock(f, y);
+    for (int i = 0; has_gaps && i < count; i++)
+        if (rgb[3 * i] < 0.0f)
+            put(coarse_mean(f, x0 + i, y), rgb + 3 * i);
+}
+
+void film_linear(struct film *f, float *rgb)
+{
+    for (int y = 0; y < f->height; y++)
+        linear_run(f, 0, y, f->width, rgb + 3 * pixel_index(f, 0, y));
+}
+
+void film_counts(struct film *f, float *counts)
+{
+    for (int y = 0; y < f->height; y++) {
+        row_lock(f, y);
+        for (int x = 0; x < f->width; x++)
+            counts[pixel_index(f, x, y)] =
+                (float)f->counts[pixel_index(f, x, y)];
+        row_unlock(f, y);
+    }
+}
+
+/* 2^stops for any number of stops. */
+static float exposure_factor(float stops)
+{
+    return exp2f(f_max(-126.0f, f_min(stops, 126.0f)));
+}
+
+/* Light as a screen shows it: 1 is its white. The fourth number stays 0. */
+static inline f4 show(f4 light, float factor, uint32_t tone)
+{
+    alignas(16) float rgb[4];
+
+    light = f4_mul(light, f4_all(factor));
+    if (tone != TONE_LINEAR) {
+        f4_store(rgb, light);
+        tone_curve(tone, rgb);
+        light = f4_of(rgb[0], rgb[1], rgb[2]);
+    }
+    return f4_min(light, f4_all(1.0f));
+}
+
+static void encode(f4 shown, uint8_t *bytes)
+{
+    alignas(16) float rgb[4];
+
+    f4_store(rgb, shown);
+    for (int c = 0; c < 3; c++)
+        bytes[c] = (uint8_t)srgb_byte(rgb[c]);
+}
+
+void film_resolve(struct film *f, struct develop how, struct frame *frame)
+{
+    float factor = exposure_factor(how.exposure);
+    float rgb[3 * RUN];
+
+    for (int y = 0; y < f->height; y++) {
+        for (int x = 0; x < f->width; x += RUN) {
+            int count = f->width - x < RUN ? f->width - x : RUN;
+
+            linear_run(f, x, y, count, rgb);
+            for (int i = 0; i < count; i++) {
+                f4 light = f4_of(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
+
+                encode(show(light, factor, how.tone),
+                       frame->rgb + 3 * pixel_index(f, x + i, y));
+            }
+        }
+    }
+}
+
+/* A sum of colours times their weights, and of these. */
+struct weighted {
+    alignas(16) float rgb_weight[4];
+};
+
+/* Pixels of row y of a frame from x on, as sums over a film's pixels by area.
+ */
+struct run {
+    int x, y, count;
+    struct weighted shown[RUN]; /* each pixel as the screen shows it */
+    struct weighted light[RUN]; /* all samples alike, before the curve */
+};
+
+/* How films become a frame. */
+struct showing {
+    const struct frame *frame;
+    bool has_draft;
+    float factor;
+    uint32_t tone;
+};
+
+static inline void add(struct weighted *sum, f4 rgb, float weight)
+{
+    static const alignas(16) float one[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+    f4 more = f4_mul(f4_add(rgb, f4_load(one)), f4_all(weight));
+
+    f4_store(sum->rgb_weight, f4_add(f4_load(sum->rgb_weight), more));
+}
+
+/* Pixels of few samples are too dark if each is toned: what is brighter than
+ * white is cut off, what is darker stays. Beside a draft a pixel is trusted
+ * from its second sample on, and wholly when the draft goes. */
+static inline float trust(const struct showing *s, uint64_t samples)
+{
+    if (!s->has_draft || samples >= FILM_YOUNG_SPP)
+        return 1.0f;
+    return (float)(samples - 1) / (FILM_YOUNG_SPP - 1);
+}
+
+/* Sums are in no cache: they come in the time that so many pixels take. */
+#define AHEAD 32
+
+/* Adds what row y of the film has where the run is, `height` of it. */
+static void add_row(const struct showing *how, const struct film *f, int y,
+                    float height, bool is_draft, struct run *r)
+{
+    struct showing s = *how;
+    struct area_walk w = area_walk(f->width, s.frame->width, r->x, r->count);
+    const uint64_t *counts = f->counts + pixel_index(f, 0, y);
+    const struct sum *sums = f->sums + 3 * pixel_index(f, 0, y);
+
+    while (area_walks(&w)) {
+        int x = w.from;
+        uint64_t samples = counts[x];
+        float trusted = 0.0f;
+        f4 light = f4_all(0.0f), shown = light;
+
+        if (x + AHEAD < f->width)
+            __builtin_prefetch(sums + 3 * (x + AHEAD));
+        if (samples != 0) {
+            light = mean_of(sums + 3 * x, samples);
+            trusted = is_draft ? 0.0f : trust(&s, samples);
+        }
+        if (trusted > 0.0f)
+            shown = show(light, s.factor, s.tone);
+        do {
+            int i = w.to - r->x;
+            float area = height * area_step(&w);
+
+            if (trusted > 0.0f)
+                add(&r->shown[i], shown, area * trusted);
+            if (s.has_draft && samples != 0)
+                add(&r->light[i], light, area * (float)samples);
+        } while (w.from == x && area_walks(&w));
+    }
+}
+
+static void add_film(const struct showing *s, struct film *f, bool is_draft,
+                     struct run *r)
+{
+    struct area_walk w = area_walk(f->height, s->frame->height, r->y, 1);
+
+    while (area_walks(&w)) {
+        int y = w.from;
+        float height = area_step(&w);
+
+        row_lock(f, y);
+        if (f->has_row[y])
+            add_row(s, f, y, height, is_draft, r);
+        row_unlock(f, y);
+    }
+}
+
+/* The nearest sample of a coarser grid, for pixel i of the run. */
+static f4 coarse_part(const struct showing *s, struct film *f,
+                      const struct run *r, int i)
+{
+    int64_t x = (2 * (int64_t)(r->x + i) + 1) * f->width;
+    int64_t y = (2 * (int64_t)r->y + 1) * f->height;
+
+    return coarse_mean(f, (int)(x / (2 * s->frame->width)),
+                       (int)(y / (2 * s->frame->height)));
+}
+
+/* Pixel i of the run as the screen shows it. `whole` is the area of a pixel
+ * that is trusted: what is missing of it is light. */
+static f4 finish(const struct showing *s, struct film *film, struct film *draft,
+                 const struct run *r, int i)
+{
+    float whole = (float)film->width * (float)film->height;
+    f4 sure = f4_load(r->shown[i].rgb_weight);
+    f4 light = f4_load(r->light[i].rgb_weight);
+    float sure_weight = r->shown[i].rgb_weight[3];
+    float light_weight = r->light[i].rgb_weight[3];
+
+    if (!draft && sure_weight > 0.0f)
+        return f4_div(sure, f4_all(sure_weight));
+    if (light_weight > 0.0f)
+        light = f4_div(light, f4_all(light_weight));
+    else
+        light = coarse_part(s, draft ? draft : film, r, i);
+    light = show(light, s->factor, s->tone);
+    if (!draft)
+        return light;
+    light = f4_mul(light, f4_all(1.0f - sure_weight / whole));
+    return f4_add(light, f4_div(sure, f4_all(whole)));
+}
+
+void film_preview(struct film *film, struct film *draft, struct develop how,
+                  struct frame *frame)
+{
+    struct showing s = {frame, draft != NULL, exposure_factor(how.exposure),
+                        how.tone};
+
+    for (int y = 0; y < frame->height; y++) {
+        for (int x = 0; x < frame->width; x += RUN) {
+            int left = frame->width - x;
+            struct run r = {.x = x, .y = y, .count = left < RUN ? left : RUN};
+            size_t at = (size_t)y * (size_t)frame->width + (size_t)x;
+
+            add_film(&s, film, false, &r);
+            if (draft)
+                add_film(&s, draft, true, &r);
+            for (int i = 0; i < r.count; i++)
+                encode(finish(&s, film, draft, &r, i),
+                       frame->rgb + 3 * (at + (size_t)i));
+        }
+    }
+}
+
+bool frame_init(struct frame *frame, int width, int height, struct error *err)
+{
+    frame->width = width;
+    frame->height = height;
+    frame->rgb = alloc_array((size_t)width * (size_t)height, 3);
+    if (frame->rgb == NULL)
+        return fail(err, "out of memory for a frame of %dx%d pixels", width,
+                    height);
+    return true;
+}
+
+void frame_free(struct frame *frame)
+{
+    free(frame->rgb);
+    *frame = (struct frame){0};
+}

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include "picture/image_header.h"
+
+#include <limits.h>
+#include <string.h>
+
+#include "picture/stb.h"
+
+/* What a decoder takes beside its pixels: tables and rounding. */
+#define DECODER_BYTES ((size_t)1 << 20)
+
+/* deflate codes at most 258 bytes in a length and a distance of one bit each.
+ */
+#define DEFLATE_RATIO 1032
+
+/* Bytes a pixel at the moment when stb_image has most of them: 4 of one byte as
+ * they are in the file and as they are wanted; or 3 of one byte and of two. */
+#define DECODED_BYTES 9
+
+struct bytes {
+    const unsigned char *data;
+    size_t size;
+};
+
+static struct bytes bytes_of(const struct image_file *f)
+{
+    return (struct bytes){(const unsigned char *)f->data, f->size_bytes};
+}
+
+static uint64_t pixels_of(const struct image_file *f)
+{
+    return (uint64_t)f->width * (uint64_t)f->height;
+}
+
+/* Numbers of 2 and 4 bytes at a place, 0 behind the end. */
+static uint32_t byte_at(struct bytes b, size_t at)
+{
+    return at < b.size ? b.data[at] : 0;
+}
+
+static uint32_t big16(struct bytes b, size_t at)
+{
+    return byte_at(b, at) << 8 | byte_at(b, at + 1);
+}
+
+static uint32_t big32(struct bytes b, size_t at)
+{
+    return big16(b, at) << 16 | big16(b, at + 2);
+}
+
+static uint32_t little16(struct bytes b, size_t at)
+{
+    return byte_at(b, at) | byte_at(b, at + 1) << 8;
+}
+
+static uint32_t little32(struct bytes b, size_t at)
+{
+    return little16(b, at) | little16(b, at + 2) << 16;
+}
+
+static uint64_t ceil_div(uint64_t n, uint64_t by)
+{
+    return (n + by - 1) / by;
+}
+
+bool image_expect_limits(const struct image_file *f, struct error *err)
+{
+    if (f->width < 1 || f->height < 1 || f->width > IMAGE_SIDE_MAX ||
+        f->height > IMAGE_SIDE_MAX)
+        return fail(err, "%s: found %dx%d pixels, expected sides of 1 to %d",
+                    f->path, f->width, f->height, IMAGE_SIDE_MAX);
+    if (pixels_of(f) > IMAGE_PIXELS_MAX)
+        return fail(err, "%s: found %dx%d pixels, expected %u in all at most",
+                    f->path, f->width, f->height, IMAGE_PIXELS_MAX);
+    return true;
+}
+
+static bool take_sides(struct image_file *f, uint32_t width, uint32_t height,
+                       struct error *err)
+{
+    f->width = width > INT_MAX ? INT_MAX : (int)width;
+    f->height = height > INT_MAX ? INT_MAX : (int)height;
+    return image_expect_limits(f, err);
+}
+
+static bool expect_bytes(const struct image_file *f, uint64_t found,
+                         uint64_t needed, struct error *err)
+{
+    return found >= needed ||
+           fail(err, "%s: found %zu bytes, expected more for %dx%d pixels",
+                f->path, f->size_bytes, f->width, f->height);
+}
+
+static bool fail_kind(const struct image_file *f, const char *reason,
+                      struct error *err)
+{
+    return fail(err, "%s: found an image that cannot be read (%s)", f->path,
+                reason);
+}
+
+/* ---- PNG ---- */
+
+static bool is_png(struct bytes b)
+{
+    return b.size >= 8 && memcmp(b.data, "\x89PNG\r\n\x1a\n", 8) == 0;
+}
+
+static bool png_header(struct image_file *f, struct error *err)
+{
+    static const uint32_t channels_of_color[] = {1, 1, 3, 1, 2, 1, 4};
+    struct bytes b = bytes_of(f);
+    size_t at = 8;
+
+    /* Apple's tools put a chunk of their own before. */
+    if (big32(b, at + 4) == 0x43674249) /* CgBI */
+        at += 12 + big32(b, at);
+    if (big32(b, at + 4) != 0x49484452) /* IHDR */
+        return fail_kind(f, "PNG without a header", err);
+    uint32_t depth = byte_at(b, at + 16), color = byte_at(b, at + 17);
+    bool is_interlaced = byte_at(b, at + 20) != 0;
+    if (!take_sides(f, big32(b, at + 8), big32(b, at + 12), err))
+        return false;
+    if (depth > 16 || color > 6)
+        return fail_kind(f, "Corrupt PNG", err);
+
+    uint64_t bits = (uint64_t)channels_of_color[color] * depth;
+    uint64_t row = ceil_div((uint64_t)f->width * bits, 8);
+    uint64_t packed = is_interlaced ? pixels_of(f) * bits / 8
+                                    : (uint64_t)f->height * (1 + row);
+    if (!expect_bytes(f, f->size_bytes, packed / DEFLATE_RATIO, err))
+        return false;
+    /* stb_image counts the bytes of 4 channels in an int */
+    uint64_t decoded = 4 * (depth == 16 ? 2 : 1) * pixels_of(f);
+    if (decoded > INT_MAX || packed > INT_MAX)
+        return fail(err,
+                    "%s: found %dx%d pixels of %u bits a channel, expected "
+                    "less than 2 GiB of them",
+                    f->path, f->width, f->height, depth);
+    /* filtered and not, and once more where rows come in seven passes; the
+     * packed pixels lie in a buffer that doubles */
+    decoded *= is_interlaced ? 3 : 2;
+    if (decoded < DECODED_BYTES * pixels_of(f))
+        decoded = DECODED_BYTES * pixels_of(f);
+    f->decoder_bytes = DECODER_BYTES + 2 * f->size_bytes + (size_t)decoded;
+    return true;
+}
+
+/* ---- JPEG ---- */
+
+static bool is_jpeg(struct bytes b)
+{
+    return b.size >= 3 && memcmp(b.data, "\xff\xd8\xff", 3) == 0;
+}
+
+/* The place of the frame header: behind its marker, which *is_progressive
+ * comes from. 0: there is none that stb_image knows. */
+static size_t jpeg_frame(struct bytes b, bool *is_progressive)
+{
+    for (size_t i = 2; i + 1 < b.size;) {
+        if (b.data[i] != 0xff || b.data[i + 1] == 0xff) {
+            i++;
+            continue;
+        }
+        unsigned marker = b.data[i + 1];
+        i += 2;
+        *is_progressive = marker == 0xc2;
+        if (marker >= 0xc0 && marker <= 0xc2)
+            return i;
+        i += big16(b, i);
+    }
+    return 0;
+}
+
+/* Bits that blocks of 8x8 samples take at least: one for the mean, and where
+ * all of a block comes at once, one that says that nothing else follows. */
+static bool jpeg_header(struct image_file *f, struct error *err)
+{
+    struct bytes b = bytes_of(f);
+    bool is_progressive = false;
+    size_t at;
+
+    if (!stb_is_safe(b.data, b.size))
+        return fail(err,
+                    "%s: found a Huffman table of more than 256 codes, "
+                    "expected a JPEG image",
+                    f->path);
+    at = jpeg_frame(b, &is_progressive);
+    uint32_t count = byte_at(b, at + 7), h_max = 1, v_max = 1;
+    if (at == 0 || count > 4)
+        return fail_kind(f, "JPEG without a frame that is known", err);
+    if (!take_sides(f, big16(b, at + 5), big16(b, at + 3), err))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t sampling = byte_at(b, at + 9 + 3 * i);
+        h_max = sampling >> 4 > h_max ? sampling >> 4 : h_max;
+        v_max = (sampling & 15) > v_max ? sampling & 15 : v_max;
+    }
+    uint64_t width = (uint64_t)f->width, height = (uint64_t)f->height;
+    uint64_t blocks = 0, samples = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t sampling = byte_at(b, at + 9 + 3 * i);
+        uint64_t h = sampling >> 4, v = sampling & 15;
+        blocks += ceil_div(ceil_div(width * h, h_max), 8) *
+                  ceil_div(ceil_div(height * v, v_max), 8);
+        samples += ceil_div(width, 8 * h_max) * h * 8 *
+                   ceil_div(height, 8 * v_max) * v * 8;
+    }
+    if (!expect_bytes(f, f->size_bytes, blocks * (is_progressive ? 1 : 2) / 8,
+                      err))
+        return false;
+    /* the samples, as coefficients before; then the pixels beside them */
+    uint64_t decoded = samples * (is_progressive ? 3 : 1) + 4 * pixels_of(f);
+    if (decoded < DECODED_BYTES * pixels_of(f))
+        decoded = DECODED_BYTES * pixels_of(f);
+    f->decoder_bytes = DECODER_BYTES + (size_t)decoded;
+    return true;
+}
+
+/* ---- BMP ---- */
+
+static bool is_bmp(struct bytes b)
+{
+    return b.size >= 26 && memcmp(b.data, "BM", 2) == 0;
+}
+
+/* Rows fill whole words of 4 bytes; the last one may lack what is unused. */
+static bool bmp_header(struct image_file *f, struct error *err)
+{
+    struct bytes b = bytes_of(f);
+    bool is_old = little32(b, 14) == 12;
+    uint32_t width = is_old ? little16(b, 18) : little32(b, 18);
+    uint32_t height = is_old ? little16(b, 20) : little32(b, 22);
+    uint64_t bits = is_old ? little16(b, 24) : little16(b, 28);
+    uint64_t begin = little32(b, 10);
+
+    if (height > INT_MAX) /* rows from the top down */
+        height = 0 - height;
+    if (!take_sides(f, width, height, err))
+        return false;
+    uint64_t row = (uint64_t)f->width * bits;
+    uint64_t needed = begin +
+                      ceil_div(row, 32) * 4 * (uint64_t)(f->height - 1) +
+                      ceil_div(row, 8);
+    f->decoder_bytes = DECODER_BYTES + DECODED_BYTES * (size_t)pixels_of(f);
+    return expect_bytes(f, f->size_bytes, needed, err);
+}
+
+/* ---- TGA ---- */
+
+enum { TGA_INDEXED = 1, TGA_COLOR = 2, TGA_GREY = 3, TGA_RUNS = 8 };
+
+/* There is no mark: what every field may be has to do. */
+static bool is_tga(struct bytes b)
+{
+    uint32_t type = byte_at(b, 2) & ~(uint32_t)TGA_RUNS, bits = byte_at(b, 16);
+
+    if (b.size < 18 || big16(b, 12) == 0 || big16(b, 14) == 0)
+        return false;
+    if (byte_at(b, 1) == 1)
+        return type == TGA_INDEXED && (bits == 8 || bits == 16);
+    return byte_at(b, 1) == 0 && (type == TGA_COLOR || type == TGA_GREY) &&
+           (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
+}
+
+/* Runs: 128 + n is n + 1 times the next pixel, n are the next n + 1 ones.
+ * False: they end before the pixels do. */
+static bool tga_has_runs(struct bytes b, uint64_t at, uint64_t pixel_bytes,
+                         uint64_t pixels)
+{
+    while (pixels > 0 && at < b.size) {
+        uint64_t count = (uint64_t)(b.data[at] & 127) + 1;
+        uint64_t stored = b.data[at] & 128 ? 1 : count;
+
+        at += 1 + stored * pixel_bytes;
+        pixels -= count < pixels ? count : pixels;
+    }
+    return pixels == 0 && at <= b.size;
+}
+
+static bool tga_header(struct image_file *f, struct error *err)
+{
+    struct bytes b = bytes_of(f);
+    bool has_palette = byte_at(b, 1) == 1;
+    uint64_t pixel_bytes = ceil_div(byte_at(b, 16), 8);
+    uint64_t at =
+        18 + byte_at(b, 0) +
+        (has_palette ? little16(b, 5) * ceil_div(byte_at(b, 7), 8) : 0);
+
+    if (!take_sides(f, little16(b, 12), little16(b, 14), err))
+        return false;
+    f->decoder_bytes = DECODER_BYTES + DECODED_BYTES * (size_t)pixels_of(f);
+    if (byte_at(b, 2) & TGA_RUNS)
+        return expect_bytes(f, tga_has_runs(b, at, pixel_bytes, pixels_of(f)),
+                            1, err);
+    return expect_bytes(f, b.size, at + pixel_bytes * pixels_of(f), err);
+}
+
+bool image_header(struct image_file *f, struct error *err)
+{
+    struct bytes b = bytes_of(f);
+
+    if (b.size > INT_MAX)
+        return fail(err, "%s: found %.1f GiB, expected 2 GiB at most", f->path,
+                    (double)b.size / (1 << 30));
+    f->kind = is_png(b)    ? IMAGE_PNG
+              : is_bmp(b)  ? IMAGE_BMP
+              : is_jpeg(b) ? IMAGE_JPEG
+              : is_tga(b)  ? IMAGE_TGA
+                           : IMAGE_UNKNOWN;
+    switch (f->kind) {
+    case IMAGE_PNG: return png_header(f, err);
+    case IMAGE_JPEG: return jpeg_header(f, err);
+    case IMAGE_BMP: return bmp_header(f, err);
+    case IMAGE_TGA: return tga_header(f, err);
+    default: break;
+    }
+    return fail(err,
+                "%s: found no image that can be read, expected PNG, JPEG, BMP, "
+                "TGA, Radiance HDR or PFM",
+                f->path);
+}

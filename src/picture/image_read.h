@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+/*
+ * image_read.h - reads image files: PNG, JPEG, BMP and TGA through stb_image, PFM
+ * and Radiance HDR by its own code
+ *
+ * A file is opened first: its header says how many pixels it has and how much
+ * memory they take. What the file is too short for, and what the process has no
+ * memory for, is refused there. Then it is decoded.
+ *
+ * Units:     pixels, row 0 at the top; 8-bit images are sRGB with linear
+ *            alpha, float images are linear Rec.709
+ * Ownership: image_close() frees the file, image_free() the pixels; paths stay
+ *            the caller's
+ * Threads:   any
+ * Errors:    a missing, broken or too large file; the text names the file
+ */
+#ifndef GLIM_IMAGE_READ_H
+#define GLIM_IMAGE_READ_H
+
+#include "base/util.h"
+
+/* Neither side of an image may be longer, nor its pixels be more. */
+#define IMAGE_SIDE_MAX   32768
+#define IMAGE_PIXELS_MAX (256u << 20)
+
+enum image_kind {
+    IMAGE_UNKNOWN,
+    IMAGE_PNG,
+    IMAGE_JPEG,
+    IMAGE_BMP,
+    IMAGE_TGA,
+    IMAGE_HDR,
+    IMAGE_PFM,
+};
+
+enum image_form {
+    IMAGE_8BIT,   /* 4 bytes a pixel, whatever the file has */
+    IMAGE_LINEAR, /* 3 floats a pixel: HDR as it is, others decoded from sRGB */
+};
+
+/* A file in memory and what its header says. */
+struct image_file {
+    const char *path;
+    char *data;
+    size_t size_bytes;
+    enum image_kind kind;
+    int width, height;
+
+    /* HDR and PFM */
+    size_t pixels_at; /* in the data */
+    int channels;
+    bool is_big_endian;
+
+    size_t decoder_bytes; /* stb_image's memory, the pixels with it, at most */
+
+    enum image_form form;
+    uint64_t memory_bytes; /* of reading it, file and pixels, at most */
+    bool is_beyond;        /* it was refused for want of memory */
+};
+
+struct image {
+    int width, height;
+    uint8_t *rgba; /* 4 bytes a pixel, or NULL */
+    float *rgb;    /* 3 floats a pixel, or NULL */
+};
+
+/* Reads the file and its header. All images of a scene may take three quarters
+ * of the memory that quota_memory() finds; held_bytes are taken already. */
+bool image_open(struct image_file *file, const char *path, enum image_form form,
+                uint64_t held_bytes, struct error *err);
+
+/* Reads the pixels, in the form that the file was opened for, and closes the
+ * file. Of floats NaN is refused, negative and infinite ones are clamped (to 0
+ * and to 1e30) and counted. */
+bool image_decode(struct image_file *file, struct image *image,
+                  uint64_t *clamped_count, struct error *err);
+
+void image_close(struct image_file *file);
+
+/* Both steps for one image alone. */
+bool image_read_8bit(struct image *image, const char *path, struct error *err);
+bool image_read_linear(struct image *image, const char *path,
+                       uint64_t *clamped_count, struct error *err);
+
+void image_free(struct image *image);
+
+#endif

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "picture/image_write.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "picture/stb.h"
+
+#include "kernels/vec.h"
+
+/* stb counts in int and doubles its buffers: this much still fits. */
+#define STB_BYTES_MAX ((size_t)1 << 30)
+
+/* A growing file in memory. */
+struct buffer {
+    void *data;
+    size_t size_bytes, capacity;
+    bool is_cut; /* memory was out */
+};
+
+static const struct ending {
+    const char *text;
+    enum picture_format format;
+} endings[] = {{".png", PICTURE_PNG},
+               {".hdr", PICTURE_HDR},
+               {".pfm", PICTURE_PFM}};
+
+static bool is_stdout(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+enum picture_format picture_format_of(const char *path)
+{
+    size_t length = strlen(path);
+
+    if (is_stdout(path))
+        return PICTURE_PNG;
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
+        size_t ending = strlen(endings[i].text);
+        if (length >= ending &&
+            strcasecmp(path + length - ending, endings[i].text) == 0)
+            return endings[i].format;
+    }
+    return PICTURE_UNKNOWN;
+}
+
+bool picture_check(const char *path, struct error *err)
+{
+    struct stat st;
+
+    if (is_stdout(path))
+        return !isatty(STDOUT_FILENO) ||
+               fail(err, "standard output is a terminal, expected a file or "
+                         "a pipe: give -o FILE");
+    if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
+        return fail(err, "%s: found a folder, expected a file", path);
+    if (picture_format_of(path) == PICTURE_UNKNOWN)
+        return fail(err,
+                    "%s: found no known ending, expected .png, .hdr or .pfm",
+                    path);
+    return file_check(path, err);
+}
+
+static void append(void *context, void *data, int size_bytes)
+{
+    struct buffer *b = context;
+    size_t more = size_bytes > 0 ? (size_t)size_bytes : 0;
+
+    if (b->is_cut ||
+        !grow_array(&b->data, &b->capacity, b->size_bytes + more, 1)) {
+        b->is_cut = true;
+        return;
+    }
+    memcpy((char *)b->data + b->size_bytes, data, more);
+    b->size_bytes += more;
+}
+
+static bool out_of_memory(int width, int height, const char *path,
+                          struct error *err)
+{
+    return fail(err, "%s: out of memory for %dx%d pixels", path, width, height);
+}
+
+static bool expect_size(int width, int height, size_t pixel_bytes,
+                        const char *path, struct error *err)
+{
+    size_t most = STB_BYTES_MAX / pixel_bytes;
+    size_t found = (size_t)width * (size_t)height;
+
+    return found <= most ||
+           fail(err,
+                "%s: found %dx%d pixels, expected %zu in all at most "
+                "(a .pfm file has no limit)",
+                path, width, height, most);
+}
+
+/* stb stops the program when its buffers cannot grow, so they are tried here
+ * first: the filtered rows and a compressed copy that doubles. */
+static bool has_memory(size_t size_bytes)
+{
+    void *trial = malloc(4 * size_bytes);
+
+    free(trial);
+    return trial != NULL;
+}
+
+static bool encode_frame(const struct frame *frame, const char *path,
+                         struct buffer *b, struct error *err)
+{
+    size_t size_bytes = 3 * (size_t)frame->width * (size_t)frame->height;
+    bool ok = has_memory(size_bytes) &&
+              stbi_write_png_to_func(append, b, frame->width, frame->height, 3,
+                                     frame->rgb, 3 * frame->width);
+
+    return (ok && !b->is_cut) ||
+           out_of_memory(frame->width, frame->height, path, err);
+}
+
+static bool encode_png(struct film *film, struct develop how, const char *path,
+                       struct buffer *b, struct error *err)
+{
+    struct frame frame;
+    bool ok;
+
+    if (!expect_size(film->width, film->height, 3, path, err) ||
+        !frame_init(&frame, film->width, film->height, err))
+        return false;
+    film_resolve(film, how, &frame);
+    ok = encode_frame(&frame, path, b, err);
+    frame_free(&frame);
+    return ok;
+}
+
+static float *linear_of(struct film *film, const char *path, struct error *err)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+    float *rgb = alloc_array(pixels, 3 * sizeof *rgb);
+
+    if (rgb)
+        film_linear(film, rgb);
+    else
+        out_of_memory(film->width, film->height, path, err);
+    return rgb;
+}
+
+/* stb cuts mantissas off, which darkens a picture by a quarter of a per cent.
+ * Values that are whole mantissas already pass unchanged. */
+static void round_to_rgbe(float rgb[3])
+{
+    int exponent;
+    float greatest = f_max(rgb[0], f_max(rgb[1], rgb[2]));
+    float mantissa = frexpf(greatest, &exponent);
+
+    if (!(greatest > 0))
+        return;
+    if (roundf(mantissa * 256) >= 256)
+        exponent++; /* the greatest becomes the next power of two */
+    for (int c = 0; c < 3; c++)
+        rgb[c] = ldexpf(roundf(ldexpf(rgb[c], 8 - exponent)), exponent - 8);
+}
+
+static bool encode_hdr(struct film *film, const char *path, struct buffer *b,
+                       struct error *err)
+{
+    size_t pixels = (size_t)film->width * (size_t)film->height;
+
+    if (!expect_size(film->width, film->height, 3 * sizeof(float), path, err))
+        return false;
+    float *rgb = linear_of(film, path, err);
+    if (!rgb)
+        return false;
+    for (size_t i = 0; i < pixels; i++)
+        round_to_rgbe(rgb + 3 * i);
+    bool ok =
+        stbi_write_hdr_to_func(append, b, film->width, film->height, 3, rgb);
+    free(rgb);
+    return (ok && !b->is_cut) ||
+           out_of_memory(film->width, film->height, path, err);
+}
+
+static void append_floats(struct buffer *b, const float *values, int count)
+{
+    unsigned char bytes[4 * 256];
+
+    for (int i = 0; i < count; i += 256) {
+        int n = count - i < 256 ? count - i : 256;
+        for (int k = 0; k < 4 * n; k++)
+            bytes[k] =
+                (unsigned char)(float_bits(values[i + k / 4]) >> 8 * (k % 4));
+        append(b, bytes, 4 * n);
+    }
+}
+
+/* Rows from the bottom up; the negative scale says little endian. */
+static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
+                       struct error *err)
+{
+    char header[64];
+    float *rgb = linear_of(film, path, err);
+
+    if (!rgb)
+        return false;
+    int length = snprintf(header, sizeof header, "PF\n%d %d\n-1.0\n",
+                          film->width, film->height);
+    append(b, header, length);
+    for (int y = film->height - 1; y >= 0; y--)
+        append_floats(b, rgb + 3 * (size_t)y * (size_t)film->width,
+                      3 * film->width);
+    free(rgb);
+    return !b->is_cut || out_of_memory(film->width, film->height, path, err);
+}
+
+static bool encode(struct film *film, struct develop how, const char *path,
+                   struct buffer *b, struct error *err)
+{
+    switch (picture_format_of(path)) {
+    case PICTURE_PNG: return encode_png(film, how, path, b, err);
+    case PICTURE_HDR: return encode_hdr(film, path, b, err);
+    case PICTURE_PFM: return encode_pfm(film, path, b, err);
+    case PICTURE_UNKNOWN: break;
+    }
+    return fail(err, "%s: found no known ending, expected .png, .hdr or .pfm",
+                path);
+}
+
+/* To the file, or to standard output. */
+static bool publish(const struct buffer *b, const char *path, struct error *err)
+{
+    if (is_stdout(path))
+        return file_write_stdout(b->data, b->size_bytes, err);
+    return file_write(path, b->data, b->size_bytes, false, NULL, err);
+}
+
+bool picture_write(struct film *film, struct develop how, const char *path,
+                   struct error *err)
+{
+    struct buffer b = {.data = NULL};
+    bool ok = encode(film, how, path, &b, err) && publish(&b, path, err);
+
+    free(b.data);
+    return ok;
+}
+
+bool picture_write_frame(const struct frame *frame, const char *path,
+                         struct error *err)
+{
+    struct buffer b = {.data = NULL};
+    bool ok = expect_size(frame->width, frame->height, 3, path, err) &&
+              encode_frame(frame, path, &b, err) && publish(&b, path, err);
+
+    free(b.data);
+    return ok;
+}
+
+char *picture_write_numbered(struct film *film, struct develop how,
+                             const char *stem, const char *ending,
+                             struct error *err)
+{
+    struct buffer b = {.data = NULL};
+    char *name = xformat("%s.%s", stem, ending);
+    char *path = NULL;
+
+    if (encode(film, how, name, &b, err))
+        path = file_write_numbered(stem, ending, b.data, b.size_bytes, err);
+    free(b.data);
+    free(name);
+    return path;
+}
+
+char *picture_write_frame_numbered(const struct frame *frame, const char *stem,
+                                   struct error *err)
+{
+    struct buffer b = {.data = NULL};
+    char *path = NULL;
+
+    if (expect_size(frame->width, frame->height, 3, stem, err) &&
+        encode_frame(frame, stem, &b, err))
+        path = file_write_numbered(stem, "png", b.data, b.size_bytes, err);
+    free(b.data);
+    return path;
+}

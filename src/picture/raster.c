@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "picture/raster.h"
+
+#include <math.h>
+
+void drawing_dot(struct frame *frame, double x, double y, uint32_t rgb)
+{
+    uint8_t *pixel;
+
+    if (!(x >= 0 && x < frame->width && y >= 0 && y < frame->height))
+        return;
+    pixel = frame->rgb + 3 * ((size_t)y * (size_t)frame->width + (size_t)x);
+    for (int c = 0; c < 3; c++)
+        pixel[c] = (uint8_t)(rgb >> (16 - 8 * c));
+}
+
+/* Keeps of [*begin, *end] where at + slope * t lies in [0, length]. */
+static void keep_inside(double at, double slope, double length, double *begin,
+                        double *end)
+{
+    double a = -at / slope;
+    double b = (length - at) / slope;
+
+    if (slope == 0) {
+        if (at < 0 || at > length)
+            *end = -1;
+        return;
+    }
+    *begin = fmax(*begin, fmin(a, b));
+    *end = fmin(*end, fmax(a, b));
+}
+
+void drawing_line(struct frame *frame, double x0, double y0, double x1,
+                  double y1, uint32_t rgb)
+{
+    double dx = x1 - x0, dy = y1 - y0;
+    double begin = 0, end = 1;
+    int steps;
+
+    /* Liang and Barsky 1984: a line that goes far out has few pixels here */
+    keep_inside(x0, dx, frame->width, &begin, &end);
+    keep_inside(y0, dy, frame->height, &begin, &end);
+    if (!(begin <= end))
+        return;
+    /* shorter than a pixel, or rounding would leave gaps */
+    steps = (int)(fmax(fabs(dx), fabs(dy)) * (end - begin)) + 2;
+    for (int i = 0; i <= steps; i++) {
+        double t = begin + (end - begin) * i / steps;
+
+        drawing_dot(frame, x0 + t * dx, y0 + t * dy, rgb);
+    }
+}
+
+void drawing_box(struct frame *frame, double x0, double y0, double x1,
+                 double y1, uint32_t rgb)
+{
+    drawing_line(frame, x0, y0, x1, y0, rgb);
+    drawing_line(frame, x1, y0, x1, y1, rgb);
+    drawing_line(frame, x1, y1, x0, y1, rgb);
+    drawing_line(frame, x0, y1, x0, y0, rgb);
+}
+
+uint32_t drawing_dim(uint32_t rgb, double brightness)
+{
+    uint32_t dim = 0;
+
+    for (int shift = 0; shift <= 16; shift += 8)
+        dim |= (uint32_t)((double)(rgb >> shift & 255) * brightness + 0.5)
+               << shift;
+    return dim;
+}

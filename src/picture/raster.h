@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/*
+ * raster.h - lines on a frame
+ *
+ * Units:     pixels, (0, 0) is the top left corner of the first; 0xRRGGBB
+ * Ownership: none
+ * Threads:   any; one owner of the frame
+ * Errors:    none; what is outside of the frame is not drawn
+ */
+#ifndef GLIM_RASTER_H
+#define GLIM_RASTER_H
+
+#include "picture/film.h"
+
+void drawing_dot(struct frame *frame, double x, double y, uint32_t rgb);
+
+/* Both ends and all between, a pixel wide. */
+void drawing_line(struct frame *frame, double x0, double y0, double x1,
+                  double y1, uint32_t rgb);
+
+/* The outline between two corners. */
+void drawing_box(struct frame *frame, double x0, double y0, double x1,
+                 double y1, uint32_t rgb);
+
+/* Between black at 0 and the colour at 1. */
+uint32_t drawing_dim(uint32_t rgb, double brightness);
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+/*
+ * backend.h - what can turn a world into samples
+ *
+ * Units:     samples a pixel
+ * Ownership: destroy() frees the backend
+ * Threads:   one thread at a time calls these; cancel_request() from any
+ * Errors:    load() and pass() say why
+ */
+#ifndef GLIM_BACKEND_H
+#define GLIM_BACKEND_H
+
+#include "picture/film.h"
+#include "render/cpu_kernel.h"
+#include "base/thread_pool.h"
+#include "kernels/types.h"
+
+enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
+
+/* One pass: every pixel of the grid (0, stride, 2 stride, ...) in both
+ * directions that has fewer than `target` samples gets up to that many. */
+struct pass {
+    int stride;
+    uint64_t target;
+    uint32_t samples; /* that a pixel lacks, at most; up to SAMPLE_BLOCK */
+    uint32_t order;   /* shuffles the blocks */
+};
+
+struct backend {
+    const char *name;   /* "cpu", "opencl" */
+    const char *device; /* its name and that of its driver's version, */
+    const char *driver; /* or NULL */
+    int thread_count;
+    uint64_t tree_bytes; /* of what load() built, or found */
+
+    /* New geometry: builds what the ray queries need. For backends that have
+     * none of their own this is *tree, which others may have built before. It
+     * and the arrays of the world must stay until the next load() or destroy().
+     */
+    bool (*load)(struct backend *b, const struct world *world,
+                 struct wide *tree, struct error *err);
+
+    /* Frees what load() built but the tree: another backend renders now. */
+    void (*unload)(struct backend *b);
+
+    /* A new picture: the film is empty, its corner is pixel (x0, y0) of the
+     * whole. The world may differ from load()'s in all but its triangles; its
+     * arrays and the film must stay until the last pass(). */
+    bool (*begin)(struct backend *b, const struct world *world,
+                  struct film *film, int x0, int y0, struct error *err);
+
+    /* Renders into the film of begin(), which has it all at the end. */
+    enum pass_result (*pass)(struct backend *b, const struct pass *pass,
+                             const struct cancel *cancel, struct error *err);
+
+    /* Processor time of a thread so far, in nanoseconds; from any thread. NULL:
+     * the threads are a device's. */
+    uint64_t (*cpu_ns)(const struct backend *b, int thread);
+
+    void (*destroy)(struct backend *b);
+};
+
+struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
+                                   struct error *err);
+
+#endif

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "render/backend.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+#include "render/cpu_dispatch.h"
+#include "bvh/bvh8.h"
+#include "kernels/sobol.h"
+
+/* Points of a pass's grid in a block, each way. */
+#define BLOCK_SIDE 8
+
+struct backend_cpu {
+    struct backend base;
+    const struct paths *paths; /* that can do every world */
+    struct pool *pool;
+    struct wide *tree; /* from load() */
+    /* from begin() */
+    const struct paths *fit; /* that can do this one */
+    struct wide_world world;
+    struct film *film;
+    int x0, y0;
+};
+
+/* What the workers of one pass read. */
+struct job {
+    const struct backend_cpu *backend;
+    const struct cancel *cancel;
+    struct pass pass;
+    uint32_t columns; /* blocks in a row */
+    uint32_t count;   /* blocks in all */
+    uint32_t bits;    /* of the smallest power of two that is not below count */
+};
+
+/* One step of a bijection of the numbers of `bits` bits. */
+static uint32_t scramble(uint32_t i, uint32_t bits, uint32_t key)
+{
+    uint32_t mask = bits >= 32 ? 0xffffffffu : (1u << bits) - 1u;
+    uint32_t shift = bits / 2 + 1;
+
+    i = (i ^ key) & mask;
+    i = (i * 0x2c1b3c6du) & mask;
+    i ^= i >> shift;
+    i = (i * 0x297a2d39u) & mask;
+    i ^= i >> shift;
+    return i;
+}
+
+/* A permutation of the blocks: steps until the number is one of theirs. */
+static uint32_t shuffled(const struct job *j, uint32_t item)
+{
+    uint32_t key = hash_u32(j->pass.order + 1u);
+
+    do
+        item = scramble(item, j->bits, key);
+    while (item >= j->count);
+    return item;
+}
+
+/* Samples of some pixels of a row: those of each follow those of the one
+ * before. */
+struct row {
+    int counts[BLOCK_SIDE];
+    uint32_t count; /* in all */
+    struct sample_place places[BLOCK_SIDE * SAMPLE_BLOCK];
+    struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
+};
+
+/* What pixels x, x + stride, ... of row y lack. */
+static void row_begin(struct row *r, const struct job *j, int x, int y,
+                      int pixel_count)
+{
+    const struct backend_cpu *b = j->backend;
+
+    r->count = 0;
+    for (int i = 0; i < pixel_count; i++) {
+        int px = x + i * j->pass.stride;
+        uint32_t before = r->count;
+
+        for (uint64_t k = film_count(b->film, px, y); k < j->pass.target; k++)
+            r->places[r->count++] =
+                (struct sample_place){(uint32_t)(b->x0 + px),
+                                      (uint32_t)(b->y0 + y), k};
+        r->counts[i] = (int)(r->count - before);
+    }
+}
+
+/* The pixels of which all is among the first `done` samples. */
+static int row_pixels(const struct row *r, uint32_t done, int pixel_count)
+{
+    int whole = 0;
+
+    while (whole < pixel_count && (uint32_t)r->counts[whole] <= done)
+        done -= (uint32_t)r->counts[whole++];
+    return whole;
+}
+
+/* Brings the pixels x, x + stride, ... of row y up to the target. False if
+ * cancelled on the way; the pixels that were done are in the film. */
+static bool render_row(const struct job *j, int x, int y, int pixel_count)
+{
+    const struct backend_cpu *b = j->backend;
+    struct row r;
+    uint32_t done = 0, n;
+
+    row_begin(&r, j, x, y, pixel_count);
+    for (; done < r.count && !cancel_requested(j->cancel); done += n) {
+        n = r.count - done < SAMPLE_BLOCK ? r.count - done : SAMPLE_BLOCK;
+        b->fit->samples(&b->world.world, r.places + done, n, r.samples + done);
+    }
+    film_add_row(b->film, x, y, j->pass.stride,
+                 row_pixels(&r, done, pixel_count), r.samples, r.counts);
+    return done == r.count;
+}
+
+static void render_block(void *context, uint32_t item, int worker)
+{
+    const struct job *j = context;
+    const struct film *film = j->backend->film;
+    uint32_t block = shuffled(j, item);
+    int stride = j->pass.stride;
+    int side = BLOCK_SIDE * stride;
+    int x = (int)(block % j->columns) * side;
+    int y = (int)(block / j->columns) * side;
+    int last = y + side < film->height ? y + side : film->height;
+    int pixel_count = (film->width - x + stride - 1) / stride;
+
+    (void)worker;
+    if (pixel_count > BLOCK_SIDE)
+        pixel_count = BLOCK_SIDE;
+    for (; y < last; y += stride)
+        if (!render_row(j, x, y, pixel_count))
+            return;
+}
+
+static bool cpu_load(struct backend *base, const struct world *world,
+                     struct wide *tree, struct error *err)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+
+    if (tree->nodes == NULL && !wide_build(tree, world, b->pool, err))
+        return false;
+    b->tree = tree;
+    base->tree_bytes = wide_bytes(tree);
+    return true;
+}
+
+static void cpu_unload(struct backend *base)
+{
+    ((struct backend_cpu *)base)->tree = NULL;
+    base->tree_bytes = 0;
+}
+
+static bool cpu_begin(struct backend *base, const struct world *world,
+                      struct film *film, int x0, int y0, struct error *err)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+
+    (void)err;
+    b->fit = isa_fit(b->paths, world->settings.features);
+    b->world.world = *world;
+    b->world.tree = b->tree;
+    b->film = film;
+    b->x0 = x0;
+    b->y0 = y0;
+    return true;
+}
+
+static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
+                                 const struct cancel *cancel, struct error *err)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+    struct job j = {b, cancel, *pass, 0, 0, 1};
+    int side = BLOCK_SIDE * pass->stride;
+
+    (void)err;
+    assert(pass->samples <= SAMPLE_BLOCK);
+    j.columns = (uint32_t)((b->film->width + side - 1) / side);
+    j.count = j.columns * (uint32_t)((b->film->height + side - 1) / side);
+    while (j.bits < 32 && (1u << j.bits) < j.count)
+        j.bits++;
+    pool_run(b->pool, j.count, render_block, &j, cancel);
+    /* the last blocks may have been left half way */
+    return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
+}
+
+static uint64_t cpu_cpu_ns(const struct backend *base, int thread)
+{
+    return pool_cpu_ns(((const struct backend_cpu *)base)->pool, thread);
+}
+
+static void cpu_destroy(struct backend *base)
+{
+    struct backend_cpu *b = (struct backend_cpu *)base;
+
+    pool_destroy(b->pool);
+    free(b);
+}
+
+struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
+                                   struct error *err)
+{
+    struct backend_cpu *b = xcalloc(1, sizeof *b);
+
+    b->pool = pool_create(thread_count, err);
+    if (b->pool == NULL) {
+        free(b);
+        return NULL;
+    }
+    b->paths = paths;
+    b->base.name = "cpu";
+    b->base.thread_count = pool_thread_count(b->pool);
+    b->base.load = cpu_load;
+    b->base.unload = cpu_unload;
+    b->base.begin = cpu_begin;
+    b->base.pass = cpu_pass;
+    b->base.cpu_ns = cpu_cpu_ns;
+    b->base.destroy = cpu_destroy;
+    return &b->base;
+}

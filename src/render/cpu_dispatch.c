@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "render/cpu_dispatch.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#if defined(__x86_64__)
+
+static bool has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi");
+}
+
+static bool has_avx512(void)
+{
+    return has_avx2() && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw");
+}
+
+#endif
+
+static bool always(void)
+{
+    return true;
+}
+
+/* What the Makefile builds for a set of instructions, the smallest first. */
+enum { BUILDS = 4, WHOLE = BUILDS - 1 };
+
+#define DECLARE(isa)                                                     \
+    extern const struct paths paths_##isa##_lamps, paths_##isa##_images, \
+        paths_##isa##_shiny, paths_##isa
+#define BUILDS_OF(isa)                                                     \
+    {                                                                      \
+        &paths_##isa##_lamps, &paths_##isa##_images, &paths_##isa##_shiny, \
+            &paths_##isa,                                                  \
+    }
+
+DECLARE(plain);
+DECLARE(avx2);
+DECLARE(avx512);
+
+/* The fastest first. */
+static const struct {
+    const struct paths *builds[BUILDS];
+    bool (*is_here)(void);
+} all[] = {
+#if defined(__x86_64__)
+    {BUILDS_OF(avx512), has_avx512},
+    {BUILDS_OF(avx2), has_avx2},
+#endif
+    {BUILDS_OF(plain), always},
+};
+
+enum { COUNT = sizeof all / sizeof all[0] };
+
+const struct paths *isa_at(int i)
+{
+    for (int k = 0; k < COUNT; k++)
+        if (all[k].is_here() && i-- == 0)
+            return all[k].builds[WHOLE];
+    return NULL;
+}
+
+const struct paths *isa_best(void)
+{
+    return isa_at(0);
+}
+
+const struct paths *isa_named(const char *name, struct error *err)
+{
+    char known[64] = "";
+    const struct paths *p;
+
+    for (int i = 0; (p = isa_at(i)) != NULL; i++) {
+        size_t length = strlen(known);
+
+        if (strcmp(p->name, name) == 0)
+            return p;
+        snprintf(known + length, sizeof known - length, "%s%s",
+                 i == 0 ? "" : ", ", p->name);
+    }
+    fail(err, "--isa: '%s' is none of this processor's: %s", name, known);
+    return NULL;
+}
+
+const struct paths *isa_fit(const struct paths *paths, uint32_t features)
+{
+    for (int k = 0; k < COUNT; k++)
+        for (int i = 0; all[k].builds[WHOLE] == paths && i < BUILDS; i++)
+            if ((features & ~all[k].builds[i]->features) == 0)
+                return all[k].builds[i];
+    return paths;
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/*
+ * cpu_dispatch.h - which of the CPU's samples run: those for the best instructions that
+ * the processor has, or those that the person names, without what the scene
+ * does not need
+ *
+ * Units:     none
+ * Ownership: static
+ * Threads:   any
+ * Errors:    isa_named() says which there are
+ */
+#ifndef GLIM_CPU_DISPATCH_H
+#define GLIM_CPU_DISPATCH_H
+
+#include "render/cpu_kernel.h"
+
+/* For the i-th set of instructions of this processor, the fastest first, with
+ * all features; NULL behind the last. */
+const struct paths *isa_at(int i);
+
+const struct paths *isa_best(void);
+
+/* NULL if there is none of this name, or the processor cannot run it. */
+const struct paths *isa_named(const char *name, struct error *err);
+
+/* The smallest build for the instructions of `paths` that does all features of
+ * a world; paths itself if there is none. */
+const struct paths *isa_fit(const struct paths *paths, uint32_t features);
+
+#endif

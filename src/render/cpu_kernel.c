@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/*
+ * Built with flags for a set of instructions, and for FEATURES: PATHS is the
+ * name of the result, PATHS_NAME the instructions'.
+ */
+#include "render/cpu_kernel.h"
+
+#include "bvh/bvh8_traverse.h"
+
+#ifdef __AVX2__
+#define HAS_WIDE_VECTORS 1
+#endif
+
+#include "kernels/path.h"
+
+#ifndef PATHS
+#define PATHS      paths_plain
+#define PATHS_NAME "plain"
+#endif
+
+/* Little code is faster in one function, by 6 %; much is not. */
+#ifdef FLATTEN
+__attribute__((flatten))
+#endif
+static void
+samples(const struct world *w, const struct sample_place *places,
+        uint32_t count, struct path_sample *out)
+{
+    path_samples(w, places, count, out);
+}
+
+const struct paths PATHS = {PATHS_NAME, FEATURES, samples};

@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: MIT
+#include "render/render_loop.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/event_fd.h"
+#include "render/projection.h"
+#include "base/thread.h"
+
+#include "kernels/path_types.h"
+#include "kernels/rng.h"
+
+/* Where the first pass of a draft begins, whose pixels are some ten times as
+ * large as the film's. */
+#define DRAFT_STRIDE_MAX 8
+
+struct render {
+    struct backend *backend;
+    struct film film;
+    struct film draft; /* no width: there is none */
+    pthread_t thread;
+    int event_fd;
+    struct cancel cancel;
+
+    pthread_mutex_t lock;
+    pthread_cond_t begin; /* wanted, or ending */
+    pthread_cond_t end;   /* the state is no longer RENDER_RUNNING */
+    /* guarded by lock */
+    bool wanted; /* a job waits for the render thread */
+    bool ending;
+    enum render_state state;
+    uint64_t steps;    /* samples a pixel until it halts; 0: it goes on */
+    uint64_t spp;      /* limit, 0: none */
+    uint64_t spp_done; /* all passes up to this are complete */
+    uint64_t draft_spp_done;
+    uint64_t run_begin_ns;
+    uint64_t run_before_ns; /* of earlier runs of the same picture */
+    uint64_t build_ns;
+    uint64_t first_picture_ns;
+    bool is_loaded; /* the geometry, by the backend */
+    struct error error;
+    /* set while the render thread is parked */
+    struct render_job job;
+    const struct film *begun; /* by the backend; NULL: a new picture */
+};
+
+/* Samples that every pixel has after the pass that follows spp_done. */
+static uint64_t next_target(uint64_t spp_done, uint64_t spp)
+{
+    uint64_t more = spp_done == 0 ? 1 : spp_done;
+    uint64_t target;
+
+    /* 1, 2, 4, 8, then one block a pass: early pictures soon, later passes
+     * long enough that their ends do not count */
+    if (more > SAMPLE_BLOCK)
+        more = SAMPLE_BLOCK;
+    target = spp_done + more;
+    return spp != 0 && target > spp ? spp : target;
+}
+
+static enum pass_result run_pass(struct render *r, int stride, uint64_t done,
+                                 uint64_t target)
+{
+    struct pass pass = {stride, target, (uint32_t)(target - done),
+                        (uint32_t)target};
+
+    return r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
+}
+
+/* The first sample of all pixels, from a coarse grid to the finest. */
+static enum pass_result run_first_pass(struct render *r, int stride)
+{
+    enum pass_result result = PASS_DONE;
+
+    for (; stride > 0 && result == PASS_DONE; stride /= 2) {
+        result = run_pass(r, stride, 0, 1);
+        pthread_mutex_lock(&r->lock);
+        if (r->first_picture_ns == 0 && result == PASS_DONE)
+            r->first_picture_ns =
+                r->run_before_ns + clock_ns() - r->run_begin_ns;
+        pthread_mutex_unlock(&r->lock);
+    }
+    return result;
+}
+
+/* Brings every pixel to so many samples; all have *spp_done. */
+static enum pass_result run_to(struct render *r, uint64_t target,
+                               int stride_max, uint64_t *spp_done)
+{
+    enum pass_result result = *spp_done == 0
+                                  ? run_first_pass(r, stride_max)
+                                  : run_pass(r, 1, *spp_done, target);
+
+    if (result == PASS_DONE) {
+        pthread_mutex_lock(&r->lock);
+        *spp_done = target;
+        pthread_mutex_unlock(&r->lock);
+    }
+    return result;
+}
+
+static enum pass_result load(struct render *r)
+{
+    uint64_t begin_ns = clock_ns();
+    bool ok =
+        r->backend->load(r->backend, &r->job.world, r->job.tree, &r->error);
+
+    pthread_mutex_lock(&r->lock);
+    r->build_ns = clock_ns() - begin_ns;
+    r->is_loaded = ok;
+    pthread_mutex_unlock(&r->lock);
+    r->job.geometry_changed = !ok;
+    return ok ? PASS_DONE : PASS_FAILED;
+}
+
+/* After a halt the backend goes on with the film that it has begun. */
+static enum pass_result begin(struct render *r, const struct world *world,
+                              struct film *film, int x0, int y0)
+{
+    if (r->begun == film)
+        return PASS_DONE;
+    r->begun = NULL;
+    if (!r->backend->begin(r->backend, world, film, x0, y0, &r->error))
+        return PASS_FAILED;
+    r->begun = film;
+    return PASS_DONE;
+}
+
+/* The same crop in larger pixels, which are counted from its corner. */
+static struct world draft_world(const struct render_job *job,
+                                const struct film *draft)
+{
+    struct world w = job->world;
+    struct projection_part part = {job->crop.x,     job->crop.y,
+                                   job->crop.width, job->crop.height,
+                                   draft->width,    draft->height};
+
+    w.settings.camera = projection_camera(&w.settings.camera, &part);
+    w.settings.order = ORDER_DRAFT;
+    return w;
+}
+
+static bool is_light(const struct render_job *job)
+{
+    return job->world.settings.sample == SAMPLE_LIGHT;
+}
+
+/* What is not light is the same in every sample. */
+static uint64_t draft_spp(const struct render_job *job)
+{
+    return is_light(job) ? DRAFT_SPP : 1;
+}
+
+/* One pass for each of the two sets of samples that its order has. */
+static enum pass_result run_draft(struct render *r)
+{
+    struct world world = draft_world(&r->job, &r->draft);
+    uint64_t spp = draft_spp(&r->job);
+    uint64_t *spp_done = &r->draft_spp_done;
+    enum pass_result result = begin(r, &world, &r->draft, 0, 0);
+
+    while (result == PASS_DONE && *spp_done < spp)
+        result =
+            run_to(r, *spp_done == 0 ? 1 : spp, DRAFT_STRIDE_MAX, spp_done);
+    return result;
+}
+
+static bool is_stepping(struct render *r)
+{
+    bool has_steps;
+
+    pthread_mutex_lock(&r->lock);
+    has_steps = r->steps > 0;
+    pthread_mutex_unlock(&r->lock);
+    return has_steps;
+}
+
+/* After a pass that was one of the steps: was it the last? */
+static bool was_last_step(struct render *r)
+{
+    bool is_last;
+
+    pthread_mutex_lock(&r->lock);
+    is_last = r->steps > 0 && --r->steps == 0;
+    pthread_mutex_unlock(&r->lock);
+    return is_last;
+}
+
+/* Until the limit, a cancellation or a failure, or for some steps. */
+static enum pass_result run_film(struct render *r)
+{
+    uint64_t *spp_done = &r->spp_done;
+    enum pass_result result =
+        begin(r, &r->job.world, &r->film, r->job.crop.x, r->job.crop.y);
+
+    while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp)) {
+        uint64_t target =
+            is_stepping(r) ? *spp_done + 1 : next_target(*spp_done, r->spp);
+
+        result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
+        if (result == PASS_DONE && was_last_step(r) && *spp_done != r->spp)
+            result = PASS_CANCELLED;
+    }
+    return result;
+}
+
+static enum pass_result run(struct render *r)
+{
+    enum pass_result result = PASS_DONE;
+
+    if (r->job.geometry_changed)
+        result = load(r);
+    if (result == PASS_DONE && r->draft.width > 0 &&
+        r->draft_spp_done < draft_spp(&r->job))
+        result = run_draft(r);
+    return result == PASS_DONE && is_light(&r->job) ? run_film(r) : result;
+}
+
+static void *render_main(void *argument)
+{
+    struct render *r = argument;
+
+    pthread_mutex_lock(&r->lock);
+    for (;;) {
+        enum pass_result result;
+
+        while (!r->wanted && !r->ending)
+            pthread_cond_wait(&r->begin, &r->lock);
+        if (r->ending)
+            break;
+        r->wanted = false;
+        pthread_mutex_unlock(&r->lock);
+        result = run(r);
+        pthread_mutex_lock(&r->lock);
+        r->run_before_ns += clock_ns() - r->run_begin_ns;
+        r->state = result == PASS_DONE        ? RENDER_DONE
+                   : result == PASS_CANCELLED ? RENDER_IDLE
+                                              : RENDER_FAILED;
+        pthread_cond_broadcast(&r->end);
+        event_fd_set(r->event_fd);
+    }
+    pthread_mutex_unlock(&r->lock);
+    return NULL;
+}
+
+struct render *render_create(struct backend *backend, struct error *err)
+{
+    struct render *r = xcalloc(1, sizeof *r);
+    pthread_condattr_t monotonic;
+    int reason;
+
+    r->backend = backend;
+    r->event_fd = event_fd_open("render", err);
+    if (r->event_fd < 0) {
+        free(r);
+        return NULL;
+    }
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_mutex_init(&r->lock, NULL);
+    pthread_cond_init(&r->begin, NULL);
+    pthread_cond_init(&r->end, &monotonic);
+    pthread_condattr_destroy(&monotonic);
+    reason = thread_start(&r->thread, render_main, r);
+    if (reason != 0) {
+        fail(err, "render: no thread: %s", strerror(reason));
+        close(r->event_fd);
+        free(r);
+        return NULL;
+    }
+    return r;
+}
+
+/* Under the lock: lets the render thread go. */
+static void go(struct render *r, uint64_t steps)
+{
+    cancel_reset(&r->cancel);
+    r->steps = steps;
+    r->state = RENDER_RUNNING;
+    r->wanted = true;
+    r->run_begin_ns = clock_ns();
+    pthread_cond_signal(&r->begin);
+}
+
+/* An empty film of this size. */
+static bool renew(struct film *film, int width, int height, struct error *err)
+{
+    if (film->width == width && film->height == height) {
+        film_clear(film);
+        return true;
+    }
+    film_free(film);
+    return film_init(film, width, height, err);
+}
+
+static int smallest(int a, int b, int c)
+{
+    int ab = a < b ? a : b;
+
+    return ab < c ? ab : c;
+}
+
+static bool renew_draft(struct render *r, const struct render_job *job,
+                        struct error *err)
+{
+    int width = smallest(job->draft_width, job->crop.width, DRAFT_SIDE_MAX);
+    int height = smallest(job->draft_height, job->crop.height, DRAFT_SIDE_MAX);
+
+    if (width > 0 && height > 0)
+        return renew(&r->draft, width, height, err);
+    film_free(&r->draft);
+    return true;
+}
+
+bool render_start(struct render *r, const struct render_job *job,
+                  struct error *err)
+{
+    bool geometry_changed;
+
+    render_halt(r);
+    geometry_changed = r->job.geometry_changed || job->geometry_changed;
+    if (!renew(&r->film, job->crop.width, job->crop.height, err) ||
+        !renew_draft(r, job, err))
+        return false;
+    r->job = *job;
+    r->job.geometry_changed = geometry_changed;
+    r->begun = NULL;
+    pthread_mutex_lock(&r->lock);
+    r->spp = job->spp;
+    r->spp_done = 0;
+    r->draft_spp_done = 0;
+    r->run_before_ns = 0;
+    r->first_picture_ns = 0;
+    r->is_loaded &= !geometry_changed;
+    go(r, job->steps);
+    pthread_mutex_unlock(&r->lock);
+    return true;
+}
+
+void render_halt(struct render *r)
+{
+    cancel_request(&r->cancel);
+    render_wait(r, -1);
+}
+
+void render_resume(struct render *r, uint64_t spp)
+{
+    pthread_mutex_lock(&r->lock);
+    if (r->state == RENDER_IDLE || r->state == RENDER_DONE) {
+        r->spp = spp;
+        go(r, 0);
+    }
+    pthread_mutex_unlock(&r->lock);
+}
+
+bool render_step(struct render *r)
+{
+    bool is_done;
+
+    pthread_mutex_lock(&r->lock);
+    if (r->state == RENDER_RUNNING && r->steps > 0) {
+        r->steps++;
+        pthread_mutex_unlock(&r->lock);
+        return true;
+    }
+    pthread_mutex_unlock(&r->lock);
+    render_halt(r);
+    pthread_mutex_lock(&r->lock);
+    is_done = r->state != RENDER_IDLE;
+    if (!is_done)
+        go(r, 1);
+    pthread_mutex_unlock(&r->lock);
+    return !is_done;
+}
+
+bool render_wait(struct render *r, int timeout_ms)
+{
+    struct timespec until;
+    bool is_parked;
+    int reason = 0;
+
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_sec += timeout_ms / 1000;
+    until.tv_nsec += (long)(timeout_ms % 1000) * 1000000;
+    if (until.tv_nsec >= 1000000000) {
+        until.tv_sec++;
+        until.tv_nsec -= 1000000000;
+    }
+    pthread_mutex_lock(&r->lock);
+    while (r->state == RENDER_RUNNING && reason == 0)
+        reason = timeout_ms < 0
+                     ? pthread_cond_wait(&r->end, &r->lock)
+                     : pthread_cond_timedwait(&r->end, &r->lock, &until);
+    is_parked = r->state != RENDER_RUNNING;
+    pthread_mutex_unlock(&r->lock);
+    return is_parked;
+}
+
+bool render_is_loaded(struct render *r)
+{
+    bool is_loaded;
+
+    pthread_mutex_lock(&r->lock);
+    is_loaded = r->is_loaded;
+    pthread_mutex_unlock(&r->lock);
+    return is_loaded;
+}
+
+int render_event_fd(const struct render *r)
+{
+    return r->event_fd;
+}
+
+struct render_progress render_progress(struct render *r)
+{
+    struct render_progress p = {0};
+    uint64_t pixels = (uint64_t)r->film.width * (uint64_t)r->film.height;
+
+    pthread_mutex_lock(&r->lock);
+    p.state = r->state;
+    p.spp_limit = r->spp;
+    p.spp_done = r->spp_done;
+    p.render_ns = r->run_before_ns;
+    if (r->state == RENDER_RUNNING)
+        p.render_ns += clock_ns() - r->run_begin_ns;
+    p.build_ns = r->build_ns;
+    p.first_picture_ns = r->first_picture_ns;
+    p.draft_is_coarse = r->draft.width > 0 && r->draft_spp_done == 0;
+    if (r->state == RENDER_FAILED)
+        p.error = r->error;
+    pthread_mutex_unlock(&r->lock);
+    p.samples = atomic_load(&r->film.samples);
+    p.samples_limit = p.spp_limit * pixels;
+    p.draft_samples = atomic_load(&r->draft.samples);
+    p.rays = atomic_load(&r->film.rays);
+    p.non_finite = atomic_load(&r->film.non_finite);
+    p.saturated = atomic_load(&r->film.saturated);
+    p.cut_paths = atomic_load(&r->film.cut_paths);
+    return p;
+}
+
+struct film *render_film(struct render *r)
+{
+    return &r->film;
+}
+
+struct film *render_draft(struct render *r)
+{
+    bool is_young;
+
+    pthread_mutex_lock(&r->lock);
+    is_young = r->spp_done < FILM_YOUNG_SPP;
+    pthread_mutex_unlock(&r->lock);
+    return is_young && r->draft.width > 0 ? &r->draft : NULL;
+}
+
+void render_use(struct render *r, struct backend *backend)
+{
+    render_halt(r);
+    if (r->backend != backend)
+        r->backend->unload(r->backend);
+    r->backend = backend;
+    r->job.geometry_changed = true;
+}
+
+struct backend *render_backend(const struct render *r)
+{
+    return r->backend;
+}
+
+void render_destroy(struct render *r)
+{
+    if (r == NULL)
+        return;
+    render_halt(r);
+    pthread_mutex_lock(&r->lock);
+    r->ending = true;
+    pthread_cond_signal(&r->begin);
+    pthread_mutex_unlock(&r->lock);
+    pthread_join(r->thread, NULL);
+    pthread_mutex_destroy(&r->lock);
+    pthread_cond_destroy(&r->begin);
+    pthread_cond_destroy(&r->end);
+    close(r->event_fd);
+    film_free(&r->film);
+    film_free(&r->draft);
+    free(r);
+}

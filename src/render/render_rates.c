@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "render/render_rates.h"
+
+#include <stdlib.h>
+
+void load_begin(struct load *l, const struct backend *b)
+{
+    int count = b->cpu_ns ? b->thread_count : 0;
+
+    if (count != l->count) {
+        load_free(l);
+        l->cpu_ns = xcalloc((size_t)count, sizeof *l->cpu_ns);
+        l->count = count;
+    }
+    for (int i = 0; i < count; i++)
+        l->cpu_ns[i] = b->cpu_ns(b, i);
+}
+
+double load_share(const struct load *l, const struct backend *b, int thread,
+                  uint64_t time_ns)
+{
+    double share;
+
+    if (thread >= l->count || !b->cpu_ns || time_ns == 0)
+        return 0;
+    share =
+        (double)(b->cpu_ns(b, thread) - l->cpu_ns[thread]) / (double)time_ns;
+    return share < 1 ? share : 1; /* the two clocks are not read at once */
+}
+
+void load_free(struct load *l)
+{
+    free(l->cpu_ns);
+    *l = (struct load){0};
+}

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: MIT
+#include "scene/material.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "picture/blackbody.h"
+
+/* From here on a highlight is a mirror image: exporters write 1000 for it. */
+#define NS_SMOOTH 1000
+
+/* Less rough than this nothing can be told from Lambert's law. */
+#define ROUGH_LEAST 1e-3
+
+#define IOR_DEFAULT 1.5
+#define IOR_MAX     1e6
+
+const char *const mtl_map_keys[MTL_MAPS] = {
+    [MTL_MAP_KD] = "map_Kd", [MTL_MAP_KS] = "map_Ks",
+    [MTL_MAP_KE] = "map_Ke", [MTL_MAP_PR] = "map_Pr",
+    [MTL_MAP_PM] = "map_Pm", [MTL_MAP_D] = "map_d",
+    [MTL_MAP_NORM] = "norm", [MTL_MAP_BUMP] = "map_Bump",
+};
+
+struct place {
+    const char *path;
+    struct report *report;
+};
+
+struct mtl_source mtl_source_empty(void)
+{
+    struct mtl_source s = {.bump_scale = 1};
+
+    for (int i = 0; i < MTL_MAPS; i++)
+        s.maps[i] = NO_INDEX;
+    return s;
+}
+
+/* What is no number is equal to itself. */
+static bool values_equal(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+bool mtl_number_equal(const struct mtl_number *a, const struct mtl_number *b)
+{
+    return (a->line == 0) == (b->line == 0) &&
+           (a->line == 0 || values_equal(a->value, b->value));
+}
+
+bool mtl_color_equal(const struct mtl_color *a, const struct mtl_color *b)
+{
+    return (a->line == 0) == (b->line == 0) &&
+           (a->line == 0 || (values_equal(a->rgb[0], b->rgb[0]) &&
+                             values_equal(a->rgb[1], b->rgb[1]) &&
+                             values_equal(a->rgb[2], b->rgb[2])));
+}
+
+bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
+{
+    for (int i = 0; i < MTL_MAPS; i++)
+        if (a->maps[i] != b->maps[i])
+            return false;
+    return a->maps_off == b->maps_off && a->bump_scale == b->bump_scale &&
+           mtl_color_equal(&a->kd, &b->kd) && mtl_color_equal(&a->ks, &b->ks) &&
+           mtl_color_equal(&a->ke, &b->ke) && mtl_color_equal(&a->tf, &b->tf) &&
+           mtl_number_equal(&a->kelvin, &b->kelvin) &&
+           mtl_number_equal(&a->luminance, &b->luminance) &&
+           mtl_number_equal(&a->illum, &b->illum) &&
+           mtl_number_equal(&a->ns, &b->ns) &&
+           mtl_number_equal(&a->ni, &b->ni) && mtl_number_equal(&a->d, &b->d) &&
+           mtl_number_equal(&a->tr, &b->tr) &&
+           mtl_number_equal(&a->pr, &b->pr) &&
+           mtl_number_equal(&a->pm, &b->pm) &&
+           mtl_number_equal(&a->kd_roughness, &b->kd_roughness);
+}
+
+uint32_t mtl_source_map(const struct mtl_source *s, enum mtl_map map)
+{
+    return (s->maps_off >> map & 1) != 0 ? NO_INDEX : s->maps[map];
+}
+
+struct mtl_color mtl_source_light(const struct mtl_source *s)
+{
+    struct mtl_color light = {.line = s->kelvin.line};
+    double kelvin = s->kelvin.value;
+
+    if (s->kelvin.line == 0)
+        return s->ke;
+    if (!(kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST))
+        return light;
+    blackbody_rgb(kelvin, light.rgb);
+    for (int i = 0; i < 3; i++)
+        light.rgb[i] *= s->luminance.value;
+    return light;
+}
+
+struct material material_default(void)
+{
+    struct material m = {
+        .color = {MATERIAL_GREY, MATERIAL_GREY, MATERIAL_GREY},
+        .ior = (float)IOR_DEFAULT,
+        .kind = MATERIAL_DIFFUSE,
+        .color_texture = NO_INDEX,
+        .emission_texture = NO_INDEX,
+        .coat_texture = NO_INDEX,
+        .alpha_texture = NO_INDEX,
+        .metal_texture = NO_INDEX,
+        .opacity_texture = NO_INDEX,
+        .normal_texture = NO_INDEX,
+        .bump_texture = NO_INDEX,
+        .metalness = 1,
+        .bump_scale = 1,
+        .opacity = 1,
+    };
+
+    return m;
+}
+
+static double unit_clamped(double x)
+{
+    if (!(x > 0))
+        return 0;
+    return x < 1 ? x : 1;
+}
+
+/* A colour that reflects: each channel in [0, 1], or `missing`. */
+static struct vec3 reflecting(const struct mtl_color *c, const char *key,
+                              float missing, const struct place *at)
+{
+    double rgb[3];
+    bool is_clamped = false;
+
+    if (c->line == 0)
+        return (struct vec3){missing, missing, missing};
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = unit_clamped(c->rgb[i]);
+        is_clamped |= !(rgb[i] == c->rgb[i]);
+    }
+    if (is_clamped)
+        report_add(at->report, "colours outside 0 to 1",
+                   "%s:%" PRIu64 ": found %s %g %g %g, expected numbers from 0 "
+                   "to 1: clamped",
+                   at->path, c->line, key, c->rgb[0], c->rgb[1], c->rgb[2]);
+    return (struct vec3){(float)rgb[0], (float)rgb[1], (float)rgb[2]};
+}
+
+static struct vec3 emission(const struct mtl_color *c, const struct place *at)
+{
+    float rgb[3] = {0, 0, 0};
+    bool is_changed = false;
+
+    for (int i = 0; i < 3 && c->line != 0; i++) {
+        if (c->rgb[i] >= 0 && c->rgb[i] <= (double)FLT_MAX)
+            rgb[i] = (float)c->rgb[i];
+        else
+            is_changed = true;
+    }
+    if (is_changed)
+        report_add(at->report, "impossible radiances",
+                   "%s:%" PRIu64 ": found Ke %g %g %g, expected numbers from 0 "
+                   "on: what is not counts as 0",
+                   at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
+    return (struct vec3){rgb[0], rgb[1], rgb[2]};
+}
+
+/* The number if it is in [lo, hi], else `missing`, with a warning if the file
+ * says something else. */
+static double within(const struct mtl_number *n, const char *key, double lo,
+                     double hi, double missing, const struct place *at)
+{
+    if (n->line == 0)
+        return missing;
+    if (n->value >= lo && n->value <= hi)
+        return n->value;
+    report_add(at->report, "impossible material values",
+               "%s:%" PRIu64 ": found %s %g, expected a number from %g to %g: "
+               "taken as %g",
+               at->path, n->line, key, n->value, lo, hi, missing);
+    return missing;
+}
+
+static double alpha(const struct mtl_source *s, const struct place *at)
+{
+    double ns = within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
+
+    if (s->pr.line != 0) {
+        double pr = within(&s->pr, "Pr", 0, 1, unit_clamped(s->pr.value), at);
+
+        return pr * pr;
+    }
+    if (mtl_source_map(s, MTL_MAP_PR) != NO_INDEX)
+        return 1;
+    return ns == 0 || ns >= NS_SMOOTH ? 0 : sqrt(2 / (ns + 2));
+}
+
+static void roughen(struct material *m, const struct mtl_source *s,
+                    const struct place *at)
+{
+    m->alpha = (float)alpha(s, at);
+    m->alpha_texture = mtl_source_map(s, MTL_MAP_PR);
+}
+
+/* d wins over Tr. */
+static double opacity(const struct mtl_source *s, const struct place *at)
+{
+    if (s->d.line != 0)
+        return within(&s->d, "d", 0, 1,
+                      isnan(s->d.value) ? 1 : unit_clamped(s->d.value), at);
+    return 1 - within(&s->tr, "Tr", 0, 1, unit_clamped(s->tr.value), at);
+}
+
+static int illumination(const struct mtl_source *s, const struct place *at)
+{
+    double illum = within(&s->illum, "illum", 0, 10, 2, at);
+
+    return (int)illum;
+}
+
+static void make_glass(struct material *m, uint32_t kind,
+                       const struct mtl_source *s, const struct place *at)
+{
+    m->kind = kind;
+    m->color = reflecting(&s->tf, "Tf", 1, at);
+    m->color_texture = mtl_source_map(s, MTL_MAP_KD);
+    if (kind == MATERIAL_GLASS)
+        roughen(m, s, at);
+    m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
+}
+
+/* Maya writes illum 4 with these for whatever is opaque: a sheet without
+ * refraction or tint would be nothing at all. */
+static bool is_no_sheet(const struct mtl_source *s)
+{
+    const double *tf = s->tf.rgb;
+
+    return s->ni.line != 0 && s->ni.value == 1 && s->tf.line != 0 &&
+           tf[0] == 1 && tf[1] == 1 && tf[2] == 1;
+}
+
+static bool is_black(const struct vec3 *c)
+{
+    return c->x == 0 && c->y == 0 && c->z == 0;
+}
+
+static void make_plastic(struct material *m, const struct vec3 *ks,
+                         const struct mtl_source *s, const struct place *at)
+{
+    m->kind = MATERIAL_PLASTIC;
+    m->coat = (struct vec3){ks->x * MATERIAL_COAT, ks->y * MATERIAL_COAT,
+                            ks->z * MATERIAL_COAT};
+    m->coat_texture = mtl_source_map(s, MTL_MAP_KS);
+    roughen(m, s, at);
+}
+
+static void make_diffuse(struct material *m, const struct mtl_source *s,
+                         const struct place *at)
+{
+    double r = within(&s->kd_roughness, "Kd_roughness", 0, 1,
+                      unit_clamped(s->kd_roughness.value), at);
+
+    if (r < ROUGH_LEAST)
+        return;
+    m->kind = MATERIAL_ROUGH_DIFFUSE;
+    m->alpha = (float)r;
+}
+
+static void make_opaque(struct material *m, int illum,
+                        const struct mtl_source *s, const struct place *at)
+{
+    uint32_t map_kd = mtl_source_map(s, MTL_MAP_KD);
+    uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
+    bool is_mixed = mtl_source_map(s, MTL_MAP_PM) != NO_INDEX;
+    double pm = within(&s->pm, "Pm", 0, 1, unit_clamped(s->pm.value), at);
+    struct vec3 ks = reflecting(&s->ks, "Ks", 0, at);
+    bool has_ks = !is_black(&ks) || map_ks != NO_INDEX;
+
+    m->opacity = (float)opacity(s, at);
+    if (m->opacity <= 0)
+        report_add(at->report, "materials that are not seen",
+                   "%s:%" PRIu64 ": found %s %g: what has this material is not "
+                   "seen",
+                   at->path, s->d.line != 0 ? s->d.line : s->tr.line,
+                   s->d.line != 0 ? "d" : "Tr",
+                   s->d.line != 0 ? s->d.value : s->tr.value);
+    m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
+    m->color =
+        reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
+    m->color_texture = map_kd;
+    m->metal_texture = mtl_source_map(s, MTL_MAP_PM);
+    m->metalness = is_mixed && s->pm.line != 0 ? (float)pm : 1;
+    if (pm >= 0.5 && !is_mixed) {
+        m->kind = MATERIAL_METAL;
+        roughen(m, s, at);
+    } else if (has_ks && !is_mixed && (illum == 3 || illum == 5)) {
+        m->kind = MATERIAL_METAL;
+        m->color = ks;
+        m->color_texture = map_ks;
+        roughen(m, s, at);
+    } else if (has_ks) {
+        make_plastic(m, &ks, s, at);
+    } else if (is_mixed) {
+        roughen(m, s, at);
+    } else {
+        make_diffuse(m, s, at);
+    }
+}
+
+/* Of the maps that only some materials have a use for. */
+static void check_map(const struct mtl_source *s, enum mtl_map which,
+                      const struct material *m, const struct place *at)
+{
+    uint32_t map = mtl_source_map(s, which);
+
+    if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture &&
+        map != m->alpha_texture && map != m->metal_texture &&
+        map != m->opacity_texture)
+        report_add(at->report, "maps that do not fit their material",
+                   "%s: found %s of a material that has no use for it: not "
+                   "used",
+                   at->path, mtl_map_keys[which]);
+}
+
+struct material material_from_source(const struct mtl_source *s,
+                                     const char *path, struct report *report)
+{
+    static const enum mtl_map particular[] = {MTL_MAP_KD, MTL_MAP_KS,
+                                              MTL_MAP_PR, MTL_MAP_PM,
+                                              MTL_MAP_D};
+    struct place at = {path, report};
+    struct material m = material_default();
+    struct mtl_color light = mtl_source_light(s);
+    int illum = illumination(s, &at);
+
+    if (illum == 6 || illum == 7)
+        make_glass(&m, MATERIAL_GLASS, s, &at);
+    else if ((illum == 4 || illum == 9) && !is_no_sheet(s))
+        make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
+    else
+        make_opaque(&m, illum, s, &at);
+    for (size_t i = 0; i < sizeof particular / sizeof particular[0]; i++)
+        check_map(s, particular[i], &m, &at);
+    m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
+    m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
+    m.bump_scale = (float)s->bump_scale;
+    m.emission = emission(&light, &at);
+    m.emission_texture = mtl_source_map(s, MTL_MAP_KE);
+    return m;
+}
+
+/* Where both give the same material the candidate is taken. */
+static void take_if_same(struct mtl_source *s,
+                         const struct mtl_source *candidate)
+{
+    struct report ignored = {0};
+    struct material a = material_from_source(s, "", &ignored);
+    struct material b = material_from_source(candidate, "", &ignored);
+
+    if (memcmp(&a, &b, sizeof a) == 0)
+        *s = *candidate;
+    report_free(&ignored);
+}
+
+struct mtl_source mtl_source_needed(const struct mtl_source *file,
+                                    const struct mtl_source *wanted)
+{
+    static const size_t numbers[] = {offsetof(struct mtl_source, illum),
+                                     offsetof(struct mtl_source, ns),
+                                     offsetof(struct mtl_source, ni),
+                                     offsetof(struct mtl_source, d),
+                                     offsetof(struct mtl_source, tr),
+                                     offsetof(struct mtl_source, pr),
+                                     offsetof(struct mtl_source, pm),
+                                     offsetof(struct mtl_source, kd_roughness)};
+    static const size_t colors[] = {offsetof(struct mtl_source, kd),
+                                    offsetof(struct mtl_source, ks),
+                                    offsetof(struct mtl_source, tf)};
+    struct mtl_source s = *wanted;
+    struct mtl_source candidate;
+
+    /* first, so that Pm makes the metal and not the Ks of a coat */
+    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
+        candidate = s;
+        memcpy((char *)&candidate + colors[i], (const char *)file + colors[i],
+               sizeof file->kd);
+        take_if_same(&s, &candidate);
+    }
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        candidate = s;
+        memcpy((char *)&candidate + numbers[i], (const char *)file + numbers[i],
+               sizeof file->illum);
+        take_if_same(&s, &candidate);
+    }
+    candidate = s;
+    candidate.ke = file->ke;
+    candidate.kelvin = file->kelvin;
+    candidate.luminance = file->luminance;
+    take_if_same(&s, &candidate);
+    return s;
+}

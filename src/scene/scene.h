@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+/*
+ * scene.h - a loaded scene: geometry, materials, textures, sky, names
+ *
+ * The loaders fill it in file units; scene_finish() drops what cannot be
+ * rendered, normalises and makes it ready. struct world is made from a scene
+ * and a view and borrows the scene's arrays.
+ *
+ * Units:     file units in double until scene_finish(), normalised float after
+ * Ownership: scene_free() frees everything; a zeroed struct is an empty scene
+ * Threads:   one thread while loading, then read only
+ * Errors:    memory; files named by the text
+ */
+#ifndef GLIM_SCENE_H
+#define GLIM_SCENE_H
+
+#include "light/path_guide.h"
+#include "light/lights.h"
+#include "scene/material.h"
+#include "base/warnings.h"
+#include "light/sky_table.h"
+#include "base/util.h"
+#include "scene/view.h"
+#include "kernels/types.h"
+
+/* What a material was made from. */
+struct texture_origin {
+    uint32_t file; /* number of the MTL file */
+    uint64_t line;
+};
+
+struct material_origin {
+    struct mtl_source source;
+    uint32_t file; /* of mtl_paths; NO_INDEX: none */
+};
+
+struct scene {
+    char *path; /* of the OBJ file */
+
+    /* while loading; freed by scene_finish() */
+    double *file_positions; /* 3 a vertex */
+
+    struct vec3 *positions;
+    uint32_t position_count;
+    struct vec3 *normals; /* unit length, or 0 where the file's is unusable */
+    uint32_t normal_count;
+    struct vec2 *uvs;
+    uint32_t uv_count;
+
+    struct tri *tris;
+    uint32_t *tri_faces;   /* number of the face in the file, from 0 */
+    uint32_t *tri_objects; /* index into object_names */
+    /* of triangles, as the file has it, and for each object the one it has
+     * instead, or NO_INDEX; NULL: no object has another than in the file */
+    uint32_t *file_materials;
+    uint32_t *assigned;
+    uint32_t tri_count;
+    uint32_t dropped_count; /* triangles of the file that are not here */
+
+    char **object_names; /* 0 is "" : before the first o line */
+    uint32_t object_count;
+
+    struct material *materials; /* 0 is the default material, "" */
+    char **material_names;
+    struct material_origin *material_origins;
+    bool *material_is_used; /* by a triangle; from scene_finish() */
+    uint32_t material_count;
+    char **mtl_paths; /* of the files that were read, in order */
+    uint32_t mtl_path_count;
+
+    struct texture *textures;
+    char **texture_paths;
+    struct texture_origin *texture_origins; /* the first statements of them */
+    bool *texture_is_tried;                 /* its image was looked for */
+    uint32_t texture_count;
+    uint32_t *texels;
+    size_t texel_count;
+
+    struct vec3 *sky_texels; /* NULL: no image */
+    uint32_t sky_width, sky_height;
+    struct sky_table sky_table;
+
+    /* stored = (file - center) * scale */
+    double center[3];
+    double scale;
+    double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
+    bool has_emitters;
+    struct lights lights;
+    struct guide guide;
+    struct wide tree; /* of the triangles; without nodes: nobody needs one */
+    float linear_of_srgb[256];
+};
+
+/* Drops triangles with a non-finite vertex or without area (counted in the
+ * report), computes bounds, centre and scale, and fills positions from
+ * file_positions. */
+bool scene_finish(struct scene *scene, struct report *report,
+                  struct error *err);
+
+/* Loads view->sky_path, or removes the image if that is NULL. */
+bool scene_load_sky(struct scene *scene, const struct view *view,
+                    struct report *report, struct error *err);
+
+/* The part of a world that no view changes. */
+struct world scene_arrays(const struct scene *scene);
+
+/* Of vertices, normals, texture coordinates and triangles. */
+uint64_t scene_geometry_bytes(const struct scene *scene);
+
+/* Finds whether one of the used materials shines. */
+void scene_find_emitters(struct scene *scene);
+
+/* What the scene needs, of enum feature; and what a material of it needs. */
+uint32_t scene_features(const struct scene *scene);
+uint32_t scene_material_features(const struct scene *scene,
+                                 const struct material *material);
+
+/* True if both have the same triangles at the same places, whatever their
+ * materials, normals and texture coordinates. */
+bool scene_has_same_shape(const struct scene *a, const struct scene *b);
+
+void scene_free(struct scene *scene);
+
+#endif

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+#include "scene/textures.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/image_read.h"
+#include "scene/material.h"
+#include "base/thread_pool.h"
+
+/* texture.first is 32 bits wide. */
+#define TEXELS_MAX UINT64_C(0xffffffff)
+
+static bool has_alpha(const struct image *image)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+
+    for (size_t i = 0; i < count; i++) {
+        if (image->rgba[4 * i + 3] < 255)
+            return true;
+    }
+    return false;
+}
+
+/* The number that a texel of data holds: grey, not decoded. What is cut out is
+ * often an alpha channel behind a white or coloured picture. */
+static uint32_t number_of(const uint8_t *texel, bool by_alpha)
+{
+    if (by_alpha)
+        return texel[3];
+    return ((uint32_t)texel[0] + texel[1] + texel[2] + 1) / 3;
+}
+
+static bool append(struct scene *scene, const struct image *image,
+                   struct texture *texture, struct error *err)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    size_t total = scene->texel_count + count;
+    bool by_alpha = !texture->is_data || has_alpha(image);
+    uint32_t *texels;
+
+    texels = total > SIZE_MAX / sizeof *texels
+                 ? NULL
+                 : realloc(scene->texels, total * sizeof *texels);
+    if (texels == NULL)
+        return fail(err, "%s: out of memory for the textures: %zu MB",
+                    scene->path, total * sizeof *texels >> 20);
+    scene->texels = texels;
+    texels += scene->texel_count;
+    texture->first = (uint32_t)scene->texel_count;
+    texture->width = (uint32_t)image->width;
+    texture->height = (uint32_t)image->height;
+    for (size_t i = 0; i < count; i++) {
+        const uint8_t *p = image->rgba + 4 * i;
+        uint32_t alpha = number_of(p, by_alpha);
+
+        texels[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 |
+                    (uint32_t)p[2] << 16 | alpha << 24;
+        texture->has_holes |= alpha < 128;
+    }
+    scene->texel_count = total;
+    return true;
+}
+
+/* The same image with other options is read once. */
+static bool shares_texels(struct scene *scene, uint32_t index)
+{
+    struct texture *t = &scene->textures[index];
+
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        const struct texture *other = &scene->textures[i];
+
+        if (other->width == 0 || other->is_data != t->is_data ||
+            strcmp(scene->texture_paths[i], scene->texture_paths[index]) != 0)
+            continue;
+        t->first = other->first;
+        t->width = other->width;
+        t->height = other->height;
+        t->has_holes = other->has_holes;
+        return true;
+    }
+    return false;
+}
+
+/* The image of a texture. */
+struct reading {
+    uint32_t texture;
+    const char *path;
+    const struct reading *twin; /* an earlier one that reads the same texels */
+    struct image_file file;
+    bool is_open, is_there;
+    struct image image;
+    struct error why; /* if it is not there */
+};
+
+static struct reading reading_of(const struct scene *scene, uint32_t texture)
+{
+    return (struct reading){.texture = texture,
+                            .path = scene->texture_paths[texture]};
+}
+
+uint64_t textures_bytes(const struct scene *scene)
+{
+    uint64_t sky_pixels =
+        (uint64_t)scene->sky_width * (uint64_t)scene->sky_height;
+
+    return scene->texel_count * sizeof *scene->texels +
+           sky_pixels * (sizeof *scene->sky_texels + sizeof(float));
+}
+
+static void open_image(struct reading *r, uint64_t held_bytes)
+{
+    r->is_open = image_open(&r->file, r->path, IMAGE_8BIT, held_bytes, &r->why);
+}
+
+static void decode_image(void *context, uint32_t item, int worker)
+{
+    struct reading *r = (struct reading *)context + item;
+    uint64_t ignored;
+
+    (void)worker;
+    if (r->is_open)
+        r->is_there = image_decode(&r->file, &r->image, &ignored, &r->why);
+}
+
+/* Says where the texture is named first, and why it is not there. */
+static void report_lost(const struct scene *scene, const struct reading *r,
+                        struct report *report, const char *why)
+{
+    struct texture_origin o = scene->texture_origins[r->texture];
+
+    report_add_named(report, "lost textures", r->path,
+                     "%s:%" PRIu64 ": %s: the texture is not used",
+                     scene->mtl_paths[o.file], o.line, why);
+}
+
+/* Takes the image that was read. An unreadable one leaves the texture without
+ * texels. */
+static bool take(struct scene *scene, const struct reading *r,
+                 struct report *report, struct error *err)
+{
+    const struct reading *source = r->twin != NULL ? r->twin : r;
+    const struct image *image = &source->image;
+
+    if (shares_texels(scene, r->texture))
+        return true;
+    if (!source->is_there)
+        report_lost(scene, r, report, source->why.text);
+    else if ((uint64_t)image->width * (uint64_t)image->height >
+             TEXELS_MAX - scene->texel_count)
+        report_lost(scene, r, report,
+                    "found more than 4e9 texels in all textures");
+    else
+        return append(scene, image, &scene->textures[r->texture], err);
+    return true;
+}
+
+/* ---- many at once ---- */
+
+/* Images that wait to be taken, for each thread: some take longer. */
+#define IMAGES_EACH 2
+
+static const struct reading *find_twin(const struct scene *scene,
+                                       const struct reading *readings,
+                                       uint32_t index)
+{
+    const struct texture *t = scene->textures;
+    const struct reading *r = &readings[index];
+
+    for (uint32_t i = 0; i < index; i++)
+        if (t[readings[i].texture].is_data == t[r->texture].is_data &&
+            strcmp(readings[i].path, r->path) == 0)
+            return &readings[i];
+    return NULL;
+}
+
+/* Opens the images of the first textures, as many as there is memory for at the
+ * same time, but at least one; returns their number. One that has no room
+ * beside the others comes first the next time, so that only what the scene
+ * holds by then decides whether it is refused, not the number of threads. */
+static uint32_t open_some(struct scene *scene, const uint32_t *textures,
+                          uint32_t count, struct reading *readings)
+{
+    uint64_t held_bytes = textures_bytes(scene);
+
+    for (uint32_t i = 0; i < count; i++) {
+        struct reading *r = &readings[i];
+
+        *r = reading_of(scene, textures[i]);
+        r->twin = find_twin(scene, readings, i);
+        if (r->twin != NULL || shares_texels(scene, r->texture))
+            continue;
+        open_image(r, held_bytes);
+        if (r->file.is_beyond && i > 0)
+            return i;
+        if (r->is_open)
+            held_bytes += r->file.memory_bytes;
+    }
+    return count;
+}
+
+/* Takes images that were read by all threads, in order. */
+static bool take_some(struct scene *scene, struct reading *readings,
+                      uint32_t count, struct report *report, struct error *err)
+{
+    bool ok = true;
+
+    for (uint32_t i = 0; i < count; i++)
+        ok = ok && take(scene, &readings[i], report, err);
+    for (uint32_t i = 0; i < count; i++)
+        image_free(&readings[i].image);
+    return ok;
+}
+
+static bool load_all(struct scene *scene, const uint32_t *textures,
+                     uint32_t count, struct report *report, struct error *err)
+{
+    /* without threads this one reads */
+    struct pool *pool = count > 1 ? pool_create(usable_threads(), err) : NULL;
+    uint32_t at_once =
+        pool ? IMAGES_EACH * (uint32_t)pool_thread_count(pool) : 1;
+    struct reading *readings = xcalloc(at_once, sizeof *readings);
+    bool ok = true;
+
+    for (uint32_t i = 0, n; ok && i < count; i += n) {
+        uint32_t wanted = count - i < at_once ? count - i : at_once;
+
+        n = open_some(scene, textures + i, wanted, readings);
+        pool_each(pool, n, decode_image, readings);
+        ok = take_some(scene, readings, n, report, err);
+    }
+    free(readings);
+    pool_destroy(pool);
+    return ok;
+}
+
+/* ---- materials ---- */
+
+static bool is_black(const struct vec3 *c)
+{
+    return c->x == 0 && c->y == 0 && c->z == 0;
+}
+
+/* A map multiplies its colour, but beside a black or absent one it stands
+ * alone, times `alone`. Without its image the map is gone. */
+static void settle(const struct scene *scene, uint32_t *texture,
+                   struct vec3 *color, float alone, float lost)
+{
+    bool is_lost = *texture != NO_INDEX && scene->textures[*texture].width == 0;
+    float x = is_lost ? lost : alone;
+
+    if (*texture != NO_INDEX && is_black(color))
+        *color = (struct vec3){x, x, x};
+    if (is_lost)
+        *texture = NO_INDEX;
+}
+
+/* A map of numbers without its image is gone. */
+static void settle_data(const struct scene *scene, uint32_t *texture)
+{
+    if (*texture != NO_INDEX && scene->textures[*texture].width == 0)
+        *texture = NO_INDEX;
+}
+
+#define MAPS 8
+
+static void list_maps(const struct material *m, uint32_t maps[MAPS])
+{
+    const uint32_t all[MAPS] = {m->color_texture,  m->emission_texture,
+                                m->coat_texture,   m->alpha_texture,
+                                m->metal_texture,  m->opacity_texture,
+                                m->normal_texture, m->bump_texture};
+
+    memcpy(maps, all, sizeof all);
+}
+
+bool textures_are_tried(const struct scene *scene, const struct material *m)
+{
+    uint32_t maps[MAPS];
+
+    list_maps(m, maps);
+    for (int i = 0; i < MAPS; i++)
+        if (maps[i] != NO_INDEX && !scene->texture_is_tried[maps[i]])
+            return false;
+    return true;
+}
+
+bool textures_load_for(struct scene *scene, struct material *m,
+                       struct report *report, struct error *err)
+{
+    uint32_t maps[MAPS];
+
+    list_maps(m, maps);
+    for (int i = 0; i < MAPS; i++) {
+        struct reading r;
+        bool ok;
+
+        if (maps[i] == NO_INDEX || scene->texture_is_tried[maps[i]])
+            continue;
+        scene->texture_is_tried[maps[i]] = true;
+        r = reading_of(scene, maps[i]);
+        if (!shares_texels(scene, r.texture))
+            open_image(&r, textures_bytes(scene));
+        decode_image(&r, 0, 0);
+        ok = take(scene, &r, report, err);
+        image_free(&r.image);
+        if (!ok)
+            return false;
+    }
+    settle(scene, &m->color_texture, &m->color, 1, MATERIAL_GREY);
+    settle(scene, &m->emission_texture, &m->emission, 1, 0);
+    settle(scene, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
+    settle_data(scene, &m->alpha_texture);
+    settle_data(scene, &m->metal_texture);
+    settle_data(scene, &m->opacity_texture);
+    settle_data(scene, &m->normal_texture);
+    settle_data(scene, &m->bump_texture);
+    if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
+        m->kind = MATERIAL_DIFFUSE;
+    return true;
+}
+
+/* Those that used materials name, in their order; their number. */
+static uint32_t list_textures(struct scene *scene, const bool *is_used,
+                              uint32_t *textures)
+{
+    uint32_t count = 0;
+
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        uint32_t maps[MAPS];
+
+        list_maps(&scene->materials[i], maps);
+        for (int k = 0; is_used[i] && k < MAPS; k++)
+            if (maps[k] != NO_INDEX && !scene->texture_is_tried[maps[k]]) {
+                scene->texture_is_tried[maps[k]] = true;
+                textures[count++] = maps[k];
+            }
+    }
+    return count;
+}
+
+bool textures_load(struct scene *scene, struct report *report,
+                   struct error *err)
+{
+    bool *is_used = alloc_array(scene->material_count, sizeof *is_used);
+    uint32_t *textures = alloc_array(scene->texture_count, sizeof *textures);
+    bool ok;
+
+    free(scene->texture_is_tried);
+    scene->texture_is_tried =
+        alloc_array(scene->texture_count, sizeof *scene->texture_is_tried);
+    ok = (is_used != NULL && textures != NULL &&
+          scene->texture_is_tried != NULL) ||
+         fail(err, "%s: out of memory for the textures", scene->path);
+    for (uint32_t i = 0; ok && i < scene->tri_count; i++)
+        is_used[scene->tris[i].material] = true;
+    ok = ok && load_all(scene, textures,
+                        list_textures(scene, is_used, textures), report, err);
+    for (uint32_t i = 0; ok && i < scene->material_count; i++)
+        if (is_used[i]) /* nothing is left to read: what is lost is known */
+            ok = textures_load_for(scene, &scene->materials[i], report, err);
+    free(is_used);
+    free(textures);
+    return ok;
+}

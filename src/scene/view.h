@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+/*
+ * view.h - where the camera stands, what the sky is, how the picture is exposed
+ *
+ * Units:     file units of the scene, degrees, pixels, radiance, stops
+ * Ownership: view_free() frees what is in it
+ * Threads:   one thread at a time
+ * Errors:    an impossible camera
+ */
+#ifndef GLIM_VIEW_H
+#define GLIM_VIEW_H
+
+#include "scene/assign.h"
+#include "base/util.h"
+#include "kernels/tone.h"
+
+/* Views that have a number: 1 to 9 in the file, from 0 here. */
+#define VIEW_SHOTS 9
+
+/* Neither side of a picture is longer: its square fits no memory, but is no
+ * nonsense. */
+#define VIEW_SIDE_MAX 65536
+
+/* The camera of a view: what moves, and what is undone. */
+struct pose {
+    double eye[3], at[3], up[3];
+    double fovy_deg, aperture, focus;
+};
+
+/* has_x says that the file (or the person) gave x; the value is a sensible
+ * default else. */
+struct view {
+    double eye[3], at[3], up[3];
+    bool has_camera; /* eye and at are given */
+    double fovy_deg; /* vertical; above 0, below 180 */
+    int width_px, height_px;
+    bool has_size;
+    double background[3]; /* constant radiance */
+    bool has_background;
+    int max_bounces; /* -1: no limit */
+    char *sky_path;  /* for open(); NULL: none */
+    double sky_strength;
+    double sky_rotation_deg;
+    double aperture; /* diameter of the lens; 0: a pinhole */
+    double focus;    /* from eye to the sharp plane; 0: as far as at */
+    double exposure; /* stops: the picture is multiplied by 2^exposure */
+    struct pose shots[VIEW_SHOTS]; /* the numbered views */
+    bool has_shot[VIEW_SHOTS];
+    uint32_t tone; /* enum tone */
+    struct assigns assigns;
+};
+
+/* Names of enum tone. */
+extern const char *const view_tones[TONES];
+
+/* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
+void view_init(struct view *view);
+
+/* True if eye, at and fovy make a camera; else the text says what is wrong. */
+bool view_check(const struct view *view, const char *place, struct error *err);
+
+struct pose view_pose(const struct view *view);
+void view_set_pose(struct view *view, const struct pose *pose);
+
+/* Takes over what the file has changed from `before` to `after`; the rest of
+ * `view` stays. The camera is one thing. */
+void view_merge(struct view *view, const struct view *before,
+                const struct view *after);
+
+/* Takes over size and bounces: what the command line may say for one run. */
+void view_take_frame(struct view *view, const struct view *from);
+
+/* `to` has been through view_init(). */
+void view_copy(struct view *to, const struct view *from);
+void view_free(struct view *view);
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "session/backends.h"
+
+#include <stdlib.h>
+
+#include "render/cpu_dispatch.h"
+
+bool machines_open(struct machines *m, const struct options *options,
+                   struct error *err)
+{
+    const struct paths *paths =
+        options->paths != NULL ? options->paths : isa_best();
+
+    *m = (struct machines){.options = options};
+    m->cpu = backend_cpu_create(options_threads(options), paths, err);
+    return m->cpu != NULL;
+}
+
+/* For a device that is up only new kernels. */
+bool machines_begin_device(struct machines *m, uint32_t features,
+                           struct error *err)
+{
+    const struct options *o = m->options;
+    struct cl_request request = {
+        .device = o->device,
+        .kernels_path = o->kernels_path,
+        .needs_gpu = o->backend == BACKEND_AUTO,
+        .features = features,
+    };
+
+    m->features = features;
+    m->start = cl_start_begin(&request, m->device, err);
+    return m->start != NULL;
+}
+
+bool machines_end_device(struct machines *m, char **log, struct error *err)
+{
+    free(m->verdict);
+    m->device = cl_start_end(m->start, &m->verdict, log, err);
+    m->start = NULL;
+    return m->device != NULL;
+}
+
+void machines_specialise(struct machines *m, uint32_t features)
+{
+    struct error ignored;
+
+    if (m->device != NULL && m->start == NULL && m->features != features)
+        machines_begin_device(m, features, &ignored);
+}
+
+bool machines_end_specialising(struct machines *m)
+{
+    struct error ignored;
+    char *verdict, *log;
+
+    if (m->device == NULL)
+        return false;
+    cl_start_end(m->start, &verdict, &log, &ignored);
+    m->start = NULL;
+    free(verdict);
+    free(log);
+    return true;
+}
+
+void machines_abandon_device(struct machines *m)
+{
+    if (m->start != NULL)
+        cl_start_abandon(m->start);
+    m->start = NULL;
+}
+
+void machines_close(struct machines *m)
+{
+    machines_abandon_device(m);
+    if (m->device != NULL)
+        m->device->destroy(m->device);
+    if (m->cpu != NULL)
+        m->cpu->destroy(m->cpu);
+    free(m->verdict);
+    *m = (struct machines){0};
+}

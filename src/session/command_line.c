@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "session/command_line.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "session/option_table.h"
+#include "picture/image_write.h"
+
+const char options_help[] =
+    "usage: glim [options] scene.obj\n"
+    "       glim -b [options] [-o picture.png] scene.obj\n"
+    "\n"
+    "Path traces a Wavefront OBJ scene, live in the terminal; with -b into\n"
+    "a file. On the screen, ? shows the keys and q quits.\n"
+    "\n"
+    "scene and picture\n"
+    "  -f FILE          the scene, as without -f\n"
+    "  -c FILE          the view file (default: SCENE.view beside the scene)\n"
+    "  -w WIDTH         in pixels (default: as the view file, or 1024)\n"
+    "  -h HEIGHT        in pixels (default: as the view file, or 576)\n"
+    "  -s SAMPLES       samples a pixel (default: 16)\n"
+    "  -d BOUNCES       0 to 999 bounces of a path (default: as the view\n"
+    "                   file, or no limit)\n"
+    "  --seed N         0 to 4294967295: another noise (default: 0)\n"
+    "  --crop X,Y,W,H   only W x H pixels of the picture, from (X, Y) on\n"
+    "  --up y|z         which way is up in the scene file (default: y)\n"
+    "  -t THREADS       1 to 1024 (default: what the process may use)\n"
+    "  --stats FILE     times and counts as JSON at the end, - for standard\n"
+    "                   output\n"
+    "\n"
+    "device\n"
+    "  --backend KIND   cpu, opencl or auto: OpenCL if it has a GPU, else\n"
+    "                   the CPU (default: cpu)\n"
+    "  --device N|NAME  the OpenCL device of this number, or with this in its\n"
+    "                   name (default: the first GPU, or the first device)\n"
+    "  --list-devices   show the OpenCL devices\n"
+    "  --kernels FOLDER read the OpenCL kernels from there\n"
+    "  --isa NAME       the processor's instructions: plain, avx2 or avx512\n"
+    "                   (default: the best it has; see --version)\n"
+    "\n"
+    "batch mode\n"
+    "  -b               render to a file, without the screen\n"
+    "  -o FILE          a .png, .hdr or .pfm file, which is replaced, or -\n"
+    "                   for standard output (default: a new .png file in\n"
+    "                   the current folder, named after the scene)\n"
+    "  --ansi COLSxROWS a text of coloured characters, at most so many, for "
+    "-o\n"
+    "                   or standard output, instead of a picture\n"
+    "  --show KIND      preview, normals, faces, uvs, depth, materials or "
+    "cost\n"
+    "                   instead of light\n"
+    "\n"
+    "screen\n"
+    "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
+    "  --glyph KIND     half, upper, lower, quadrant, sextant, braille, space\n"
+    "                   or ascii cells; sixel or kitty pixels; or auto:\n"
+    "                   half or space, without colours braille or ascii\n"
+    "                   (default: auto)\n"
+    "  --cell-aspect R  height of a character over its width, 0.25 to 8\n"
+    "                   (default: ask the terminal)\n"
+    "  --watch          load files of the scene that have changed at once, "
+    "not\n"
+    "                   only when l is pressed\n"
+    "  --phoe-keys      W S A D Q E move up, down, left, right, forward and\n"
+    "                   back\n"
+    "\n"
+    "  --help           show this text\n"
+    "  --version        show the version\n"
+    "  --               end of the options\n";
+
+const char *const options_shows[] = {
+    [SHOW_LIGHT] = "light",
+    [SHOW_PREVIEW] = "preview",
+    [SHOW_NORMALS] = "normals",
+    [SHOW_FACES] = "faces",
+    [SHOW_UVS] = "uvs",
+    [SHOW_DEPTH] = "depth",
+    [SHOW_MATERIALS] = "materials",
+    [SHOW_COST] = "cost",
+    [SHOW_SAMPLES] = NULL, /* all pixels of a file have as many */
+};
+
+/* Finds the rule of the option at the start of `text`, which is behind its
+ * dashes. */
+static bool find_option(struct option_given *g, const char *dashes,
+                        const char *text, size_t length, struct error *err)
+{
+    g->rule = option_rule_named(text, length);
+    if (!g->rule || (length == 1) != (dashes[1] == '\0'))
+        return fail(err, "unknown option '%s%.*s', see glim --help", dashes,
+                    (int)length, text);
+    /* the names in the table fit */
+    memcpy(g->shown, dashes, strlen(dashes));
+    memcpy(g->shown + strlen(dashes), text, length);
+    g->shown[strlen(dashes) + length] = '\0';
+    return true;
+}
+
+/* Takes `attached` or the next argument as the value. */
+static bool take_value(struct option_given *g, const char *attached, int argc,
+                       char **argv, int *i, struct error *err)
+{
+    g->value = attached;
+    if (!g->value && *i + 1 < argc)
+        g->value = argv[++*i];
+    if (!g->value)
+        return fail(err, "%s: expected %s behind it%s", g->shown,
+                    g->rule->value, option_hint(g));
+    return true;
+}
+
+/* --name, --name=value or --name value */
+static bool parse_long(struct options *o, int argc, char **argv, int *i,
+                       struct error *err)
+{
+    const char *text = argv[*i] + 2;
+    size_t length = strcspn(text, "=");
+    const char *attached = text[length] == '=' ? text + length + 1 : NULL;
+    struct option_given g = {0};
+
+    if (!find_option(&g, "--", text, length, err))
+        return false;
+    if (!g.rule->value && attached)
+        return fail(err, "%s: found '%s', expected no value", g.shown,
+                    attached);
+    if (g.rule->value && !take_value(&g, attached, argc, argv, i, err))
+        return false;
+    return option_set(o, &g, err);
+}
+
+/* -x, -xvalue, -x value, or several letters where only the last has a value */
+static bool parse_short(struct options *o, int argc, char **argv, int *i,
+                        struct error *err)
+{
+    const char *p = argv[*i] + 1;
+
+    while (*p) {
+        struct option_given g = {0};
+
+        if (!find_option(&g, "-", p, 1, err))
+            return false;
+        p++;
+        if (g.rule->value) {
+            if (!take_value(&g, *p ? p : NULL, argc, argv, i, err))
+                return false;
+            p = "";
+        }
+        if (!option_set(o, &g, err))
+            return false;
+    }
+    return true;
+}
+
+/* Whoever names a device wants to use it. */
+static bool settle_backend(struct options *o, struct error *err)
+{
+    if ((o->device || o->kernels_path) && !o->has_backend)
+        o->backend = BACKEND_OPENCL;
+    if (o->backend != BACKEND_CPU)
+        return true;
+    if (o->device)
+        return fail(err, "--device: is for OpenCL, expected no --backend cpu "
+                         "beside it");
+    if (o->kernels_path)
+        return fail(err, "--kernels: is for OpenCL, expected no --backend cpu "
+                         "beside it");
+    return true;
+}
+
+static bool is_standard_output(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+/* What only batch mode has. */
+static bool check_batch(const struct options *o, struct error *err)
+{
+    bool takes_output = is_standard_output(o->output_path) ||
+                        (o->text_cols > 0 && !o->output_path);
+
+    if (o->output_path && !o->batch)
+        return fail(err,
+                    "-o: is for batch mode, expected -b beside it (on the "
+                    "screen %s saves a picture)",
+                    keys_first_name(&o->keys, ACTION_SAVE).text);
+    if (o->watch && o->batch)
+        return fail(err, "--watch: is for the screen, expected no -b beside "
+                         "it");
+    if (o->text_cols > 0 && !o->batch)
+        return fail(err,
+                    "--ansi: is for batch mode, expected -b beside it (on the "
+                    "screen %s saves a text)",
+                    keys_first_name(&o->keys, ACTION_SAVE_TEXT).text);
+    if (o->text_cols > 0 && o->display.glyph >= GLYPH_SIXEL)
+        return fail(err, "--ansi: a text has no pixels, expected a --glyph "
+                         "of cells beside it");
+    if (o->output_path && o->text_cols == 0 &&
+        picture_format_of(o->output_path) == PICTURE_UNKNOWN)
+        return fail(err,
+                    "-o: found '%s', expected a name that ends in .png, .hdr "
+                    "or .pfm, or - for standard output",
+                    o->output_path);
+    if (o->output_path && o->stats_path && !takes_output &&
+        path_is_same(o->output_path, o->stats_path))
+        return fail(err,
+                    "--stats: found '%s', the file of -o, expected "
+                    "another one",
+                    o->stats_path);
+    if (takes_output && is_standard_output(o->stats_path))
+        return fail(err,
+                    "--stats: standard output is taken by %s, expected the "
+                    "name of a file",
+                    o->text_cols > 0 ? "--ansi" : "-o -");
+    return true;
+}
+
+/* What is computed at once knows no samples. */
+static bool check_show(const struct options *o, struct error *err)
+{
+    if (o->show == SHOW_LIGHT)
+        return true;
+    if (!o->batch)
+        return fail(err,
+                    "--show: is for batch mode, expected -b beside it (on the "
+                    "screen %s shows it)",
+                    keys_first_name(&o->keys, ACTION_VIEW_NEXT).text);
+    if (o->stats_path)
+        return fail(err, "--stats: is about a render, expected no --show "
+                         "beside it");
+    if (o->output_path && o->text_cols == 0 &&
+        picture_format_of(o->output_path) != PICTURE_PNG)
+        return fail(err,
+                    "-o: found '%s', expected a name that ends in .png, for "
+                    "--show makes no light",
+                    o->output_path);
+    return true;
+}
+
+/* What is right alone but wrong together. */
+static bool check_together(const struct options *o, struct error *err)
+{
+    if (o->list_devices || o->probe)
+        return true;
+    return check_batch(o, err) && check_show(o, err);
+}
+
+int options_threads(const struct options *o)
+{
+    return o->thread_count != 0 ? o->thread_count : usable_threads();
+}
+
+/* GLIM_COLOR is what --color is where that is not given. */
+static bool take_environment(struct options *o, struct error *err)
+{
+    struct option_given g = {option_rule_named("color", 5), "GLIM_COLOR",
+                             getenv("GLIM_COLOR")};
+
+    if ((o->batch && o->text_cols == 0) || o->has_color || !g.value ||
+        *g.value == '\0')
+        return true;
+    return option_set(o, &g, err);
+}
+
+void options_init(struct options *o)
+{
+    *o = (struct options){.spp = 16, .max_bounces = -1};
+}
+
+/* What a person or a machine is like, and no picture depends on. */
+static bool is_taste(enum option_id id)
+{
+    return id == OPTION_THREADS || id == OPTION_BACKEND || id == OPTION_COLOR ||
+           id == OPTION_GLYPH || id == OPTION_CELL_ASPECT ||
+           id == OPTION_PHOE_KEYS;
+}
+
+bool options_set_taste(struct options *o, const char *name, const char *value,
+                       const char *place, struct error *err)
+{
+    struct option_given g = {.rule = option_rule_named(name, strlen(name)),
+                             .value = value};
+
+    if (!g.rule || !is_taste(g.rule->id))
+        return fail(err,
+                    "%s: found '%s', expected an option that may stand here "
+                    "(man glim lists them)",
+                    place, name);
+    snprintf(g.shown, sizeof g.shown, "%s: %s", place, name);
+    if (g.rule->value && !value)
+        return fail(err, "%s: expected %s behind it", g.shown, g.rule->value);
+    if (!g.rule->value && value)
+        return fail(err, "%s: found '%s', expected no value", g.shown, value);
+    if (!option_set(o, &g, err))
+        return false;
+    /* what was not typed now gives way to what was */
+    o->has_backend = false;
+    o->has_color = false;
+    return true;
+}
+
+bool options_parse(struct options *o, int argc, char **argv, struct error *err)
+{
+    bool ended = false;
+
+    for (int i = 1; i < argc; i++) {
+        const char *arg = argv[i];
+        bool ok;
+
+        if (ended || arg[0] != '-' || arg[1] == '\0') {
+            ok = option_set_scene(o, arg, err);
+        } else if (strcmp(arg, "--") == 0) {
+            ended = true;
+            ok = true;
+        } else if (arg[1] == '-') {
+            ok = parse_long(o, argc, argv, &i, err);
+        } else {
+            ok = parse_short(o, argc, argv, &i, err);
+        }
+        if (!ok)
+            return false;
+        if (o->show_help || o->show_version)
+            return true; /* whatever else is on the line */
+    }
+    keys_settle(&o->keys, o->phoe_keys);
+    if (!settle_backend(o, err) || !check_together(o, err) ||
+        !take_environment(o, err))
+        return false;
+    if (o->scene_path || o->list_devices || o->probe)
+        return true;
+    o->lacks_scene = !o->batch;
+    return fail(err, "no scene given, expected: glim [options] scene.obj "
+                     "(see glim --help)");
+}

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include "session/option_table.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/cpu_dispatch.h"
+#include "base/decimal.h"
+#include "scene/view.h"
+
+/* Beyond these a value is a slip of the finger, not a wish. */
+#define SPP_MAX     1000000000000u
+#define THREADS_MAX 1024
+#define BOUNCES_MAX 999
+#define CELLS_MAX   2000
+
+static const struct option_rule rules[] = {
+    {"f", OPTION_SCENE, "the name of a scene"},
+    {"c", OPTION_VIEW, "the name of a view file"},
+    {"w", OPTION_WIDTH, "a width in pixels"},
+    {"h", OPTION_HEIGHT, "a height in pixels"},
+    {"s", OPTION_SPP, "a number of samples"},
+    {"d", OPTION_BOUNCES, "a number of bounces"},
+    {"seed", OPTION_SEED, "a number"},
+    {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
+    {"up", OPTION_UP, "y or z"},
+    {"t", OPTION_THREADS, "a number of threads"},
+    {"backend", OPTION_BACKEND, "cpu, opencl or auto"},
+    {"device", OPTION_DEVICE, "the number or name of a device"},
+    {"list-devices", OPTION_LIST_DEVICES, NULL},
+    {"kernels", OPTION_KERNELS, "the name of a folder"},
+    {"isa", OPTION_ISA, "the name of a set of instructions"},
+    {"probe", OPTION_PROBE, "a number of features"}, /* for glim itself */
+    {"b", OPTION_BATCH, NULL},
+    {"o", OPTION_OUTPUT, "the name of a picture"},
+    {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
+    {"show", OPTION_SHOW,
+     "light, preview, normals, faces, uvs, depth, materials or cost"},
+    {"stats", OPTION_STATS, "the name of a file"},
+    {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
+    {"glyph", OPTION_GLYPH,
+     "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
+     "sixel or kitty"},
+    {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
+    {"watch", OPTION_WATCH, NULL},
+    {"phoe-keys", OPTION_PHOE_KEYS, NULL},
+    {"help", OPTION_HELP, NULL},
+    {"version", OPTION_VERSION, NULL},
+};
+
+static bool parse_digits(const char *text, uint64_t max, uint64_t *value)
+{
+    char *end;
+
+    if (*text < '0' || *text > '9')
+        return false; /* strtoull() takes blanks and signs */
+    errno = 0;
+    *value = strtoull(text, &end, 10);
+    return errno == 0 && *end == '\0' && *value <= max;
+}
+
+const char *option_hint(const struct option_given *g)
+{
+    return g->rule->id == OPTION_HEIGHT ? " (for help: glim --help)" : "";
+}
+
+static bool whole_number(const struct option_given *g, uint64_t min,
+                         uint64_t max, uint64_t *value, struct error *err)
+{
+    if (parse_digits(g->value, max, value) && *value >= min)
+        return true;
+    return fail(err,
+                "%s: found '%s', expected a whole number from %" PRIu64
+                " to %" PRIu64 "%s",
+                g->shown, g->value, min, max, option_hint(g));
+}
+
+static bool whole_int(const struct option_given *g, int min, int max,
+                      int *value, struct error *err)
+{
+    uint64_t number;
+
+    if (!whole_number(g, (uint64_t)min, (uint64_t)max, &number, err))
+        return false;
+    *value = (int)number;
+    return true;
+}
+
+/* Index in the words that end with NULL. */
+static bool choice(const struct option_given *g, const char *const *words,
+                   int *index, struct error *err)
+{
+    for (int i = 0; words[i]; i++) {
+        if (strcmp(g->value, words[i]) == 0) {
+            *index = i;
+            return true;
+        }
+    }
+    return fail(err, "%s: found '%s', expected %s", g->shown, g->value,
+                g->rule->value);
+}
+
+static bool given_text(const struct option_given *g, const char **text,
+                       struct error *err)
+{
+    if (*g->value == '\0')
+        return fail(err, "%s: found '', expected %s", g->shown, g->rule->value);
+    *text = g->value;
+    return true;
+}
+
+bool option_set_scene(struct options *o, const char *path, struct error *err)
+{
+    if (o->scene_path)
+        return fail(err, "found a second scene '%s', expected only '%s'", path,
+                    o->scene_path);
+    o->scene_path = path;
+    return true;
+}
+
+static bool set_crop(struct options *o, const struct option_given *g,
+                     struct error *err)
+{
+    int *const parts[4] = {&o->crop.x, &o->crop.y, &o->crop.width,
+                           &o->crop.height};
+    const char *p = g->value;
+
+    for (int i = 0; i < 4; i++) {
+        char text[8];
+        size_t length = strcspn(p, ",");
+        uint64_t number;
+
+        if (length >= sizeof text || (p[length] == ',') != (i < 3))
+            goto wrong;
+        memcpy(text, p, length);
+        text[length] = '\0';
+        if (!parse_digits(text, VIEW_SIDE_MAX, &number) ||
+            (i > 1 && number == 0))
+            goto wrong;
+        *parts[i] = (int)number;
+        p += length + 1;
+    }
+    o->has_crop = true;
+    return true;
+wrong:
+    return fail(err,
+                "%s: found '%s', expected X,Y,W,H: four whole numbers up to "
+                "%d, W and H above 0",
+                g->shown, g->value, VIEW_SIDE_MAX);
+}
+
+static bool set_cell_aspect(struct options *o, const struct option_given *g,
+                            struct error *err)
+{
+    const char *p = g->value;
+    double number;
+
+    if (!number_parse(&p, p + strlen(p), &number) || *p != '\0' ||
+        !(number >= 0.25 && number <= 8.0))
+        return fail(err, "%s: found '%s', expected a number from 0.25 to 8",
+                    g->shown, g->value);
+    o->display.cell_aspect = number;
+    return true;
+}
+
+/* COLSxROWS */
+static bool set_text_size(struct options *o, const struct option_given *g,
+                          struct error *err)
+{
+    size_t length = strcspn(g->value, "x");
+    char cols_text[8] = "";
+    uint64_t cols = 0, rows = 0;
+
+    if (length < sizeof cols_text && g->value[length] == 'x')
+        memcpy(cols_text, g->value, length);
+    if (!parse_digits(cols_text, CELLS_MAX, &cols) || cols == 0 ||
+        !parse_digits(g->value + length + 1, CELLS_MAX, &rows) || rows == 0)
+        return fail(err,
+                    "%s: found '%s', expected COLSxROWS: two whole numbers "
+                    "from 1 to %d",
+                    g->shown, g->value, CELLS_MAX);
+    o->text_cols = (int)cols;
+    o->text_rows = (int)rows;
+    return true;
+}
+
+static bool set_probe(struct options *o, const struct option_given *g,
+                      struct error *err)
+{
+    uint64_t features;
+
+    if (!whole_number(g, 0, UINT32_MAX, &features, err))
+        return false;
+    o->probe = true;
+    o->features = (uint32_t)features;
+    return true;
+}
+
+static bool set_seed(struct options *o, const struct option_given *g,
+                     struct error *err)
+{
+    uint64_t seed;
+
+    if (!whole_number(g, 0, UINT32_MAX, &seed, err))
+        return false;
+    o->seed = (uint32_t)seed;
+    return true;
+}
+
+/* The options that choose one of some words. */
+static bool set_word(struct options *o, const struct option_given *g,
+                     struct error *err)
+{
+    static const char *const ups[] = {"y", "z", NULL};
+    static const char *const backends[] = {"cpu", "opencl", "auto", NULL};
+    static const char *const colors[] = {"auto", "mono",  "16", "256",
+                                         "24",   "24bit", NULL};
+    static const char *const glyphs[] = {"auto",    "half",     "upper",
+                                         "lower",   "quadrant", "sextant",
+                                         "braille", "space",    "ascii",
+                                         "sixel",   "kitty",    NULL};
+    int index = 0;
+
+    switch (g->rule->id) {
+    case OPTION_UP:
+        if (!choice(g, ups, &index, err))
+            return false;
+        o->up_is_z = index == 1;
+        return true;
+    case OPTION_BACKEND:
+        if (!choice(g, backends, &index, err))
+            return false;
+        o->backend = (enum backend_choice)index;
+        o->has_backend = true;
+        return true;
+    case OPTION_COLOR:
+        if (!choice(g, colors, &index, err))
+            return false;
+        /* 24bit, as in COLORTERM, is the same */
+        o->display.color =
+            index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
+        o->has_color = true;
+        return true;
+    case OPTION_SHOW:
+        if (!choice(g, options_shows, &index, err))
+            return false;
+        o->show = (enum show_kind)index;
+        return true;
+    default:
+        if (!choice(g, glyphs, &index, err))
+            return false;
+        o->display.glyph = (enum glyph_mode)index;
+        return true;
+    }
+}
+
+bool option_set(struct options *o, const struct option_given *g,
+                struct error *err)
+{
+    switch (g->rule->id) {
+    case OPTION_SCENE: {
+        const char *path = NULL;
+
+        return given_text(g, &path, err) && option_set_scene(o, path, err);
+    }
+    case OPTION_VIEW: return given_text(g, &o->view_path, err);
+    case OPTION_WIDTH: return whole_int(g, 1, VIEW_SIDE_MAX, &o->width_px, err);
+    case OPTION_HEIGHT:
+        return whole_int(g, 1, VIEW_SIDE_MAX, &o->height_px, err);
+    case OPTION_SPP:
+        o->has_spp = true;
+        return whole_number(g, 1, SPP_MAX, &o->spp, err);
+    case OPTION_BOUNCES:
+        o->has_max_bounces = true;
+        return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);
+    case OPTION_SEED: return set_seed(o, g, err);
+    case OPTION_PROBE: return set_probe(o, g, err);
+    case OPTION_CROP: return set_crop(o, g, err);
+    case OPTION_THREADS:
+        return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
+    case OPTION_OUTPUT: return given_text(g, &o->output_path, err);
+    case OPTION_ANSI: return set_text_size(o, g, err);
+    case OPTION_STATS: return given_text(g, &o->stats_path, err);
+    case OPTION_CELL_ASPECT: return set_cell_aspect(o, g, err);
+    case OPTION_DEVICE: return given_text(g, &o->device, err);
+    case OPTION_KERNELS: return given_text(g, &o->kernels_path, err);
+    case OPTION_ISA:
+        o->paths = isa_named(g->value, err);
+        return o->paths != NULL;
+    case OPTION_UP:
+    case OPTION_BACKEND:
+    case OPTION_COLOR:
+    case OPTION_SHOW:
+    case OPTION_GLYPH: return set_word(o, g, err);
+    case OPTION_BATCH: o->batch = true; return true;
+    case OPTION_LIST_DEVICES: o->list_devices = true; return true;
+    case OPTION_WATCH: o->watch = true; return true;
+    case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
+    case OPTION_HELP: o->show_help = true; return true;
+    case OPTION_VERSION: o->show_version = true; return true;
+    }
+    return true;
+}
+
+const struct option_rule *option_rule_named(const char *name, size_t length)
+{
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
+        if (strlen(rules[i].name) == length &&
+            memcmp(rules[i].name, name, length) == 0)
+            return &rules[i];
+    }
+    return NULL;
+}

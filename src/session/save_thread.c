@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "session/save_thread.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/event_fd.h"
+#include "picture/image_write.h"
+#include "base/thread.h"
+
+bool saver_init(struct saver *s, struct error *err)
+{
+    *s = (struct saver){.event_fd = event_fd_open("saver", err)};
+    if (s->event_fd < 0)
+        return false;
+    pthread_mutex_init(&s->lock, NULL);
+    pthread_cond_init(&s->copied, NULL);
+    return true;
+}
+
+/* Each row as it is at one moment: its sums and counts belong together. */
+static bool copy_film(struct film *to, struct film *from, struct error *err)
+{
+    size_t width = (size_t)from->width;
+
+    if (!film_init(to, from->width, from->height, err))
+        return false;
+    for (int y = 0; y < from->height; y++) {
+        pthread_mutex_t *lock = &from->locks[y % FILM_LOCKS];
+        size_t first = (size_t)y * width;
+
+        pthread_mutex_lock(lock);
+        memcpy(to->sums + 3 * first, from->sums + 3 * first,
+               3 * width * sizeof to->sums[0]);
+        memcpy(to->counts + first, from->counts + first,
+               width * sizeof to->counts[0]);
+        to->has_row[y] = from->has_row[y];
+        pthread_mutex_unlock(lock);
+    }
+    return true;
+}
+
+static void *saver_main(void *argument)
+{
+    struct saver *s = argument;
+    struct film copy = {0};
+    bool ok = copy_film(&copy, s->film, &s->error);
+
+    pthread_mutex_lock(&s->lock);
+    s->has_copied = true;
+    pthread_cond_signal(&s->copied);
+    pthread_mutex_unlock(&s->lock);
+    if (ok)
+        s->name = picture_write_numbered(&copy, s->how, s->stem, s->ending,
+                                         &s->error);
+    film_free(&copy);
+    event_fd_set(s->event_fd);
+    return NULL;
+}
+
+bool saver_begin(struct saver *s, struct film *film, struct develop how,
+                 const char *stem, const char *ending, struct error *err)
+{
+    int reason;
+
+    if (s->is_busy)
+        return fail(err, "%s.%s: the picture before is still being saved", stem,
+                    ending);
+    s->film = film;
+    s->how = how;
+    s->stem = xstrdup(stem);
+    s->ending = ending;
+    s->has_copied = false;
+    s->name = NULL;
+    reason = thread_start(&s->thread, saver_main, s);
+    if (reason != 0) {
+        free(s->stem);
+        return fail(err, "%s.%s: no thread to save it: %s", stem, ending,
+                    strerror(reason));
+    }
+    s->is_busy = true;
+    return true;
+}
+
+void saver_wait_copied(struct saver *s)
+{
+    if (!s->is_busy)
+        return;
+    pthread_mutex_lock(&s->lock);
+    while (!s->has_copied)
+        pthread_cond_wait(&s->copied, &s->lock);
+    pthread_mutex_unlock(&s->lock);
+}
+
+char *saver_finish(struct saver *s, struct error *err)
+{
+    pthread_join(s->thread, NULL);
+    s->is_busy = false;
+    free(s->stem);
+    s->stem = NULL;
+    event_fd_clear(s->event_fd);
+    if (!s->name)
+        *err = s->error;
+    return s->name;
+}
+
+void saver_free(struct saver *s)
+{
+    struct error ignored;
+
+    if (s->is_busy)
+        free(saver_finish(s, &ignored));
+    pthread_cond_destroy(&s->copied);
+    pthread_mutex_destroy(&s->lock);
+    close(s->event_fd);
+}

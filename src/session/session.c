@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+#include "session/session.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "scene/world.h"
+#include "formats/view_file.h"
+#include "formats/scene_load.h"
+
+/* An overcast noon: bright enough for exposure 0, a little blue. */
+static const double soft_sky[3] = {0.7, 0.8, 0.9};
+
+/* Reads the view file that there is: -c FILE, STEM.view, camera.txt. */
+static bool read_view(struct session *s, struct error *err)
+{
+    const struct options *o = s->options;
+    char *camera;
+    bool ok = true;
+
+    if (o->view_path) {
+        s->view_path = xstrdup(o->view_path);
+        return view_read(&s->view, s->view_path, &s->report, err);
+    }
+    char *stem = path_stem(o->scene_path);
+    s->view_path = xformat("%s.view", stem);
+    free(stem);
+    /* a file that is there but cannot be read is an error of view_read() */
+    if (access(s->view_path, F_OK) == 0)
+        return view_read(&s->view, s->view_path, &s->report, err);
+    camera = path_beside(o->scene_path, "camera.txt");
+    if (access(camera, F_OK) == 0)
+        ok = view_read(&s->view, camera, &s->report, err);
+    free(camera);
+    return ok;
+}
+
+/* The other side of a picture whose shape is kept. */
+static int other_side(int side, int from, int to)
+{
+    double other = round((double)side * to / from);
+
+    return other < 1.0 ? 1 : other > VIEW_SIDE_MAX ? VIEW_SIDE_MAX : (int)other;
+}
+
+/* The command line wins over the view file. */
+static void apply_options(struct session *s)
+{
+    const struct options *o = s->options;
+    struct view *v = &s->view;
+    int width = o->width_px;
+    int height = o->height_px;
+
+    if (width != 0 || height != 0) {
+        if (height == 0)
+            height = other_side(width, v->width_px, v->height_px);
+        else if (width == 0)
+            width = other_side(height, v->height_px, v->width_px);
+        v->width_px = width;
+        v->height_px = height;
+        v->has_size = true;
+    }
+    if (o->has_max_bounces)
+        v->max_bounces = o->max_bounces;
+}
+
+static bool is_dark(const struct session *s)
+{
+    const double *b = s->view.background;
+
+    return !s->scene.has_emitters && !s->scene.sky_texels && b[0] <= 0.0 &&
+           b[1] <= 0.0 && b[2] <= 0.0;
+}
+
+/* A scene without camera or light still shows something. The report, which
+ * knows of missing faces, goes to stderr, the notice to the status line. */
+static void complete_view(struct session *s)
+{
+    if (s->scene.tri_count == 0) {
+        snprintf(s->notice, sizeof s->notice,
+                 "no faces: only the background is rendered");
+    } else if (is_dark(s) && !s->view.has_background) {
+        memcpy(s->view.background, soft_sky, sizeof soft_sky);
+        snprintf(s->notice, sizeof s->notice,
+                 "no light in the scene: lit by a soft sky");
+        report_add(&s->report, "scenes without light",
+                   "%s: found no light: lit by a soft sky",
+                   s->options->scene_path);
+    }
+    if (!s->view.has_camera)
+        scene_frame(&s->scene, &s->view);
+    if (scene_up_is_parallel(&s->view))
+        report_add(&s->report, "views along their up",
+                   "%s: found the camera's up along its view: took another "
+                   "axis for it",
+                   s->options->scene_path);
+}
+
+/* The rectangle to render, which must lie in the picture. */
+static bool find_crop(struct session *s, struct error *err)
+{
+    const struct rect *c = &s->options->crop;
+    int width = s->view.width_px;
+    int height = s->view.height_px;
+
+    s->crop = (struct rect){0, 0, width, height};
+    if (!s->options->has_crop)
+        return true;
+    if (c->x > width - c->width || c->y > height - c->height)
+        return fail(err,
+                    "--crop: found %d,%d,%d,%d, expected a part of the "
+                    "picture, which has %dx%d pixels",
+                    c->x, c->y, c->width, c->height, width, height);
+    s->crop = *c;
+    return true;
+}
+
+/* Brings the scene and the view to what the edit shows. An image of the sky
+ * that cannot be read leaves the one before, and a notice. */
+static bool apply_edit(struct session *s, struct error *err)
+{
+    struct style style = edit_style(&s->edit);
+    struct error why;
+
+    if (!scene_restyle(&s->scene, &style, err))
+        return false;
+    edit_to_view(&s->edit, edit_shown(&s->edit), &s->scene, &s->view);
+    if (s->sky != edit_shown(&s->edit)->mood.sky) {
+        s->sky = edit_shown(&s->edit)->mood.sky;
+        if (!scene_load_sky(&s->scene, &s->view, &s->report, &why))
+            snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
+    }
+    return scene_guide(&s->scene, &s->view, options_threads(s->options), err);
+}
+
+bool session_load(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err)
+{
+    uint64_t begin_ns = clock_ns();
+
+    *s = (struct session){.options = options, .start_ns = start_ns};
+    view_init(&s->view);
+    view_init(&s->opened);
+    view_init(&s->filed);
+    if (!read_view(s, err))
+        return false;
+    view_copy(&s->filed, &s->view);
+    apply_options(s);
+    if (!find_crop(s, err) ||
+        !scene_load(&s->scene, options->scene_path, options->up_is_z,
+                    &s->report, err) ||
+        !scene_load_sky(&s->scene, &s->view, &s->report, err))
+        return false;
+    complete_view(s);
+    if (!view_check(&s->view, options->scene_path, err))
+        return false;
+    view_copy(&s->opened, &s->view);
+    view_take_frame(&s->opened, &s->filed);
+    view_copy(&s->filed, &s->opened);
+    edit_init(&s->edit, &s->scene, &s->view, &s->report);
+    s->sky = s->edit.now.mood.sky;
+    if (!apply_edit(s, err))
+        return false;
+    s->load_ns = clock_ns() - begin_ns;
+    s->geometry_changed = true;
+    return true;
+}
+
+bool session_open(struct session *s, const struct options *options,
+                  uint64_t start_ns, struct error *err)
+{
+    if (!session_load(s, options, start_ns, err))
+        return false;
+    if (!machines_open(&s->machines, options, err))
+        return false;
+    s->render = render_create(s->machines.cpu, err);
+    return s->render != NULL;
+}
+
+static void swap_loaded(struct session *a, struct session *b)
+{
+    struct session old = *a;
+
+    a->scene = b->scene;
+    a->edit = b->edit;
+    a->sky = b->sky;
+    a->crop = b->crop;
+    a->opened = b->opened;
+    a->filed = b->filed;
+    a->report = b->report;
+    b->scene = old.scene;
+    b->edit = old.edit;
+    b->sky = old.sky;
+    b->crop = old.crop;
+    b->opened = old.opened;
+    b->filed = old.filed;
+    b->report = old.report;
+    memcpy(a->notice, b->notice, sizeof a->notice);
+}
+
+static void swap_trees(struct scene *a, struct scene *b)
+{
+    struct wide tree = a->tree;
+
+    a->tree = b->tree;
+    b->tree = tree;
+}
+
+/* The same triangles need no new tree. But a device knows arrays by their
+ * addresses, and has seen those of the scene that goes only if it has begun to
+ * render it: before that their addresses might come again. */
+void session_take(struct session *s, struct session *fresh)
+{
+    render_halt(s->render);
+    s->geometry_changed |= render_progress(s->render).samples == 0 ||
+                           !scene_has_same_shape(&s->scene, &fresh->scene);
+    view_merge(&s->view, &s->filed, &fresh->filed);
+    /* these are the edit's, of which there is another one now */
+    assigns_copy(&s->view.assigns, &fresh->filed.assigns);
+    apply_options(s);
+    swap_loaded(s, fresh);
+    if (!s->geometry_changed)
+        swap_trees(&s->scene, &fresh->scene);
+}
+
+void session_watch(const struct session *s, struct watch *watch)
+{
+    const struct scene *scene = &s->scene;
+    char *camera = path_beside(s->options->scene_path, "camera.txt");
+
+    watch_add(watch, s->options->scene_path);
+    for (uint32_t i = 0; i < scene->mtl_path_count; i++)
+        watch_add(watch, scene->mtl_paths[i]);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        watch_add(watch, scene->texture_paths[i]);
+    watch_add(watch, s->view_path);
+    if (!s->options->view_path)
+        watch_add(watch, camera);
+    if (s->view.sky_path)
+        watch_add(watch, s->view.sky_path);
+    free(camera);
+}
+
+bool session_spares(const struct session *s, const char *option,
+                    const char *path, struct error *err)
+{
+    struct watch files;
+    bool is_read;
+
+    watch_init(&files);
+    session_watch(s, &files);
+    is_read = watch_has(&files, path);
+    watch_free(&files);
+    return !is_read || fail(err,
+                            "%s: found '%s', which the scene is read from, "
+                            "expected another file",
+                            option, path);
+}
+
+static bool begin(struct session *s, uint64_t spp, uint64_t steps,
+                  struct error *err)
+{
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = s->geometry_changed,
+                             .crop = s->crop,
+                             .spp = spp,
+                             .steps = steps};
+    uint32_t features;
+
+    if (spp == 0) {
+        job.draft_width = s->draft_width;
+        job.draft_height = s->draft_height;
+    }
+    render_halt(s->render);
+    /* until a device has seen these arrays: it must not know the next ones by
+     * their addresses */
+    s->geometry_changed = true;
+    if (!apply_edit(s, err) ||
+        !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
+        return false;
+    /* a device has another; moves on the screen ask this one for distances */
+    if (session_uses_device(s) && s->options->batch)
+        wide_free(&s->scene.tree);
+    features = job.world.settings.features;
+    if (spp == 0 && s->sample != SAMPLE_LIGHT) {
+        job.world.settings.sample = s->sample;
+        job.world.settings.features |= FEATURE_FIRST_HIT;
+    }
+    s->restart_ns = clock_ns();
+    s->speeds = (struct speeds){0};
+    load_begin(&s->load, render_backend(s->render));
+    if (!render_start(s->render, &job, err))
+        return false;
+    s->geometry_changed = false;
+    if (session_uses_device(s) && spp == 0) /* there will be restarts */
+        machines_specialise(&s->machines, features);
+    return true;
+}
+
+bool session_restart(struct session *s, uint64_t spp, struct error *err)
+{
+    return begin(s, spp, 0, err);
+}
+
+bool session_step(struct session *s, uint64_t spp, struct error *err)
+{
+    return begin(s, spp, 1, err);
+}
+
+bool session_take_edit(struct session *s)
+{
+    const struct mood *m = &edit_shown(&s->edit)->mood;
+    struct style style = edit_style(&s->edit);
+    const struct view *v = &s->view;
+
+    s->view.exposure = m->exposure;
+    s->view.tone = m->tone;
+    return !scene_is_styled(&s->scene, &style) || s->sky != m->sky ||
+           memcmp(v->background, m->background, sizeof v->background) != 0 ||
+           v->sky_strength != m->sky_strength ||
+           v->sky_rotation_deg != m->sky_rotation_deg;
+}
+
+struct develop session_develop(const struct session *s)
+{
+    return (struct develop){(float)s->view.exposure, s->view.tone};
+}
+
+struct render_progress session_look(struct session *s)
+{
+    struct render_progress p = render_progress(s->render);
+
+    speeds_look(&s->speeds, p.render_ns, p.samples);
+    return p;
+}
+
+bool session_uses_device(const struct session *s)
+{
+    return render_backend(s->render) != s->machines.cpu;
+}
+
+void session_close(struct session *s)
+{
+    if (s->render)
+        render_destroy(s->render); /* reads the scene until it returns */
+    machines_close(&s->machines);
+    scene_free(&s->scene);
+    view_free(&s->view);
+    view_free(&s->opened);
+    edit_free(&s->edit);
+    view_free(&s->filed);
+    report_free(&s->report);
+    load_free(&s->load);
+    free(s->view_path);
+    *s = (struct session){0};
+}

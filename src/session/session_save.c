@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "session/session_save.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "formats/mtl_save.h"
+#include "formats/view_file.h"
+
+/* The material whose block a new one begins with: the nearest in a file. */
+static uint32_t pattern_of(const struct edit *e, uint32_t material)
+{
+    while (!e->saved.is_there[material])
+        material = e->copied_from[material];
+    return material;
+}
+
+/* The file in which a material is, or is to be. */
+static uint32_t file_of(const struct session *s, uint32_t material)
+{
+    const struct edit *e = &s->edit;
+
+    while (e->copied_from[material] != NO_INDEX)
+        material = e->copied_from[material];
+    return s->scene.material_origins[material].file != NO_INDEX
+               ? s->scene.material_origins[material].file
+               : 0;
+}
+
+/* The changes that belong to a file; their number. */
+static size_t collect(struct session *s, uint32_t file,
+                      struct mtl_change *changes, uint32_t *materials)
+{
+    struct edit *e = &s->edit;
+    size_t count = 0;
+
+    for (uint32_t i = 0; i < e->material_count; i++) {
+        uint32_t pattern = pattern_of(e, i);
+
+        if (file_of(s, i) != file || !edit_tidy_material(e, i, pattern))
+            continue;
+        changes[count] = (struct mtl_change){
+            .name = e->names[i],
+            .copied_from = pattern != i ? e->names[pattern] : NULL,
+            .before = &e->saved.sources[pattern],
+            .after = &e->now.sources[i],
+        };
+        materials[count++] = i;
+    }
+    return count;
+}
+
+/* Materials that were written, and the names of the files. */
+struct written {
+    size_t count;
+    char *files; /* NULL: none */
+};
+
+static void note_written(struct written *w, size_t count, const char *path)
+{
+    char *files =
+        w->files == NULL ? xstrdup(path) : xformat("%s, %s", w->files, path);
+
+    free(w->files);
+    w->files = files;
+    w->count += count;
+}
+
+static bool save_file(struct session *s, uint32_t file, struct watch *watch,
+                      struct written *written, struct error *err)
+{
+    const char *path = s->scene.mtl_paths[file];
+    struct mtl_change *changes =
+        xcalloc(s->edit.material_count, sizeof *changes);
+    uint32_t *materials = xcalloc(s->edit.material_count, sizeof *materials);
+    size_t count = collect(s, file, changes, materials);
+    struct file_change change;
+    bool ok =
+        count == 0 || mtl_save(&s->scene, path, changes, count, &change, err);
+
+    if (ok && count > 0) {
+        watch_replaced(watch, path, &change);
+        note_written(written, count, path);
+    }
+    for (size_t i = 0; ok && i < count; i++)
+        edit_saved_material(&s->edit, materials[i]);
+    free(changes);
+    free(materials);
+    return ok;
+}
+
+/* Into the file as it is now: the camera in there is not this one's. */
+static bool save_light(struct session *s, struct watch *watch,
+                       struct error *err)
+{
+    struct file_change change;
+    struct report report = {0};
+    struct view view;
+    bool ok;
+
+    view_init(&view);
+    ok = access(s->view_path, F_OK) == 0
+             ? view_read(&view, s->view_path, &report, err)
+             : (view_copy(&view, &s->opened), true);
+    edit_to_view(&s->edit, &s->edit.now, &s->scene, &view);
+    ok = ok && view_write(&view, s->view_path, &change, err);
+    if (ok) {
+        edit_saved_view(&s->edit);
+        watch_replaced(watch, s->view_path, &change);
+    }
+    view_free(&view);
+    report_free(&report);
+    return ok;
+}
+
+bool session_save_view(struct session *s, struct file_change *change,
+                       struct error *err)
+{
+    struct view view;
+    bool ok;
+
+    s->view.has_camera = true; /* also one that was placed by the program */
+    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
+    view_init(&view);
+    view_copy(&view, &s->view);
+    view_take_frame(&view, &s->filed);
+    ok = view_write(&view, s->view_path, change, err);
+    if (ok) {
+        edit_saved_view(&s->edit);
+        view_copy(&s->filed, &view);
+    }
+    view_free(&view);
+    return ok;
+}
+
+/* NULL: the view file was not written. */
+static char *say_written(const struct written *w, const char *view_path)
+{
+    if (w->count == 0 && view_path == NULL)
+        return xstrdup("nothing has changed since it was saved");
+    if (w->count == 0)
+        return xformat("wrote %s", view_path);
+    return xformat("wrote %zu material%s to %s%s%s", w->count,
+                   w->count == 1 ? "" : "s", w->files,
+                   view_path != NULL ? ", and " : "",
+                   view_path != NULL ? view_path : "");
+}
+
+bool session_save_edit(struct session *s, struct watch *watch, char **what,
+                       struct error *err)
+{
+    bool has_light = edit_has_unsaved_view(&s->edit);
+    struct written written = {0};
+    bool ok = true;
+
+    if (edit_has_unsaved_materials(&s->edit) && s->scene.mtl_path_count == 0)
+        return fail(err,
+                    "%s: found no MTL file of this scene, expected one to "
+                    "write the materials to",
+                    s->scene.path);
+    for (uint32_t i = 0; ok && i < s->scene.mtl_path_count; i++)
+        ok = save_file(s, i, watch, &written, err);
+    ok = ok && (!has_light || save_light(s, watch, err));
+    if (ok)
+        *what = say_written(&written, has_light ? s->view_path : NULL);
+    free(written.files);
+    return ok;
+}

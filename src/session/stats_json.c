@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "session/stats_json.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/print.h"
+#include "base/version.h"
+
+/* Bytes of the UTF-8 character at p, or 0 if there is none. */
+static size_t utf8_length(const unsigned char *p)
+{
+    size_t length = *p < 0x80                 ? 1
+                    : *p >= 0xc2 && *p < 0xe0 ? 2
+                    : *p >= 0xe0 && *p < 0xf0 ? 3
+                    : *p >= 0xf0 && *p < 0xf5 ? 4
+                                              : 0;
+
+    for (size_t i = 1; i < length; i++) {
+        if ((p[i] & 0xc0) != 0x80)
+            return 0; /* also at the closing NUL */
+    }
+    /* overlong forms, surrogates, beyond U+10FFFF */
+    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) ||
+        (p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] > 0x8f))
+        return 0;
+    return length;
+}
+
+/* The number of the character in Unicode. */
+static uint32_t utf8_code(const unsigned char *p, size_t length)
+{
+    uint32_t code = length == 1 ? *p : *p & (0x7fu >> length);
+
+    for (size_t i = 1; i < length; i++)
+        code = code << 6 | (p[i] & 0x3fu);
+    return code;
+}
+
+/* A JSON string. File names may have any bytes: those that are no UTF-8
+ * become U+FFFD, as JSON cannot hold them. What print.h does not show is
+ * escaped: it is never beyond U+FFFF. */
+static void write_string(FILE *to, const char *text)
+{
+    const unsigned char *p = (const unsigned char *)text;
+
+    fputc('"', to);
+    while (*p) {
+        size_t length = utf8_length(p);
+        uint32_t code = length == 0 ? 0xfffd : utf8_code(p, length);
+
+        if (length == 0 || !print_shows(code))
+            fprintf(to, "\\u%04" PRIx32, code);
+        else if (*p == '"' || *p == '\\')
+            fprintf(to, "\\%c", *p);
+        else
+            fwrite(p, 1, length, to);
+        p += length > 0 ? length : 1;
+    }
+    fputc('"', to);
+}
+
+static void write_number(FILE *to, const char *key, uint64_t value)
+{
+    fprintf(to, "  \"%s\": %" PRIu64 ",\n", key, value);
+}
+
+static void write_seconds(FILE *to, const char *key, uint64_t duration_ns)
+{
+    fprintf(to, "  \"%s\": %.6f,\n", key, seconds_between(0, duration_ns));
+}
+
+/* Null where there is none. */
+static void write_real(FILE *to, const char *key, double value, bool has_value)
+{
+    if (has_value)
+        fprintf(to, "  \"%s\": %.6g,\n", key, value);
+    else
+        fprintf(to, "  \"%s\": null,\n", key);
+}
+
+static void write_speeds(FILE *to, const struct speeds *speeds)
+{
+    write_seconds(to, "span_s", speeds->span_ns);
+    fputs("  \"speeds\": [", to);
+    for (int i = 0; i < speeds->count; i++)
+        fprintf(to, "%s%.6g", i > 0 ? ", " : "", speeds_at(speeds, i));
+    fputs("],\n", to);
+}
+
+static void write_load(FILE *to, const struct session *s, uint64_t render_ns)
+{
+    const struct backend *b = render_backend(s->render);
+
+    fputs("  \"load\": [", to);
+    for (int i = 0; i < s->load.count; i++)
+        fprintf(to, "%s%.3f", i > 0 ? ", " : "",
+                load_share(&s->load, b, i, render_ns));
+    fputs("],\n", to);
+}
+
+/* What the screen's panel shows. Rates are those of rendering alone. */
+static void write_progress(FILE *to, const struct session *s,
+                           const struct render_progress *p)
+{
+    bool has_limit = p->samples_limit > 0;
+    double seconds = seconds_between(p->build_ns, p->render_ns);
+    double rate = seconds > 0 ? (double)p->samples / seconds : 0;
+    double rays = seconds > 0 ? (double)p->rays / seconds : 0;
+    double missing = has_limit && p->samples < p->samples_limit
+                         ? (double)(p->samples_limit - p->samples)
+                         : 0;
+
+    write_real(to, "percent",
+               100 - 100 * missing / (double)(has_limit ? p->samples_limit : 1),
+               has_limit);
+    write_real(to, "samples_per_s", rate, true);
+    write_real(to, "rays_per_s", rays, true);
+    write_real(to, "left_s", missing > 0 ? missing / rate : 0,
+               has_limit && (rate > 0 || missing <= 0));
+    write_speeds(to, &s->speeds);
+    write_load(to, s, p->render_ns);
+}
+
+/* Of those in files: the first is the default one. */
+static uint32_t unused_materials(const struct scene *scene)
+{
+    uint32_t count = 0;
+
+    for (uint32_t i = 1; i < scene->material_count; i++)
+        count += !scene->material_is_used[i];
+    return count;
+}
+
+static void write_scene(FILE *to, const struct scene *scene)
+{
+    write_number(to, "triangles", scene->tri_count);
+    write_number(to, "dropped_triangles", scene->dropped_count);
+    write_number(to, "materials", scene->material_count - 1);
+    write_number(to, "unused_materials", unused_materials(scene));
+    write_number(to, "geometry_bytes", scene_geometry_bytes(scene));
+}
+
+static void write_object(FILE *to, const struct session *s)
+{
+    struct render_progress p = render_progress(s->render);
+    const struct film *film = render_film(s->render);
+    const struct backend *backend = render_backend(s->render);
+    uint64_t now_ns = clock_ns();
+
+    fputs("{\n  \"version\": ", to);
+    write_string(to, GLIM_VERSION);
+    fputs(",\n  \"scene\": ", to);
+    write_string(to, s->options->scene_path);
+    fputs(",\n  \"backend\": ", to);
+    write_string(to, backend->name);
+    if (backend->device) {
+        fputs(",\n  \"device\": ", to);
+        write_string(to, backend->device);
+        fputs(",\n  \"driver\": ", to);
+        write_string(to, backend->driver);
+    }
+    fputs(",\n", to);
+    write_number(to, "threads", (uint64_t)backend->thread_count);
+    write_number(to, "seed", s->options->seed);
+    write_scene(to, &s->scene);
+    write_number(to, "tree_bytes", backend->tree_bytes);
+    write_number(to, "width", (uint64_t)film->width);
+    write_number(to, "height", (uint64_t)film->height);
+    write_number(to, "spp", p.spp_done);
+    fprintf(to, "  \"stopped\": %s,\n",
+            p.spp_limit == 0 || p.spp_done < p.spp_limit ? "true" : "false");
+    write_number(to, "samples", p.samples);
+    write_number(to, "rays", p.rays);
+    write_number(to, "non_finite", p.non_finite);
+    write_number(to, "saturated", p.saturated);
+    write_number(to, "cut_paths", p.cut_paths);
+    write_progress(to, s, &p);
+    write_seconds(to, "load_s", s->load_ns);
+    write_seconds(to, "build_s", p.build_ns);
+    /* what a person waits: from the start of the program */
+    write_seconds(to, "first_picture_s",
+                  p.first_picture_ns == 0
+                      ? 0
+                      : s->restart_ns - s->start_ns + p.first_picture_ns);
+    write_seconds(to, "render_s", p.render_ns - p.build_ns);
+    fprintf(to, "  \"total_s\": %.6f\n}\n",
+            seconds_between(s->start_ns, now_ns));
+}
+
+bool stats_check(const char *path, struct error *err)
+{
+    return strcmp(path, "-") == 0 || file_check(path, err);
+}
+
+bool stats_write(const struct session *s, const char *path, struct error *err)
+{
+    char *text = NULL;
+    size_t size_bytes = 0;
+    FILE *to = open_memstream(&text, &size_bytes);
+    bool ok;
+
+    if (!to)
+        return fail(err, "%s: %s", path, strerror(errno));
+    write_object(to, s);
+    if (fclose(to) != 0) {
+        ok = fail(err, "%s: %s", path, strerror(errno));
+    } else if (strcmp(path, "-") == 0) {
+        ok = file_write_stdout(text, size_bytes, err);
+    } else {
+        ok = file_write(path, text, size_bytes, false, NULL, err);
+    }
+    free(text);
+    return ok;
+}

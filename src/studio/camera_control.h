@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+/*
+ * camera_control.h - what keys and mouse do with the camera
+ *
+ * Moves are held keys or drags; each is one step of undo. What is picked is the
+ * point to orbit and to focus on, and its object the one to frame. Who leaves a
+ * room through its wall, flies into a solid or sees nothing of the scene any
+ * more is told how to come back.
+ *
+ * Units:     nanoseconds of clock_ns(), terminal cells
+ * Ownership: work and canvas stay the caller's and outlive the pilot;
+ *            pilot_free() frees the rest
+ * Threads:   main only
+ * Errors:    become messages
+ */
+#ifndef GLIM_CAMERA_CONTROL_H
+#define GLIM_CAMERA_CONTROL_H
+
+#include "studio/clearance.h"
+#include "studio/pick_cursor.h"
+#include "studio/camera_history.h"
+#include "studio/camera_input.h"
+
+struct pilot {
+    struct work *work;
+    struct canvas *canvas;
+    struct steer steer;
+    struct history history;
+    enum action held; /* what the last step of undo was made by, and when */
+    uint64_t held_ns;
+    bool drag_is_new; /* no step of undo yet */
+    struct cursor cursor;
+    struct clearance around; /* of the eye, where it was last */
+    enum clearance_place said;
+    uint64_t said_ns; /* when, if it was a message */
+};
+
+void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas);
+
+/* Does what the action says of camera and cursor. False if it is not the
+ * pilot's. Any but a move ends what is moving, where it would have ended. */
+bool pilot_act(struct pilot *p, enum action action);
+
+/* Gives the view the number of an ACTION_VIEW_1 to _9; no other action does. */
+void pilot_keep_view(struct pilot *p, enum action action);
+
+void pilot_mouse(struct pilot *p, const struct event *event);
+
+/* Moves the camera as far as keys were held until now; says what is under the
+ * cursor. */
+void pilot_step(struct pilot *p, uint64_t now_ns);
+
+/* When to call pilot_step() next; UINT64_MAX: nothing moves. */
+uint64_t pilot_next_ns(const struct pilot *p);
+
+/* After the scene was loaded anew: what was picked is of the one before. */
+void pilot_renew(struct pilot *p);
+
+/* Lets go of all keys and buttons. */
+void pilot_stop(struct pilot *p);
+
+void pilot_free(struct pilot *p);
+
+#endif

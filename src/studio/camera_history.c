@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "studio/camera_history.h"
+
+#include <stdlib.h>
+
+/* One more than the steps: the pose that the last undo has left. */
+static void grow(struct history *h)
+{
+    if (h->at + 1 < h->capacity)
+        return;
+    h->capacity = h->capacity > 0 ? 2 * h->capacity : 64;
+    h->poses = xrealloc(h->poses, (size_t)h->capacity * sizeof h->poses[0]);
+}
+
+void history_add(struct history *h, const struct pose *before)
+{
+    grow(h);
+    h->poses[h->at++] = *before;
+    h->count = h->at;
+}
+
+bool history_undo(struct history *h, struct pose *pose)
+{
+    if (h->at == 0)
+        return false;
+    h->poses[h->at] = *pose;
+    *pose = h->poses[--h->at];
+    return true;
+}
+
+bool history_redo(struct history *h, struct pose *pose)
+{
+    if (h->at == h->count)
+        return false;
+    h->poses[h->at] = *pose;
+    *pose = h->poses[++h->at];
+    return true;
+}
+
+void history_free(struct history *h)
+{
+    free(h->poses);
+    *h = (struct history){0};
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "studio/camera_input.h"
+
+#include <math.h>
+
+#include "base/angle.h"
+#include "studio/camera_moves.h"
+
+/* Reaches a second that a key moves at first. A tap, which lasts 150 ms, moves
+ * by a fifth of the way to the nearest surface; a key that is held towards a
+ * wall comes nearer and nearer. */
+#define PACE 1.0
+
+/* Bounds of the reach, as parts of the scene's size. The least lets the eye
+ * pass a surface at last; the most crosses the scene in a few seconds; the
+ * first is for a scene of which nothing is known yet. */
+#define REACH_LEAST 0.002
+#define REACH_MOST  0.25
+#define REACH_FIRST 0.05
+
+/* Away from the scene the reach grows with the distance, to that of so many
+ * sizes: a key that is held for a minute must not take the eye to infinity. */
+#define AWAY      0.1
+#define AWAY_MOST 10.0
+
+/* Times as fast, for each second that a key is held, and at most. */
+#define RAMP      0.75
+#define RAMP_MOST 8.0
+
+#define SPEED_STEP 1.25
+#define SPEED_MIN  1e-3
+#define SPEED_MAX  1e3
+
+/* Radians a second. */
+#define LOOK_SPEED  0.9
+#define ORBIT_SPEED 1.5
+
+/* Powers of e a second. A tap, which lasts 150 ms, changes the field of view by
+ * a tenth and the lens by one stop: half the light, a diameter of 1/sqrt 2. */
+#define WIDEN_SPEED 0.7
+#define OPEN_SPEED  2.3105
+
+/* Of the distance that is sharp. A smaller lens is as good as a pinhole: what
+ * is far off is blurred by as many radians, less than a pixel. */
+#define APERTURE_LEAST    1e-3
+#define APERTURE_GREATEST 1.0
+
+void steer_init(struct steer *s, const double lo[3], const double hi[3])
+{
+    *s = (struct steer){.speed = 1};
+    steer_resize(s, lo, hi);
+}
+
+void steer_resize(struct steer *s, const double lo[3], const double hi[3])
+{
+    double square = 0;
+
+    for (int i = 0; i < 3; i++)
+        square += (hi[i] - lo[i]) * (hi[i] - lo[i]);
+    s->scene_size = sqrt(square);
+    if (!(s->scene_size > 0) || isinf(s->scene_size))
+        s->scene_size = 1; /* a scene without extent */
+    s->reach = REACH_FIRST * s->scene_size;
+}
+
+void steer_adapt(struct steer *s, double near, double away)
+{
+    double far = fmin(away, AWAY_MOST * s->scene_size);
+    double least = fmax(REACH_LEAST * s->scene_size, AWAY * far);
+
+    s->reach = fmax(least, fmin(near, REACH_MOST * s->scene_size));
+}
+
+double steer_speed(const struct steer *s)
+{
+    return s->speed * PACE * s->reach;
+}
+
+void steer_begin(struct steer *s, uint64_t now_ns)
+{
+    s->begun_ns = now_ns;
+}
+
+/* Times as fast as at first, after so many seconds. */
+static double ramp(double seconds)
+{
+    return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MOST);
+}
+
+static void turn(const struct steer *s, struct view *view,
+                 const double seconds[MOTION_AXES])
+{
+    double right = seconds[MOTION_LOOK_RIGHT];
+    double up = seconds[MOTION_LOOK_UP];
+
+    if (right == 0 && up == 0)
+        return;
+    if (s->is_orbiting)
+        camera_orbit(view, s->pivot, ORBIT_SPEED * right, ORBIT_SPEED * up);
+    else
+        camera_turn(view, LOOK_SPEED * right, LOOK_SPEED * up);
+}
+
+/* Below the least there is only the pinhole. */
+static void open_lens(struct view *view, double seconds)
+{
+    double sharp = view->focus > 0 ? view->focus : camera_depth(view, view->at);
+    double least = APERTURE_LEAST * sharp;
+    double aperture = fmax(view->aperture, least) * exp(OPEN_SPEED * seconds);
+
+    view->aperture =
+        aperture > least ? fmin(aperture, APERTURE_GREATEST * sharp) : 0;
+}
+
+bool steer_step(struct steer *s, struct view *view, uint64_t now_ns)
+{
+    double seconds[MOTION_AXES];
+    double held =
+        now_ns > s->begun_ns ? (double)(now_ns - s->begun_ns) * 1e-9 : 0;
+    double speed = steer_speed(s) * ramp(held);
+
+    if (!motion_step(&s->motion, now_ns, seconds))
+        return false;
+    camera_move(view, speed * seconds[MOTION_RIGHT], speed * seconds[MOTION_UP],
+                speed * seconds[MOTION_FORWARD]);
+    turn(s, view, seconds);
+    if (seconds[MOTION_WIDEN] != 0)
+        camera_widen(view, exp(WIDEN_SPEED * seconds[MOTION_WIDEN]));
+    if (seconds[MOTION_OPEN] != 0)
+        open_lens(view, seconds[MOTION_OPEN]);
+    return true;
+}
+
+/* The look turns by the angle that the picture shows under the pointer's way;
+ * a thing in the middle turns with the pointer, half around for the picture's
+ * height. */
+static bool drag(struct steer *s, struct view *view, const struct event *e,
+                 const struct fit *fit, double shape)
+{
+    double right = (e->x - s->drag_x) * shape / fit->cols;
+    double down = (double)(e->y - s->drag_y) / fit->rows;
+    double height_rad = angle_rad(view->fovy_deg);
+
+    s->drag_x = e->x;
+    s->drag_y = e->y;
+    if (!s->is_dragging || (right == 0 && down == 0))
+        return false;
+    s->has_dragged = true;
+    if (s->drag_orbits)
+        camera_orbit(view, s->pivot, -right * M_PI, down * M_PI);
+    else
+        camera_turn(view, right * height_rad, -down * height_rad);
+    return true;
+}
+
+bool steer_orbits(const struct steer *s, const struct event *event)
+{
+    return s->is_orbiting || event->button != 0 || event->is_modified;
+}
+
+bool steer_mouse(struct steer *s, struct view *view, const struct event *event,
+                 const struct fit *fit, int width_px, int height_px)
+{
+    switch (event->mouse) {
+    case MOUSE_PRESS:
+        s->is_dragging = true;
+        s->drag_orbits = steer_orbits(s, event);
+        s->has_dragged = false;
+        s->drag_x = event->x;
+        s->drag_y = event->y;
+        break;
+    case MOUSE_RELEASE: s->is_dragging = false; break;
+    case MOUSE_DRAG:
+        return drag(s, view, event, fit, (double)width_px / height_px);
+    case MOUSE_WHEEL_UP:
+    case MOUSE_WHEEL_DOWN:
+    case MOUSE_OTHER: break;
+    }
+    return false;
+}
+
+void steer_change_speed(struct steer *s, int steps)
+{
+    double speed = s->speed * pow(SPEED_STEP, steps);
+
+    s->speed = fmax(SPEED_MIN, fmin(SPEED_MAX, speed));
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "studio/clearance.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "studio/camera_moves.h"
+#include "bvh/bvh8_traverse.h"
+
+#define RAYS 64
+
+/* The ray that counts as near is the seventh shortest: a tenth of all. Leaves
+ * and wires meet fewer. Above a floor at height h it is 1.28 h long. */
+#define NEAR_RAY 6
+
+/* 1 / golden ratio: turns from one direction to the next. */
+#define TURN 0.61803398874989485
+
+static struct vec3 stored(const struct scene *scene, const double p[3])
+{
+    return v3((float)((p[0] - scene->center[0]) * scene->scale),
+              (float)((p[1] - scene->center[1]) * scene->scale),
+              (float)((p[2] - scene->center[2]) * scene->scale));
+}
+
+/* A spiral from pole to pole, of equal areas (Swinbank and Purser 2006,
+ * "Fibonacci grids"). */
+static struct vec3 direction(int i)
+{
+    double y = 1 - (2 * i + 1) / (double)RAYS;
+    double angle = 2 * M_PI * TURN * i;
+    double r = sqrt(1 - y * y);
+
+    return v3((float)(r * cos(angle)), (float)y, (float)(r * sin(angle)));
+}
+
+/* Adds x to the sorted numbers, of which the last falls out. */
+static void insert(double *sorted, int count, double x)
+{
+    for (int i = 0; i < count; i++) {
+        if (x < sorted[i]) {
+            double other = sorted[i];
+
+            sorted[i] = x;
+            x = other;
+        }
+    }
+}
+
+static bool trace(const struct scene *scene, struct ray ray, struct hit *hit)
+{
+    struct wide_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
+
+    return scene->tree.nodes != NULL && isfinite(ray.o.x + ray.o.y + ray.o.z) &&
+           hit_closest(&w.world, ray, hit);
+}
+
+static double distance_to_box(const struct scene *s, const double eye[3])
+{
+    double square = 0;
+
+    for (int k = 0; k < 3; k++) {
+        double off = fmax(s->bounds_lo[k] - eye[k], eye[k] - s->bounds_hi[k]);
+
+        square += off > 0 ? off * off : 0;
+    }
+    return sqrt(square);
+}
+
+static void look_around(struct clearance *c, const struct scene *scene)
+{
+    double nearest[NEAR_RAY + 1];
+    struct ray ray = {.o = stored(scene, c->eye), .t_max = FLOAT_MAX};
+    int hits = 0, within = 0;
+
+    for (int i = 0; i <= NEAR_RAY; i++)
+        nearest[i] = INFINITY;
+    for (int i = 0; i < RAYS; i++) {
+        struct hit hit;
+
+        ray.d = direction(i);
+        if (!trace(scene, ray, &hit))
+            continue;
+        hits++;
+        within += scene->tri_objects[hit.tri] == c->passed ? 1 : 0;
+        insert(nearest, NEAR_RAY + 1, (double)hit.t / scene->scale);
+    }
+    c->near = nearest[NEAR_RAY];
+    c->closed = (double)hits / RAYS;
+    c->within = (double)within / RAYS;
+}
+
+/* The object of the first surface between two points; NO_INDEX: none. */
+static uint32_t object_between(const struct scene *scene, const double from[3],
+                               const double to[3])
+{
+    struct vec3 o = stored(scene, from);
+    struct vec3 way = v3_sub(stored(scene, to), o);
+    float length = sqrtf(v3_dot(way, way));
+    struct hit hit;
+
+    if (!(length > 0.0f) || !isfinite(length))
+        return NO_INDEX;
+    struct ray ray = {.o = o,
+                      .d = v3_scale(way, 1.0f / length),
+                      .t_max = length};
+    return trace(scene, ray, &hit) ? scene->tri_objects[hit.tri] : NO_INDEX;
+}
+
+/* After a surface was passed. Solids are told from rooms by what is in them:
+ * little of another object. A thing that stands on the floor or at a wall
+ * shares a face with it. */
+static enum clearance_place place_behind(const struct clearance *before,
+                                         const struct clearance *now,
+                                         const struct scene *scene)
+{
+    /* there is always one, for what comes before the first o line */
+    bool has_objects = scene->object_count > 2;
+
+    if (before->place == CLEARANCE_INSIDE)
+        return CLEARANCE_AMONG;
+    if (now->closed < CLEARANCE_CLOSED)
+        return before->closed >= CLEARANCE_CLOSED ? CLEARANCE_OUTSIDE
+                                                  : CLEARANCE_AMONG;
+    return has_objects && before->place != CLEARANCE_OUTSIDE &&
+                   now->closed >= 1 && now->within > 0.5
+               ? CLEARANCE_INSIDE
+               : CLEARANCE_AMONG;
+}
+
+static enum clearance_place place_beside(const struct clearance *before,
+                                         const struct clearance *now)
+{
+    if (before->place == CLEARANCE_INSIDE)
+        return CLEARANCE_INSIDE;
+    /* through the window one comes back without passing anything */
+    if (before->place == CLEARANCE_OUTSIDE && now->closed < CLEARANCE_CLOSED)
+        return CLEARANCE_OUTSIDE;
+    return CLEARANCE_AMONG;
+}
+
+/* To where the view's eye is now. */
+static void move(struct clearance *c, const struct scene *scene,
+                 const double eye[3])
+{
+    struct clearance before = *c;
+    uint32_t passed =
+        c->is_known ? object_between(scene, c->eye, eye) : NO_INDEX;
+
+    c->is_known = true;
+    memcpy(c->eye, eye, sizeof c->eye);
+    c->away = distance_to_box(scene, c->eye);
+    if (passed != NO_INDEX)
+        c->passed = passed;
+    look_around(c, scene);
+    c->place = passed != NO_INDEX ? place_behind(&before, c, scene)
+                                  : place_beside(&before, c);
+}
+
+void clearance_follow(struct clearance *c, const struct scene *scene,
+                      const struct view *view)
+{
+    if (!c->is_known || memcmp(c->eye, view->eye, sizeof c->eye) != 0)
+        move(c, scene, view->eye);
+    if (c->place != CLEARANCE_AMONG && c->place != CLEARANCE_AWAY)
+        return;
+    c->place = scene->tri_count == 0 ||
+                       camera_sees_box(view, scene->bounds_lo, scene->bounds_hi)
+                   ? CLEARANCE_AMONG
+                   : CLEARANCE_AWAY;
+}
+
+void clearance_forget(struct clearance *c)
+{
+    *c = (struct clearance){.is_known = false};
+}

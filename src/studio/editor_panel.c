@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "studio/editor_panel.h"
+
+#include <string.h>
+
+#include "studio/parameter_text.h"
+#include "studio/panel_draw.h"
+#include "studio/save_commands.h"
+
+#define ENTER     '\r'
+#define ESCAPE    27
+#define BACKSPACE 127
+
+/* The same knob turned again within this time is the same step of undo: longer
+ * than keyboards wait before they repeat. */
+#define TURN_NS UINT64_C(700000000)
+
+static struct edit *edit_of(const struct panel *p)
+{
+    return &p->work->session->edit;
+}
+
+static const struct scene *scene_of(const struct panel *p)
+{
+    return &p->work->session->scene;
+}
+
+void panel_init(struct panel *p, struct work *work, struct canvas *canvas)
+{
+    *p = (struct panel){.work = work, .canvas = canvas};
+    selection_init(&p->selection, work->session);
+}
+
+void panel_free(struct panel *p)
+{
+    selection_free(&p->selection);
+}
+
+void panel_renew(struct panel *p, const struct selection_names *names)
+{
+    struct selection before = p->selection;
+
+    selection_init(&p->selection, before.session);
+    p->selection.page = before.page;
+    p->selection.by_hsv = before.by_hsv;
+    if (!selection_find(&p->selection, names)) {
+        p->is_typing = false;
+        p->is_in_knobs = false;
+        p->knob = p->knob_top = 0;
+    }
+    selection_settle(&p->selection);
+    selection_free(&before);
+}
+
+void panel_select(struct panel *p, const struct pick *pick)
+{
+    p->selection.material = pick->material;
+    p->selection.object = pick->object;
+    if (p->selection.page == KNOB_LIGHT)
+        p->selection.page = KNOB_MATERIAL;
+    selection_settle(&p->selection);
+}
+
+/* ---- changes ---- */
+
+/* After any change: what follows from it for picture and panel. */
+static void take_change(struct panel *p)
+{
+    if (session_take_edit(p->work->session))
+        p->work->must_restart = true;
+    p->work->has_changed = true;
+}
+
+static bool may_change(struct panel *p)
+{
+    if (!p->work->is_live) {
+        work_say(p->work, "materials change in live mode: %s goes there",
+                 work_key(p->work, ACTION_MODE).text);
+        return false;
+    }
+    if (p->work->reload.is_busy) {
+        work_say(p->work, "the scene is being loaded: materials change then");
+        return false;
+    }
+    edit_of(p)->is_comparing = false;
+    return true;
+}
+
+static void turn(struct panel *p, int steps)
+{
+    struct knob knobs[KNOBS_MAX];
+    struct knob_target target = selection_target(&p->selection);
+    uint64_t now_ns = clock_ns();
+
+    if (panel_knobs(p, knobs) == 0 || !may_change(p))
+        return;
+    if (knobs[p->knob].id != p->turned_id || now_ns - p->turned_ns > TURN_NS)
+        edit_break(edit_of(p));
+    p->turned_id = knobs[p->knob].id;
+    p->turned_ns = now_ns;
+    knob_turn(edit_of(p), &target, p->turned_id, steps);
+    take_change(p);
+}
+
+static void take_typed(struct panel *p)
+{
+    struct knob knobs[KNOBS_MAX];
+    struct knob_target target = selection_target(&p->selection);
+    struct error err;
+
+    if (panel_knobs(p, knobs) == 0 || !may_change(p))
+        return;
+    edit_break(edit_of(p));
+    if (knob_set_text(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
+        p->is_typing = false;
+        edit_break(edit_of(p));
+        take_change(p);
+    } else {
+        work_say(p->work, "%s", err.text);
+    }
+}
+
+static void travel(struct panel *p, bool is_back)
+{
+    if (!may_change(p))
+        return;
+    if (!(is_back ? edit_undo(edit_of(p)) : edit_redo(edit_of(p))))
+        work_say(p->work, is_back ? "nothing to undo" : "nothing to do again");
+    take_change(p);
+}
+
+static void compare(struct panel *p)
+{
+    bool *is_comparing = &edit_of(p)->is_comparing;
+
+    *is_comparing = !*is_comparing;
+    take_change(p);
+}
+
+/* A copy of the material; an object gets it at once. */
+static void duplicate(struct panel *p)
+{
+    struct edit *e = edit_of(p);
+
+    if (p->selection.page == KNOB_LIGHT || !selection_has_one(&p->selection) ||
+        !may_change(p))
+        return;
+    edit_break(e);
+    if (p->selection.page == KNOB_OBJECT) {
+        p->selection.material =
+            edit_duplicate(e, selection_material_of(&p->selection,
+                                                    p->selection.object));
+        edit_assign(e, p->selection.object, p->selection.material);
+        work_say(p->work, "%.40s has its own material now: %.40s",
+                 panel_name(scene_of(p)->object_names[p->selection.object]),
+                 e->names[p->selection.material]);
+    } else {
+        p->selection.material = edit_duplicate(e, p->selection.material);
+        work_say(p->work, "%.60s: Tab goes to the objects for it",
+                 e->names[p->selection.material]);
+    }
+    edit_break(e);
+    take_change(p);
+}
+
+/* ---- pages, rows ---- */
+
+void panel_open(struct panel *p)
+{
+    p->is_open = true;
+    p->is_in_knobs = p->selection.page == KNOB_LIGHT;
+    selection_settle(&p->selection);
+}
+
+void panel_close(struct panel *p)
+{
+    p->is_open = false;
+    p->is_typing = false;
+}
+
+static void show_page(struct panel *p, enum knob_page page)
+{
+    p->selection.page = page;
+    p->is_in_knobs = page == KNOB_LIGHT;
+    p->knob = p->knob_top = p->list_top = 0;
+}
+
+static void move(struct panel *p, int step)
+{
+    if (p->is_in_knobs)
+        p->knob += step; /* panel_knobs() keeps it in bounds */
+    else
+        selection_move(&p->selection, step);
+}
+
+/* What cannot be typed is turned by Enter. */
+static void begin_typing(struct panel *p, int key)
+{
+    struct knob knobs[KNOBS_MAX];
+
+    if (panel_knobs(p, knobs) == 0)
+        return;
+    if (!knob_takes_text(knobs[p->knob].id)) {
+        if (key == ENTER)
+            turn(p, 1);
+        else
+            work_say(p->work, "this is changed with the arrows, or Enter");
+        return;
+    }
+    p->is_typing = true;
+    p->typed[0] = (char)(key == ENTER ? '\0' : key);
+    p->typed[1] = '\0';
+}
+
+static void type(struct panel *p, int key)
+{
+    size_t length = strlen(p->typed);
+
+    if (key == ENTER) {
+        take_typed(p);
+    } else if (key == ESCAPE) {
+        p->is_typing = false;
+    } else if ((key == BACKSPACE || key == '\b') && length > 0) {
+        p->typed[length - 1] = '\0';
+    } else if (key >= ' ' && key < 256 && key != BACKSPACE &&
+               length + 1 < sizeof p->typed) {
+        p->typed[length] = (char)key;
+        p->typed[length + 1] = '\0';
+    }
+}
+
+static void enter(struct panel *p)
+{
+    if (p->is_in_knobs)
+        begin_typing(p, ENTER);
+    else
+        p->is_in_knobs = selection_has_one(&p->selection);
+}
+
+/* In the list there is only a way to the values. */
+static void step(struct panel *p, int by)
+{
+    if (p->is_in_knobs)
+        turn(p, by);
+    else if (by > 0)
+        enter(p);
+}
+
+static void leave(struct panel *p)
+{
+    if (p->is_in_knobs && p->selection.page != KNOB_LIGHT)
+        p->is_in_knobs = false;
+    else
+        panel_close(p);
+}
+
+/* ---- mouse ---- */
+
+static void select_row(struct panel *p, int row)
+{
+    uint32_t count = selection_count(&p->selection);
+    int number = 0;
+
+    for (uint32_t i = 0; i < count; i++) {
+        if (!selection_is_listed(&p->selection, i) ||
+            number++ != p->list_top + row)
+            continue;
+        selection_set(&p->selection, i);
+        p->is_in_knobs = false;
+    }
+}
+
+static void click(struct panel *p, int col, int row)
+{
+    int knob_row = row - 2 - p->list_rows;
+
+    p->is_typing = false;
+    if (row == 0)
+        show_page(p, col < PAGE_2   ? KNOB_MATERIAL
+                     : col < PAGE_3 ? KNOB_OBJECT
+                                    : KNOB_LIGHT);
+    else if (row <= p->list_rows)
+        select_row(p, row - 1);
+    else if (knob_row >= 0 && knob_row < p->knob_rows) {
+        p->knob = p->knob_top + knob_row;
+        p->is_in_knobs = true;
+    }
+}
+
+static void wheel(struct panel *p, int up)
+{
+    if (p->is_in_knobs)
+        turn(p, up);
+    else
+        selection_move(&p->selection, -up);
+}
+
+bool panel_mouse(struct panel *p, const struct event *event)
+{
+    int col = event->x - 1 - (term_size().cols - p->canvas->panel_cols);
+
+    if (!p->is_open || col < 0 || event->mouse == MOUSE_RELEASE)
+        return false;
+    if (event->mouse == MOUSE_PRESS)
+        click(p, col, event->y - 1);
+    else if (event->mouse == MOUSE_WHEEL_UP)
+        wheel(p, 1);
+    else if (event->mouse == MOUSE_WHEEL_DOWN)
+        wheel(p, -1);
+    return true;
+}
+
+/* ---- keys ---- */
+
+bool panel_key(struct panel *p, int key)
+{
+    if (p->is_typing) {
+        type(p, key);
+        return true;
+    }
+    switch (keys_panel_action(key)) {
+    case PANEL_NONE: return false;
+    case PANEL_UP: move(p, -1); break;
+    case PANEL_DOWN: move(p, 1); break;
+    case PANEL_LESS: step(p, -1); break;
+    case PANEL_MORE: step(p, 1); break;
+    case PANEL_PAGE_UP: move(p, -10); break;
+    case PANEL_PAGE_DOWN: move(p, 10); break;
+    case PANEL_ENTER: enter(p); break;
+    case PANEL_MUCH_LESS: turn(p, -KNOB_COARSE); break;
+    case PANEL_MUCH_MORE: turn(p, KNOB_COARSE); break;
+    case PANEL_TYPE:
+        if (!p->is_in_knobs)
+            return false;
+        begin_typing(p, key);
+        break;
+    case PANEL_HSV: p->selection.by_hsv = !p->selection.by_hsv; break;
+    case PANEL_NEXT_PAGE:
+        show_page(p,
+                  (enum knob_page)((p->selection.page + 1) % (KNOB_LIGHT + 1)));
+        break;
+    case PANEL_COPY: duplicate(p); break;
+    case PANEL_UNDO: travel(p, true); break;
+    case PANEL_REDO: travel(p, false); break;
+    case PANEL_COMPARE: compare(p); break;
+    case PANEL_SAVE: work_save_edit(p->work); break;
+    case PANEL_LEAVE: leave(p); break;
+    }
+    return true;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/*
+ * panel_draw.h - the panel as lines of text with swatches
+ *
+ * Units:     terminal cells
+ * Ownership: none
+ * Threads:   main only
+ * Errors:    none
+ */
+#ifndef GLIM_PANEL_DRAW_H
+#define GLIM_PANEL_DRAW_H
+
+#include "studio/editor_panel.h"
+
+/* Columns of the second title and the third. */
+#define PAGE_2 13
+#define PAGE_3 22
+
+/* Shows it as it is now, after layouts and changes. */
+void panel_draw(struct panel *p);
+
+/* The knobs of what is selected; their number. One of them is selected too. */
+int panel_knobs(struct panel *p, struct knob knobs[KNOBS_MAX]);
+
+/* A name for people: "" is none. */
+const char *panel_name(const char *name);
+
+#endif

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "studio/progress_text.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "studio/status_line.h"
+
+#define PLOT_ROWS 3
+
+/* Dots of a braille character, each way. */
+#define DOT_COLS 2
+#define DOT_ROWS 4
+
+#define NUMBER_BYTES 16
+
+static double greatest(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+void meter_number(char *text, size_t size_bytes, double value)
+{
+    static const char units[] = " kMGTPE";
+    int unit = 0;
+
+    while (value >= 999.5 && units[unit + 1] != '\0') {
+        value *= 1e-3;
+        unit++;
+    }
+    if (unit == 0)
+        snprintf(text, size_bytes, "%.0f", value);
+    else
+        snprintf(text, size_bytes, "%.*f %c",
+                 value < 9.995   ? 2
+                 : value < 99.95 ? 1
+                                 : 0,
+                 value, units[unit]);
+}
+
+/* Copies a character; the place behind it. */
+static char *put(char *to, const char *character)
+{
+    size_t length = strlen(character);
+
+    memcpy(to, character, length + 1);
+    return to + length;
+}
+
+/* `right` ends in the last column. */
+static void put_sides(char *line, const char *left, const char *right)
+{
+    int gap = METER_COLS - (int)strlen(left) - (int)strlen(right);
+
+    snprintf(line, METER_BYTES, "%.*s%*s%s", METER_COLS, left,
+             gap > 0 ? gap : 0, "", gap >= 0 ? right : "");
+}
+
+static double done_part(const struct render_progress *p)
+{
+    if (p->samples_limit == 0)
+        return 0;
+    return p->samples < p->samples_limit
+               ? (double)p->samples / (double)p->samples_limit
+               : 1;
+}
+
+static void format_done(char *line, const struct render_progress *p)
+{
+    char left[64], right[16] = "no limit";
+
+    if (p->spp_limit > 0) {
+        snprintf(left, sizeof left, "%" PRIu64 " of %" PRIu64 " spp",
+                 p->spp_done, p->spp_limit);
+        snprintf(right, sizeof right, "%.1f %%", 100 * done_part(p));
+    } else {
+        snprintf(left, sizeof left, "%" PRIu64 " spp", p->spp_done);
+    }
+    put_sides(line, left, right);
+}
+
+static void format_bar(char *line, const struct meter_facts *f)
+{
+    int filled = (int)(done_part(f->progress) * METER_COLS);
+    const char *full = f->has_unicode ? "\xe2\x96\x88" : "#";
+    const char *empty = f->has_unicode ? "\xe2\x96\x91" : "-";
+
+    for (int i = 0; i < METER_COLS; i++)
+        line = put(line, i < filled ? full : empty);
+}
+
+static void format_rate(char *line, const char *name, uint64_t count,
+                        uint64_t time_ns)
+{
+    double rate = time_ns > 0 ? (double)count * 1e9 / (double)time_ns : 0;
+    char number[NUMBER_BYTES], a_second[NUMBER_BYTES];
+    char left[64], right[32];
+
+    meter_number(number, sizeof number, (double)count);
+    meter_number(a_second, sizeof a_second, rate);
+    snprintf(left, sizeof left, "%-10s%10s", name, number);
+    snprintf(right, sizeof right, "%s/s", a_second);
+    put_sides(line, left, right);
+}
+
+static void format_time(char *line, const struct render_progress *p)
+{
+    char elapsed[24], left_time[24] = "";
+    char left[48], right[48] = "";
+
+    status_duration(elapsed, sizeof elapsed, p->render_ns);
+    snprintf(left, sizeof left, "%-10s%10s", "elapsed", elapsed);
+    if (p->state == RENDER_RUNNING &&
+        status_left(left_time, sizeof left_time, p))
+        snprintf(right, sizeof right, "left %s", left_time);
+    put_sides(line, left, right);
+}
+
+/* ---- diagrams ---- */
+
+/* The speed in half a column of the plot; 0 where there is none. */
+static double speed_at(const struct speeds *s, int i)
+{
+    return i < s->count ? speeds_at(s, i) : 0;
+}
+
+static double top_speed(const struct speeds *s)
+{
+    double top = 0;
+
+    for (int i = 0; i < s->count; i++)
+        top = greatest(top, speeds_at(s, i));
+    return top;
+}
+
+/* Dots of a column that stands in a row of the plot, 0 to DOT_ROWS; row 0 is
+ * the highest. */
+static int dots_in_row(double part, int row)
+{
+    int dots = (int)(part * PLOT_ROWS * DOT_ROWS + 0.5);
+
+    dots -= (PLOT_ROWS - 1 - row) * DOT_ROWS;
+    return dots < 0 ? 0 : dots > DOT_ROWS ? DOT_ROWS : dots;
+}
+
+/* Columns of dots from below: bits as Unicode numbers them. */
+static void put_braille(char *to, int left_dots, int right_dots)
+{
+    static const unsigned char left[] = {0, 0x40, 0x44, 0x46, 0x47};
+    static const unsigned char right[] = {0, 0x80, 0xa0, 0xb0, 0xb8};
+    unsigned bits = left[left_dots] | right[right_dots];
+
+    snprintf(to, 4, "\xe2%c%c", (char)(0xa0 | bits >> 6),
+             (char)(0x80 | (bits & 0x3f)));
+}
+
+static void format_plot(char *line, const struct meter_facts *f, int row)
+{
+    static const char ascii[] = " .:|#";
+    double top = top_speed(f->speeds);
+    double scale = top > 0 ? 1 / top : 0;
+
+    for (int i = 0; i < METER_COLS; i++) {
+        double a = scale * speed_at(f->speeds, DOT_COLS * i);
+        double b = scale * speed_at(f->speeds, DOT_COLS * i + 1);
+        char cell[4] = {ascii[dots_in_row(greatest(a, b), row)]};
+
+        if (f->has_unicode)
+            put_braille(cell, dots_in_row(a, row), dots_in_row(b, row));
+        line = put(line, cell);
+    }
+}
+
+static void format_plot_title(char *line, const struct speeds *s)
+{
+    char now[NUMBER_BYTES], top[NUMBER_BYTES], right[48];
+
+    /* the last span may have just begun */
+    meter_number(now, sizeof now,
+                 s->count > 0 ? speeds_at(s, s->count > 1 ? s->count - 2 : 0)
+                              : 0);
+    meter_number(top, sizeof top, top_speed(s));
+    snprintf(right, sizeof right, "now %s, most %s", now, top);
+    put_sides(line, "samples/s", right);
+}
+
+static double mean_load(const double *loads, int begin, int end)
+{
+    double sum = 0;
+
+    for (int i = begin; i < end; i++)
+        sum += loads[i];
+    return end > begin ? sum / (end - begin) : 0;
+}
+
+/* A column a thread, or for some threads that are neighbours. */
+static void format_loads(char *line, const struct meter_facts *f)
+{
+    static const char ascii[] = "_.:-=+*#@";
+    int cols = f->load_count < METER_COLS ? f->load_count : METER_COLS;
+
+    line[0] = '\0';
+    for (int i = 0; i < cols; i++) {
+        double load = mean_load(f->loads, i * f->load_count / cols,
+                                (i + 1) * f->load_count / cols);
+        int eighths = (int)(load * 8 + 0.5);
+        char cell[4] = {ascii[eighths]};
+
+        if (f->has_unicode) /* U+2581 to U+2588; an idle one has a foot */
+            snprintf(cell, sizeof cell, "\xe2\x96%c",
+                     (char)(0x80 + (eighths > 0 ? eighths : 1)));
+        line = put(line, cell);
+    }
+}
+
+static void format_load_title(char *line, const struct meter_facts *f)
+{
+    char left[32], right[32] = "";
+
+    if (f->load_count == 0) {
+        put_sides(line, "an OpenCL device renders", "");
+        return;
+    }
+    snprintf(left, sizeof left, "%d thread%s", f->load_count,
+             f->load_count == 1 ? "" : "s");
+    snprintf(right, sizeof right, "busy %.0f %%",
+             100 * mean_load(f->loads, 0, f->load_count));
+    put_sides(line, left, right);
+}
+
+void meter_format(char lines[METER_ROWS][METER_BYTES],
+                  const struct meter_facts *f)
+{
+    const struct render_progress *p = f->progress;
+    int row = 0;
+
+    format_done(lines[row++], p);
+    format_bar(lines[row++], f);
+    format_rate(lines[row++], "samples", p->samples, p->render_ns);
+    format_rate(lines[row++], "rays", p->rays, p->render_ns);
+    format_time(lines[row++], p);
+    format_plot_title(lines[row++], f->speeds);
+    for (int i = 0; i < PLOT_ROWS; i++)
+        format_plot(lines[row++], f, i);
+    format_load_title(lines[row++], f);
+    format_loads(lines[row++], f);
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+/*
+ * render_control.h - what the screen renders: live and normal mode, starting and halting,
+ * on which backend, files that change, messages about it
+ *
+ * Live mode renders without a limit and starts anew at every change. Normal
+ * mode renders one view to the samples of -s; it can be halted, and what it has
+ * made is not thrown away unasked.
+ *
+ * Units:     nanoseconds of clock_ns(), samples of all pixels together
+ * Ownership: the session stays the caller's; work_free() frees the rest
+ * Threads:   main only
+ * Errors:    become messages, but for work_init()
+ */
+#ifndef GLIM_RENDER_CONTROL_H
+#define GLIM_RENDER_CONTROL_H
+
+#include "session/reload.h"
+#include "session/save_thread.h"
+#include "session/session.h"
+
+struct message {
+    char text[sizeof(struct error)];
+    bool is_error; /* stays until a key */
+    uint64_t said_ns;
+    uint64_t until_ns; /* 0: none */
+};
+
+struct work {
+    struct session *session;
+    struct saver saver;
+    struct reload reload;
+    struct watch watch;
+    struct render_progress progress; /* as of the last work_look() */
+    struct message message;
+
+    bool is_live;
+    bool is_started;   /* normal mode: a render was begun */
+    bool is_halted;    /* by the person */
+    bool must_restart; /* the view has changed */
+    bool has_changed; /* there is something new to show; the screen clears it */
+    bool has_changed_files; /* since they were loaded */
+    uint64_t files_ns;      /* when to look at them, or load them with --watch;
+                               UINT64_MAX: when the watch says so */
+    uint32_t watched_sky;   /* its number in the edit */
+    uint64_t restarted_ns;
+
+    uint64_t saved_samples;  /* of this picture, in a file */
+    uint64_t saving_samples; /* that the saver will have written */
+    char saving_what[64];    /* its size and samples */
+
+    char **results; /* a line for each file */
+    int result_count;
+};
+
+/* Starts to render in live mode. */
+bool work_init(struct work *w, struct session *session, struct error *err);
+
+/* Shown for a while, or for longer; an error stays until a key, and so long at
+ * least. */
+void work_say(struct work *w, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void work_say_long(struct work *w, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void work_say_error(struct work *w, const char *text);
+
+/* The status line comes back. */
+void work_be_silent(struct work *w);
+
+/* A key was pressed: an error goes, at its time. It may have come while
+ * somebody typed on. */
+void work_be_heard(struct work *w);
+
+/* The key of an action, for messages that tell what to do next. */
+struct keys_name work_key(const struct work *w, enum action action);
+
+/* Printed when the screen is closed. */
+void work_add_result(struct work *w, const char *text);
+
+/* Looks how far the render is, and restarts it if the view has changed and the
+ * look before has found a picture. */
+void work_look(struct work *w);
+
+/* Restarts now if the view has changed, for what is to be done with the film.
+ */
+void work_settle(struct work *w);
+
+/* True until there is a picture to show after a restart: a rough one, and where
+ * a draft is soon whole, that. */
+bool work_awaits_picture(const struct work *w);
+
+/* True if a normal render would be lost. */
+bool work_has_unsaved(const struct work *w);
+
+/* True if what was changed of materials or light would be lost. */
+bool work_has_unsaved_edit(const struct work *w);
+
+/* True if the view may change now; else a message says when. */
+bool work_may_move(struct work *w);
+
+/* Loses what normal mode has rendered. */
+void work_set_live(struct work *w, bool is_live);
+
+/* In normal mode the first time starts the render. */
+void work_start_or_halt(struct work *w);
+
+/* One more sample for every pixel, then a halt. */
+void work_step(struct work *w);
+
+/* Renders the same anew; loses what normal mode has rendered. */
+void work_restart(struct work *w);
+
+/* From the CPU to the OpenCL device, which is brought up first if need be, or
+ * back. A new picture begins: no film is made by both. */
+void work_switch_backend(struct work *w);
+
+/* Brings the device up in the background; the CPU draws on. */
+void work_begin_device(struct work *w);
+
+/* The start's event_fd is readable: takes the device, or says why not. */
+void work_end_device(struct work *w);
+
+/* The watch's fd is readable: have files of the scene changed? */
+void work_look_at_files(struct work *w);
+
+/* Begins to load the files of the scene anew; what is rendered stays until the
+ * reload's event_fd says, in live mode, that work_end_reload() has the result.
+ * An error, then work_end_reload() is false, leaves the old scene. What is
+ * edited and not saved would be lost: it is refused. */
+void work_reload(struct work *w);
+bool work_end_reload(struct work *w);
+
+void work_free(struct work *w);
+
+#endif

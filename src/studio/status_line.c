@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "studio/status_line.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text_width.h"
+
+#define FIELD_BYTES 48
+
+enum field {
+    FIELD_MODE,
+    FIELD_FILES,
+    FIELD_SAMPLES,
+    FIELD_PERCENT,
+    FIELD_ELAPSED,
+    FIELD_LEFT,
+    FIELD_SPEED,
+    FIELD_MACHINE,
+    FIELD_SIZE,
+    FIELD_COLORS,
+    FIELDS
+};
+
+/* What goes first when there is no room: what a person knows or sees elsewhere
+ * (the meter has it all), last what a key has changed. */
+static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
+                                         FIELD_SPEED,   FIELD_LEFT,
+                                         FIELD_ELAPSED, FIELD_PERCENT,
+                                         FIELD_COLORS,  FIELD_SAMPLES};
+
+void status_duration(char *text, size_t size_bytes, uint64_t ns)
+{
+    uint64_t s = ns / 1000000000u;
+
+    if (s < 60)
+        snprintf(text, size_bytes, "%" PRIu64 " s", s);
+    else if (s < 3600)
+        snprintf(text, size_bytes, "%" PRIu64 ":%02" PRIu64, s / 60, s % 60);
+    else
+        snprintf(text, size_bytes, "%" PRIu64 ":%02" PRIu64 ":%02" PRIu64,
+                 s / 3600, s / 60 % 60, s % 60);
+}
+
+static const char *mode_word(const struct status *s)
+{
+    switch (s->progress->state) {
+    case RENDER_FAILED: return "FAILED";
+    case RENDER_DONE: return s->is_live ? "LIVE" : "NORMAL done";
+    case RENDER_IDLE:
+    case RENDER_RUNNING: break;
+    }
+    if (s->is_live)
+        return s->is_halted ? "LIVE paused" : "LIVE";
+    if (!s->is_started)
+        return "NORMAL ready";
+    return s->is_halted ? "NORMAL paused" : "NORMAL";
+}
+
+static double samples_left(const struct render_progress *p)
+{
+    return p->samples < p->samples_limit
+               ? (double)(p->samples_limit - p->samples)
+               : 0.0;
+}
+
+bool status_left(char *text, size_t size_bytes, const struct render_progress *p)
+{
+    double left_ns;
+
+    if (p->samples_limit == 0 || p->samples == 0)
+        return false;
+    left_ns = (double)p->render_ns * samples_left(p) / (double)p->samples;
+    /* a second that has begun is left as a whole one */
+    status_duration(text, size_bytes,
+                    left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
+                                   : UINT64_C(1000000000000000000));
+    return true;
+}
+
+static void format_limited(char text[FIELDS][FIELD_BYTES],
+                           const struct render_progress *p)
+{
+    double part = p->samples_limit > 0
+                      ? 1.0 - samples_left(p) / (double)p->samples_limit
+                      : 0.0;
+    char duration[24];
+
+    snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 "/%" PRIu64 " spp",
+             p->spp_done, p->spp_limit);
+    snprintf(text[FIELD_PERCENT], FIELD_BYTES, "%d %%", (int)(100.0 * part));
+    if (p->state == RENDER_RUNNING && status_left(duration, sizeof duration, p))
+        snprintf(text[FIELD_LEFT], FIELD_BYTES, "left %s", duration);
+}
+
+static void format_speed(char text[FIELD_BYTES],
+                         const struct render_progress *p)
+{
+    double samples = (double)(p->samples + p->draft_samples);
+    double speed =
+        p->render_ns > 0 ? samples * 1e9 / (double)p->render_ns : 0.0;
+
+    if (speed >= 1e9)
+        snprintf(text, FIELD_BYTES, "%.2f Gsamples/s", speed * 1e-9);
+    else if (speed >= 1e6)
+        snprintf(text, FIELD_BYTES, "%.2f Msamples/s", speed * 1e-6);
+    else
+        snprintf(text, FIELD_BYTES, "%.0f ksamples/s", speed * 1e-3);
+}
+
+static void format_fields(char text[FIELDS][FIELD_BYTES],
+                          const struct status *s)
+{
+    const struct render_progress *p = s->progress;
+
+    snprintf(text[FIELD_MODE], FIELD_BYTES, "%s%s", mode_word(s),
+             s->is_orbiting ? " orbit" : "");
+    if (s->device)
+        snprintf(text[FIELD_MACHINE], FIELD_BYTES, "OpenCL %.24s", s->device);
+    else
+        snprintf(text[FIELD_MACHINE], FIELD_BYTES, "%d thread%s",
+                 s->thread_count, s->thread_count == 1 ? "" : "s");
+    if (s->load_key)
+        snprintf(text[FIELD_FILES], FIELD_BYTES, "changed: %.8s loads",
+                 s->load_key);
+    snprintf(text[FIELD_SIZE], FIELD_BYTES, "%dx%d", s->width_px, s->height_px);
+    snprintf(text[FIELD_COLORS], FIELD_BYTES, "%s", s->colors);
+    if (!s->is_live && !s->is_started)
+        return;
+    if (p->spp_limit > 0)
+        format_limited(text, p);
+    else
+        snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 " spp",
+                 p->spp_done);
+    status_duration(text[FIELD_ELAPSED], FIELD_BYTES, p->render_ns);
+    format_speed(text[FIELD_SPEED], p);
+}
+
+static int length_of(char text[FIELDS][FIELD_BYTES])
+{
+    int length = 0;
+
+    for (int i = 0; i < FIELDS; i++)
+        length += text[i][0] ? (int)strlen(text[i]) + 2 : 0;
+    return length;
+}
+
+void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
+{
+    char fields[FIELDS][FIELD_BYTES] = {{0}};
+    int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;
+    int hint = (int)strlen(s->hint);
+    int at = 1;
+
+    format_fields(fields, s);
+    for (size_t i = 0; i < sizeof dispensable / sizeof dispensable[0]; i++) {
+        if (1 + length_of(fields) + hint + 1 <= room)
+            break;
+        fields[dispensable[i]][0] = '\0';
+    }
+    memset(text, ' ', (size_t)room);
+    text[room] = '\0';
+    for (int i = 0; i < FIELDS; i++) {
+        int length = (int)strlen(fields[i]);
+
+        if (length == 0 || at + length > room)
+            continue;
+        memcpy(text + at, fields[i], (size_t)length);
+        at += length + 2;
+    }
+    if (at + hint + 1 <= room)
+        memcpy(text + room - hint - 1, s->hint, (size_t)hint);
+}
+
+void status_message(char text[STATUS_BYTES], int cols, const char *message)
+{
+    if (cols > 0)
+        *text++ = ' ';
+    columns_cut(text, STATUS_BYTES - 1, message, cols - 1);
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/*
+ * status_line.h - the text of the status line
+ *
+ * Units:     terminal columns, nanoseconds
+ * Ownership: text goes to the caller's memory
+ * Threads:   any
+ * Errors:    none; what has no room is left out, the least important first
+ */
+#ifndef GLIM_STATUS_LINE_H
+#define GLIM_STATUS_LINE_H
+
+#include "terminal/screen.h"
+#include "render/render_loop.h"
+
+struct status {
+    bool is_live;
+    bool is_orbiting;
+    bool is_halted;       /* by the person */
+    bool is_started;      /* normal mode: a render was begun */
+    const char *load_key; /* for files that have changed; NULL: none have */
+    const struct render_progress *progress;
+    const char *device; /* NULL: the CPU, with so many threads */
+    int thread_count;
+    int width_px, height_px;
+    const char *colors; /* "24 bit" */
+    const char *hint;   /* at the right end */
+};
+
+/* Writes a line for `cols` columns. */
+void status_format(char text[STATUS_BYTES], int cols, const struct status *s);
+
+/* Seconds as people read them: 7 s, 1:07, 2:01:07. Rounds down. */
+void status_duration(char *text, size_t size_bytes, uint64_t ns);
+
+/* The time that is left, in such words. False if nobody can know. */
+bool status_left(char *text, size_t size_bytes,
+                 const struct render_progress *p);
+
+/* Copies a message for the screen: no control characters, cut at `cols`
+ * bytes. */
+void status_message(char text[STATUS_BYTES], int cols, const char *message);
+
+#endif

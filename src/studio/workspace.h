@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+/*
+ * workspace.h - what is on the screen: the picture, the panel beside it, one window
+ * over it, the last line; and when each is drawn
+ *
+ * Help, progress, directions and a path share one window: the help hides the
+ * others while it is open, and there is room either for progress or for the
+ * panel.
+ *
+ * Units:     nanoseconds of clock_ns()
+ * Ownership: work and pilot stay the caller's and outlive it; stage_free()
+ *            frees the rest
+ * Threads:   main only
+ * Errors:    become messages
+ */
+#ifndef GLIM_WORKSPACE_H
+#define GLIM_WORKSPACE_H
+
+#include "terminal/screen.h"
+#include "studio/progress_panel.h"
+#include "studio/inspector.h"
+#include "studio/editor_panel.h"
+#include "studio/camera_control.h"
+#include "studio/render_control.h"
+
+struct stage {
+    struct work *work;
+    struct pilot *pilot;
+    struct canvas canvas;
+    struct inside inside;
+    struct panel panel;
+    struct gauge gauge; /* hidden while the help is open */
+    int help_number;    /* the page that is shown, */
+    int help_left;      /* with those behind it; 0: no help */
+    const char *prompt; /* in the last line; NULL: nothing is asked */
+
+    uint64_t lack_ns; /* when to ask why there are no pixels; 0: never */
+
+    bool is_settled;         /* nothing of the picture is left to be shown */
+    uint64_t frame_ns;       /* when the next frame is due */
+    uint64_t status_ns;      /* when to look for a new status line */
+    int width_px, height_px; /* of the picture that has been laid out */
+};
+
+/* Says what the next restart's draft is like, before there is a screen. */
+void stage_expect(struct session *s);
+
+void stage_init(struct stage *st, struct work *work, struct pilot *pilot);
+
+/* After term_open(). */
+void stage_open(struct stage *st);
+
+/* Everything anew, for the terminal's size of now. */
+void stage_layout(struct stage *st);
+
+/* Draws again as soon as possible. */
+void stage_refresh(struct stage *st);
+
+/* NULL: the status line again. */
+void stage_ask(struct stage *st, const char *prompt);
+
+/* Does what the action says of windows, colours and drawings. False if it is
+ * not the stage's. */
+bool stage_act(struct stage *st, enum action action);
+
+/* While the help is open: its next page, or its end. */
+void stage_turn_help(struct stage *st, bool closes);
+
+/* After the scene was loaded anew. */
+void stage_renew(struct stage *st, const struct selection_names *names);
+
+/* Looks how far the work is, and what of it there is to show. */
+void stage_look(struct stage *st);
+
+/* Draws what is due. False if the terminal takes nothing any more. */
+bool stage_draw(struct stage *st, uint64_t now_ns);
+
+/* When to look and draw again if nothing happens; UINT64_MAX: never. */
+uint64_t stage_next_ns(const struct stage *st, uint64_t now_ns);
+
+/* After term_close(). */
+void stage_free(struct stage *st);
+
+#endif

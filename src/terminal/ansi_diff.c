@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "terminal/ansi_diff.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A jump, two 24-bit colours and a glyph: 10 + 38 + 4 bytes. */
+#define CELL_BYTES_MAX 56
+
+bool ansi_init(struct ansi *a, int cols, int rows, struct error *err)
+{
+    size_t count = (size_t)cols * (size_t)rows;
+
+    assert(cols > 0 && rows > 0);
+    *a = (struct ansi){.cols = cols, .rows = rows};
+    a->capacity = count * CELL_BYTES_MAX + ANSI_TEXT_MAX;
+    a->shown = alloc_array(count, sizeof a->shown[0]);
+    a->bytes = alloc_array(a->capacity, 1);
+    if (!a->shown || !a->bytes) {
+        ansi_free(a);
+        return fail(err, "no memory for a window of %dx%d cells", cols, rows);
+    }
+    return true;
+}
+
+void ansi_free(struct ansi *a)
+{
+    free(a->shown);
+    free(a->bytes);
+    *a = (struct ansi){0};
+}
+
+void ansi_forget(struct ansi *a, struct ansi_rect rect)
+{
+    for (int y = rect.row; y < rect.row + rect.rows; y++) {
+        for (int x = rect.col; x < rect.col + rect.cols; x++) {
+            if (x >= 0 && x < a->cols && y >= 0 && y < a->rows)
+                a->shown[(size_t)y * (size_t)a->cols + (size_t)x].glyph = 0;
+        }
+    }
+}
+
+void ansi_forget_all(struct ansi *a)
+{
+    ansi_forget(a, (struct ansi_rect){0, 0, a->cols, a->rows});
+}
+
+void ansi_begin(struct ansi *a)
+{
+    a->length = 0;
+    a->fg = CELL_DEFAULT;
+    a->bg = CELL_DEFAULT;
+}
+
+bool ansi_reserve(struct ansi *a, size_t size_bytes)
+{
+    size_t needed = a->length + size_bytes + ANSI_TEXT_MAX;
+    void *bytes = a->bytes;
+    bool ok = grow_array(&bytes, &a->capacity, needed, 1);
+
+    a->bytes = bytes;
+    return ok;
+}
+
+static void put(struct ansi *a, const char *text, size_t length)
+{
+    assert(a->length + length <= a->capacity);
+    memcpy(a->bytes + a->length, text, length);
+    a->length += length;
+}
+
+void ansi_text(struct ansi *a, const char *text)
+{
+    put(a, text, strlen(text));
+}
+
+static void put_char(struct ansi *a, char c)
+{
+    a->bytes[a->length++] = c;
+}
+
+static void put_number(struct ansi *a, uint32_t n)
+{
+    char digits[10];
+    int count = 0;
+
+    do {
+        digits[count++] = (char)('0' + n % 10);
+        n /= 10;
+    } while (n);
+    while (count)
+        put_char(a, digits[--count]);
+}
+
+/* 38;2;r;g;b for a foreground (base 30), 48;... for a background (base 40).
+ * Semicolons: the form that every terminal takes apart the same way. */
+static void put_color(struct ansi *a, uint32_t color, enum palette palette,
+                      uint32_t base)
+{
+    if (color == CELL_DEFAULT) {
+        put_number(a, base + 9);
+    } else if (palette == PALETTE_24BIT) {
+        put_number(a, base + 8);
+        put(a, ";2;", 3);
+        put_number(a, color >> 16 & 255);
+        put_char(a, ';');
+        put_number(a, color >> 8 & 255);
+        put_char(a, ';');
+        put_number(a, color & 255);
+    } else if (palette == PALETTE_256) {
+        put_number(a, base + 8);
+        put(a, ";5;", 3);
+        put_number(a, color);
+    } else {
+        put_number(a, color < 8 ? base + color : base + 60 + color - 8);
+    }
+}
+
+/* A blank shows no foreground. */
+static bool needs_fg(const struct ansi *a, const struct cell *cell)
+{
+    return cell->glyph != ' ' && cell->fg != a->fg;
+}
+
+static bool needs_bg(const struct ansi *a, const struct cell *cell)
+{
+    return cell->bg != a->bg;
+}
+
+/* One sequence with only the part that changes. */
+static void put_colors(struct ansi *a, const struct cell *cell,
+                       enum palette palette)
+{
+    bool new_fg = needs_fg(a, cell);
+    bool new_bg = needs_bg(a, cell);
+
+    if (!new_fg && !new_bg)
+        return;
+    put(a, "\033[", 2);
+    if (new_fg) {
+        put_color(a, cell->fg, palette, 30);
+        a->fg = cell->fg;
+    }
+    if (new_fg && new_bg)
+        put_char(a, ';');
+    if (new_bg) {
+        put_color(a, cell->bg, palette, 40);
+        a->bg = cell->bg;
+    }
+    put_char(a, 'm');
+}
+
+/* The same dots with foreground and background exchanged; where there is no
+ * such glyph, the cell itself. A blank stays one: some fonts' full block leaves
+ * hairlines of the background, which flat areas do not hide. */
+static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
+{
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    unsigned all = (1u << grid.across * grid.down) - 1;
+    unsigned mask;
+
+    if (!glyphs_are_solid(glyphs) || cell->bg == CELL_DEFAULT ||
+        !glyphs_mask(glyphs, cell->glyph, &mask) || mask == 0)
+        return *cell;
+    return (struct cell){cell->bg, cell->fg,
+                         glyphs_of_mask(glyphs, all & ~mask)};
+}
+
+/* Writes the cell or its inverse, whichever changes fewer colours: where a
+ * dither mixes two, they stay and the glyphs alternate. */
+static void put_cell(struct ansi *a, const struct cells *cells,
+                     const struct cell *cell)
+{
+    struct cell inverse = inverse_of(cell, cells->glyphs);
+    int changes = needs_fg(a, cell) + needs_bg(a, cell);
+    char bytes[4];
+
+    if (needs_fg(a, &inverse) + needs_bg(a, &inverse) < changes)
+        cell = &inverse;
+    put_colors(a, cell, cells->palette);
+    put(a, bytes, (size_t)glyph_utf8(cell->glyph, bytes));
+}
+
+void ansi_jump(struct ansi *a, int row, int col)
+{
+    put(a, "\033[", 2);
+    put_number(a, (uint32_t)row + 1);
+    put_char(a, ';');
+    put_number(a, (uint32_t)col + 1);
+    put_char(a, 'H');
+}
+
+/* `from` is the column where the cursor stands in this row; -1: elsewhere. */
+static void put_jump(struct ansi *a, int row, int col, int from)
+{
+    if (from == col)
+        return;
+    if (from < 0) {
+        ansi_jump(a, row, col);
+        return;
+    }
+    put(a, "\033[", 2);
+    if (col - from > 1)
+        put_number(a, (uint32_t)(col - from));
+    put_char(a, 'C');
+}
+
+static bool channels_close(uint32_t a, uint32_t b, int step)
+{
+    for (int shift = 0; shift < 24; shift += 8) {
+        if (abs((int)(a >> shift & 255) - (int)(b >> shift & 255)) > step)
+            return false;
+    }
+    return true;
+}
+
+/* Whether every dot of the cells has about the same colour in both. */
+static bool dots_close(const struct cell *a, const struct cell *b,
+                       enum glyphs glyphs, int step)
+{
+    unsigned masks[2];
+
+    if (a->bg == CELL_DEFAULT || b->bg == CELL_DEFAULT ||
+        !glyphs_mask(glyphs, a->glyph, &masks[0]) ||
+        !glyphs_mask(glyphs, b->glyph, &masks[1]))
+        return false;
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    for (int i = 0; i < grid.across * grid.down; i++) {
+        if (!channels_close(masks[0] >> i & 1 ? a->fg : a->bg,
+                            masks[1] >> i & 1 ? b->fg : b->bg, step))
+            return false;
+    }
+    return true;
+}
+
+static bool may_stay(const struct cell *shown, const struct cell *cell,
+                     enum glyphs glyphs, int step)
+{
+    if (shown->glyph == cell->glyph && shown->bg == cell->bg &&
+        (shown->fg == cell->fg || cell->glyph == ' '))
+        return true;
+    return step > 0 && dots_close(shown, cell, glyphs, step);
+}
+
+int ansi_uncovered(const struct ansi_draw *how, int col, int row)
+{
+    for (int i = 0; i < how->covered_count; i++) {
+        const struct ansi_rect *r = &how->covered[i];
+
+        if (row >= r->row && row < r->row + r->rows && col >= r->col &&
+            col < r->col + r->cols) {
+            col = r->col + r->cols;
+            i = -1; /* another may begin there */
+        }
+    }
+    return col;
+}
+
+/* Writes what differs in columns [begin, end) of a row until the buffer is
+ * `limit` long; the column where it stopped, or end. */
+static int put_row(struct ansi *a, const struct cells *cells, int row,
+                   int begin, int end, size_t limit,
+                   const struct ansi_draw *how)
+{
+    size_t first = (size_t)row * (size_t)a->cols;
+    int step = cells->palette == PALETTE_24BIT ? how->step : 0;
+    int from = -1;
+
+    for (int col = ansi_uncovered(how, begin, row); col < end;
+         col = ansi_uncovered(how, col + 1, row)) {
+        const struct cell *cell = &cells->cell[first + (size_t)col];
+        struct cell *shown = &a->shown[first + (size_t)col];
+
+        if (may_stay(shown, cell, cells->glyphs, step))
+            continue;
+        if (a->length >= limit)
+            return col;
+        put_jump(a, how->row + row, how->col + col,
+                 from < 0 ? -1 : how->col + from);
+        put_cell(a, cells, cell);
+        *shown = *cell;
+        from = col + 1;
+    }
+    return end;
+}
+
+bool ansi_picture(struct ansi *a, const struct cells *cells,
+                  const struct ansi_draw *how)
+{
+    size_t limit = how->budget_bytes > SIZE_MAX - a->length
+                       ? SIZE_MAX
+                       : a->length + how->budget_bytes;
+    int start_row = a->next_row;
+    int start_col = a->next_col;
+
+    assert(cells->cols == a->cols && cells->rows == a->rows);
+    /* the same number is another colour, the same glyph another mask */
+    if (cells->palette != a->palette || cells->glyphs != a->glyphs)
+        ansi_forget_all(a);
+    a->palette = cells->palette;
+    a->glyphs = cells->glyphs;
+    /* The row of the start comes twice: its right part first, its left last. */
+    for (int i = 0; i <= a->rows; i++) {
+        int row = (start_row + i) % a->rows;
+        int begin = i == 0 ? start_col : 0;
+        int end = i == a->rows ? start_col : a->cols;
+        int stop = put_row(a, cells, row, begin, end, limit, how);
+
+        if (stop < end) {
+            a->next_row = row;
+            a->next_col = stop;
+            return false;
+        }
+    }
+    a->next_row = 0;
+    a->next_col = 0;
+    return true;
+}
+
+void ansi_end(struct ansi *a, int row)
+{
+    ansi_text(a, "\033[m");
+    ansi_jump(a, row, 0);
+    a->fg = CELL_DEFAULT;
+    a->bg = CELL_DEFAULT;
+}
+
+bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
+                struct error *err)
+{
+    struct ansi a;
+
+    if (!ansi_init(&a, cells->cols, cells->rows, err))
+        return false;
+    for (int row = 0; row < cells->rows; row++) {
+        a.fg = CELL_DEFAULT;
+        a.bg = CELL_DEFAULT;
+        for (int col = 0; col < cells->cols; col++)
+            put_cell(&a, cells, &cells->cell[row * cells->cols + col]);
+        if (a.fg != CELL_DEFAULT || a.bg != CELL_DEFAULT)
+            put(&a, "\033[m", 3);
+        put_char(&a, '\n');
+    }
+    *text = a.bytes;
+    *size_bytes = a.length;
+    a.bytes = NULL; /* the caller owns it now */
+    ansi_free(&a);
+    return true;
+}

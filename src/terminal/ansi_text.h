@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/*
+ * ansi_text.h - a picture as lines of coloured text
+ *
+ * The cells are those that the screen shows of the same at the same size.
+ *
+ * Units:     terminal cells
+ * Ownership: the text is for free()
+ * Threads:   any
+ * Errors:    memory
+ */
+#ifndef GLIM_ANSI_TEXT_H
+#define GLIM_ANSI_TEXT_H
+
+#include "terminal/cells.h"
+
+struct text_style {
+    int cols, rows;
+    enum palette palette;
+    enum glyphs glyphs;
+};
+
+/* The frame that such a text is made of, for frame_free(). */
+bool text_frame_init(struct frame *frame, const struct text_style *style,
+                     struct error *err);
+
+bool text_of_frame(const struct frame *frame, const struct text_style *style,
+                   char **text, size_t *size_bytes, struct error *err);
+
+#endif

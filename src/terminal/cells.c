@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "terminal/cells.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* Characters by the ink they have, from none to most. */
+static const char ramp[] = " .:;+xo%#@";
+#define RAMP_LENGTH ((int)sizeof ramp - 1)
+
+/* Masks of which the last dot is not set: the others are their inverses. */
+#define MASKS_MAX (1 << (GLYPH_DOTS_MAX - 1))
+
+/* Roots of the weights 2, 4 and 3 that the eye gives the primaries, roughly. */
+static const float eye[3] = {1.41421356f, 2.0f, 1.73205081f};
+
+bool cells_init(struct cells *cells, int cols, int rows, struct error *err)
+{
+    assert(cols > 0 && rows > 0);
+    *cells = (struct cells){.cols = cols, .rows = rows};
+    cells->cell =
+        alloc_array((size_t)cols * (size_t)rows, sizeof cells->cell[0]);
+    if (!cells->cell)
+        return fail(err, "no memory for a window of %dx%d cells", cols, rows);
+    if (dither_init(&cells->dither, err))
+        return true;
+    cells_free(cells);
+    return false;
+}
+
+void cells_free(struct cells *cells)
+{
+    free(cells->cell);
+    dither_free(&cells->dither);
+    *cells = (struct cells){0};
+}
+
+static struct rgb pixel(const struct frame *frame, int x, int y)
+{
+    const uint8_t *p =
+        frame->rgb + 3 * ((size_t)y * (size_t)frame->width + (size_t)x);
+
+    return (struct rgb){p[0], p[1], p[2]};
+}
+
+/* The pixels of a cell, dot by dot. */
+struct dots {
+    int count;
+    struct rgb color[GLYPH_DOTS_MAX];
+};
+
+static struct dots dots_of(const struct frame *frame, struct glyph_grid grid,
+                           int col, int row)
+{
+    struct dots dots = {.count = 0};
+
+    for (int y = 0; y < grid.down; y++) {
+        for (int x = 0; x < grid.across; x++)
+            dots.color[dots.count++] =
+                pixel(frame, col * grid.across + x, row * grid.down + y);
+    }
+    return dots;
+}
+
+/* Of the dots whose bits in the mask are `bit`; there is one. In the curve's
+ * space, not in light: the eye sees no difference between two neighbours, and
+ * a cell of one colour is coarse anyway. */
+static struct rgb mean_of(const struct dots *dots, unsigned mask, unsigned bit)
+{
+    struct rgb sum = {0, 0, 0};
+    int count = 0;
+
+    for (int i = 0; i < dots->count; i++) {
+        if ((mask >> i & 1) != bit)
+            continue;
+        sum.r += dots->color[i].r;
+        sum.g += dots->color[i].g;
+        sum.b += dots->color[i].b;
+        count++;
+    }
+    return (struct rgb){(sum.r + count / 2) / count,
+                        (sum.g + count / 2) / count,
+                        (sum.b + count / 2) / count};
+}
+
+static int brightness(struct rgb c)
+{
+    return (2 * c.r + 5 * c.g + c.b) / 8;
+}
+
+static int largest(struct rgb c)
+{
+    int m = c.r > c.g ? c.r : c.g;
+
+    return m > c.b ? m : c.b;
+}
+
+/* The character carries the brightness, its colour only the hue. */
+static struct cell ascii_cell(struct cells *cells, struct rgb c)
+{
+    struct cell cell = {CELL_DEFAULT, CELL_DEFAULT, ' '};
+    bool is_mono = cells->palette == PALETTE_MONO;
+    int light = is_mono ? brightness(c) : largest(c);
+    int index = light * RAMP_LENGTH / 256;
+
+    if (index == 0)
+        return cell;
+    cell.glyph = (uint32_t)ramp[index];
+    if (!is_mono) {
+        struct rgb hue = {c.r * 255 / light, c.g * 255 / light,
+                          c.b * 255 / light};
+
+        /* a threshold of the middle: one colour needs no pattern */
+        cell.fg = dither_color(&cells->dither, hue, 1, 3, cells->palette);
+    }
+    return cell;
+}
+
+/* Dots that are bright enough for their places. The eye adds light, which is
+ * roughly the square of these numbers. */
+static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
+                             int col, int row)
+{
+    struct glyph_grid grid = glyphs_grid(cells->glyphs);
+    unsigned mask = 0;
+
+    for (int i = 0; i < dots->count; i++) {
+        int light = brightness(dots->color[i]);
+        int threshold = dither_threshold(col * grid.across + i % grid.across,
+                                         row * grid.down + i / grid.across);
+
+        if (32 * light * light > (2 * threshold + 1) * 255 * 255)
+            mask |= 1u << i;
+    }
+    return (struct cell){CELL_DEFAULT, CELL_DEFAULT,
+                         glyphs_of_mask(cells->glyphs, mask)};
+}
+
+/* About the mean of all dots, with sum S over k of n of them in one group, the
+ * others have -S, and two colours instead of one take |S|^2 n / (k (n - k)) off
+ * the squared distances. For each mask that factor of |S|^2. */
+struct partition {
+    float share[MASKS_MAX];
+};
+
+static void partition_init(struct partition *p, int dots)
+{
+    p->share[0] = 0.0f;
+    for (int mask = 1; mask < 1 << (dots - 1); mask++) {
+        int k = __builtin_popcount((unsigned)mask);
+
+        p->share[mask] = (float)dots / (float)(k * (dots - k));
+    }
+}
+
+/* The sums of some values over the dots of each mask. */
+static void sum_masks(const float *values, int count, float sums[MASKS_MAX])
+{
+    sums[0] = 0.0f;
+    for (int i = 0; i < count - 1; i++) {
+        for (int mask = 0; mask < 1 << i; mask++)
+            sums[(1 << i) + mask] = sums[mask] + values[i];
+    }
+}
+
+/* The dots about their mean, as the eye weighs them, channel by channel. */
+static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
+{
+    float mean[3] = {0.0f, 0.0f, 0.0f};
+
+    for (int i = 0; i < dots->count; i++) {
+        values[0][i] = eye[0] * (float)dots->color[i].r;
+        values[1][i] = eye[1] * (float)dots->color[i].g;
+        values[2][i] = eye[2] * (float)dots->color[i].b;
+        for (int c = 0; c < 3; c++)
+            mean[c] += values[c][i] / (float)dots->count;
+    }
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < dots->count; i++)
+            values[c][i] -= mean[c];
+    }
+}
+
+/* The mask of the two groups that are nearest to their means: all are tried. */
+static unsigned best_mask(const struct partition *p, const struct dots *dots)
+{
+    float values[3][GLYPH_DOTS_MAX];
+    float r[MASKS_MAX], g[MASKS_MAX], b[MASKS_MAX];
+    unsigned best = 0;
+    float most = 0.0f;
+
+    centre(dots, values);
+    sum_masks(values[0], dots->count, r);
+    sum_masks(values[1], dots->count, g);
+    sum_masks(values[2], dots->count, b);
+    for (unsigned i = 1; i < 1u << (dots->count - 1); i++) {
+        float gain = p->share[i] * (r[i] * r[i] + g[i] * g[i] + b[i] * b[i]);
+
+        if (gain > most) {
+            most = gain;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static struct cell solid_cell(uint32_t color)
+{
+    return (struct cell){color, color, ' '};
+}
+
+/* A cell of two colours where the mask says. */
+static struct cell block_cell(struct cells *cells, const struct dots *dots,
+                              unsigned mask, int col, int row)
+{
+    bool is_lower = cells->glyphs == GLYPHS_LOWER;
+    struct dither *d = &cells->dither;
+    uint32_t fg;
+    uint32_t bg;
+
+    if (mask == 0)
+        return solid_cell(
+            dither_color(d, mean_of(dots, 0, 0), col, 2 * row, cells->palette));
+    fg = dither_color(d, mean_of(dots, mask, 1), col, 2 * row + is_lower,
+                      cells->palette);
+    bg = dither_color(d, mean_of(dots, mask, 0), col, 2 * row + !is_lower,
+                      cells->palette);
+    if (fg == bg)
+        return solid_cell(fg);
+    return (struct cell){fg, bg, glyphs_of_mask(cells->glyphs, mask)};
+}
+
+static struct cell cell_of(struct cells *cells, const struct dots *dots,
+                           const struct partition *partition, int col, int row)
+{
+    bool is_mono = cells->palette == PALETTE_MONO;
+    unsigned mask;
+
+    if (cells->glyphs == GLYPHS_ASCII || (is_mono && dots->count <= 2))
+        return ascii_cell(cells, mean_of(dots, 0, 0));
+    if (is_mono)
+        return mono_cell(cells, dots, col, row);
+    switch (cells->glyphs) {
+    case GLYPHS_SPACE: return block_cell(cells, dots, 0, col, row);
+    case GLYPHS_HALF:
+    case GLYPHS_UPPER: return block_cell(cells, dots, 1, col, row);
+    case GLYPHS_LOWER: return block_cell(cells, dots, 2, col, row);
+    default: break;
+    }
+    mask = best_mask(partition, dots);
+    /* where dots do not touch, most of a cell is background */
+    if (!glyphs_are_solid(cells->glyphs) &&
+        2 * __builtin_popcount(mask) > dots->count)
+        mask ^= (1u << dots->count) - 1;
+    return block_cell(cells, dots, mask, col, row);
+}
+
+void cells_from_frame(struct cells *cells, const struct frame *frame,
+                      enum palette palette, enum glyphs glyphs)
+{
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    struct cell *out = cells->cell;
+    struct partition partition;
+
+    assert(frame->width == grid.across * cells->cols &&
+           frame->height == grid.down * cells->rows);
+    cells->palette = palette;
+    cells->glyphs = glyphs;
+    partition_init(&partition, grid.across * grid.down);
+    for (int row = 0; row < cells->rows; row++) {
+        for (int col = 0; col < cells->cols; col++) {
+            struct dots dots = dots_of(frame, grid, col, row);
+
+            *out++ = cell_of(cells, &dots, &partition, col, row);
+        }
+    }
+}
+
+static int within(double cells, int most)
+{
+    if (!(cells >= 1.0))
+        return 1;
+    return cells > most ? most : (int)cells;
+}
+
+/* Black on white, whatever the picture shows there; characters alone where
+ * there are no colours. */
+static struct cell mark_cell(enum palette palette, char glyph)
+{
+    switch (palette) {
+    case PALETTE_24BIT: return (struct cell){0, 0xffffff, glyph};
+    case PALETTE_256: return (struct cell){16, 231, glyph};
+    case PALETTE_16: return (struct cell){0, 15, glyph};
+    case PALETTE_MONO: break;
+    }
+    return (struct cell){CELL_DEFAULT, CELL_DEFAULT, glyph};
+}
+
+void cells_mark(struct cells *cells, int col, int row)
+{
+    static const char text[] = "[+]";
+
+    for (int i = 0; i < 3; i++) {
+        int x = col - 1 + i;
+
+        if (x >= 0 && x < cells->cols && row >= 0 && row < cells->rows)
+            cells->cell[(size_t)row * (size_t)cells->cols + (size_t)x] =
+                mark_cell(cells->palette, text[i]);
+    }
+}
+
+struct fit cells_fit(int width_px, int height_px, int cols, int rows,
+                     double cell_aspect)
+{
+    double shape = (double)width_px / height_px * cell_aspect;
+    struct fit fit;
+
+    assert(width_px > 0 && height_px > 0 && cols > 0 && rows > 0);
+    if (cols <= rows * shape) {
+        fit.cols = cols;
+        fit.rows = within(floor(cols / shape + 0.5), rows);
+    } else {
+        fit.cols = within(floor(rows * shape + 0.5), cols);
+        fit.rows = rows;
+    }
+    fit.col = (cols - fit.cols) / 2;
+    fit.row = (rows - fit.rows) / 2;
+    return fit;
+}

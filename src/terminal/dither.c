@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include "terminal/dither.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "kernels/tone.h"
+
+/* The first 16 colours: eight whose channels are 0 or 170, eight with 85 or
+ * 255. Themes differ, and nobody can ask all terminals; these are the VGA's and
+ * lie in the middle of what is in use. */
+#define DARK_ON    170
+#define BRIGHT_OFF 85
+
+/* The 6 levels of a channel in the cube of 16..231; the greys are behind it. */
+static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
+#define CUBE_FIRST 16
+#define GREY_FIRST 232
+#define COLORS     256
+#define INKS       (COLORS - CUBE_FIRST)
+
+/* A mix is found for 6 bits a channel: finer steps than those of the greys. */
+#define KEY_BITS 6
+#define KEY_MAX  ((1 << KEY_BITS) - 1)
+
+/* Colours of a mix, and how many of the nearest are tried for it: with twice
+ * as many of either the error of the shipped scenes is the same to 2 %. */
+#define MIX_LENGTH 8
+#define CANDIDATES 12
+
+/* How much the squared distance of a mix's colours counts beside that of their
+ * mean, beyond a step of the greys, which nobody sees as grain. With half of it
+ * the error of the shipped scenes, blurred over 3x3 pixels, is 15 % smaller,
+ * the grain 10 % greater and a frame 15 % more bytes. */
+#define GRAIN_WEIGHT 0.6f
+#define GRAIN_FREE   0.0012f
+
+/* Bayer's matrix: thresholds that spread a level over 4x4 pixels. */
+#define THRESHOLDS 16
+static const int8_t bayer[4][4] = {{0, 8, 2, 10},
+                                   {12, 4, 14, 6},
+                                   {3, 11, 1, 9},
+                                   {15, 7, 13, 5}};
+
+int dither_threshold(int x, int y)
+{
+    return bayer[y & 3][x & 3];
+}
+
+static struct rgb value_of_16(uint32_t number)
+{
+    int off = number < 8 ? 0 : BRIGHT_OFF;
+    int on = number < 8 ? DARK_ON : 255;
+
+    return (struct rgb){number & 1 ? on : off, number & 2 ? on : off,
+                        number & 4 ? on : off};
+}
+
+struct rgb dither_value(uint32_t number, enum palette palette)
+{
+    int n = (int)number - CUBE_FIRST;
+    int grey = 8 + 10 * ((int)number - GREY_FIRST);
+
+    if (palette == PALETTE_16)
+        return value_of_16(number);
+    assert(palette == PALETTE_256 && n >= 0);
+    if (number >= GREY_FIRST)
+        return (struct rgb){grey, grey, grey};
+    return (struct rgb){levels[n / 36], levels[n / 6 % 6], levels[n % 6]};
+}
+
+/* The light of a byte, from the curve's own thresholds on both sides of it. */
+static float light_of(int byte)
+{
+    if (byte == 0 || byte == 255)
+        return byte == 0 ? 0.0f : 1.0f;
+    return 0.5f * (srgb_thresholds[byte - 1] + srgb_thresholds[byte]);
+}
+
+/* OKLab: equal distances look equal. Bjorn Ottosson, "A perceptual color space
+ * for image processing", 2020. */
+static struct vec3 oklab(struct vec3 c)
+{
+    float l =
+        cbrtf(0.4122214708f * c.x + 0.5363325363f * c.y + 0.0514459929f * c.z);
+    float m =
+        cbrtf(0.2119034982f * c.x + 0.6806995451f * c.y + 0.1073969566f * c.z);
+    float s =
+        cbrtf(0.0883024619f * c.x + 0.2817188376f * c.y + 0.6299787005f * c.z);
+
+    return v3(0.2104542553f * l + 0.7936177850f * m - 0.0040720468f * s,
+              1.9779984951f * l - 2.4285922050f * m + 0.4505937099f * s,
+              0.0259040371f * l + 0.7827717662f * m - 0.8086757660f * s);
+}
+
+static struct ink ink_of(struct rgb c)
+{
+    struct vec3 light = v3(light_of(c.r), light_of(c.g), light_of(c.b));
+
+    return (struct ink){light, oklab(light)};
+}
+
+bool dither_init(struct dither *d, struct error *err)
+{
+    d->inks = alloc_array(INKS, sizeof d->inks[0]);
+    d->mixes = alloc_array((size_t)1 << 3 * KEY_BITS, sizeof d->mixes[0]);
+    if (!d->inks || !d->mixes) {
+        dither_free(d);
+        return fail(err, "no memory for the mixes of 256 colours");
+    }
+    for (uint32_t i = 0; i < INKS; i++)
+        d->inks[i] = ink_of(dither_value(CUBE_FIRST + i, PALETTE_256));
+    return true;
+}
+
+void dither_free(struct dither *d)
+{
+    free(d->inks);
+    free(d->mixes);
+    *d = (struct dither){0};
+}
+
+/* ---- 256 colours ---- */
+
+/* An ink that may enter a mix. */
+struct candidate {
+    int index;
+    float distance; /* squared, to the colour that is wanted */
+};
+
+static float distance_of(struct vec3 a, struct vec3 b)
+{
+    struct vec3 d = v3_sub(a, b);
+
+    return v3_dot(d, d);
+}
+
+/* The nearest inks, by insertion. */
+static void find_candidates(const struct dither *d, struct vec3 lab,
+                            struct candidate found[CANDIDATES])
+{
+    for (int i = 0; i < CANDIDATES; i++)
+        found[i] = (struct candidate){0, FLOAT_MAX};
+    for (int i = 0; i < INKS; i++) {
+        float distance = distance_of(d->inks[i].lab, lab);
+        int at = CANDIDATES - 1;
+
+        if (distance >= found[at].distance)
+            continue;
+        for (; at > 0 && found[at - 1].distance > distance; at--)
+            found[at] = found[at - 1];
+        found[at] = (struct candidate){i, distance};
+    }
+}
+
+/* The candidate that brings the mean nearest to what is wanted. */
+static int next_of_mix(const struct dither *d, struct vec3 lab, int length,
+                       struct vec3 sum,
+                       const struct candidate candidates[CANDIDATES])
+{
+    float least = FLOAT_MAX;
+    int best = 0;
+
+    for (int i = 0; i < CANDIDATES; i++) {
+        struct vec3 more = v3_add(sum, d->inks[candidates[i].index].light);
+        struct vec3 mean = v3_scale(more, 1.0f / (float)(length + 1));
+        float miss =
+            (float)(length + 1) * distance_of(oklab(mean), lab) +
+            GRAIN_WEIGHT * f_max(candidates[i].distance - GRAIN_FREE, 0.0f);
+
+        if (miss < least) {
+            least = miss;
+            best = candidates[i].index;
+        }
+    }
+    return best;
+}
+
+/* Sorts by lightness, so that the threshold of a place means light or dark. */
+static void insert_sorted(const struct dither *d, int *mix, int length,
+                          int index)
+{
+    int at = length;
+
+    for (; at > 0 && d->inks[mix[at - 1]].lab.x > d->inks[index].lab.x; at--)
+        mix[at] = mix[at - 1];
+    mix[at] = index;
+}
+
+/* Greedily, ink by ink: the light of the mix is added, as the eye adds it, and
+ * compared in OKLab. After Thomas Knoll, "Pattern dithering", US 6606166. */
+static uint64_t find_mix(const struct dither *d, struct rgb c)
+{
+    struct vec3 lab = ink_of(c).lab;
+    struct candidate candidates[CANDIDATES];
+    struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
+    int mix[MIX_LENGTH];
+    uint64_t packed = 0;
+
+    find_candidates(d, lab, candidates);
+    for (int i = 0; i < MIX_LENGTH; i++) {
+        int index = next_of_mix(d, lab, i, sum, candidates);
+
+        sum = v3_add(sum, d->inks[index].light);
+        insert_sorted(d, mix, i, index);
+    }
+    for (int i = 0; i < MIX_LENGTH; i++)
+        packed |= (uint64_t)(CUBE_FIRST + mix[i]) << 8 * i;
+    return packed;
+}
+
+/* Rounds at a quarter or at three quarters. Two places share a colour of a
+ * mix: with one of each the steps are half as large. */
+static int to_key(int v, bool is_up)
+{
+    return (v * KEY_MAX + (is_up ? 191 : 64)) / 255;
+}
+
+static int of_key(int v)
+{
+    return (v * 255 + KEY_MAX / 2) / KEY_MAX;
+}
+
+static uint32_t dithered_256(struct dither *d, struct rgb c, int threshold)
+{
+    bool is_up = threshold & 1;
+    struct rgb key = {to_key(c.r, is_up), to_key(c.g, is_up),
+                      to_key(c.b, is_up)};
+    uint64_t *mix =
+        &d->mixes[key.r << 2 * KEY_BITS | key.g << KEY_BITS | key.b];
+
+    if (*mix == 0)
+        *mix = find_mix(d, (struct rgb){of_key(key.r), of_key(key.g),
+                                        of_key(key.b)});
+    return (uint32_t)(*mix >> 8 * ((threshold / (THRESHOLDS / MIX_LENGTH)))) &
+           255u;
+}
+
+/* ---- 16 colours ---- */
+
+static int square(int v)
+{
+    return v * v;
+}
+
+/* Whether a channel between `off` and `on` is on at a threshold of 0..15. The
+ * eye adds light, which is roughly the square of these numbers. */
+static bool is_on(int v, int off, int on, int threshold)
+{
+    return 32 * (square(v) - square(off)) >
+           (2 * threshold + 1) * (square(on) - square(off));
+}
+
+/* Dithers each channel between the two values it has among the dark or the
+ * bright eight, whichever come closer to the colour. All channels share the
+ * threshold, so that grey stays grey. */
+static uint32_t dithered_16(struct rgb c, int threshold)
+{
+    int v[3] = {c.r, c.g, c.b};
+    int too_bright = 0;
+    int too_dark = 0;
+    uint32_t color = 0;
+
+    for (int i = 0; i < 3; i++) {
+        too_bright += v[i] > DARK_ON ? square(v[i] - DARK_ON) : 0;
+        too_dark += v[i] < BRIGHT_OFF ? square(BRIGHT_OFF - v[i]) : 0;
+    }
+    bool is_dark = too_bright <= too_dark;
+    for (int i = 0; i < 3; i++) {
+        if (is_dark ? is_on(v[i], 0, DARK_ON, threshold)
+                    : is_on(v[i], BRIGHT_OFF, 255, threshold))
+            color |= 1u << i;
+    }
+    return is_dark ? color : color + 8;
+}
+
+uint32_t dither_color(struct dither *d, struct rgb c, int x, int y,
+                      enum palette palette)
+{
+    switch (palette) {
+    case PALETTE_24BIT:
+        return (uint32_t)c.r << 16 | (uint32_t)c.g << 8 | (uint32_t)c.b;
+    case PALETTE_256: return dithered_256(d, c, dither_threshold(x, y));
+    case PALETTE_16: return dithered_16(c, dither_threshold(x, y));
+    case PALETTE_MONO: break;
+    }
+    assert(!"a palette with colours");
+    return 0;
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "terminal/frame_pacing.h"
+
+/* A key waits for the frame on its way and its answer, half of that on average,
+ * and for its own frame: at 200 ms there and back 0.08 s of output are a median
+ * of 0.42 s, and more than a quarter of what the line could carry. */
+#define FRAME_SECONDS 0.08
+
+/* Enough for some cells however slow the line. */
+#define BUDGET_MIN 600
+
+/* Before anything is known: half a second at 256 kbit/s. */
+#define BUDGET_FIRST 16384
+
+#define BUDGET_MAX ((size_t)1 << 30)
+
+/* From frame to frame: what was measured too fast is so before it costs
+ * seconds. */
+#define GROWTH_MAX 2
+
+/* Smaller frames say more about the clock than about the line. */
+#define MEASURE_BYTES 1000
+
+/* The longest round trip that is waited for at start, then later. */
+#define FIRST_ANSWER_NS 400000000u
+#define LOST_ANSWER_NS  5000000000u
+
+/* Below a megabyte a second a frame of a common window lasts longer than a
+ * blink. */
+#define SLOW_RATE 1e6
+
+void pace_init(struct pace *p, uint64_t now_ns)
+{
+    *p = (struct pace){.state = PACE_UNKNOWN,
+                       .outstanding = 1,
+                       .asked_ns = now_ns,
+                       .first_asked_ns = now_ns,
+                       .budget_bytes = BUDGET_FIRST};
+}
+
+bool pace_may_send(const struct pace *p)
+{
+    if (p->state == PACE_UNKNOWN)
+        return !p->first_frame_sent;
+    return p->state == PACE_MUTE || p->outstanding == 0;
+}
+
+bool pace_wants_request(const struct pace *p)
+{
+    return p->state != PACE_MUTE;
+}
+
+/* Bytes and times are smoothed apart: a small frame whose answer was lucky by
+ * some milliseconds would else be a line of megabytes a second. */
+static void learn_rate(struct pace *p, size_t bytes, double seconds)
+{
+    double weight = p->rate > 0 ? 0.3 : 1;
+    double most = GROWTH_MAX * (double)p->budget_bytes;
+    double budget;
+
+    p->bytes += weight * ((double)bytes - p->bytes);
+    p->seconds += weight * (seconds - p->seconds);
+    p->rate = p->bytes / (p->seconds > 5e-4 ? p->seconds : 5e-4);
+    budget = p->rate * FRAME_SECONDS;
+    budget = budget < most ? budget : most;
+    if (budget >= (double)BUDGET_MAX)
+        p->budget_bytes = BUDGET_MAX;
+    else
+        p->budget_bytes = budget < BUDGET_MIN ? BUDGET_MIN : (size_t)budget;
+}
+
+/* Nothing tells how fast the line is where all frames are as large as the
+ * quickest: they become smaller, down to what has passed in time before, and
+ * from there on larger, until one tells. */
+static void look_for_rate(struct pace *p)
+{
+    double sure = p->sure_rate * FRAME_SECONDS;
+
+    if ((double)p->budget_bytes > sure && p->budget_bytes > 2 * BUDGET_MIN)
+        p->budget_bytes -= p->budget_bytes / 8;
+    else if (p->frame_bytes > p->budget_bytes / 2 &&
+             p->budget_bytes <= BUDGET_MAX / 2)
+        p->budget_bytes *= 2;
+}
+
+/* What a frame took more than the quickest, for what it was larger, is the
+ * line's: neither the way nor a start that was slow are in it. */
+static void learn_from_answer(struct pace *p, uint64_t rtt_ns)
+{
+    double least = (double)p->frame_bytes / ((double)(rtt_ns + 1) * 1e-9);
+
+    p->sure_rate = least > p->sure_rate ? least : p->sure_rate;
+    if (rtt_ns <= p->rtt_min_ns) {
+        p->rtt_min_ns = rtt_ns;
+        p->rtt_min_bytes = p->frame_bytes;
+    } else if (p->frame_bytes > p->rtt_min_bytes + MEASURE_BYTES) {
+        learn_rate(p, p->frame_bytes - p->rtt_min_bytes,
+                   (double)(rtt_ns - p->rtt_min_ns) * 1e-9);
+    } else if (p->frame_bytes > MEASURE_BYTES) {
+        look_for_rate(p);
+    }
+}
+
+/* Without answers the time that write() took is all there is to see. */
+static void learn_from_write(struct pace *p, uint64_t took_ns)
+{
+    if (took_ns > 2000000u && p->frame_bytes > MEASURE_BYTES)
+        learn_rate(p, p->frame_bytes, (double)took_ns * 1e-9);
+    else if (p->budget_bytes <= BUDGET_MAX / 2)
+        p->budget_bytes *= 2;
+}
+
+void pace_sent(struct pace *p, size_t size_bytes, bool with_request,
+               uint64_t begin_ns, uint64_t end_ns)
+{
+    p->frame_bytes = size_bytes;
+    p->first_frame_sent = true;
+    if (with_request) {
+        p->outstanding++;
+        p->asked_ns = begin_ns;
+    }
+    if (p->state == PACE_MUTE)
+        learn_from_write(p, end_ns - begin_ns);
+}
+
+/* The answer to the very first request: nothing but the way there and back,
+ * even if a frame has followed it. */
+static void first_answer(struct pace *p, uint64_t now_ns)
+{
+    p->rtt_min_ns = now_ns - p->first_asked_ns;
+    if (p->outstanding == 0)
+        p->frame_bytes = 0;
+}
+
+void pace_answer(struct pace *p, uint64_t now_ns)
+{
+    enum pace_state before = p->state;
+
+    p->state = PACE_ANSWERS;
+    if (before == PACE_MUTE)
+        p->outstanding = 0; /* the others may be lost */
+    else if (p->outstanding > 0)
+        p->outstanding--;
+    if (before != PACE_ANSWERS) {
+        first_answer(p, now_ns);
+        return;
+    }
+    if (p->outstanding > 0 || p->frame_bytes == 0)
+        return;
+    learn_from_answer(p, now_ns - p->asked_ns);
+    p->frame_bytes = 0;
+}
+
+uint64_t pace_deadline_ns(const struct pace *p)
+{
+    if (p->state == PACE_MUTE || p->outstanding == 0)
+        return UINT64_MAX;
+    return p->asked_ns +
+           (p->state == PACE_UNKNOWN ? FIRST_ANSWER_NS : LOST_ANSWER_NS);
+}
+
+void pace_tick(struct pace *p, uint64_t now_ns)
+{
+    if (now_ns >= pace_deadline_ns(p))
+        p->state = PACE_MUTE;
+}
+
+void pace_forget(struct pace *p)
+{
+    p->outstanding = 0;
+    p->frame_bytes = 0;
+}
+
+bool pace_is_slow(const struct pace *p)
+{
+    return p->rate > 0 && p->rate < SLOW_RATE;
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+/*
+ * sixel.h - pixels as the bytes of DEC's sixel graphics
+ *
+ * Each image names the colours that it uses: whether registers outlast an
+ * image differs between terminals.
+ *
+ * Units:     pixels, bytes
+ * Ownership: the buffer is the caller's
+ * Threads:   any
+ * Errors:    none
+ */
+#ifndef GLIM_SIXEL_H
+#define GLIM_SIXEL_H
+
+#include <stddef.h>
+
+#include "terminal/dither.h"
+
+/* The widest image. */
+#define SIXEL_WIDTH_MAX 256
+
+/* Numbers of PALETTE_256 or PALETTE_16, row 0 at the top. */
+struct sixel_image {
+    int width, height;
+    enum palette palette;
+    const uint8_t *numbers;
+};
+
+/* The most that sixel_encode() writes. */
+size_t sixel_bytes_max(int width, int height);
+
+/* Writes the image, which appears with its corner in the cursor's cell; the
+ * number of bytes. */
+size_t sixel_encode(const struct sixel_image *image, char *bytes);
+
+#endif

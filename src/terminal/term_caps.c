@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "terminal/term_caps.h"
+
+#include <math.h>
+
+#include "terminal/tty.h"
+
+/* Beyond these a terminal has answered nonsense. */
+#define CELL_PX_MAX 200
+#define ASPECT_MIN  0.5
+#define ASPECT_MAX  5
+
+enum palette display_palette(enum color_mode mode)
+{
+    switch (mode) {
+    case COLOR_MONO: return PALETTE_MONO;
+    case COLOR_16: return PALETTE_16;
+    case COLOR_256: return PALETTE_256;
+    case COLOR_24BIT:
+    case COLOR_AUTO: break;
+    }
+    return PALETTE_24BIT;
+}
+
+/* What is not asked for by name, and pixels where there are none. */
+static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
+{
+    if (palette == PALETTE_MONO)
+        return has_unicode ? GLYPHS_BRAILLE : GLYPHS_ASCII;
+    return has_unicode ? GLYPHS_HALF : GLYPHS_SPACE;
+}
+
+enum glyphs display_glyphs(enum glyph_mode mode, enum palette palette,
+                           bool has_unicode)
+{
+    switch (mode) {
+    case GLYPH_HALF: return GLYPHS_HALF;
+    case GLYPH_UPPER: return GLYPHS_UPPER;
+    case GLYPH_LOWER: return GLYPHS_LOWER;
+    case GLYPH_QUADRANT: return GLYPHS_QUADRANT;
+    case GLYPH_SEXTANT: return GLYPHS_SEXTANT;
+    case GLYPH_BRAILLE: return GLYPHS_BRAILLE;
+    case GLYPH_SPACE: return GLYPHS_SPACE;
+    case GLYPH_ASCII: return GLYPHS_ASCII;
+    case GLYPH_AUTO:
+    case GLYPH_SIXEL:
+    case GLYPH_KITTY: break;
+    }
+    return common_glyphs(palette, has_unicode);
+}
+
+static void choose_palette(struct display *d, enum color_mode mode)
+{
+    d->palette_is_final = true;
+    if (mode == COLOR_AUTO)
+        d->palette = term_palette(&d->palette_is_final);
+    else
+        d->palette = display_palette(mode);
+}
+
+static enum glyphs glyphs_of(const struct display *d, enum glyph_mode mode)
+{
+    return display_glyphs(mode, d->palette, d->has_unicode);
+}
+
+static void choose_glyphs(struct display *d, enum glyph_mode mode)
+{
+    d->glyph_mode = mode;
+    d->glyphs = glyphs_of(d, mode);
+}
+
+void display_init(struct display *d, const struct display_choice *choice)
+{
+    bool may_learn;
+
+    *d = (struct display){.cell_aspect = choice->cell_aspect,
+                          .aspect_is_final = choice->cell_aspect > 0};
+    d->has_unicode = term_is_utf8(&may_learn);
+    d->unicode_is_final = !may_learn;
+    choose_palette(d, choice->color);
+    choose_glyphs(d, choice->glyph);
+}
+
+static bool is_cell_size(int width_px, int height_px)
+{
+    return width_px >= 1 && height_px >= 1 && width_px <= CELL_PX_MAX &&
+           height_px <= CELL_PX_MAX;
+}
+
+static bool is_aspect(double height_over_width)
+{
+    return height_over_width >= ASPECT_MIN && height_over_width <= ASPECT_MAX;
+}
+
+double display_cell_aspect(const struct display *d,
+                           const struct term_size *size)
+{
+    if (d->cell_aspect > 0)
+        return d->cell_aspect;
+    /* from far away the system's pixels can be nonsense */
+    if (is_aspect(size->cell_aspect))
+        return size->cell_aspect;
+    return 2;
+}
+
+bool display_cell_size(const struct display *d, const struct term_size *size,
+                       int *width_px, int *height_px)
+{
+    bool was_told = d->cell_width_px > 0;
+
+    *width_px = was_told ? d->cell_width_px : size->cell_width_px;
+    *height_px = was_told ? d->cell_height_px : size->cell_height_px;
+    return is_cell_size(*width_px, *height_px);
+}
+
+enum graphics_kind display_pixels(const struct display *d)
+{
+    if (d->palette == PALETTE_MONO)
+        return GRAPHICS_NONE;
+    if (d->glyph_mode == GLYPH_SIXEL && d->has_sixel)
+        return GRAPHICS_SIXEL;
+    return d->glyph_mode == GLYPH_KITTY && d->has_kitty ? GRAPHICS_KITTY
+                                                        : GRAPHICS_NONE;
+}
+
+const char *display_lack(const struct display *d)
+{
+    bool is_sixel = d->glyph_mode == GLYPH_SIXEL;
+
+    if (!is_sixel && d->glyph_mode != GLYPH_KITTY)
+        return NULL;
+    if (d->palette == PALETTE_MONO)
+        return is_sixel ? "sixels need colours" : "kitty pixels need colours";
+    if (display_pixels(d) == GRAPHICS_NONE)
+        return is_sixel ? "this terminal has not said it has sixels"
+                        : "this terminal has not said it has kitty pixels";
+    return "this terminal does not say how large a character is";
+}
+
+static bool take_cell_size(struct display *d, const struct event *event)
+{
+    double before = d->cell_aspect;
+    double aspect;
+
+    if (!is_cell_size(event->x, event->y))
+        return false;
+    d->cell_width_px = event->x;
+    d->cell_height_px = event->y;
+    if (d->aspect_is_final)
+        return false;
+    aspect = (double)event->y / event->x;
+    if (!is_aspect(aspect))
+        return false;
+    if (before <= 0) {
+        struct term_size size = term_size();
+
+        before = display_cell_aspect(d, &size);
+    }
+    d->cell_aspect = aspect;
+    return fabs(before - aspect) > 0.01 * aspect;
+}
+
+static bool take_true_color(struct display *d)
+{
+    enum glyphs before = d->glyphs;
+
+    if (!d->palette_is_final)
+        d->palette = PALETTE_24BIT;
+    choose_glyphs(d, d->glyph_mode);
+    return d->glyphs != before;
+}
+
+/* Behind a character that begins with a byte outside ASCII: in column 2 if it
+ * was one. */
+static bool take_cursor(struct display *d, const struct event *event)
+{
+    enum glyphs before = d->glyphs;
+
+    if (!d->unicode_is_final)
+        d->has_unicode = event->x == 2;
+    d->unicode_is_final = true;
+    choose_glyphs(d, d->glyph_mode);
+    return d->glyphs != before;
+}
+
+bool display_answer(struct display *d, const struct event *event)
+{
+    switch (event->kind) {
+    case EVENT_TRUE_COLOR: return take_true_color(d);
+    case EVENT_SYNC: term_use_sync(); break;
+    case EVENT_CELL_SIZE: return take_cell_size(d, event);
+    case EVENT_CURSOR: return take_cursor(d, event);
+    case EVENT_SIXEL_COLORS: d->sixel_colors = event->x; break;
+    case EVENT_KITTY: d->has_kitty = true; break;
+    case EVENT_ATTRIBUTES: d->has_sixel = event->x == 1; break;
+    case EVENT_READY:
+    case EVENT_KEY:
+    case EVENT_MOUSE: break;
+    }
+    return false;
+}
+
+void display_next_palette(struct display *d)
+{
+    d->palette_is_final = true;
+    d->palette = d->palette == PALETTE_MONO ? PALETTE_24BIT
+                                            : (enum palette)(d->palette - 1);
+    choose_glyphs(d, d->glyph_mode);
+}
+
+static bool has_mode(const struct display *d, enum glyph_mode mode)
+{
+    switch (mode) {
+    case GLYPH_SIXEL: return d->has_sixel;
+    case GLYPH_KITTY: return d->has_kitty;
+    case GLYPH_ASCII: return true;
+    case GLYPH_SPACE: return !d->has_unicode;
+    default: return d->has_unicode;
+    }
+}
+
+void display_next_glyphs(struct display *d)
+{
+    static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
+                                            GLYPH_SEXTANT, GLYPH_BRAILLE,
+                                            GLYPH_SPACE,   GLYPH_ASCII,
+                                            GLYPH_SIXEL,   GLYPH_KITTY};
+    size_t count = sizeof modes / sizeof modes[0];
+    size_t i = 0;
+
+    while (i < count && modes[i] != d->glyph_mode)
+        i++;
+    if (i == count && d->glyph_mode == GLYPH_AUTO)
+        for (i = 0; i < count && glyphs_of(d, modes[i]) != d->glyphs;)
+            i++;
+    if (i == count) /* upper, lower: the like of half blocks */
+        i = 0;
+    do
+        i = (i + 1) % count;
+    while (!has_mode(d, modes[i]));
+    choose_glyphs(d, modes[i]);
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/*
+ * term_caps.h - what the terminal can show, as far as it is known, and what of it
+ * is wanted
+ *
+ * Begins with what the environment says; the terminal's answers tell better
+ * when they come.
+ *
+ * Units:     pixels of the terminal
+ * Ownership: none
+ * Threads:   main only
+ * Errors:    none
+ */
+#ifndef GLIM_TERM_CAPS_H
+#define GLIM_TERM_CAPS_H
+
+#include "terminal/pixel_graphics.h"
+#include "terminal/tty_input.h"
+#include "terminal/palette.h"
+#include "terminal/tty.h"
+
+enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
+
+/* The cells of enum glyphs, or pixels where the terminal has them. */
+enum glyph_mode {
+    GLYPH_AUTO,
+    GLYPH_HALF,
+    GLYPH_UPPER,
+    GLYPH_LOWER,
+    GLYPH_QUADRANT,
+    GLYPH_SEXTANT,
+    GLYPH_BRAILLE,
+    GLYPH_SPACE,
+    GLYPH_ASCII,
+    GLYPH_SIXEL,
+    GLYPH_KITTY
+};
+
+/* What the person has asked for. */
+struct display_choice {
+    enum color_mode color;
+    enum glyph_mode glyph;
+    double cell_aspect; /* height of a cell over its width; 0: ask */
+};
+
+struct display {
+    enum palette palette;
+    bool palette_is_final;      /* no answer of the terminal changes it */
+    enum glyph_mode glyph_mode; /* what is wanted, */
+    enum glyphs glyphs;         /* and what cells are made of for it */
+    bool has_unicode;           /* characters beyond ASCII are seen as such */
+    bool unicode_is_final;      /* no answer of the terminal changes it */
+    bool has_sixel, has_kitty;  /* the terminal has said so */
+    int sixel_colors;           /* 0: it has not said how many */
+    int cell_width_px, cell_height_px; /* 0: it has not said */
+    double cell_aspect;                /* 0: not known */
+    bool aspect_is_final;
+};
+
+/* After term_open(). */
+void display_init(struct display *d, const struct display_choice *choice);
+
+/* What a mode that is not COLOR_AUTO means. */
+enum palette display_palette(enum color_mode mode);
+
+/* What the cells are made of. Pixels have what is common as the fall-back: half
+ * blocks, without colours braille; blanks and letters without Unicode. */
+enum glyphs display_glyphs(enum glyph_mode mode, enum palette palette,
+                           bool has_unicode);
+
+/* Takes an answer of the terminal. True if cells are others than before, or of
+ * another shape. */
+bool display_answer(struct display *d, const struct event *event);
+
+/* The next palette, from most to least and round. */
+void display_next_palette(struct display *d);
+
+/* The next kind of glyphs that the terminal has, and round. */
+void display_next_glyphs(struct display *d);
+
+/* The pixels that are wanted instead of cells. */
+enum graphics_kind display_pixels(const struct display *d);
+
+/* Why there are none although they are wanted, as the end of a sentence; NULL:
+ * nothing is amiss. The terminal has answered, or never will. */
+const char *display_lack(const struct display *d);
+
+/* Height of a cell over its width: what the person gave, what the terminal
+ * answered, what the system says, what is common. */
+double display_cell_aspect(const struct display *d,
+                           const struct term_size *size);
+
+/* False if nobody has said how large a cell is. */
+bool display_cell_size(const struct display *d, const struct term_size *size,
+                       int *width_px, int *height_px);
+
+#endif

@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: MIT
+#include "terminal/tty.h"
+
+#include <curses.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <langinfo.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <term.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "terminal/kitty.h"
+#include "terminal/curses_windows.h"
+
+/* Drags and wheel, with coordinates that have no limit. */
+#define MOUSE_ON  "\033[?1002h\033[?1006h"
+#define MOUSE_OFF "\033[?1002l\033[?1006l"
+
+/* Can it synchronize, how large is a cell, is it there, what is it. */
+#define QUESTIONS "\033[?2026$p\033[16t\033[5n\033[c"
+
+/* Sets a 24-bit colour and asks which one is set. */
+#define COLOR_QUESTION "\033[48;2;1;2;3m\033P$qm\033\\\033[m"
+
+/* How many colours a sixel image may have: XTSMGRAPHICS of xterm. */
+#define SIXEL_QUESTION "\033[?1;1;0S"
+
+/* Draws a half block in the corner and asks where the cursor is. */
+#define GLYPH_QUESTION "\033[H\xe2\x96\x80\033[6n"
+
+/* Everything that may be on, for the handlers of faults. Terminals skip what
+ * they do not know. */
+static const char restore_text[] =
+    TERM_SYNC_END MOUSE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
+
+static const int stop_signals[] = {SIGTERM, SIGHUP, SIGINT, SIGQUIT};
+static const int other_signals[] = {SIGTSTP, SIGCONT, SIGWINCH};
+static const int fault_signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static struct {
+    int signal_pipe[2];
+    struct termios before;
+    SCREEN *screen;
+    bool has_mouse;
+    bool has_sync;
+    bool may_ask_colors; /* a terminal that swallows what it cannot answer */
+    struct sigaction old_stop[COUNT(stop_signals)];
+    struct sigaction old_other[COUNT(other_signals)];
+    struct sigaction old_fault[COUNT(fault_signals)];
+} term;
+
+/* For the handlers. */
+static volatile sig_atomic_t is_open;
+static volatile sig_atomic_t must_stop;
+
+static void on_signal(int number)
+{
+    int saved_errno = errno;
+    unsigned char byte = (unsigned char)number;
+
+    for (size_t i = 0; i < COUNT(stop_signals); i++) {
+        if (number == stop_signals[i])
+            must_stop = 1;
+    }
+    if (write(term.signal_pipe[1], &byte, 1) < 0) {
+        /* the pipe is full of signals that say the same */
+    }
+    errno = saved_errno;
+}
+
+/* Only what may be called in a handler. */
+static void restore_now(void)
+{
+    if (!is_open)
+        return;
+    is_open = 0;
+    if (write(STDOUT_FILENO, restore_text, sizeof restore_text - 1) < 0) {
+        /* nobody there to tell */
+    }
+    tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
+}
+
+static void on_fault(int number)
+{
+    restore_now();
+    for (size_t i = 0; i < COUNT(fault_signals); i++) {
+        if (fault_signals[i] == number)
+            sigaction(number, &term.old_fault[i], NULL);
+    }
+    raise(number);
+}
+
+static void take_signals(void)
+{
+    struct sigaction action = {.sa_handler = on_signal};
+    struct sigaction fault = {.sa_handler = on_fault, .sa_flags = SA_NODEFER};
+
+    sigemptyset(&action.sa_mask);
+    sigemptyset(&fault.sa_mask);
+    for (size_t i = 0; i < COUNT(stop_signals); i++)
+        sigaction(stop_signals[i], &action, &term.old_stop[i]);
+    for (size_t i = 0; i < COUNT(other_signals); i++)
+        sigaction(other_signals[i], &action, &term.old_other[i]);
+    for (size_t i = 0; i < COUNT(fault_signals); i++)
+        sigaction(fault_signals[i], &fault, &term.old_fault[i]);
+}
+
+void term_ignore_ends(void)
+{
+    for (size_t i = 0; i < COUNT(stop_signals); i++) {
+        if (stop_signals[i] == SIGHUP || stop_signals[i] == SIGTERM)
+            term.old_stop[i] = (struct sigaction){.sa_handler = SIG_IGN};
+    }
+}
+
+static void give_signals_back(void)
+{
+    for (size_t i = 0; i < COUNT(stop_signals); i++)
+        sigaction(stop_signals[i], &term.old_stop[i], NULL);
+    for (size_t i = 0; i < COUNT(other_signals); i++)
+        sigaction(other_signals[i], &term.old_other[i], NULL);
+    for (size_t i = 0; i < COUNT(fault_signals); i++)
+        sigaction(fault_signals[i], &term.old_fault[i], NULL);
+}
+
+/* Many machines do not know the terminals they are reached from: then the name
+ * of one that is like all of today's. NULL, with the text, if the terminal is
+ * known to be none for a picture. */
+static const char *terminal_name(struct error *err)
+{
+    static const char *const others[] = {"xterm-256color", "xterm", "vt100",
+                                         "ansi"};
+    const char *own = getenv("TERM");
+    const char *name = NULL;
+    int found;
+
+    if (own && setupterm(own, STDOUT_FILENO, &found) == OK)
+        name = own;
+    for (size_t i = 0; !name && i < COUNT(others); i++) {
+        if (setupterm(others[i], STDOUT_FILENO, &found) == OK)
+            name = others[i];
+    }
+    if (!name) {
+        fail(err,
+             "TERM=%s: no description of this terminal or of a usual "
+             "one is installed (-b renders to a file)",
+             own ? own : "");
+        return NULL;
+    }
+    const char *jump = tigetstr("cup");
+    bool is_ansi = jump && jump != (char *)-1 && strncmp(jump, "\033[", 2) == 0;
+    del_curterm(cur_term);
+    if (is_ansi)
+        return name;
+    fail(err,
+         "TERM=%s: this terminal cannot show a picture, expected one "
+         "like xterm (-b renders to a file)",
+         own);
+    return NULL;
+}
+
+static bool begins_with(const char *text, const char *with)
+{
+    return text && strncmp(text, with, strlen(with)) == 0;
+}
+
+/* These print what they do not understand. */
+static bool is_simple(const char *name)
+{
+    static const char *const simple[] = {"linux",  "vt1",   "vt2",  "vt3",
+                                         "vt4",    "vt5",   "ansi", "cons",
+                                         "screen", "pcansi"};
+
+    for (size_t i = 0; i < COUNT(simple); i++) {
+        if (begins_with(name, simple[i]))
+            return true;
+    }
+    return false;
+}
+
+/* tmux takes the question for a title, screen hands it on unseen. */
+static bool is_inside_another(void)
+{
+    const char *tmux = getenv("TMUX");
+    const char *sty = getenv("STY");
+
+    return (tmux && tmux[0]) || (sty && sty[0]);
+}
+
+static void set_modes(void)
+{
+    raw();
+    noecho();
+    nonl();
+    curs_set(0);
+    typeahead(-1); /* else curses stops half way when keys wait */
+    leaveok(stdscr, FALSE);
+}
+
+static void ask(void)
+{
+    bool may_learn;
+    char text[32];
+    int length;
+
+    term_is_utf8(&may_learn);
+    if (may_learn)
+        term_write(GLYPH_QUESTION, sizeof GLYPH_QUESTION - 1);
+    if (term.may_ask_colors) {
+        term_write(COLOR_QUESTION, sizeof COLOR_QUESTION - 1);
+        term_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
+    }
+    if (term.may_ask_colors && !is_inside_another())
+        term_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
+    term_write(QUESTIONS, sizeof QUESTIONS - 1);
+    /* removes what a simple mind has printed of it */
+    length = snprintf(text, sizeof text, "\033[2J\033[%d;1H", LINES);
+    term_write(text, (size_t)length);
+}
+
+/* What term_open() takes before there is a screen. */
+static void give_back(void)
+{
+    xmalloc_set_hook(NULL);
+    give_signals_back();
+    close(term.signal_pipe[0]);
+    close(term.signal_pipe[1]);
+}
+
+bool term_open(struct error *err)
+{
+    const char *name;
+
+    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) ||
+        tcgetattr(STDIN_FILENO, &term.before) != 0)
+        return fail(err, "standard input and output are no terminal, "
+                         "expected one or -b to render to a file");
+    name = terminal_name(err);
+    if (!name)
+        return false;
+    if (pipe2(term.signal_pipe, O_CLOEXEC | O_NONBLOCK) != 0)
+        return fail(err, "no pipe for signals: %s", strerror(errno));
+    must_stop = 0;
+    take_signals();
+    xmalloc_set_hook(restore_now);
+    is_open = 1;
+    term.screen = newterm(name, stdout, stdin);
+    if (!term.screen) {
+        is_open = 0;
+        give_back();
+        return fail(err, "TERM=%s: no screen", name);
+    }
+    set_modes();
+    refresh(); /* enters the screen */
+    term.may_ask_colors = !is_simple(getenv("TERM"));
+    term_relayout();
+    windows_update();
+    ask();
+    term_set_mouse(true);
+    return true;
+}
+
+/* What waits in the line to a terminal that takes nothing would block. */
+static void drop_stuck_output(void)
+{
+    struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+
+    if (poll(&out, 1, 200) == 0)
+        tcflush(STDOUT_FILENO, TCOFLUSH);
+}
+
+/* A terminal without a second screen would keep the picture below what comes
+ * next. */
+static void leave_screen(void)
+{
+    if (!exit_ca_mode) {
+        erase();
+        clearok(curscr, TRUE);
+        refresh();
+    }
+    endwin();
+}
+
+static void write_restoring(void)
+{
+    static const char text[] = TERM_SYNC_END MOUSE_OFF "\033[m";
+    size_t skip = term.has_sync ? 0 : sizeof TERM_SYNC_END - 1;
+
+    must_stop = 0; /* this must get through */
+    term_write(text + skip, sizeof text - 1 - skip);
+}
+
+void term_close(bool is_gone)
+{
+    if (!is_open)
+        return;
+    if (!is_gone) {
+        drop_stuck_output();
+        write_restoring();
+        leave_screen();
+    }
+    is_open = 0;
+    windows_free();
+    if (!is_gone)
+        tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
+    delscreen(term.screen);
+    give_back();
+}
+
+enum palette term_palette(bool *is_final)
+{
+    struct palette_facts facts = {
+        .no_color = getenv("NO_COLOR"),
+        .colorterm = getenv("COLORTERM"),
+        .term = getenv("TERM"),
+        .sty = getenv("STY"),
+        .tmux = getenv("TMUX"),
+        .colors = tigetnum("colors"),
+        .has_rgb =
+            tigetflag("RGB") > 0 || tigetnum("RGB") > 0 || tigetflag("Tc") > 0,
+    };
+
+    return palette_guess(&facts, is_final);
+}
+
+bool term_is_utf8(bool *may_learn)
+{
+    const char *tmux = getenv("TMUX");
+
+    /* tmux takes everything and shows underscores where the terminal around
+     * it does not: its answer is not that terminal's */
+    *may_learn = !(tmux && tmux[0]) && !is_simple(getenv("TERM"));
+    return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+}
+
+bool term_scrolls_at_end(void)
+{
+    return tigetflag("am") > 0 && tigetflag("xenl") <= 0;
+}
+
+struct term_size term_size(void)
+{
+    struct winsize w = {0};
+    struct term_size size = {.cols = COLS, .rows = LINES};
+
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_col == 0 ||
+        w.ws_row == 0)
+        return size;
+    if (w.ws_xpixel >= w.ws_col && w.ws_ypixel >= w.ws_row) {
+        size.cell_aspect =
+            ((double)w.ws_ypixel / w.ws_row) / ((double)w.ws_xpixel / w.ws_col);
+        size.cell_width_px = w.ws_xpixel / w.ws_col;
+        size.cell_height_px = w.ws_ypixel / w.ws_row;
+    }
+    if (COLS == 0 || LINES == 0) {
+        size.cols = w.ws_col;
+        size.rows = w.ws_row;
+    }
+    return size;
+}
+
+int term_signal_fd(void)
+{
+    return term.signal_pipe[0];
+}
+
+int term_signal(void)
+{
+    unsigned char number;
+
+    return read(term.signal_pipe[0], &number, 1) == 1 ? number : 0;
+}
+
+int term_read(void *bytes, size_t size_bytes)
+{
+    struct pollfd in = {.fd = STDIN_FILENO, .events = POLLIN};
+
+    if (poll(&in, 1, 0) <= 0)
+        return 0;
+    if (!(in.revents & POLLIN))
+        return -1;
+    ssize_t count = read(STDIN_FILENO, bytes, size_bytes);
+    if (count < 0)
+        return errno == EINTR || errno == EAGAIN ? 0 : -1;
+    return count == 0 ? -1 : (int)count;
+}
+
+bool term_write(const char *bytes, size_t size_bytes)
+{
+    while (size_bytes > 0) {
+        ssize_t count = write(STDOUT_FILENO, bytes, size_bytes);
+
+        if (count >= 0) {
+            bytes += count;
+            size_bytes -= (size_t)count;
+        } else if (errno == EAGAIN) {
+            struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+
+            poll(&out, 1, 100);
+        } else if (errno != EINTR) {
+            return false;
+        }
+        if (must_stop && size_bytes > 0)
+            return false;
+    }
+    return true;
+}
+
+void term_suspend(void)
+{
+    struct sigaction stop = {.sa_handler = SIG_DFL};
+    struct sigaction own;
+
+    write_restoring();
+    leave_screen();
+    is_open = 0;
+    sigemptyset(&stop.sa_mask);
+    sigaction(SIGTSTP, &stop, &own);
+    raise(SIGTSTP); /* returns when we are continued */
+    sigaction(SIGTSTP, &own, NULL);
+    term_resume();
+}
+
+void term_resume(void)
+{
+    is_open = 1;
+    reset_prog_mode();
+    erase();
+    refresh();
+    curs_set(0);
+    term_relayout();
+    windows_update();
+    term_set_mouse(term.has_mouse);
+}
+
+void term_forget_input(void)
+{
+    tcflush(STDIN_FILENO, TCIFLUSH);
+}
+
+void term_relayout(void)
+{
+    struct winsize w = {0};
+
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 &&
+        w.ws_row > 0)
+        resizeterm(w.ws_row, w.ws_col);
+    windows_clear();
+}
+
+void term_set_mouse(bool is_on)
+{
+    term.has_mouse = is_on;
+    if (is_on)
+        term_write(MOUSE_ON, sizeof MOUSE_ON - 1);
+    else
+        term_write(MOUSE_OFF, sizeof MOUSE_OFF - 1);
+}
+
+void term_use_sync(void)
+{
+    term.has_sync = true;
+}
+
+bool term_has_sync(void)
+{
+    return term.has_sync;
+}

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+#include "terminal/tty_input.h"
+
+#include <string.h>
+
+#define ESC 27
+
+/* Longer than any answer that is expected; what goes on is rubbish. */
+#define SEQUENCE_MAX 512
+
+/* As many as terminals list what they can. */
+#define PARAMS_MAX 32
+
+/* What stands at the beginning of the bytes. */
+struct sequence {
+    size_t length; /* 0: not complete */
+    bool has_event;
+    struct event event;
+};
+
+size_t input_feed(struct input *in, const void *bytes, size_t count)
+{
+    size_t room = sizeof in->bytes - in->length;
+
+    if (count > room)
+        count = room;
+    memcpy(in->bytes + in->length, bytes, count);
+    in->length += count;
+    return count;
+}
+
+static void set_key(struct sequence *s, int key)
+{
+    s->has_event = true;
+    s->event = (struct event){.kind = EVENT_KEY, .key = key};
+}
+
+static void set_answer(struct sequence *s, enum event_kind kind, int x, int y)
+{
+    s->has_event = true;
+    s->event = (struct event){.kind = kind, .x = x, .y = y};
+}
+
+/* Reads "12;3" into params; the rest are 0. */
+static int read_params(const unsigned char *p, size_t length,
+                       int params[PARAMS_MAX])
+{
+    int count = 1;
+
+    memset(params, 0, PARAMS_MAX * sizeof params[0]);
+    for (size_t i = 0; i < length; i++) {
+        if (p[i] >= '0' && p[i] <= '9') {
+            int *v = &params[count - 1];
+
+            if (*v < 100000)
+                *v = *v * 10 + (p[i] - '0');
+        } else if ((p[i] == ';' || p[i] == ':') && count < PARAMS_MAX) {
+            count++;
+        }
+    }
+    return count;
+}
+
+/* b;x;yM or b;x;ym: bits 0-1 button, 5 motion, 6 wheel, 2-4 Shift, Alt, Ctrl */
+static void set_mouse(struct sequence *s, const int *params, bool released)
+{
+    int b = params[0];
+    struct event *e = &s->event;
+
+    s->has_event = true;
+    *e = (struct event){.kind = EVENT_MOUSE,
+                        .mouse = MOUSE_OTHER,
+                        .button = b & 3,
+                        .is_modified = (b & 24) != 0,
+                        .x = params[1],
+                        .y = params[2]};
+    if (b & 128)
+        return;
+    if (b & 64) {
+        if ((b & 3) < 2)
+            e->mouse = b & 1 ? MOUSE_WHEEL_DOWN : MOUSE_WHEEL_UP;
+    } else if (b & 32) {
+        if (e->button != 3)
+            e->mouse = MOUSE_DRAG;
+    } else {
+        e->mouse = released ? MOUSE_RELEASE : MOUSE_PRESS;
+    }
+}
+
+static int key_of_letter(unsigned char letter)
+{
+    switch (letter) {
+    case 'A': return INPUT_UP;
+    case 'B': return INPUT_DOWN;
+    case 'C': return INPUT_RIGHT;
+    case 'D': return INPUT_LEFT;
+    case 'H': return INPUT_HOME;
+    case 'P': return INPUT_F1;
+    case 'M': return '\r'; /* of the keypad */
+    default: return INPUT_OTHER;
+    }
+}
+
+static int key_of_number(int number)
+{
+    switch (number) {
+    case 1:
+    case 7: return INPUT_HOME;
+    case 5: return INPUT_PAGE_UP;
+    case 6: return INPUT_PAGE_DOWN;
+    case 11: return INPUT_F1;
+    default: return INPUT_OTHER;
+    }
+}
+
+/* Among the attributes behind the terminal's class 4 is for sixels. */
+static bool lists_sixels(const int *params, int count)
+{
+    for (int i = 1; i < count; i++) {
+        if (params[i] == 4)
+            return true;
+    }
+    return false;
+}
+
+/* Answers that begin with ESC[? */
+static void set_private(struct sequence *s, const int *params, int count,
+                        unsigned char last)
+{
+    if (last == 'c')
+        set_answer(s, EVENT_ATTRIBUTES, lists_sixels(params, count), 0);
+    else if (last == 'S' && params[0] == 1 && params[1] == 0)
+        set_answer(s, EVENT_SIXEL_COLORS, params[2], 0);
+    else if (last == 'y' && params[0] == 2026 && params[1] >= 1 &&
+             params[1] <= 3)
+        set_answer(s, EVENT_SYNC, 0, 0);
+}
+
+static void set_csi(struct sequence *s, const unsigned char *p, size_t length,
+                    unsigned char last)
+{
+    int params[PARAMS_MAX];
+    int count = read_params(p, length, params);
+
+    if (length > 0 && p[0] == '<') {
+        if (last == 'M' || last == 'm')
+            set_mouse(s, params, last == 'm');
+    } else if (length > 0 && p[0] == '?') {
+        set_private(s, params, count, last);
+    } else if (length > 0 && (p[0] == '>' || p[0] == '=')) {
+        return; /* nothing was asked that is answered so */
+    } else if (last == 'n') {
+        if (params[0] == 0)
+            set_answer(s, EVENT_READY, 0, 0);
+    } else if (last == 't') {
+        if (params[0] == 6 && count >= 3)
+            set_answer(s, EVENT_CELL_SIZE, params[2], params[1]);
+    } else if (last == 'R') {
+        set_answer(s, EVENT_CURSOR, params[1], params[0]);
+    } else if (last == '~') {
+        set_key(s, key_of_number(params[0]));
+    } else {
+        set_key(s, key_of_letter(last));
+    }
+}
+
+/* ESC [ parameters and intermediates (0x20-0x3f), a last byte (0x40-0x7e) */
+static void take_csi(struct sequence *s, const unsigned char *p, size_t length)
+{
+    size_t i = 2;
+
+    if (length > 2 && p[2] == '[') { /* the Linux console's F1 is ESC[[A */
+        if (length > 3) {
+            s->length = 4;
+            set_key(s, p[3] == 'A' ? INPUT_F1 : INPUT_OTHER);
+        }
+        return;
+    }
+    while (i < length && p[i] >= 0x20 && p[i] <= 0x3f)
+        i++;
+    if (i == length)
+        return;
+    if (p[i] < 0x40 || p[i] > 0x7e) {
+        s->length = i; /* broken off: what comes now is something new */
+        return;
+    }
+    s->length = i + 1;
+    set_csi(s, p + 2, i - 2, p[i]);
+}
+
+/* The colours that are set, as DECRQSS reports them: 0;48:2::1:2:3m, with
+ * colons or semicolons. A terminal that rounds says 48:5:16. */
+static bool reports_true_color(const unsigned char *p, size_t length)
+{
+    for (size_t i = 0; i + 4 <= length; i++) {
+        if (p[i] == '4' && p[i + 1] == '8' &&
+            (p[i + 2] == ':' || p[i + 2] == ';') && p[i + 3] == '2' &&
+            (i + 4 == length || p[i + 4] < '0' || p[i + 4] > '9'))
+            return true;
+    }
+    return false;
+}
+
+/* _Gi=1;OK: one that does not know them says nothing, or what is wrong. */
+static bool accepts_kitty(const unsigned char *p, size_t length)
+{
+    return length >= 4 && p[0] == 'G' && memcmp(p + length - 3, ";OK", 3) == 0;
+}
+
+/* ESC P, ], ^, _, X: text up to ESC \ (or BEL) */
+static void take_string(struct sequence *s, const unsigned char *p,
+                        size_t length)
+{
+    for (size_t i = 2; i < length; i++) {
+        bool ends = p[i] == 7;
+
+        if (p[i] == ESC) {
+            if (i + 1 == length)
+                return;
+            if (p[i + 1] != '\\') {
+                s->length = i;
+                return;
+            }
+            ends = true;
+        }
+        if (!ends)
+            continue;
+        s->length = p[i] == 7 ? i + 1 : i + 2;
+        if (p[1] == 'P' && reports_true_color(p + 2, i - 2))
+            set_answer(s, EVENT_TRUE_COLOR, 0, 0);
+        else if (p[1] == '_' && accepts_kitty(p + 2, i - 2))
+            set_answer(s, EVENT_KITTY, 0, 0);
+        return;
+    }
+}
+
+static void take_escape(struct sequence *s, const unsigned char *p,
+                        size_t length)
+{
+    if (length < 2)
+        return;
+    switch (p[1]) {
+    case '[': take_csi(s, p, length); break;
+    case 'O':
+        if (length > 2) {
+            s->length = 3;
+            set_key(s, key_of_letter(p[2]));
+        }
+        break;
+    case 'P':
+    case ']':
+    case '^':
+    case '_':
+    case 'X': take_string(s, p, length); break;
+    default: /* a key that came soon; Alt and a key are the same bytes */
+        s->length = 1;
+        set_key(s, ESC);
+        break;
+    }
+    if (s->length == 0 && length >= SEQUENCE_MAX)
+        s->length = length;
+}
+
+/* Bytes of the UTF-8 character that begins so; 1: none does. */
+static size_t character_bytes(unsigned char first)
+{
+    if (first < 0xc2 || first > 0xf4)
+        return 1;
+    return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+}
+
+/* Bytes of one character in UTF-8 are one key. */
+static void take_character(struct sequence *s, const unsigned char *p,
+                           size_t length)
+{
+    size_t count = character_bytes(p[0]);
+    size_t i = 1;
+
+    while (i < length && i < count && (p[i] & 0xc0) == 0x80)
+        i++;
+    if (i == length && i < count)
+        return;
+    s->length = i;
+    if (p[0] < 0x80)
+        set_key(s, p[0] == '\n' ? '\r' : p[0]);
+    else
+        set_key(s, INPUT_OTHER);
+}
+
+bool input_next(struct input *in, bool nothing_follows, struct event *event)
+{
+    while (in->length > 0) {
+        struct sequence s = {0};
+
+        if (in->bytes[0] == ESC)
+            take_escape(&s, in->bytes, in->length);
+        else
+            take_character(&s, in->bytes, in->length);
+        if (s.length == 0) {
+            if (!nothing_follows)
+                return false;
+            if (in->bytes[0] != ESC)
+                set_key(&s, INPUT_OTHER);
+            else if (in->length == 1)
+                set_key(&s, ESC);
+            s.length = in->length;
+        }
+        in->length -= s.length;
+        memmove(in->bytes, in->bytes + s.length, in->length);
+        if (s.has_event) {
+            *event = s.event;
+            return true;
+        }
+    }
+    return false;
+}
