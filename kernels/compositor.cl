@@ -3,7 +3,7 @@
  * compositor.cl - adds the samples of a task to the film, a work-item a point
  */
 #include "kernels/pixel.h"
-#include "kernels/task.h"
+#include "kernels/cl_task.h"
 
 /* The samples of a pixel are consecutive: behind one that was cancelled none
  * is taken. */

@@ -24,7 +24,7 @@ enum feature {
     FEATURE_SKY_IMAGE = 128,  /* the sky is an image */
     FEATURE_EMITTERS = 256,   /* surfaces that shine */
     FEATURE_BUMPS = 512,      /* maps of heights or normals */
-    FEATURE_FIRST_HIT = 1024, /* samples are no light: see first_hit.h */
+    FEATURE_FIRST_HIT = 1024, /* samples are no light: see aov.h */
     FEATURE_GUIDE = 2048      /* directions of hidden light: guide.h */
 };
 

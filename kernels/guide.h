@@ -29,7 +29,7 @@
 #ifndef KERNELS_GUIDE_H
 #define KERNELS_GUIDE_H
 
-#include "kernels/vertex.h"
+#include "kernels/surface_point.h"
 
 /* A mirror, or as good as one: what it throws on other things is for guiding.
  */

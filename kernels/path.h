@@ -20,13 +20,13 @@
 #ifndef KERNELS_PATH_H
 #define KERNELS_PATH_H
 
-#include "kernels/first_hit.h"
+#include "kernels/aov.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
 #include "kernels/roulette.h"
-#include "kernels/start.h"
-#include "kernels/vertex.h"
+#include "kernels/camera_sample.h"
+#include "kernels/surface_point.h"
 
 /* 1: eight random numbers take the time of one, in loops that compilers turn
  * into vector code, and are computed together; 0: each when it is asked for. */

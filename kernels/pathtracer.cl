@@ -5,7 +5,7 @@
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"
-#include "kernels/task.h"
+#include "kernels/cl_task.h"
 
 /* A path that is not traced, or cancelled, has no rays. */
 __kernel void trace_paths(

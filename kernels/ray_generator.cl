@@ -2,8 +2,8 @@
 /*
  * ray_generator.cl - the camera rays of a task, a work-item a path
  */
-#include "kernels/start.h"
-#include "kernels/task.h"
+#include "kernels/camera_sample.h"
+#include "kernels/cl_task.h"
 
 __kernel void generate_rays(struct task task,
                             volatile __global const uint *cancel,

@@ -15,7 +15,7 @@
 #include "opencl/cl_kernels.h"
 #include "opencl/cl_source.h"
 #include "opencl/cl_world.h"
-#include "kernels/start.h"
+#include "kernels/camera_sample.h"
 
 #define TASK_PATHS_FIRST 8192
 #define TASK_PATHS_MIN   512

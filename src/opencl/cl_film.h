@@ -16,7 +16,7 @@
 
 #include "opencl/cl_machine.h"
 #include "picture/film.h"
-#include "kernels/task.h"
+#include "kernels/cl_task.h"
 
 struct cl_film {
     struct film *film; /* the host's */

@@ -17,7 +17,7 @@
 #include "tests/unit/mesh.h"
 
 #include "bvh/bvh8_traverse.h"
-#include "kernels/vertex.h"
+#include "kernels/surface_point.h"
 
 /* One item of work: so many rays from a seed of its own. */
 #define CHUNK 100000

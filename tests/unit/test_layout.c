@@ -12,8 +12,8 @@
 #include "base/util.h"
 #include "kernels/camera.h"
 #include "kernels/pixel.h"
-#include "kernels/start.h"
-#include "kernels/task.h"
+#include "kernels/camera_sample.h"
+#include "kernels/cl_task.h"
 
 /* S(struct, size) M(struct, member, offset) */
 /* clang-format off */

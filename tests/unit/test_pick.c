@@ -12,7 +12,7 @@
 #include "bvh/bvh.h"
 #include "studio/pick.h"
 #include "formats/scene_load.h"
-#include "kernels/start.h"
+#include "kernels/camera_sample.h"
 #include "kernels/traverse.h"
 
 static void put(const char *name, const char *text)

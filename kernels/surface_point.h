@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * vertex.h - a hit with all that shading needs
+ * surface_point.h - a hit with all that shading needs
  *
  * Units:     normalised scene units
  * Ownership: none
  * Threads:   none
  * Errors:    a triangle without a normal is no vertex
  */
-#ifndef KERNELS_VERTEX_H
-#define KERNELS_VERTEX_H
+#ifndef KERNELS_SURFACE_POINT_H
+#define KERNELS_SURFACE_POINT_H
 
 #include "kernels/bsdf.h"
 #include "kernels/bump.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * first_hit.h - samples that end where the camera's ray does: the preview, and
+ * aov.h - samples that end where the camera's ray does: the preview, and
  * numbers of the surface for pictures in false colours
  *
  * Numbers are stored where light would be, so none is negative, and the sky has
@@ -11,11 +11,11 @@
  * Threads:   none
  * Errors:    none
  */
-#ifndef KERNELS_FIRST_HIT_H
-#define KERNELS_FIRST_HIT_H
+#ifndef KERNELS_AOV_H
+#define KERNELS_AOV_H
 
 #include "kernels/light.h"
-#include "kernels/vertex.h"
+#include "kernels/surface_point.h"
 
 /* Of the preview's light the part that comes from everywhere; the rest comes
  * from the eye. */

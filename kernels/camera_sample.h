@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * start.h - how a sample begins: its random numbers and its camera ray
+ * camera_sample.h - how a sample begins: its random numbers and its camera ray
  *
  * Units:     pixels; normalised scene units
  * Ownership: none
  * Threads:   none
  * Errors:    none
  */
-#ifndef KERNELS_START_H
-#define KERNELS_START_H
+#ifndef KERNELS_CAMERA_SAMPLE_H
+#define KERNELS_CAMERA_SAMPLE_H
 
 #include "kernels/camera.h"
 #include "kernels/rng.h"

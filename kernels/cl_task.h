@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * task.h - a part of a pass, as a device gets it
+ * cl_task.h - a part of a pass, as a device gets it
  *
  * A pass visits the points of a grid, row by row; a task is some of them in
  * a row. It has `samples` paths for each point, some of which may be empty.
@@ -10,8 +10,8 @@
  * Threads:   none
  * Errors:    none
  */
-#ifndef KERNELS_TASK_H
-#define KERNELS_TASK_H
+#ifndef KERNELS_CL_TASK_H
+#define KERNELS_CL_TASK_H
 
 #include "kernels/dialect.h"
 
