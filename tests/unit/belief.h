@@ -21,7 +21,7 @@
 #include <string.h>
 
 #include "studio/workspace.h"
-#include "vt.h"
+#include "tests/unit/vt.h"
 
 /* The child's longest pause: the parent need not wait for something to
  * happen. */

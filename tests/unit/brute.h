@@ -10,7 +10,7 @@
 #ifndef TESTS_BRUTE_H
 #define TESTS_BRUTE_H
 
-#include "check.h"
+#include "tests/unit/check.h"
 #include "kernels/hit.h"
 
 /* Every triangle, by the same test and the same rule for ties. */

@@ -17,7 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "folder.h"
+#include "tests/unit/folder.h"
 
 /* Sets the category to language "de_DE", ... in UTF-8. */
 static inline bool set_language(int category, const char *language)

@@ -10,9 +10,9 @@
 #ifndef TESTS_MANY_H
 #define TESTS_MANY_H
 
-#include "brute.h"
-#include "check.h"
-#include "mesh.h"
+#include "tests/unit/brute.h"
+#include "tests/unit/check.h"
+#include "tests/unit/mesh.h"
 
 #include "kernels/traverse_leaf.h"
 

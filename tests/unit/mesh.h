@@ -12,7 +12,7 @@
 
 #include <stdlib.h>
 
-#include "check.h"
+#include "tests/unit/check.h"
 #include "scene/material.h"
 #include "bvh/bvh8.h"
 #include "kernels/hit.h"

@@ -13,7 +13,7 @@
 
 #include <stdlib.h>
 
-#include "check.h"
+#include "tests/unit/check.h"
 
 #define PIXELS_MAX (256 * 256)
 

@@ -10,7 +10,7 @@
 #ifndef TESTS_SURFACES_H
 #define TESTS_SURFACES_H
 
-#include "check.h"
+#include "tests/unit/check.h"
 
 #include "kernels/bsdf.h"
 

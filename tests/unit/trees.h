@@ -13,9 +13,9 @@
 #ifndef TESTS_TREES_H
 #define TESTS_TREES_H
 
-#include "brute.h"
-#include "check.h"
-#include "mesh.h"
+#include "tests/unit/brute.h"
+#include "tests/unit/check.h"
+#include "tests/unit/mesh.h"
 
 #include "kernels/traverse_leaf.h"
 

@@ -17,7 +17,7 @@
 
 #include "light/lights.h"
 #include "light/sky_table.h"
-#include "mesh.h"
+#include "tests/unit/mesh.h"
 
 #include "kernels/traverse.h"
 

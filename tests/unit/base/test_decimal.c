@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/unit/check.h"
+#include "base/decimal.h"
+#include "base/util.h"
+#include "tests/unit/locales.h"
+
+static uint64_t random_state = 1;
+
+static uint64_t next_random(void)
+{
+    random_state = random_state * UINT64_C(6364136223846793005) +
+                   UINT64_C(1442695040888963407);
+    uint64_t x = random_state ^ (random_state >> 31);
+    return x * UINT64_C(0x9e3779b97f4a7c15);
+}
+
+static uint64_t bits_of(double value)
+{
+    uint64_t bits;
+
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* The C library's strtod() in the C locale is the truth. */
+static void agrees_with_strtod(const char *text)
+{
+    const char *p = text;
+    char *expected_end;
+    double expected = strtod(text, &expected_end);
+    double found = 0;
+
+    bool same;
+
+    check_or_say(number_parse(&p, text + strlen(text), &found), text);
+    same = p == expected_end && bits_of(found) == bits_of(expected);
+    if (!same)
+        print_error("'%.40s': found %.17g, expected %.17g\n", text, found,
+                    expected);
+    assert_true(same);
+}
+
+static void test_forms(void **state)
+{
+    static const char *const texts[] = {
+        "0",
+        "-0",
+        "+1",
+        ".5",
+        "5.",
+        "-.5",
+        "00012",
+        "0.000",
+        "1e5",
+        "1E+05",
+        "1e-05",
+        "1e400",
+        "-1e400",
+        "1e-400",
+        "inf",
+        "-inf",
+        "+Infinity",
+        "INF",
+        "1e",
+        "1e+",
+        "1.5e-",
+        "1x",
+        "1.2.3",
+        "1,5",
+        "infinit",
+        "4294967295",
+        "18446744073709551615",
+        "99999999999999999999",
+        "9007199254740993",
+        "9007199254740992",
+        "9007199254740991",
+        "9007199254740993e1",
+        "90071992547409930e-1",
+        "1e22",
+        "1e23",
+        "8.5e22",
+        "123456789012345678e-19",
+        "9999999999999999999e-19",
+        "9999999999999999999e19",
+        "4.9e-324",
+        "2.4e-324",
+        "2.5e-324",
+        "1.7976931348623157e308",
+        "1.7976931348623159e308",
+        "2.2250738585072011e-308",
+        "0.1",
+        "1e99999999999999999999999",
+        "1e-99999999999999999999999",
+        "0e99999999999999999999999",
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        agrees_with_strtod(texts[i]);
+}
+
+static void test_nan(void **state)
+{
+    static const char *const texts[] = {"nan", "NaN", "-nan", "+NAN"};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        const char *p = texts[i];
+        double value = 0;
+        assert_true(number_parse(&p, p + strlen(p), &value));
+        assert_true(isnan(value));
+        assert_int_equal(*p, 0);
+    }
+}
+
+static void test_no_number(void **state)
+{
+    static const char *const texts[] = {"",   "+",  "-",   ".",   "+.",
+                                        "e5", "x1", "--1", "+-1", " 1",
+                                        "in", "na", ".e5"};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        const char *p = texts[i];
+        double value = 7;
+
+        check_or_say(!number_parse(&p, p + strlen(p), &value), texts[i]);
+        assert_ptr_equal(p, texts[i]);
+        assert_true(value == 7);
+    }
+}
+
+/* Nothing at or behind end is looked at. */
+static void test_end(void **state)
+{
+    static const char text[] = "12.5e12nan";
+
+    (void)state;
+    for (int length = 1; length <= 7; length++) {
+        static const double expected[] = {1, 12, 12, 12.5, 12.5, 125, 12.5e12};
+        char *copy = malloc((size_t)length); /* a sanitizer watches its end */
+        double value = 0;
+
+        assert_non_null(copy);
+        memcpy(copy, text, (size_t)length);
+        const char *p = copy;
+        assert_true(number_parse(&p, copy + length, &value));
+        assert_true(value == expected[length - 1]);
+        free(copy);
+    }
+}
+
+static void test_random(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 200000; i++) {
+        char text[64];
+        uint64_t bits = next_random();
+        double value;
+
+        memcpy(&value, &bits, sizeof value);
+        if (isfinite(value)) {
+            snprintf(text, sizeof text, "%.17g", value);
+            agrees_with_strtod(text);
+        }
+        value = ldexp((double)(next_random() >> 11), -60) - 0.004;
+        snprintf(text, sizeof text, "%.*g", 1 + i % 17, value);
+        agrees_with_strtod(text);
+        snprintf(text, sizeof text, "%.*f", i % 22, value * 1000);
+        agrees_with_strtod(text);
+        snprintf(text, sizeof text, "%" PRIu64 "e%d", next_random() >> (i % 40),
+                 (int)(next_random() >> 32) % 30);
+        agrees_with_strtod(text);
+    }
+}
+
+/* Exact half-way points and their neighbours, as long as they get. */
+static void test_halfway(void **state)
+{
+    char text[2000];
+
+    (void)state;
+    for (int i = 0; i < 300; i++) {
+        uint64_t mantissa = (next_random() >> 11) | UINT64_C(1) << 52;
+        int exponent = -1070 + i * 7 % 1000;
+        /* a 54-bit number in long double is exact; so is its decimal form */
+        long double half = ldexpl((long double)mantissa * 2 + 1, exponent);
+        int length = snprintf(text, sizeof text - 2, "%.1100Lf", half);
+        assert_in_range(length, 1, (int)sizeof text - 3);
+        agrees_with_strtod(text);
+        memcpy(text + length, "1", 2);
+        agrees_with_strtod(text);
+    }
+}
+
+static void test_long(void **state)
+{
+    size_t length = 1000000;
+    char *text = malloc(length + 32);
+
+    (void)state;
+    assert_non_null(text);
+    memset(text, '7', length);
+    strcpy(text + length, "e-999990");
+    agrees_with_strtod(text);
+    memset(text, '0', length);
+    text[1] = '.';
+    strcpy(text + length, "25e1000000");
+    agrees_with_strtod(text);
+    free(text);
+}
+
+static void test_decimal_comma(void **state)
+{
+    const char *p = "0.12345678901234567890123";
+    double value = 0;
+
+    (void)state;
+    if (!set_language(LC_NUMERIC, "de_DE"))
+        skip();
+    bool ok = number_parse(&p, p + strlen(p), &value);
+    char text[NUMBER_TEXT_BYTES];
+    number_format(text, 2.5);
+    setlocale(LC_NUMERIC, "C");
+    assert_true(ok);
+    assert_true(value == 0.12345678901234567890123);
+    assert_string_equal(text, "2.5");
+}
+
+/* In Turkish the small letter of I is another one. */
+static void test_turkish_letters(void **state)
+{
+    static const char text[] = "INFINITY";
+    const char *p = text;
+    double value = 0;
+    bool ok;
+
+    (void)state;
+    if (!set_language(LC_CTYPE, "tr_TR"))
+        skip();
+    ok = number_parse(&p, text + strlen(text), &value);
+    setlocale(LC_CTYPE, "C");
+    assert_true(ok && value == INFINITY && *p == '\0');
+}
+
+static void test_format(void **state)
+{
+    static const struct {
+        double value;
+        const char *text;
+    } cases[] = {{0, "0"},
+                 {1, "1"},
+                 {-0.5, "-0.5"},
+                 {0.1, "0.1"},
+                 {278, "278"},
+                 {39.3077, "39.3077"},
+                 {1e100, "1e+100"},
+                 {1e-7, "1e-07"},
+                 {1234567, "1234567"},
+                 {0.1 + 0.2, "0.30000000000000004"}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[NUMBER_TEXT_BYTES];
+        number_format(text, cases[i].value);
+        assert_string_equal(text, cases[i].text);
+    }
+    for (int i = 0; i < 100000; i++) {
+        char text[NUMBER_TEXT_BYTES];
+        uint64_t bits = next_random();
+        double value;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value))
+            continue;
+        number_format(text, value);
+        assert_true(strtod(text, NULL) == value);
+    }
+}
+
+/* A parser of 100 MB/s of OBJ text must not wait for its numbers. */
+static void test_speed(void **state)
+{
+    size_t size = 4u << 20, used = 0;
+    char *text = malloc(size + 64);
+    double sum = 0;
+
+    (void)state;
+    assert_non_null(text);
+    while (used < size) {
+        double value = (double)(int64_t)next_random() * 0x1p-62;
+        used += (size_t)snprintf(text + used, 64, "%.6f ", value);
+    }
+    uint64_t begin_ns = clock_ns();
+    for (const char *p = text; p < text + used; p++) {
+        double value;
+        assert_true(number_parse(&p, text + used, &value));
+        sum += value;
+    }
+    double seconds = seconds_between(begin_ns, clock_ns());
+    print_message("%.0f MB/s (sum %g)\n", (double)used / seconds * 1e-6, sum);
+    free(text);
+}
+
+/* No shorter text gives the same float, and that of a double none of it. */
+static void test_shortest(void **state)
+{
+    static const struct {
+        double value;
+        const char *as_float, *as_double;
+    } cases[] = {
+        {0.5, "0.5", "0.5"},
+        {0.1, "0.1", "0.1"},
+        {0.1f, "0.1", "0.10000000149011612"},
+        {0.1 + 0.2, "0.3", "0.30000000000000004"},
+        {1.0 / 3, "0.33333334", "0.3333333333333333"},
+        {278.00000000000006, "278", "278.00000000000006"},
+        {16777217, "16777216", "16777217"},
+        {-0.0, "-0", "-0"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[NUMBER_TEXT_BYTES];
+
+        number_format_float(text, (float)cases[i].value);
+        assert_string_equal(text, cases[i].as_float);
+        number_format(text, cases[i].value);
+        assert_string_equal(text, cases[i].as_double);
+    }
+    assert_true(number_shortened(1e-60) == 1e-60);
+    assert_true(number_shortened(1e60) == 1e60);
+    assert_true(number_shortened(0) == 0);
+    assert_true(number_shortened(0.1 + 0.2) == 0.3);
+    for (int i = 0; i < 100000; i++) {
+        uint32_t bits = (uint32_t)(next_random() >> 32);
+        char text[NUMBER_TEXT_BYTES];
+        float value;
+
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value))
+            continue;
+        number_format_float(text, value);
+        assert_true(strtof(text, NULL) == value);
+        assert_true((float)number_shortened((double)value) == value);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_forms),
+        cmocka_unit_test(test_nan),
+        cmocka_unit_test(test_no_number),
+        cmocka_unit_test(test_end),
+        cmocka_unit_test(test_shortest),
+        cmocka_unit_test(test_random),
+        cmocka_unit_test(test_halfway),
+        cmocka_unit_test(test_long),
+        cmocka_unit_test(test_decimal_comma),
+        cmocka_unit_test(test_turkish_letters),
+        cmocka_unit_test(test_format),
+        cmocka_unit_test(test_speed),
+    };
+
+    return cmocka_run_group_tests_name("number", tests, make_folder,
+                                       remove_folder);
+}

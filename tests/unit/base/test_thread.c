@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+/* test_thread.c - which signals reach a thread, and which only the main one */
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/unit/check.h"
+#include "base/thread.h"
+
+#define HANDLED 7
+
+static void on_fault(int number)
+{
+    (void)number;
+    _exit(HANDLED);
+}
+
+static void *raise_fault(void *number)
+{
+    raise(*(int *)number);
+    return NULL;
+}
+
+/* The status of a process in which a thread has this fault. */
+static int status_after(int number)
+{
+    pid_t child = fork();
+    int status;
+
+    if (child == 0) {
+        pthread_t thread;
+
+        signal(number, on_fault);
+        if (thread_start(&thread, raise_fault, &number) == 0)
+            pthread_join(thread, NULL);
+        _exit(0);
+    }
+    assert_true(child > 0 && waitpid(child, &status, 0) == child);
+    return status;
+}
+
+static void faults_reach_their_handler(void **state)
+{
+    static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+        int status = status_after(faults[i]);
+
+        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == HANDLED);
+    }
+}
+
+static void *read_mask(void *mask)
+{
+    pthread_sigmask(SIG_SETMASK, NULL, mask);
+    return NULL;
+}
+
+static void others_are_the_main_thread_s(void **state)
+{
+    static const int others[] = {SIGINT,  SIGTERM, SIGHUP,
+                                 SIGTSTP, SIGCONT, SIGWINCH};
+    sigset_t mask, before, after;
+    pthread_t thread;
+
+    (void)state;
+    pthread_sigmask(SIG_SETMASK, NULL, &before);
+    assert_int_equal(thread_start(&thread, read_mask, &mask), 0);
+    pthread_join(thread, NULL);
+    pthread_sigmask(SIG_SETMASK, NULL, &after);
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        assert_true(sigismember(&mask, others[i]));
+        assert_int_equal(sigismember(&before, others[i]),
+                         sigismember(&after, others[i]));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faults_reach_their_handler),
+        cmocka_unit_test(others_are_the_main_thread_s),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "kernels/traverse.h"
+
+#include "tests/unit/many.h"
+#include "tests/unit/trees.h"
+
+static struct bvh build_by(const struct world *w, int thread_count)
+{
+    struct bvh bvh = {0};
+    struct error err;
+    struct pool *pool =
+        thread_count > 0 ? pool_create(thread_count, &err) : NULL;
+
+    assert_true(bvh_build(&bvh, w, pool, &err));
+    pool_destroy(pool);
+    return bvh;
+}
+
+static void threads_build_the_same_tree(void **state)
+{
+    struct mesh m = {0};
+    struct bvh one;
+
+    (void)state;
+    mesh_add_many(&m, MANY, 3);
+    mesh_finish(&m);
+    one = build_by(&m.world, 0);
+    for (int threads = 1; threads <= 7; threads += threads == 2 ? 5 : 1) {
+        struct bvh other = build_by(&m.world, threads);
+
+        assert_int_equal(one.node_count, other.node_count);
+        assert_int_equal(one.depth, other.depth);
+        assert_memory_equal(one.nodes, other.nodes,
+                            one.node_count * sizeof *one.nodes);
+        assert_memory_equal(one.leaf_tris, other.leaf_tris,
+                            one.leaf_tri_count * sizeof *one.leaf_tris);
+        bvh_free(&other);
+    }
+    bvh_free(&one);
+    mesh_free(&m);
+}
+
+struct seen {
+    const struct mesh *mesh;
+    bool *tris;
+    uint32_t nodes, depth;
+};
+
+static void look_at_leaf(struct seen *s, const struct node *n)
+{
+    for (uint32_t i = n->next; i < n->next + n->count; i++) {
+        const struct leaf_tri *t = &s->mesh->bvh.leaf_tris[i];
+
+        assert_false(s->tris[t->tri]);
+        s->tris[t->tri] = true;
+        assert_memory_equal(&t->p0, &s->mesh->positions[3 * t->tri],
+                            3 * sizeof t->p0);
+        assert_true(box_holds(n->lo, n->hi, &s->mesh->positions[3 * t->tri]));
+    }
+}
+
+static void look_at_node(struct seen *s, uint32_t index, uint32_t depth)
+{
+    const struct node *n = &s->mesh->bvh.nodes[index];
+    uint32_t children[2] = {index + 1, n->next};
+
+    s->nodes++;
+    s->depth = depth > s->depth ? depth : s->depth;
+    if (n->count != 0) {
+        look_at_leaf(s, n);
+        return;
+    }
+    for (int i = 0; i < 2; i++) {
+        const struct node *child = &s->mesh->bvh.nodes[children[i]];
+
+        assert_true(v3_is_between(child->lo, n->lo, n->hi) &&
+                    v3_is_between(child->hi, n->lo, n->hi));
+        look_at_node(s, children[i], depth + 1);
+    }
+}
+
+static void boxes_hold_what_is_below(void **state)
+{
+    struct mesh m = {0};
+    struct seen s = {&m, calloc(MANY, sizeof *s.tris), 0, 0};
+
+    (void)state;
+    mesh_add_many(&m, MANY, 4);
+    mesh_finish(&m);
+    look_at_node(&s, 0, 0);
+    assert_int_equal(s.nodes, m.bvh.node_count);
+    assert_in_range(m.bvh.depth, s.depth, TRAVERSE_STACK - 1);
+    for (uint32_t i = 0; i < MANY; i++)
+        assert_true(s.tris[i]);
+    free(s.tris);
+    mesh_free(&m);
+}
+
+/* Two squares of two triangles side by side. */
+static void add_domino(struct mesh *m, float x, float size)
+{
+    for (int i = 0; i < 2; i++) {
+        float left = x + (float)i * size, right = left + size;
+
+        mesh_add_quad(m, v3(left, 0, 0), v3(right, 0, 0), v3(right, size, 0),
+                      v3(left, size, 0), 0);
+    }
+}
+
+/* Parted, a domino costs as much as one block of four, and half of what two
+ * blocks of two would cost. */
+static void large_triangles_lie_apart(void **state)
+{
+    const struct bvh_leaves leaves = {2, 1, 4.0f, 16};
+    uint32_t of_two = 0, of_four = 0;
+    struct mesh m = {0};
+    struct bvh bvh = {0};
+    struct error err;
+
+    (void)state;
+    add_domino(&m, 0, 1);
+    add_domino(&m, 4, 0.01f);
+    mesh_finish(&m);
+    assert_true(bvh_build_nodes(&bvh, &m.world, &leaves, NULL, &err));
+    for (uint32_t i = 0; i < bvh.node_count; i++) {
+        of_two += bvh.nodes[i].count == 2;
+        of_four += bvh.nodes[i].count == 4;
+    }
+    assert_int_equal(bvh.node_count, 5);
+    assert_int_equal(of_two, 2);
+    assert_int_equal(of_four, 1);
+    bvh_free(&bvh);
+    mesh_free(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_build_the_same_tree),
+        cmocka_unit_test(boxes_hold_what_is_below),
+        cmocka_unit_test(large_triangles_lie_apart),
+    };
+
+    return run_trees() + cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+/* Built for other sets of instructions as well; ISA is the name of the set. */
+#include "render/cpu_dispatch.h"
+#include "bvh/bvh8_traverse.h"
+
+#include "tests/unit/trees.h"
+
+#ifndef ISA
+#define ISA "plain"
+#endif
+
+static void instructions_are_missing(void **state)
+{
+    (void)state;
+    skip();
+}
+
+/* From one point through a row of others. */
+static bool is_group(uint32_t count, float left, float width)
+{
+    struct mesh m = {0};
+    struct ray rays[GROUP];
+    struct hit hits[GROUP] = {{0}};
+    bool taken;
+
+    mesh_add_box(&m, v3(-1, -1, -1), v3(1, 1, 1), 0);
+    mesh_finish(&m);
+    for (uint32_t k = 0; k < count; k++) {
+        float x = left + width * (float)k / (GROUP - 1);
+
+        rays[k] =
+            (struct ray){{0, 0, 0}, v3_unit(v3(x, 0.3f, 1)), FLOAT_MAX, 0, 0};
+    }
+    taken = hits_closest(&m.world, rays, count, hits);
+    for (uint32_t k = 0; taken && k < count; k++)
+        check_close(hits[k].t * rays[k].d.z, 1, 1e-6);
+    mesh_free(&m);
+    return taken;
+}
+
+static void neighbours_are_a_group(void **state)
+{
+    (void)state;
+    assert_true(is_group(GROUP, 0.2f, 0.01f));
+    assert_true(is_group(GROUP, -0.2f, 0.01f));
+    assert_true(is_group(GROUP / 2, 0.2f, 0.01f));
+    assert_false(is_group(1, 0.2f, 0.01f));
+    assert_false(is_group(GROUP, -0.005f, 0.01f));
+    assert_false(is_group(GROUP, 0.995f, 0.01f));
+    assert_false(is_group(GROUP, 0.2f, 0.1f));
+}
+
+int main(void)
+{
+    const struct CMUnitTest groups[] = {
+        cmocka_unit_test(neighbours_are_a_group),
+    };
+    const struct CMUnitTest none[] = {
+        cmocka_unit_test(instructions_are_missing),
+    };
+    struct error err;
+
+    return isa_named(ISA, &err) != NULL
+               ? run_trees() + cmocka_run_group_tests(groups, NULL, NULL)
+               : cmocka_run_group_tests(none, NULL, NULL);
+}

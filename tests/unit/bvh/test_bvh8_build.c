@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "bvh/bvh8_traverse.h"
+
+#include "tests/unit/many.h"
+
+static void threads_build_the_same_tree(void **state)
+{
+    struct mesh m = {0};
+    struct error err;
+
+    (void)state;
+    mesh_add_many(&m, MANY, 5);
+    mesh_finish(&m);
+    for (int threads = 1; threads <= 7; threads += threads == 2 ? 5 : 1) {
+        struct pool *pool = pool_create(threads, &err);
+        struct wide other = {0};
+
+        assert_true(wide_build(&other, &m.world, pool, &err));
+        assert_int_equal(m.wide.node_count, other.node_count);
+        assert_int_equal(m.wide.block_count, other.block_count);
+        assert_memory_equal(m.wide.nodes, other.nodes,
+                            other.node_count * sizeof *other.nodes);
+        assert_memory_equal(m.wide.blocks, other.blocks,
+                            other.block_count * sizeof *other.blocks);
+        wide_free(&other);
+        pool_destroy(pool);
+    }
+    mesh_free(&m);
+}
+
+struct seen {
+    const struct mesh *mesh;
+    bool *tris;
+    double cost; /* times the area of the root */
+};
+
+static struct vec3 plane(const struct wide_node *n, int side, uint32_t i)
+{
+    return v3(n->planes[0][side][i], n->planes[1][side][i],
+              n->planes[2][side][i]);
+}
+
+static double area(struct vec3 lo, struct vec3 hi)
+{
+    double x = hi.x - lo.x, y = hi.y - lo.y, z = hi.z - lo.z;
+
+    return x * y + y * z + z * x;
+}
+
+/* Each triangle is in its box, and in those above. */
+static void look_at_leaf(struct seen *s, uint32_t child, struct vec3 lo,
+                         struct vec3 hi)
+{
+    const struct tri_block *block = wide_block_at(s->mesh->wide.nodes, child);
+    uint32_t count = (child & WIDE_MORE) + 1;
+
+    s->cost += WIDE_BLOCK_COST * count * area(lo, hi);
+    for (uint32_t i = 0; i < count * BLOCK_TRIS; i++) {
+        uint32_t tri = block[i / BLOCK_TRIS].tri[i % BLOCK_TRIS];
+
+        if (tri == NO_INDEX)
+            continue;
+        assert_false(s->tris[tri]);
+        s->tris[tri] = true;
+        assert_true(box_holds(lo, hi, &s->mesh->positions[3 * tri]));
+    }
+}
+
+static void look_at_node(struct seen *s, const struct wide_node *n,
+                         struct vec3 lo, struct vec3 hi)
+{
+    s->cost += area(lo, hi);
+    for (uint32_t i = 0; i < WIDE_CHILDREN; i++) {
+        struct vec3 low = plane(n, 0, i), high = plane(n, 1, i);
+
+        if (low.x > high.x || low.x == INFINITY)
+            continue;
+        assert_true(v3_is_between(low, lo, hi) && v3_is_between(high, lo, hi));
+        if ((n->child[i] & WIDE_LEAF) != 0)
+            look_at_leaf(s, n->child[i], low, high);
+        else
+            look_at_node(s, wide_node_at(s->mesh->wide.nodes, n->child[i]), low,
+                         high);
+    }
+}
+
+/* Cost of the tree; looks at all of it. */
+static double cost_of(const struct mesh *m, const struct node *root)
+{
+    struct seen s = {m, calloc(m->tri_count, sizeof *s.tris), 0};
+
+    look_at_node(&s, m->wide.nodes, root->lo, root->hi);
+    for (uint32_t i = 0; i < m->tri_count; i++)
+        assert_true(s.tris[i]);
+    free(s.tris);
+    return s.cost;
+}
+
+/* What the wide tree is made from. */
+static struct bvh binary_of(const struct mesh *m)
+{
+    struct bvh bvh = {0};
+    struct error err;
+
+    assert_true(bvh_build_nodes(&bvh, &m->world, &wide_leaves, NULL, &err));
+    return bvh;
+}
+
+static void boxes_hold_what_is_below(void **state)
+{
+    struct mesh m = {0};
+    struct bvh bvh;
+
+    (void)state;
+    mesh_add_many(&m, MANY, 6);
+    mesh_finish(&m);
+    bvh = binary_of(&m);
+    assert_true(cost_of(&m, &bvh.nodes[0]) > 0);
+    bvh_free(&bvh);
+    mesh_free(&m);
+}
+
+static uint32_t tris_below(const struct bvh *bvh, uint32_t node)
+{
+    const struct node *n = &bvh->nodes[node];
+
+    return n->count != 0 ? n->count
+                         : tris_below(bvh, node + 1) + tris_below(bvh, n->next);
+}
+
+static double least_cost(const struct bvh *bvh, uint32_t node, bool is_root,
+                         double *known);
+
+/* The least of all sets of at most eight children: some of `cut`, from `at` on,
+ * are opened. */
+static double least_of_cuts(const struct bvh *bvh, uint32_t *cut,
+                            uint32_t count, uint32_t at, double *known)
+{
+    double least = 0;
+
+    for (uint32_t i = 0; i < count; i++)
+        least += least_cost(bvh, cut[i], false, known);
+    for (uint32_t i = at; i < count && count < WIDE_CHILDREN; i++) {
+        const struct node *n = &bvh->nodes[cut[i]];
+        uint32_t opened = cut[i];
+
+        if (n->count != 0)
+            continue;
+        cut[i] = opened + 1;
+        cut[count] = n->next;
+        least = fmin(least, least_of_cuts(bvh, cut, count + 1, i, known));
+        cut[i] = opened;
+    }
+    return least;
+}
+
+/* As a leaf, or as a node with any set of children. */
+static double least_cost(const struct bvh *bvh, uint32_t node, bool is_root,
+                         double *known)
+{
+    const struct node *n = &bvh->nodes[node];
+    uint32_t count = tris_below(bvh, node);
+    uint32_t cut[WIDE_CHILDREN] = {node + 1, n->next};
+    double least = INFINITY;
+
+    if (!is_root && known[node] > 0)
+        return known[node];
+    if (count <= (WIDE_MORE + 1) * BLOCK_TRIS)
+        least = WIDE_BLOCK_COST * area(n->lo, n->hi) *
+                ((count + BLOCK_TRIS - 1) / BLOCK_TRIS);
+    if (n->count == 0)
+        least = fmin(least,
+                     area(n->lo, n->hi) + least_of_cuts(bvh, cut, 2, 0, known));
+    known[node] = least;
+    return least;
+}
+
+/* Against all ways to make some small trees wide. */
+static void no_other_children_cost_less(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        struct mesh m = {0};
+        struct bvh bvh;
+        double *known;
+
+        mesh_add_many(&m, 90, seed);
+        mesh_finish(&m);
+        bvh = binary_of(&m);
+        known = calloc(bvh.node_count, sizeof *known);
+        check_close(cost_of(&m, &bvh.nodes[0]) /
+                        least_cost(&bvh, 0, true, known),
+                    1, 1e-5);
+        free(known);
+        bvh_free(&bvh);
+        mesh_free(&m);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_build_the_same_tree),
+        cmocka_unit_test(boxes_hold_what_is_below),
+        cmocka_unit_test(no_other_children_cost_less),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,506 @@
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tests/unit/check.h"
+#include "scene/material.h"
+#include "formats/mtl.h"
+
+struct loaded {
+    struct scene scene;
+    struct report report;
+    struct error err;
+    bool ok;
+};
+
+static struct loaded load(const char *text)
+{
+    struct loaded l = {.ok = false};
+    size_t size_bytes = strlen(text);
+    char *copy = malloc(size_bytes == 0 ? 1 : size_bytes);
+
+    assert_non_null(copy);
+    memcpy(copy, text, size_bytes);
+    l.ok = mtl_parse(&l.scene, copy, size_bytes, "a.mtl", &l.report, &l.err);
+    free(copy);
+    return l;
+}
+
+static void unload(struct loaded *l)
+{
+    scene_free(&l->scene);
+    report_free(&l->report);
+}
+
+/* The material "m" of these statements, and how many kinds of warnings. */
+static struct material one(const char *statements, int warnings)
+{
+    struct material m;
+    char text[1024];
+    struct loaded l;
+    uint32_t index;
+
+    snprintf(text, sizeof text, "newmtl m\n%s\n", statements);
+    l = load(text);
+    if (!l.ok)
+        print_error("%s\n", l.err.text);
+    assert_true(l.ok);
+    for (int i = warnings; i < l.report.entry_count; i++)
+        print_error("%s\n", l.report.entries[i].text);
+    assert_int_equal(l.report.entry_count, warnings);
+    index = mtl_find(&l.scene, "m");
+    assert_int_not_equal(index, NO_INDEX);
+    m = l.scene.materials[index];
+    unload(&l);
+    return m;
+}
+
+static void check_color(struct vec3 c, double r, double g, double b)
+{
+    check_close((double)c.x, r, 1e-7);
+    check_close((double)c.y, g, 1e-7);
+    check_close((double)c.z, b, 1e-7);
+}
+
+static void test_kinds(void **state)
+{
+    static const struct {
+        const char *text;
+        uint32_t kind;
+        double color, alpha, ior;
+    } cases[] = {
+        {"Kd .5 .5 .5", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"Kd .5", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"", MATERIAL_DIFFUSE, .8, 0, 1.5},
+        {"Kd .5\nKs 1\nNs 6\nillum 2", MATERIAL_PLASTIC, .5, .5, 1.5},
+        {"Kd .5\nKs 0\nNs 6\nillum 2", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"Kd .5\nKs 1\nPr .5\nNs 6", MATERIAL_PLASTIC, .5, .25, 1.5},
+        {"Kd .5\nKs 1\nKd_roughness .7", MATERIAL_PLASTIC, .5, 0, 1.5},
+        {"Kd .5\nKd_roughness .7", MATERIAL_ROUGH_DIFFUSE, .5, .7, 1.5},
+        {"Kd .5\nKd_roughness .0009", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"Kd .5\nillum 0", MATERIAL_DIFFUSE, .5, 0, 1.5},
+        {"Kd .5\nKs .9\nillum 10", MATERIAL_PLASTIC, .5, 0, 1.5},
+        {"Kd 0\nKs .9\nillum 3", MATERIAL_METAL, .9, 0, 1.5},
+        {"Kd 0\nKs .9\nNs 1000\nillum 5", MATERIAL_METAL, .9, 0, 1.5},
+        {"Kd 0\nKs .9\nNs 0\nillum 5", MATERIAL_METAL, .9, 0, 1.5},
+        {"Kd 0\nKs .9\nNs 6\nillum 5", MATERIAL_METAL, .9, .5, 1.5},
+        {"Kd .3\nKs 0\nillum 5", MATERIAL_DIFFUSE, .3, 0, 1.5},
+        {"Kd .7\nKs .2\nPm 1\nPr .4\nillum 3", MATERIAL_METAL, .7, .16, 1.5},
+        {"Kd .7\nPm .5\nPr 1\nNs 1000", MATERIAL_METAL, .7, 1, 1.5},
+        {"Kd .7\nPm .4\nPr 1", MATERIAL_DIFFUSE, .7, 0, 1.5},
+        {"Ks .9\nPr 0\nNs 6\nillum 3", MATERIAL_METAL, .9, 0, 1.5},
+        {"Kd 0\nKs 1\nNi 1.3\nillum 7", MATERIAL_GLASS, 1, 0, 1.3},
+        {"Kd 0\nTf .1 .1 .1\nNs 200\nNi 2.5\nillum 7", MATERIAL_GLASS, .1,
+         0.09950371902099893, 2.5},
+        {"Ni 1\nPr .5\nillum 6", MATERIAL_GLASS, 1, .25, 1},
+        {"Tf .25\nNi .75\nillum 4", MATERIAL_THIN_GLASS, .25, 0, .75},
+        {"Tf .25\nNi 1\nillum 4", MATERIAL_THIN_GLASS, .25, 0, 1},
+        {"Ni 1\nillum 4", MATERIAL_THIN_GLASS, 1, 0, 1},
+        /* as Maya writes what is opaque */
+        {"illum 4\nKd .25\nTf 1 1 1\nNi 1.00", MATERIAL_DIFFUSE, .25, 0, 1.5},
+        {"illum 4\nKd .5\nTf 1 1 1\nNi 1\nKs .5\nNs 6", MATERIAL_PLASTIC, .5,
+         .5, 1.5},
+        {"Ni 1000000\nPr .5\nillum 9", MATERIAL_THIN_GLASS, 1, 0, 1e6},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct material m = one(cases[i].text, 0);
+
+        if (m.kind != cases[i].kind)
+            print_error("%s\n", cases[i].text);
+        assert_int_equal(m.kind, cases[i].kind);
+        check_color(m.color, cases[i].color, cases[i].color, cases[i].color);
+        check_close((double)m.alpha, cases[i].alpha, 1e-7);
+        check_close((double)m.ior, cases[i].ior, 1e-6);
+        check_color(m.emission, 0, 0, 0);
+        check_close((double)m.opacity, 1, 0);
+        assert_int_equal(m.color_texture, NO_INDEX);
+        assert_int_equal(m.emission_texture, NO_INDEX);
+    }
+}
+
+static void test_coats(void **state)
+{
+    (void)state;
+    check_color(one("Kd .5\nKs .5 1 0", 0).coat, .04, .08, 0);
+    check_color(one("Kd .5\nKs 2 -1 .25", 1).coat, .08, 0, .02);
+    check_color(one("Kd .5\nKs 1\nillum 3", 0).coat, 0, 0, 0);
+}
+
+static void test_emission(void **state)
+{
+    (void)state;
+    check_color(one("Kd 0 0 0\nKe 17 12 4", 0).emission, 17, 12, 4);
+    check_color(one("Ke 2", 0).emission, 2, 2, 2);
+    assert_true(one("Ke 1e38 1e-10 0", 0).emission.x == 1e38f);
+    check_color(one("Ke -1 3 -0", 1).emission, 0, 3, 0);
+    check_color(one("Ke inf nan 1e39", 1).emission, 0, 0, 0);
+    check_color(one("Ke 1 1e400 2", 1).emission, 1, 0, 2);
+}
+
+static double luminance(struct vec3 c)
+{
+    return 0.2126 * (double)c.x + 0.7152 * (double)c.y + 0.0722 * (double)c.z;
+}
+
+/* Colours are test_blackbody's business. */
+static void test_black_bodies(void **state)
+{
+    struct vec3 c = one("Kd 0 0 0\nKe_blackbody 2000", 0).emission;
+
+    (void)state;
+    check_close(luminance(c), 1, 1e-3);
+    assert_true(c.x > c.y && c.y > c.z);
+    check_close(luminance(one("Ke_blackbody 6500 25", 0).emission), 25, 0.02);
+    check_close(luminance(one("Ke 3 3 3\nKe_blackbody 5e3 2", 0).emission), 2,
+                2e-3);
+    check_color(one("Ke_blackbody 5000 2\nKe 3", 0).emission, 3, 3, 3);
+    check_color(one("Ke_blackbody 0", 0).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody 5000 0", 0).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody -5", 1).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody nan", 1).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody 1e30 4", 1).emission, 0, 0, 0);
+    check_color(one("Ke_blackbody 5000 -1", 1).emission, 0, 0, 0);
+}
+
+static void test_colors_are_clamped(void **state)
+{
+    (void)state;
+    check_color(one("Kd 2 -1 .5", 1).color, 1, 0, .5);
+    check_color(one("Kd nan inf -inf", 1).color, 0, 1, 0);
+    check_color(one("Ks 1.5 1 1\nillum 3", 1).color, 1, 1, 1);
+    check_color(one("Tf 1 2 3\nillum 7", 1).color, 1, 1, 1);
+    check_color(one("Kd 1 0 1", 0).color, 1, 0, 1);
+}
+
+static void test_impossible_values(void **state)
+{
+    static const char *const iors[] = {"0", "-1", "nan", "inf", "1e7", "1e-7"};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof iors / sizeof iors[0]; i++) {
+        char text[64];
+
+        snprintf(text, sizeof text, "Ni %s\nillum 7", iors[i]);
+        check_close((double)one(text, 1).ior, 1.5, 0);
+    }
+    check_close((double)one("Ks 1\nillum 3\nPr 2", 1).alpha, 1, 0);
+    check_close((double)one("Ks 1\nillum 3\nPr -1", 1).alpha, 0, 0);
+    check_close((double)one("Ks 1\nillum 3\nPr nan", 1).alpha, 0, 0);
+    check_close((double)one("Ks 1\nillum 3\nNs -5", 1).alpha, 0, 0);
+    check_close((double)one("Ks 1\nillum 3\nNs 1e300", 0).alpha, 0, 0);
+    assert_int_equal(one("illum 99\nKd .5", 1).kind, MATERIAL_DIFFUSE);
+    assert_int_equal(one("illum nan\nKd .5", 1).kind, MATERIAL_DIFFUSE);
+    assert_int_equal(one("illum -1e300\nKd .5", 1).kind, MATERIAL_DIFFUSE);
+    assert_int_equal(one("Pm nan", 1).kind, MATERIAL_DIFFUSE);
+}
+
+static void test_opacity(void **state)
+{
+    (void)state;
+    check_close((double)one("d .25", 0).opacity, .25, 0);
+    check_close((double)one("d -halo .25", 0).opacity, .25, 0);
+    check_close((double)one("Tr .25", 0).opacity, .75, 0);
+    check_close((double)one("Tr 1\nd 1", 0).opacity, 1, 0);
+    check_close((double)one("d .5\nTr 0", 0).opacity, .5, 0);
+    check_close((double)one("d 7", 1).opacity, 1, 0);
+    check_close((double)one("d nan", 1).opacity, 1, 0);
+    check_close((double)one("d .25\nillum 7", 0).opacity, 1, 0);
+}
+
+static void check_refused(const char *text, const char *message)
+{
+    struct loaded l = load(text);
+
+    assert_false(l.ok);
+    assert_string_equal(l.err.text, message);
+    unload(&l);
+}
+
+static void test_malformed_numbers(void **state)
+{
+    (void)state;
+    check_refused("newmtl m\nKd 1 x 0\n",
+                  "a.mtl:2: found 'x' after Kd, expected a number");
+    check_refused("newmtl m\nKd 1 0\n",
+                  "a.mtl:2: found the end of the line after Kd, expected 1 or "
+                  "3 numbers");
+    check_refused("newmtl m\n\nNs\n",
+                  "a.mtl:3: found the end of the line after Ns, expected a "
+                  "number");
+    check_refused("newmtl m\nNi 1,5",
+                  "a.mtl:2: found '1,5' after Ni, expected a number");
+}
+
+static void test_names(void **state)
+{
+    struct loaded l = load("# c\r\nnewmtl two  words \r\nKd 1 0 0\r\n"
+                           "newmtl b\r\nnewmtl two  words\r\nKd 0 1 0\r\n"
+                           "newmtl\r\nKd 0 0 1");
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(l.scene.material_count, 3);
+    assert_string_equal(l.scene.material_names[0], "");
+    assert_string_equal(l.scene.material_names[1], "two  words");
+    assert_string_equal(l.scene.material_names[2], "b");
+    check_color(l.scene.materials[0].color, .8, .8, .8);
+    check_color(l.scene.materials[1].color, 0, 1, 0);
+    assert_int_equal(l.report.entry_count, 2);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.mtl:5: found newmtl 'two  words' again: the later "
+                        "one is used");
+    assert_int_equal(mtl_find(&l.scene, "c"), NO_INDEX);
+    unload(&l);
+}
+
+static void test_what_is_not_used(void **state)
+{
+    struct loaded l = load("Kd 1 1 1\nnewmtl m\nKa x\nKd spectral a.rfl\n"
+                           "disp -bm 1 a.png\ndisp b.png\nsharpness 1\n"
+                           "map_Kd\n");
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(l.report.entry_count, 5);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.mtl:1: found 'Kd', expected newmtl");
+    assert_string_equal(l.report.entries[1].text,
+                        "a.mtl:4: found Kd spectral, expected a colour: not "
+                        "used");
+    assert_string_equal(l.report.entries[2].text,
+                        "a.mtl:5: found 'disp', which glim does not use");
+    assert_int_equal(l.report.entries[2].count, 2);
+    assert_string_equal(l.report.entries[4].text,
+                        "a.mtl:8: found map_Kd without the name of a file");
+    assert_int_equal(l.scene.texture_count, 0);
+    unload(&l);
+}
+
+/* The name that remains of a map statement. */
+static void test_map_options(void **state)
+{
+    static const struct {
+        const char *text, *path;
+        bool has_unknown;
+        float scale[2], offset[2];
+        uint32_t is_clamped;
+    } cases[] = {
+        {"map_Kd a.png", "a.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd  a b  c.png ", "a b  c.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -s 2 3 4 a.png", "a.png", false, {2, 3}, {0, 0}, 0},
+        {"map_Kd -s 2 a.png", "a.png", false, {2, 1}, {0, 0}, 0},
+        {"map_Kd -o 0.25 .5 3d.png", "3d.png", false, {1, 1}, {.25f, .5f}, 0},
+        {"map_Kd -o inf 0 -s 1e39 1 a.png", "a.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -clamp on -bm 1.5 -blendu off -mm 0 1 a b.png",
+         "a b.png",
+         true,
+         {1, 1},
+         {0, 0},
+         1},
+        {"map_Kd -type cube_top -texres 512 -imfchan r -t 1 1 1 a.png",
+         "a.png",
+         true,
+         {1, 1},
+         {0, 0},
+         0},
+        {"map_Kd a b.png -s 2 -2 1 -clamp on -o -1",
+         "a b.png",
+         false,
+         {2, -2},
+         {-1, 0},
+         1},
+        {"map_Kd -clamp off a -b.png", "a -b.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd -.png", "-.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd t/a.png", "t/a.png", false, {1, 1}, {0, 0}, 0},
+        {"map_Kd /t/a.png", "/t/a.png", false, {1, 1}, {0, 0}, 0},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[256];
+        struct loaded l;
+        const struct texture *t;
+
+        snprintf(text, sizeof text, "newmtl m\n%s\n", cases[i].text);
+        l = load(text);
+        assert_true(l.ok);
+        assert_int_equal(l.scene.texture_count, 1);
+        assert_string_equal(l.scene.texture_paths[0], cases[i].path);
+        assert_int_equal(l.report.entry_count, cases[i].has_unknown);
+        t = &l.scene.textures[0];
+        check_close((double)t->scale.x, (double)cases[i].scale[0], 0);
+        check_close((double)t->scale.y, (double)cases[i].scale[1], 0);
+        check_close((double)t->offset.x, (double)cases[i].offset[0], 0);
+        check_close((double)t->offset.y, (double)cases[i].offset[1], 0);
+        assert_int_equal(t->is_clamped, cases[i].is_clamped);
+        assert_int_equal(t->is_data, 0);
+        unload(&l);
+    }
+}
+
+/* The last bit of a number makes it another texture. */
+static void test_maps_of_other_scales_are_not_shared(void **state)
+{
+    struct loaded l = load("newmtl a\nmap_Kd -s 1.0000001 1 t.png\n"
+                           "newmtl b\nmap_Kd t.png\n");
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(l.scene.texture_count, 2);
+    unload(&l);
+}
+
+static void test_maps_are_shared(void **state)
+{
+    struct loaded l =
+        load("newmtl a\nmap_Kd t.png\nmap_Ke t.png\nnewmtl b\nmap_Kd u.png\n"
+             "newmtl c\nmap_Kd t.png\nillum 7\n"
+             "newmtl d\nmap_Kd u.png\nillum 3\nKs 1 1 1\nmap_Ks t.png\n"
+             "newmtl e\nmap_Kd u.png\nmap_Ks t.png\n"
+             "newmtl f\nillum 5\nmap_Ks u.png\n");
+    const struct material *m = l.scene.materials;
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(l.scene.texture_count, 2);
+    assert_int_equal(m[1].color_texture, 0);
+    assert_int_equal(m[1].emission_texture, 0);
+    assert_int_equal(m[2].color_texture, 1);
+    assert_int_equal(m[3].kind, MATERIAL_GLASS);
+    assert_int_equal(m[3].color_texture, 0);
+    assert_int_equal(m[4].kind, MATERIAL_METAL);
+    assert_int_equal(m[4].color_texture, 0);
+    assert_int_equal(m[5].kind, MATERIAL_PLASTIC);
+    assert_int_equal(m[5].color_texture, 1);
+    assert_int_equal(m[5].coat_texture, 0);
+    assert_int_equal(m[6].kind, MATERIAL_METAL);
+    assert_int_equal(m[6].color_texture, 1);
+    assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entries[0].count, 1);
+    unload(&l);
+}
+
+static void test_maps_of_numbers(void **state)
+{
+    struct loaded l =
+        load("newmtl a\nmap_Pr r.png\nKs 1\nmap_d r.png\nmap_Kd r.png\n"
+             "newmtl b\nmap_Pr -s 2 2 r.png\nPr .5\nillum 7\n"
+             "newmtl c\nmap_Pm m.png\nPr .5\nKd 1 0 0\n"
+             "newmtl d\nmap_Pm m.png\nPm .75\nKs 1\nPr .5\nillum 3\n"
+             "newmtl e\nmap_Pr r.png\nnewmtl f\nmap_d r.png\nillum 7\n");
+    const struct material *m = l.scene.materials;
+
+    (void)state;
+    assert_true(l.ok);
+    assert_int_equal(l.scene.texture_count, 4);
+    assert_int_equal(l.scene.textures[0].is_data, 1);
+    assert_int_equal(l.scene.textures[1].is_data, 0);
+    assert_int_equal(m[1].alpha_texture, 0);
+    assert_int_equal(m[1].opacity_texture, 0);
+    assert_int_equal(m[1].color_texture, 1);
+    check_close((double)m[1].alpha, 1, 0);
+    assert_int_equal(m[2].alpha_texture, 2);
+    check_close((double)m[2].alpha, .25, 0);
+    assert_int_equal(m[3].kind, MATERIAL_DIFFUSE);
+    assert_int_equal(m[3].metal_texture, 3);
+    check_close((double)m[3].metalness, 1, 0);
+    check_close((double)m[3].alpha, .25, 0);
+    assert_int_equal(m[4].kind, MATERIAL_PLASTIC);
+    check_close((double)m[4].metalness, .75, 0);
+    assert_int_equal(m[1].bump_texture, NO_INDEX);
+    /* a lambertian has no roughness, glass no coverage */
+    assert_int_equal(m[5].alpha_texture, NO_INDEX);
+    assert_int_equal(m[6].opacity_texture, NO_INDEX);
+    assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entries[0].count, 2);
+    unload(&l);
+}
+
+static void test_bumps(void **state)
+{
+    static const char *const keys[] = {"bump", "map_bump", "map_Bump"};
+    struct material m;
+
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        char text[64];
+
+        snprintf(text, sizeof text, "%s -bm .5 h.png", keys[i]);
+        m = one(text, 0);
+        assert_int_equal(m.bump_texture, 0);
+        check_close((double)m.bump_scale, .5, 0);
+    }
+    check_close((double)one("bump h.png", 0).bump_scale, 1, 0);
+    check_close((double)one("bump h.png -bm -2", 0).bump_scale, -2, 0);
+    check_close((double)one("bump -bm inf h.png", 0).bump_scale, 1, 0);
+    m = one("norm n.png\nillum 7", 0);
+    assert_int_equal(m.normal_texture, 0);
+    assert_int_equal(m.bump_texture, NO_INDEX);
+}
+
+/* Every name of another machine that can be meant finds the file here. */
+static void test_paths_of_other_machines(void **state)
+{
+    static const char *const names[] = {"sub/wood a.png", "sub\\wood a.png",
+                                        "sub/wood\\ a.png",
+                                        "C:\\models\\wood a.png",
+                                        "/home/x/wood a.png"};
+    char folder[] = "/tmp/glim-mtl-XXXXXX";
+    char path[64];
+
+    (void)state;
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chdir(folder), 0);
+    assert_int_equal(mkdir("sub", 0700), 0);
+    for (int i = 0; i < 2; i++) {
+        FILE *f = fopen(i == 0 ? "sub/wood a.png" : "wood a.png", "w");
+
+        assert_non_null(f);
+        fclose(f);
+    }
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char text[256];
+        struct loaded l;
+
+        snprintf(text, sizeof text, "newmtl m\nmap_Kd %s\n", names[i]);
+        l = load(text);
+        assert_true(l.ok);
+        assert_int_equal(access(l.scene.texture_paths[0], R_OK), 0);
+        unload(&l);
+    }
+    unlink("sub/wood a.png");
+    unlink("wood a.png");
+    snprintf(path, sizeof path, "%s/sub", folder);
+    rmdir(path);
+    assert_int_equal(chdir("/"), 0);
+    rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_kinds),
+        cmocka_unit_test(test_coats),
+        cmocka_unit_test(test_emission),
+        cmocka_unit_test(test_black_bodies),
+        cmocka_unit_test(test_colors_are_clamped),
+        cmocka_unit_test(test_impossible_values),
+        cmocka_unit_test(test_opacity),
+        cmocka_unit_test(test_malformed_numbers),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_what_is_not_used),
+        cmocka_unit_test(test_map_options),
+        cmocka_unit_test(test_maps_are_shared),
+        cmocka_unit_test(test_maps_of_other_scales_are_not_shared),
+        cmocka_unit_test(test_maps_of_numbers),
+        cmocka_unit_test(test_bumps),
+        cmocka_unit_test(test_paths_of_other_machines),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_path_record.c - a path step by step is the path; scattered directions against
+ * closed forms; what rays cost against counting by hand
+ */
+#include "tests/unit/check.h"
+#include "tests/unit/mesh.h"
+
+#include <math.h>
+
+#include "scene/world.h"
+#include "inspect/traversal_cost.h"
+#include "session/session.h"
+#include "inspect/path_record.h"
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+
+#define SIDE 24
+
+static const char *const scenes[] = {"scenes/cornell.obj",
+                                     "scenes/glass_mirror.obj",
+                                     "scenes/materials.obj",
+                                     "scenes/skylit.obj"};
+
+static void check_steps(const struct trail *t)
+{
+    double sums[3] = {0};
+
+    assert_in_range(t->vertices, 1, PATH_HARD_STOP);
+    assert_int_equal(t->count,
+                     t->vertices < TRAIL_STEPS ? t->vertices : TRAIL_STEPS);
+    assert_true(t->steps[0].throughput.x == 1.0f);
+    for (int i = 0; i < t->count; i++) {
+        const struct trail_step *s = &t->steps[i];
+        bool goes_on = s->way == TRAIL_REFLECTED || s->way == TRAIL_TRANSMITTED;
+
+        sums[0] += (double)s->light.x;
+        sums[1] += (double)s->light.y;
+        sums[2] += (double)s->light.z;
+        assert_true(goes_on || i == t->vertices - 1);
+        assert_int_equal(s->way == TRAIL_SKY, s->hit.tri == NO_INDEX);
+        /* the next ray begins there, but for rounding and the terminator */
+        if (i + 1 < t->count)
+            check_at_most((double)v3_length(
+                              v3_sub(t->steps[i + 1].from, s->to)),
+                          0.01);
+    }
+    if (t->vertices > TRAIL_STEPS)
+        return;
+    check_close(sums[0], (double)t->radiance.x, 1e-4 * (1 + sums[0]));
+    check_close(sums[1], (double)t->radiance.y, 1e-4 * (1 + sums[1]));
+    check_close(sums[2], (double)t->radiance.z, 1e-4 * (1 + sums[2]));
+}
+
+/* Samples of several pixels at once. */
+static void check_trails(const struct world *w, uint32_t first, int *bright)
+{
+    struct sample_place places[SAMPLE_BLOCK];
+    struct path_sample want[SAMPLE_BLOCK];
+    struct trail t;
+
+    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
+        uint32_t k = first + i;
+
+        places[i] = (struct sample_place){k % SIDE, k / SIDE, k % 5};
+    }
+    path_samples(w, places, SAMPLE_BLOCK, want);
+    for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
+        trail_follow(&t, w, places[i].x, places[i].y, places[i].index);
+        assert_memory_equal(&t.radiance, &want[i].radiance, sizeof t.radiance);
+        *bright += !v3_is_zero(t.radiance);
+        check_steps(&t);
+    }
+}
+
+/* Of each shipped kind of scene: the bits of path_samples(). */
+static void trails_are_paths(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct options options = {.scene_path = scenes[i],
+                                  .width_px = SIDE,
+                                  .height_px = SIDE,
+                                  .max_bounces = -1,
+                                  .thread_count = 1};
+        struct session s;
+        struct world w;
+        struct bvh bvh = {0};
+        struct error err;
+        int bright = 0;
+
+        check_or_say(session_open(&s, &options, clock_ns(), &err) &&
+                         scene_world(&s.scene, &s.view, 3, &w, &err) &&
+                         bvh_build(&bvh, &w, NULL, &err),
+                     err.text);
+        w.nodes = bvh.nodes;
+        w.leaf_tris = bvh.leaf_tris;
+        for (uint32_t k = 0; k < SIDE * SIDE; k += SAMPLE_BLOCK)
+            check_trails(&w, k, &bright);
+        assert_true(bright > SIDE);
+        bvh_free(&bvh);
+        session_close(&s);
+    }
+}
+
+/* A wall across the view of a camera at the origin's +z. */
+static void open_wall(struct mesh *m, struct material material)
+{
+    *m = (struct mesh){0};
+    m->materials[0] = material;
+    mesh_add_quad(m, v3(-4, -4, 1), v3(4, -4, 1), v3(4, 4, 1), v3(-4, 4, 1), 0);
+    m->world.settings.camera = (struct camera){.eye = {0, 0, 3},
+                                               .width = SIDE,
+                                               .forward = {0, 0, -1},
+                                               .height = SIDE,
+                                               .right = {1, 0, 0},
+                                               .up = {0, 1, 0}};
+    mesh_finish(m);
+}
+
+static void check_frame(const struct trail_lobes *l)
+{
+    const struct vec3 axes[] = {l->t, l->b, l->n};
+
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            check_close((double)v3_dot(axes[i], axes[k]), i == k, 1e-6);
+    assert_true(v3_dot(v3_cross(l->t, l->b), l->n) > 0);
+    assert_true(l->n.z == 1.0f);
+    check_close((double)l->p.z, 1, 1e-6);
+    assert_true(l->wo.z > 0);
+}
+
+static void lambert_scatters_by_the_cosine(void **state)
+{
+    struct trail_lobes l;
+    struct mesh m;
+
+    (void)state;
+    open_wall(&m, mesh_material(MATERIAL_DIFFUSE, 0.25f));
+    assert_true(trail_scatter(&l, &m.world, 3, 7));
+    check_frame(&l);
+    assert_int_equal(l.count, TRAIL_LOBES);
+    for (int i = 0; i < l.count; i++) {
+        check_close((double)l.pdf[i], (double)l.wi[i].z / acos(-1), 1e-6);
+        check_close((double)l.weight[i].x, 0.25, 1e-6);
+        check_close((double)v3_length(l.wi[i]), 1, 1e-6);
+    }
+    mesh_free(&m);
+}
+
+static void mirrors_scatter_one_way(void **state)
+{
+    struct material material = mesh_material(MATERIAL_METAL, 0.9f);
+    struct trail_lobes l;
+    struct mesh m;
+
+    (void)state;
+    material.alpha = 0;
+    open_wall(&m, material);
+    assert_true(trail_scatter(&l, &m.world, 3, 7));
+    check_frame(&l);
+    assert_int_equal(l.count, TRAIL_LOBES);
+    for (int i = 0; i < l.count; i++) {
+        assert_true(l.pdf[i] == 0.0f);
+        check_close((double)l.wi[i].x, -(double)l.wo.x, 1e-6);
+        check_close((double)l.wi[i].y, -(double)l.wo.y, 1e-6);
+        check_close((double)l.wi[i].z, (double)l.wo.z, 1e-6);
+    }
+    m.world.settings.camera.forward.z = 1;
+    assert_false(trail_scatter(&l, &m.world, 3, 7));
+    mesh_free(&m);
+}
+
+static void count(const struct world *w, struct cost *costs)
+{
+    struct error err;
+    struct pool *pool = pool_create(2, &err);
+
+    check_or_say(pool, err.text);
+    cost_of_pixels(pool, w, SIDE, SIDE, costs);
+    pool_destroy(pool);
+}
+
+/* One leaf: its box, and both triangles where that is entered. Two walls, one
+ * behind the other: the root and its two children, and of the farther one only
+ * what the first hit does not hide. */
+static void costs_are_counted(void **state)
+{
+    struct cost costs[SIDE * SIDE];
+    struct mesh m;
+
+    (void)state;
+    open_wall(&m, mesh_material(MATERIAL_DIFFUSE, 0.5f));
+    assert_int_equal(m.bvh.node_count, 1);
+    count(&m.world, costs);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        assert_int_equal(costs[i].boxes, 1);
+        assert_int_equal(costs[i].triangles, 2);
+    }
+    m.world.settings.camera.forward.z = 1;
+    count(&m.world, costs);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        assert_int_equal(costs[i].boxes, 1);
+        assert_int_equal(costs[i].triangles, 0);
+    }
+    mesh_free(&m);
+    m = (struct mesh){0};
+    m.materials[0] = mesh_material(MATERIAL_DIFFUSE, 0.5f);
+    for (int i = 0; i < 9; i++) {
+        mesh_add_quad(&m, v3(-4, -4, 1), v3(4, -4, 1), v3(4, 4, 1),
+                      v3(-4, 4, 1), 0);
+        mesh_add_quad(&m, v3(-4, -4, -9), v3(4, -4, -9), v3(4, 4, -9),
+                      v3(-4, 4, -9), 0);
+    }
+    m.world.settings.camera = (struct camera){.eye = {0, 0, 3},
+                                              .width = SIDE,
+                                              .forward = {0, 0, -1},
+                                              .height = SIDE,
+                                              .right = {0.1f, 0, 0},
+                                              .up = {0, 0.1f, 0}};
+    mesh_finish(&m);
+    count(&m.world, costs);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        /* all 18 at z = 1, none at -9; two boxes for each pair of children */
+        assert_int_equal(costs[i].triangles, 18);
+        assert_int_equal(costs[i].boxes % 2, 1);
+        assert_in_range(costs[i].boxes, 3, m.bvh.node_count);
+    }
+    mesh_free(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(trails_are_paths),
+        cmocka_unit_test(lambert_scatters_by_the_cosine),
+        cmocka_unit_test(mirrors_scatter_one_way),
+        cmocka_unit_test(costs_are_counted),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+/* What is shown instead of light. The pictures that files get are traced in
+ * another tree and by another query than the drafts of the screen: both must
+ * show the same. Depths and colours of a wall are known. */
+#include "tests/unit/check.h"
+
+#include <limits.h>
+#include <math.h>
+#include <unistd.h>
+
+#include "tests/unit/folder.h"
+#include "base/file.h"
+#include "inspect/view_modes.h"
+
+#define WIDTH  48
+#define HEIGHT 32
+
+static struct options options;
+static char root[PATH_MAX]; /* of the repository */
+
+static void put(const char *name, const char *text)
+{
+    struct error err;
+
+    check_or_say(file_write(name, text, strlen(text), false, NULL, &err),
+                 err.text);
+}
+
+static void open_scene(struct session *s, const char *path)
+{
+    struct error err;
+
+    options_init(&options);
+    options.scene_path = path;
+    options.width_px = WIDTH;
+    options.height_px = HEIGHT;
+    options.thread_count = 1;
+    check_or_say(session_open(s, &options, clock_ns(), &err), err.text);
+}
+
+/* As the screen has it: the draft of a render in live mode. */
+static void draw_draft(struct session *s, struct show *show,
+                       struct frame *frame)
+{
+    struct film *film, *draft;
+    struct error err;
+
+    s->sample = show_sample(show->kind);
+    s->draft_width = WIDTH;
+    s->draft_height = HEIGHT;
+    check_or_say(session_restart(s, 0, &err), err.text);
+    assert_true(render_wait(s->render, 60000));
+    film = render_film(s->render);
+    draft = render_draft(s->render);
+    assert_non_null(draft);
+    film_preview(film, draft, show_develop(show), frame);
+    show_paint(show, film, draft, frame);
+}
+
+static void files_show_what_the_screen_shows(void **state)
+{
+    static const enum show_kind kinds[] = {SHOW_PREVIEW, SHOW_NORMALS,
+                                           SHOW_FACES,   SHOW_UVS,
+                                           SHOW_DEPTH,   SHOW_MATERIALS};
+    struct session s;
+    struct show show;
+    struct frame screen, picture;
+    struct error err;
+    char legend[sizeof show.legend], path[PATH_MAX + 32];
+
+    (void)state;
+    snprintf(path, sizeof path, "%s/scenes/interior.obj", root);
+    open_scene(&s, path);
+    show_init(&show, &s);
+    assert_true(frame_init(&screen, WIDTH, HEIGHT, &err));
+    assert_true(frame_init(&picture, WIDTH, HEIGHT, &err));
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        assert_true(show_set(&show, kinds[i], &err));
+        draw_draft(&s, &show, &screen);
+        strcpy(legend, show.legend);
+        check_or_say(show_picture(&show, NULL, &picture, &err), err.text);
+        assert_memory_equal(screen.rgb, picture.rgb, 3 * WIDTH * HEIGHT);
+        assert_string_equal(show.legend, legend);
+    }
+    frame_free(&screen);
+    frame_free(&picture);
+    show_free(&show);
+    session_close(&s);
+}
+
+/* A wall at z = 0 seen from (0, 0, 5) with half a view of tan 20 degrees: the
+ * ray through the middle of pixel (x, y) is 5 sqrt(1 + u^2 + v^2) long. */
+static void depths_of_a_wall(void **state)
+{
+    double top = tan(20 * 0.017453292519943295);
+    double near = 5 * sqrt(1 + 2 * pow(top / HEIGHT, 2));
+    double u = top * (WIDTH - 1) / HEIGHT, v = top * (HEIGHT - 1) / HEIGHT;
+    char legend[128];
+    struct session s;
+    struct show show;
+    struct frame f;
+    struct error err;
+
+    (void)state;
+    put("wall.obj", "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\n"
+                    "f 1 2 3 4\n");
+    put("wall.view", "eye 0 0 5\nat 0 0 0\n");
+    open_scene(&s, "wall.obj");
+    show_init(&show, &s);
+    assert_true(frame_init(&f, WIDTH, HEIGHT, &err));
+    assert_true(show_set(&show, SHOW_DEPTH, &err));
+    check_or_say(show_picture(&show, NULL, &f, &err), err.text);
+    snprintf(legend, sizeof legend, "DEPTH  from %.4g, white, to %.4g, dark",
+             near, 5 * sqrt(1 + u * u + v * v));
+    assert_string_equal(show.legend, legend);
+    assert_int_equal(f.rgb[3 * (HEIGHT / 2 * WIDTH + WIDTH / 2)], 255);
+    assert_int_equal(f.rgb[0], 38); /* 0.15 of white */
+    assert_true(show_set(&show, SHOW_NORMALS, &err));
+    check_or_say(show_picture(&show, NULL, &f, &err), err.text);
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        assert_int_equal(f.rgb[i], i % 3 == 2 ? 255 : 128);
+    frame_free(&f);
+    show_free(&show);
+    session_close(&s);
+}
+
+static int enter_folder(void **state)
+{
+    return getcwd(root, sizeof root) && make_folder(state) == 0 &&
+                   chdir(folder) == 0
+               ? 0
+               : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_show_what_the_screen_shows),
+        cmocka_unit_test(depths_of_a_wall),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}

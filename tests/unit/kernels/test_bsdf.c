@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <math.h>
+
+#include "tests/unit/facets.h"
+#include "tests/unit/surfaces.h"
+
+static struct vec3 any_direction(uint64_t *state)
+{
+    double z = 1 - 2 * check_random(state);
+    double phi = 2 * M_PI * check_random(state);
+    double r = sqrt(1 - z * z);
+
+    return v3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
+}
+
+static void diffuse_weight_is_the_albedo(void **state)
+{
+    struct bsdf m = {.color = {0.2f, 0.5f, 1}, .kind = MATERIAL_DIFFUSE};
+    struct bsdf_sample s;
+
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        if (!bsdf_sample(&m, direction(0.3f), v2((float)i / 1000, 0.3f), 0, &s))
+            continue;
+        assert_true(s.weight.x == 0.2f && s.weight.y == 0.5f &&
+                    s.weight.z == 1.0f && s.eta_scale == 1.0f);
+    }
+}
+
+static void mirrors_reflect(void **state)
+{
+    struct bsdf m = {.color = {0.9f, 0.5f, 0.1f}, .kind = MATERIAL_METAL};
+    struct bsdf_sample s;
+
+    (void)state;
+    assert_true(bsdf_sample(&m, v3(0.6f, 0, 0.8f), v2(0.3f, 0.4f), 0, &s));
+    check_close(s.wi.x, -0.6, 1e-7);
+    check_close(s.wi.z, 0.8, 1e-7);
+    /* Schlick 1994: F0 + (1 - F0) (1 - cos)^5 */
+    check_close(s.weight.y, 0.5 + 0.5 * pow(0.2, 5), 1e-6);
+}
+
+static void smooth_glass_obeys_fresnel_and_snell(void **state)
+{
+    const double indices[] = {1.5, 1 / 1.5, 1.33, 2.4};
+
+    (void)state;
+    for (size_t e = 0; e < COUNT(indices); e++)
+        for (int i = 1; i <= 1000; i++) {
+            float c = (float)i / 1000;
+            double f = fresnel_by_angles((double)c, indices[e]);
+            struct bsdf m = {.color = {0.5f, 0.5f, 0.5f},
+                             .eta = (float)indices[e],
+                             .kind = MATERIAL_GLASS};
+            struct bsdf_sample s;
+            float cos_t;
+
+            check_close(fresnel_dielectric(c, m.eta, &cos_t), f, 3e-4);
+            assert_true(bsdf_sample(&m, direction(c), v2(0, 0), 0, &s));
+            check_close(s.wi.z, (double)c, 1e-6); /* the lobe at 0 */
+            check_close(s.weight.x, 1, 0);
+            if (f > 0.999)
+                continue;
+            assert_true(
+                bsdf_sample(&m, direction(c), v2(0, 0), 0.9999999f, &s));
+            assert_true(s.wi.z < 0);
+            check_close(v3_length(s.wi), 1, 2e-6);
+            check_close(-s.wi.x * indices[e], (double)direction(c).x, 2e-6);
+            check_close(s.weight.x, 0.5, 0); /* the tint */
+            check_close(s.eta_scale, 1 / (indices[e] * indices[e]), 1e-6);
+        }
+}
+
+static void index_one_is_invisible(void **state)
+{
+    struct bsdf m = {.color = white,
+                     .alpha = 0.5f,
+                     .eta = 1,
+                     .kind = MATERIAL_GLASS};
+    struct bsdf_sample s;
+
+    (void)state;
+    assert_true(bsdf_sample(&m, v3(0.6f, 0, 0.8f), v2(0.1f, 0.9f), 0, &s));
+    assert_true(s.wi.x == -0.6f && s.wi.z == -0.8f && s.weight.x == 1);
+}
+
+/* Sheets: reflectance 2F / (1 + F), the rest straight on. */
+static void thin_glass_adds_up_its_reflections(void **state)
+{
+    struct bsdf m = {.color = white, .eta = 1.5f, .kind = MATERIAL_THIN_GLASS};
+    const int n = 100000;
+
+    (void)state;
+    for (size_t c = 0; c < COUNT(cosines); c++) {
+        double f = fresnel_by_angles((double)cosines[c], 1.5);
+        int reflected = 0;
+
+        for (int i = 0; i < n; i++) {
+            struct bsdf_sample s = {0};
+            struct vec3 wo = direction(cosines[c]);
+
+            assert_true(
+                bsdf_sample(&m, wo, v2(0, 0), (float)((i + 0.5) / n), &s));
+            if (s.wi.z > 0)
+                reflected++;
+            else
+                assert_true(s.wi.x == -wo.x && s.wi.z == -wo.z);
+        }
+        check_close((double)reflected / n, 2 * f / (1 + f), 1e-3);
+    }
+}
+
+/* f(wo, wi) = f(wi, wo); through a face f(wo, wi; eta) = eta^2 f(wi, wo;
+ * 1 / eta), once the glass's compensation, which is not reciprocal by its
+ * nature, is taken out. */
+static void check_reciprocity(const struct bsdf *m, float mu)
+{
+    uint64_t seed = 7;
+
+    for (int i = 0; i < 200; i++) {
+        struct vec3 wo = direction(mu);
+        struct vec3 wi = any_direction(&seed);
+        struct bsdf back = *m;
+        double there, again, scale = 1;
+
+        if (fabsf(wi.z) < 1e-3f)
+            continue;
+        there = (double)bsdf_eval(m, wo, wi).x / fabs((double)wi.z);
+        if (wi.z < 0) {
+            back.eta = 1 / m->eta;
+            scale = (double)(m->eta * m->eta);
+            again = (double)bsdf_eval(&back, v3(wi.x, wi.y, -wi.z),
+                                      v3(wo.x, wo.y, -wo.z))
+                        .x;
+        } else {
+            again = (double)bsdf_eval(&back, wi, wo).x;
+        }
+        again *= scale / (double)mu;
+        if (m->kind == MATERIAL_GLASS) {
+            there *= fmax((double)glass_albedo(mu, m->alpha, m->eta), 0.05);
+            again *=
+                fmax((double)glass_albedo(fabsf(wi.z), back.alpha, back.eta),
+                     0.05);
+        }
+        check_close(there, again, 2e-3 * there + 1e-9);
+    }
+}
+
+static void reflections_are_reciprocal(void **state)
+{
+    (void)state;
+    at_all_reflections(check_reciprocity);
+}
+
+static void glass_is_reciprocal_but_for_its_compensation(void **state)
+{
+    (void)state;
+    at_all_glasses(check_reciprocity);
+}
+
+static void mirrors_and_sheets_have_no_density(void **state)
+{
+    const uint32_t kinds[] = {MATERIAL_METAL, MATERIAL_GLASS,
+                              MATERIAL_THIN_GLASS, MATERIAL_PLASTIC};
+
+    (void)state;
+    for (size_t k = 0; k < COUNT(kinds); k++) {
+        struct bsdf m = {.coat = white, .eta = 1.5f, .kind = kinds[k]};
+        struct bsdf_sample s;
+
+        assert_true(bsdf_is_delta(&m));
+        assert_true(bsdf_pdf(&m, direction(0.7f), direction(0.7f)) == 0);
+        assert_true(bsdf_sample(&m, direction(0.7f), v2(0, 0), 0, &s));
+        assert_true(s.is_delta && s.pdf == 0);
+    }
+}
+
+/* The mean weight over midpoints of the square, with the choice by multiples
+ * of the golden ratio. */
+static double albedo(const struct bsdf *m, float mu)
+{
+    const int side = 300;
+    double sum = 0;
+
+    for (int i = 0; i < side * side; i++) {
+        struct vec2 u = v2((float)((i % side + 0.5) / side),
+                           (float)((i / side + 0.5) / side));
+        float choice = (float)fmod(i * 0.618033988749895, 1);
+        struct bsdf_sample s;
+
+        if (bsdf_sample(m, direction(mu), u, choice, &s))
+            sum += (double)s.weight.z;
+    }
+    return sum / side / side;
+}
+
+/* The integral of f |cosine| over the upper hemisphere, for surfaces without
+ * highlights: midpoints in azimuth and in the root of the cosine. */
+static double integral_of_eval(const struct bsdf *m, float mu)
+{
+    const int side = 500;
+    double sum = 0;
+
+    for (int i = 0; i < side * side; i++) {
+        double t = (i % side + 0.5) / side;
+        double phi = M_PI * (i / side + 0.5) / side;
+        double r = sqrt(1 - pow(t, 4));
+        struct vec3 wi =
+            v3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)(t * t));
+
+        sum += (double)bsdf_eval(m, direction(mu), wi).z * 4 * M_PI * t;
+    }
+    return sum / side / side;
+}
+
+static void check_furnace(const struct bsdf *m, float mu)
+{
+    double e = m->kind == MATERIAL_ROUGH_DIFFUSE ? integral_of_eval(m, mu)
+                                                 : albedo(m, mu);
+
+    if (fabs(e - 1) > 3e-3)
+        print_error("kind %u alpha %g coat %g eta %g cosine %g\n", m->kind,
+                    (double)m->alpha, (double)m->coat.x, (double)m->eta,
+                    (double)mu);
+    check_close(e, 1, 3e-3);
+}
+
+static void white_reflections_lose_nothing(void **state)
+{
+    const struct vec3 coats[] = {{0, 0, 0},
+                                 {0.04f, 0.04f, 0.04f},
+                                 {0.5f, 0.5f, 0.5f}};
+    struct bsdf m = {.color = white, .eta = 1, .kind = MATERIAL_ROUGH_DIFFUSE};
+
+    (void)state;
+    for (m.alpha = 0; m.alpha <= 1; m.alpha += 0.25f)
+        at_all_cosines(check_furnace, &m);
+    for (size_t a = 0; a < COUNT(alphas); a++) {
+        m.alpha = alphas[a];
+        m.kind = MATERIAL_METAL;
+        at_all_cosines(check_furnace, &m);
+        m.kind = MATERIAL_PLASTIC;
+        for (size_t k = 0; k < COUNT(coats); k++) {
+            m.coat = coats[k];
+            at_all_cosines(check_furnace, &m);
+        }
+    }
+    m.alpha = 0;
+    at_all_cosines(check_furnace, &m);
+}
+
+static void white_glass_loses_nothing(void **state)
+{
+    struct bsdf m = {.color = white, .kind = MATERIAL_GLASS};
+
+    (void)state;
+    for (size_t e = 0; e < COUNT(etas); e++)
+        for (size_t a = 0; a < COUNT(alphas); a++) {
+            m.eta = etas[e];
+            m.alpha = alphas[a];
+            at_all_cosines(check_furnace, &m);
+        }
+}
+
+/* Turquin's and Hill's closed forms with albedos by quadrature: one bounce
+ * F0 (E - S) + S, what follows (1 - E) F^2 E_mean / (1 - F (1 - E_mean)). */
+static void coloured_metal_has_its_albedo(void **state)
+{
+    (void)state;
+    for (size_t a = 2; a < COUNT(alphas); a++) {
+        struct bsdf m = {.color = gold,
+                         .alpha = alphas[a],
+                         .eta = 1,
+                         .kind = MATERIAL_METAL};
+        double alpha = (double)alphas[a];
+        double mean = 0;
+
+        for (int i = 0; i < 32; i++) { /* mu = t^2: steep at 0 */
+            double t = (i + 0.5) / 32;
+
+            mean += albedo_by_quadrature(FACETS_WHITE, alpha, t * t, 0) * 4 *
+                    t * t * t / 32;
+        }
+        for (size_t c = 0; c < COUNT(cosines); c++) {
+            double mu = (double)cosines[c];
+            double e = albedo_by_quadrature(FACETS_WHITE, alpha, mu, 0);
+            double s = albedo_by_quadrature(FACETS_SCHLICK, alpha, mu, 0);
+            double f0 = (double)gold.z;
+            double f = f0 + (1 - f0) / 21;
+
+            check_close(albedo(&m, cosines[c]),
+                        f0 * (e - s) + s +
+                            (1 - e) * f * f * mean / (1 - f * (1 - mean)),
+                        3e-3);
+        }
+    }
+}
+
+/* Single scattering of EON by quadrature, then the closed form of the rest:
+ * rho E + rho_m (1 - E). */
+static void rough_diffuse_has_its_albedo(void **state)
+{
+    const int side = 400;
+    const double r = 0.8;
+    const double a = 1 / (1 + (0.5 - 2 / (3 * M_PI)) * r);
+    struct bsdf m = {.color = brick,
+                     .alpha = (float)r,
+                     .eta = 1,
+                     .kind = MATERIAL_ROUGH_DIFFUSE};
+
+    (void)state;
+    for (size_t c = 0; c < COUNT(cosines); c++) {
+        double mu = (double)cosines[c];
+        double rho = (double)brick.z;
+        double mean = a * (1 + (2.0 / 3 - 28 / (15 * M_PI)) * r);
+        double e = 0;
+
+        for (int i = 0; i < side * side; i++) {
+            double z = (i % side + 0.5) / side;
+            double phi = M_PI * (i / side + 0.5) / side;
+            double s = sqrt((1 - mu * mu) * (1 - z * z)) * cos(phi);
+            double t = s > 0 ? fmax(mu, z) : 1;
+
+            e += 2 * z * a * (1 + r * s / t) / side / side;
+        }
+        check_close(integral_of_eval(&m, cosines[c]),
+                    rho * e +
+                        rho * rho * mean / (1 - rho * (1 - mean)) * (1 - e),
+                    1.5e-3);
+    }
+}
+
+/* Whatever can come from files, textures and grazing rays. */
+static void nothing_is_ever_nan_or_negative(void **state)
+{
+    const float edges[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
+    const float mus[] = {1, 0.5f, 1e-3f, 1e-7f, 1e-15f, 1e-30f, 0};
+    const float widths[] = {0, 4.9e-4f, 5e-4f, 0.02f, 1};
+    const float indices[] = {1e-6f, 0.5f, 0.9985f, 1, 1.0015f, 3, 1e6f};
+
+    (void)state;
+    for (uint32_t i = 0; i < 6 * 7 * 5 * 7 * 64; i++) {
+        uint32_t k = i / 64;
+        struct bsdf m = {.color = k & 1 ? white : v3(0, 1, 0.5f),
+                         .coat = k & 2 ? strong : v3(0, 0, 0),
+                         .kind = k % 6,
+                         .alpha = widths[k / 42 % 5],
+                         .eta = indices[k / 210]};
+        struct vec3 wo = direction(mus[k / 6 % 7]);
+        struct vec2 u = v2(edges[i % 4], edges[i / 4 % 4]);
+        struct bsdf_sample s;
+
+        if (!bsdf_sample(&m, wo, u, edges[i / 16 % 4], &s))
+            continue;
+        assert_true(s.weight.x >= 0 && s.weight.y >= 0 && s.weight.z >= 0);
+        assert_true(v3_max(s.weight) < FLOAT_MAX && s.pdf < FLOAT_MAX);
+        assert_true(v3_length(s.wi) < 1.1f);
+        assert_true(s.is_delta || s.pdf > 0);
+        assert_true(s.wi.z > 0 || m.kind >= MATERIAL_GLASS);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(diffuse_weight_is_the_albedo),
+        cmocka_unit_test(mirrors_reflect),
+        cmocka_unit_test(smooth_glass_obeys_fresnel_and_snell),
+        cmocka_unit_test(index_one_is_invisible),
+        cmocka_unit_test(thin_glass_adds_up_its_reflections),
+        cmocka_unit_test(reflections_are_reciprocal),
+        cmocka_unit_test(glass_is_reciprocal_but_for_its_compensation),
+        cmocka_unit_test(mirrors_and_sheets_have_no_density),
+        cmocka_unit_test(white_reflections_lose_nothing),
+        cmocka_unit_test(white_glass_loses_nothing),
+        cmocka_unit_test(coloured_metal_has_its_albedo),
+        cmocka_unit_test(rough_diffuse_has_its_albedo),
+        cmocka_unit_test(nothing_is_ever_nan_or_negative),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_direct.c - light that is chosen, light that is met by chance, and both
+ * weighed have the same mean in every scene that glim ships, and both weighed
+ * has the least error; without the guide of caustics it is the same mean, too
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/unit/check.h"
+#include "scene/world.h"
+#include "session/session.h"
+#include "light/sky_table.h"
+
+static const char *const scenes[] = {
+    "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",
+    "scenes/interior.obj", "scenes/skylit.obj",    "scenes/lights200.obj",
+};
+
+#define WIDTH  48
+#define HEIGHT 27
+#define SPP    16
+#define SEEDS  24
+#define MODES  4
+
+/* After those of enum direct: both weighed, without the guide. */
+#define UNGUIDED 3
+
+/* Welch's t with at least 23 degrees is beyond this in 1e-5 of the cases;
+ * there are 6 scenes, 3 channels and 3 pairs: one false alarm in 1,850 choices
+ * of seeds. They are fixed. */
+#define T_LIMIT 5.6
+
+/* Mean and variance of a picture's mean over the seeds, for each channel, and
+ * the mean square deviation of its pixels from their mean over the seeds. */
+struct outcome {
+    double mean[3];
+    double variance[3];
+    double noise;
+};
+
+/* Compensated tables are zero in places, where only chance finds the sky. */
+static void fill_sky_table(struct scene *s)
+{
+    struct error err;
+
+    if (s->sky_texels == NULL)
+        return;
+    sky_free(&s->sky_table);
+    check_or_say(sky_build(&s->sky_table, s->sky_texels, s->sky_width,
+                           s->sky_height, SKY_ALONE, &err),
+                 err.text);
+}
+
+static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
+{
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = mode == 0 && seed == 1,
+                             .crop = {0, 0, WIDTH, HEIGHT},
+                             .spp = SPP};
+    struct error err;
+
+    check_or_say(scene_world(&s->scene, &s->view, seed, &job.world, &err),
+                 err.text);
+    if (mode == UNGUIDED)
+        guide_lend(&(struct guide){.cells = NULL}, &job.world);
+    else
+        job.world.settings.direct = (uint32_t)mode;
+    check_or_say(render_start(s->render, &job, &err), err.text);
+    assert_true(render_wait(s->render, 300000));
+    assert_int_equal(render_progress(s->render).non_finite, 0);
+    film_linear(render_film(s->render), rgb);
+}
+
+static void measure(struct session *s, int mode, struct outcome *o)
+{
+    enum { NUMBERS = 3 * WIDTH * HEIGHT };
+    static float rgb[NUMBERS];
+    static double sums[NUMBERS], squares[NUMBERS];
+
+    memset(o, 0, sizeof *o);
+    memset(sums, 0, sizeof sums);
+    memset(squares, 0, sizeof squares);
+    for (uint32_t seed = 1; seed <= SEEDS; seed++) {
+        double mean[3] = {0, 0, 0};
+
+        render_seed(s, mode, seed, rgb);
+        for (int i = 0; i < NUMBERS; i++) {
+            double x = (double)rgb[i];
+
+            mean[i % 3] += x / (WIDTH * HEIGHT);
+            sums[i] += x;
+            squares[i] += x * x;
+        }
+        for (int c = 0; c < 3; c++) {
+            o->mean[c] += mean[c] / SEEDS;
+            o->variance[c] += mean[c] * mean[c] / SEEDS;
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        o->variance[c] -= o->mean[c] * o->mean[c];
+        o->variance[c] = fmax(o->variance[c], 0) / (SEEDS - 1);
+    }
+    for (int i = 0; i < NUMBERS; i++)
+        o->noise +=
+            (squares[i] / SEEDS - sums[i] / SEEDS * sums[i] / SEEDS) / NUMBERS;
+}
+
+static void same_mean(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct options o = {.scene_path = scenes[i],
+                            .max_bounces = -1,
+                            .batch = true};
+        struct outcome outcomes[MODES];
+        struct session s;
+        struct error err;
+
+        check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+        s.view.width_px = WIDTH;
+        s.view.height_px = HEIGHT;
+        measure(&s, DIRECT_MIS, &outcomes[DIRECT_MIS]);
+        measure(&s, DIRECT_CHANCE, &outcomes[DIRECT_CHANCE]);
+        measure(&s, UNGUIDED, &outcomes[UNGUIDED]);
+        fill_sky_table(&s.scene);
+        measure(&s, DIRECT_LIGHTS, &outcomes[DIRECT_LIGHTS]);
+        for (int k = DIRECT_LIGHTS; k < MODES; k++)
+            for (int c = 0; c < 3; c++) {
+                const struct outcome *a = &outcomes[DIRECT_MIS];
+                const struct outcome *b = &outcomes[k];
+                double t = (a->mean[c] - b->mean[c]) /
+                           sqrt(a->variance[c] + b->variance[c] + 1e-14);
+
+                if (fabs(t) > T_LIMIT)
+                    print_error("%s, channel %d, mode %d: %g and %g\n",
+                                scenes[i], c, k, a->mean[c], b->mean[c]);
+                check_at_most(fabs(t), T_LIMIT);
+            }
+        print_message("%s: noise %.3g, lights alone %.3g, chance alone %.3g, "
+                      "without guide %.3g\n",
+                      scenes[i], outcomes[0].noise, outcomes[1].noise,
+                      outcomes[2].noise, outcomes[UNGUIDED].noise);
+        check_at_most(outcomes[DIRECT_MIS].noise,
+                      1.1 * outcomes[DIRECT_LIGHTS].noise);
+        check_at_most(outcomes[DIRECT_MIS].noise,
+                      1.1 * outcomes[DIRECT_CHANCE].noise);
+        check_at_most(outcomes[DIRECT_MIS].noise,
+                      1.1 * outcomes[UNGUIDED].noise);
+        session_close(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(same_mean),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

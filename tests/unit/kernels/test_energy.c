@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+#include "tests/unit/facets.h"
+
+#include "kernels/energy.h"
+
+static const double alphas[] = {5e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6, 1.0};
+static const double cosines[] = {1.0, 0.7, 0.3, 0.05, 0.001};
+static const double etas[] = {1.5,     1 / 1.5, 1.33,    1 / 1.33, 2.4,
+                              1 / 2.4, 1.1,     1 / 1.1, 1e6,      1e-6};
+
+#define COUNT(a) (sizeof(a) / sizeof *(a))
+
+/* Off the tables' nodes too. */
+#define OFF_NODES 24
+
+struct point {
+    double alpha, mu, eta;
+};
+
+/* The grid of alphas and cosines, then points between. */
+static struct point point(int i, uint64_t *state)
+{
+    struct point p = {0, 0, 0};
+    double root = sqrt(5e-4);
+
+    if (i < (int)(COUNT(alphas) * COUNT(cosines))) {
+        p.alpha = alphas[i / (int)COUNT(cosines)];
+        p.mu = cosines[i % (int)COUNT(cosines)];
+        return p;
+    }
+    root += (1 - root) * check_random(state);
+    p.alpha = root * root;
+    p.mu = pow(10, -3 * check_random(state));
+    return p;
+}
+
+#define POINTS (int)(COUNT(alphas) * COUNT(cosines) + OFF_NODES)
+
+static void albedo_of_ggx_is_that_of_quadrature(void **state)
+{
+    uint64_t seed = 3;
+
+    (void)state;
+    for (int i = 0; i < POINTS; i++) {
+        struct point p = point(i, &seed);
+        struct ggx_albedo e = ggx_albedo((float)p.mu, (float)p.alpha);
+
+        check_close(1 - (double)e.loss,
+                    albedo_by_quadrature(FACETS_WHITE, p.alpha, p.mu, 0), 1e-3);
+        check_close((double)e.schlick,
+                    albedo_by_quadrature(FACETS_SCHLICK, p.alpha, p.mu, 0),
+                    2e-3);
+        check_at_most(0, (double)e.loss);
+    }
+    /* what masking leaves at normal incidence and alpha 1 */
+    check_close((double)ggx_albedo(1, 1).loss, log(2.0), 1e-5);
+}
+
+/* The losses of rough metal are given back by (1 - E_i) / (1 - E_mean), whose
+ * mean must be 1: as the same sum over the interpolated table. */
+static void means_are_those_of_the_table(void **state)
+{
+    const int n = 20000;
+
+    (void)state;
+    for (int k = 0; k <= 200; k++) {
+        double root = sqrt(5e-4) + (1 - sqrt(5e-4)) * k / 200;
+        double alpha = root * root;
+        struct ggx_albedo mean = ggx_albedo_mean((float)alpha);
+        double loss = 0, schlick = 0;
+
+        for (int i = 0; i < n; i++) {
+            double t = (i + 0.5) / n; /* steep at 0: mu = t^2 */
+            struct ggx_albedo e = ggx_albedo((float)(t * t), (float)alpha);
+
+            loss += (double)e.loss * 4 * t * t * t / n;
+            schlick += (double)e.schlick * 4 * t * t * t / n;
+        }
+        check_close((double)mean.loss / loss, 1, 1e-2);
+        check_close((double)mean.schlick, schlick, 5e-4);
+    }
+}
+
+static void albedo_of_glass_is_that_of_quadrature(void **state)
+{
+    uint64_t seed = 4;
+
+    (void)state;
+    for (int i = 0; i < POINTS; i++)
+        for (size_t k = 0; k < COUNT(etas); k++) {
+            struct point p = point(i, &seed);
+            double e =
+                albedo_by_quadrature(FACETS_GLASS, p.alpha, p.mu, etas[k]);
+
+            check_close((double)glass_albedo((float)p.mu, (float)p.alpha,
+                                             (float)etas[k]) /
+                            e,
+                        1, 3e-3);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(albedo_of_ggx_is_that_of_quadrature),
+        cmocka_unit_test(means_are_those_of_the_table),
+        cmocka_unit_test(albedo_of_glass_is_that_of_quadrature),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

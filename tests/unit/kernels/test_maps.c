@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+/* From image files and their MTL options to what a surface is at a point. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tests/unit/check.h"
+#include "scene/world.h"
+#include "formats/scene_load.h"
+
+#include "kernels/traverse.h"
+
+#include "kernels/path.h"
+
+/* A scene of one triangle whose material "m" has these statements, and its
+ * world. */
+struct loaded {
+    struct scene scene;
+    struct report report;
+    struct view view;
+    struct world world;
+    struct material material;
+};
+
+static void write_file(const char *path, const void *bytes, size_t size)
+{
+    FILE *f = fopen(path, "wb");
+
+    assert_non_null(f);
+    assert_int_equal(fwrite(bytes, 1, size, f), size);
+    fclose(f);
+}
+
+/* Uncompressed Targa with the top row first; channels 3 or 4 a pixel, in the
+ * order red, green, blue, alpha. */
+static void write_image(const char *path, int width, int height, int channels,
+                        const uint8_t *pixels)
+{
+    uint8_t bytes[18 + 64] = {[2] = 2,
+                              [12] = (uint8_t)width,
+                              [14] = (uint8_t)height,
+                              [16] = (uint8_t)(8 * channels),
+                              [17] = 0x20};
+    size_t size = (size_t)(width * height * channels);
+
+    if (channels == 4)
+        bytes[17] |= 8;
+    assert_true(size <= 64);
+    for (size_t i = 0; i < size; i++) {
+        size_t channel = i % (size_t)channels;
+        size_t to = channel < 3 ? i - channel + 2 - channel : i;
+
+        bytes[18 + to] = pixels[i];
+    }
+    write_file(path, bytes, 18 + size);
+}
+
+static void load(struct loaded *l, const char *statements)
+{
+    static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                              "vt 0 0\nvt 1 0\nvt 0 1\nusemtl m\n"
+                              "f 1/1 2/2 3/3\n";
+    char mtl[512];
+    struct error err = {""};
+
+    memset(l, 0, sizeof *l);
+    snprintf(mtl, sizeof mtl, "newmtl m\n%s\n", statements);
+    write_file("a.mtl", mtl, strlen(mtl));
+    write_file("a.obj", obj, sizeof obj - 1);
+    view_init(&l->view);
+    l->view.eye[2] = 5;
+    if (!scene_load(&l->scene, "a.obj", false, &l->report, &err) ||
+        !scene_world(&l->scene, &l->view, 0, &l->world, &err))
+        print_error("%s\n", err.text);
+    assert_string_equal(err.text, "");
+    for (int i = 0; i < l->report.entry_count; i++)
+        print_error("%s\n", l->report.entries[i].text);
+    assert_int_equal(l->report.entry_count, 0);
+    l->material = l->scene.materials[1];
+}
+
+static void unload(struct loaded *l)
+{
+    scene_free(&l->scene);
+    report_free(&l->report);
+    view_free(&l->view);
+}
+
+static struct bsdf surface(const struct loaded *l, float u, float v)
+{
+    struct vertex at = {.uv = {u, v}, .has_uv = true, .is_outside = true};
+
+    return bsdf_at(&l->world, &l->material, &at);
+}
+
+static bool is_solid(const struct loaded *l, float u, float v)
+{
+    struct hit h = {.b0 = 1 - u - v, .b1 = u, .b2 = v, .tri = 0};
+    struct ray r = {.t_max = FLOAT_MAX};
+
+    return hit_is_solid(&l->world, r, h);
+}
+
+/* IEC 61966-2-1. */
+static double linear(uint8_t byte)
+{
+    double c = byte / 255.0;
+
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static const uint8_t six[18] = {255, 0,  0,  0,   200, 10, 7,   8,  90,
+                                40,  50, 60, 100, 110, 3,  250, 99, 1};
+
+/* v is 0 at the bottom, the file begins with the top row. */
+static void texels_are_met_in_their_centres(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&l, "Kd 1\nmap_Kd six.tga");
+    for (int turn = -2; turn <= 2; turn++)
+        for (int i = 0; i < 6; i++) {
+            struct bsdf b = surface(&l, (float)((i % 3 + 0.5) / 3 + turn),
+                                    (float)(1 - (i / 3 + 0.5) / 2 - turn));
+
+            check_close((double)b.color.x, linear(six[3 * i]), 2e-6);
+            check_close((double)b.color.y, linear(six[3 * i + 1]), 2e-6);
+            check_close((double)b.color.z, linear(six[3 * i + 2]), 2e-6);
+        }
+    unload(&l);
+}
+
+static void options_move_and_scale(void **state)
+{
+    struct loaded plain, moved;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&plain, "Kd 1\nmap_Kd six.tga");
+    load(&moved, "Kd 1\nmap_Kd -s 2 -3 -o .25 .5 six.tga");
+    for (int i = 0; i < 100; i++) {
+        float u = (float)(i % 10) / 8 - 0.3f;
+        float v = (float)(i / 10) / 8 - 0.2f;
+        struct vec3 a = surface(&plain, 2 * u + 0.25f, -3 * v + 0.5f).color;
+        struct vec3 b = surface(&moved, u, v).color;
+
+        check_close((double)b.x, (double)a.x, 1e-5);
+        check_close((double)b.y, (double)a.y, 1e-5);
+    }
+    unload(&plain);
+    unload(&moved);
+}
+
+/* Coordinates and options that no float can hold together still show a texel's
+ * colour. */
+static void extreme_coordinates_have_colors(void **state)
+{
+    const float places[] = {0.5f, 3e38f, -3e38f, INFINITY, NAN};
+    struct loaded l;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&l, "Kd 1\nmap_Kd -s 3e38 -3e38 -o 1e38 1e38 six.tga");
+    for (int i = 0; i < 25; i++) {
+        struct vec3 c = surface(&l, places[i % 5], places[i / 5]).color;
+
+        assert_true(c.x >= 0 && c.x <= 1 && c.y >= 0 && c.y <= 1 && c.z >= 0 &&
+                    c.z <= 1);
+    }
+    unload(&l);
+}
+
+static void clamped_borders_go_on(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&l, "Kd 1\nmap_Kd -clamp on six.tga");
+    check_close((double)surface(&l, -3, 9).color.x, linear(255), 1e-6);
+    check_close((double)surface(&l, 0, 1).color.x, linear(255), 1e-6);
+    check_close((double)surface(&l, 5, -2).color.x, linear(250), 1e-5);
+    check_close((double)surface(&l, 1, 0).color.y, linear(99), 1e-5);
+    unload(&l);
+}
+
+static void an_image_is_read_once(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    write_image("six.tga", 3, 2, 3, six);
+    load(&l, "Kd 1\nmap_Kd six.tga\nKe 1\nmap_Ke -s 2 2 six.tga");
+    assert_int_equal(l.scene.texture_count, 2);
+    assert_int_equal(l.scene.texel_count, 6);
+    unload(&l);
+}
+
+#define MANY 40
+
+/* Whoever reads the images, they are taken in the order of their materials;
+ * every fifth is the one before, and number 7 is lost. */
+static void many_images_are_read(void **state)
+{
+    uint32_t expected = 0;
+    struct scene scene = {0};
+    struct report report = {0};
+    struct error err;
+    char path[32];
+    FILE *obj = fopen("many.obj", "w"), *mtl = fopen("many.mtl", "w");
+
+    (void)state;
+    assert_non_null(obj);
+    assert_non_null(mtl);
+    fputs("mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n", obj);
+    for (int i = 0; i < MANY; i++) {
+        const uint8_t pixels[6] = {(uint8_t)i, 1, 2, 3, (uint8_t)i, 5};
+
+        snprintf(path, sizeof path, "m%d.tga", i);
+        if (i != 7)
+            write_image(path, 1 + i % 2, 1, 3, pixels);
+        fprintf(mtl, "newmtl m%d\nmap_Kd m%d.tga\n", i, i % 5 == 4 ? i - 1 : i);
+        fprintf(obj, "usemtl m%d\nf 1/1 2/1 3/1\n", i);
+    }
+    assert_int_equal(fclose(obj), 0);
+    assert_int_equal(fclose(mtl), 0);
+    assert_true(scene_load(&scene, "many.obj", false, &report, &err));
+    assert_int_equal(report.entry_count, 1);
+    for (int i = 0; i < MANY; i++) {
+        uint32_t map = scene.materials[1 + i].color_texture;
+        int image = i % 5 == 4 ? i - 1 : i;
+
+        if (i == 7) {
+            assert_int_equal(map, NO_INDEX);
+            continue;
+        }
+        assert_int_equal(scene.textures[map].width, 1 + image % 2);
+        assert_int_equal(scene.texels[scene.textures[map].first] & 0xff, image);
+        if (image == i) {
+            assert_int_equal(scene.textures[map].first, expected);
+            expected += scene.textures[map].width;
+        }
+    }
+    assert_int_equal(scene.texel_count, expected);
+    scene_free(&scene);
+    report_free(&report);
+    for (int i = 0; i < MANY; i++) {
+        snprintf(path, sizeof path, "m%d.tga", i);
+        unlink(path);
+    }
+    unlink("many.obj");
+    unlink("many.mtl");
+}
+
+/* Numbers are not decoded: grey 51 is 0.2, 204 is 0.8. */
+static const uint8_t two[6] = {51, 51, 51, 204, 204, 204};
+
+static void roughness_is_multiplied(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    write_image("two.tga", 2, 1, 3, two);
+    load(&l, "Ks .9\nillum 3\nmap_Pr two.tga");
+    check_close((double)surface(&l, 0.25f, 0.5f).alpha, 0.04, 1e-6);
+    check_close((double)surface(&l, 0.75f, 0.5f).alpha, 0.64, 1e-6);
+    unload(&l);
+    load(&l, "Tf 1\nillum 7\nPr .5\nmap_Pr two.tga");
+    check_close((double)surface(&l, 0.75f, 0.5f).alpha, 0.16, 1e-6);
+    unload(&l);
+}
+
+static void metal_is_chosen_by_its_map(void **state)
+{
+    struct loaded l;
+
+    (void)state;
+    write_image("two.tga", 2, 1, 3, two);
+    load(&l, "Kd .3\nKs .5\nPr .5\nmap_Pm two.tga");
+    assert_int_equal(surface(&l, 0.25f, 0.5f).kind, MATERIAL_PLASTIC);
+    assert_int_equal(surface(&l, 0.75f, 0.5f).kind, MATERIAL_METAL);
+    check_close((double)surface(&l, 0.75f, 0.5f).color.x, 0.3, 1e-7);
+    check_close((double)surface(&l, 0.75f, 0.5f).alpha, 0.25, 1e-7);
+    unload(&l);
+    load(&l, "Kd .3\nPm .6\nmap_Pm two.tga"); /* .6 * .8 < 1/2 */
+    assert_int_equal(surface(&l, 0.75f, 0.5f).kind, MATERIAL_DIFFUSE);
+    unload(&l);
+}
+
+static void holes_are_cut_by_their_map(void **state)
+{
+    const uint8_t leaf[8] = {9, 9, 9, 0, 9, 9, 9, 255};
+    struct loaded l;
+
+    (void)state;
+    write_image("two.tga", 2, 1, 3, two);
+    write_image("leaf.tga", 2, 1, 4, leaf);
+    load(&l, "Kd .3\nmap_d two.tga");
+    assert_int_equal(l.world.settings.features & FEATURE_COVERAGE,
+                     FEATURE_COVERAGE);
+    assert_false(is_solid(&l, 0.25f, 0.25f));
+    assert_true(is_solid(&l, 0.75f, 0.125f));
+    unload(&l);
+    load(&l, "Kd .3\nmap_d leaf.tga"); /* by its alpha */
+    assert_false(is_solid(&l, 0.25f, 0.25f));
+    assert_true(is_solid(&l, 0.75f, 0.125f));
+    unload(&l);
+    load(&l, "Kd .3\nmap_Kd two.tga"); /* no holes, nothing to pay */
+    assert_int_equal(l.world.settings.features & FEATURE_COVERAGE, 0);
+    unload(&l);
+}
+
+static const struct vec3 up = {0, 0, 1};
+
+static struct vec3 bumped(const struct loaded *l, float u, float v,
+                          struct vec3 wo)
+{
+    return bumped_normal(&l->world, &l->material, l->scene.tris[0], v2(u, v),
+                         up, up, wo);
+}
+
+static void check_direction(struct vec3 n, double x, double y, double z)
+{
+    double length = sqrt(x * x + y * y + z * z);
+
+    check_close((double)n.x, x / length, 1e-5);
+    check_close((double)n.y, y / length, 1e-5);
+    check_close((double)n.z, z / length, 1e-5);
+}
+
+/* Linear: 0 is -1, 255 is 1. */
+static void normal_maps_turn_the_normal(void **state)
+{
+    const uint8_t tilted[3] = {170, 102, 221};
+    struct loaded l;
+
+    (void)state;
+    write_image("two.tga", 1, 1, 3, tilted);
+    load(&l, "Kd 1\nnorm two.tga");
+    check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
+                    187. / 255);
+    /* u that grows to the left turns x around */
+    l.scene.uvs[1].x = -1;
+    check_direction(bumped(&l, 0.5f, 0.5f, up), -85. / 255, -51. / 255,
+                    187. / 255);
+    unload(&l);
+}
+
+/* A ramp of 0.2 a texel rises to the right: the normal leans left. */
+static void bump_maps_tilt_by_their_slope(void **state)
+{
+    const uint8_t ramp[12] = {0,   0,   0,   51,  51,  51,
+                              102, 102, 102, 153, 153, 153};
+    struct loaded l;
+
+    (void)state;
+    write_image("two.tga", 4, 1, 3, ramp);
+    load(&l, "Kd 1\nbump -clamp on two.tga");
+    check_direction(bumped(&l, 0.5f, 0.5f, up), -0.2, 0, 1);
+    unload(&l);
+    load(&l, "Kd 1\nbump -clamp on -bm -2 -s .5 1 two.tga");
+    check_direction(bumped(&l, 1, 0.5f, up), 0.4, 0, 1);
+    unload(&l);
+}
+
+/* No mirror image is below the face, whatever the map says. */
+static void bent_normals_reflect_upwards(void **state)
+{
+    uint64_t seed = 5;
+
+    (void)state;
+    for (int i = 0; i < 100000; i++) {
+        struct vec3 v[2];
+        struct vec3 n, r;
+
+        for (int k = 0; k < 2; k++) {
+            double z = check_random(&seed);
+            double phi = 2 * M_PI * check_random(&seed);
+            double s = sqrt(1 - z * z);
+
+            v[k] = v3((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
+        }
+        if (v3_dot(v[0], v[1]) <= 0)
+            continue;
+        n = bent_normal(v[0], up, v[1]);
+        r = v3_sub(v3_scale(n, 2 * v3_dot(n, v[1])), v[1]);
+        assert_true(v3_dot(n, v[1]) > 0);
+        assert_true(r.z > 0);
+        check_close((double)v3_length(n), 1, 1e-5);
+    }
+}
+
+static int enter_folder(void **state)
+{
+    static char folder[] = "/tmp/glim-maps-XXXXXX";
+
+    *state = folder;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int leave_folder(void **state)
+{
+    const char *const names[] = {"a.obj", "a.mtl", "six.tga", "two.tga",
+                                 "leaf.tga"};
+
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        unlink(names[i]);
+    return chdir("/") != 0 || rmdir(*state) != 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(texels_are_met_in_their_centres),
+        cmocka_unit_test(options_move_and_scale),
+        cmocka_unit_test(extreme_coordinates_have_colors),
+        cmocka_unit_test(clamped_borders_go_on),
+        cmocka_unit_test(an_image_is_read_once),
+        cmocka_unit_test(many_images_are_read),
+        cmocka_unit_test(roughness_is_multiplied),
+        cmocka_unit_test(metal_is_chosen_by_its_map),
+        cmocka_unit_test(holes_are_cut_by_their_map),
+        cmocka_unit_test(normal_maps_turn_the_normal),
+        cmocka_unit_test(bump_maps_tilt_by_their_slope),
+        cmocka_unit_test(bent_normals_reflect_upwards),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "kernels/light_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "light/lights.h"
+
+#include "tests/unit/check.h"
+#include "tests/unit/chi_square.h"
+#include "tests/unit/lambert.h"
+#include "tests/unit/lamps.h"
+#include "tests/unit/mesh.h"
+
+static void probabilities_add_up(void **state)
+{
+    const int counts[] = {1, 2, 8, 9, 100, 3000};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        uint64_t seed = 11;
+        struct mesh m = {0};
+        struct lights lights;
+
+        add_lamps(&m, counts[k], 0.1, &seed);
+        finish(&m, &lights);
+        assert_int_equal(lights.light_count, counts[k]);
+        for (int i = 0; i < 20; i++) {
+            struct receiver r = any_receiver(&seed);
+
+            check_close(sum_of_probabilities(&m.world, &r), 1, 2e-5);
+        }
+        discard(&m, &lights);
+    }
+}
+
+/* Chi-square over the lights; 20 are tried. */
+static void choices_follow_probabilities(void **state)
+{
+    const int n = 200000;
+    uint64_t seed = 5;
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    add_lamps(&m, 100, 0.2, &seed);
+    finish(&m, &lights);
+    for (int k = 0; k < 20; k++) {
+        struct receiver r = any_receiver(&seed);
+        int counts[100] = {0};
+        struct chi_square chi = chi_begin();
+
+        for (int i = 0; i < n; i++) {
+            uint32_t light;
+            float p =
+                light_tree_choose(&m.world, &r, any_choice(&seed), &light);
+
+            assert_true(p == light_tree_probability(&m.world, &r, light));
+            counts[light]++;
+        }
+        for (uint32_t i = 0; i < 100; i++)
+            chi_add(&chi, n * (double)light_tree_probability(&m.world, &r, i),
+                    counts[i]);
+        chi_end(&chi);
+        check_at_most(fabs(chi_deviate(&chi)), Z_LIMIT);
+    }
+    discard(&m, &lights);
+}
+
+/* Whether some of the triangle is above the receiver's plane, and it is not
+ * seen exactly edge-on. */
+static bool contributes(const struct world *w, const struct receiver *r,
+                        uint32_t tri)
+{
+    struct vec3 p[3], ng;
+    float most = -1;
+
+    for (int k = 0; k < 3; k++) {
+        struct vec3 d;
+
+        p[k] = w->positions[w->tris[tri].v[k]];
+        d = v3_unit(v3_sub(p[k], r->p));
+        most = f_max(most, v3_dot(d, r->n));
+    }
+    if (!triangle_normal(p[0], p[1], p[2], &ng))
+        return false;
+    return (most > 0 || r->transmits) &&
+           fabsf(v3_dot(ng, v3_sub(p[0], r->p))) > 0;
+}
+
+static void no_contributing_light_is_left_out(void **state)
+{
+    uint64_t seed = 31;
+
+    (void)state;
+    for (int k = 0; k < 300; k++) {
+        struct mesh m = {0};
+        struct lights lights;
+
+        add_lamps(&m, 32, k % 3 == 0 ? 0.5 : 0.02, &seed);
+        add_quads(&m, 32, k % 3 == 0 ? 0.5 : 0.02, &seed);
+        finish(&m, &lights);
+        for (int i = 0; i < 50; i++) {
+            struct receiver r = any_receiver(&seed);
+
+            for (uint32_t t = 0; t < m.tri_count; t++)
+                if (contributes(&m.world, &r, t))
+                    assert_true(light_tree_probability(&m.world, &r,
+                                                       lights.tri_lights[t]) >
+                                0);
+        }
+        discard(&m, &lights);
+    }
+}
+
+/* What a child of a node is thought to shine is no less than 1 / 72 of what the
+ * lamps below it do, seen from more than two of its radii away: cosines are no
+ * less than a quarter of their bounds, the distance to none of the lamps is
+ * less than half of that to the middle, and a quarter of the radius squared
+ * counts for 1 / 16 of the middle's squared. */
+static void clusters_are_not_underrated(void **state)
+{
+    uint64_t seed = 90;
+    struct mesh m = {0};
+    struct lights lights;
+    double area = 0;
+    int checked = 0;
+
+    (void)state;
+    add_lamps(&m, 400, 0.1, &seed);
+    finish(&m, &lights);
+    for (uint32_t t = 0; t < m.tri_count; t++) {
+        const struct vec3 *p = &m.positions[3 * t];
+
+        area += (double)v3_length(
+                    v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]))) /
+                2;
+    }
+    for (int k = 0; k < 50; k++) {
+        struct receiver r = any_receiver(&seed);
+        double(*below)[LIGHT_WIDTH] = calloc(lights.node_count, sizeof *below);
+
+        r.transmits = false;
+        assert_non_null(below);
+        for (uint32_t l = 0; l < lights.light_count; l++) {
+            double e =
+                lambert(&m.positions[3 * lights.lights[l].tris[0]], 3, &r);
+
+            for (uint32_t at = 0, level = 0; (at & LIGHT_LEAF) == 0; level++) {
+                uint32_t i = lights.lights[l].path[0] >> 3 * level & 7;
+
+                below[at][i] += e / area;
+                at = lights.nodes[at].child[i];
+            }
+        }
+        for (uint32_t n = 0; n < lights.node_count; n++) {
+            const struct light_node *node = &lights.nodes[n];
+            float sums[LIGHT_WIDTH + 1];
+
+            light_sums(&m.world, n, &r, sums);
+            for (int i = 0; i < LIGHT_WIDTH; i++) {
+                struct vec3 to =
+                    v3_sub(v3(node->x[i], node->y[i], node->z[i]), r.p);
+                double share = (double)(sums[i + 1] - sums[i]);
+
+                if (v3_length(to) < 2 * node->radius[i] || below[n][i] <= 0)
+                    continue;
+                check_at_most(below[n][i] / 72, share + 1e-6 * (double)sums[8]);
+                checked++;
+            }
+        }
+        free(below);
+    }
+    assert_true(checked > 5000);
+    discard(&m, &lights);
+}
+
+/* Lamps of one size and distance: the one that is seen edge-on is left to
+ * chance, whichever way round the others are wound. */
+static void facing_counts_and_sides_do_not(void **state)
+{
+    struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    mesh_add(&m, v3(-0.5f, 1, 0), v3(-0.49f, 1, 0), v3(-0.5f, 1, 0.01f), LAMP);
+    mesh_add(&m, v3(0.5f, 1, 0), v3(0.5f, 1, 0.01f), v3(0.49f, 1, 0), LAMP);
+    mesh_add(&m, v3(0.5f, 1, 0), v3(0.49f, 1, 0), v3(0.5f, 1, 0.01f), LAMP);
+    mesh_add(&m, v3(-0.5f, 1, 0), v3(-0.505f, 1.01f, 0), v3(-0.5f, 1, 0.01f),
+             LAMP);
+    finish(&m, &lights);
+    for (uint32_t l = 0; l < 3; l++)
+        check_close(light_tree_probability(&m.world, &r, l), 1.0 / 3, 0.02);
+    check_at_most(light_tree_probability(&m.world, &r, 3), 0.02);
+    discard(&m, &lights);
+}
+
+/* The second number decides the lower levels of a deep tree: one number alone
+ * would run out of digits. */
+static void both_numbers_choose(void **state)
+{
+    uint64_t seed = 70;
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    add_lamps(&m, 5000, 0.01, &seed);
+    finish(&m, &lights);
+    for (int k = 0; k < 20; k++) {
+        struct receiver r = any_receiver(&seed);
+        uint32_t first, light;
+        int others = 0;
+
+        assert_true(light_tree_choose(&m.world, &r, v2(0.3f, 0), &first) > 0);
+        for (int i = 1; i < 16; i++) {
+            light_tree_choose(&m.world, &r, v2(0.3f, (float)i / 16), &light);
+            others += light != first;
+        }
+        assert_true(others > 0);
+    }
+    discard(&m, &lights);
+}
+
+/* What the tree is for: the spread of single estimates, relative to the truth,
+ * on a floor under a ceiling of 2500 lamps, against a choice among all alike.
+ */
+static void tree_finds_the_near_lights(void **state)
+{
+    uint64_t seed = 8;
+    struct mesh m = {0};
+    struct lights lights;
+    double spread = 0, plain = 0;
+
+    (void)state;
+    for (int i = 0; i < 2500; i++) {
+        float x = (float)(i % 50) / 25 - 1, z = (float)(i / 50) / 25 - 1;
+        struct vec3 p = v3(x, 0.1f, z);
+
+        mesh_add(&m, p, v3_add(p, v3(0.01f, 0, 0)), v3_add(p, v3(0, 0, 0.01f)),
+                 LAMP);
+    }
+    finish(&m, &lights);
+    for (int i = 0; i < 20; i++) {
+        struct receiver r = {v3(between(&seed, -1, 1), 0,
+                                between(&seed, -1, 1)),
+                             v3(0, 1, 0), false};
+        double error, truth = 0, squares = 0;
+
+        irradiance(&m.world, &r, 2000, &seed, &error);
+        for (uint32_t t = 0; t < m.tri_count; t++) {
+            double e = lambert(&m.positions[3 * t], 3, &r);
+
+            truth += e;
+            squares += e * e;
+        }
+        spread += error / truth * sqrt(2000);
+        plain += sqrt(2500 * squares / truth / truth - 1);
+    }
+    check_at_most(spread, plain / 4);
+    discard(&m, &lights);
+}
+
+/* STRESS G7 to G9: no shape of the scene makes the way to a light too long. */
+static void deep_trees_fit(void **state)
+{
+    struct receiver r = {{0.3f, 0.2f, 0.1f}, {1, 0, 0}, true};
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    for (int i = 0; i < 60; i++) {
+        struct vec3 p = v3(ldexpf(1, -i / 2), 0, 0);
+        float side = ldexpf(1, -i / 2 - 2);
+
+        mesh_add(&m, p, v3_add(p, v3(side, 0, 0)), v3_add(p, v3(0, side, 0)),
+                 LAMP);
+    }
+    finish(&m, &lights);
+    check_close(sum_of_probabilities(&m.world, &r), 1, 1e-5);
+    discard(&m, &lights);
+
+    m = (struct mesh){0};
+    for (int i = 0; i < 20000; i++)
+        mesh_add(&m, v3(0, 0, 0), v3(0.1f, 0, 0), v3(0, 0.1f, 0), LAMP);
+    finish(&m, &lights);
+    check_close(sum_of_probabilities(&m.world, &r), 1, 1e-3);
+    for (uint32_t l = 0; l < lights.light_count; l += 977)
+        check_close(light_tree_probability(&m.world, &r, l) * 20000, 1, 0.3);
+    discard(&m, &lights);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(probabilities_add_up),
+        cmocka_unit_test(choices_follow_probabilities),
+        cmocka_unit_test(no_contributing_light_is_left_out),
+        cmocka_unit_test(clusters_are_not_underrated),
+        cmocka_unit_test(facing_counts_and_sides_do_not),
+        cmocka_unit_test(both_numbers_choose),
+        cmocka_unit_test(tree_finds_the_near_lights),
+        cmocka_unit_test(deep_trees_fit),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

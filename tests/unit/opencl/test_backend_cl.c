@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_backend_cl.c - the OpenCL device against the CPU: on PoCL the same bits
+ * in every pixel of every scene that glim ships, whatever the options
+ *
+ * GLIM_TEST_DEVICE names another device. Others may round differently: there
+ * the pixels' differences must have the mean 0 by a t-test, and how many pixels
+ * differ is printed.
+ */
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "tests/unit/check.h"
+#include "opencl/backend_cl.h"
+#include "opencl/cl_api.h"
+#include "opencl/cl_device.h"
+#include "opencl/cl_environment.h"
+#include "render/cpu_dispatch.h"
+#include "render/render_loop.h"
+#include "scene/scene_materials.h"
+#include "formats/scene_load.h"
+#include "scene/world.h"
+#include "opencl/selftest.h"
+#include "formats/view_file.h"
+#include "kernels/features.h"
+
+static const char *const scenes[] = {
+    "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",
+    "scenes/interior.obj", "scenes/skylit.obj",    "scenes/lights200.obj",
+};
+
+/* An opened scene, and a render of it on the CPU and on the device. */
+struct pair {
+    struct scene scene;
+    struct view view;
+    struct render *renders[2];
+    int draft_width, draft_height;
+    uint32_t sample;     /* enum sample_kind */
+    bool keeps_geometry; /* what the backends have loaded counts */
+};
+
+static struct backend *device; /* NULL: there is none here */
+static bool is_exact;
+
+/* Two-sided, chance 1e-6: a false alarm in 10,000 runs of some 100 pictures
+ * and channels. The number of pixels makes it a normal distribution. */
+#define T_MAX 4.9
+
+static int open_device(void **state)
+{
+    const char *name = getenv("GLIM_TEST_DEVICE");
+    struct cl_request request = {.device = name ? name : "Portable",
+                                 .features = FEATURES_ALL};
+    struct error err;
+    char *log;
+
+    (void)state;
+    is_exact = name == NULL;
+    cl_environment_prepare(2);
+    device = backend_cl_create(&request, &log, &err);
+    if (device == NULL)
+        print_message("skipped: %s\n", err.text);
+    check_or_say(log == NULL, log);
+    return 0;
+}
+
+static int close_device(void **state)
+{
+    (void)state;
+    if (device != NULL)
+        device->destroy(device);
+    return 0;
+}
+
+static void open_pair(struct pair *p, const char *path, int width, int height)
+{
+    struct report report = {0};
+    struct error err;
+    char *view_path = xformat("%.*s.view", (int)strlen(path) - 4, path);
+    struct backend *cpu = backend_cpu_create(2, isa_best(), &err);
+
+    *p = (struct pair){0};
+    view_init(&p->view);
+    assert_non_null(cpu);
+    check_or_say(view_read(&p->view, view_path, &report, &err) &&
+                     scene_load(&p->scene, path, false, &report, &err) &&
+                     scene_load_sky(&p->scene, &p->view, &report, &err) &&
+                     scene_guide(&p->scene, &p->view, 1, &err),
+                 err.text);
+    p->view.width_px = width;
+    p->view.height_px = height;
+    p->renders[0] = render_create(cpu, &err);
+    p->renders[1] = render_create(device, &err);
+    assert_non_null(p->renders[0]);
+    assert_non_null(p->renders[1]);
+    report_free(&report);
+    free(view_path);
+}
+
+static void close_pair(struct pair *p)
+{
+    struct backend *cpu = render_backend(p->renders[0]);
+
+    render_destroy(p->renders[0]);
+    render_destroy(p->renders[1]);
+    cpu->destroy(cpu);
+    scene_free(&p->scene);
+    view_free(&p->view);
+}
+
+static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
+                  uint32_t seed)
+{
+    struct render_job job = {.tree = &p->scene.tree,
+                             .geometry_changed = !p->keeps_geometry,
+                             .crop = crop,
+                             .spp = spp,
+                             .draft_width = p->draft_width,
+                             .draft_height = p->draft_height};
+    struct error err;
+
+    check_or_say(scene_world(&p->scene, &p->view, seed, &job.world, &err),
+                 err.text);
+    job.world.settings.sample = p->sample;
+    if (p->sample != SAMPLE_LIGHT)
+        job.world.settings.features |= FEATURE_FIRST_HIT;
+    check_or_say(render_start(p->renders[which], &job, &err), err.text);
+}
+
+static void finish(struct pair *p, int which)
+{
+    struct render_progress progress;
+
+    assert_true(render_wait(p->renders[which], 300000));
+    progress = render_progress(p->renders[which]);
+    check_or_say(progress.state == RENDER_DONE, progress.error.text);
+}
+
+/* The t of the differences of one channel's pixels, and how many differ. */
+static double t_of(const float *a, const float *b, size_t pixels,
+                   size_t *different)
+{
+    double sum = 0, squares = 0, mean, variance;
+
+    for (size_t i = 0; i < pixels; i++) {
+        double d = (double)a[3 * i] - (double)b[3 * i];
+
+        sum += d;
+        squares += d * d;
+        *different += d != 0;
+    }
+    mean = sum / (double)pixels;
+    variance = squares / (double)pixels - mean * mean;
+    return variance > 0 ? mean / sqrt(variance / (double)pixels) : 0;
+}
+
+static void assert_equal_in_the_mean(struct pair *p)
+{
+    struct film *films[2] = {render_film(p->renders[0]),
+                             render_film(p->renders[1])};
+    size_t pixels = (size_t)films[0]->width * (size_t)films[0]->height;
+    float *rgb[2];
+    size_t different = 0;
+
+    for (int i = 0; i < 2; i++) {
+        rgb[i] = alloc_array(pixels, 3 * sizeof *rgb[i]);
+        assert_non_null(rgb[i]);
+        film_linear(films[i], rgb[i]);
+    }
+    for (int c = 0; c < 3; c++)
+        check_at_most(fabs(t_of(rgb[0] + c, rgb[1] + c, pixels, &different)),
+                      T_MAX);
+    print_message("%s: %.3f %% of the channels differ\n", p->scene.path,
+                  100.0 * (double)different / (3.0 * (double)pixels));
+    free(rgb[0]);
+    free(rgb[1]);
+}
+
+static void assert_same(struct pair *p, uint64_t spp)
+{
+    const struct film *a = render_film(p->renders[0]);
+    const struct film *b = render_film(p->renders[1]);
+    struct render_progress pa = render_progress(p->renders[0]);
+    struct render_progress pb = render_progress(p->renders[1]);
+    size_t pixels = (size_t)a->width * (size_t)a->height;
+
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_true(pa.samples == pixels * spp);
+    assert_true(pb.samples == pa.samples);
+    assert_memory_equal(a->counts, b->counts, pixels * sizeof *a->counts);
+    if (!is_exact) {
+        assert_equal_in_the_mean(p);
+        return;
+    }
+    assert_true(pb.rays == pa.rays);
+    assert_true(pb.cut_paths == pa.cut_paths);
+    assert_memory_equal(a->sums, b->sums, 3 * pixels * sizeof *a->sums);
+}
+
+static void render_both(struct pair *p, struct rect crop, uint64_t spp,
+                        uint32_t seed)
+{
+    for (int i = 0; i < 2; i++) {
+        start(p, i, crop, spp, seed);
+        finish(p, i);
+    }
+    assert_same(p, spp);
+}
+
+static void shipped_scenes(void **state)
+{
+    (void)state;
+    for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct pair p;
+
+        open_pair(&p, scenes[i], 97, 55);
+        render_both(&p, (struct rect){0, 0, 97, 55}, 11, (uint32_t)i);
+        close_pair(&p);
+    }
+}
+
+/* One backend after another scene, sizes that fit no group, crops, seeds,
+ * depths, pictures of one pixel. */
+static void options(void **state)
+{
+    static const int depths[] = {-1, 0, 1, 3};
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/glass_mirror.obj", 130, 71);
+    for (int i = 0; i < 4; i++) {
+        struct rect crop = {i * 7, i * 11, 130 - 30 * i, 71 - 17 * i};
+
+        p.view.max_bounces = depths[i];
+        render_both(&p, crop, 3, 0xffffffffu - (uint32_t)i);
+    }
+    render_both(&p, (struct rect){129, 70, 1, 1}, 40, 5);
+    render_both(&p, (struct rect){0, 3, 130, 1}, 9, 5);
+    render_both(&p, (struct rect){3, 0, 1, 71}, 9, 5);
+    close_pair(&p);
+}
+
+/* A small film before the film, of which that does not know. */
+static void drafts(void **state)
+{
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/cornell.obj", 97, 55);
+    for (int i = 0; i < 2; i++) {
+        const struct film *a, *b;
+
+        p.draft_width = 33 + 7 * i;
+        p.draft_height = 20;
+        render_both(&p, (struct rect){9, 5, 80, 50}, 3, 1);
+        a = render_draft(p.renders[0]);
+        b = render_draft(p.renders[1]);
+        assert_int_equal(b->width, p.draft_width);
+        assert_memory_equal(a->counts, b->counts,
+                            (size_t)b->width * 20 * sizeof *b->counts);
+        if (is_exact)
+            assert_memory_equal(a->sums, b->sums,
+                                3 * (size_t)b->width * 20 * sizeof *b->sums);
+    }
+    close_pair(&p);
+}
+
+/* Previews and numbers have no film, and the same draft on both. */
+static void first_hits(void **state)
+{
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/interior.obj", 97, 55);
+    p.draft_width = 60;
+    p.draft_height = 34;
+    for (p.sample = SAMPLE_PREVIEW; p.sample <= SAMPLE_MATERIAL; p.sample++) {
+        struct film *drafts[2];
+
+        for (int i = 0; i < 2; i++) {
+            start(&p, i, (struct rect){9, 5, 80, 50}, 0, 1);
+            finish(&p, i);
+            assert_int_equal(render_progress(p.renders[i]).samples, 0);
+            drafts[i] = render_draft(p.renders[i]);
+            assert_int_equal(drafts[i]->samples, 60 * 34);
+        }
+        assert_true(drafts[0]->rays == drafts[1]->rays);
+        if (is_exact)
+            assert_memory_equal(drafts[0]->sums, drafts[1]->sums,
+                                (size_t)3 * 60 * 34 * sizeof(struct sum));
+    }
+    close_pair(&p);
+}
+
+/* Materials, lights and triangles are swapped between pictures, and freed: the
+ * device sees each change. */
+static void edits(void **state)
+{
+    struct mtl_source sources[32];
+    uint32_t assigned[64];
+    struct pair p;
+    uint64_t seed = 9;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/cornell.obj", 48, 48);
+    assert_in_range(p.scene.material_count, 2, 32);
+    assert_in_range(p.scene.object_count, 2, 64);
+    for (uint32_t i = 0; i < p.scene.material_count; i++)
+        sources[i] = p.scene.material_origins[i].source;
+    for (uint32_t i = 0; i < p.scene.object_count; i++)
+        assigned[i] = NO_INDEX;
+    render_both(&p, (struct rect){0, 0, 48, 48}, 2, 0);
+    p.keeps_geometry = true;
+    for (uint32_t round = 1; round < 20; round++) {
+        uint32_t count = p.scene.material_count - 1;
+        uint32_t m = 1 + (uint32_t)(check_random(&seed) * count);
+        uint32_t o = (uint32_t)(check_random(&seed) * p.scene.object_count);
+        struct style style = {count + 1, p.scene.material_names, sources,
+                              assigned};
+        struct error err;
+
+        sources[m].kd = (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
+        if (round % 3 == 1)
+            sources[m].ke =
+                (struct mtl_color){{3 * check_random(&seed), 1, 1}, 1};
+        if (round % 3 == 2)
+            assigned[o] = m;
+        check_or_say(scene_restyle(&p.scene, &style, &err), err.text);
+        render_both(&p, (struct rect){0, 0, 48, 48}, 2, round);
+    }
+    close_pair(&p);
+}
+
+/* A build for the scene's features alone computes the same, and one that lacks
+ * a feature that a scene needs is not used for it. */
+static void special_builds(void **state)
+{
+    (void)state;
+    for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct pair p;
+        struct error err;
+        char *log;
+
+        open_pair(&p, scenes[i], 64, 36);
+        assert_true(scene_features(&p.scene) != FEATURES_ALL);
+        check_or_say(backend_cl_specialise(device, scene_features(&p.scene),
+                                           &log, &err),
+                     err.text);
+        render_both(&p, (struct rect){0, 0, 64, 36}, 4, 1);
+        check_or_say(backend_cl_specialise(device, 0, &log, &err), err.text);
+        render_both(&p, (struct rect){0, 0, 64, 36}, 4, 2);
+        close_pair(&p);
+    }
+}
+
+/* The self-test passes for every build that a scene may ask for. */
+static void self_tests(void **state)
+{
+    (void)state;
+    for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
+        char verdict[SELFTEST_VERDICT_BYTES] = "";
+        struct cl_request request = {.device = "Portable"};
+        struct backend *cpu, *special;
+        struct error err;
+        struct pair p;
+        char *log;
+
+        open_pair(&p, scenes[i], 8, 8);
+        request.features = i == 0 ? 0 : scene_features(&p.scene);
+        cpu = backend_cpu_create(1, isa_best(), &err);
+        special = backend_cl_create(&request, &log, &err);
+        check_or_say(cpu != NULL && special != NULL, err.text);
+        check_or_say(selftest_run(cpu, special, request.features, verdict,
+                                  &err),
+                     err.text);
+        if (is_exact)
+            assert_string_equal(verdict, "the CPU's bits");
+        special->destroy(special);
+        cpu->destroy(cpu);
+        close_pair(&p);
+    }
+}
+
+/* Halted again and again, at any moment: nothing is lost or counted twice. */
+static void halts(void **state)
+{
+    struct pair p;
+    struct timespec pause = {0, 0};
+    int halt_count = 0;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/interior.obj", 120, 68);
+    start(&p, 0, (struct rect){0, 0, 120, 68}, 60, 3);
+    finish(&p, 0);
+    start(&p, 1, (struct rect){0, 0, 120, 68}, 60, 3);
+    while (render_progress(p.renders[1]).state != RENDER_DONE) {
+        pause.tv_nsec = halt_count % 40 * 500000;
+        nanosleep(&pause, NULL);
+        render_halt(p.renders[1]);
+        halt_count++;
+        render_resume(p.renders[1], 60);
+        assert_true(halt_count < 100000);
+    }
+    assert_true(halt_count > 20);
+    assert_same(&p, 60);
+    close_pair(&p);
+}
+
+/* The driver's own functions, and how many calls of them succeed. */
+static struct cl_api driver;
+static atomic_int calls_left;
+
+static cl_int CL_API_CALL dying_enqueue(cl_command_queue queue,
+                                        cl_kernel kernel, cl_uint dimensions,
+                                        const size_t *offset,
+                                        const size_t *global,
+                                        const size_t *local, cl_uint wait_count,
+                                        const cl_event *waits, cl_event *done)
+{
+    if (atomic_fetch_sub(&calls_left, 1) <= 0)
+        return CL_DEVICE_NOT_AVAILABLE;
+    return driver.EnqueueNDRangeKernel(queue, kernel, dimensions, offset,
+                                       global, local, wait_count, waits, done);
+}
+
+static cl_int CL_API_CALL dying_wait(cl_uint count, const cl_event *events)
+{
+    if (atomic_fetch_sub(&calls_left, 1) <= 0)
+        return CL_DEVICE_NOT_AVAILABLE;
+    return driver.WaitForEvents(count, events);
+}
+
+/* A device that is lost in the midst of a picture, at one call or the next: the
+ * render fails with its name, nothing writes later, and should it come back, it
+ * is as good as before. */
+static void losses(void **state)
+{
+    struct cl_api *api;
+    struct error err;
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    api = (struct cl_api *)(uintptr_t)cl_api_open(&err);
+    driver = *api;
+    open_pair(&p, "scenes/cornell.obj", 240, 160);
+    for (int calls = 0; calls < 60; calls++) {
+        struct render_progress progress;
+
+        atomic_store(&calls_left, calls);
+        api->EnqueueNDRangeKernel = dying_enqueue;
+        api->WaitForEvents = dying_wait;
+        start(&p, 1, (struct rect){0, 0, 240, 160}, 100, 3);
+        assert_true(render_wait(p.renders[1], 300000));
+        progress = render_progress(p.renders[1]);
+        *api = driver;
+        assert_int_equal(progress.state, RENDER_FAILED);
+        assert_non_null(strstr(progress.error.text, device->device));
+        assert_non_null(strstr(progress.error.text, "CL_DEVICE_NOT_AVAILABLE"));
+    }
+    render_both(&p, (struct rect){0, 0, 240, 160}, 5, 3);
+    close_pair(&p);
+}
+
+/* Only what has changed is uploaded before a restart. */
+static void buffers(void **state)
+{
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/cornell.obj", 32, 32);
+    render_both(&p, (struct rect){0, 0, 32, 32}, 2, 0);
+    for (int i = 0; i < 3; i++) { /* the camera moves, materials change */
+        struct material *before = p.scene.materials;
+
+        p.view.eye[0] += 5;
+        p.scene.materials = alloc_array(p.scene.material_count, sizeof *before);
+        assert_non_null(p.scene.materials);
+        memcpy(p.scene.materials, before,
+               p.scene.material_count * sizeof *before);
+        p.scene.materials[1].color.x = 0.1f * (float)i;
+        render_both(&p, (struct rect){0, 0, 32, 32}, 2, 0);
+        free(before);
+    }
+    close_pair(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shipped_scenes), cmocka_unit_test(options),
+        cmocka_unit_test(drafts),         cmocka_unit_test(first_hits),
+        cmocka_unit_test(edits),          cmocka_unit_test(special_builds),
+        cmocka_unit_test(self_tests),     cmocka_unit_test(halts),
+        cmocka_unit_test(losses),         cmocka_unit_test(buffers),
+    };
+
+    return cmocka_run_group_tests(tests, open_device, close_device);
+}

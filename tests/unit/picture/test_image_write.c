@@ -1,0 +1,588 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "picture/image_read.h"
+#include "picture/image_write.h"
+#include "picture/stb.h"
+
+#define WIDTH  37
+#define HEIGHT 23
+
+static char folder[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
+    return mkdtemp(folder) && chmod(folder, 0777) == 0 && chdir(folder) == 0
+               ? 0
+               : -1;
+}
+
+static int remove_folder(void **state)
+{
+    char command[128];
+
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return chdir("/") == 0 && system(command) == 0 ? 0 : -1;
+}
+
+static bool exists(const char *path)
+{
+    return access(path, F_OK) == 0;
+}
+
+/* A film of one sample a pixel; `value` tells the pixel's channels. */
+static void make_film(struct film *film, int width, int height,
+                      float (*value)(int x, int y, int c))
+{
+    struct error err;
+    struct path_sample *samples = calloc((size_t)width, sizeof *samples);
+    int *counts = calloc((size_t)width, sizeof *counts);
+
+    assert_non_null(samples);
+    assert_non_null(counts);
+    assert_true(film_init(film, width, height, &err));
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            samples[x].radiance =
+                (struct vec3){value(x, y, 0), value(x, y, 1), value(x, y, 2)};
+            counts[x] = 1;
+        }
+        film_add_row(film, 0, y, 1, width, samples, counts);
+    }
+    free(samples);
+    free(counts);
+}
+
+/* Five decades of light, and black. */
+static float wide_range(int x, int y, int c)
+{
+    if (x == 5 && y == 5)
+        return 0;
+    return powf(10.0f, (float)((x * 7 + y * 13 + c * 5) % 50) / 10 - 3);
+}
+
+static float dark(int x, int y, int c)
+{
+    (void)x, (void)y, (void)c;
+    return 0;
+}
+
+static float light(int x, int y, int c)
+{
+    return (float)((x * 31 + y * 57 + c * 11) % 97) / 97;
+}
+
+static char *read_file(const char *path, size_t *size_bytes)
+{
+    struct error err;
+    char *text;
+
+    assert_true(file_read(path, &text, size_bytes, &err));
+    return text;
+}
+
+static void has_bytes(const char *path, const struct frame *expected)
+{
+    int width, height, channels;
+    size_t size;
+    char *text = read_file(path, &size);
+
+    stb_limit((size_t)1 << 30);
+    stbi_uc *rgb = stbi_load_from_memory((stbi_uc *)text, (int)size, &width,
+                                         &height, &channels, 0);
+    free(text);
+    assert_non_null(rgb);
+    assert_int_equal(width, expected->width);
+    assert_int_equal(height, expected->height);
+    assert_int_equal(channels, 3);
+    assert_memory_equal(rgb, expected->rgb, (size_t)width * (size_t)height * 3);
+    free(rgb);
+}
+
+static void test_format_of(void **state)
+{
+    (void)state;
+    assert_int_equal(picture_format_of("a.png"), PICTURE_PNG);
+    assert_int_equal(picture_format_of("a.b/C.PNG"), PICTURE_PNG);
+    assert_int_equal(picture_format_of("-"), PICTURE_PNG);
+    assert_int_equal(picture_format_of("a.hdr"), PICTURE_HDR);
+    assert_int_equal(picture_format_of("a.pfm"), PICTURE_PFM);
+    assert_int_equal(picture_format_of("png"), PICTURE_UNKNOWN);
+    assert_int_equal(picture_format_of(""), PICTURE_UNKNOWN);
+    assert_int_equal(picture_format_of("a.jpg"), PICTURE_UNKNOWN);
+}
+
+static void test_png(void **state)
+{
+    struct film film;
+    struct frame frame;
+    struct error err;
+
+    (void)state;
+    make_film(&film, WIDTH, HEIGHT, wide_range);
+    assert_true(frame_init(&frame, WIDTH, HEIGHT, &err));
+    for (float exposure = -2; exposure <= 2; exposure += 2) {
+        film_resolve(&film, develop_linear(exposure), &frame);
+        assert_true(
+            picture_write(&film, develop_linear(exposure), "a.png", &err));
+        has_bytes("a.png", &frame);
+    }
+    frame_free(&frame);
+    film_free(&film);
+}
+
+static void test_hdr(void **state)
+{
+    struct film film;
+    struct image image;
+    struct error err;
+    uint64_t clamped;
+    double excess = 0;
+
+    (void)state;
+    make_film(&film, WIDTH, HEIGHT, wide_range);
+    assert_true(picture_write(&film, develop_linear(3), "a.hdr", &err));
+    film_free(&film);
+    assert_true(image_read_linear(&image, "a.hdr", &clamped, &err));
+    assert_int_equal(image.width, WIDTH);
+    assert_int_equal(image.height, HEIGHT);
+    const float *rgb = image.rgb;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        float expected[3], greatest = 0;
+        for (int c = 0; c < 3; c++) {
+            expected[c] = wide_range(i % WIDTH, i / WIDTH, c);
+            greatest = fmaxf(greatest, expected[c]);
+        }
+        /* half a step of 8 bits, at the worst mantissa */
+        for (int c = 0; c < 3; c++) {
+            check_close(rgb[3 * i + c], expected[c], greatest / 256);
+            if (greatest > 0)
+                excess +=
+                    (double)(rgb[3 * i + c] - expected[c]) / (double)greatest;
+        }
+    }
+    /* and no darker on the whole */
+    check_close(excess / (3 * WIDTH * HEIGHT), 0, 3e-4);
+    image_free(&image);
+}
+
+static float near_powers(int x, int y, int c)
+{
+    (void)c;
+    return ldexpf(1 - ldexpf(1, -24 + y), x - 18);
+}
+
+/* The greatest mantissas round up into the next exponent. */
+static void test_hdr_powers(void **state)
+{
+    struct film film;
+    struct error err;
+    struct image image;
+    uint64_t clamped;
+
+    (void)state;
+    make_film(&film, WIDTH, HEIGHT, near_powers);
+    assert_true(picture_write(&film, develop_linear(0), "p.hdr", &err));
+    film_free(&film);
+    assert_true(image_read_linear(&image, "p.hdr", &clamped, &err));
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        float expected = near_powers(i % WIDTH, i / WIDTH, 0);
+        check_close(image.rgb[3 * i], expected, expected / 256);
+    }
+    image_free(&image);
+}
+
+static void test_pfm(void **state)
+{
+    static const char header[] = "PF\n37 23\n-1.0\n";
+    struct film film;
+    struct error err;
+    size_t size;
+
+    (void)state;
+    make_film(&film, WIDTH, HEIGHT, wide_range);
+    float *linear = calloc(WIDTH * HEIGHT * 3, sizeof *linear);
+    assert_non_null(linear);
+    film_linear(&film, linear);
+    assert_true(picture_write(&film, develop_linear(5), "a.pfm", &err));
+    film_free(&film);
+    char *text = read_file("a.pfm", &size);
+    size_t head = strlen(header);
+    assert_int_equal(size, head + sizeof(float) * WIDTH * HEIGHT * 3);
+    assert_memory_equal(text, header, head);
+    for (int y = 0; y < HEIGHT; y++) {
+        const char *row =
+            text + head + sizeof(float) * WIDTH * 3 * (size_t)(HEIGHT - 1 - y);
+        float first;
+        assert_memory_equal(row, linear + y * WIDTH * 3,
+                            sizeof(float) * WIDTH * 3);
+        memcpy(&first, row, sizeof first);
+        check_close(first, wide_range(0, y, 0),
+                    2.5e-7 * (double)wide_range(0, y, 0));
+    }
+    free(text);
+    free(linear);
+}
+
+static void test_small(void **state)
+{
+    static const char *const paths[] = {"s.png", "s.hdr", "s.pfm"};
+    static const int sizes[][2] = {{1, 1}, {1, 300}, {300, 1}, {8, 8}};
+    struct error err;
+
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        struct film film;
+        make_film(&film, sizes[i][0], sizes[i][1], light);
+        for (int k = 0; k < 3; k++)
+            assert_true(
+                picture_write(&film, develop_linear(0), paths[k], &err));
+        struct frame frame;
+        assert_true(frame_init(&frame, sizes[i][0], sizes[i][1], &err));
+        film_resolve(&film, develop_linear(0), &frame);
+        has_bytes("s.png", &frame);
+        frame_free(&frame);
+        film_free(&film);
+    }
+}
+
+static void test_check(void **state)
+{
+    static const struct {
+        const char *path, *expected;
+    } cases[] = {
+        {"a.jpg", "a.jpg: found no known ending, expected .png, .hdr or .pfm"},
+        {"", ": found no known ending, expected .png, .hdr or .pfm"},
+        {".", ".: found a folder, expected a file"},
+        {"d.png", "d.png: found a folder, expected a file"},
+        {"no/a.png", "no: no such file or folder"},
+        {"p.png", "p.png: found a pipe, expected a file"},
+    };
+    struct error err;
+
+    (void)state;
+    mkdir("d.png", 0777);
+    assert_int_equal(mkfifo("p.png", 0666), 0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_false(picture_check(cases[i].path, &err));
+        assert_string_equal(err.text, cases[i].expected);
+    }
+    assert_true(picture_check("new.png", &err));
+    assert_false(exists("new.png"));
+}
+
+static void test_check_terminal(void **state)
+{
+    int saved = dup(STDOUT_FILENO);
+    int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    struct error err = {""};
+
+    (void)state;
+    assert_true(saved >= 0);
+    if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0)
+        skip();
+    int other = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    assert_true(other >= 0);
+    fflush(stdout);
+    dup2(other, STDOUT_FILENO);
+    bool on_terminal = picture_check("-", &err);
+    int pipe_ends[2];
+    assert_int_equal(pipe(pipe_ends), 0);
+    dup2(pipe_ends[1], STDOUT_FILENO);
+    bool on_pipe = picture_check("-", &(struct error){""});
+    dup2(saved, STDOUT_FILENO);
+    close(saved);
+    close(other);
+    close(terminal);
+    close(pipe_ends[0]);
+    close(pipe_ends[1]);
+    assert_false(on_terminal);
+    assert_non_null(strstr(err.text, "give -o FILE"));
+    assert_true(on_pipe);
+}
+
+/* Writes the film to standard output, which is a pipe; the reader takes all of
+ * it, or goes away at once. */
+static bool write_to_pipe(struct film *film, bool reads, struct error *err)
+{
+    int ends[2], saved = dup(STDOUT_FILENO), status;
+
+    fflush(stdout);
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        char bytes[1000];
+        FILE *f = fopen("piped.png", "wb");
+        ssize_t n;
+        close(ends[1]);
+        while (reads && f && (n = read(ends[0], bytes, sizeof bytes)) > 0)
+            fwrite(bytes, 1, (size_t)n, f);
+        if (f)
+            fclose(f);
+        _exit(0);
+    }
+    close(ends[0]);
+    fcntl(ends[1], F_SETFL, O_NONBLOCK);
+    dup2(ends[1], STDOUT_FILENO);
+    close(ends[1]);
+    if (!reads)
+        waitpid(child, &status, 0);
+    bool ok = picture_write(film, develop_linear(0), "-", err);
+    dup2(saved, STDOUT_FILENO);
+    close(saved);
+    if (reads)
+        waitpid(child, &status, 0);
+    return ok;
+}
+
+static float noise(int x, int y, int c)
+{
+    uint32_t h = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^
+                 (uint32_t)c * 83492791u;
+
+    h = (h ^ (h >> 13)) * 0x5bd1e995u;
+    return (float)(h >> 8) * 0x1p-24f;
+}
+
+static void test_stdout(void **state)
+{
+    struct film film;
+    struct frame frame;
+    struct error err;
+
+    (void)state;
+    signal(SIGPIPE, SIG_IGN);
+    make_film(&film, 300, 200, noise); /* more than a pipe holds */
+    assert_true(write_to_pipe(&film, true, &err));
+    assert_true(frame_init(&frame, 300, 200, &err));
+    film_resolve(&film, develop_linear(0), &frame);
+    has_bytes("piped.png", &frame);
+    assert_false(write_to_pipe(&film, false, &err));
+    assert_string_equal(err.text, "standard output: Broken pipe");
+    frame_free(&frame);
+    film_free(&film);
+}
+
+static void test_numbered(void **state)
+{
+    static const char *const expected[] = {"n.png", "n-2.png", "n-4.png",
+                                           "n-6.png"};
+    struct film film;
+    struct error err;
+    struct stat st;
+
+    (void)state;
+    make_film(&film, WIDTH, HEIGHT, light);
+    fclose(fopen("n-3.png", "w"));
+    assert_int_equal(symlink("nowhere", "n-5.png"), 0);
+    for (int i = 0; i < 4; i++) {
+        char *path =
+            picture_write_numbered(&film, develop_linear(0), "n", "png", &err);
+        assert_non_null(path);
+        assert_string_equal(path, expected[i]);
+        assert_int_equal(stat(path, &st), 0);
+        assert_true(st.st_size > 100);
+        free(path);
+    }
+    assert_int_equal(stat("n-3.png", &st), 0);
+    assert_int_equal(st.st_size, 0);
+    assert_false(exists("nowhere"));
+    assert_null(
+        picture_write_numbered(&film, develop_linear(0), "no/n", "png", &err));
+    assert_string_equal(err.text, "no/n.png: no such file or folder");
+    film_free(&film);
+}
+
+/* Two at once never take the same name. */
+static void test_numbered_race(void **state)
+{
+    struct film film;
+    pid_t children[4];
+    char path[32];
+
+    (void)state;
+    make_film(&film, 8, 8, light);
+    for (int i = 0; i < 4; i++) {
+        children[i] = fork();
+        if (children[i] == 0) {
+            struct error err;
+            int written = 0;
+            for (int k = 0; k < 10; k++) {
+                char *name = picture_write_numbered(&film, develop_linear(0),
+                                                    "race", "png", &err);
+                written += name != NULL;
+                free(name);
+            }
+            _exit(written);
+        }
+    }
+    for (int i = 0; i < 4; i++) {
+        int status;
+        waitpid(children[i], &status, 0);
+        assert_true(WIFEXITED(status));
+        assert_int_equal(WEXITSTATUS(status), 10);
+    }
+    for (int i = 2; i <= 40; i++) {
+        snprintf(path, sizeof path, "race-%d.png", i);
+        assert_true(exists(path));
+    }
+    assert_false(exists("race-41.png"));
+    film_free(&film);
+}
+
+static void write_forever(struct film *a, struct film *b)
+{
+    struct error err;
+
+    for (;;) {
+        if (!picture_write(a, develop_linear(0), "k.png", &err) ||
+            !picture_write(b, develop_linear(0), "k.png", &err))
+            _exit(1);
+    }
+}
+
+/* Killed at any moment, the file is one of the two pictures. */
+static void test_killed(void **state)
+{
+    struct film films[2];
+    size_t sizes[2], size;
+    char *files[2];
+    struct error err;
+    uint64_t random = 7;
+
+    (void)state;
+    make_film(&films[0], 160, 120, noise);
+    make_film(&films[1], 160, 120, dark);
+    for (int i = 0; i < 2; i++) {
+        assert_true(picture_write(&films[i], develop_linear(0), "k.png", &err));
+        files[i] = read_file("k.png", &size);
+        sizes[i] = size;
+    }
+    int found[2] = {0};
+    for (int i = 0; i < 60; i++) {
+        int status;
+        pid_t child = fork();
+        if (child == 0)
+            write_forever(&films[0], &films[1]);
+        usleep((useconds_t)(check_random(&random) * 40000));
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
+        assert_true(WIFSIGNALED(status));
+        char *text = read_file("k.png", &size);
+        int which = size == sizes[0] ? 0 : 1;
+        assert_int_equal(size, sizes[which]);
+        assert_memory_equal(text, files[which], size);
+        found[which]++;
+        free(text);
+    }
+    print_message("%d times the one picture, %d times the other\n", found[0],
+                  found[1]);
+    for (int i = 0; i < 2; i++) {
+        free(files[i]);
+        film_free(&films[i]);
+    }
+}
+
+/* In a child, as the limit stays. */
+static bool fails_on_full_disk(struct film *film)
+{
+    static const char *const paths[] = {"f.png", "f.hdr", "f.pfm"};
+    struct rlimit limit = {1024, 1024};
+    struct error err;
+    bool ok = true;
+
+    signal(SIGXFSZ, SIG_IGN);
+    ok = setrlimit(RLIMIT_FSIZE, &limit) == 0;
+    for (int i = 0; i < 3; i++)
+        ok = ok && !picture_write(film, develop_linear(0), paths[i], &err) &&
+             strstr(err.text, ": File too large") &&
+             strncmp(err.text, paths[i], 5) == 0;
+    return ok && !picture_write_numbered(film, develop_linear(0), "full", "png",
+                                         &err);
+}
+
+static void test_disk_full(void **state)
+{
+    struct film film;
+    struct error err;
+    int status;
+
+    (void)state;
+    make_film(&film, WIDTH, HEIGHT, noise);
+    FILE *f = fopen("f.png", "w");
+    assert_non_null(f);
+    fputs("old", f);
+    fclose(f);
+    pid_t child = fork();
+    if (child == 0)
+        _exit(fails_on_full_disk(&film) ? 0 : 1);
+    waitpid(child, &status, 0);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    size_t size;
+    char *text = read_file("f.png", &size);
+    assert_string_equal(text, "old");
+    free(text);
+    assert_false(exists("f.hdr") || exists("f.pfm") || exists("full.png"));
+
+    int saved = dup(STDOUT_FILENO), full = open("/dev/full", O_WRONLY);
+    fflush(stdout);
+    dup2(full, STDOUT_FILENO);
+    bool ok = picture_write(&film, develop_linear(0), "-", &err);
+    dup2(saved, STDOUT_FILENO);
+    close(saved);
+    close(full);
+    assert_false(ok);
+    assert_string_equal(err.text, "standard output: No space left on device");
+    film_free(&film);
+}
+
+static void test_speed(void **state)
+{
+    struct film film;
+    struct error err;
+
+    (void)state;
+    make_film(&film, 1024, 576, noise);
+    uint64_t begin_ns = clock_ns();
+    assert_true(picture_write(&film, develop_linear(0), "speed.png", &err));
+    print_message("PNG of 1024x576: %.3f s\n",
+                  seconds_between(begin_ns, clock_ns()));
+    film_free(&film);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_format_of),
+        cmocka_unit_test(test_png),
+        cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_hdr_powers),
+        cmocka_unit_test(test_pfm),
+        cmocka_unit_test(test_small),
+        cmocka_unit_test(test_check),
+        cmocka_unit_test(test_check_terminal),
+        cmocka_unit_test(test_stdout),
+        cmocka_unit_test(test_numbered),
+        cmocka_unit_test(test_numbered_race),
+        cmocka_unit_test(test_killed),
+        cmocka_unit_test(test_disk_full),
+        cmocka_unit_test(test_speed),
+    };
+
+    return cmocka_run_group_tests_name("picture", tests, make_folder,
+                                       remove_folder);
+}

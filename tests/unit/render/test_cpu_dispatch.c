@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <stdlib.h>
+
+#include "scene/world.h"
+#include "render/cpu_dispatch.h"
+#include "session/session.h"
+
+static const char *const scenes[] = {
+    "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",
+    "scenes/interior.obj", "scenes/skylit.obj",    "scenes/lights200.obj",
+};
+
+#define WIDTH  64
+#define HEIGHT 36
+#define SPP    3
+
+#define BUILDS_MAX 8 /* for a set of instructions */
+
+/* The one that is taken can do what is asked, and is itself what is taken for
+ * just what it can do: none is there in vain. */
+static void a_build_fits(void **state)
+{
+    const struct paths *whole;
+
+    (void)state;
+    for (int i = 0; (whole = isa_at(i)) != NULL; i++) {
+        assert_int_equal(whole->features, FEATURES_ALL);
+        for (uint32_t features = 0; features <= FEATURES_ALL; features++) {
+            const struct paths *p = isa_fit(whole, features);
+
+            assert_int_equal(features & ~p->features, 0);
+            assert_string_equal(p->name, whole->name);
+            assert_ptr_equal(isa_fit(whole, p->features), p);
+        }
+        assert_int_equal(isa_fit(whole, FEATURE_EMITTERS)->features,
+                         FEATURE_EMITTERS);
+        assert_ptr_equal(isa_fit(whole, FEATURE_FIRST_HIT), whole);
+    }
+}
+
+static void render(struct session *s, uint32_t more_features, float *rgb)
+{
+    struct render_job job = {.tree = &s->scene.tree,
+                             .geometry_changed = true,
+                             .crop = {0, 0, WIDTH, HEIGHT},
+                             .spp = SPP};
+    struct error err;
+
+    check_or_say(scene_world(&s->scene, &s->view, 1, &job.world, &err),
+                 err.text);
+    job.world.settings.features |= more_features;
+    check_or_say(render_start(s->render, &job, &err), err.text);
+    assert_true(render_wait(s->render, 60000));
+    film_linear(render_film(s->render), rgb);
+}
+
+/* Adds it to the builds, unless it is there. */
+static bool is_new(const struct paths *p, const struct paths **builds,
+                   int *count)
+{
+    for (int i = 0; i < *count; i++)
+        if (builds[i] == p)
+            return false;
+    assert_true(*count < BUILDS_MAX);
+    builds[(*count)++] = p;
+    return true;
+}
+
+/* The scene with the build of all features, then with each other that will do;
+ * returns how many those are. */
+static int compare_builds(const char *scene, const struct paths *whole)
+{
+    static float want[3 * WIDTH * HEIGHT], got[3 * WIDTH * HEIGHT];
+    struct options o = {.scene_path = scene,
+                        .max_bounces = -1,
+                        .width_px = WIDTH,
+                        .height_px = HEIGHT,
+                        .paths = whole};
+    const struct paths *builds[BUILDS_MAX] = {whole};
+    struct session s;
+    struct error err;
+    int count = 1;
+
+    check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
+    render(&s, FEATURES_ALL & ~(uint32_t)FEATURE_COVERAGE, want);
+    for (uint32_t more = 0; more <= FEATURES_ALL; more++) {
+        const struct paths *p = isa_fit(whole, scene_features(&s.scene) | more);
+
+        if (!is_new(p, builds, &count))
+            continue;
+        render(&s, p->features, got);
+        assert_memory_equal(want, got, sizeof want);
+    }
+    session_close(&s);
+    return count - 1;
+}
+
+static void builds_give_the_same_bits(void **state)
+{
+    const struct paths *whole;
+
+    (void)state;
+    for (int i = 0; (whole = isa_at(i)) != NULL; i++)
+        for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++)
+            assert_true(compare_builds(scenes[k], whole) > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_build_fits),
+        cmocka_unit_test(builds_give_the_same_bits),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

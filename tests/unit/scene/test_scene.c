@@ -1,0 +1,624 @@
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tests/unit/check.h"
+#include "scene/world.h"
+#include "formats/obj.h"
+#include "formats/scene_load.h"
+
+#define PI 3.14159265358979323846
+
+static char folder[] = "/tmp/glim-scene-XXXXXX";
+
+/* Two texels: an opaque 255 128 0 and a clear 10 20 30. */
+static const unsigned char two_texels[] = {
+    137, 80,  78,  71,  13, 10, 26,  10, 0,  0,  0,   13,  73,  72,  68,
+    82,  0,   0,   0,   2,  0,  0,   0,  1,  8,  6,   0,   0,   0,   244,
+    34,  127, 138, 0,   0,  0,  17,  73, 68, 65, 84,  120, 218, 99,  248,
+    223, 192, 240, 159, 75, 68, 142, 1,  0,  17, 28,  2,   187, 140, 47,
+    119, 109, 0,   0,   0,  0,  73,  69, 78, 68, 174, 66,  96,  130};
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) != NULL && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
+}
+
+static void put(const char *path, const void *data, size_t size_bytes)
+{
+    FILE *f = fopen(path, "wb");
+
+    assert_non_null(f);
+    assert_int_equal(fwrite(data, 1, size_bytes, f), size_bytes);
+    assert_int_equal(fclose(f), 0);
+}
+
+struct loaded {
+    struct scene scene;
+    struct report report;
+    struct error err;
+};
+
+static struct loaded load_turned(const char *text, bool up_is_z)
+{
+    struct loaded l = {.scene = {.path = NULL}};
+
+    put("a.obj", text, strlen(text));
+    if (!scene_load(&l.scene, "a.obj", up_is_z, &l.report, &l.err)) {
+        print_error("%s\n", l.err.text);
+        _fail(__FILE__, __LINE__);
+    }
+    unlink("a.obj");
+    return l;
+}
+
+static struct loaded load(const char *text)
+{
+    return load_turned(text, false);
+}
+
+static void unload(struct loaded *l)
+{
+    scene_free(&l->scene);
+    report_free(&l->report);
+}
+
+/* Every vertex that a triangle uses is where the file has it, to the precision
+ * of floats, and the greatest extent is in [1, 2). */
+static void check_normalized(const struct scene *s, const double *file)
+{
+    double extent = 0;
+    int exponent;
+
+    assert_true(frexp(s->scale, &exponent) == 0.5);
+    for (int k = 0; k < 3; k++) {
+        float lo = INFINITY;
+        float hi = -INFINITY;
+
+        for (uint32_t t = 0; t < s->tri_count; t++) {
+            for (int c = 0; c < 3; c++) {
+                uint32_t v = s->tris[t].v[c];
+                const float xyz[] = {s->positions[v].x, s->positions[v].y,
+                                     s->positions[v].z};
+                double want =
+                    (file[3 * v + (uint32_t)k] - s->center[k]) * s->scale;
+
+                lo = xyz[k] < lo ? xyz[k] : lo;
+                hi = xyz[k] > hi ? xyz[k] : hi;
+                check_close((double)xyz[k], want, fabs(want) * 0x1p-24);
+            }
+        }
+        extent = fmax(extent, (double)(hi - lo));
+        check_close((double)(hi + lo), 0, 1e-6);
+    }
+    assert_true(extent >= 1);
+    assert_true(extent < 2);
+}
+
+static void test_normalization(void **state)
+{
+    static const double sizes[] = {1e-300, 1e-30, 1e-6,  0.3,    1,
+                                   1e6,    1e30,  1e300, 1.7e308};
+    static const double offsets[] = {0, 1, -1};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        for (size_t j = 0; j < sizeof offsets / sizeof offsets[0]; j++) {
+            double s = sizes[i];
+            double o = offsets[j] * s / 2;
+            double file[9] = {o - s / 2, o, 0,     o + s / 2, o,
+                              s / 4,     o, s / 3, s / 5};
+            char text[512];
+            struct loaded l;
+
+            snprintf(text, sizeof text,
+                     "v %.17g %.17g %.17g\nv %.17g %.17g %.17g\n"
+                     "v %.17g %.17g %.17g\nf 1 2 3\n",
+                     file[0], file[1], file[2], file[3], file[4], file[5],
+                     file[6], file[7], file[8]);
+            l = load(text);
+            assert_int_equal(l.scene.tri_count, 1);
+            assert_int_equal(l.report.entry_count, 0);
+            assert_null(l.scene.file_positions);
+            check_normalized(&l.scene, file);
+            assert_true(l.scene.bounds_lo[0] == file[0]);
+            assert_true(l.scene.bounds_hi[0] == file[3]);
+            unload(&l);
+        }
+    }
+}
+
+static void test_triangles_without_area(void **state)
+{
+    struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv .1 .1 .1\n"
+                           "v .3 .3 .3\nf 1 1 1\nf 1 2 2\nf 1 4 2\nf 1 5 6\n"
+                           "f 1 2 3\nf 2 3 2\n");
+
+    (void)state;
+    assert_int_equal(l.scene.tri_count, 1);
+    assert_int_equal(l.scene.tri_faces[0], 4);
+    assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entries[0].count, 5);
+    assert_string_equal(l.report.entries[0].kind, "triangles without area");
+    unload(&l);
+}
+
+/* An area in the file that is none in floats: a speck beside a world. */
+static void test_triangles_too_small_for_floats(void **state)
+{
+    struct loaded l = load("v 0 0 0\nv 1e12 0 0\nv 0 1e12 0\nv 1 1 0\n"
+                           "v 1.001 1 0\nv 1 1.001 0\nf 1 2 3\nf 4 5 6\n");
+
+    (void)state;
+    assert_int_equal(l.scene.tri_count, 1);
+    assert_int_equal(l.report.entry_count, 1);
+    unload(&l);
+}
+
+/* Beside an edge of 5e38 one of 1 is 2^-129 long, which has no reciprocal: the
+ * first face keeps its normal, and of the second rounding leaves nothing. */
+static void test_needles_keep_their_normals(void **state)
+{
+    static const char *const others[] = {"v 0 1 0", "v 0 1e-9 0", "v 0 1e30 0"};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char text[128];
+        struct loaded l;
+
+        snprintf(text, sizeof text,
+                 "v -5e38 0 0\nv 0 0 0\nv 0 0 1\n%s\nf 1 2 3\nf 1 4 3\n",
+                 others[i]);
+        l = load(text);
+        assert_in_range(l.scene.tri_count, 1, 2);
+        assert_int_equal(l.scene.tri_count + l.scene.dropped_count, 2);
+        assert_int_equal(l.report.entry_count, l.scene.dropped_count);
+        assert_true(fabsf(l.scene.tris[0].ng.y) == 1);
+        for (uint32_t k = 0; k < l.scene.tri_count; k++)
+            check_close(hypot(hypot((double)l.scene.tris[k].ng.x,
+                                    (double)l.scene.tris[k].ng.y),
+                              (double)l.scene.tris[k].ng.z),
+                        1, 1e-6);
+        unload(&l);
+    }
+}
+
+static void test_unused_vertices_have_no_effect(void **state)
+{
+    struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e9 0 0\nv nan 0 0\n"
+                           "v 1e308 -1e308 inf\nf 1 2 3\n");
+
+    (void)state;
+    assert_int_equal(l.report.entry_count, 0);
+    check_close(l.scene.scale, 1, 0);
+    check_close(l.scene.center[0], 0.5, 0);
+    check_close(l.scene.bounds_hi[0], 1, 0);
+    for (uint32_t i = 0; i < l.scene.position_count; i++) {
+        assert_true(isfinite(l.scene.positions[i].x));
+        assert_true(isfinite(l.scene.positions[i].y));
+        assert_true(isfinite(l.scene.positions[i].z));
+    }
+    unload(&l);
+}
+
+static void test_no_faces(void **state)
+{
+    struct loaded l = load("v 1 2 3\np 1\n");
+    struct view view;
+    struct world world;
+
+    (void)state;
+    assert_int_equal(l.scene.tri_count, 0);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.obj: found no face that can be seen: only the "
+                        "background is rendered");
+    check_close(l.scene.scale, 1, 0);
+    check_close(l.scene.center[1], 0, 0);
+    view_init(&view);
+    scene_frame(&l.scene, &view);
+    assert_true(scene_world(&l.scene, &view, 0, &world, &l.err));
+    assert_int_equal(world.settings.tri_count, 0);
+    view_free(&view);
+    unload(&l);
+}
+
+/* Copies of a face begin at the same corner, wherever they do so in the file;
+ * winding, texture coordinates and normals stay with their corners. */
+static void test_copies_begin_alike(void **state)
+{
+    static const uint32_t expected[4][3] = {{1, 2, 0},
+                                            {1, 2, 0},
+                                            {1, 2, 0},
+                                            {1, 0, 2}};
+    struct loaded l = load("v 1 2 3\nv 0 5 1\nv 0 6 -1\n"
+                           "vt 0 0\nvt 1 0\nvt 1 1\n"
+                           "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\n"
+                           "f 1/1/1 2/2/2 3/3/3\nf 2/2/2 3/3/3 1/1/1\n"
+                           "f 3/3/3 1/1/1 2/2/2\nf 3/3/3 2/2/2 1/1/1\n");
+
+    (void)state;
+    assert_int_equal(l.scene.tri_count, 4);
+    for (int i = 0; i < 4; i++) {
+        const struct tri *t = &l.scene.tris[i];
+
+        assert_memory_equal(t->v, expected[i], sizeof t->v);
+        assert_memory_equal(t->vt, expected[i], sizeof t->vt);
+        assert_memory_equal(t->vn, expected[i], sizeof t->vn);
+    }
+    unload(&l);
+}
+
+static void test_z_up(void **state)
+{
+    struct loaded l = load_turned("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 -1 0\n"
+                                  "vn 0 1 0\nf 1//1 2//1 3//1\nf 1 2 4\n",
+                                  true);
+    const struct vec3 *p = l.scene.positions;
+
+    (void)state;
+    check_close((double)(p[2].y - p[0].y), 1, 0);
+    check_close((double)(p[3].z - p[0].z), 1, 0);
+    check_close((double)(p[1].x - p[0].x), 1, 0);
+    check_close((double)l.scene.normals[0].z, -1, 0);
+    unload(&l);
+}
+
+static void test_textures(void **state)
+{
+    static const char mtl[] =
+        "newmtl a\nKd .5 .5 .5\nmap_Kd two.png\nnewmtl b\nKd 0 0 0\n"
+        "map_Kd two.png\nnewmtl c\nmap_Kd two.png\nmap_Ke two.png\n"
+        "newmtl d\nmap_Kd lost.png\nKe 0 0 0\nmap_Ke lost.png\n"
+        "newmtl e\nKd .5 .5 .5\nmap_Kd lost.png\nKe 2 2 2\nmap_Ke two.png\n"
+        "newmtl f\nmap_Kd unused.png\n";
+    static const float colors[] = {0.8f, 0.5f, 1, 1, 0.8f, 0.5f};
+    static const float emissions[] = {0, 0, 0, 1, 0, 2};
+    struct loaded l;
+
+    (void)state;
+    put("two.png", two_texels, sizeof two_texels);
+    put("a.mtl", mtl, strlen(mtl));
+    l = load("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+             "usemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\n"
+             "usemtl e\nf 1 2 3\n");
+    unlink("two.png");
+    unlink("a.mtl");
+    assert_int_equal(l.scene.texture_count, 3);
+    assert_int_equal(l.scene.textures[0].width, 2);
+    assert_int_equal(l.scene.textures[0].height, 1);
+    assert_int_equal(l.scene.textures[0].first, 0);
+    assert_int_equal(l.scene.textures[0].has_holes, 1);
+    assert_int_equal(l.scene.texel_count, 2);
+    assert_int_equal(l.scene.texels[0], 0xff0080ffu);
+    assert_int_equal(l.scene.texels[1] & 0xff000000u, 0);
+    for (uint32_t i = 1; i < 6; i++) {
+        const struct material *m = &l.scene.materials[i];
+
+        check_close((double)m->color.y, (double)colors[i], 0);
+        check_close((double)m->emission.y, (double)emissions[i], 0);
+        assert_int_equal(m->color_texture, i <= 3 ? 0 : NO_INDEX);
+        assert_int_equal(m->emission_texture, i == 3 || i == 5 ? 0 : NO_INDEX);
+    }
+    assert_int_equal(l.report.entry_count, 1);
+    assert_int_equal(l.report.entries[0].count, 1);
+    assert_non_null(strstr(l.report.entries[0].text, "lost.png"));
+    assert_true(l.scene.has_emitters);
+    unload(&l);
+}
+
+/* Materials may be named before they are defined. */
+static void test_libraries(void **state)
+{
+    static const char one[] = "newmtl one\nKd 1 0 0\n";
+    static const char two[] = "newmtl two\nKd 0 1 0\nKe 1 1 1\n";
+    struct loaded l;
+
+    (void)state;
+    put("a b.mtl", one, strlen(one));
+    put("c.mtl", two, strlen(two));
+    l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl two\nf 1 2 3\n"
+             "mtllib a b.mtl c.mtl\nmtllib c.mtl\nmtllib a b.mtl\n"
+             "usemtl one\nf 1 2 3\n");
+    unlink("a b.mtl");
+    unlink("c.mtl");
+    assert_int_equal(l.report.entry_count, 0);
+    assert_int_equal(l.scene.material_count, 3);
+    check_close(l.scene.materials[l.scene.tris[0].material].color.y, 1, 0);
+    check_close(l.scene.materials[l.scene.tris[1].material].color.x, 1, 0);
+    assert_true(l.scene.has_emitters);
+    assert_int_equal(l.scene.lights.light_count, 1);
+    assert_int_equal(l.scene.lights.tri_lights[0], 0);
+    assert_int_equal(l.scene.lights.tri_lights[1], NO_INDEX);
+    unload(&l);
+    l = load("mtllib no such.mtl\nmtllib other\nv 0 0 0\n"
+             "mtllib no such.mtl\n");
+    assert_int_equal(l.report.entry_count, 3);
+    assert_string_equal(l.report.entries[0].text,
+                        "a.obj:1: found no file 'no such.mtl' for mtllib: its "
+                        "materials will be grey");
+    assert_int_equal(l.report.entries[0].count, 2);
+    unload(&l);
+}
+
+/* Where a point of the file is on the picture: in [-1, 1] if it is seen. */
+static void project(const struct scene *s, const struct world *w,
+                    const double point[3], double *x, double *y, double *z)
+{
+    const struct camera *c = &w->settings.camera;
+    double d[3] = {(point[0] - s->center[0]) * s->scale - (double)c->eye.x,
+                   (point[1] - s->center[1]) * s->scale - (double)c->eye.y,
+                   (point[2] - s->center[2]) * s->scale - (double)c->eye.z};
+    const struct vec3 *axes[3] = {&c->right, &c->up, &c->forward};
+    double along[3];
+
+    for (int i = 0; i < 3; i++) {
+        double ax = (double)axes[i]->x;
+        double ay = (double)axes[i]->y;
+        double az = (double)axes[i]->z;
+
+        along[i] =
+            (d[0] * ax + d[1] * ay + d[2] * az) / (ax * ax + ay * ay + az * az);
+    }
+    *x = along[0] / along[2];
+    *y = along[1] / along[2];
+    *z = along[2];
+}
+
+static void test_frame_shows_everything(void **state)
+{
+    static const double fovys[] = {1, 20, 40, 90, 170};
+    static const int sizes[][2] = {{100, 100}, {1600, 90}, {90, 1600}};
+    struct loaded l = load("v 10 20 30\nv 14 20 30\nv 10 27 30\nv 10 20 31\n"
+                           "f 1 2 3\nf 1 2 4\n");
+
+    (void)state;
+    for (size_t i = 0; i < 15; i++) {
+        struct view view;
+        struct world world;
+        double most = 0;
+
+        view_init(&view);
+        view.fovy_deg = fovys[i % 5];
+        view.width_px = sizes[i / 5][0];
+        view.height_px = sizes[i / 5][1];
+        scene_frame(&l.scene, &view);
+        assert_true(scene_world(&l.scene, &view, 0, &world, &l.err));
+        for (int corner = 0; corner < 8; corner++) {
+            double p[3], x, y, z;
+
+            for (int k = 0; k < 3; k++)
+                p[k] = corner >> k & 1 ? l.scene.bounds_hi[k]
+                                       : l.scene.bounds_lo[k];
+            project(&l.scene, &world, p, &x, &y, &z);
+            assert_true(z > 0);
+            most = fmax(most, fmax(fabs(x), fabs(y)));
+        }
+        assert_true(most < 1);
+        assert_true(most > 0.3 || view.fovy_deg > 90);
+        assert_true(view.eye[2] > view.at[2] && view.eye[1] > view.at[1]);
+        view_free(&view);
+    }
+    unload(&l);
+}
+
+static void check_vec(struct vec3 v, double x, double y, double z)
+{
+    check_close((double)v.x, x, 1e-6);
+    check_close((double)v.y, y, 1e-6);
+    check_close((double)v.z, z, 1e-6);
+}
+
+static void test_camera(void **state)
+{
+    struct loaded l = load("v 0 0 0\nv 4 0 0\nv 0 2 0\nf 1 2 3\n");
+    struct world w;
+    struct view view;
+
+    (void)state;
+    view_init(&view);
+    memcpy(view.eye, (double[]){2, 1, 8}, sizeof view.eye);
+    memcpy(view.at, (double[]){2, 1, 0}, sizeof view.at);
+    view.fovy_deg = 90;
+    view.width_px = 200;
+    view.height_px = 100;
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    /* the centre is 2 1 0 and the extent 4: a scale of 1/4 */
+    check_vec(w.settings.camera.eye, 0, 0, 2);
+    check_vec(w.settings.camera.forward, 0, 0, -1);
+    check_vec(w.settings.camera.right, 2, 0, 0);
+    check_vec(w.settings.camera.up, 0, 1, 0);
+    check_close((double)w.settings.camera.width, 200, 0);
+    assert_int_equal(w.settings.seed, 7);
+    assert_int_equal(w.settings.max_vertices, 1000);
+    assert_int_equal(w.settings.features, 0);
+    assert_true(w.settings.camera.lens_radius == 0);
+    view.aperture = 0.8; /* a radius of .4, and the distance to at: 8 */
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    check_close((double)w.settings.camera.lens_radius, 0.1, 1e-7);
+    check_close((double)w.settings.camera.focus, 2, 1e-6);
+    view.focus = 12;
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    check_close((double)w.settings.camera.focus, 3, 1e-6);
+    view.max_bounces = 0;
+    memcpy(view.up, (double[]){1e300, 1e300, 0}, sizeof view.up);
+    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    check_vec(w.settings.camera.up, sqrt(.5), sqrt(.5), 0);
+    assert_int_equal(w.settings.max_vertices, 1);
+    view_free(&view);
+    unload(&l);
+}
+
+/* Straight down with +y up, and no up at all: some picture, upright axes. */
+static void test_up_along_the_view(void **state)
+{
+    static const double ups[][3] = {
+        {0, 1, 0}, {0, -5, 0}, {0, 0, 0}, {1e-8, 1, 0}, {NAN, 1, 0}};
+    struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+
+    (void)state;
+    for (size_t i = 0; i < sizeof ups / sizeof ups[0]; i++) {
+        struct view view;
+        struct world w;
+        double dot;
+
+        view_init(&view);
+        view.fovy_deg = 90;
+        view.width_px = view.height_px = 100;
+        memcpy(view.eye, (double[]){.5, 9, 0}, sizeof view.eye);
+        memcpy(view.at, (double[]){.5, 0, 0}, sizeof view.at);
+        memcpy(view.up, ups[i], sizeof view.up);
+        if (scene_world(&l.scene, &view, 0, &w, &l.err)) {
+            struct vec3 r = w.settings.camera.right;
+            struct vec3 u = w.settings.camera.up;
+
+            dot = (double)(r.x * u.x + r.y * u.y + r.z * u.z);
+            check_close(dot, 0, 1e-6);
+            check_close((double)(r.x * r.x + r.y * r.y + r.z * r.z), 1, 1e-6);
+            check_close((double)(u.x * u.x + u.y * u.y + u.z * u.z), 1, 1e-6);
+            check_vec(w.settings.camera.forward, 0, -1, 0);
+        } else {
+            assert_true(i >= 2);
+        }
+        view_free(&view);
+    }
+    unload(&l);
+}
+
+static void test_impossible_cameras(void **state)
+{
+    struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    struct world w;
+    struct view view;
+
+    (void)state;
+    view_init(&view);
+    memcpy(view.eye, (double[]){1, 2, 3}, sizeof view.eye);
+    memcpy(view.at, (double[]){1, 2, 3}, sizeof view.at);
+    assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
+    view.eye[0] = NAN;
+    assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
+    view.eye[0] = 1e300;
+    assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
+    view_free(&view);
+    unload(&l);
+}
+
+static void test_sky(void **state)
+{
+    struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    struct view view;
+    struct world w;
+
+    (void)state;
+    view_init(&view);
+    memcpy(view.eye, (double[]){0, 0, 3}, sizeof view.eye);
+    memcpy(view.background, (double[]){.25, .5, 8}, sizeof view.background);
+    assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+    check_vec(w.settings.sky.color, .25, .5, 8);
+    assert_int_equal(w.settings.sky.width, 0);
+    assert_true(w.settings.sky_share == 1 && w.settings.light_share == 0);
+
+    put("two.png", two_texels, sizeof two_texels);
+    view.sky_path = strdup("two.png");
+    view.sky_strength = 3;
+    view.sky_rotation_deg = 90;
+    assert_true(scene_load_sky(&l.scene, &view, &l.report, &l.err));
+    unlink("two.png");
+    assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+    check_vec(w.settings.sky.color, 3, 3, 3);
+    assert_int_equal(w.settings.sky.width, 2);
+    assert_int_equal(w.settings.sky.height, 1);
+    check_close((double)w.settings.sky.rotation_sin, 1, 1e-7);
+    check_close((double)w.settings.sky.rotation_cos, 0, 1e-7);
+    check_vec(w.sky_texels[0], 1, 0.21586050, 0);
+    assert_true(w.sky_sums != NULL && w.settings.sky_share == 1 &&
+                w.settings.light_share == 0);
+    view.sky_strength = 0;
+    assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_true(w.settings.sky_share == 0);
+
+    assert_false(scene_load_sky(&l.scene, &view, &l.report, &l.err));
+    free(view.sky_path);
+    view.sky_path = NULL;
+    assert_true(scene_load_sky(&l.scene, &view, &l.report, &l.err));
+    assert_null(l.scene.sky_texels);
+    view_free(&view);
+    unload(&l);
+}
+
+static void test_coverage(void **state)
+{
+    static const char *const mtls[] = {"newmtl m\nKd .5\n", "newmtl m\nd .5\n",
+                                       "newmtl m\nKd .5\nmap_Kd two.png\n",
+                                       "newmtl m\nd .5\nillum 7\n"};
+
+    (void)state;
+    put("two.png", two_texels, sizeof two_texels);
+    for (size_t i = 0; i < sizeof mtls / sizeof mtls[0]; i++) {
+        struct loaded l;
+        struct view view;
+        struct world w;
+
+        put("a.mtl", mtls[i], strlen(mtls[i]));
+        l = load("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\n"
+                 "f 1 2 3\n");
+        view_init(&view);
+        scene_frame(&l.scene, &view);
+        assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+        assert_int_equal(w.settings.features & FEATURE_COVERAGE,
+                         i == 1 || i == 2 ? FEATURE_COVERAGE : 0);
+        view_free(&view);
+        unload(&l);
+    }
+    unlink("a.mtl");
+    unlink("two.png");
+}
+
+/* Against the standard's own numbers. */
+static void test_srgb_table(void **state)
+{
+    struct loaded l = load("v 0 0 0\n");
+
+    (void)state;
+    check_close((double)l.scene.linear_of_srgb[0], 0, 0);
+    check_close((double)l.scene.linear_of_srgb[255], 1, 0);
+    check_close((double)l.scene.linear_of_srgb[10], 0.0030352698, 1e-9);
+    check_close((double)l.scene.linear_of_srgb[11], 0.0033465358, 1e-9);
+    check_close((double)l.scene.linear_of_srgb[128], 0.2158605, 1e-7);
+    check_close((double)l.scene.linear_of_srgb[188], 0.50288646, 1e-7);
+    unload(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_normalization),
+        cmocka_unit_test(test_triangles_without_area),
+        cmocka_unit_test(test_triangles_too_small_for_floats),
+        cmocka_unit_test(test_needles_keep_their_normals),
+        cmocka_unit_test(test_unused_vertices_have_no_effect),
+        cmocka_unit_test(test_no_faces),
+        cmocka_unit_test(test_copies_begin_alike),
+        cmocka_unit_test(test_z_up),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_libraries),
+        cmocka_unit_test(test_frame_shows_everything),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_up_along_the_view),
+        cmocka_unit_test(test_impossible_cameras),
+        cmocka_unit_test(test_sky),
+        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_srgb_table),
+    };
+
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

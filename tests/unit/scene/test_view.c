@@ -1,0 +1,635 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
+
+#include <glob.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/util.h"
+#include "scene/view.h"
+#include "formats/view_file.h"
+
+static struct file_change change; /* of what was written last */
+
+/* In the test's folder; the name lives until the next call. */
+static const char *file(const char *name)
+{
+    static char path[256];
+
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static const char *put(const char *text)
+{
+    const char *path = file("t.view");
+    FILE *f = fopen(path, "wb");
+
+    assert_non_null(f);
+    fputs(text, f);
+    assert_int_equal(fclose(f), 0);
+    return path;
+}
+
+static void read_text(struct view *view, const char *text)
+{
+    struct report report = {0};
+    struct error err = {""};
+
+    view_init(view);
+    if (!view_read(view, put(text), &report, &err))
+        print_error("%s\n", err.text);
+    assert_string_equal(err.text, "");
+    assert_int_equal(report.entry_count, 0);
+    report_free(&report);
+}
+
+/* expected: the text behind the file's name. */
+static void refused(const char *text, const char *expected)
+{
+    struct report report = {0};
+    struct error err;
+    struct view view;
+    char whole[1400];
+
+    view_init(&view);
+    snprintf(whole, sizeof whole, "%s:%s", file("t.view"), expected);
+    if (view_read(&view, put(text), &report, &err))
+        snprintf(err.text, sizeof err.text, "nothing");
+    if (strcmp(err.text, whole) != 0)
+        print_error("'%s':\nfound    %s\nexpected %s\n", text, err.text, whole);
+    assert_string_equal(err.text, whole);
+    report_free(&report);
+    view_free(&view);
+}
+
+static void is3(const double v[3], double x, double y, double z)
+{
+    assert_true(v[0] == x && v[1] == y && v[2] == z);
+}
+
+static void test_defaults(void **state)
+{
+    struct view view;
+
+    (void)state;
+    read_text(&view, "");
+    assert_false(view.has_camera || view.has_size || view.has_background);
+    is3(view.up, 0, 1, 0);
+    assert_true(view.fovy_deg == 40 && view.sky_strength == 1);
+    assert_int_equal(view.width_px, 1024);
+    assert_int_equal(view.height_px, 576);
+    assert_int_equal(view.max_bounces, -1);
+    assert_null(view.sky_path);
+    view_free(&view);
+}
+
+static void test_all_keys(void **state)
+{
+    struct view view;
+    char sky[256];
+
+    (void)state;
+    read_text(&view, "\xef\xbb\xbf# a comment\r\n"
+                     "eye 278 273 -8e2\r\n"
+                     "\tat   .5\t+1 -0.25 # of the box\r\n"
+                     "\r\n"
+                     "up 0 0 2\r\n"
+                     "fovy 39.3077\r\n"
+                     "res 256 128\r\n"
+                     "background 1 0.5 0\r\n"
+                     "max_bounces 64\r\n"
+                     "sky my sky #1.hdr  \r\n"
+                     "sky_strength 2.5\r\n"
+                     "sky_rotation -90\r\n"
+                     "aperture 0.5\r\n"
+                     "focus 1e3\r\n"
+                     "tone aces # bright\r\n"
+                     "exposure -1.5");
+    assert_true(view.has_camera && view.has_size && view.has_background);
+    is3(view.eye, 278, 273, -800);
+    is3(view.at, 0.5, 1, -0.25);
+    is3(view.up, 0, 0, 2);
+    assert_true(view.fovy_deg == 39.3077);
+    assert_int_equal(view.width_px, 256);
+    assert_int_equal(view.height_px, 128);
+    is3(view.background, 1, 0.5, 0);
+    assert_int_equal(view.max_bounces, 64);
+    snprintf(sky, sizeof sky, "%s/my sky #1.hdr", folder);
+    assert_string_equal(view.sky_path, sky);
+    assert_true(view.sky_strength == 2.5 && view.sky_rotation_deg == -90);
+    assert_true(view.aperture == 0.5 && view.focus == 1000);
+    assert_true(view.exposure == -1.5);
+    assert_int_equal(view.tone, TONE_ACES);
+    view_free(&view);
+}
+
+static void test_over(void **state)
+{
+    struct report report = {0};
+    struct error err;
+    struct view view;
+
+    (void)state;
+    read_text(&view, "eye 1 2 3\nat 0 0 0\nfovy 20\nsky a.png\n");
+    assert_true(view_read(&view, put("eye 4 5 6\nsky b.png\nsky c.png\n"),
+                          &report, &err));
+    assert_true(view.has_camera && view.fovy_deg == 20);
+    is3(view.eye, 4, 5, 6);
+    is3(view.at, 0, 0, 0);
+    assert_string_equal(strrchr(view.sky_path, '/'), "/c.png");
+    view_free(&view);
+}
+
+static void test_limits(void **state)
+{
+    struct view view;
+
+    (void)state;
+    read_text(&view, "fovy 179.9\n");
+    assert_true(view.fovy_deg == 179.9);
+    view_free(&view);
+    /* looking along up is for the camera to handle */
+    read_text(&view, "eye 0 5 0\nat 0 0 0\nup 0 1 0\nres 1 1\n");
+    assert_true(view.has_camera);
+    view_free(&view);
+    read_text(&view, "res 65536 65536\nmax_bounces -1\nmax_bounces 0\n");
+    assert_int_equal(view.max_bounces, 0);
+    view_free(&view);
+}
+
+static void test_refused(void **state)
+{
+    static const char angle[] = "an angle above 0 and below 180 degrees";
+    static const char sizes[] = "2 whole numbers from 1 to 65536";
+    static const char light[] = "3 numbers from 0 to 1e30";
+    static const char point[] = "3 numbers from -1e30 to 1e30";
+    static const char number[] = "a number from 1 to 9";
+    static const char parts[] = "eye, at, up, fovy, aperture or focus";
+    static const struct {
+        const char *text, *found, *expected, *key;
+    } cases[] = {
+        {"fovy 0", "'0'", angle, "fovy"},
+        {"fovy 180", "'180'", angle, "fovy"},
+        {"fovy -40", "'-40'", angle, "fovy"},
+        {"fovy nan", "'nan'", angle, "fovy"},
+        {"fovy 1e400", "'1e400'", angle, "fovy"},
+        {"fovy", "the end of the line", angle, "fovy"},
+        {"fovy 40 50", "'50'", angle, "fovy"},
+        {"fovy 40deg", "'40deg'", angle, "fovy"},
+        {"fovy forty", "'forty'", angle, "fovy"},
+        {"res 0 10", "'0'", sizes, "res"},
+        {"res 10 -1", "'-1'", sizes, "res"},
+        {"res 10.5 10", "'10.5'", sizes, "res"},
+        {"res 10 65537", "'65537'", sizes, "res"},
+        {"res 10", "the end of the line", sizes, "res"},
+        {"res 10 # 20", "the end of the line", sizes, "res"},
+        {"res 256x256", "'256x256'", sizes, "res"},
+        {"background 0 -1 0", "'-1'", light, "background"},
+        {"background 0 0 inf", "'inf'", light, "background"},
+        {"background 0 0 nan", "'nan'", light, "background"},
+        {"background 0 0", "the end of the line", light, "background"},
+        {"eye 1 2", "the end of the line", point, "eye"},
+        {"eye 1 2 3 4", "'4'", point, "eye"},
+        {"eye 1,2,3", "'1,2,3'", point, "eye"},
+        {"at nan 0 0", "'nan'", point, "at"},
+        {"up 0 inf 0", "'inf'", point, "up"},
+        {"max_bounces 1.5", "'1.5'", "a whole number, or -1 for no limit",
+         "max_bounces"},
+        {"max_bounces 99999999999", "'99999999999'",
+         "a whole number, or -1 for no limit", "max_bounces"},
+        {"sky_strength -1", "'-1'", "a number from 0 to 1e30", "sky_strength"},
+        {"sky_rotation x", "'x'", "an angle from -1e6 to 1e6 degrees",
+         "sky_rotation"},
+        {"aperture -1", "'-1'", "a number from 0 to 1e30", "aperture"},
+        {"focus inf", "'inf'", "a number from 0 to 1e30", "focus"},
+        {"exposure nan", "'nan'", "a number of stops from -100 to 100",
+         "exposure"},
+        {"tone", "the end of the line", "linear, reinhard or aces", "tone"},
+        {"tone bright", "'bright'", "linear, reinhard or aces", "tone"},
+        {"view", "the end of the line", number, "view"},
+        {"view 0 eye 0 0 1 at 0 0 0", "'0'", number, "view"},
+        {"view 10 eye 0 0 1 at 0 0 0", "'10'", number, "view"},
+        {"view 1.5 eye 0 0 1 at 0 0 0", "'1.5'", number, "view"},
+        {"view 1 res 3 4", "'res'", parts, "view"},
+        {"view 1 eye 0 0 1 at 0 0 0 0", "'0'", parts, "view"},
+        {"view 1 eye 0 0", "the end of the line", point, "eye"},
+        {"view 1 eye 0 0 1", "the end of the line", "eye and at", "view"},
+        {"view 1 at 0 0 1", "the end of the line", "eye and at", "view"},
+    };
+    char text[200], expected[400];
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        snprintf(text, sizeof text, "# first line\n%s\nexposure 0\n",
+                 cases[i].text);
+        snprintf(expected, sizeof expected, "2: found %s, expected %s for %s",
+                 cases[i].found, cases[i].expected, cases[i].key);
+        refused(text, expected);
+    }
+    refused("up 0 0 0", "1: found 0 0 0, expected a direction for up");
+    refused("sky\n", "1: found no name, expected an image file for sky");
+    refused("eye 1 2 3\n\nat 1 2 3\nup 0 1 0\n",
+            "3: found eye and at in one point, expected two");
+    refused("\neye 1 2 3\n", "2: found only 'eye', expected eye and at");
+    refused("at 1 2 3\n", "1: found only 'at', expected eye and at");
+    refused("\nview 1 eye 1 2 3 at 1 2 3\n",
+            "2: found eye and at in one point, expected two");
+    refused("view 1 eye 1 2 3 at 0 0 0 up 0 0 0\n",
+            "1: found 0 0 0, expected a direction for up");
+}
+
+/* What a line leaves out is as the keys above it say. */
+static void test_numbered_views(void **state)
+{
+    struct view view;
+
+    (void)state;
+    read_text(&view, "eye 0 0 5\nat 0 0 0\n"
+                     "view 9 eye 1 2 3 at 4 5 6\n"
+                     "fovy 30\naperture .5\n"
+                     "view 2 at 1 0 0 eye 7 8 9 focus 3\\\n up 1 0 0 # wide\n");
+    for (int i = 0; i < VIEW_SHOTS; i++)
+        assert_int_equal(view.has_shot[i], i == 1 || i == 8);
+    is3(view.shots[8].eye, 1, 2, 3);
+    is3(view.shots[8].at, 4, 5, 6);
+    is3(view.shots[8].up, 0, 1, 0);
+    assert_true(view.shots[8].fovy_deg == 40 && view.shots[8].aperture == 0);
+    is3(view.shots[1].eye, 7, 8, 9);
+    is3(view.shots[1].at, 1, 0, 0);
+    is3(view.shots[1].up, 1, 0, 0);
+    assert_true(view.shots[1].fovy_deg == 30 && view.shots[1].aperture == .5 &&
+                view.shots[1].focus == 3);
+    is3(view.eye, 0, 0, 5);
+    is3(view.at, 0, 0, 0);
+    assert_true(view.focus == 0);
+    view_free(&view);
+}
+
+static void test_poses(void **state)
+{
+    struct view view, other;
+    struct pose pose;
+
+    (void)state;
+    view_init(&view);
+    view_init(&other);
+    pose = (struct pose){.eye = {1, 2, 3},
+                         .at = {4, 5, 6},
+                         .up = {7, 8, 9},
+                         .fovy_deg = 10,
+                         .aperture = 11,
+                         .focus = 12};
+    other.exposure = 3;
+    view_set_pose(&other, &pose);
+    assert_true(other.has_camera && other.exposure == 3);
+    pose = view_pose(&other);
+    view_set_pose(&view, &pose);
+    is3(view.eye, 1, 2, 3);
+    is3(view.at, 4, 5, 6);
+    is3(view.up, 7, 8, 9);
+    assert_true(view.fovy_deg == 10 && view.aperture == 11 && view.focus == 12);
+}
+
+static void test_no_file(void **state)
+{
+    struct report report = {0};
+    struct error err;
+    struct view view;
+
+    (void)state;
+    view_init(&view);
+    assert_false(view_read(&view, file("none"), &report, &err));
+    assert_non_null(strstr(err.text, "/none: no such file"));
+    assert_false(view_read(&view, folder, &report, &err));
+    assert_non_null(strstr(err.text, ": found a folder"));
+}
+
+static void test_unknown(void **state)
+{
+    struct report report = {0};
+    struct error err;
+    struct view view;
+    char expected[400];
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_read(&view, put("fov 30\nshutter 1\nfovy 50\nEYE 1\n"),
+                          &report, &err));
+    assert_true(view.fovy_deg == 50);
+    assert_int_equal(report.entry_count, 1);
+    assert_int_equal(report.entries[0].count, 3);
+    snprintf(expected, sizeof expected,
+             "%s:1: found the unknown key 'fov', skipped", file("t.view"));
+    assert_string_equal(report.entries[0].text, expected);
+    report_free(&report);
+}
+
+/* Bytes without meaning are read or refused. */
+static void test_noise(void **state)
+{
+    uint64_t random = 3;
+    char noise[512];
+
+    (void)state;
+    for (int i = 0; i < 2000; i++) {
+        struct report report = {0};
+        struct error err;
+        struct view view;
+        static const char some[] = "eyeatupfovyres 0123.e-+# \n\r\t\\\0\xff";
+        FILE *f = fopen(file("noise"), "wb");
+        size_t size = (size_t)(check_random(&random) * sizeof noise);
+
+        for (size_t j = 0; j < size; j++)
+            noise[j] =
+                some[(size_t)(check_random(&random) * (sizeof some - 1))];
+        assert_non_null(f);
+        fwrite(noise, 1, size, f);
+        fclose(f);
+        view_init(&view);
+        if (!view_read(&view, file("noise"), &report, &err))
+            assert_null(strchr(err.text, '\n'));
+        report_free(&report);
+        view_free(&view);
+    }
+}
+
+static void is_same(const struct view *a, const struct view *b)
+{
+    assert_memory_equal(a->eye, b->eye, sizeof a->eye);
+    assert_memory_equal(a->at, b->at, sizeof a->at);
+    assert_memory_equal(a->up, b->up, sizeof a->up);
+    assert_memory_equal(a->background, b->background, sizeof a->background);
+    assert_int_equal(a->has_camera, b->has_camera);
+    assert_int_equal(a->has_size, b->has_size);
+    assert_int_equal(a->has_background, b->has_background);
+    assert_int_equal(a->width_px, b->width_px);
+    assert_int_equal(a->height_px, b->height_px);
+    assert_int_equal(a->max_bounces, b->max_bounces);
+    assert_true(a->fovy_deg == b->fovy_deg);
+    assert_true(a->sky_strength == b->sky_strength);
+    assert_true(a->sky_rotation_deg == b->sky_rotation_deg);
+    assert_true(a->aperture == b->aperture);
+    assert_true(a->focus == b->focus);
+    assert_true(a->exposure == b->exposure);
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        const struct pose *p = &a->shots[i], *q = &b->shots[i];
+
+        assert_int_equal(a->has_shot[i], b->has_shot[i]);
+        is3(p->eye, q->eye[0], q->eye[1], q->eye[2]);
+        is3(p->at, q->at[0], q->at[1], q->at[2]);
+        is3(p->up, q->up[0], q->up[1], q->up[2]);
+        assert_true(p->fovy_deg == q->fovy_deg && p->aperture == q->aperture &&
+                    p->focus == q->focus);
+    }
+}
+
+static void test_round_trip(void **state)
+{
+    struct report report = {0};
+    struct error err;
+    struct view view, again;
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_write(&view, file("w.view"), &change, &err));
+    view_init(&again);
+    assert_true(view_read(&again, file("w.view"), &report, &err));
+    is_same(&view, &again);
+    view = (struct view){.eye = {1.0 / 3, -2e-9, 1e20},
+                         .at = {0.1 + 0.2, 5, -7},
+                         .up = {0, 0.6, 0.8},
+                         .has_camera = true,
+                         .fovy_deg = 100.0 / 7,
+                         .width_px = 31,
+                         .height_px = 17,
+                         .has_size = true,
+                         .background = {0.1, 2, 3},
+                         .has_background = true,
+                         .max_bounces = 3,
+                         .sky_strength = 0.3,
+                         .sky_rotation_deg = 12.5,
+                         .aperture = 0.05,
+                         .focus = 7.25,
+                         .exposure = -0.7};
+    view.shots[0] = view_pose(&view);
+    view.shots[8] = (struct pose){.eye = {1, 1e-9, 1},
+                                  .at = {0, 1.0 / 3},
+                                  .up = {0, 1},
+                                  .fovy_deg = 3};
+    view.has_shot[0] = view.has_shot[8] = true;
+    assert_true(view_write(&view, file("w.view"), &change, &err));
+    assert_true(view_read(&again, file("w.view"), &report, &err));
+    is_same(&view, &again);
+    assert_int_equal(report.entry_count, 0);
+}
+
+static void test_text(void **state)
+{
+    struct error err;
+    struct view view;
+    char text[1000] = "";
+
+    (void)state;
+    read_text(&view, "eye 278 273 -800\nat 278 273 0\nfovy 39.3077\n"
+                     "res 256 256\nsky s.hdr\nexposure -.5\n");
+    assert_true(view_write(&view, file("x.view"), &change, &err));
+    FILE *f = fopen(file("x.view"), "r");
+    assert_non_null(f);
+    assert_true(fread(text, 1, sizeof text - 1, f) > 0);
+    fclose(f);
+    assert_int_equal(text[0], '#');
+    assert_string_equal(strstr(text, "eye"),
+                        "eye 278 273 -800\nat 278 273 0\nup 0 1 0\n"
+                        "fovy 39.3077\nres 256 256\nsky s.hdr\n"
+                        "exposure -0.5\n");
+    view_free(&view);
+}
+
+static void is_file(const char *path, const char *expected)
+{
+    char text[1000];
+    FILE *f = fopen(path, "r");
+
+    assert_non_null(f);
+    text[fread(text, 1, sizeof text - 1, f)] = '\0';
+    fclose(f);
+    assert_string_equal(text, expected);
+}
+
+/* Comments, order and lines of others outlive a new camera. */
+static void test_lines_are_kept(void **state)
+{
+    struct report report = {0};
+    struct error err;
+    struct view view;
+    const char *path = put("# my room\r\nfovy 30\n\n  # the door\neye 1 2 3\n"
+                           "assign door oak\nat 0 0 0 # eye\neye 4 5 6\n"
+                           "shutter 2 \\\n eye");
+
+    (void)state;
+    view_init(&view);
+    assert_true(view_read(&view, path, &report, &err));
+    report_free(&report);
+    view.eye[0] = 7;
+    view.exposure = 2;
+    view.has_shot[3] = true;
+    view.shots[3] = view_pose(&view);
+    assert_true(view_write(&view, path, &change, &err));
+    is_file(path, "# my room\r\nfovy 30\n\n  # the door\neye 7 5 6\n"
+                  "assign door oak\nat 0 0 0\n"
+                  "shutter 2 \\\n eye\n"
+                  "up 0 1 0\nexposure 2\n"
+                  "view 4 eye 7 5 6 at 0 0 0 up 0 1 0 fovy 30 aperture 0 "
+                  "focus 0\n");
+    view_free(&view);
+}
+
+/* The sky that a view file names is the sky that was meant, from wherever the
+ * program runs. */
+static void test_sky_names(void **state)
+{
+    static const struct {
+        const char *view_path, *sky, *line;
+    } cases[] = {
+        {"a/v.view", "a/s.hdr", "sky s.hdr\n"},
+        {"a/v.view", "a/deep/s x.hdr", "sky deep/s x.hdr\n"},
+        {"a/v.view", "a/deep/../s.hdr", "sky s.hdr\n"},
+        {"v.view", "a/s.hdr", "sky a/s.hdr\n"},
+        {"./v.view", "s.hdr", "sky s.hdr\n"},
+        {"a/v.view", "s.hdr", NULL}, /* absolute */
+        {"a/v.view", "ab/s.hdr", NULL},
+    };
+    char line[5000], real[4096];
+
+    (void)state;
+    assert_int_equal(chdir(folder), 0);
+    mkdir("a", 0777);
+    mkdir("a/deep", 0777);
+    mkdir("ab", 0777);
+    assert_non_null(realpath(".", real));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct error err;
+        struct view view;
+        char text[1000] = "";
+
+        view_init(&view);
+        view.sky_path = xstrdup(cases[i].sky);
+        assert_true(view_write(&view, cases[i].view_path, &change, &err));
+        view_free(&view);
+        FILE *f = fopen(cases[i].view_path, "r");
+        assert_non_null(f);
+        assert_true(fread(text, 1, sizeof text - 1, f) > 0);
+        fclose(f);
+        snprintf(line, sizeof line, "sky %s/%s\n", real, cases[i].sky);
+        assert_string_equal(strstr(text, "sky"),
+                            cases[i].line ? cases[i].line : line);
+    }
+    struct error err;
+    struct view view;
+    view_init(&view);
+    view.sky_path = xstrdup("two\nlines");
+    assert_false(view_write(&view, "bad.view", &change, &err));
+    assert_int_not_equal(access("bad.view", F_OK), 0);
+    view_free(&view);
+    assert_int_equal(chdir("/"), 0);
+}
+
+static void test_check(void **state)
+{
+    struct error err;
+    struct view view;
+
+    (void)state;
+    view_init(&view);
+    view.at[2] = -1;
+    assert_true(view_check(&view, "here", &err));
+    view.fovy_deg = NAN;
+    assert_false(view_check(&view, "here", &err));
+    view.fovy_deg = 180;
+    assert_false(view_check(&view, "here", &err));
+    assert_string_equal(err.text, "here: found a fovy of 180 degrees, "
+                                  "expected one above 0 and below 180");
+    view.fovy_deg = 40;
+    view.eye[0] = INFINITY;
+    assert_false(view_check(&view, "here", &err));
+    view.eye[0] = 0;
+    view.eye[2] = -1;
+    assert_false(view_check(&view, "here", &err));
+    assert_string_equal(err.text,
+                        "here: found eye and at in one point, expected two");
+}
+
+static void test_copy(void **state)
+{
+    struct view a, b;
+
+    (void)state;
+    view_init(&a);
+    view_init(&b);
+    a.sky_path = xstrdup("one");
+    b.sky_path = xstrdup("two");
+    view_copy(&b, &a);
+    assert_string_equal(b.sky_path, "one");
+    assert_ptr_not_equal(a.sky_path, b.sky_path);
+    view_free(&a);
+    assert_string_equal(b.sky_path, "one");
+    view_free(&b);
+}
+
+/* The camera files that others wrote are all understood. */
+static void test_shared(void **state)
+{
+    const char *shared = getenv("GLIM_SHARED");
+    char pattern[512];
+    glob_t found;
+
+    (void)state;
+    snprintf(pattern, sizeof pattern, "%s/scenes-*/*/camera.txt",
+             shared ? shared : "../shared");
+    if (glob(pattern, 0, NULL, &found) != 0) {
+        print_message("no %s here\n", pattern);
+        skip();
+    }
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        struct report report = {0};
+        struct error err = {""};
+        struct view view;
+        view_init(&view);
+        assert_true(view_read(&view, found.gl_pathv[i], &report, &err));
+        assert_true(view.has_camera && view.has_size);
+        assert_int_equal(report.entry_count, 0);
+        view_free(&view);
+    }
+    globfree(&found);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shared), /* before the folder changes */
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_all_keys),
+        cmocka_unit_test(test_over),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_no_file),
+        cmocka_unit_test(test_unknown),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_text),
+        cmocka_unit_test(test_sky_names),
+        cmocka_unit_test(test_check),
+        cmocka_unit_test(test_copy),
+        cmocka_unit_test(test_poses),
+        cmocka_unit_test(test_numbered_views),
+        cmocka_unit_test(test_lines_are_kept),
+    };
+
+    return cmocka_run_group_tests_name("view", tests, make_folder,
+                                       remove_folder);
+}

@@ -1,0 +1,612 @@
+// SPDX-License-Identifier: MIT
+/*
+ * Edits: undone and done again they are what they were; a scene that was
+ * restyled has the arrays of one that was loaded from the files that the edit
+ * wrote.
+ */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
+#include "studio/material_params.h"
+#include "base/file.h"
+#include "formats/mtl.h"
+#include "session/session_save.h"
+#include "formats/view_file.h"
+
+static char root[4096]; /* where the scenes are */
+
+static const char obj[] =
+    "mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 2 2\n"
+    "o plain\nf 1 2 3\no lamp\nusemtl lamp\nf 1 2 4\nf 1 3 4\n"
+    "o my wall\nusemtl wall\nf 2 3 4\nusemtl lamp\nf 3 4 5\n"
+    "o ball\nusemtl glass\nf 1 2 5\n";
+static const char a_mtl[] = "# a\nnewmtl lamp\nKe 3 2 1 # warm\nPs 1\n"
+                            "newmtl wall\n\tKd .5 .5 .5\n";
+static const char b_mtl[] = "newmtl glass\r\nillum 7\r\nNi 1.5\r\n"
+                            "newmtl spare\r\nKd 0 1 0\r\n";
+static const char view[] = "# mine\neye 0 0 5\nat 0 0 0\nexposure 1\n";
+
+static void put(const char *name, const char *text)
+{
+    struct error err;
+
+    check_or_say(file_write(name, text, strlen(text), false, NULL, &err),
+                 err.text);
+}
+
+static void put_scene(void)
+{
+    put("s.obj", obj);
+    put("a.mtl", a_mtl);
+    put("b.mtl", b_mtl);
+    put("s.view", view);
+}
+
+/* Pictures of one pixel: what is compared is what they are made from. */
+static struct options options = {.scene_path = "s.obj",
+                                 .width_px = 1,
+                                 .height_px = 1,
+                                 .spp = 1,
+                                 .max_bounces = -1,
+                                 .thread_count = 1};
+
+static void open_session(struct session *s)
+{
+    struct error err;
+
+    check_or_say(session_open(s, &options, clock_ns(), &err), err.text);
+}
+
+static void restart(struct session *s)
+{
+    struct error err;
+
+    check_or_say(session_restart(s, 1, &err), err.text);
+    render_wait(s->render, -1);
+}
+
+static char *saved(struct session *s)
+{
+    struct watch nothing = {.fd = -1};
+    struct error err;
+    char *what;
+
+    check_or_say(session_save_edit(s, &nothing, &what, &err), err.text);
+    return what;
+}
+
+static void save(struct session *s)
+{
+    free(saved(s));
+}
+
+/* The arrays that samples read. */
+static void check_same_scene(const struct scene *a, const struct scene *b)
+{
+    assert_int_equal(a->tri_count, b->tri_count);
+    for (uint32_t i = 0; i < a->tri_count; i++) {
+        uint32_t m = a->tris[i].material, n = b->tris[i].material;
+
+        assert_string_equal(a->material_names[m], b->material_names[n]);
+        assert_memory_equal(&a->materials[m], &b->materials[n],
+                            sizeof a->materials[m]);
+    }
+    assert_int_equal(a->lights.light_count, b->lights.light_count);
+    assert_int_equal(a->lights.node_count, b->lights.node_count);
+    assert_true(a->lights.glare == b->lights.glare);
+    if (a->lights.light_count > 0) {
+        assert_memory_equal(a->lights.lights, b->lights.lights,
+                            a->lights.light_count * sizeof *a->lights.lights);
+        assert_memory_equal(a->lights.tri_lights, b->lights.tri_lights,
+                            a->tri_count * sizeof *a->lights.tri_lights);
+    }
+    if (a->lights.node_count > 0)
+        assert_memory_equal(a->lights.nodes, b->lights.nodes,
+                            a->lights.node_count * sizeof *a->lights.nodes);
+    assert_int_equal(a->guide.grid.table_count, b->guide.grid.table_count);
+    if (a->guide.grid.table_count > 0)
+        assert_memory_equal(a->guide.sums, b->guide.sums,
+                            a->guide.grid.table_count * sizeof(float) *
+                                GUIDE_BINS);
+    assert_int_equal(scene_features(a), scene_features(b));
+    assert_int_equal(a->has_emitters, b->has_emitters);
+}
+
+static uint64_t seed = 7;
+
+static uint32_t any(uint32_t count)
+{
+    return (uint32_t)(check_random(&seed) * count);
+}
+
+static void edit_anything(struct edit *e)
+{
+    uint32_t material = 1 + any(e->material_count - 1);
+    struct mtl_source source = e->now.sources[material];
+    struct mood mood = e->now.mood;
+
+    while (!e->now.is_there[material])
+        material--;
+    source = e->now.sources[material];
+    if (any(3) != 0)
+        edit_break(e);
+    switch (any(8)) {
+    case 0:
+        source.kd = (struct mtl_color){{check_random(&seed), .5, 0}, 1};
+        edit_material(e, material, &source);
+        break;
+    case 1:
+        source.ke = (struct mtl_color){{check_random(&seed), 1, 2}, 1};
+        edit_material(e, material, &source);
+        break;
+    case 2:
+        source.ke = (struct mtl_color){.line = 0};
+        edit_material(e, material, &source);
+        break;
+    case 3:
+        source.illum = (struct mtl_number){(double)any(10), 1};
+        edit_material(e, material, &source);
+        break;
+    case 4:
+        edit_assign(e, any(e->object_count), any(2) ? NO_INDEX : material);
+        break;
+    case 5:
+        edit_assign(e, any(e->object_count), edit_duplicate(e, material));
+        break;
+    case 6:
+        source.pr = (struct mtl_number){check_random(&seed), 1};
+        edit_material(e, material, &source);
+        break;
+    case 7:
+        mood.exposure = check_random(&seed);
+        mood.background[1] = check_random(&seed);
+        mood.has_background = true;
+        edit_mood(e, &mood);
+        break;
+    }
+}
+
+/* A picture of the state in numbers. */
+static uint64_t hash_state(const struct edit *e)
+{
+    uint64_t h = 1469598103934665603u; /* FNV-1a */
+    const struct edit_state *s = &e->now;
+
+#define MIX(p, n)                    \
+    for (size_t k = 0; k < (n); k++) \
+    h = (h ^ ((const unsigned char *)(p))[k]) * 1099511628211u
+    for (uint32_t i = 0; i < e->material_count; i++) {
+        if (!s->is_there[i])
+            continue;
+        MIX(&i, sizeof i);
+        MIX(s->sources[i].kd.rgb, sizeof s->sources[i].kd.rgb);
+        MIX(s->sources[i].ke.rgb, sizeof s->sources[i].ke.rgb);
+        MIX(&s->sources[i].illum.value, sizeof(double));
+        MIX(&s->sources[i].pr.value, sizeof(double));
+    }
+    MIX(s->assigned, e->object_count * sizeof *s->assigned);
+    MIX(&s->mood.exposure, sizeof s->mood.exposure);
+    MIX(s->mood.background, sizeof s->mood.background);
+    return h;
+#undef MIX
+}
+
+#define STEPS 400
+
+static void test_undo_redo(void **state)
+{
+    uint64_t hashes[STEPS + 1];
+    struct session s;
+    int count = 0;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    hashes[0] = hash_state(&s.edit);
+    while (count < STEPS) {
+        size_t before = s.edit.step_count;
+        uint32_t group = before == 0 ? NO_INDEX : s.edit.group;
+
+        edit_anything(&s.edit);
+        if (s.edit.step_count == before && s.edit.group != group)
+            continue; /* nothing has changed, or a step went on */
+        edit_break(&s.edit);
+        if (hash_state(&s.edit) != hashes[count])
+            hashes[++count] = hash_state(&s.edit);
+    }
+    for (int i = count; i > 0;) {
+        uint64_t now = hash_state(&s.edit);
+
+        assert_true(edit_undo(&s.edit));
+        if (hash_state(&s.edit) != now) /* what changes nothing is no step */
+            assert_true(hash_state(&s.edit) == hashes[--i]);
+    }
+    while (edit_undo(&s.edit))
+        assert_true(hash_state(&s.edit) == hashes[0]);
+    assert_false(edit_undo(&s.edit));
+    assert_false(edit_has_unsaved_materials(&s.edit));
+    assert_false(edit_has_unsaved_view(&s.edit));
+    while (edit_redo(&s.edit))
+        continue;
+    assert_true(hash_state(&s.edit) == hashes[count]);
+    session_close(&s);
+}
+
+/* One drag is one step, and a change after undoing forgets what was undone. */
+static void test_groups(void **state)
+{
+    struct mtl_source source;
+    struct session s;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    source = s.edit.now.sources[2];
+    edit_break(&s.edit);
+    for (int i = 1; i <= 100; i++) {
+        source.kd.rgb[0] = i / 100.0;
+        edit_material(&s.edit, 2, &source);
+    }
+    assert_int_equal(s.edit.step_count, 1);
+    edit_break(&s.edit);
+    source.kd.rgb[1] = .1;
+    edit_material(&s.edit, 2, &source);
+    assert_int_equal(s.edit.step_count, 2);
+    assert_true(edit_undo(&s.edit));
+    assert_true(s.edit.now.sources[2].kd.rgb[0] == 1);
+    assert_true(s.edit.now.sources[2].kd.rgb[1] == .5);
+    assert_true(edit_undo(&s.edit));
+    assert_true(s.edit.now.sources[2].kd.rgb[0] == .5);
+    assert_true(edit_redo(&s.edit));
+    source = s.edit.now.sources[2];
+    source.kd.rgb[2] = .9;
+    edit_material(&s.edit, 2, &source);
+    assert_false(edit_redo(&s.edit));
+    /* a duplicate and its assignment go together */
+    edit_break(&s.edit);
+    edit_assign(&s.edit, 1, edit_duplicate(&s.edit, 2));
+    assert_string_equal(s.edit.names[s.edit.material_count - 1], "wall.2");
+    assert_true(edit_undo(&s.edit));
+    assert_int_equal(s.edit.now.assigned[1], NO_INDEX);
+    assert_false(s.edit.now.is_there[s.edit.material_count - 1]);
+    edit_duplicate(&s.edit, 2);
+    assert_string_equal(s.edit.names[s.edit.material_count - 1], "wall.3");
+    session_close(&s);
+}
+
+/* What is rendered after an edit is what a fresh start renders after saving;
+ * comparing and undoing bring back what was loaded. */
+static void test_restyle(void **state)
+{
+    struct session first;
+
+    (void)state;
+    put_scene();
+    open_session(&first);
+    for (int round = 0; round < 25; round++) {
+        struct session s, again;
+
+        put_scene();
+        open_session(&s);
+        restart(&s);
+        for (int i = 0; i < 12; i++) {
+            edit_anything(&s.edit);
+            if (any(3) == 0)
+                restart(&s);
+        }
+        restart(&s);
+        s.edit.is_comparing = true;
+        restart(&s);
+        check_same_scene(&s.scene, &first.scene);
+        s.edit.is_comparing = false;
+        restart(&s);
+        save(&s);
+        assert_false(edit_has_unsaved_materials(&s.edit));
+        assert_false(edit_has_unsaved_view(&s.edit));
+        open_session(&again);
+        check_same_scene(&s.scene, &again.scene);
+        assert_true(again.view.exposure == s.view.exposure);
+        assert_memory_equal(again.view.background, s.view.background,
+                            sizeof s.view.background);
+        assert_true(again.view.eye[2] == 5);
+        session_close(&again);
+        while (edit_undo(&s.edit))
+            continue;
+        restart(&s);
+        check_same_scene(&s.scene, &first.scene);
+        session_close(&s);
+    }
+    session_close(&first);
+}
+
+/* Arrays that change have other addresses, and the others stay. */
+static void test_swaps(void **state)
+{
+    struct mtl_source source;
+    const struct material *materials;
+    const struct light *lights;
+    const struct tri *tris;
+    struct session s;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    restart(&s);
+    materials = s.scene.materials;
+    lights = s.scene.lights.lights;
+    tris = s.scene.tris;
+    restart(&s);
+    assert_ptr_equal(s.scene.materials, materials);
+    source = s.edit.now.sources[2];
+    source.kd.rgb[0] = 1;
+    edit_material(&s.edit, 2, &source);
+    assert_true(session_take_edit(&s));
+    restart(&s);
+    assert_false(session_take_edit(&s));
+    assert_ptr_not_equal(s.scene.materials, materials);
+    assert_ptr_equal(s.scene.lights.lights, lights);
+    assert_ptr_equal(s.scene.tris, tris);
+    source = s.edit.now.sources[1];
+    source.ke.rgb[0] = 1;
+    edit_material(&s.edit, 1, &source);
+    restart(&s);
+    assert_ptr_not_equal(s.scene.lights.lights, lights);
+    lights = s.scene.lights.lights;
+    edit_assign(&s.edit, 2, 2);
+    restart(&s);
+    assert_ptr_not_equal(s.scene.tris, tris);
+    assert_ptr_not_equal(s.scene.lights.lights, lights);
+    assert_false(s.geometry_changed);
+    session_close(&s);
+}
+
+/* Only what was changed is written, where it belongs. */
+static void test_saved_files(void **state)
+{
+    struct mtl_source source;
+    struct session s;
+    struct error err;
+    char *text;
+    size_t size_bytes;
+    uint32_t copy;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    edit_break(&s.edit);
+    copy = edit_duplicate(&s.edit, 1);
+    edit_assign(&s.edit, 3, copy);
+    source = s.edit.now.sources[copy];
+    source.ke.rgb[0] = 9;
+    edit_material(&s.edit, copy, &source);
+    source = s.edit.now.sources[3];
+    source.ni.value = 1.25;
+    edit_material(&s.edit, 3, &source);
+    save(&s);
+    assert_true(file_read("a.mtl", &text, &size_bytes, &err));
+    assert_string_equal(text, "# a\nnewmtl lamp\nKe 3 2 1 # warm\nPs 1\n"
+                              "newmtl wall\n\tKd .5 .5 .5\n\n"
+                              "newmtl lamp.2\nKe 9 2 1 # warm\nPs 1\n");
+    free(text);
+    assert_true(file_read("b.mtl", &text, &size_bytes, &err));
+    assert_string_equal(text, "newmtl glass\r\nillum 7\r\nNi 1.25\r\n"
+                              "newmtl spare\r\nKd 0 1 0\r\n");
+    free(text);
+    assert_true(file_read("s.view", &text, &size_bytes, &err));
+    check_has(text, "\nassign \"my wall\" lamp.2\n");
+    check_has(text, "\neye 0 0 5\n");
+    check_has(text, "\nexposure 1\n");
+    free(text);
+    session_close(&s);
+}
+
+/* The line about it names what was written, and no more. */
+static void test_what_was_saved(void **state)
+{
+    static const char *const names[] = {"glass", "lamp"};
+    static const char *const lines[] = {
+        "wrote 1 material to b.mtl", "wrote 2 materials to a.mtl, b.mtl",
+        "nothing has changed since it was saved"};
+    struct session s;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    for (size_t i = 0; i < 3; i++) {
+        char *what;
+
+        for (size_t k = 0; i < 2 && k <= i; k++) {
+            uint32_t material = mtl_find(&s.scene, names[k]);
+            struct mtl_source source = s.edit.now.sources[material];
+
+            /* one of them is the colour of a lamp, the other that of glass */
+            source.kd = (struct mtl_color){{.25 * (double)(1 + i), 0, 0}, 1};
+            source.tf = source.kd;
+            edit_material(&s.edit, material, &source);
+        }
+        what = saved(&s);
+        assert_string_equal(what, lines[i]);
+        free(what);
+    }
+    session_close(&s);
+}
+
+/* What kinds leave behind is not written; a statement that a kind needs is
+ * written later, although it was there once before. */
+static void test_kinds_leave_nothing(void **state)
+{
+    static const struct {
+        int turns; /* from what was saved before */
+        const char *wall;
+    } cases[] = {
+        {3, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 7\n"},
+        {4, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 3\n"
+            "\tPm 1\n"},
+        {-2, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 3\n"
+             "\tPm 0\n"},
+    };
+    struct session s;
+    struct error err;
+
+    (void)state;
+    put_scene();
+    open_session(&s);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        uint32_t wall = mtl_find(&s.scene, "wall");
+        struct mtl_source source = s.edit.now.sources[wall];
+        size_t size_bytes;
+        char *text;
+
+        for (int n = 0; n < abs(cases[i].turns); n++)
+            look_turn_kind(&source, cases[i].turns);
+        edit_material(&s.edit, wall, &source);
+        save(&s);
+        assert_false(edit_has_unsaved_materials(&s.edit));
+        assert_true(file_read("a.mtl", &text, &size_bytes, &err));
+        check_has(text, cases[i].wall);
+        free(text);
+    }
+    session_close(&s);
+}
+
+/* Lines that name what is not there do nothing, and are kept. */
+static void test_lost_assignments(void **state)
+{
+    struct session s;
+    struct mood mood;
+    struct error err;
+    char *text;
+    size_t size_bytes;
+
+    (void)state;
+    put_scene();
+    put("s.view", "eye 0 0 5\nat 0 0 0\nassign nobody lamp\n"
+                  "assign plain \"no such\"\nassign lamp wall # dim\n");
+    open_session(&s);
+    assert_int_equal(s.report.entry_count, 3); /* the first: Ps */
+    check_has(s.report.entries[1].text, "found no object 'nobody' to assign");
+    check_has(s.report.entries[2].text, "found no material 'no such'");
+    assert_int_equal(s.scene.tris[1].material, s.scene.tris[2].material);
+    assert_string_equal(s.scene.material_names[s.scene.tris[1].material],
+                        "wall");
+    mood = s.edit.now.mood;
+    mood.exposure = 2;
+    edit_mood(&s.edit, &mood);
+    assert_false(session_take_edit(&s)); /* no new picture */
+    assert_true(s.view.exposure == 2);
+    save(&s);
+    assert_true(file_read("s.view", &text, &size_bytes, &err));
+    check_has(text, "assign nobody lamp\nassign plain \"no such\"\n"
+                    "assign lamp wall\n");
+    free(text);
+    session_close(&s);
+}
+
+static void test_wrong_lines(void **state)
+{
+    static const char *const wrong[] = {"assign a", "assign", "assign a b c",
+                                        "assign \"a b", "assign \"a\" \"b"};
+    struct view v;
+    struct report report = {0};
+    struct error err;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        view_init(&v);
+        put("w.view", wrong[i]);
+        assert_false(view_read(&v, "w.view", &report, &err));
+        check_has(err.text, "w.view:1: found another line than assign");
+        view_free(&v);
+    }
+    view_init(&v);
+    put("w.view", "assign \"a \"\"b#\" c\nassign \"\" \"d\\\"\n"
+                  "assign x y\nassign x z\n");
+    check_or_say(view_read(&v, "w.view", &report, &err), err.text);
+    assert_int_equal(v.assigns.count, 3);
+    assert_string_equal(v.assigns.items[0].object, "a \"b#");
+    assert_string_equal(v.assigns.items[1].object, "");
+    assert_string_equal(v.assigns.items[1].material, "d\\");
+    assert_string_equal(v.assigns.items[2].material, "z");
+    view_free(&v);
+    report_free(&report);
+}
+
+/* An image that no material had a use for is read when one gets it. */
+static void test_textures_come_into_use(void **state)
+{
+    struct session s, again;
+    struct mtl_source source;
+    const struct texture *textures;
+    struct material before;
+    char *text = xformat("newmtl lamp\nKe 1 1 1\nnewmtl wall\nillum 7\nKd .5\n"
+                         "map_Ks %s/scenes/tiles.png\n",
+                         root);
+
+    (void)state;
+    put_scene();
+    put("a.mtl", text);
+    open_session(&s);
+    restart(&s);
+    before = s.scene.materials[2];
+    textures = s.scene.textures;
+    assert_int_equal(s.scene.texture_count, 1);
+    assert_int_equal(textures[0].width, 0);
+    source = s.edit.now.sources[2];
+    source.illum.value = 2;
+    edit_material(&s.edit, 2, &source);
+    restart(&s);
+    assert_ptr_not_equal(s.scene.textures, textures);
+    assert_true(s.scene.textures[0].width > 0);
+    assert_int_equal(s.scene.materials[2].kind, MATERIAL_PLASTIC);
+    assert_int_equal(s.scene.materials[2].coat_texture, 0);
+    save(&s);
+    open_session(&again);
+    check_same_scene(&s.scene, &again.scene);
+    session_close(&again);
+    /* off: the colour alone; the next step copies no textures */
+    textures = s.scene.textures;
+    source.maps_off = 1u << MTL_MAP_KS;
+    edit_break(&s.edit);
+    edit_material(&s.edit, 2, &source);
+    restart(&s);
+    assert_ptr_equal(s.scene.textures, textures);
+    assert_int_equal(s.scene.materials[2].kind, MATERIAL_DIFFUSE);
+    save(&s);
+    open_session(&again);
+    check_same_scene(&s.scene, &again.scene);
+    session_close(&again);
+    while (edit_undo(&s.edit))
+        continue;
+    restart(&s);
+    assert_memory_equal(&s.scene.materials[2], &before, sizeof before);
+    session_close(&s);
+    free(text);
+}
+
+static int enter(void **state)
+{
+    if (getcwd(root, sizeof root) == NULL)
+        return -1;
+    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_undo_redo),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_restyle),
+        cmocka_unit_test(test_swaps),
+        cmocka_unit_test(test_textures_come_into_use),
+        cmocka_unit_test(test_saved_files),
+        cmocka_unit_test(test_what_was_saved),
+        cmocka_unit_test(test_kinds_leave_nothing),
+        cmocka_unit_test(test_lost_assignments),
+        cmocka_unit_test(test_wrong_lines),
+    };
+
+    return cmocka_run_group_tests(tests, enter, remove_folder);
+}

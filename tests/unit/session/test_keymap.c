@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: MIT
+/*
+ * What keys do, with keys of the person's own as well; that help, manual and
+ * README tell of all of them.
+ */
+#include <stdlib.h>
+
+#include "tests/unit/check.h"
+#include "base/file.h"
+#include "studio/help.h"
+#include "terminal/tty_input.h"
+#include "session/keymap.h"
+
+static struct keys table_keys(bool phoe)
+{
+    struct keys k = {0};
+
+    keys_settle(&k, phoe);
+    return k;
+}
+
+static void choose(struct keys *k, enum action action, int a, int b)
+{
+    const int keys[KEYS_MAX] = {a, b};
+
+    keys_choose(k, action, keys);
+}
+
+static void own_and_phoe_keys(void **state)
+{
+    static const struct {
+        int key;
+        enum action own, phoe;
+    } cases[] = {
+        {'w', ACTION_FORWARD, ACTION_UP},
+        {'s', ACTION_BACK, ACTION_DOWN},
+        {'a', ACTION_LEFT, ACTION_LEFT},
+        {'d', ACTION_RIGHT, ACTION_RIGHT},
+        {'Q', ACTION_DOWN, ACTION_FORWARD},
+        {'e', ACTION_UP, ACTION_BACK},
+        {'E', ACTION_UP, ACTION_BACK},
+        {'q', ACTION_QUIT, ACTION_QUIT},
+        {'?', ACTION_HELP, ACTION_HELP},
+        {3, ACTION_INTERRUPT, ACTION_INTERRUPT},
+        {26, ACTION_SUSPEND, ACTION_SUSPEND},
+        {'c', ACTION_SAVE_VIEW, ACTION_SAVE_VIEW},
+        {'C', ACTION_COLORS, ACTION_COLORS},
+        {'9', ACTION_VIEW_9, ACTION_VIEW_9},
+        {INPUT_LEFT, ACTION_LOOK_LEFT, ACTION_LOOK_LEFT},
+        {INPUT_PAGE_UP, ACTION_UP, ACTION_UP},
+        {INPUT_OTHER, ACTION_NONE, ACTION_NONE},
+        {0, ACTION_NONE, ACTION_NONE},
+        {'x', ACTION_SAVE_TEXT, ACTION_SAVE_TEXT},
+        {'G', ACTION_GLYPHS, ACTION_GLYPHS},
+        {'~', ACTION_NONE, ACTION_NONE},
+    };
+    struct keys own = table_keys(false), phoe = table_keys(true);
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_int_equal(keys_action(&own, cases[i].key), cases[i].own);
+        assert_int_equal(keys_action(&phoe, cases[i].key), cases[i].phoe);
+    }
+}
+
+/* With Caps Lock on the six keys of the camera do as people know them. */
+static void capitals_move_too(void **state)
+{
+    struct keys k = table_keys(false);
+
+    (void)state;
+    for (const char *p = "wasde"; *p; p++)
+        assert_int_equal(keys_action(&k, *p - 'a' + 'A'), keys_action(&k, *p));
+}
+
+static void a_key_has_one_action(void **state)
+{
+    (void)state;
+    for (int phoe = 0; phoe < 2; phoe++) {
+        struct keys k = table_keys(phoe);
+
+        for (int key = 1; key <= INPUT_OTHER; key++) {
+            int count = 0;
+
+            for (int i = 0; i < ACTIONS * KEYS_MAX; i++)
+                count += k.keys[i / KEYS_MAX][i % KEYS_MAX] == key;
+            assert_in_range(count, 0, 1);
+        }
+    }
+}
+
+static void chosen_keys_replace_those_of_the_table(void **state)
+{
+    struct keys k = {0};
+
+    (void)state;
+    choose(&k, ACTION_FORWARD, 'x', 'q');
+    choose(&k, ACTION_ORBIT, 'y', 0);
+    choose(&k, ACTION_MOUSE, 0, 0);
+    choose(&k, ACTION_UNDO, 'x', 0); /* and takes it away from forward */
+    keys_settle(&k, true);
+    assert_int_equal(keys_action(&k, 'q'), ACTION_FORWARD);
+    assert_int_equal(keys_action(&k, 'x'), ACTION_UNDO);
+    assert_int_equal(keys_action(&k, 'u'), ACTION_NONE);
+    assert_int_equal(keys_action(&k, 'y'), ACTION_ORBIT);
+    assert_int_equal(keys_action(&k, 'o'), ACTION_NONE);
+    assert_int_equal(keys_action(&k, 'm'), ACTION_NONE);
+    assert_int_equal(keys_action(&k, 'Q'), ACTION_NONE); /* phoe's forward */
+    assert_int_equal(keys_action(&k, 'w'), ACTION_UP);
+}
+
+static void names_come_back(void **state)
+{
+    struct keys_name name;
+
+    (void)state;
+    for (int action = 1; action < ACTIONS; action++) {
+        const char *text = keys_action_name((enum action)action);
+
+        assert_non_null(text);
+        assert_int_equal(keys_find_action(text, strlen(text)), action);
+    }
+    assert_null(keys_action_name(ACTION_NONE));
+    assert_int_equal(keys_find_action("forwar", 6), ACTION_NONE);
+    assert_int_equal(keys_find_action("", 0), ACTION_NONE);
+    for (int key = 1; key < INPUT_OTHER; key++) {
+        if (key >= 128 && key < INPUT_UP)
+            continue; /* none that a terminal sends */
+        name = keys_key_name(key);
+        assert_int_equal(keys_find_key(name.text, strlen(name.text)), key);
+    }
+    assert_int_equal(keys_find_key("^A", 2), 1);
+    assert_int_equal(keys_find_key("PgUp", 4), INPUT_PAGE_UP);
+    assert_int_equal(keys_find_key("pgup", 4), 0);
+    assert_int_equal(keys_find_key("ww", 2), 0);
+    assert_int_equal(keys_find_key("^", 1), '^');
+    assert_int_equal(keys_find_key("^a", 2), 0);
+}
+
+static void first_names(void **state)
+{
+    struct keys k = {0};
+
+    (void)state;
+    choose(&k, ACTION_MOUSE, 0, 0);
+    keys_settle(&k, false);
+    assert_string_equal(keys_first_name(&k, ACTION_HELP).text, "?");
+    assert_string_equal(keys_first_name(&k, ACTION_MODE).text, "space");
+    assert_string_equal(keys_first_name(&k, ACTION_MOUSE).text, "no key");
+}
+
+/* Every action but capitals of the same is in the help once; lines fit. */
+static void help_names_every_key(void **state)
+{
+    (void)state;
+    for (int phoe = 0; phoe < 2; phoe++) {
+        struct keys k = table_keys(phoe);
+        struct keys_help help;
+        char all[1024] = " ";
+
+        for (int i = 0; keys_help(&k, i, &help); i++) {
+            assert_in_range(strlen(help.keys), 1, 7);
+            assert_in_range(strlen(help.text), 1, HELP_ENTRY_COLS - 8);
+            strcat(strcat(all, help.keys), " ");
+        }
+        for (int action = 1; action < ACTIONS; action++) {
+            char name[16];
+
+            if (action >= ACTION_LOOK_UP && action <= ACTION_LOOK_RIGHT)
+                strcpy(name, " arrows");
+            else if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9)
+                strcpy(name, " 1-9");
+            else
+                snprintf(name, sizeof name, " %s",
+                         keys_key_name(k.keys[action][0]).text);
+            check_has(all, strcat(name, " "));
+        }
+    }
+}
+
+static void help_shows_chosen_keys(void **state)
+{
+    struct keys k = {0};
+    struct keys_help help;
+
+    (void)state;
+    choose(&k, ACTION_BACK, 'x', 0);
+    choose(&k, ACTION_LOOK_UP, 'i', 0);
+    keys_settle(&k, false);
+    assert_true(keys_help(&k, 0, &help));
+    assert_string_equal(help.keys, "w x");
+    assert_true(keys_help(&k, 3, &help));
+    assert_string_equal(help.keys, "Left Right i Down");
+    assert_false(keys_help(&k, -1, &help));
+}
+
+/* From the first line after `begin` up to `end`, for free(). */
+static char *section(const char *path, const char *begin, const char *end)
+{
+    struct error err;
+    size_t size_bytes;
+    char *text, *from, *to;
+
+    check_or_say(file_read(path, &text, &size_bytes, &err), err.text);
+    from = strstr(text, begin);
+    assert_non_null(from);
+    from += strlen(begin);
+    to = strstr(from, end);
+    assert_non_null(to);
+    memmove(text, from, (size_t)(to - from));
+    text[to - from] = '\0';
+    return text;
+}
+
+/* The character that a manual writes as "\-" and so on; moves behind it. */
+static char manual_char(const char **p)
+{
+    static const struct {
+        const char *written;
+        char c;
+    } escapes[] = {{"\\-", '-'}, {"\\(ha", '^'}, {"\\e", '\\'}};
+
+    if (strncmp(*p, "\\&", 2) == 0)
+        *p += 2;
+    for (size_t i = 0; i < sizeof escapes / sizeof escapes[0]; i++) {
+        size_t length = strlen(escapes[i].written);
+
+        if (strncmp(*p, escapes[i].written, length) == 0) {
+            *p += length;
+            return escapes[i].c;
+        }
+    }
+    return *(*p)++;
+}
+
+/* Compares the items of a section with lines of the help. */
+static void check_manual(const char *begin,
+                         bool line_of(int line, struct keys_help *help))
+{
+    char *text = section("man/glim.1", begin, "\n.El\n");
+    char *item = text;
+    struct keys_help help;
+    int line = 0;
+
+    for (; (item = strstr(item, "\n.It Ic ")); line++) {
+        char keys[64] = "";
+        size_t length = 0;
+        const char *p = item += strlen("\n.It Ic ");
+
+        while (*p != '\n' && length < sizeof keys - 1)
+            keys[length++] = manual_char(&p);
+        assert_true(line_of(line, &help));
+        assert_string_equal(keys, help.keys);
+    }
+    assert_false(line_of(line, &help));
+    free(text);
+}
+
+static bool table_help(int line, struct keys_help *help)
+{
+    struct keys k = table_keys(false);
+
+    return keys_help(&k, line, help);
+}
+
+static void manual_lists_the_same_keys(void **state)
+{
+    (void)state;
+    check_manual(".Sh KEYS\n", table_help);
+    check_manual(".Sh PANEL\n", keys_panel_help);
+}
+
+/* Each key has one meaning there, and each line fits into the help. */
+static void panel_keys_are_told(void **state)
+{
+    struct keys_help help;
+    int seen = 0;
+
+    (void)state;
+    for (int i = 0; keys_panel_help(i, &help); i++) {
+        assert_in_range(strlen(help.keys), 1, 7);
+        assert_in_range(strlen(help.text), 1, HELP_ENTRY_COLS - 8);
+    }
+    for (int key = 1; key <= INPUT_F1; key++)
+        seen += keys_panel_action(key) != PANEL_NONE;
+    assert_int_equal(seen, 4 + 2 + 2 + 1 + 13 + 8);
+    assert_int_equal(keys_panel_action(0), PANEL_NONE);
+    assert_int_equal(keys_panel_action('w'), PANEL_NONE);
+    assert_int_equal(keys_panel_action('U'), PANEL_REDO);
+}
+
+static void readme_lists_the_same_keys(void **state)
+{
+    struct keys k = table_keys(false);
+    char *text =
+        section("README.md", "| key | on the screen |\n| --- | --- |", "\n\n");
+    char *row = text;
+    struct keys_help help;
+    int line = 0;
+
+    (void)state;
+    for (; (row = strstr(row, "\n| ")); line++) {
+        char keys[64] = "";
+        size_t length = 0;
+
+        for (row += 3; *row != '|' && length < sizeof keys - 1; row++) {
+            if (*row != '`')
+                keys[length++] = *row;
+        }
+        keys[length - 1] = '\0'; /* the blank before the bar */
+        assert_true(keys_help(&k, line, &help));
+        assert_string_equal(keys, help.keys);
+    }
+    assert_false(keys_help(&k, line, &help));
+    free(text);
+}
+
+static void manual_lists_the_actions(void **state)
+{
+    char *text = section("man/glim.1", "The actions are\n", "\nWhat");
+    char *rest = text;
+    int action = 1;
+
+    (void)state;
+    for (char *word; (word = strsep(&rest, " \n"));) {
+        if (*word == '\0' || *word == '.' || strcmp(word, "and") == 0)
+            continue;
+        assert_in_range(action, 1, ACTIONS - 1);
+        if (keys_find_action(word, strlen(word)) == ACTION_NONE)
+            print_error("no action '%s'\n", word);
+        assert_true(keys_find_action(word, strlen(word)) != ACTION_NONE);
+        action++;
+    }
+    assert_int_equal(action, ACTIONS);
+    free(text);
+}
+
+/* All entries are there once, whatever the window's size. */
+static void help_has_pages(void **state)
+{
+    static const struct {
+        int cols, rows, columns;
+    } cases[] = {
+        {76, 22, 2}, /* 80x24 */
+        {36, 10, 1}, /* 40x12 */
+        {73, 60, 1}, {74, 60, 2}, {200, 7, 2}, {10, 1, 1},
+    };
+    struct keys k = table_keys(false);
+    struct keys_help help;
+    struct help_page page;
+
+    (void)state;
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof cases[0]; i++) {
+        bool in_panel = i % 2 == 1;
+        int cols = cases[i / 2].cols, rows = cases[i / 2].rows;
+        int room = cases[i / 2].columns * rows;
+        int total = 1; /* the note */
+        int found = 0;
+
+        for (int line = 0; keys_help(&k, line, &help); line++)
+            total++;
+        for (int line = 0; in_panel && keys_panel_help(line, &help); line++)
+            total++;
+        for (int n = 0; n == 0 || n < page.page_count; n++) {
+            help_page(&page, &k, in_panel, "the note", n, cols, rows);
+            assert_int_equal(page.page_count, (total + room - 1) / room);
+            assert_in_range(page.line_count, 1, rows);
+            for (int row = 0; row < page.line_count; row++) {
+                if (cols >= HELP_ENTRY_COLS)
+                    check_at_most((double)strlen(page.lines[row]), cols);
+                for (int line = 0; keys_help(&k, line, &help); line++)
+                    found += strstr(page.lines[row], help.text) != NULL;
+                for (int line = 0; keys_panel_help(line, &help); line++)
+                    found += strstr(page.lines[row], help.text) != NULL;
+                found += strstr(page.lines[row], "the note") != NULL;
+            }
+        }
+        assert_int_equal(found, total);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(own_and_phoe_keys),
+        cmocka_unit_test(capitals_move_too),
+        cmocka_unit_test(a_key_has_one_action),
+        cmocka_unit_test(chosen_keys_replace_those_of_the_table),
+        cmocka_unit_test(names_come_back),
+        cmocka_unit_test(first_names),
+        cmocka_unit_test(help_names_every_key),
+        cmocka_unit_test(help_shows_chosen_keys),
+        cmocka_unit_test(manual_lists_the_same_keys),
+        cmocka_unit_test(panel_keys_are_told),
+        cmocka_unit_test(readme_lists_the_same_keys),
+        cmocka_unit_test(manual_lists_the_actions),
+        cmocka_unit_test(help_has_pages),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+/*
+ * The list of scenes: the last one first, each once, none that is gone, twenty
+ * at most; what a person may answer; and when a lost picture is told of.
+ */
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
+
+#include <stdbool.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "session/recent.h"
+
+static void make_scene(int number)
+{
+    char name[32];
+    FILE *to;
+
+    snprintf(name, sizeof name, "%d.obj", number);
+    to = fopen(name, "w");
+    assert_non_null(to);
+    fclose(to);
+    recent_add(name);
+}
+
+/* Whether entry i is N.obj in the folder. */
+static void is_scene(const struct recent *r, int i, int number)
+{
+    char path[128];
+
+    assert_true(i < r->count);
+    snprintf(path, sizeof path, "%s/%d.obj", folder, number);
+    assert_string_equal(r->paths[i], path);
+}
+
+static void forget(void)
+{
+    char path[128];
+
+    snprintf(path, sizeof path, "%s/state/glim/recent", folder);
+    unlink(path);
+}
+
+static void the_last_is_first_and_once(void **state)
+{
+    struct recent r;
+
+    (void)state;
+    forget();
+    recent_read(&r);
+    assert_int_equal(r.count, 0);
+    for (int i = 0; i < 3; i++)
+        make_scene(i);
+    make_scene(1);
+    recent_read(&r);
+    assert_int_equal(r.count, 3);
+    is_scene(&r, 0, 1);
+    is_scene(&r, 1, 2);
+    is_scene(&r, 2, 0);
+    recent_free(&r);
+    unlink("2.obj");
+    recent_read(&r);
+    assert_int_equal(r.count, 2);
+    is_scene(&r, 1, 0);
+    recent_free(&r);
+}
+
+static void the_oldest_are_forgotten(void **state)
+{
+    struct recent r;
+
+    (void)state;
+    forget();
+    for (int i = 0; i < RECENT_MAX + 5; i++)
+        make_scene(i);
+    recent_read(&r);
+    assert_int_equal(r.count, RECENT_MAX);
+    is_scene(&r, 0, RECENT_MAX + 4);
+    is_scene(&r, RECENT_MAX - 1, 5);
+    recent_free(&r);
+}
+
+static void odd_names_are_left_out(void **state)
+{
+    struct recent r;
+    FILE *to = fopen("a\nb.obj", "w");
+
+    (void)state;
+    assert_non_null(to);
+    fclose(to);
+    forget();
+    recent_add("a\nb.obj");
+    recent_add("not there.obj");
+    recent_read(&r);
+    assert_int_equal(r.count, 0);
+}
+
+/* Whether a start finds the picture; it then opens a scene. */
+static void start_finds(bool expected)
+{
+    char *lost = recent_find_lost();
+
+    assert_int_equal(lost != NULL, expected);
+    if (lost)
+        assert_string_equal(lost + strlen(lost) - 20, "/state/glim/lost.png");
+    free(lost);
+    usleep(20000); /* longer than the file system's clock ticks */
+    make_scene(1);
+}
+
+static void lose(void)
+{
+    char *path = recent_lost_path();
+    FILE *to;
+
+    assert_non_null(path);
+    usleep(20000);
+    to = fopen(path, "w");
+    assert_non_null(to);
+    assert_int_equal(fclose(to), 0);
+    free(path);
+}
+
+static void a_lost_picture_is_told_of_once(void **state)
+{
+    (void)state;
+    forget();
+    start_finds(false);
+    for (int i = 0; i < 2; i++) {
+        lose();
+        start_finds(true);
+        start_finds(false);
+    }
+    lose();
+    forget(); /* no list at all */
+    start_finds(true);
+}
+
+static void no_folder_remembers_nothing(void **state)
+{
+    struct recent r;
+
+    (void)state;
+    setenv("XDG_STATE_HOME", "/dev/null/no", 1);
+    make_scene(1);
+    recent_read(&r);
+    assert_int_equal(r.count, 0);
+    assert_null(recent_find_lost());
+    setenv("XDG_STATE_HOME", "state", 1); /* relative: ignored */
+    setenv("HOME", "", 1);
+    recent_read(&r);
+    assert_int_equal(r.count, 0);
+}
+
+/* What the person gets for this answer; "": none. */
+static void gives(const char *answer, const char *expected)
+{
+    static char first[] = "/tmp/a\033.obj", second[] = "/tmp/b.obj";
+    const struct recent r = {{first, second}, 2};
+    char copy[64], shown[512] = "";
+    FILE *in, *out = fmemopen(shown, sizeof shown, "w");
+    char *path;
+
+    snprintf(copy, sizeof copy, "%s", answer);
+    in = fmemopen(copy, strlen(copy), "r");
+    assert_true(in && out);
+    path = recent_choose(&r, in, out);
+    fclose(in);
+    fclose(out);
+    assert_string_equal(path ? path : "", expected);
+    assert_non_null(strstr(shown, "  1  /tmp/a?.obj\n  2  /tmp/b.obj\n"));
+    free(path);
+}
+
+static void answers(void **state)
+{
+    (void)state;
+    gives("\n", "/tmp/a\033.obj");
+    gives("1\n", "/tmp/a\033.obj");
+    gives("2", "/tmp/b.obj");
+    gives("3\n0\n-1\n2 x\n2\n", "/tmp/b.obj");
+    gives("q\n2\n", "");
+    gives("/dev/null\n", "/dev/null");
+    gives("not there\n", "");
+}
+
+static int enter_folder(void **state)
+{
+    char path[128];
+
+    if (make_folder(state) != 0 || chdir(folder) != 0)
+        return -1;
+    snprintf(path, sizeof path, "%s/state", folder);
+    return setenv("XDG_STATE_HOME", path, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_last_is_first_and_once),
+        cmocka_unit_test(the_oldest_are_forgotten),
+        cmocka_unit_test(odd_names_are_left_out),
+        cmocka_unit_test(a_lost_picture_is_told_of_once),
+        cmocka_unit_test(no_folder_remembers_nothing),
+        cmocka_unit_test(answers),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}

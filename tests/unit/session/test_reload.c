@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: MIT
+/*
+ * A session that takes changed files renders bit for bit what a session renders
+ * that was opened after the change; what is broken leaves the old scene.
+ */
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
+
+#include <unistd.h>
+
+#include "formats/view_file.h"
+#include "studio/save_commands.h"
+
+#define OBJ                                                                  \
+    "mtllib s.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 2 " \
+    "3\n"                                                                    \
+    "f 1 2 4\n"
+#define MTL  "newmtl m\nKd .7 .5 .3\n"
+#define VIEW "eye 0 0 5\nat 0 0 0\nres 24 16\nbackground .5 .5 .5\n"
+
+#define FLOATS (3 * 24 * 16)
+
+static void put(const char *name, const char *text)
+{
+    FILE *to = fopen(name, "w");
+
+    assert_non_null(to);
+    assert_true(fputs(text, to) >= 0);
+    assert_int_equal(fclose(to), 0);
+}
+
+static struct options options = {.scene_path = "s.obj",
+                                 .spp = 2,
+                                 .max_bounces = -1,
+                                 .thread_count = 1};
+
+static void open_scene(struct session *s)
+{
+    struct error err;
+
+    put("s.obj", OBJ);
+    put("s.mtl", MTL);
+    put("s.view", VIEW);
+    check_or_say(session_open(s, &options, clock_ns(), &err), err.text);
+}
+
+static void render(struct session *s, float *pixels)
+{
+    struct error err;
+
+    check_or_say(session_restart(s, 2, &err), err.text);
+    assert_true(render_wait(s->render, 10000));
+    assert_int_equal(render_progress(s->render).state, RENDER_DONE);
+    film_linear(render_film(s->render), pixels);
+}
+
+/* Writes a file, lets the open session take it, and compares with a new one. */
+static void takes(struct session *s, const char *name, const char *text,
+                  bool has_same_shape)
+{
+    float before[FLOATS], taken[FLOATS], opened[FLOATS];
+    struct session fresh;
+    struct error err;
+
+    render(s, before);
+    put(name, text);
+    check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
+    session_take(s, &fresh);
+    session_close(&fresh);
+    assert_int_equal(s->geometry_changed, !has_same_shape);
+    render(s, taken);
+    session_close(s);
+    check_or_say(session_open(s, &options, clock_ns(), &err), err.text);
+    render(s, opened);
+    session_close(s);
+    check_or_say(memcmp(taken, before, sizeof taken) != 0, text);
+    assert_memory_equal(taken, opened, sizeof taken);
+}
+
+static void is_taken(const char *name, const char *text, bool has_same_shape)
+{
+    struct session s;
+
+    open_scene(&s);
+    takes(&s, name, text, has_same_shape);
+}
+
+static void changed_files_are_taken(void **state)
+{
+    (void)state;
+    is_taken("s.mtl", "newmtl m\nKd .1 .5 .9\n", true);
+    is_taken("s.mtl", "newmtl x\nKd 1 1 1\nnewmtl m\nKe 1 2 3\n", true);
+    is_taken("s.view", VIEW "exposure 1\nmax_bounces 0\nfovy 20\n", true);
+    is_taken("s.view", "eye 1 2 5\nat 0 0 0\nres 24 16\nbackground 1 0 0\n",
+             true);
+    is_taken("s.obj", "v -1 -1 0\nv 1 -1 0\nv 0 2 0\nf 1 2 3\n", false);
+    is_taken("s.obj", OBJ "v 3 3 3\nf 1 3 5\n", false);
+    /* one triangle is turned over: the same places in another order */
+    is_taken("s.obj",
+             "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 3 2\nf 1 2 4\n",
+             false);
+}
+
+/* Nothing but the picture needs a tree where a lamp is the only light: the new
+ * scene comes without one. */
+static void trees_stay(void **state)
+{
+    struct session s;
+    struct error err;
+
+    (void)state;
+    put("s.obj", OBJ);
+    put("s.mtl", "newmtl m\nKe 1 2 3\n");
+    put("s.view", "eye 0 0 5\nat 0 0 0\nres 24 16\nbackground 0 0 0\n");
+    check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
+    assert_null(s.scene.tree.nodes);
+    takes(&s, "s.mtl", "newmtl m\nKe 3 2 1\n", true);
+}
+
+/* A camera that the person has moved stays where the file's has not changed. */
+static void cameras_stay(void **state)
+{
+    struct session s, fresh;
+    struct error err;
+
+    (void)state;
+    for (int moves = 0; moves < 2; moves++) {
+        open_scene(&s);
+        s.view.eye[0] = 1.5;
+        put("s.view", moves ? "eye 0 9 5\nat 0 0 0\nexposure 2\n"
+                            : "eye 0 0 5\nat 0 0 0\nexposure 2\n");
+        assert_true(session_load(&fresh, &options, clock_ns(), &err));
+        session_take(&s, &fresh);
+        session_close(&fresh);
+        check_close(s.view.eye[0], moves ? 0 : 1.5, 0);
+        check_close(s.view.eye[1], moves ? 9 : 0, 0);
+        check_close(s.view.exposure, 2, 0);
+        assert_int_equal(s.view.width_px, 1024); /* no res any more */
+        check_close(s.opened.eye[0], 0, 0);
+        session_close(&s);
+    }
+}
+
+/* Numbered views of the file come, go and change; the others stay. */
+static void numbered_views_are_taken(void **state)
+{
+    struct session s, fresh;
+    struct file_change change;
+    struct error err;
+
+    (void)state;
+    open_scene(&s);
+    for (int i = 0; i < 2; i++) {
+        s.view.shots[i] = view_pose(&s.view);
+        s.view.has_shot[i] = true;
+    }
+    s.view.eye[0] = 7;
+    s.view.shots[2] = view_pose(&s.view);
+    s.view.has_shot[2] = true;
+    check_or_say(view_write(&s.view, "s.view", &change, &err), err.text);
+    session_close(&s);
+    check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
+    s.view.shots[3].eye[0] = 5; /* by the person, in no file */
+    s.view.has_shot[3] = true;
+    check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
+    fresh.filed.has_shot[0] = false;
+    fresh.filed.shots[1].eye[0] = 2;
+    session_take(&s, &fresh);
+    session_close(&fresh);
+    assert_false(s.view.has_shot[0]);
+    check_close(s.view.shots[1].eye[0], 2, 0);
+    check_close(s.view.shots[2].eye[0], 7, 0);
+    assert_true(s.view.has_shot[3]);
+    check_close(s.view.shots[3].eye[0], 5, 0);
+    session_close(&s);
+}
+
+/* Cameras that the program has placed do not jump when the scene grows. */
+static void framed_cameras_stay(void **state)
+{
+    struct session s, fresh;
+    struct error err;
+    double eye;
+
+    (void)state;
+    open_scene(&s);
+    session_close(&s);
+    unlink("s.view");
+    assert_true(session_open(&s, &options, clock_ns(), &err));
+    eye = s.view.eye[2];
+    put("s.obj", OBJ "v 9 9 9\nf 1 3 5\n");
+    assert_true(session_load(&fresh, &options, clock_ns(), &err));
+    session_take(&s, &fresh);
+    assert_true(fresh.view.eye[2] != eye);
+    session_close(&fresh);
+    check_close(s.view.eye[2], eye, 0);
+    session_close(&s);
+}
+
+/* ---- through the work ---- */
+
+/* Looks until what was begun is loaded. */
+static void end_reload(struct work *w)
+{
+    for (int i = 0; i < 5000 && !w->reload.is_busy; i++) {
+        usleep(1000);
+        work_look_at_files(w);
+        work_look(w);
+    }
+    assert_true(w->reload.is_busy);
+    work_end_reload(w);
+}
+
+static void open_work(struct work *w, struct session *s)
+{
+    struct error err;
+
+    open_scene(s);
+    assert_true(work_init(w, s, &err));
+}
+
+static void close_work(struct work *w, struct session *s)
+{
+    work_free(w);
+    session_close(s);
+}
+
+static void broken_files_leave_the_scene(void **state)
+{
+    struct session s;
+    struct work w;
+
+    (void)state;
+    open_work(&w, &s);
+    put("s.mtl", "newmtl m\nKd .1 x\n");
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    work_reload(&w);
+    end_reload(&w);
+    assert_true(w.message.is_error);
+    assert_non_null(strstr(w.message.text, "s.mtl:2: "));
+    check_close(s.scene.materials[1].color.x, .7f, 0);
+    work_look_at_files(&w);
+    assert_false(w.has_changed_files); /* it was said once */
+    put("s.mtl", "newmtl m\nKd .25 0 0\n");
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    work_reload(&w);
+    end_reload(&w);
+    assert_false(w.message.is_error);
+    assert_string_equal(w.message.text, "loaded s.obj");
+    check_close(s.scene.materials[1].color.x, .25, 0);
+    assert_int_equal(w.progress.state, RENDER_RUNNING);
+    close_work(&w, &s);
+}
+
+static void warnings_are_told(void **state)
+{
+    struct session s;
+    struct work w;
+
+    (void)state;
+    open_work(&w, &s);
+    put("s.obj", OBJ "usemtl other\nf 1 3 4\n");
+    work_reload(&w);
+    end_reload(&w);
+    assert_non_null(strstr(w.message.text, "loaded, 1 warning: s.obj:"));
+    close_work(&w, &s);
+}
+
+static void watched_files_are_loaded_at_once(void **state)
+{
+    struct session s;
+    struct work w;
+
+    (void)state;
+    options.watch = true;
+    open_work(&w, &s);
+    put("s.mtl", "newmtl m\nKd .25 0 0\n");
+    end_reload(&w);
+    check_close(s.scene.materials[1].color.x, .25, 0);
+    /* not while a render of normal mode would be lost */
+    work_set_live(&w, false);
+    work_start_or_halt(&w);
+    put("s.mtl", "newmtl m\nKd .5 0 0\n");
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    usleep(300000);
+    work_look(&w);
+    assert_false(w.reload.is_busy);
+    work_reload(&w); /* only says so */
+    assert_false(w.reload.is_busy);
+    work_set_live(&w, true);
+    end_reload(&w);
+    check_close(s.scene.materials[1].color.x, .5, 0);
+    close_work(&w, &s);
+    options.watch = false;
+}
+
+/* Where nothing tells of changes, files are looked at once a second. */
+static void unwatched_files_are_looked_at(void **state)
+{
+    struct session s;
+    struct work w;
+
+    (void)state;
+    open_work(&w, &s);
+    close(w.watch.fd);
+    w.watch.fd = -1;
+    w.files_ns = clock_ns();
+    work_look(&w);
+    assert_false(w.has_changed_files);
+    assert_true(w.files_ns < clock_ns() + UINT64_C(2000000000));
+    put("s.mtl", "newmtl m\nKd .25 0 0\n");
+    for (int i = 0; i < 3000 && !w.has_changed_files; i++) {
+        usleep(1000);
+        work_look(&w);
+    }
+    assert_true(w.has_changed_files);
+    close_work(&w, &s);
+}
+
+static void own_views_are_no_change(void **state)
+{
+    struct session s;
+    struct work w;
+
+    (void)state;
+    open_work(&w, &s);
+    s.view.exposure = 3;
+    work_save_view(&w);
+    work_look_at_files(&w);
+    assert_false(w.has_changed_files);
+    put("s.mtl", MTL "\n");
+    s.view.exposure = 4;
+    work_save_view(&w);
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files); /* the other file */
+    close_work(&w, &s);
+}
+
+/* Nor is a changed material; what someone else writes behind it is one. */
+static void own_materials_are_no_change(void **state)
+{
+    struct session s;
+    struct work w;
+    struct mtl_source red;
+
+    (void)state;
+    open_work(&w, &s);
+    red = s.edit.now.sources[1];
+    red.kd.rgb[0] = .125;
+    edit_material(&s.edit, 1, &red);
+    assert_true(work_save_edit(&w));
+    work_look_at_files(&w);
+    assert_false(w.has_changed_files);
+    put("s.mtl", MTL "\n");
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    /* and stays one when the next save takes it over */
+    red.kd.rgb[0] = .25;
+    edit_material(&s.edit, 1, &red);
+    assert_true(work_save_edit(&w));
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    close_work(&w, &s);
+}
+
+/* An image of the sky that was chosen in the panel is watched at once, also one
+ * that has still to be mended. */
+static void chosen_skies_are_watched(void **state)
+{
+    struct session s;
+    struct work w;
+    struct mood mood;
+
+    (void)state;
+    open_work(&w, &s);
+    mood = s.edit.now.mood;
+    mood.sky = edit_sky(&s.edit, "sky.png");
+    edit_mood(&s.edit, &mood);
+    put("sky.png", "no image");
+    w.must_restart = session_take_edit(&s);
+    assert_true(w.must_restart);
+    while (w.must_restart)
+        work_look(&w);
+    work_look_at_files(&w);
+    assert_false(w.has_changed_files);
+    put("sky.png", "no image either");
+    work_look_at_files(&w);
+    assert_true(w.has_changed_files);
+    close_work(&w, &s);
+}
+
+static int enter_folder(void **state)
+{
+    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(changed_files_are_taken),
+        cmocka_unit_test(trees_stay),
+        cmocka_unit_test(cameras_stay),
+        cmocka_unit_test(numbered_views_are_taken),
+        cmocka_unit_test(framed_cameras_stay),
+        cmocka_unit_test(broken_files_leave_the_scene),
+        cmocka_unit_test(warnings_are_told),
+        cmocka_unit_test(watched_files_are_loaded_at_once),
+        cmocka_unit_test(unwatched_files_are_looked_at),
+        cmocka_unit_test(own_views_are_no_change),
+        cmocka_unit_test(own_materials_are_no_change),
+        cmocka_unit_test(chosen_skies_are_watched),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}

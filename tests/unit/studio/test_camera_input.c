@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <math.h>
+
+#include "studio/camera_input.h"
+
+#define MS UINT64_C(1000000)
+
+static const double lo[3] = {0, 0, 0};
+static const double hi[3] = {3, 4, 0}; /* a diagonal of 5 */
+
+static struct view make_view(void)
+{
+    struct view v = {.at = {0, 0, -1}, .up = {0, 1, 0}, .fovy_deg = 40};
+
+    return v;
+}
+
+/* That distance a second, for the first step of a key. */
+static void speed_follows_what_is_near(void **state)
+{
+    struct steer s;
+
+    (void)state;
+    for (double near = 0.1; near < 1; near *= 2) {
+        struct view v = make_view();
+
+        steer_init(&s, lo, hi);
+        check_close(s.scene_size, 5, 1e-12);
+        steer_adapt(&s, near, 0);
+        check_close(steer_speed(&s), near, 1e-12);
+        steer_begin(&s, 1000 * MS);
+        motion_press(&s.motion, MOTION_FORWARD, 1, 1000 * MS);
+        assert_true(steer_step(&s, &v, 1000 * MS));
+        check_close(v.eye[2], -near / 60, 1e-6);
+        assert_false(steer_step(&s, &v, 1000 * MS));
+    }
+    steer_init(&s, lo, lo); /* a point */
+    assert_true(s.scene_size > 0 && steer_speed(&s) > 0);
+}
+
+/* At a wall and in the void there is still a way; far off the eye comes back in
+ * seconds, and goes away no faster than a number says. */
+static void speed_is_never_none(void **state)
+{
+    struct steer s;
+    double open, far;
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    steer_adapt(&s, 0, 0);
+    assert_true(steer_speed(&s) > 1e-3 * 5 && steer_speed(&s) < 1e-2 * 5);
+    steer_adapt(&s, INFINITY, 0);
+    open = steer_speed(&s);
+    assert_true(open > 0.1 * 5 && open < 5);
+    steer_adapt(&s, INFINITY, 5);
+    check_close(steer_speed(&s), open, 1e-12);
+    steer_adapt(&s, INFINITY, 20);
+    far = steer_speed(&s);
+    assert_true(far > open);
+    steer_adapt(&s, INFINITY, 40);
+    check_close(steer_speed(&s), 2 * far, 1e-12);
+    steer_adapt(&s, INFINITY, 1e17);
+    far = steer_speed(&s);
+    steer_adapt(&s, INFINITY, INFINITY);
+    assert_true(isfinite(steer_speed(&s)));
+    check_close(steer_speed(&s), far, 1e-12);
+}
+
+static double held(double seconds)
+{
+    struct steer s;
+    struct view v = make_view();
+    uint64_t end = 1000 * MS + (uint64_t)(1e9 * seconds);
+
+    steer_init(&s, lo, hi);
+    steer_adapt(&s, 0.5, 0);
+    steer_begin(&s, 1000 * MS);
+    for (uint64_t t = 1000 * MS; t < end; t += 30 * MS) {
+        motion_press(&s.motion, MOTION_FORWARD, 1, t);
+        steer_step(&s, &v, t);
+    }
+    return -v.eye[2];
+}
+
+/* The second second goes further than the first, a minute not for ever faster;
+ * and as far with the person's factor. */
+static void held_keys_get_faster(void **state)
+{
+    double one = held(1), two = held(2), ten = held(10), eleven = held(11);
+
+    (void)state;
+    assert_true(two - one > 1.5 * one);
+    assert_true(eleven - ten > two - one);
+    check_close(held(21) - held(20), eleven - ten, 0.1 * (eleven - ten));
+}
+
+static void speed_has_ends(void **state)
+{
+    struct steer s;
+    double start;
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    start = s.speed;
+    steer_change_speed(&s, 3);
+    assert_true(s.speed > start);
+    steer_change_speed(&s, -3);
+    check_close(s.speed, start, 1e-12);
+    for (int i = 0; i < 1000; i++)
+        steer_change_speed(&s, 1);
+    assert_true(isfinite(s.speed));
+    for (int i = 0; i < 1000; i++)
+        steer_change_speed(&s, -1);
+    assert_true(s.speed > 0);
+}
+
+/* Over the whole height of the picture: by its field of view. */
+static void drag_turns_by_what_is_seen(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+    struct fit fit = {0, 0, 80, 20};
+    struct event e = {.kind = EVENT_MOUSE,
+                      .mouse = MOUSE_DRAG,
+                      .x = 10,
+                      .y = 20};
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100)); /* no press yet */
+    e.mouse = MOUSE_PRESS;
+    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    e.mouse = MOUSE_DRAG;
+    e.y -= 20; /* upwards by all 20 rows */
+    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    check_close(v.at[1], sin(40 * 0.017453292519943295), 1e-9);
+    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100)); /* stands still */
+    e.x += 80; /* to the right by the whole width */
+    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    check_close(atan2(v.at[0], -v.at[2]), 80 * 0.017453292519943295, 1e-9);
+    e.mouse = MOUSE_RELEASE;
+    steer_mouse(&s, &v, &e, &fit, 200, 100);
+    e.mouse = MOUSE_DRAG;
+    e.x += 3;
+    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100));
+}
+
+/* A second of a held key: the angle, at a constant distance from the pivot. */
+static void orbits_while_keys_are_held(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+    double begin, angle;
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    v.at[2] = -4;
+    s.pivot[2] = -4;
+    s.is_orbiting = true;
+    motion_press(&s.motion, MOTION_LOOK_RIGHT, 1, 1000 * MS);
+    assert_true(steer_step(&s, &v, 1000 * MS));
+    begin = atan2(v.eye[0], v.eye[2] + 4);
+    assert_true(begin > 0); /* to the right of where it was */
+    for (uint64_t t = 1010; t <= 1100; t += 10)
+        steer_step(&s, &v, t * MS);
+    angle = atan2(v.eye[0], v.eye[2] + 4);
+    check_close(angle / begin, (100 + 1000. / 60) / (1000. / 60), 1e-5);
+    check_close(hypot(v.eye[0], v.eye[2] + 4), 4, 1e-12);
+    check_close(v.at[2], -4, 1e-12);
+    check_close(v.eye[1], 0, 1e-12);
+}
+
+/* A scene that is loaded anew twice as large is crossed in the same time, at
+ * the speed that was chosen. */
+static void speeds_follow_the_scene(void **state)
+{
+    const double far[3] = {2 * hi[0] - lo[0], 2 * hi[1] - lo[1],
+                           2 * hi[2] - lo[2]};
+    double moved[2];
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct steer s;
+        struct view v = make_view();
+
+        steer_init(&s, lo, hi);
+        steer_change_speed(&s, 3);
+        if (i == 1)
+            steer_resize(&s, lo, far);
+        motion_press(&s.motion, MOTION_FORWARD, 1, 1000 * MS);
+        steer_step(&s, &v, 1000 * MS);
+        moved[i] = -v.eye[2];
+    }
+    assert_true(moved[0] > 0);
+    check_close(moved[1] / moved[0], 2, 1e-12);
+}
+
+static void hold(struct steer *s, struct view *v, enum motion_axis axis,
+                 int sign, int taps)
+{
+    for (uint64_t t = 1000; taps > 0; t += 1000, taps--) {
+        motion_press(&s->motion, axis, sign, t * MS);
+        steer_step(s, v, t * MS);
+        steer_step(s, v, (t + 100) * MS);
+        steer_step(s, v, (t + 200) * MS);
+    }
+}
+
+/* As many taps back as forth. */
+static void widens_and_narrows_alike(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    hold(&s, &v, MOTION_WIDEN, 1, 3);
+    assert_true(v.fovy_deg > 45 && v.fovy_deg < 70);
+    hold(&s, &v, MOTION_WIDEN, -1, 3);
+    check_close(v.fovy_deg, 40, 1e-9);
+    assert_true(v.aperture == 0);
+}
+
+static void opens_from_a_pinhole_and_closes_to_one(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+    double once;
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    hold(&s, &v, MOTION_OPEN, -1, 1);
+    assert_true(v.aperture == 0);
+    hold(&s, &v, MOTION_OPEN, 1, 1);
+    once = v.aperture;
+    assert_true(once > 0 && once < 0.01);
+    hold(&s, &v, MOTION_OPEN, 1, 1);
+    check_close(v.aperture, once * sqrt(2), 1e-4 * once); /* one stop */
+    hold(&s, &v, MOTION_OPEN, -1, 1);
+    check_close(v.aperture, once, 1e-12);
+    hold(&s, &v, MOTION_OPEN, -1, 1);
+    assert_true(v.aperture == 0);
+    hold(&s, &v, MOTION_OPEN, 1, 200);
+    check_close(v.aperture, 1, 1e-12); /* as far as it is sharp */
+    v.focus = 3;
+    hold(&s, &v, MOTION_OPEN, 1, 200);
+    check_close(v.aperture, 3, 1e-12);
+}
+
+/* Over the picture's height: half around; a thing in the middle follows. */
+static void a_modified_drag_orbits(void **state)
+{
+    struct steer s;
+    struct view v = make_view();
+    struct fit fit = {0, 0, 80, 20};
+    struct event e = {.kind = EVENT_MOUSE,
+                      .mouse = MOUSE_PRESS,
+                      .button = 2,
+                      .x = 30,
+                      .y = 10};
+
+    (void)state;
+    steer_init(&s, lo, hi);
+    v.at[2] = -4;
+    s.pivot[2] = -4;
+    assert_true(steer_orbits(&s, &e));
+    steer_mouse(&s, &v, &e, &fit, 200, 100);
+    assert_false(s.has_dragged);
+    e.mouse = MOUSE_DRAG;
+    e.x -= 20; /* a quarter of the width is half the height */
+    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_true(s.has_dragged);
+    check_close(v.eye[0], 4, 1e-9);
+    check_close(v.eye[2], -4, 1e-9);
+    e.y += 5; /* downwards: one looks from above */
+    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    check_close(v.eye[1], 4 * sin(0.25 * 3.141592653589793), 1e-9);
+    e = (struct event){.kind = EVENT_MOUSE, .is_modified = true};
+    assert_true(steer_orbits(&s, &e));
+    e.is_modified = false;
+    assert_false(steer_orbits(&s, &e));
+    s.is_orbiting = true;
+    assert_true(steer_orbits(&s, &e));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(speed_follows_what_is_near),
+        cmocka_unit_test(speed_is_never_none),
+        cmocka_unit_test(held_keys_get_faster),
+        cmocka_unit_test(speed_has_ends),
+        cmocka_unit_test(speeds_follow_the_scene),
+        cmocka_unit_test(drag_turns_by_what_is_seen),
+        cmocka_unit_test(orbits_while_keys_are_held),
+        cmocka_unit_test(widens_and_narrows_alike),
+        cmocka_unit_test(opens_from_a_pinhole_and_closes_to_one),
+        cmocka_unit_test(a_modified_drag_orbits),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

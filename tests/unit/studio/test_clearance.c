@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+/*
+ * What is around an eye, against closed forms in rooms made by hand; when it is
+ * lost; and how far keys move it there.
+ */
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "studio/clearance.h"
+#include "studio/camera_input.h"
+#include "formats/scene_load.h"
+
+#define MS UINT64_C(1000000)
+
+struct obj {
+    FILE *to;
+    double scale;
+};
+
+static void begin(struct obj *o, double scale)
+{
+    *o = (struct obj){fopen("a.obj", "w"), scale};
+    assert_non_null(o->to);
+}
+
+static void name(struct obj *o, const char *text)
+{
+    fprintf(o->to, "o %s\n", text);
+}
+
+static void corner(struct obj *o, double x, double y, double z)
+{
+    fprintf(o->to, "v %.17g %.17g %.17g\n", x * o->scale, y * o->scale,
+            z * o->scale);
+}
+
+/* A box of six faces; without = 0 to 5 leaves one of them out: low and high x,
+ * y, z. How they are wound is as it comes. */
+static void box(struct obj *o, const double lo[3], const double hi[3],
+                int without)
+{
+    for (int face = 0; face < 6; face++) {
+        int k = face / 2, i = (k + 1) % 3, j = (k + 2) % 3;
+        double p[3];
+
+        if (face == without)
+            continue;
+        for (int c = 0; c < 4; c++) {
+            p[k] = face % 2 ? hi[k] : lo[k];
+            p[i] = c == 1 || c == 2 ? hi[i] : lo[i];
+            p[j] = c >= 2 ? hi[j] : lo[j];
+            corner(o, p[0], p[1], p[2]);
+        }
+        fprintf(o->to, "f -4 -3 -2 -1\n");
+    }
+}
+
+static void load(struct obj *o, struct scene *scene)
+{
+    struct report report = {0};
+    struct world world;
+    struct error err;
+
+    assert_int_equal(fclose(o->to), 0);
+    *scene = (struct scene){0};
+    check_or_say(scene_load(scene, "a.obj", false, &report, &err), err.text);
+    world = scene_arrays(scene);
+    check_or_say(wide_build(&scene->tree, &world, NULL, &err), err.text);
+    report_free(&report);
+}
+
+static struct view view_from(double x, double y, double z)
+{
+    struct view v;
+
+    view_init(&v);
+    v.eye[0] = v.at[0] = x;
+    v.eye[1] = v.at[1] = y;
+    v.eye[2] = z;
+    v.at[2] = z - fmax(1, fabs(z));
+    v.has_camera = true;
+    return v;
+}
+
+/* Where the eye is after it has gone to z, looking along -z. */
+static enum clearance_place go(struct clearance *c, const struct scene *scene,
+                               double x, double z)
+{
+    struct view v = view_from(x, 1, z);
+
+    clearance_follow(c, scene, &v);
+    return c->place;
+}
+
+/* Above a plane at height h as many directions meet it within r as the cap of a
+ * ball has, (1 - h/r)/2 of all. */
+static void a_floor_is_as_near_as_its_height(void **state)
+{
+    static const double lo[3] = {-1e4, 0, -1e4}, hi[3] = {1e4, 0.001, 1e4};
+
+    (void)state;
+    for (double scale = 1e-6; scale < 1e7; scale *= 1e3) {
+        struct scene scene;
+        struct obj o;
+
+        begin(&o, scale);
+        box(&o, lo, hi, -1);
+        load(&o, &scene);
+        for (double h = 1; h < 100; h *= 3) {
+            struct view v = view_from(0, (0.001 + h) * scale, 0);
+            struct clearance c = {0};
+
+            clearance_follow(&c, &scene, &v);
+            assert_true(c.near > h * scale / (1 - 2 * 0.09));
+            assert_true(c.near < h * scale / (1 - 2 * 0.12));
+            check_close(c.closed, 0.5, 0.04);
+            check_close(c.away / scale, h, 1e-6 * h);
+        }
+        scene_free(&scene);
+    }
+}
+
+/* A room 6 long with a cupboard in it, at the end of which another room
+ * begins. */
+static void load_rooms(struct scene *scene)
+{
+    static const double room[2][3] = {{-2, 0, 0}, {2, 3, 6}};
+    static const double next[2][3] = {{-2, 0, -6}, {2, 3, 0}};
+    static const double cupboard[2][3] = {{1, 0, 1}, {2, 2, 2}};
+    struct obj o;
+
+    begin(&o, 1);
+    name(&o, "room");
+    box(&o, room[0], room[1], -1);
+    name(&o, "next");
+    box(&o, next[0], next[1], -1);
+    name(&o, "cupboard");
+    box(&o, cupboard[0], cupboard[1], -1);
+    load(&o, scene);
+}
+
+static void walls_that_are_passed_are_noticed(void **state)
+{
+    struct clearance c = {0};
+    struct scene scene;
+
+    (void)state;
+    load_rooms(&scene);
+    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG);
+    assert_true(c.closed >= 1 && c.away <= 0);
+    assert_int_equal(go(&c, &scene, 0, 5.9), CLEARANCE_AMONG);
+    assert_int_equal(go(&c, &scene, 0, 6.1), CLEARANCE_OUTSIDE);
+    check_close(c.away, 0.1, 1e-9);
+    assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE);
+    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG); /* back in */
+    assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE);
+    clearance_forget(&c); /* a jump */
+    assert_int_equal(go(&c, &scene, 0, 9), CLEARANCE_AMONG);
+    clearance_forget(&c);
+    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG);
+    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_AMONG); /* next room */
+    assert_int_equal(go(&c, &scene, 0, -7), CLEARANCE_OUTSIDE);
+    scene_free(&scene);
+}
+
+static void solids_that_are_entered_are_noticed(void **state)
+{
+    struct clearance c = {0};
+    struct scene scene;
+
+    (void)state;
+    load_rooms(&scene);
+    assert_int_equal(go(&c, &scene, 1.5, 3), CLEARANCE_AMONG);
+    assert_int_equal(go(&c, &scene, 1.5, 1.9), CLEARANCE_INSIDE);
+    assert_string_equal(scene.object_names[c.passed], "cupboard");
+    assert_int_equal(go(&c, &scene, 1.5, 1.2), CLEARANCE_INSIDE);
+    assert_int_equal(go(&c, &scene, 1.5, 0.5), CLEARANCE_AMONG);
+    scene_free(&scene);
+}
+
+/* Nobody is told anything who goes through a door, stands in the open under the
+ * sky, or goes through a thing that stands there. */
+static void open_places_are_no_loss(void **state)
+{
+    static const double room[2][3] = {{-2, 0, 0}, {2, 3, 6}};
+    static const double ground[2][3] = {{-50, -1, -50}, {50, 0, 50}};
+    static const double block[2][3] = {{-1, 0, 20}, {1, 5, 22}};
+    struct clearance c = {0};
+    struct scene scene;
+    struct obj o;
+
+    (void)state;
+    begin(&o, 1);
+    name(&o, "room");
+    box(&o, room[0], room[1], 5);
+    name(&o, "ground");
+    box(&o, ground[0], ground[1], -1);
+    name(&o, "block");
+    box(&o, block[0], block[1], -1);
+    load(&o, &scene);
+    assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_AMONG);
+    assert_true(c.closed >= CLEARANCE_CLOSED);
+    for (double z = 2; z < 20; z++) /* through the side that is open */
+        assert_int_equal(go(&c, &scene, 0, z), CLEARANCE_AMONG);
+    assert_true(c.closed < CLEARANCE_CLOSED);
+    assert_int_equal(go(&c, &scene, 0, 21), CLEARANCE_INSIDE);
+    assert_int_equal(go(&c, &scene, 0, 23), CLEARANCE_AMONG);
+    /* through the wall of the room into the open: that is told */
+    clearance_forget(&c);
+    assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_AMONG);
+    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_OUTSIDE);
+    assert_true(c.away <= 0);
+    scene_free(&scene);
+}
+
+static void an_empty_picture_is_noticed(void **state)
+{
+    static const double lo[3] = {-1, -1, -1}, hi[3] = {1, 1, 1};
+    struct view v = view_from(0, 0, 9);
+    struct clearance c = {0};
+    struct scene scene;
+    struct obj o;
+
+    (void)state;
+    begin(&o, 1);
+    box(&o, lo, hi, -1);
+    load(&o, &scene);
+    clearance_follow(&c, &scene, &v);
+    assert_int_equal(c.place, CLEARANCE_AMONG);
+    v.at[2] = 10; /* turned round */
+    clearance_follow(&c, &scene, &v);
+    assert_int_equal(c.place, CLEARANCE_AWAY);
+    v.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
+    v.at[2] = 9 - 9 / tan((31 + 5) * M_PI / 180);
+    clearance_follow(&c, &scene, &v);
+    assert_int_equal(c.place, CLEARANCE_AMONG); /* the box is 7 wide there */
+    v.at[2] = 9 - 9 / tan((33 + 9) * M_PI / 180);
+    clearance_follow(&c, &scene, &v);
+    assert_int_equal(c.place, CLEARANCE_AWAY);
+    scene_free(&scene);
+}
+
+/* As the pilot does: a look around before each step. */
+static void press(struct steer *s, struct clearance *c,
+                  const struct scene *scene, struct view *v, uint64_t at_ns)
+{
+    uint64_t next;
+
+    motion_press(&s->motion, MOTION_FORWARD, -1, at_ns);
+    while ((next = motion_next_ns(&s->motion)) != UINT64_MAX) {
+        clearance_follow(c, scene, v);
+        steer_adapt(s, c->near, c->away);
+        steer_step(s, v, next);
+    }
+}
+
+/* How far so many taps, a second each, go back from z, as a part of it. */
+static double taps(double scale, const double room[2][3], double z, int count)
+{
+    struct view v = view_from(0, 1.6 * scale, z * scale);
+    struct clearance c = {0};
+    struct scene scene;
+    struct steer s;
+    struct obj o;
+
+    begin(&o, scale);
+    box(&o, room[0], room[1], -1);
+    load(&o, &scene);
+    steer_init(&s, scene.bounds_lo, scene.bounds_hi);
+    for (int i = 0; i < count; i++) {
+        uint64_t at_ns = (uint64_t)(1 + i) * 1000 * MS;
+
+        steer_begin(&s, at_ns);
+        press(&s, &c, &scene, &v, at_ns);
+    }
+    assert_int_equal(c.place, CLEARANCE_AMONG);
+    scene_free(&scene);
+    return v.eye[2] / scale - z;
+}
+
+/* Half a step from the wall one tap does not reach it, nor do ten; a hall 200
+ * long is another place after twenty; and a model may have any unit. */
+static void taps_are_as_long_as_the_place_allows(void **state)
+{
+    static const double room[2][3] = {{-2.5, 0, 0}, {2.5, 3, 6}};
+    static const double hall[2][3] = {{-100, 0, -100}, {100, 50, 100}};
+    double tap = taps(1, room, 5.7, 1), walk = taps(1, hall, 0, 20);
+
+    (void)state;
+    assert_true(tap > 0.03 && tap < 0.15);
+    assert_true(taps(1, room, 5.7, 10) < 0.3);
+    assert_true(walk > 5 && walk < 50);
+    for (double scale = 1e-6; scale < 1e7; scale *= 1e3) {
+        check_close(taps(scale, room, 5.7, 1), tap, 1e-3 * tap);
+        check_close(taps(scale, hall, 0, 20), walk, 1e-3 * walk);
+    }
+}
+
+/* A key that is held gets through the wall in seconds: who wants to, may. */
+static void walls_give_way_at_last(void **state)
+{
+    static const double lo[3] = {-2.5, 0, 0}, hi[3] = {2.5, 3, 6};
+    struct view v = view_from(0, 1.6, 5.7);
+    struct clearance c = {0};
+    struct scene scene;
+    uint64_t ns = 1000 * MS;
+    struct steer s;
+    struct obj o;
+
+    (void)state;
+    begin(&o, 1);
+    box(&o, lo, hi, -1);
+    load(&o, &scene);
+    steer_init(&s, scene.bounds_lo, scene.bounds_hi);
+    steer_begin(&s, ns);
+    for (; v.eye[2] < 6 && ns < 20000 * MS; ns += 150 * MS)
+        press(&s, &c, &scene, &v, ns);
+    assert_true(ns > 1500 * MS && ns < 8000 * MS);
+    press(&s, &c, &scene, &v, ns);
+    assert_int_equal(c.place, CLEARANCE_OUTSIDE);
+    scene_free(&scene);
+}
+
+static int enter_folder(void **state)
+{
+    return make_folder(state) == 0 ? chdir(folder) : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_floor_is_as_near_as_its_height),
+        cmocka_unit_test(walls_that_are_passed_are_noticed),
+        cmocka_unit_test(solids_that_are_entered_are_noticed),
+        cmocka_unit_test(open_places_are_no_loss),
+        cmocka_unit_test(an_empty_picture_is_noticed),
+        cmocka_unit_test(taps_are_as_long_as_the_place_allows),
+        cmocka_unit_test(walls_give_way_at_last),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}

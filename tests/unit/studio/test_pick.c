@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+/*
+ * Picking against the rays of the render itself, against closed forms in the
+ * file's units, and at surfaces that let rays pass.
+ */
+#include <math.h>
+#include <unistd.h>
+
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
+#include "scene/world.h"
+#include "bvh/bvh.h"
+#include "studio/pick.h"
+#include "formats/scene_load.h"
+#include "kernels/camera_sample.h"
+#include "kernels/traverse.h"
+
+static void put(const char *name, const char *text)
+{
+    FILE *to = fopen(name, "w");
+
+    assert_non_null(to);
+    assert_true(fputs(text, to) >= 0);
+    assert_int_equal(fclose(to), 0);
+}
+
+static void load(struct scene *scene, const char *obj)
+{
+    struct report report = {0};
+    struct error err;
+
+    *scene = (struct scene){0};
+    put("a.obj", obj);
+    check_or_say(scene_load(scene, "a.obj", false, &report, &err), err.text);
+    report_free(&report);
+}
+
+static struct view view_from(double x, double y, double z)
+{
+    struct view v;
+
+    view_init(&v);
+    v.eye[0] = x;
+    v.eye[1] = y;
+    v.eye[2] = z;
+    v.has_camera = true;
+    return v;
+}
+
+/* Triangles of random places and sizes, 2000 of them. */
+static void load_soup(struct scene *scene)
+{
+    uint64_t seed = 5;
+    char *text = NULL;
+    size_t size_bytes;
+    FILE *to = open_memstream(&text, &size_bytes);
+
+    assert_non_null(to);
+    for (int i = 0; i < 2000; i++) {
+        double at[3], size = 0.5 * check_random(&seed);
+
+        for (int k = 0; k < 3; k++)
+            at[k] = 70 + 4 * check_random(&seed);
+        for (int c = 0; c < 3; c++)
+            fprintf(to, "v %.9g %.9g %.9g\n",
+                    at[0] + size * check_random(&seed),
+                    at[1] + size * check_random(&seed),
+                    at[2] + size * check_random(&seed));
+        fprintf(to, "f -3 -2 -1\n");
+    }
+    assert_int_equal(fclose(to), 0);
+    load(scene, text);
+    free(text);
+}
+
+/* The rays of the samples, sent through the tree as the render sends them. */
+static void finds_what_the_render_finds(void **state)
+{
+    struct scene scene;
+    struct view view = view_from(72, 73, 78);
+    struct world w;
+    struct bvh bvh = {0};
+    struct error err;
+    uint32_t hit_count = 0;
+
+    (void)state;
+    load_soup(&scene);
+    for (int k = 0; k < 3; k++)
+        view.at[k] = 72;
+    view.aperture = 1; /* a pick goes through the middle of the lens */
+    assert_true(scene_world(&scene, &view, 0, &w, &err));
+    w.settings.camera.lens_radius = 0;
+    assert_true(bvh_build(&bvh, &w, NULL, &err));
+    w.nodes = bvh.nodes;
+    w.leaf_tris = bvh.leaf_tris;
+    for (uint32_t i = 0; i < 1000; i++) {
+        uint32_t x = i * 617 % 1024, y = i * 211 % 576;
+        struct path_start start = path_begin(&w.settings, x, y, i);
+        struct vec2 at = random_2d(start.sampler, DIMENSION_PIXEL);
+        struct pick pick;
+        struct hit hit;
+        bool is_hit = hit_closest(&w, start.ray, &hit);
+
+        assert_int_equal(pick_at(&scene, &view, x + (double)at.x,
+                                 y + (double)at.y, &pick),
+                         is_hit);
+        if (!is_hit)
+            continue;
+        hit_count++;
+        assert_int_equal(pick.tri, hit.tri);
+        check_close(pick.distance * scene.scale, hit.t, 0);
+    }
+    assert_in_range(hit_count, 200, 800);
+    bvh_free(&bvh);
+    scene_free(&scene);
+}
+
+/* A floor far from the origin, in parts with names. */
+static void says_what_it_is_in_units_of_the_file(void **state)
+{
+    struct scene scene;
+    struct view view = view_from(1000, 2030, -500);
+    struct pick pick;
+
+    (void)state;
+    put("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+    load(&scene, "mtllib a.mtl\n"
+                 "v 900 2000 -400\nv 1000 2000 -400\nv 1000 2000 -600\n"
+                 "v 900 2000 -600\nv 1100 2000 -400\nv 1100 2000 -600\n"
+                 "o left\nusemtl red\nf 1 2 3 4\n"
+                 "o right\nusemtl blue\nf 2 5 6 3\n");
+    view.at[0] = 1010; /* 10 to the right and 30 down: onto the floor */
+    view.at[1] = 2000;
+    view.at[2] = -500;
+    assert_true(pick_at(&scene, &view, 512, 288, &pick));
+    assert_string_equal(scene.object_names[pick.object], "right");
+    assert_string_equal(scene.material_names[pick.material], "blue");
+    assert_int_equal(pick.face, 1);
+    check_close(pick.position[0], 1010, 1e-4);
+    check_close(pick.position[1], 2000, 1e-4);
+    check_close(pick.position[2], -500, 1e-4);
+    check_close(pick.distance, sqrt(1000), 1e-4);
+    /* at the left edge the ray leaves the look, which is down the slope of 3
+     * in x and y, by half the field of view across it: along z */
+    double side = tan(20 * M_PI / 180) * 1024 / 576;
+    assert_true(pick_at(&scene, &view, 0, 288, &pick));
+    check_close(pick.distance, sqrt(1000) * hypot(1, side), 1e-3);
+    check_close(pick.position[2], -500 - sqrt(1000) * side, 1e-3);
+    scene_free(&scene);
+}
+
+static void knows_the_box_of_an_object(void **state)
+{
+    struct scene scene;
+    double lo[3], hi[3];
+
+    (void)state;
+    load(&scene, "o one\nv 1 2 3\nv 4 1 3\nv 2 5 9\nf 1 2 3\n"
+                 "o two\nv -7 0 0\nv 0 -8 0\nv 0 0 20\nf 4 5 6\n");
+    pick_bounds(&scene, 1, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        check_close(lo[k], ((double[]){1, 1, 3})[k], 1e-5);
+        check_close(hi[k], ((double[]){4, 5, 9})[k], 1e-5);
+    }
+    scene_free(&scene);
+}
+
+static void misses_the_sky_and_what_is_outside(void **state)
+{
+    struct scene scene;
+    struct view view = view_from(0, 0, 5);
+    struct pick pick = {.tri = 77};
+
+    (void)state;
+    load(&scene, "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    assert_false(pick_at(&scene, &view, 5, 5, &pick));
+    assert_false(pick_at(&scene, &view, -512, 288, &pick));
+    assert_false(pick_at(&scene, &view, 1024, 288, &pick));
+    assert_false(pick_at(&scene, &view, 512, 576, &pick));
+    assert_false(pick_at(&scene, &view, 512, NAN, &pick));
+    assert_int_equal(pick.tri, 77);
+    assert_true(pick_at(&scene, &view, 512, 288, &pick));
+    view.at[2] = 5; /* no direction */
+    assert_false(pick_at(&scene, &view, 512, 288, &pick));
+    scene_free(&scene);
+}
+
+/* Two sheets and a wall behind: a pick takes the first that is half solid. */
+static void goes_through_what_is_rather_clear(void **state)
+{
+    struct scene scene;
+    struct view view = view_from(0, 0, 5);
+    struct pick pick;
+
+    (void)state;
+    put("a.mtl", "newmtl clear\nd .4\nnewmtl dense\nd .6\n");
+    load(&scene, "mtllib a.mtl\n"
+                 "v -1 -1 2\nv 1 -1 2\nv 0 1 2\nusemtl clear\nf 1 2 3\n"
+                 "v -1 -1 1\nv 1 -1 1\nv 0 1 1\nusemtl dense\nf 4 5 6\n"
+                 "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 7 8 9\n");
+    assert_true(pick_at(&scene, &view, 512, 288, &pick));
+    check_close(pick.distance, 4, 1e-6);
+    scene_free(&scene);
+}
+
+/* The corners of all cells together are the picture. */
+static void cells_share_the_picture(void **state)
+{
+    struct fit fit = {.col = 3, .row = 2, .cols = 40, .rows = 10};
+    double x, y;
+
+    (void)state;
+    assert_true(pick_point_of_cell(&fit, 200, 100, 3, 2, &x, &y));
+    check_close(x, 2.5, 1e-12);
+    check_close(y, 5, 1e-12);
+    assert_true(pick_point_of_cell(&fit, 200, 100, 42, 11, &x, &y));
+    check_close(x, 197.5, 1e-12);
+    check_close(y, 95, 1e-12);
+    assert_false(pick_point_of_cell(&fit, 200, 100, 2, 2, &x, &y));
+    assert_false(pick_point_of_cell(&fit, 200, 100, 3, 1, &x, &y));
+    assert_false(pick_point_of_cell(&fit, 200, 100, 43, 2, &x, &y));
+    assert_false(pick_point_of_cell(&fit, 200, 100, 3, 12, &x, &y));
+}
+
+static int enter_folder(void **state)
+{
+    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_what_the_render_finds),
+        cmocka_unit_test(says_what_it_is_in_units_of_the_file),
+        cmocka_unit_test(knows_the_box_of_an_object),
+        cmocka_unit_test(misses_the_sky_and_what_is_outside),
+        cmocka_unit_test(goes_through_what_is_rather_clear),
+        cmocka_unit_test(cells_share_the_picture),
+    };
+
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+/*
+ * The panel says what the progress says, and each of its lines has at most the
+ * same number of columns, whatever the numbers.
+ */
+#include "tests/unit/check.h"
+
+#include <stdlib.h>
+
+#include "studio/progress_text.h"
+
+#define S_NS UINT64_C(1000000000)
+
+static char lines[METER_ROWS][METER_BYTES];
+
+static int cols_of(const char *text)
+{
+    int cols = 0;
+
+    for (; *text; text++)
+        cols += ((unsigned char)*text & 0xc0) != 0x80;
+    return cols;
+}
+
+static void numbers_are_short(void **state)
+{
+    static const struct {
+        double value;
+        const char *text;
+    } cases[] = {
+        {0, "0"},          {7.4, "7"},           {999.4, "999"},
+        {999.6, "1.00 k"}, {9994, "9.99 k"},     {9996, "10.0 k"},
+        {99960, "100 k"},  {123456, "123 k"},    {1234567, "1.23 M"},
+        {1e9, "1.00 G"},   {12.34e12, "12.3 T"}, {1e18, "1.00 E"},
+    };
+    char text[16];
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        meter_number(text, sizeof text, cases[i].value);
+        assert_string_equal(text, cases[i].text);
+    }
+}
+
+static void half_a_render(void **state)
+{
+    struct render_progress p = {.state = RENDER_RUNNING,
+                                .spp_limit = 1000,
+                                .spp_done = 250,
+                                .samples = 25000000,
+                                .samples_limit = 100000000,
+                                .rays = 200000000,
+                                .render_ns = 100 * S_NS};
+    struct speeds speeds = {0};
+    double loads[] = {1, 0.5};
+    struct meter_facts f = {&p, &speeds, loads, 2, false};
+
+    (void)state;
+    speeds_look(&speeds, 100 * S_NS, 25000000);
+    meter_format(lines, &f);
+    assert_string_equal(lines[0], "250 of 1000 spp               25.0 %");
+    assert_string_equal(lines[1], "#########---------------------------");
+    assert_string_equal(lines[2], "samples       25.0 M         250 k/s");
+    assert_string_equal(lines[3], "rays           200 M        2.00 M/s");
+    assert_string_equal(lines[4], "elapsed         1:40       left 5:00");
+    assert_string_equal(lines[5], "samples/s      now 250 k, most 250 k");
+    assert_string_equal(lines[9], "2 threads                  busy 75 %");
+    assert_string_equal(lines[10], "@=");
+    f.has_unicode = true;
+    meter_format(lines, &f);
+    assert_string_equal(lines[10], "█▄");
+    assert_int_equal(cols_of(lines[1]), METER_COLS);
+    assert_true(strncmp(lines[1], "█████████░", 30) == 0);
+}
+
+/* Speeds of 12 twelfths, 6, 0, 3, ...: columns of so many dots, from below. */
+static void plots_are_to_scale(void **state)
+{
+    struct render_progress p = {.state = RENDER_RUNNING};
+    struct speeds speeds = {.count = 4, .span_ns = S_NS, .time_ns = 4 * S_NS};
+    struct meter_facts f = {&p, &speeds, NULL, 0, true};
+
+    (void)state;
+    speeds.samples[0] = 1200;
+    speeds.samples[1] = 600;
+    speeds.samples[2] = 0;
+    speeds.samples[3] = 300;
+    meter_format(lines, &f);
+    /* dots 1 2 3 7 at the left, 4 5 6 8 at the right of U+2800 */
+    assert_true(strncmp(lines[6], "⡇⠀⠀", 9) == 0);
+    assert_true(strncmp(lines[7], "⣧⠀⠀", 9) == 0);
+    assert_true(strncmp(lines[8], "⣿⢰⠀", 9) == 0);
+    f.has_unicode = false;
+    meter_format(lines, &f);
+    assert_true(strncmp(lines[6], "#  ", 3) == 0);
+    assert_true(strncmp(lines[7], "#  ", 3) == 0);
+    assert_true(strncmp(lines[8], "#| ", 3) == 0);
+}
+
+/* Random facts up to the greatest that there are. */
+static void lines_have_room(void **state)
+{
+    static double loads[1024];
+    struct speeds speeds = {0};
+
+    (void)state;
+    for (int i = 0; i < 1024; i++)
+        loads[i] = (i % 9) / 8.0;
+    for (int bits = 0; bits < 64; bits++) {
+        uint64_t big = UINT64_MAX >> bits;
+        struct render_progress p = {.state = RENDER_RUNNING,
+                                    .spp_limit = big / 3,
+                                    .spp_done = big / 4,
+                                    .samples = big / 2,
+                                    .samples_limit = big,
+                                    .rays = big,
+                                    .render_ns = big};
+        struct meter_facts f = {&p, &speeds, loads, 1 + bits * 16, bits % 2};
+
+        speeds_look(&speeds, (uint64_t)bits * S_NS, big);
+        meter_format(lines, &f);
+        for (int i = 0; i < METER_ROWS; i++)
+            assert_true(cols_of(lines[i]) <= METER_COLS);
+    }
+}
+
+static void live_and_device_and_nothing(void **state)
+{
+    struct render_progress p = {.state = RENDER_IDLE};
+    struct speeds speeds = {0};
+    struct meter_facts f = {&p, &speeds, NULL, 0, true};
+
+    (void)state;
+    meter_format(lines, &f);
+    assert_string_equal(lines[0], "0 spp                       no limit");
+    assert_string_equal(lines[4], "elapsed          0 s                ");
+    assert_string_equal(lines[10], "");
+    assert_non_null(strstr(lines[9], "OpenCL"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_are_short),
+        cmocka_unit_test(half_a_render),
+        cmocka_unit_test(plots_are_to_scale),
+        cmocka_unit_test(lines_have_room),
+        cmocka_unit_test(live_and_device_and_nothing),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

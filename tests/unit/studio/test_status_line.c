@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <string.h>
+
+#include "studio/status_line.h"
+
+#define SEC UINT64_C(1000000000)
+
+static const char *duration(uint64_t ns)
+{
+    static char text[32];
+
+    status_duration(text, sizeof text, ns);
+    return text;
+}
+
+static void durations(void **state)
+{
+    (void)state;
+    assert_string_equal(duration(0), "0 s");
+    assert_string_equal(duration(60 * SEC - 1), "59 s");
+    assert_string_equal(duration(60 * SEC), "1:00");
+    assert_string_equal(duration(3599 * SEC), "59:59");
+    assert_string_equal(duration(3600 * SEC + 62 * SEC), "1:01:02");
+    assert_string_equal(duration(UINT64_MAX), "5124095:34:33");
+}
+
+static struct render_progress half_done(void)
+{
+    struct render_progress p = {.state = RENDER_RUNNING,
+                                .spp_limit = 16,
+                                .spp_done = 8,
+                                .samples = 8 * 1000000,
+                                .samples_limit = 16 * 1000000,
+                                .render_ns = 4 * SEC};
+
+    return p;
+}
+
+static void normal_mode_says_what_is_left(void **state)
+{
+    struct render_progress p = half_done();
+    struct status s = {.is_started = true,
+                       .progress = &p,
+                       .thread_count = 2,
+                       .width_px = 1024,
+                       .height_px = 576,
+                       .colors = "24 bit",
+                       .hint = "? help  q quit"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    status_format(text, 120, &s);
+    assert_string_equal(
+        text, " NORMAL  8/16 spp  50 %  4 s  left 4 s  2.00 Msamples/s  2 "
+              "threads  1024x576  24 bit                     ? help  q quit ");
+    s.is_orbiting = true;
+    status_format(text, 120, &s);
+    check_has(text, " NORMAL orbit  8/16 spp  ");
+    s.is_orbiting = false;
+    p.state = RENDER_IDLE;
+    s.is_halted = true;
+    status_format(text, 120, &s);
+    assert_non_null(strstr(text, "NORMAL paused  8/16 spp  50 %  4 s  2.00"));
+    p.state = RENDER_DONE;
+    p.samples = p.samples_limit;
+    status_format(text, 120, &s);
+    assert_non_null(strstr(text, "NORMAL done"));
+    assert_non_null(strstr(text, "100 %"));
+    s.is_started = false;
+    p.state = RENDER_IDLE;
+    status_format(text, 120, &s);
+    assert_non_null(strstr(text, "NORMAL ready  2 threads"));
+}
+
+static void live_mode_has_no_end(void **state)
+{
+    struct render_progress p = half_done();
+    struct status s = {.is_live = true,
+                       .progress = &p,
+                       .thread_count = 1,
+                       .width_px = 10,
+                       .height_px = 20,
+                       .colors = "mono",
+                       .hint = "? help  q quit"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    p.spp_limit = p.samples_limit = 0;
+    status_format(text, 100, &s);
+    assert_non_null(strstr(text, " LIVE  8 spp  4 s  2.00 Msamples/s  1 thread "
+                                 " 10x20  mono "));
+    assert_null(strchr(text, '%'));
+    p = (struct render_progress){.state = RENDER_RUNNING};
+    status_format(text, 100, &s); /* nothing yet: no division by zero */
+    assert_non_null(strstr(text, "0 spp  0 s  0 ksamples/s"));
+}
+
+/* At any width the line has that many columns, begins with the mode and never
+ * cuts a field. */
+static void narrow_windows_drop_fields(void **state)
+{
+    struct render_progress p = half_done();
+    struct status s = {.is_started = true,
+                       .progress = &p,
+                       .thread_count = 64,
+                       .width_px = 65536,
+                       .height_px = 65536,
+                       .colors = "256 colours",
+                       .hint = "? help  q quit"};
+    static const char *const fields[] = {"8/16 spp", "50 %", "4 s", "left 4 s"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    for (int cols = 1; cols < 3000; cols++) {
+        status_format(text, cols, &s);
+        assert_int_equal(strlen(text),
+                         cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1);
+        if (cols >= 24)
+            assert_true(strncmp(text, " NORMAL", 7) == 0);
+        for (size_t i = 1; i < 4; i++) {
+            if (strstr(text, fields[i])) /* less important ones went before */
+                assert_non_null(strstr(text, fields[0]));
+        }
+    }
+}
+
+/* In 80 columns the mode, files, samples, colours and the hint have room,
+ * whatever the rest is, with the keys as they come. */
+static void eighty_columns_have_the_colors(void **state)
+{
+    static const char *const colors[] = {"24 bit", "256 colours", "16 colours",
+                                         "mono"};
+    struct render_progress p = half_done();
+    struct status s = {.progress = &p,
+                       .width_px = 65536,
+                       .height_px = 65536,
+                       .hint = "? help  q quit"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    p.render_ns = 100 * 3600 * SEC;
+    for (int i = 0; i < 64; i++) {
+        s.is_live = i & 1;
+        s.is_orbiting = i & 2;
+        s.is_halted = s.is_started = i & 4;
+        s.load_key = i & 8 ? "l" : NULL;
+        s.device = i & 16 ? "NVIDIA GeForce RTX 4090 Ti" : NULL;
+        p.spp_limit = i & 32 ? 16 : 0;
+        s.thread_count = 1024;
+        s.colors = colors[i % 4];
+        status_format(text, 80, &s);
+        check_has(text, s.colors);
+        check_has(text, s.hint);
+        if (s.load_key)
+            check_has(text, "changed: l loads");
+        if (s.is_live || s.is_started)
+            check_has(text, " spp ");
+    }
+}
+
+static void messages_are_clean(void **state)
+{
+    char text[STATUS_BYTES];
+
+    (void)state;
+    status_message(text, 80, "a\033[2Jb\nc\177");
+    assert_string_equal(text, " a?[2Jb?c?");
+    status_message(text, 4, "abcdef");
+    assert_string_equal(text, " abc");
+    status_message(text, 0, "abcdef");
+    assert_string_equal(text, "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(durations),
+        cmocka_unit_test(normal_mode_says_what_is_left),
+        cmocka_unit_test(live_mode_has_no_end),
+        cmocka_unit_test(narrow_windows_drop_fields),
+        cmocka_unit_test(eighty_columns_have_the_colors),
+        cmocka_unit_test(messages_are_clean),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <stdlib.h>
+
+#include "terminal/ansi_text.h"
+
+/* 4x4 pixels: red above, of light 1; below it green of a half, which is 188 in
+ * sRGB (IEC 61966-2-1), at exposure 0. */
+static struct film make_film(void)
+{
+    struct film film;
+    struct error err;
+    const int counts[4] = {1, 1, 1, 1};
+
+    assert_true(film_init(&film, 4, 4, &err));
+    for (int y = 0; y < 4; y++) {
+        struct path_sample samples[4] = {0};
+
+        for (int x = 0; x < 4; x++)
+            samples[x].radiance =
+                (struct vec3){y < 2, y < 2 ? 0.0f : 0.5f, 0.0f};
+        film_add_row(&film, 0, y, 1, 4, samples, counts);
+    }
+    return film;
+}
+
+static void check_text(const struct text_style *style, const char *expected)
+{
+    struct film film = make_film();
+    struct frame frame;
+    struct error err;
+    size_t size_bytes;
+    char *text;
+
+    assert_true(text_frame_init(&frame, style, &err));
+    film_preview(&film, NULL, develop_linear(0), &frame);
+    assert_true(text_of_frame(&frame, style, &text, &size_bytes, &err));
+    frame_free(&frame);
+    assert_int_equal(size_bytes, strlen(expected));
+    assert_memory_equal(text, expected, size_bytes);
+    free(text);
+    film_free(&film);
+}
+
+static void text_is_the_film(void **state)
+{
+    (void)state;
+    check_text(&(struct text_style){2, 2, PALETTE_24BIT, GLYPHS_HALF},
+               "\033[48;2;255;0;0m  \033[m\n\033[48;2;0;188;0m  \033[m\n");
+    check_text(&(struct text_style){2, 1, PALETTE_24BIT, GLYPHS_UPPER},
+               "\033[38;2;255;0;0;48;2;0;188;0m\xe2\x96\x80\xe2\x96\x80"
+               "\033[m\n");
+    /* of three rows the middle one is half red, half green: light (.5, .25, 0),
+     * which is (188, 137, 0); with the green one it makes the second colour */
+    check_text(&(struct text_style){1, 1, PALETTE_24BIT, GLYPHS_SEXTANT},
+               "\033[38;2;255;0;0;48;2;94;163;0m\xf0\x9f\xac\x82\033[m\n");
+    /* (128, 94, 0) is as bright as 90: fourth of ten characters */
+    check_text(&(struct text_style){2, 1, PALETTE_MONO, GLYPHS_HALF}, ";;\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_is_the_film),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "terminal/cells.h"
+
+static struct cells make_cells_of(struct frame *frame, int cols, int rows,
+                                  enum glyphs glyphs)
+{
+    struct glyph_grid grid = glyphs_grid(glyphs);
+    struct cells cells;
+    struct error err;
+
+    assert_true(frame_init(frame, grid.across * cols, grid.down * rows, &err));
+    assert_true(cells_init(&cells, cols, rows, &err));
+    return cells;
+}
+
+static struct cells make_cells(struct frame *frame, int cols, int rows)
+{
+    return make_cells_of(frame, cols, rows, GLYPHS_HALF);
+}
+
+static void set(struct frame *f, int x, int y, int r, int g, int b)
+{
+    uint8_t *p = f->rgb + 3 * (y * f->width + x);
+
+    p[0] = (uint8_t)r;
+    p[1] = (uint8_t)g;
+    p[2] = (uint8_t)b;
+}
+
+static void two_pixels_make_a_half_block(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells(&f, 2, 1);
+
+    (void)state;
+    set(&f, 0, 0, 1, 2, 3);
+    set(&f, 0, 1, 4, 5, 6);
+    set(&f, 1, 0, 7, 8, 9);
+    set(&f, 1, 1, 7, 8, 9);
+    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_UPPER);
+    assert_int_equal(c.cell[0].glyph, CELL_UPPER);
+    assert_int_equal(c.cell[0].fg, 0x010203);
+    assert_int_equal(c.cell[0].bg, 0x040506);
+    assert_int_equal(c.cell[1].glyph, ' ');
+    assert_int_equal(c.cell[1].bg, 0x070809);
+    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_LOWER);
+    assert_int_equal(c.cell[0].glyph, CELL_LOWER);
+    assert_int_equal(c.cell[0].fg, 0x040506);
+    assert_int_equal(c.cell[0].bg, 0x010203);
+    cells_free(&c);
+    frame_free(&f);
+}
+
+static void one_pixel_is_a_blank(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells_of(&f, 2, 1, GLYPHS_SPACE);
+
+    (void)state;
+    set(&f, 0, 0, 1, 2, 3);
+    set(&f, 1, 0, 4, 5, 6);
+    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_SPACE);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(c.cell[i].glyph, ' ');
+        assert_int_equal(c.cell[i].bg, i == 0 ? 0x010203 : 0x040506);
+    }
+    cells_free(&c);
+    frame_free(&f);
+}
+
+/* A flat area of 16 colours has, on average and as light (squared), the colour
+ * it stands for; the four by four thresholds round to a sixteenth. */
+static void sixteen_keep_the_average(void **state)
+{
+    static const int colors[][3] = {{60, 100, 20},   {128, 128, 128},
+                                    {170, 0, 0},     {0, 0, 0},
+                                    {255, 255, 255}, {90, 40, 140}};
+    struct frame f;
+    struct cells c = make_cells(&f, 8, 4);
+
+    (void)state;
+    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
+        const int *v = colors[i];
+        double light[3] = {0};
+
+        for (int y = 0; y < 8; y++)
+            for (int x = 0; x < 8; x++)
+                set(&f, x, y, v[0], v[1], v[2]);
+        cells_from_frame(&c, &f, PALETTE_16, GLYPHS_UPPER);
+        for (int n = 0; n < 32; n++) {
+            const struct cell *cell = &c.cell[n];
+            uint32_t half[2] = {cell->glyph == ' ' ? cell->bg : cell->fg,
+                                cell->bg};
+
+            for (int h = 0; h < 2; h++) {
+                assert_in_range(half[h], 0, 15);
+                for (int k = 0; k < 3; k++) {
+                    int on = (int)(half[h] >> k & 1);
+                    int value = half[h] < 8 ? 170 * on : 85 + 170 * on;
+
+                    light[k] += value * value / 64.0;
+                }
+            }
+        }
+        for (int k = 0; k < 3; k++)
+            check_close(light[k], v[k] * v[k],
+                        (255.0 * 255 - 85 * 85) / 32 + 1);
+    }
+    cells_free(&c);
+    frame_free(&f);
+}
+
+/* Squares to the means of the two groups, weighted as the program does, for
+ * the dots of which bits are set. */
+static double squares(const struct frame *f, unsigned mask)
+{
+    static const double weight[3] = {2, 4, 3};
+    int count = f->width * f->height;
+    double total = 0;
+
+    for (int bit = 0; bit < 2; bit++) {
+        for (int c = 0; c < 3; c++) {
+            double sum = 0, sum2 = 0;
+            int n = 0;
+
+            for (int i = 0; i < count; i++) {
+                double v = f->rgb[3 * i + c];
+
+                if ((int)(mask >> i & 1) != bit)
+                    continue;
+                sum += v;
+                sum2 += v * v;
+                n++;
+            }
+            total += n > 0 ? weight[c] * (sum2 - sum * sum / n) : 0;
+        }
+    }
+    return total;
+}
+
+/* The mean of a channel over the dots of one kind, rounded. */
+static uint32_t mean(const struct frame *f, unsigned mask, unsigned bit)
+{
+    uint32_t color = 0;
+
+    for (int c = 0; c < 3; c++) {
+        int sum = 0, n = 0;
+
+        for (int i = 0; i < f->width * f->height; i++) {
+            if ((mask >> i & 1) != bit)
+                continue;
+            sum += f->rgb[3 * i + c];
+            n++;
+        }
+        color = color << 8 | (uint32_t)floor((double)sum / n + 0.5);
+    }
+    return color;
+}
+
+/* Every partition is tried: none is better, and the colours are its means. */
+static void two_groups_are_the_best(void **state)
+{
+    static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_SEXTANT,
+                                        GLYPHS_BRAILLE};
+    uint64_t seed = 3;
+
+    (void)state;
+    for (int round = 0; round < 900; round++) {
+        struct frame f;
+        enum glyphs glyphs = kinds[round % 3];
+        struct cells c = make_cells_of(&f, 1, 1, glyphs);
+        int dots = f.width * f.height;
+        double least = 1e30;
+        unsigned mask;
+
+        for (int i = 0; i < 3 * dots; i++)
+            f.rgb[i] = (uint8_t)(256 * check_random(&seed));
+        cells_from_frame(&c, &f, PALETTE_24BIT, glyphs);
+        for (unsigned m = 0; m < 1u << dots; m++)
+            least = fmin(least, squares(&f, m));
+        assert_true(glyphs_mask(glyphs, c.cell[0].glyph, &mask));
+        check_close(squares(&f, mask), least, 1e-5 * least);
+        assert_int_equal(c.cell[0].fg, mean(&f, mask, 1));
+        assert_int_equal(c.cell[0].bg, mean(&f, mask, 0));
+        cells_free(&c);
+        frame_free(&f);
+    }
+}
+
+/* Without colours a grey is so many dots as its light, squared, asks for. */
+static void mono_dots_keep_the_average(void **state)
+{
+    static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_BRAILLE};
+
+    (void)state;
+    for (int round = 0; round < 512; round++) {
+        enum glyphs glyphs = kinds[round % 2];
+        struct frame f;
+        struct cells c = make_cells_of(&f, 4, 4, glyphs);
+        int v = round / 2, on = 0;
+
+        for (int i = 0; i < 3 * f.width * f.height; i++)
+            f.rgb[i] = (uint8_t)v;
+        cells_from_frame(&c, &f, PALETTE_MONO, glyphs);
+        for (int i = 0; i < 16; i++) {
+            unsigned mask;
+
+            assert_true(glyphs_mask(glyphs, c.cell[i].glyph, &mask));
+            assert_true(c.cell[i].fg == CELL_DEFAULT &&
+                        c.cell[i].bg == CELL_DEFAULT);
+            on += __builtin_popcount(mask);
+        }
+        check_close((double)on / (f.width * f.height), v * v / 65025.0,
+                    1.0 / 32 + 1e-9);
+        cells_free(&c);
+        frame_free(&f);
+    }
+}
+
+static void mono_is_characters_that_grow(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells(&f, 256, 1);
+    int changes = 0;
+
+    (void)state;
+    for (int x = 0; x < 256; x++) {
+        set(&f, x, 0, x, x, x);
+        set(&f, x, 1, x, x, x);
+    }
+    cells_from_frame(&c, &f, PALETTE_MONO, GLYPHS_UPPER);
+    assert_int_equal(c.cell[0].glyph, ' ');
+    assert_int_equal(c.cell[255].glyph, '@');
+    for (int x = 0; x < 256; x++) {
+        assert_in_range(c.cell[x].glyph, ' ', '~');
+        assert_true(c.cell[x].fg == CELL_DEFAULT &&
+                    c.cell[x].bg == CELL_DEFAULT);
+        if (x > 0 && c.cell[x].glyph != c.cell[x - 1].glyph)
+            changes++;
+    }
+    assert_int_equal(changes, 9);
+    cells_free(&c);
+    frame_free(&f);
+}
+
+static void ascii_keeps_the_hue(void **state)
+{
+    struct frame f;
+    struct cells c = make_cells_of(&f, 1, 1, GLYPHS_ASCII);
+
+    (void)state;
+    set(&f, 0, 0, 100, 50, 0);
+    cells_from_frame(&c, &f, PALETTE_24BIT, GLYPHS_ASCII);
+    assert_in_range(c.cell[0].glyph, '!', '~');
+    assert_int_equal(c.cell[0].fg, 255 << 16 | 127 << 8);
+    assert_int_equal(c.cell[0].bg, CELL_DEFAULT);
+    cells_free(&c);
+    frame_free(&f);
+}
+
+/* The shape is kept to half a cell, and the picture lies inside, centred. */
+static void pictures_fit(void **state)
+{
+    uint64_t seed = 2;
+
+    (void)state;
+    for (int i = 0; i < 20000; i++) {
+        int width = 1 + (int)(3000 * check_random(&seed));
+        int height = 1 + (int)(3000 * check_random(&seed));
+        int cols = 1 + (int)(300 * check_random(&seed));
+        int rows = 1 + (int)(100 * check_random(&seed));
+        double aspect = 0.5 + 3 * check_random(&seed);
+        struct fit fit = cells_fit(width, height, cols, rows, aspect);
+        double shape = (double)width / height;
+
+        assert_true(fit.cols >= 1 && fit.cols <= cols);
+        assert_true(fit.rows >= 1 && fit.rows <= rows);
+        assert_true(fit.cols == cols || fit.rows == rows);
+        assert_true(abs(cols - fit.cols - 2 * fit.col) <= 1);
+        assert_true(abs(rows - fit.rows - 2 * fit.row) <= 1);
+        if (fit.rows == rows && fit.cols > 1 && fit.cols < cols)
+            check_close(fit.cols, rows * aspect * shape, 0.5001);
+        if (fit.cols == cols && fit.rows > 1 && fit.rows < rows)
+            check_close(fit.rows, cols / (aspect * shape), 0.5001);
+    }
+}
+
+/* A cursor of three cells that the borders cut. */
+static void a_mark_is_seen_in_every_palette(void **state)
+{
+    static const struct {
+        enum palette palette;
+        uint32_t fg, bg;
+    } cases[] = {
+        {PALETTE_MONO, CELL_DEFAULT, CELL_DEFAULT},
+        {PALETTE_16, 0, 15}, /* black, bright white */
+        {PALETTE_256, 16, 231},
+        {PALETTE_24BIT, 0x000000, 0xffffff},
+    };
+    struct cells cells;
+    struct error err;
+
+    (void)state;
+    assert_true(cells_init(&cells, 4, 2, &err));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        memset(cells.cell, 0, 8 * sizeof cells.cell[0]);
+        cells.palette = cases[i].palette;
+        cells_mark(&cells, 1, 1);
+        for (int k = 0; k < 8; k++)
+            assert_int_equal(cells.cell[k].glyph,
+                             ((const char[]){0, 0, 0, 0, '[', '+', ']', 0})[k]);
+        assert_int_equal(cells.cell[5].fg, cases[i].fg);
+        assert_int_equal(cells.cell[5].bg, cases[i].bg);
+    }
+    memset(cells.cell, 0, 8 * sizeof cells.cell[0]);
+    cells_mark(&cells, 3, 0);
+    cells_mark(&cells, 0, 1);
+    cells_mark(&cells, 1, 2); /* outside */
+    for (int k = 0; k < 8; k++)
+        assert_int_equal(cells.cell[k].glyph,
+                         ((const char[]){0, 0, '[', '+', '+', ']', 0, 0})[k]);
+    cells_free(&cells);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mark_is_seen_in_every_palette),
+        cmocka_unit_test(two_pixels_make_a_half_block),
+        cmocka_unit_test(one_pixel_is_a_blank),
+        cmocka_unit_test(two_groups_are_the_best),
+        cmocka_unit_test(mono_dots_keep_the_average),
+        cmocka_unit_test(sixteen_keep_the_average),
+        cmocka_unit_test(mono_is_characters_that_grow),
+        cmocka_unit_test(ascii_keeps_the_hue),
+        cmocka_unit_test(pictures_fit),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+/*
+ * 256 colours against the nearest of them, which a search finds: what the eye
+ * sees of both is their light, blurred.
+ */
+#include "tests/unit/check.h"
+
+#include "tests/unit/oklab.h"
+
+#include <stdlib.h>
+
+#include "terminal/dither.h"
+
+#define WIDTH  128
+#define HEIGHT 8
+
+/* xterm's own numbers: 16 + 36 r + 6 g + b of levels 0 95 135 175 215 255, and
+ * 232.. = 8 + 10 i. */
+static void value_256(int n, int rgb[3])
+{
+    static const int level[6] = {0, 95, 135, 175, 215, 255};
+
+    if (n >= 232) {
+        rgb[0] = rgb[1] = rgb[2] = 8 + 10 * (n - 232);
+        return;
+    }
+    rgb[0] = level[(n - 16) / 36];
+    rgb[1] = level[(n - 16) / 6 % 6];
+    rgb[2] = level[(n - 16) % 6];
+}
+
+static void light_of_256(int n, double light[3])
+{
+    int rgb[3];
+
+    value_256(n, rgb);
+    for (int c = 0; c < 3; c++)
+        light[c] = light_of_srgb(rgb[c]);
+}
+
+static int nearest_256(struct rgb c)
+{
+    double wanted[3] = {light_of_srgb(c.r), light_of_srgb(c.g),
+                        light_of_srgb(c.b)};
+    double least = 1e9;
+    int best = 0;
+
+    for (int n = 16; n < 256; n++) {
+        double light[3];
+
+        light_of_256(n, light);
+        double distance = oklab_distance(wanted, light);
+        if (distance < least) {
+            least = distance;
+            best = n;
+        }
+    }
+    return best;
+}
+
+static struct dither make_dither(void)
+{
+    struct dither d;
+    struct error err;
+
+    assert_true(dither_init(&d, &err));
+    return d;
+}
+
+static void numbers_are_xterms(void **state)
+{
+    (void)state;
+    for (int n = 16; n < 256; n++) {
+        struct rgb c = dither_value((uint32_t)n, PALETTE_256);
+        int want[3];
+
+        value_256(n, want);
+        assert_true(c.r == want[0] && c.g == want[1] && c.b == want[2]);
+    }
+}
+
+/* From one colour to another, along x. */
+static struct rgb ramp_color(const int ends[2][3], int x)
+{
+    int v[3];
+
+    for (int c = 0; c < 3; c++)
+        v[c] = ends[0][c] + (ends[1][c] - ends[0][c]) * x / (WIDTH - 1);
+    return (struct rgb){v[0], v[1], v[2]};
+}
+
+/* How a ramp looks when 4x4 pixels become one: its mean distance to the ramp,
+ * and the longest stretch that looks the same throughout. */
+struct look {
+    double miss;
+    int plateau;
+};
+
+static struct look look_at(const int ends[2][3], struct dither *d)
+{
+    static const double same = 1e-6;
+    double before[3] = {-1, -1, -1};
+    struct look look = {0, 0};
+    int run = 0;
+
+    for (int x = 0; x + 4 <= WIDTH; x++) {
+        double seen[3] = {0}, wanted[3] = {0}, light[3];
+
+        for (int i = 0; i < 16; i++) {
+            int at = x + i % 4;
+            struct rgb c = ramp_color(ends, at);
+            int v[3] = {c.r, c.g, c.b};
+            int n = d ? (int)dither_color(d, c, at, i / 4, PALETTE_256)
+                      : nearest_256(c);
+
+            light_of_256(n, light);
+            for (int k = 0; k < 3; k++) {
+                seen[k] += light[k] / 16;
+                wanted[k] += light_of_srgb(v[k]) / 16;
+            }
+        }
+        look.miss += oklab_distance(seen, wanted) / (WIDTH - 3);
+        run = oklab_distance(seen, before) < same ? run + 1 : 1;
+        look.plateau = run > look.plateau ? run : look.plateau;
+        memcpy(before, seen, sizeof before);
+    }
+    return look;
+}
+
+/* Greys, a hue from dark to full, two hues, and colours between the levels. */
+static void ramps_have_no_bands(void **state)
+{
+    static const int ramps[][2][3] = {
+        {{10, 10, 10}, {70, 70, 70}},    {{95, 95, 95}, {175, 175, 175}},
+        {{60, 20, 20}, {250, 120, 100}}, {{20, 40, 90}, {120, 160, 240}},
+        {{40, 90, 30}, {220, 230, 120}}, {{188, 124, 0}, {120, 80, 140}},
+    };
+    struct dither d = make_dither();
+
+    (void)state;
+    for (size_t i = 0; i < sizeof ramps / sizeof ramps[0]; i++) {
+        struct look nearest = look_at(ramps[i], NULL);
+        struct look mixed = look_at(ramps[i], &d);
+
+        check_at_most(mixed.miss, 0.5 * nearest.miss);
+        check_at_most(mixed.plateau, nearest.plateau / 2);
+    }
+    dither_free(&d);
+}
+
+/* Any colour, as a flat area: nearer than the nearest of the palette. */
+static void flat_areas_come_nearer(void **state)
+{
+    struct dither d = make_dither();
+    uint64_t seed = 1;
+    double nearest = 0, mixed = 0;
+
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        struct rgb c = {(int)(256 * check_random(&seed)),
+                        (int)(256 * check_random(&seed)),
+                        (int)(256 * check_random(&seed))};
+        double wanted[3] = {light_of_srgb(c.r), light_of_srgb(c.g),
+                            light_of_srgb(c.b)};
+        double seen[3] = {0}, light[3];
+
+        for (int k = 0; k < 16; k++) {
+            uint32_t n = dither_color(&d, c, k % 4, k / 4, PALETTE_256);
+
+            assert_in_range(n, 16, 255);
+            light_of_256((int)n, light);
+            for (int j = 0; j < 3; j++)
+                seen[j] += light[j] / 16;
+        }
+        mixed += oklab_distance(seen, wanted);
+        light_of_256(nearest_256(c), light);
+        nearest += oklab_distance(light, wanted);
+    }
+    check_at_most(mixed, 0.4 * nearest);
+    dither_free(&d);
+}
+
+/* The corners of the cube are what they are: black has no speckles. */
+static void corners_stay_pure(void **state)
+{
+    struct dither d = make_dither();
+
+    (void)state;
+    for (int corner = 0; corner < 8; corner++) {
+        int r = corner & 1, g = corner >> 1 & 1, b = corner >> 2;
+        struct rgb c = {255 * r, 255 * g, 255 * b};
+
+        for (int k = 0; k < 16; k++)
+            assert_int_equal(dither_color(&d, c, k % 4, k / 4, PALETTE_256),
+                             16 + 5 * (36 * r + 6 * g + b));
+    }
+    dither_free(&d);
+}
+
+/* The same picture gives the same cells, whatever was asked before; and noise
+ * of one step in each channel moves few of them: less than twice as many as
+ * with the nearest colours, whose borders are fewer. */
+static void small_changes_change_little(void **state)
+{
+    struct dither d = make_dither();
+    struct dither other = make_dither();
+    uint64_t seed = 2;
+    int moved = 0, moved_nearest = 0;
+
+    (void)state;
+    for (int i = 0; i < 4000; i++) {
+        int x = i % 64, y = i / 64;
+        int v[3], w[3];
+
+        for (int c = 0; c < 3; c++) {
+            v[c] = 1 + (int)(254 * check_random(&seed));
+            w[c] = v[c] + (int)(3 * check_random(&seed)) - 1;
+        }
+        struct rgb a = {v[0], v[1], v[2]};
+        struct rgb b = {w[0], w[1], w[2]};
+        uint32_t before = dither_color(&d, a, x, y, PALETTE_256);
+
+        moved += dither_color(&d, b, x, y, PALETTE_256) != before;
+        moved_nearest += nearest_256(a) != nearest_256(b);
+        assert_int_equal(dither_color(&d, a, x, y, PALETTE_256), before);
+        assert_int_equal(dither_color(&other, a, x, y, PALETTE_256), before);
+    }
+    check_at_most(moved, 2 * moved_nearest);
+    check_at_most(moved, 0.1 * 4000);
+    dither_free(&other);
+    dither_free(&d);
+}
+
+static void thresholds_are_spread(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 64; i++) {
+        unsigned seen = 0;
+
+        for (int k = 0; k < 16; k++)
+            seen |= 1u << dither_threshold(i % 8 + k % 4, i / 8 + k / 4);
+        assert_int_equal(seen, 0xffff);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_are_xterms),
+        cmocka_unit_test(ramps_have_no_bands),
+        cmocka_unit_test(flat_areas_come_nearer),
+        cmocka_unit_test(corners_stay_pure),
+        cmocka_unit_test(small_changes_change_little),
+        cmocka_unit_test(thresholds_are_spread),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

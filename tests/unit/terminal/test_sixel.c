@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/pixels.h"
+
+#include "terminal/sixel.h"
+
+static struct sixels seen;
+static uint8_t numbers[PIXELS_MAX];
+
+/* Encodes, decodes and compares; the number of bytes. */
+static size_t check_image(int width, int height, enum palette palette)
+{
+    struct sixel_image image = {width, height, palette, numbers};
+    size_t most = sixel_bytes_max(width, height);
+    char *bytes = malloc(most + 1);
+    size_t length = sixel_encode(&image, bytes);
+
+    assert_true(length <= most);
+    bytes[length] = '\0';
+    assert_ptr_equal(sixels_read(bytes, &seen), bytes + length);
+    free(bytes);
+    assert_true(seen.width == width && seen.height == height);
+    for (int i = 0; i < width * height; i++)
+        assert_int_equal(seen.number[i], numbers[i]);
+    for (int n = 0; n < 256; n++) {
+        if (seen.percent[n][0] < 0)
+            continue;
+        struct rgb c = dither_value((uint32_t)n, palette);
+        check_close(seen.percent[n][0] * 2.55, c.r, 1.28);
+        check_close(seen.percent[n][1] * 2.55, c.g, 1.28);
+        check_close(seen.percent[n][2] * 2.55, c.b, 1.28);
+    }
+    return length;
+}
+
+/* Sizes that are no multiples of a band, few colours in runs and many in
+ * noise: every pixel is set once, to its colour. */
+static void pixels_come_back(void **state)
+{
+    uint64_t seed = 1;
+
+    (void)state;
+    for (int round = 0; round < 60; round++) {
+        enum palette palette = round % 2 ? PALETTE_16 : PALETTE_256;
+        int width = 1 + (int)(SIXEL_WIDTH_MAX * check_random(&seed));
+        int height = 1 + (int)(40 * check_random(&seed));
+        double change = round % 3 == 0 ? 1 : 0.1;
+        int n = 0;
+
+        for (int i = 0; i < width * height; i++) {
+            if (i == 0 || check_random(&seed) < change)
+                n = palette == PALETTE_16
+                        ? (int)(16 * check_random(&seed))
+                        : 16 + (int)(240 * check_random(&seed));
+            numbers[i] = (uint8_t)n;
+        }
+        check_image(width, height, palette);
+    }
+}
+
+/* One colour is a run a band: 6 rows of 256 pixels in a few bytes. */
+static void flat_images_are_short(void **state)
+{
+    (void)state;
+    memset(numbers, 196, sizeof numbers);
+    check_at_most((double)check_image(256, 60, PALETTE_256),
+                  40 + 18 + 10 * strlen("#196!256~-"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pixels_come_back),
+        cmocka_unit_test(flat_images_are_short),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

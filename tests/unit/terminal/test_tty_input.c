@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+/*
+ * Keys, mouse reports and answers as terminals send them (xterm's control
+ * sequences, the Linux console's keys), whole and in pieces.
+ */
+#include "tests/unit/check.h"
+
+#include <string.h>
+
+#include "terminal/tty_input.h"
+
+#define EVENTS_MAX 64
+
+static struct event events[EVENTS_MAX];
+
+/* Feeds the bytes in pieces of so many; how many events came. */
+static int parse(const char *bytes, size_t length, size_t piece)
+{
+    static struct input in;
+    int count = 0;
+
+    memset(&in, 0, sizeof in);
+    for (size_t i = 0; i < length; i += piece) {
+        size_t n = length - i < piece ? length - i : piece;
+
+        assert_int_equal(input_feed(&in, bytes + i, n), n);
+        while (input_next(&in, false, &events[count]))
+            assert_true(++count < EVENTS_MAX);
+    }
+    while (input_next(&in, true, &events[count]))
+        assert_true(++count < EVENTS_MAX);
+    assert_false(input_is_partial(&in));
+    return count;
+}
+
+static struct event only(const char *bytes, size_t piece)
+{
+    int count = parse(bytes, strlen(bytes), piece);
+
+    if (count != 1)
+        print_error("%d events from ESC%s\n", count, bytes + 1);
+    assert_int_equal(count, 1);
+    return events[0];
+}
+
+static void keys_are_keys(void **state)
+{
+    static const struct {
+        const char *bytes;
+        int key;
+    } cases[] = {
+        {"w", 'w'},
+        {"\r", '\r'},
+        {"\n", '\r'},
+        {"\003", 3},
+        {"\033", 27},
+        {"\033[A", INPUT_UP},
+        {"\033OA", INPUT_UP},
+        {"\033[B", INPUT_DOWN},
+        {"\033[C", INPUT_RIGHT},
+        {"\033OD", INPUT_LEFT},
+        {"\033[1;2A", INPUT_UP},
+        {"\033[5~", INPUT_PAGE_UP},
+        {"\033[6~", INPUT_PAGE_DOWN},
+        {"\033OP", INPUT_F1},
+        {"\033[11~", INPUT_F1},
+        {"\033[[A", INPUT_F1}, /* the Linux console */
+        {"\033[[B", INPUT_OTHER},
+        {"\033[H", INPUT_HOME},
+        {"\033[1~", INPUT_HOME},
+        {"\033OM", '\r'}, /* Enter of the keypad */
+        {"\033[15~", INPUT_OTHER},
+        {"\xc3\xa4", INPUT_OTHER}, /* characters beyond ASCII are one key */
+        {"\xe2\x82\xac", INPUT_OTHER},
+        {"\xf0\x9f\x98\x80", INPUT_OTHER},
+        {"\xe4", INPUT_OTHER}, /* in Latin-1 */
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (size_t piece = 1; piece < 4; piece++) {
+            struct event e = only(cases[i].bytes, piece);
+
+            assert_int_equal(e.kind, EVENT_KEY);
+            assert_int_equal(e.key, cases[i].key);
+        }
+    }
+    assert_int_equal(only("\xc3\xa9", 2).key, INPUT_OTHER); /* e acute */
+}
+
+/* Bytes that come together are the keys that they are one by one; Alt and a key
+ * are such bytes. */
+static void escape_and_a_key_are_two(void **state)
+{
+    struct input in = {.length = 0};
+    struct event e;
+
+    (void)state;
+    input_feed(&in, "\033q", 2);
+    assert_true(input_next(&in, false, &e));
+    assert_int_equal(e.key, 27);
+    assert_true(input_next(&in, false, &e));
+    assert_int_equal(e.key, 'q');
+    assert_false(input_next(&in, false, &e));
+}
+
+static void answers_are_answers(void **state)
+{
+    static const struct {
+        const char *bytes;
+        enum event_kind kind;
+        int x, y;
+    } cases[] = {
+        {"\033[0n", EVENT_READY, 0, 0},
+        {"\033[?64;1;2;6;22c", EVENT_ATTRIBUTES, 0, 0},
+        {"\033[?4;6c", EVENT_ATTRIBUTES, 0, 0}, /* a VT132, without sixels */
+        /* xterm as a VT340; foot */
+        {"\033[?63;1;2;4;6;9;15;16;22;28;29c", EVENT_ATTRIBUTES, 1, 0},
+        {"\033[?62;4;22;28c", EVENT_ATTRIBUTES, 1, 0},
+        {"\033[?1;0;1024S", EVENT_SIXEL_COLORS, 1024, 0},
+        {"\033_Gi=1;OK\033\\", EVENT_KITTY, 0, 0},
+        {"\033[?2026;2$y", EVENT_SYNC, 0, 0},
+        {"\033[?2026;1$y", EVENT_SYNC, 0, 0},
+        {"\033[6;17;8t", EVENT_CELL_SIZE, 8, 17},
+        {"\033[1;2R", EVENT_CURSOR, 2, 1},
+        /* xterm, kitty, foot; a terminal with semicolons */
+        {"\033P1$r0;48:2::1:2:3m\033\\", EVENT_TRUE_COLOR, 0, 0},
+        {"\033P1$r0;48:2:1:2:3m\033\\", EVENT_TRUE_COLOR, 0, 0},
+        {"\033P1$r48;2;1;2;3m\033\\", EVENT_TRUE_COLOR, 0, 0},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (size_t piece = 1; piece < 40; piece += 3) {
+            struct event e = only(cases[i].bytes, piece);
+
+            assert_int_equal(e.kind, cases[i].kind);
+            assert_int_equal(e.x, cases[i].x);
+            assert_int_equal(e.y, cases[i].y);
+        }
+    }
+}
+
+/* Answers that say no, or that nobody asked for, are no keys either. */
+static void the_rest_is_dropped(void **state)
+{
+    static const char *const cases[] = {
+        "\033[?2026;0$y",           /* not known */
+        "\033[?2026;4$y",           /* known, but always off */
+        "\033[?1;2$y",              /* another mode */
+        "\033P1$r0;48:5:16m\033\\", /* rounds to 256 colours */
+        "\033P0$r\033\\",           /* does not know the question */
+        "\033P>|XTerm(379)\033\\",
+        "\033]11;rgb:0000/0000/0000\033\\",
+        "\033]11;rgb:0000/0000/0000\007",
+        "\033[>41;379;0c",
+        "\033_Gi=1;ENOTSUPPORTED:no\033\\",
+        "\033_G\033\\",
+        "\033[?1;3;0S", /* does not tell its colours */
+        "\033[?2;0;1000;1000S",
+        "\033[3n",
+        "\033[8;24;80t",
+        "\033[<35;10;10",
+        "\033P1$r48",
+        "\033[",
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        for (size_t piece = 1; piece < 40; piece += 3)
+            assert_int_equal(parse(cases[i], strlen(cases[i]), piece), 0);
+}
+
+static void mouse_reports(void **state)
+{
+    struct event e;
+
+    (void)state;
+    e = only("\033[<0;12;34M", 3);
+    assert_true(e.kind == EVENT_MOUSE && e.mouse == MOUSE_PRESS);
+    assert_true(e.button == 0 && e.x == 12 && e.y == 34);
+    assert_int_equal(only("\033[<0;12;34m", 3).mouse, MOUSE_RELEASE);
+    e = only("\033[<34;250;3M", 3);
+    assert_true(e.mouse == MOUSE_DRAG && e.button == 2 && e.x == 250);
+    assert_int_equal(only("\033[<35;1;1M", 3).mouse,
+                     MOUSE_OTHER); /* no button */
+    assert_false(e.is_modified);
+    assert_false(only("\033[<4;1;1M", 3).is_modified); /* Shift */
+    assert_true(only("\033[<8;1;1M", 3).is_modified);
+    assert_true(only("\033[<16;1;1M", 3).is_modified);
+    e = only("\033[<80;1;1M", 3);
+    assert_true(e.mouse == MOUSE_WHEEL_UP && e.is_modified);
+    assert_int_equal(only("\033[<64;1;1M", 3).mouse, MOUSE_WHEEL_UP);
+    assert_int_equal(only("\033[<65;1;1M", 3).mouse, MOUSE_WHEEL_DOWN);
+    assert_int_equal(only("\033[<66;1;1M", 3).mouse, MOUSE_OTHER);
+}
+
+/* What a terminal sends at the start, with keys typed meanwhile. */
+static void keys_between_answers_are_not_lost(void **state)
+{
+    static const char bytes[] =
+        "\033[1;2Rw\033P1$r0;48:2::1:2:3m\033\\\033[?2026;2$yq\033[6;17;8t"
+        "\033[0n\033[A\033[?64;1c?";
+    static const enum event_kind kinds[] = {EVENT_CURSOR,     EVENT_KEY,
+                                            EVENT_TRUE_COLOR, EVENT_SYNC,
+                                            EVENT_KEY,        EVENT_CELL_SIZE,
+                                            EVENT_READY,      EVENT_KEY,
+                                            EVENT_ATTRIBUTES, EVENT_KEY};
+
+    (void)state;
+    for (size_t piece = 1; piece < sizeof bytes; piece++) {
+        int count = parse(bytes, sizeof bytes - 1, piece);
+
+        assert_int_equal(count, 10);
+        for (int i = 0; i < count; i++)
+            assert_int_equal(events[i].kind, kinds[i]);
+        assert_int_equal(events[1].key, 'w');
+        assert_int_equal(events[4].key, 'q');
+        assert_int_equal(events[7].key, INPUT_UP);
+        assert_int_equal(events[9].key, '?');
+    }
+}
+
+/* Any bytes: no hang, no key that is out of range, never more than fits. */
+static void rubbish_is_survived(void **state)
+{
+    static struct input in;
+    static const char alphabet[] =
+        "\033\033\033[[P]O\\;?<0123456789mMcRnty~q\007";
+    uint64_t seed = 11;
+    struct event e;
+
+    (void)state;
+    for (int i = 0; i < 200000; i++) {
+        unsigned char byte =
+            check_random(&seed) < 0.8
+                ? (unsigned char)alphabet[(int)((sizeof alphabet - 1) *
+                                                check_random(&seed))]
+                : (unsigned char)(256 * check_random(&seed));
+
+        assert_int_equal(input_feed(&in, &byte, 1), 1);
+        while (input_next(&in, check_random(&seed) < 0.01, &e)) {
+            if (e.kind == EVENT_KEY)
+                assert_in_range(e.key, 0, INPUT_OTHER);
+        }
+        assert_true(in.length < 600);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keys_are_keys),
+        cmocka_unit_test(escape_and_a_key_are_two),
+        cmocka_unit_test(answers_are_answers),
+        cmocka_unit_test(the_rest_is_dropped),
+        cmocka_unit_test(mouse_reports),
+        cmocka_unit_test(keys_between_answers_are_not_lost),
+        cmocka_unit_test(rubbish_is_survived),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#define ISA "avx512"
-
-#include "test_wide.c"
