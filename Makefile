@@ -50,9 +50,10 @@ LIBS = -lncursesw -ltinfo -lm -ldl
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
-# src/render/cpu_kernel.c is built for each set of instructions and, as the scene lacks what
-# the others need, for each set of features, of which src/render/cpu_dispatch.c takes the first
-# that will do: walls and lamps, images on them, most materials.
+# src/render/cpu_kernel.c is built for each set of instructions and, as the
+# scene lacks what the others need, for each set of features, of which
+# cpu_dispatch.c takes the first that will do: walls and lamps, images on them,
+# most materials.
 ISAS := $(if $(X86_64),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
@@ -71,7 +72,8 @@ SOURCES := $(wildcard src/*.c src/*/*.c)
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
 	$(PATHS)
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
-UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard tests/unit/test_*.c))
+UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard \
+	tests/unit/*/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 STRESSES := $(patsubst tests/stress/%.c,$(B)/stress/%,$(wildcard \
 	tests/stress/*.c))
@@ -90,7 +92,8 @@ GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
-C_FILES = $(foreach d,src src/* kernels scenes tests/unit tests/bench \
+C_FILES = $(foreach d,src src/* kernels scenes tests/unit tests/unit/* \
+	tests/bench \
 	tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \
 	$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
@@ -142,11 +145,11 @@ $(B)/$(1)/%: tests/$(1)/%.c $(LIBRARY) $(B)/flags
 		$$(LIBRARY) $(2) $$(LIBS)
 endef
 $(eval $(call program,unit,-lcmocka))
-$(foreach i,$(ISAS),$(eval $(B)/unit/test_wide_$(i): \
+$(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i): \
 	private ALL_CFLAGS += $(FLAGS_$(i))))
 # It looks at what the loop of the screen believes, each time before it waits.
-$(B)/unit/test_term: private ALL_LDFLAGS += \
-	-Wl,--wrap=stage_next_ns,--wrap=term_read
+$(B)/unit/terminal/test_tty: private ALL_LDFLAGS += \
+	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
 $(eval $(call program,bench))
 $(eval $(call program,fuzz,$(FUZZ_MAIN)))
 $(eval $(call program,stress,-lcmocka))
@@ -269,7 +272,7 @@ bench-cycles: $(B)/glim
 ## stress: rows of what breaks path tracers, and other checks that take minutes;
 ##         FILTER=NAME for one of them: samples geometry light extremes
 ##         sizes keys rays oclgrind valgrind
-stress: $(B)/glim $(STRESSES) $(B)/unit/test_term
+stress: $(B)/glim $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
 ## scenes: writes the scenes in scenes/ anew from their generator

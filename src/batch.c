@@ -96,14 +96,14 @@ static bool check_outputs(const struct session *s, struct error *err)
     const struct options *o = s->options;
 
     if (o->stats_path && (!session_spares(s, "--stats", o->stats_path, err) ||
-                          !stats_check(o->stats_path, err)))
+                          !stats_json_check(o->stats_path, err)))
         return false;
     if (o->output_path && !session_spares(s, "-o", o->output_path, err))
         return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
     if (o->output_path)
-        return picture_check(o->output_path, err);
+        return image_write_check(o->output_path, err);
     if (access(".", W_OK | X_OK) != 0)
         return fail(err, "the current folder: %s, expected -o FILE elsewhere",
                     strerror(errno));
@@ -227,9 +227,9 @@ static void wait_for_end(struct session *s)
 static enum glyphs text_glyphs(const struct options *o, enum palette palette)
 {
     bool may_learn;
-    bool has_unicode = palette != PALETTE_MONO || term_is_utf8(&may_learn);
+    bool has_unicode = palette != PALETTE_MONO || tty_is_utf8(&may_learn);
 
-    return display_glyphs(o->display.glyph, palette, has_unicode);
+    return term_caps_glyphs(o->display.glyph, palette, has_unicode);
 }
 
 static enum palette text_palette(const struct options *o)
@@ -238,10 +238,10 @@ static enum palette text_palette(const struct options *o)
 
     if (o->display.color == COLOR_AUTO && no_color && no_color[0] != '\0')
         return PALETTE_MONO;
-    return display_palette(o->display.color);
+    return term_caps_palette(o->display.color);
 }
 
-static bool save_text(struct show *show, char **name, struct error *err)
+static bool save_text(struct view_mode *show, char **name, struct error *err)
 {
     const struct session *s = show->session;
     const struct options *o = s->options;
@@ -249,15 +249,15 @@ static bool save_text(struct show *show, char **name, struct error *err)
         cells_fit(s->crop.width, s->crop.height, o->text_cols, o->text_rows,
                   o->display.cell_aspect > 0 ? o->display.cell_aspect : 2);
     enum palette palette = text_palette(o);
-    struct text_style style = {fit.cols, fit.rows, palette,
+    struct ansi_text_style style = {fit.cols, fit.rows, palette,
                                text_glyphs(o, palette)};
     const char *path = text_path(o);
     struct frame frame = {0};
     size_t size_bytes;
     char *text;
-    bool ok = text_frame_init(&frame, &style, err) &&
-              show_picture(show, render_film(s->render), &frame, err) &&
-              text_of_frame(&frame, &style, &text, &size_bytes, err);
+    bool ok = ansi_text_frame_init(&frame, &style, err) &&
+              view_mode_picture(show, render_film(s->render), &frame, err) &&
+              ansi_text_of_frame(&frame, &style, &text, &size_bytes, err);
 
     frame_free(&frame);
     if (!ok)
@@ -275,8 +275,8 @@ static bool write_picture(struct session *s, const struct frame *frame,
 {
     const char *path = s->options->output_path;
 
-    return frame ? picture_write_frame(frame, path, err)
-                 : picture_write(render_film(s->render), session_develop(s),
+    return frame ? image_write_frame(frame, path, err)
+                 : image_write(render_film(s->render), session_develop(s),
                                  path, err);
 }
 
@@ -288,8 +288,8 @@ static char *write_numbered(struct session *s, const struct frame *frame,
     const char *slash = strrchr(stem, '/');
     const char *last = slash ? slash + 1 : stem;
     char *name =
-        frame ? picture_write_frame_numbered(frame, last, err)
-              : picture_write_numbered(render_film(s->render),
+        frame ? image_write_frame_numbered(frame, last, err)
+              : image_write_numbered(render_film(s->render),
                                        session_develop(s), last, "png", err);
 
     free(stem);
@@ -312,19 +312,19 @@ static bool save_pixels(struct session *s, const struct frame *frame,
 }
 
 /* What is not light, computed at once. */
-static bool save_shown(struct show *show, char **name, struct error *err)
+static bool save_shown(struct view_mode *show, char **name, struct error *err)
 {
     struct session *s = show->session;
     struct frame frame = {0};
     bool ok = frame_init(&frame, s->crop.width, s->crop.height, err) &&
-              show_picture(show, NULL, &frame, err) &&
+              view_mode_picture(show, NULL, &frame, err) &&
               save_pixels(s, &frame, name, err);
 
     frame_free(&frame);
     return ok;
 }
 
-static bool save_picture(struct show *show, char **name, struct error *err)
+static bool save_picture(struct view_mode *show, char **name, struct error *err)
 {
     if (show->session->options->text_cols > 0)
         return save_text(show, name, err);
@@ -366,10 +366,10 @@ static bool save_stats(const struct session *s, const char *picture,
                     "--stats: found '%s', where the picture is now, expected "
                     "another file",
                     path);
-    return stats_write(s, path, err);
+    return stats_json_write(s, path, err);
 }
 
-static bool save_all(struct show *show, struct error *err)
+static bool save_all(struct view_mode *show, struct error *err)
 {
     struct session *s = show->session;
     struct render_progress p = render_progress(s->render);
@@ -404,10 +404,10 @@ static void warn_of_device(const struct error *err)
 static bool use_device(struct session *s, struct error *err)
 {
     const struct options *o = s->options;
-    struct machines *m = &s->machines;
+    struct backends *m = &s->machines;
     char *log = NULL;
-    bool is_up = machines_begin_device(m, scene_features(&s->scene), err) &&
-                 machines_end_device(m, &log, err);
+    bool is_up = backends_begin_device(m, scene_features(&s->scene), err) &&
+                 backends_end_device(m, &log, err);
 
     if (is_up)
         render_use(s->render, m->device);
@@ -439,12 +439,12 @@ static bool render_all(struct session *s, struct error *err)
 }
 
 /* Renders nothing: a ray for each pixel tells all. */
-static bool run_show(struct show *show, struct error *err)
+static bool run_show(struct view_mode *show, struct error *err)
 {
     const struct session *s = show->session;
     char *name = NULL;
     bool ok =
-        show_set(show, s->options->show, err) && save_picture(show, &name, err);
+        view_mode_set(show, s->options->show, err) && save_picture(show, &name, err);
 
     if (ok)
         print_line(stderr, "%s: %dx%d, %s, %.1f s", name, s->crop.width,
@@ -454,7 +454,7 @@ static bool run_show(struct show *show, struct error *err)
     return ok;
 }
 
-static bool run_light(struct show *show, int *status, struct error *err)
+static bool run_light(struct view_mode *show, int *status, struct error *err)
 {
     struct session *s = show->session;
 
@@ -469,15 +469,15 @@ static bool run_light(struct show *show, int *status, struct error *err)
 
 bool batch_run(struct session *s, int *status, struct error *err)
 {
-    struct show show;
+    struct view_mode show;
     bool ok;
 
     if (!check_outputs(s, err))
         return false;
-    show_init(&show, s);
+    view_mode_init(&show, s);
     *status = 0;
     ok = s->options->show == SHOW_LIGHT ? run_light(&show, status, err)
                                         : run_show(&show, err);
-    show_free(&show);
+    view_mode_free(&show);
     return ok;
 }

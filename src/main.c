@@ -119,12 +119,12 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     /* what was odd in a file counts only if there is something to render */
     if (!ok)
         return false;
-    report_print(&s->report, stderr);
+    warnings_print(&s->report, stderr);
     if (o->batch)
         return batch_run(s, status, err);
     lost = recent_find_lost();
     recent_add(o->scene_path);
-    ok = tui_run(s, lost, status, err);
+    ok = event_loop_run(s, lost, status, err);
     free(lost);
     return ok;
 }
@@ -189,10 +189,10 @@ static bool parse(struct options *o, int argc, char **argv, char **scene,
 static int print_version(void)
 {
     char text[128];
-    const struct paths *p;
+    const struct cpu_kernel *p;
     int length = snprintf(text, sizeof text, "glim %s\nisa:", GLIM_VERSION);
 
-    for (int i = 0; (p = isa_at(i)) != NULL; i++)
+    for (int i = 0; (p = cpu_kernel_at(i)) != NULL; i++)
         length += snprintf(text + length, sizeof text - (size_t)length, " %s",
                            p->name);
     snprintf(text + length, sizeof text - (size_t)length, "\n");

@@ -138,8 +138,9 @@ wanted layers && run_check layers tests/layers.sh
 wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1
 wanted scenes && run_check scenes scenes_are_generated
 wanted hardening && run_check hardening program_is_hardened
-for program in tests/unit/test_*.c; do
-    name=$(basename "$program" .c)
+for program in tests/unit/*/test_*.c; do
+    name=${program#tests/unit/}
+    name=${name%.c}
     wanted "$name" && run_unit "$BUILD/unit/$name"
 done
 wanted fuzz && run_script fuzz tests/fuzz/run.sh

@@ -162,7 +162,7 @@ static uint64_t group_limit(const struct resource *r, const char *root)
     return limit;
 }
 
-int quota_processors(const char *root)
+int cgroup_quota_processors(const char *root)
 {
     return (int)group_limit(&processor_time, root);
 }
@@ -174,7 +174,7 @@ static void tighten(struct memory_quota *quota, uint64_t size_bytes,
         *quota = (struct memory_quota){size_bytes, place};
 }
 
-struct memory_quota quota_memory(const char *root)
+struct memory_quota cgroup_quota_memory(const char *root)
 {
     struct memory_quota quota = {(uint64_t)sysconf(_SC_PHYS_PAGES) *
                                      (uint64_t)sysconf(_SC_PAGESIZE),

@@ -17,7 +17,7 @@
 
 /* Processors that the quotas of this process's control group and of its
  * parents grant, rounded up; 0 if there is no quota. */
-int quota_processors(const char *root);
+int cgroup_quota_processors(const char *root);
 
 /* The tightest of the limits on memory, in use or not. */
 struct memory_quota {
@@ -27,6 +27,6 @@ struct memory_quota {
 
 /* Looks at the machine's memory, the control group with its parents, and the
  * limits of the process. */
-struct memory_quota quota_memory(const char *root);
+struct memory_quota cgroup_quota_memory(const char *root);
 
 #endif

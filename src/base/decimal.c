@@ -215,7 +215,7 @@ static double convert_slow(const struct decimal *d)
     return strtod(text, NULL);
 }
 
-bool number_parse(const char **p, const char *end, double *value)
+bool decimal_parse(const char **p, const char *end, double *value)
 {
     const char *q = *p;
     struct decimal d = {.is_negative = false};
@@ -237,22 +237,22 @@ bool number_parse(const char **p, const char *end, double *value)
 }
 
 /* Writes so many digits, and reads them. */
-static double format_digits(char text[NUMBER_TEXT_BYTES], double value,
+static double format_digits(char text[DECIMAL_TEXT_BYTES], double value,
                             int digits)
 {
     const char *p = text;
     double back = 0;
 
-    snprintf(text, NUMBER_TEXT_BYTES, "%.*g", digits, value);
+    snprintf(text, DECIMAL_TEXT_BYTES, "%.*g", digits, value);
     char *comma = strchr(text, ','); /* the locale's decimal point */
     if (comma)
         *comma = '.';
-    number_parse(&p, text + strlen(text), &back);
+    decimal_parse(&p, text + strlen(text), &back);
     return back;
 }
 
 /* Six digits, trailing zeros left out, and more only where they are needed. */
-void number_format(char text[NUMBER_TEXT_BYTES], double value)
+void decimal_format(char text[DECIMAL_TEXT_BYTES], double value)
 {
     for (int digits = 6; digits <= 17; digits++) {
         if (format_digits(text, value, digits) == value)
@@ -260,7 +260,7 @@ void number_format(char text[NUMBER_TEXT_BYTES], double value)
     }
 }
 
-void number_format_float(char text[NUMBER_TEXT_BYTES], float value)
+void decimal_format_float(char text[DECIMAL_TEXT_BYTES], float value)
 {
     for (int digits = 6; digits <= 9; digits++) {
         if ((float)format_digits(text, (double)value, digits) == value)
@@ -268,15 +268,15 @@ void number_format_float(char text[NUMBER_TEXT_BYTES], float value)
     }
 }
 
-double number_shortened(double value)
+double decimal_shortened(double value)
 {
-    char text[NUMBER_TEXT_BYTES];
+    char text[DECIMAL_TEXT_BYTES];
     const char *p = text;
     double shortened = value;
 
     if (!(fabs(value) >= (double)FLT_MIN && fabs(value) <= (double)FLT_MAX))
         return value;
-    number_format_float(text, (float)value);
-    number_parse(&p, text + strlen(text), &shortened);
+    decimal_format_float(text, (float)value);
+    decimal_parse(&p, text + strlen(text), &shortened);
     return shortened;
 }

@@ -15,18 +15,18 @@
 /* Reads a decimal number at *p, before end; moves *p behind it. Accepts nan,
  * inf, +1, .5, 5., 1e400 (gives inf). The value is the nearest double. False:
  * no number there, *p unmoved. */
-bool number_parse(const char **p, const char *end, double *value);
+bool decimal_parse(const char **p, const char *end, double *value);
 
-/* Enough for every number_format(). */
-#define NUMBER_TEXT_BYTES 32
+/* Enough for every decimal_format(). */
+#define DECIMAL_TEXT_BYTES 32
 
-/* The shortest of the usual forms that number_parse() reads back exactly; that
+/* The shortest of the usual forms that decimal_parse() reads back exactly; that
  * of a float if rounding gives the same float. */
-void number_format(char text[NUMBER_TEXT_BYTES], double value);
-void number_format_float(char text[NUMBER_TEXT_BYTES], float value);
+void decimal_format(char text[DECIMAL_TEXT_BYTES], double value);
+void decimal_format_float(char text[DECIMAL_TEXT_BYTES], float value);
 
 /* The number that the shortest text of its float stands for. Beyond the range
  * of normal floats the number itself. */
-double number_shortened(double value);
+double decimal_shortened(double value);
 
 #endif

@@ -66,7 +66,7 @@ static bool expect_regular(const char *path, const struct stat *st,
 /* More than the machine has would end in its out-of-memory killer. */
 static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
 {
-    struct memory_quota memory = quota_memory("");
+    struct memory_quota memory = cgroup_quota_memory("");
 
     if (size_bytes > FILE_BYTES_MAX)
         return fail(err, "%s: found %.1f GiB, expected %d GiB at most", path,

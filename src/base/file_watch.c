@@ -16,21 +16,21 @@
 struct watched {
     char *path;
     struct file_identity known;
-    bool is_listed; /* since watch_begin() */
+    bool is_listed; /* since file_watch_begin() */
 };
 
-void watch_init(struct watch *w)
+void file_watch_init(struct file_watch *w)
 {
-    *w = (struct watch){.fd = -1};
+    *w = (struct file_watch){.fd = -1};
 }
 
-void watch_begin(struct watch *w)
+void file_watch_begin(struct file_watch *w)
 {
     for (size_t i = 0; i < w->file_count; i++)
         w->files[i].is_listed = false;
 }
 
-static struct watched *find(struct watch *w, const char *path)
+static struct watched *find(struct file_watch *w, const char *path)
 {
     for (size_t i = 0; i < w->file_count; i++) {
         if (strcmp(w->files[i].path, path) == 0)
@@ -39,7 +39,7 @@ static struct watched *find(struct watch *w, const char *path)
     return NULL;
 }
 
-void watch_add(struct watch *w, const char *path)
+void file_watch_add(struct file_watch *w, const char *path)
 {
     struct watched *known = find(w, path);
 
@@ -74,7 +74,7 @@ static void watch_folders(int fd, const char *path)
         watch_folder_of(fd, target);
 }
 
-void watch_end(struct watch *w)
+void file_watch_end(struct file_watch *w)
 {
     size_t kept = 0;
 
@@ -96,7 +96,7 @@ void watch_end(struct watch *w)
     w->file_count = kept;
 }
 
-void watch_drain(struct watch *w)
+void file_watch_drain(struct file_watch *w)
 {
     char events[4096];
 
@@ -104,7 +104,7 @@ void watch_drain(struct watch *w)
         continue;
 }
 
-bool watch_has_changed(const struct watch *w)
+bool file_watch_has_changed(const struct file_watch *w)
 {
     bool has_changed = false;
 
@@ -118,7 +118,7 @@ bool watch_has_changed(const struct watch *w)
     return has_changed;
 }
 
-bool watch_has(const struct watch *w, const char *path)
+bool file_watch_has(const struct file_watch *w, const char *path)
 {
     struct file_identity it = file_identify(path);
 
@@ -131,7 +131,7 @@ bool watch_has(const struct watch *w, const char *path)
     return false;
 }
 
-void watch_settle(struct watch *w)
+void file_watch_settle(struct file_watch *w)
 {
     for (size_t i = 0; i < w->file_count; i++) {
         struct watched *f = &w->files[i];
@@ -142,7 +142,7 @@ void watch_settle(struct watch *w)
     }
 }
 
-void watch_wrote(struct watch *w, const char *path,
+void file_watch_wrote(struct file_watch *w, const char *path,
                  const struct file_identity *identity)
 {
     struct watched *f = find(w, path);
@@ -151,7 +151,7 @@ void watch_wrote(struct watch *w, const char *path,
         f->known = *identity;
 }
 
-void watch_replaced(struct watch *w, const char *path,
+void file_watch_replaced(struct file_watch *w, const char *path,
                     const struct file_change *change)
 {
     struct watched *f = find(w, path);
@@ -161,12 +161,12 @@ void watch_replaced(struct watch *w, const char *path,
         f->known = change->after;
 }
 
-void watch_free(struct watch *w)
+void file_watch_free(struct file_watch *w)
 {
     for (size_t i = 0; i < w->file_count; i++)
         free(w->files[i].path);
     free(w->files);
     if (w->fd >= 0)
         close(w->fd);
-    watch_init(w);
+    file_watch_init(w);
 }

@@ -7,7 +7,7 @@
  * about to come back: until it is there again nothing counts as changed.
  *
  * Units:     none
- * Ownership: paths are copied; watch_free() frees
+ * Ownership: paths are copied; file_watch_free() frees
  * Threads:   one at a time
  * Errors:    none: where folders cannot be watched fd is -1, and the caller
  *            looks from time to time
@@ -19,44 +19,44 @@
 
 struct watched;
 
-struct watch {
+struct file_watch {
     int fd; /* readable when something happens in one of the folders */
     struct watched *files;
     size_t file_count, capacity;
 };
 
-void watch_init(struct watch *w);
+void file_watch_init(struct file_watch *w);
 
 /* Begins a new list of files. What was known of files stays known; those that
  * are gone stay on the list. */
-void watch_begin(struct watch *w);
+void file_watch_begin(struct file_watch *w);
 
 /* Adds a file, which need not exist, as it is now. */
-void watch_add(struct watch *w, const char *path);
+void file_watch_add(struct file_watch *w, const char *path);
 
 /* Ends the list: watches the folders. */
-void watch_end(struct watch *w);
+void file_watch_end(struct file_watch *w);
 
 /* Makes fd wait for what comes next. */
-void watch_drain(struct watch *w);
+void file_watch_drain(struct file_watch *w);
 
 /* True if a file is not as it was known, and none is gone. */
-bool watch_has_changed(const struct watch *w);
+bool file_watch_has_changed(const struct file_watch *w);
 
 /* Whether one of the files is this one, by whatever name. */
-bool watch_has(const struct watch *w, const char *path);
+bool file_watch_has(const struct file_watch *w, const char *path);
 
 /* Each file is known as it is now. */
-void watch_settle(struct watch *w);
+void file_watch_settle(struct file_watch *w);
 
 /* This program has written the whole file. */
-void watch_wrote(struct watch *w, const char *path,
+void file_watch_wrote(struct file_watch *w, const char *path,
                  const struct file_identity *identity);
 
 /* It has changed a part of it: if the rest was known before, all is known. */
-void watch_replaced(struct watch *w, const char *path,
+void file_watch_replaced(struct file_watch *w, const char *path,
                     const struct file_change *change);
 
-void watch_free(struct watch *w);
+void file_watch_free(struct file_watch *w);
 
 #endif

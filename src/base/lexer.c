@@ -12,7 +12,7 @@
 /* Longer words are cut in messages. */
 #define QUOTE_BYTES 40
 
-bool lex_is_blank(char c)
+bool lexer_is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
@@ -22,7 +22,7 @@ static bool is_line_end(char c)
     return c == '\n' || c == '\r';
 }
 
-void lex_init(struct lex *lex, const char *text, size_t size_bytes)
+void lexer_init(struct lexer *lex, const char *text, size_t size_bytes)
 {
     lex->p = text;
     lex->end = text + size_bytes;
@@ -50,12 +50,12 @@ static size_t join_bytes(const char *p, const char *end)
     return n == 0 && p + 1 < end ? 0 : n + 1;
 }
 
-void lex_skip_blanks(struct lex *lex)
+void lexer_skip_blanks(struct lexer *lex)
 {
     for (;;) {
         size_t n;
 
-        while (lex->p < lex->end && lex_is_blank(*lex->p))
+        while (lex->p < lex->end && lexer_is_blank(*lex->p))
             lex->p++;
         n = join_bytes(lex->p, lex->end);
         if (n == 0)
@@ -65,13 +65,13 @@ void lex_skip_blanks(struct lex *lex)
     }
 }
 
-bool lex_at_line_end(struct lex *lex)
+bool lexer_at_line_end(struct lexer *lex)
 {
-    lex_skip_blanks(lex);
+    lexer_skip_blanks(lex);
     return lex->p == lex->end || is_line_end(*lex->p) || *lex->p == '#';
 }
 
-bool lex_next_line(struct lex *lex)
+bool lexer_next_line(struct lexer *lex)
 {
     bool in_comment = false;
     size_t end_bytes;
@@ -91,15 +91,15 @@ bool lex_next_line(struct lex *lex)
 
 static bool ends_word(const char *p, const char *end)
 {
-    return p == end || lex_is_blank(*p) || is_line_end(*p) ||
+    return p == end || lexer_is_blank(*p) || is_line_end(*p) ||
            (*p == '\\' && join_bytes(p, end) != 0);
 }
 
-struct word lex_word(struct lex *lex)
+struct word lexer_word(struct lexer *lex)
 {
     struct word word;
 
-    lex_skip_blanks(lex);
+    lexer_skip_blanks(lex);
     word.start = lex->p;
     while (!ends_word(lex->p, lex->end))
         lex->p++;
@@ -114,14 +114,14 @@ static size_t rest_join_bytes(const char *p, const char *end, bool *in_comment)
     return *in_comment ? 0 : join_bytes(p, end);
 }
 
-char *lex_rest(struct lex *lex)
+char *lexer_rest(struct lexer *lex)
 {
     bool in_comment = false;
     size_t length = 0;
     const char *start;
     char *text;
 
-    lex_skip_blanks(lex);
+    lexer_skip_blanks(lex);
     start = lex->p;
     while (lex->p < lex->end && !is_line_end(*lex->p)) {
         size_t n = rest_join_bytes(lex->p, lex->end, &in_comment);
@@ -138,17 +138,17 @@ char *lex_rest(struct lex *lex)
         /* A NUL would end the name early, and two names could be one. */
         char c = n != 0 || *p == '\0' ? ' ' : *p;
 
-        if (length > 0 || !lex_is_blank(c))
+        if (length > 0 || !lexer_is_blank(c))
             text[length++] = c;
         p += n == 0 ? 1 : n;
     }
-    while (length > 0 && lex_is_blank(text[length - 1]))
+    while (length > 0 && lexer_is_blank(text[length - 1]))
         length--;
     text[length] = '\0';
     return text;
 }
 
-const char *lex_rest_guard(const char *rest)
+const char *lexer_rest_guard(const char *rest)
 {
     size_t length = strlen(rest);
 
@@ -176,36 +176,36 @@ static bool microsoft_number(struct word word, double *value)
            strncmp(p, "1.#SNAN", 7) == 0 || strncmp(p, "nan(", 4) == 0;
 }
 
-bool lex_number(struct lex *lex, double *value)
+bool lexer_number(struct lexer *lex, double *value)
 {
-    struct lex saved;
+    struct lexer saved;
 
-    lex_skip_blanks(lex);
+    lexer_skip_blanks(lex);
     saved = *lex;
-    if (number_parse(&lex->p, lex->end, value) && ends_word(lex->p, lex->end))
+    if (decimal_parse(&lex->p, lex->end, value) && ends_word(lex->p, lex->end))
         return true;
     *lex = saved;
-    if (microsoft_number(lex_word(lex), value))
+    if (microsoft_number(lexer_word(lex), value))
         return true;
     *lex = saved;
     return false;
 }
 
-bool lex_lines(const char *text, size_t size_bytes, lex_take_line *take_line,
+bool lexer_lines(const char *text, size_t size_bytes, lexer_take_line *take_line,
                void *context, struct error *err)
 {
-    struct lex lex;
+    struct lexer lex;
 
-    lex_init(&lex, text, size_bytes);
+    lexer_init(&lex, text, size_bytes);
     while (lex.p < lex.end) {
         if (!take_line(context, &lex, err))
             return false;
-        lex_next_line(&lex);
+        lexer_next_line(&lex);
     }
     return true;
 }
 
-bool lex_file(const char *path, lex_take_line *take_line, void *context,
+bool lexer_file(const char *path, lexer_take_line *take_line, void *context,
               struct error *err)
 {
     char *text;
@@ -214,7 +214,7 @@ bool lex_file(const char *path, lex_take_line *take_line, void *context,
 
     if (!file_read(path, &text, &size_bytes, err))
         return false;
-    ok = lex_lines(text, size_bytes, take_line, context, err);
+    ok = lexer_lines(text, size_bytes, take_line, context, err);
     free(text);
     return ok;
 }

@@ -7,10 +7,10 @@
  * paths of folders.
  *
  * Units:     bytes; lines count from 1
- * Ownership: borrows the text, which need not end in NUL; lex_rest() returns
+ * Ownership: borrows the text, which need not end in NUL; lexer_rest() returns
  *            memory for free()
  * Threads:   none
- * Errors:    by the result; the caller knows what it wanted. Of lex_file() a
+ * Errors:    by the result; the caller knows what it wanted. Of lexer_file() a
  *            file that cannot be read
  */
 #ifndef GLIM_LEXER_H
@@ -22,7 +22,7 @@
 
 #include "base/util.h"
 
-struct lex {
+struct lexer {
     const char *p, *end;
     uint64_t line;
 };
@@ -33,47 +33,47 @@ struct word {
 };
 
 /* Blanks within a line. */
-bool lex_is_blank(char c);
+bool lexer_is_blank(char c);
 
 /* Skips a UTF-8 byte order mark. */
-void lex_init(struct lex *lex, const char *text, size_t size_bytes);
+void lexer_init(struct lexer *lex, const char *text, size_t size_bytes);
 
 /* Takes the line that begins at lex->p; what it leaves of it is skipped. */
-typedef bool lex_take_line(void *context, struct lex *lex, struct error *err);
+typedef bool lexer_take_line(void *context, struct lexer *lex, struct error *err);
 
 /* Calls `take_line` at the beginning of each line of the text, or of the file.
  * Ends with the first that fails. */
-bool lex_lines(const char *text, size_t size_bytes, lex_take_line *take_line,
+bool lexer_lines(const char *text, size_t size_bytes, lexer_take_line *take_line,
                void *context, struct error *err);
-bool lex_file(const char *path, lex_take_line *take_line, void *context,
+bool lexer_file(const char *path, lexer_take_line *take_line, void *context,
               struct error *err);
 
 /* Moves over blanks and joined lines. */
-void lex_skip_blanks(struct lex *lex);
+void lexer_skip_blanks(struct lexer *lex);
 
 /* True at the end of the line or of the text, or at a comment; skips blanks
  * before it. */
-bool lex_at_line_end(struct lex *lex);
+bool lexer_at_line_end(struct lexer *lex);
 
 /* Moves behind the end of the line. A comment is skipped as one. False if the
  * text ended before the line did. */
-bool lex_next_line(struct lex *lex);
+bool lexer_next_line(struct lexer *lex);
 
 /* The next word of the line; length 0 at its end. */
-struct word lex_word(struct lex *lex);
+struct word lexer_word(struct lexer *lex);
 
 /* The rest of the line without blanks around it. A name may hold '#', but no
  * line is joined behind one. NULL when memory is out. */
-char *lex_rest(struct lex *lex);
+char *lexer_rest(struct lexer *lex);
 
 /* What is written between such a rest and the end of its line, so that reading
  * gives it back: a blank behind a backslash, which would join the next line. */
-const char *lex_rest_guard(const char *rest);
+const char *lexer_rest_guard(const char *rest);
 
 /* A number that is a word of its own: 1e400 is infinite, and so are the words
  * nan, inf and what Microsoft's libraries write (1.#INF, -nan(ind)). False,
  * with lex->p at the word, if there is something else or nothing. */
-bool lex_number(struct lex *lex, double *value);
+bool lexer_number(struct lexer *lex, double *value);
 
 bool word_is(struct word word, const char *text);
 

@@ -18,7 +18,7 @@ static uint32_t hash(const char *name)
 
 /* The slot that has the name, or the free one where it belongs. The table is
  * never full. */
-static uint32_t *slot_of(const struct names *names, const char *name)
+static uint32_t *slot_of(const struct name_table *names, const char *name)
 {
     uint32_t mask = names->slot_count - 1;
     uint32_t i = hash(name) & mask;
@@ -29,7 +29,7 @@ static uint32_t *slot_of(const struct names *names, const char *name)
     return &names->slots[i];
 }
 
-static bool grow_slots(struct names *names)
+static bool grow_slots(struct name_table *names)
 {
     uint32_t old_count = names->slot_count;
     uint32_t *old = names->slots;
@@ -47,16 +47,16 @@ static bool grow_slots(struct names *names)
     return true;
 }
 
-uint32_t names_find(const struct names *names, const char *name)
+uint32_t name_table_find(const struct name_table *names, const char *name)
 {
     uint32_t slot = names->slot_count == 0 ? 0 : *slot_of(names, name);
 
     return slot == 0 ? NO_NAME : slot - 1;
 }
 
-uint32_t names_add(struct names *names, const char *name)
+uint32_t name_table_add(struct name_table *names, const char *name)
 {
-    uint32_t found = names_find(names, name);
+    uint32_t found = name_table_find(names, name);
     void *items = names->items;
     char *copy;
 
@@ -76,7 +76,7 @@ uint32_t names_add(struct names *names, const char *name)
     return names->count++;
 }
 
-void names_free(struct names *names)
+void name_table_free(struct name_table *names)
 {
     for (uint32_t i = 0; i < names->count; i++)
         free(names->items[i]);

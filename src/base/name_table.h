@@ -6,7 +6,7 @@
  * lets one expect.
  *
  * Units:     none
- * Ownership: names are copied; names_free() frees; a zeroed struct is empty
+ * Ownership: names are copied; name_table_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
  * Errors:    NO_NAME when memory is out
  */
@@ -18,7 +18,7 @@
 
 #define NO_NAME 0xffffffffu
 
-struct names {
+struct name_table {
     char **items;
     uint32_t count;
     size_t capacity;
@@ -27,11 +27,11 @@ struct names {
 };
 
 /* The number of the name, which is added if it is new. */
-uint32_t names_add(struct names *names, const char *name);
+uint32_t name_table_add(struct name_table *names, const char *name);
 
 /* The number of the name, or NO_NAME. */
-uint32_t names_find(const struct names *names, const char *name);
+uint32_t name_table_find(const struct name_table *names, const char *name);
 
-void names_free(struct names *names);
+void name_table_free(struct name_table *names);
 
 #endif

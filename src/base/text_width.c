@@ -5,7 +5,7 @@
 
 #include "base/print.h"
 
-int columns_of(const char *text)
+int text_width_of(const char *text)
 {
     int cols = 0;
 
@@ -18,7 +18,7 @@ int columns_of(const char *text)
     return cols;
 }
 
-int columns_cut(char *to, size_t size_bytes, const char *text, int cols)
+int text_width_cut(char *to, size_t size_bytes, const char *text, int cols)
 {
     int used = 0;
 
@@ -37,9 +37,9 @@ int columns_cut(char *to, size_t size_bytes, const char *text, int cols)
     return used;
 }
 
-void columns_fit(char *to, size_t size_bytes, const char *text, int cols)
+void text_width_fit(char *to, size_t size_bytes, const char *text, int cols)
 {
-    int used = columns_cut(to, size_bytes, text, cols);
+    int used = text_width_cut(to, size_bytes, text, cols);
     size_t length = strlen(to);
 
     for (; used < cols && length + 1 < size_bytes; used++)

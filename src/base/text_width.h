@@ -16,13 +16,13 @@
 #include <stddef.h>
 
 /* How many the whole text takes. */
-int columns_of(const char *text);
+int text_width_of(const char *text);
 
 /* The beginning of the text that fits into so many columns and bytes, with its
  * '\0'. Returns the columns that it takes. */
-int columns_cut(char *to, size_t size_bytes, const char *text, int cols);
+int text_width_cut(char *to, size_t size_bytes, const char *text, int cols);
 
 /* The same, filled up with blanks to that many columns. */
-void columns_fit(char *to, size_t size_bytes, const char *text, int cols);
+void text_width_fit(char *to, size_t size_bytes, const char *text, int cols);
 
 #endif

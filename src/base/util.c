@@ -188,7 +188,7 @@ static int processors_of_affinity(void)
 int usable_threads(void)
 {
     int usable = processors_of_affinity();
-    int quota = quota_processors("");
+    int quota = cgroup_quota_processors("");
 
     return quota > 0 && quota < usable ? quota : usable;
 }

@@ -9,7 +9,7 @@
 #include "base/print.h"
 #include "base/util.h"
 
-static struct report_entry *find(const struct report *r, const char *kind)
+static struct warnings_entry *find(const struct warnings *r, const char *kind)
 {
     for (int i = 0; i < r->entry_count; i++) {
         if (strcmp(r->entries[i].kind, kind) == 0)
@@ -20,9 +20,9 @@ static struct report_entry *find(const struct report *r, const char *kind)
 
 /* The entry of this kind, made with the text if there is none yet. */
 __attribute__((format(printf, 3, 0))) static void
-add(struct report *r, const char *kind, const char *format, va_list args)
+add(struct warnings *r, const char *kind, const char *format, va_list args)
 {
-    struct report_entry *entry = find(r, kind);
+    struct warnings_entry *entry = find(r, kind);
     char text[1024];
 
     if (entry != NULL) {
@@ -41,7 +41,7 @@ add(struct report *r, const char *kind, const char *format, va_list args)
     entry->count = 1;
 }
 
-void report_add(struct report *r, const char *kind, const char *format, ...)
+void warnings_add(struct warnings *r, const char *kind, const char *format, ...)
 {
     va_list args;
 
@@ -51,7 +51,7 @@ void report_add(struct report *r, const char *kind, const char *format, ...)
 }
 
 /* How many entries are of this kind with a name behind it. */
-static int count_named(const struct report *r, const char *kind)
+static int count_named(const struct warnings *r, const char *kind)
 {
     size_t length = strlen(kind);
     int count = 0;
@@ -62,14 +62,14 @@ static int count_named(const struct report *r, const char *kind)
     return count;
 }
 
-void report_add_named(struct report *r, const char *kind, const char *name,
+void warnings_add_named(struct warnings *r, const char *kind, const char *name,
                       const char *format, ...)
 {
     /* Long names that begin alike count as one. */
     char *named = xformat("%s '%.100s'", kind, name);
 
     bool is_full =
-        find(r, named) == NULL && count_named(r, kind) >= REPORT_NAMES_MAX;
+        find(r, named) == NULL && count_named(r, kind) >= WARNINGS_NAMES_MAX;
     va_list args;
 
     va_start(args, format);
@@ -78,10 +78,10 @@ void report_add_named(struct report *r, const char *kind, const char *name,
     free(named);
 }
 
-void report_print(const struct report *r, FILE *to)
+void warnings_print(const struct warnings *r, FILE *to)
 {
     for (int i = 0; i < r->entry_count; i++) {
-        const struct report_entry *entry = &r->entries[i];
+        const struct warnings_entry *entry = &r->entries[i];
 
         if (entry->count > 1)
             print_line(to, "glim: warning: %s (and %" PRIu64 " more %s)",
@@ -91,7 +91,7 @@ void report_print(const struct report *r, FILE *to)
     }
 }
 
-void report_free(struct report *r)
+void warnings_free(struct warnings *r)
 {
     for (int i = 0; i < r->entry_count; i++) {
         free(r->entries[i].kind);

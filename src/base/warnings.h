@@ -3,7 +3,7 @@
  * warnings.h - warnings of a load: the first of each kind in full, then counts
  *
  * Units:     none
- * Ownership: report_free() frees what a report holds; texts are copied
+ * Ownership: warnings_free() frees what a report holds; texts are copied
  * Threads:   one thread at a time
  * Errors:    none
  */
@@ -13,15 +13,15 @@
 #include <stdint.h>
 #include <stdio.h>
 
-struct report_entry {
+struct warnings_entry {
     char *kind;
     char *text; /* the first of its kind, one finished line */
     uint64_t count;
 };
 
 /* A zeroed struct is an empty report. */
-struct report {
-    struct report_entry *entries;
+struct warnings {
+    struct warnings_entry *entries;
     int entry_count;
     int capacity;
 };
@@ -29,21 +29,21 @@ struct report {
 /* Counts one warning of this kind; keeps the text if it is the first. `kind`
  * is a short phrase that reads well after a number: "faces with a bad index".
  */
-void report_add(struct report *r, const char *kind, const char *format, ...)
+void warnings_add(struct warnings *r, const char *kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* The same for what has a name in the file: the first of each kind and name in
- * full. After REPORT_NAMES_MAX names of a kind the others are counted together,
+ * full. After WARNINGS_NAMES_MAX names of a kind the others are counted together,
  * so that no file can fill the screen. */
-#define REPORT_NAMES_MAX 20
-void report_add_named(struct report *r, const char *kind, const char *name,
+#define WARNINGS_NAMES_MAX 20
+void warnings_add_named(struct warnings *r, const char *kind, const char *name,
                       const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* Writes a line for each kind, "glim: warning: TEXT", followed by
  * " (and N more KIND)" where there were more. */
-void report_print(const struct report *r, FILE *to);
+void warnings_print(const struct warnings *r, FILE *to);
 
-void report_free(struct report *r);
+void warnings_free(struct warnings *r);
 
 #endif

@@ -20,14 +20,14 @@
  * cost of 4. Large triangles that would share a block are better apart, where a
  * node can hold them with others: rooms save 5 to 15 %; small ones cost as much
  * by the memory. */
-const struct bvh_leaves wide_leaves = {2, 1, 4.0f, WIDE_LEAF_TRIS};
+const struct bvh_leaves wide_leaves = {2, 1, 4.0f, BVH8_LEAF_TRIS};
 
 /* Which nodes of the binary tree are the children of a node, and which nodes,
  * first blocks or parts these become. */
 struct plan {
     uint32_t count;
-    uint32_t from[WIDE_CHILDREN];
-    uint32_t to[WIDE_CHILDREN];
+    uint32_t from[BVH8_CHILDREN];
+    uint32_t to[BVH8_CHILDREN];
 };
 
 /* What one thread plans and fills: all below a node, or the top. */
@@ -43,8 +43,8 @@ struct part {
 struct builder {
     const struct world *world;
     const struct bvh *bvh;
-    struct wide *wide;
-    struct wide_fits fits;
+    struct bvh8 *wide;
+    struct bvh8_collapse fits;
     struct part top;
     struct part *parts; /* below it */
     uint32_t part_count;
@@ -63,7 +63,7 @@ static uint32_t plan_leaf(const struct builder *b, struct part *part,
 {
     uint32_t first = part->block_count;
 
-    part->block_count += wide_blocks(tris_below(b, node));
+    part->block_count += bvh8_blocks(tris_below(b, node));
     return first;
 }
 
@@ -97,11 +97,11 @@ static bool plan(struct builder *b, struct part *part, uint32_t node,
                     sizeof *part->plans))
         return false;
     part->plans = plans;
-    p.count = wide_fits_children(&b->fits, node, p.from);
+    p.count = bvh8_collapse_children(&b->fits, node, p.from);
     for (uint32_t i = 0; i < p.count; i++) {
         bool ok = true;
 
-        if (wide_fits_leaf(&b->fits, p.from[i]))
+        if (bvh8_collapse_leaf(&b->fits, p.from[i]))
             p.to[i] = plan_leaf(b, part, p.from[i]);
         else if (part == &b->top && is_part(b, p.from[i]))
             ok = add_part(b, p.from[i], &p.to[i]);
@@ -124,7 +124,7 @@ static void plan_part(void *context, uint32_t item, int worker)
     part->failed = !plan(b, part, part->root, &root);
 }
 
-static void place_part(struct wide *wide, struct part *part)
+static void place_part(struct bvh8 *wide, struct part *part)
 {
     part->first_node = wide->node_count;
     part->first_block = wide->block_count;
@@ -167,12 +167,12 @@ static void fill_tri(const struct world *w, struct tri_block *block,
     block->tri[at] = tri;
 }
 
-/* What names a node, or with WIDE_LEAF a block, as a child. */
-static uint32_t child_at(const struct wide *wide, const void *place)
+/* What names a node, or with BVH8_LEAF a block, as a child. */
+static uint32_t child_at(const struct bvh8 *wide, const void *place)
 {
     ptrdiff_t distance = (const char *)place - (const char *)wide->nodes;
 
-    return (uint32_t)(distance / WIDE_UNIT * 8);
+    return (uint32_t)(distance / BVH8_UNIT * 8);
 }
 
 /* The triangles below a node lie side by side. */
@@ -188,15 +188,15 @@ static uint32_t fill_leaf(const struct builder *b, uint32_t node,
 {
     const uint32_t *tris = first_tri(b, node);
     uint32_t count = tris_below(b, node);
-    uint32_t block_count = wide_blocks(count);
+    uint32_t block_count = bvh8_blocks(count);
 
     for (uint32_t i = 0; i < block_count * BLOCK_TRIS; i++)
         fill_tri(b->world, &blocks[i / BLOCK_TRIS], i % BLOCK_TRIS,
                  i < count ? tris[i] : NO_INDEX);
-    return child_at(b->wide, blocks) | WIDE_LEAF | (block_count - 1);
+    return child_at(b->wide, blocks) | BVH8_LEAF | (block_count - 1);
 }
 
-static void fill_box(struct wide_node *n, uint32_t i, struct vec3 lo,
+static void fill_box(struct bvh8_node *n, uint32_t i, struct vec3 lo,
                      struct vec3 hi)
 {
     n->planes[0][0][i] = lo.x;
@@ -210,7 +210,7 @@ static void fill_box(struct wide_node *n, uint32_t i, struct vec3 lo,
 static uint32_t fill_child(const struct builder *b, const struct part *part,
                            uint32_t from, uint32_t to)
 {
-    if (wide_fits_leaf(&b->fits, from))
+    if (bvh8_collapse_leaf(&b->fits, from))
         return fill_leaf(b, from, &b->wide->blocks[part->first_block + to]);
     if (part == &b->top && is_part(b, from))
         to = b->parts[to].first_node;
@@ -224,7 +224,7 @@ static void fill_node(const struct builder *b, const struct part *part,
 {
     const struct vec3 nowhere = {INFINITY, INFINITY, INFINITY};
     const struct plan *p = &part->plans[index];
-    struct wide_node *n = &b->wide->nodes[part->first_node + index];
+    struct bvh8_node *n = &b->wide->nodes[part->first_node + index];
 
     for (uint32_t i = 0; i < p->count; i++) {
         const struct node *from = &b->bvh->nodes[p->from[i]];
@@ -232,11 +232,11 @@ static void fill_node(const struct builder *b, const struct part *part,
         fill_box(n, i, from->lo, from->hi);
         n->child[i] = fill_child(b, part, p->from[i], p->to[i]);
     }
-    for (uint32_t i = p->count; i < WIDE_CHILDREN; i++) {
+    for (uint32_t i = p->count; i < BVH8_CHILDREN; i++) {
         fill_box(n, i, nowhere, nowhere);
         n->child[i] =
             child_at(b->wide, &b->wide->blocks[b->wide->block_count - 1]) |
-            WIDE_LEAF;
+            BVH8_LEAF;
     }
 }
 
@@ -247,7 +247,7 @@ static void fetch_tris(const struct builder *b, const struct plan *p)
     for (uint32_t i = 0; i < p->count; i++) {
         const uint32_t *tris;
 
-        if (!wide_fits_leaf(&b->fits, p->from[i]))
+        if (!bvh8_collapse_leaf(&b->fits, p->from[i]))
             continue;
         tris = first_tri(b, p->from[i]);
         for (uint32_t k = 0; k < tris_below(b, p->from[i]); k++)
@@ -274,12 +274,12 @@ static void fill_part(void *context, uint32_t item, int worker)
 /* NULL if there is none, or if children could not name all of it. */
 static void *alloc_tree(size_t node_count, size_t block_count)
 {
-    size_t size = node_count * sizeof(struct wide_node) +
+    size_t size = node_count * sizeof(struct bvh8_node) +
                   block_count * sizeof(struct tri_block);
     size_t alignment = size < LARGE_PAGE ? ALIGNMENT : LARGE_PAGE;
     void *p;
 
-    if (size / WIDE_UNIT >= UINT32_MAX / 8)
+    if (size / BVH8_UNIT >= UINT32_MAX / 8)
         return NULL;
     size = (size + alignment - 1) / alignment * alignment;
     p = aligned_alloc(alignment, size);
@@ -290,9 +290,9 @@ static void *alloc_tree(size_t node_count, size_t block_count)
 
 static bool build(struct builder *b, struct pool *pool)
 {
-    struct wide *wide = b->wide;
+    struct bvh8 *wide = b->wide;
 
-    if (!wide_fits_init(&b->fits, b->bvh, pool) || !plan_all(b, pool))
+    if (!bvh8_collapse_init(&b->fits, b->bvh, pool) || !plan_all(b, pool))
         return false;
     wide->nodes = alloc_tree(wide->node_count, wide->block_count);
     if (wide->nodes == NULL)
@@ -310,38 +310,38 @@ static void end(struct builder *b)
         free(b->parts[i].plans);
     free(b->parts);
     free(b->top.plans);
-    wide_fits_free(&b->fits);
+    bvh8_collapse_free(&b->fits);
 }
 
-bool wide_build(struct wide *wide, const struct world *w, struct pool *pool,
+bool bvh8_build(struct bvh8 *wide, const struct world *w, struct pool *pool,
                 struct error *err)
 {
     struct bvh bvh = {0};
     struct builder b = {.world = w, .bvh = &bvh, .wide = wide};
     bool ok;
 
-    wide_free(wide);
+    bvh8_free(wide);
     if (!bvh_build_nodes(&bvh, w, &wide_leaves, pool, err))
         return false;
     ok = bvh.node_count == 0 || build(&b, pool);
     end(&b);
     bvh_free(&bvh);
     if (!ok) {
-        wide_free(wide);
+        bvh8_free(wide);
         return fail(err, "out of memory for the tree of %u triangles",
                     w->settings.tri_count);
     }
     return true;
 }
 
-uint64_t wide_bytes(const struct wide *wide)
+uint64_t bvh8_bytes(const struct bvh8 *wide)
 {
     return wide->node_count * (uint64_t)sizeof *wide->nodes +
            wide->block_count * (uint64_t)sizeof *wide->blocks;
 }
 
-void wide_free(struct wide *wide)
+void bvh8_free(struct bvh8 *wide)
 {
     free(wide->nodes);
-    *wide = (struct wide){NULL, 0, NULL, 0};
+    *wide = (struct bvh8){NULL, 0, NULL, 0};
 }

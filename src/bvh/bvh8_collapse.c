@@ -15,7 +15,7 @@ struct span {
 };
 
 struct fitter {
-    const struct wide_fits *fits;
+    const struct bvh8_collapse *fits;
     struct span *spans;
     uint32_t span_count;
     size_t span_capacity;
@@ -30,22 +30,22 @@ static float area_of(const struct node *n)
     return box_area(&box);
 }
 
-static float leaf_cost(const struct wide_fits *f, uint32_t node)
+static float leaf_cost(const struct bvh8_collapse *f, uint32_t node)
 {
     uint32_t tri_count = f->fits[node].tri_count;
 
-    if (tri_count > WIDE_LEAF_TRIS)
+    if (tri_count > BVH8_LEAF_TRIS)
         return INFINITY;
-    return WIDE_BLOCK_COST * area_of(&f->bvh->nodes[node]) *
-           (float)wide_blocks(tri_count);
+    return BVH8_BLOCK_COST * area_of(&f->bvh->nodes[node]) *
+           (float)bvh8_blocks(tri_count);
 }
 
 /* The least costs of two nodes as k + 1 children together. */
-static void share_places(const struct wide_fit *left,
-                         const struct wide_fit *right,
-                         float costs[WIDE_CHILDREN])
+static void share_places(const struct bvh8_cost *left,
+                         const struct bvh8_cost *right,
+                         float costs[BVH8_CHILDREN])
 {
-    for (uint32_t k = 0; k < WIDE_CHILDREN; k++) {
+    for (uint32_t k = 0; k < BVH8_CHILDREN; k++) {
         costs[k] = INFINITY;
         for (uint32_t i = 0; i < k; i++)
             costs[k] =
@@ -53,23 +53,23 @@ static void share_places(const struct wide_fit *left,
     }
 }
 
-static void fit_node(const struct wide_fits *f, uint32_t node)
+static void fit_node(const struct bvh8_collapse *f, uint32_t node)
 {
     const struct node *n = &f->bvh->nodes[node];
-    struct wide_fit *fit = &f->fits[node];
-    float shared[WIDE_CHILDREN];
+    struct bvh8_cost *fit = &f->fits[node];
+    float shared[BVH8_CHILDREN];
 
     fit->tri_count = n->count;
     if (n->count != 0) {
-        for (uint32_t k = 0; k < WIDE_CHILDREN; k++)
+        for (uint32_t k = 0; k < BVH8_CHILDREN; k++)
             fit->costs[k] = leaf_cost(f, node);
         return;
     }
     fit->tri_count = fit[1].tri_count + f->fits[n->next].tri_count;
     share_places(&fit[1], &f->fits[n->next], shared);
     fit->costs[0] =
-        f_min(leaf_cost(f, node), area_of(n) + shared[WIDE_CHILDREN - 1]);
-    for (uint32_t k = 1; k < WIDE_CHILDREN; k++)
+        f_min(leaf_cost(f, node), area_of(n) + shared[BVH8_CHILDREN - 1]);
+    for (uint32_t k = 1; k < BVH8_CHILDREN; k++)
         fit->costs[k] = f_min(fit->costs[k - 1], shared[k]);
 }
 
@@ -84,7 +84,7 @@ static void fit_span(void *context, uint32_t item, int worker)
         fit_node(f->fits, s.end);
 }
 
-static uint32_t right_of(const struct wide_fits *f, uint32_t node)
+static uint32_t right_of(const struct bvh8_collapse *f, uint32_t node)
 {
     return f->bvh->nodes[node].next;
 }
@@ -106,7 +106,7 @@ static bool find_spans(struct fitter *f, struct span s)
     return true;
 }
 
-static void fit_above_spans(const struct wide_fits *f, struct span s)
+static void fit_above_spans(const struct bvh8_collapse *f, struct span s)
 {
     uint32_t right = right_of(f, s.first);
 
@@ -117,14 +117,14 @@ static void fit_above_spans(const struct wide_fits *f, struct span s)
     fit_node(f, s.first);
 }
 
-bool wide_fits_init(struct wide_fits *f, const struct bvh *bvh,
+bool bvh8_collapse_init(struct bvh8_collapse *f, const struct bvh *bvh,
                     struct pool *pool)
 {
     const struct span all = {0, bvh->node_count};
     struct fitter fitter = {.fits = f};
     bool ok;
 
-    *f = (struct wide_fits){bvh,
+    *f = (struct bvh8_collapse){bvh,
                             alloc_aligned(bvh->node_count, sizeof *f->fits)};
     ok = f->fits != NULL && find_spans(&fitter, all);
     if (ok) {
@@ -135,22 +135,22 @@ bool wide_fits_init(struct wide_fits *f, const struct bvh *bvh,
     return ok;
 }
 
-void wide_fits_free(struct wide_fits *f)
+void bvh8_collapse_free(struct bvh8_collapse *f)
 {
     free(f->fits);
-    *f = (struct wide_fits){.fits = NULL};
+    *f = (struct bvh8_collapse){.fits = NULL};
 }
 
 /* ---- choices ---- */
 
-bool wide_fits_leaf(const struct wide_fits *f, uint32_t node)
+bool bvh8_collapse_leaf(const struct bvh8_collapse *f, uint32_t node)
 {
     return leaf_cost(f, node) <= f->fits[node].costs[0];
 }
 
 /* How many of so many places go to the left of two nodes. */
-static uint32_t left_places(const struct wide_fit *left,
-                            const struct wide_fit *right, uint32_t places)
+static uint32_t left_places(const struct bvh8_cost *left,
+                            const struct bvh8_cost *right, uint32_t places)
 {
     uint32_t lefts = 1;
     float least = INFINITY;
@@ -168,7 +168,7 @@ static uint32_t left_places(const struct wide_fit *left,
 
 /* Shares the places below a node, behind so many children. Returns how many
  * there are then. */
-static uint32_t open_node(const struct wide_fits *f, uint32_t node,
+static uint32_t open_node(const struct bvh8_collapse *f, uint32_t node,
                           uint32_t places, uint32_t *children, uint32_t count)
 {
     const uint32_t nodes[2] = {node + 1, right_of(f, node)};
@@ -192,16 +192,16 @@ static uint32_t open_node(const struct wide_fits *f, uint32_t node,
 /* Rays that look for any hit take the last child first: leaves, for they may
  * end it, and what is large. Measured: up to twice as many a second. Of areas,
  * which are not negative, the bits are in the same order. */
-static uint32_t rank_of(const struct wide_fits *f, uint32_t node)
+static uint32_t rank_of(const struct bvh8_collapse *f, uint32_t node)
 {
     return float_bits(area_of(&f->bvh->nodes[node])) |
-           (uint32_t)wide_fits_leaf(f, node) << 31;
+           (uint32_t)bvh8_collapse_leaf(f, node) << 31;
 }
 
-static void sort_children(const struct wide_fits *f, uint32_t *children,
+static void sort_children(const struct bvh8_collapse *f, uint32_t *children,
                           uint32_t count)
 {
-    uint32_t ranks[WIDE_CHILDREN];
+    uint32_t ranks[BVH8_CHILDREN];
 
     for (uint32_t i = 0; i < count; i++) {
         uint32_t node = children[i], rank = rank_of(f, node);
@@ -217,14 +217,14 @@ static void sort_children(const struct wide_fits *f, uint32_t *children,
 }
 
 /* A leaf is only asked for at the root. */
-uint32_t wide_fits_children(const struct wide_fits *f, uint32_t node,
-                            uint32_t children[WIDE_CHILDREN])
+uint32_t bvh8_collapse_children(const struct bvh8_collapse *f, uint32_t node,
+                            uint32_t children[BVH8_CHILDREN])
 {
     uint32_t count = 1;
 
     children[0] = node;
-    if (!wide_fits_leaf(f, node))
-        count = open_node(f, node, WIDE_CHILDREN, children, 0);
+    if (!bvh8_collapse_leaf(f, node))
+        count = open_node(f, node, BVH8_CHILDREN, children, 0);
     sort_children(f, children, count);
     return count;
 }

@@ -61,7 +61,7 @@ blocks_hit(const struct world *w, const struct block_ray *r,
            const struct tri_block *block, uint32_t more, struct hit *best)
 {
     bool found = false;
-    struct lane_hits h;
+    struct simd_hits h;
 
     for (;; more--, block++) {
         uint32_t passed = f4_which(block->tri, r->passed[0]) |

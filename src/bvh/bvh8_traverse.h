@@ -17,7 +17,7 @@
 #include "bvh/ray_packet.h"
 
 /* Entries that wait: all but one child of a node a level. */
-#define WIDE_STACK (TRAVERSE_STACK * (WIDE_CHILDREN - 1) + 1)
+#define BVH8_STACK (TRAVERSE_STACK * (BVH8_CHILDREN - 1) + 1)
 
 /* Less of a direction counts as this much: the box test then multiplies no
  * infinity by 0. Over all of a scene such a ray drifts by less than boxes are
@@ -37,44 +37,44 @@ static inline struct hit no_hit(struct ray r)
     return none;
 }
 
-static inline const struct wide *wide_of(const struct world *w)
+static inline const struct bvh8 *bvh8_of(const struct world *w)
 {
-    return ((const struct wide_world *)w)->tree;
+    return ((const struct bvh8_world *)w)->tree;
 }
 
 /* A ray as box tests want it: a plane at p is at p * inverse - start. Where the
  * origin is further from the scene than its size, rounding is in proportion to
  * the distance, which WIDEN is for; nearer, it is a small part of BOX_PAD. */
-struct wide_ray {
+struct bvh8_ray {
     f8 inverse[3], start[3];
     size_t near[3], far[3]; /* of a node's planes, in bytes */
 };
 
 /* Without branches: no processor can predict them for rays in all directions.
  */
-static inline void wide_ray_axis(struct wide_ray *r, int axis, float o, float d)
+static inline void bvh8_ray_axis(struct bvh8_ray *r, int axis, float o, float d)
 {
     float inverse = 1.0f / copysignf(f_max(fabsf(d), DIRECTION_MIN), d);
     uint32_t low_is_far = float_bits(d) >> 31;
-    size_t low = offsetof(struct wide_node, planes[axis][0]);
+    size_t low = offsetof(struct bvh8_node, planes[axis][0]);
 
     r->inverse[axis] = f8_all(inverse);
     r->start[axis] = f8_all(o * inverse);
-    r->near[axis] = low + low_is_far * sizeof(float[WIDE_CHILDREN]);
-    r->far[axis] = low + (low_is_far ^ 1u) * sizeof(float[WIDE_CHILDREN]);
+    r->near[axis] = low + low_is_far * sizeof(float[BVH8_CHILDREN]);
+    r->far[axis] = low + (low_is_far ^ 1u) * sizeof(float[BVH8_CHILDREN]);
 }
 
-static inline struct wide_ray wide_ray_of(struct ray r)
+static inline struct bvh8_ray bvh8_ray_of(struct ray r)
 {
-    struct wide_ray s;
+    struct bvh8_ray s;
 
-    wide_ray_axis(&s, 0, r.o.x, r.d.x);
-    wide_ray_axis(&s, 1, r.o.y, r.d.y);
-    wide_ray_axis(&s, 2, r.o.z, r.d.z);
+    bvh8_ray_axis(&s, 0, r.o.x, r.d.x);
+    bvh8_ray_axis(&s, 1, r.o.y, r.d.y);
+    bvh8_ray_axis(&s, 2, r.o.z, r.d.z);
     return s;
 }
 
-static inline f8 wide_planes(const struct wide_node *n, size_t offset,
+static inline f8 bvh8_planes(const struct bvh8_node *n, size_t offset,
                              f8 inverse, f8 start)
 {
     const void *planes = (const char *)n + offset;
@@ -86,15 +86,15 @@ static inline f8 wide_planes(const struct wide_node *n, size_t offset,
  * rays, `first` is the one that is before all others along each axis, `last`
  * the one behind. */
 static inline __attribute__((always_inline)) uint32_t
-wide_enter(const struct wide_node *n, const struct wide_ray *first,
-           const struct wide_ray *last, float t_far, f8 *entries)
+bvh8_enter(const struct bvh8_node *n, const struct bvh8_ray *first,
+           const struct bvh8_ray *last, float t_far, f8 *entries)
 {
     f8 in[3], out[3], leave;
 
     for (int i = 0; i < 3; i++) {
         in[i] =
-            wide_planes(n, first->near[i], first->inverse[i], first->start[i]);
-        out[i] = wide_planes(n, last->far[i], last->inverse[i], last->start[i]);
+            bvh8_planes(n, first->near[i], first->inverse[i], first->start[i]);
+        out[i] = bvh8_planes(n, last->far[i], last->inverse[i], last->start[i]);
     }
     *entries = f8_later(f8_later(in[0], in[1]), f8_later(in[2], f8_all(0.0f)));
     leave = f8_sooner(f8_sooner(out[0], out[1]), out[2]);
@@ -104,27 +104,27 @@ wide_enter(const struct wide_node *n, const struct wide_ray *first,
 
 /* Beyond this nothing is entered for a hit at t; finite, as the boxes that
  * stand for no child are at infinity. */
-static inline float wide_far(float t)
+static inline float bvh8_far(float t)
 {
     return f_min(t * WIDEN, FLOAT_MAX);
 }
 
-static inline const struct wide_node *wide_node_at(const struct wide_node *root,
+static inline const struct bvh8_node *bvh8_node_at(const struct bvh8_node *root,
                                                    uint32_t child)
 {
-    return (const void *)((const char *)root + (size_t)child * (WIDE_UNIT / 8));
+    return (const void *)((const char *)root + (size_t)child * (BVH8_UNIT / 8));
 }
 
 static inline const struct tri_block *
-wide_block_at(const struct wide_node *root, uint32_t child)
+bvh8_block_at(const struct bvh8_node *root, uint32_t child)
 {
-    return (const void *)wide_node_at(root, child & ~(WIDE_LEAF | WIDE_MORE));
+    return (const void *)bvh8_node_at(root, child & ~(BVH8_LEAF | BVH8_MORE));
 }
 
 /* A node's lines, or those of a block and something behind it. */
-static inline void wide_prefetch(const struct wide_node *root, uint32_t child)
+static inline void bvh8_prefetch(const struct bvh8_node *root, uint32_t child)
 {
-    const char *p = (const char *)wide_node_at(root, child);
+    const char *p = (const char *)bvh8_node_at(root, child);
 
     for (size_t i = 0; i < sizeof *root; i += 64)
         __builtin_prefetch(p + i);
@@ -132,15 +132,15 @@ static inline void wide_prefetch(const struct wide_node *root, uint32_t child)
 
 /* A child that waits: the bits of the distance at which it is entered, which
  * sort as the distance does, above its code. Takes the lowest of the mask. */
-static inline uint64_t wide_take(const struct wide_node *nodes,
-                                 const struct wide_node *n,
-                                 const float entries[WIDE_CHILDREN],
+static inline uint64_t bvh8_take(const struct bvh8_node *nodes,
+                                 const struct bvh8_node *n,
+                                 const float entries[BVH8_CHILDREN],
                                  uint32_t *mask)
 {
     uint32_t i = lowest(*mask);
 
     *mask &= *mask - 1;
-    wide_prefetch(nodes, n->child[i]);
+    bvh8_prefetch(nodes, n->child[i]);
     return (uint64_t)float_bits(entries[i]) << 32 | n->child[i];
 }
 
@@ -155,22 +155,22 @@ static inline void in_order(uint64_t *a, uint64_t *b)
 
 /* The nearest of two or more children. The others wait on the stack, nearer
  * ones above: most are two to four, which a network sorts. */
-static inline uint32_t wide_choose(const struct wide_node *nodes,
-                                   const struct wide_node *n, uint32_t mask,
+static inline uint32_t bvh8_choose(const struct bvh8_node *nodes,
+                                   const struct bvh8_node *n, uint32_t mask,
                                    f8 enter, uint64_t **stack)
 {
-    _Alignas(32) float entries[WIDE_CHILDREN];
+    _Alignas(32) float entries[BVH8_CHILDREN];
     uint64_t *base = *stack, *top = base;
     uint64_t a, b, c, d;
 
     f8_store(entries, enter);
-    a = wide_take(nodes, n, entries, &mask);
-    b = wide_take(nodes, n, entries, &mask);
+    a = bvh8_take(nodes, n, entries, &mask);
+    b = bvh8_take(nodes, n, entries, &mask);
     in_order(&a, &b);
     if (mask != 0) {
-        c = wide_take(nodes, n, entries, &mask);
+        c = bvh8_take(nodes, n, entries, &mask);
         if (mask != 0) {
-            d = wide_take(nodes, n, entries, &mask);
+            d = bvh8_take(nodes, n, entries, &mask);
             in_order(&c, &d);
             in_order(&a, &c);
             in_order(&b, &d);
@@ -183,7 +183,7 @@ static inline uint32_t wide_choose(const struct wide_node *nodes,
     }
     *top++ = b;
     while (mask != 0) {
-        uint64_t e = wide_take(nodes, n, entries, &mask);
+        uint64_t e = bvh8_take(nodes, n, entries, &mask);
         uint64_t *at = top++;
 
         in_order(&a, &e);
@@ -197,38 +197,38 @@ static inline uint32_t wide_choose(const struct wide_node *nodes,
 
 /* What a walk does where it meets blocks, of which `more` follow the first.
  * Says how far hits are still of interest. */
-typedef float wide_leaf(void *query, const struct tri_block *block,
+typedef float bvh8_leaf(void *query, const struct tri_block *block,
                         uint32_t more);
 
 /* Meets the leaves that are entered before t_max, nearest first; see
- * wide_enter(). Whatever the ray, every node is met once at most: children that
- * are none name a leaf of no triangles. So WIDE_STACK is enough for trees as
+ * bvh8_enter(). Whatever the ray, every node is met once at most: children that
+ * are none name a leaf of no triangles. So BVH8_STACK is enough for trees as
  * deep as bvh.h promises. */
 static inline __attribute__((always_inline)) void
-wide_walk(const struct wide_node *nodes, const struct wide_ray *first,
-          const struct wide_ray *last, float t_max, wide_leaf *leaf,
+bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
+          const struct bvh8_ray *last, float t_max, bvh8_leaf *leaf,
           void *query)
 {
-    uint64_t stack[WIDE_STACK];
+    uint64_t stack[BVH8_STACK];
     uint64_t *top = stack;
-    float t_far = wide_far(t_max);
+    float t_far = bvh8_far(t_max);
     uint32_t at = 0;
 
     for (;;) {
-        if ((at & WIDE_LEAF) == 0) {
-            const struct wide_node *n = wide_node_at(nodes, at);
+        if ((at & BVH8_LEAF) == 0) {
+            const struct bvh8_node *n = bvh8_node_at(nodes, at);
             f8 enter;
-            uint32_t mask = wide_enter(n, first, last, t_far, &enter);
+            uint32_t mask = bvh8_enter(n, first, last, t_far, &enter);
 
             if (mask != 0) {
                 at = n->child[lowest(mask)];
                 if ((mask & (mask - 1)) != 0)
-                    at = wide_choose(nodes, n, mask, enter, &top);
+                    at = bvh8_choose(nodes, n, mask, enter, &top);
                 continue;
             }
         } else {
             t_far =
-                wide_far(leaf(query, wide_block_at(nodes, at), at & WIDE_MORE));
+                bvh8_far(leaf(query, bvh8_block_at(nodes, at), at & BVH8_MORE));
         }
         do {
             if (top == stack)
@@ -239,7 +239,7 @@ wide_walk(const struct wide_node *nodes, const struct wide_ray *first,
     }
 }
 
-struct wide_query {
+struct bvh8_query {
     const struct world *world;
     struct block_ray ray;
     struct hit *hit;
@@ -248,7 +248,7 @@ struct wide_query {
 static inline __attribute__((always_inline)) float
 meet_blocks(void *query, const struct tri_block *block, uint32_t more)
 {
-    struct wide_query *q = query;
+    struct bvh8_query *q = query;
 
     blocks_hit(q->world, &q->ray, block, more, q->hit);
     return q->hit->t;
@@ -258,13 +258,13 @@ meet_blocks(void *query, const struct tri_block *block, uint32_t more)
 static inline bool hit_closest(const struct world *w, struct ray r,
                                struct hit *hit)
 {
-    const struct wide_node *nodes = wide_of(w)->nodes;
-    struct wide_query query = {w, block_ray_of(r, NO_INDEX), hit};
-    struct wide_ray ray = wide_ray_of(r);
+    const struct bvh8_node *nodes = bvh8_of(w)->nodes;
+    struct bvh8_query query = {w, block_ray_of(r, NO_INDEX), hit};
+    struct bvh8_ray ray = bvh8_ray_of(r);
 
     *hit = no_hit(r);
     if (nodes != NULL && ray_is_finite(r))
-        wide_walk(nodes, &ray, &ray, r.t_max, meet_blocks, &query);
+        bvh8_walk(nodes, &ray, &ray, r.t_max, meet_blocks, &query);
     return hit->tri != NO_INDEX;
 }
 
@@ -276,8 +276,8 @@ static inline bool hit_closest(const struct world *w, struct ray r,
 
 /* The rays that are before and behind all of a group along an axis. False if
  * some go up it, some down, or too far apart. */
-static inline bool wide_bound(struct wide_ray *first, struct wide_ray *last,
-                              int axis, const struct ray_group *g)
+static inline bool bvh8_bound(struct bvh8_ray *first, struct bvh8_ray *last,
+                              int axis, const struct ray_packet *g)
 {
     const float *o = g->lanes.o[axis], *d = g->lanes.d[axis];
     float o_lo = o[0], o_hi = o[0], d_lo = d[0], d_hi = d[0];
@@ -290,8 +290,8 @@ static inline bool wide_bound(struct wide_ray *first, struct wide_ray *last,
         d_hi = f_max(d_hi, d[i]);
     }
     is_down = float_bits(d_lo) >> 31;
-    wide_ray_axis(first, axis, is_down ? o_lo : o_hi, is_down ? d_lo : d_hi);
-    wide_ray_axis(last, axis, is_down ? o_hi : o_lo, is_down ? d_hi : d_lo);
+    bvh8_ray_axis(first, axis, is_down ? o_lo : o_hi, is_down ? d_lo : d_hi);
+    bvh8_ray_axis(last, axis, is_down ? o_hi : o_lo, is_down ? d_hi : d_lo);
     return is_down == float_bits(d_hi) >> 31 &&
            (o_hi - o_lo) + (d_hi - d_lo) <= GROUP_SPREAD;
 }
@@ -299,69 +299,69 @@ static inline bool wide_bound(struct wide_ray *first, struct wide_ray *last,
 static inline __attribute__((always_inline)) float
 meet_group(void *query, const struct tri_block *block, uint32_t more)
 {
-    struct ray_group *g = query;
+    struct ray_packet *g = query;
 
     for (;; more--, block++) {
         for (uint32_t i = 0; i < BLOCK_TRIS && block->tri[i] != NO_INDEX; i++)
-            group_meet(g, block, i);
+            packet_meet(g, block, i);
         if (more == 0)
             return g->far;
     }
 }
 
-/* hit_closest() of up to GROUP_RAYS rays; false, without an answer, if they are
+/* hit_closest() of up to PACKET_RAYS rays; false, without an answer, if they are
  * better off alone. */
 static inline bool hits_closest(const struct world *w, const struct ray *rays,
                                 uint32_t count, struct hit *hits)
 {
-    const struct wide_node *nodes = wide_of(w)->nodes;
-    struct wide_ray first, last;
-    struct ray_group g;
+    const struct bvh8_node *nodes = bvh8_of(w)->nodes;
+    struct bvh8_ray first, last;
+    struct ray_packet g;
 
     if (nodes == NULL || count < GROUP_MIN)
         return false;
-    group_begin(&g, w, rays, count, hits);
-    if (!group_is_finite(&g) || !wide_bound(&first, &last, 0, &g) ||
-        !wide_bound(&first, &last, 1, &g) ||
-        !wide_bound(&first, &last, 2, &g) || !group_shear(&g.lanes))
+    packet_begin(&g, w, rays, count, hits);
+    if (!packet_is_finite(&g) || !bvh8_bound(&first, &last, 0, &g) ||
+        !bvh8_bound(&first, &last, 1, &g) ||
+        !bvh8_bound(&first, &last, 2, &g) || !packet_shear(&g.lanes))
         return false;
     for (uint32_t i = 0; i < count; i++)
         hits[i] = no_hit(rays[i]);
-    wide_walk(nodes, &first, &last, g.far, meet_group, &g);
+    bvh8_walk(nodes, &first, &last, g.far, meet_group, &g);
     return true;
 }
 
 /* As hit_any() of kernels/traverse.h. */
 static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
-    const struct wide_node *nodes = wide_of(w)->nodes;
-    struct wide_ray ray = wide_ray_of(r);
+    const struct bvh8_node *nodes = bvh8_of(w)->nodes;
+    struct bvh8_ray ray = bvh8_ray_of(r);
     struct block_ray block_ray = block_ray_of(r, tri);
-    float t_far = wide_far(r.t_max);
+    float t_far = bvh8_far(r.t_max);
     struct hit h = {r.t_max, 0.0f, 0.0f, 0.0f, tri};
-    uint32_t stack[WIDE_STACK];
+    uint32_t stack[BVH8_STACK];
     uint32_t *top = stack;
     uint32_t at = 0;
 
     if (nodes == NULL || !ray_is_finite(r))
         return false;
     for (;;) {
-        if ((at & WIDE_LEAF) == 0) {
-            const struct wide_node *n = wide_node_at(nodes, at);
+        if ((at & BVH8_LEAF) == 0) {
+            const struct bvh8_node *n = bvh8_node_at(nodes, at);
             f8 enter;
-            uint32_t mask = wide_enter(n, &ray, &ray, t_far, &enter);
+            uint32_t mask = bvh8_enter(n, &ray, &ray, t_far, &enter);
 
             if (mask != 0) {
                 for (; (mask & (mask - 1)) != 0; mask &= mask - 1) {
                     *top = n->child[lowest(mask)];
-                    wide_prefetch(nodes, *top);
+                    bvh8_prefetch(nodes, *top);
                     top++;
                 }
                 at = n->child[lowest(mask)];
                 continue;
             }
-        } else if (blocks_hit(w, &block_ray, wide_block_at(nodes, at),
-                              at & WIDE_MORE, &h)) {
+        } else if (blocks_hit(w, &block_ray, bvh8_block_at(nodes, at),
+                              at & BVH8_MORE, &h)) {
             return true;
         }
         if (top == stack)

@@ -13,7 +13,7 @@
 #include "bvh/bvh8_leaf.h"
 #include "base/simd8.h"
 
-#define GROUP_RAYS 8
+#define PACKET_RAYS 8
 
 /* Each lane has a ray. */
 static inline f8 f8_corner(const float *place)
@@ -27,21 +27,21 @@ static inline f8 f8_ray(const float *place)
 }
 
 #define LANES      f8
-#define LANES_RAYS GROUP_RAYS
+#define LANES_RAYS PACKET_RAYS
 #include "bvh/simd_triangle.h"
 
 /* Rays, and what they have met. */
-struct ray_group {
+struct ray_packet {
     const struct world *world;
     const struct ray *rays;
     struct hit *hits;
     uint32_t count;
     struct f8_rays lanes;
-    _Alignas(32) float t[GROUP_RAYS]; /* of the hits */
+    _Alignas(32) float t[PACKET_RAYS]; /* of the hits */
     float far;                        /* the largest of these */
 };
 
-static inline void group_put(struct ray_group *g, uint32_t lane,
+static inline void packet_put(struct ray_packet *g, uint32_t lane,
                              const struct ray *r)
 {
     g->lanes.o[0][lane] = r->o.x;
@@ -55,7 +55,7 @@ static inline void group_put(struct ray_group *g, uint32_t lane,
 
 /* As shear_of(). False if the rays differ in the axis: then they cannot be
  * tested together. */
-static inline bool group_shear(struct f8_rays *r)
+static inline bool packet_shear(struct f8_rays *r)
 {
     f8 x = f8_abs(f8_load(r->d[0]));
     f8 y = f8_abs(f8_load(r->d[1]));
@@ -63,7 +63,7 @@ static inline bool group_shear(struct f8_rays *r)
     uint32_t x_over_y = f8_below(y, x);
     uint32_t is_x = x_over_y & f8_below(z, x);
     uint32_t is_y = ~x_over_y & f8_below(z, y);
-    uint32_t all = (1u << GROUP_RAYS) - 1;
+    uint32_t all = (1u << PACKET_RAYS) - 1;
     uint32_t axis = is_x == all ? 0 : is_y == all ? 1 : 2;
     f8 along = f8_load(r->d[axis]);
 
@@ -75,7 +75,7 @@ static inline bool group_shear(struct f8_rays *r)
 }
 
 /* ray_is_finite() of all of them; lanes without a ray are NaN. */
-static inline bool group_is_finite(const struct ray_group *g)
+static inline bool packet_is_finite(const struct ray_packet *g)
 {
     f8 sum = f8_all(0.0f);
 
@@ -85,17 +85,17 @@ static inline bool group_is_finite(const struct ray_group *g)
     return f8_not_above(f8_abs(sum), f8_all(FLOAT_MAX)) == (1u << g->count) - 1;
 }
 
-static inline float group_far(const struct ray_group *g)
+static inline float packet_far(const struct ray_packet *g)
 {
     float far = g->t[0];
 
-    for (int i = 1; i < GROUP_RAYS; i++)
+    for (int i = 1; i < PACKET_RAYS; i++)
         far = f_max(far, g->t[i]);
     return far;
 }
 
-/* For 1 to GROUP_RAYS rays; group_shear() has to follow. */
-static inline void group_begin(struct ray_group *g, const struct world *w,
+/* For 1 to PACKET_RAYS rays; packet_shear() has to follow. */
+static inline void packet_begin(struct ray_packet *g, const struct world *w,
                                const struct ray *rays, uint32_t count,
                                struct hit *hits)
 {
@@ -107,15 +107,15 @@ static inline void group_begin(struct ray_group *g, const struct world *w,
     g->rays = rays;
     g->hits = hits;
     g->count = count;
-    for (uint32_t i = 0; i < GROUP_RAYS; i++)
-        group_put(g, i, i < count ? &rays[i] : &none);
-    g->far = group_far(g);
+    for (uint32_t i = 0; i < PACKET_RAYS; i++)
+        packet_put(g, i, i < count ? &rays[i] : &none);
+    g->far = packet_far(g);
 }
 
-static inline void group_meet(struct ray_group *g,
+static inline void packet_meet(struct ray_packet *g,
                               const struct tri_block *block, uint32_t i)
 {
-    struct lane_hits h;
+    struct simd_hits h;
 
     if (!f8_test(block, i, &g->lanes, f8_load(g->t), ~0u, &h))
         return;
@@ -133,7 +133,7 @@ static inline void group_meet(struct ray_group *g,
         lane_decide(g->world, &g->rays[k], &s, block, i, &g->hits[k]);
         g->t[k] = g->hits[k].t;
     }
-    g->far = group_far(g);
+    g->far = packet_far(g);
 }
 
 #endif

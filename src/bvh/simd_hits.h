@@ -21,7 +21,7 @@ static inline uint32_t lowest(uint32_t mask)
 }
 
 /* Bits of lanes, and what triangle_hit() computes in them. */
-struct lane_hits {
+struct simd_hits {
     uint32_t sure;   /* met at a distance above 0 and not beyond t_max */
     uint32_t unsure; /* triangle_hit() has to say */
     _Alignas(32) float t[LANES_MAX];
@@ -29,7 +29,7 @@ struct lane_hits {
 };
 
 /* The rule of tri_hit() for a lane that is sure; true if it is a nearer hit. */
-static inline bool lane_take(const struct world *w, const struct lane_hits *h,
+static inline bool lane_take(const struct world *w, const struct simd_hits *h,
                              uint32_t lane, const struct ray *r, uint32_t tri,
                              struct hit *best)
 {

@@ -135,7 +135,7 @@ static inline LANES OF(distance)(const struct tri_block *block, uint32_t at,
  * that are not wanted count as having done so. */
 static inline bool OF(test)(const struct tri_block *block, uint32_t at,
                             const struct RAYS *r, LANES t_max, uint32_t wanted,
-                            struct lane_hits *h)
+                            struct simd_hits *h)
 {
     struct CORNERS c = OF(shear)(block, at, r);
     LANES zero = OF(all)(0.0f);

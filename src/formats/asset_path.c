@@ -116,7 +116,7 @@ static char *find_in_any_case(const char *beside, const char *name)
     return NULL;
 }
 
-char *asset_find(const char *beside, const char *name)
+char *asset_path_find(const char *beside, const char *name)
 {
     char *found, *other;
     const char *last;

@@ -3,7 +3,7 @@
  * asset_path.h - finds the files that a scene names
  *
  * Units:     none
- * Ownership: asset_find() returns memory for free()
+ * Ownership: asset_path_find() returns memory for free()
  * Threads:   any
  * Errors:    NULL
  */
@@ -15,6 +15,6 @@
  * then without its folders, which were those of another machine, and at last
  * with other capital and small letters. NULL: none exists, as of a name of
  * PATH_MAX bytes or more, which no system call takes. */
-char *asset_find(const char *beside, const char *name);
+char *asset_path_find(const char *beside, const char *name);
 
 #endif

@@ -12,7 +12,7 @@
 static const char *const corner_names[] = {"vertex", "texture vertex",
                                            "normal"};
 
-static bool out_of_memory(const struct faces *f, const struct lex *lex,
+static bool out_of_memory(const struct faces *f, const struct lexer *lex,
                           struct error *err)
 {
     return fail(err, "%s:%" PRIu64 ": out of memory for the faces", f->path,
@@ -47,18 +47,18 @@ static bool resolve(int64_t index, uint32_t count, uint32_t *to)
     return true;
 }
 
-static bool report_index(const struct faces *f, const struct lex *lex,
+static bool report_index(const struct faces *f, const struct lexer *lex,
                          const char *what, struct word index, uint32_t count)
 {
     struct word_text text = word_cut(index);
 
     if (count == 0)
-        report_add(f->report, "faces with a bad index",
+        warnings_add(f->report, "faces with a bad index",
                    "%s:%" PRIu64 ": found %s %s in a face, expected none, for "
                    "there are none so far: face dropped",
                    f->path, lex->line, what, text.text);
     else
-        report_add(f->report, "faces with a bad index",
+        warnings_add(f->report, "faces with a bad index",
                    "%s:%" PRIu64 ": found %s %s in a face, expected 1 to "
                    "%" PRIu32 " or -1 to -%" PRIu32 ": face dropped",
                    f->path, lex->line, what, text.text, count, count);
@@ -67,12 +67,12 @@ static bool report_index(const struct faces *f, const struct lex *lex,
 
 /* Where a file has no normals (or texture vertices) at all, somebody took them
  * out and left their numbers in the faces. */
-static bool was_taken_out(const struct faces *f, const struct lex *lex, int k,
+static bool was_taken_out(const struct faces *f, const struct lexer *lex, int k,
                           int64_t index, struct word word, uint32_t count)
 {
     if (k == 0 || count > 0 || index < 1)
         return false;
-    report_add(f->report,
+    warnings_add(f->report,
                k == 1 ? "corners without their texture vertex"
                       : "corners without their normal",
                "%s:%" PRIu64 ": found %s %s in a face, but the file has none "
@@ -81,10 +81,10 @@ static bool was_taken_out(const struct faces *f, const struct lex *lex, int k,
     return true;
 }
 
-static bool report_malformed(const struct faces *f, const struct lex *lex,
+static bool report_malformed(const struct faces *f, const struct lexer *lex,
                              struct word word)
 {
-    report_add(f->report, "malformed faces",
+    warnings_add(f->report, "malformed faces",
                "%s:%" PRIu64 ": found %s in a face, expected v, v/vt, v//vn or "
                "v/vt/vn: face dropped",
                f->path, lex->line, word_quote(word).text);
@@ -92,7 +92,7 @@ static bool report_malformed(const struct faces *f, const struct lex *lex,
 }
 
 /* v, v/vt, v//vn or v/vt/vn; slashes with nothing behind them are harmless. */
-static bool parse_corner(const struct faces *f, const struct lex *lex,
+static bool parse_corner(const struct faces *f, const struct lexer *lex,
                          struct word word, struct corner *c)
 {
     const uint32_t counts[] = {f->scene->position_count, f->scene->uv_count,
@@ -144,19 +144,19 @@ static bool grow_corners(struct faces *f, size_t needed)
 }
 
 /* *is_good becomes false for a face that was reported. */
-static bool read_corners(struct faces *f, struct lex *lex, bool *is_good,
+static bool read_corners(struct faces *f, struct lexer *lex, bool *is_good,
                          struct error *err)
 {
     *is_good = true;
     f->corner_count = 0;
-    while (!lex_at_line_end(lex)) {
+    while (!lexer_at_line_end(lex)) {
         uint32_t n = f->corner_count;
         struct corner *c;
 
         if (!grow_corners(f, (size_t)n + 1))
             return out_of_memory(f, lex, err);
         c = &f->corners[n];
-        if (!parse_corner(f, lex, lex_word(lex), c)) {
+        if (!parse_corner(f, lex, lexer_word(lex), c)) {
             *is_good = false;
             return true;
         }
@@ -171,7 +171,7 @@ static bool read_corners(struct faces *f, struct lex *lex, bool *is_good,
 static bool is_usable(const struct faces *f, uint64_t line)
 {
     if (f->corner_count < 3) {
-        report_add(f->report, "faces with too few corners",
+        warnings_add(f->report, "faces with too few corners",
                    "%s:%" PRIu64 ": found a face with %" PRIu32 " corners, "
                    "expected 3 or more: face dropped",
                    f->path, line, f->corner_count);
@@ -179,7 +179,7 @@ static bool is_usable(const struct faces *f, uint64_t line)
     }
     for (size_t i = 0; i < 3 * (size_t)f->corner_count; i++) {
         if (!isfinite(f->points[i])) {
-            report_add(f->report, "faces with a vertex that is not finite",
+            warnings_add(f->report, "faces with a vertex that is not finite",
                        "%s:%" PRIu64 ": found a face with a vertex that is not "
                        "finite: face dropped",
                        f->path, line);
@@ -254,7 +254,7 @@ static bool add_tris(struct faces *f, uint32_t object, uint32_t material)
     uint32_t count = 1;
 
     if (f->corner_count > 3) {
-        if (!polygon_cut(&f->polygon, f->points, f->corner_count))
+        if (!polygon_triangulate(&f->polygon, f->points, f->corner_count))
             return false;
         triangles = (const uint32_t(*)[3])f->polygon.triangles;
         count = f->polygon.triangle_count;
@@ -271,7 +271,7 @@ static bool add_tris(struct faces *f, uint32_t object, uint32_t material)
     return true;
 }
 
-bool faces_read(struct faces *f, struct lex *lex, uint32_t object,
+bool faces_read(struct faces *f, struct lexer *lex, uint32_t object,
                 uint32_t material, struct error *err)
 {
     uint64_t line = lex->line;
@@ -286,7 +286,7 @@ bool faces_read(struct faces *f, struct lex *lex, uint32_t object,
         if (!add_tris(f, object, material))
             return out_of_memory(f, lex, err);
         if (f->corner_count > 3 && f->polygon.crosses_itself)
-            report_add(f->report, "polygons that cross themselves",
+            warnings_add(f->report, "polygons that cross themselves",
                        "%s:%" PRIu64 ": found a polygon that crosses itself: "
                        "its triangles are a guess",
                        f->path, line);

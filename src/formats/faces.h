@@ -23,7 +23,7 @@ struct corner {
 struct faces {
     struct scene *scene;
     const char *path;
-    struct report *report;
+    struct warnings *report;
     uint32_t face_count; /* in the file so far, dropped ones included */
     struct corner *corners;
     double *points; /* 3 a corner */
@@ -35,7 +35,7 @@ struct faces {
 
 /* Reads what follows "f". A face with a bad index, with fewer than three
  * corners or with a vertex that is not finite is dropped and reported. */
-bool faces_read(struct faces *faces, struct lex *lex, uint32_t object,
+bool faces_read(struct faces *faces, struct lexer *lex, uint32_t object,
                 uint32_t material, struct error *err);
 
 void faces_free(struct faces *faces);

@@ -17,11 +17,11 @@
 struct parser {
     struct scene *scene;
     const char *path;
-    struct report *report;
+    struct warnings *report;
     struct error *err;
-    struct lex lex;
-    struct names materials; /* of the scene, numbered alike */
-    struct names textures;
+    struct lexer lex;
+    struct name_table materials; /* of the scene, numbered alike */
+    struct name_table textures;
     size_t material_capacity;
     size_t texture_capacity;
     char *name; /* of the material that is being read; NULL: none */
@@ -109,11 +109,11 @@ static char *texture_key(const char *path, const struct texture *t)
     return length < 0 ? NULL : key;
 }
 
-static uint32_t name_texture(struct names *names, const char *path,
+static uint32_t name_texture(struct name_table *names, const char *path,
                              const struct texture *texture)
 {
     char *key = texture_key(path, texture);
-    uint32_t index = key == NULL ? NO_NAME : names_add(names, key);
+    uint32_t index = key == NULL ? NO_NAME : name_table_add(names, key);
 
     free(key);
     return index;
@@ -167,17 +167,17 @@ static bool finish_material(struct parser *p)
     if (p->name == NULL)
         return true;
     if (*p->name == '\0') {
-        report_add(p->report, "materials without a name",
+        warnings_add(p->report, "materials without a name",
                    "%s:%" PRIu64 ": found newmtl without a name: not used",
                    p->path, p->name_line);
         return true;
     }
     m = material_from_source(&p->source, p->path, p->report);
-    index = names_add(&p->materials, p->name);
+    index = name_table_add(&p->materials, p->name);
     if (index == NO_NAME)
         return out_of_memory(p);
     if (index < p->scene->material_count) {
-        report_add_named(p->report, "materials defined twice", p->name,
+        warnings_add_named(p->report, "materials defined twice", p->name,
                          "%s:%" PRIu64 ": found newmtl '%s' again: the later "
                          "one is used",
                          p->path, p->name_line, p->name);
@@ -196,7 +196,7 @@ static bool read_newmtl(struct parser *p)
         return false;
     free(p->name);
     p->name_line = p->lex.line;
-    p->name = lex_rest(&p->lex);
+    p->name = lexer_rest(&p->lex);
     p->source = mtl_source_empty();
     return p->name != NULL || out_of_memory(p);
 }
@@ -204,19 +204,19 @@ static bool read_newmtl(struct parser *p)
 static bool expected(struct parser *p, struct word key, const char *what)
 {
     return fail(p->err, "%s:%" PRIu64 ": found %s after %.*s, expected %s",
-                p->path, p->lex.line, word_quote(lex_word(&p->lex)).text,
+                p->path, p->lex.line, word_quote(lexer_word(&p->lex)).text,
                 (int)key.length, key.start, what);
 }
 
 static bool read_number(struct parser *p, struct word key,
                         struct mtl_number *number)
 {
-    struct lex start = p->lex;
+    struct lexer start = p->lex;
 
     /* d has an option of its own */
-    if (!word_is(lex_word(&p->lex), "-halo"))
+    if (!word_is(lexer_word(&p->lex), "-halo"))
         p->lex = start;
-    if (lex_at_line_end(&p->lex) || !lex_number(&p->lex, &number->value))
+    if (lexer_at_line_end(&p->lex) || !lexer_number(&p->lex, &number->value))
         return expected(p, key, "a number");
     number->line = p->lex.line;
     return true;
@@ -226,12 +226,12 @@ static bool read_number(struct parser *p, struct word key,
 static bool read_color(struct parser *p, struct word key,
                        struct mtl_color *color)
 {
-    struct lex start = p->lex;
-    struct word word = lex_word(&p->lex);
+    struct lexer start = p->lex;
+    struct word word = lexer_word(&p->lex);
     int count = 0;
 
     if (word_is(word, "spectral") || word_is(word, "xyz")) {
-        report_add(p->report, "spectral colours",
+        warnings_add(p->report, "spectral colours",
                    "%s:%" PRIu64 ": found %.*s %.*s, expected a colour: not "
                    "used",
                    p->path, p->lex.line, (int)key.length, key.start,
@@ -239,8 +239,8 @@ static bool read_color(struct parser *p, struct word key,
         return true;
     }
     p->lex = start;
-    while (count < 3 && !lex_at_line_end(&p->lex)) {
-        if (!lex_number(&p->lex, &color->rgb[count++]))
+    while (count < 3 && !lexer_at_line_end(&p->lex)) {
+        if (!lexer_number(&p->lex, &color->rgb[count++]))
             return expected(p, key, "a number");
     }
     if (count == 1)
@@ -258,11 +258,11 @@ static bool read_blackbody(struct parser *p, struct word key)
     struct mtl_source *s = &p->source;
     double kelvin, scale = 1;
 
-    if (lex_at_line_end(&p->lex) || !lex_number(&p->lex, &kelvin) ||
-        (!lex_at_line_end(&p->lex) && !lex_number(&p->lex, &scale)))
+    if (lexer_at_line_end(&p->lex) || !lexer_number(&p->lex, &kelvin) ||
+        (!lexer_at_line_end(&p->lex) && !lexer_number(&p->lex, &scale)))
         return expected(p, key, "a temperature and perhaps a luminance");
     if (!(kelvin >= 0 && kelvin <= BLACKBODY_GREATEST)) {
-        report_add(p->report, "impossible temperatures",
+        warnings_add(p->report, "impossible temperatures",
                    "%s:%" PRIu64 ": found %.*s %g, expected kelvins from 0 to "
                    "%g: taken as 0",
                    p->path, p->lex.line, (int)key.length, key.start, kelvin,
@@ -289,7 +289,7 @@ static bool read_light(struct parser *p, struct word key)
 /* The file that a map names, or as it is written if there is no such file. */
 static char *map_path(const struct parser *p, const char *name)
 {
-    char *found = asset_find(p->path, name);
+    char *found = asset_path_find(p->path, name);
 
     return found != NULL ? found : path_beside(p->path, name);
 }
@@ -299,20 +299,20 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
                      uint32_t *texture, double *bump_scale)
 {
     uint64_t line = p->lex.line;
-    struct map_options o;
-    char *name = map_read(&p->lex, &o);
+    struct mtl_map_options o;
+    char *name = mtl_map_read(&p->lex, &o);
     char *path;
 
     if (name == NULL)
         return out_of_memory(p);
     o.texture.is_data = is_data;
     if (o.unknown_count > 0)
-        report_add(p->report, "maps with options",
+        warnings_add(p->report, "maps with options",
                    "%s:%" PRIu64 ": found options of %.*s other than -o, -s, "
                    "-bm and -clamp: the texture is used without them",
                    p->path, line, (int)key.length, key.start);
     if (*name == '\0') {
-        report_add(p->report, "maps without a file",
+        warnings_add(p->report, "maps without a file",
                    "%s:%" PRIu64 ": found %.*s without the name of a file",
                    p->path, line, (int)key.length, key.start);
         free(name);
@@ -335,7 +335,7 @@ static void skip_statement(struct parser *p, struct word key)
     if (word_is(key, "Ka"))
         return;
     snprintf(name, sizeof name, "%.*s", length, key.start);
-    report_add_named(p->report, "unknown statements", name,
+    warnings_add_named(p->report, "unknown statements", name,
                      "%s:%" PRIu64 ": found '%s', which glim does not use",
                      p->path, p->lex.line, name);
 }
@@ -397,17 +397,17 @@ static bool read_property(struct parser *p, struct word key)
 
 static bool parse_lines(struct parser *p)
 {
-    for (; p->lex.p < p->lex.end; lex_next_line(&p->lex)) {
+    for (; p->lex.p < p->lex.end; lexer_next_line(&p->lex)) {
         struct word key;
 
-        if (lex_at_line_end(&p->lex))
+        if (lexer_at_line_end(&p->lex))
             continue;
-        key = lex_word(&p->lex);
+        key = lexer_word(&p->lex);
         if (word_is(key, "newmtl")) {
             if (!read_newmtl(p))
                 return false;
         } else if (p->name == NULL) {
-            report_add(p->report, "statements before newmtl",
+            warnings_add(p->report, "statements before newmtl",
                        "%s:%" PRIu64 ": found %s, expected newmtl", p->path,
                        p->lex.line, word_quote(key).text);
         } else if (!read_property(p, key)) {
@@ -423,7 +423,7 @@ static bool add_known(struct parser *p)
     const struct scene *scene = p->scene;
 
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        if (names_add(&p->materials, scene->material_names[i]) == NO_NAME)
+        if (name_table_add(&p->materials, scene->material_names[i]) == NO_NAME)
             return false;
     }
     for (uint32_t i = 0; i < scene->texture_count; i++) {
@@ -454,7 +454,7 @@ static bool add_file(struct parser *p)
 }
 
 bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
-               const char *path, struct report *report, struct error *err)
+               const char *path, struct warnings *report, struct error *err)
 {
     struct parser p = {.scene = scene,
                        .path = path,
@@ -463,14 +463,14 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
     bool ok = mtl_add_default(scene, err);
 
     if (ok) {
-        lex_init(&p.lex, text, size_bytes);
+        lexer_init(&p.lex, text, size_bytes);
         p.material_capacity = scene->material_count;
         p.texture_capacity = scene->texture_count;
         ok = add_file(&p) && add_known(&p);
         ok = ok ? parse_lines(&p) : out_of_memory(&p);
     }
     free(p.name);
-    names_free(&p.materials);
-    names_free(&p.textures);
+    name_table_free(&p.materials);
+    name_table_free(&p.textures);
     return ok;
 }

@@ -13,7 +13,7 @@
 #include "scene/scene.h"
 
 bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
-               const char *path, struct report *report, struct error *err);
+               const char *path, struct warnings *report, struct error *err);
 
 /* Adds material 0 if the scene has none; false when memory is out. */
 bool mtl_add_default(struct scene *scene, struct error *err);

@@ -20,7 +20,7 @@
 #define MTL_ALIASES_MAX 3
 typedef const char *const mtl_aliases[MTL_ALIASES_MAX];
 
-struct mtl_text {
+struct mtl_document {
     char *bytes;
     size_t size;
     const char *line_end;
@@ -43,41 +43,41 @@ struct mtl_block {
 };
 
 /* A copy of this text. */
-bool mtl_text_init(struct mtl_text *t, const char *text, size_t size_bytes);
+bool mtl_document_init(struct mtl_document *t, const char *text, size_t size_bytes);
 
 /* Puts `insert` in the place of `removed` bytes. */
-bool mtl_text_splice(struct mtl_text *t, size_t at, size_t removed,
+bool mtl_document_splice(struct mtl_document *t, size_t at, size_t removed,
                      const char *insert);
 
 /* Reads from there on. */
-struct lex mtl_text_lex(const struct mtl_text *t, size_t at);
+struct lexer mtl_document_lex(const struct mtl_document *t, size_t at);
 
 /* True if the statement has one of these keys. */
-bool mtl_text_has_key(const struct mtl_text *t, const struct mtl_statement *s,
+bool mtl_document_has_key(const struct mtl_document *t, const struct mtl_statement *s,
                       mtl_aliases keys);
 
 /* The last block of this name. False if there is none: one without a name is
  * no material. */
-bool mtl_text_find_block(const struct mtl_text *t, const char *name,
+bool mtl_document_find_block(const struct mtl_document *t, const char *name,
                          struct mtl_block *b);
 
 /* A statement of its own behind the last one of the block, as far from the
  * margin as that. */
-bool mtl_text_insert(struct mtl_text *t, const struct mtl_block *b,
+bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
                      const char *key, const char *value);
 
 /* Gives the statement of the block of this name this value, wherever it is. */
-bool mtl_text_set(struct mtl_text *t, const char *name, mtl_aliases keys,
+bool mtl_document_set(struct mtl_document *t, const char *name, mtl_aliases keys,
                   const char *value);
 
 /* Removes all such statements of the block, but not the comments behind them;
  * or turns them into comments. */
-bool mtl_text_remove(struct mtl_text *t, const char *name, mtl_aliases keys);
-bool mtl_text_comment(struct mtl_text *t, const char *name, mtl_aliases keys);
+bool mtl_document_remove(struct mtl_document *t, const char *name, mtl_aliases keys);
+bool mtl_document_comment(struct mtl_document *t, const char *name, mtl_aliases keys);
 
 /* A new block at the end of the text, with the statements of the other if there
  * is such a one. */
-bool mtl_text_append_block(struct mtl_text *t, const char *name,
+bool mtl_document_append_block(struct mtl_document *t, const char *name,
                            const char *copied_from);
 
 #endif

@@ -51,7 +51,7 @@ static size_t find_option(struct word word)
     return i;
 }
 
-static void set_option(struct map_options *o, enum map_option option,
+static void set_option(struct mtl_map_options *o, enum map_option option,
                        const double values[3], struct word word)
 {
     if (option == OPTION_OFFSET)
@@ -67,10 +67,10 @@ static void set_option(struct map_options *o, enum map_option option,
 }
 
 /* Reads an option and its values; false if there is none. */
-static bool read_option(struct lex *lex, struct map_options *o)
+static bool read_option(struct lexer *lex, struct mtl_map_options *o)
 {
-    struct lex start = *lex;
-    size_t i = find_option(lex_word(lex));
+    struct lexer start = *lex;
+    size_t i = find_option(lexer_word(lex));
     double values[3] = {0, 0, 0};
     struct word word = {"", 0};
     bool has_numbers;
@@ -83,11 +83,11 @@ static bool read_option(struct lex *lex, struct map_options *o)
         values[0] = values[1] = 1;
     has_numbers = options[i].most == 3 || options[i].option == OPTION_BUMP;
     for (int n = 0; n < options[i].most; n++) {
-        if (has_numbers && lex_number(lex, &values[n]))
+        if (has_numbers && lexer_number(lex, &values[n]))
             continue;
         if (n >= options[i].least)
             break;
-        word = lex_word(lex);
+        word = lexer_word(lex);
     }
     set_option(o, options[i].option, values, word);
     return true;
@@ -95,13 +95,13 @@ static bool read_option(struct lex *lex, struct map_options *o)
 
 /* Reads options that come after the name, which some programs write, and cuts
  * them off. */
-static void cut_options(char *name, struct map_options *o)
+static void cut_options(char *name, struct mtl_map_options *o)
 {
     const char *end = name + strlen(name);
     char *cut = NULL;
 
     for (char *p = name; (p = strchr(p, ' ')) != NULL; p++) {
-        struct lex lex = {p + 1, end, 1};
+        struct lexer lex = {p + 1, end, 1};
 
         if (p == name || p[1] != '-' || !read_option(&lex, o))
             continue;
@@ -115,14 +115,14 @@ static void cut_options(char *name, struct map_options *o)
     *cut = '\0';
 }
 
-char *map_read(struct lex *lex, struct map_options *o)
+char *mtl_map_read(struct lexer *lex, struct mtl_map_options *o)
 {
     char *name;
 
-    *o = (struct map_options){.texture = {.scale = {1, 1}}, .bump_scale = 1};
+    *o = (struct mtl_map_options){.texture = {.scale = {1, 1}}, .bump_scale = 1};
     while (read_option(lex, o))
         continue;
-    name = lex_rest(lex);
+    name = lexer_rest(lex);
     if (name != NULL)
         cut_options(name, o);
     return name;

@@ -13,7 +13,7 @@
 #include "base/lexer.h"
 #include "kernels/types.h"
 
-struct map_options {
+struct mtl_map_options {
     struct texture texture; /* how it is looked up: -s, -o, -clamp */
     double bump_scale;      /* -bm */
     int unknown_count;      /* options that glim does not know */
@@ -21,6 +21,6 @@ struct map_options {
 
 /* Reads to the end of the line; options may stand on both sides of the name,
  * which is "" if it is missing. NULL when memory is out. */
-char *map_read(struct lex *lex, struct map_options *options);
+char *mtl_map_read(struct lexer *lex, struct mtl_map_options *options);
 
 #endif

@@ -20,37 +20,37 @@ static mtl_aliases map_keys[MTL_MAPS] = {
 struct writer {
     const struct scene *scene;
     const char *path;
-    struct mtl_text text;
+    struct mtl_document text;
 };
 
 static bool write_color(struct writer *w, const struct mtl_change *c,
                         mtl_aliases keys, const struct mtl_color *before,
                         const struct mtl_color *after)
 {
-    char text[3][NUMBER_TEXT_BYTES], value[3 * NUMBER_TEXT_BYTES];
+    char text[3][DECIMAL_TEXT_BYTES], value[3 * DECIMAL_TEXT_BYTES];
 
     if (after->line == 0)
-        return before->line == 0 || mtl_text_remove(&w->text, c->name, keys);
+        return before->line == 0 || mtl_document_remove(&w->text, c->name, keys);
     if (mtl_color_equal(before, after))
         return true;
     for (int i = 0; i < 3; i++)
-        number_format(text[i], after->rgb[i]);
+        decimal_format(text[i], after->rgb[i]);
     snprintf(value, sizeof value, "%s %s %s", text[0], text[1], text[2]);
-    return mtl_text_set(&w->text, c->name, keys, value);
+    return mtl_document_set(&w->text, c->name, keys, value);
 }
 
 static bool write_number(struct writer *w, const struct mtl_change *c,
                          mtl_aliases keys, const struct mtl_number *before,
                          const struct mtl_number *after)
 {
-    char text[NUMBER_TEXT_BYTES];
+    char text[DECIMAL_TEXT_BYTES];
 
     if (after->line == 0)
-        return before->line == 0 || mtl_text_remove(&w->text, c->name, keys);
+        return before->line == 0 || mtl_document_remove(&w->text, c->name, keys);
     if (mtl_number_equal(before, after))
         return true;
-    number_format(text, after->value);
-    return mtl_text_set(&w->text, c->name, keys, text);
+    decimal_format(text, after->value);
+    return mtl_document_set(&w->text, c->name, keys, text);
 }
 
 /* Ke or Ke_blackbody, whichever counts. */
@@ -58,20 +58,20 @@ static bool write_light(struct writer *w, const struct mtl_change *c)
 {
     static const struct mtl_color none = {.line = 0};
     const struct mtl_source *a = c->before, *b = c->after;
-    char text[2][NUMBER_TEXT_BYTES], value[2 * NUMBER_TEXT_BYTES];
+    char text[2][DECIMAL_TEXT_BYTES], value[2 * DECIMAL_TEXT_BYTES];
 
     if (b->kelvin.line == 0)
         return write_color(w, c, light_keys,
                            a->kelvin.line == 0 ? &a->ke : &none, &b->ke) &&
                (a->kelvin.line == 0 || b->ke.line != 0 ||
-                mtl_text_remove(&w->text, c->name, light_keys));
+                mtl_document_remove(&w->text, c->name, light_keys));
     if (mtl_number_equal(&a->kelvin, &b->kelvin) &&
         mtl_number_equal(&a->luminance, &b->luminance))
         return true;
-    number_format(text[0], b->kelvin.value);
-    number_format(text[1], b->luminance.value);
+    decimal_format(text[0], b->kelvin.value);
+    decimal_format(text[1], b->luminance.value);
     snprintf(value, sizeof value, "%s %s", text[0], text[1]);
-    return mtl_text_set(&w->text, c->name, blackbody_keys, value);
+    return mtl_document_set(&w->text, c->name, blackbody_keys, value);
 }
 
 /* Whether what stands at `at` is a statement of a map that means the texture.
@@ -80,17 +80,17 @@ static bool is_map(const struct writer *w, size_t at, mtl_aliases keys,
                    uint32_t texture)
 {
     struct mtl_statement s = {.key = at};
-    struct lex lex = mtl_text_lex(&w->text, at);
-    struct map_options options;
-    struct word word = lex_word(&lex);
+    struct lexer lex = mtl_document_lex(&w->text, at);
+    struct mtl_map_options options;
+    struct word word = lexer_word(&lex);
     char *name, *path;
     bool is_same;
 
     s.key_end = at + word.length;
-    if (!mtl_text_has_key(&w->text, &s, keys))
+    if (!mtl_document_has_key(&w->text, &s, keys))
         return false;
-    name = map_read(&lex, &options);
-    path = name == NULL ? NULL : asset_find(w->path, name);
+    name = mtl_map_read(&lex, &options);
+    path = name == NULL ? NULL : asset_path_find(w->path, name);
     is_same =
         path != NULL && strcmp(path, w->scene->texture_paths[texture]) == 0;
     free(path);
@@ -103,14 +103,14 @@ static bool find_commented_map(const struct writer *w,
                                const struct mtl_block *b, mtl_aliases keys,
                                uint32_t texture, size_t *at)
 {
-    struct lex lex = mtl_text_lex(&w->text, b->newmtl.end);
+    struct lexer lex = mtl_document_lex(&w->text, b->newmtl.end);
     const char *end = w->text.bytes + b->end;
     bool is_found = false;
 
-    for (; lex.p < end; lex_next_line(&lex)) {
+    for (; lex.p < end; lexer_next_line(&lex)) {
         size_t hash;
 
-        lex_skip_blanks(&lex);
+        lexer_skip_blanks(&lex);
         hash = (size_t)(lex.p - w->text.bytes);
         if (lex.p == end || *lex.p != '#' ||
             !is_map(w, hash + 1, keys, texture))
@@ -124,10 +124,10 @@ static bool find_commented_map(const struct writer *w,
 /* The third number is that of texels that lie in depth: the default. */
 static void print_pair(FILE *to, const char *option, struct vec2 v, int third)
 {
-    char x[NUMBER_TEXT_BYTES], y[NUMBER_TEXT_BYTES];
+    char x[DECIMAL_TEXT_BYTES], y[DECIMAL_TEXT_BYTES];
 
-    number_format_float(x, v.x);
-    number_format_float(y, v.y);
+    decimal_format_float(x, v.x);
+    decimal_format_float(y, v.y);
     fprintf(to, "%s %s %s %d ", option, x, y, third);
 }
 
@@ -137,7 +137,7 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
 {
     const struct texture *t = &w->scene->textures[s->maps[map]];
     char *name = path_seen_from(w->path, w->scene->texture_paths[s->maps[map]]);
-    char bump[NUMBER_TEXT_BYTES];
+    char bump[DECIMAL_TEXT_BYTES];
     char *text = NULL;
     size_t size_bytes;
     FILE *to = open_memstream(&text, &size_bytes);
@@ -149,7 +149,7 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
             print_pair(to, "-o", t->offset, 0);
         if (t->is_clamped != 0)
             fputs("-clamp on ", to);
-        number_format(bump, s->bump_scale);
+        decimal_format(bump, s->bump_scale);
         if (map == MTL_MAP_BUMP && s->bump_scale != 1)
             fprintf(to, "-bm %s ", bump);
         fputs(name, to);
@@ -175,14 +175,14 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
     if (was_on == is_on)
         return true;
     if (!is_on)
-        return mtl_text_comment(&w->text, c->name, map_keys[map]);
-    if (!mtl_text_find_block(&w->text, c->name, &b))
+        return mtl_document_comment(&w->text, c->name, map_keys[map]);
+    if (!mtl_document_find_block(&w->text, c->name, &b))
         return false;
     if (find_commented_map(w, &b, map_keys[map], c->after->maps[map], &hash))
-        return mtl_text_splice(&w->text, hash, 1, "");
+        return mtl_document_splice(&w->text, hash, 1, "");
     value = map_value(w, c->after, map);
     ok =
-        value != NULL && mtl_text_insert(&w->text, &b, map_keys[map][0], value);
+        value != NULL && mtl_document_insert(&w->text, &b, map_keys[map][0], value);
     free(value);
     return ok;
 }
@@ -208,8 +208,8 @@ static bool write_change(struct writer *w, const struct mtl_change *c)
     bool ok = true;
 
     if (c->copied_from != NULL) {
-        ok = mtl_text_append_block(&w->text, c->name, c->copied_from);
-    } else if (!mtl_text_find_block(&w->text, c->name, &block)) {
+        ok = mtl_document_append_block(&w->text, c->name, c->copied_from);
+    } else if (!mtl_document_find_block(&w->text, c->name, &block)) {
         /* somebody has removed it from the file: it comes back */
         struct mtl_source none = mtl_source_empty();
         struct mtl_change whole = {c->name, c->name, &none, c->after};
@@ -235,7 +235,7 @@ bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
     struct writer w = {.scene = scene, .path = path};
     bool ok;
 
-    ok = mtl_text_init(&w.text, text, size_bytes);
+    ok = mtl_document_init(&w.text, text, size_bytes);
     /* new ones copy blocks that are as the file has them */
     for (size_t i = 0; ok && i < change_count; i++)
         ok = changes[i].copied_from == NULL || write_change(&w, &changes[i]);

@@ -23,16 +23,16 @@
 struct parser {
     struct scene *scene;
     const char *path;
-    struct report *report;
+    struct warnings *report;
     struct error *err;
-    struct lex lex;
+    struct lexer lex;
     uint64_t statement_count, unknown_count;
     size_t position_capacity, normal_capacity, uv_capacity;
-    struct names objects;
-    struct names materials;   /* as used; 0 is "": none yet */
+    struct name_table objects;
+    struct name_table materials;   /* as used; 0 is "": none yet */
     uint64_t *material_lines; /* of their first use */
     size_t material_line_capacity;
-    struct names libraries; /* paths of the MTL files read */
+    struct name_table libraries; /* paths of the MTL files read */
     struct faces faces;
     uint32_t object, material;
     bool has_objects; /* an o statement: g is only a group */
@@ -51,13 +51,13 @@ static bool read_numbers(struct parser *p, const char *key, int least, int most,
                          double *values)
 {
     for (int i = 0; i < most; i++) {
-        if (lex_number(&p->lex, &values[i]))
+        if (lexer_number(&p->lex, &values[i]))
             continue;
-        if (i >= least && lex_at_line_end(&p->lex))
+        if (i >= least && lexer_at_line_end(&p->lex))
             return true;
         return fail(p->err,
                     "%s:%" PRIu64 ": found %s after %s, expected a number",
-                    p->path, p->lex.line, word_quote(lex_word(&p->lex)).text,
+                    p->path, p->lex.line, word_quote(lexer_word(&p->lex)).text,
                     key);
     }
     return true;
@@ -81,11 +81,11 @@ static void look_for_color(struct parser *p)
     double ignored;
     int count = 0;
 
-    while (!lex_at_line_end(&p->lex) && lex_number(&p->lex, &ignored))
+    while (!lexer_at_line_end(&p->lex) && lexer_number(&p->lex, &ignored))
         count++;
     p->has_colors = count >= 3;
     if (p->has_colors)
-        report_add(p->report, "vertices with colours",
+        warnings_add(p->report, "vertices with colours",
                    "%s:%" PRIu64 ": found the colour of a vertex: glim has "
                    "colours of materials and textures only",
                    p->path, p->lex.line);
@@ -105,7 +105,7 @@ static bool read_position(struct parser *p)
     memcpy(scene->file_positions + 3 * (size_t)scene->position_count, xyz,
            sizeof xyz);
     scene->position_count++;
-    if (!p->has_colors && !lex_at_line_end(&p->lex))
+    if (!p->has_colors && !lexer_at_line_end(&p->lex))
         look_for_color(p);
     return true;
 }
@@ -174,8 +174,8 @@ static bool read_object(struct parser *p, bool is_group)
     if (is_group && p->has_objects)
         return true;
     p->has_objects |= !is_group;
-    name = lex_rest(&p->lex);
-    p->object = name == NULL ? NO_NAME : names_add(&p->objects, name);
+    name = lexer_rest(&p->lex);
+    p->object = name == NULL ? NO_NAME : name_table_add(&p->objects, name);
     free(name);
     return p->object != NO_NAME || out_of_memory(p);
 }
@@ -183,11 +183,11 @@ static bool read_object(struct parser *p, bool is_group)
 static bool read_usemtl(struct parser *p)
 {
     uint64_t line = p->lex.line;
-    char *name = lex_rest(&p->lex);
+    char *name = lexer_rest(&p->lex);
     uint32_t known = p->materials.count;
     void *lines = p->material_lines;
 
-    p->material = name == NULL ? NO_NAME : names_add(&p->materials, name);
+    p->material = name == NULL ? NO_NAME : name_table_add(&p->materials, name);
     free(name);
     if (p->material == NO_NAME ||
         !grow_array(&lines, &p->material_line_capacity, p->materials.count,
@@ -202,7 +202,7 @@ static bool read_usemtl(struct parser *p)
 static bool load_library(struct parser *p, const char *name, char *path)
 {
     uint32_t known = p->libraries.count;
-    uint32_t index = names_add(&p->libraries, path);
+    uint32_t index = name_table_add(&p->libraries, path);
     struct error why;
     char *text;
     size_t size_bytes;
@@ -213,7 +213,7 @@ static bool load_library(struct parser *p, const char *name, char *path)
     if (index < known)
         return true;
     if (!file_read(path, &text, &size_bytes, &why)) {
-        report_add_named(p->report, "lost material files", name, "%s",
+        warnings_add_named(p->report, "lost material files", name, "%s",
                          why.text);
         return true;
     }
@@ -225,18 +225,18 @@ static bool load_library(struct parser *p, const char *name, char *path)
 static bool load_library_named(struct parser *p, const char *name)
 {
     size_t length = strlen(name);
-    char *path = asset_find(p->path, name);
+    char *path = asset_path_find(p->path, name);
     bool ok;
 
     if (length >= PATH_MAX) {
-        report_add(p->report, "material files with endless names",
+        warnings_add(p->report, "material files with endless names",
                    "%s:%" PRIu64 ": found a name of %zu bytes for mtllib, "
                    "expected fewer than %d: its materials will be grey",
                    p->path, p->lex.line, length, PATH_MAX);
         return true;
     }
     if (path == NULL) {
-        report_add_named(p->report, "lost material files", name,
+        warnings_add_named(p->report, "lost material files", name,
                          "%s:%" PRIu64 ": found no file '%s' for mtllib: its "
                          "materials will be grey",
                          p->path, p->lex.line, name);
@@ -281,13 +281,13 @@ static bool load_libraries(struct parser *p, char *names)
 /* One name with blanks in it, or several. */
 static bool read_mtllib(struct parser *p)
 {
-    char *rest = lex_rest(&p->lex);
+    char *rest = lexer_rest(&p->lex);
     char *path;
     bool ok;
 
     if (rest == NULL)
         return out_of_memory(p);
-    path = asset_find(p->path, rest);
+    path = asset_path_find(p->path, rest);
     ok = path != NULL ? load_library(p, rest, path) : load_libraries(p, rest);
     free(path);
     free(rest);
@@ -314,7 +314,7 @@ static bool skip_unknown(struct parser *p, struct word key)
     int length = key.length < 40 ? (int)key.length : 40;
 
     if (is_free_form(key)) {
-        report_add(p->report, "statements of free forms",
+        warnings_add(p->report, "statements of free forms",
                    "%s:%" PRIu64 ": found '%.*s': free-form curves and "
                    "surfaces are not drawn",
                    p->path, p->lex.line, length, key.start);
@@ -323,7 +323,7 @@ static bool skip_unknown(struct parser *p, struct word key)
     p->statement_count--;
     p->unknown_count++;
     snprintf(name, sizeof name, "%.*s", length, key.start);
-    report_add_named(p->report, "unknown statements", name,
+    warnings_add_named(p->report, "unknown statements", name,
                      "%s:%" PRIu64 ": found '%s', which glim does not use",
                      p->path, p->lex.line, name);
     return true;
@@ -331,7 +331,7 @@ static bool skip_unknown(struct parser *p, struct word key)
 
 static bool read_statement(struct parser *p)
 {
-    struct word key = lex_word(&p->lex);
+    struct word key = lexer_word(&p->lex);
 
     p->statement_count++;
     if (word_is(key, "v"))
@@ -358,19 +358,19 @@ static bool resolve_materials(struct parser *p)
 {
     struct scene *scene = p->scene;
     uint32_t *numbers = alloc_array(p->materials.count, sizeof *numbers);
-    struct names known = {0};
+    struct name_table known = {0};
     bool ok = numbers != NULL;
 
     for (uint32_t i = 0; ok && i < scene->material_count; i++)
-        ok = names_add(&known, scene->material_names[i]) != NO_NAME;
+        ok = name_table_add(&known, scene->material_names[i]) != NO_NAME;
     for (uint32_t i = 0; ok && i < p->materials.count; i++) {
         const char *name = p->materials.items[i];
 
-        numbers[i] = names_find(&known, name);
+        numbers[i] = name_table_find(&known, name);
         if (numbers[i] != NO_NAME)
             continue;
         numbers[i] = 0;
-        report_add_named(p->report, "unknown materials", name,
+        warnings_add_named(p->report, "unknown materials", name,
                          "%s:%" PRIu64 ": found no material '%s': grey is used "
                          "for it",
                          p->path, p->material_lines[i], name);
@@ -378,7 +378,7 @@ static bool resolve_materials(struct parser *p)
     for (uint32_t i = 0; ok && i < scene->tri_count; i++)
         scene->tris[i].material = numbers[scene->tris[i].material];
     free(numbers);
-    names_free(&known);
+    name_table_free(&known);
     return ok || out_of_memory(p);
 }
 
@@ -394,8 +394,8 @@ static bool looks_binary(const char *text, size_t size_bytes)
 
 static bool parse_lines(struct parser *p)
 {
-    for (; p->lex.p < p->lex.end; lex_next_line(&p->lex)) {
-        if (!lex_at_line_end(&p->lex) && !read_statement(p))
+    for (; p->lex.p < p->lex.end; lexer_next_line(&p->lex)) {
+        if (!lexer_at_line_end(&p->lex) && !read_statement(p))
             return false;
     }
     if (p->statement_count == 0)
@@ -418,8 +418,8 @@ static bool begin(struct parser *p)
         p->scene->path = xstrdup(p->path);
     if (!mtl_add_default(p->scene, p->err))
         return false;
-    if (names_add(&p->objects, "") == NO_NAME ||
-        names_add(&p->materials, "") == NO_NAME ||
+    if (name_table_add(&p->objects, "") == NO_NAME ||
+        name_table_add(&p->materials, "") == NO_NAME ||
         !grow_array(&lines, &p->material_line_capacity, 1,
                     sizeof *p->material_lines))
         return out_of_memory(p);
@@ -428,7 +428,7 @@ static bool begin(struct parser *p)
 }
 
 bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
-               const char *path, struct report *report, struct error *err)
+               const char *path, struct warnings *report, struct error *err)
 {
     struct parser p = {
         .scene = scene,
@@ -444,22 +444,22 @@ bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
                     "%s: not an OBJ file: found binary data or UTF-16, "
                     "expected text",
                     path);
-    lex_init(&p.lex, text, size_bytes);
+    lexer_init(&p.lex, text, size_bytes);
     ok = begin(&p) && parse_lines(&p);
     /* the scene owns the names of its objects now */
     scene->object_names = p.objects.items;
     scene->object_count = p.objects.count;
     p.objects.items = NULL;
     p.objects.count = 0;
-    names_free(&p.objects);
-    names_free(&p.materials);
-    names_free(&p.libraries);
+    name_table_free(&p.objects);
+    name_table_free(&p.materials);
+    name_table_free(&p.libraries);
     faces_free(&p.faces);
     free(p.material_lines);
     return ok;
 }
 
-bool obj_read(struct scene *scene, const char *path, struct report *report,
+bool obj_read(struct scene *scene, const char *path, struct warnings *report,
               struct error *err)
 {
     char *text;

@@ -14,12 +14,12 @@
 
 /* Adds vertices, triangles, objects and materials (through mtl.h) to a zeroed
  * scene. Faces with a bad index are dropped and reported. */
-bool obj_read(struct scene *scene, const char *path, struct report *report,
+bool obj_read(struct scene *scene, const char *path, struct warnings *report,
               struct error *err);
 
 /* The same from text in memory, which need not end in NUL; `path` is for
  * messages and to find MTL files. */
 bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
-               const char *path, struct report *report, struct error *err);
+               const char *path, struct warnings *report, struct error *err);
 
 #endif

@@ -23,7 +23,7 @@ static void turn_z_up(struct scene *scene)
 }
 
 bool scene_load(struct scene *scene, const char *path, bool up_is_z,
-                struct report *report, struct error *err)
+                struct warnings *report, struct error *err)
 {
     if (!obj_read(scene, path, report, err))
         return false;

@@ -15,6 +15,6 @@
 /* Loads an OBJ file with its MTL files and textures and finishes the scene.
  * up_is_z turns z-up models to y-up ((x, y, z) becomes (x, z, -y)). */
 bool scene_load(struct scene *scene, const char *path, bool up_is_z,
-                struct report *report, struct error *err);
+                struct warnings *report, struct error *err);
 
 #endif

@@ -415,7 +415,7 @@ static void cut_ears(struct polygon *g, const double *corners, uint32_t n)
     cut_ring(g, count);
 }
 
-bool polygon_cut(struct polygon *g, const double *corners, uint32_t n)
+bool polygon_triangulate(struct polygon *g, const double *corners, uint32_t n)
 {
     enum monotone_result result;
     struct plane plane;

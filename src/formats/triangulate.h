@@ -40,7 +40,7 @@ struct polygon {
 /* Fills triangles from the corners (3 doubles each, finite, at least 3). They
  * keep the polygon's winding. Of thousands of corners that cross themselves
  * some have no triangle. False when memory is out. */
-bool polygon_cut(struct polygon *polygon, const double *corners,
+bool polygon_triangulate(struct polygon *polygon, const double *corners,
                  uint32_t corner_count);
 
 void polygon_free(struct polygon *polygon);

@@ -8,7 +8,7 @@
 
 #include "base/decimal.h"
 
-bool view_read(struct view *view, const char *path, struct report *report,
+bool view_read(struct view *view, const char *path, struct warnings *report,
                struct error *err)
 {
     char *text;
@@ -27,8 +27,8 @@ static void write_numbers(FILE *to, const char *key, const double *values,
 {
     fputs(key, to);
     for (int i = 0; i < count; i++) {
-        char text[NUMBER_TEXT_BYTES];
-        number_format(text, values[i]);
+        char text[DECIMAL_TEXT_BYTES];
+        decimal_format(text, values[i]);
         fprintf(to, " %s", text);
     }
 }
@@ -87,7 +87,7 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
         break;
     case KEY_SKY:
         if (sky)
-            fprintf(to, "sky %s%s\n", sky, lex_rest_guard(sky));
+            fprintf(to, "sky %s%s\n", sky, lexer_rest_guard(sky));
         break;
     case KEY_SKY_STRENGTH:
         if (v->sky_strength < 1 || v->sky_strength > 1)
@@ -130,7 +130,7 @@ struct writer {
 /* A line that ends where the text does gets an end of its own. A backslash
  * there has joined nothing: now it joins an empty line. So does a backslash
  * before a carriage return, which the line feed belongs to. */
-static void keep_line(FILE *to, const char *line, const struct lex *after,
+static void keep_line(FILE *to, const char *line, const struct lexer *after,
                       bool has_end)
 {
     char last = after->p[-1];
@@ -142,17 +142,17 @@ static void keep_line(FILE *to, const char *line, const struct lex *after,
 
 /* The line as the view has it now, if it has a key; it ends where reading says
  * so. */
-static void write_line_over(struct writer *w, struct lex *lex)
+static void write_line_over(struct writer *w, struct lexer *lex)
 {
     const char *line = lex->p;
-    struct lex start = *lex;
+    struct lexer start = *lex;
     const struct view_key *key =
-        lex_at_line_end(&start) ? NULL : view_find_key(lex_word(&start));
+        lexer_at_line_end(&start) ? NULL : view_find_key(lexer_word(&start));
     struct error ignored;
     bool has_end;
 
     view_parse_line(&w->old, lex, &ignored);
-    has_end = lex_next_line(lex);
+    has_end = lexer_next_line(lex);
     if (!key) {
         keep_line(w->to, line, lex, has_end);
     } else if (!w->is_written[key - view_keys]) {
@@ -165,9 +165,9 @@ static void write_line_over(struct writer *w, struct lex *lex)
  * that were not there. */
 static void write_over(struct writer *w, const char *text, size_t size_bytes)
 {
-    struct lex lex;
+    struct lexer lex;
 
-    lex_init(&lex, text, size_bytes);
+    lexer_init(&lex, text, size_bytes);
     while (lex.p < lex.end)
         write_line_over(w, &lex);
     for (size_t i = 0; i < VIEW_KEYS; i++) {
@@ -181,7 +181,7 @@ static void write_over(struct writer *w, const char *text, size_t size_bytes)
 static char *sky_name(const char *sky_path, const char *path)
 {
     char *name = path_seen_from(path, sky_path);
-    char *whole = *name == '\0' || lex_is_blank(*name) ? xformat("./%s", name)
+    char *whole = *name == '\0' || lexer_is_blank(*name) ? xformat("./%s", name)
                                                        : xstrdup(name);
 
     free(name);
@@ -198,7 +198,7 @@ static bool check_sky(const char *sky_path, const char *path, struct error *err)
                     "%s: found a line end in the name of the sky, "
                     "expected none",
                     path);
-    if (length > 0 && lex_is_blank(sky_path[length - 1]))
+    if (length > 0 && lexer_is_blank(sky_path[length - 1]))
         return fail(err,
                     "%s: found a blank at the end of the name of the sky, "
                     "expected none",
@@ -210,7 +210,7 @@ bool view_format(const struct view *view, const char *path,
                  const char *old_text, size_t old_bytes, char **text,
                  size_t *size_bytes, struct error *err)
 {
-    struct report ignored = {0};
+    struct warnings ignored = {0};
     struct view scratch;
     struct writer w = {.view = view,
                        .old = {.view = &scratch,
@@ -230,7 +230,7 @@ bool view_format(const struct view *view, const char *path,
     view_init(&scratch);
     write_over(&w, old_text, old_bytes);
     view_free(&scratch);
-    report_free(&ignored);
+    warnings_free(&ignored);
     free(sky);
     if (fclose(w.to) == 0)
         return true;

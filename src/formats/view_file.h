@@ -14,7 +14,7 @@
 #include "formats/view_parse.h"
 
 /* view_parse() of a file. */
-bool view_read(struct view *view, const char *path, struct report *report,
+bool view_read(struct view *view, const char *path, struct warnings *report,
                struct error *err);
 
 /* Writes the file, atomically. Lines of a file that is there keep their order,

@@ -58,16 +58,16 @@ static bool fail_at(const struct view_reader *r, struct word found,
 static bool read_number(struct view_reader *r, const struct view_key *key,
                         double *value, struct error *err)
 {
-    struct lex before = *r->lex;
-    bool ok = !lex_at_line_end(r->lex) && lex_number(r->lex, value) &&
+    struct lexer before = *r->lex;
+    bool ok = !lexer_at_line_end(r->lex) && lexer_number(r->lex, value) &&
               *value >= key->least && *value <= key->greatest &&
               (!key->is_whole || *value == floor(*value));
 
     if (ok)
         return true;
     struct word found = {.length = 0};
-    if (!lex_at_line_end(&before))
-        found = lex_word(&before);
+    if (!lexer_at_line_end(&before))
+        found = lexer_word(&before);
     return fail_at(r, found, key->expected, key->name, err);
 }
 
@@ -149,8 +149,8 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
 
     if (!read_number(r, view_key, &number, err))
         return false;
-    while (!lex_at_line_end(r->lex)) {
-        struct word name = lex_word(r->lex);
+    while (!lexer_at_line_end(r->lex)) {
+        struct word name = lexer_word(r->lex);
         const struct view_key *key = view_find_key(name);
 
         if (!key || !is_of_pose(key))
@@ -174,7 +174,7 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
 
 static bool read_sky(struct view_reader *r, struct error *err)
 {
-    char *name = lex_rest(r->lex);
+    char *name = lexer_rest(r->lex);
 
     if (!name || *name == '\0') {
         free(name);
@@ -194,8 +194,8 @@ static bool read_key(struct view_reader *r, const struct view_key *key,
 {
     if (!read_numbers(r, key, r->view, err))
         return false;
-    if (!lex_at_line_end(r->lex))
-        return fail_at(r, lex_word(r->lex), key->expected, key->name, err);
+    if (!lexer_at_line_end(r->lex))
+        return fail_at(r, lexer_word(r->lex), key->expected, key->name, err);
     if (key->id == KEY_EYE)
         r->eye_line = r->lex->line;
     if (key->id == KEY_AT)
@@ -208,10 +208,10 @@ static bool read_tone(struct view_reader *r, const struct view_key *key,
 {
     struct word name = {.length = 0};
 
-    if (!lex_at_line_end(r->lex))
-        name = lex_word(r->lex);
+    if (!lexer_at_line_end(r->lex))
+        name = lexer_word(r->lex);
     for (uint32_t i = 0; i < TONES; i++) {
-        if (!word_is(name, view_tones[i]) || !lex_at_line_end(r->lex))
+        if (!word_is(name, view_tones[i]) || !lexer_at_line_end(r->lex))
             continue;
         r->view->tone = i;
         return true;
@@ -230,14 +230,14 @@ static bool read_assign(struct view_reader *r, struct error *err)
                 r->path, line);
 }
 
-bool view_parse_line(void *context, struct lex *lex, struct error *err)
+bool view_parse_line(void *context, struct lexer *lex, struct error *err)
 {
     struct view_reader *r = context;
 
     r->lex = lex;
-    if (lex_at_line_end(r->lex))
+    if (lexer_at_line_end(r->lex))
         return true;
-    struct word name = lex_word(r->lex);
+    struct word name = lexer_word(r->lex);
     const struct view_key *key = view_find_key(name);
     if (key && key->id == KEY_SKY)
         return read_sky(r, err);
@@ -249,7 +249,7 @@ bool view_parse_line(void *context, struct lex *lex, struct error *err)
         return read_shot(r, key, err);
     if (key)
         return read_key(r, key, err);
-    report_add(r->report, "lines with an unknown key",
+    warnings_add(r->report, "lines with an unknown key",
                "%s:%" PRIu64 ": found the unknown key %s, skipped", r->path,
                r->lex->line, word_quote(name).text);
     return true;
@@ -274,10 +274,10 @@ static bool finish_camera(struct view_reader *r, struct error *err)
 }
 
 bool view_parse(struct view *view, const char *text, size_t size_bytes,
-                const char *path, struct report *report, struct error *err)
+                const char *path, struct warnings *report, struct error *err)
 {
     struct view_reader r = {.view = view, .path = path, .report = report};
 
-    return lex_lines(text, size_bytes, view_parse_line, &r, err) &&
+    return lexer_lines(text, size_bytes, view_parse_line, &r, err) &&
            finish_camera(&r, err);
 }

@@ -54,16 +54,16 @@ const struct view_key *view_find_key(struct word name);
 struct view_reader {
     struct view *view;
     const char *path;
-    struct lex *lex;
-    struct report *report;
+    struct lexer *lex;
+    struct warnings *report;
     uint64_t eye_line, at_line; /* 0: not in this file */
 };
 
-lex_take_line view_parse_line;
+lexer_take_line view_parse_line;
 
 /* Reads `key value` lines over what `view` holds. An unknown key is a warning.
  * `path` is for messages, and names in the text are seen from its folder. */
 bool view_parse(struct view *view, const char *text, size_t size_bytes,
-                const char *path, struct report *report, struct error *err);
+                const char *path, struct warnings *report, struct error *err);
 
 #endif

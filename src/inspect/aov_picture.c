@@ -30,7 +30,7 @@ static void trace_row(void *context, uint32_t y, int worker)
     }
 }
 
-void first_hits_of_pixels(struct pool *pool, const struct world *world,
+void aov_of_pixels(struct pool *pool, const struct world *world,
                           int width, int height, float *numbers)
 {
     struct job j = {world, width, numbers};

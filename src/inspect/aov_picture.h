@@ -18,7 +18,7 @@
 /* What the world's settings ask for, no light, of the surfaces behind the
  * middles of all pixels of the world's camera, which sees width x height of
  * them: 3 numbers a pixel. Blocks. */
-void first_hits_of_pixels(struct pool *pool, const struct world *world,
+void aov_of_pixels(struct pool *pool, const struct world *world,
                           int width, int height, float *numbers);
 
 #endif

@@ -28,7 +28,7 @@ static void line(struct frame *f, const struct camera *c, struct vec3 a,
     struct projected p[2];
 
     if (projection_line(c, a, b, p))
-        drawing_line(f, p[0].x, p[0].y, p[1].x, p[1].y, rgb);
+        raster_line(f, p[0].x, p[0].y, p[1].x, p[1].y, rgb);
 }
 
 /* ---- boxes ---- */
@@ -112,7 +112,7 @@ static void draw_box(struct frame *f, const struct camera *c,
     }
 }
 
-uint32_t sketch_boxes(struct frame *frame, const struct camera *camera,
+uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
                       const struct bvh *bvh, uint32_t level)
 {
     struct level l = {0};
@@ -124,12 +124,12 @@ uint32_t sketch_boxes(struct frame *frame, const struct camera *camera,
     }
     if (l.count > 0)
         qsort(l.boxes, l.count, sizeof *l.boxes, farther_first);
-    first = l.count > SKETCH_BOXES_MAX ? l.count - SKETCH_BOXES_MAX : 0;
+    first = l.count > OVERLAY_BOXES_MAX ? l.count - OVERLAY_BOXES_MAX : 0;
     for (uint32_t i = first; i < l.count; i++) {
         double part = (double)(i - first + 1) / (l.count - first);
 
         draw_box(frame, camera, &l.boxes[i],
-                 drawing_dim(BOX_COLOR,
+                 raster_dim(BOX_COLOR,
                              BOX_DIMMEST + (1 - BOX_DIMMEST) * part));
     }
     free(l.boxes);
@@ -138,8 +138,8 @@ uint32_t sketch_boxes(struct frame *frame, const struct camera *camera,
 
 /* ---- paths ---- */
 
-void sketch_trail(struct frame *frame, const struct camera *camera,
-                  const struct trail *trail, int count)
+void overlay_trail(struct frame *frame, const struct camera *camera,
+                  const struct path_record *trail, int count)
 {
     struct projected p;
 
@@ -147,9 +147,9 @@ void sketch_trail(struct frame *frame, const struct camera *camera,
         line(frame, camera, trail->steps[i].from, trail->steps[i].to,
              i == count - 1 ? STEP_COLOR : TRAIL_COLOR);
     for (int i = 0; i < count; i++) {
-        if (trail->steps[i].way != TRAIL_SKY &&
+        if (trail->steps[i].way != PATH_RECORD_SKY &&
             projection_point(camera, trail->steps[i].to, &p))
-            drawing_dot(frame, p.x, p.y, VERTEX_COLOR);
+            raster_dot(frame, p.x, p.y, VERTEX_COLOR);
     }
 }
 
@@ -171,8 +171,8 @@ static uint32_t color_of(struct vec3 weight)
            (uint32_t)(weight.y * scale) << 8 | (uint32_t)(weight.z * scale);
 }
 
-void sketch_lobes(struct frame *frame, const struct camera *camera,
-                  const struct trail_lobes *l)
+void overlay_lobes(struct frame *frame, const struct camera *camera,
+                  const struct path_record_lobes *l)
 {
     float length = LOBE_LENGTH * l->distance;
     float top = 0.0f;

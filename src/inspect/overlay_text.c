@@ -24,19 +24,19 @@ static const char *material_of(const struct scene *scene, uint32_t tri)
     return *name ? name : "no material";
 }
 
-static char *next_line(struct legend *l)
+static char *next_line(struct overlay_text *l)
 {
     return l->lines[l->count++];
 }
 
-static const char *way_name(const struct trail_step *s)
+static const char *way_name(const struct path_record_step *s)
 {
     switch (s->way) {
-    case TRAIL_SKY: return "sky";
-    case TRAIL_ENDED: return "end";
-    case TRAIL_ROULETTE: return "roulette";
-    case TRAIL_REFLECTED: return "reflect";
-    case TRAIL_TRANSMITTED: break;
+    case PATH_RECORD_SKY: return "sky";
+    case PATH_RECORD_ENDED: return "end";
+    case PATH_RECORD_ROULETTE: return "roulette";
+    case PATH_RECORD_REFLECTED: return "reflect";
+    case PATH_RECORD_TRANSMITTED: break;
     }
     return "transmit";
 }
@@ -64,10 +64,10 @@ static void format_numbers(char text[NUMBERS_BYTES], const double *values,
     }
 }
 
-static void add_step(struct legend *l, const struct scene *scene,
-                     const struct trail_step *s, int number)
+static void add_step(struct overlay_text *l, const struct scene *scene,
+                     const struct path_record_step *s, int number)
 {
-    bool goes_on = s->way == TRAIL_REFLECTED || s->way == TRAIL_TRANSMITTED;
+    bool goes_on = s->way == PATH_RECORD_REFLECTED || s->way == PATH_RECORD_TRANSMITTED;
     double pdf = (double)s->pdf;
     double place[3] = {file_coordinate(scene, s->to.x, 0),
                        file_coordinate(scene, s->to.y, 1),
@@ -76,16 +76,16 @@ static void add_step(struct legend *l, const struct scene *scene,
     char pdf_text[NUMBERS_BYTES] = "";
     char material[MATERIAL_BYTES];
 
-    if (s->way != TRAIL_SKY)
+    if (s->way != PATH_RECORD_SKY)
         format_numbers(place_text, place, 3, PLACE_COLS);
     if (goes_on && pdf > 0)
         format_numbers(pdf_text, &pdf, 1, PDF_COLS);
     else if (goes_on)
         snprintf(pdf_text, sizeof pdf_text, "delta");
-    columns_fit(material, sizeof material,
-                s->way == TRAIL_SKY ? "" : material_of(scene, s->hit.tri),
+    text_width_fit(material, sizeof material,
+                s->way == PATH_RECORD_SKY ? "" : material_of(scene, s->hit.tri),
                 MATERIAL_COLS);
-    snprintf(next_line(l), LEGEND_BYTES,
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
              material, PLACE_COLS, place_text, way_name(s),
              (double)s->throughput.x, (double)s->throughput.y,
@@ -93,31 +93,31 @@ static void add_step(struct legend *l, const struct scene *scene,
              (double)s->light.y, (double)s->light.z);
 }
 
-void legend_trail(struct legend *l, const struct scene *scene,
-                  const struct trail *trail, int count)
+void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
+                  const struct path_record *trail, int count)
 {
-    int first = count > LEGEND_STEPS ? count - LEGEND_STEPS : 0;
+    int first = count > OVERLAY_TEXT_STEPS ? count - OVERLAY_TEXT_STEPS : 0;
 
     l->count = 0;
-    snprintf(next_line(l), LEGEND_BYTES, "%2s %-10s %-17s %-8s %-14s %-6s %s",
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%2s %-10s %-17s %-8s %-14s %-6s %s",
              "#", "material", "position", "way", "throughput", "pdf", "light");
     for (int i = first; i < count; i++)
         add_step(l, scene, &trail->steps[i], i + 1);
-    snprintf(next_line(l), LEGEND_BYTES,
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "step %d of %d; radiance of the whole path %.4g %.4g %.4g", count,
              trail->vertices, (double)trail->radiance.x,
              (double)trail->radiance.y, (double)trail->radiance.z);
 }
 
-static void add_direction(struct legend *l, const char *name, struct vec3 d)
+static void add_direction(struct overlay_text *l, const char *name, struct vec3 d)
 {
     /* + 0: -0 becomes 0 */
-    snprintf(next_line(l), LEGEND_BYTES, "%-22s %6.3f %6.3f %6.3f", name,
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%-22s %6.3f %6.3f %6.3f", name,
              (double)d.x + 0, (double)d.y + 0, (double)d.z + 0);
 }
 
-void legend_lobes(struct legend *l, const struct scene *scene,
-                  const struct trail_lobes *lobes)
+void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
+                  const struct path_record_lobes *lobes)
 {
     struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
     float cosine = f_min(v3_dot(lobes->wo, lobes->n), 1.0f);
@@ -134,15 +134,15 @@ void legend_lobes(struct legend *l, const struct scene *scene,
         lo = i == 0 ? pdf : f_min(lo, pdf);
         deltas += pdf == 0.0f ? 1 : 0;
     }
-    columns_cut(material, sizeof material, material_of(scene, lobes->tri),
+    text_width_cut(material, sizeof material, material_of(scene, lobes->tri),
                 LOBES_COLS);
-    snprintf(next_line(l), LEGEND_BYTES, "%s, seen %.1f degrees off n",
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%s, seen %.1f degrees off n",
              material, angle_deg(acos((double)cosine)));
     add_direction(l, "n normal, green", lobes->n);
     add_direction(l, "t tangent, red", lobes->t);
     add_direction(l, "b bitangent, blue", lobes->b);
-    snprintf(next_line(l), LEGEND_BYTES,
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%d of %d samples go on, %d as deltas; pdf %.3g to %.3g",
-             lobes->count, TRAIL_LOBES, deltas, (double)lo, (double)hi);
-    add_direction(l, "mean weight", v3_scale(sum, 1.0f / (float)TRAIL_LOBES));
+             lobes->count, PATH_RECORD_LOBES, deltas, (double)lo, (double)hi);
+    add_direction(l, "mean weight", v3_scale(sum, 1.0f / (float)PATH_RECORD_LOBES));
 }

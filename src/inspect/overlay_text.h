@@ -16,21 +16,21 @@
 
 /* Lines of a path's table, at most: the window must leave room for the picture
  * at 80x24. */
-#define LEGEND_STEPS 6
-#define LEGEND_LINES (LEGEND_STEPS + 2)
-#define LEGEND_BYTES 256
+#define OVERLAY_TEXT_STEPS 6
+#define OVERLAY_TEXT_LINES (OVERLAY_TEXT_STEPS + 2)
+#define OVERLAY_TEXT_BYTES 256
 
-struct legend {
-    char lines[LEGEND_LINES][LEGEND_BYTES];
+struct overlay_text {
+    char lines[OVERLAY_TEXT_LINES][OVERLAY_TEXT_BYTES];
     int count;
 };
 
 /* A table of the first `count` steps, or of the last of them if there are more,
  * and below it what the whole path has gathered. */
-void legend_trail(struct legend *l, const struct scene *scene,
-                  const struct trail *trail, int count);
+void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
+                  const struct path_record *trail, int count);
 
-void legend_lobes(struct legend *l, const struct scene *scene,
-                  const struct trail_lobes *lobes);
+void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
+                  const struct path_record_lobes *lobes);
 
 #endif

@@ -27,29 +27,29 @@ static bool is_same(struct vec3 a, struct vec3 b)
 }
 
 /* On which side of the face does the path go on? */
-static enum trail_way side_of(const struct world *w, struct hit h,
+static enum path_record_way side_of(const struct world *w, struct hit h,
                               struct vec3 before, struct vec3 after)
 {
     struct vec3 ng = w->tris[h.tri].ng;
 
     if (v3_is_zero(ng))
-        return TRAIL_ENDED;
-    return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f ? TRAIL_REFLECTED
-                                                         : TRAIL_TRANSMITTED;
+        return PATH_RECORD_ENDED;
+    return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f ? PATH_RECORD_REFLECTED
+                                                         : PATH_RECORD_TRANSMITTED;
 }
 
-static enum trail_way way_of(const struct world *w, struct ray before,
+static enum path_record_way way_of(const struct world *w, struct ray before,
                              const struct path *after, struct hit h,
                              bool goes_on)
 {
     if (h.tri == NO_INDEX)
-        return TRAIL_SKY;
+        return PATH_RECORD_SKY;
     if (goes_on)
         return side_of(w, h, before.d, after->ray.d);
-    return is_same(before.o, after->ray.o) ? TRAIL_ENDED : TRAIL_ROULETTE;
+    return is_same(before.o, after->ray.o) ? PATH_RECORD_ENDED : PATH_RECORD_ROULETTE;
 }
 
-void trail_follow(struct trail *t, const struct world *w, uint32_t x,
+void path_record_follow(struct path_record *t, const struct world *w, uint32_t x,
                   uint32_t y, uint64_t index)
 {
     struct path_start start = path_begin(&w->settings, x, y, index);
@@ -63,9 +63,9 @@ void trail_follow(struct trail *t, const struct world *w, uint32_t x,
         struct hit h;
 
         goes_on = path_advance(w, &p, (uint32_t)++t->vertices, NULL, &h);
-        if (t->count == TRAIL_STEPS)
+        if (t->count == PATH_RECORD_STEPS)
             continue;
-        t->steps[t->count++] = (struct trail_step){
+        t->steps[t->count++] = (struct path_record_step){
             .from = before.ray.o,
             .to = end_of(w, before.ray, h),
             .hit = h,
@@ -78,7 +78,7 @@ void trail_follow(struct trail *t, const struct world *w, uint32_t x,
     t->radiance = p.out.radiance;
 }
 
-static void add_lobe(struct trail_lobes *l, const struct bsdf *b,
+static void add_lobe(struct path_record_lobes *l, const struct bsdf *b,
                      const struct vertex *v, struct vec3 wo, struct sampler s)
 {
     struct bsdf_sample sample;
@@ -94,7 +94,7 @@ static void add_lobe(struct trail_lobes *l, const struct bsdf *b,
     l->count++;
 }
 
-bool trail_scatter(struct trail_lobes *l, const struct world *w, uint32_t x,
+bool path_record_scatter(struct path_record_lobes *l, const struct world *w, uint32_t x,
                    uint32_t y)
 {
     struct ray r = camera_ray(w->settings.camera, x, y, v2(0.5f, 0.5f));
@@ -103,7 +103,7 @@ bool trail_scatter(struct trail_lobes *l, const struct world *w, uint32_t x,
     struct bsdf b;
     struct hit h;
 
-    *l = (struct trail_lobes){0};
+    *l = (struct path_record_lobes){0};
     if (!hit_closest(w, r, &h))
         return false;
     m = w->materials[w->tris[h.tri].material];
@@ -117,7 +117,7 @@ bool trail_scatter(struct trail_lobes *l, const struct world *w, uint32_t x,
     l->wo = v3_neg(r.d);
     l->distance = h.t;
     l->tri = h.tri;
-    for (uint32_t i = 0; i < TRAIL_LOBES; i++)
+    for (uint32_t i = 0; i < PATH_RECORD_LOBES; i++)
         add_lobe(l, &b, &v, vertex_to_local(&v, l->wo),
                  sampler_start(x, y, i, w->settings.seed));
     return true;

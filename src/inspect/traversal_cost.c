@@ -2,7 +2,7 @@
 #include "inspect/traversal_cost.h"
 
 /* Of the ray that this thread follows. */
-static _Thread_local struct cost counted;
+static _Thread_local struct traversal_cost counted;
 
 #define COUNT_BOX()      (counted.boxes++)
 #define COUNT_TRIANGLE() (counted.triangles++)
@@ -14,13 +14,13 @@ static _Thread_local struct cost counted;
 struct job {
     const struct world *world;
     int width;
-    struct cost *costs;
+    struct traversal_cost *costs;
 };
 
 static void count_row(void *context, uint32_t y, int worker)
 {
     const struct job *j = context;
-    struct cost *row = j->costs + (size_t)y * (size_t)j->width;
+    struct traversal_cost *row = j->costs + (size_t)y * (size_t)j->width;
 
     (void)worker;
     for (int x = 0; x < j->width; x++) {
@@ -28,14 +28,14 @@ static void count_row(void *context, uint32_t y, int worker)
                                   v2(0.5f, 0.5f));
         struct hit h;
 
-        counted = (struct cost){0};
+        counted = (struct traversal_cost){0};
         hit_closest(j->world, r, &h);
         row[x] = counted;
     }
 }
 
-void cost_of_pixels(struct pool *pool, const struct world *world, int width,
-                    int height, struct cost *costs)
+void traversal_cost_of_pixels(struct pool *pool, const struct world *world, int width,
+                    int height, struct traversal_cost *costs)
 {
     struct job j = {world, width, costs};
 

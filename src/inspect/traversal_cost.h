@@ -16,13 +16,13 @@
 #include "base/thread_pool.h"
 #include "kernels/types.h"
 
-struct cost {
+struct traversal_cost {
     uint32_t boxes, triangles;
 };
 
 /* The cost of the rays through the middles of all pixels of the world's
  * camera, which sees width x height of them. Blocks. */
-void cost_of_pixels(struct pool *pool, const struct world *world, int width,
-                    int height, struct cost *costs);
+void traversal_cost_of_pixels(struct pool *pool, const struct world *world, int width,
+                    int height, struct traversal_cost *costs);
 
 #endif

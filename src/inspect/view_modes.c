@@ -32,23 +32,23 @@ static const struct {
     [SHOW_SAMPLES] = {SAMPLE_LIGHT, "SAMPLES"},
 };
 
-void show_init(struct show *s, struct session *session)
+void view_mode_init(struct view_mode *s, struct session *session)
 {
-    *s = (struct show){.session = session};
+    *s = (struct view_mode){.session = session};
 }
 
-enum sample_kind show_sample(enum show_kind kind)
+enum sample_kind view_mode_sample(enum show_kind kind)
 {
     return kinds[kind].sample;
 }
 
-struct develop show_develop(const struct show *s)
+struct develop view_mode_develop(const struct view_mode *s)
 {
     return s->kind == SHOW_PREVIEW ? develop_linear(0)
                                    : session_develop(s->session);
 }
 
-static bool find_world(const struct show *s, struct world *w, struct error *err)
+static bool find_world(const struct view_mode *s, struct world *w, struct error *err)
 {
     struct session *of = s->session;
 
@@ -59,14 +59,14 @@ static bool find_world(const struct show *s, struct world *w, struct error *err)
     return true;
 }
 
-bool show_world(const struct show *s, struct world *w)
+bool view_mode_world(const struct view_mode *s, struct world *w)
 {
     struct error ignored;
 
     return find_world(s, w, &ignored);
 }
 
-struct camera show_camera(const struct show *s, const struct camera *camera,
+struct camera view_mode_camera(const struct view_mode *s, const struct camera *camera,
                           const struct frame *frame)
 {
     struct rect r = s->session->crop;
@@ -76,7 +76,7 @@ struct camera show_camera(const struct show *s, const struct camera *camera,
     return projection_camera(camera, &part);
 }
 
-bool show_need_tree(struct show *s, struct error *err)
+bool view_mode_need_tree(struct view_mode *s, struct error *err)
 {
     struct world w;
 
@@ -86,7 +86,7 @@ bool show_need_tree(struct show *s, struct error *err)
     return s->has_bvh;
 }
 
-static bool need_pool(struct show *s, struct error *err)
+static bool need_pool(struct view_mode *s, struct error *err)
 {
     if (!s->pool)
         s->pool = pool_create(options_threads(s->session->options), err);
@@ -95,7 +95,7 @@ static bool need_pool(struct show *s, struct error *err)
 
 /* The line below the picture, if it says something new. */
 static void __attribute__((format(printf, 2, 3)))
-say(struct show *s, const char *format, ...)
+say(struct view_mode *s, const char *format, ...)
 {
     char text[sizeof s->legend];
     va_list values;
@@ -107,17 +107,17 @@ say(struct show *s, const char *format, ...)
     memcpy(s->legend, text, strlen(text) + 1);
 }
 
-bool show_set(struct show *s, enum show_kind kind, struct error *err)
+bool view_mode_set(struct view_mode *s, enum show_kind kind, struct error *err)
 {
     bool ok =
-        kind != SHOW_COST || (show_need_tree(s, err) && need_pool(s, err));
+        kind != SHOW_COST || (view_mode_need_tree(s, err) && need_pool(s, err));
 
     s->kind = ok ? kind : SHOW_LIGHT;
     say(s, "%s", kinds[s->kind].legend);
     return ok;
 }
 
-static bool need_numbers(struct show *s, size_t count)
+static bool need_numbers(struct view_mode *s, size_t count)
 {
     void *numbers = s->numbers;
     bool ok =
@@ -134,7 +134,7 @@ static int scaled(int i, int n, int length)
 }
 
 /* The frame in false colours of the numbers of a picture, 3 a pixel. */
-static void fill(const struct show *s, struct frame *frame, int width,
+static void fill(const struct view_mode *s, struct frame *frame, int width,
                  int height, struct number_range range)
 {
     for (int y = 0; y < frame->height; y++) {
@@ -143,7 +143,7 @@ static void fill(const struct show *s, struct frame *frame, int width,
                 (size_t)scaled(y, frame->height, height) * (size_t)width +
                 (size_t)scaled(x, frame->width, width);
 
-            drawing_dot(frame, x, y,
+            raster_dot(frame, x, y,
                         false_color(kinds[s->kind].sample, s->numbers + 3 * at,
                                     range));
         }
@@ -151,7 +151,7 @@ static void fill(const struct show *s, struct frame *frame, int width,
 }
 
 /* The mean, by area, of what pixel (x, y) of the frame covers. */
-static float mean_at(const struct show *s, const struct frame *frame, int x,
+static float mean_at(const struct view_mode *s, const struct frame *frame, int x,
                      int y, int width, int height)
 {
     struct area_walk rows = area_walk(height, frame->height, y, 1);
@@ -174,20 +174,20 @@ static float mean_at(const struct show *s, const struct frame *frame, int x,
 }
 
 /* The same for counts, one a pixel, up to the largest. */
-static void fill_heat(const struct show *s, struct frame *frame, int width,
+static void fill_heat(const struct view_mode *s, struct frame *frame, int width,
                       int height, float largest)
 {
     for (int y = 0; y < frame->height; y++) {
         for (int x = 0; x < frame->width; x++) {
             float mean = mean_at(s, frame, x, y, width, height);
 
-            drawing_dot(frame, x, y,
+            raster_dot(frame, x, y,
                         false_color_heat(largest > 0 ? mean / largest : 0));
         }
     }
 }
 
-static void say_depth(struct show *s, struct number_range r)
+static void say_depth(struct view_mode *s, struct number_range r)
 {
     double scale = s->session->scene.scale;
 
@@ -196,7 +196,7 @@ static void say_depth(struct show *s, struct number_range r)
 }
 
 /* In false colours of the numbers that a picture of this size has. */
-static void paint_numbers(struct show *s, struct frame *frame, int width,
+static void paint_numbers(struct view_mode *s, struct frame *frame, int width,
                           int height)
 {
     size_t pixels = (size_t)width * (size_t)height;
@@ -207,7 +207,7 @@ static void paint_numbers(struct show *s, struct frame *frame, int width,
         say_depth(s, range);
 }
 
-static void paint_draft(struct show *s, struct film *draft, struct frame *frame)
+static void paint_draft(struct view_mode *s, struct film *draft, struct frame *frame)
 {
     if (!draft ||
         !need_numbers(s, 3 * (size_t)draft->width * (size_t)draft->height))
@@ -216,7 +216,7 @@ static void paint_draft(struct show *s, struct film *draft, struct frame *frame)
     paint_numbers(s, frame, draft->width, draft->height);
 }
 
-static bool paint_samples(struct show *s, struct film *film,
+static bool paint_samples(struct view_mode *s, struct film *film,
                           struct frame *frame)
 {
     size_t pixels = (size_t)film->width * (size_t)film->height;
@@ -236,15 +236,15 @@ static bool paint_samples(struct show *s, struct film *film,
 }
 
 /* Counts anew what another camera or frame sees. */
-static bool count_costs(struct show *s, const struct frame *frame)
+static bool count_costs(struct view_mode *s, const struct frame *frame)
 {
     struct error ignored;
     struct world w;
 
     /* a scene that was loaded anew has no tree yet */
-    if (!show_need_tree(s, &ignored) || !show_world(s, &w))
+    if (!view_mode_need_tree(s, &ignored) || !view_mode_world(s, &w))
         return false;
-    w.settings.camera = show_camera(s, &w.settings.camera, frame);
+    w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
     if (s->cost_width == frame->width && s->cost_height == frame->height &&
         memcmp(&s->cost_camera, &w.settings.camera, sizeof s->cost_camera) == 0)
         return true;
@@ -254,14 +254,14 @@ static bool count_costs(struct show *s, const struct frame *frame)
                            sizeof *s->costs);
     if (!s->costs)
         return false;
-    cost_of_pixels(s->pool, &w, frame->width, frame->height, s->costs);
+    traversal_cost_of_pixels(s->pool, &w, frame->width, frame->height, s->costs);
     s->cost_camera = w.settings.camera;
     s->cost_width = frame->width;
     s->cost_height = frame->height;
     return true;
 }
 
-static bool paint_costs(struct show *s, struct frame *frame)
+static bool paint_costs(struct view_mode *s, struct frame *frame)
 {
     size_t pixels = (size_t)frame->width * (size_t)frame->height;
     struct number_range range;
@@ -283,7 +283,7 @@ static bool paint_costs(struct show *s, struct frame *frame)
     return true;
 }
 
-void show_paint(struct show *s, struct film *film, struct film *draft,
+void view_mode_paint(struct view_mode *s, struct film *film, struct film *draft,
                 struct frame *frame)
 {
     switch (s->kind) {
@@ -296,7 +296,7 @@ void show_paint(struct show *s, struct film *film, struct film *draft,
 }
 
 /* Numbers that are light are shown as such. */
-static void paint_preview(const struct show *s, struct frame *frame)
+static void paint_preview(const struct view_mode *s, struct frame *frame)
 {
     size_t count = 3 * (size_t)frame->width * (size_t)frame->height;
 
@@ -311,28 +311,28 @@ static bool fail_memory(const struct frame *frame, struct error *err)
 }
 
 /* The numbers of the frame's own pixels. */
-static bool find_numbers(struct show *s, const struct frame *frame,
+static bool find_numbers(struct view_mode *s, const struct frame *frame,
                          struct error *err)
 {
     struct world w;
 
-    if (!show_need_tree(s, err) || !need_pool(s, err) ||
+    if (!view_mode_need_tree(s, err) || !need_pool(s, err) ||
         !find_world(s, &w, err))
         return false;
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail_memory(frame, err);
-    w.settings.camera = show_camera(s, &w.settings.camera, frame);
+    w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
     w.settings.sample = kinds[s->kind].sample;
     w.settings.features |= FEATURE_FIRST_HIT;
-    first_hits_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
+    aov_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
     return true;
 }
 
-bool show_picture(struct show *s, struct film *film, struct frame *frame,
+bool view_mode_picture(struct view_mode *s, struct film *film, struct frame *frame,
                   struct error *err)
 {
     switch (s->kind) {
-    case SHOW_LIGHT: film_preview(film, NULL, show_develop(s), frame); break;
+    case SHOW_LIGHT: film_preview(film, NULL, view_mode_develop(s), frame); break;
     case SHOW_SAMPLES:
         return paint_samples(s, film, frame) || fail_memory(frame, err);
     case SHOW_COST: return paint_costs(s, frame) || fail_memory(frame, err);
@@ -348,19 +348,19 @@ bool show_picture(struct show *s, struct film *film, struct frame *frame,
     return true;
 }
 
-void show_renew(struct show *s)
+void view_mode_renew(struct view_mode *s)
 {
     bvh_free(&s->bvh);
     s->has_bvh = false;
     s->cost_width = 0;
 }
 
-void show_free(struct show *s)
+void view_mode_free(struct view_mode *s)
 {
     if (s->pool)
         pool_destroy(s->pool);
     bvh_free(&s->bvh);
     free(s->numbers);
     free(s->costs);
-    *s = (struct show){0};
+    *s = (struct view_mode){0};
 }

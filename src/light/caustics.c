@@ -40,10 +40,10 @@ struct landing {
 };
 
 struct search {
-    const struct wide_world *w;
+    const struct bvh8_world *w;
     const struct guide_grid *grid;
-    struct tri_list lights;   /* by power */
-    struct tri_list casters;  /* by area */
+    struct triangle_cdf lights;   /* by power */
+    struct triangle_cdf casters;  /* by area */
     struct landing *landings; /* LANDINGS of each photon */
 };
 
@@ -87,14 +87,14 @@ static bool find_lists(struct search *s)
 {
     const struct world *w = &s->w->world;
 
-    if (!tri_list_init(&s->lights, 2 * w->settings.light_count) ||
-        !tri_list_init(&s->casters, w->settings.tri_count))
+    if (!triangle_cdf_init(&s->lights, 2 * w->settings.light_count) ||
+        !triangle_cdf_init(&s->casters, w->settings.tri_count))
         return false;
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         if (light_of(w, i) != NO_INDEX)
-            tri_list_add(&s->lights, i, tri_power(w, i));
+            triangle_cdf_add(&s->lights, i, tri_power(w, i));
         if (casts(&w->materials[w->tris[i].material]))
-            tri_list_add(&s->casters, i, tri_area(w, i));
+            triangle_cdf_add(&s->casters, i, tri_area(w, i));
     }
     return true;
 }
@@ -113,12 +113,12 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
 {
     const struct world *w = &s->w->world;
     struct vec2 choice = photon_2d(i, 0, 0);
-    uint32_t light = tri_list_choose(&s->lights, choice.x);
+    uint32_t light = triangle_cdf_choose(&s->lights, choice.x);
     struct vec3 na = w->tris[light].ng;
     struct vec3 nb, a[3], b[3], from, to, error, d;
     float cos_a, cos_b;
 
-    p->aim = tri_list_choose(&s->casters, choice.y);
+    p->aim = triangle_cdf_choose(&s->casters, choice.y);
     tri_corners(w, light, a);
     tri_corners(w, p->aim, b);
     nb = w->tris[p->aim].ng;
@@ -217,33 +217,33 @@ static void photon_send(void *context, uint32_t i, int worker)
 /* Photons have no unit of their own: each stands for the lights' power times
  * the casters' area over their number. */
 static void fill_rest(const struct search *s, double box,
-                      struct guide_part *part)
+                      struct guide_flux *part)
 {
     double cell = 1 / (double)s->grid->cells_a_unit;
-    double rest = REST * 2 * M_PI * PHOTONS / tri_list_total(&s->casters) *
+    double rest = REST * 2 * M_PI * PHOTONS / triangle_cdf_total(&s->casters) *
                   cell * cell / box;
 
     for (uint32_t i = 0; i < guide_cell_count(s->grid); i++)
         part->rest[i] = (float)rest;
 }
 
-bool caustics_find(const struct wide_world *w, const struct guide_grid *grid,
-                   double box, struct pool *pool, struct guide_part *part)
+bool caustics_find(const struct bvh8_world *w, const struct guide_grid *grid,
+                   double box, struct pool *pool, struct guide_flux *part)
 {
     struct search s = {.w = w, .grid = grid};
     bool ok = find_lists(&s);
 
     s.landings = alloc_array((size_t)PHOTONS * LANDINGS, sizeof *s.landings);
     ok = ok && s.landings != NULL;
-    if (ok && tri_list_total(&s.lights) > 0 && tri_list_total(&s.casters) > 0) {
+    if (ok && triangle_cdf_total(&s.lights) > 0 && triangle_cdf_total(&s.casters) > 0) {
         pool_each(pool, PHOTONS, photon_send, &s);
         /* in order, whoever sent them */
         for (uint32_t i = 0; i < PHOTONS * LANDINGS; i++)
             part->flux[s.landings[i].bin] += s.landings[i].flux;
         fill_rest(&s, box, part);
     }
-    tri_list_free(&s.lights);
-    tri_list_free(&s.casters);
+    triangle_cdf_free(&s.lights);
+    triangle_cdf_free(&s.casters);
     free(s.landings);
     return ok;
 }

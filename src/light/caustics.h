@@ -28,7 +28,7 @@ struct material caustics_material(struct material m);
 bool caustics_possible(const struct world *w);
 
 /* `box` is the surface of the box around the scene. */
-bool caustics_find(const struct wide_world *w, const struct guide_grid *grid,
-                   double box, struct pool *pool, struct guide_part *part);
+bool caustics_find(const struct bvh8_world *w, const struct guide_grid *grid,
+                   double box, struct pool *pool, struct guide_flux *part);
 
 #endif

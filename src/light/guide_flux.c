@@ -5,7 +5,7 @@
 
 #include "base/util.h"
 
-bool guide_part_init(struct guide_part *part, const struct guide_grid *g)
+bool guide_flux_init(struct guide_flux *part, const struct guide_grid *g)
 {
     size_t count = guide_cell_count(g);
 
@@ -14,7 +14,7 @@ bool guide_part_init(struct guide_part *part, const struct guide_grid *g)
     return part->flux != NULL && part->rest != NULL;
 }
 
-double guide_part_total(const struct guide_part *part, uint32_t cell)
+double guide_flux_total(const struct guide_flux *part, uint32_t cell)
 {
     double total = 0;
 
@@ -23,9 +23,9 @@ double guide_part_total(const struct guide_part *part, uint32_t cell)
     return total;
 }
 
-void guide_part_free(struct guide_part *part)
+void guide_flux_free(struct guide_flux *part)
 {
     free(part->flux);
     free(part->rest);
-    *part = (struct guide_part){NULL, NULL};
+    *part = (struct guide_flux){NULL, NULL};
 }

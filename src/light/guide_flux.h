@@ -3,7 +3,7 @@
  * guide_flux.h - what one kind of light would add to the table of directions
  *
  * Units:     flux and rest in one unit, any: only their ratio counts
- * Ownership: guide_part_free() frees; a zeroed struct is one that was not made
+ * Ownership: guide_flux_free() frees; a zeroed struct is one that was not made
  * Threads:   one thread makes it; read only after
  * Errors:    memory, by false
  */
@@ -14,7 +14,7 @@
 
 #include "kernels/types.h"
 
-struct guide_part {
+struct guide_flux {
     float *flux; /* that comes from each of the GUIDE_BINS of each cell */
     float *rest; /* of each cell: what other light it has */
 };
@@ -24,10 +24,10 @@ static inline uint32_t guide_cell_count(const struct guide_grid *g)
     return g->width * g->height * g->depth * GUIDE_FACINGS;
 }
 
-bool guide_part_init(struct guide_part *part, const struct guide_grid *g);
-void guide_part_free(struct guide_part *part);
+bool guide_flux_init(struct guide_flux *part, const struct guide_grid *g);
+void guide_flux_free(struct guide_flux *part);
 
 /* What comes to a cell from all directions. */
-double guide_part_total(const struct guide_part *part, uint32_t cell);
+double guide_flux_total(const struct guide_flux *part, uint32_t cell);
 
 #endif

@@ -43,13 +43,13 @@ bool lights_differ(const struct material *a, const struct material *b)
 }
 
 static double mean_radiance(const struct world *w, const struct tri *t,
-                            const struct footprint_sums *footprints)
+                            const struct texture_power_sums *footprints)
 {
     const struct material *m = &w->materials[t->material];
     double mean = channels_mean(m->emission);
 
     if (m->emission_texture != NO_INDEX && t->vt[0] != NO_INDEX) {
-        const struct footprint_sums *f = &footprints[t->material];
+        const struct texture_power_sums *f = &footprints[t->material];
         struct texture texture = w->textures[m->emission_texture];
         struct vec2 uv[3];
 
@@ -57,8 +57,8 @@ static double mean_radiance(const struct world *w, const struct tri *t,
             uv[i] = texture_uv(texture, w->uvs[t->vt[i]]);
         /* outside a clamped image a triangle shows its border, who knows how
          * much of it */
-        mean = texture.is_clamped != 0 ? footprint_whole(f)
-                                       : footprint_mean(f, uv);
+        mean = texture.is_clamped != 0 ? texture_power_whole(f)
+                                       : texture_power_mean(f, uv);
     }
     return mean * (double)m->opacity;
 }
@@ -78,7 +78,7 @@ static struct vec3 long_normal(const struct world *w, uint32_t tri)
 
 /* False if the triangle is not worth sampling. *glare grows by its own. */
 static bool make_emitter(const struct world *w, uint32_t tri,
-                         const struct footprint_sums *footprints,
+                         const struct texture_power_sums *footprints,
                          struct emitter *e, double *glare)
 {
     const struct tri *t = &w->tris[tri];
@@ -185,7 +185,7 @@ static void add_light(const struct world *w, struct lights *l,
 /* Finds the emitters among `candidate_count` triangles of shining materials. */
 static bool find_emitters(struct lights *l, struct emitter **emitters,
                           const struct world *w, uint32_t candidate_count,
-                          const struct footprint_sums *footprints,
+                          const struct texture_power_sums *footprints,
                           struct error *err)
 {
     double total = 0;
@@ -214,14 +214,14 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
 /* One for each material with an emission texture. */
 static bool make_footprints(const struct world *w, const bool *is_used,
                             uint32_t material_count,
-                            struct footprint_sums *footprints,
+                            struct texture_power_sums *footprints,
                             struct error *err)
 {
     for (uint32_t i = 0; i < material_count; i++) {
         const struct material *m = &w->materials[i];
 
         if (is_used[i] && m->emission_texture != NO_INDEX &&
-            !footprint_init(&footprints[i], w, m, err))
+            !texture_power_init(&footprints[i], w, m, err))
             return false;
     }
     return true;
@@ -242,7 +242,7 @@ bool lights_build(struct lights *lights, const struct world *w,
 {
     struct emitter *emitters = NULL;
     uint32_t material_count = count_materials(w);
-    struct footprint_sums *footprints =
+    struct texture_power_sums *footprints =
         alloc_array(material_count, sizeof *footprints);
     bool *is_used = alloc_array(material_count, sizeof *is_used);
     uint32_t candidate_count = 0;
@@ -267,7 +267,7 @@ bool lights_build(struct lights *lights, const struct world *w,
           light_tree_build(lights, emitters, err));
 out:
     for (uint32_t i = 0; footprints != NULL && i < material_count; i++)
-        footprint_free(&footprints[i]);
+        texture_power_free(&footprints[i]);
     free(footprints);
     free(is_used);
     free(emitters);

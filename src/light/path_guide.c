@@ -82,17 +82,17 @@ static double power_of(const struct world *w)
     return power;
 }
 
-static bool wants_caustics(const struct guide *g, const struct world *w)
+static bool wants_caustics(const struct path_guide *g, const struct world *w)
 {
     return g->caustics.flux == NULL && caustics_possible(w);
 }
 
-static bool wants_openings(const struct guide *g, double sky)
+static bool wants_openings(const struct path_guide *g, double sky)
 {
     return g->openings.open.flux == NULL && sky > 0;
 }
 
-static bool find_parts(struct guide *g, const struct wide_world *w, double sky,
+static bool find_parts(struct path_guide *g, const struct bvh8_world *w, double sky,
                        struct pool *pool)
 {
     bool has_caustics = wants_caustics(g, &w->world);
@@ -104,9 +104,9 @@ static bool find_parts(struct guide *g, const struct wide_world *w, double sky,
     box = make_grid(&w->world, &g->grid);
     g->lights = 2 * power_of(&w->world) / box;
     return (!has_caustics ||
-            (guide_part_init(&g->caustics, &g->grid) &&
+            (guide_flux_init(&g->caustics, &g->grid) &&
              caustics_find(w, &g->grid, box, pool, &g->caustics))) &&
-           (!has_openings || openings_find(w, &g->grid, pool, &g->openings));
+           (!has_openings || sky_portals_find(w, &g->grid, pool, &g->openings));
 }
 
 /* ---- the table ---- */
@@ -114,18 +114,18 @@ static bool find_parts(struct guide *g, const struct wide_world *w, double sky,
 /* Light that comes from nowhere the table knows, in units of the sky. */
 struct other {
     double lights;
-    double bounces; /* what walls return, as openings_bounces() */
+    double bounces; /* what walls return, as sky_portals_bounces() */
 };
 
 /* Which part of a cell's light this part of the guide brings. */
-static double part_of_light(const struct guide_part *part, uint32_t cell,
+static double part_of_light(const struct guide_flux *part, uint32_t cell,
                             double total, double other)
 {
     return total > 0 ? total / (total + (double)part->rest[cell] + other) : 0;
 }
 
 /* Adds a part's sums, the last of which is `share`. */
-static void add_sums(const struct guide_part *part, uint32_t cell, double total,
+static void add_sums(const struct guide_flux *part, uint32_t cell, double total,
                      double share, float *sums)
 {
     size_t first = (size_t)cell * GUIDE_BINS;
@@ -150,17 +150,17 @@ static uint32_t take_sums(struct table *t)
     return t->count++ * (uint32_t)GUIDE_BINS;
 }
 
-static double other_light(const struct guide *g, uint32_t cell,
+static double other_light(const struct path_guide *g, uint32_t cell,
                           const struct other *o)
 {
     return o->bounces * (double)g->openings.bounced[cell] + o->lights;
 }
 
 /* For paths to go on, if that is worth its time in this cell. */
-static uint32_t add_ways(struct table *t, const struct guide *g, uint32_t cell,
+static uint32_t add_ways(struct table *t, const struct path_guide *g, uint32_t cell,
                          const struct other *o)
 {
-    const struct guide_part *parts[2] = {&g->caustics, &g->openings.glazed};
+    const struct guide_flux *parts[2] = {&g->caustics, &g->openings.glazed};
     const double most[2] = {SHARE_CAUSTICS, SHARE_GLAZED};
     double totals[2] = {0, 0}, shares[2] = {0, 0};
     double scale;
@@ -170,7 +170,7 @@ static uint32_t add_ways(struct table *t, const struct guide *g, uint32_t cell,
         if (parts[i]->flux != NULL) {
             double other = i == 0 ? 0 : other_light(g, cell, o), part;
 
-            totals[i] = guide_part_total(parts[i], cell);
+            totals[i] = guide_flux_total(parts[i], cell);
             part = part_of_light(parts[i], cell, totals[i], other);
             shares[i] = part < PART_LEAST ? 0 : most[i] * part;
         }
@@ -185,11 +185,11 @@ static uint32_t add_ways(struct table *t, const struct guide *g, uint32_t cell,
 }
 
 /* For light samples of the sky, the same. */
-static uint32_t add_sky(struct table *t, const struct guide *g, uint32_t cell,
+static uint32_t add_sky(struct table *t, const struct path_guide *g, uint32_t cell,
                         const struct other *o)
 {
-    const struct guide_part *open = &g->openings.open;
-    double total = guide_part_total(open, cell);
+    const struct guide_flux *open = &g->openings.open;
+    double total = guide_flux_total(open, cell);
 
     if (part_of_light(open, cell, total, other_light(g, cell, o)) < PART_LEAST)
         return NO_INDEX;
@@ -200,14 +200,14 @@ static uint32_t add_sky(struct table *t, const struct guide *g, uint32_t cell,
 /* Is the sky enough of the light, over all cells that it comes to? In white
  * rooms it is not: few of a path's many vertices would gain, and all take more
  * time. */
-static bool is_sky_worth_it(const struct guide *g, const struct other *o)
+static bool is_sky_worth_it(const struct path_guide *g, const struct other *o)
 {
-    const struct guide_part *open = &g->openings.open;
+    const struct guide_flux *open = &g->openings.open;
     double direct = 0, all = 0;
 
     for (uint32_t i = 0; open->flux != NULL && i < guide_cell_count(&g->grid);
          i++) {
-        double total = guide_part_total(open, i);
+        double total = guide_flux_total(open, i);
 
         if (total > 0) {
             direct += total;
@@ -217,7 +217,7 @@ static bool is_sky_worth_it(const struct guide *g, const struct other *o)
     return all > 0 && direct >= PART_LEAST * all;
 }
 
-static bool make_table(const struct guide *g, const struct other *o,
+static bool make_table(const struct path_guide *g, const struct other *o,
                        struct table *t)
 {
     uint32_t count = guide_cell_count(&g->grid);
@@ -234,7 +234,7 @@ static bool make_table(const struct guide *g, const struct other *o,
     return true;
 }
 
-static void take_table(struct guide *g, struct table *t)
+static void take_table(struct path_guide *g, struct table *t)
 {
     free(g->cells);
     free(g->sums);
@@ -248,7 +248,7 @@ static void take_table(struct guide *g, struct table *t)
     g->grid.table_count = t->count;
 }
 
-static bool update(struct guide *g, const struct wide_world *w, double sky,
+static bool update(struct path_guide *g, const struct bvh8_world *w, double sky,
                    struct pool *pool)
 {
     struct table t = {.cells = NULL};
@@ -260,7 +260,7 @@ static bool update(struct guide *g, const struct wide_world *w, double sky,
             return false;
         if (sky > 0)
             o = (struct other){g->lights / sky,
-                               openings_bounces(&g->openings, &w->world)};
+                               sky_portals_bounces(&g->openings, &w->world)};
         if (!make_table(g, &o, &t)) {
             free(t.cells);
             free(t.sums);
@@ -271,24 +271,24 @@ static bool update(struct guide *g, const struct wide_world *w, double sky,
     return true;
 }
 
-static bool is_done(const struct guide *g, double sky)
+static bool is_done(const struct path_guide *g, double sky)
 {
     return g->is_current && g->sky == sky;
 }
 
-bool guide_needs_rays(const struct guide *g, const struct world *w, double sky)
+bool path_guide_needs_rays(const struct path_guide *g, const struct world *w, double sky)
 {
     return !is_done(g, sky) && w->settings.tri_count > 0 &&
            (wants_caustics(g, w) || wants_openings(g, sky));
 }
 
-bool guide_update(struct guide *g, const struct wide_world *w, double sky,
+bool path_guide_update(struct path_guide *g, const struct bvh8_world *w, double sky,
                   struct pool *pool, struct error *err)
 {
     if (is_done(g, sky))
         return true;
     if (!update(g, w, sky, pool)) {
-        guide_outdate(g);
+        path_guide_outdate(g);
         return fail(err, "out of memory for the table of directions");
     }
     g->sky = sky;
@@ -296,26 +296,26 @@ bool guide_update(struct guide *g, const struct wide_world *w, double sky,
     return true;
 }
 
-void guide_outdate(struct guide *g)
+void path_guide_outdate(struct path_guide *g)
 {
-    guide_part_free(&g->caustics);
-    openings_free(&g->openings);
+    guide_flux_free(&g->caustics);
+    sky_portals_free(&g->openings);
     g->is_current = false;
 }
 
-void guide_recolor(struct guide *g)
+void path_guide_recolor(struct path_guide *g)
 {
     g->is_current = g->is_current && g->openings.open.flux == NULL;
 }
 
-bool guides_differ(const struct material *a, const struct material *b)
+bool path_guides_differ(const struct material *a, const struct material *b)
 {
     struct material x = caustics_material(*a), y = caustics_material(*b);
 
     return memcmp(&x, &y, sizeof x) != 0;
 }
 
-void guide_lend(const struct guide *g, struct world *world)
+void path_guide_lend(const struct path_guide *g, struct world *world)
 {
     world->settings.guide = (struct guide_grid){.width = 0};
     if (g->cells != NULL)
@@ -324,10 +324,10 @@ void guide_lend(const struct guide *g, struct world *world)
     world->guide_sums = g->sums;
 }
 
-void guide_free(struct guide *g)
+void path_guide_free(struct path_guide *g)
 {
-    guide_outdate(g);
+    path_guide_outdate(g);
     free(g->cells);
     free(g->sums);
-    *g = (struct guide){.cells = NULL};
+    *g = (struct path_guide){.cells = NULL};
 }

@@ -8,7 +8,7 @@
  * the scene and its sky, not of the eye.
  *
  * Units:     normalised scene units, radiance
- * Ownership: guide_free() frees; a zeroed struct is a scene without a table
+ * Ownership: path_guide_free() frees; a zeroed struct is a scene without a table
  * Threads:   one thread updates, with those of a pool, if it has one, while
  *            nobody renders; read only otherwise
  * Errors:    memory
@@ -19,42 +19,42 @@
 #include "light/sky_portals.h"
 #include "base/util.h"
 
-struct guide {
+struct path_guide {
     struct guide_cell
         *cells; /* as kernels/guide.h reads them; NULL: there are none */
     float *sums;
     struct guide_grid grid;
     /* what they are made of */
-    struct guide_part caustics; /* NULL: not searched for */
-    struct openings openings;
+    struct guide_flux caustics; /* NULL: not searched for */
+    struct sky_portals openings;
     double lights; /* mean radiance that all lights would shed on a box */
     double sky;    /* that the cells suit */
     bool is_current;
 };
 
-/* Would guide_update() trace rays? Else it needs no tree. */
-bool guide_needs_rays(const struct guide *guide, const struct world *world,
+/* Would path_guide_update() trace rays? Else it needs no tree. */
+bool path_guide_needs_rays(const struct path_guide *guide, const struct world *world,
                       double sky);
 
 /* Brings the table to what suits the world, which has its lights, and a sky of
  * this mean radiance. Searches only for what the scene has not been searched
- * for since guide_outdate(). Arrays that were lent live until the new ones do.
+ * for since path_guide_outdate(). Arrays that were lent live until the new ones do.
  */
-bool guide_update(struct guide *guide, const struct wide_world *world,
+bool path_guide_update(struct path_guide *guide, const struct bvh8_world *world,
                   double sky, struct pool *pool, struct error *err);
 
 /* The world is another. */
-void guide_outdate(struct guide *guide);
+void path_guide_outdate(struct path_guide *guide);
 
 /* Only colours are. */
-void guide_recolor(struct guide *guide);
+void path_guide_recolor(struct path_guide *guide);
 
 /* Of two materials: would the rays meet or do anything else? */
-bool guides_differ(const struct material *a, const struct material *b);
+bool path_guides_differ(const struct material *a, const struct material *b);
 
 /* Lends the table to the world. */
-void guide_lend(const struct guide *guide, struct world *world);
+void path_guide_lend(const struct path_guide *guide, struct world *world);
 
-void guide_free(struct guide *guide);
+void path_guide_free(struct path_guide *guide);
 
 #endif

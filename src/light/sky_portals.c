@@ -81,10 +81,10 @@ struct beam {
 };
 
 struct search {
-    const struct wide_world *w;
+    const struct bvh8_world *w;
     const struct guide_grid *grid;
-    struct openings *found;
-    struct tri_list surfaces;
+    struct sky_portals *found;
+    struct triangle_cdf surfaces;
     struct looks *looks;  /* of all places */
     struct place *places; /* those that are not in the open */
     uint32_t place_count;
@@ -205,7 +205,7 @@ static void look_around(void *context, uint32_t i, int worker)
 
     (void)worker;
     p->at = triangle_point(number(i, DECISION_POINT));
-    p->at.tri = tri_list_choose(&s->surfaces, number(i, DECISION_TRI).x);
+    p->at.tri = triangle_cdf_choose(&s->surfaces, number(i, DECISION_TRI).x);
     p->ray.key = hash_u32(i);
     l->is_there = leave(&s->w->world, p->at,
                         guide_direction(side.x * (float)GUIDE_SIDE,
@@ -282,7 +282,7 @@ static void add_beams(struct search *s)
 {
     for (uint32_t k = 0; k < s->place_count * AIMS; k++) {
         const struct beam *b = &s->beams[k];
-        struct guide_part *part =
+        struct guide_flux *part =
             b->is_glazed ? &s->found->glazed : &s->found->open;
         size_t cell = s->places[k / AIMS].cell;
 
@@ -304,8 +304,8 @@ static double sum_of(const float *numbers, size_t count)
  * which are not to be led there. */
 static void finish_cell(struct search *s, uint32_t cell, double scale)
 {
-    struct openings *o = s->found;
-    struct guide_part *parts[2] = {&o->open, &o->glazed};
+    struct sky_portals *o = s->found;
+    struct guide_flux *parts[2] = {&o->open, &o->glazed};
     double all = (double)s->tried[cell] / (double)s->enclosed[cell];
     double totals[2] = {0, 0};
 
@@ -314,7 +314,7 @@ static void finish_cell(struct search *s, uint32_t cell, double scale)
 
         for (uint32_t k = 0; k < GUIDE_BINS; k++)
             flux[k] *= (float)(scale / (double)s->enclosed[cell]);
-        totals[i] = guide_part_total(parts[i], cell);
+        totals[i] = guide_flux_total(parts[i], cell);
     }
     for (int i = 0; i < 2 && parts[i]->flux != NULL; i++)
         parts[i]->rest[cell] =
@@ -327,7 +327,7 @@ static void finish_cell(struct search *s, uint32_t cell, double scale)
 /* All aims have found as much of the sky as all looks. */
 static void finish(struct search *s)
 {
-    struct openings *o = s->found;
+    struct sky_portals *o = s->found;
     uint32_t count = guide_cell_count(s->grid);
     double found = (double)s->mark_count / LOOKS;
     double arrived = sum_of(o->open.flux, (size_t)count * GUIDE_BINS);
@@ -353,14 +353,14 @@ static bool has_glass(const struct world *w)
     return has;
 }
 
-static bool openings_init(struct openings *o, const struct wide_world *w,
+static bool openings_init(struct sky_portals *o, const struct bvh8_world *w,
                           const struct guide_grid *grid)
 {
     o->bounced = alloc_array(guide_cell_count(grid), sizeof *o->bounced);
     o->walls = alloc_array(PLACES, sizeof *o->walls);
     return o->bounced != NULL && o->walls != NULL &&
-           guide_part_init(&o->open, grid) &&
-           (!has_glass(&w->world) || guide_part_init(&o->glazed, grid));
+           guide_flux_init(&o->open, grid) &&
+           (!has_glass(&w->world) || guide_flux_init(&o->glazed, grid));
 }
 
 static bool search_init(struct search *s)
@@ -376,13 +376,13 @@ static bool search_init(struct search *s)
     s->enclosed = alloc_array(count, sizeof *s->enclosed);
     s->bounces = alloc_array(count, sizeof *s->bounces);
     s->lit = alloc_array(count, sizeof *s->lit);
-    if (!tri_list_init(&s->surfaces, w->settings.tri_count) ||
+    if (!triangle_cdf_init(&s->surfaces, w->settings.tri_count) ||
         s->looks == NULL || s->places == NULL || s->marks == NULL ||
         s->beams == NULL || s->tried == NULL || s->enclosed == NULL ||
         s->bounces == NULL || s->lit == NULL)
         return false;
     for (uint32_t i = 0; i < w->settings.tri_count; i++)
-        tri_list_add(&s->surfaces, i, tri_area(w, i));
+        triangle_cdf_add(&s->surfaces, i, tri_area(w, i));
     return true;
 }
 
@@ -399,15 +399,15 @@ static void find(struct search *s, struct pool *pool)
     finish(s);
 }
 
-bool openings_find(const struct wide_world *w, const struct guide_grid *grid,
-                   struct pool *pool, struct openings *openings)
+bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
+                   struct pool *pool, struct sky_portals *openings)
 {
     struct search s = {.w = w, .grid = grid, .found = openings};
     bool ok = openings_init(openings, w, grid) && search_init(&s);
 
     if (ok)
         find(&s, pool);
-    tri_list_free(&s.surfaces);
+    triangle_cdf_free(&s.surfaces);
     free(s.looks);
     free(s.places);
     free(s.marks);
@@ -432,7 +432,7 @@ static double color_at(const struct world *w, struct hit h)
 
 /* As between walls that all see each other alike: of what leaves them some
  * escapes, and of the rest they return their colour's part. */
-double openings_bounces(const struct openings *o, const struct world *w)
+double sky_portals_bounces(const struct sky_portals *o, const struct world *w)
 {
     double color = 0;
 
@@ -441,11 +441,11 @@ double openings_bounces(const struct openings *o, const struct world *w)
     return color / fmax(1 - color * (1 - o->escape), 1 / BOUNCES_MOST);
 }
 
-void openings_free(struct openings *o)
+void sky_portals_free(struct sky_portals *o)
 {
-    guide_part_free(&o->open);
-    guide_part_free(&o->glazed);
+    guide_flux_free(&o->open);
+    guide_flux_free(&o->glazed);
     free(o->bounced);
     free(o->walls);
-    *o = (struct openings){.bounced = NULL};
+    *o = (struct sky_portals){.bounced = NULL};
 }

@@ -16,7 +16,7 @@
  *
  * Units:     normalised scene units; flux as the sky's part of the cosine
  *            weighted hemisphere
- * Ownership: openings_free() frees, also if the search fails; a zeroed struct
+ * Ownership: sky_portals_free() frees, also if the search fails; a zeroed struct
  *            is one that was not made
  * Threads:   those of the pool, or without one the caller's
  * Errors:    memory, by false
@@ -28,9 +28,9 @@
 #include "base/thread_pool.h"
 #include "bvh/bvh8.h"
 
-struct openings {
-    struct guide_part open;   /* for light samples; NULL: not searched for */
-    struct guide_part glazed; /* behind panes, where none of these arrive; NULL:
+struct sky_portals {
+    struct guide_flux open;   /* for light samples; NULL: not searched for */
+    struct guide_flux glazed; /* behind panes, where none of these arrive; NULL:
                                  there is no glass */
     float *bounced; /* of each cell: what comes by one wall if all are white */
     struct hit *walls; /* some places of surfaces that are not in the open */
@@ -39,13 +39,13 @@ struct openings {
 };
 
 /* The sky shines 1 from everywhere. */
-bool openings_find(const struct wide_world *w, const struct guide_grid *grid,
-                   struct pool *pool, struct openings *openings);
+bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
+                   struct pool *pool, struct sky_portals *openings);
 
 /* All light that comes by walls as a multiple of `bounced`: the walls' colours
  * may be others than when they were found. */
-double openings_bounces(const struct openings *openings, const struct world *w);
+double sky_portals_bounces(const struct sky_portals *openings, const struct world *w);
 
-void openings_free(struct openings *openings);
+void sky_portals_free(struct sky_portals *openings);
 
 #endif

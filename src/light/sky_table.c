@@ -102,7 +102,7 @@ static void free_sums(struct sky_table *table)
     table->sums = NULL;
 }
 
-bool sky_build(struct sky_table *table, const struct vec3 *texels,
+bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
                uint32_t width, uint32_t height, enum sky_use use,
                struct error *err)
 {
@@ -113,7 +113,7 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
     double total = 0;
     double *rows;
 
-    sky_free(table);
+    sky_table_free(table);
     table->mean = mean;
     if (!(mean > 0))
         return true;
@@ -123,7 +123,7 @@ bool sky_build(struct sky_table *table, const struct vec3 *texels,
                     sizeof *table->sums);
     if (rows == NULL || table->sums == NULL) {
         free(rows);
-        sky_free(table);
+        sky_table_free(table);
         return fail(err, "out of memory for the table of a sky of %ux%u", width,
                     height);
     }
@@ -154,7 +154,7 @@ static float share_of(const struct sky_table *table, const struct settings *s)
     return table->sums != NULL ? SHARE_BESIDE_LIGHTS : 1 - s->light_share;
 }
 
-void sky_lend(const struct sky_table *table, struct world *world)
+void sky_table_lend(const struct sky_table *table, struct world *world)
 {
     struct settings *s = &world->settings;
 
@@ -167,7 +167,7 @@ void sky_lend(const struct sky_table *table, struct world *world)
     s->light_share = 1 - s->sky_share;
 }
 
-void sky_free(struct sky_table *table)
+void sky_table_free(struct sky_table *table)
 {
     free_sums(table);
     table->mean = 0;

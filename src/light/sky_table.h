@@ -9,7 +9,7 @@
  * rays.
  *
  * Units:     radiance, steradians
- * Ownership: sky_free() frees; a zeroed struct is a sky without a table
+ * Ownership: sky_table_free() frees; a zeroed struct is a sky without a table
  * Threads:   one thread builds; read only after
  * Errors:    memory
  */
@@ -30,14 +30,14 @@ enum sky_use {
 };
 
 /* No table for black and, with chance, constant skies. */
-bool sky_build(struct sky_table *table, const struct vec3 *texels,
+bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
                uint32_t width, uint32_t height, enum sky_use use,
                struct error *err);
 
 /* Lends the table to a world that has its sky and its lights, and lets both
  * share the samples. */
-void sky_lend(const struct sky_table *table, struct world *world);
+void sky_table_lend(const struct sky_table *table, struct world *world);
 
-void sky_free(struct sky_table *table);
+void sky_table_free(struct sky_table *table);
 
 #endif

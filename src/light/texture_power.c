@@ -16,7 +16,7 @@
 /* A texel reaches this far into its neighbours. */
 #define REACH 0.5
 
-bool footprint_init(struct footprint_sums *f, const struct world *w,
+bool texture_power_init(struct texture_power_sums *f, const struct world *w,
                     const struct material *m, struct error *err)
 {
     struct texture t = w->textures[m->emission_texture];
@@ -43,7 +43,7 @@ bool footprint_init(struct footprint_sums *f, const struct world *w,
 }
 
 /* The sum over the texels from 0 to x and 0 to y of the repeating image. */
-static double sum_to(const struct footprint_sums *f, double x, double y)
+static double sum_to(const struct texture_power_sums *f, double x, double y)
 {
     double columns = floor(x / f->width);
     double rows = floor(y / f->height);
@@ -56,7 +56,7 @@ static double sum_to(const struct footprint_sums *f, double x, double y)
            columns * row[f->width] + row[column];
 }
 
-static double sum_within(const struct footprint_sums *f, double x0, double x1,
+static double sum_within(const struct texture_power_sums *f, double x0, double x1,
                          double y0, double y1)
 {
     return sum_to(f, x1, y1) - sum_to(f, x0, y1) - sum_to(f, x1, y0) +
@@ -89,15 +89,15 @@ static bool extent(const double p[3][2], double y0, double y1, double *x0,
     return *x0 <= *x1;
 }
 
-double footprint_whole(const struct footprint_sums *f)
+double texture_power_whole(const struct texture_power_sums *f)
 {
     return f->sums[((size_t)f->width + 1) * (f->height + 1) - 1] /
            ((double)f->width * f->height);
 }
 
-double footprint_mean(const struct footprint_sums *f, const struct vec2 uv[3])
+double texture_power_mean(const struct texture_power_sums *f, const struct vec2 uv[3])
 {
-    double whole = footprint_whole(f);
+    double whole = texture_power_whole(f);
     double top = INFINITY, bottom = -INFINITY;
     double sum = 0, area = 0;
     double p[3][2];
@@ -132,8 +132,8 @@ double footprint_mean(const struct footprint_sums *f, const struct vec2 uv[3])
     return area > 0 ? fmax(sum / area, 0) : whole;
 }
 
-void footprint_free(struct footprint_sums *f)
+void texture_power_free(struct texture_power_sums *f)
 {
     free(f->sums);
-    *f = (struct footprint_sums){NULL, 0, 0};
+    *f = (struct texture_power_sums){NULL, 0, 0};
 }

@@ -8,7 +8,7 @@
  * that it shows is.
  *
  * Units:     texture coordinates; radiance, the mean of the channels
- * Ownership: footprint_free() frees; accepts a zeroed struct
+ * Ownership: texture_power_free() frees; accepts a zeroed struct
  * Threads:   one thread makes it; read only after
  * Errors:    memory
  */
@@ -18,21 +18,21 @@
 #include "base/util.h"
 #include "kernels/types.h"
 
-struct footprint_sums {
+struct texture_power_sums {
     double *sums; /* over the texels above and left: (width + 1)(height + 1) */
     uint32_t width, height;
 };
 
 /* The radiance of the material, which has an emission texture. */
-bool footprint_init(struct footprint_sums *f, const struct world *w,
+bool texture_power_init(struct texture_power_sums *f, const struct world *w,
                     const struct material *m, struct error *err);
 
 /* The mean over the whole image. */
-double footprint_whole(const struct footprint_sums *footprint);
+double texture_power_whole(const struct texture_power_sums *footprint);
 
 /* Over the triangle with these corners. */
-double footprint_mean(const struct footprint_sums *f, const struct vec2 uv[3]);
+double texture_power_mean(const struct texture_power_sums *f, const struct vec2 uv[3]);
 
-void footprint_free(struct footprint_sums *f);
+void texture_power_free(struct texture_power_sums *f);
 
 #endif

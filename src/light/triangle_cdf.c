@@ -6,7 +6,7 @@
 #include "light/channels.h"
 #include "kernels/vec.h"
 
-bool tri_list_init(struct tri_list *l, uint32_t capacity)
+bool triangle_cdf_init(struct triangle_cdf *l, uint32_t capacity)
 {
     l->count = 0;
     l->tris = alloc_array(capacity, sizeof *l->tris);
@@ -14,22 +14,22 @@ bool tri_list_init(struct tri_list *l, uint32_t capacity)
     return l->tris != NULL && l->sums != NULL;
 }
 
-double tri_list_total(const struct tri_list *l)
+double triangle_cdf_total(const struct triangle_cdf *l)
 {
     return l->count > 0 ? l->sums[l->count - 1] : 0;
 }
 
-void tri_list_add(struct tri_list *l, uint32_t tri, double weight)
+void triangle_cdf_add(struct triangle_cdf *l, uint32_t tri, double weight)
 {
-    double total = tri_list_total(l);
+    double total = triangle_cdf_total(l);
 
     l->tris[l->count] = tri;
     l->sums[l->count++] = total + weight;
 }
 
-uint32_t tri_list_choose(const struct tri_list *l, float u)
+uint32_t triangle_cdf_choose(const struct triangle_cdf *l, float u)
 {
-    double sum = (double)u * tri_list_total(l);
+    double sum = (double)u * triangle_cdf_total(l);
     uint32_t low = 0, high = l->count - 1;
 
     while (low < high) {
@@ -43,11 +43,11 @@ uint32_t tri_list_choose(const struct tri_list *l, float u)
     return l->tris[low];
 }
 
-void tri_list_free(struct tri_list *l)
+void triangle_cdf_free(struct triangle_cdf *l)
 {
     free(l->tris);
     free(l->sums);
-    *l = (struct tri_list){.tris = NULL};
+    *l = (struct triangle_cdf){.tris = NULL};
 }
 
 void tri_corners(const struct world *w, uint32_t tri, struct vec3 p[3])

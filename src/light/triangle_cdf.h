@@ -3,7 +3,7 @@
  * triangle_cdf.h - some triangles of a world, to choose from by weight
  *
  * Units:     normalised scene units
- * Ownership: tri_list_free() frees; a zeroed struct is an empty list without
+ * Ownership: triangle_cdf_free() frees; a zeroed struct is an empty list without
  *            room
  * Threads:   one thread fills; read only after
  * Errors:    memory, by false
@@ -14,23 +14,23 @@
 #include "base/util.h"
 #include "kernels/types.h"
 
-struct tri_list {
+struct triangle_cdf {
     uint32_t *tris;
     double *sums; /* of the weights up to and with each */
     uint32_t count;
 };
 
 /* Room for so many. */
-bool tri_list_init(struct tri_list *list, uint32_t capacity);
+bool triangle_cdf_init(struct triangle_cdf *list, uint32_t capacity);
 
-void tri_list_add(struct tri_list *list, uint32_t tri, double weight);
+void triangle_cdf_add(struct triangle_cdf *list, uint32_t tri, double weight);
 
-double tri_list_total(const struct tri_list *list);
+double triangle_cdf_total(const struct triangle_cdf *list);
 
 /* For u in [0, 1); the list is not empty. */
-uint32_t tri_list_choose(const struct tri_list *list, float u);
+uint32_t triangle_cdf_choose(const struct triangle_cdf *list, float u);
 
-void tri_list_free(struct tri_list *list);
+void triangle_cdf_free(struct triangle_cdf *list);
 
 void tri_corners(const struct world *world, uint32_t tri, struct vec3 p[3]);
 

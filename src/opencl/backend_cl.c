@@ -82,7 +82,7 @@ static uint64_t smaller(uint64_t a, uint64_t b)
 /* ---- geometry, picture ---- */
 
 static bool cl_load(struct backend *base, const struct world *world,
-                    struct wide *tree, struct error *err)
+                    struct bvh8 *tree, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
     struct pool *pool = pool_create(usable_threads(), err);

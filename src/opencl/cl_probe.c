@@ -125,7 +125,7 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
     free(log);
     if (device == NULL)
         return false;
-    cpu = backend_cpu_create(1, isa_best(), err);
+    cpu = backend_cpu_create(1, cpu_kernel_best(), err);
     if (cpu != NULL) {
         ok = selftest_run(cpu, device, r->features, verdict, err);
         cpu->destroy(cpu);

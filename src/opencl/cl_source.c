@@ -21,7 +21,7 @@ static const char *const entries[] = {
 struct splice {
     const char *folder; /* NULL: within the program */
     FILE *out;
-    struct names seen;
+    struct name_table seen;
 };
 
 static char *read_within(const char *name, struct error *err)
@@ -99,11 +99,11 @@ static bool splice_include(struct splice *s, const char *from, int line,
 {
     struct error reason;
 
-    if (names_find(&s->seen, name) != NO_NAME) {
+    if (name_table_find(&s->seen, name) != NO_NAME) {
         putc('\n', s->out);
         return true;
     }
-    if (names_add(&s->seen, name) == NO_NAME)
+    if (name_table_add(&s->seen, name) == NO_NAME)
         return fail(err, "out of memory for the kernels");
 
     char *text = read_kernel(s->folder, name, &reason);
@@ -145,7 +145,7 @@ char *cl_source_text(const char *folder, struct error *err)
     bool is_complete = !ferror(s.out);
     if ((fclose(s.out) != 0 || !is_complete) && ok)
         ok = fail(err, "out of memory for the kernels");
-    names_free(&s.seen);
+    name_table_free(&s.seen);
     if (ok)
         return text;
     free(text);

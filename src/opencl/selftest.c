@@ -56,7 +56,7 @@ static const char faces[] =
 static bool make_scene(struct scene *scene, uint32_t features,
                        struct error *err)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct world arrays;
     bool ok =
         mtl_add_default(scene, err) &&
@@ -65,7 +65,7 @@ static bool make_scene(struct scene *scene, uint32_t features,
         obj_parse(scene, faces, sizeof faces - 1, "self-test", &report, err) &&
         scene_finish(scene, &report, err);
 
-    report_free(&report);
+    warnings_free(&report);
     for (uint32_t i = 0; ok && i < scene->material_count; i++) {
         struct material *m = &scene->materials[i];
 

@@ -103,7 +103,7 @@ bool color_parse(const char *text, double rgb[3], double *kelvin)
     *kelvin = 0;
     if (*text == '#')
         return parse_hex(text + 1, rgb);
-    if (number_parse(&p, end, kelvin) && end - p == 1 && (*p | 32) == 'k' &&
+    if (decimal_parse(&p, end, kelvin) && end - p == 1 && (*p | 32) == 'k' &&
         *kelvin >= BLACKBODY_LEAST && *kelvin <= BLACKBODY_GREATEST) {
         blackbody_rgb(*kelvin, rgb);
         largest = fmax(rgb[0], fmax(rgb[1], rgb[2]));
@@ -115,7 +115,7 @@ bool color_parse(const char *text, double rgb[3], double *kelvin)
     p = text;
     for (int i = 0; i < 3; i++) {
         p += strspn(p, " ");
-        if (!number_parse(&p, end, &rgb[i]) || !(rgb[i] >= 0) ||
+        if (!decimal_parse(&p, end, &rgb[i]) || !(rgb[i] >= 0) ||
             !isfinite(rgb[i]))
             return false;
     }

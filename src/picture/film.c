@@ -36,7 +36,7 @@ bool film_init(struct film *f, int width, int height, struct error *err)
 {
     size_t pixels = (size_t)width * (size_t)height;
     size_t size_bytes = pixels * (3 * sizeof *f->sums + sizeof *f->counts);
-    struct memory_quota memory = quota_memory("");
+    struct memory_quota memory = cgroup_quota_memory("");
 
     *f = (struct film){.width = width, .height = height};
     /* the system would promise more than it has, and kill us later */

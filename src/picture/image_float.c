@@ -51,7 +51,7 @@ static bool pfm_header(struct image_file *f, struct error *err)
     for (int i = 0; i < 3; i++) {
         while (p < end && memchr(" \t\r\n", *p, 4))
             p++;
-        if (!number_parse(&p, end, &numbers[i]) || p == end)
+        if (!decimal_parse(&p, end, &numbers[i]) || p == end)
             return fail(err, "%s: expected width, height and scale after 'P%c'",
                         f->path, f->data[1]);
     }
@@ -149,8 +149,8 @@ static bool hdr_header(struct image_file *f, struct error *err)
     if (!p || !memmem(f->data, (size_t)(p - f->data), format, strlen(format)))
         return fail(err, "%s: expected a header with %s", f->path, format);
     p += strlen(blank);
-    if (!skip_text(&p, end, "-Y ") || !number_parse(&p, end, &height) ||
-        !skip_text(&p, end, " +X ") || !number_parse(&p, end, &width) ||
+    if (!skip_text(&p, end, "-Y ") || !decimal_parse(&p, end, &height) ||
+        !skip_text(&p, end, " +X ") || !decimal_parse(&p, end, &width) ||
         !skip_text(&p, end, "\n"))
         return fail(err, "%s: expected '-Y height +X width' after the header",
                     f->path);

@@ -38,7 +38,7 @@ static bool is_float(const struct image_file *f)
 static bool expect_memory(struct image_file *f, uint64_t held_bytes,
                           struct error *err)
 {
-    struct memory_quota quota = quota_memory("");
+    struct memory_quota quota = cgroup_quota_memory("");
     uint64_t budget_bytes = quota.size_bytes / 4 * 3;
     uint64_t left_bytes =
         budget_bytes > held_bytes ? budget_bytes - held_bytes : 0;

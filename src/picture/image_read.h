@@ -65,7 +65,7 @@ struct image {
 };
 
 /* Reads the file and its header. All images of a scene may take three quarters
- * of the memory that quota_memory() finds; held_bytes are taken already. */
+ * of the memory that cgroup_quota_memory() finds; held_bytes are taken already. */
 bool image_open(struct image_file *file, const char *path, enum image_form form,
                 uint64_t held_bytes, struct error *err);
 

@@ -26,32 +26,32 @@ struct buffer {
 
 static const struct ending {
     const char *text;
-    enum picture_format format;
-} endings[] = {{".png", PICTURE_PNG},
-               {".hdr", PICTURE_HDR},
-               {".pfm", PICTURE_PFM}};
+    enum image_write_format format;
+} endings[] = {{".png", IMAGE_WRITE_PNG},
+               {".hdr", IMAGE_WRITE_HDR},
+               {".pfm", IMAGE_WRITE_PFM}};
 
 static bool is_stdout(const char *path)
 {
     return strcmp(path, "-") == 0;
 }
 
-enum picture_format picture_format_of(const char *path)
+enum image_write_format image_write_format_of(const char *path)
 {
     size_t length = strlen(path);
 
     if (is_stdout(path))
-        return PICTURE_PNG;
+        return IMAGE_WRITE_PNG;
     for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
         size_t ending = strlen(endings[i].text);
         if (length >= ending &&
             strcasecmp(path + length - ending, endings[i].text) == 0)
             return endings[i].format;
     }
-    return PICTURE_UNKNOWN;
+    return IMAGE_WRITE_UNKNOWN;
 }
 
-bool picture_check(const char *path, struct error *err)
+bool image_write_check(const char *path, struct error *err)
 {
     struct stat st;
 
@@ -61,7 +61,7 @@ bool picture_check(const char *path, struct error *err)
                          "a pipe: give -o FILE");
     if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
         return fail(err, "%s: found a folder, expected a file", path);
-    if (picture_format_of(path) == PICTURE_UNKNOWN)
+    if (image_write_format_of(path) == IMAGE_WRITE_UNKNOWN)
         return fail(err,
                     "%s: found no known ending, expected .png, .hdr or .pfm",
                     path);
@@ -220,11 +220,11 @@ static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
 static bool encode(struct film *film, struct develop how, const char *path,
                    struct buffer *b, struct error *err)
 {
-    switch (picture_format_of(path)) {
-    case PICTURE_PNG: return encode_png(film, how, path, b, err);
-    case PICTURE_HDR: return encode_hdr(film, path, b, err);
-    case PICTURE_PFM: return encode_pfm(film, path, b, err);
-    case PICTURE_UNKNOWN: break;
+    switch (image_write_format_of(path)) {
+    case IMAGE_WRITE_PNG: return encode_png(film, how, path, b, err);
+    case IMAGE_WRITE_HDR: return encode_hdr(film, path, b, err);
+    case IMAGE_WRITE_PFM: return encode_pfm(film, path, b, err);
+    case IMAGE_WRITE_UNKNOWN: break;
     }
     return fail(err, "%s: found no known ending, expected .png, .hdr or .pfm",
                 path);
@@ -238,7 +238,7 @@ static bool publish(const struct buffer *b, const char *path, struct error *err)
     return file_write(path, b->data, b->size_bytes, false, NULL, err);
 }
 
-bool picture_write(struct film *film, struct develop how, const char *path,
+bool image_write(struct film *film, struct develop how, const char *path,
                    struct error *err)
 {
     struct buffer b = {.data = NULL};
@@ -248,7 +248,7 @@ bool picture_write(struct film *film, struct develop how, const char *path,
     return ok;
 }
 
-bool picture_write_frame(const struct frame *frame, const char *path,
+bool image_write_frame(const struct frame *frame, const char *path,
                          struct error *err)
 {
     struct buffer b = {.data = NULL};
@@ -259,7 +259,7 @@ bool picture_write_frame(const struct frame *frame, const char *path,
     return ok;
 }
 
-char *picture_write_numbered(struct film *film, struct develop how,
+char *image_write_numbered(struct film *film, struct develop how,
                              const char *stem, const char *ending,
                              struct error *err)
 {
@@ -274,7 +274,7 @@ char *picture_write_numbered(struct film *film, struct develop how,
     return path;
 }
 
-char *picture_write_frame_numbered(const struct frame *frame, const char *stem,
+char *image_write_frame_numbered(const struct frame *frame, const char *stem,
                                    struct error *err)
 {
     struct buffer b = {.data = NULL};

@@ -13,31 +13,31 @@
 
 #include "picture/film.h"
 
-enum picture_format { PICTURE_PNG, PICTURE_HDR, PICTURE_PFM, PICTURE_UNKNOWN };
+enum image_write_format { IMAGE_WRITE_PNG, IMAGE_WRITE_HDR, IMAGE_WRITE_PFM, IMAGE_WRITE_UNKNOWN };
 
 /* By the end of the name; "-" is PNG. */
-enum picture_format picture_format_of(const char *path);
+enum image_write_format image_write_format_of(const char *path);
 
 /* Fails early, before rendering, if the file could not be written: unknown
  * ending, no such folder, no permission, is a folder. */
-bool picture_check(const char *path, struct error *err);
+bool image_write_check(const char *path, struct error *err);
 
 /* Writes to a temporary file beside it, fsync, rename: the old file or the
  * new one, never half of one. "-" is standard output. */
-bool picture_write(struct film *film, struct develop how, const char *path,
+bool image_write(struct film *film, struct develop how, const char *path,
                    struct error *err);
 
 /* Writes STEM.ENDING, or STEM-2.ENDING, STEM-3.ENDING, ... : the first name
  * that is free; never replaces a file. The ending is one of the formats'. The
  * name is for free(). */
-char *picture_write_numbered(struct film *film, struct develop how,
+char *image_write_numbered(struct film *film, struct develop how,
                              const char *stem, const char *ending,
                              struct error *err);
 
 /* The same for what is no film, as PNG. */
-bool picture_write_frame(const struct frame *frame, const char *path,
+bool image_write_frame(const struct frame *frame, const char *path,
                          struct error *err);
-char *picture_write_frame_numbered(const struct frame *frame, const char *stem,
+char *image_write_frame_numbered(const struct frame *frame, const char *stem,
                                    struct error *err);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-void drawing_dot(struct frame *frame, double x, double y, uint32_t rgb)
+void raster_dot(struct frame *frame, double x, double y, uint32_t rgb)
 {
     uint8_t *pixel;
 
@@ -30,7 +30,7 @@ static void keep_inside(double at, double slope, double length, double *begin,
     *end = fmin(*end, fmax(a, b));
 }
 
-void drawing_line(struct frame *frame, double x0, double y0, double x1,
+void raster_line(struct frame *frame, double x0, double y0, double x1,
                   double y1, uint32_t rgb)
 {
     double dx = x1 - x0, dy = y1 - y0;
@@ -47,20 +47,20 @@ void drawing_line(struct frame *frame, double x0, double y0, double x1,
     for (int i = 0; i <= steps; i++) {
         double t = begin + (end - begin) * i / steps;
 
-        drawing_dot(frame, x0 + t * dx, y0 + t * dy, rgb);
+        raster_dot(frame, x0 + t * dx, y0 + t * dy, rgb);
     }
 }
 
-void drawing_box(struct frame *frame, double x0, double y0, double x1,
+void raster_box(struct frame *frame, double x0, double y0, double x1,
                  double y1, uint32_t rgb)
 {
-    drawing_line(frame, x0, y0, x1, y0, rgb);
-    drawing_line(frame, x1, y0, x1, y1, rgb);
-    drawing_line(frame, x1, y1, x0, y1, rgb);
-    drawing_line(frame, x0, y1, x0, y0, rgb);
+    raster_line(frame, x0, y0, x1, y0, rgb);
+    raster_line(frame, x1, y0, x1, y1, rgb);
+    raster_line(frame, x1, y1, x0, y1, rgb);
+    raster_line(frame, x0, y1, x0, y0, rgb);
 }
 
-uint32_t drawing_dim(uint32_t rgb, double brightness)
+uint32_t raster_dim(uint32_t rgb, double brightness)
 {
     uint32_t dim = 0;
 

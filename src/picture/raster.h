@@ -12,17 +12,17 @@
 
 #include "picture/film.h"
 
-void drawing_dot(struct frame *frame, double x, double y, uint32_t rgb);
+void raster_dot(struct frame *frame, double x, double y, uint32_t rgb);
 
 /* Both ends and all between, a pixel wide. */
-void drawing_line(struct frame *frame, double x0, double y0, double x1,
+void raster_line(struct frame *frame, double x0, double y0, double x1,
                   double y1, uint32_t rgb);
 
 /* The outline between two corners. */
-void drawing_box(struct frame *frame, double x0, double y0, double x1,
+void raster_box(struct frame *frame, double x0, double y0, double x1,
                  double y1, uint32_t rgb);
 
 /* Between black at 0 and the colour at 1. */
-uint32_t drawing_dim(uint32_t rgb, double brightness);
+uint32_t raster_dim(uint32_t rgb, double brightness);
 
 #endif

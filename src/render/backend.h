@@ -38,7 +38,7 @@ struct backend {
      * and the arrays of the world must stay until the next load() or destroy().
      */
     bool (*load)(struct backend *b, const struct world *world,
-                 struct wide *tree, struct error *err);
+                 struct bvh8 *tree, struct error *err);
 
     /* Frees what load() built but the tree: another backend renders now. */
     void (*unload)(struct backend *b);
@@ -60,7 +60,7 @@ struct backend {
     void (*destroy)(struct backend *b);
 };
 
-struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
+struct backend *backend_cpu_create(int thread_count, const struct cpu_kernel *paths,
                                    struct error *err);
 
 #endif

@@ -13,12 +13,12 @@
 
 struct backend_cpu {
     struct backend base;
-    const struct paths *paths; /* that can do every world */
+    const struct cpu_kernel *paths; /* that can do every world */
     struct pool *pool;
-    struct wide *tree; /* from load() */
+    struct bvh8 *tree; /* from load() */
     /* from begin() */
-    const struct paths *fit; /* that can do this one */
-    struct wide_world world;
+    const struct cpu_kernel *fit; /* that can do this one */
+    struct bvh8_world world;
     struct film *film;
     int x0, y0;
 };
@@ -135,14 +135,14 @@ static void render_block(void *context, uint32_t item, int worker)
 }
 
 static bool cpu_load(struct backend *base, const struct world *world,
-                     struct wide *tree, struct error *err)
+                     struct bvh8 *tree, struct error *err)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    if (tree->nodes == NULL && !wide_build(tree, world, b->pool, err))
+    if (tree->nodes == NULL && !bvh8_build(tree, world, b->pool, err))
         return false;
     b->tree = tree;
-    base->tree_bytes = wide_bytes(tree);
+    base->tree_bytes = bvh8_bytes(tree);
     return true;
 }
 
@@ -158,7 +158,7 @@ static bool cpu_begin(struct backend *base, const struct world *world,
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     (void)err;
-    b->fit = isa_fit(b->paths, world->settings.features);
+    b->fit = cpu_kernel_fit(b->paths, world->settings.features);
     b->world.world = *world;
     b->world.tree = b->tree;
     b->film = film;
@@ -198,7 +198,7 @@ static void cpu_destroy(struct backend *base)
     free(b);
 }
 
-struct backend *backend_cpu_create(int thread_count, const struct paths *paths,
+struct backend *backend_cpu_create(int thread_count, const struct cpu_kernel *paths,
                                    struct error *err)
 {
     struct backend_cpu *b = xcalloc(1, sizeof *b);

@@ -31,7 +31,7 @@ static bool always(void)
 enum { BUILDS = 4, WHOLE = BUILDS - 1 };
 
 #define DECLARE(isa)                                                     \
-    extern const struct paths paths_##isa##_lamps, paths_##isa##_images, \
+    extern const struct cpu_kernel paths_##isa##_lamps, paths_##isa##_images, \
         paths_##isa##_shiny, paths_##isa
 #define BUILDS_OF(isa)                                                     \
     {                                                                      \
@@ -45,7 +45,7 @@ DECLARE(avx512);
 
 /* The fastest first. */
 static const struct {
-    const struct paths *builds[BUILDS];
+    const struct cpu_kernel *builds[BUILDS];
     bool (*is_here)(void);
 } all[] = {
 #if defined(__x86_64__)
@@ -57,7 +57,7 @@ static const struct {
 
 enum { COUNT = sizeof all / sizeof all[0] };
 
-const struct paths *isa_at(int i)
+const struct cpu_kernel *cpu_kernel_at(int i)
 {
     for (int k = 0; k < COUNT; k++)
         if (all[k].is_here() && i-- == 0)
@@ -65,17 +65,17 @@ const struct paths *isa_at(int i)
     return NULL;
 }
 
-const struct paths *isa_best(void)
+const struct cpu_kernel *cpu_kernel_best(void)
 {
-    return isa_at(0);
+    return cpu_kernel_at(0);
 }
 
-const struct paths *isa_named(const char *name, struct error *err)
+const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err)
 {
     char known[64] = "";
-    const struct paths *p;
+    const struct cpu_kernel *p;
 
-    for (int i = 0; (p = isa_at(i)) != NULL; i++) {
+    for (int i = 0; (p = cpu_kernel_at(i)) != NULL; i++) {
         size_t length = strlen(known);
 
         if (strcmp(p->name, name) == 0)
@@ -87,7 +87,7 @@ const struct paths *isa_named(const char *name, struct error *err)
     return NULL;
 }
 
-const struct paths *isa_fit(const struct paths *paths, uint32_t features)
+const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths, uint32_t features)
 {
     for (int k = 0; k < COUNT; k++)
         for (int i = 0; all[k].builds[WHOLE] == paths && i < BUILDS; i++)

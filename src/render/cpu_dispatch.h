@@ -7,7 +7,7 @@
  * Units:     none
  * Ownership: static
  * Threads:   any
- * Errors:    isa_named() says which there are
+ * Errors:    cpu_kernel_named() says which there are
  */
 #ifndef GLIM_CPU_DISPATCH_H
 #define GLIM_CPU_DISPATCH_H
@@ -16,15 +16,15 @@
 
 /* For the i-th set of instructions of this processor, the fastest first, with
  * all features; NULL behind the last. */
-const struct paths *isa_at(int i);
+const struct cpu_kernel *cpu_kernel_at(int i);
 
-const struct paths *isa_best(void);
+const struct cpu_kernel *cpu_kernel_best(void);
 
 /* NULL if there is none of this name, or the processor cannot run it. */
-const struct paths *isa_named(const char *name, struct error *err);
+const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err);
 
 /* The smallest build for the instructions of `paths` that does all features of
  * a world; paths itself if there is none. */
-const struct paths *isa_fit(const struct paths *paths, uint32_t features);
+const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths, uint32_t features);
 
 #endif

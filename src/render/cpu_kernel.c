@@ -29,4 +29,4 @@ samples(const struct world *w, const struct sample_place *places,
     path_samples(w, places, count, out);
 }
 
-const struct paths PATHS = {PATHS_NAME, FEATURES, samples};
+const struct cpu_kernel PATHS = {PATHS_NAME, FEATURES, samples};

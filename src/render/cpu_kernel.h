@@ -17,11 +17,11 @@
 #include "bvh/bvh8.h"
 #include "kernels/path_types.h"
 
-struct paths {
+struct cpu_kernel {
     const char *name;  /* of the instructions */
     uint32_t features; /* enum feature: those of worlds that it can do */
 
-    /* path_samples() of kernels/path.h; w is within a struct wide_world. */
+    /* path_samples() of kernels/path.h; w is within a struct bvh8_world. */
     void (*samples)(const struct world *w, const struct sample_place *places,
                     uint32_t count, struct path_sample *out);
 };

@@ -30,7 +30,7 @@ struct rect {
 
 struct render_job {
     struct world world;
-    struct wide *tree;     /* of its triangles, for backends to share */
+    struct bvh8 *tree;     /* of its triangles, for backends to share */
     bool geometry_changed; /* since the last start: the backend loads anew */
     struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
@@ -104,7 +104,7 @@ int render_event_fd(const struct render *r);
 
 struct render_progress render_progress(struct render *r);
 
-/* For reading: film_preview(), film_resolve(), film_linear(), picture_write().
+/* For reading: film_preview(), film_resolve(), film_linear(), image_write().
  * Valid until the next render_start() with another size. */
 struct film *render_film(struct render *r);
 

@@ -3,12 +3,12 @@
 
 #include <stdlib.h>
 
-void load_begin(struct load *l, const struct backend *b)
+void thread_load_begin(struct thread_load *l, const struct backend *b)
 {
     int count = b->cpu_ns ? b->thread_count : 0;
 
     if (count != l->count) {
-        load_free(l);
+        thread_load_free(l);
         l->cpu_ns = xcalloc((size_t)count, sizeof *l->cpu_ns);
         l->count = count;
     }
@@ -16,7 +16,7 @@ void load_begin(struct load *l, const struct backend *b)
         l->cpu_ns[i] = b->cpu_ns(b, i);
 }
 
-double load_share(const struct load *l, const struct backend *b, int thread,
+double thread_load_share(const struct thread_load *l, const struct backend *b, int thread,
                   uint64_t time_ns)
 {
     double share;
@@ -28,8 +28,8 @@ double load_share(const struct load *l, const struct backend *b, int thread,
     return share < 1 ? share : 1; /* the two clocks are not read at once */
 }
 
-void load_free(struct load *l)
+void thread_load_free(struct thread_load *l)
 {
     free(l->cpu_ns);
-    *l = (struct load){0};
+    *l = (struct thread_load){0};
 }

@@ -8,16 +8,16 @@
 
 /* The next name of the line for free(); NULL if there is none, or no end of
  * its quotes. */
-static char *read_name(struct lex *lex)
+static char *read_name(struct lexer *lex)
 {
     struct word word;
     char *name;
     size_t length = 0;
 
-    if (lex_at_line_end(lex))
+    if (lexer_at_line_end(lex))
         return NULL;
     if (*lex->p != '"') {
-        word = lex_word(lex);
+        word = lexer_word(lex);
         return xformat("%.*s", (int)word.length, word.start);
     }
     name = xmalloc((size_t)(lex->end - lex->p));
@@ -37,11 +37,11 @@ static char *read_name(struct lex *lex)
     return NULL;
 }
 
-bool assigns_read(struct assigns *a, struct lex *lex)
+bool assigns_read(struct assigns *a, struct lexer *lex)
 {
     char *object = read_name(lex);
     char *material = object == NULL ? NULL : read_name(lex);
-    bool ok = material != NULL && lex_at_line_end(lex);
+    bool ok = material != NULL && lexer_at_line_end(lex);
 
     if (ok)
         assigns_set(a, object, material);

@@ -28,7 +28,7 @@ struct assigns {
 };
 
 /* Reads what follows the key `assign`. */
-bool assigns_read(struct assigns *assigns, struct lex *lex);
+bool assigns_read(struct assigns *assigns, struct lexer *lex);
 
 /* A line each, in order. */
 void assigns_write(const struct assigns *assigns, FILE *to);

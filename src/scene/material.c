@@ -27,7 +27,7 @@ const char *const mtl_map_keys[MTL_MAPS] = {
 
 struct place {
     const char *path;
-    struct report *report;
+    struct warnings *report;
 };
 
 struct mtl_source mtl_source_empty(void)
@@ -141,7 +141,7 @@ static struct vec3 reflecting(const struct mtl_color *c, const char *key,
         is_clamped |= !(rgb[i] == c->rgb[i]);
     }
     if (is_clamped)
-        report_add(at->report, "colours outside 0 to 1",
+        warnings_add(at->report, "colours outside 0 to 1",
                    "%s:%" PRIu64 ": found %s %g %g %g, expected numbers from 0 "
                    "to 1: clamped",
                    at->path, c->line, key, c->rgb[0], c->rgb[1], c->rgb[2]);
@@ -160,7 +160,7 @@ static struct vec3 emission(const struct mtl_color *c, const struct place *at)
             is_changed = true;
     }
     if (is_changed)
-        report_add(at->report, "impossible radiances",
+        warnings_add(at->report, "impossible radiances",
                    "%s:%" PRIu64 ": found Ke %g %g %g, expected numbers from 0 "
                    "on: what is not counts as 0",
                    at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
@@ -176,7 +176,7 @@ static double within(const struct mtl_number *n, const char *key, double lo,
         return missing;
     if (n->value >= lo && n->value <= hi)
         return n->value;
-    report_add(at->report, "impossible material values",
+    warnings_add(at->report, "impossible material values",
                "%s:%" PRIu64 ": found %s %g, expected a number from %g to %g: "
                "taken as %g",
                at->path, n->line, key, n->value, lo, hi, missing);
@@ -280,7 +280,7 @@ static void make_opaque(struct material *m, int illum,
 
     m->opacity = (float)opacity(s, at);
     if (m->opacity <= 0)
-        report_add(at->report, "materials that are not seen",
+        warnings_add(at->report, "materials that are not seen",
                    "%s:%" PRIu64 ": found %s %g: what has this material is not "
                    "seen",
                    at->path, s->d.line != 0 ? s->d.line : s->tr.line,
@@ -318,14 +318,14 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
     if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture &&
         map != m->alpha_texture && map != m->metal_texture &&
         map != m->opacity_texture)
-        report_add(at->report, "maps that do not fit their material",
+        warnings_add(at->report, "maps that do not fit their material",
                    "%s: found %s of a material that has no use for it: not "
                    "used",
                    at->path, mtl_map_keys[which]);
 }
 
 struct material material_from_source(const struct mtl_source *s,
-                                     const char *path, struct report *report)
+                                     const char *path, struct warnings *report)
 {
     static const enum mtl_map particular[] = {MTL_MAP_KD, MTL_MAP_KS,
                                               MTL_MAP_PR, MTL_MAP_PM,
@@ -355,13 +355,13 @@ struct material material_from_source(const struct mtl_source *s,
 static void take_if_same(struct mtl_source *s,
                          const struct mtl_source *candidate)
 {
-    struct report ignored = {0};
+    struct warnings ignored = {0};
     struct material a = material_from_source(s, "", &ignored);
     struct material b = material_from_source(candidate, "", &ignored);
 
     if (memcmp(&a, &b, sizeof a) == 0)
         *s = *candidate;
-    report_free(&ignored);
+    warnings_free(&ignored);
 }
 
 struct mtl_source mtl_source_needed(const struct mtl_source *file,

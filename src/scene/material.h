@@ -87,7 +87,7 @@ struct material material_default(void);
 
 /* A black colour beside a map stays black here: textures_load() decides. */
 struct material material_from_source(const struct mtl_source *source,
-                                     const char *path, struct report *report);
+                                     const char *path, struct warnings *report);
 
 /* The statements that a file must have to give the wanted material: where those
  * that it has already give the same, they stay. */

@@ -68,14 +68,14 @@ static bool tri_gets_normal(const struct scene *scene, struct tri *t)
            triangle_normal(*v[0], *v[1], *v[2], &t->ng);
 }
 
-static void drop_tris(struct scene *scene, struct report *report,
+static void drop_tris(struct scene *scene, struct warnings *report,
                       bool (*is_usable)(const struct scene *, struct tri *))
 {
     uint32_t kept = 0;
 
     for (uint32_t i = 0; i < scene->tri_count; i++) {
         if (!is_usable(scene, &scene->tris[i])) {
-            report_add(report, "triangles without area",
+            warnings_add(report, "triangles without area",
                        "%s: found a triangle without area in face %" PRIu32
                        " of the file: triangle dropped",
                        scene->path, scene->tri_faces[i] + 1);
@@ -255,7 +255,7 @@ uint64_t scene_geometry_bytes(const struct scene *s)
                                      sizeof *s->tri_objects);
 }
 
-bool scene_finish(struct scene *scene, struct report *report, struct error *err)
+bool scene_finish(struct scene *scene, struct warnings *report, struct error *err)
 {
     struct world arrays;
 
@@ -267,7 +267,7 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
     turn_tris(scene);
     drop_tris(scene, report, tri_gets_normal);
     if (scene->tri_count == 0)
-        report_add(report, "scenes without a face",
+        warnings_add(report, "scenes without a face",
                    "%s: found no face that can be seen: only the background is "
                    "rendered",
                    scene->path);
@@ -275,13 +275,13 @@ bool scene_finish(struct scene *scene, struct report *report, struct error *err)
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
     arrays = scene_arrays(scene);
-    wide_free(&scene->tree);
-    guide_outdate(&scene->guide);
+    bvh8_free(&scene->tree);
+    path_guide_outdate(&scene->guide);
     return lights_build(&scene->lights, &arrays, err);
 }
 
 bool scene_load_sky(struct scene *scene, const struct view *view,
-                    struct report *report, struct error *err)
+                    struct warnings *report, struct error *err)
 {
     struct image_file file;
     struct image image = {0};
@@ -294,10 +294,10 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
          !image_decode(&file, &image, &clamped_count, err)))
         return false;
     if (clamped_count > 0)
-        report_add(report, "skies with impossible values",
+        warnings_add(report, "skies with impossible values",
                    "%s: found %" PRIu64 " negative or infinite values: clamped",
                    view->sky_path, clamped_count);
-    if (!sky_build(&table, (struct vec3 *)(void *)image.rgb,
+    if (!sky_table_build(&table, (struct vec3 *)(void *)image.rgb,
                    (uint32_t)image.width, (uint32_t)image.height,
                    SKY_WITH_CHANCE, err)) {
         image_free(&image);
@@ -305,7 +305,7 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
     }
     /* not before: what has another address is known to be another array */
     free(scene->sky_texels);
-    sky_free(&scene->sky_table);
+    sky_table_free(&scene->sky_table);
     scene->sky_table = table;
     /* the scene owns the floats now, three of which are a vec3 */
     scene->sky_texels = (struct vec3 *)(void *)image.rgb;
@@ -428,8 +428,8 @@ void scene_free(struct scene *scene)
     free(scene->texels);
     free(scene->sky_texels);
     lights_free(&scene->lights);
-    sky_free(&scene->sky_table);
-    guide_free(&scene->guide);
-    wide_free(&scene->tree);
+    sky_table_free(&scene->sky_table);
+    path_guide_free(&scene->guide);
+    bvh8_free(&scene->tree);
     memset(scene, 0, sizeof *scene);
 }

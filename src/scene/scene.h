@@ -86,20 +86,20 @@ struct scene {
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
     bool has_emitters;
     struct lights lights;
-    struct guide guide;
-    struct wide tree; /* of the triangles; without nodes: nobody needs one */
+    struct path_guide guide;
+    struct bvh8 tree; /* of the triangles; without nodes: nobody needs one */
     float linear_of_srgb[256];
 };
 
 /* Drops triangles with a non-finite vertex or without area (counted in the
  * report), computes bounds, centre and scale, and fills positions from
  * file_positions. */
-bool scene_finish(struct scene *scene, struct report *report,
+bool scene_finish(struct scene *scene, struct warnings *report,
                   struct error *err);
 
 /* Loads view->sky_path, or removes the image if that is NULL. */
 bool scene_load_sky(struct scene *scene, const struct view *view,
-                    struct report *report, struct error *err);
+                    struct warnings *report, struct error *err);
 
 /* The part of a world that no view changes. */
 struct world scene_arrays(const struct scene *scene);

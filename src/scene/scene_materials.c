@@ -113,11 +113,11 @@ static struct material make_material(const struct scene *scene,
                                      const struct style *style, uint32_t i)
 {
     /* What is odd in the file was said when it was read. */
-    struct report report = {0};
+    struct warnings report = {0};
     struct material m =
         material_from_source(&style->sources[i], scene->path, &report);
 
-    report_free(&report);
+    warnings_free(&report);
     return m;
 }
 
@@ -125,7 +125,7 @@ static struct material make_material(const struct scene *scene,
 static bool load_textures(struct scene *scene, struct material *m,
                           struct next *next, struct error *err)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct texture *lent = scene->textures;
     bool ok;
 
@@ -139,7 +139,7 @@ static bool load_textures(struct scene *scene, struct material *m,
         scene->textures = next->textures;
     ok = textures_load_for(scene, m, &report, err);
     scene->textures = lent;
-    report_free(&report);
+    warnings_free(&report);
     return ok;
 }
 
@@ -213,7 +213,7 @@ static bool make_lights(struct scene *scene, const struct style *style,
 static bool needs_guide(const struct scene *scene, const struct next *next)
 {
     return next->has_lights || next->textures != NULL ||
-           any_differs(scene, next, guides_differ);
+           any_differs(scene, next, path_guides_differ);
 }
 
 /* ---- all ---- */
@@ -309,8 +309,8 @@ bool scene_restyle(struct scene *scene, const struct style *style,
         return false;
     }
     if (needs_guide(scene, &next))
-        guide_outdate(&scene->guide);
-    guide_recolor(&scene->guide);
+        path_guide_outdate(&scene->guide);
+    path_guide_recolor(&scene->guide);
     swap_in(scene, style, &next);
     take_sources(scene, style);
     scene_find_emitters(scene);

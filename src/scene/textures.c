@@ -126,11 +126,11 @@ static void decode_image(void *context, uint32_t item, int worker)
 
 /* Says where the texture is named first, and why it is not there. */
 static void report_lost(const struct scene *scene, const struct reading *r,
-                        struct report *report, const char *why)
+                        struct warnings *report, const char *why)
 {
     struct texture_origin o = scene->texture_origins[r->texture];
 
-    report_add_named(report, "lost textures", r->path,
+    warnings_add_named(report, "lost textures", r->path,
                      "%s:%" PRIu64 ": %s: the texture is not used",
                      scene->mtl_paths[o.file], o.line, why);
 }
@@ -138,7 +138,7 @@ static void report_lost(const struct scene *scene, const struct reading *r,
 /* Takes the image that was read. An unreadable one leaves the texture without
  * texels. */
 static bool take(struct scene *scene, const struct reading *r,
-                 struct report *report, struct error *err)
+                 struct warnings *report, struct error *err)
 {
     const struct reading *source = r->twin != NULL ? r->twin : r;
     const struct image *image = &source->image;
@@ -202,7 +202,7 @@ static uint32_t open_some(struct scene *scene, const uint32_t *textures,
 
 /* Takes images that were read by all threads, in order. */
 static bool take_some(struct scene *scene, struct reading *readings,
-                      uint32_t count, struct report *report, struct error *err)
+                      uint32_t count, struct warnings *report, struct error *err)
 {
     bool ok = true;
 
@@ -214,7 +214,7 @@ static bool take_some(struct scene *scene, struct reading *readings,
 }
 
 static bool load_all(struct scene *scene, const uint32_t *textures,
-                     uint32_t count, struct report *report, struct error *err)
+                     uint32_t count, struct warnings *report, struct error *err)
 {
     /* without threads this one reads */
     struct pool *pool = count > 1 ? pool_create(usable_threads(), err) : NULL;
@@ -287,7 +287,7 @@ bool textures_are_tried(const struct scene *scene, const struct material *m)
 }
 
 bool textures_load_for(struct scene *scene, struct material *m,
-                       struct report *report, struct error *err)
+                       struct warnings *report, struct error *err)
 {
     uint32_t maps[MAPS];
 
@@ -340,7 +340,7 @@ static uint32_t list_textures(struct scene *scene, const bool *is_used,
     return count;
 }
 
-bool textures_load(struct scene *scene, struct report *report,
+bool textures_load(struct scene *scene, struct warnings *report,
                    struct error *err)
 {
     bool *is_used = alloc_array(scene->material_count, sizeof *is_used);

@@ -15,12 +15,12 @@
 
 /* Reads the textures of the materials that have triangles. Where an image is
  * lost, the material's own colour is used, or grey if it has none. */
-bool textures_load(struct scene *scene, struct report *report,
+bool textures_load(struct scene *scene, struct warnings *report,
                    struct error *err);
 
 /* The same for one material that has come into use, after textures_load(). */
 bool textures_load_for(struct scene *scene, struct material *material,
-                       struct report *report, struct error *err);
+                       struct warnings *report, struct error *err);
 
 /* What the images of the scene hold: texels, and the sky with its table. */
 uint64_t textures_bytes(const struct scene *scene);

@@ -177,7 +177,7 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
 bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
                  struct error *err)
 {
-    struct wide_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
+    struct bvh8_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
     struct vec3 color = make_sky(scene, view).color;
     double sky = channels_mean(color);
     struct pool *pool;
@@ -186,13 +186,13 @@ bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
     lights_lend(&scene->lights, &w.world);
     if (scene->sky_texels != NULL)
         sky *= scene->sky_table.mean;
-    if (!guide_needs_rays(&scene->guide, &w.world, sky))
-        return guide_update(&scene->guide, &w, sky, NULL, err);
+    if (!path_guide_needs_rays(&scene->guide, &w.world, sky))
+        return path_guide_update(&scene->guide, &w, sky, NULL, err);
     /* without threads this one works */
     pool = thread_count > 1 ? pool_create(thread_count, err) : NULL;
     ok = (scene->tree.nodes != NULL ||
-          wide_build(&scene->tree, &w.world, pool, err)) &&
-         guide_update(&scene->guide, &w, sky, pool, err);
+          bvh8_build(&scene->tree, &w.world, pool, err)) &&
+         path_guide_update(&scene->guide, &w, sky, pool, err);
     pool_destroy(pool);
     return ok;
 }
@@ -204,8 +204,8 @@ bool scene_world(const struct scene *scene, const struct view *view,
 
     w.settings.sky = make_sky(scene, view);
     lights_lend(&scene->lights, &w);
-    sky_lend(&scene->sky_table, &w);
-    guide_lend(&scene->guide, &w);
+    sky_table_lend(&scene->sky_table, &w);
+    path_guide_lend(&scene->guide, &w);
     w.settings.max_vertices = view->max_bounces < 0
                                   ? PATH_HARD_STOP
                                   : (uint32_t)view->max_bounces + 1;

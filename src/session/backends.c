@@ -5,19 +5,19 @@
 
 #include "render/cpu_dispatch.h"
 
-bool machines_open(struct machines *m, const struct options *options,
+bool backends_open(struct backends *m, const struct options *options,
                    struct error *err)
 {
-    const struct paths *paths =
-        options->paths != NULL ? options->paths : isa_best();
+    const struct cpu_kernel *paths =
+        options->paths != NULL ? options->paths : cpu_kernel_best();
 
-    *m = (struct machines){.options = options};
+    *m = (struct backends){.options = options};
     m->cpu = backend_cpu_create(options_threads(options), paths, err);
     return m->cpu != NULL;
 }
 
 /* For a device that is up only new kernels. */
-bool machines_begin_device(struct machines *m, uint32_t features,
+bool backends_begin_device(struct backends *m, uint32_t features,
                            struct error *err)
 {
     const struct options *o = m->options;
@@ -33,7 +33,7 @@ bool machines_begin_device(struct machines *m, uint32_t features,
     return m->start != NULL;
 }
 
-bool machines_end_device(struct machines *m, char **log, struct error *err)
+bool backends_end_device(struct backends *m, char **log, struct error *err)
 {
     free(m->verdict);
     m->device = cl_start_end(m->start, &m->verdict, log, err);
@@ -41,15 +41,15 @@ bool machines_end_device(struct machines *m, char **log, struct error *err)
     return m->device != NULL;
 }
 
-void machines_specialise(struct machines *m, uint32_t features)
+void backends_specialise(struct backends *m, uint32_t features)
 {
     struct error ignored;
 
     if (m->device != NULL && m->start == NULL && m->features != features)
-        machines_begin_device(m, features, &ignored);
+        backends_begin_device(m, features, &ignored);
 }
 
-bool machines_end_specialising(struct machines *m)
+bool backends_end_specialising(struct backends *m)
 {
     struct error ignored;
     char *verdict, *log;
@@ -63,20 +63,20 @@ bool machines_end_specialising(struct machines *m)
     return true;
 }
 
-void machines_abandon_device(struct machines *m)
+void backends_abandon_device(struct backends *m)
 {
     if (m->start != NULL)
         cl_start_abandon(m->start);
     m->start = NULL;
 }
 
-void machines_close(struct machines *m)
+void backends_close(struct backends *m)
 {
-    machines_abandon_device(m);
+    backends_abandon_device(m);
     if (m->device != NULL)
         m->device->destroy(m->device);
     if (m->cpu != NULL)
         m->cpu->destroy(m->cpu);
     free(m->verdict);
-    *m = (struct machines){0};
+    *m = (struct backends){0};
 }

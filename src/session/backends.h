@@ -4,7 +4,7 @@
  * device when it is up
  *
  * Units:     none
- * Ownership: machines_close() frees, after the render has let go of them
+ * Ownership: backends_close() frees, after the render has let go of them
  * Threads:   main only
  * Errors:    why there is no device; nothing else fails
  */
@@ -15,7 +15,7 @@
 #include "opencl/cl_start.h"
 #include "session/command_line.h"
 
-struct machines {
+struct backends {
     const struct options *options;
     struct backend *cpu;
     struct backend *device; /* NULL: not up */
@@ -24,28 +24,28 @@ struct machines {
     uint32_t features;      /* that it has kernels for, or will have */
 };
 
-bool machines_open(struct machines *m, const struct options *options,
+bool backends_open(struct backends *m, const struct options *options,
                    struct error *err);
 
 /* Begins to bring the device of the options up, with kernels for these
  * features. */
-bool machines_begin_device(struct machines *m, uint32_t features,
+bool backends_begin_device(struct backends *m, uint32_t features,
                            struct error *err);
 
 /* Waits until it is up. *log, for free(), is what drivers said, or NULL. */
-bool machines_end_device(struct machines *m, char **log, struct error *err);
+bool backends_end_device(struct backends *m, char **log, struct error *err);
 
 /* Begins to build kernels for just these features, for a device that is up.
  * The next picture is made with them. Without them nothing is missing, so
  * nothing is said. */
-void machines_specialise(struct machines *m, uint32_t features);
+void backends_specialise(struct backends *m, uint32_t features);
 
-/* If the start that is over is that of machines_specialise(): ends it. */
-bool machines_end_specialising(struct machines *m);
+/* If the start that is over is that of backends_specialise(): ends it. */
+bool backends_end_specialising(struct backends *m);
 
 /* Nobody wants it any more. */
-void machines_abandon_device(struct machines *m);
+void backends_abandon_device(struct backends *m);
 
-void machines_close(struct machines *m);
+void backends_close(struct backends *m);
 
 #endif

@@ -185,7 +185,7 @@ static bool check_batch(const struct options *o, struct error *err)
         return fail(err,
                     "-o: is for batch mode, expected -b beside it (on the "
                     "screen %s saves a picture)",
-                    keys_first_name(&o->keys, ACTION_SAVE).text);
+                    keymap_first_name(&o->keys, ACTION_SAVE).text);
     if (o->watch && o->batch)
         return fail(err, "--watch: is for the screen, expected no -b beside "
                          "it");
@@ -193,12 +193,12 @@ static bool check_batch(const struct options *o, struct error *err)
         return fail(err,
                     "--ansi: is for batch mode, expected -b beside it (on the "
                     "screen %s saves a text)",
-                    keys_first_name(&o->keys, ACTION_SAVE_TEXT).text);
+                    keymap_first_name(&o->keys, ACTION_SAVE_TEXT).text);
     if (o->text_cols > 0 && o->display.glyph >= GLYPH_SIXEL)
         return fail(err, "--ansi: a text has no pixels, expected a --glyph "
                          "of cells beside it");
     if (o->output_path && o->text_cols == 0 &&
-        picture_format_of(o->output_path) == PICTURE_UNKNOWN)
+        image_write_format_of(o->output_path) == IMAGE_WRITE_UNKNOWN)
         return fail(err,
                     "-o: found '%s', expected a name that ends in .png, .hdr "
                     "or .pfm, or - for standard output",
@@ -226,12 +226,12 @@ static bool check_show(const struct options *o, struct error *err)
         return fail(err,
                     "--show: is for batch mode, expected -b beside it (on the "
                     "screen %s shows it)",
-                    keys_first_name(&o->keys, ACTION_VIEW_NEXT).text);
+                    keymap_first_name(&o->keys, ACTION_VIEW_NEXT).text);
     if (o->stats_path)
         return fail(err, "--stats: is about a render, expected no --show "
                          "beside it");
     if (o->output_path && o->text_cols == 0 &&
-        picture_format_of(o->output_path) != PICTURE_PNG)
+        image_write_format_of(o->output_path) != IMAGE_WRITE_PNG)
         return fail(err,
                     "-o: found '%s', expected a name that ends in .png, for "
                     "--show makes no light",
@@ -324,7 +324,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         if (o->show_help || o->show_version)
             return true; /* whatever else is on the line */
     }
-    keys_settle(&o->keys, o->phoe_keys);
+    keymap_settle(&o->keys, o->phoe_keys);
     if (!settle_backend(o, err) || !check_together(o, err) ||
         !take_environment(o, err))
         return false;

@@ -57,11 +57,11 @@ struct options {
     bool has_backend;
     const char *device;        /* number or a part of a name; NULL: the best */
     const char *kernels_path;  /* NULL: the kernels within the program */
-    const struct paths *paths; /* of --isa; NULL: the best */
+    const struct cpu_kernel *paths; /* of --isa; NULL: the best */
     bool watch;                /* changed files are loaded at once */
     bool phoe_keys;            /* W S A D Q E as phoe_ray had them */
-    struct keys keys;
-    struct display_choice display;
+    struct keymap keys;
+    struct term_caps_choice display;
     bool has_color;
     int text_cols, text_rows; /* batch mode writes text; 0: not */
     bool show_help, show_version;

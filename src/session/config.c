@@ -18,7 +18,7 @@
 struct reader {
     struct options *options;
     const char *path;
-    struct lex *lex;
+    struct lexer *lex;
     char place[400]; /* file:line */
 };
 
@@ -44,15 +44,15 @@ static struct word next_word(struct reader *r)
 {
     struct word none = {.start = ""};
 
-    return lex_at_line_end(r->lex) ? none : lex_word(r->lex);
+    return lexer_at_line_end(r->lex) ? none : lexer_word(r->lex);
 }
 
 static bool read_key(struct reader *r, struct error *err)
 {
     struct word name = next_word(r);
-    enum action action = keys_find_action(name.start, name.length);
+    enum action action = keymap_find_action(name.start, name.length);
     struct word word = next_word(r);
-    int keys[KEYS_MAX] = {0};
+    int keys[KEYMAP_MAX] = {0};
 
     if (action == ACTION_NONE)
         return fail_at(r, name, "an action (man glim lists them)", err);
@@ -64,16 +64,16 @@ static bool read_key(struct reader *r, struct error *err)
         return fail_at(r, word, "a key, or " NO_KEY, err);
     }
     for (int i = 0; word.length > 0; i++, word = next_word(r)) {
-        if (i == KEYS_MAX)
+        if (i == KEYMAP_MAX)
             return fail_at(r, word, "no more than four keys", err);
-        keys[i] = keys_find_key(word.start, word.length);
+        keys[i] = keymap_find_key(word.start, word.length);
         if (keys[i] == 0)
             return fail_at(r, word,
                            "a key: a character, ^A to ^_, or a name such as "
                            "Enter, space, PgUp or F1",
                            err);
     }
-    keys_choose(&r->options->keys, action, keys);
+    keymap_choose(&r->options->keys, action, keys);
     return true;
 }
 
@@ -96,7 +96,7 @@ static bool read_option(struct reader *r, struct error *err)
                              value.length > 0 ? texts[1] : NULL, r->place, err);
 }
 
-static bool read_line(void *context, struct lex *lex, struct error *err)
+static bool read_line(void *context, struct lexer *lex, struct error *err)
 {
     struct reader *r = context;
     struct word word;
@@ -118,7 +118,7 @@ bool config_read(struct options *o, struct error *err)
     char *path = config_path();
     struct reader r = {.options = o, .path = path};
     bool ok =
-        !path || access(path, F_OK) != 0 || lex_file(path, read_line, &r, err);
+        !path || access(path, F_OK) != 0 || lexer_file(path, read_line, &r, err);
 
     free(path);
     return ok;

@@ -82,7 +82,7 @@ static uint32_t find_object(const struct scene *scene, const char *name)
 }
 
 static void read_assigns(struct edit *e, const struct scene *scene,
-                         const struct view *view, struct report *report)
+                         const struct view *view, struct warnings *report)
 {
     for (size_t i = 0; i < view->assigns.count; i++) {
         const struct assign *a = &view->assigns.items[i];
@@ -92,7 +92,7 @@ static void read_assigns(struct edit *e, const struct scene *scene,
         if (object != NO_INDEX && material != NO_INDEX)
             e->now.assigned[object] = material;
         else
-            report_add_named(report, "assignments without effect", a->object,
+            warnings_add_named(report, "assignments without effect", a->object,
                              "%s: found no %s '%s' to assign", scene->path,
                              object == NO_INDEX ? "object" : "material",
                              object == NO_INDEX ? a->object : a->material);
@@ -100,7 +100,7 @@ static void read_assigns(struct edit *e, const struct scene *scene,
 }
 
 void edit_init(struct edit *e, const struct scene *scene,
-               const struct view *view, struct report *report)
+               const struct view *view, struct warnings *report)
 {
     *e = (struct edit){.object_count = scene->object_count};
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -134,14 +134,14 @@ void edit_free(struct edit *e)
     free(e->copied_from);
     free_state(&e->now);
     free_state(&e->saved);
-    names_free(&e->skies);
+    name_table_free(&e->skies);
     free(e->steps);
     *e = (struct edit){.names = NULL};
 }
 
 uint32_t edit_sky(struct edit *e, const char *path)
 {
-    uint32_t sky = names_add(&e->skies, path);
+    uint32_t sky = name_table_add(&e->skies, path);
 
     return sky != NO_NAME ? sky : 0;
 }

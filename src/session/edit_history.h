@@ -43,7 +43,7 @@ struct edit {
     char **names;            /* of materials; those of files first */
     uint32_t *copied_from;   /* one a material; NO_INDEX: from a file */
     uint32_t material_count, object_count;
-    struct names skies; /* paths of images; 0 is "" */
+    struct name_table skies; /* paths of images; 0 is "" */
 
     struct edit_step *steps;
     size_t step_count, step_capacity;
@@ -54,7 +54,7 @@ struct edit {
 /* From a finished scene and its view. Assignments of objects or materials that
  * are not there are a warning. */
 void edit_init(struct edit *edit, const struct scene *scene,
-               const struct view *view, struct report *report);
+               const struct view *view, struct warnings *report);
 
 /* The next change is a step of its own. */
 void edit_break(struct edit *edit);

@@ -14,8 +14,8 @@
 struct binding {
     enum action action;
     const char *name;
-    int keys[KEYS_MAX];
-    int phoe[KEYS_MAX]; /* phoe_ray's; none: the same */
+    int keys[KEYMAP_MAX];
+    int phoe[KEYMAP_MAX]; /* phoe_ray's; none: the same */
 };
 
 /* q quits, so the letter of the row Q E that moves down needs Shift; with Caps
@@ -25,12 +25,12 @@ static const struct binding bindings[] = {
     {ACTION_BACK, "back", {'s', 'S'}, {'e', 'E'}},
     {ACTION_LEFT, "left", {'a', 'A'}, {0}},
     {ACTION_RIGHT, "right", {'d', 'D'}, {0}},
-    {ACTION_DOWN, "down", {'Q', INPUT_PAGE_DOWN}, {'s', 'S', INPUT_PAGE_DOWN}},
-    {ACTION_UP, "up", {'e', 'E', INPUT_PAGE_UP}, {'w', 'W', INPUT_PAGE_UP}},
-    {ACTION_LOOK_UP, "look-up", {INPUT_UP}, {0}},
-    {ACTION_LOOK_DOWN, "look-down", {INPUT_DOWN}, {0}},
-    {ACTION_LOOK_LEFT, "look-left", {INPUT_LEFT}, {0}},
-    {ACTION_LOOK_RIGHT, "look-right", {INPUT_RIGHT}, {0}},
+    {ACTION_DOWN, "down", {'Q', TTY_KEY_PAGE_DOWN}, {'s', 'S', TTY_KEY_PAGE_DOWN}},
+    {ACTION_UP, "up", {'e', 'E', TTY_KEY_PAGE_UP}, {'w', 'W', TTY_KEY_PAGE_UP}},
+    {ACTION_LOOK_UP, "look-up", {TTY_KEY_UP}, {0}},
+    {ACTION_LOOK_DOWN, "look-down", {TTY_KEY_DOWN}, {0}},
+    {ACTION_LOOK_LEFT, "look-left", {TTY_KEY_LEFT}, {0}},
+    {ACTION_LOOK_RIGHT, "look-right", {TTY_KEY_RIGHT}, {0}},
     {ACTION_FASTER, "faster", {'+', '='}, {0}},
     {ACTION_SLOWER, "slower", {'-', '_'}, {0}},
     {ACTION_CURSOR, "cursor", {'v', 'V'}, {0}},
@@ -45,7 +45,7 @@ static const struct binding bindings[] = {
     {ACTION_OPEN, "open-lens", {'}'}, {0}},
     {ACTION_UNDO, "undo", {'u'}, {0}},
     {ACTION_REDO, "redo", {'U'}, {0}},
-    {ACTION_RESET, "reset", {'r', 'R', INPUT_HOME}, {0}},
+    {ACTION_RESET, "reset", {'r', 'R', TTY_KEY_HOME}, {0}},
     {ACTION_KEEP, "keep", {'k', 'K'}, {0}},
     {ACTION_VIEW_1, "view-1", {'1'}, {0}},
     {ACTION_VIEW_2, "view-2", {'2'}, {0}},
@@ -78,7 +78,7 @@ static const struct binding bindings[] = {
     {ACTION_HIDE, "hide", {'i', 'I'}, {0}},
     {ACTION_MOUSE, "mouse", {'m', 'M'}, {0}},
     {ACTION_REDRAW, "redraw", {CTRL('L')}, {0}},
-    {ACTION_HELP, "help", {'?', 'h', INPUT_F1}, {0}},
+    {ACTION_HELP, "help", {'?', 'h', TTY_KEY_F1}, {0}},
     {ACTION_SUSPEND, "suspend", {CTRL('Z')}, {0}},
     {ACTION_INTERRUPT, "interrupt", {CTRL('C')}, {0}},
     {ACTION_ABORT, "abort", {CTRL('\\')}, {0}},
@@ -152,13 +152,13 @@ static const struct panel_line {
 } panel_lines[] = {
     {"arrows",
      "choose; change by a step",
-     {{INPUT_UP, PANEL_UP},
-      {INPUT_DOWN, PANEL_DOWN},
-      {INPUT_LEFT, PANEL_LESS},
-      {INPUT_RIGHT, PANEL_MORE}}},
+     {{TTY_KEY_UP, PANEL_UP},
+      {TTY_KEY_DOWN, PANEL_DOWN},
+      {TTY_KEY_LEFT, PANEL_LESS},
+      {TTY_KEY_RIGHT, PANEL_MORE}}},
     {"PgUp/Dn",
      "ten lines up, down",
-     {{INPUT_PAGE_UP, PANEL_PAGE_UP}, {INPUT_PAGE_DOWN, PANEL_PAGE_DOWN}}},
+     {{TTY_KEY_PAGE_UP, PANEL_PAGE_UP}, {TTY_KEY_PAGE_DOWN, PANEL_PAGE_DOWN}}},
     {NULL,
      "change by ten steps",
      {{'[', PANEL_MUCH_LESS}, {']', PANEL_MUCH_MORE}}},
@@ -196,27 +196,27 @@ static const struct key_name {
     {'\t', "Tab"},
     {ESCAPE, "Esc"},
     {127, "Bksp"},
-    {INPUT_UP, "Up"},
-    {INPUT_DOWN, "Down"},
-    {INPUT_LEFT, "Left"},
-    {INPUT_RIGHT, "Right"},
-    {INPUT_PAGE_UP, "PgUp"},
-    {INPUT_PAGE_DOWN, "PgDn"},
-    {INPUT_HOME, "Home"},
-    {INPUT_F1, "F1"},
+    {TTY_KEY_UP, "Up"},
+    {TTY_KEY_DOWN, "Down"},
+    {TTY_KEY_LEFT, "Left"},
+    {TTY_KEY_RIGHT, "Right"},
+    {TTY_KEY_PAGE_UP, "PgUp"},
+    {TTY_KEY_PAGE_DOWN, "PgDn"},
+    {TTY_KEY_HOME, "Home"},
+    {TTY_KEY_F1, "F1"},
 };
 
-static void take_away(struct keys *k, enum action action, int key)
+static void take_away(struct keymap *k, enum action action, int key)
 {
-    for (int i = 0; i < KEYS_MAX; i++) {
+    for (int i = 0; i < KEYMAP_MAX; i++) {
         if (k->keys[action][i] == key)
             k->keys[action][i] = 0;
     }
 }
 
-void keys_choose(struct keys *k, enum action action, const int keys[KEYS_MAX])
+void keymap_choose(struct keymap *k, enum action action, const int keys[KEYMAP_MAX])
 {
-    for (int i = 0; i < KEYS_MAX; i++) {
+    for (int i = 0; i < KEYMAP_MAX; i++) {
         for (int other = 0; other < ACTIONS; other++)
             take_away(k, (enum action)other, keys[i]);
     }
@@ -224,22 +224,22 @@ void keys_choose(struct keys *k, enum action action, const int keys[KEYS_MAX])
     k->is_chosen[action] = true;
 }
 
-void keys_settle(struct keys *k, bool phoe)
+void keymap_settle(struct keymap *k, bool phoe)
 {
     for (size_t i = 0; i < COUNT(bindings); i++) {
         const struct binding *b = &bindings[i];
         const int *keys = phoe && b->phoe[0] != 0 ? b->phoe : b->keys;
 
-        for (int j = 0; j < KEYS_MAX && !k->is_chosen[b->action]; j++)
+        for (int j = 0; j < KEYMAP_MAX && !k->is_chosen[b->action]; j++)
             k->keys[b->action][j] =
-                keys_action(k, keys[j]) == ACTION_NONE ? keys[j] : 0;
+                keymap_action(k, keys[j]) == ACTION_NONE ? keys[j] : 0;
     }
 }
 
-enum action keys_action(const struct keys *k, int key)
+enum action keymap_action(const struct keymap *k, int key)
 {
     for (int action = 0; action < ACTIONS && key != 0; action++) {
-        for (int i = 0; i < KEYS_MAX; i++) {
+        for (int i = 0; i < KEYMAP_MAX; i++) {
             if (k->keys[action][i] == key)
                 return (enum action)action;
         }
@@ -252,7 +252,7 @@ static bool is_name(const char *name, const char *text, size_t length)
     return strlen(name) == length && memcmp(name, text, length) == 0;
 }
 
-enum action keys_find_action(const char *name, size_t length)
+enum action keymap_find_action(const char *name, size_t length)
 {
     for (size_t i = 0; i < COUNT(bindings); i++) {
         if (is_name(bindings[i].name, name, length))
@@ -261,7 +261,7 @@ enum action keys_find_action(const char *name, size_t length)
     return ACTION_NONE;
 }
 
-const char *keys_action_name(enum action action)
+const char *keymap_action_name(enum action action)
 {
     for (size_t i = 0; i < COUNT(bindings); i++) {
         if (bindings[i].action == action)
@@ -270,7 +270,7 @@ const char *keys_action_name(enum action action)
     return NULL;
 }
 
-int keys_find_key(const char *name, size_t length)
+int keymap_find_key(const char *name, size_t length)
 {
     if (length == 1 && name[0] > ' ' && name[0] < 127)
         return name[0];
@@ -283,9 +283,9 @@ int keys_find_key(const char *name, size_t length)
     return 0;
 }
 
-struct keys_name keys_key_name(int key)
+struct keymap_name keymap_key_name(int key)
 {
-    struct keys_name name;
+    struct keymap_name name;
 
     for (size_t i = 0; i < COUNT(key_names); i++) {
         if (key_names[i].key == key) {
@@ -300,25 +300,25 @@ struct keys_name keys_key_name(int key)
     return name;
 }
 
-struct keys_name keys_first_name(const struct keys *k, enum action action)
+struct keymap_name keymap_first_name(const struct keymap *k, enum action action)
 {
-    for (int i = 0; i < KEYS_MAX; i++) {
+    for (int i = 0; i < KEYMAP_MAX; i++) {
         if (k->keys[action][i] != 0)
-            return keys_key_name(k->keys[action][i]);
+            return keymap_key_name(k->keys[action][i]);
     }
-    return (struct keys_name){"no key"};
+    return (struct keymap_name){"no key"};
 }
 
-static void add_key(struct keys_help *help, int key)
+static void add_key(struct keymap_help *help, int key)
 {
     size_t length = strlen(help->keys);
 
     snprintf(help->keys + length, sizeof help->keys - length, "%s%s",
-             length > 0 ? " " : "", keys_key_name(key).text);
+             length > 0 ? " " : "", keymap_key_name(key).text);
 }
 
 /* A capital beside its small letter is not shown. */
-static bool is_shown(const int keys[KEYS_MAX], int i)
+static bool is_shown(const int keys[KEYMAP_MAX], int i)
 {
     int key = keys[i];
 
@@ -331,12 +331,12 @@ static bool is_shown(const int keys[KEYS_MAX], int i)
     return true;
 }
 
-static void add_action(struct keys_help *help, const struct keys *k,
+static void add_action(struct keymap_help *help, const struct keymap *k,
                        enum action action, bool only_first)
 {
     bool has_first = false;
 
-    for (int i = 0; i < KEYS_MAX; i++) {
+    for (int i = 0; i < KEYMAP_MAX; i++) {
         if ((has_first && only_first) || !is_shown(k->keys[action], i))
             continue;
         add_key(help, k->keys[action][i]);
@@ -344,7 +344,7 @@ static void add_action(struct keys_help *help, const struct keys *k,
     }
 }
 
-bool keys_help(const struct keys *k, int line, struct keys_help *help)
+bool keys_help(const struct keymap *k, int line, struct keymap_help *help)
 {
     const struct line *l;
     bool is_chosen = false;
@@ -352,7 +352,7 @@ bool keys_help(const struct keys *k, int line, struct keys_help *help)
     if (line < 0 || (size_t)line >= COUNT(lines))
         return false;
     l = &lines[line];
-    *help = (struct keys_help){.text = l->text};
+    *help = (struct keymap_help){.text = l->text};
     for (size_t i = 0; i < COUNT(l->actions); i++)
         is_chosen |= k->is_chosen[l->actions[i]];
     if (l->keys && !is_chosen) {
@@ -366,7 +366,7 @@ bool keys_help(const struct keys *k, int line, struct keys_help *help)
     return true;
 }
 
-enum panel_action keys_panel_action(int key)
+enum panel_action keymap_panel_action(int key)
 {
     for (size_t i = 0; i < COUNT(panel_lines) && key != 0; i++) {
         for (int j = 0; j < PANEL_KEYS_MAX; j++) {
@@ -377,14 +377,14 @@ enum panel_action keys_panel_action(int key)
     return PANEL_NONE;
 }
 
-bool keys_panel_help(int line, struct keys_help *help)
+bool keymap_panel_help(int line, struct keymap_help *help)
 {
     const struct panel_line *l;
 
     if (line < 0 || (size_t)line >= COUNT(panel_lines))
         return false;
     l = &panel_lines[line];
-    *help = (struct keys_help){.text = l->text};
+    *help = (struct keymap_help){.text = l->text};
     if (l->keys)
         snprintf(help->keys, sizeof help->keys, "%s", l->keys);
     for (int j = 0; !l->keys && l->does[j].key != 0; j++)

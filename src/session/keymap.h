@@ -6,7 +6,7 @@
  * but for those of the panel. The manual and the README list the lines of the
  * help: a test compares.
  *
- * Units:     keys are bytes or enum input_key; 0 is none
+ * Units:     keys are bytes or enum tty_key; 0 is none
  * Ownership: strings live as long as the program
  * Threads:   any
  * Errors:    none
@@ -108,52 +108,52 @@ enum panel_action {
 };
 
 /* Keys that an action can have. */
-#define KEYS_MAX 4
+#define KEYMAP_MAX 4
 
 /* A zeroed struct has no keys yet. */
-struct keys {
-    int keys[ACTIONS][KEYS_MAX];
+struct keymap {
+    int keys[ACTIONS][KEYMAP_MAX];
     bool is_chosen[ACTIONS]; /* by the person */
 };
 
 /* Gives an action these keys only, and takes them from others that were given
  * them before. */
-void keys_choose(struct keys *k, enum action action, const int keys[KEYS_MAX]);
+void keymap_choose(struct keymap *k, enum action action, const int keys[KEYMAP_MAX]);
 
 /* Gives the others their keys of the table, but for those that are taken; phoe
  * says that W S A D Q E have phoe_ray's meaning. */
-void keys_settle(struct keys *k, bool phoe);
+void keymap_settle(struct keymap *k, bool phoe);
 
 /* What a key does. */
-enum action keys_action(const struct keys *k, int key);
+enum action keymap_action(const struct keymap *k, int key);
 
 /* The action of this name; ACTION_NONE: there is none. */
-enum action keys_find_action(const char *name, size_t length);
-const char *keys_action_name(enum action action);
+enum action keymap_find_action(const char *name, size_t length);
+const char *keymap_action_name(enum action action);
 
 /* The key of this name: a character that is visible, ^A to ^_ for Ctrl, or a
  * word such as PgUp. 0: there is none. */
-int keys_find_key(const char *name, size_t length);
+int keymap_find_key(const char *name, size_t length);
 
-struct keys_name {
+struct keymap_name {
     char text[8];
 };
 
-struct keys_name keys_key_name(int key);
+struct keymap_name keymap_key_name(int key);
 
 /* The name of an action's first key, or "no key". */
-struct keys_name keys_first_name(const struct keys *k, enum action action);
+struct keymap_name keymap_first_name(const struct keymap *k, enum action action);
 
-struct keys_help {
+struct keymap_help {
     char keys[32];
     const char *text;
 };
 
 /* Line `line` of the help, from 0; false behind the last. */
-bool keys_help(const struct keys *k, int line, struct keys_help *help);
+bool keys_help(const struct keymap *k, int line, struct keymap_help *help);
 
 /* The same for the panel. */
-enum panel_action keys_panel_action(int key);
-bool keys_panel_help(int line, struct keys_help *help);
+enum panel_action keymap_panel_action(int key);
+bool keymap_panel_help(int line, struct keymap_help *help);
 
 #endif

@@ -157,7 +157,7 @@ static bool set_cell_aspect(struct options *o, const struct option_given *g,
     const char *p = g->value;
     double number;
 
-    if (!number_parse(&p, p + strlen(p), &number) || *p != '\0' ||
+    if (!decimal_parse(&p, p + strlen(p), &number) || *p != '\0' ||
         !(number >= 0.25 && number <= 8.0))
         return fail(err, "%s: found '%s', expected a number from 0.25 to 8",
                     g->shown, g->value);
@@ -287,7 +287,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_DEVICE: return given_text(g, &o->device, err);
     case OPTION_KERNELS: return given_text(g, &o->kernels_path, err);
     case OPTION_ISA:
-        o->paths = isa_named(g->value, err);
+        o->paths = cpu_kernel_named(g->value, err);
         return o->paths != NULL;
     case OPTION_UP:
     case OPTION_BACKEND:

@@ -9,9 +9,9 @@
 #include "picture/image_write.h"
 #include "base/thread.h"
 
-bool saver_init(struct saver *s, struct error *err)
+bool save_thread_init(struct save_thread *s, struct error *err)
 {
-    *s = (struct saver){.event_fd = event_fd_open("saver", err)};
+    *s = (struct save_thread){.event_fd = event_fd_open("saver", err)};
     if (s->event_fd < 0)
         return false;
     pthread_mutex_init(&s->lock, NULL);
@@ -43,7 +43,7 @@ static bool copy_film(struct film *to, struct film *from, struct error *err)
 
 static void *saver_main(void *argument)
 {
-    struct saver *s = argument;
+    struct save_thread *s = argument;
     struct film copy = {0};
     bool ok = copy_film(&copy, s->film, &s->error);
 
@@ -52,14 +52,14 @@ static void *saver_main(void *argument)
     pthread_cond_signal(&s->copied);
     pthread_mutex_unlock(&s->lock);
     if (ok)
-        s->name = picture_write_numbered(&copy, s->how, s->stem, s->ending,
+        s->name = image_write_numbered(&copy, s->how, s->stem, s->ending,
                                          &s->error);
     film_free(&copy);
     event_fd_set(s->event_fd);
     return NULL;
 }
 
-bool saver_begin(struct saver *s, struct film *film, struct develop how,
+bool save_thread_begin(struct save_thread *s, struct film *film, struct develop how,
                  const char *stem, const char *ending, struct error *err)
 {
     int reason;
@@ -83,7 +83,7 @@ bool saver_begin(struct saver *s, struct film *film, struct develop how,
     return true;
 }
 
-void saver_wait_copied(struct saver *s)
+void save_thread_wait_copied(struct save_thread *s)
 {
     if (!s->is_busy)
         return;
@@ -93,7 +93,7 @@ void saver_wait_copied(struct saver *s)
     pthread_mutex_unlock(&s->lock);
 }
 
-char *saver_finish(struct saver *s, struct error *err)
+char *save_thread_finish(struct save_thread *s, struct error *err)
 {
     pthread_join(s->thread, NULL);
     s->is_busy = false;
@@ -105,12 +105,12 @@ char *saver_finish(struct saver *s, struct error *err)
     return s->name;
 }
 
-void saver_free(struct saver *s)
+void save_thread_free(struct save_thread *s)
 {
     struct error ignored;
 
     if (s->is_busy)
-        free(saver_finish(s, &ignored));
+        free(save_thread_finish(s, &ignored));
     pthread_cond_destroy(&s->copied);
     pthread_mutex_destroy(&s->lock);
     close(s->event_fd);

@@ -87,14 +87,14 @@ static void complete_view(struct session *s)
         memcpy(s->view.background, soft_sky, sizeof soft_sky);
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");
-        report_add(&s->report, "scenes without light",
+        warnings_add(&s->report, "scenes without light",
                    "%s: found no light: lit by a soft sky",
                    s->options->scene_path);
     }
     if (!s->view.has_camera)
         scene_frame(&s->scene, &s->view);
     if (scene_up_is_parallel(&s->view))
-        report_add(&s->report, "views along their up",
+        warnings_add(&s->report, "views along their up",
                    "%s: found the camera's up along its view: took another "
                    "axis for it",
                    s->options->scene_path);
@@ -175,7 +175,7 @@ bool session_open(struct session *s, const struct options *options,
 {
     if (!session_load(s, options, start_ns, err))
         return false;
-    if (!machines_open(&s->machines, options, err))
+    if (!backends_open(&s->machines, options, err))
         return false;
     s->render = render_create(s->machines.cpu, err);
     return s->render != NULL;
@@ -204,7 +204,7 @@ static void swap_loaded(struct session *a, struct session *b)
 
 static void swap_trees(struct scene *a, struct scene *b)
 {
-    struct wide tree = a->tree;
+    struct bvh8 tree = a->tree;
 
     a->tree = b->tree;
     b->tree = tree;
@@ -227,34 +227,34 @@ void session_take(struct session *s, struct session *fresh)
         swap_trees(&s->scene, &fresh->scene);
 }
 
-void session_watch(const struct session *s, struct watch *watch)
+void session_watch(const struct session *s, struct file_watch *watch)
 {
     const struct scene *scene = &s->scene;
     char *camera = path_beside(s->options->scene_path, "camera.txt");
 
-    watch_add(watch, s->options->scene_path);
+    file_watch_add(watch, s->options->scene_path);
     for (uint32_t i = 0; i < scene->mtl_path_count; i++)
-        watch_add(watch, scene->mtl_paths[i]);
+        file_watch_add(watch, scene->mtl_paths[i]);
     for (uint32_t i = 0; i < scene->texture_count; i++)
-        watch_add(watch, scene->texture_paths[i]);
-    watch_add(watch, s->view_path);
+        file_watch_add(watch, scene->texture_paths[i]);
+    file_watch_add(watch, s->view_path);
     if (!s->options->view_path)
-        watch_add(watch, camera);
+        file_watch_add(watch, camera);
     if (s->view.sky_path)
-        watch_add(watch, s->view.sky_path);
+        file_watch_add(watch, s->view.sky_path);
     free(camera);
 }
 
 bool session_spares(const struct session *s, const char *option,
                     const char *path, struct error *err)
 {
-    struct watch files;
+    struct file_watch files;
     bool is_read;
 
-    watch_init(&files);
+    file_watch_init(&files);
     session_watch(s, &files);
-    is_read = watch_has(&files, path);
-    watch_free(&files);
+    is_read = file_watch_has(&files, path);
+    file_watch_free(&files);
     return !is_read || fail(err,
                             "%s: found '%s', which the scene is read from, "
                             "expected another file",
@@ -284,7 +284,7 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
         return false;
     /* a device has another; moves on the screen ask this one for distances */
     if (session_uses_device(s) && s->options->batch)
-        wide_free(&s->scene.tree);
+        bvh8_free(&s->scene.tree);
     features = job.world.settings.features;
     if (spp == 0 && s->sample != SAMPLE_LIGHT) {
         job.world.settings.sample = s->sample;
@@ -292,12 +292,12 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     }
     s->restart_ns = clock_ns();
     s->speeds = (struct speeds){0};
-    load_begin(&s->load, render_backend(s->render));
+    thread_load_begin(&s->load, render_backend(s->render));
     if (!render_start(s->render, &job, err))
         return false;
     s->geometry_changed = false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
-        machines_specialise(&s->machines, features);
+        backends_specialise(&s->machines, features);
     return true;
 }
 
@@ -347,14 +347,14 @@ void session_close(struct session *s)
 {
     if (s->render)
         render_destroy(s->render); /* reads the scene until it returns */
-    machines_close(&s->machines);
+    backends_close(&s->machines);
     scene_free(&s->scene);
     view_free(&s->view);
     view_free(&s->opened);
     edit_free(&s->edit);
     view_free(&s->filed);
-    report_free(&s->report);
-    load_free(&s->load);
+    warnings_free(&s->report);
+    thread_load_free(&s->load);
     free(s->view_path);
     *s = (struct session){0};
 }

@@ -32,8 +32,8 @@ struct session {
                            the command line says of this run */
     char *view_path;    /* where the view is kept: STEM.view or -c FILE */
     char notice[256];   /* one line for the person, or "" */
-    struct report report;
-    struct machines machines;
+    struct warnings report;
+    struct backends machines;
     struct render *render;
     uint64_t start_ns; /* of the program */
     uint64_t load_ns;
@@ -43,7 +43,7 @@ struct session {
     enum sample_kind sample;       /* what will be seen live */
     /* of the render since then */
     struct speeds speeds;
-    struct load load;
+    struct thread_load load;
 };
 
 /* Loads scene, view and sky, applies the options, frames and lights what has
@@ -63,7 +63,7 @@ void session_take(struct session *s, struct session *fresh);
 
 /* Adds all files that the session was loaded from, and those that would be
  * read if they were there. */
-void session_watch(const struct session *s, struct watch *watch);
+void session_watch(const struct session *s, struct file_watch *watch);
 
 /* False, with a message, if what the option names would be written over one of
  * these files. */

@@ -66,7 +66,7 @@ static void note_written(struct written *w, size_t count, const char *path)
     w->count += count;
 }
 
-static bool save_file(struct session *s, uint32_t file, struct watch *watch,
+static bool save_file(struct session *s, uint32_t file, struct file_watch *watch,
                       struct written *written, struct error *err)
 {
     const char *path = s->scene.mtl_paths[file];
@@ -79,7 +79,7 @@ static bool save_file(struct session *s, uint32_t file, struct watch *watch,
         count == 0 || mtl_save(&s->scene, path, changes, count, &change, err);
 
     if (ok && count > 0) {
-        watch_replaced(watch, path, &change);
+        file_watch_replaced(watch, path, &change);
         note_written(written, count, path);
     }
     for (size_t i = 0; ok && i < count; i++)
@@ -90,11 +90,11 @@ static bool save_file(struct session *s, uint32_t file, struct watch *watch,
 }
 
 /* Into the file as it is now: the camera in there is not this one's. */
-static bool save_light(struct session *s, struct watch *watch,
+static bool save_light(struct session *s, struct file_watch *watch,
                        struct error *err)
 {
     struct file_change change;
-    struct report report = {0};
+    struct warnings report = {0};
     struct view view;
     bool ok;
 
@@ -106,10 +106,10 @@ static bool save_light(struct session *s, struct watch *watch,
     ok = ok && view_write(&view, s->view_path, &change, err);
     if (ok) {
         edit_saved_view(&s->edit);
-        watch_replaced(watch, s->view_path, &change);
+        file_watch_replaced(watch, s->view_path, &change);
     }
     view_free(&view);
-    report_free(&report);
+    warnings_free(&report);
     return ok;
 }
 
@@ -146,7 +146,7 @@ static char *say_written(const struct written *w, const char *view_path)
                    view_path != NULL ? view_path : "");
 }
 
-bool session_save_edit(struct session *s, struct watch *watch, char **what,
+bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                        struct error *err)
 {
     bool has_light = edit_has_unsaved_view(&s->edit);

@@ -16,7 +16,7 @@
  * have changed, these into the view file, the rest of which stays. The watch is
  * told of it. *what is a line about it, for free(). What was written before an
  * error is saved. */
-bool session_save_edit(struct session *s, struct watch *watch, char **what,
+bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                        struct error *err);
 
 /* Writes view and light into the view file. What the command line says of this

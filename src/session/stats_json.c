@@ -99,7 +99,7 @@ static void write_load(FILE *to, const struct session *s, uint64_t render_ns)
     fputs("  \"load\": [", to);
     for (int i = 0; i < s->load.count; i++)
         fprintf(to, "%s%.3f", i > 0 ? ", " : "",
-                load_share(&s->load, b, i, render_ns));
+                thread_load_share(&s->load, b, i, render_ns));
     fputs("],\n", to);
 }
 
@@ -192,12 +192,12 @@ static void write_object(FILE *to, const struct session *s)
             seconds_between(s->start_ns, now_ns));
 }
 
-bool stats_check(const char *path, struct error *err)
+bool stats_json_check(const char *path, struct error *err)
 {
     return strcmp(path, "-") == 0 || file_check(path, err);
 }
 
-bool stats_write(const struct session *s, const char *path, struct error *err)
+bool stats_json_write(const struct session *s, const char *path, struct error *err)
 {
     char *text = NULL;
     size_t size_bytes = 0;

@@ -12,10 +12,10 @@
 
 #include "session/session.h"
 
-/* Fails, early, where stats_write() could not write. */
-bool stats_check(const char *path, struct error *err);
+/* Fails, early, where stats_json_write() could not write. */
+bool stats_json_check(const char *path, struct error *err);
 
 /* Writes to the file, or to standard output for "-". */
-bool stats_write(const struct session *s, const char *path, struct error *err);
+bool stats_json_write(const struct session *s, const char *path, struct error *err);
 
 #endif

@@ -9,7 +9,7 @@
  *
  * Units:     nanoseconds of clock_ns(), terminal cells
  * Ownership: work and canvas stay the caller's and outlive the pilot;
- *            pilot_free() frees the rest
+ *            camera_control_free() frees the rest
  * Threads:   main only
  * Errors:    become messages
  */
@@ -21,44 +21,44 @@
 #include "studio/camera_history.h"
 #include "studio/camera_input.h"
 
-struct pilot {
-    struct work *work;
-    struct canvas *canvas;
-    struct steer steer;
-    struct history history;
+struct camera_control {
+    struct render_control *work;
+    struct screen *canvas;
+    struct camera_input steer;
+    struct camera_history history;
     enum action held; /* what the last step of undo was made by, and when */
     uint64_t held_ns;
     bool drag_is_new; /* no step of undo yet */
-    struct cursor cursor;
+    struct pick_cursor cursor;
     struct clearance around; /* of the eye, where it was last */
     enum clearance_place said;
     uint64_t said_ns; /* when, if it was a message */
 };
 
-void pilot_init(struct pilot *p, struct work *work, struct canvas *canvas);
+void camera_control_init(struct camera_control *p, struct render_control *work, struct screen *canvas);
 
 /* Does what the action says of camera and cursor. False if it is not the
  * pilot's. Any but a move ends what is moving, where it would have ended. */
-bool pilot_act(struct pilot *p, enum action action);
+bool camera_control_act(struct camera_control *p, enum action action);
 
 /* Gives the view the number of an ACTION_VIEW_1 to _9; no other action does. */
-void pilot_keep_view(struct pilot *p, enum action action);
+void camera_control_keep_view(struct camera_control *p, enum action action);
 
-void pilot_mouse(struct pilot *p, const struct event *event);
+void camera_control_mouse(struct camera_control *p, const struct event *event);
 
 /* Moves the camera as far as keys were held until now; says what is under the
  * cursor. */
-void pilot_step(struct pilot *p, uint64_t now_ns);
+void camera_control_step(struct camera_control *p, uint64_t now_ns);
 
-/* When to call pilot_step() next; UINT64_MAX: nothing moves. */
-uint64_t pilot_next_ns(const struct pilot *p);
+/* When to call camera_control_step() next; UINT64_MAX: nothing moves. */
+uint64_t camera_control_next_ns(const struct camera_control *p);
 
 /* After the scene was loaded anew: what was picked is of the one before. */
-void pilot_renew(struct pilot *p);
+void camera_control_renew(struct camera_control *p);
 
 /* Lets go of all keys and buttons. */
-void pilot_stop(struct pilot *p);
+void camera_control_stop(struct camera_control *p);
 
-void pilot_free(struct pilot *p);
+void camera_control_free(struct camera_control *p);
 
 #endif

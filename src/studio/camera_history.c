@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 /* One more than the steps: the pose that the last undo has left. */
-static void grow(struct history *h)
+static void grow(struct camera_history *h)
 {
     if (h->at + 1 < h->capacity)
         return;
@@ -12,14 +12,14 @@ static void grow(struct history *h)
     h->poses = xrealloc(h->poses, (size_t)h->capacity * sizeof h->poses[0]);
 }
 
-void history_add(struct history *h, const struct pose *before)
+void camera_history_add(struct camera_history *h, const struct pose *before)
 {
     grow(h);
     h->poses[h->at++] = *before;
     h->count = h->at;
 }
 
-bool history_undo(struct history *h, struct pose *pose)
+bool camera_history_undo(struct camera_history *h, struct pose *pose)
 {
     if (h->at == 0)
         return false;
@@ -28,7 +28,7 @@ bool history_undo(struct history *h, struct pose *pose)
     return true;
 }
 
-bool history_redo(struct history *h, struct pose *pose)
+bool camera_history_redo(struct camera_history *h, struct pose *pose)
 {
     if (h->at == h->count)
         return false;
@@ -37,8 +37,8 @@ bool history_redo(struct history *h, struct pose *pose)
     return true;
 }
 
-void history_free(struct history *h)
+void camera_history_free(struct camera_history *h)
 {
     free(h->poses);
-    *h = (struct history){0};
+    *h = (struct camera_history){0};
 }

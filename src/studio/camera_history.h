@@ -3,7 +3,7 @@
  * camera_history.h - cameras that were, to go back to and forth again
  *
  * Units:     steps
- * Ownership: history_free() frees; a zeroed struct is empty
+ * Ownership: camera_history_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
  * Errors:    none
  */
@@ -12,7 +12,7 @@
 
 #include "scene/view.h"
 
-struct history {
+struct camera_history {
     struct pose *poses;
     int at;       /* steps that can be undone: the poses before them */
     int count;    /* and behind them those that can be done again */
@@ -20,13 +20,13 @@ struct history {
 };
 
 /* The camera is about to leave this pose. What was undone is forgotten. */
-void history_add(struct history *h, const struct pose *before);
+void camera_history_add(struct camera_history *h, const struct pose *before);
 
 /* Takes *pose, the present one, one step back, or forth again. False if there
  * is none. */
-bool history_undo(struct history *h, struct pose *pose);
-bool history_redo(struct history *h, struct pose *pose);
+bool camera_history_undo(struct camera_history *h, struct pose *pose);
+bool camera_history_redo(struct camera_history *h, struct pose *pose);
 
-void history_free(struct history *h);
+void camera_history_free(struct camera_history *h);
 
 #endif

@@ -45,13 +45,13 @@
 #define APERTURE_LEAST    1e-3
 #define APERTURE_GREATEST 1.0
 
-void steer_init(struct steer *s, const double lo[3], const double hi[3])
+void camera_input_init(struct camera_input *s, const double lo[3], const double hi[3])
 {
-    *s = (struct steer){.speed = 1};
-    steer_resize(s, lo, hi);
+    *s = (struct camera_input){.speed = 1};
+    camera_input_resize(s, lo, hi);
 }
 
-void steer_resize(struct steer *s, const double lo[3], const double hi[3])
+void camera_input_resize(struct camera_input *s, const double lo[3], const double hi[3])
 {
     double square = 0;
 
@@ -63,7 +63,7 @@ void steer_resize(struct steer *s, const double lo[3], const double hi[3])
     s->reach = REACH_FIRST * s->scene_size;
 }
 
-void steer_adapt(struct steer *s, double near, double away)
+void camera_input_adapt(struct camera_input *s, double near, double away)
 {
     double far = fmin(away, AWAY_MOST * s->scene_size);
     double least = fmax(REACH_LEAST * s->scene_size, AWAY * far);
@@ -71,12 +71,12 @@ void steer_adapt(struct steer *s, double near, double away)
     s->reach = fmax(least, fmin(near, REACH_MOST * s->scene_size));
 }
 
-double steer_speed(const struct steer *s)
+double camera_input_speed(const struct camera_input *s)
 {
     return s->speed * PACE * s->reach;
 }
 
-void steer_begin(struct steer *s, uint64_t now_ns)
+void camera_input_begin(struct camera_input *s, uint64_t now_ns)
 {
     s->begun_ns = now_ns;
 }
@@ -87,11 +87,11 @@ static double ramp(double seconds)
     return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MOST);
 }
 
-static void turn(const struct steer *s, struct view *view,
-                 const double seconds[MOTION_AXES])
+static void turn(const struct camera_input *s, struct view *view,
+                 const double seconds[HELD_KEYS_AXES])
 {
-    double right = seconds[MOTION_LOOK_RIGHT];
-    double up = seconds[MOTION_LOOK_UP];
+    double right = seconds[HELD_KEYS_LOOK_RIGHT];
+    double up = seconds[HELD_KEYS_LOOK_UP];
 
     if (right == 0 && up == 0)
         return;
@@ -112,29 +112,29 @@ static void open_lens(struct view *view, double seconds)
         aperture > least ? fmin(aperture, APERTURE_GREATEST * sharp) : 0;
 }
 
-bool steer_step(struct steer *s, struct view *view, uint64_t now_ns)
+bool camera_input_step(struct camera_input *s, struct view *view, uint64_t now_ns)
 {
-    double seconds[MOTION_AXES];
+    double seconds[HELD_KEYS_AXES];
     double held =
         now_ns > s->begun_ns ? (double)(now_ns - s->begun_ns) * 1e-9 : 0;
-    double speed = steer_speed(s) * ramp(held);
+    double speed = camera_input_speed(s) * ramp(held);
 
-    if (!motion_step(&s->motion, now_ns, seconds))
+    if (!held_keys_step(&s->motion, now_ns, seconds))
         return false;
-    camera_move(view, speed * seconds[MOTION_RIGHT], speed * seconds[MOTION_UP],
-                speed * seconds[MOTION_FORWARD]);
+    camera_move(view, speed * seconds[HELD_KEYS_RIGHT], speed * seconds[HELD_KEYS_UP],
+                speed * seconds[HELD_KEYS_FORWARD]);
     turn(s, view, seconds);
-    if (seconds[MOTION_WIDEN] != 0)
-        camera_widen(view, exp(WIDEN_SPEED * seconds[MOTION_WIDEN]));
-    if (seconds[MOTION_OPEN] != 0)
-        open_lens(view, seconds[MOTION_OPEN]);
+    if (seconds[HELD_KEYS_WIDEN] != 0)
+        camera_widen(view, exp(WIDEN_SPEED * seconds[HELD_KEYS_WIDEN]));
+    if (seconds[HELD_KEYS_OPEN] != 0)
+        open_lens(view, seconds[HELD_KEYS_OPEN]);
     return true;
 }
 
 /* The look turns by the angle that the picture shows under the pointer's way;
  * a thing in the middle turns with the pointer, half around for the picture's
  * height. */
-static bool drag(struct steer *s, struct view *view, const struct event *e,
+static bool drag(struct camera_input *s, struct view *view, const struct event *e,
                  const struct fit *fit, double shape)
 {
     double right = (e->x - s->drag_x) * shape / fit->cols;
@@ -153,18 +153,18 @@ static bool drag(struct steer *s, struct view *view, const struct event *e,
     return true;
 }
 
-bool steer_orbits(const struct steer *s, const struct event *event)
+bool camera_input_orbits(const struct camera_input *s, const struct event *event)
 {
     return s->is_orbiting || event->button != 0 || event->is_modified;
 }
 
-bool steer_mouse(struct steer *s, struct view *view, const struct event *event,
+bool camera_input_mouse(struct camera_input *s, struct view *view, const struct event *event,
                  const struct fit *fit, int width_px, int height_px)
 {
     switch (event->mouse) {
     case MOUSE_PRESS:
         s->is_dragging = true;
-        s->drag_orbits = steer_orbits(s, event);
+        s->drag_orbits = camera_input_orbits(s, event);
         s->has_dragged = false;
         s->drag_x = event->x;
         s->drag_y = event->y;
@@ -179,7 +179,7 @@ bool steer_mouse(struct steer *s, struct view *view, const struct event *event,
     return false;
 }
 
-void steer_change_speed(struct steer *s, int steps)
+void camera_input_change_speed(struct camera_input *s, int steps)
 {
     double speed = s->speed * pow(SPEED_STEP, steps);
 

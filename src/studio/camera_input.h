@@ -20,8 +20,8 @@
 #include "studio/held_keys.h"
 #include "scene/view.h"
 
-struct steer {
-    struct motion motion;
+struct camera_input {
+    struct held_keys motion;
     double scene_size;
     double reach;      /* how far things are, for the speed of moves */
     double speed;      /* the person's factor; 1 at first */
@@ -35,35 +35,35 @@ struct steer {
 };
 
 /* For a scene between these corners. */
-void steer_init(struct steer *s, const double lo[3], const double hi[3]);
+void camera_input_init(struct camera_input *s, const double lo[3], const double hi[3]);
 
 /* The scene is between other corners now: what was chosen stays. */
-void steer_resize(struct steer *s, const double lo[3], const double hi[3]);
+void camera_input_resize(struct camera_input *s, const double lo[3], const double hi[3]);
 
 /* What the speed of moves follows: how far the surfaces near the eye are
  * (INFINITY: there is none), and how far the scene's box is (0 within it). */
-void steer_adapt(struct steer *s, double near, double away);
+void camera_input_adapt(struct camera_input *s, double near, double away);
 
 /* File units a second that a key moves at first. */
-double steer_speed(const struct steer *s);
+double camera_input_speed(const struct camera_input *s);
 
 /* A key goes down that was not held: moves begin slowly. */
-void steer_begin(struct steer *s, uint64_t now_ns);
+void camera_input_begin(struct camera_input *s, uint64_t now_ns);
 
 /* Moves by the time that keys were held since the last call. True if the view
  * has changed. */
-bool steer_step(struct steer *s, struct view *view, uint64_t now_ns);
+bool camera_input_step(struct camera_input *s, struct view *view, uint64_t now_ns);
 
 /* True for a button that turns about the pivot: any that is no plain left one,
  * and all while is_orbiting. */
-bool steer_orbits(const struct steer *s, const struct event *event);
+bool camera_input_orbits(const struct camera_input *s, const struct event *event);
 
 /* Follows the pointer while a button is down; the picture of width_px x
  * height_px pixels lies at `fit`. True if the view has changed. */
-bool steer_mouse(struct steer *s, struct view *view, const struct event *event,
+bool camera_input_mouse(struct camera_input *s, struct view *view, const struct event *event,
                  const struct fit *fit, int width_px, int height_px);
 
 /* Faster or slower by some steps. */
-void steer_change_speed(struct steer *s, int steps);
+void camera_input_change_speed(struct camera_input *s, int steps);
 
 #endif

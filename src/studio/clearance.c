@@ -49,7 +49,7 @@ static void insert(double *sorted, int count, double x)
 
 static bool trace(const struct scene *scene, struct ray ray, struct hit *hit)
 {
-    struct wide_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
+    struct bvh8_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
 
     return scene->tree.nodes != NULL && isfinite(ray.o.x + ray.o.y + ray.o.z) &&
            hit_closest(&w.world, ray, hit);

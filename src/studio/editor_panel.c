@@ -15,28 +15,28 @@
  * than keyboards wait before they repeat. */
 #define TURN_NS UINT64_C(700000000)
 
-static struct edit *edit_of(const struct panel *p)
+static struct edit *edit_of(const struct editor_panel *p)
 {
     return &p->work->session->edit;
 }
 
-static const struct scene *scene_of(const struct panel *p)
+static const struct scene *scene_of(const struct editor_panel *p)
 {
     return &p->work->session->scene;
 }
 
-void panel_init(struct panel *p, struct work *work, struct canvas *canvas)
+void editor_panel_init(struct editor_panel *p, struct render_control *work, struct screen *canvas)
 {
-    *p = (struct panel){.work = work, .canvas = canvas};
+    *p = (struct editor_panel){.work = work, .canvas = canvas};
     selection_init(&p->selection, work->session);
 }
 
-void panel_free(struct panel *p)
+void editor_panel_free(struct editor_panel *p)
 {
     selection_free(&p->selection);
 }
 
-void panel_renew(struct panel *p, const struct selection_names *names)
+void editor_panel_renew(struct editor_panel *p, const struct selection_names *names)
 {
     struct selection before = p->selection;
 
@@ -52,44 +52,44 @@ void panel_renew(struct panel *p, const struct selection_names *names)
     selection_free(&before);
 }
 
-void panel_select(struct panel *p, const struct pick *pick)
+void editor_panel_select(struct editor_panel *p, const struct pick *pick)
 {
     p->selection.material = pick->material;
     p->selection.object = pick->object;
-    if (p->selection.page == KNOB_LIGHT)
-        p->selection.page = KNOB_MATERIAL;
+    if (p->selection.page == PARAMETER_LIGHT)
+        p->selection.page = PARAMETER_MATERIAL;
     selection_settle(&p->selection);
 }
 
 /* ---- changes ---- */
 
 /* After any change: what follows from it for picture and panel. */
-static void take_change(struct panel *p)
+static void take_change(struct editor_panel *p)
 {
     if (session_take_edit(p->work->session))
         p->work->must_restart = true;
     p->work->has_changed = true;
 }
 
-static bool may_change(struct panel *p)
+static bool may_change(struct editor_panel *p)
 {
     if (!p->work->is_live) {
-        work_say(p->work, "materials change in live mode: %s goes there",
-                 work_key(p->work, ACTION_MODE).text);
+        render_control_say(p->work, "materials change in live mode: %s goes there",
+                 render_control_key(p->work, ACTION_MODE).text);
         return false;
     }
     if (p->work->reload.is_busy) {
-        work_say(p->work, "the scene is being loaded: materials change then");
+        render_control_say(p->work, "the scene is being loaded: materials change then");
         return false;
     }
     edit_of(p)->is_comparing = false;
     return true;
 }
 
-static void turn(struct panel *p, int steps)
+static void turn(struct editor_panel *p, int steps)
 {
-    struct knob knobs[KNOBS_MAX];
-    struct knob_target target = selection_target(&p->selection);
+    struct parameter knobs[PARAMETERS_MAX];
+    struct parameter_target target = selection_target(&p->selection);
     uint64_t now_ns = clock_ns();
 
     if (panel_knobs(p, knobs) == 0 || !may_change(p))
@@ -98,14 +98,14 @@ static void turn(struct panel *p, int steps)
         edit_break(edit_of(p));
     p->turned_id = knobs[p->knob].id;
     p->turned_ns = now_ns;
-    knob_turn(edit_of(p), &target, p->turned_id, steps);
+    parameter_turn(edit_of(p), &target, p->turned_id, steps);
     take_change(p);
 }
 
-static void take_typed(struct panel *p)
+static void take_typed(struct editor_panel *p)
 {
-    struct knob knobs[KNOBS_MAX];
-    struct knob_target target = selection_target(&p->selection);
+    struct parameter knobs[PARAMETERS_MAX];
+    struct parameter_target target = selection_target(&p->selection);
     struct error err;
 
     if (panel_knobs(p, knobs) == 0 || !may_change(p))
@@ -116,20 +116,20 @@ static void take_typed(struct panel *p)
         edit_break(edit_of(p));
         take_change(p);
     } else {
-        work_say(p->work, "%s", err.text);
+        render_control_say(p->work, "%s", err.text);
     }
 }
 
-static void travel(struct panel *p, bool is_back)
+static void travel(struct editor_panel *p, bool is_back)
 {
     if (!may_change(p))
         return;
     if (!(is_back ? edit_undo(edit_of(p)) : edit_redo(edit_of(p))))
-        work_say(p->work, is_back ? "nothing to undo" : "nothing to do again");
+        render_control_say(p->work, is_back ? "nothing to undo" : "nothing to do again");
     take_change(p);
 }
 
-static void compare(struct panel *p)
+static void compare(struct editor_panel *p)
 {
     bool *is_comparing = &edit_of(p)->is_comparing;
 
@@ -138,25 +138,25 @@ static void compare(struct panel *p)
 }
 
 /* A copy of the material; an object gets it at once. */
-static void duplicate(struct panel *p)
+static void duplicate(struct editor_panel *p)
 {
     struct edit *e = edit_of(p);
 
-    if (p->selection.page == KNOB_LIGHT || !selection_has_one(&p->selection) ||
+    if (p->selection.page == PARAMETER_LIGHT || !selection_has_one(&p->selection) ||
         !may_change(p))
         return;
     edit_break(e);
-    if (p->selection.page == KNOB_OBJECT) {
+    if (p->selection.page == PARAMETER_OBJECT) {
         p->selection.material =
             edit_duplicate(e, selection_material_of(&p->selection,
                                                     p->selection.object));
         edit_assign(e, p->selection.object, p->selection.material);
-        work_say(p->work, "%.40s has its own material now: %.40s",
+        render_control_say(p->work, "%.40s has its own material now: %.40s",
                  panel_name(scene_of(p)->object_names[p->selection.object]),
                  e->names[p->selection.material]);
     } else {
         p->selection.material = edit_duplicate(e, p->selection.material);
-        work_say(p->work, "%.60s: Tab goes to the objects for it",
+        render_control_say(p->work, "%.60s: Tab goes to the objects for it",
                  e->names[p->selection.material]);
     }
     edit_break(e);
@@ -165,27 +165,27 @@ static void duplicate(struct panel *p)
 
 /* ---- pages, rows ---- */
 
-void panel_open(struct panel *p)
+void editor_panel_open(struct editor_panel *p)
 {
     p->is_open = true;
-    p->is_in_knobs = p->selection.page == KNOB_LIGHT;
+    p->is_in_knobs = p->selection.page == PARAMETER_LIGHT;
     selection_settle(&p->selection);
 }
 
-void panel_close(struct panel *p)
+void editor_panel_close(struct editor_panel *p)
 {
     p->is_open = false;
     p->is_typing = false;
 }
 
-static void show_page(struct panel *p, enum knob_page page)
+static void show_page(struct editor_panel *p, enum parameter_page page)
 {
     p->selection.page = page;
-    p->is_in_knobs = page == KNOB_LIGHT;
+    p->is_in_knobs = page == PARAMETER_LIGHT;
     p->knob = p->knob_top = p->list_top = 0;
 }
 
-static void move(struct panel *p, int step)
+static void move(struct editor_panel *p, int step)
 {
     if (p->is_in_knobs)
         p->knob += step; /* panel_knobs() keeps it in bounds */
@@ -194,9 +194,9 @@ static void move(struct panel *p, int step)
 }
 
 /* What cannot be typed is turned by Enter. */
-static void begin_typing(struct panel *p, int key)
+static void begin_typing(struct editor_panel *p, int key)
 {
-    struct knob knobs[KNOBS_MAX];
+    struct parameter knobs[PARAMETERS_MAX];
 
     if (panel_knobs(p, knobs) == 0)
         return;
@@ -204,7 +204,7 @@ static void begin_typing(struct panel *p, int key)
         if (key == ENTER)
             turn(p, 1);
         else
-            work_say(p->work, "this is changed with the arrows, or Enter");
+            render_control_say(p->work, "this is changed with the arrows, or Enter");
         return;
     }
     p->is_typing = true;
@@ -212,7 +212,7 @@ static void begin_typing(struct panel *p, int key)
     p->typed[1] = '\0';
 }
 
-static void type(struct panel *p, int key)
+static void type(struct editor_panel *p, int key)
 {
     size_t length = strlen(p->typed);
 
@@ -229,7 +229,7 @@ static void type(struct panel *p, int key)
     }
 }
 
-static void enter(struct panel *p)
+static void enter(struct editor_panel *p)
 {
     if (p->is_in_knobs)
         begin_typing(p, ENTER);
@@ -238,7 +238,7 @@ static void enter(struct panel *p)
 }
 
 /* In the list there is only a way to the values. */
-static void step(struct panel *p, int by)
+static void step(struct editor_panel *p, int by)
 {
     if (p->is_in_knobs)
         turn(p, by);
@@ -246,17 +246,17 @@ static void step(struct panel *p, int by)
         enter(p);
 }
 
-static void leave(struct panel *p)
+static void leave(struct editor_panel *p)
 {
-    if (p->is_in_knobs && p->selection.page != KNOB_LIGHT)
+    if (p->is_in_knobs && p->selection.page != PARAMETER_LIGHT)
         p->is_in_knobs = false;
     else
-        panel_close(p);
+        editor_panel_close(p);
 }
 
 /* ---- mouse ---- */
 
-static void select_row(struct panel *p, int row)
+static void select_row(struct editor_panel *p, int row)
 {
     uint32_t count = selection_count(&p->selection);
     int number = 0;
@@ -270,15 +270,15 @@ static void select_row(struct panel *p, int row)
     }
 }
 
-static void click(struct panel *p, int col, int row)
+static void click(struct editor_panel *p, int col, int row)
 {
     int knob_row = row - 2 - p->list_rows;
 
     p->is_typing = false;
     if (row == 0)
-        show_page(p, col < PAGE_2   ? KNOB_MATERIAL
-                     : col < PAGE_3 ? KNOB_OBJECT
-                                    : KNOB_LIGHT);
+        show_page(p, col < PAGE_2   ? PARAMETER_MATERIAL
+                     : col < PAGE_3 ? PARAMETER_OBJECT
+                                    : PARAMETER_LIGHT);
     else if (row <= p->list_rows)
         select_row(p, row - 1);
     else if (knob_row >= 0 && knob_row < p->knob_rows) {
@@ -287,7 +287,7 @@ static void click(struct panel *p, int col, int row)
     }
 }
 
-static void wheel(struct panel *p, int up)
+static void wheel(struct editor_panel *p, int up)
 {
     if (p->is_in_knobs)
         turn(p, up);
@@ -295,7 +295,7 @@ static void wheel(struct panel *p, int up)
         selection_move(&p->selection, -up);
 }
 
-bool panel_mouse(struct panel *p, const struct event *event)
+bool editor_panel_mouse(struct editor_panel *p, const struct event *event)
 {
     int col = event->x - 1 - (term_size().cols - p->canvas->panel_cols);
 
@@ -312,13 +312,13 @@ bool panel_mouse(struct panel *p, const struct event *event)
 
 /* ---- keys ---- */
 
-bool panel_key(struct panel *p, int key)
+bool editor_panel_key(struct editor_panel *p, int key)
 {
     if (p->is_typing) {
         type(p, key);
         return true;
     }
-    switch (keys_panel_action(key)) {
+    switch (keymap_panel_action(key)) {
     case PANEL_NONE: return false;
     case PANEL_UP: move(p, -1); break;
     case PANEL_DOWN: move(p, 1); break;
@@ -327,8 +327,8 @@ bool panel_key(struct panel *p, int key)
     case PANEL_PAGE_UP: move(p, -10); break;
     case PANEL_PAGE_DOWN: move(p, 10); break;
     case PANEL_ENTER: enter(p); break;
-    case PANEL_MUCH_LESS: turn(p, -KNOB_COARSE); break;
-    case PANEL_MUCH_MORE: turn(p, KNOB_COARSE); break;
+    case PANEL_MUCH_LESS: turn(p, -PARAMETER_COARSE); break;
+    case PANEL_MUCH_MORE: turn(p, PARAMETER_COARSE); break;
     case PANEL_TYPE:
         if (!p->is_in_knobs)
             return false;
@@ -337,7 +337,7 @@ bool panel_key(struct panel *p, int key)
     case PANEL_HSV: p->selection.by_hsv = !p->selection.by_hsv; break;
     case PANEL_NEXT_PAGE:
         show_page(p,
-                  (enum knob_page)((p->selection.page + 1) % (KNOB_LIGHT + 1)));
+                  (enum parameter_page)((p->selection.page + 1) % (PARAMETER_LIGHT + 1)));
         break;
     case PANEL_COPY: duplicate(p); break;
     case PANEL_UNDO: travel(p, true); break;

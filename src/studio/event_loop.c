@@ -29,10 +29,10 @@
 #define FDS 7
 
 struct tui {
-    struct work work;
-    struct pilot pilot;
-    struct stage stage;
-    struct input input;
+    struct render_control work;
+    struct camera_control pilot;
+    struct workspace stage;
+    struct tty_input input;
     uint64_t byte_ns; /* when its last one came */
     bool has_mouse;
     enum question question;
@@ -50,9 +50,9 @@ static void end(struct tui *t, int status)
 static void switch_mouse(struct tui *t)
 {
     t->has_mouse = !t->has_mouse;
-    pilot_stop(&t->pilot);
-    term_set_mouse(t->has_mouse);
-    work_say(&t->work,
+    camera_control_stop(&t->pilot);
+    tty_set_mouse(t->has_mouse);
+    render_control_say(&t->work,
              t->has_mouse ? "mouse on: drag to look around" : "mouse off");
 }
 
@@ -60,28 +60,28 @@ static void switch_mouse(struct tui *t)
 
 static void suspend(struct tui *t)
 {
-    canvas_drain(&t->stage.canvas, &t->input);
+    screen_drain(&t->stage.canvas, &t->input);
     t->input.length = 0; /* what was typed behind it is for the shell */
-    term_suspend();
-    stage_layout(&t->stage);
+    tty_suspend();
+    workspace_layout(&t->stage);
 }
 
 static void set_live(struct tui *t, bool is_live)
 {
-    pilot_stop(&t->pilot);
-    inside_leave(&t->stage.inside);
-    work_set_live(&t->work, is_live);
+    camera_control_stop(&t->pilot);
+    inspector_leave(&t->stage.inside);
+    render_control_set_live(&t->work, is_live);
 }
 
 static void ask(struct tui *t, enum question question)
 {
     t->question = question;
-    stage_ask(&t->stage, question_text(question));
+    workspace_ask(&t->stage, question_text(question));
 }
 
 static void change_mode(struct tui *t)
 {
-    if (work_finish_saving(&t->work) && work_has_unsaved(&t->work))
+    if (work_finish_saving(&t->work) && render_control_has_unsaved(&t->work))
         ask(t, QUESTION_LIVE);
     else
         set_live(t, !t->work.is_live);
@@ -91,9 +91,9 @@ static void quit(struct tui *t)
 {
     if (!work_finish_saving(&t->work))
         return;
-    if (work_has_unsaved(&t->work))
+    if (render_control_has_unsaved(&t->work))
         ask(t, QUESTION_QUIT);
-    else if (work_has_unsaved_edit(&t->work))
+    else if (render_control_has_unsaved_edit(&t->work))
         ask(t, QUESTION_EDIT);
     else
         end(t, 0);
@@ -102,10 +102,10 @@ static void quit(struct tui *t)
 /* What was picked while the panel is open is selected in it. */
 static void follow_pick(struct tui *t)
 {
-    struct panel *panel = &t->stage.panel;
+    struct editor_panel *panel = &t->stage.panel;
 
     if (t->pilot.cursor.is_pick_new && panel->is_open) {
-        panel_select(panel, &t->pilot.cursor.pick);
+        editor_panel_select(panel, &t->pilot.cursor.pick);
         panel_draw(panel);
     }
     t->pilot.cursor.is_pick_new = false;
@@ -114,13 +114,13 @@ static void follow_pick(struct tui *t)
 /* The cursor on the picture has its keys first. */
 static bool panel_takes(struct tui *t, int key)
 {
-    struct panel *panel = &t->stage.panel;
+    struct editor_panel *panel = &t->stage.panel;
 
     if (!panel->is_open || (t->stage.canvas.has_cursor && !panel->is_typing) ||
-        !panel_key(panel, key))
+        !editor_panel_key(panel, key))
         return false;
     if (!panel->is_open)
-        stage_layout(&t->stage);
+        workspace_layout(&t->stage);
     else
         panel_draw(panel);
     return true;
@@ -128,28 +128,28 @@ static bool panel_takes(struct tui *t, int key)
 
 static void restart(struct tui *t)
 {
-    if (work_finish_saving(&t->work) && work_has_unsaved(&t->work))
+    if (work_finish_saving(&t->work) && render_control_has_unsaved(&t->work))
         ask(t, QUESTION_RESTART);
     else
-        work_restart(&t->work);
+        render_control_restart(&t->work);
 }
 
 static void act(struct tui *t, enum action action)
 {
-    if (pilot_act(&t->pilot, action))
+    if (camera_control_act(&t->pilot, action))
         return;
-    work_settle(&t->work);
-    if (stage_act(&t->stage, action))
+    render_control_settle(&t->work);
+    if (workspace_act(&t->stage, action))
         return;
     switch (action) {
     case ACTION_KEEP: ask(t, QUESTION_NUMBER); break;
     case ACTION_MODE: change_mode(t); break;
-    case ACTION_START: work_start_or_halt(&t->work); break;
-    case ACTION_STEP: work_step(&t->work); break;
+    case ACTION_START: render_control_start_or_halt(&t->work); break;
+    case ACTION_STEP: render_control_step(&t->work); break;
     case ACTION_RESTART: restart(t); break;
     case ACTION_SAVE_VIEW: work_save_view(&t->work); break;
-    case ACTION_RELOAD: work_reload(&t->work); break;
-    case ACTION_BACKEND: work_switch_backend(&t->work); break;
+    case ACTION_RELOAD: render_control_reload(&t->work); break;
+    case ACTION_BACKEND: render_control_switch_backend(&t->work); break;
     case ACTION_MOUSE: switch_mouse(t); break;
     case ACTION_QUIT: quit(t); break;
     case ACTION_INTERRUPT: end(t, 128 + SIGINT); break;
@@ -166,8 +166,8 @@ static void answer_question(struct tui *t, int key)
 
     ask(t, QUESTION_NONE);
     if (question == QUESTION_NUMBER) {
-        pilot_keep_view(&t->pilot,
-                        keys_action(&t->work.session->options->keys, key));
+        camera_control_keep_view(&t->pilot,
+                        keymap_action(&t->work.session->options->keys, key));
     } else if (answer == ANSWER_SAVE && question == QUESTION_EDIT) {
         if (work_save_edit(&t->work))
             quit(t);
@@ -177,7 +177,7 @@ static void answer_question(struct tui *t, int key)
         if (question == QUESTION_LIVE)
             set_live(t, true);
         else if (question == QUESTION_RESTART)
-            work_restart(&t->work);
+            render_control_restart(&t->work);
         else
             end(t, 0);
     }
@@ -185,17 +185,17 @@ static void answer_question(struct tui *t, int key)
 
 static void take_key(struct tui *t, int key)
 {
-    enum action action = keys_action(&t->work.session->options->keys, key);
+    enum action action = keymap_action(&t->work.session->options->keys, key);
     bool is_urgent = action == ACTION_INTERRUPT || action == ACTION_ABORT ||
                      action == ACTION_SUSPEND || action == ACTION_REDRAW;
 
-    work_be_heard(&t->work);
+    render_control_be_heard(&t->work);
     if (is_urgent)
         act(t, action);
     else if (t->question != QUESTION_NONE)
         answer_question(t, key);
     else if (t->stage.help_left > 0)
-        stage_turn_help(&t->stage, action == ACTION_CANCEL);
+        workspace_turn_help(&t->stage, action == ACTION_CANCEL);
     else if (t->stage.canvas.is_too_small && action != ACTION_QUIT)
         return;
     else if (!panel_takes(t, key))
@@ -205,16 +205,16 @@ static void take_key(struct tui *t, int key)
 
 static void take_mouse(struct tui *t, const struct event *event)
 {
-    if (panel_mouse(&t->stage.panel, event))
+    if (editor_panel_mouse(&t->stage.panel, event))
         panel_draw(&t->stage.panel);
     else
-        pilot_mouse(&t->pilot, event);
+        camera_control_mouse(&t->pilot, event);
     follow_pick(t);
 }
 
 static void take_event(struct tui *t, const struct event *event)
 {
-    struct stage *st = &t->stage;
+    struct workspace *st = &t->stage;
     enum palette palette = st->canvas.display.palette;
 
     if (event->kind == EVENT_KEY) {
@@ -223,10 +223,10 @@ static void take_event(struct tui *t, const struct event *event)
         if (t->has_mouse && st->help_left == 0 && !st->canvas.is_too_small)
             take_mouse(t, event);
     } else {
-        if (canvas_answer(&st->canvas, event))
-            stage_layout(st);
+        if (screen_answer(&st->canvas, event))
+            workspace_layout(st);
         if (st->canvas.display.palette != palette)
-            stage_refresh(st);
+            workspace_refresh(st);
     }
 }
 
@@ -234,7 +234,7 @@ static void take_byte_events(struct tui *t, bool nothing_follows)
 {
     struct event event;
 
-    while (!t->is_ending && input_next(&t->input, nothing_follows, &event))
+    while (!t->is_ending && tty_input_next(&t->input, nothing_follows, &event))
         take_event(t, &event);
 }
 
@@ -244,14 +244,14 @@ static void take_input(struct tui *t)
     unsigned char bytes[1024];
     int count;
 
-    while (!t->is_ending && (count = term_read(bytes, sizeof bytes)) != 0) {
+    while (!t->is_ending && (count = tty_read(bytes, sizeof bytes)) != 0) {
         if (count < 0) {
             t->is_gone = true;
             end(t, 128 + SIGHUP);
             return;
         }
         t->byte_ns = clock_ns();
-        input_feed(&t->input, bytes, (size_t)count);
+        tty_input_feed(&t->input, bytes, (size_t)count);
         take_byte_events(t, false);
     }
 }
@@ -260,7 +260,7 @@ static void take_signals(struct tui *t)
 {
     int number;
 
-    while ((number = term_signal()) != 0) {
+    while ((number = tty_signal()) != 0) {
         switch (number) {
         case SIGTERM:
         case SIGHUP:
@@ -268,10 +268,10 @@ static void take_signals(struct tui *t)
         case SIGQUIT: end(t, 128 + number); return;
         case SIGTSTP: suspend(t); break;
         case SIGCONT:
-            term_resume();
-            stage_layout(&t->stage);
+            tty_resume();
+            workspace_layout(&t->stage);
             break;
-        case SIGWINCH: stage_layout(&t->stage); break;
+        case SIGWINCH: workspace_layout(&t->stage); break;
         default: break;
         }
     }
@@ -287,7 +287,7 @@ static uint64_t earlier(uint64_t a, uint64_t b)
 /* A lone ESC becomes a key soon; an answer may come in pieces. */
 static uint64_t input_deadline_ns(const struct tui *t)
 {
-    if (!input_is_partial(&t->input))
+    if (!tty_input_is_partial(&t->input))
         return NEVER;
     return t->byte_ns + (t->input.length == 1 ? ESCAPE_NS : S_NS);
 }
@@ -295,17 +295,17 @@ static uint64_t input_deadline_ns(const struct tui *t)
 /* When there is something to do if nothing happens. */
 static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
 {
-    return earlier(stage_next_ns(&t->stage, now_ns),
-                   earlier(pilot_next_ns(&t->pilot), input_deadline_ns(t)));
+    return earlier(workspace_next_ns(&t->stage, now_ns),
+                   earlier(camera_control_next_ns(&t->pilot), input_deadline_ns(t)));
 }
 
 static void take_reload(struct tui *t)
 {
     struct selection_names names = selection_names(&t->stage.panel.selection);
 
-    if (work_end_reload(&t->work)) {
-        pilot_renew(&t->pilot);
-        stage_renew(&t->stage, &names);
+    if (render_control_end_reload(&t->work)) {
+        camera_control_renew(&t->pilot);
+        workspace_renew(&t->stage, &names);
     }
     free(names.material);
     free(names.object);
@@ -321,13 +321,13 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
     if (t->is_ending)
         return;
     if (fds[2].revents)
-        event_fd_clear(fds[2].fd); /* work_look() sees what it says */
+        event_fd_clear(fds[2].fd); /* render_control_look() sees what it says */
     if (fds[3].revents)
         work_finish_saving(&t->work);
     if (fds[4].revents)
-        work_end_device(&t->work);
+        render_control_end_device(&t->work);
     if (fds[5].revents)
-        work_look_at_files(&t->work);
+        render_control_look_at_files(&t->work);
     if (fds[6].revents)
         take_reload(t);
     if (fds[0].revents)
@@ -335,7 +335,7 @@ static void take_events(struct tui *t, struct pollfd fds[FDS])
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(t))
         take_byte_events(t, true);
-    pace_tick(&t->stage.canvas.pace, now_ns);
+    frame_pacing_tick(&t->stage.canvas.pace, now_ns);
 }
 
 static void wait_for_events(struct tui *t)
@@ -343,7 +343,7 @@ static void wait_for_events(struct tui *t)
     const struct cl_start *start = t->work.session->machines.start;
     struct pollfd fds[FDS] = {
         {.fd = STDIN_FILENO, .events = POLLIN},
-        {.fd = term_signal_fd(), .events = POLLIN},
+        {.fd = tty_signal_fd(), .events = POLLIN},
         {.fd = render_event_fd(t->work.session->render), .events = POLLIN},
         {.fd = t->work.saver.event_fd, .events = POLLIN},
         {.fd = start ? cl_start_event_fd(start) : -1, .events = POLLIN},
@@ -377,9 +377,9 @@ static void loop(struct tui *t)
     while (!t->is_ending) {
         uint64_t now_ns = clock_ns();
 
-        pilot_step(&t->pilot, now_ns);
-        stage_look(&t->stage);
-        if (!stage_draw(&t->stage, now_ns))
+        camera_control_step(&t->pilot, now_ns);
+        workspace_look(&t->stage);
+        if (!workspace_draw(&t->stage, now_ns))
             lose_terminal(t);
         if (!t->is_ending)
             wait_for_events(t);
@@ -392,19 +392,19 @@ static void loop(struct tui *t)
 static void keep_picture(struct tui *t)
 {
     if (t->status == 128 + SIGHUP ||
-        (t->status == 128 + SIGTERM && work_has_unsaved(&t->work)))
+        (t->status == 128 + SIGTERM && render_control_has_unsaved(&t->work)))
         work_keep(&t->work);
 }
 
 static void close_screen(struct tui *t)
 {
     if (t->status == 128 + SIGHUP || t->status == 128 + SIGTERM)
-        term_ignore_ends(); /* shells send SIGHUP again */
+        tty_ignore_ends(); /* shells send SIGHUP again */
     if (!t->is_gone)
-        canvas_drain(&t->stage.canvas, &t->input);
+        screen_drain(&t->stage.canvas, &t->input);
     /* else it might put our signals back when they are no longer ours */
-    machines_abandon_device(&t->work.session->machines);
-    term_close(t->is_gone);
+    backends_abandon_device(&t->work.session->machines);
+    tty_close(t->is_gone);
     render_halt(t->work.session->render);
     work_finish_saving(&t->work);
     keep_picture(t);
@@ -417,46 +417,46 @@ static void say_lost(struct tui *t, const char *path)
 {
     char *text = xformat("picture of the lost session: %s", path);
 
-    work_say_long(&t->work, "%s", text);
-    work_add_result(&t->work, text); /* it is long, and the line is not */
+    render_control_say_long(&t->work, "%s", text);
+    render_control_add_result(&t->work, text); /* it is long, and the line is not */
     free(text);
 }
 
 /* The render starts first, so that it works while the terminal is opened. */
-bool tui_run(struct session *s, const char *lost, int *status,
+bool event_loop_run(struct session *s, const char *lost, int *status,
              struct error *err)
 {
     const char *stats_path = s->options->stats_path;
     struct tui t = {.has_mouse = true};
     bool ok;
 
-    stage_expect(s);
+    workspace_expect(s);
     if (stats_path && (!session_spares(s, "--stats", stats_path, err) ||
-                       !stats_check(stats_path, err)))
+                       !stats_json_check(stats_path, err)))
         return false;
-    if (!work_init(&t.work, s, err))
+    if (!render_control_init(&t.work, s, err))
         return false;
-    pilot_init(&t.pilot, &t.work, &t.stage.canvas);
-    stage_init(&t.stage, &t.work, &t.pilot);
-    ok = term_open(err);
+    camera_control_init(&t.pilot, &t.work, &t.stage.canvas);
+    workspace_init(&t.stage, &t.work, &t.pilot);
+    ok = tty_open(err);
     if (ok) {
-        stage_open(&t.stage);
+        workspace_open(&t.stage);
         if (s->notice[0] != '\0')
-            work_say_long(&t.work, "%s", s->notice);
+            render_control_say_long(&t.work, "%s", s->notice);
         s->notice[0] = '\0';
         if (lost)
             say_lost(&t, lost);
         /* not before: it puts back the signals that it has found */
         if (s->options->backend != BACKEND_CPU)
-            work_begin_device(&t.work);
+            render_control_begin_device(&t.work);
         loop(&t);
         close_screen(&t);
         *status = t.status;
         session_look(s);
-        ok = !stats_path || stats_write(s, stats_path, err);
+        ok = !stats_path || stats_json_write(s, stats_path, err);
     }
-    stage_free(&t.stage);
-    pilot_free(&t.pilot);
-    work_free(&t.work);
+    workspace_free(&t.stage);
+    camera_control_free(&t.pilot);
+    render_control_free(&t.work);
     return ok;
 }

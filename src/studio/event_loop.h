@@ -15,7 +15,7 @@
 /* Runs until the person quits or a signal comes. `lost` is the picture of a
  * lost session to tell of, or NULL. *status becomes the exit status; false only
  * if the screen could not be opened. */
-bool tui_run(struct session *s, const char *lost, int *status,
+bool event_loop_run(struct session *s, const char *lost, int *status,
              struct error *err);
 
 #endif

@@ -5,22 +5,22 @@
  * slipping on. */
 #define HELD_NS 150000000u
 
-void motion_press(struct motion *m, enum motion_axis axis, int sign,
+void held_keys_press(struct held_keys *m, enum held_keys_axis axis, int sign,
                   uint64_t now_ns)
 {
     bool is_held = m->sign[axis] == sign && now_ns <= m->until_ns[axis];
 
     if (!is_held)
-        m->from_ns[axis] = now_ns - MOTION_STEP_NS;
+        m->from_ns[axis] = now_ns - HELD_KEYS_STEP_NS;
     m->sign[axis] = sign;
-    m->until_ns[axis] = now_ns + HELD_NS - MOTION_STEP_NS;
+    m->until_ns[axis] = now_ns + HELD_NS - HELD_KEYS_STEP_NS;
 }
 
-bool motion_step(struct motion *m, uint64_t now_ns, double seconds[MOTION_AXES])
+bool held_keys_step(struct held_keys *m, uint64_t now_ns, double seconds[HELD_KEYS_AXES])
 {
     bool has_moved = false;
 
-    for (int i = 0; i < MOTION_AXES; i++) {
+    for (int i = 0; i < HELD_KEYS_AXES; i++) {
         uint64_t to_ns = now_ns < m->until_ns[i] ? now_ns : m->until_ns[i];
 
         seconds[i] = 0;
@@ -37,12 +37,12 @@ bool motion_step(struct motion *m, uint64_t now_ns, double seconds[MOTION_AXES])
     return has_moved;
 }
 
-uint64_t motion_next_ns(const struct motion *m)
+uint64_t held_keys_next_ns(const struct held_keys *m)
 {
     uint64_t next_ns = UINT64_MAX;
 
-    for (int i = 0; i < MOTION_AXES; i++) {
-        uint64_t due_ns = m->from_ns[i] + MOTION_STEP_NS;
+    for (int i = 0; i < HELD_KEYS_AXES; i++) {
+        uint64_t due_ns = m->from_ns[i] + HELD_KEYS_STEP_NS;
 
         if (m->sign[i] != 0 && due_ns < next_ns)
             next_ns = due_ns;
@@ -50,7 +50,7 @@ uint64_t motion_next_ns(const struct motion *m)
     return next_ns;
 }
 
-void motion_stop(struct motion *m)
+void held_keys_stop(struct held_keys *m)
 {
-    *m = (struct motion){0};
+    *m = (struct held_keys){0};
 }

@@ -17,39 +17,39 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum motion_axis {
-    MOTION_RIGHT,
-    MOTION_UP,
-    MOTION_FORWARD,
-    MOTION_LOOK_RIGHT,
-    MOTION_LOOK_UP,
-    MOTION_WIDEN, /* the field of view */
-    MOTION_OPEN,  /* the aperture */
-    MOTION_AXES
+enum held_keys_axis {
+    HELD_KEYS_RIGHT,
+    HELD_KEYS_UP,
+    HELD_KEYS_FORWARD,
+    HELD_KEYS_LOOK_RIGHT,
+    HELD_KEYS_LOOK_UP,
+    HELD_KEYS_WIDEN, /* the field of view */
+    HELD_KEYS_OPEN,  /* the aperture */
+    HELD_KEYS_AXES
 };
 
 /* Time between two steps: 60 a second. */
-#define MOTION_STEP_NS 16666667u
+#define HELD_KEYS_STEP_NS 16666667u
 
 /* A zeroed struct is at rest. */
-struct motion {
-    uint64_t from_ns[MOTION_AXES]; /* what is before has been taken */
-    uint64_t until_ns[MOTION_AXES];
-    int sign[MOTION_AXES];
+struct held_keys {
+    uint64_t from_ns[HELD_KEYS_AXES]; /* what is before has been taken */
+    uint64_t until_ns[HELD_KEYS_AXES];
+    int sign[HELD_KEYS_AXES];
 };
 
 /* A key for this axis came; sign is 1 or -1. */
-void motion_press(struct motion *m, enum motion_axis axis, int sign,
+void held_keys_press(struct held_keys *m, enum held_keys_axis axis, int sign,
                   uint64_t now_ns);
 
 /* Takes the seconds, with sign, that each axis was held since the last call. A
  * key pressed just now counts as one step at once. False if nothing moved. */
-bool motion_step(struct motion *m, uint64_t now_ns,
-                 double seconds[MOTION_AXES]);
+bool held_keys_step(struct held_keys *m, uint64_t now_ns,
+                 double seconds[HELD_KEYS_AXES]);
 
-/* When to call motion_step() next; UINT64_MAX: at rest. */
-uint64_t motion_next_ns(const struct motion *m);
+/* When to call held_keys_step() next; UINT64_MAX: at rest. */
+uint64_t held_keys_next_ns(const struct held_keys *m);
 
-void motion_stop(struct motion *m);
+void held_keys_stop(struct held_keys *m);
 
 #endif

@@ -6,20 +6,20 @@
 #include <string.h>
 
 /* Entry `i` of all: those of the panel, if it is open, come first. */
-static bool find_entry(const struct keys *keys, bool in_panel, int i,
-                       struct keys_help *help)
+static bool find_entry(const struct keymap *keys, bool in_panel, int i,
+                       struct keymap_help *help)
 {
     int count = 0;
 
-    while (in_panel && keys_panel_help(count, help))
+    while (in_panel && keymap_panel_help(count, help))
         count++;
-    return i < count ? keys_panel_help(i, help)
+    return i < count ? keymap_panel_help(i, help)
                      : keys_help(keys, i - count, help);
 }
 
-static int count_lines(const struct keys *keys, bool in_panel)
+static int count_lines(const struct keymap *keys, bool in_panel)
 {
-    struct keys_help help;
+    struct keymap_help help;
     int count = 0;
 
     while (find_entry(keys, in_panel, count, &help))
@@ -28,13 +28,13 @@ static int count_lines(const struct keys *keys, bool in_panel)
 }
 
 /* Appends entry `i` to a line, at its column; the note is behind the keys. */
-static void add_entry(char line[HELP_LINE_BYTES], const struct keys *keys,
+static void add_entry(char line[HELP_LINE_BYTES], const struct keymap *keys,
                       bool in_panel, const char *note, int i)
 {
     int length = (int)strlen(line);
     int gap = length > 0 ? HELP_ENTRY_COLS + HELP_GAP - length : 0;
     char entry[HELP_ENTRY_COLS + 1];
-    struct keys_help help;
+    struct keymap_help help;
 
     if (find_entry(keys, in_panel, i, &help))
         snprintf(entry, sizeof entry, "%-7.20s %s", help.keys, help.text);
@@ -44,7 +44,7 @@ static void add_entry(char line[HELP_LINE_BYTES], const struct keys *keys,
              entry);
 }
 
-void help_page(struct help_page *page, const struct keys *keys, bool in_panel,
+void help_page(struct help_page *page, const struct keymap *keys, bool in_panel,
                const char *note, int number, int cols, int rows)
 {
     int entries = count_lines(keys, in_panel) + 1;

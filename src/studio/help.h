@@ -29,7 +29,7 @@ struct help_page {
 
 /* Page `number`, from 0, where cols x rows cells are free for text; with those
  * of the panel, or without; the note stands behind the last key. */
-void help_page(struct help_page *page, const struct keys *keys, bool in_panel,
+void help_page(struct help_page *page, const struct keymap *keys, bool in_panel,
                const char *note, int number, int cols, int rows);
 
 #endif

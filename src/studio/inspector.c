@@ -12,98 +12,98 @@
 
 #define TEXT_BYTES 256
 
-static struct session *session_of(const struct inside *in)
+static struct session *session_of(const struct inspector *in)
 {
     return in->work->session;
 }
 
 /* ---- drawings ---- */
 
-static void paint_drawing(struct inside *in, struct frame *frame)
+static void paint_drawing(struct inspector *in, struct frame *frame)
 {
     struct world w;
     struct camera camera;
 
-    if (in->drawing == INSIDE_NOTHING || !show_world(&in->show, &w))
+    if (in->drawing == INSPECTOR_NOTHING || !view_mode_world(&in->show, &w))
         return;
-    camera = show_camera(&in->show, &w.settings.camera, frame);
-    if (in->drawing == INSIDE_BOXES)
-        sketch_boxes(frame, &camera, &in->show.bvh, in->level);
-    else if (in->drawing == INSIDE_LOBES && in->is_surface)
-        sketch_lobes(frame, &camera, &in->lobes);
-    else if (in->drawing == INSIDE_PATH)
-        sketch_trail(frame, &camera, &in->trail, in->step);
+    camera = view_mode_camera(&in->show, &w.settings.camera, frame);
+    if (in->drawing == INSPECTOR_BOXES)
+        overlay_boxes(frame, &camera, &in->show.bvh, in->level);
+    else if (in->drawing == INSPECTOR_LOBES && in->is_surface)
+        overlay_lobes(frame, &camera, &in->lobes);
+    else if (in->drawing == INSPECTOR_PATH)
+        overlay_trail(frame, &camera, &in->trail, in->step);
 }
 
 static void paint(void *context, struct film *film, struct film *draft,
                   struct frame *frame)
 {
-    struct inside *in = context;
+    struct inspector *in = context;
 
-    show_paint(&in->show, film, draft, frame);
+    view_mode_paint(&in->show, film, draft, frame);
     paint_drawing(in, frame);
 }
 
-void inside_close_panel(struct inside *in)
+void inspector_close_panel(struct inspector *in)
 {
     if (in->has_panel)
-        canvas_close_window(in->canvas);
+        screen_close_window(in->canvas);
     in->has_panel = false;
     in->work->has_changed = true;
 }
 
-void inside_open_panel(struct inside *in)
+void inspector_open_panel(struct inspector *in)
 {
     const struct scene *scene = &session_of(in)->scene;
-    const char *lines[LEGEND_LINES];
-    struct legend legend;
+    const char *lines[OVERLAY_TEXT_LINES];
+    struct overlay_text legend;
     char title[TEXT_BYTES];
 
-    inside_close_panel(in);
+    inspector_close_panel(in);
     if (in->canvas->is_too_small)
         return;
-    if (in->drawing == INSIDE_LOBES && in->is_surface) {
-        legend_lobes(&legend, scene, &in->lobes);
+    if (in->drawing == INSPECTOR_LOBES && in->is_surface) {
+        overlay_text_lobes(&legend, scene, &in->lobes);
         snprintf(title, sizeof title, " directions from pixel %u %u ", in->x,
                  in->y);
-    } else if (in->drawing == INSIDE_PATH) {
-        legend_trail(&legend, scene, &in->trail, in->step);
+    } else if (in->drawing == INSPECTOR_PATH) {
+        overlay_text_trail(&legend, scene, &in->trail, in->step);
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
                  (unsigned long long)in->sample, in->x, in->y,
-                 work_key(in->work, ACTION_LESS).text,
-                 work_key(in->work, ACTION_MORE).text);
+                 render_control_key(in->work, ACTION_LESS).text,
+                 render_control_key(in->work, ACTION_MORE).text);
     } else {
         return;
     }
     for (int i = 0; i < legend.count; i++)
         lines[i] = legend.lines[i];
-    canvas_open_panel(in->canvas, title, lines, legend.count);
+    screen_open_panel(in->canvas, title, lines, legend.count);
     in->has_panel = true;
 }
 
-static void say_boxes(struct inside *in)
+static void say_boxes(struct inspector *in)
 {
     struct frame nothing = {0};
     struct camera any = {0};
 
-    work_say_long(in->work,
+    render_control_say_long(in->work,
                   "boxes of level %u of %u: %u nodes; %s %s go up and down",
                   in->level, in->show.bvh.depth,
-                  sketch_boxes(&nothing, &any, &in->show.bvh, in->level),
-                  work_key(in->work, ACTION_LESS).text,
-                  work_key(in->work, ACTION_MORE).text);
+                  overlay_boxes(&nothing, &any, &in->show.bvh, in->level),
+                  render_control_key(in->work, ACTION_LESS).text,
+                  render_control_key(in->work, ACTION_MORE).text);
 }
 
-static bool is_new_pick(const struct inside *in)
+static bool is_new_pick(const struct inspector *in)
 {
-    const struct cursor *c = in->cursor;
+    const struct pick_cursor *c = in->cursor;
 
     return c->has_pick && (!in->is_picked || memcmp(in->place, c->pick.position,
                                                     sizeof in->place) != 0);
 }
 
 /* Where the pick is in the picture now, or its middle. */
-static void find_pixel(struct inside *in)
+static void find_pixel(struct inspector *in)
 {
     const struct scene *scene = &session_of(in)->scene;
     struct rect r = session_of(in)->crop;
@@ -128,58 +128,58 @@ static void find_pixel(struct inside *in)
     }
 }
 
-static void follow(struct inside *in)
+static void follow(struct inspector *in)
 {
     struct world w;
 
-    if (!show_world(&in->show, &w))
+    if (!view_mode_world(&in->show, &w))
         return;
     w.settings.camera = in->camera;
-    trail_follow(&in->trail, &w, in->x, in->y, in->sample);
+    path_record_follow(&in->trail, &w, in->x, in->y, in->sample);
 }
 
 /* Begins to draw from what is picked. */
-static void place(struct inside *in)
+static void place(struct inspector *in)
 {
     struct world w;
 
-    if (!show_world(&in->show, &w))
+    if (!view_mode_world(&in->show, &w))
         return;
     in->camera = w.settings.camera;
     find_pixel(in);
     in->sample = 0;
     in->step = 1;
     follow(in);
-    in->is_surface = trail_scatter(&in->lobes, &w, in->x, in->y);
+    in->is_surface = path_record_scatter(&in->lobes, &w, in->x, in->y);
 }
 
-static void say_drawing(struct inside *in)
+static void say_drawing(struct inspector *in)
 {
-    if (in->drawing == INSIDE_BOXES)
+    if (in->drawing == INSPECTOR_BOXES)
         say_boxes(in);
-    else if (in->drawing == INSIDE_LOBES && !in->is_surface)
-        work_say(in->work, "only the sky is there: %s picks something else",
-                 work_key(in->work, ACTION_CURSOR).text);
-    inside_open_panel(in);
+    else if (in->drawing == INSPECTOR_LOBES && !in->is_surface)
+        render_control_say(in->work, "only the sky is there: %s picks something else",
+                 render_control_key(in->work, ACTION_CURSOR).text);
+    inspector_open_panel(in);
 }
 
 /* A path goes on from where the directions were drawn. */
-static void next_drawing(struct inside *in)
+static void next_drawing(struct inspector *in)
 {
     struct error err;
 
-    in->drawing = (enum inside_drawing)((in->drawing + 1) % INSIDE_DRAWINGS);
-    work_be_silent(in->work);
-    if (in->drawing != INSIDE_NOTHING && !show_need_tree(&in->show, &err)) {
-        in->drawing = INSIDE_NOTHING;
-        work_say_error(in->work, err.text);
+    in->drawing = (enum inspector_drawing)((in->drawing + 1) % INSPECTOR_DRAWINGS);
+    render_control_be_silent(in->work);
+    if (in->drawing != INSPECTOR_NOTHING && !view_mode_need_tree(&in->show, &err)) {
+        in->drawing = INSPECTOR_NOTHING;
+        render_control_say_error(in->work, err.text);
     }
-    if (in->drawing == INSIDE_LOBES)
+    if (in->drawing == INSPECTOR_LOBES)
         place(in);
     say_drawing(in);
 }
 
-static void change_level(struct inside *in, int by)
+static void change_level(struct inspector *in, int by)
 {
     if (by < 0 ? in->level > 0 : in->level < in->show.bvh.depth)
         in->level += (uint32_t)by;
@@ -187,7 +187,7 @@ static void change_level(struct inside *in, int by)
 }
 
 /* Behind the last step comes the next sample, before the first the last. */
-static void change_step(struct inside *in, int by)
+static void change_step(struct inspector *in, int by)
 {
     in->step += by;
     if (in->step < 1 && in->sample == 0) {
@@ -201,47 +201,47 @@ static void change_step(struct inside *in, int by)
         follow(in);
         in->step = 1;
     }
-    inside_open_panel(in);
+    inspector_open_panel(in);
 }
 
-static void change(struct inside *in, int by)
+static void change(struct inspector *in, int by)
 {
     in->work->has_changed = true;
-    if (in->drawing == INSIDE_BOXES)
+    if (in->drawing == INSPECTOR_BOXES)
         change_level(in, by);
-    else if (in->drawing == INSIDE_PATH)
+    else if (in->drawing == INSPECTOR_PATH)
         change_step(in, by);
     else
-        work_say(in->work, "%s %s go through boxes or a path: %s draws them",
-                 work_key(in->work, ACTION_LESS).text,
-                 work_key(in->work, ACTION_MORE).text,
-                 work_key(in->work, ACTION_DRAWING).text);
+        render_control_say(in->work, "%s %s go through boxes or a path: %s draws them",
+                 render_control_key(in->work, ACTION_LESS).text,
+                 render_control_key(in->work, ACTION_MORE).text,
+                 render_control_key(in->work, ACTION_DRAWING).text);
 }
 
 /* ---- saving ---- */
 
 /* Light is there from its first sample on. */
-static bool has_picture(struct inside *in)
+static bool has_picture(struct inspector *in)
 {
-    if (show_sample(in->show.kind) != SAMPLE_LIGHT ||
+    if (view_mode_sample(in->show.kind) != SAMPLE_LIGHT ||
         render_progress(session_of(in)->render).samples > 0)
         return true;
-    work_say(in->work, "nothing to save yet");
+    render_control_say(in->work, "nothing to save yet");
     return false;
 }
 
 /* As it is shown, in pixels of the frame. */
-static bool paint_all(struct inside *in, struct frame *frame, struct error *err)
+static bool paint_all(struct inspector *in, struct frame *frame, struct error *err)
 {
     struct film *film = render_film(session_of(in)->render);
 
-    if (!show_picture(&in->show, film, frame, err))
+    if (!view_mode_picture(&in->show, film, frame, err))
         return false;
     paint_drawing(in, frame);
     return true;
 }
 
-static void save_shown(struct inside *in)
+static void save_shown(struct inspector *in)
 {
     struct rect r = session_of(in)->crop;
     struct frame frame = {0};
@@ -251,71 +251,71 @@ static void save_shown(struct inside *in)
         paint_all(in, &frame, &err))
         work_save_frame(in->work, &frame);
     else
-        work_say_error(in->work, err.text);
+        render_control_say_error(in->work, err.text);
     frame_free(&frame);
 }
 
-static void save_text(struct inside *in)
+static void save_text(struct inspector *in)
 {
-    struct text_style style = canvas_style(in->canvas);
+    struct ansi_text_style style = screen_style(in->canvas);
     struct frame frame = {0};
     struct error err;
 
-    if (text_frame_init(&frame, &style, &err) && paint_all(in, &frame, &err))
+    if (ansi_text_frame_init(&frame, &style, &err) && paint_all(in, &frame, &err))
         work_save_text(in->work, &frame, &style);
     else
-        work_say_error(in->work, err.text);
+        render_control_say_error(in->work, err.text);
     frame_free(&frame);
 }
 
 /* A picture of light without drawings is a film: a thread saves that. */
-static void save(struct inside *in)
+static void save(struct inspector *in)
 {
-    if (in->show.kind == SHOW_LIGHT && in->drawing == INSIDE_NOTHING)
+    if (in->show.kind == SHOW_LIGHT && in->drawing == INSPECTOR_NOTHING)
         work_save_picture(in->work, "png");
     else if (has_picture(in))
         save_shown(in);
 }
 
-static void save_linear(struct inside *in)
+static void save_linear(struct inspector *in)
 {
-    if (show_sample(in->show.kind) == SAMPLE_LIGHT)
+    if (view_mode_sample(in->show.kind) == SAMPLE_LIGHT)
         work_save_picture(in->work, "hdr");
     else
-        work_say(in->work, "only light is saved as HDR: %s goes back to it",
-                 work_key(in->work, ACTION_VIEW_BACK).text);
+        render_control_say(in->work, "only light is saved as HDR: %s goes back to it",
+                 render_control_key(in->work, ACTION_VIEW_BACK).text);
 }
 
 /* ---- actions ---- */
 
-static void show(struct inside *in, enum show_kind kind)
+static void show(struct inspector *in, enum show_kind kind)
 {
     struct session *s = session_of(in);
     enum sample_kind before = s->sample;
     struct error err;
 
-    work_be_silent(in->work);
-    if (!show_set(&in->show, kind, &err))
-        work_say_error(in->work, err.text);
-    s->sample = show_sample(in->show.kind);
+    render_control_be_silent(in->work);
+    if (!view_mode_set(&in->show, kind, &err))
+        render_control_say_error(in->work, err.text);
+    s->sample = view_mode_sample(in->show.kind);
     in->work->has_changed = true;
     if (in->work->is_live && s->sample != before)
-        work_restart(in->work); /* the film has other numbers until then */
+        render_control_restart(in->work); /* the film has other numbers until then */
 }
 
 /* Normal mode renders light and nothing else. */
-static void turn(struct inside *in, int by)
+static void turn(struct inspector *in, int by)
 {
     int kind = (int)in->show.kind;
 
     do
         kind = (kind + by + SHOW_KINDS) % SHOW_KINDS;
     while (!in->work->is_live &&
-           show_sample((enum show_kind)kind) != SAMPLE_LIGHT);
+           view_mode_sample((enum show_kind)kind) != SAMPLE_LIGHT);
     show(in, (enum show_kind)kind);
 }
 
-bool inside_act(struct inside *in, enum action action)
+bool inspector_act(struct inspector *in, enum action action)
 {
     switch (action) {
     case ACTION_VIEW_NEXT: turn(in, 1); break;
@@ -334,43 +334,43 @@ bool inside_act(struct inside *in, enum action action)
     return true;
 }
 
-void inside_step(struct inside *in)
+void inspector_step(struct inspector *in)
 {
-    if ((in->drawing == INSIDE_LOBES || in->drawing == INSIDE_PATH) &&
+    if ((in->drawing == INSPECTOR_LOBES || in->drawing == INSPECTOR_PATH) &&
         is_new_pick(in)) {
         place(in);
         say_drawing(in);
     }
 }
 
-void inside_leave(struct inside *in)
+void inspector_leave(struct inspector *in)
 {
-    if (show_sample(in->show.kind) != SAMPLE_LIGHT)
+    if (view_mode_sample(in->show.kind) != SAMPLE_LIGHT)
         show(in, SHOW_LIGHT);
 }
 
-void inside_stop_drawing(struct inside *in)
+void inspector_stop_drawing(struct inspector *in)
 {
-    inside_close_panel(in);
-    in->drawing = INSIDE_NOTHING;
+    inspector_close_panel(in);
+    in->drawing = INSPECTOR_NOTHING;
 }
 
-void inside_renew(struct inside *in)
+void inspector_renew(struct inspector *in)
 {
-    inside_stop_drawing(in);
-    show_renew(&in->show);
+    inspector_stop_drawing(in);
+    view_mode_renew(&in->show);
 }
 
-void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
-                 struct cursor *cursor)
+void inspector_init(struct inspector *in, struct render_control *work, struct screen *canvas,
+                 struct pick_cursor *cursor)
 {
-    *in = (struct inside){.work = work, .canvas = canvas, .cursor = cursor};
-    show_init(&in->show, work->session);
+    *in = (struct inspector){.work = work, .canvas = canvas, .cursor = cursor};
+    view_mode_init(&in->show, work->session);
     canvas->painter = (struct painter){paint, in};
 }
 
-void inside_free(struct inside *in)
+void inspector_free(struct inspector *in)
 {
-    show_free(&in->show);
-    *in = (struct inside){0};
+    view_mode_free(&in->show);
+    *in = (struct inspector){0};
 }

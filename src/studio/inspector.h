@@ -8,7 +8,7 @@
  *
  * Units:     frames' pixels
  * Ownership: work, canvas and cursor stay the caller's and outlive it;
- *            inside_free() frees the rest
+ *            inspector_free() frees the rest
  * Threads:   main only
  * Errors:    become messages
  */
@@ -19,20 +19,20 @@
 #include "inspect/view_modes.h"
 #include "inspect/path_record.h"
 
-enum inside_drawing {
-    INSIDE_NOTHING,
-    INSIDE_BOXES,
-    INSIDE_LOBES,
-    INSIDE_PATH,
-    INSIDE_DRAWINGS
+enum inspector_drawing {
+    INSPECTOR_NOTHING,
+    INSPECTOR_BOXES,
+    INSPECTOR_LOBES,
+    INSPECTOR_PATH,
+    INSPECTOR_DRAWINGS
 };
 
-struct inside {
-    struct work *work;
-    struct canvas *canvas;
-    struct cursor *cursor;
-    struct show show;
-    enum inside_drawing drawing;
+struct inspector {
+    struct render_control *work;
+    struct screen *canvas;
+    struct pick_cursor *cursor;
+    struct view_mode show;
+    enum inspector_drawing drawing;
     uint32_t level; /* of boxes */
     /* where lobes and path begin: a pixel of a picture that was */
     struct camera camera;
@@ -42,35 +42,35 @@ struct inside {
     bool is_surface; /* else the sky is there */
     uint64_t sample;
     int step; /* of the path: so many are shown */
-    struct trail trail;
-    struct trail_lobes lobes;
+    struct path_record trail;
+    struct path_record_lobes lobes;
     bool has_panel;
 };
 
 /* Takes over the canvas's painter. */
-void inside_init(struct inside *in, struct work *work, struct canvas *canvas,
-                 struct cursor *cursor);
+void inspector_init(struct inspector *in, struct render_control *work, struct screen *canvas,
+                 struct pick_cursor *cursor);
 
 /* Does what the action says of views and drawings, and saves what is shown.
  * False if it is not one. */
-bool inside_act(struct inside *in, enum action action);
+bool inspector_act(struct inspector *in, enum action action);
 
 /* Nothing is drawn over the picture any more. */
-void inside_stop_drawing(struct inside *in);
+void inspector_stop_drawing(struct inspector *in);
 
 /* The scene is another one: what was made of the old one is dropped. */
-void inside_renew(struct inside *in);
+void inspector_renew(struct inspector *in);
 
 /* Follows a new pick. */
-void inside_step(struct inside *in);
+void inspector_step(struct inspector *in);
 
 /* Back to light: normal mode has no samples of other views. */
-void inside_leave(struct inside *in);
+void inspector_leave(struct inspector *in);
 
 /* Closes the panel before another window opens, and opens it behind that. */
-void inside_close_panel(struct inside *in);
-void inside_open_panel(struct inside *in);
+void inspector_close_panel(struct inspector *in);
+void inspector_open_panel(struct inspector *in);
 
-void inside_free(struct inside *in);
+void inspector_free(struct inspector *in);
 
 #endif

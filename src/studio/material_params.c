@@ -9,16 +9,16 @@
 /* An ordinary coat; see MATERIAL_COAT. */
 #define COAT_USUAL 0.5
 
-struct material look_material(const struct mtl_source *s)
+struct material material_params_material(const struct mtl_source *s)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct material m = material_from_source(s, "", &report);
 
-    report_free(&report);
+    warnings_free(&report);
     return m;
 }
 
-bool look_is_glass(const struct material *m)
+bool material_params_is_glass(const struct material *m)
 {
     return m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS;
 }
@@ -42,7 +42,7 @@ static const struct {
 
 static int kind_of(const struct mtl_source *s)
 {
-    struct material m = look_material(s);
+    struct material m = material_params_material(s);
 
     for (int i = 0; i < KINDS; i++)
         if (kinds[i].kind == m.kind)
@@ -50,7 +50,7 @@ static int kind_of(const struct mtl_source *s)
     return 0;
 }
 
-const char *look_kind(const struct mtl_source *s)
+const char *material_params_kind(const struct mtl_source *s)
 {
     return kinds[kind_of(s)].name;
 }
@@ -58,17 +58,17 @@ const char *look_kind(const struct mtl_source *s)
 /* The statement that has the colour of what the material is. */
 static struct mtl_color *color_of(struct mtl_source *s)
 {
-    struct material m = look_material(s);
+    struct material m = material_params_material(s);
 
-    if (look_is_glass(&m))
+    if (material_params_is_glass(&m))
         return &s->tf;
     return m.kind == MATERIAL_METAL && !(s->pm.value >= 0.5) ? &s->ks : &s->kd;
 }
 
-void look_color(const struct mtl_source *source, double rgb[3])
+void material_params_color(const struct mtl_source *source, double rgb[3])
 {
     struct mtl_source s = *source;
-    struct material m = look_material(source);
+    struct material m = material_params_material(source);
     const struct mtl_color *c = color_of(&s);
 
     rgb[0] = (double)m.color.x;
@@ -78,22 +78,22 @@ void look_color(const struct mtl_source *source, double rgb[3])
         memcpy(rgb, c->rgb, sizeof c->rgb);
 }
 
-void look_shorten(double rgb[3])
+void material_params_shorten(double rgb[3])
 {
     for (int i = 0; i < 3; i++)
-        rgb[i] = number_shortened(rgb[i]);
+        rgb[i] = decimal_shortened(rgb[i]);
 }
 
-void look_put_number(struct mtl_number *n, double value)
+void material_params_put_number(struct mtl_number *n, double value)
 {
-    *n = (struct mtl_number){number_shortened(value),
+    *n = (struct mtl_number){decimal_shortened(value),
                              n->line != 0 ? n->line : 1};
 }
 
-void look_put_color(struct mtl_color *c, const double rgb[3])
+void material_params_put_color(struct mtl_color *c, const double rgb[3])
 {
     memcpy(c->rgb, rgb, sizeof c->rgb);
-    look_shorten(c->rgb);
+    material_params_shorten(c->rgb);
     c->line = c->line != 0 ? c->line : 1;
 }
 
@@ -109,80 +109,80 @@ static void set_kind(struct mtl_source *s, uint32_t kind)
     static const double coat[3] = {COAT_USUAL, COAT_USUAL, COAT_USUAL};
     double rgb[3];
 
-    look_color(s, rgb);
+    material_params_color(s, rgb);
     /* maps that would make something else of it */
     if (s->maps[MTL_MAP_KS] != NO_INDEX)
         s->maps_off |= 1u << MTL_MAP_KS;
     if (s->maps[MTL_MAP_PM] != NO_INDEX)
         s->maps_off |= 1u << MTL_MAP_PM;
     if (kind == MATERIAL_GLASS || kind == MATERIAL_THIN_GLASS) {
-        look_put_number(&s->illum, kind == MATERIAL_GLASS ? 7 : 4);
-        look_put_color(&s->tf, rgb);
+        material_params_put_number(&s->illum, kind == MATERIAL_GLASS ? 7 : 4);
+        material_params_put_color(&s->tf, rgb);
         return;
     }
-    look_put_number(&s->illum, kind == MATERIAL_METAL ? 3 : 2);
-    look_put_color(&s->kd, rgb);
+    material_params_put_number(&s->illum, kind == MATERIAL_METAL ? 3 : 2);
+    material_params_put_color(&s->kd, rgb);
     if (kind == MATERIAL_METAL)
-        look_put_number(&s->pm, 1);
+        material_params_put_number(&s->pm, 1);
     else if (s->pm.line != 0)
-        look_put_number(&s->pm, 0);
+        material_params_put_number(&s->pm, 0);
     if (kind == MATERIAL_PLASTIC && is_black(&s->ks))
-        look_put_color(&s->ks, coat);
+        material_params_put_color(&s->ks, coat);
     if (kind == MATERIAL_DIFFUSE && s->ks.line != 0)
-        look_put_color(&s->ks, black);
+        material_params_put_color(&s->ks, black);
 }
 
-double look_roughness(const struct mtl_source *s)
+double material_params_roughness(const struct mtl_source *s)
 {
-    struct material m = look_material(s);
+    struct material m = material_params_material(s);
 
     if (is_diffuse(&m))
         return s->kd_roughness.value;
     return s->pr.line != 0 ? s->pr.value : sqrt((double)m.alpha);
 }
 
-void look_set_roughness(struct mtl_source *s, double x)
+void material_params_set_roughness(struct mtl_source *s, double x)
 {
-    struct material m = look_material(s);
+    struct material m = material_params_material(s);
 
-    look_put_number(is_diffuse(&m) ? &s->kd_roughness : &s->pr, x);
+    material_params_put_number(is_diffuse(&m) ? &s->kd_roughness : &s->pr, x);
 }
 
-double look_largest(const double rgb[3])
+double material_params_largest(const double rgb[3])
 {
     return fmax(rgb[0], fmax(rgb[1], rgb[2]));
 }
 
-double look_strength(const struct mtl_source *s)
+double material_params_strength(const struct mtl_source *s)
 {
-    return s->kelvin.line != 0 ? s->luminance.value : look_largest(s->ke.rgb);
+    return s->kelvin.line != 0 ? s->luminance.value : material_params_largest(s->ke.rgb);
 }
 
-void look_set_strength(struct mtl_source *s, double x)
+void material_params_set_strength(struct mtl_source *s, double x)
 {
-    double most = look_largest(s->ke.rgb);
+    double most = material_params_largest(s->ke.rgb);
     double rgb[3];
 
     if (s->kelvin.line != 0) {
-        look_put_number(&s->luminance, x);
+        material_params_put_number(&s->luminance, x);
         return;
     }
     for (int i = 0; i < 3; i++)
         rgb[i] = most > 0 ? s->ke.rgb[i] / most * x : x;
-    look_put_color(&s->ke, rgb);
+    material_params_put_color(&s->ke, rgb);
 }
 
 /* The light's colour, its largest channel 1; white if it is dark. */
-void look_light_color(const struct mtl_source *s, double rgb[3])
+void material_params_light_color(const struct mtl_source *s, double rgb[3])
 {
     struct mtl_color light = mtl_source_light(s);
-    double most = look_largest(light.rgb);
+    double most = material_params_largest(light.rgb);
 
     for (int i = 0; i < 3; i++)
         rgb[i] = most > 0 ? light.rgb[i] / most : 1;
 }
 
-void look_set_kelvin(struct mtl_source *s, double kelvin)
+void material_params_set_kelvin(struct mtl_source *s, double kelvin)
 {
     double luminance = s->luminance.value;
 
@@ -190,36 +190,36 @@ void look_set_kelvin(struct mtl_source *s, double kelvin)
         luminance = 0.2126 * s->ke.rgb[0] + 0.7152 * s->ke.rgb[1] +
                     0.0722 * s->ke.rgb[2];
     s->ke = (struct mtl_color){.line = 0};
-    look_put_number(&s->kelvin, kelvin);
-    look_put_number(&s->luminance, luminance);
+    material_params_put_number(&s->kelvin, kelvin);
+    material_params_put_number(&s->luminance, luminance);
 }
 
-void look_set_light_color(struct mtl_source *s, const double rgb[3])
+void material_params_set_light_color(struct mtl_source *s, const double rgb[3])
 {
-    double strength = look_largest(mtl_source_light(s).rgb);
-    double most = look_largest(rgb);
+    double strength = material_params_largest(mtl_source_light(s).rgb);
+    double most = material_params_largest(rgb);
     double scaled[3];
 
     for (int i = 0; i < 3; i++)
         scaled[i] = most > 0 ? rgb[i] / most * strength : 0;
     s->kelvin = s->luminance = (struct mtl_number){.line = 0};
-    look_put_color(&s->ke, scaled);
+    material_params_put_color(&s->ke, scaled);
 }
 
-void look_swatch(const struct mtl_source *s, double rgb[3])
+void material_params_swatch(const struct mtl_source *s, double rgb[3])
 {
-    if (look_largest(mtl_source_light(s).rgb) > 0)
-        look_light_color(s, rgb);
+    if (material_params_largest(mtl_source_light(s).rgb) > 0)
+        material_params_light_color(s, rgb);
     else
-        look_color(s, rgb);
+        material_params_color(s, rgb);
 }
 
-void look_set_color(struct mtl_source *s, const double rgb[3])
+void material_params_set_color(struct mtl_source *s, const double rgb[3])
 {
-    look_put_color(color_of(s), rgb);
+    material_params_put_color(color_of(s), rgb);
 }
 
-void look_turn_kind(struct mtl_source *s, int step)
+void material_params_turn_kind(struct mtl_source *s, int step)
 {
     int next = (kind_of(s) + (step > 0 ? 1 : KINDS - 1)) % KINDS;
 

@@ -17,45 +17,45 @@
 #include "scene/material.h"
 
 /* What glim makes of it; nothing is reported. */
-struct material look_material(const struct mtl_source *source);
-bool look_is_glass(const struct material *material);
+struct material material_params_material(const struct mtl_source *source);
+bool material_params_is_glass(const struct material *material);
 
 /* "diffuse", "plastic", "metal", "glass", "thin glass". */
-const char *look_kind(const struct mtl_source *source);
+const char *material_params_kind(const struct mtl_source *source);
 
 /* The next kind of these, or the one before, with the same colour. */
-void look_turn_kind(struct mtl_source *source, int step);
+void material_params_turn_kind(struct mtl_source *source, int step);
 
 /* Kd, Ks or Tf: the colour of what it is. */
-void look_color(const struct mtl_source *source, double rgb[3]);
-void look_set_color(struct mtl_source *source, const double rgb[3]);
+void material_params_color(const struct mtl_source *source, double rgb[3]);
+void material_params_set_color(struct mtl_source *source, const double rgb[3]);
 
 /* Pr, or Kd_roughness of what is diffuse. */
-double look_roughness(const struct mtl_source *source);
-void look_set_roughness(struct mtl_source *source, double roughness);
+double material_params_roughness(const struct mtl_source *source);
+void material_params_set_roughness(struct mtl_source *source, double roughness);
 
 /* Luminance of a black body, or the largest channel of Ke. */
-double look_strength(const struct mtl_source *source);
-void look_set_strength(struct mtl_source *source, double strength);
+double material_params_strength(const struct mtl_source *source);
+void material_params_set_strength(struct mtl_source *source, double strength);
 
 /* The light's colour, its largest channel 1; white if it is dark. */
-void look_light_color(const struct mtl_source *source, double rgb[3]);
-void look_set_light_color(struct mtl_source *source, const double rgb[3]);
+void material_params_light_color(const struct mtl_source *source, double rgb[3]);
+void material_params_set_light_color(struct mtl_source *source, const double rgb[3]);
 
 /* The light becomes that of a black body, as bright as it was. */
-void look_set_kelvin(struct mtl_source *source, double kelvin);
+void material_params_set_kelvin(struct mtl_source *source, double kelvin);
 
 /* The colour that stands for it in a list: its light if it shines. */
-void look_swatch(const struct mtl_source *source, double rgb[3]);
+void material_params_swatch(const struct mtl_source *source, double rgb[3]);
 
 /* Rounds a colour as floats are, to what a file has in few digits: what a
  * person sets is what will be read. */
-void look_shorten(double rgb[3]);
+void material_params_shorten(double rgb[3]);
 
 /* A statement gets this value, and is there. */
-void look_put_number(struct mtl_number *number, double value);
-void look_put_color(struct mtl_color *color, const double rgb[3]);
+void material_params_put_number(struct mtl_number *number, double value);
+void material_params_put_color(struct mtl_color *color, const double rgb[3]);
 
-double look_largest(const double rgb[3]);
+double material_params_largest(const double rgb[3]);
 
 #endif

@@ -28,12 +28,12 @@ struct sheet {
     struct swatches *swatches;
 };
 
-static const struct edit *edit_of(const struct panel *p)
+static const struct edit *edit_of(const struct editor_panel *p)
 {
     return &p->work->session->edit;
 }
 
-static const struct scene *scene_of(const struct panel *p)
+static const struct scene *scene_of(const struct editor_panel *p)
 {
     return &p->work->session->scene;
 }
@@ -43,7 +43,7 @@ const char *panel_name(const char *name)
     return *name != '\0' ? name : "(no name)";
 }
 
-int panel_knobs(struct panel *p, struct knob knobs[KNOBS_MAX])
+int panel_knobs(struct editor_panel *p, struct parameter knobs[PARAMETERS_MAX])
 {
     int count = selection_knobs(&p->selection, knobs);
 
@@ -60,45 +60,45 @@ static void add_line(struct sheet *s, enum window_look look, const char *text)
     snprintf(line->text, sizeof line->text, "%s", text);
 }
 
-static void add_pages(struct sheet *s, enum knob_page page)
+static void add_pages(struct sheet *s, enum parameter_page page)
 {
     static const char *const titles[] = {
-        [KNOB_MATERIAL] = "[Materials]  Objects   Light",
-        [KNOB_OBJECT] = " Materials  [Objects]  Light",
-        [KNOB_LIGHT] = " Materials   Objects  [Light]",
+        [PARAMETER_MATERIAL] = "[Materials]  Objects   Light",
+        [PARAMETER_OBJECT] = " Materials  [Objects]  Light",
+        [PARAMETER_LIGHT] = " Materials   Objects  [Light]",
     };
 
     add_line(s, WINDOW_TITLE, titles[page]);
 }
 
 /* A material with its kind, or an object with its material. */
-static void add_item(struct panel *p, struct sheet *s, uint32_t i)
+static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
 {
     const struct edit *e = edit_of(p);
-    bool is_object = p->selection.page == KNOB_OBJECT;
+    bool is_object = p->selection.page == PARAMETER_OBJECT;
     uint32_t material = is_object ? selection_material_of(&p->selection, i) : i;
     const struct mtl_source *source = &edit_shown(e)->sources[material];
     bool is_selected = i == selection_index(&p->selection);
     char text[WINDOW_LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
     double rgb[3];
 
-    columns_fit(name, sizeof name,
+    text_width_fit(name, sizeof name,
                 panel_name(is_object ? scene_of(p)->object_names[i]
                                      : e->names[i]),
                 NAME_COLS);
-    columns_cut(other, sizeof other,
-                is_object ? panel_name(e->names[material]) : look_kind(source),
+    text_width_cut(other, sizeof other,
+                is_object ? panel_name(e->names[material]) : material_params_kind(source),
                 OTHER_COLS);
     snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
              other);
-    look_swatch(source, rgb);
+    material_params_swatch(source, rgb);
     swatches_set(s->swatches, s->count, rgb);
     add_line(s, is_selected && !p->is_in_knobs ? WINDOW_SELECTED : WINDOW_PLAIN,
              text);
 }
 
 /* Part of the list, with what is selected in it. */
-static void add_list(struct panel *p, struct sheet *s, int rows)
+static void add_list(struct editor_panel *p, struct sheet *s, int rows)
 {
     uint32_t count = selection_count(&p->selection);
     int number = 0, chosen = 0, shown = 0;
@@ -119,22 +119,22 @@ static void add_list(struct panel *p, struct sheet *s, int rows)
         add_line(s, WINDOW_PLAIN, "");
 }
 
-static void add_title(struct panel *p, struct sheet *s)
+static void add_title(struct editor_panel *p, struct sheet *s)
 {
     const struct edit *e = edit_of(p);
     char text[WINDOW_LINE_BYTES], name[NAME_BYTES];
 
     if (e->is_comparing)
         snprintf(text, sizeof text, " as saved: x goes back");
-    else if (p->selection.page == KNOB_LIGHT)
+    else if (p->selection.page == PARAMETER_LIGHT)
         snprintf(text, sizeof text, " Sky and picture%s",
                  edit_has_unsaved_view(e) ? " *" : "");
     else if (!selection_has_one(&p->selection))
         snprintf(text, sizeof text, " nothing to edit");
     else {
-        bool is_object = p->selection.page == KNOB_OBJECT;
+        bool is_object = p->selection.page == PARAMETER_OBJECT;
 
-        columns_cut(name, sizeof name,
+        text_width_cut(name, sizeof name,
                     is_object
                         ? panel_name(
                               scene_of(p)->object_names[p->selection.object])
@@ -156,7 +156,7 @@ static void format_bar(char bar[BAR_COLS + 1], double place)
     bar[BAR_COLS] = '\0';
 }
 
-static void add_knob(struct panel *p, struct sheet *s, const struct knob *k,
+static void add_knob(struct editor_panel *p, struct sheet *s, const struct parameter *k,
                      bool is_selected)
 {
     char bar[BAR_COLS + 1];
@@ -164,7 +164,7 @@ static void add_knob(struct panel *p, struct sheet *s, const struct knob *k,
     size_t length = strlen(p->typed);
 
     format_bar(bar, k->place);
-    columns_cut(value, sizeof value, k->text, VALUE_COLS);
+    text_width_cut(value, sizeof value, k->text, VALUE_COLS);
     if (is_selected && p->is_typing)
         snprintf(text, sizeof text, "     %-10s %.18s_", k->label,
                  length > 18 ? p->typed + length - 18 : p->typed);
@@ -180,9 +180,9 @@ static void add_knob(struct panel *p, struct sheet *s, const struct knob *k,
     add_line(s, is_selected ? WINDOW_SELECTED : WINDOW_PLAIN, text);
 }
 
-static void add_knobs(struct panel *p, struct sheet *s, int rows)
+static void add_knobs(struct editor_panel *p, struct sheet *s, int rows)
 {
-    struct knob knobs[KNOBS_MAX];
+    struct parameter knobs[PARAMETERS_MAX];
     int count = panel_knobs(p, knobs);
 
     if (p->knob_top > p->knob)
@@ -199,14 +199,14 @@ static void add_knobs(struct panel *p, struct sheet *s, int rows)
     }
 }
 
-static void add_hints(const struct panel *p, struct sheet *s)
+static void add_hints(const struct editor_panel *p, struct sheet *s)
 {
     char text[64];
 
     if (!p->work->is_live) {
         add_line(s, WINDOW_TITLE, " Normal mode: only to look at");
         snprintf(text, sizeof text, " %s goes to live mode to edit",
-                 work_key(p->work, ACTION_MODE).text);
+                 render_control_key(p->work, ACTION_MODE).text);
         add_line(s, WINDOW_TITLE, text);
     } else if (p->is_typing) {
         add_line(s, WINDOW_HINT, " number, #rrggbb, r g b or 3000K");
@@ -220,10 +220,10 @@ static void add_hints(const struct panel *p, struct sheet *s)
     }
 }
 
-void panel_draw(struct panel *p)
+void panel_draw(struct editor_panel *p)
 {
     struct sheet s = {.swatches = &p->canvas->swatches};
-    struct knob knobs[KNOBS_MAX];
+    struct parameter knobs[PARAMETERS_MAX];
     int rows = term_size().rows - 1;
     int list_rows, knob_rows;
 
@@ -235,7 +235,7 @@ void panel_draw(struct panel *p)
     if (knob_rows > rows - OTHER_ROWS - list_rows)
         knob_rows = rows - OTHER_ROWS - list_rows;
     list_rows =
-        p->selection.page == KNOB_LIGHT ? 0 : rows - OTHER_ROWS - knob_rows;
+        p->selection.page == PARAMETER_LIGHT ? 0 : rows - OTHER_ROWS - knob_rows;
     knob_rows = rows - OTHER_ROWS - list_rows;
     s.lines = xcalloc((size_t)rows, sizeof *s.lines);
     swatches_clear(s.swatches);
@@ -246,6 +246,6 @@ void panel_draw(struct panel *p)
     add_title(p, &s);
     add_knobs(p, &s, knob_rows);
     add_hints(p, &s);
-    canvas_show_panel(p->canvas, s.lines, s.count);
+    screen_show_panel(p->canvas, s.lines, s.count);
     free(s.lines);
 }

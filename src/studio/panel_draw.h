@@ -17,10 +17,10 @@
 #define PAGE_3 22
 
 /* Shows it as it is now, after layouts and changes. */
-void panel_draw(struct panel *p);
+void panel_draw(struct editor_panel *p);
 
 /* The knobs of what is selected; their number. One of them is selected too. */
-int panel_knobs(struct panel *p, struct knob knobs[KNOBS_MAX]);
+int panel_knobs(struct editor_panel *p, struct parameter knobs[PARAMETERS_MAX]);
 
 /* A name for people: "" is none. */
 const char *panel_name(const char *name);

@@ -12,44 +12,44 @@
 /* Where a temperature begins that was none. */
 #define KELVIN_WHITE 6500.0
 
-static const struct scale kelvins = {.from = 1000, .to = 20000, .step = 100};
+static const struct value_scale kelvins = {.from = 1000, .to = 20000, .step = 100};
 
 /* ---- lists ---- */
 
 struct list {
-    struct knob *knobs;
+    struct parameter *knobs;
     int count;
 };
 
-static struct knob *add(struct list *l, int id, const char *label)
+static struct parameter *add(struct list *l, int id, const char *label)
 {
-    struct knob *k = &l->knobs[l->count];
+    struct parameter *k = &l->knobs[l->count];
 
-    l->count += l->count < KNOBS_MAX - 1;
-    *k = (struct knob){.id = id, .label = label, .place = -1};
+    l->count += l->count < PARAMETERS_MAX - 1;
+    *k = (struct parameter){.id = id, .label = label, .place = -1};
     return k;
 }
 
 static void add_scale(struct list *l, int id, const char *label,
-                      const struct scale *s, double value)
+                      const struct value_scale *s, double value)
 {
-    struct knob *k = add(l, id, label);
+    struct parameter *k = add(l, id, label);
 
-    k->place = scale_place(s, value);
-    scale_format(s, value, k->text, sizeof k->text);
+    k->place = value_scale_place(s, value);
+    value_scale_format(s, value, k->text, sizeof k->text);
 }
 
 static void add_color(struct list *l, int id, const char *label,
                       const double rgb[3])
 {
-    struct knob *k = add(l, id, label);
+    struct parameter *k = add(l, id, label);
 
     k->has_color = true;
     memcpy(k->color, rgb, sizeof k->color);
     color_to_hex(rgb, k->text);
 }
 
-static void add_channels(struct list *l, const struct knob_target *t,
+static void add_channels(struct list *l, const struct parameter_target *t,
                          const double rgb[3])
 {
     static const char *const rgb_labels[] = {"red", "green", "blue"};
@@ -60,25 +60,25 @@ static void add_channels(struct list *l, const struct knob_target *t,
     if (t->by_hsv)
         color_to_hsv(rgb, v);
     for (int i = 0; i < 3; i++)
-        add_scale(l, KNOB_CHANNEL + i,
+        add_scale(l, PARAMETER_CHANNEL + i,
                   t->by_hsv ? hsv_labels[i] : rgb_labels[i],
                   t->by_hsv && i == 0 ? &scale_hue : &scale_unit, v[i]);
 }
 
 static void add_light(struct list *l, const struct mtl_source *s)
 {
-    double strength = look_strength(s);
-    struct knob *k = add(l, KNOB_GLOW, "light");
+    double strength = material_params_strength(s);
+    struct parameter *k = add(l, PARAMETER_GLOW, "light");
     double rgb[3];
 
-    k->place = scale_place(&scale_light, strength);
+    k->place = value_scale_place(&scale_light, strength);
     if (!(strength > 0)) {
         snprintf(k->text, sizeof k->text, "off");
         return;
     }
-    scale_format(&scale_light, strength, k->text, sizeof k->text);
-    look_light_color(s, rgb);
-    add_color(l, KNOB_GLOW_COLOR, "of colour", rgb);
+    value_scale_format(&scale_light, strength, k->text, sizeof k->text);
+    material_params_light_color(s, rgb);
+    add_color(l, PARAMETER_GLOW_COLOR, "of colour", rgb);
     k = &l->knobs[l->count - 1];
     if (s->kelvin.line != 0)
         snprintf(k->text, sizeof k->text, "%.6gK", s->kelvin.value);
@@ -89,13 +89,13 @@ static void add_maps(struct list *l, const struct scene *scene,
 {
     for (int i = 0; i < MTL_MAPS; i++) {
         const char *path, *slash;
-        struct knob *k;
+        struct parameter *k;
 
         if (s->maps[i] == NO_INDEX)
             continue;
         path = scene->texture_paths[s->maps[i]];
         slash = strrchr(path, '/');
-        k = add(l, KNOB_MAP + i, mtl_map_keys[i]);
+        k = add(l, PARAMETER_MAP + i, mtl_map_keys[i]);
         snprintf(k->text, sizeof k->text, "%s %.50s",
                  (s->maps_off >> i & 1) != 0 ? "off" : "on",
                  slash != NULL ? slash + 1 : path);
@@ -103,70 +103,70 @@ static void add_maps(struct list *l, const struct scene *scene,
 }
 
 static void list_material(struct list *l, const struct scene *scene,
-                          const struct knob_target *t,
+                          const struct parameter_target *t,
                           const struct mtl_source *s)
 {
-    struct material m = look_material(s);
+    struct material m = material_params_material(s);
     double rgb[3];
 
-    snprintf(add(l, KNOB_KIND, "type")->text, sizeof l->knobs->text, "%s",
-             look_kind(s));
-    look_color(s, rgb);
-    add_color(l, KNOB_COLOR, look_is_glass(&m) ? "tint" : "colour", rgb);
+    snprintf(add(l, PARAMETER_KIND, "type")->text, sizeof l->knobs->text, "%s",
+             material_params_kind(s));
+    material_params_color(s, rgb);
+    add_color(l, PARAMETER_COLOR, material_params_is_glass(&m) ? "tint" : "colour", rgb);
     add_channels(l, t, rgb);
     if (m.kind != MATERIAL_THIN_GLASS)
-        add_scale(l, KNOB_ROUGHNESS, "roughness", &scale_unit,
-                  look_roughness(s));
+        add_scale(l, PARAMETER_ROUGHNESS, "roughness", &scale_unit,
+                  material_params_roughness(s));
     if (m.kind == MATERIAL_PLASTIC)
-        add_scale(l, KNOB_COAT, "coat", &scale_unit, look_largest(s->ks.rgb));
-    if (look_is_glass(&m))
-        add_scale(l, KNOB_IOR, "index", &scale_ior, (double)m.ior);
+        add_scale(l, PARAMETER_COAT, "coat", &scale_unit, material_params_largest(s->ks.rgb));
+    if (material_params_is_glass(&m))
+        add_scale(l, PARAMETER_IOR, "index", &scale_ior, (double)m.ior);
     else
-        add_scale(l, KNOB_COVER, "cover", &scale_unit, (double)m.opacity);
+        add_scale(l, PARAMETER_COVER, "cover", &scale_unit, (double)m.opacity);
     add_light(l, s);
     add_maps(l, scene, s);
 }
 
 static void list_mood(struct list *l, const struct edit *e,
-                      const struct knob_target *t, const struct mood *m)
+                      const struct parameter_target *t, const struct mood *m)
 {
     const char *path = e->skies.items[m->sky];
     const char *slash = strrchr(path, '/');
-    struct knob *k = add(l, KNOB_SKY_IMAGE, "sky image");
+    struct parameter *k = add(l, PARAMETER_SKY_IMAGE, "sky image");
 
     snprintf(k->text, sizeof k->text, "%.60s",
              m->sky == 0     ? "none"
              : slash != NULL ? slash + 1
                              : path);
     if (m->sky != 0) {
-        add_scale(l, KNOB_SKY_STRENGTH, "strength", &scale_light,
+        add_scale(l, PARAMETER_SKY_STRENGTH, "strength", &scale_light,
                   m->sky_strength);
         snprintf(k->text, sizeof k->text, "%.4g", m->sky_strength);
-        add_scale(l, KNOB_SKY_ROTATION, "rotation", &scale_rotation,
+        add_scale(l, PARAMETER_SKY_ROTATION, "rotation", &scale_rotation,
                   m->sky_rotation_deg);
     } else {
-        add_color(l, KNOB_COLOR, "constant", m->background);
+        add_color(l, PARAMETER_COLOR, "constant", m->background);
         add_channels(l, t, m->background);
     }
-    add_scale(l, KNOB_EXPOSURE, "exposure", &scale_exposure, m->exposure);
-    k = add(l, KNOB_TONE, "tone");
+    add_scale(l, PARAMETER_EXPOSURE, "exposure", &scale_exposure, m->exposure);
+    k = add(l, PARAMETER_TONE, "tone");
     snprintf(k->text, sizeof k->text, "%s", view_tones[m->tone]);
 }
 
-int knobs_list(const struct edit *e, const struct scene *scene,
-               const struct knob_target *t, struct knob knobs[KNOBS_MAX])
+int parameters_list(const struct edit *e, const struct scene *scene,
+               const struct parameter_target *t, struct parameter knobs[PARAMETERS_MAX])
 {
     const struct edit_state *s = edit_shown(e);
     struct list l = {knobs, 0};
     uint32_t material;
 
-    if (t->page == KNOB_MATERIAL) {
+    if (t->page == PARAMETER_MATERIAL) {
         list_material(&l, scene, t, &s->sources[t->index]);
-    } else if (t->page == KNOB_LIGHT) {
+    } else if (t->page == PARAMETER_LIGHT) {
         list_mood(&l, e, t, &s->mood);
     } else {
         material = s->assigned[t->index];
-        snprintf(add(&l, KNOB_ASSIGNED, "material")->text, sizeof knobs->text,
+        snprintf(add(&l, PARAMETER_ASSIGNED, "material")->text, sizeof knobs->text,
                  "%.60s",
                  material == NO_INDEX ? "as in the file" : e->names[material]);
     }
@@ -176,95 +176,95 @@ int knobs_list(const struct edit *e, const struct scene *scene,
 /* ---- turning ---- */
 
 /* A colour that is turned or typed: the material's or the sky's. */
-static void turn_channel(double rgb[3], const struct knob_target *t,
+static void turn_channel(double rgb[3], const struct parameter_target *t,
                          int channel, int steps)
 {
     double hsv[3];
 
     if (!t->by_hsv) {
-        rgb[channel] = scale_turned(&scale_unit, rgb[channel], steps);
+        rgb[channel] = value_scale_turned(&scale_unit, rgb[channel], steps);
         return;
     }
     color_to_hsv(rgb, hsv);
-    hsv[channel] = scale_turned(channel == 0 ? &scale_hue : &scale_unit,
+    hsv[channel] = value_scale_turned(channel == 0 ? &scale_hue : &scale_unit,
                                 hsv[channel], steps);
     color_from_hsv(hsv, rgb);
 }
 
-static void turn_material(struct mtl_source *s, const struct knob_target *t,
+static void turn_material(struct mtl_source *s, const struct parameter_target *t,
                           int id, int steps)
 {
-    struct material m = look_material(s);
+    struct material m = material_params_material(s);
     double rgb[3];
 
-    look_color(s, rgb);
+    material_params_color(s, rgb);
     switch (id) {
-    case KNOB_KIND: look_turn_kind(s, steps); break;
-    case KNOB_COLOR: break;
-    case KNOB_CHANNEL:
-    case KNOB_CHANNEL + 1:
-    case KNOB_CHANNEL + 2:
-        turn_channel(rgb, t, id - KNOB_CHANNEL, steps);
-        look_set_color(s, rgb);
+    case PARAMETER_KIND: material_params_turn_kind(s, steps); break;
+    case PARAMETER_COLOR: break;
+    case PARAMETER_CHANNEL:
+    case PARAMETER_CHANNEL + 1:
+    case PARAMETER_CHANNEL + 2:
+        turn_channel(rgb, t, id - PARAMETER_CHANNEL, steps);
+        material_params_set_color(s, rgb);
         break;
-    case KNOB_ROUGHNESS:
-        look_set_roughness(s,
-                           scale_turned(&scale_unit, look_roughness(s), steps));
+    case PARAMETER_ROUGHNESS:
+        material_params_set_roughness(s,
+                           value_scale_turned(&scale_unit, material_params_roughness(s), steps));
         break;
-    case KNOB_COAT:
+    case PARAMETER_COAT:
         /* black would be no coat, and the knob would be gone */
-        rgb[0] = fmax(scale_turned(&scale_unit, look_largest(s->ks.rgb), steps),
+        rgb[0] = fmax(value_scale_turned(&scale_unit, material_params_largest(s->ks.rgb), steps),
                       scale_unit.step);
         rgb[1] = rgb[2] = rgb[0];
-        look_put_color(&s->ks, rgb);
+        material_params_put_color(&s->ks, rgb);
         break;
-    case KNOB_IOR:
-        look_put_number(&s->ni, scale_turned(&scale_ior, (double)m.ior, steps));
+    case PARAMETER_IOR:
+        material_params_put_number(&s->ni, value_scale_turned(&scale_ior, (double)m.ior, steps));
         break;
-    case KNOB_COVER:
-        look_put_number(&s->d,
-                        scale_turned(&scale_unit, (double)m.opacity, steps));
+    case PARAMETER_COVER:
+        material_params_put_number(&s->d,
+                        value_scale_turned(&scale_unit, (double)m.opacity, steps));
         break;
-    case KNOB_GLOW:
-        look_set_strength(s,
-                          scale_turned(&scale_light, look_strength(s), steps));
+    case PARAMETER_GLOW:
+        material_params_set_strength(s,
+                          value_scale_turned(&scale_light, material_params_strength(s), steps));
         break;
-    case KNOB_GLOW_COLOR:
-        look_set_kelvin(s,
+    case PARAMETER_GLOW_COLOR:
+        material_params_set_kelvin(s,
                         s->kelvin.line == 0
                             ? KELVIN_WHITE
-                            : scale_turned(&kelvins, s->kelvin.value, steps));
+                            : value_scale_turned(&kelvins, s->kelvin.value, steps));
         break;
-    default: s->maps_off ^= 1u << (id - KNOB_MAP); break;
+    default: s->maps_off ^= 1u << (id - PARAMETER_MAP); break;
     }
 }
 
 static void turn_mood(const struct edit *e, struct mood *m,
-                      const struct knob_target *t, int id, int steps)
+                      const struct parameter_target *t, int id, int steps)
 {
     switch (id) {
-    case KNOB_SKY_IMAGE:
+    case PARAMETER_SKY_IMAGE:
         m->sky =
             (m->sky + (steps > 0 ? 1 : e->skies.count - 1)) % e->skies.count;
         break;
-    case KNOB_SKY_STRENGTH:
-        m->sky_strength = scale_turned(&scale_light, m->sky_strength, steps);
+    case PARAMETER_SKY_STRENGTH:
+        m->sky_strength = value_scale_turned(&scale_light, m->sky_strength, steps);
         break;
-    case KNOB_SKY_ROTATION:
+    case PARAMETER_SKY_ROTATION:
         m->sky_rotation_deg =
-            scale_turned(&scale_rotation, m->sky_rotation_deg, steps);
+            value_scale_turned(&scale_rotation, m->sky_rotation_deg, steps);
         break;
-    case KNOB_EXPOSURE:
-        m->exposure = scale_turned(&scale_exposure, m->exposure, steps);
+    case PARAMETER_EXPOSURE:
+        m->exposure = value_scale_turned(&scale_exposure, m->exposure, steps);
         break;
-    case KNOB_TONE:
+    case PARAMETER_TONE:
         m->tone = (m->tone + (steps > 0 ? 1 : TONES - 1)) % TONES;
         break;
-    case KNOB_CHANNEL:
-    case KNOB_CHANNEL + 1:
-    case KNOB_CHANNEL + 2:
-        turn_channel(m->background, t, id - KNOB_CHANNEL, steps);
-        look_shorten(m->background);
+    case PARAMETER_CHANNEL:
+    case PARAMETER_CHANNEL + 1:
+    case PARAMETER_CHANNEL + 2:
+        turn_channel(m->background, t, id - PARAMETER_CHANNEL, steps);
+        material_params_shorten(m->background);
         m->has_background = true;
         break;
     default: break;
@@ -284,16 +284,16 @@ static uint32_t next_material(const struct edit *e, uint32_t material, int step)
     return i == count - 1 ? NO_INDEX : i;
 }
 
-void knob_turn(struct edit *e, const struct knob_target *t, int id, int steps)
+void parameter_turn(struct edit *e, const struct parameter_target *t, int id, int steps)
 {
     struct mtl_source source;
     struct mood mood = e->now.mood;
 
-    if (t->page == KNOB_MATERIAL) {
+    if (t->page == PARAMETER_MATERIAL) {
         source = e->now.sources[t->index];
         turn_material(&source, t, id, steps);
         edit_material(e, t->index, &source);
-    } else if (t->page == KNOB_LIGHT) {
+    } else if (t->page == PARAMETER_LIGHT) {
         turn_mood(e, &mood, t, id, steps);
         edit_mood(e, &mood);
     } else {

@@ -17,37 +17,37 @@
 
 #include "session/edit_history.h"
 
-enum knob_page { KNOB_MATERIAL, KNOB_OBJECT, KNOB_LIGHT };
+enum parameter_page { PARAMETER_MATERIAL, PARAMETER_OBJECT, PARAMETER_LIGHT };
 
 /* Whose knobs. */
-struct knob_target {
-    enum knob_page page;
+struct parameter_target {
+    enum parameter_page page;
     uint32_t index; /* of the material or object */
     bool by_hsv;    /* colours are turned by hue, saturation, value */
 };
 
 /* What a knob turns. */
-enum knob_id {
-    KNOB_KIND,
-    KNOB_COLOR,
-    KNOB_CHANNEL, /* and the two after it */
-    KNOB_ROUGHNESS = KNOB_CHANNEL + 3,
-    KNOB_COAT,
-    KNOB_IOR,
-    KNOB_GLOW,
-    KNOB_GLOW_COLOR,
-    KNOB_COVER,
-    KNOB_ASSIGNED,
-    KNOB_SKY_IMAGE,
-    KNOB_SKY_STRENGTH,
-    KNOB_SKY_ROTATION,
-    KNOB_EXPOSURE,
-    KNOB_TONE,
-    KNOB_MAP /* and the others after it */
+enum parameter_id {
+    PARAMETER_KIND,
+    PARAMETER_COLOR,
+    PARAMETER_CHANNEL, /* and the two after it */
+    PARAMETER_ROUGHNESS = PARAMETER_CHANNEL + 3,
+    PARAMETER_COAT,
+    PARAMETER_IOR,
+    PARAMETER_GLOW,
+    PARAMETER_GLOW_COLOR,
+    PARAMETER_COVER,
+    PARAMETER_ASSIGNED,
+    PARAMETER_SKY_IMAGE,
+    PARAMETER_SKY_STRENGTH,
+    PARAMETER_SKY_ROTATION,
+    PARAMETER_EXPOSURE,
+    PARAMETER_TONE,
+    PARAMETER_MAP /* and the others after it */
 };
 
-struct knob {
-    int id; /* enum knob_id */
+struct parameter {
+    int id; /* enum parameter_id */
     const char *label;
     char text[64];
     double place; /* on a scale from 0 to 1; below 0: there is none */
@@ -55,15 +55,15 @@ struct knob {
     double color[3]; /* linear */
 };
 
-#define KNOBS_MAX   24
-#define KNOB_COARSE 10 /* steps at once */
+#define PARAMETERS_MAX   24
+#define PARAMETER_COARSE 10 /* steps at once */
 
 /* The knobs of the target as they are shown now; their number. */
-int knobs_list(const struct edit *edit, const struct scene *scene,
-               const struct knob_target *target, struct knob knobs[KNOBS_MAX]);
+int parameters_list(const struct edit *edit, const struct scene *scene,
+               const struct parameter_target *target, struct parameter knobs[PARAMETERS_MAX]);
 
 /* Turns a knob by some steps; what has two states goes to the other. */
-void knob_turn(struct edit *edit, const struct knob_target *target, int id,
+void parameter_turn(struct edit *edit, const struct parameter_target *target, int id,
                int steps);
 
 #endif

@@ -12,7 +12,7 @@
 static bool parse_color(const char *text, double most, double rgb[3],
                         double *kelvin, struct error *err)
 {
-    if (color_parse(text, rgb, kelvin) && look_largest(rgb) <= most)
+    if (color_parse(text, rgb, kelvin) && material_params_largest(rgb) <= most)
         return true;
     return fail(err,
                 "found '%s', expected #rrggbb, r g b or a temperature "
@@ -22,25 +22,25 @@ static bool parse_color(const char *text, double most, double rgb[3],
 
 bool knob_takes_text(int id)
 {
-    return id != KNOB_KIND && id < KNOB_MAP;
+    return id != PARAMETER_KIND && id < PARAMETER_MAP;
 }
 
 /* A colour, or a number for one of its channels. */
-static bool type_color(double rgb[3], double most, const struct knob_target *t,
+static bool type_color(double rgb[3], double most, const struct parameter_target *t,
                        int id, const char *text, struct error *err)
 {
-    int channel = id - KNOB_CHANNEL;
+    int channel = id - PARAMETER_CHANNEL;
     double hsv[3], kelvin, x;
 
-    if (id == KNOB_COLOR || strpbrk(text, "#kK ") != NULL)
+    if (id == PARAMETER_COLOR || strpbrk(text, "#kK ") != NULL)
         return parse_color(text, most, rgb, &kelvin, err);
     if (!t->by_hsv) {
-        if (!scale_parse(most > 1 ? &scale_light : &scale_unit, text, &x, err))
+        if (!value_scale_parse(most > 1 ? &scale_light : &scale_unit, text, &x, err))
             return false;
         rgb[channel] = x;
         return true;
     }
-    if (!scale_parse(channel == 0 ? &scale_hue : &scale_unit, text, &x, err))
+    if (!value_scale_parse(channel == 0 ? &scale_hue : &scale_unit, text, &x, err))
         return false;
     color_to_hsv(rgb, hsv);
     hsv[channel] = x;
@@ -55,62 +55,62 @@ static bool type_light_color(struct mtl_source *s, const char *text,
     const char *p = text;
 
     /* here a number alone is a temperature */
-    if (number_parse(&p, text + strlen(text), &kelvin) && *p == '\0' &&
+    if (decimal_parse(&p, text + strlen(text), &kelvin) && *p == '\0' &&
         kelvin >= BLACKBODY_LEAST && kelvin <= BLACKBODY_GREATEST) {
-        look_set_kelvin(s, kelvin);
+        material_params_set_kelvin(s, kelvin);
         return true;
     }
     if (!parse_color(text, 1e30, rgb, &kelvin, err))
         return false;
     if (kelvin > 0)
-        look_set_kelvin(s, kelvin);
+        material_params_set_kelvin(s, kelvin);
     else
-        look_set_light_color(s, rgb);
+        material_params_set_light_color(s, rgb);
     return true;
 }
 
-static bool type_material(struct mtl_source *s, const struct knob_target *t,
+static bool type_material(struct mtl_source *s, const struct parameter_target *t,
                           int id, const char *text, struct error *err)
 {
     double rgb[3], x;
 
-    look_color(s, rgb);
+    material_params_color(s, rgb);
     switch (id) {
-    case KNOB_COLOR:
-    case KNOB_CHANNEL:
-    case KNOB_CHANNEL + 1:
-    case KNOB_CHANNEL + 2:
+    case PARAMETER_COLOR:
+    case PARAMETER_CHANNEL:
+    case PARAMETER_CHANNEL + 1:
+    case PARAMETER_CHANNEL + 2:
         if (!type_color(rgb, 1, t, id, text, err))
             return false;
-        look_set_color(s, rgb);
+        material_params_set_color(s, rgb);
         return true;
-    case KNOB_ROUGHNESS:
-        if (!scale_parse(&scale_unit, text, &x, err))
+    case PARAMETER_ROUGHNESS:
+        if (!value_scale_parse(&scale_unit, text, &x, err))
             return false;
-        look_set_roughness(s, x);
+        material_params_set_roughness(s, x);
         return true;
-    case KNOB_COAT:
-        if (!scale_parse(&scale_unit, text, &rgb[0], err))
+    case PARAMETER_COAT:
+        if (!value_scale_parse(&scale_unit, text, &rgb[0], err))
             return false;
         rgb[1] = rgb[2] = rgb[0];
-        look_put_color(&s->ks, rgb);
+        material_params_put_color(&s->ks, rgb);
         return true;
-    case KNOB_IOR:
-        if (!scale_parse(&scale_ior, text, &x, err))
+    case PARAMETER_IOR:
+        if (!value_scale_parse(&scale_ior, text, &x, err))
             return false;
-        look_put_number(&s->ni, x);
+        material_params_put_number(&s->ni, x);
         return true;
-    case KNOB_COVER:
-        if (!scale_parse(&scale_unit, text, &x, err))
+    case PARAMETER_COVER:
+        if (!value_scale_parse(&scale_unit, text, &x, err))
             return false;
-        look_put_number(&s->d, x);
+        material_params_put_number(&s->d, x);
         return true;
-    case KNOB_GLOW:
-        if (!scale_parse(&scale_light, text, &x, err))
+    case PARAMETER_GLOW:
+        if (!value_scale_parse(&scale_light, text, &x, err))
             return false;
-        look_set_strength(s, x);
+        material_params_set_strength(s, x);
         return true;
-    case KNOB_GLOW_COLOR: return type_light_color(s, text, err);
+    case PARAMETER_GLOW_COLOR: return type_light_color(s, text, err);
     default: return fail(err, "this is changed with the arrows");
     }
 }
@@ -127,22 +127,22 @@ static bool parse_tone(const char *text, uint32_t *tone, struct error *err)
 }
 
 static bool type_mood(struct edit *e, struct mood *m,
-                      const struct knob_target *t, int id, const char *text,
+                      const struct parameter_target *t, int id, const char *text,
                       struct error *err)
 {
     switch (id) {
-    case KNOB_SKY_IMAGE: m->sky = edit_sky(e, text); return true;
-    case KNOB_SKY_STRENGTH:
-        return scale_parse(&scale_light, text, &m->sky_strength, err);
-    case KNOB_SKY_ROTATION:
-        return scale_parse(&scale_rotation, text, &m->sky_rotation_deg, err);
-    case KNOB_TONE: return parse_tone(text, &m->tone, err);
-    case KNOB_EXPOSURE:
-        return scale_parse(&scale_exposure, text, &m->exposure, err);
+    case PARAMETER_SKY_IMAGE: m->sky = edit_sky(e, text); return true;
+    case PARAMETER_SKY_STRENGTH:
+        return value_scale_parse(&scale_light, text, &m->sky_strength, err);
+    case PARAMETER_SKY_ROTATION:
+        return value_scale_parse(&scale_rotation, text, &m->sky_rotation_deg, err);
+    case PARAMETER_TONE: return parse_tone(text, &m->tone, err);
+    case PARAMETER_EXPOSURE:
+        return value_scale_parse(&scale_exposure, text, &m->exposure, err);
     default:
         if (!type_color(m->background, 1e30, t, id, text, err))
             return false;
-        look_shorten(m->background);
+        material_params_shorten(m->background);
         m->has_background = true;
         return true;
     }
@@ -160,15 +160,15 @@ static bool type_assigned(struct edit *e, uint32_t object, const char *text,
     return fail(err, "found '%s', expected the name of a material", text);
 }
 
-bool knob_set_text(struct edit *e, const struct knob_target *t, int id,
+bool knob_set_text(struct edit *e, const struct parameter_target *t, int id,
                    const char *text, struct error *err)
 {
     struct mtl_source source;
     struct mood mood = e->now.mood;
 
-    if (t->page == KNOB_OBJECT)
+    if (t->page == PARAMETER_OBJECT)
         return type_assigned(e, t->index, text, err);
-    if (t->page == KNOB_LIGHT) {
+    if (t->page == PARAMETER_LIGHT) {
         if (!type_mood(e, &mood, t, id, text, err))
             return false;
         edit_mood(e, &mood);

@@ -16,7 +16,7 @@
 bool knob_takes_text(int id);
 
 /* Gives the knob the value that the text says, as a step of the edit. */
-bool knob_set_text(struct edit *edit, const struct knob_target *target, int id,
+bool knob_set_text(struct edit *edit, const struct parameter_target *target, int id,
                    const char *text, struct error *err);
 
 #endif

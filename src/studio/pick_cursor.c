@@ -10,7 +10,7 @@
 #define HELD_NS    UINT64_C(150000000)
 #define HELD_CELLS 8
 
-struct rect cursor_shown_rect(const struct cursor *c)
+struct rect pick_cursor_shown_rect(const struct pick_cursor *c)
 {
     const struct session *s = c->work->session;
 
@@ -19,32 +19,32 @@ struct rect cursor_shown_rect(const struct cursor *c)
                : (struct rect){0, 0, s->view.width_px, s->view.height_px};
 }
 
-const char *cursor_object_name(const struct cursor *c, uint32_t object)
+const char *pick_cursor_object_name(const struct pick_cursor *c, uint32_t object)
 {
     const char *name = c->work->session->scene.object_names[object];
 
     return *name ? name : "no name";
 }
 
-static void describe(const struct cursor *c, const struct pick *pick,
+static void describe(const struct pick_cursor *c, const struct pick *pick,
                      char text[TEXT_BYTES])
 {
     const struct scene *scene = &c->work->session->scene;
     const char *material = scene->material_names[pick->material];
 
     snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away",
-             cursor_object_name(c, pick->object),
+             pick_cursor_object_name(c, pick->object),
              *material ? material : "no material", pick->face + 1,
              pick->distance);
 }
 
 /* ---- looking ---- */
 
-static bool look_at_cell(const struct cursor *c, int col, int row,
+static bool look_at_cell(const struct pick_cursor *c, int col, int row,
                          struct pick *pick)
 {
     const struct session *s = c->work->session;
-    struct rect r = cursor_shown_rect(c);
+    struct rect r = pick_cursor_shown_rect(c);
     double x_px, y_px;
 
     return pick_point_of_cell(&c->canvas->fit, r.width, r.height, col, row,
@@ -52,24 +52,24 @@ static bool look_at_cell(const struct cursor *c, int col, int row,
            pick_at(&s->scene, &s->view, r.x + x_px, r.y + y_px, pick);
 }
 
-static bool look_under(const struct cursor *c, struct pick *pick)
+static bool look_under(const struct pick_cursor *c, struct pick *pick)
 {
-    const struct canvas *canvas = c->canvas;
+    const struct screen *canvas = c->canvas;
 
     return look_at_cell(c, canvas->fit.col + canvas->cursor_col,
                         canvas->fit.row + canvas->cursor_row, pick);
 }
 
-bool cursor_look_ahead(const struct cursor *c, struct pick *pick)
+bool pick_cursor_look_ahead(const struct pick_cursor *c, struct pick *pick)
 {
     const struct session *s = c->work->session;
-    struct rect r = cursor_shown_rect(c);
+    struct rect r = pick_cursor_shown_rect(c);
 
     return pick_at(&s->scene, &s->view, r.x + r.width / 2.0,
                    r.y + r.height / 2.0, pick);
 }
 
-void cursor_step(struct cursor *c)
+void pick_cursor_step(struct pick_cursor *c)
 {
     struct pick pick;
     char text[TEXT_BYTES];
@@ -81,14 +81,14 @@ void cursor_step(struct cursor *c)
         describe(c, &pick, text);
     else
         snprintf(text, sizeof text, "nothing but the sky");
-    work_say_long(c->work, "%s", text);
+    render_control_say_long(c->work, "%s", text);
 }
 
 /* ---- moving ---- */
 
-static void show(struct cursor *c, bool is_shown)
+static void show(struct pick_cursor *c, bool is_shown)
 {
-    struct canvas *canvas = c->canvas;
+    struct screen *canvas = c->canvas;
 
     if (is_shown && canvas->cursor_col == 0 && canvas->cursor_row == 0) {
         canvas->cursor_col = canvas->fit.cols / 2;
@@ -104,9 +104,9 @@ static int within(int x, int count)
     return x < 0 ? 0 : x >= count ? count - 1 : x;
 }
 
-static void move(struct cursor *c, enum action action, int right, int down)
+static void move(struct pick_cursor *c, enum action action, int right, int down)
 {
-    struct canvas *canvas = c->canvas;
+    struct screen *canvas = c->canvas;
     uint64_t now_ns = clock_ns();
     bool is_held = action == c->held && now_ns - c->held_ns < HELD_NS;
     int cells;
@@ -124,7 +124,7 @@ static void move(struct cursor *c, enum action action, int right, int down)
 
 /* ---- picking ---- */
 
-static void take(struct cursor *c, const struct pick *pick)
+static void take(struct pick_cursor *c, const struct pick *pick)
 {
     char text[TEXT_BYTES];
 
@@ -132,13 +132,13 @@ static void take(struct cursor *c, const struct pick *pick)
     c->has_pick = c->is_pick_new = true;
     show(c, false);
     describe(c, pick, text);
-    work_say(c->work, "%s (%s orbit, %s focus, %s frame)", text,
-             work_key(c->work, ACTION_ORBIT).text,
-             work_key(c->work, ACTION_FOCUS).text,
-             work_key(c->work, ACTION_FRAME).text);
+    render_control_say(c->work, "%s (%s orbit, %s focus, %s frame)", text,
+             render_control_key(c->work, ACTION_ORBIT).text,
+             render_control_key(c->work, ACTION_FOCUS).text,
+             render_control_key(c->work, ACTION_FRAME).text);
 }
 
-static bool pick_under(struct cursor *c)
+static bool pick_under(struct pick_cursor *c)
 {
     struct pick pick;
 
@@ -146,11 +146,11 @@ static bool pick_under(struct cursor *c)
         take(c, &pick);
         return true;
     }
-    work_say(c->work, "nothing but the sky");
+    render_control_say(c->work, "nothing but the sky");
     return false;
 }
 
-bool cursor_click(struct cursor *c, int col, int row)
+bool pick_cursor_click(struct pick_cursor *c, int col, int row)
 {
     struct pick pick;
 
@@ -160,19 +160,19 @@ bool cursor_click(struct cursor *c, int col, int row)
     return true;
 }
 
-bool cursor_need_pick(struct cursor *c)
+bool pick_cursor_need_pick(struct pick_cursor *c)
 {
     if (c->canvas->has_cursor)
         return pick_under(c);
     if (c->has_pick)
         return true;
-    work_say(c->work, "nothing is picked: %s shows a cursor, %s picks",
-             work_key(c->work, ACTION_CURSOR).text,
-             work_key(c->work, ACTION_START).text);
+    render_control_say(c->work, "nothing is picked: %s shows a cursor, %s picks",
+             render_control_key(c->work, ACTION_CURSOR).text,
+             render_control_key(c->work, ACTION_START).text);
     return false;
 }
 
-static bool act_while_shown(struct cursor *c, enum action action)
+static bool act_while_shown(struct pick_cursor *c, enum action action)
 {
     switch (action) {
     case ACTION_LOOK_LEFT: move(c, action, -1, 0); break;
@@ -183,20 +183,20 @@ static bool act_while_shown(struct cursor *c, enum action action)
     case ACTION_CURSOR:
     case ACTION_CANCEL:
         show(c, false);
-        work_be_silent(c->work);
+        render_control_be_silent(c->work);
         break;
     default: return false;
     }
     return true;
 }
 
-bool cursor_act(struct cursor *c, enum action action)
+bool pick_cursor_act(struct pick_cursor *c, enum action action)
 {
     if (c->canvas->has_cursor)
         return act_while_shown(c, action);
     if (action == ACTION_CURSOR)
         show(c, true);
     else if (action == ACTION_CANCEL)
-        work_be_silent(c->work);
+        render_control_be_silent(c->work);
     return action == ACTION_CURSOR || action == ACTION_CANCEL;
 }

@@ -17,9 +17,9 @@
 #include "studio/pick.h"
 #include "studio/render_control.h"
 
-struct cursor {
-    struct work *work;
-    struct canvas *canvas; /* knows where it is, and whether it is shown */
+struct pick_cursor {
+    struct render_control *work;
+    struct screen *canvas; /* knows where it is, and whether it is shown */
     struct pick pick;
     bool has_pick;
     bool is_pick_new; /* whom it concerns clears it */
@@ -30,26 +30,26 @@ struct cursor {
 };
 
 /* The part of the picture that is on the screen, in pixels. */
-struct rect cursor_shown_rect(const struct cursor *c);
+struct rect pick_cursor_shown_rect(const struct pick_cursor *c);
 
 /* Does what the action says while the cursor is shown, and shows it. False if
  * the action is nothing of its own. */
-bool cursor_act(struct cursor *c, enum action action);
+bool pick_cursor_act(struct pick_cursor *c, enum action action);
 
 /* Picks what is at a cell of the screen, from 0; false: only the sky. */
-bool cursor_click(struct cursor *c, int col, int row);
+bool pick_cursor_click(struct pick_cursor *c, int col, int row);
 
 /* Picks what the cursor is on if it is shown. False, with a message, if then
  * nothing is picked. */
-bool cursor_need_pick(struct cursor *c);
+bool pick_cursor_need_pick(struct pick_cursor *c);
 
 /* What is in the middle of the picture, unpicked. */
-bool cursor_look_ahead(const struct cursor *c, struct pick *pick);
+bool pick_cursor_look_ahead(const struct pick_cursor *c, struct pick *pick);
 
 /* Says what is under the cursor if that may have changed. */
-void cursor_step(struct cursor *c);
+void pick_cursor_step(struct pick_cursor *c);
 
 /* The name of an object, or words for none. */
-const char *cursor_object_name(const struct cursor *c, uint32_t object);
+const char *pick_cursor_object_name(const struct pick_cursor *c, uint32_t object);
 
 #endif

@@ -4,7 +4,7 @@
  * measures for that
  *
  * Units:     nanoseconds of clock_ns()
- * Ownership: gauge_free() frees; a zeroed struct is switched off
+ * Ownership: progress_panel_free() frees; a zeroed struct is switched off
  * Threads:   main only
  * Errors:    none
  */
@@ -14,23 +14,23 @@
 #include "terminal/screen.h"
 #include "studio/render_control.h"
 
-struct gauge {
+struct progress_panel {
     bool is_on;
     uint64_t due_ns; /* when it is drawn next; 0: as soon as possible */
-    struct load load;
+    struct thread_load load;
     uint64_t load_ns; /* when that was begun */
 };
 
 /* On or off; the canvas's window is to be closed if it goes off. */
-void gauge_switch(struct gauge *g, const struct work *work);
+void progress_panel_switch(struct progress_panel *g, const struct render_control *work);
 
 /* When it wants to be drawn: UINT64_MAX, never, if nothing changes. */
-uint64_t gauge_next_ns(const struct gauge *g, const struct work *work);
+uint64_t progress_panel_next_ns(const struct progress_panel *g, const struct render_control *work);
 
 /* Opens the panel, or changes its text. */
-void gauge_draw(struct gauge *g, const struct work *work, struct canvas *canvas,
+void progress_panel_draw(struct progress_panel *g, const struct render_control *work, struct screen *canvas,
                 uint64_t now_ns);
 
-void gauge_free(struct gauge *g);
+void progress_panel_free(struct progress_panel *g);
 
 #endif

@@ -20,7 +20,7 @@ static double greatest(double a, double b)
     return a > b ? a : b;
 }
 
-void meter_number(char *text, size_t size_bytes, double value)
+void progress_text_number(char *text, size_t size_bytes, double value)
 {
     static const char units[] = " kMGTPE";
     int unit = 0;
@@ -51,9 +51,9 @@ static char *put(char *to, const char *character)
 /* `right` ends in the last column. */
 static void put_sides(char *line, const char *left, const char *right)
 {
-    int gap = METER_COLS - (int)strlen(left) - (int)strlen(right);
+    int gap = PROGRESS_TEXT_COLS - (int)strlen(left) - (int)strlen(right);
 
-    snprintf(line, METER_BYTES, "%.*s%*s%s", METER_COLS, left,
+    snprintf(line, PROGRESS_TEXT_BYTES, "%.*s%*s%s", PROGRESS_TEXT_COLS, left,
              gap > 0 ? gap : 0, "", gap >= 0 ? right : "");
 }
 
@@ -80,13 +80,13 @@ static void format_done(char *line, const struct render_progress *p)
     put_sides(line, left, right);
 }
 
-static void format_bar(char *line, const struct meter_facts *f)
+static void format_bar(char *line, const struct progress_text_facts *f)
 {
-    int filled = (int)(done_part(f->progress) * METER_COLS);
+    int filled = (int)(done_part(f->progress) * PROGRESS_TEXT_COLS);
     const char *full = f->has_unicode ? "\xe2\x96\x88" : "#";
     const char *empty = f->has_unicode ? "\xe2\x96\x91" : "-";
 
-    for (int i = 0; i < METER_COLS; i++)
+    for (int i = 0; i < PROGRESS_TEXT_COLS; i++)
         line = put(line, i < filled ? full : empty);
 }
 
@@ -97,8 +97,8 @@ static void format_rate(char *line, const char *name, uint64_t count,
     char number[NUMBER_BYTES], a_second[NUMBER_BYTES];
     char left[64], right[32];
 
-    meter_number(number, sizeof number, (double)count);
-    meter_number(a_second, sizeof a_second, rate);
+    progress_text_number(number, sizeof number, (double)count);
+    progress_text_number(a_second, sizeof a_second, rate);
     snprintf(left, sizeof left, "%-10s%10s", name, number);
     snprintf(right, sizeof right, "%s/s", a_second);
     put_sides(line, left, right);
@@ -109,10 +109,10 @@ static void format_time(char *line, const struct render_progress *p)
     char elapsed[24], left_time[24] = "";
     char left[48], right[48] = "";
 
-    status_duration(elapsed, sizeof elapsed, p->render_ns);
+    status_line_duration(elapsed, sizeof elapsed, p->render_ns);
     snprintf(left, sizeof left, "%-10s%10s", "elapsed", elapsed);
     if (p->state == RENDER_RUNNING &&
-        status_left(left_time, sizeof left_time, p))
+        status_line_left(left_time, sizeof left_time, p))
         snprintf(right, sizeof right, "left %s", left_time);
     put_sides(line, left, right);
 }
@@ -155,13 +155,13 @@ static void put_braille(char *to, int left_dots, int right_dots)
              (char)(0x80 | (bits & 0x3f)));
 }
 
-static void format_plot(char *line, const struct meter_facts *f, int row)
+static void format_plot(char *line, const struct progress_text_facts *f, int row)
 {
     static const char ascii[] = " .:|#";
     double top = top_speed(f->speeds);
     double scale = top > 0 ? 1 / top : 0;
 
-    for (int i = 0; i < METER_COLS; i++) {
+    for (int i = 0; i < PROGRESS_TEXT_COLS; i++) {
         double a = scale * speed_at(f->speeds, DOT_COLS * i);
         double b = scale * speed_at(f->speeds, DOT_COLS * i + 1);
         char cell[4] = {ascii[dots_in_row(greatest(a, b), row)]};
@@ -177,10 +177,10 @@ static void format_plot_title(char *line, const struct speeds *s)
     char now[NUMBER_BYTES], top[NUMBER_BYTES], right[48];
 
     /* the last span may have just begun */
-    meter_number(now, sizeof now,
+    progress_text_number(now, sizeof now,
                  s->count > 0 ? speeds_at(s, s->count > 1 ? s->count - 2 : 0)
                               : 0);
-    meter_number(top, sizeof top, top_speed(s));
+    progress_text_number(top, sizeof top, top_speed(s));
     snprintf(right, sizeof right, "now %s, most %s", now, top);
     put_sides(line, "samples/s", right);
 }
@@ -195,10 +195,10 @@ static double mean_load(const double *loads, int begin, int end)
 }
 
 /* A column a thread, or for some threads that are neighbours. */
-static void format_loads(char *line, const struct meter_facts *f)
+static void format_loads(char *line, const struct progress_text_facts *f)
 {
     static const char ascii[] = "_.:-=+*#@";
-    int cols = f->load_count < METER_COLS ? f->load_count : METER_COLS;
+    int cols = f->load_count < PROGRESS_TEXT_COLS ? f->load_count : PROGRESS_TEXT_COLS;
 
     line[0] = '\0';
     for (int i = 0; i < cols; i++) {
@@ -214,7 +214,7 @@ static void format_loads(char *line, const struct meter_facts *f)
     }
 }
 
-static void format_load_title(char *line, const struct meter_facts *f)
+static void format_load_title(char *line, const struct progress_text_facts *f)
 {
     char left[32], right[32] = "";
 
@@ -229,8 +229,8 @@ static void format_load_title(char *line, const struct meter_facts *f)
     put_sides(line, left, right);
 }
 
-void meter_format(char lines[METER_ROWS][METER_BYTES],
-                  const struct meter_facts *f)
+void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
+                  const struct progress_text_facts *f)
 {
     const struct render_progress *p = f->progress;
     int row = 0;

@@ -16,13 +16,13 @@
 #include "render/render_loop.h"
 #include "render/speeds.h"
 
-#define METER_COLS 36
-#define METER_ROWS 11
+#define PROGRESS_TEXT_COLS 36
+#define PROGRESS_TEXT_ROWS 11
 
 /* Characters of UTF-8 have three bytes here. */
-#define METER_BYTES (3 * METER_COLS + 1)
+#define PROGRESS_TEXT_BYTES (3 * PROGRESS_TEXT_COLS + 1)
 
-struct meter_facts {
+struct progress_text_facts {
     const struct render_progress *progress;
     const struct speeds *speeds;
     const double *loads; /* of each thread, 0 to 1 */
@@ -30,10 +30,10 @@ struct meter_facts {
     bool has_unicode;
 };
 
-void meter_format(char lines[METER_ROWS][METER_BYTES],
-                  const struct meter_facts *facts);
+void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
+                  const struct progress_text_facts *facts);
 
 /* A number in few characters: 950, 9.50 k, 12.3 M, 123 G. */
-void meter_number(char *text, size_t size_bytes, double value);
+void progress_text_number(char *text, size_t size_bytes, double value);
 
 #endif

@@ -2,7 +2,7 @@
 /*
  * prompts.h - what is asked, most of it before something is lost
  *
- * Units:     keys are bytes or enum input_key
+ * Units:     keys are bytes or enum tty_key
  * Ownership: strings live as long as the program
  * Threads:   any
  * Errors:    none

@@ -32,7 +32,7 @@ static uint64_t reading_ns(const char *text)
 
 /* For `least_ns`, or as long as it takes to read. */
 static void __attribute__((format(printf, 3, 0)))
-say(struct work *w, uint64_t least_ns, const char *format, va_list values)
+say(struct render_control *w, uint64_t least_ns, const char *format, va_list values)
 {
     uint64_t read_ns;
 
@@ -45,7 +45,7 @@ say(struct work *w, uint64_t least_ns, const char *format, va_list values)
     w->has_changed = true;
 }
 
-void work_say(struct work *w, const char *format, ...)
+void render_control_say(struct render_control *w, const char *format, ...)
 {
     va_list values;
 
@@ -54,7 +54,7 @@ void work_say(struct work *w, const char *format, ...)
     va_end(values);
 }
 
-void work_say_long(struct work *w, const char *format, ...)
+void render_control_say_long(struct render_control *w, const char *format, ...)
 {
     va_list values;
 
@@ -63,7 +63,7 @@ void work_say_long(struct work *w, const char *format, ...)
     va_end(values);
 }
 
-void work_say_error(struct work *w, const char *text)
+void render_control_say_error(struct render_control *w, const char *text)
 {
     snprintf(w->message.text, sizeof w->message.text, "%s", text);
     w->message.is_error = true;
@@ -72,13 +72,13 @@ void work_say_error(struct work *w, const char *text)
     w->has_changed = true;
 }
 
-void work_be_silent(struct work *w)
+void render_control_be_silent(struct render_control *w)
 {
     w->message = (struct message){0};
     w->has_changed = true;
 }
 
-void work_be_heard(struct work *w)
+void render_control_be_heard(struct render_control *w)
 {
     struct message *m = &w->message;
 
@@ -89,38 +89,38 @@ void work_be_heard(struct work *w)
     w->has_changed = true;
 }
 
-struct keys_name work_key(const struct work *w, enum action action)
+struct keymap_name render_control_key(const struct render_control *w, enum action action)
 {
-    return keys_first_name(&w->session->options->keys, action);
+    return keymap_first_name(&w->session->options->keys, action);
 }
 
-void work_add_result(struct work *w, const char *text)
+void render_control_add_result(struct render_control *w, const char *text)
 {
     w->results = xrealloc(w->results,
                           ((size_t)w->result_count + 1) * sizeof w->results[0]);
     w->results[w->result_count++] = xstrdup(text);
 }
 
-static void watch_files(struct work *w)
+static void watch_files(struct render_control *w)
 {
-    watch_begin(&w->watch);
+    file_watch_begin(&w->watch);
     session_watch(w->session, &w->watch);
-    watch_end(&w->watch);
+    file_watch_end(&w->watch);
     w->watched_sky = w->session->sky;
     w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
-static void begin(struct work *w, bool is_step)
+static void begin(struct render_control *w, bool is_step)
 {
     uint64_t spp = w->is_live ? 0 : w->session->options->spp;
     struct error err;
 
-    saver_wait_copied(&w->saver);
+    save_thread_wait_copied(&w->saver);
     if (!(is_step ? session_step(w->session, spp, &err)
                   : session_restart(w->session, spp, &err)))
-        work_say_error(w, err.text);
+        render_control_say_error(w, err.text);
     if (w->session->notice[0] != '\0')
-        work_say_error(w, w->session->notice);
+        render_control_say_error(w, w->session->notice);
     w->session->notice[0] = '\0';
     w->must_restart = false;
     w->is_halted = is_step;
@@ -133,29 +133,29 @@ static void begin(struct work *w, bool is_step)
     w->progress.first_picture_ns = 0; /* for the next look to find */
 }
 
-static void restart(struct work *w)
+static void restart(struct render_control *w)
 {
     begin(w, false);
 }
 
-bool work_init(struct work *w, struct session *session, struct error *err)
+bool render_control_init(struct render_control *w, struct session *session, struct error *err)
 {
-    *w = (struct work){.session = session,
+    *w = (struct render_control){.session = session,
                        .is_live = true,
                        .restarted_ns = clock_ns()};
-    if (!session_restart(session, 0, err) || !saver_init(&w->saver, err))
+    if (!session_restart(session, 0, err) || !save_thread_init(&w->saver, err))
         return false;
     if (!reload_init(&w->reload, session->options, err)) {
-        saver_free(&w->saver);
+        save_thread_free(&w->saver);
         return false;
     }
-    watch_init(&w->watch);
+    file_watch_init(&w->watch);
     watch_files(w);
     w->progress = render_progress(session->render);
     return true;
 }
 
-bool work_awaits_picture(const struct work *w)
+bool render_control_awaits_picture(const struct render_control *w)
 {
     const struct render_progress *p = &w->progress;
 
@@ -165,7 +165,7 @@ bool work_awaits_picture(const struct work *w)
 }
 
 /* A device that fails is replaced by the CPU, which starts anew. */
-static void take_failure(struct work *w)
+static void take_failure(struct render_control *w)
 {
     struct session *s = w->session;
     bool has_cpu = session_uses_device(s);
@@ -176,29 +176,29 @@ static void take_failure(struct work *w)
         render_use(s->render, s->machines.cpu);
         restart(w);
     }
-    work_say_error(w, text);
+    render_control_say_error(w, text);
     free(text);
 }
 
 /* files_ns has come. */
-static void take_files(struct work *w)
+static void take_files(struct render_control *w)
 {
     bool loads;
 
-    work_look_at_files(w);
+    render_control_look_at_files(w);
     loads = w->has_changed_files && w->session->options->watch && w->is_live &&
-            !work_has_unsaved_edit(w);
+            !render_control_has_unsaved_edit(w);
     w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
     if (loads && w->reload.is_busy)
         w->files_ns = clock_ns() + QUIET_NS;
     else if (loads)
-        work_reload(w);
+        render_control_reload(w);
 }
 
-void work_look(struct work *w)
+void render_control_look(struct render_control *w)
 {
     enum render_state before = w->progress.state;
-    bool was_awaited = work_awaits_picture(w);
+    bool was_awaited = render_control_awaits_picture(w);
 
     if (clock_ns() >= w->files_ns)
         take_files(w);
@@ -214,63 +214,63 @@ void work_look(struct work *w)
         restart(w);
 }
 
-void work_settle(struct work *w)
+void render_control_settle(struct render_control *w)
 {
     if (w->must_restart)
         restart(w);
 }
 
-bool work_has_unsaved(const struct work *w)
+bool render_control_has_unsaved(const struct render_control *w)
 {
     return !w->is_live && w->is_started &&
            render_progress(w->session->render).samples > w->saved_samples;
 }
 
-bool work_has_unsaved_edit(const struct work *w)
+bool render_control_has_unsaved_edit(const struct render_control *w)
 {
     const struct edit *edit = &w->session->edit;
 
     return edit_has_unsaved_materials(edit) || edit_has_unsaved_view(edit);
 }
 
-bool work_may_move(struct work *w)
+bool render_control_may_move(struct render_control *w)
 {
     if (!w->is_live)
-        work_say(w, "the camera moves in live mode: %s goes there",
-                 work_key(w, ACTION_MODE).text);
+        render_control_say(w, "the camera moves in live mode: %s goes there",
+                 render_control_key(w, ACTION_MODE).text);
     return w->is_live;
 }
 
-void work_set_live(struct work *w, bool is_live)
+void render_control_set_live(struct render_control *w, bool is_live)
 {
     w->is_live = is_live;
     w->is_started = false;
     w->must_restart = false;
     if (is_live) {
-        work_say(w, "live mode: every change starts anew");
+        render_control_say(w, "live mode: every change starts anew");
         w->files_ns = clock_ns(); /* what has changed may be loaded now */
         restart(w);
         return;
     }
     render_halt(w->session->render);
-    work_say(w, "normal mode: %s starts the render, %s goes back",
-             work_key(w, ACTION_START).text, work_key(w, ACTION_MODE).text);
+    render_control_say(w, "normal mode: %s starts the render, %s goes back",
+             render_control_key(w, ACTION_START).text, render_control_key(w, ACTION_MODE).text);
 }
 
-static void start_normal(struct work *w, bool is_step)
+static void start_normal(struct render_control *w, bool is_step)
 {
     w->is_started = true;
-    work_be_silent(w);
+    render_control_be_silent(w);
     begin(w, is_step);
 }
 
-static void say_done(struct work *w)
+static void say_done(struct render_control *w)
 {
-    work_say(w, "the render is done: %s saves it, %s goes to live mode",
-             work_key(w, ACTION_SAVE).text, work_key(w, ACTION_MODE).text);
+    render_control_say(w, "the render is done: %s saves it, %s goes to live mode",
+             render_control_key(w, ACTION_SAVE).text, render_control_key(w, ACTION_MODE).text);
 }
 
-void work_start_or_halt(struct work *w)
+void render_control_start_or_halt(struct render_control *w)
 {
     struct render *render = w->session->render;
 
@@ -289,7 +289,7 @@ void work_start_or_halt(struct work *w)
     w->progress = render_progress(render);
 }
 
-void work_step(struct work *w)
+void render_control_step(struct render_control *w)
 {
     struct render *render = w->session->render;
 
@@ -304,102 +304,102 @@ void work_step(struct work *w)
         say_done(w);
 }
 
-void work_restart(struct work *w)
+void render_control_restart(struct render_control *w)
 {
     w->has_changed = true;
     if (w->is_live || w->is_started)
         restart(w);
     else
-        work_say(w, "nothing is rendered yet: %s starts",
-                 work_key(w, ACTION_START).text);
+        render_control_say(w, "nothing is rendered yet: %s starts",
+                 render_control_key(w, ACTION_START).text);
 }
 
 /* ---- backends ---- */
 
-static void use(struct work *w, struct backend *backend)
+static void use(struct render_control *w, struct backend *backend)
 {
-    struct machines *m = &w->session->machines;
+    struct backends *m = &w->session->machines;
 
     render_use(w->session->render, backend);
     restart(w);
     if (backend == m->device)
-        work_say(w, "%s renders; self-test: %s", backend->device, m->verdict);
+        render_control_say(w, "%s renders; self-test: %s", backend->device, m->verdict);
     else
-        work_say(w, "the CPU renders");
+        render_control_say(w, "the CPU renders");
 }
 
-void work_begin_device(struct work *w)
+void render_control_begin_device(struct render_control *w)
 {
     struct error err;
 
-    if (!machines_begin_device(&w->session->machines, FEATURES_ALL, &err))
-        work_say_error(w, err.text);
+    if (!backends_begin_device(&w->session->machines, FEATURES_ALL, &err))
+        render_control_say_error(w, err.text);
 }
 
-void work_switch_backend(struct work *w)
+void render_control_switch_backend(struct render_control *w)
 {
-    struct machines *m = &w->session->machines;
+    struct backends *m = &w->session->machines;
 
     if (!w->is_live) {
-        work_say(w, "the backend changes in live mode: %s goes there",
-                 work_key(w, ACTION_MODE).text);
+        render_control_say(w, "the backend changes in live mode: %s goes there",
+                 render_control_key(w, ACTION_MODE).text);
     } else if (session_uses_device(w->session)) {
         use(w, m->cpu);
     } else if (m->device != NULL) {
         use(w, m->device);
     } else {
-        work_say_long(w, "OpenCL: waiting for the device");
+        render_control_say_long(w, "OpenCL: waiting for the device");
         if (m->start == NULL)
-            work_begin_device(w);
+            render_control_begin_device(w);
     }
 }
 
 /* Each line is a result. */
-static void add_log(struct work *w, const char *log)
+static void add_log(struct render_control *w, const char *log)
 {
     while (*log != '\0') {
         size_t length = strcspn(log, "\n");
         char *line = xformat("%.*s", (int)length, log);
 
-        work_add_result(w, line);
+        render_control_add_result(w, line);
         free(line);
         log += length + (log[length] == '\n');
     }
 }
 
-void work_end_device(struct work *w)
+void render_control_end_device(struct render_control *w)
 {
-    struct machines *m = &w->session->machines;
+    struct backends *m = &w->session->machines;
     struct error err;
     char *log;
 
-    if (machines_end_specialising(m))
+    if (backends_end_specialising(m))
         return;
-    if (machines_end_device(m, &log, &err)) {
+    if (backends_end_device(m, &log, &err)) {
         if (w->is_live)
             use(w, m->device);
         else
-            work_say(w, "OpenCL: the device is up: %s takes it in live mode",
-                     work_key(w, ACTION_BACKEND).text);
+            render_control_say(w, "OpenCL: the device is up: %s takes it in live mode",
+                     render_control_key(w, ACTION_BACKEND).text);
     } else if (w->session->options->backend == BACKEND_AUTO) {
-        work_say(w, "%s", err.text);
+        render_control_say(w, "%s", err.text);
     } else {
-        work_say_error(w, err.text);
+        render_control_say_error(w, err.text);
         if (log != NULL)
             add_log(w, log);
-        work_add_result(w, err.text);
+        render_control_add_result(w, err.text);
     }
     free(log);
 }
 
 /* ---- files ---- */
 
-void work_look_at_files(struct work *w)
+void render_control_look_at_files(struct render_control *w)
 {
     bool has_changed;
 
-    watch_drain(&w->watch);
-    has_changed = watch_has_changed(&w->watch);
+    file_watch_drain(&w->watch);
+    has_changed = file_watch_has_changed(&w->watch);
     if (has_changed != w->has_changed_files)
         w->has_changed = true;
     w->has_changed_files = has_changed;
@@ -408,56 +408,56 @@ void work_look_at_files(struct work *w)
         w->files_ns = clock_ns() + QUIET_NS;
 }
 
-void work_reload(struct work *w)
+void render_control_reload(struct render_control *w)
 {
     struct error err;
 
     if (!w->is_live) {
-        work_say(w, "files are loaded in live mode: %s goes there",
-                 work_key(w, ACTION_MODE).text);
+        render_control_say(w, "files are loaded in live mode: %s goes there",
+                 render_control_key(w, ACTION_MODE).text);
         return;
     }
-    if (work_has_unsaved_edit(w)) {
-        work_say(w, "not loaded: changes of materials or light are not saved; "
+    if (render_control_has_unsaved_edit(w)) {
+        render_control_say(w, "not loaded: changes of materials or light are not saved; "
                     "in the panel ^S saves, u undoes");
         return;
     }
-    watch_settle(&w->watch); /* what changes from here on is new again */
+    file_watch_settle(&w->watch); /* what changes from here on is new again */
     w->has_changed_files = false;
     if (reload_begin(&w->reload, &err))
-        work_say_long(w, "loading ...");
+        render_control_say_long(w, "loading ...");
     else
-        work_say_error(w, err.text);
+        render_control_say_error(w, err.text);
 }
 
 /* How many warnings there are, and the first of them. */
-static void say_loaded(struct work *w)
+static void say_loaded(struct render_control *w)
 {
-    const struct report *r = &w->session->report;
+    const struct warnings *r = &w->session->report;
     uint64_t count = 0;
 
     for (int i = 0; i < r->entry_count; i++)
         count += r->entries[i].count;
     if (count > 0)
-        work_say(w, "loaded, %" PRIu64 " warning%s: %s", count,
+        render_control_say(w, "loaded, %" PRIu64 " warning%s: %s", count,
                  count == 1 ? "" : "s", r->entries[0].text);
     else
-        work_say(w, "loaded %s", w->session->scene.path);
+        render_control_say(w, "loaded %s", w->session->scene.path);
 }
 
-bool work_end_reload(struct work *w)
+bool render_control_end_reload(struct render_control *w)
 {
     struct session fresh;
     struct error err;
     bool ok = reload_end(&w->reload, &fresh, &err);
 
     if (!ok) {
-        work_say_error(w, err.text);
+        render_control_say_error(w, err.text);
     } else {
-        saver_wait_copied(&w->saver);
+        save_thread_wait_copied(&w->saver);
         session_take(w->session, &fresh);
         watch_files(w);
-        work_look_at_files(w); /* what was missed meanwhile */
+        render_control_look_at_files(w); /* what was missed meanwhile */
         say_loaded(w);
         restart(w);
     }
@@ -465,13 +465,13 @@ bool work_end_reload(struct work *w)
     return ok;
 }
 
-void work_free(struct work *w)
+void render_control_free(struct render_control *w)
 {
-    saver_free(&w->saver);
+    save_thread_free(&w->saver);
     reload_free(&w->reload);
-    watch_free(&w->watch);
+    file_watch_free(&w->watch);
     for (int i = 0; i < w->result_count; i++)
         free(w->results[i]);
     free(w->results);
-    *w = (struct work){0};
+    *w = (struct render_control){0};
 }

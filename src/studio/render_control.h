@@ -8,9 +8,9 @@
  * made is not thrown away unasked.
  *
  * Units:     nanoseconds of clock_ns(), samples of all pixels together
- * Ownership: the session stays the caller's; work_free() frees the rest
+ * Ownership: the session stays the caller's; render_control_free() frees the rest
  * Threads:   main only
- * Errors:    become messages, but for work_init()
+ * Errors:    become messages, but for render_control_init()
  */
 #ifndef GLIM_RENDER_CONTROL_H
 #define GLIM_RENDER_CONTROL_H
@@ -26,12 +26,12 @@ struct message {
     uint64_t until_ns; /* 0: none */
 };
 
-struct work {
+struct render_control {
     struct session *session;
-    struct saver saver;
+    struct save_thread saver;
     struct reload reload;
-    struct watch watch;
-    struct render_progress progress; /* as of the last work_look() */
+    struct file_watch watch;
+    struct render_progress progress; /* as of the last render_control_look() */
     struct message message;
 
     bool is_live;
@@ -54,82 +54,82 @@ struct work {
 };
 
 /* Starts to render in live mode. */
-bool work_init(struct work *w, struct session *session, struct error *err);
+bool render_control_init(struct render_control *w, struct session *session, struct error *err);
 
 /* Shown for a while, or for longer; an error stays until a key, and so long at
  * least. */
-void work_say(struct work *w, const char *format, ...)
+void render_control_say(struct render_control *w, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-void work_say_long(struct work *w, const char *format, ...)
+void render_control_say_long(struct render_control *w, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-void work_say_error(struct work *w, const char *text);
+void render_control_say_error(struct render_control *w, const char *text);
 
 /* The status line comes back. */
-void work_be_silent(struct work *w);
+void render_control_be_silent(struct render_control *w);
 
 /* A key was pressed: an error goes, at its time. It may have come while
  * somebody typed on. */
-void work_be_heard(struct work *w);
+void render_control_be_heard(struct render_control *w);
 
 /* The key of an action, for messages that tell what to do next. */
-struct keys_name work_key(const struct work *w, enum action action);
+struct keymap_name render_control_key(const struct render_control *w, enum action action);
 
 /* Printed when the screen is closed. */
-void work_add_result(struct work *w, const char *text);
+void render_control_add_result(struct render_control *w, const char *text);
 
 /* Looks how far the render is, and restarts it if the view has changed and the
  * look before has found a picture. */
-void work_look(struct work *w);
+void render_control_look(struct render_control *w);
 
 /* Restarts now if the view has changed, for what is to be done with the film.
  */
-void work_settle(struct work *w);
+void render_control_settle(struct render_control *w);
 
 /* True until there is a picture to show after a restart: a rough one, and where
  * a draft is soon whole, that. */
-bool work_awaits_picture(const struct work *w);
+bool render_control_awaits_picture(const struct render_control *w);
 
 /* True if a normal render would be lost. */
-bool work_has_unsaved(const struct work *w);
+bool render_control_has_unsaved(const struct render_control *w);
 
 /* True if what was changed of materials or light would be lost. */
-bool work_has_unsaved_edit(const struct work *w);
+bool render_control_has_unsaved_edit(const struct render_control *w);
 
 /* True if the view may change now; else a message says when. */
-bool work_may_move(struct work *w);
+bool render_control_may_move(struct render_control *w);
 
 /* Loses what normal mode has rendered. */
-void work_set_live(struct work *w, bool is_live);
+void render_control_set_live(struct render_control *w, bool is_live);
 
 /* In normal mode the first time starts the render. */
-void work_start_or_halt(struct work *w);
+void render_control_start_or_halt(struct render_control *w);
 
 /* One more sample for every pixel, then a halt. */
-void work_step(struct work *w);
+void render_control_step(struct render_control *w);
 
 /* Renders the same anew; loses what normal mode has rendered. */
-void work_restart(struct work *w);
+void render_control_restart(struct render_control *w);
 
 /* From the CPU to the OpenCL device, which is brought up first if need be, or
  * back. A new picture begins: no film is made by both. */
-void work_switch_backend(struct work *w);
+void render_control_switch_backend(struct render_control *w);
 
 /* Brings the device up in the background; the CPU draws on. */
-void work_begin_device(struct work *w);
+void render_control_begin_device(struct render_control *w);
 
 /* The start's event_fd is readable: takes the device, or says why not. */
-void work_end_device(struct work *w);
+void render_control_end_device(struct render_control *w);
 
 /* The watch's fd is readable: have files of the scene changed? */
-void work_look_at_files(struct work *w);
+void render_control_look_at_files(struct render_control *w);
 
 /* Begins to load the files of the scene anew; what is rendered stays until the
- * reload's event_fd says, in live mode, that work_end_reload() has the result.
- * An error, then work_end_reload() is false, leaves the old scene. What is
+ * reload's event_fd says, in live mode, that render_control_end_reload() has the result.
+ * An error, then render_control_end_reload() is false, leaves the old scene. What is
  * edited and not saved would be lost: it is refused. */
-void work_reload(struct work *w);
-bool work_end_reload(struct work *w);
+void render_control_reload(struct render_control *w);
+bool render_control_end_reload(struct render_control *w);
 
-void work_free(struct work *w);
+void render_control_free(struct render_control *w);
 
 #endif

@@ -26,28 +26,28 @@ void selection_free(struct selection *s)
 uint32_t selection_count(const struct selection *s)
 {
     switch (s->page) {
-    case KNOB_MATERIAL: return s->session->edit.material_count;
-    case KNOB_OBJECT: return s->session->edit.object_count;
-    case KNOB_LIGHT: break;
+    case PARAMETER_MATERIAL: return s->session->edit.material_count;
+    case PARAMETER_OBJECT: return s->session->edit.object_count;
+    case PARAMETER_LIGHT: break;
     }
     return 0;
 }
 
 bool selection_is_listed(const struct selection *s, uint32_t i)
 {
-    if (s->page == KNOB_MATERIAL)
+    if (s->page == PARAMETER_MATERIAL)
         return i > 0 && s->session->edit.now.is_there[i];
     return s->first_tris[i] != NO_INDEX;
 }
 
 uint32_t selection_index(const struct selection *s)
 {
-    return s->page == KNOB_OBJECT ? s->object : s->material;
+    return s->page == PARAMETER_OBJECT ? s->object : s->material;
 }
 
 void selection_set(struct selection *s, uint32_t i)
 {
-    if (s->page == KNOB_OBJECT)
+    if (s->page == PARAMETER_OBJECT)
         s->object = i;
     else
         s->material = i;
@@ -79,7 +79,7 @@ static bool is_in_list(const struct selection *s)
 
 bool selection_has_one(const struct selection *s)
 {
-    return s->page == KNOB_LIGHT || is_in_list(s);
+    return s->page == PARAMETER_LIGHT || is_in_list(s);
 }
 
 void selection_settle(struct selection *s)
@@ -116,23 +116,23 @@ bool selection_find(struct selection *s, const struct selection_names *names)
         s->material = material;
     if (object < scene->object_count)
         s->object = object;
-    return s->page == KNOB_MATERIAL ? material != NO_INDEX
-           : s->page == KNOB_OBJECT ? object < scene->object_count
+    return s->page == PARAMETER_MATERIAL ? material != NO_INDEX
+           : s->page == PARAMETER_OBJECT ? object < scene->object_count
                                     : true;
 }
 
-struct knob_target selection_target(const struct selection *s)
+struct parameter_target selection_target(const struct selection *s)
 {
-    return (struct knob_target){s->page, selection_index(s), s->by_hsv};
+    return (struct parameter_target){s->page, selection_index(s), s->by_hsv};
 }
 
-int selection_knobs(const struct selection *s, struct knob knobs[KNOBS_MAX])
+int selection_knobs(const struct selection *s, struct parameter knobs[PARAMETERS_MAX])
 {
-    struct knob_target target = selection_target(s);
+    struct parameter_target target = selection_target(s);
 
     if (!selection_has_one(s))
         return 0;
-    return knobs_list(&s->session->edit, &s->session->scene, &target, knobs);
+    return parameters_list(&s->session->edit, &s->session->scene, &target, knobs);
 }
 
 uint32_t selection_material_of(const struct selection *s, uint32_t object)

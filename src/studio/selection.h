@@ -17,7 +17,7 @@
 struct selection {
     struct session *session;
     uint32_t *first_tris; /* one an object; NO_INDEX: it has none */
-    enum knob_page page;
+    enum parameter_page page;
     uint32_t material, object;
     bool by_hsv;
 };
@@ -53,8 +53,8 @@ struct selection_names selection_names(const struct selection *s);
 bool selection_find(struct selection *s, const struct selection_names *names);
 
 /* The knobs of what is selected; 0: there is nothing. */
-int selection_knobs(const struct selection *s, struct knob knobs[KNOBS_MAX]);
-struct knob_target selection_target(const struct selection *s);
+int selection_knobs(const struct selection *s, struct parameter knobs[PARAMETERS_MAX]);
+struct parameter_target selection_target(const struct selection *s);
 
 /* The material that an object is shown with. */
 uint32_t selection_material_of(const struct selection *s, uint32_t object);

@@ -30,7 +30,7 @@ static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
                                          FIELD_ELAPSED, FIELD_PERCENT,
                                          FIELD_COLORS,  FIELD_SAMPLES};
 
-void status_duration(char *text, size_t size_bytes, uint64_t ns)
+void status_line_duration(char *text, size_t size_bytes, uint64_t ns)
 {
     uint64_t s = ns / 1000000000u;
 
@@ -43,7 +43,7 @@ void status_duration(char *text, size_t size_bytes, uint64_t ns)
                  s / 3600, s / 60 % 60, s % 60);
 }
 
-static const char *mode_word(const struct status *s)
+static const char *mode_word(const struct status_line *s)
 {
     switch (s->progress->state) {
     case RENDER_FAILED: return "FAILED";
@@ -65,7 +65,7 @@ static double samples_left(const struct render_progress *p)
                : 0.0;
 }
 
-bool status_left(char *text, size_t size_bytes, const struct render_progress *p)
+bool status_line_left(char *text, size_t size_bytes, const struct render_progress *p)
 {
     double left_ns;
 
@@ -73,7 +73,7 @@ bool status_left(char *text, size_t size_bytes, const struct render_progress *p)
         return false;
     left_ns = (double)p->render_ns * samples_left(p) / (double)p->samples;
     /* a second that has begun is left as a whole one */
-    status_duration(text, size_bytes,
+    status_line_duration(text, size_bytes,
                     left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
                                    : UINT64_C(1000000000000000000));
     return true;
@@ -90,7 +90,7 @@ static void format_limited(char text[FIELDS][FIELD_BYTES],
     snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 "/%" PRIu64 " spp",
              p->spp_done, p->spp_limit);
     snprintf(text[FIELD_PERCENT], FIELD_BYTES, "%d %%", (int)(100.0 * part));
-    if (p->state == RENDER_RUNNING && status_left(duration, sizeof duration, p))
+    if (p->state == RENDER_RUNNING && status_line_left(duration, sizeof duration, p))
         snprintf(text[FIELD_LEFT], FIELD_BYTES, "left %s", duration);
 }
 
@@ -110,7 +110,7 @@ static void format_speed(char text[FIELD_BYTES],
 }
 
 static void format_fields(char text[FIELDS][FIELD_BYTES],
-                          const struct status *s)
+                          const struct status_line *s)
 {
     const struct render_progress *p = s->progress;
 
@@ -133,7 +133,7 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     else
         snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 " spp",
                  p->spp_done);
-    status_duration(text[FIELD_ELAPSED], FIELD_BYTES, p->render_ns);
+    status_line_duration(text[FIELD_ELAPSED], FIELD_BYTES, p->render_ns);
     format_speed(text[FIELD_SPEED], p);
 }
 
@@ -146,7 +146,7 @@ static int length_of(char text[FIELDS][FIELD_BYTES])
     return length;
 }
 
-void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
+void status_line_format(char text[STATUS_BYTES], int cols, const struct status_line *s)
 {
     char fields[FIELDS][FIELD_BYTES] = {{0}};
     int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;
@@ -173,9 +173,9 @@ void status_format(char text[STATUS_BYTES], int cols, const struct status *s)
         memcpy(text + room - hint - 1, s->hint, (size_t)hint);
 }
 
-void status_message(char text[STATUS_BYTES], int cols, const char *message)
+void status_line_message(char text[STATUS_BYTES], int cols, const char *message)
 {
     if (cols > 0)
         *text++ = ' ';
-    columns_cut(text, STATUS_BYTES - 1, message, cols - 1);
+    text_width_cut(text, STATUS_BYTES - 1, message, cols - 1);
 }

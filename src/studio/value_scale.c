@@ -9,39 +9,39 @@
 
 #define GROWTH 1.1
 
-const struct scale scale_unit = {.most = 1,
+const struct value_scale scale_unit = {.most = 1,
                                  .to = 1,
                                  .step = 0.01,
                                  .digits = 3,
                                  .expected = "a number from 0 to 1"};
-const struct scale scale_hue = {.most = 360,
+const struct value_scale scale_hue = {.most = 360,
                                 .to = 360,
                                 .step = 1,
                                 .digits = 3,
                                 .wraps = true,
                                 .expected = "an angle from 0 to 360"};
-const struct scale scale_light = {.most = 1e30,
+const struct value_scale scale_light = {.most = 1e30,
                                   .from = 0.01,
                                   .to = 1e4,
                                   .digits = 4,
                                   .grows = true,
                                   .expected = "a number from 0 to 1e30"};
 
-const struct scale scale_ior = {.least = 1e-6,
+const struct value_scale scale_ior = {.least = 1e-6,
                                 .most = 1e6,
                                 .from = 1,
                                 .to = 3,
                                 .step = 0.01,
                                 .digits = 4,
                                 .expected = "a number above 0"};
-const struct scale scale_rotation = {.least = -1e6,
+const struct value_scale scale_rotation = {.least = -1e6,
                                      .most = 1e6,
                                      .to = 360,
                                      .step = 1,
                                      .digits = 4,
                                      .wraps = true,
                                      .expected = "an angle in degrees"};
-const struct scale scale_exposure = {.least = -100,
+const struct value_scale scale_exposure = {.least = -100,
                                      .most = 100,
                                      .from = -8,
                                      .to = 8,
@@ -56,7 +56,7 @@ static double clamped(double x, double least, double most)
     return x < least ? least : x > most ? most : x;
 }
 
-static double grown(const struct scale *s, double value, int steps)
+static double grown(const struct value_scale *s, double value, int steps)
 {
     double next = fmax(value, s->from) * pow(GROWTH, steps);
     double digit;
@@ -68,7 +68,7 @@ static double grown(const struct scale *s, double value, int steps)
     return fmin(round(next / digit) * digit, fmax(s->to, value));
 }
 
-double scale_turned(const struct scale *s, double value, int steps)
+double value_scale_turned(const struct value_scale *s, double value, int steps)
 {
     double next;
 
@@ -83,7 +83,7 @@ double scale_turned(const struct scale *s, double value, int steps)
     return clamped(next, fmin(s->from, value), fmax(s->to, value));
 }
 
-double scale_place(const struct scale *s, double value)
+double value_scale_place(const struct value_scale *s, double value)
 {
     if (s->grows)
         return value < s->from
@@ -92,19 +92,19 @@ double scale_place(const struct scale *s, double value)
     return clamped((value - s->from) / (s->to - s->from), 0, 1);
 }
 
-void scale_format(const struct scale *s, double value, char *text,
+void value_scale_format(const struct value_scale *s, double value, char *text,
                   size_t size_bytes)
 {
     snprintf(text, size_bytes, "%.*g%s", s->digits, value,
              s->of != NULL ? s->of : "");
 }
 
-bool scale_parse(const struct scale *s, const char *text, double *value,
+bool value_scale_parse(const struct value_scale *s, const char *text, double *value,
                  struct error *err)
 {
     const char *p = text;
 
-    if (number_parse(&p, text + strlen(text), value) && *p == '\0' &&
+    if (decimal_parse(&p, text + strlen(text), value) && *p == '\0' &&
         *value >= s->least && *value <= s->most)
         return true;
     return fail(err, "found '%s', expected %s", text, s->expected);

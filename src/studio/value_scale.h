@@ -12,7 +12,7 @@
 
 #include "base/util.h"
 
-struct scale {
+struct value_scale {
     double least, most; /* that can be typed */
     double from, to;    /* that can be turned */
     double step;
@@ -23,22 +23,22 @@ struct scale {
     const char *expected;
 };
 
-extern const struct scale scale_unit;  /* 0 to 1 */
-extern const struct scale scale_hue;   /* degrees */
-extern const struct scale scale_light; /* radiance, or what multiplies it */
-extern const struct scale scale_ior;
-extern const struct scale scale_rotation; /* degrees */
-extern const struct scale scale_exposure; /* stops */
+extern const struct value_scale scale_unit;  /* 0 to 1 */
+extern const struct value_scale scale_hue;   /* degrees */
+extern const struct value_scale scale_light; /* radiance, or what multiplies it */
+extern const struct value_scale scale_ior;
+extern const struct value_scale scale_rotation; /* degrees */
+extern const struct value_scale scale_exposure; /* stops */
 
 /* The value some steps on. */
-double scale_turned(const struct scale *scale, double value, int steps);
+double value_scale_turned(const struct value_scale *scale, double value, int steps);
 
 /* Where the value is between `from` and `to`, 0 to 1. */
-double scale_place(const struct scale *scale, double value);
+double value_scale_place(const struct value_scale *scale, double value);
 
-void scale_format(const struct scale *scale, double value, char *text,
+void value_scale_format(const struct value_scale *scale, double value, char *text,
                   size_t size_bytes);
-bool scale_parse(const struct scale *scale, const char *text, double *value,
+bool value_scale_parse(const struct value_scale *scale, const char *text, double *value,
                  struct error *err);
 
 #endif

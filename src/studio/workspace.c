@@ -44,12 +44,12 @@ static uint64_t later(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-static const struct film *film_of(const struct stage *st)
+static const struct film *film_of(const struct workspace *st)
 {
     return render_film(st->work->session->render);
 }
 
-void stage_refresh(struct stage *st)
+void workspace_refresh(struct workspace *st)
 {
     st->is_settled = false;
     st->frame_ns = 0;
@@ -64,15 +64,15 @@ static void set_draft(struct session *s, const struct fit *fit)
     s->draft_height = 2 * fit->rows;
 }
 
-void stage_expect(struct session *s)
+void workspace_expect(struct session *s)
 {
     struct fit fit =
-        canvas_expect(&s->options->display, s->crop.width, s->crop.height);
+        screen_expect(&s->options->display, s->crop.width, s->crop.height);
 
     set_draft(s, &fit);
 }
 
-void stage_layout(struct stage *st)
+void workspace_layout(struct workspace *st)
 {
     const struct film *film = film_of(st);
     struct error err;
@@ -80,40 +80,40 @@ void stage_layout(struct stage *st)
     st->help_left = 0;
     st->width_px = film->width;
     st->height_px = film->height;
-    stage_refresh(st);
+    workspace_refresh(st);
     st->canvas.has_panel = st->panel.is_open;
-    if (!canvas_layout(&st->canvas, film->width, film->height, &err)) {
+    if (!screen_layout(&st->canvas, film->width, film->height, &err)) {
         st->canvas.is_too_small = true; /* nothing can be drawn */
-        work_say_error(st->work, err.text);
+        render_control_say_error(st->work, err.text);
     }
     panel_draw(&st->panel);
     /* until then the old draft is resampled */
     set_draft(st->work->session, &st->canvas.fit);
-    inside_open_panel(&st->inside); /* it went with the layout */
+    inspector_open_panel(&st->inside); /* it went with the layout */
 }
 
-void stage_init(struct stage *st, struct work *work, struct pilot *pilot)
+void workspace_init(struct workspace *st, struct render_control *work, struct camera_control *pilot)
 {
-    *st = (struct stage){.work = work, .pilot = pilot};
-    panel_init(&st->panel, work, &st->canvas);
+    *st = (struct workspace){.work = work, .pilot = pilot};
+    editor_panel_init(&st->panel, work, &st->canvas);
 }
 
-void stage_open(struct stage *st)
+void workspace_open(struct workspace *st)
 {
-    canvas_init(&st->canvas, &st->work->session->options->display);
-    inside_init(&st->inside, st->work, &st->canvas, &st->pilot->cursor);
+    screen_init(&st->canvas, &st->work->session->options->display);
+    inspector_init(&st->inside, st->work, &st->canvas, &st->pilot->cursor);
     st->lack_ns = clock_ns() + LACK_NS;
-    stage_layout(st);
+    workspace_layout(st);
 }
 
-void stage_renew(struct stage *st, const struct selection_names *names)
+void workspace_renew(struct workspace *st, const struct selection_names *names)
 {
-    inside_renew(&st->inside);
-    panel_renew(&st->panel, names);
+    inspector_renew(&st->inside);
+    editor_panel_renew(&st->panel, names);
     panel_draw(&st->panel);
 }
 
-void stage_ask(struct stage *st, const char *prompt)
+void workspace_ask(struct workspace *st, const char *prompt)
 {
     st->prompt = prompt;
     st->status_ns = 0;
@@ -121,39 +121,39 @@ void stage_ask(struct stage *st, const char *prompt)
 
 /* ---- windows ---- */
 
-static bool shows_gauge(const struct stage *st)
+static bool shows_gauge(const struct workspace *st)
 {
     return st->gauge.is_on && st->help_left == 0 && !st->canvas.is_too_small;
 }
 
-static void switch_gauge(struct stage *st)
+static void switch_gauge(struct workspace *st)
 {
-    inside_stop_drawing(&st->inside); /* there is one window at a time */
-    gauge_switch(&st->gauge, st->work);
+    inspector_stop_drawing(&st->inside); /* there is one window at a time */
+    progress_panel_switch(&st->gauge, st->work);
     if (!st->gauge.is_on)
-        canvas_close_window(&st->canvas);
+        screen_close_window(&st->canvas);
     if (st->panel.is_open) { /* there is no room for both */
-        panel_close(&st->panel);
-        stage_layout(st);
+        editor_panel_close(&st->panel);
+        workspace_layout(st);
     }
-    stage_refresh(st);
+    workspace_refresh(st);
 }
 
-static void open_help(struct stage *st, int number)
+static void open_help(struct workspace *st, int number)
 {
-    const struct pace *pace = &st->canvas.pace;
+    const struct frame_pacing *pace = &st->canvas.pace;
     const char *lines[HELP_ROWS_MAX];
-    struct term_size size = term_size();
+    struct tty_size size = term_size();
     struct help_page page;
     char note[64], title[64];
 
     snprintf(note, sizeof note, "%s, %s",
              palette_name(st->canvas.display.palette),
-             canvas_glyphs_name(&st->canvas));
-    if (pace->state == PACE_ANSWERS)
+             screen_glyphs_name(&st->canvas));
+    if (pace->state == FRAME_PACING_ANSWERS)
         snprintf(note, sizeof note, "%s, %s, %.3g ms away",
                  palette_name(st->canvas.display.palette),
-                 canvas_glyphs_name(&st->canvas),
+                 screen_glyphs_name(&st->canvas),
                  (double)pace->rtt_min_ns * 1e-6);
     /* within a frame, with a blank on each side, above the status line */
     help_page(&page, &st->work->session->options->keys, st->panel.is_open, note,
@@ -167,65 +167,65 @@ static void open_help(struct stage *st, int number)
     for (int i = 0; i < page.line_count; i++)
         lines[i] = page.lines[i];
     if (st->help_left > 0 || st->gauge.is_on)
-        canvas_close_window(&st->canvas);
-    inside_close_panel(&st->inside);
-    canvas_open_window(&st->canvas, title, lines, page.line_count);
+        screen_close_window(&st->canvas);
+    inspector_close_panel(&st->inside);
+    screen_open_window(&st->canvas, title, lines, page.line_count);
     st->help_number = number;
     st->help_left = page.page_count - number;
     st->is_settled = false;
 }
 
-static void close_help(struct stage *st)
+static void close_help(struct workspace *st)
 {
-    canvas_close_window(&st->canvas);
-    inside_open_panel(&st->inside);
+    screen_close_window(&st->canvas);
+    inspector_open_panel(&st->inside);
     st->help_left = 0;
     panel_draw(&st->panel);
-    stage_refresh(st);
+    workspace_refresh(st);
 }
 
-static void next_colors(struct stage *st)
+static void next_colors(struct workspace *st)
 {
-    display_next_palette(&st->canvas.display);
-    work_say(st->work, "%s", palette_name(st->canvas.display.palette));
-    stage_layout(st);
+    term_caps_next_palette(&st->canvas.display);
+    render_control_say(st->work, "%s", palette_name(st->canvas.display.palette));
+    workspace_layout(st);
 }
 
-static void next_glyphs(struct stage *st)
+static void next_glyphs(struct workspace *st)
 {
-    display_next_glyphs(&st->canvas.display);
-    stage_layout(st);
-    work_say(st->work, "%s", canvas_glyphs_name(&st->canvas));
+    term_caps_next_glyphs(&st->canvas.display);
+    workspace_layout(st);
+    render_control_say(st->work, "%s", screen_glyphs_name(&st->canvas));
 }
 
-static void hide(struct stage *st)
+static void hide(struct workspace *st)
 {
     st->canvas.has_status_row = !st->canvas.has_status_row;
     st->gauge.is_on = false;
-    stage_layout(st);
+    workspace_layout(st);
 }
 
-static void open_panel(struct stage *st)
+static void open_panel(struct workspace *st)
 {
     if (st->pilot->cursor.has_pick)
-        panel_select(&st->panel, &st->pilot->cursor.pick);
-    panel_open(&st->panel);
+        editor_panel_select(&st->panel, &st->pilot->cursor.pick);
+    editor_panel_open(&st->panel);
     st->gauge.is_on = false; /* there is no room for both */
-    stage_layout(st);
+    workspace_layout(st);
 }
 
-bool stage_act(struct stage *st, enum action action)
+bool workspace_act(struct workspace *st, enum action action)
 {
     if (action == ACTION_DRAWING && st->gauge.is_on)
         switch_gauge(st);
-    if (inside_act(&st->inside, action))
+    if (inspector_act(&st->inside, action))
         return true;
     switch (action) {
     case ACTION_METER: switch_gauge(st); break;
     case ACTION_HIDE: hide(st); break;
     case ACTION_COLORS: next_colors(st); break;
     case ACTION_GLYPHS: next_glyphs(st); break;
-    case ACTION_REDRAW: stage_layout(st); break;
+    case ACTION_REDRAW: workspace_layout(st); break;
     case ACTION_PANEL: open_panel(st); break;
     case ACTION_HELP: open_help(st, 0); break;
     default: return false;
@@ -233,7 +233,7 @@ bool stage_act(struct stage *st, enum action action)
     return true;
 }
 
-void stage_turn_help(struct stage *st, bool closes)
+void workspace_turn_help(struct workspace *st, bool closes)
 {
     if (st->help_left > 1 && !closes)
         open_help(st, st->help_number + 1);
@@ -243,13 +243,13 @@ void stage_turn_help(struct stage *st, bool closes)
 
 /* ---- drawing ---- */
 
-static void format_status(struct stage *st, char text[STATUS_BYTES])
+static void format_status(struct workspace *st, char text[STATUS_BYTES])
 {
     const struct film *film = film_of(st);
     const struct backend *backend = render_backend(st->work->session->render);
-    struct keys_name load = work_key(st->work, ACTION_RELOAD);
+    struct keymap_name load = render_control_key(st->work, ACTION_RELOAD);
     char hint[48];
-    struct status status = {
+    struct status_line status = {
         .is_live = st->work->is_live,
         .is_orbiting = st->pilot->steer.is_orbiting,
         .is_halted = st->work->is_halted,
@@ -265,30 +265,30 @@ static void format_status(struct stage *st, char text[STATUS_BYTES])
     };
 
     snprintf(hint, sizeof hint, "%s help  %s quit",
-             work_key(st->work, ACTION_HELP).text,
-             work_key(st->work, ACTION_QUIT).text);
-    status_format(text, term_size().cols, &status);
+             render_control_key(st->work, ACTION_HELP).text,
+             render_control_key(st->work, ACTION_QUIT).text);
+    status_line_format(text, term_size().cols, &status);
 }
 
-static void update_status(struct stage *st, uint64_t now_ns)
+static void update_status(struct workspace *st, uint64_t now_ns)
 {
     char text[STATUS_BYTES];
 
     if (st->prompt) {
-        status_message(text, term_size().cols, st->prompt);
+        status_line_message(text, term_size().cols, st->prompt);
     } else if (now_ns < st->work->message.until_ns) {
-        status_message(text, term_size().cols, st->work->message.text);
+        status_line_message(text, term_size().cols, st->work->message.text);
     } else if (st->canvas.has_status_row && st->inside.show.legend[0] != '\0') {
-        status_message(text, term_size().cols, st->inside.show.legend);
+        status_line_message(text, term_size().cols, st->inside.show.legend);
     } else if (st->canvas.has_status_row) {
         format_status(st, text);
     } else {
         if (st->canvas.has_status)
             st->is_settled = false; /* the picture comes back there */
-        canvas_status(&st->canvas, NULL);
+        screen_status(&st->canvas, NULL);
         return;
     }
-    canvas_status(&st->canvas, text);
+    screen_status(&st->canvas, text);
 }
 
 /* Processor time of this thread. */
@@ -302,7 +302,7 @@ static uint64_t used_ns(void)
 
 /* Until the next frame after one that took so long, of which it used so much of
  * the processor. */
-static uint64_t frame_interval(const struct stage *st, uint64_t took_ns,
+static uint64_t frame_interval(const struct workspace *st, uint64_t took_ns,
                                uint64_t cpu_ns)
 {
     uint64_t interval_ns = FRAME_FIRST_NS;
@@ -314,30 +314,30 @@ static uint64_t frame_interval(const struct stage *st, uint64_t took_ns,
     return later(interval_ns, 2 * took_ns); /* where writing blocks */
 }
 
-static int frame_step(const struct stage *st)
+static int frame_step(const struct workspace *st)
 {
     if (st->work->progress.state != RENDER_RUNNING)
         return 0;
-    if (pace_is_slow(&st->canvas.pace))
+    if (frame_pacing_is_slow(&st->canvas.pace))
         return STEP_SLOW;
     return st->work->progress.render_ns > SETTLING_NS ? STEP : 0;
 }
 
 /* Says it once if the pixels that the person has asked for are not there. */
-static void say_lack(struct stage *st, uint64_t now_ns)
+static void say_lack(struct workspace *st, uint64_t now_ns)
 {
-    const struct canvas *c = &st->canvas;
-    const char *lack = display_lack(&c->display);
+    const struct screen *c = &st->canvas;
+    const char *lack = term_caps_lack(&c->display);
     bool is_known = c->has_all_answers || now_ns >= st->lack_ns;
 
     if (st->lack_ns == 0 || !is_known || st->work->message.until_ns != 0)
         return;
     st->lack_ns = 0;
-    if (lack && c->graphics.shape.kind == GRAPHICS_NONE)
-        work_say(st->work, "%s: %s", canvas_glyphs_name(c), lack);
+    if (lack && c->graphics.shape.kind == PIXEL_GRAPHICS_NONE)
+        render_control_say(st->work, "%s: %s", screen_glyphs_name(c), lack);
 }
 
-static void show_messages(struct stage *st, uint64_t now_ns)
+static void show_messages(struct workspace *st, uint64_t now_ns)
 {
     say_lack(st, now_ns);
     if (st->work->message.until_ns != 0 &&
@@ -351,64 +351,64 @@ static void show_messages(struct stage *st, uint64_t now_ns)
     st->status_ns = now_ns + STATUS_NS;
 }
 
-bool stage_draw(struct stage *st, uint64_t now_ns)
+bool workspace_draw(struct workspace *st, uint64_t now_ns)
 {
-    struct canvas *c = &st->canvas;
+    struct screen *c = &st->canvas;
     struct render *render = st->work->session->render;
     bool is_running = st->work->progress.state == RENDER_RUNNING;
-    bool shows = !work_awaits_picture(st->work) && !st->is_settled &&
+    bool shows = !render_control_awaits_picture(st->work) && !st->is_settled &&
                  now_ns >= st->frame_ns;
     uint64_t begin_ns = used_ns();
-    enum canvas_result result;
+    enum screen_result result;
 
     show_messages(st, now_ns);
-    if (shows_gauge(st) && now_ns >= gauge_next_ns(&st->gauge, st->work))
-        gauge_draw(&st->gauge, st->work, c, now_ns);
-    if ((!shows && !c->must_update) || !pace_may_send(&c->pace))
+    if (shows_gauge(st) && now_ns >= progress_panel_next_ns(&st->gauge, st->work))
+        progress_panel_draw(&st->gauge, st->work, c, now_ns);
+    if ((!shows && !c->must_update) || !frame_pacing_may_send(&c->pace))
         return true;
     result =
-        canvas_draw(c, shows ? render_film(render) : NULL, render_draft(render),
-                    show_develop(&st->inside.show), frame_step(st));
+        screen_draw(c, shows ? render_film(render) : NULL, render_draft(render),
+                    view_mode_develop(&st->inside.show), frame_step(st));
     if (st->inside.show.has_news)
         st->status_ns = 0;
     st->inside.show.has_news = false;
-    if (shows && result != CANVAS_GONE) {
+    if (shows && result != SCREEN_GONE) {
         uint64_t took_ns = clock_ns() - now_ns;
 
-        st->is_settled = result == CANVAS_DONE && !is_running;
+        st->is_settled = result == SCREEN_DONE && !is_running;
         st->frame_ns =
-            result == CANVAS_MORE
+            result == SCREEN_MORE
                 ? 0
                 : now_ns + frame_interval(st, took_ns, used_ns() - begin_ns);
     }
-    return result != CANVAS_GONE;
+    return result != SCREEN_GONE;
 }
 
 /* ---- what there is to draw ---- */
 
 /* A restart changes the picture, but the status line only in its time: while
  * the camera moves there are 60 a second. */
-void stage_look(struct stage *st)
+void workspace_look(struct workspace *st)
 {
     const struct film *film = film_of(st);
     uint64_t before_ns = st->work->restarted_ns;
 
-    inside_step(&st->inside);
-    work_look(st->work);
+    inspector_step(&st->inside);
+    render_control_look(st->work);
     if (film->width != st->width_px || film->height != st->height_px)
-        stage_layout(st);
+        workspace_layout(st);
     if (st->work->restarted_ns != before_ns) {
         st->is_settled = false;
         st->frame_ns = 0;
     }
     if (st->work->has_changed)
-        stage_refresh(st);
+        workspace_refresh(st);
     st->work->has_changed = false;
 }
 
 /* For the first picture after a restart: looked for often at first, seldom
  * while a tree is built. */
-static uint64_t next_look_ns(const struct stage *st, uint64_t now_ns)
+static uint64_t next_look_ns(const struct workspace *st, uint64_t now_ns)
 {
     uint64_t waited_ns = now_ns - st->work->restarted_ns;
     uint64_t pause_ns = waited_ns / 8;
@@ -417,32 +417,32 @@ static uint64_t next_look_ns(const struct stage *st, uint64_t now_ns)
     return now_ns + (pause_ns < 20 * MS_NS ? pause_ns : 20 * MS_NS);
 }
 
-uint64_t stage_next_ns(const struct stage *st, uint64_t now_ns)
+uint64_t workspace_next_ns(const struct workspace *st, uint64_t now_ns)
 {
-    const struct work *w = st->work;
+    const struct render_control *w = st->work;
     uint64_t next = w->files_ns;
 
-    if (work_awaits_picture(w))
+    if (render_control_awaits_picture(w))
         next = earlier(next, next_look_ns(st, now_ns));
     else if (w->must_restart)
         next = now_ns;
-    else if (!st->is_settled && pace_may_send(&st->canvas.pace))
+    else if (!st->is_settled && frame_pacing_may_send(&st->canvas.pace))
         next = earlier(next, st->frame_ns);
     if (w->progress.state == RENDER_RUNNING || st->status_ns == 0)
         next = earlier(next, st->status_ns);
     if (shows_gauge(st))
-        next = earlier(next, gauge_next_ns(&st->gauge, w));
+        next = earlier(next, progress_panel_next_ns(&st->gauge, w));
     if (w->message.until_ns != 0)
         next = earlier(next, w->message.until_ns);
     else if (st->lack_ns != 0)
         next = earlier(next, st->lack_ns);
-    return earlier(next, pace_deadline_ns(&st->canvas.pace));
+    return earlier(next, frame_pacing_deadline_ns(&st->canvas.pace));
 }
 
-void stage_free(struct stage *st)
+void workspace_free(struct workspace *st)
 {
-    gauge_free(&st->gauge);
-    inside_free(&st->inside);
-    panel_free(&st->panel);
-    canvas_free(&st->canvas);
+    progress_panel_free(&st->gauge);
+    inspector_free(&st->inside);
+    editor_panel_free(&st->panel);
+    screen_free(&st->canvas);
 }

@@ -8,7 +8,7 @@
  * panel.
  *
  * Units:     nanoseconds of clock_ns()
- * Ownership: work and pilot stay the caller's and outlive it; stage_free()
+ * Ownership: work and pilot stay the caller's and outlive it; workspace_free()
  *            frees the rest
  * Threads:   main only
  * Errors:    become messages
@@ -23,13 +23,13 @@
 #include "studio/camera_control.h"
 #include "studio/render_control.h"
 
-struct stage {
-    struct work *work;
-    struct pilot *pilot;
-    struct canvas canvas;
-    struct inside inside;
-    struct panel panel;
-    struct gauge gauge; /* hidden while the help is open */
+struct workspace {
+    struct render_control *work;
+    struct camera_control *pilot;
+    struct screen canvas;
+    struct inspector inside;
+    struct editor_panel panel;
+    struct progress_panel gauge; /* hidden while the help is open */
     int help_number;    /* the page that is shown, */
     int help_left;      /* with those behind it; 0: no help */
     const char *prompt; /* in the last line; NULL: nothing is asked */
@@ -43,42 +43,42 @@ struct stage {
 };
 
 /* Says what the next restart's draft is like, before there is a screen. */
-void stage_expect(struct session *s);
+void workspace_expect(struct session *s);
 
-void stage_init(struct stage *st, struct work *work, struct pilot *pilot);
+void workspace_init(struct workspace *st, struct render_control *work, struct camera_control *pilot);
 
-/* After term_open(). */
-void stage_open(struct stage *st);
+/* After tty_open(). */
+void workspace_open(struct workspace *st);
 
 /* Everything anew, for the terminal's size of now. */
-void stage_layout(struct stage *st);
+void workspace_layout(struct workspace *st);
 
 /* Draws again as soon as possible. */
-void stage_refresh(struct stage *st);
+void workspace_refresh(struct workspace *st);
 
 /* NULL: the status line again. */
-void stage_ask(struct stage *st, const char *prompt);
+void workspace_ask(struct workspace *st, const char *prompt);
 
 /* Does what the action says of windows, colours and drawings. False if it is
  * not the stage's. */
-bool stage_act(struct stage *st, enum action action);
+bool workspace_act(struct workspace *st, enum action action);
 
 /* While the help is open: its next page, or its end. */
-void stage_turn_help(struct stage *st, bool closes);
+void workspace_turn_help(struct workspace *st, bool closes);
 
 /* After the scene was loaded anew. */
-void stage_renew(struct stage *st, const struct selection_names *names);
+void workspace_renew(struct workspace *st, const struct selection_names *names);
 
 /* Looks how far the work is, and what of it there is to show. */
-void stage_look(struct stage *st);
+void workspace_look(struct workspace *st);
 
 /* Draws what is due. False if the terminal takes nothing any more. */
-bool stage_draw(struct stage *st, uint64_t now_ns);
+bool workspace_draw(struct workspace *st, uint64_t now_ns);
 
 /* When to look and draw again if nothing happens; UINT64_MAX: never. */
-uint64_t stage_next_ns(const struct stage *st, uint64_t now_ns);
+uint64_t workspace_next_ns(const struct workspace *st, uint64_t now_ns);
 
-/* After term_close(). */
-void stage_free(struct stage *st);
+/* After tty_close(). */
+void workspace_free(struct workspace *st);
 
 #endif

@@ -8,30 +8,30 @@
 /* A jump, two 24-bit colours and a glyph: 10 + 38 + 4 bytes. */
 #define CELL_BYTES_MAX 56
 
-bool ansi_init(struct ansi *a, int cols, int rows, struct error *err)
+bool ansi_diff_init(struct ansi_diff *a, int cols, int rows, struct error *err)
 {
     size_t count = (size_t)cols * (size_t)rows;
 
     assert(cols > 0 && rows > 0);
-    *a = (struct ansi){.cols = cols, .rows = rows};
-    a->capacity = count * CELL_BYTES_MAX + ANSI_TEXT_MAX;
+    *a = (struct ansi_diff){.cols = cols, .rows = rows};
+    a->capacity = count * CELL_BYTES_MAX + ANSI_DIFF_TEXT_MAX;
     a->shown = alloc_array(count, sizeof a->shown[0]);
     a->bytes = alloc_array(a->capacity, 1);
     if (!a->shown || !a->bytes) {
-        ansi_free(a);
+        ansi_diff_free(a);
         return fail(err, "no memory for a window of %dx%d cells", cols, rows);
     }
     return true;
 }
 
-void ansi_free(struct ansi *a)
+void ansi_diff_free(struct ansi_diff *a)
 {
     free(a->shown);
     free(a->bytes);
-    *a = (struct ansi){0};
+    *a = (struct ansi_diff){0};
 }
 
-void ansi_forget(struct ansi *a, struct ansi_rect rect)
+void ansi_diff_forget(struct ansi_diff *a, struct ansi_diff_rect rect)
 {
     for (int y = rect.row; y < rect.row + rect.rows; y++) {
         for (int x = rect.col; x < rect.col + rect.cols; x++) {
@@ -41,21 +41,21 @@ void ansi_forget(struct ansi *a, struct ansi_rect rect)
     }
 }
 
-void ansi_forget_all(struct ansi *a)
+void ansi_diff_forget_all(struct ansi_diff *a)
 {
-    ansi_forget(a, (struct ansi_rect){0, 0, a->cols, a->rows});
+    ansi_diff_forget(a, (struct ansi_diff_rect){0, 0, a->cols, a->rows});
 }
 
-void ansi_begin(struct ansi *a)
+void ansi_diff_begin(struct ansi_diff *a)
 {
     a->length = 0;
     a->fg = CELL_DEFAULT;
     a->bg = CELL_DEFAULT;
 }
 
-bool ansi_reserve(struct ansi *a, size_t size_bytes)
+bool ansi_diff_reserve(struct ansi_diff *a, size_t size_bytes)
 {
-    size_t needed = a->length + size_bytes + ANSI_TEXT_MAX;
+    size_t needed = a->length + size_bytes + ANSI_DIFF_TEXT_MAX;
     void *bytes = a->bytes;
     bool ok = grow_array(&bytes, &a->capacity, needed, 1);
 
@@ -63,24 +63,24 @@ bool ansi_reserve(struct ansi *a, size_t size_bytes)
     return ok;
 }
 
-static void put(struct ansi *a, const char *text, size_t length)
+static void put(struct ansi_diff *a, const char *text, size_t length)
 {
     assert(a->length + length <= a->capacity);
     memcpy(a->bytes + a->length, text, length);
     a->length += length;
 }
 
-void ansi_text(struct ansi *a, const char *text)
+void ansi_diff_text(struct ansi_diff *a, const char *text)
 {
     put(a, text, strlen(text));
 }
 
-static void put_char(struct ansi *a, char c)
+static void put_char(struct ansi_diff *a, char c)
 {
     a->bytes[a->length++] = c;
 }
 
-static void put_number(struct ansi *a, uint32_t n)
+static void put_number(struct ansi_diff *a, uint32_t n)
 {
     char digits[10];
     int count = 0;
@@ -95,7 +95,7 @@ static void put_number(struct ansi *a, uint32_t n)
 
 /* 38;2;r;g;b for a foreground (base 30), 48;... for a background (base 40).
  * Semicolons: the form that every terminal takes apart the same way. */
-static void put_color(struct ansi *a, uint32_t color, enum palette palette,
+static void put_color(struct ansi_diff *a, uint32_t color, enum palette palette,
                       uint32_t base)
 {
     if (color == CELL_DEFAULT) {
@@ -118,18 +118,18 @@ static void put_color(struct ansi *a, uint32_t color, enum palette palette,
 }
 
 /* A blank shows no foreground. */
-static bool needs_fg(const struct ansi *a, const struct cell *cell)
+static bool needs_fg(const struct ansi_diff *a, const struct cell *cell)
 {
     return cell->glyph != ' ' && cell->fg != a->fg;
 }
 
-static bool needs_bg(const struct ansi *a, const struct cell *cell)
+static bool needs_bg(const struct ansi_diff *a, const struct cell *cell)
 {
     return cell->bg != a->bg;
 }
 
 /* One sequence with only the part that changes. */
-static void put_colors(struct ansi *a, const struct cell *cell,
+static void put_colors(struct ansi_diff *a, const struct cell *cell,
                        enum palette palette)
 {
     bool new_fg = needs_fg(a, cell);
@@ -169,7 +169,7 @@ static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
 
 /* Writes the cell or its inverse, whichever changes fewer colours: where a
  * dither mixes two, they stay and the glyphs alternate. */
-static void put_cell(struct ansi *a, const struct cells *cells,
+static void put_cell(struct ansi_diff *a, const struct cells *cells,
                      const struct cell *cell)
 {
     struct cell inverse = inverse_of(cell, cells->glyphs);
@@ -182,7 +182,7 @@ static void put_cell(struct ansi *a, const struct cells *cells,
     put(a, bytes, (size_t)glyph_utf8(cell->glyph, bytes));
 }
 
-void ansi_jump(struct ansi *a, int row, int col)
+void ansi_diff_jump(struct ansi_diff *a, int row, int col)
 {
     put(a, "\033[", 2);
     put_number(a, (uint32_t)row + 1);
@@ -192,12 +192,12 @@ void ansi_jump(struct ansi *a, int row, int col)
 }
 
 /* `from` is the column where the cursor stands in this row; -1: elsewhere. */
-static void put_jump(struct ansi *a, int row, int col, int from)
+static void put_jump(struct ansi_diff *a, int row, int col, int from)
 {
     if (from == col)
         return;
     if (from < 0) {
-        ansi_jump(a, row, col);
+        ansi_diff_jump(a, row, col);
         return;
     }
     put(a, "\033[", 2);
@@ -243,10 +243,10 @@ static bool may_stay(const struct cell *shown, const struct cell *cell,
     return step > 0 && dots_close(shown, cell, glyphs, step);
 }
 
-int ansi_uncovered(const struct ansi_draw *how, int col, int row)
+int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row)
 {
     for (int i = 0; i < how->covered_count; i++) {
-        const struct ansi_rect *r = &how->covered[i];
+        const struct ansi_diff_rect *r = &how->covered[i];
 
         if (row >= r->row && row < r->row + r->rows && col >= r->col &&
             col < r->col + r->cols) {
@@ -259,16 +259,16 @@ int ansi_uncovered(const struct ansi_draw *how, int col, int row)
 
 /* Writes what differs in columns [begin, end) of a row until the buffer is
  * `limit` long; the column where it stopped, or end. */
-static int put_row(struct ansi *a, const struct cells *cells, int row,
+static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
                    int begin, int end, size_t limit,
-                   const struct ansi_draw *how)
+                   const struct ansi_diff_draw *how)
 {
     size_t first = (size_t)row * (size_t)a->cols;
     int step = cells->palette == PALETTE_24BIT ? how->step : 0;
     int from = -1;
 
-    for (int col = ansi_uncovered(how, begin, row); col < end;
-         col = ansi_uncovered(how, col + 1, row)) {
+    for (int col = ansi_diff_uncovered(how, begin, row); col < end;
+         col = ansi_diff_uncovered(how, col + 1, row)) {
         const struct cell *cell = &cells->cell[first + (size_t)col];
         struct cell *shown = &a->shown[first + (size_t)col];
 
@@ -285,8 +285,8 @@ static int put_row(struct ansi *a, const struct cells *cells, int row,
     return end;
 }
 
-bool ansi_picture(struct ansi *a, const struct cells *cells,
-                  const struct ansi_draw *how)
+bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
+                  const struct ansi_diff_draw *how)
 {
     size_t limit = how->budget_bytes > SIZE_MAX - a->length
                        ? SIZE_MAX
@@ -297,7 +297,7 @@ bool ansi_picture(struct ansi *a, const struct cells *cells,
     assert(cells->cols == a->cols && cells->rows == a->rows);
     /* the same number is another colour, the same glyph another mask */
     if (cells->palette != a->palette || cells->glyphs != a->glyphs)
-        ansi_forget_all(a);
+        ansi_diff_forget_all(a);
     a->palette = cells->palette;
     a->glyphs = cells->glyphs;
     /* The row of the start comes twice: its right part first, its left last. */
@@ -318,20 +318,20 @@ bool ansi_picture(struct ansi *a, const struct cells *cells,
     return true;
 }
 
-void ansi_end(struct ansi *a, int row)
+void ansi_diff_end(struct ansi_diff *a, int row)
 {
-    ansi_text(a, "\033[m");
-    ansi_jump(a, row, 0);
+    ansi_diff_text(a, "\033[m");
+    ansi_diff_jump(a, row, 0);
     a->fg = CELL_DEFAULT;
     a->bg = CELL_DEFAULT;
 }
 
-bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
+bool ansi_diff_lines(const struct cells *cells, char **text, size_t *size_bytes,
                 struct error *err)
 {
-    struct ansi a;
+    struct ansi_diff a;
 
-    if (!ansi_init(&a, cells->cols, cells->rows, err))
+    if (!ansi_diff_init(&a, cells->cols, cells->rows, err))
         return false;
     for (int row = 0; row < cells->rows; row++) {
         a.fg = CELL_DEFAULT;
@@ -345,6 +345,6 @@ bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
     *text = a.bytes;
     *size_bytes = a.length;
     a.bytes = NULL; /* the caller owns it now */
-    ansi_free(&a);
+    ansi_diff_free(&a);
     return true;
 }

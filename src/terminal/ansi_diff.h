@@ -7,7 +7,7 @@
  * stopped, so that every cell has its turn.
  *
  * Units:     terminal cells, bytes
- * Ownership: ansi_free() frees; a zeroed struct is empty
+ * Ownership: ansi_diff_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
  * Errors:    memory
  */
@@ -16,7 +16,7 @@
 
 #include "terminal/cells.h"
 
-struct ansi {
+struct ansi_diff {
     int cols, rows;
     struct cell *shown;
     enum palette palette;   /* of `shown` */
@@ -28,54 +28,54 @@ struct ansi {
 };
 
 /* Cells of the picture, from its corner. */
-struct ansi_rect {
+struct ansi_diff_rect {
     int col, row, cols, rows;
 };
 
-struct ansi_draw {
+struct ansi_diff_draw {
     int col, row; /* where the picture's corner is on the screen, from 0 */
     size_t budget_bytes; /* stop beyond it; SIZE_MAX: none */
     int step; /* 24 bit: leave cells whose channels differ by no more */
-    const struct ansi_rect *covered; /* not to be touched: windows above */
+    const struct ansi_diff_rect *covered; /* not to be touched: windows above */
     int covered_count;
 };
 
 /* For a picture of cols x rows cells of which nothing is known. */
-bool ansi_init(struct ansi *a, int cols, int rows, struct error *err);
-void ansi_free(struct ansi *a);
+bool ansi_diff_init(struct ansi_diff *a, int cols, int rows, struct error *err);
+void ansi_diff_free(struct ansi_diff *a);
 
 /* Something else has written over these cells, or nobody knows. */
-void ansi_forget(struct ansi *a, struct ansi_rect rect);
-void ansi_forget_all(struct ansi *a);
+void ansi_diff_forget(struct ansi_diff *a, struct ansi_diff_rect rect);
+void ansi_diff_forget_all(struct ansi_diff *a);
 
 /* Begins an empty buffer; colours are the terminal's own at this point. */
-void ansi_begin(struct ansi *a);
+void ansi_diff_begin(struct ansi_diff *a);
 
-/* Appends a few control bytes, at most ANSI_TEXT_MAX a frame. */
-void ansi_text(struct ansi *a, const char *text);
-#define ANSI_TEXT_MAX 256
+/* Appends a few control bytes, at most ANSI_DIFF_TEXT_MAX a frame. */
+void ansi_diff_text(struct ansi_diff *a, const char *text);
+#define ANSI_DIFF_TEXT_MAX 256
 
 /* Makes room for so many bytes behind `length`, and for the rest of the frame's
- * ansi_text(). False if memory is out. */
-bool ansi_reserve(struct ansi *a, size_t size_bytes);
+ * ansi_diff_text(). False if memory is out. */
+bool ansi_diff_reserve(struct ansi_diff *a, size_t size_bytes);
 
 /* Appends a jump of the cursor, from 0. */
-void ansi_jump(struct ansi *a, int row, int col);
+void ansi_diff_jump(struct ansi_diff *a, int row, int col);
 
 /* The first column of the picture from col on that no window covers. */
-int ansi_uncovered(const struct ansi_draw *how, int col, int row);
+int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row);
 
 /* Appends what turns the shown picture into `cells`. Leaves colours and cursor
  * anywhere. True if nothing is left for the next frame. */
-bool ansi_picture(struct ansi *a, const struct cells *cells,
-                  const struct ansi_draw *how);
+bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
+                  const struct ansi_diff_draw *how);
 
 /* The cells as lines of text for a file or a pipe, each with its colours and
  * the reader's own at its end. *text is for free(). */
-bool ansi_lines(const struct cells *cells, char **text, size_t *size_bytes,
+bool ansi_diff_lines(const struct cells *cells, char **text, size_t *size_bytes,
                 struct error *err);
 
 /* Appends the way back: own colours, cursor at this row, column 0. */
-void ansi_end(struct ansi *a, int row);
+void ansi_diff_end(struct ansi_diff *a, int row);
 
 #endif

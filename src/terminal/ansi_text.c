@@ -3,7 +3,7 @@
 
 #include "terminal/ansi_diff.h"
 
-bool text_frame_init(struct frame *frame, const struct text_style *style,
+bool ansi_text_frame_init(struct frame *frame, const struct ansi_text_style *style,
                      struct error *err)
 {
     struct glyph_grid grid = glyphs_grid(style->glyphs);
@@ -12,7 +12,7 @@ bool text_frame_init(struct frame *frame, const struct text_style *style,
                       err);
 }
 
-bool text_of_frame(const struct frame *frame, const struct text_style *style,
+bool ansi_text_of_frame(const struct frame *frame, const struct ansi_text_style *style,
                    char **text, size_t *size_bytes, struct error *err)
 {
     struct cells cells = {0};
@@ -20,7 +20,7 @@ bool text_of_frame(const struct frame *frame, const struct text_style *style,
 
     if (ok) {
         cells_from_frame(&cells, frame, style->palette, style->glyphs);
-        ok = ansi_lines(&cells, text, size_bytes, err);
+        ok = ansi_diff_lines(&cells, text, size_bytes, err);
     }
     cells_free(&cells);
     return ok;

@@ -14,17 +14,17 @@
 
 #include "terminal/cells.h"
 
-struct text_style {
+struct ansi_text_style {
     int cols, rows;
     enum palette palette;
     enum glyphs glyphs;
 };
 
 /* The frame that such a text is made of, for frame_free(). */
-bool text_frame_init(struct frame *frame, const struct text_style *style,
+bool ansi_text_frame_init(struct frame *frame, const struct ansi_text_style *style,
                      struct error *err);
 
-bool text_of_frame(const struct frame *frame, const struct text_style *style,
+bool ansi_text_of_frame(const struct frame *frame, const struct ansi_text_style *style,
                    char **text, size_t *size_bytes, struct error *err);
 
 #endif

@@ -41,7 +41,7 @@ static void add_columns(WINDOW *to, const char *text, int cols)
 
     size_t size_bytes = (size_t)cols * COLUMN_BYTES + 1;
     char *line = xmalloc(size_bytes);
-    columns_fit(line, size_bytes, text, cols);
+    text_width_fit(line, size_bytes, text, cols);
     waddstr(to, line);
     free(line);
 }
@@ -82,7 +82,7 @@ void windows_clear(void)
 /* What a text takes of so many columns. */
 static int shown_columns(const char *text, int cols)
 {
-    int all = columns_of(text);
+    int all = text_width_of(text);
 
     return all < cols ? all : cols;
 }
@@ -115,10 +115,10 @@ void windows_set(const char *const *texts, int text_count)
 static struct window_rect window_size(const char *title,
                                       const char *const *texts, int text_count)
 {
-    struct window_rect r = {0, 0, columns_of(title) + 6, text_count + 2};
+    struct window_rect r = {0, 0, text_width_of(title) + 6, text_count + 2};
 
     for (int i = 0; i < text_count; i++) {
-        int cols = columns_of(texts[i]) + 4;
+        int cols = text_width_of(texts[i]) + 4;
 
         r.cols = cols > r.cols ? cols : r.cols;
     }
@@ -227,7 +227,7 @@ void windows_hide_panel(void)
 
 void windows_notice(const char *text)
 {
-    int cols = columns_of(text);
+    int cols = text_width_of(text);
 
     erase();
     if (cols <= COLS)
@@ -337,7 +337,7 @@ static void update_cell(struct writer *w, int col, int row)
 
     look_at(col, row, &now);
     if (memcmp(was, &now, sizeof now) == 0 ||
-        (term_scrolls_at_end() && col == shown.cols - 1 &&
+        (tty_scrolls_at_end() && col == shown.cols - 1 &&
          row == shown.rows - 1))
         return;
     *was = now;
@@ -366,6 +366,6 @@ void windows_update(void)
     if (ftell(w.to) > 0)
         fprintf(w.to, "\033[m\033[%d;1H", shown.rows);
     fclose(w.to);
-    term_write(bytes, size_bytes);
+    tty_write(bytes, size_bytes);
     free(bytes);
 }

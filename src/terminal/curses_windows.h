@@ -8,7 +8,7 @@
  *
  * Units:     terminal cells
  * Ownership: texts stay the caller's
- * Threads:   main only, between term_open() and term_close()
+ * Threads:   main only, between tty_open() and tty_close()
  * Errors:    without memory for a window there is none
  */
 #ifndef GLIM_CURSES_WINDOWS_H

@@ -29,30 +29,30 @@
  * blink. */
 #define SLOW_RATE 1e6
 
-void pace_init(struct pace *p, uint64_t now_ns)
+void frame_pacing_init(struct frame_pacing *p, uint64_t now_ns)
 {
-    *p = (struct pace){.state = PACE_UNKNOWN,
+    *p = (struct frame_pacing){.state = FRAME_PACING_UNKNOWN,
                        .outstanding = 1,
                        .asked_ns = now_ns,
                        .first_asked_ns = now_ns,
                        .budget_bytes = BUDGET_FIRST};
 }
 
-bool pace_may_send(const struct pace *p)
+bool frame_pacing_may_send(const struct frame_pacing *p)
 {
-    if (p->state == PACE_UNKNOWN)
+    if (p->state == FRAME_PACING_UNKNOWN)
         return !p->first_frame_sent;
-    return p->state == PACE_MUTE || p->outstanding == 0;
+    return p->state == FRAME_PACING_MUTE || p->outstanding == 0;
 }
 
-bool pace_wants_request(const struct pace *p)
+bool frame_pacing_wants_request(const struct frame_pacing *p)
 {
-    return p->state != PACE_MUTE;
+    return p->state != FRAME_PACING_MUTE;
 }
 
 /* Bytes and times are smoothed apart: a small frame whose answer was lucky by
  * some milliseconds would else be a line of megabytes a second. */
-static void learn_rate(struct pace *p, size_t bytes, double seconds)
+static void learn_rate(struct frame_pacing *p, size_t bytes, double seconds)
 {
     double weight = p->rate > 0 ? 0.3 : 1;
     double most = GROWTH_MAX * (double)p->budget_bytes;
@@ -72,7 +72,7 @@ static void learn_rate(struct pace *p, size_t bytes, double seconds)
 /* Nothing tells how fast the line is where all frames are as large as the
  * quickest: they become smaller, down to what has passed in time before, and
  * from there on larger, until one tells. */
-static void look_for_rate(struct pace *p)
+static void look_for_rate(struct frame_pacing *p)
 {
     double sure = p->sure_rate * FRAME_SECONDS;
 
@@ -85,7 +85,7 @@ static void look_for_rate(struct pace *p)
 
 /* What a frame took more than the quickest, for what it was larger, is the
  * line's: neither the way nor a start that was slow are in it. */
-static void learn_from_answer(struct pace *p, uint64_t rtt_ns)
+static void learn_from_answer(struct frame_pacing *p, uint64_t rtt_ns)
 {
     double least = (double)p->frame_bytes / ((double)(rtt_ns + 1) * 1e-9);
 
@@ -102,7 +102,7 @@ static void learn_from_answer(struct pace *p, uint64_t rtt_ns)
 }
 
 /* Without answers the time that write() took is all there is to see. */
-static void learn_from_write(struct pace *p, uint64_t took_ns)
+static void learn_from_write(struct frame_pacing *p, uint64_t took_ns)
 {
     if (took_ns > 2000000u && p->frame_bytes > MEASURE_BYTES)
         learn_rate(p, p->frame_bytes, (double)took_ns * 1e-9);
@@ -110,7 +110,7 @@ static void learn_from_write(struct pace *p, uint64_t took_ns)
         p->budget_bytes *= 2;
 }
 
-void pace_sent(struct pace *p, size_t size_bytes, bool with_request,
+void frame_pacing_sent(struct frame_pacing *p, size_t size_bytes, bool with_request,
                uint64_t begin_ns, uint64_t end_ns)
 {
     p->frame_bytes = size_bytes;
@@ -119,29 +119,29 @@ void pace_sent(struct pace *p, size_t size_bytes, bool with_request,
         p->outstanding++;
         p->asked_ns = begin_ns;
     }
-    if (p->state == PACE_MUTE)
+    if (p->state == FRAME_PACING_MUTE)
         learn_from_write(p, end_ns - begin_ns);
 }
 
 /* The answer to the very first request: nothing but the way there and back,
  * even if a frame has followed it. */
-static void first_answer(struct pace *p, uint64_t now_ns)
+static void first_answer(struct frame_pacing *p, uint64_t now_ns)
 {
     p->rtt_min_ns = now_ns - p->first_asked_ns;
     if (p->outstanding == 0)
         p->frame_bytes = 0;
 }
 
-void pace_answer(struct pace *p, uint64_t now_ns)
+void frame_pacing_answer(struct frame_pacing *p, uint64_t now_ns)
 {
-    enum pace_state before = p->state;
+    enum frame_pacing_state before = p->state;
 
-    p->state = PACE_ANSWERS;
-    if (before == PACE_MUTE)
+    p->state = FRAME_PACING_ANSWERS;
+    if (before == FRAME_PACING_MUTE)
         p->outstanding = 0; /* the others may be lost */
     else if (p->outstanding > 0)
         p->outstanding--;
-    if (before != PACE_ANSWERS) {
+    if (before != FRAME_PACING_ANSWERS) {
         first_answer(p, now_ns);
         return;
     }
@@ -151,27 +151,27 @@ void pace_answer(struct pace *p, uint64_t now_ns)
     p->frame_bytes = 0;
 }
 
-uint64_t pace_deadline_ns(const struct pace *p)
+uint64_t frame_pacing_deadline_ns(const struct frame_pacing *p)
 {
-    if (p->state == PACE_MUTE || p->outstanding == 0)
+    if (p->state == FRAME_PACING_MUTE || p->outstanding == 0)
         return UINT64_MAX;
     return p->asked_ns +
-           (p->state == PACE_UNKNOWN ? FIRST_ANSWER_NS : LOST_ANSWER_NS);
+           (p->state == FRAME_PACING_UNKNOWN ? FIRST_ANSWER_NS : LOST_ANSWER_NS);
 }
 
-void pace_tick(struct pace *p, uint64_t now_ns)
+void frame_pacing_tick(struct frame_pacing *p, uint64_t now_ns)
 {
-    if (now_ns >= pace_deadline_ns(p))
-        p->state = PACE_MUTE;
+    if (now_ns >= frame_pacing_deadline_ns(p))
+        p->state = FRAME_PACING_MUTE;
 }
 
-void pace_forget(struct pace *p)
+void frame_pacing_forget(struct frame_pacing *p)
 {
     p->outstanding = 0;
     p->frame_bytes = 0;
 }
 
-bool pace_is_slow(const struct pace *p)
+bool frame_pacing_is_slow(const struct frame_pacing *p)
 {
     return p->rate > 0 && p->rate < SLOW_RATE;
 }

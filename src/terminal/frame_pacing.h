@@ -19,16 +19,16 @@
 #include <stdint.h>
 
 /* Device status report: any terminal since the VT100 answers ESC[0n. */
-#define PACE_REQUEST "\033[5n"
+#define FRAME_PACING_REQUEST "\033[5n"
 
-enum pace_state {
-    PACE_UNKNOWN, /* asked for the first time, no answer yet */
-    PACE_ANSWERS,
-    PACE_MUTE /* no answer for long: go on without */
+enum frame_pacing_state {
+    FRAME_PACING_UNKNOWN, /* asked for the first time, no answer yet */
+    FRAME_PACING_ANSWERS,
+    FRAME_PACING_MUTE /* no answer for long: go on without */
 };
 
-struct pace {
-    enum pace_state state;
+struct frame_pacing {
+    enum frame_pacing_state state;
     int outstanding;   /* requests without an answer */
     uint64_t asked_ns; /* when the last request went out */
     uint64_t first_asked_ns;
@@ -43,33 +43,33 @@ struct pace {
 };
 
 /* The first request is written now. */
-void pace_init(struct pace *p, uint64_t now_ns);
+void frame_pacing_init(struct frame_pacing *p, uint64_t now_ns);
 
 /* Whether a frame may be written now. */
-bool pace_may_send(const struct pace *p);
+bool frame_pacing_may_send(const struct frame_pacing *p);
 
-/* Whether the frame must end with PACE_REQUEST. */
-bool pace_wants_request(const struct pace *p);
+/* Whether the frame must end with FRAME_PACING_REQUEST. */
+bool frame_pacing_wants_request(const struct frame_pacing *p);
 
 /* A frame of so many bytes was written between these times; with_request says
- * that PACE_REQUEST was at its end. */
-void pace_sent(struct pace *p, size_t size_bytes, bool with_request,
+ * that FRAME_PACING_REQUEST was at its end. */
+void frame_pacing_sent(struct frame_pacing *p, size_t size_bytes, bool with_request,
                uint64_t begin_ns, uint64_t end_ns);
 
-/* An answer to PACE_REQUEST came. */
-void pace_answer(struct pace *p, uint64_t now_ns);
+/* An answer to FRAME_PACING_REQUEST came. */
+void frame_pacing_answer(struct frame_pacing *p, uint64_t now_ns);
 
-/* Gives up waiting when it took too long. Call it when pace_deadline_ns() has
+/* Gives up waiting when it took too long. Call it when frame_pacing_deadline_ns() has
  * passed, or more often. */
-void pace_tick(struct pace *p, uint64_t now_ns);
+void frame_pacing_tick(struct frame_pacing *p, uint64_t now_ns);
 
 /* Answers that are on their way will not come: somebody else has read them. */
-void pace_forget(struct pace *p);
+void frame_pacing_forget(struct frame_pacing *p);
 
-/* When pace_tick() would give up; UINT64_MAX: never. */
-uint64_t pace_deadline_ns(const struct pace *p);
+/* When frame_pacing_tick() would give up; UINT64_MAX: never. */
+uint64_t frame_pacing_deadline_ns(const struct frame_pacing *p);
 
 /* True if a line this slow had better show rough pictures. */
-bool pace_is_slow(const struct pace *p);
+bool frame_pacing_is_slow(const struct frame_pacing *p);
 
 #endif

@@ -16,20 +16,20 @@
 /* A jump to any cell. */
 #define JUMP_BYTES 24
 
-static bool init_frame(struct frame *frame, const struct graphics_shape *shape,
+static bool init_frame(struct frame *frame, const struct pixel_graphics_shape *shape,
                        struct error *err)
 {
     return frame_init(frame, shape->cols * shape->cell_width_px,
                       shape->rows * shape->cell_height_px, err);
 }
 
-bool graphics_init(struct graphics *g, const struct graphics_shape *shape,
+bool pixel_graphics_init(struct pixel_graphics *g, const struct pixel_graphics_shape *shape,
                    struct error *err)
 {
     int most = SIXEL_WIDTH_MAX / shape->cell_width_px;
 
-    assert(shape->kind != GRAPHICS_NONE);
-    *g = (struct graphics){.shape = *shape};
+    assert(shape->kind != PIXEL_GRAPHICS_NONE);
+    *g = (struct pixel_graphics){.shape = *shape};
     g->tile_cols = most < 1 ? 1 : most < TILE_COLS ? most : TILE_COLS;
     g->tiles_across = (shape->cols + g->tile_cols - 1) / g->tile_cols;
     g->tiles = alloc_array((size_t)g->tiles_across * (size_t)shape->rows,
@@ -40,22 +40,22 @@ bool graphics_init(struct graphics *g, const struct graphics_shape *shape,
     if (g->tiles && g->numbers && init_frame(&g->wanted, shape, err) &&
         init_frame(&g->shown, shape, err) && dither_init(&g->dither, err))
         return true;
-    graphics_free(g);
+    pixel_graphics_free(g);
     return fail(err, "no memory for a picture of %dx%d cells as pixels",
                 shape->cols, shape->rows);
 }
 
-void graphics_free(struct graphics *g)
+void pixel_graphics_free(struct pixel_graphics *g)
 {
     free(g->tiles);
     free(g->numbers);
     frame_free(&g->wanted);
     frame_free(&g->shown);
     dither_free(&g->dither);
-    *g = (struct graphics){0};
+    *g = (struct pixel_graphics){0};
 }
 
-void graphics_forget(struct graphics *g, struct ansi_rect rect)
+void pixel_graphics_forget(struct pixel_graphics *g, struct ansi_diff_rect rect)
 {
     int count = g->tiles_across * g->shape.rows;
 
@@ -69,27 +69,27 @@ void graphics_forget(struct graphics *g, struct ansi_rect rect)
     }
 }
 
-const char *graphics_eraser(enum graphics_kind kind)
+const char *pixel_graphics_eraser(enum pixel_graphics_kind kind)
 {
-    return kind == GRAPHICS_KITTY ? KITTY_ERASE_ALL : NULL;
+    return kind == PIXEL_GRAPHICS_KITTY ? KITTY_ERASE_ALL : NULL;
 }
 
 /* The columns of a tile that no window covers: the first stretch of them. A
  * window that leaves both ends of a tile free is narrower than any of ours. */
-static struct graphics_tile wanted_tile(const struct graphics *g, int index,
-                                        const struct ansi_draw *how)
+static struct pixel_graphics_tile wanted_tile(const struct pixel_graphics *g, int index,
+                                        const struct ansi_diff_draw *how)
 {
     int row = index / g->tiles_across;
     int first = index % g->tiles_across * g->tile_cols;
     int last = first + g->tile_cols;
-    struct graphics_tile tile = {.is_known = true};
+    struct pixel_graphics_tile tile = {.is_known = true};
 
     last = last < g->shape.cols ? last : g->shape.cols;
-    tile.begin = ansi_uncovered(how, first, row);
+    tile.begin = ansi_diff_uncovered(how, first, row);
     if (tile.begin >= last)
-        return (struct graphics_tile){.is_known = true};
+        return (struct pixel_graphics_tile){.is_known = true};
     for (tile.end = tile.begin + 1;
-         tile.end < last && ansi_uncovered(how, tile.end, row) == tile.end;)
+         tile.end < last && ansi_diff_uncovered(how, tile.end, row) == tile.end;)
         tile.end++;
     return tile;
 }
@@ -116,10 +116,10 @@ struct area {
     int x, y, width, height;
 };
 
-static struct area area_of(const struct graphics *g, int row,
-                           const struct graphics_tile *tile)
+static struct area area_of(const struct pixel_graphics *g, int row,
+                           const struct pixel_graphics_tile *tile)
 {
-    const struct graphics_shape *s = &g->shape;
+    const struct pixel_graphics_shape *s = &g->shape;
 
     return (struct area){tile->begin * s->cell_width_px,
                          row * s->cell_height_px,
@@ -128,10 +128,10 @@ static struct area area_of(const struct graphics *g, int row,
 }
 
 /* Whether the terminal shows it already, to a step of 255. */
-static bool may_stay(const struct graphics *g, int index,
-                     const struct graphics_tile *wanted, int step)
+static bool may_stay(const struct pixel_graphics *g, int index,
+                     const struct pixel_graphics_tile *wanted, int step)
 {
-    const struct graphics_tile *tile = &g->tiles[index];
+    const struct pixel_graphics_tile *tile = &g->tiles[index];
     struct area area = area_of(g, index / g->tiles_across, wanted);
 
     if (!tile->is_known || tile->begin != wanted->begin ||
@@ -146,7 +146,7 @@ static bool may_stay(const struct graphics *g, int index,
     return true;
 }
 
-static size_t encode_sixel(struct graphics *g, const struct area *area,
+static size_t encode_sixel(struct pixel_graphics *g, const struct area *area,
                            char *bytes)
 {
     struct sixel_image image = {area->width, area->height, g->shape.palette,
@@ -165,7 +165,7 @@ static size_t encode_sixel(struct graphics *g, const struct area *area,
     return sixel_encode(&image, bytes);
 }
 
-static size_t encode_kitty(const struct graphics *g, int index,
+static size_t encode_kitty(const struct pixel_graphics *g, int index,
                            const struct area *area, char *bytes)
 {
     struct kitty_image image = {index + 1, area->width, area->height,
@@ -175,27 +175,27 @@ static size_t encode_kitty(const struct graphics *g, int index,
     return kitty_encode(&image, bytes);
 }
 
-static size_t tile_bytes_max(const struct graphics *g, const struct area *area)
+static size_t tile_bytes_max(const struct pixel_graphics *g, const struct area *area)
 {
-    return JUMP_BYTES + (g->shape.kind == GRAPHICS_KITTY
+    return JUMP_BYTES + (g->shape.kind == PIXEL_GRAPHICS_KITTY
                              ? kitty_bytes_max(area->width, area->height)
                              : sixel_bytes_max(area->width, area->height));
 }
 
 /* Sends the pixels, or removes them where a window is. False if memory is
  * out. */
-static bool put_tile(struct graphics *g, struct ansi *a, int index,
-                     const struct graphics_tile *wanted,
-                     const struct ansi_draw *how)
+static bool put_tile(struct pixel_graphics *g, struct ansi_diff *a, int index,
+                     const struct pixel_graphics_tile *wanted,
+                     const struct ansi_diff_draw *how)
 {
-    bool is_kitty = g->shape.kind == GRAPHICS_KITTY;
+    bool is_kitty = g->shape.kind == PIXEL_GRAPHICS_KITTY;
     int row = index / g->tiles_across;
     struct area area = area_of(g, row, wanted);
 
-    if (!ansi_reserve(a, tile_bytes_max(g, &area)))
+    if (!ansi_diff_reserve(a, tile_bytes_max(g, &area)))
         return false;
     if (area.width > 0) {
-        ansi_jump(a, how->row + row, how->col + wanted->begin);
+        ansi_diff_jump(a, how->row + row, how->col + wanted->begin);
         char *bytes = a->bytes + a->length;
         a->length += is_kitty ? encode_kitty(g, index, &area, bytes)
                               : encode_sixel(g, &area, bytes);
@@ -232,10 +232,10 @@ static void enlarge(const struct frame *from, struct frame *to)
     }
 }
 
-bool graphics_picture(struct graphics *g, struct ansi *a,
-                      const struct frame *frame, const struct ansi_draw *how)
+bool pixel_graphics_picture(struct pixel_graphics *g, struct ansi_diff *a,
+                      const struct frame *frame, const struct ansi_diff_draw *how)
 {
-    const char *eraser = graphics_eraser(g->shape.kind);
+    const char *eraser = pixel_graphics_eraser(g->shape.kind);
     int count = g->tiles_across * g->shape.rows;
     size_t limit = how->budget_bytes > SIZE_MAX - a->length
                        ? SIZE_MAX
@@ -243,11 +243,11 @@ bool graphics_picture(struct graphics *g, struct ansi *a,
 
     enlarge(frame, &g->wanted);
     if (!g->has_begun && eraser)
-        ansi_text(a, eraser);
+        ansi_diff_text(a, eraser);
     g->has_begun = true;
     for (int i = 0; i < count; i++) {
         int index = (g->next + i) % count;
-        struct graphics_tile wanted = wanted_tile(g, index, how);
+        struct pixel_graphics_tile wanted = wanted_tile(g, index, how);
 
         if (may_stay(g, index, &wanted, how->step))
             continue;

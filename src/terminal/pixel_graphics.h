@@ -8,7 +8,7 @@
  * cells, and windows have their place.
  *
  * Units:     pixels; terminal cells for places
- * Ownership: graphics_free() frees; a zeroed struct is empty
+ * Ownership: pixel_graphics_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
  * Errors:    memory
  */
@@ -17,25 +17,25 @@
 
 #include "terminal/ansi_diff.h"
 
-enum graphics_kind { GRAPHICS_NONE, GRAPHICS_SIXEL, GRAPHICS_KITTY };
+enum pixel_graphics_kind { PIXEL_GRAPHICS_NONE, PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY };
 
-struct graphics_shape {
-    enum graphics_kind kind;
+struct pixel_graphics_shape {
+    enum pixel_graphics_kind kind;
     int cols, rows; /* of the picture */
     int cell_width_px, cell_height_px;
     enum palette palette; /* of sixels: 256, or 16 for few registers */
 };
 
 /* What a tile shows: columns from the picture's corner. */
-struct graphics_tile {
+struct pixel_graphics_tile {
     int begin, end; /* nothing if equal */
     bool is_known;
 };
 
-struct graphics {
-    struct graphics_shape shape;
+struct pixel_graphics {
+    struct pixel_graphics_shape shape;
     int tile_cols, tiles_across;
-    struct graphics_tile *tiles;
+    struct pixel_graphics_tile *tiles;
     int next;       /* tile to go on with */
     bool has_begun; /* images of before are removed */
     struct frame wanted;
@@ -44,21 +44,21 @@ struct graphics {
     uint8_t *numbers; /* of a tile */
 };
 
-bool graphics_init(struct graphics *g, const struct graphics_shape *shape,
+bool pixel_graphics_init(struct pixel_graphics *g, const struct pixel_graphics_shape *shape,
                    struct error *err);
-void graphics_free(struct graphics *g);
+void pixel_graphics_free(struct pixel_graphics *g);
 
 /* Something else has written over these cells of the picture. */
-void graphics_forget(struct graphics *g, struct ansi_rect rect);
+void pixel_graphics_forget(struct pixel_graphics *g, struct ansi_diff_rect rect);
 
 /* Appends what turns the shown picture into the frame, of which pixels are
  * repeated up to those of the terminal. True if nothing is left for the next
  * frame. */
-bool graphics_picture(struct graphics *g, struct ansi *a,
-                      const struct frame *frame, const struct ansi_draw *how);
+bool pixel_graphics_picture(struct pixel_graphics *g, struct ansi_diff *a,
+                      const struct frame *frame, const struct ansi_diff_draw *how);
 
 /* What removes all pixels where cells that are written over them do not; NULL:
  * nothing. */
-const char *graphics_eraser(enum graphics_kind kind);
+const char *pixel_graphics_eraser(enum pixel_graphics_kind kind);
 
 #endif

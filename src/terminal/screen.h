@@ -5,9 +5,9 @@
  * Knows where they are and what they cover; writes frames as the pace allows.
  *
  * Units:     terminal cells
- * Ownership: canvas_free() frees
+ * Ownership: screen_free() frees
  * Threads:   main only
- * Errors:    memory; a terminal that is gone by the result of canvas_draw()
+ * Errors:    memory; a terminal that is gone by the result of screen_draw()
  */
 #ifndef GLIM_SCREEN_H
 #define GLIM_SCREEN_H
@@ -29,10 +29,10 @@ struct painter {
     void *context;
 };
 
-struct canvas {
+struct screen {
     struct painter painter; /* none: films are shown as they are */
-    struct pace pace;
-    struct display display;
+    struct frame_pacing pace;
+    struct term_caps display;
     bool has_status_row; /* else the line shows only what is urgent */
     bool is_too_small;
     bool has_all_answers; /* to what was asked at the start */
@@ -40,11 +40,11 @@ struct canvas {
     struct fit fit;
     struct frame frame;
     struct cells cells;
-    struct graphics graphics; /* instead of cells, if of a kind */
-    struct ansi ansi;
+    struct pixel_graphics graphics; /* instead of cells, if of a kind */
+    struct ansi_diff ansi;
     char status[STATUS_BYTES];
     bool has_status;
-    struct ansi_rect window;  /* no columns: closed */
+    struct ansi_diff_rect window;  /* no columns: closed */
     bool must_update;         /* curses has something to write */
     bool has_panel;           /* the next layout leaves room for one */
     int panel_cols;           /* at the right edge; 0: none */
@@ -55,66 +55,66 @@ struct canvas {
 };
 
 /* Where a picture of this size will go, as far as that is known before
- * term_open(). No columns: nowhere. */
-struct fit canvas_expect(const struct display_choice *choice, int width_px,
+ * tty_open(). No columns: nowhere. */
+struct fit screen_expect(const struct term_caps_choice *choice, int width_px,
                          int height_px);
 
-/* After term_open(). */
-void canvas_init(struct canvas *c, const struct display_choice *choice);
+/* After tty_open(). */
+void screen_init(struct screen *c, const struct term_caps_choice *choice);
 
 /* Fits a picture of this size to the terminal's size of now; everything is
  * drawn anew. */
-bool canvas_layout(struct canvas *c, int width_px, int height_px,
+bool screen_layout(struct screen *c, int width_px, int height_px,
                    struct error *err);
 
 /* Takes an answer of the terminal. True if the layout must be done anew, as it
  * must after a change of c->display. */
-bool canvas_answer(struct canvas *c, const struct event *event);
+bool screen_answer(struct screen *c, const struct event *event);
 
 /* The text of the last row; NULL: none, the picture shows there. */
-void canvas_status(struct canvas *c, const char *text);
+void screen_status(struct screen *c, const char *text);
 
 /* Shows lines in the panel that the layout has left room for; c->swatches
  * stand left of them. */
-void canvas_show_panel(struct canvas *c, const struct window_line *panel_lines,
+void screen_show_panel(struct screen *c, const struct window_line *panel_lines,
                        int line_count);
 
-void canvas_open_window(struct canvas *c, const char *title,
+void screen_open_window(struct screen *c, const char *title,
                         const char *const *texts, int text_count);
 /* The same at the left edge of the last rows, beside which keys go on. */
-void canvas_open_panel(struct canvas *c, const char *title,
+void screen_open_panel(struct screen *c, const char *title,
                        const char *const *texts, int text_count);
 
 /* The same at the right of the top, with lines that change: as many, and as
  * long. */
-void canvas_open_corner(struct canvas *c, const char *title,
+void screen_open_corner(struct screen *c, const char *title,
                         const char *const *texts, int text_count);
-void canvas_set_corner(struct canvas *c, const char *const *texts,
+void screen_set_corner(struct screen *c, const char *const *texts,
                        int text_count);
-void canvas_close_window(struct canvas *c);
+void screen_close_window(struct screen *c);
 
-enum canvas_result {
-    CANVAS_DONE, /* all is shown */
-    CANVAS_MORE, /* the budget was too small for all */
-    CANVAS_GONE  /* the terminal is gone, or a signal wants an end */
+enum screen_result {
+    SCREEN_DONE, /* all is shown */
+    SCREEN_MORE, /* the budget was too small for all */
+    SCREEN_GONE  /* the terminal is gone, or a signal wants an end */
 };
 
 /* Writes what has changed, and the film's picture if there is one, with the
- * draft's if there is one. Call it only if pace_may_send(). */
-enum canvas_result canvas_draw(struct canvas *c, struct film *film,
+ * draft's if there is one. Call it only if frame_pacing_may_send(). */
+enum screen_result screen_draw(struct screen *c, struct film *film,
                                struct film *draft, struct develop how,
                                int step);
 
 /* How the picture is shown, as text would be. */
-struct text_style canvas_style(const struct canvas *c);
+struct ansi_text_style screen_style(const struct screen *c);
 
 /* The kind of glyphs or pixels, for people. */
-const char *canvas_glyphs_name(const struct canvas *c);
+const char *screen_glyphs_name(const struct screen *c);
 
 /* Removes pixels and waits for answers on their way, half a second at most:
  * they would be typed into the shell. Keys pressed meanwhile are lost. */
-void canvas_drain(struct canvas *c, struct input *input);
+void screen_drain(struct screen *c, struct tty_input *input);
 
-void canvas_free(struct canvas *c);
+void screen_free(struct screen *c);
 
 #endif

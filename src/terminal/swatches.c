@@ -12,7 +12,7 @@ bool swatches_init(struct swatches *s, int rows, struct error *err)
     s->is_there = xcalloc((size_t)rows, sizeof *s->is_there);
     if (frame_init(&s->frame, SWATCH_COLS, rows, err) &&
         cells_init(&s->cells, SWATCH_COLS, rows, err) &&
-        ansi_init(&s->ansi, SWATCH_COLS, rows, err))
+        ansi_diff_init(&s->ansi, SWATCH_COLS, rows, err))
         return true;
     swatches_free(s);
     return false;
@@ -22,7 +22,7 @@ void swatches_free(struct swatches *s)
 {
     frame_free(&s->frame);
     cells_free(&s->cells);
-    ansi_free(&s->ansi);
+    ansi_diff_free(&s->ansi);
     free(s->is_there);
     *s = (struct swatches){.is_there = NULL};
 }
@@ -44,7 +44,7 @@ void swatches_set(struct swatches *s, int row, const double rgb[3])
 }
 
 /* The rows without one, joined; their number. */
-static int find_gaps(const struct swatches *s, struct ansi_rect *gaps)
+static int find_gaps(const struct swatches *s, struct ansi_diff_rect *gaps)
 {
     int count = 0;
 
@@ -54,29 +54,29 @@ static int find_gaps(const struct swatches *s, struct ansi_rect *gaps)
         if (y > 0 && !s->is_there[y - 1])
             gaps[count - 1].rows++;
         else
-            gaps[count++] = (struct ansi_rect){0, y, SWATCH_COLS, 1};
+            gaps[count++] = (struct ansi_diff_rect){0, y, SWATCH_COLS, 1};
     }
     return count;
 }
 
 void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
-                   const struct ansi_rect *window, int end_row)
+                   const struct ansi_diff_rect *window, int end_row)
 {
-    struct ansi_rect *covered =
+    struct ansi_diff_rect *covered =
         xcalloc((size_t)s->cells.rows + 1, sizeof *covered);
     int count = find_gaps(s, covered);
-    struct ansi_draw how = {.col = col,
+    struct ansi_diff_draw how = {.col = col,
                             .row = row,
                             .budget_bytes = SIZE_MAX,
                             .covered = covered,
                             .covered_count = count + 1};
 
-    covered[count] = (struct ansi_rect){window->col - col, window->row - row,
+    covered[count] = (struct ansi_diff_rect){window->col - col, window->row - row,
                                         window->cols, window->rows};
-    ansi_begin(&s->ansi);
-    ansi_forget_all(&s->ansi);
+    ansi_diff_begin(&s->ansi);
+    ansi_diff_forget_all(&s->ansi);
     cells_from_frame(&s->cells, &s->frame, palette, GLYPHS_SPACE);
-    ansi_picture(&s->ansi, &s->cells, &how);
-    ansi_end(&s->ansi, end_row);
+    ansi_diff_picture(&s->ansi, &s->cells, &how);
+    ansi_diff_end(&s->ansi, end_row);
     free(covered);
 }

@@ -17,7 +17,7 @@
 struct swatches {
     struct frame frame;
     struct cells cells;
-    struct ansi ansi;
+    struct ansi_diff ansi;
     bool *is_there; /* one a row */
 };
 
@@ -34,6 +34,6 @@ void swatches_set(struct swatches *s, int row, const double rgb[3]);
  * sent, with the upper left cell at (col, row) of the screen and the cursor in
  * end_row at the end: s->ansi.bytes, s->ansi.length. */
 void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
-                   const struct ansi_rect *window, int end_row);
+                   const struct ansi_diff_rect *window, int end_row);
 
 #endif

@@ -10,7 +10,7 @@
 #define ASPECT_MIN  0.5
 #define ASPECT_MAX  5
 
-enum palette display_palette(enum color_mode mode)
+enum palette term_caps_palette(enum color_mode mode)
 {
     switch (mode) {
     case COLOR_MONO: return PALETTE_MONO;
@@ -30,7 +30,7 @@ static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
     return has_unicode ? GLYPHS_HALF : GLYPHS_SPACE;
 }
 
-enum glyphs display_glyphs(enum glyph_mode mode, enum palette palette,
+enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
                            bool has_unicode)
 {
     switch (mode) {
@@ -49,33 +49,33 @@ enum glyphs display_glyphs(enum glyph_mode mode, enum palette palette,
     return common_glyphs(palette, has_unicode);
 }
 
-static void choose_palette(struct display *d, enum color_mode mode)
+static void choose_palette(struct term_caps *d, enum color_mode mode)
 {
     d->palette_is_final = true;
     if (mode == COLOR_AUTO)
-        d->palette = term_palette(&d->palette_is_final);
+        d->palette = tty_palette(&d->palette_is_final);
     else
-        d->palette = display_palette(mode);
+        d->palette = term_caps_palette(mode);
 }
 
-static enum glyphs glyphs_of(const struct display *d, enum glyph_mode mode)
+static enum glyphs glyphs_of(const struct term_caps *d, enum glyph_mode mode)
 {
-    return display_glyphs(mode, d->palette, d->has_unicode);
+    return term_caps_glyphs(mode, d->palette, d->has_unicode);
 }
 
-static void choose_glyphs(struct display *d, enum glyph_mode mode)
+static void choose_glyphs(struct term_caps *d, enum glyph_mode mode)
 {
     d->glyph_mode = mode;
     d->glyphs = glyphs_of(d, mode);
 }
 
-void display_init(struct display *d, const struct display_choice *choice)
+void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice)
 {
     bool may_learn;
 
-    *d = (struct display){.cell_aspect = choice->cell_aspect,
+    *d = (struct term_caps){.cell_aspect = choice->cell_aspect,
                           .aspect_is_final = choice->cell_aspect > 0};
-    d->has_unicode = term_is_utf8(&may_learn);
+    d->has_unicode = tty_is_utf8(&may_learn);
     d->unicode_is_final = !may_learn;
     choose_palette(d, choice->color);
     choose_glyphs(d, choice->glyph);
@@ -92,8 +92,8 @@ static bool is_aspect(double height_over_width)
     return height_over_width >= ASPECT_MIN && height_over_width <= ASPECT_MAX;
 }
 
-double display_cell_aspect(const struct display *d,
-                           const struct term_size *size)
+double term_caps_cell_aspect(const struct term_caps *d,
+                           const struct tty_size *size)
 {
     if (d->cell_aspect > 0)
         return d->cell_aspect;
@@ -103,7 +103,7 @@ double display_cell_aspect(const struct display *d,
     return 2;
 }
 
-bool display_cell_size(const struct display *d, const struct term_size *size,
+bool term_caps_cell_size(const struct term_caps *d, const struct tty_size *size,
                        int *width_px, int *height_px)
 {
     bool was_told = d->cell_width_px > 0;
@@ -113,17 +113,17 @@ bool display_cell_size(const struct display *d, const struct term_size *size,
     return is_cell_size(*width_px, *height_px);
 }
 
-enum graphics_kind display_pixels(const struct display *d)
+enum pixel_graphics_kind term_caps_pixels(const struct term_caps *d)
 {
     if (d->palette == PALETTE_MONO)
-        return GRAPHICS_NONE;
+        return PIXEL_GRAPHICS_NONE;
     if (d->glyph_mode == GLYPH_SIXEL && d->has_sixel)
-        return GRAPHICS_SIXEL;
-    return d->glyph_mode == GLYPH_KITTY && d->has_kitty ? GRAPHICS_KITTY
-                                                        : GRAPHICS_NONE;
+        return PIXEL_GRAPHICS_SIXEL;
+    return d->glyph_mode == GLYPH_KITTY && d->has_kitty ? PIXEL_GRAPHICS_KITTY
+                                                        : PIXEL_GRAPHICS_NONE;
 }
 
-const char *display_lack(const struct display *d)
+const char *term_caps_lack(const struct term_caps *d)
 {
     bool is_sixel = d->glyph_mode == GLYPH_SIXEL;
 
@@ -131,13 +131,13 @@ const char *display_lack(const struct display *d)
         return NULL;
     if (d->palette == PALETTE_MONO)
         return is_sixel ? "sixels need colours" : "kitty pixels need colours";
-    if (display_pixels(d) == GRAPHICS_NONE)
+    if (term_caps_pixels(d) == PIXEL_GRAPHICS_NONE)
         return is_sixel ? "this terminal has not said it has sixels"
                         : "this terminal has not said it has kitty pixels";
     return "this terminal does not say how large a character is";
 }
 
-static bool take_cell_size(struct display *d, const struct event *event)
+static bool take_cell_size(struct term_caps *d, const struct event *event)
 {
     double before = d->cell_aspect;
     double aspect;
@@ -152,15 +152,15 @@ static bool take_cell_size(struct display *d, const struct event *event)
     if (!is_aspect(aspect))
         return false;
     if (before <= 0) {
-        struct term_size size = term_size();
+        struct tty_size size = term_size();
 
-        before = display_cell_aspect(d, &size);
+        before = term_caps_cell_aspect(d, &size);
     }
     d->cell_aspect = aspect;
     return fabs(before - aspect) > 0.01 * aspect;
 }
 
-static bool take_true_color(struct display *d)
+static bool take_true_color(struct term_caps *d)
 {
     enum glyphs before = d->glyphs;
 
@@ -172,7 +172,7 @@ static bool take_true_color(struct display *d)
 
 /* Behind a character that begins with a byte outside ASCII: in column 2 if it
  * was one. */
-static bool take_cursor(struct display *d, const struct event *event)
+static bool take_cursor(struct term_caps *d, const struct event *event)
 {
     enum glyphs before = d->glyphs;
 
@@ -183,11 +183,11 @@ static bool take_cursor(struct display *d, const struct event *event)
     return d->glyphs != before;
 }
 
-bool display_answer(struct display *d, const struct event *event)
+bool term_caps_answer(struct term_caps *d, const struct event *event)
 {
     switch (event->kind) {
     case EVENT_TRUE_COLOR: return take_true_color(d);
-    case EVENT_SYNC: term_use_sync(); break;
+    case EVENT_SYNC: tty_use_sync(); break;
     case EVENT_CELL_SIZE: return take_cell_size(d, event);
     case EVENT_CURSOR: return take_cursor(d, event);
     case EVENT_SIXEL_COLORS: d->sixel_colors = event->x; break;
@@ -200,7 +200,7 @@ bool display_answer(struct display *d, const struct event *event)
     return false;
 }
 
-void display_next_palette(struct display *d)
+void term_caps_next_palette(struct term_caps *d)
 {
     d->palette_is_final = true;
     d->palette = d->palette == PALETTE_MONO ? PALETTE_24BIT
@@ -208,7 +208,7 @@ void display_next_palette(struct display *d)
     choose_glyphs(d, d->glyph_mode);
 }
 
-static bool has_mode(const struct display *d, enum glyph_mode mode)
+static bool has_mode(const struct term_caps *d, enum glyph_mode mode)
 {
     switch (mode) {
     case GLYPH_SIXEL: return d->has_sixel;
@@ -219,7 +219,7 @@ static bool has_mode(const struct display *d, enum glyph_mode mode)
     }
 }
 
-void display_next_glyphs(struct display *d)
+void term_caps_next_glyphs(struct term_caps *d)
 {
     static const enum glyph_mode modes[] = {GLYPH_HALF,    GLYPH_QUADRANT,
                                             GLYPH_SEXTANT, GLYPH_BRAILLE,

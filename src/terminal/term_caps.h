@@ -37,13 +37,13 @@ enum glyph_mode {
 };
 
 /* What the person has asked for. */
-struct display_choice {
+struct term_caps_choice {
     enum color_mode color;
     enum glyph_mode glyph;
     double cell_aspect; /* height of a cell over its width; 0: ask */
 };
 
-struct display {
+struct term_caps {
     enum palette palette;
     bool palette_is_final;      /* no answer of the terminal changes it */
     enum glyph_mode glyph_mode; /* what is wanted, */
@@ -57,41 +57,41 @@ struct display {
     bool aspect_is_final;
 };
 
-/* After term_open(). */
-void display_init(struct display *d, const struct display_choice *choice);
+/* After tty_open(). */
+void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice);
 
 /* What a mode that is not COLOR_AUTO means. */
-enum palette display_palette(enum color_mode mode);
+enum palette term_caps_palette(enum color_mode mode);
 
 /* What the cells are made of. Pixels have what is common as the fall-back: half
  * blocks, without colours braille; blanks and letters without Unicode. */
-enum glyphs display_glyphs(enum glyph_mode mode, enum palette palette,
+enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
                            bool has_unicode);
 
 /* Takes an answer of the terminal. True if cells are others than before, or of
  * another shape. */
-bool display_answer(struct display *d, const struct event *event);
+bool term_caps_answer(struct term_caps *d, const struct event *event);
 
 /* The next palette, from most to least and round. */
-void display_next_palette(struct display *d);
+void term_caps_next_palette(struct term_caps *d);
 
 /* The next kind of glyphs that the terminal has, and round. */
-void display_next_glyphs(struct display *d);
+void term_caps_next_glyphs(struct term_caps *d);
 
 /* The pixels that are wanted instead of cells. */
-enum graphics_kind display_pixels(const struct display *d);
+enum pixel_graphics_kind term_caps_pixels(const struct term_caps *d);
 
 /* Why there are none although they are wanted, as the end of a sentence; NULL:
  * nothing is amiss. The terminal has answered, or never will. */
-const char *display_lack(const struct display *d);
+const char *term_caps_lack(const struct term_caps *d);
 
 /* Height of a cell over its width: what the person gave, what the terminal
  * answered, what the system says, what is common. */
-double display_cell_aspect(const struct display *d,
-                           const struct term_size *size);
+double term_caps_cell_aspect(const struct term_caps *d,
+                           const struct tty_size *size);
 
 /* False if nobody has said how large a cell is. */
-bool display_cell_size(const struct display *d, const struct term_size *size,
+bool term_caps_cell_size(const struct term_caps *d, const struct tty_size *size,
                        int *width_px, int *height_px);
 
 #endif

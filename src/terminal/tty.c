@@ -36,7 +36,7 @@
 /* Everything that may be on, for the handlers of faults. Terminals skip what
  * they do not know. */
 static const char restore_text[] =
-    TERM_SYNC_END MOUSE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
+    TTY_SYNC_END MOUSE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
 
 static const int stop_signals[] = {SIGTERM, SIGHUP, SIGINT, SIGQUIT};
 static const int other_signals[] = {SIGTSTP, SIGCONT, SIGWINCH};
@@ -112,7 +112,7 @@ static void take_signals(void)
         sigaction(fault_signals[i], &fault, &term.old_fault[i]);
 }
 
-void term_ignore_ends(void)
+void tty_ignore_ends(void)
 {
     for (size_t i = 0; i < COUNT(stop_signals); i++) {
         if (stop_signals[i] == SIGHUP || stop_signals[i] == SIGTERM)
@@ -210,22 +210,22 @@ static void ask(void)
     char text[32];
     int length;
 
-    term_is_utf8(&may_learn);
+    tty_is_utf8(&may_learn);
     if (may_learn)
-        term_write(GLYPH_QUESTION, sizeof GLYPH_QUESTION - 1);
+        tty_write(GLYPH_QUESTION, sizeof GLYPH_QUESTION - 1);
     if (term.may_ask_colors) {
-        term_write(COLOR_QUESTION, sizeof COLOR_QUESTION - 1);
-        term_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
+        tty_write(COLOR_QUESTION, sizeof COLOR_QUESTION - 1);
+        tty_write(SIXEL_QUESTION, sizeof SIXEL_QUESTION - 1);
     }
     if (term.may_ask_colors && !is_inside_another())
-        term_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
-    term_write(QUESTIONS, sizeof QUESTIONS - 1);
+        tty_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
+    tty_write(QUESTIONS, sizeof QUESTIONS - 1);
     /* removes what a simple mind has printed of it */
     length = snprintf(text, sizeof text, "\033[2J\033[%d;1H", LINES);
-    term_write(text, (size_t)length);
+    tty_write(text, (size_t)length);
 }
 
-/* What term_open() takes before there is a screen. */
+/* What tty_open() takes before there is a screen. */
 static void give_back(void)
 {
     xmalloc_set_hook(NULL);
@@ -234,7 +234,7 @@ static void give_back(void)
     close(term.signal_pipe[1]);
 }
 
-bool term_open(struct error *err)
+bool tty_open(struct error *err)
 {
     const char *name;
 
@@ -260,10 +260,10 @@ bool term_open(struct error *err)
     set_modes();
     refresh(); /* enters the screen */
     term.may_ask_colors = !is_simple(getenv("TERM"));
-    term_relayout();
+    tty_relayout();
     windows_update();
     ask();
-    term_set_mouse(true);
+    tty_set_mouse(true);
     return true;
 }
 
@@ -290,14 +290,14 @@ static void leave_screen(void)
 
 static void write_restoring(void)
 {
-    static const char text[] = TERM_SYNC_END MOUSE_OFF "\033[m";
-    size_t skip = term.has_sync ? 0 : sizeof TERM_SYNC_END - 1;
+    static const char text[] = TTY_SYNC_END MOUSE_OFF "\033[m";
+    size_t skip = term.has_sync ? 0 : sizeof TTY_SYNC_END - 1;
 
     must_stop = 0; /* this must get through */
-    term_write(text + skip, sizeof text - 1 - skip);
+    tty_write(text + skip, sizeof text - 1 - skip);
 }
 
-void term_close(bool is_gone)
+void tty_close(bool is_gone)
 {
     if (!is_open)
         return;
@@ -314,7 +314,7 @@ void term_close(bool is_gone)
     give_back();
 }
 
-enum palette term_palette(bool *is_final)
+enum palette tty_palette(bool *is_final)
 {
     struct palette_facts facts = {
         .no_color = getenv("NO_COLOR"),
@@ -330,7 +330,7 @@ enum palette term_palette(bool *is_final)
     return palette_guess(&facts, is_final);
 }
 
-bool term_is_utf8(bool *may_learn)
+bool tty_is_utf8(bool *may_learn)
 {
     const char *tmux = getenv("TMUX");
 
@@ -340,15 +340,15 @@ bool term_is_utf8(bool *may_learn)
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
-bool term_scrolls_at_end(void)
+bool tty_scrolls_at_end(void)
 {
     return tigetflag("am") > 0 && tigetflag("xenl") <= 0;
 }
 
-struct term_size term_size(void)
+struct tty_size term_size(void)
 {
     struct winsize w = {0};
-    struct term_size size = {.cols = COLS, .rows = LINES};
+    struct tty_size size = {.cols = COLS, .rows = LINES};
 
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_col == 0 ||
         w.ws_row == 0)
@@ -366,19 +366,19 @@ struct term_size term_size(void)
     return size;
 }
 
-int term_signal_fd(void)
+int tty_signal_fd(void)
 {
     return term.signal_pipe[0];
 }
 
-int term_signal(void)
+int tty_signal(void)
 {
     unsigned char number;
 
     return read(term.signal_pipe[0], &number, 1) == 1 ? number : 0;
 }
 
-int term_read(void *bytes, size_t size_bytes)
+int tty_read(void *bytes, size_t size_bytes)
 {
     struct pollfd in = {.fd = STDIN_FILENO, .events = POLLIN};
 
@@ -392,7 +392,7 @@ int term_read(void *bytes, size_t size_bytes)
     return count == 0 ? -1 : (int)count;
 }
 
-bool term_write(const char *bytes, size_t size_bytes)
+bool tty_write(const char *bytes, size_t size_bytes)
 {
     while (size_bytes > 0) {
         ssize_t count = write(STDOUT_FILENO, bytes, size_bytes);
@@ -413,7 +413,7 @@ bool term_write(const char *bytes, size_t size_bytes)
     return true;
 }
 
-void term_suspend(void)
+void tty_suspend(void)
 {
     struct sigaction stop = {.sa_handler = SIG_DFL};
     struct sigaction own;
@@ -425,27 +425,27 @@ void term_suspend(void)
     sigaction(SIGTSTP, &stop, &own);
     raise(SIGTSTP); /* returns when we are continued */
     sigaction(SIGTSTP, &own, NULL);
-    term_resume();
+    tty_resume();
 }
 
-void term_resume(void)
+void tty_resume(void)
 {
     is_open = 1;
     reset_prog_mode();
     erase();
     refresh();
     curs_set(0);
-    term_relayout();
+    tty_relayout();
     windows_update();
-    term_set_mouse(term.has_mouse);
+    tty_set_mouse(term.has_mouse);
 }
 
-void term_forget_input(void)
+void tty_forget_input(void)
 {
     tcflush(STDIN_FILENO, TCIFLUSH);
 }
 
-void term_relayout(void)
+void tty_relayout(void)
 {
     struct winsize w = {0};
 
@@ -455,21 +455,21 @@ void term_relayout(void)
     windows_clear();
 }
 
-void term_set_mouse(bool is_on)
+void tty_set_mouse(bool is_on)
 {
     term.has_mouse = is_on;
     if (is_on)
-        term_write(MOUSE_ON, sizeof MOUSE_ON - 1);
+        tty_write(MOUSE_ON, sizeof MOUSE_ON - 1);
     else
-        term_write(MOUSE_OFF, sizeof MOUSE_OFF - 1);
+        tty_write(MOUSE_OFF, sizeof MOUSE_OFF - 1);
 }
 
-void term_use_sync(void)
+void tty_use_sync(void)
 {
     term.has_sync = true;
 }
 
-bool term_has_sync(void)
+bool tty_has_sync(void)
 {
     return term.has_sync;
 }

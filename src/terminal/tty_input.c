@@ -18,7 +18,7 @@ struct sequence {
     struct event event;
 };
 
-size_t input_feed(struct input *in, const void *bytes, size_t count)
+size_t tty_input_feed(struct tty_input *in, const void *bytes, size_t count)
 {
     size_t room = sizeof in->bytes - in->length;
 
@@ -90,14 +90,14 @@ static void set_mouse(struct sequence *s, const int *params, bool released)
 static int key_of_letter(unsigned char letter)
 {
     switch (letter) {
-    case 'A': return INPUT_UP;
-    case 'B': return INPUT_DOWN;
-    case 'C': return INPUT_RIGHT;
-    case 'D': return INPUT_LEFT;
-    case 'H': return INPUT_HOME;
-    case 'P': return INPUT_F1;
+    case 'A': return TTY_KEY_UP;
+    case 'B': return TTY_KEY_DOWN;
+    case 'C': return TTY_KEY_RIGHT;
+    case 'D': return TTY_KEY_LEFT;
+    case 'H': return TTY_KEY_HOME;
+    case 'P': return TTY_KEY_F1;
     case 'M': return '\r'; /* of the keypad */
-    default: return INPUT_OTHER;
+    default: return TTY_KEY_OTHER;
     }
 }
 
@@ -105,11 +105,11 @@ static int key_of_number(int number)
 {
     switch (number) {
     case 1:
-    case 7: return INPUT_HOME;
-    case 5: return INPUT_PAGE_UP;
-    case 6: return INPUT_PAGE_DOWN;
-    case 11: return INPUT_F1;
-    default: return INPUT_OTHER;
+    case 7: return TTY_KEY_HOME;
+    case 5: return TTY_KEY_PAGE_UP;
+    case 6: return TTY_KEY_PAGE_DOWN;
+    case 11: return TTY_KEY_F1;
+    default: return TTY_KEY_OTHER;
     }
 }
 
@@ -172,7 +172,7 @@ static void take_csi(struct sequence *s, const unsigned char *p, size_t length)
     if (length > 2 && p[2] == '[') { /* the Linux console's F1 is ESC[[A */
         if (length > 3) {
             s->length = 4;
-            set_key(s, p[3] == 'A' ? INPUT_F1 : INPUT_OTHER);
+            set_key(s, p[3] == 'A' ? TTY_KEY_F1 : TTY_KEY_OTHER);
         }
         return;
     }
@@ -284,10 +284,10 @@ static void take_character(struct sequence *s, const unsigned char *p,
     if (p[0] < 0x80)
         set_key(s, p[0] == '\n' ? '\r' : p[0]);
     else
-        set_key(s, INPUT_OTHER);
+        set_key(s, TTY_KEY_OTHER);
 }
 
-bool input_next(struct input *in, bool nothing_follows, struct event *event)
+bool tty_input_next(struct tty_input *in, bool nothing_follows, struct event *event)
 {
     while (in->length > 0) {
         struct sequence s = {0};
@@ -300,7 +300,7 @@ bool input_next(struct input *in, bool nothing_follows, struct event *event)
             if (!nothing_follows)
                 return false;
             if (in->bytes[0] != ESC)
-                set_key(&s, INPUT_OTHER);
+                set_key(&s, TTY_KEY_OTHER);
             else if (in->length == 1)
                 set_key(&s, ESC);
             s.length = in->length;

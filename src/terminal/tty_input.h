@@ -16,22 +16,22 @@
 #include <stddef.h>
 
 /* Keys that are no ASCII characters. Enter is '\r', Escape 27. */
-enum input_key {
-    INPUT_UP = 256,
-    INPUT_DOWN,
-    INPUT_LEFT,
-    INPUT_RIGHT,
-    INPUT_PAGE_UP,
-    INPUT_PAGE_DOWN,
-    INPUT_HOME,
-    INPUT_F1,
-    INPUT_OTHER /* some key that has no use here */
+enum tty_key {
+    TTY_KEY_UP = 256,
+    TTY_KEY_DOWN,
+    TTY_KEY_LEFT,
+    TTY_KEY_RIGHT,
+    TTY_KEY_PAGE_UP,
+    TTY_KEY_PAGE_DOWN,
+    TTY_KEY_HOME,
+    TTY_KEY_F1,
+    TTY_KEY_OTHER /* some key that has no use here */
 };
 
 enum event_kind {
     EVENT_KEY,
     EVENT_MOUSE,
-    EVENT_READY,      /* ESC[0n: the answer to PACE_REQUEST */
+    EVENT_READY,      /* ESC[0n: the answer to FRAME_PACING_REQUEST */
     EVENT_ATTRIBUTES, /* the answer to ESC[c, the last of the questions; x: 1 if
                          the terminal has sixels */
     EVENT_SIXEL_COLORS, /* x: how many a sixel image may have */
@@ -53,31 +53,31 @@ enum mouse_kind {
 
 struct event {
     enum event_kind kind;
-    int key; /* a byte, or enum input_key */
+    int key; /* a byte, or enum tty_key */
     enum mouse_kind mouse;
     int button;       /* of the mouse: 0 is the left one, 2 the right one */
     bool is_modified; /* with Ctrl or Alt */
     int x, y;
 };
 
-#define INPUT_BYTES 4096
+#define TTY_INPUT_BYTES 4096
 
-struct input {
-    unsigned char bytes[INPUT_BYTES];
+struct tty_input {
+    unsigned char bytes[TTY_INPUT_BYTES];
     size_t length;
 };
 
 /* Takes up to what fits; the number of bytes taken. Fits always after
- * input_next() has returned false. */
-size_t input_feed(struct input *in, const void *bytes, size_t count);
+ * tty_input_next() has returned false. */
+size_t tty_input_feed(struct tty_input *in, const void *bytes, size_t count);
 
 /* The next event; false if there is none, perhaps because a sequence is not
  * complete. nothing_follows says that no byte has come for a while, so that a
  * lone ESC is the key and a half sequence is rubbish. */
-bool input_next(struct input *in, bool nothing_follows, struct event *event);
+bool tty_input_next(struct tty_input *in, bool nothing_follows, struct event *event);
 
 /* True if the beginning of a sequence waits for the rest. */
-static inline bool input_is_partial(const struct input *in)
+static inline bool tty_input_is_partial(const struct tty_input *in)
 {
     return in->length > 0;
 }

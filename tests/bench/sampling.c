@@ -135,18 +135,18 @@ static bool bench_sky(uint32_t width, struct error *err)
         texels[i] = v3(u.x, u.y, u.x > 0.999f ? 1000 : 0);
     }
     uint64_t begin_ns = clock_ns();
-    ok = ok ? sky_build(&table, texels, width, height, SKY_WITH_CHANCE, err)
+    ok = ok ? sky_table_build(&table, texels, width, height, SKY_WITH_CHANCE, err)
             : fail(err, "out of memory");
     double build_ms = (double)(clock_ns() - begin_ns) * 1e-6;
     if (ok) {
         double pdf_ns, sample_ns;
 
-        sky_lend(&table, &w);
+        sky_table_lend(&table, &w);
         sample_ns = time_samples(&w, &pdf_ns);
         printf("sky %5ux%-5u  %8.1f %8.1f   built in %.1f ms\n", width, height,
                sample_ns, pdf_ns, build_ms);
     }
-    sky_free(&table);
+    sky_table_free(&table);
     free(texels);
     return ok;
 }

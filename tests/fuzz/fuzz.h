@@ -141,7 +141,7 @@ static inline void fuzz_check_message(const char *text)
 }
 
 /* The same for each line that is printed of a report. */
-static inline void fuzz_check_report(const struct report *report)
+static inline void fuzz_check_report(const struct warnings *report)
 {
     char *text = NULL, *next;
     size_t size;
@@ -149,7 +149,7 @@ static inline void fuzz_check_report(const struct report *report)
     int count = 0;
 
     require(to != NULL, "memory");
-    report_print(report, to);
+    warnings_print(report, to);
     require(fclose(to) == 0, "memory");
     next = text;
     for (char *line; (line = strsep(&next, "\n")) != NULL && next; count++)

@@ -10,22 +10,22 @@
  */
 #define COMPARED_BYTES 500
 
-#define EVENTS_MAX (2 * INPUT_BYTES)
+#define EVENTS_MAX (2 * TTY_INPUT_BYTES)
 
 struct events {
     struct event items[EVENTS_MAX];
     size_t count;
 };
 
-static void take(struct input *in, int nothing_follows, struct events *to)
+static void take(struct tty_input *in, int nothing_follows, struct events *to)
 {
     struct event event;
 
-    while (input_next(in, nothing_follows, &event)) {
+    while (tty_input_next(in, nothing_follows, &event)) {
         require(event.kind >= EVENT_KEY && event.kind <= EVENT_CURSOR,
                 "a kind of event");
         require(event.kind != EVENT_KEY ||
-                    (event.key >= 0 && event.key <= INPUT_OTHER),
+                    (event.key >= 0 && event.key <= TTY_KEY_OTHER),
                 "a key");
         require(event.x >= 0 && event.y >= 0, "a place");
         if (to->count < EVENTS_MAX)
@@ -36,18 +36,18 @@ static void take(struct input *in, int nothing_follows, struct events *to)
 static void feed(const uint8_t *data, size_t size, size_t piece,
                  struct events *to)
 {
-    static struct input in;
+    static struct tty_input in;
 
     in.length = 0;
     to->count = 0;
     for (size_t i = 0; i < size; i += piece) {
         size_t n = size - i < piece ? size - i : piece;
 
-        require(input_feed(&in, data + i, n) == n, "room for a piece");
+        require(tty_input_feed(&in, data + i, n) == n, "room for a piece");
         take(&in, 0, to);
     }
     take(&in, 1, to);
-    require(!input_is_partial(&in), "bytes are left");
+    require(!tty_input_is_partial(&in), "bytes are left");
 }
 
 static int is_same(const struct event *a, const struct event *b)

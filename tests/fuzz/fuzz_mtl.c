@@ -49,7 +49,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *image = fuzz_put("a.png", "", 0);
     char *path = fuzz_put("a.mtl", NULL, 0);
     struct scene scene = {.path = NULL};
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err = {""};
 
     if (!mtl_parse(&scene, (const char *)data, size, path, &report, &err))
@@ -57,7 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (uint32_t i = 0; i < scene.material_count; i++)
         check_material(&scene, &scene.materials[i]);
     fuzz_check_report(&report);
-    report_free(&report);
+    warnings_free(&report);
     scene_free(&scene);
     free(path);
     free(image);

@@ -40,11 +40,11 @@ static void load(struct session *s, const struct options *options)
 /* What a map alone has a use for counts only beside the map. */
 static struct material material_of(const struct session *s, uint32_t i)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct material m =
         material_from_source(&s->edit.now.sources[i], "", &report);
 
-    report_free(&report);
+    warnings_free(&report);
     if (m.bump_texture == NO_INDEX)
         m.bump_scale = 0;
     if (m.metal_texture == NO_INDEX)
@@ -93,8 +93,8 @@ static void edit(struct session *s, const uint8_t *bytes)
 {
     struct edit *e = &s->edit;
     uint32_t material = bytes[0] % e->material_count;
-    struct knob_target target = {.page = KNOB_MATERIAL, .index = material};
-    struct knob knobs[KNOBS_MAX];
+    struct parameter_target target = {.page = PARAMETER_MATERIAL, .index = material};
+    struct parameter knobs[PARAMETERS_MAX];
     int count;
 
     edit_break(e);
@@ -104,20 +104,20 @@ static void edit(struct session *s, const uint8_t *bytes)
         edit_duplicate(e, material);
     if (bytes[1] >= 254 || material == 0 || !e->now.is_there[material])
         return;
-    count = knobs_list(e, &s->scene, &target, knobs);
-    knob_turn(e, &target, knobs[bytes[1] % count].id, bytes[2] - 128);
+    count = parameters_list(e, &s->scene, &target, knobs);
+    parameter_turn(e, &target, knobs[bytes[1] % count].id, bytes[2] - 128);
 }
 
 static void save(struct session *s)
 {
     struct error err = {""};
-    struct watch watch;
+    struct file_watch watch;
     char *what;
 
-    watch_init(&watch);
+    file_watch_init(&watch);
     require(session_save_edit(s, &watch, &what, &err), err.text);
     free(what);
-    watch_free(&watch);
+    file_watch_free(&watch);
 }
 
 /* Reads the file again, which has all materials and no others. */

@@ -36,7 +36,7 @@ static void check_parse(const uint8_t *data, size_t size)
     char *text = strndup(begin, size);
     char *end;
     double found = 0, expected;
-    int is_number = number_parse(&p, begin + size, &found);
+    int is_number = decimal_parse(&p, begin + size, &found);
 
     require(text != NULL, "memory");
     expected = strtod(text, &end);
@@ -52,15 +52,15 @@ static void check_parse(const uint8_t *data, size_t size)
 
 static void check_format(const uint8_t *data)
 {
-    char text[NUMBER_TEXT_BYTES];
+    char text[DECIMAL_TEXT_BYTES];
     double value, back = 0;
     const char *p = text;
 
     memcpy(&value, data, sizeof value);
     if (!isfinite(value))
         return;
-    number_format(text, value);
-    require(number_parse(&p, text + strlen(text), &back), text);
+    decimal_format(text, value);
+    require(decimal_parse(&p, text + strlen(text), &back), text);
     require(*p == '\0' && bits_of(back) == bits_of(value), text);
 }
 

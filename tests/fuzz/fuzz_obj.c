@@ -51,7 +51,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char *path = fuzz_put_scene(data, size);
     struct scene scene = {.path = NULL};
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err = {""};
 
     if (scene_load(&scene, path, false, &report, &err)) {
@@ -61,7 +61,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_check_message(err.text);
     }
     fuzz_check_report(&report);
-    report_free(&report);
+    warnings_free(&report);
     scene_free(&scene);
     free(path);
     return 0;

@@ -83,13 +83,13 @@ static void check_same(const struct view *a, const struct view *b)
 /* Whether the file could be read; what it warns of has to be messages. */
 static int read_view(struct view *view, const char *path, struct error *err)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     int ok;
 
     view_init(view);
     ok = view_read(view, path, &report, err);
     fuzz_check_report(&report);
-    report_free(&report);
+    warnings_free(&report);
     if (!ok)
         fuzz_check_message(err->text);
     return ok;

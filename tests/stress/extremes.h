@@ -251,14 +251,14 @@ static inline void extremes_add(struct extremes *x, struct backend *backend,
 static inline void extremes_open(struct extremes *x, bool on_device)
 {
     struct cl_request request = {.features = FEATURES_ALL};
-    const struct paths *paths;
+    const struct cpu_kernel *paths;
     struct backend *device;
     struct error err;
     char *log = NULL;
 
     *x = (struct extremes){.count = 0};
     put_images();
-    for (int i = 0; (paths = isa_at(i)) != NULL; i++)
+    for (int i = 0; (paths = cpu_kernel_at(i)) != NULL; i++)
         extremes_add(x, backend_cpu_create(1, paths, &err), &err);
     if (!on_device)
         return;

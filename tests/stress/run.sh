@@ -155,7 +155,7 @@ stress_light() {
 stress_keys() {
     for seed in 101 102 103; do
         check "keys, seed $seed" env TERM_KEYS=10000 TERM_SEED=$seed \
-            "$build/unit/test_term"
+            "$build/unit/terminal/test_tty"
     done
 }
 

@@ -47,7 +47,7 @@ static bool print_cells(const struct cells *cells, struct error *err)
     size_t size_bytes;
     char *text;
 
-    if (!ansi_lines(cells, &text, &size_bytes, err))
+    if (!ansi_diff_lines(cells, &text, &size_bytes, err))
         return false;
     fwrite(text, 1, size_bytes, stdout);
     free(text);

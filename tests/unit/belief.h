@@ -4,7 +4,7 @@
  *
  * Each time before it waits, the child describes its screen in shared memory,
  * writes the string "told" to the terminal, and goes on when the parent has
- * looked. The linker puts __wrap_stage_next_ns() and __wrap_term_read() in
+ * looked. The linker puts __wrap_workspace_next_ns() and __wrap_tty_read() in
  * place of glim's (see the Makefile).
  *
  * Units:     cells, row 0 at the top
@@ -47,14 +47,14 @@ static struct shared {
 
 static bool is_child;
 
-int __real_term_read(void *bytes, size_t size_bytes);
-uint64_t __real_stage_next_ns(const struct stage *st, uint64_t now_ns);
-int __wrap_term_read(void *bytes, size_t size_bytes);
-uint64_t __wrap_stage_next_ns(const struct stage *st, uint64_t now_ns);
+int __real_tty_read(void *bytes, size_t size_bytes);
+uint64_t __real_workspace_next_ns(const struct workspace *st, uint64_t now_ns);
+int __wrap_tty_read(void *bytes, size_t size_bytes);
+uint64_t __wrap_workspace_next_ns(const struct workspace *st, uint64_t now_ns);
 
-int __wrap_term_read(void *bytes, size_t size_bytes)
+int __wrap_tty_read(void *bytes, size_t size_bytes)
 {
-    int count = __real_term_read(bytes, size_bytes);
+    int count = __real_tty_read(bytes, size_bytes);
 
     if (is_child && count > 0)
         shared->taken_bytes += (unsigned long)count;
@@ -88,7 +88,7 @@ static void tell_text(void)
     }
 }
 
-static void tell_cells(const struct ansi *a, int col, int row)
+static void tell_cells(const struct ansi_diff *a, int col, int row)
 {
     for (int y = 0; y < a->rows; y++) {
         for (int x = 0; x < a->cols; x++) {
@@ -102,10 +102,10 @@ static void tell_cells(const struct ansi *a, int col, int row)
     }
 }
 
-static void tell_picture(const struct canvas *c)
+static void tell_picture(const struct screen *c)
 {
     struct belief_cell under[VT_ROWS_MAX][VT_COLS_MAX];
-    const struct ansi_rect *r = &c->window;
+    const struct ansi_diff_rect *r = &c->window;
 
     memcpy(under, shared->cell, sizeof under);
     tell_cells(&c->ansi, c->fit.col, c->fit.row);
@@ -118,14 +118,14 @@ static void tell_picture(const struct canvas *c)
                sizeof under[0]);
 }
 
-static bool covers(const struct ansi_rect *r, int col, int row)
+static bool covers(const struct ansi_diff_rect *r, int col, int row)
 {
     return row >= r->row && row < r->row + r->rows && col >= r->col &&
            col < r->col + r->cols;
 }
 
 /* Blanks of curses, where there is none or a window covers it. */
-static void tell_swatches(const struct canvas *c)
+static void tell_swatches(const struct screen *c)
 {
     const struct swatches *s = &c->swatches;
     int col = shared->cols - c->panel_cols + 2;
@@ -144,7 +144,7 @@ static void tell_swatches(const struct canvas *c)
     }
 }
 
-static void tell(const struct canvas *c)
+static void tell(const struct screen *c)
 {
     shared->is_whole = !c->must_update && c->has_all_answers;
     shared->cols = COLS;
@@ -157,15 +157,15 @@ static void tell(const struct canvas *c)
             tell_swatches(c);
     }
     shared->told++;
-    term_write("\033]told\033\\", 8);
+    tty_write("\033]told\033\\", 8);
     while (sem_wait(&shared->go) != 0) {
         /* a signal */
     }
 }
 
-uint64_t __wrap_stage_next_ns(const struct stage *st, uint64_t now_ns)
+uint64_t __wrap_workspace_next_ns(const struct workspace *st, uint64_t now_ns)
 {
-    uint64_t next_ns = __real_stage_next_ns(st, now_ns);
+    uint64_t next_ns = __real_workspace_next_ns(st, now_ns);
 
     if (!is_child)
         return next_ns;

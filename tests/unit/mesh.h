@@ -25,10 +25,10 @@ struct mesh {
     uint32_t tri_count;
     struct material materials[MESH_MATERIALS];
     struct bvh bvh;
-    struct wide wide;
+    struct bvh8 wide;
     union {
         struct world world;
-        struct wide_world wide_world; /* for the queries of bvh8_traverse.h */
+        struct bvh8_world wide_world; /* for the queries of bvh8_traverse.h */
     };
 };
 
@@ -141,14 +141,14 @@ static inline void mesh_finish(struct mesh *m)
     assert_true(bvh_build(&m->bvh, w, NULL, &err));
     w->nodes = m->bvh.nodes;
     w->leaf_tris = m->bvh.leaf_tris;
-    assert_true(wide_build(&m->wide, w, NULL, &err));
+    assert_true(bvh8_build(&m->wide, w, NULL, &err));
     m->wide_world.tree = &m->wide;
 }
 
 static inline void mesh_free(struct mesh *m)
 {
     bvh_free(&m->bvh);
-    wide_free(&m->wide);
+    bvh8_free(&m->wide);
     free(m->positions);
     free(m->tris);
 }

@@ -332,7 +332,7 @@ static void deep_chains_stay_bounded(void **state)
     mesh_finish(&m);
     assert_true(m.bvh.depth < TRAVERSE_STACK);
     bvh_free(&m.bvh);
-    wide_free(&m.wide);
+    bvh8_free(&m.wide);
     for (int k = 0; k < 100000; k++)
         mesh_add(&m, v3(1e-42f, 0, 0), v3(0, 1e-42f, 0), v3(0, 0, 1e-42f), 0);
     mesh_finish(&m);

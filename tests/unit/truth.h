@@ -6,7 +6,7 @@
  * about it is tried in every way of gathering light, over independent seeds.
  *
  * Units:     normalised scene units, radiance
- * Ownership: stage_free() frees the arrays
+ * Ownership: workspace_free() frees the arrays
  * Threads:   one
  * Errors:    a claim that does not hold ends the test
  */
@@ -33,7 +33,7 @@
 /* Claims are about means known to this, or they would hold of anything. */
 #define PRECISION 0.01
 
-struct stage {
+struct workspace {
     struct mesh mesh;
     struct lights lights;
     struct sky_table skies[2]; /* by enum sky_use */
@@ -54,7 +54,7 @@ struct claim {
 
 static const char *const ways[] = {"both ways", "chosen lights", "chance"};
 
-static inline void stage_finish(struct stage *s)
+static inline void stage_finish(struct workspace *s)
 {
     struct world *w = &s->mesh.world;
     struct error err;
@@ -62,27 +62,27 @@ static inline void stage_finish(struct stage *s)
     mesh_finish(&s->mesh);
     assert_true(lights_build(&s->lights, w, &err));
     for (int use = SKY_WITH_CHANCE; use <= SKY_ALONE; use++)
-        assert_true(sky_build(&s->skies[use], w->sky_texels,
+        assert_true(sky_table_build(&s->skies[use], w->sky_texels,
                               w->settings.sky.width, w->settings.sky.height,
                               (enum sky_use)use, &err));
 }
 
-static inline void stage_free(struct stage *s)
+static inline void workspace_free(struct workspace *s)
 {
-    sky_free(&s->skies[SKY_WITH_CHANCE]);
-    sky_free(&s->skies[SKY_ALONE]);
+    sky_table_free(&s->skies[SKY_WITH_CHANCE]);
+    sky_table_free(&s->skies[SKY_ALONE]);
     lights_free(&s->lights);
     mesh_free(&s->mesh);
 }
 
 /* Lends the tables that this way of gathering light needs. */
-static inline void stage_gather(struct stage *s, enum direct direct)
+static inline void stage_gather(struct workspace *s, enum direct direct)
 {
     enum sky_use use = direct == DIRECT_LIGHTS ? SKY_ALONE : SKY_WITH_CHANCE;
 
     s->mesh.world.settings.direct = direct;
     lights_lend(&s->lights, &s->mesh.world);
-    sky_lend(&s->skies[use], &s->mesh.world);
+    sky_table_lend(&s->skies[use], &s->mesh.world);
 }
 
 /* Means of n paths along the claim's ray. */
@@ -151,7 +151,7 @@ static inline void check_claim_this_way(const struct world *w,
     }
 }
 
-static inline void check_claim_at(struct stage *s, struct claim c,
+static inline void check_claim_at(struct workspace *s, struct claim c,
                                   const char *file, int line)
 {
     for (int direct = DIRECT_MIS; direct <= DIRECT_CHANCE; direct++) {

@@ -52,7 +52,7 @@ struct axis {
     int from_px, to_px;
 };
 
-struct canvas {
+struct screen {
     uint8_t rgb[HEIGHT][WIDTH][3];
 };
 
@@ -67,7 +67,7 @@ static uint32_t glyph_of(char c)
     return c != '\0' && mark != NULL ? mark_glyphs[mark - marks] : 0;
 }
 
-static void fill(struct canvas *c, int x, int y, int width, int height,
+static void fill(struct screen *c, int x, int y, int width, int height,
                  uint32_t color)
 {
     for (int j = y < 0 ? 0 : y; j < y + height && j < HEIGHT; j++)
@@ -76,7 +76,7 @@ static void fill(struct canvas *c, int x, int y, int width, int height,
                 c->rgb[j][i][k] = (uint8_t)(color >> (16 - 8 * k));
 }
 
-static void put_text(struct canvas *c, int x, int y, const char *text)
+static void put_text(struct screen *c, int x, int y, const char *text)
 {
     for (; *text != '\0'; text++, x += ADVANCE) {
         uint32_t glyph = glyph_of(*text);
@@ -93,7 +93,7 @@ static int text_width(const char *text)
     return (int)strlen(text) * ADVANCE;
 }
 
-static void put_line(struct canvas *c, double x0, double y0, double x1,
+static void put_line(struct screen *c, double x0, double y0, double x1,
                      double y1, uint32_t color)
 {
     int steps = (int)(fabs(x1 - x0) + fabs(y1 - y0)) + 1;
@@ -125,8 +125,8 @@ static void axis_add(struct axis *a, double value)
 }
 
 /* Calls of `put` for 1, 2 and 5 times each power of ten on the axis. */
-static void each_tick(struct canvas *c, const struct axis *a,
-                      void (*put)(struct canvas *, int, const char *))
+static void each_tick(struct screen *c, const struct axis *a,
+                      void (*put)(struct screen *, int, const char *))
 {
     static const int steps[] = {1, 2, 5};
 
@@ -144,21 +144,21 @@ static void each_tick(struct canvas *c, const struct axis *a,
         }
 }
 
-static void put_x_tick(struct canvas *c, int x, const char *label)
+static void put_x_tick(struct screen *c, int x, const char *label)
 {
     fill(c, x, TOP, 1, BOTTOM - TOP, GRAY);
     fill(c, x, BOTTOM, 1, 6, BLACK);
     put_text(c, x - text_width(label) / 2, BOTTOM + 10, label);
 }
 
-static void put_y_tick(struct canvas *c, int y, const char *label)
+static void put_y_tick(struct screen *c, int y, const char *label)
 {
     fill(c, LEFT, y, RIGHT - LEFT, 1, GRAY);
     fill(c, LEFT - 6, y, 6, 1, BLACK);
     put_text(c, LEFT - 10 - text_width(label), y - GLYPH_PX / 2, label);
 }
 
-static void put_series(struct canvas *c, const struct series *s,
+static void put_series(struct screen *c, const struct series *s,
                        const struct axis *x, const struct axis *y,
                        uint32_t color)
 {
@@ -176,7 +176,7 @@ static void put_series(struct canvas *c, const struct series *s,
     }
 }
 
-static void draw(struct canvas *c, const struct chart *chart,
+static void draw(struct screen *c, const struct chart *chart,
                  const struct axis *x, const struct axis *y)
 {
     fill(c, 0, 0, WIDTH, HEIGHT, 0xffffff);
@@ -219,7 +219,7 @@ bool chart_write(const struct chart *chart, const char *path, struct error *err)
     struct axis x = {INFINITY, -INFINITY, LEFT, RIGHT};
     struct axis y = {INFINITY, -INFINITY, BOTTOM, TOP};
     struct output out = {NULL, 0, 0};
-    struct canvas *c;
+    struct screen *c;
     bool ok;
 
     for (int i = 0; i < chart->series_count; i++)

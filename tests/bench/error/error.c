@@ -34,7 +34,7 @@
 
 /* Made of src/render/cpu_kernel.c with one function replaced: see the headers in this
  * folder. */
-extern const struct paths paths_whole, paths_hashed, paths_uniform,
+extern const struct cpu_kernel paths_whole, paths_hashed, paths_uniform,
     paths_throughput, paths_shadows;
 
 /* What a scene must have for a technique to matter. */
@@ -49,7 +49,7 @@ enum need {
 /* All techniques, or all but the one that is named. */
 static const struct technique {
     const char *name;
-    const struct paths *paths;
+    const struct cpu_kernel *paths;
     enum direct direct;
     enum sky_use sky_use;
     enum need need;
@@ -219,9 +219,9 @@ static bool measure_round(struct measurement *m, int technique, int round,
     if (!c->is_measured)
         return true;
     if (t->sky_use == SKY_ALONE)
-        sky_lend(&m->whole_sky, &world);
+        sky_table_lend(&m->whole_sky, &world);
     if (t->is_unguided)
-        guide_lend(&(struct guide){.cells = NULL}, &world);
+        path_guide_lend(&(struct path_guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
     render_use(s->render, m->bench->backends[technique]);
     return measure_world(m, c, round, &world, err);
@@ -336,7 +336,7 @@ static bool build_whole_sky(struct measurement *m, struct error *err)
     const struct scene *s = &m->session.scene;
 
     return s->sky_texels == NULL ||
-           sky_build(&m->whole_sky, s->sky_texels, s->sky_width, s->sky_height,
+           sky_table_build(&m->whole_sky, s->sky_texels, s->sky_width, s->sky_height,
                      SKY_ALONE, err);
 }
 
@@ -375,7 +375,7 @@ static bool measure_scene(const struct bench *bench,
         ok = draw_curves(m, name, series, err);
     }
     session_close(&m->session);
-    sky_free(&m->whole_sky);
+    sky_table_free(&m->whole_sky);
     reference_free(&m->reference);
     free(m->rgb);
     free(m);

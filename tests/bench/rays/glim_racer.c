@@ -12,7 +12,7 @@
 static void closest(const void *tree, const struct ray *rays, uint32_t count,
                     struct answer *answers)
 {
-    const struct wide_world *w = tree;
+    const struct bvh8_world *w = tree;
     struct hit h;
 
     for (uint32_t i = 0; i < count; i++) {
@@ -24,7 +24,7 @@ static void closest(const void *tree, const struct ray *rays, uint32_t count,
 static void any(const void *tree, const struct ray *rays, uint32_t count,
                 struct answer *answers)
 {
-    const struct wide_world *w = tree;
+    const struct bvh8_world *w = tree;
 
     for (uint32_t i = 0; i < count; i++) {
         bool found = hit_any(&w->world, rays[i], NO_INDEX);
@@ -36,12 +36,12 @@ static void any(const void *tree, const struct ray *rays, uint32_t count,
 static void coherent(const void *tree, const struct ray *rays, uint32_t count,
                      struct answer *answers)
 {
-    const struct wide_world *w = tree;
-    struct hit hits[GROUP_RAYS];
+    const struct bvh8_world *w = tree;
+    struct hit hits[PACKET_RAYS];
 
-    for (uint32_t i = 0; i < count; i += GROUP_RAYS) {
+    for (uint32_t i = 0; i < count; i += PACKET_RAYS) {
         uint32_t left = count - i;
-        uint32_t lanes = left < GROUP_RAYS ? left : GROUP_RAYS;
+        uint32_t lanes = left < PACKET_RAYS ? left : PACKET_RAYS;
 
         if (!hits_closest(&w->world, rays + i, lanes, hits)) {
             closest(tree, rays + i, lanes, answers + i);

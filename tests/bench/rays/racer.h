@@ -32,7 +32,7 @@ struct racer {
     double bytes; /* of the tree */
 };
 
-/* glim's queries for a set of instructions; the tree is a struct wide_world. */
+/* glim's queries for a set of instructions; the tree is a struct bvh8_world. */
 extern const struct racer racer_plain;
 extern const struct racer racer_avx2; /* x86-64 only */
 extern const struct racer racer_avx512;

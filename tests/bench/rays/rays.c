@@ -51,8 +51,8 @@ static const enum embree_kind embree_kinds[BUILDERS] = {
 
 struct contest {
     struct shape shape;
-    struct wide tree;
-    struct wide_world world;
+    struct bvh8 tree;
+    struct bvh8_world world;
     struct embree embrees[BUILDERS]; /* GLIM's is none */
     struct racer racers[RACERS];
     struct ray_set sets[SETS];
@@ -198,7 +198,7 @@ static void race_all(struct contest *c, struct pool *pool)
     race(c, pool, "groups", &c->sets[SET_PRIMARY], coherent, &grouped);
 }
 
-static const struct racer *racer_of(const struct paths *paths)
+static const struct racer *racer_of(const struct cpu_kernel *paths)
 {
 #if defined(__x86_64__)
     if (strcmp(paths->name, "avx512") == 0)
@@ -210,20 +210,20 @@ static const struct racer *racer_of(const struct paths *paths)
     return &racer_plain;
 }
 
-static bool build_glim(struct contest *c, const struct paths *paths,
+static bool build_glim(struct contest *c, const struct cpu_kernel *paths,
                        struct pool *pool, struct error *err)
 {
     struct spent begin;
     bool ok;
 
-    wide_free(&c->tree);
+    bvh8_free(&c->tree);
     begin = spent_now();
-    ok = wide_build(&c->tree, &c->shape.world, pool, err);
-    c->world = (struct wide_world){c->shape.world, &c->tree};
+    ok = bvh8_build(&c->tree, &c->shape.world, pool, err);
+    c->world = (struct bvh8_world){c->shape.world, &c->tree};
     c->racers[GLIM] = *racer_of(paths);
     c->racers[GLIM].tree = &c->world;
     c->racers[GLIM].build = spent_since(begin);
-    c->racers[GLIM].bytes = (double)wide_bytes(&c->tree);
+    c->racers[GLIM].bytes = (double)bvh8_bytes(&c->tree);
     return ok;
 }
 
@@ -290,7 +290,7 @@ static void settle(void)
 }
 
 /* Trees by turns, each with as many threads. */
-static bool build_all(struct contest *c, const struct paths *paths,
+static bool build_all(struct contest *c, const struct cpu_kernel *paths,
                       struct error *err)
 {
     struct pool *pool = pool_create(usable_threads(), err);
@@ -331,11 +331,11 @@ static void contest_free(struct contest *c)
     for (int i = 0; i < BUILDERS; i++)
         embree_free(&c->embrees[i]);
     sets_free(c->sets);
-    wide_free(&c->tree);
+    bvh8_free(&c->tree);
     shape_free(&c->shape);
 }
 
-static bool run_shape(int shape, const char *shared, const struct paths *paths,
+static bool run_shape(int shape, const char *shared, const struct cpu_kernel *paths,
                       struct error *err)
 {
     struct contest c = {.answers = {NULL}};
@@ -371,7 +371,7 @@ static bool run_shape(int shape, const char *shared, const struct paths *paths,
 int main(int argc, char **argv)
 {
     const char *part = argc > 2 ? argv[2] : "";
-    const struct paths *paths = isa_best();
+    const struct cpu_kernel *paths = cpu_kernel_best();
     struct error err;
     bool ok = true;
 
@@ -381,7 +381,7 @@ int main(int argc, char **argv)
     }
     memory_init();
     if (argc > 3 && argv[3][0] != '\0')
-        ok = (paths = isa_named(argv[3], &err)) != NULL;
+        ok = (paths = cpu_kernel_named(argv[3], &err)) != NULL;
     if (ok)
         printf("glim (%s) beside Embree 3. Mrays/s: threads times rays over the"
                " threads'\nprocessor time; ratios of that, then of time by the"

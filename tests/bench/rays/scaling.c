@@ -51,9 +51,9 @@ static bool time_size(struct racer r, struct pool *pool, uint32_t across,
                       double *doublings, double ns[TIMED], struct error *err)
 {
     struct shape shape;
-    struct wide tree = {.nodes = NULL};
+    struct bvh8 tree = {.nodes = NULL};
     struct ray_set sets[SETS];
-    struct wide_world world;
+    struct bvh8_world world;
     struct answer *answers;
     uint64_t begin_ns;
     uint32_t count;
@@ -63,16 +63,16 @@ static bool time_size(struct racer r, struct pool *pool, uint32_t across,
         return false;
     count = shape.world.settings.tri_count;
     begin_ns = clock_ns();
-    ok = wide_build(&tree, &shape.world, pool, err);
+    ok = bvh8_build(&tree, &shape.world, pool, err);
     if (ok) {
         double build_s = seconds_between(begin_ns, clock_ns());
 
-        world = (struct wide_world){shape.world, &tree};
+        world = (struct bvh8_world){shape.world, &tree};
         r.tree = &world;
         sets_make(sets, &shape.world, &r);
         answers = xcalloc(sets[SET_PRIMARY].count, sizeof *answers);
         printf("  %9u %8.3f %6.1f", count, build_s,
-               (double)wide_bytes(&tree) / count);
+               (double)bvh8_bytes(&tree) / count);
         for (int i = 0; i < TIMED; i++) {
             ns[i] =
                 ray_ns(&r, &sets[timed[i]], timed[i] == SET_SHADOW, answers);
@@ -84,7 +84,7 @@ static bool time_size(struct racer r, struct pool *pool, uint32_t across,
         free(answers);
         sets_free(sets);
     }
-    wide_free(&tree);
+    bvh8_free(&tree);
     shape_free(&shape);
     return ok;
 }

@@ -88,7 +88,7 @@ static bool make_terrain(struct scene *s, uint32_t across, struct error *err)
 
 /* From above one corner over the middle. */
 static bool load_terrain(struct scene *s, uint32_t across, struct view *view,
-                         struct report *report, struct error *err)
+                         struct warnings *report, struct error *err)
 {
     const struct pose pose = {.eye = {0.2, 0.5, 0.1},
                               .at = {1.1, 0.0, 0.6},
@@ -101,7 +101,7 @@ static bool load_terrain(struct scene *s, uint32_t across, struct view *view,
 }
 
 static bool load_file(struct scene *s, const char *name, const char *shared,
-                      struct view *view, struct report *report,
+                      struct view *view, struct warnings *report,
                       struct error *err)
 {
     char *folder = xformat("%s/scenes-real/%s", shared, name);
@@ -137,21 +137,21 @@ static bool finish(struct shape *shape, struct view *view, bool is_loaded,
 
 bool shape_make_terrain(struct shape *shape, uint32_t across, struct error *err)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct view view;
     bool ok;
 
     *shape = (struct shape){.scene.path = NULL};
     view_init(&view);
     ok = load_terrain(&shape->scene, across, &view, &report, err);
-    report_free(&report);
+    warnings_free(&report);
     return finish(shape, &view, ok, err);
 }
 
 bool shape_load(struct shape *shape, int i, const char *shared,
                 struct error *err)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct view view;
     bool ok;
 
@@ -160,7 +160,7 @@ bool shape_load(struct shape *shape, int i, const char *shared,
     *shape = (struct shape){.scene.path = NULL};
     view_init(&view);
     ok = load_file(&shape->scene, shape_names[i], shared, &view, &report, err);
-    report_free(&report);
+    warnings_free(&report);
     return finish(shape, &view, ok, err);
 }
 

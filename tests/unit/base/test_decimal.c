@@ -37,7 +37,7 @@ static void agrees_with_strtod(const char *text)
 
     bool same;
 
-    check_or_say(number_parse(&p, text + strlen(text), &found), text);
+    check_or_say(decimal_parse(&p, text + strlen(text), &found), text);
     same = p == expected_end && bits_of(found) == bits_of(expected);
     if (!same)
         print_error("'%.40s': found %.17g, expected %.17g\n", text, found,
@@ -112,7 +112,7 @@ static void test_nan(void **state)
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         const char *p = texts[i];
         double value = 0;
-        assert_true(number_parse(&p, p + strlen(p), &value));
+        assert_true(decimal_parse(&p, p + strlen(p), &value));
         assert_true(isnan(value));
         assert_int_equal(*p, 0);
     }
@@ -129,7 +129,7 @@ static void test_no_number(void **state)
         const char *p = texts[i];
         double value = 7;
 
-        check_or_say(!number_parse(&p, p + strlen(p), &value), texts[i]);
+        check_or_say(!decimal_parse(&p, p + strlen(p), &value), texts[i]);
         assert_ptr_equal(p, texts[i]);
         assert_true(value == 7);
     }
@@ -149,7 +149,7 @@ static void test_end(void **state)
         assert_non_null(copy);
         memcpy(copy, text, (size_t)length);
         const char *p = copy;
-        assert_true(number_parse(&p, copy + length, &value));
+        assert_true(decimal_parse(&p, copy + length, &value));
         assert_true(value == expected[length - 1]);
         free(copy);
     }
@@ -223,9 +223,9 @@ static void test_decimal_comma(void **state)
     (void)state;
     if (!set_language(LC_NUMERIC, "de_DE"))
         skip();
-    bool ok = number_parse(&p, p + strlen(p), &value);
-    char text[NUMBER_TEXT_BYTES];
-    number_format(text, 2.5);
+    bool ok = decimal_parse(&p, p + strlen(p), &value);
+    char text[DECIMAL_TEXT_BYTES];
+    decimal_format(text, 2.5);
     setlocale(LC_NUMERIC, "C");
     assert_true(ok);
     assert_true(value == 0.12345678901234567890123);
@@ -243,7 +243,7 @@ static void test_turkish_letters(void **state)
     (void)state;
     if (!set_language(LC_CTYPE, "tr_TR"))
         skip();
-    ok = number_parse(&p, text + strlen(text), &value);
+    ok = decimal_parse(&p, text + strlen(text), &value);
     setlocale(LC_CTYPE, "C");
     assert_true(ok && value == INFINITY && *p == '\0');
 }
@@ -266,18 +266,18 @@ static void test_format(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char text[NUMBER_TEXT_BYTES];
-        number_format(text, cases[i].value);
+        char text[DECIMAL_TEXT_BYTES];
+        decimal_format(text, cases[i].value);
         assert_string_equal(text, cases[i].text);
     }
     for (int i = 0; i < 100000; i++) {
-        char text[NUMBER_TEXT_BYTES];
+        char text[DECIMAL_TEXT_BYTES];
         uint64_t bits = next_random();
         double value;
         memcpy(&value, &bits, sizeof value);
         if (!isfinite(value))
             continue;
-        number_format(text, value);
+        decimal_format(text, value);
         assert_true(strtod(text, NULL) == value);
     }
 }
@@ -298,7 +298,7 @@ static void test_speed(void **state)
     uint64_t begin_ns = clock_ns();
     for (const char *p = text; p < text + used; p++) {
         double value;
-        assert_true(number_parse(&p, text + used, &value));
+        assert_true(decimal_parse(&p, text + used, &value));
         sum += value;
     }
     double seconds = seconds_between(begin_ns, clock_ns());
@@ -325,28 +325,28 @@ static void test_shortest(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char text[NUMBER_TEXT_BYTES];
+        char text[DECIMAL_TEXT_BYTES];
 
-        number_format_float(text, (float)cases[i].value);
+        decimal_format_float(text, (float)cases[i].value);
         assert_string_equal(text, cases[i].as_float);
-        number_format(text, cases[i].value);
+        decimal_format(text, cases[i].value);
         assert_string_equal(text, cases[i].as_double);
     }
-    assert_true(number_shortened(1e-60) == 1e-60);
-    assert_true(number_shortened(1e60) == 1e60);
-    assert_true(number_shortened(0) == 0);
-    assert_true(number_shortened(0.1 + 0.2) == 0.3);
+    assert_true(decimal_shortened(1e-60) == 1e-60);
+    assert_true(decimal_shortened(1e60) == 1e60);
+    assert_true(decimal_shortened(0) == 0);
+    assert_true(decimal_shortened(0.1 + 0.2) == 0.3);
     for (int i = 0; i < 100000; i++) {
         uint32_t bits = (uint32_t)(next_random() >> 32);
-        char text[NUMBER_TEXT_BYTES];
+        char text[DECIMAL_TEXT_BYTES];
         float value;
 
         memcpy(&value, &bits, sizeof value);
         if (!isfinite(value))
             continue;
-        number_format_float(text, value);
+        decimal_format_float(text, value);
         assert_true(strtof(text, NULL) == value);
-        assert_true((float)number_shortened((double)value) == value);
+        assert_true((float)decimal_shortened((double)value) == value);
     }
 }
 

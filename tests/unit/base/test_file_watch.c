@@ -27,7 +27,7 @@ static void put(const char *path, const char *text)
 }
 
 /* link -> below/target, plain; other is not there. */
-static void begin(struct watch *w)
+static void begin(struct file_watch *w)
 {
     static const char *const names[] = {"plain", "other", "link",
                                         "below/target"};
@@ -42,198 +42,198 @@ static void begin(struct watch *w)
     put(paths[PLAIN], "one");
     put(paths[TARGET], "one");
     assert_int_equal(symlink("below/target", paths[LINK]), 0);
-    watch_init(w);
-    watch_begin(w);
+    file_watch_init(w);
+    file_watch_begin(w);
     for (int i = PLAIN; i <= LINK; i++)
-        watch_add(w, paths[i]);
-    watch_end(w);
+        file_watch_add(w, paths[i]);
+    file_watch_end(w);
     assert_true(w->fd >= 0);
 }
 
 /* Whether fd becomes readable; empties it. */
-static bool is_told(struct watch *w)
+static bool is_told(struct file_watch *w)
 {
     struct pollfd fd = {.fd = w->fd, .events = POLLIN};
     bool is = poll(&fd, 1, 2000) == 1;
 
-    watch_drain(w);
+    file_watch_drain(w);
     assert_int_equal(poll(&fd, 1, 0), 0);
     return is;
 }
 
 static void nothing_has_changed_at_first(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
-    assert_false(watch_has_changed(&w));
-    watch_free(&w);
+    assert_false(file_watch_has_changed(&w));
+    file_watch_free(&w);
 }
 
 static void writing_in_place_is_noticed(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     put(paths[PLAIN], "three");
     assert_true(is_told(&w));
-    assert_true(watch_has_changed(&w));
-    watch_settle(&w);
-    assert_false(watch_has_changed(&w));
+    assert_true(file_watch_has_changed(&w));
+    file_watch_settle(&w);
+    assert_false(file_watch_has_changed(&w));
     put(paths[PLAIN], "three, and more");
     assert_true(is_told(&w));
-    assert_true(watch_has_changed(&w));
-    watch_settle(&w);
-    assert_false(watch_has_changed(&w));
-    watch_free(&w);
+    assert_true(file_watch_has_changed(&w));
+    file_watch_settle(&w);
+    assert_false(file_watch_has_changed(&w));
+    file_watch_free(&w);
 }
 
 /* What this program writes is no news, but what someone else writes before or
  * after it is. */
 static void files_are_known_by_any_name(void **state)
 {
-    struct watch w;
+    struct file_watch w;
     char other_way[192];
 
     (void)state;
     begin(&w);
     snprintf(other_way, sizeof other_way, "%s/below/../plain", folder);
-    assert_true(watch_has(&w, paths[PLAIN]));
-    assert_true(watch_has(&w, other_way));
-    assert_true(watch_has(&w, paths[TARGET])); /* the link is on the list */
-    assert_false(watch_has(&w, paths[OTHER])); /* listed, but not there */
+    assert_true(file_watch_has(&w, paths[PLAIN]));
+    assert_true(file_watch_has(&w, other_way));
+    assert_true(file_watch_has(&w, paths[TARGET])); /* the link is on the list */
+    assert_false(file_watch_has(&w, paths[OTHER])); /* listed, but not there */
     snprintf(other_way, sizeof other_way, "%s/same", folder);
     put(other_way, "one");
-    assert_false(watch_has(&w, other_way));
+    assert_false(file_watch_has(&w, other_way));
     unlink(other_way);
-    watch_free(&w);
+    file_watch_free(&w);
 }
 
 static void own_writing_is_known(void **state)
 {
     struct file_change change;
     struct error err;
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     change.before = file_identify(paths[PLAIN]);
     assert_true(file_replace(paths[PLAIN], "own", 3, &change, &err));
-    assert_true(watch_has_changed(&w));
-    watch_replaced(&w, paths[LINK], &change); /* another one */
-    assert_true(watch_has_changed(&w));
-    watch_replaced(&w, paths[PLAIN], &change);
-    assert_false(watch_has_changed(&w));
+    assert_true(file_watch_has_changed(&w));
+    file_watch_replaced(&w, paths[LINK], &change); /* another one */
+    assert_true(file_watch_has_changed(&w));
+    file_watch_replaced(&w, paths[PLAIN], &change);
+    assert_false(file_watch_has_changed(&w));
     put(paths[PLAIN], "theirs");
-    assert_true(watch_has_changed(&w));
+    assert_true(file_watch_has_changed(&w));
     change.before = file_identify(paths[PLAIN]);
     assert_true(file_replace(paths[PLAIN], "own", 3, &change, &err));
-    watch_replaced(&w, paths[PLAIN], &change);
-    assert_true(watch_has_changed(&w)); /* theirs was not loaded */
-    watch_wrote(&w, paths[PLAIN], &change.after);
-    assert_false(watch_has_changed(&w));
+    file_watch_replaced(&w, paths[PLAIN], &change);
+    assert_true(file_watch_has_changed(&w)); /* theirs was not loaded */
+    file_watch_wrote(&w, paths[PLAIN], &change.after);
+    assert_false(file_watch_has_changed(&w));
     unlink(paths[PLAIN]); /* nothing of theirs is left */
     change.before = file_identify(paths[PLAIN]);
     assert_true(file_replace(paths[PLAIN], "again", 5, &change, &err));
-    watch_replaced(&w, paths[PLAIN], &change);
-    assert_false(watch_has_changed(&w));
-    watch_free(&w);
+    file_watch_replaced(&w, paths[PLAIN], &change);
+    assert_false(file_watch_has_changed(&w));
+    file_watch_free(&w);
 }
 
 static void renaming_over_is_noticed(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     put(paths[OTHER], "one"); /* is on the list itself */
-    watch_settle(&w);
-    watch_drain(&w);
+    file_watch_settle(&w);
+    file_watch_drain(&w);
     assert_int_equal(rename(paths[OTHER], paths[PLAIN]), 0);
     assert_true(is_told(&w));
-    assert_false(watch_has_changed(&w)); /* until all are there again */
+    assert_false(file_watch_has_changed(&w)); /* until all are there again */
     put(paths[OTHER], "one");
     assert_true(is_told(&w));
-    assert_true(watch_has_changed(&w));
-    watch_free(&w);
+    assert_true(file_watch_has_changed(&w));
+    file_watch_free(&w);
 }
 
 static void new_files_are_noticed(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     put(paths[OTHER], "new");
     assert_true(is_told(&w));
-    assert_true(watch_has_changed(&w));
-    watch_free(&w);
+    assert_true(file_watch_has_changed(&w));
+    file_watch_free(&w);
 }
 
 static void targets_of_links_are_noticed(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     put(paths[TARGET], "three");
     assert_true(is_told(&w));
-    assert_true(watch_has_changed(&w));
-    watch_free(&w);
+    assert_true(file_watch_has_changed(&w));
+    file_watch_free(&w);
 }
 
 /* vim moves the old file away, writes a new one and removes the old one. */
 static void a_file_that_is_gone_is_waited_for(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     unlink(paths[PLAIN]);
-    assert_false(watch_has_changed(&w));
-    watch_settle(&w);
-    watch_begin(&w); /* a list without it, as it could not be loaded */
-    watch_add(&w, paths[LINK]);
-    watch_end(&w);
+    assert_false(file_watch_has_changed(&w));
+    file_watch_settle(&w);
+    file_watch_begin(&w); /* a list without it, as it could not be loaded */
+    file_watch_add(&w, paths[LINK]);
+    file_watch_end(&w);
     put(paths[PLAIN], "one again");
     assert_true(is_told(&w));
-    assert_true(watch_has_changed(&w));
-    watch_begin(&w); /* it is there, and nobody wants it */
-    watch_add(&w, paths[LINK]);
-    watch_end(&w);
-    assert_false(watch_has_changed(&w));
+    assert_true(file_watch_has_changed(&w));
+    file_watch_begin(&w); /* it is there, and nobody wants it */
+    file_watch_add(&w, paths[LINK]);
+    file_watch_end(&w);
+    assert_false(file_watch_has_changed(&w));
     assert_int_equal(w.file_count, 1);
-    watch_free(&w);
+    file_watch_free(&w);
 }
 
 /* What was known before a new list is known after it. */
 static void lists_keep_what_is_known(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     put(paths[PLAIN], "three");
-    watch_begin(&w);
-    watch_add(&w, paths[PLAIN]);
-    watch_end(&w);
-    assert_true(watch_has_changed(&w));
-    watch_free(&w);
+    file_watch_begin(&w);
+    file_watch_add(&w, paths[PLAIN]);
+    file_watch_end(&w);
+    assert_true(file_watch_has_changed(&w));
+    file_watch_free(&w);
 }
 
 static void other_files_are_no_change(void **state)
 {
-    struct watch w;
+    struct file_watch w;
 
     (void)state;
     begin(&w);
     snprintf(paths[OTHER], sizeof paths[OTHER], "%s/picture.png", folder);
     put(paths[OTHER], "not ours");
-    assert_false(watch_has_changed(&w));
+    assert_false(file_watch_has_changed(&w));
     unlink(paths[OTHER]);
-    watch_free(&w);
+    file_watch_free(&w);
 }
 
 int main(void)

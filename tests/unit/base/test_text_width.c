@@ -16,18 +16,18 @@ static void check_fit(const char *text, int cols, const char *expected)
 {
     char to[64];
 
-    columns_fit(to, sizeof to, text, cols);
+    text_width_fit(to, sizeof to, text, cols);
     assert_string_equal(to, expected);
 }
 
 static void test_widths(void **state)
 {
     (void)state;
-    assert_int_equal(columns_of(""), 0);
-    assert_int_equal(columns_of("abc"), 3);
-    assert_int_equal(columns_of(UMLAUTS), 2);
-    assert_int_equal(columns_of(NIHON), 4);
-    assert_int_equal(columns_of(ACUTE), 1);
+    assert_int_equal(text_width_of(""), 0);
+    assert_int_equal(text_width_of("abc"), 3);
+    assert_int_equal(text_width_of(UMLAUTS), 2);
+    assert_int_equal(text_width_of(NIHON), 4);
+    assert_int_equal(text_width_of(ACUTE), 1);
 }
 
 static void test_blanks_fill_up(void **state)
@@ -69,11 +69,11 @@ static void test_few_bytes(void **state)
     char to[6];
 
     (void)state;
-    assert_int_equal(columns_cut(to, sizeof to, NIHON, 10), 2);
+    assert_int_equal(text_width_cut(to, sizeof to, NIHON, 10), 2);
     assert_string_equal(to, "\xe6\x97\xa5");
-    columns_fit(to, sizeof to, NIHON, 10);
+    text_width_fit(to, sizeof to, NIHON, 10);
     assert_string_equal(to, "\xe6\x97\xa5  ");
-    assert_int_equal(columns_cut(to, 1, "a", 10), 0);
+    assert_int_equal(text_width_cut(to, 1, "a", 10), 0);
     assert_string_equal(to, "");
 }
 

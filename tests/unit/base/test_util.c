@@ -168,39 +168,39 @@ static void test_quota(void **state)
 
     (void)state;
     assert_non_null(mkdtemp(root));
-    assert_int_equal(quota_processors(root), 0);
+    assert_int_equal(cgroup_quota_processors(root), 0);
 
     put(root, "proc/self/cgroup", "0::/a/b\\n");
-    assert_int_equal(quota_processors(root), 0);
+    assert_int_equal(cgroup_quota_processors(root), 0);
     put(root, "sys/fs/cgroup/a/b/cpu.max", "max 100000\\n");
-    assert_int_equal(quota_processors(root), 0);
+    assert_int_equal(cgroup_quota_processors(root), 0);
     put(root, "sys/fs/cgroup/a/b/cpu.max", "250000 100000\\n");
-    assert_int_equal(quota_processors(root), 3);
+    assert_int_equal(cgroup_quota_processors(root), 3);
     put(root, "sys/fs/cgroup/a/b/cpu.max", "5000 100000\\n");
-    assert_int_equal(quota_processors(root), 1);
+    assert_int_equal(cgroup_quota_processors(root), 1);
     put(root, "sys/fs/cgroup/a/b/cpu.max", "400000 100000\\n");
     put(root, "sys/fs/cgroup/a/cpu.max", "200000 100000\\n");
-    assert_int_equal(quota_processors(root), 2);
+    assert_int_equal(cgroup_quota_processors(root), 2);
 
     /* a container's own group is the mount itself */
     put(root, "proc/self/cgroup", "0::/elsewhere/x\\n");
-    assert_int_equal(quota_processors(root), 0);
+    assert_int_equal(cgroup_quota_processors(root), 0);
     put(root, "sys/fs/cgroup/cpu.max", "600000 200000\\n");
-    assert_int_equal(quota_processors(root), 3);
+    assert_int_equal(cgroup_quota_processors(root), 3);
     put(root, "sys/fs/cgroup/cpu.max", "what\\n");
-    assert_int_equal(quota_processors(root), 0);
+    assert_int_equal(cgroup_quota_processors(root), 0);
 
     /* version 1 */
     put(root, "proc/self/cgroup",
         "12:cpuset:/z\\n4:cpu,cpuacct:/c\\n1:name=systemd:/y\\n0::/\\n");
     put(root, "sys/fs/cgroup/cpu,cpuacct/c/cpu.cfs_quota_us", "-1\\n");
     put(root, "sys/fs/cgroup/cpu,cpuacct/c/cpu.cfs_period_us", "100000\\n");
-    assert_int_equal(quota_processors(root), 0);
+    assert_int_equal(cgroup_quota_processors(root), 0);
     put(root, "sys/fs/cgroup/cpu,cpuacct/c/cpu.cfs_quota_us", "150000\\n");
-    assert_int_equal(quota_processors(root), 2);
+    assert_int_equal(cgroup_quota_processors(root), 2);
     put(root, "sys/fs/cgroup/cpu/c/cpu.cfs_quota_us", "100000\\n");
     put(root, "sys/fs/cgroup/cpu/c/cpu.cfs_period_us", "100000\\n");
-    assert_int_equal(quota_processors(root), 1);
+    assert_int_equal(cgroup_quota_processors(root), 1);
 
     snprintf(command, sizeof command, "rm -rf %s", root);
     assert_int_equal(system(command), 0);
@@ -208,7 +208,7 @@ static void test_quota(void **state)
 
 static void memory_is(const char *root, uint64_t size_bytes, const char *place)
 {
-    struct memory_quota quota = quota_memory(root);
+    struct memory_quota quota = cgroup_quota_memory(root);
 
     assert_string_equal(quota.place, place);
     assert_int_equal(quota.size_bytes, size_bytes);

@@ -11,51 +11,51 @@
 
 #include "base/warnings.h"
 
-/* What report_print() writes, in memory for free(). */
-static char *printed(const struct report *r)
+/* What warnings_print() writes, in memory for free(). */
+static char *printed(const struct warnings *r)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *f = open_memstream(&text, &size);
 
     assert_non_null(f);
-    report_print(r, f);
+    warnings_print(r, f);
     fclose(f);
     return text;
 }
 
 static void test_empty_prints_nothing(void **state)
 {
-    struct report r = {0};
+    struct warnings r = {0};
     char *text = printed(&r);
 
     (void)state;
     assert_string_equal(text, "");
     free(text);
-    report_free(&r);
+    warnings_free(&r);
 }
 
 static void test_first_of_each_kind_then_counts(void **state)
 {
-    struct report r = {0};
+    struct warnings r = {0};
     char *text;
 
     (void)state;
     for (int i = 1; i <= 1000; i++)
-        report_add(&r, "faces with a bad index", "a.obj:%d: found 0", i);
-    report_add(&r, "lost textures", "a.mtl:7: no 'wood.png'");
+        warnings_add(&r, "faces with a bad index", "a.obj:%d: found 0", i);
+    warnings_add(&r, "lost textures", "a.mtl:7: no 'wood.png'");
     text = printed(&r);
     assert_string_equal(text,
                         "glim: warning: a.obj:1: found 0 (and 999 more faces "
                         "with a bad index)\n"
                         "glim: warning: a.mtl:7: no 'wood.png'\n");
     free(text);
-    report_free(&r);
+    warnings_free(&r);
 }
 
 static void test_many_kinds(void **state)
 {
-    struct report r = {0};
+    struct warnings r = {0};
 
     (void)state;
     for (int round = 0; round < 2; round++) {
@@ -63,56 +63,56 @@ static void test_many_kinds(void **state)
             char kind[32];
 
             snprintf(kind, sizeof kind, "kind %d", i);
-            report_add(&r, kind, "text %d %d", i, round);
+            warnings_add(&r, kind, "text %d %d", i, round);
         }
     }
     assert_int_equal(r.entry_count, 100);
     assert_string_equal(r.entries[99].kind, "kind 99");
     assert_string_equal(r.entries[99].text, "text 99 0");
     assert_int_equal(r.entries[99].count, 2);
-    report_free(&r);
+    warnings_free(&r);
     assert_int_equal(r.entry_count, 0);
 }
 
 static void test_controls_do_not_reach_the_terminal(void **state)
 {
-    struct report r = {0};
+    struct warnings r = {0};
     char *text = NULL;
     size_t size_bytes;
     FILE *to;
 
     (void)state;
     for (int i = 0; i < 2; i++)
-        report_add_named(&r, "names", "\033c", "%s",
+        warnings_add_named(&r, "names", "\033c", "%s",
                          "a\033[2Jb\nc\x7f\xc2\x9b z\xc3\xa4");
     to = open_memstream(&text, &size_bytes);
     assert_non_null(to);
-    report_print(&r, to);
+    warnings_print(&r, to);
     assert_int_equal(fclose(to), 0);
     assert_string_equal(text, "glim: warning: a?[2Jb?c?? z\xc3\xa4 (and 1 more "
                               "names '?c')\n");
     free(text);
-    report_free(&r);
+    warnings_free(&r);
 }
 
 static void test_long_text_is_cut(void **state)
 {
-    struct report r = {0};
+    struct warnings r = {0};
     char *word = malloc(100001);
 
     (void)state;
     memset(word, 'x', 100000);
     word[100000] = '\0';
-    report_add(&r, "words", "%s", word);
+    warnings_add(&r, "words", "%s", word);
     assert_true(strlen(r.entries[0].text) < 2000);
     free(word);
-    report_free(&r);
+    warnings_free(&r);
 }
 
 static void test_names_of_a_kind(void **state)
 {
-    struct report r = {0};
-    const struct report_entry *last;
+    struct warnings r = {0};
+    const struct warnings_entry *last;
 
     (void)state;
     for (int round = 0; round < 2; round++) {
@@ -120,17 +120,17 @@ static void test_names_of_a_kind(void **state)
             char name[32];
 
             snprintf(name, sizeof name, "m%d", i);
-            report_add_named(&r, "unknown materials", name, "no '%s'", name);
+            warnings_add_named(&r, "unknown materials", name, "no '%s'", name);
         }
     }
-    report_add_named(&r, "lost textures", "m0", "no texture 'm0'");
-    assert_int_equal(r.entry_count, REPORT_NAMES_MAX + 2);
+    warnings_add_named(&r, "lost textures", "m0", "no texture 'm0'");
+    assert_int_equal(r.entry_count, WARNINGS_NAMES_MAX + 2);
     assert_string_equal(r.entries[3].kind, "unknown materials 'm3'");
     assert_int_equal(r.entries[3].count, 2);
-    last = &r.entries[REPORT_NAMES_MAX];
+    last = &r.entries[WARNINGS_NAMES_MAX];
     assert_string_equal(last->kind, "unknown materials");
-    assert_int_equal(last->count, 2 * (1000 - REPORT_NAMES_MAX));
-    report_free(&r);
+    assert_int_equal(last->count, 2 * (1000 - WARNINGS_NAMES_MAX));
+    warnings_free(&r);
 }
 
 int main(void)

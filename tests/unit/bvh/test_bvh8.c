@@ -60,7 +60,7 @@ int main(void)
     };
     struct error err;
 
-    return isa_named(ISA, &err) != NULL
+    return cpu_kernel_named(ISA, &err) != NULL
                ? run_trees() + cmocka_run_group_tests(groups, NULL, NULL)
                : cmocka_run_group_tests(none, NULL, NULL);
 }

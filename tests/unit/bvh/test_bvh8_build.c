@@ -13,16 +13,16 @@ static void threads_build_the_same_tree(void **state)
     mesh_finish(&m);
     for (int threads = 1; threads <= 7; threads += threads == 2 ? 5 : 1) {
         struct pool *pool = pool_create(threads, &err);
-        struct wide other = {0};
+        struct bvh8 other = {0};
 
-        assert_true(wide_build(&other, &m.world, pool, &err));
+        assert_true(bvh8_build(&other, &m.world, pool, &err));
         assert_int_equal(m.wide.node_count, other.node_count);
         assert_int_equal(m.wide.block_count, other.block_count);
         assert_memory_equal(m.wide.nodes, other.nodes,
                             other.node_count * sizeof *other.nodes);
         assert_memory_equal(m.wide.blocks, other.blocks,
                             other.block_count * sizeof *other.blocks);
-        wide_free(&other);
+        bvh8_free(&other);
         pool_destroy(pool);
     }
     mesh_free(&m);
@@ -34,7 +34,7 @@ struct seen {
     double cost; /* times the area of the root */
 };
 
-static struct vec3 plane(const struct wide_node *n, int side, uint32_t i)
+static struct vec3 plane(const struct bvh8_node *n, int side, uint32_t i)
 {
     return v3(n->planes[0][side][i], n->planes[1][side][i],
               n->planes[2][side][i]);
@@ -51,10 +51,10 @@ static double area(struct vec3 lo, struct vec3 hi)
 static void look_at_leaf(struct seen *s, uint32_t child, struct vec3 lo,
                          struct vec3 hi)
 {
-    const struct tri_block *block = wide_block_at(s->mesh->wide.nodes, child);
-    uint32_t count = (child & WIDE_MORE) + 1;
+    const struct tri_block *block = bvh8_block_at(s->mesh->wide.nodes, child);
+    uint32_t count = (child & BVH8_MORE) + 1;
 
-    s->cost += WIDE_BLOCK_COST * count * area(lo, hi);
+    s->cost += BVH8_BLOCK_COST * count * area(lo, hi);
     for (uint32_t i = 0; i < count * BLOCK_TRIS; i++) {
         uint32_t tri = block[i / BLOCK_TRIS].tri[i % BLOCK_TRIS];
 
@@ -66,20 +66,20 @@ static void look_at_leaf(struct seen *s, uint32_t child, struct vec3 lo,
     }
 }
 
-static void look_at_node(struct seen *s, const struct wide_node *n,
+static void look_at_node(struct seen *s, const struct bvh8_node *n,
                          struct vec3 lo, struct vec3 hi)
 {
     s->cost += area(lo, hi);
-    for (uint32_t i = 0; i < WIDE_CHILDREN; i++) {
+    for (uint32_t i = 0; i < BVH8_CHILDREN; i++) {
         struct vec3 low = plane(n, 0, i), high = plane(n, 1, i);
 
         if (low.x > high.x || low.x == INFINITY)
             continue;
         assert_true(v3_is_between(low, lo, hi) && v3_is_between(high, lo, hi));
-        if ((n->child[i] & WIDE_LEAF) != 0)
+        if ((n->child[i] & BVH8_LEAF) != 0)
             look_at_leaf(s, n->child[i], low, high);
         else
-            look_at_node(s, wide_node_at(s->mesh->wide.nodes, n->child[i]), low,
+            look_at_node(s, bvh8_node_at(s->mesh->wide.nodes, n->child[i]), low,
                          high);
     }
 }
@@ -140,7 +140,7 @@ static double least_of_cuts(const struct bvh *bvh, uint32_t *cut,
 
     for (uint32_t i = 0; i < count; i++)
         least += least_cost(bvh, cut[i], false, known);
-    for (uint32_t i = at; i < count && count < WIDE_CHILDREN; i++) {
+    for (uint32_t i = at; i < count && count < BVH8_CHILDREN; i++) {
         const struct node *n = &bvh->nodes[cut[i]];
         uint32_t opened = cut[i];
 
@@ -160,13 +160,13 @@ static double least_cost(const struct bvh *bvh, uint32_t node, bool is_root,
 {
     const struct node *n = &bvh->nodes[node];
     uint32_t count = tris_below(bvh, node);
-    uint32_t cut[WIDE_CHILDREN] = {node + 1, n->next};
+    uint32_t cut[BVH8_CHILDREN] = {node + 1, n->next};
     double least = INFINITY;
 
     if (!is_root && known[node] > 0)
         return known[node];
-    if (count <= (WIDE_MORE + 1) * BLOCK_TRIS)
-        least = WIDE_BLOCK_COST * area(n->lo, n->hi) *
+    if (count <= (BVH8_MORE + 1) * BLOCK_TRIS)
+        least = BVH8_BLOCK_COST * area(n->lo, n->hi) *
                 ((count + BLOCK_TRIS - 1) / BLOCK_TRIS);
     if (n->count == 0)
         least = fmin(least,

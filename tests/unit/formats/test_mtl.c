@@ -11,7 +11,7 @@
 
 struct loaded {
     struct scene scene;
-    struct report report;
+    struct warnings report;
     struct error err;
     bool ok;
 };
@@ -32,7 +32,7 @@ static struct loaded load(const char *text)
 static void unload(struct loaded *l)
 {
     scene_free(&l->scene);
-    report_free(&l->report);
+    warnings_free(&l->report);
 }
 
 /* The material "m" of these statements, and how many kinds of warnings. */

@@ -20,7 +20,7 @@
 
 struct loaded {
     struct scene scene;
-    struct report report;
+    struct warnings report;
 };
 
 static void load(struct loaded *l, const char *path, const char *text,
@@ -36,7 +36,7 @@ static void load(struct loaded *l, const char *path, const char *text,
 static void unload(struct loaded *l)
 {
     scene_free(&l->scene);
-    report_free(&l->report);
+    warnings_free(&l->report);
 }
 
 /* The new text, as a string. */
@@ -366,7 +366,7 @@ static void test_what_is_needed(void **state)
         before = &l.scene.material_origins[1].source;
         after = *before;
         for (int n = 0; n < abs(cases[i].turns); n++)
-            look_turn_kind(&after, cases[i].turns);
+            material_params_turn_kind(&after, cases[i].turns);
         needed = mtl_source_needed(before, &after);
         change = (struct mtl_change){"m", NULL, before, &needed};
         got = rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1,
@@ -467,7 +467,7 @@ static char *rest_of(const char *text, size_t size_bytes)
 static void check_same(const struct scene *got, uint32_t g,
                        const struct mtl_source *want, const char *path)
 {
-    struct report none = {.entries = NULL};
+    struct warnings none = {.entries = NULL};
     struct mtl_source there = *want;
     struct material a, b;
 
@@ -493,7 +493,7 @@ static void check_same(const struct scene *got, uint32_t g,
     if (memcmp(&a, &b, sizeof a) != 0)
         print_error("%s: material %s\n", path, got->material_names[g]);
     assert_memory_equal(&a, &b, sizeof a);
-    report_free(&none);
+    warnings_free(&none);
 }
 
 static void check_file(const char *path)

@@ -12,7 +12,7 @@
 
 struct loaded {
     struct scene scene;
-    struct report report;
+    struct warnings report;
     struct error err;
     bool ok;
 };
@@ -38,7 +38,7 @@ static struct loaded load(const char *text)
 static void unload(struct loaded *l)
 {
     scene_free(&l->scene);
-    report_free(&l->report);
+    warnings_free(&l->report);
 }
 
 static struct loaded load_good(const char *text, uint32_t tri_count)
@@ -493,7 +493,7 @@ static void test_many_names(void **state)
     text[used] = '\0';
     l = load_good(text, 0);
     assert_int_equal(l.scene.object_count, n + 1);
-    assert_int_equal(l.report.entry_count, 2 * REPORT_NAMES_MAX + 2);
+    assert_int_equal(l.report.entry_count, 2 * WARNINGS_NAMES_MAX + 2);
     check_at_most(seconds_between(begin, clock_ns()), 10);
     unload(&l);
     free(text);

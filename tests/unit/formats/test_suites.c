@@ -18,7 +18,7 @@
 
 struct loaded {
     struct scene scene;
-    struct report report;
+    struct warnings report;
     struct error err;
     bool ok;
 };
@@ -34,7 +34,7 @@ static struct loaded load(const char *path)
 static void unload(struct loaded *l)
 {
     scene_free(&l->scene);
-    report_free(&l->report);
+    warnings_free(&l->report);
 }
 
 /* For free(). Skips the test if there is no such file. */
@@ -64,7 +64,7 @@ static char *read_text(const char *path)
     return text;
 }
 
-static uint64_t warned(const struct report *r, const char *kind)
+static uint64_t warned(const struct warnings *r, const char *kind)
 {
     for (int i = 0; i < r->entry_count; i++) {
         if (strcmp(r->entries[i].kind, kind) == 0)

@@ -68,7 +68,7 @@ static void check_cut(const struct outline *o, const char *name)
     double area = area_of(o);
     long double sum = 0;
 
-    assert_true(polygon_cut(&g, o->points, o->count));
+    assert_true(polygon_triangulate(&g, o->points, o->count));
     assert_in_range(g.triangle_count, 1, o->count - 2);
     for (uint32_t i = 0; i < g.triangle_count; i++) {
         for (int k = 0; k < 3; k++)
@@ -92,7 +92,7 @@ static void check_covers(const struct outline *o)
     struct polygon g = {0};
     double sum = 0;
 
-    assert_true(polygon_cut(&g, o->points, o->count));
+    assert_true(polygon_triangulate(&g, o->points, o->count));
     assert_false(g.crosses_itself);
     for (uint32_t i = 0; i < g.triangle_count; i++) {
         double area = triangle_area(o, g.triangles[i]);
@@ -113,7 +113,7 @@ static void check_edges(const struct outline *o)
     uint32_t n = 0;
     uint32_t outer = 0;
 
-    assert_true(polygon_cut(&g, o->points, o->count));
+    assert_true(polygon_triangulate(&g, o->points, o->count));
     assert_int_equal(g.triangle_count, o->count - 2);
     edges = calloc(3 * (size_t)g.triangle_count, sizeof *edges);
     assert_non_null(edges);
@@ -169,7 +169,7 @@ static void test_regular(void **state)
         for (uint32_t i = 0; i < n; i++)
             add_point(&o, cos(2 * PI * i / n), sin(2 * PI * i / n));
         check_all_turns(&o, "regular");
-        assert_true(polygon_cut(&g, o.points, n));
+        assert_true(polygon_triangulate(&g, o.points, n));
         assert_int_equal(g.triangle_count, n - 2);
         polygon_free(&g);
         free(o.points);
@@ -216,7 +216,7 @@ static void test_corners_on_edges(void **state)
     for (int i = 0; i < 4; i++)
         add_point(&o, 0, 4 - i);
     check_all_turns(&o, "square with points on its edges");
-    assert_true(polygon_cut(&g, o.points, o.count));
+    assert_true(polygon_triangulate(&g, o.points, o.count));
     assert_int_equal(g.triangle_count, 14);
     for (uint32_t i = 0; i < g.triangle_count; i++)
         assert_true(triangle_area(&o, g.triangles[i]) > 0);
@@ -528,19 +528,19 @@ static void test_outlines_that_cross_themselves(void **state)
     clock_t begin = clock();
 
     (void)state;
-    assert_true(polygon_cut(&g, bowtie, 4));
+    assert_true(polygon_triangulate(&g, bowtie, 4));
     assert_int_equal(g.triangle_count, 2);
     assert_true(g.crosses_itself);
     for (uint32_t i = 0; i < 20000; i++) {
         random = random * 1664525u + 1013904223u;
         add_point(&o, random >> 16, random & 0xffffu);
     }
-    assert_true(polygon_cut(&g, o.points, o.count));
+    assert_true(polygon_triangulate(&g, o.points, o.count));
     assert_in_range(g.triangle_count, 1, 19998);
     assert_true(g.crosses_itself);
     for (int i = 0; i < 100; i++)
         add_point(&flat, i % 7, 0);
-    assert_true(polygon_cut(&g, flat.points, flat.count));
+    assert_true(polygon_triangulate(&g, flat.points, flat.count));
     assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 20);
     polygon_free(&g);
     free(o.points);
@@ -562,7 +562,7 @@ static void test_any_plane_and_any_size(void **state)
                 p[3 * i + (axis + 1) % 3] = arrow[i][0] * sizes[s];
                 p[3 * i + (axis + 2) % 3] = arrow[i][1] * sizes[s];
             }
-            assert_true(polygon_cut(&g, p, 4));
+            assert_true(polygon_triangulate(&g, p, 4));
             assert_int_equal(g.triangle_count, 2);
             assert_false(g.crosses_itself);
             /* the cut goes through the reflex corner */

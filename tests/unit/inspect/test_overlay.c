@@ -57,7 +57,7 @@ static void lines_are_lines(void **state)
             p[i] = SIDE * (3 * check_random(&seed) - 1);
         dx = p[2] - p[0];
         dy = p[3] - p[1];
-        drawing_line(&f, p[0], p[1], p[2], p[3], 0x123456);
+        raster_line(&f, p[0], p[1], p[2], p[3], 0x123456);
         for (int y = 0; y < SIDE; y++) {
             for (int x = 0; x < SIDE; x++) {
                 double ax = x + 0.5 - p[0], ay = y + 0.5 - p[1];
@@ -88,19 +88,19 @@ static void far_lines_end_soon(void **state)
 
     (void)state;
     open_frame(&f);
-    drawing_line(&f, -1e12, 5.5, 1e12, 5.5, 0xffffff);
+    raster_line(&f, -1e12, 5.5, 1e12, 5.5, 0xffffff);
     assert_int_equal(count(&f, 0xffffff), SIDE);
     for (int x = 0; x < SIDE; x++)
         assert_int_equal(pixel(&f, x, 5), 0xffffff);
-    drawing_line(&f, -5, -1, 60, -1, 0xff);
-    drawing_line(&f, (double)NAN, 1, 3, 4, 0xff);
+    raster_line(&f, -5, -1, 60, -1, 0xff);
+    raster_line(&f, (double)NAN, 1, 3, 4, 0xff);
     assert_int_equal(count(&f, 0xff), 0);
-    drawing_line(&f, 7.5, 8.5, 7.5, 8.5, 0xff00);
+    raster_line(&f, 7.5, 8.5, 7.5, 8.5, 0xff00);
     assert_int_equal(count(&f, 0xff00), 1);
     assert_int_equal(pixel(&f, 7, 8), 0xff00);
     frame_free(&f);
-    assert_int_equal(drawing_dim(0x204080, 0.5), 0x102040);
-    assert_int_equal(drawing_dim(0x204080, 1), 0x204080);
+    assert_int_equal(raster_dim(0x204080, 0.5), 0x102040);
+    assert_int_equal(raster_dim(0x204080, 1), 0x204080);
 }
 
 static struct camera some_camera(uint64_t *seed)
@@ -204,18 +204,18 @@ static void boxes_of_levels(void **state)
     }
     mesh_finish(&m);
     open_frame(&f);
-    assert_int_equal(sketch_boxes(&f, &c, &m.bvh, 0), 1);
+    assert_int_equal(overlay_boxes(&f, &c, &m.bvh, 0), 1);
     /* the root's edge runs on between them: x = 0 is pixel 20, y = 1 is 15 */
     assert_true(pixel(&f, 20, 15) != 0 || pixel(&f, 20, 14) != 0);
     assert_int_equal(pixel(&f, 20, 20), 0);
     memset(f.rgb, 0, 3 * SIDE * SIDE);
-    assert_int_equal(sketch_boxes(&f, &c, &m.bvh, 1), 2);
+    assert_int_equal(overlay_boxes(&f, &c, &m.bvh, 1), 2);
     for (int y = 0; y < SIDE; y++)
         assert_int_equal(pixel(&f, 20, y), 0);
     /* x = -1 is pixel 15, x = 1 pixel 25 */
     assert_true(pixel(&f, 14, 20) != 0 || pixel(&f, 15, 20) != 0);
     assert_true(pixel(&f, 25, 20) != 0 || pixel(&f, 24, 20) != 0);
-    assert_int_equal(sketch_boxes(&f, &c, &m.bvh, m.bvh.depth + 1), 0);
+    assert_int_equal(overlay_boxes(&f, &c, &m.bvh, m.bvh.depth + 1), 0);
     frame_free(&f);
     mesh_free(&m);
 }

@@ -19,19 +19,19 @@ static const struct scene scene = {.material_names = names,
 
 static void paths_show_their_last_steps(void **state)
 {
-    struct trail trail = {.count = 9, .vertices = 9, .radiance = {1, 2, 3}};
-    struct legend l;
+    struct path_record trail = {.count = 9, .vertices = 9, .radiance = {1, 2, 3}};
+    struct overlay_text l;
 
     (void)state;
     for (uint32_t i = 0; i < 9; i++)
-        trail.steps[i] = (struct trail_step){.to = {1, -0.5f, (float)i},
+        trail.steps[i] = (struct path_record_step){.to = {1, -0.5f, (float)i},
                                              .hit.tri = i % 2,
                                              .throughput = {1, 0.5f, 0.25f},
                                              .light = {0, 4, 0},
-                                             .way = TRAIL_REFLECTED,
+                                             .way = PATH_RECORD_REFLECTED,
                                              .pdf = i == 7 ? 0.0f : 0.125f};
-    trail.steps[8].way = TRAIL_SKY;
-    legend_trail(&l, &scene, &trail, 2);
+    trail.steps[8].way = PATH_RECORD_SKY;
+    overlay_text_trail(&l, &scene, &trail, 2);
     assert_int_equal(l.count, 4);
     check_has(l.lines[0], "throughput");
     /* 1 / 0.25 + 1, -0.5 / 0.25 + 2, 1 / 0.25 + 3 */
@@ -39,8 +39,8 @@ static void paths_show_their_last_steps(void **state)
     check_has(l.lines[2], "reflect  1.00 0.50 0.25 0.125  0 4 0");
     check_has(l.lines[1], " 1 no materia ");
     check_has(l.lines[3], "step 2 of 9; radiance of the whole path 1 2 3");
-    legend_trail(&l, &scene, &trail, 9);
-    assert_int_equal(l.count, LEGEND_LINES);
+    overlay_text_trail(&l, &scene, &trail, 9);
+    assert_int_equal(l.count, OVERLAY_TEXT_LINES);
     check_has(l.lines[1], " 4 red paint ");
     check_has(l.lines[5], " delta ");
     check_has(l.lines[6], " 9  ");
@@ -51,40 +51,40 @@ static void paths_show_their_last_steps(void **state)
 static void numbers_are_not_cut(void **state)
 {
     struct scene far = scene;
-    struct trail trail = {.count = 1, .vertices = 1};
-    struct legend l;
+    struct path_record trail = {.count = 1, .vertices = 1};
+    struct overlay_text l;
 
     (void)state;
     far.center[0] = -12400; /* to (-12396, 0.00702, -0.124) with the scale */
     far.center[1] = 0.00702;
     far.center[2] = -0.124;
-    trail.steps[0] = (struct trail_step){.to = {1, 0, 0},
-                                         .way = TRAIL_REFLECTED,
+    trail.steps[0] = (struct path_record_step){.to = {1, 0, 0},
+                                         .way = PATH_RECORD_REFLECTED,
                                          .pdf = 1230};
-    legend_trail(&l, &far, &trail, 1);
+    overlay_text_trail(&l, &far, &trail, 1);
     check_has(l.lines[1], " -1e+04 0.007 -0.1 reflect ");
     check_has(l.lines[1], " 1e+03  0 0 0");
     far.center[0] = -4;
-    legend_trail(&l, &far, &trail, 1);
+    overlay_text_trail(&l, &far, &trail, 1);
     check_has(l.lines[1], " 0 0.00702 -0.124  reflect ");
 }
 
 static void surfaces_show_their_frame(void **state)
 {
-    struct trail_lobes lobes = {.n = {0, 0, 1},
+    struct path_record_lobes lobes = {.n = {0, 0, 1},
                                 .t = {1, 0, 0},
                                 .b = {0, 1, 0},
                                 .wo = {0, 0.6f, 0.8f},
                                 .tri = 1,
                                 .count = 32};
-    struct legend l;
+    struct overlay_text l;
 
     (void)state;
     for (int i = 0; i < 32; i++) {
         lobes.weight[i].x = 1;
         lobes.pdf[i] = i == 5 ? 0 : i == 6 ? 8 : 0.5f;
     }
-    legend_lobes(&l, &scene, &lobes);
+    overlay_text_lobes(&l, &scene, &lobes);
     check_has(l.lines[0], "red paint, seen 36.9 degrees off n"); /* acos 0.8 */
     check_has(l.lines[1], "0.000  0.000  1.000");
     check_has(l.lines[4], "32 of 64 samples go on, 1 as deltas; pdf 0 to 8");
@@ -96,16 +96,16 @@ static void names_are_cut_whole(void **state)
 {
     char wide[21 * 3 + 1] = "";
     char *wide_names[] = {none, wide};
-    struct trail_lobes lobes = {.n = {0, 0, 1}, .wo = {0, 0, 1}, .tri = 1};
+    struct path_record_lobes lobes = {.n = {0, 0, 1}, .wo = {0, 0, 1}, .tri = 1};
     struct scene named = scene;
-    struct legend l;
+    struct overlay_text l;
 
     (void)state;
     for (int i = 0; i < 21; i++)
         strcat(wide, "\u5149");
     named.material_names = wide_names;
     assert_non_null(setlocale(LC_CTYPE, "C.UTF-8"));
-    legend_lobes(&l, &named, &lobes);
+    overlay_text_lobes(&l, &named, &lobes);
     assert_int_equal(strcspn(l.lines[0], ","), 20 * strlen("\u5149"));
     check_has(l.lines[0], "\u5149, seen 0.0 degrees");
 }

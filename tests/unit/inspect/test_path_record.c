@@ -23,30 +23,30 @@ static const char *const scenes[] = {"scenes/cornell.obj",
                                      "scenes/materials.obj",
                                      "scenes/skylit.obj"};
 
-static void check_steps(const struct trail *t)
+static void check_steps(const struct path_record *t)
 {
     double sums[3] = {0};
 
     assert_in_range(t->vertices, 1, PATH_HARD_STOP);
     assert_int_equal(t->count,
-                     t->vertices < TRAIL_STEPS ? t->vertices : TRAIL_STEPS);
+                     t->vertices < PATH_RECORD_STEPS ? t->vertices : PATH_RECORD_STEPS);
     assert_true(t->steps[0].throughput.x == 1.0f);
     for (int i = 0; i < t->count; i++) {
-        const struct trail_step *s = &t->steps[i];
-        bool goes_on = s->way == TRAIL_REFLECTED || s->way == TRAIL_TRANSMITTED;
+        const struct path_record_step *s = &t->steps[i];
+        bool goes_on = s->way == PATH_RECORD_REFLECTED || s->way == PATH_RECORD_TRANSMITTED;
 
         sums[0] += (double)s->light.x;
         sums[1] += (double)s->light.y;
         sums[2] += (double)s->light.z;
         assert_true(goes_on || i == t->vertices - 1);
-        assert_int_equal(s->way == TRAIL_SKY, s->hit.tri == NO_INDEX);
+        assert_int_equal(s->way == PATH_RECORD_SKY, s->hit.tri == NO_INDEX);
         /* the next ray begins there, but for rounding and the terminator */
         if (i + 1 < t->count)
             check_at_most((double)v3_length(
                               v3_sub(t->steps[i + 1].from, s->to)),
                           0.01);
     }
-    if (t->vertices > TRAIL_STEPS)
+    if (t->vertices > PATH_RECORD_STEPS)
         return;
     check_close(sums[0], (double)t->radiance.x, 1e-4 * (1 + sums[0]));
     check_close(sums[1], (double)t->radiance.y, 1e-4 * (1 + sums[1]));
@@ -58,7 +58,7 @@ static void check_trails(const struct world *w, uint32_t first, int *bright)
 {
     struct sample_place places[SAMPLE_BLOCK];
     struct path_sample want[SAMPLE_BLOCK];
-    struct trail t;
+    struct path_record t;
 
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
         uint32_t k = first + i;
@@ -67,7 +67,7 @@ static void check_trails(const struct world *w, uint32_t first, int *bright)
     }
     path_samples(w, places, SAMPLE_BLOCK, want);
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
-        trail_follow(&t, w, places[i].x, places[i].y, places[i].index);
+        path_record_follow(&t, w, places[i].x, places[i].y, places[i].index);
         assert_memory_equal(&t.radiance, &want[i].radiance, sizeof t.radiance);
         *bright += !v3_is_zero(t.radiance);
         check_steps(&t);
@@ -119,7 +119,7 @@ static void open_wall(struct mesh *m, struct material material)
     mesh_finish(m);
 }
 
-static void check_frame(const struct trail_lobes *l)
+static void check_frame(const struct path_record_lobes *l)
 {
     const struct vec3 axes[] = {l->t, l->b, l->n};
 
@@ -134,14 +134,14 @@ static void check_frame(const struct trail_lobes *l)
 
 static void lambert_scatters_by_the_cosine(void **state)
 {
-    struct trail_lobes l;
+    struct path_record_lobes l;
     struct mesh m;
 
     (void)state;
     open_wall(&m, mesh_material(MATERIAL_DIFFUSE, 0.25f));
-    assert_true(trail_scatter(&l, &m.world, 3, 7));
+    assert_true(path_record_scatter(&l, &m.world, 3, 7));
     check_frame(&l);
-    assert_int_equal(l.count, TRAIL_LOBES);
+    assert_int_equal(l.count, PATH_RECORD_LOBES);
     for (int i = 0; i < l.count; i++) {
         check_close((double)l.pdf[i], (double)l.wi[i].z / acos(-1), 1e-6);
         check_close((double)l.weight[i].x, 0.25, 1e-6);
@@ -153,15 +153,15 @@ static void lambert_scatters_by_the_cosine(void **state)
 static void mirrors_scatter_one_way(void **state)
 {
     struct material material = mesh_material(MATERIAL_METAL, 0.9f);
-    struct trail_lobes l;
+    struct path_record_lobes l;
     struct mesh m;
 
     (void)state;
     material.alpha = 0;
     open_wall(&m, material);
-    assert_true(trail_scatter(&l, &m.world, 3, 7));
+    assert_true(path_record_scatter(&l, &m.world, 3, 7));
     check_frame(&l);
-    assert_int_equal(l.count, TRAIL_LOBES);
+    assert_int_equal(l.count, PATH_RECORD_LOBES);
     for (int i = 0; i < l.count; i++) {
         assert_true(l.pdf[i] == 0.0f);
         check_close((double)l.wi[i].x, -(double)l.wo.x, 1e-6);
@@ -169,17 +169,17 @@ static void mirrors_scatter_one_way(void **state)
         check_close((double)l.wi[i].z, (double)l.wo.z, 1e-6);
     }
     m.world.settings.camera.forward.z = 1;
-    assert_false(trail_scatter(&l, &m.world, 3, 7));
+    assert_false(path_record_scatter(&l, &m.world, 3, 7));
     mesh_free(&m);
 }
 
-static void count(const struct world *w, struct cost *costs)
+static void count(const struct world *w, struct traversal_cost *costs)
 {
     struct error err;
     struct pool *pool = pool_create(2, &err);
 
     check_or_say(pool, err.text);
-    cost_of_pixels(pool, w, SIDE, SIDE, costs);
+    traversal_cost_of_pixels(pool, w, SIDE, SIDE, costs);
     pool_destroy(pool);
 }
 
@@ -188,7 +188,7 @@ static void count(const struct world *w, struct cost *costs)
  * what the first hit does not hide. */
 static void costs_are_counted(void **state)
 {
-    struct cost costs[SIDE * SIDE];
+    struct traversal_cost costs[SIDE * SIDE];
     struct mesh m;
 
     (void)state;

@@ -39,13 +39,13 @@ static void open_scene(struct session *s, const char *path)
 }
 
 /* As the screen has it: the draft of a render in live mode. */
-static void draw_draft(struct session *s, struct show *show,
+static void draw_draft(struct session *s, struct view_mode *show,
                        struct frame *frame)
 {
     struct film *film, *draft;
     struct error err;
 
-    s->sample = show_sample(show->kind);
+    s->sample = view_mode_sample(show->kind);
     s->draft_width = WIDTH;
     s->draft_height = HEIGHT;
     check_or_say(session_restart(s, 0, &err), err.text);
@@ -53,8 +53,8 @@ static void draw_draft(struct session *s, struct show *show,
     film = render_film(s->render);
     draft = render_draft(s->render);
     assert_non_null(draft);
-    film_preview(film, draft, show_develop(show), frame);
-    show_paint(show, film, draft, frame);
+    film_preview(film, draft, view_mode_develop(show), frame);
+    view_mode_paint(show, film, draft, frame);
 }
 
 static void files_show_what_the_screen_shows(void **state)
@@ -63,7 +63,7 @@ static void files_show_what_the_screen_shows(void **state)
                                            SHOW_FACES,   SHOW_UVS,
                                            SHOW_DEPTH,   SHOW_MATERIALS};
     struct session s;
-    struct show show;
+    struct view_mode show;
     struct frame screen, picture;
     struct error err;
     char legend[sizeof show.legend], path[PATH_MAX + 32];
@@ -71,20 +71,20 @@ static void files_show_what_the_screen_shows(void **state)
     (void)state;
     snprintf(path, sizeof path, "%s/scenes/interior.obj", root);
     open_scene(&s, path);
-    show_init(&show, &s);
+    view_mode_init(&show, &s);
     assert_true(frame_init(&screen, WIDTH, HEIGHT, &err));
     assert_true(frame_init(&picture, WIDTH, HEIGHT, &err));
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-        assert_true(show_set(&show, kinds[i], &err));
+        assert_true(view_mode_set(&show, kinds[i], &err));
         draw_draft(&s, &show, &screen);
         strcpy(legend, show.legend);
-        check_or_say(show_picture(&show, NULL, &picture, &err), err.text);
+        check_or_say(view_mode_picture(&show, NULL, &picture, &err), err.text);
         assert_memory_equal(screen.rgb, picture.rgb, 3 * WIDTH * HEIGHT);
         assert_string_equal(show.legend, legend);
     }
     frame_free(&screen);
     frame_free(&picture);
-    show_free(&show);
+    view_mode_free(&show);
     session_close(&s);
 }
 
@@ -97,7 +97,7 @@ static void depths_of_a_wall(void **state)
     double u = top * (WIDTH - 1) / HEIGHT, v = top * (HEIGHT - 1) / HEIGHT;
     char legend[128];
     struct session s;
-    struct show show;
+    struct view_mode show;
     struct frame f;
     struct error err;
 
@@ -106,21 +106,21 @@ static void depths_of_a_wall(void **state)
                     "f 1 2 3 4\n");
     put("wall.view", "eye 0 0 5\nat 0 0 0\n");
     open_scene(&s, "wall.obj");
-    show_init(&show, &s);
+    view_mode_init(&show, &s);
     assert_true(frame_init(&f, WIDTH, HEIGHT, &err));
-    assert_true(show_set(&show, SHOW_DEPTH, &err));
-    check_or_say(show_picture(&show, NULL, &f, &err), err.text);
+    assert_true(view_mode_set(&show, SHOW_DEPTH, &err));
+    check_or_say(view_mode_picture(&show, NULL, &f, &err), err.text);
     snprintf(legend, sizeof legend, "DEPTH  from %.4g, white, to %.4g, dark",
              near, 5 * sqrt(1 + u * u + v * v));
     assert_string_equal(show.legend, legend);
     assert_int_equal(f.rgb[3 * (HEIGHT / 2 * WIDTH + WIDTH / 2)], 255);
     assert_int_equal(f.rgb[0], 38); /* 0.15 of white */
-    assert_true(show_set(&show, SHOW_NORMALS, &err));
-    check_or_say(show_picture(&show, NULL, &f, &err), err.text);
+    assert_true(view_mode_set(&show, SHOW_NORMALS, &err));
+    check_or_say(view_mode_picture(&show, NULL, &f, &err), err.text);
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
         assert_int_equal(f.rgb[i], i % 3 == 2 ? 255 : 128);
     frame_free(&f);
-    show_free(&show);
+    view_mode_free(&show);
     session_close(&s);
 }
 

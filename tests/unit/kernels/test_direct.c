@@ -47,8 +47,8 @@ static void fill_sky_table(struct scene *s)
 
     if (s->sky_texels == NULL)
         return;
-    sky_free(&s->sky_table);
-    check_or_say(sky_build(&s->sky_table, s->sky_texels, s->sky_width,
+    sky_table_free(&s->sky_table);
+    check_or_say(sky_table_build(&s->sky_table, s->sky_texels, s->sky_width,
                            s->sky_height, SKY_ALONE, &err),
                  err.text);
 }
@@ -64,7 +64,7 @@ static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
     check_or_say(scene_world(&s->scene, &s->view, seed, &job.world, &err),
                  err.text);
     if (mode == UNGUIDED)
-        guide_lend(&(struct guide){.cells = NULL}, &job.world);
+        path_guide_lend(&(struct path_guide){.cells = NULL}, &job.world);
     else
         job.world.settings.direct = (uint32_t)mode;
     check_or_say(render_start(s->render, &job, &err), err.text);

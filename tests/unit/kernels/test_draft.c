@@ -46,7 +46,7 @@ static int close_scene(void **state)
     return 0;
 }
 
-static void start(const struct world *world, struct wide *tree, uint64_t spp,
+static void start(const struct world *world, struct bvh8 *tree, uint64_t spp,
                   int draft_width, int draft_height, uint32_t seed)
 {
     struct render_job job = {.world = *world,
@@ -135,7 +135,7 @@ struct notes {
 };
 
 static bool note_load(struct backend *b, const struct world *world,
-                      struct wide *tree, struct error *err)
+                      struct bvh8 *tree, struct error *err)
 {
     (void)b, (void)world, (void)tree, (void)err;
     return true;
@@ -223,7 +223,7 @@ static void drafts_look_where_films_do(void **state)
 /* ---- what it shows ---- */
 
 /* Draft and film of the same size and samples, linear. */
-static void render_two(const struct world *world, struct wide *tree,
+static void render_two(const struct world *world, struct bvh8 *tree,
                        uint32_t seed, float draft[3 * PIXELS],
                        float film[3 * PIXELS])
 {

@@ -184,7 +184,7 @@ static void footprints_miss_nothing(void **state)
         bool is_smooth = k % 4 == 0;
         double size = is_smooth ? 1 : 2.0 / TEXTURE_SIDE;
         int spot = k * 3761 % (TEXTURE_SIDE * TEXTURE_SIDE);
-        struct footprint_sums f = {NULL, 0, 0};
+        struct texture_power_sums f = {NULL, 0, 0};
         struct vec2 uv[3];
         double truth = 0, rim = 0, area;
 
@@ -218,9 +218,9 @@ static void footprints_miss_nothing(void **state)
 
             truth += (double)texture_at(&m.world, 0, at).color.x / 2000 / 3;
         }
-        assert_true(footprint_init(&f, &m.world, &m.materials[LAMP], &err));
+        assert_true(texture_power_init(&f, &m.world, &m.materials[LAMP], &err));
         if (truth > 0)
-            assert_true(footprint_mean(&f, uv) > 0);
+            assert_true(texture_power_mean(&f, uv) > 0);
         for (int i = 0; i < 3; i++)
             rim += hypot((double)(uv[(i + 1) % 3].x - uv[i].x),
                          (double)(uv[(i + 1) % 3].y - uv[i].y));
@@ -229,11 +229,11 @@ static void footprints_miss_nothing(void **state)
         if (is_smooth && area > 0.3) {
             double share = 2 * rim / TEXTURE_SIDE / (area / 2);
 
-            check_close(footprint_mean(&f, uv), truth,
+            check_close(texture_power_mean(&f, uv), truth,
                         share / (1 + share) * 240 / 255 / 3 + 0.006);
             checked++;
         }
-        footprint_free(&f);
+        texture_power_free(&f);
     }
     assert_true(checked > 20);
     mesh_free(&m);

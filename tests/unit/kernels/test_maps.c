@@ -17,7 +17,7 @@
  * world. */
 struct loaded {
     struct scene scene;
-    struct report report;
+    struct warnings report;
     struct view view;
     struct world world;
     struct material material;
@@ -83,7 +83,7 @@ static void load(struct loaded *l, const char *statements)
 static void unload(struct loaded *l)
 {
     scene_free(&l->scene);
-    report_free(&l->report);
+    warnings_free(&l->report);
     view_free(&l->view);
 }
 
@@ -207,7 +207,7 @@ static void many_images_are_read(void **state)
 {
     uint32_t expected = 0;
     struct scene scene = {0};
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     char path[32];
     FILE *obj = fopen("many.obj", "w"), *mtl = fopen("many.mtl", "w");
@@ -246,7 +246,7 @@ static void many_images_are_read(void **state)
     }
     assert_int_equal(scene.texel_count, expected);
     scene_free(&scene);
-    report_free(&report);
+    warnings_free(&report);
     for (int i = 0; i < MANY; i++) {
         snprintf(path, sizeof path, "m%d.tga", i);
         unlink(path);

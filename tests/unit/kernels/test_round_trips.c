@@ -97,7 +97,7 @@ static bool views_are_equal(const struct view *a, const struct view *b)
 /* Whether the text is a view file at all. */
 static bool check_view(const char *bytes, size_t size)
 {
-    struct report none = {0};
+    struct warnings none = {0};
     struct error err;
     struct view view, again;
     char *text, *second;
@@ -108,7 +108,7 @@ static bool check_view(const char *bytes, size_t size)
     view_init(&again);
     if (!view_parse(&view, bytes, size, "t.view", &none, &err)) {
         view_free(&view);
-        report_free(&none);
+        warnings_free(&none);
         return false;
     }
     check_or_say(view_format(&view, "t.view", bytes, size, &text, &text_bytes,
@@ -129,7 +129,7 @@ static bool check_view(const char *bytes, size_t size)
     free(text);
     view_free(&view);
     view_free(&again);
-    report_free(&none);
+    warnings_free(&none);
     return true;
 }
 
@@ -202,7 +202,7 @@ static void test_random_views(void **state)
 
 struct loaded {
     struct scene scene;
-    struct report report;
+    struct warnings report;
 };
 
 static bool load(struct loaded *l, const char *bytes, size_t size)
@@ -216,7 +216,7 @@ static bool load(struct loaded *l, const char *bytes, size_t size)
 static void unload(struct loaded *l)
 {
     scene_free(&l->scene);
-    report_free(&l->report);
+    warnings_free(&l->report);
 }
 
 static void change(struct mtl_source *s)

@@ -160,8 +160,8 @@ static void sky_and_lamps_share(void **state)
     finish(&m, &lights);
     m.world.settings.sky = (struct sky){{1, 1, 1}, 4, 2, 0, 1, 0};
     m.world.sky_texels = texels;
-    assert_true(sky_build(&table, texels, 4, 2, SKY_ALONE, &err));
-    sky_lend(&table, &m.world);
+    assert_true(sky_table_build(&table, texels, 4, 2, SKY_ALONE, &err));
+    sky_table_lend(&table, &m.world);
     assert_true(m.world.settings.sky_share == 0.5f &&
                 m.world.settings.light_share == 0.5f);
     for (size_t k = 0; k < 3; k++) {
@@ -192,7 +192,7 @@ static void sky_and_lamps_share(void **state)
                             1e-6);
         }
     }
-    sky_free(&table);
+    sky_table_free(&table);
     discard(&m, &lights);
 }
 

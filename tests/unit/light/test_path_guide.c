@@ -18,7 +18,7 @@
 struct table {
     struct guide_cell cells[8 * GUIDE_FACINGS];
     float sums[7 * GUIDE_BINS];
-    struct guide guide;
+    struct path_guide guide;
 };
 
 static void table_init(struct table *t, double share, uint64_t seed)
@@ -45,7 +45,7 @@ static void table_init(struct table *t, double share, uint64_t seed)
         t->cells[i] =
             has_none ? guide_none() : (struct guide_cell){first, first};
     }
-    t->guide = (struct guide){
+    t->guide = (struct path_guide){
         .grid = {.lo = {-1, -1, -1}, .cells_a_unit = 1, 2, 2, 2, 7},
         .cells = t->cells,
         .sums = t->sums};
@@ -103,7 +103,7 @@ static void density_and_samples(void **state)
 
     (void)state;
     table_init(&t, share, 1);
-    guide_lend(&t.guide, &w);
+    path_guide_lend(&t.guide, &w);
     check_close(integrate(&w, parts), share, 1e-3 * share);
     check_close((double)guide_share(&w, 0), share, 1e-6);
     memset(counts, 0, sizeof counts);
@@ -151,7 +151,7 @@ static void cells(void **state)
     (void)state;
     assert_int_equal(ways_at(&w, v3(0, 0, 0), up), NO_INDEX);
     table_init(&t, 0.5, 1);
-    guide_lend(&t.guide, &w);
+    path_guide_lend(&t.guide, &w);
     assert_int_equal(ways_at(&w, v3(-.5f, -.5f, -.5f), up), 0);
     assert_int_equal(ways_at(&w, v3(.5f, -.5f, -.5f), up), GUIDE_BINS);
     assert_int_equal(ways_at(&w, v3(-.5f, .5f, -.5f), up), 2 * GUIDE_BINS);
@@ -181,17 +181,17 @@ static void light_samples_of_a_flat_sky(void **state)
 
     (void)state;
     table_init(&t, 0.4, 7);
-    guide_lend(&t.guide, &w);
+    path_guide_lend(&t.guide, &w);
     for (int i = 0; i < 8; i++)
         image[i] = v3(1, 1, 1);
-    check_or_say(sky_build(&tables[1], image, 4, 2, SKY_ALONE, &err), err.text);
+    check_or_say(sky_table_build(&tables[1], image, 4, 2, SKY_ALONE, &err), err.text);
     for (int way = 0; way < 4; way++) {
         bool guided = way % 2 == 1;
         double sums[3] = {0, 0, 0}, squares[3] = {0, 0, 0};
 
         w.settings.sky.width = way < 2 ? 0 : 4;
         w.settings.sky.height = way < 2 ? 0 : 2;
-        sky_lend(&tables[way / 2], &w);
+        sky_table_lend(&tables[way / 2], &w);
         for (int i = 0; i < SAMPLES; i++) {
             struct vec2 u[2];
             struct light_sample s;
@@ -221,14 +221,14 @@ static void light_samples_of_a_flat_sky(void **state)
             check_close(mean, truths[k], 5 * sqrt(variance / SAMPLES) + 1e-5);
         }
     }
-    sky_free(&tables[1]);
+    sky_table_free(&tables[1]);
 }
 
 /* In a closed box that emits 1 and has albedo a there is 1 / (1 - a) of light:
  * a table of nonsense finds that much. */
 static void any_table_is_right(void **state)
 {
-    struct stage s = {.mesh = {.positions = NULL}};
+    struct workspace s = {.mesh = {.positions = NULL}};
     struct claim c = {.eye = {.2f, .1f, .4f},
                       .at = {-.3f, -1, .1f},
                       .truth = GREY(2),
@@ -244,15 +244,15 @@ static void any_table_is_right(void **state)
     mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), 0);
     stage_finish(&s);
     table_init(&t, 0.7, 3);
-    guide_lend(&t.guide, &s.mesh.world);
+    path_guide_lend(&t.guide, &s.mesh.world);
     check_claim(&s, c);
-    stage_free(&s);
+    workspace_free(&s);
 }
 
 /* A small lamp beside a wall, which hangs above a floor; kind is the wall's. */
-static void lamp_and_wall(struct stage *s, enum material_kind kind)
+static void lamp_and_wall(struct workspace *s, enum material_kind kind)
 {
-    *s = (struct stage){.mesh = {.positions = NULL}};
+    *s = (struct workspace){.mesh = {.positions = NULL}};
     s->mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     s->mesh.materials[1] = mesh_material((uint32_t)kind, .9f);
     s->mesh.materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
@@ -267,12 +267,12 @@ static void lamp_and_wall(struct stage *s, enum material_kind kind)
     lights_lend(&s->lights, &s->mesh.world);
 }
 
-static void built(struct stage *s, float sky, struct guide *g)
+static void built(struct workspace *s, float sky, struct path_guide *g)
 {
     struct error err;
 
-    guide_outdate(g);
-    check_or_say(guide_update(g, &s->mesh.wide_world, (double)sky, NULL, &err),
+    path_guide_outdate(g);
+    check_or_say(path_guide_update(g, &s->mesh.wide_world, (double)sky, NULL, &err),
                  err.text);
 }
 
@@ -280,15 +280,15 @@ static void built(struct stage *s, float sky, struct guide *g)
 static void mirrors_point_to_images(void **state)
 {
     struct vec3 image = {-.62f, .41f, 0};
-    struct guide g = {.cells = NULL};
-    struct stage s;
+    struct path_guide g = {.cells = NULL};
+    struct workspace s;
     int found = 0;
 
     (void)state;
     lamp_and_wall(&s, MATERIAL_METAL);
     s.mesh.materials[1].alpha = 0;
     built(&s, 0, &g);
-    guide_lend(&g, &s.mesh.world);
+    path_guide_lend(&g, &s.mesh.world);
     for (float x = -.4f; x < .45f; x += .1f) {
         struct vec3 p = v3(x, 0, 0);
         uint32_t cell = ways_at(&s.mesh.world, p, v3(0, 1, 0));
@@ -311,14 +311,14 @@ static void mirrors_point_to_images(void **state)
         found++;
     }
     assert_true(found >= 6);
-    guide_free(&g);
-    stage_free(&s);
+    path_guide_free(&g);
+    workspace_free(&s);
 }
 
 static void only_where_it_helps(void **state)
 {
-    struct guide g = {.cells = NULL}, again = {.cells = NULL};
-    struct stage s;
+    struct path_guide g = {.cells = NULL}, again = {.cells = NULL};
+    struct workspace s;
     size_t count;
 
     (void)state;
@@ -339,8 +339,8 @@ static void only_where_it_helps(void **state)
     s.mesh.world.settings.light_count = 0;
     built(&s, 0, &g);
     assert_null(g.cells);
-    guide_free(&again);
-    stage_free(&s);
+    path_guide_free(&again);
+    workspace_free(&s);
 }
 
 /* ---- openings ---- */
@@ -357,12 +357,12 @@ static void add_wall(struct mesh *m, float y0, float y1, float z0, float z1,
 }
 
 /* Material 0 is the walls', 1 the pane's, 2 the lamp's. */
-static void room(struct stage *s, bool has_pane)
+static void room(struct workspace *s, bool has_pane)
 {
     struct mesh *m = &s->mesh;
     const float *y = window[0], *z = window[1];
 
-    *s = (struct stage){.mesh = {.positions = NULL}};
+    *s = (struct workspace){.mesh = {.positions = NULL}};
     m->materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     m->materials[1] = mesh_material(MATERIAL_THIN_GLASS, 1);
     m->materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
@@ -426,15 +426,15 @@ static void windows_are_found(void **state)
             has_pane ? ways_at : sky_at;
         uint32_t (*not_at)(const struct world *, struct vec3, struct vec3) =
             has_pane ? sky_at : ways_at;
-        struct guide g = {.cells = NULL};
-        struct stage s;
+        struct path_guide g = {.cells = NULL};
+        struct workspace s;
         struct world *w = &s.mesh.world;
         int found = 0;
 
         room(&s, has_pane);
         stage_finish(&s);
         built(&s, 1, &g);
-        guide_lend(&g, w);
+        path_guide_lend(&g, w);
         for (float x = -.7f; x < .95f; x += .2f)
             for (float z = -.9f; z < .95f; z += .2f) {
                 const struct vec3 p[2] = {v3(x, -1, z), v3(1, x, z)};
@@ -453,20 +453,20 @@ static void windows_are_found(void **state)
         assert_true(found > 140);
         /* what faces outwards is in the open */
         assert_int_equal(at(w, v3(1, 0, 0), v3(1, 0, 0)), NO_INDEX);
-        guide_free(&g);
-        stage_free(&s);
+        path_guide_free(&g);
+        workspace_free(&s);
     }
 }
 
 /* Standard error of the floor's radiance under a sky of 1. */
-static double noise(struct stage *s, const struct guide *g)
+static double noise(struct workspace *s, const struct path_guide *g)
 {
     const struct claim c = {.eye = {.6f, .1f, .4f},
                             .at = {.1f, -1, .1f},
                             .paths = 1000};
 
     stage_gather(s, DIRECT_MIS);
-    guide_lend(g, &s->mesh.world);
+    path_guide_lend(g, &s->mesh.world);
     return claim_estimate(&s->mesh.world, &c).error[0];
 }
 
@@ -474,7 +474,7 @@ static double noise(struct stage *s, const struct guide *g)
  * for less, and where that is all but in vain, not at all. */
 static void white_rooms_are_left_alone(void **state)
 {
-    const struct guide none = {.cells = NULL};
+    const struct path_guide none = {.cells = NULL};
 
     (void)state;
     for (int has_pane = 0; has_pane < 2; has_pane++) {
@@ -482,9 +482,9 @@ static void white_rooms_are_left_alone(void **state)
 
         for (int is_white = 0; is_white < 2; is_white++) {
             struct vec3 p = {.1f, -1, .1f}, up = {0, 1, 0};
-            struct guide g = {.cells = NULL};
+            struct path_guide g = {.cells = NULL};
             uint32_t first;
-            struct stage s;
+            struct workspace s;
 
             room(&s, has_pane);
             s.mesh.materials[2].emission = v3(0, 0, 0);
@@ -493,18 +493,18 @@ static void white_rooms_are_left_alone(void **state)
             built(&s, 1, &g); /* of grey walls */
             s.mesh.materials[0] =
                 mesh_material(MATERIAL_DIFFUSE, is_white ? .98f : .3f);
-            guide_recolor(&g);
-            check_or_say(guide_update(&g, &s.mesh.wide_world, 1, NULL, NULL),
+            path_guide_recolor(&g);
+            check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL, NULL),
                          "");
-            guide_lend(&g, &s.mesh.world);
+            path_guide_lend(&g, &s.mesh.world);
             first = (has_pane ? ways_at : sky_at)(&s.mesh.world, p, up);
             if (first != NO_INDEX)
                 shares[is_white] = (double)guide_share(&s.mesh.world, first);
             /* the errors of errors of 32 means are an eighth each */
             check_at_most(noise(&s, &g),
                           (is_white ? 1.5 : .9) * noise(&s, &none));
-            guide_free(&g);
-            stage_free(&s);
+            path_guide_free(&g);
+            workspace_free(&s);
         }
         check_at_most(.1, shares[0]);
         check_at_most(shares[1], .5 * shares[0]);
@@ -516,14 +516,14 @@ static void rooms_in_balance(void **state)
 {
     (void)state;
     for (int has_pane = 0; has_pane < 2; has_pane++) {
-        struct guide g = {.cells = NULL};
+        struct path_guide g = {.cells = NULL};
         struct claim c = {.eye = {.6f, .1f, .4f},
                           .at = {.1f, -1, .1f},
                           .truth = GREY(1),
                           .paths = 2000,
                           /* behind panes there are none */
                           .without = 1 << DIRECT_LIGHTS};
-        struct stage s;
+        struct workspace s;
 
         room(&s, has_pane);
         s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .7f);
@@ -532,43 +532,43 @@ static void rooms_in_balance(void **state)
         stage_finish(&s);
         built(&s, 1, &g); /* as if nothing else shone */
         assert_true(g.grid.table_count > 0);
-        guide_lend(&g, &s.mesh.world);
+        path_guide_lend(&g, &s.mesh.world);
         check_claim(&s, c);
-        guide_free(&g);
-        stage_free(&s);
+        path_guide_free(&g);
+        workspace_free(&s);
     }
 }
 
 static void only_where_the_sky_is_hidden(void **state)
 {
-    struct guide g = {.cells = NULL};
+    struct path_guide g = {.cells = NULL};
     struct error err;
-    struct stage s;
+    struct workspace s;
 
     (void)state;
     room(&s, false);
     stage_finish(&s);
     built(&s, 0, &g);
     assert_null(g.cells);
-    check_or_say(guide_update(&g, &s.mesh.wide_world, 1, NULL, &err), err.text);
+    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL, &err), err.text);
     assert_non_null(g.cells);
-    check_or_say(guide_update(&g, &s.mesh.wide_world, 0, NULL, &err), err.text);
+    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 0, NULL, &err), err.text);
     assert_null(g.cells);
     lights_lend(&s.lights, &s.mesh.world);
     built(&s, 1, &g);
     assert_non_null(g.cells);
     built(&s, 1e-4f, &g); /* which the lamp outshines */
     assert_null(g.cells);
-    stage_free(&s);
+    workspace_free(&s);
 
     room(&s, true);
     s.mesh.materials[1] = mesh_material(MATERIAL_DIFFUSE, .5f);
     stage_finish(&s);
     built(&s, 1, &g); /* behind a shutter */
     assert_null(g.cells);
-    stage_free(&s);
+    workspace_free(&s);
 
-    s = (struct stage){.mesh = {.positions = NULL}};
+    s = (struct workspace){.mesh = {.positions = NULL}};
     s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), 0);
     mesh_add_quad(&s.mesh, v3(-9, -1, -9), v3(-9, -1, 9), v3(9, -1, 9),
@@ -579,11 +579,11 @@ static void only_where_the_sky_is_hidden(void **state)
         struct vec3 p[3];
 
         tri_corners(&s.mesh.world, i, p);
-        guide_lend(&g, &s.mesh.world);
+        path_guide_lend(&g, &s.mesh.world);
         assert_int_equal(sky_at(&s.mesh.world, p[0], v3(0, 1, 0)), NO_INDEX);
     }
-    guide_free(&g);
-    stage_free(&s);
+    path_guide_free(&g);
+    workspace_free(&s);
 }
 
 /* Caustics and openings: bit for bit. */
@@ -595,8 +595,8 @@ static void threads_change_nothing(void **state)
     (void)state;
     assert_non_null(pool);
     for (int sky = 0; sky < 2; sky++) {
-        struct guide alone = {.cells = NULL}, together = {.cells = NULL};
-        struct stage s;
+        struct path_guide alone = {.cells = NULL}, together = {.cells = NULL};
+        struct workspace s;
 
         if (sky == 1) {
             room(&s, false);
@@ -605,7 +605,7 @@ static void threads_change_nothing(void **state)
             lamp_and_wall(&s, MATERIAL_METAL);
         }
         built(&s, (float)sky, &alone);
-        check_or_say(guide_update(&together, &s.mesh.wide_world, sky, pool,
+        check_or_say(path_guide_update(&together, &s.mesh.wide_world, sky, pool,
                                   &err),
                      err.text);
         assert_non_null(alone.cells);
@@ -616,9 +616,9 @@ static void threads_change_nothing(void **state)
         assert_memory_equal(alone.sums, together.sums,
                             alone.grid.table_count * GUIDE_BINS *
                                 sizeof *alone.sums);
-        guide_free(&alone);
-        guide_free(&together);
-        stage_free(&s);
+        path_guide_free(&alone);
+        path_guide_free(&together);
+        workspace_free(&s);
     }
     pool_destroy(pool);
 }

@@ -62,13 +62,13 @@ static void dome_init(struct dome *d, uint32_t width, uint32_t height,
                                          .height = height,
                                          .rotation_cos = 1};
     d->world.sky_texels = d->texels;
-    assert_true(sky_build(&d->table, d->texels, width, height, use, &err));
-    sky_lend(&d->table, &d->world);
+    assert_true(sky_table_build(&d->table, d->texels, width, height, use, &err));
+    sky_table_lend(&d->table, &d->world);
 }
 
 static void dome_free(struct dome *d)
 {
-    sky_free(&d->table);
+    sky_table_free(&d->table);
     free(d->texels);
 }
 

@@ -76,10 +76,10 @@ static int close_device(void **state)
 
 static void open_pair(struct pair *p, const char *path, int width, int height)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     char *view_path = xformat("%.*s.view", (int)strlen(path) - 4, path);
-    struct backend *cpu = backend_cpu_create(2, isa_best(), &err);
+    struct backend *cpu = backend_cpu_create(2, cpu_kernel_best(), &err);
 
     *p = (struct pair){0};
     view_init(&p->view);
@@ -95,7 +95,7 @@ static void open_pair(struct pair *p, const char *path, int width, int height)
     p->renders[1] = render_create(device, &err);
     assert_non_null(p->renders[0]);
     assert_non_null(p->renders[1]);
-    report_free(&report);
+    warnings_free(&report);
     free(view_path);
 }
 
@@ -378,7 +378,7 @@ static void self_tests(void **state)
 
         open_pair(&p, scenes[i], 8, 8);
         request.features = i == 0 ? 0 : scene_features(&p.scene);
-        cpu = backend_cpu_create(1, isa_best(), &err);
+        cpu = backend_cpu_create(1, cpu_kernel_best(), &err);
         special = backend_cl_create(&request, &log, &err);
         check_or_say(cpu != NULL && special != NULL, err.text);
         check_or_say(selftest_run(cpu, special, request.features, verdict,

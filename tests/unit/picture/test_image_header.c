@@ -227,7 +227,7 @@ static void test_hdr(void **state)
  * there is no room for it. */
 static void test_budget(void **state)
 {
-    struct memory_quota quota = quota_memory("");
+    struct memory_quota quota = cgroup_quota_memory("");
     uint64_t budget = quota.size_bytes / 4 * 3, room = 100 << 20;
     long before = resident_kib();
     char expected[300];

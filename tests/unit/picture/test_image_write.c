@@ -116,14 +116,14 @@ static void has_bytes(const char *path, const struct frame *expected)
 static void test_format_of(void **state)
 {
     (void)state;
-    assert_int_equal(picture_format_of("a.png"), PICTURE_PNG);
-    assert_int_equal(picture_format_of("a.b/C.PNG"), PICTURE_PNG);
-    assert_int_equal(picture_format_of("-"), PICTURE_PNG);
-    assert_int_equal(picture_format_of("a.hdr"), PICTURE_HDR);
-    assert_int_equal(picture_format_of("a.pfm"), PICTURE_PFM);
-    assert_int_equal(picture_format_of("png"), PICTURE_UNKNOWN);
-    assert_int_equal(picture_format_of(""), PICTURE_UNKNOWN);
-    assert_int_equal(picture_format_of("a.jpg"), PICTURE_UNKNOWN);
+    assert_int_equal(image_write_format_of("a.png"), IMAGE_WRITE_PNG);
+    assert_int_equal(image_write_format_of("a.b/C.PNG"), IMAGE_WRITE_PNG);
+    assert_int_equal(image_write_format_of("-"), IMAGE_WRITE_PNG);
+    assert_int_equal(image_write_format_of("a.hdr"), IMAGE_WRITE_HDR);
+    assert_int_equal(image_write_format_of("a.pfm"), IMAGE_WRITE_PFM);
+    assert_int_equal(image_write_format_of("png"), IMAGE_WRITE_UNKNOWN);
+    assert_int_equal(image_write_format_of(""), IMAGE_WRITE_UNKNOWN);
+    assert_int_equal(image_write_format_of("a.jpg"), IMAGE_WRITE_UNKNOWN);
 }
 
 static void test_png(void **state)
@@ -138,7 +138,7 @@ static void test_png(void **state)
     for (float exposure = -2; exposure <= 2; exposure += 2) {
         film_resolve(&film, develop_linear(exposure), &frame);
         assert_true(
-            picture_write(&film, develop_linear(exposure), "a.png", &err));
+            image_write(&film, develop_linear(exposure), "a.png", &err));
         has_bytes("a.png", &frame);
     }
     frame_free(&frame);
@@ -155,7 +155,7 @@ static void test_hdr(void **state)
 
     (void)state;
     make_film(&film, WIDTH, HEIGHT, wide_range);
-    assert_true(picture_write(&film, develop_linear(3), "a.hdr", &err));
+    assert_true(image_write(&film, develop_linear(3), "a.hdr", &err));
     film_free(&film);
     assert_true(image_read_linear(&image, "a.hdr", &clamped, &err));
     assert_int_equal(image.width, WIDTH);
@@ -196,7 +196,7 @@ static void test_hdr_powers(void **state)
 
     (void)state;
     make_film(&film, WIDTH, HEIGHT, near_powers);
-    assert_true(picture_write(&film, develop_linear(0), "p.hdr", &err));
+    assert_true(image_write(&film, develop_linear(0), "p.hdr", &err));
     film_free(&film);
     assert_true(image_read_linear(&image, "p.hdr", &clamped, &err));
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -218,7 +218,7 @@ static void test_pfm(void **state)
     float *linear = calloc(WIDTH * HEIGHT * 3, sizeof *linear);
     assert_non_null(linear);
     film_linear(&film, linear);
-    assert_true(picture_write(&film, develop_linear(5), "a.pfm", &err));
+    assert_true(image_write(&film, develop_linear(5), "a.pfm", &err));
     film_free(&film);
     char *text = read_file("a.pfm", &size);
     size_t head = strlen(header);
@@ -250,7 +250,7 @@ static void test_small(void **state)
         make_film(&film, sizes[i][0], sizes[i][1], light);
         for (int k = 0; k < 3; k++)
             assert_true(
-                picture_write(&film, develop_linear(0), paths[k], &err));
+                image_write(&film, develop_linear(0), paths[k], &err));
         struct frame frame;
         assert_true(frame_init(&frame, sizes[i][0], sizes[i][1], &err));
         film_resolve(&film, develop_linear(0), &frame);
@@ -278,10 +278,10 @@ static void test_check(void **state)
     mkdir("d.png", 0777);
     assert_int_equal(mkfifo("p.png", 0666), 0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        assert_false(picture_check(cases[i].path, &err));
+        assert_false(image_write_check(cases[i].path, &err));
         assert_string_equal(err.text, cases[i].expected);
     }
-    assert_true(picture_check("new.png", &err));
+    assert_true(image_write_check("new.png", &err));
     assert_false(exists("new.png"));
 }
 
@@ -299,11 +299,11 @@ static void test_check_terminal(void **state)
     assert_true(other >= 0);
     fflush(stdout);
     dup2(other, STDOUT_FILENO);
-    bool on_terminal = picture_check("-", &err);
+    bool on_terminal = image_write_check("-", &err);
     int pipe_ends[2];
     assert_int_equal(pipe(pipe_ends), 0);
     dup2(pipe_ends[1], STDOUT_FILENO);
-    bool on_pipe = picture_check("-", &(struct error){""});
+    bool on_pipe = image_write_check("-", &(struct error){""});
     dup2(saved, STDOUT_FILENO);
     close(saved);
     close(other);
@@ -341,7 +341,7 @@ static bool write_to_pipe(struct film *film, bool reads, struct error *err)
     close(ends[1]);
     if (!reads)
         waitpid(child, &status, 0);
-    bool ok = picture_write(film, develop_linear(0), "-", err);
+    bool ok = image_write(film, develop_linear(0), "-", err);
     dup2(saved, STDOUT_FILENO);
     close(saved);
     if (reads)
@@ -391,7 +391,7 @@ static void test_numbered(void **state)
     assert_int_equal(symlink("nowhere", "n-5.png"), 0);
     for (int i = 0; i < 4; i++) {
         char *path =
-            picture_write_numbered(&film, develop_linear(0), "n", "png", &err);
+            image_write_numbered(&film, develop_linear(0), "n", "png", &err);
         assert_non_null(path);
         assert_string_equal(path, expected[i]);
         assert_int_equal(stat(path, &st), 0);
@@ -402,7 +402,7 @@ static void test_numbered(void **state)
     assert_int_equal(st.st_size, 0);
     assert_false(exists("nowhere"));
     assert_null(
-        picture_write_numbered(&film, develop_linear(0), "no/n", "png", &err));
+        image_write_numbered(&film, develop_linear(0), "no/n", "png", &err));
     assert_string_equal(err.text, "no/n.png: no such file or folder");
     film_free(&film);
 }
@@ -422,7 +422,7 @@ static void test_numbered_race(void **state)
             struct error err;
             int written = 0;
             for (int k = 0; k < 10; k++) {
-                char *name = picture_write_numbered(&film, develop_linear(0),
+                char *name = image_write_numbered(&film, develop_linear(0),
                                                     "race", "png", &err);
                 written += name != NULL;
                 free(name);
@@ -449,8 +449,8 @@ static void write_forever(struct film *a, struct film *b)
     struct error err;
 
     for (;;) {
-        if (!picture_write(a, develop_linear(0), "k.png", &err) ||
-            !picture_write(b, develop_linear(0), "k.png", &err))
+        if (!image_write(a, develop_linear(0), "k.png", &err) ||
+            !image_write(b, develop_linear(0), "k.png", &err))
             _exit(1);
     }
 }
@@ -468,7 +468,7 @@ static void test_killed(void **state)
     make_film(&films[0], 160, 120, noise);
     make_film(&films[1], 160, 120, dark);
     for (int i = 0; i < 2; i++) {
-        assert_true(picture_write(&films[i], develop_linear(0), "k.png", &err));
+        assert_true(image_write(&films[i], develop_linear(0), "k.png", &err));
         files[i] = read_file("k.png", &size);
         sizes[i] = size;
     }
@@ -508,10 +508,10 @@ static bool fails_on_full_disk(struct film *film)
     signal(SIGXFSZ, SIG_IGN);
     ok = setrlimit(RLIMIT_FSIZE, &limit) == 0;
     for (int i = 0; i < 3; i++)
-        ok = ok && !picture_write(film, develop_linear(0), paths[i], &err) &&
+        ok = ok && !image_write(film, develop_linear(0), paths[i], &err) &&
              strstr(err.text, ": File too large") &&
              strncmp(err.text, paths[i], 5) == 0;
-    return ok && !picture_write_numbered(film, develop_linear(0), "full", "png",
+    return ok && !image_write_numbered(film, develop_linear(0), "full", "png",
                                          &err);
 }
 
@@ -541,7 +541,7 @@ static void test_disk_full(void **state)
     int saved = dup(STDOUT_FILENO), full = open("/dev/full", O_WRONLY);
     fflush(stdout);
     dup2(full, STDOUT_FILENO);
-    bool ok = picture_write(&film, develop_linear(0), "-", &err);
+    bool ok = image_write(&film, develop_linear(0), "-", &err);
     dup2(saved, STDOUT_FILENO);
     close(saved);
     close(full);
@@ -558,7 +558,7 @@ static void test_speed(void **state)
     (void)state;
     make_film(&film, 1024, 576, noise);
     uint64_t begin_ns = clock_ns();
-    assert_true(picture_write(&film, develop_linear(0), "speed.png", &err));
+    assert_true(image_write(&film, develop_linear(0), "speed.png", &err));
     print_message("PNG of 1024x576: %.3f s\n",
                   seconds_between(begin_ns, clock_ns()));
     film_free(&film);

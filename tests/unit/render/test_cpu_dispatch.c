@@ -22,21 +22,21 @@ static const char *const scenes[] = {
  * just what it can do: none is there in vain. */
 static void a_build_fits(void **state)
 {
-    const struct paths *whole;
+    const struct cpu_kernel *whole;
 
     (void)state;
-    for (int i = 0; (whole = isa_at(i)) != NULL; i++) {
+    for (int i = 0; (whole = cpu_kernel_at(i)) != NULL; i++) {
         assert_int_equal(whole->features, FEATURES_ALL);
         for (uint32_t features = 0; features <= FEATURES_ALL; features++) {
-            const struct paths *p = isa_fit(whole, features);
+            const struct cpu_kernel *p = cpu_kernel_fit(whole, features);
 
             assert_int_equal(features & ~p->features, 0);
             assert_string_equal(p->name, whole->name);
-            assert_ptr_equal(isa_fit(whole, p->features), p);
+            assert_ptr_equal(cpu_kernel_fit(whole, p->features), p);
         }
-        assert_int_equal(isa_fit(whole, FEATURE_EMITTERS)->features,
+        assert_int_equal(cpu_kernel_fit(whole, FEATURE_EMITTERS)->features,
                          FEATURE_EMITTERS);
-        assert_ptr_equal(isa_fit(whole, FEATURE_FIRST_HIT), whole);
+        assert_ptr_equal(cpu_kernel_fit(whole, FEATURE_FIRST_HIT), whole);
     }
 }
 
@@ -57,7 +57,7 @@ static void render(struct session *s, uint32_t more_features, float *rgb)
 }
 
 /* Adds it to the builds, unless it is there. */
-static bool is_new(const struct paths *p, const struct paths **builds,
+static bool is_new(const struct cpu_kernel *p, const struct cpu_kernel **builds,
                    int *count)
 {
     for (int i = 0; i < *count; i++)
@@ -70,7 +70,7 @@ static bool is_new(const struct paths *p, const struct paths **builds,
 
 /* The scene with the build of all features, then with each other that will do;
  * returns how many those are. */
-static int compare_builds(const char *scene, const struct paths *whole)
+static int compare_builds(const char *scene, const struct cpu_kernel *whole)
 {
     static float want[3 * WIDTH * HEIGHT], got[3 * WIDTH * HEIGHT];
     struct options o = {.scene_path = scene,
@@ -78,7 +78,7 @@ static int compare_builds(const char *scene, const struct paths *whole)
                         .width_px = WIDTH,
                         .height_px = HEIGHT,
                         .paths = whole};
-    const struct paths *builds[BUILDS_MAX] = {whole};
+    const struct cpu_kernel *builds[BUILDS_MAX] = {whole};
     struct session s;
     struct error err;
     int count = 1;
@@ -86,7 +86,7 @@ static int compare_builds(const char *scene, const struct paths *whole)
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
     render(&s, FEATURES_ALL & ~(uint32_t)FEATURE_COVERAGE, want);
     for (uint32_t more = 0; more <= FEATURES_ALL; more++) {
-        const struct paths *p = isa_fit(whole, scene_features(&s.scene) | more);
+        const struct cpu_kernel *p = cpu_kernel_fit(whole, scene_features(&s.scene) | more);
 
         if (!is_new(p, builds, &count))
             continue;
@@ -99,10 +99,10 @@ static int compare_builds(const char *scene, const struct paths *whole)
 
 static void builds_give_the_same_bits(void **state)
 {
-    const struct paths *whole;
+    const struct cpu_kernel *whole;
 
     (void)state;
-    for (int i = 0; (whole = isa_at(i)) != NULL; i++)
+    for (int i = 0; (whole = cpu_kernel_at(i)) != NULL; i++)
         for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++)
             assert_true(compare_builds(scenes[k], whole) > 0);
 }

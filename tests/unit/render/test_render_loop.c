@@ -37,7 +37,7 @@ static void make_room(struct mesh *m)
     mesh_finish(m);
 }
 
-static struct render *open_render_with(const struct paths *paths, int threads)
+static struct render *open_render_with(const struct cpu_kernel *paths, int threads)
 {
     struct error err;
     struct backend *backend = backend_cpu_create(threads, paths, &err);
@@ -51,7 +51,7 @@ static struct render *open_render_with(const struct paths *paths, int threads)
 
 static struct render *open_render(int threads)
 {
-    return open_render_with(isa_best(), threads);
+    return open_render_with(cpu_kernel_best(), threads);
 }
 
 static void close_render(struct render *r)
@@ -117,8 +117,8 @@ static void thread_counts_give_the_same_bits(void **state)
 /* 3 of the 11 samples come in a block that is not full. */
 static void instruction_sets_give_the_same_bits(void **state)
 {
-    struct render *plain = open_render_with(isa_named("plain", NULL), 2);
-    const struct paths *paths;
+    struct render *plain = open_render_with(cpu_kernel_named("plain", NULL), 2);
+    const struct cpu_kernel *paths;
     struct mesh m;
     struct error err;
     struct render_job job;
@@ -128,7 +128,7 @@ static void instruction_sets_give_the_same_bits(void **state)
     job = job_of(&m, 11);
     assert_true(render_start(plain, &job, &err));
     assert_true(render_wait(plain, 60000));
-    for (int i = 0; (paths = isa_at(i)) != NULL; i++) {
+    for (int i = 0; (paths = cpu_kernel_at(i)) != NULL; i++) {
         struct render *r = open_render_with(paths, 2);
 
         assert_true(render_start(r, &job, &err));
@@ -136,7 +136,7 @@ static void instruction_sets_give_the_same_bits(void **state)
         assert_same_film(render_film(plain), render_film(r));
         close_render(r);
     }
-    assert_null(isa_named("sse9", &err));
+    assert_null(cpu_kernel_named("sse9", &err));
     close_render(plain);
     mesh_free(&m);
 }
@@ -267,7 +267,7 @@ static void backends_that_wait_hold_no_tree(void **state)
     struct render *r = open_render(1);
     struct backend *first = render_backend(r);
     struct error err;
-    struct backend *second = backend_cpu_create(1, isa_best(), &err);
+    struct backend *second = backend_cpu_create(1, cpu_kernel_best(), &err);
     struct backend *order[] = {first, second, first};
     struct mesh m;
 

@@ -44,7 +44,7 @@ static void put(const char *path, const void *data, size_t size_bytes)
 
 struct loaded {
     struct scene scene;
-    struct report report;
+    struct warnings report;
     struct error err;
 };
 
@@ -69,7 +69,7 @@ static struct loaded load(const char *text)
 static void unload(struct loaded *l)
 {
     scene_free(&l->scene);
-    report_free(&l->report);
+    warnings_free(&l->report);
 }
 
 /* Every vertex that a triangle uses is where the file has it, to the precision

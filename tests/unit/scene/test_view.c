@@ -37,7 +37,7 @@ static const char *put(const char *text)
 
 static void read_text(struct view *view, const char *text)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err = {""};
 
     view_init(view);
@@ -45,13 +45,13 @@ static void read_text(struct view *view, const char *text)
         print_error("%s\n", err.text);
     assert_string_equal(err.text, "");
     assert_int_equal(report.entry_count, 0);
-    report_free(&report);
+    warnings_free(&report);
 }
 
 /* expected: the text behind the file's name. */
 static void refused(const char *text, const char *expected)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     struct view view;
     char whole[1400];
@@ -63,7 +63,7 @@ static void refused(const char *text, const char *expected)
     if (strcmp(err.text, whole) != 0)
         print_error("'%s':\nfound    %s\nexpected %s\n", text, err.text, whole);
     assert_string_equal(err.text, whole);
-    report_free(&report);
+    warnings_free(&report);
     view_free(&view);
 }
 
@@ -130,7 +130,7 @@ static void test_all_keys(void **state)
 
 static void test_over(void **state)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     struct view view;
 
@@ -297,7 +297,7 @@ static void test_poses(void **state)
 
 static void test_no_file(void **state)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     struct view view;
 
@@ -311,7 +311,7 @@ static void test_no_file(void **state)
 
 static void test_unknown(void **state)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     struct view view;
     char expected[400];
@@ -326,7 +326,7 @@ static void test_unknown(void **state)
     snprintf(expected, sizeof expected,
              "%s:1: found the unknown key 'fov', skipped", file("t.view"));
     assert_string_equal(report.entries[0].text, expected);
-    report_free(&report);
+    warnings_free(&report);
 }
 
 /* Bytes without meaning are read or refused. */
@@ -337,7 +337,7 @@ static void test_noise(void **state)
 
     (void)state;
     for (int i = 0; i < 2000; i++) {
-        struct report report = {0};
+        struct warnings report = {0};
         struct error err;
         struct view view;
         static const char some[] = "eyeatupfovyres 0123.e-+# \n\r\t\\\0\xff";
@@ -353,7 +353,7 @@ static void test_noise(void **state)
         view_init(&view);
         if (!view_read(&view, file("noise"), &report, &err))
             assert_null(strchr(err.text, '\n'));
-        report_free(&report);
+        warnings_free(&report);
         view_free(&view);
     }
 }
@@ -390,7 +390,7 @@ static void is_same(const struct view *a, const struct view *b)
 
 static void test_round_trip(void **state)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     struct view view, again;
 
@@ -464,7 +464,7 @@ static void is_file(const char *path, const char *expected)
 /* Comments, order and lines of others outlive a new camera. */
 static void test_lines_are_kept(void **state)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
     struct view view;
     const char *path = put("# my room\r\nfovy 30\n\n  # the door\neye 1 2 3\n"
@@ -474,7 +474,7 @@ static void test_lines_are_kept(void **state)
     (void)state;
     view_init(&view);
     assert_true(view_read(&view, path, &report, &err));
-    report_free(&report);
+    warnings_free(&report);
     view.eye[0] = 7;
     view.exposure = 2;
     view.has_shot[3] = true;
@@ -596,7 +596,7 @@ static void test_shared(void **state)
         skip();
     }
     for (size_t i = 0; i < found.gl_pathc; i++) {
-        struct report report = {0};
+        struct warnings report = {0};
         struct error err = {""};
         struct view view;
         view_init(&view);

@@ -70,7 +70,7 @@ static void restart(struct session *s)
 
 static char *saved(struct session *s)
 {
-    struct watch nothing = {.fd = -1};
+    struct file_watch nothing = {.fd = -1};
     struct error err;
     char *what;
 
@@ -461,7 +461,7 @@ static void test_kinds_leave_nothing(void **state)
         char *text;
 
         for (int n = 0; n < abs(cases[i].turns); n++)
-            look_turn_kind(&source, cases[i].turns);
+            material_params_turn_kind(&source, cases[i].turns);
         edit_material(&s.edit, wall, &source);
         save(&s);
         assert_false(edit_has_unsaved_materials(&s.edit));
@@ -510,7 +510,7 @@ static void test_wrong_lines(void **state)
     static const char *const wrong[] = {"assign a", "assign", "assign a b c",
                                         "assign \"a b", "assign \"a\" \"b"};
     struct view v;
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
 
     (void)state;
@@ -531,7 +531,7 @@ static void test_wrong_lines(void **state)
     assert_string_equal(v.assigns.items[1].material, "d\\");
     assert_string_equal(v.assigns.items[2].material, "z");
     view_free(&v);
-    report_free(&report);
+    warnings_free(&report);
 }
 
 /* An image that no material had a use for is read when one gets it. */

@@ -11,19 +11,19 @@
 #include "terminal/tty_input.h"
 #include "session/keymap.h"
 
-static struct keys table_keys(bool phoe)
+static struct keymap table_keys(bool phoe)
 {
-    struct keys k = {0};
+    struct keymap k = {0};
 
-    keys_settle(&k, phoe);
+    keymap_settle(&k, phoe);
     return k;
 }
 
-static void choose(struct keys *k, enum action action, int a, int b)
+static void choose(struct keymap *k, enum action action, int a, int b)
 {
-    const int keys[KEYS_MAX] = {a, b};
+    const int keys[KEYMAP_MAX] = {a, b};
 
-    keys_choose(k, action, keys);
+    keymap_choose(k, action, keys);
 }
 
 static void own_and_phoe_keys(void **state)
@@ -46,44 +46,44 @@ static void own_and_phoe_keys(void **state)
         {'c', ACTION_SAVE_VIEW, ACTION_SAVE_VIEW},
         {'C', ACTION_COLORS, ACTION_COLORS},
         {'9', ACTION_VIEW_9, ACTION_VIEW_9},
-        {INPUT_LEFT, ACTION_LOOK_LEFT, ACTION_LOOK_LEFT},
-        {INPUT_PAGE_UP, ACTION_UP, ACTION_UP},
-        {INPUT_OTHER, ACTION_NONE, ACTION_NONE},
+        {TTY_KEY_LEFT, ACTION_LOOK_LEFT, ACTION_LOOK_LEFT},
+        {TTY_KEY_PAGE_UP, ACTION_UP, ACTION_UP},
+        {TTY_KEY_OTHER, ACTION_NONE, ACTION_NONE},
         {0, ACTION_NONE, ACTION_NONE},
         {'x', ACTION_SAVE_TEXT, ACTION_SAVE_TEXT},
         {'G', ACTION_GLYPHS, ACTION_GLYPHS},
         {'~', ACTION_NONE, ACTION_NONE},
     };
-    struct keys own = table_keys(false), phoe = table_keys(true);
+    struct keymap own = table_keys(false), phoe = table_keys(true);
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        assert_int_equal(keys_action(&own, cases[i].key), cases[i].own);
-        assert_int_equal(keys_action(&phoe, cases[i].key), cases[i].phoe);
+        assert_int_equal(keymap_action(&own, cases[i].key), cases[i].own);
+        assert_int_equal(keymap_action(&phoe, cases[i].key), cases[i].phoe);
     }
 }
 
 /* With Caps Lock on the six keys of the camera do as people know them. */
 static void capitals_move_too(void **state)
 {
-    struct keys k = table_keys(false);
+    struct keymap k = table_keys(false);
 
     (void)state;
     for (const char *p = "wasde"; *p; p++)
-        assert_int_equal(keys_action(&k, *p - 'a' + 'A'), keys_action(&k, *p));
+        assert_int_equal(keymap_action(&k, *p - 'a' + 'A'), keymap_action(&k, *p));
 }
 
 static void a_key_has_one_action(void **state)
 {
     (void)state;
     for (int phoe = 0; phoe < 2; phoe++) {
-        struct keys k = table_keys(phoe);
+        struct keymap k = table_keys(phoe);
 
-        for (int key = 1; key <= INPUT_OTHER; key++) {
+        for (int key = 1; key <= TTY_KEY_OTHER; key++) {
             int count = 0;
 
-            for (int i = 0; i < ACTIONS * KEYS_MAX; i++)
-                count += k.keys[i / KEYS_MAX][i % KEYS_MAX] == key;
+            for (int i = 0; i < ACTIONS * KEYMAP_MAX; i++)
+                count += k.keys[i / KEYMAP_MAX][i % KEYMAP_MAX] == key;
             assert_in_range(count, 0, 1);
         }
     }
@@ -91,62 +91,62 @@ static void a_key_has_one_action(void **state)
 
 static void chosen_keys_replace_those_of_the_table(void **state)
 {
-    struct keys k = {0};
+    struct keymap k = {0};
 
     (void)state;
     choose(&k, ACTION_FORWARD, 'x', 'q');
     choose(&k, ACTION_ORBIT, 'y', 0);
     choose(&k, ACTION_MOUSE, 0, 0);
     choose(&k, ACTION_UNDO, 'x', 0); /* and takes it away from forward */
-    keys_settle(&k, true);
-    assert_int_equal(keys_action(&k, 'q'), ACTION_FORWARD);
-    assert_int_equal(keys_action(&k, 'x'), ACTION_UNDO);
-    assert_int_equal(keys_action(&k, 'u'), ACTION_NONE);
-    assert_int_equal(keys_action(&k, 'y'), ACTION_ORBIT);
-    assert_int_equal(keys_action(&k, 'o'), ACTION_NONE);
-    assert_int_equal(keys_action(&k, 'm'), ACTION_NONE);
-    assert_int_equal(keys_action(&k, 'Q'), ACTION_NONE); /* phoe's forward */
-    assert_int_equal(keys_action(&k, 'w'), ACTION_UP);
+    keymap_settle(&k, true);
+    assert_int_equal(keymap_action(&k, 'q'), ACTION_FORWARD);
+    assert_int_equal(keymap_action(&k, 'x'), ACTION_UNDO);
+    assert_int_equal(keymap_action(&k, 'u'), ACTION_NONE);
+    assert_int_equal(keymap_action(&k, 'y'), ACTION_ORBIT);
+    assert_int_equal(keymap_action(&k, 'o'), ACTION_NONE);
+    assert_int_equal(keymap_action(&k, 'm'), ACTION_NONE);
+    assert_int_equal(keymap_action(&k, 'Q'), ACTION_NONE); /* phoe's forward */
+    assert_int_equal(keymap_action(&k, 'w'), ACTION_UP);
 }
 
 static void names_come_back(void **state)
 {
-    struct keys_name name;
+    struct keymap_name name;
 
     (void)state;
     for (int action = 1; action < ACTIONS; action++) {
-        const char *text = keys_action_name((enum action)action);
+        const char *text = keymap_action_name((enum action)action);
 
         assert_non_null(text);
-        assert_int_equal(keys_find_action(text, strlen(text)), action);
+        assert_int_equal(keymap_find_action(text, strlen(text)), action);
     }
-    assert_null(keys_action_name(ACTION_NONE));
-    assert_int_equal(keys_find_action("forwar", 6), ACTION_NONE);
-    assert_int_equal(keys_find_action("", 0), ACTION_NONE);
-    for (int key = 1; key < INPUT_OTHER; key++) {
-        if (key >= 128 && key < INPUT_UP)
+    assert_null(keymap_action_name(ACTION_NONE));
+    assert_int_equal(keymap_find_action("forwar", 6), ACTION_NONE);
+    assert_int_equal(keymap_find_action("", 0), ACTION_NONE);
+    for (int key = 1; key < TTY_KEY_OTHER; key++) {
+        if (key >= 128 && key < TTY_KEY_UP)
             continue; /* none that a terminal sends */
-        name = keys_key_name(key);
-        assert_int_equal(keys_find_key(name.text, strlen(name.text)), key);
+        name = keymap_key_name(key);
+        assert_int_equal(keymap_find_key(name.text, strlen(name.text)), key);
     }
-    assert_int_equal(keys_find_key("^A", 2), 1);
-    assert_int_equal(keys_find_key("PgUp", 4), INPUT_PAGE_UP);
-    assert_int_equal(keys_find_key("pgup", 4), 0);
-    assert_int_equal(keys_find_key("ww", 2), 0);
-    assert_int_equal(keys_find_key("^", 1), '^');
-    assert_int_equal(keys_find_key("^a", 2), 0);
+    assert_int_equal(keymap_find_key("^A", 2), 1);
+    assert_int_equal(keymap_find_key("PgUp", 4), TTY_KEY_PAGE_UP);
+    assert_int_equal(keymap_find_key("pgup", 4), 0);
+    assert_int_equal(keymap_find_key("ww", 2), 0);
+    assert_int_equal(keymap_find_key("^", 1), '^');
+    assert_int_equal(keymap_find_key("^a", 2), 0);
 }
 
 static void first_names(void **state)
 {
-    struct keys k = {0};
+    struct keymap k = {0};
 
     (void)state;
     choose(&k, ACTION_MOUSE, 0, 0);
-    keys_settle(&k, false);
-    assert_string_equal(keys_first_name(&k, ACTION_HELP).text, "?");
-    assert_string_equal(keys_first_name(&k, ACTION_MODE).text, "space");
-    assert_string_equal(keys_first_name(&k, ACTION_MOUSE).text, "no key");
+    keymap_settle(&k, false);
+    assert_string_equal(keymap_first_name(&k, ACTION_HELP).text, "?");
+    assert_string_equal(keymap_first_name(&k, ACTION_MODE).text, "space");
+    assert_string_equal(keymap_first_name(&k, ACTION_MOUSE).text, "no key");
 }
 
 /* Every action but capitals of the same is in the help once; lines fit. */
@@ -154,8 +154,8 @@ static void help_names_every_key(void **state)
 {
     (void)state;
     for (int phoe = 0; phoe < 2; phoe++) {
-        struct keys k = table_keys(phoe);
-        struct keys_help help;
+        struct keymap k = table_keys(phoe);
+        struct keymap_help help;
         char all[1024] = " ";
 
         for (int i = 0; keys_help(&k, i, &help); i++) {
@@ -172,7 +172,7 @@ static void help_names_every_key(void **state)
                 strcpy(name, " 1-9");
             else
                 snprintf(name, sizeof name, " %s",
-                         keys_key_name(k.keys[action][0]).text);
+                         keymap_key_name(k.keys[action][0]).text);
             check_has(all, strcat(name, " "));
         }
     }
@@ -180,13 +180,13 @@ static void help_names_every_key(void **state)
 
 static void help_shows_chosen_keys(void **state)
 {
-    struct keys k = {0};
-    struct keys_help help;
+    struct keymap k = {0};
+    struct keymap_help help;
 
     (void)state;
     choose(&k, ACTION_BACK, 'x', 0);
     choose(&k, ACTION_LOOK_UP, 'i', 0);
-    keys_settle(&k, false);
+    keymap_settle(&k, false);
     assert_true(keys_help(&k, 0, &help));
     assert_string_equal(help.keys, "w x");
     assert_true(keys_help(&k, 3, &help));
@@ -235,11 +235,11 @@ static char manual_char(const char **p)
 
 /* Compares the items of a section with lines of the help. */
 static void check_manual(const char *begin,
-                         bool line_of(int line, struct keys_help *help))
+                         bool line_of(int line, struct keymap_help *help))
 {
     char *text = section("man/glim.1", begin, "\n.El\n");
     char *item = text;
-    struct keys_help help;
+    struct keymap_help help;
     int line = 0;
 
     for (; (item = strstr(item, "\n.It Ic ")); line++) {
@@ -256,9 +256,9 @@ static void check_manual(const char *begin,
     free(text);
 }
 
-static bool table_help(int line, struct keys_help *help)
+static bool table_help(int line, struct keymap_help *help)
 {
-    struct keys k = table_keys(false);
+    struct keymap k = table_keys(false);
 
     return keys_help(&k, line, help);
 }
@@ -267,35 +267,35 @@ static void manual_lists_the_same_keys(void **state)
 {
     (void)state;
     check_manual(".Sh KEYS\n", table_help);
-    check_manual(".Sh PANEL\n", keys_panel_help);
+    check_manual(".Sh PANEL\n", keymap_panel_help);
 }
 
 /* Each key has one meaning there, and each line fits into the help. */
 static void panel_keys_are_told(void **state)
 {
-    struct keys_help help;
+    struct keymap_help help;
     int seen = 0;
 
     (void)state;
-    for (int i = 0; keys_panel_help(i, &help); i++) {
+    for (int i = 0; keymap_panel_help(i, &help); i++) {
         assert_in_range(strlen(help.keys), 1, 7);
         assert_in_range(strlen(help.text), 1, HELP_ENTRY_COLS - 8);
     }
-    for (int key = 1; key <= INPUT_F1; key++)
-        seen += keys_panel_action(key) != PANEL_NONE;
+    for (int key = 1; key <= TTY_KEY_F1; key++)
+        seen += keymap_panel_action(key) != PANEL_NONE;
     assert_int_equal(seen, 4 + 2 + 2 + 1 + 13 + 8);
-    assert_int_equal(keys_panel_action(0), PANEL_NONE);
-    assert_int_equal(keys_panel_action('w'), PANEL_NONE);
-    assert_int_equal(keys_panel_action('U'), PANEL_REDO);
+    assert_int_equal(keymap_panel_action(0), PANEL_NONE);
+    assert_int_equal(keymap_panel_action('w'), PANEL_NONE);
+    assert_int_equal(keymap_panel_action('U'), PANEL_REDO);
 }
 
 static void readme_lists_the_same_keys(void **state)
 {
-    struct keys k = table_keys(false);
+    struct keymap k = table_keys(false);
     char *text =
         section("README.md", "| key | on the screen |\n| --- | --- |", "\n\n");
     char *row = text;
-    struct keys_help help;
+    struct keymap_help help;
     int line = 0;
 
     (void)state;
@@ -326,9 +326,9 @@ static void manual_lists_the_actions(void **state)
         if (*word == '\0' || *word == '.' || strcmp(word, "and") == 0)
             continue;
         assert_in_range(action, 1, ACTIONS - 1);
-        if (keys_find_action(word, strlen(word)) == ACTION_NONE)
+        if (keymap_find_action(word, strlen(word)) == ACTION_NONE)
             print_error("no action '%s'\n", word);
-        assert_true(keys_find_action(word, strlen(word)) != ACTION_NONE);
+        assert_true(keymap_find_action(word, strlen(word)) != ACTION_NONE);
         action++;
     }
     assert_int_equal(action, ACTIONS);
@@ -345,8 +345,8 @@ static void help_has_pages(void **state)
         {36, 10, 1}, /* 40x12 */
         {73, 60, 1}, {74, 60, 2}, {200, 7, 2}, {10, 1, 1},
     };
-    struct keys k = table_keys(false);
-    struct keys_help help;
+    struct keymap k = table_keys(false);
+    struct keymap_help help;
     struct help_page page;
 
     (void)state;
@@ -359,7 +359,7 @@ static void help_has_pages(void **state)
 
         for (int line = 0; keys_help(&k, line, &help); line++)
             total++;
-        for (int line = 0; in_panel && keys_panel_help(line, &help); line++)
+        for (int line = 0; in_panel && keymap_panel_help(line, &help); line++)
             total++;
         for (int n = 0; n == 0 || n < page.page_count; n++) {
             help_page(&page, &k, in_panel, "the note", n, cols, rows);
@@ -370,7 +370,7 @@ static void help_has_pages(void **state)
                     check_at_most((double)strlen(page.lines[row]), cols);
                 for (int line = 0; keys_help(&k, line, &help); line++)
                     found += strstr(page.lines[row], help.text) != NULL;
-                for (int line = 0; keys_panel_help(line, &help); line++)
+                for (int line = 0; keymap_panel_help(line, &help); line++)
                     found += strstr(page.lines[row], help.text) != NULL;
                 found += strstr(page.lines[row], "the note") != NULL;
             }

@@ -200,52 +200,52 @@ static void framed_cameras_stay(void **state)
 /* ---- through the work ---- */
 
 /* Looks until what was begun is loaded. */
-static void end_reload(struct work *w)
+static void end_reload(struct render_control *w)
 {
     for (int i = 0; i < 5000 && !w->reload.is_busy; i++) {
         usleep(1000);
-        work_look_at_files(w);
-        work_look(w);
+        render_control_look_at_files(w);
+        render_control_look(w);
     }
     assert_true(w->reload.is_busy);
-    work_end_reload(w);
+    render_control_end_reload(w);
 }
 
-static void open_work(struct work *w, struct session *s)
+static void open_work(struct render_control *w, struct session *s)
 {
     struct error err;
 
     open_scene(s);
-    assert_true(work_init(w, s, &err));
+    assert_true(render_control_init(w, s, &err));
 }
 
-static void close_work(struct work *w, struct session *s)
+static void close_work(struct render_control *w, struct session *s)
 {
-    work_free(w);
+    render_control_free(w);
     session_close(s);
 }
 
 static void broken_files_leave_the_scene(void **state)
 {
     struct session s;
-    struct work w;
+    struct render_control w;
 
     (void)state;
     open_work(&w, &s);
     put("s.mtl", "newmtl m\nKd .1 x\n");
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
-    work_reload(&w);
+    render_control_reload(&w);
     end_reload(&w);
     assert_true(w.message.is_error);
     assert_non_null(strstr(w.message.text, "s.mtl:2: "));
     check_close(s.scene.materials[1].color.x, .7f, 0);
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_false(w.has_changed_files); /* it was said once */
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
-    work_reload(&w);
+    render_control_reload(&w);
     end_reload(&w);
     assert_false(w.message.is_error);
     assert_string_equal(w.message.text, "loaded s.obj");
@@ -257,12 +257,12 @@ static void broken_files_leave_the_scene(void **state)
 static void warnings_are_told(void **state)
 {
     struct session s;
-    struct work w;
+    struct render_control w;
 
     (void)state;
     open_work(&w, &s);
     put("s.obj", OBJ "usemtl other\nf 1 3 4\n");
-    work_reload(&w);
+    render_control_reload(&w);
     end_reload(&w);
     assert_non_null(strstr(w.message.text, "loaded, 1 warning: s.obj:"));
     close_work(&w, &s);
@@ -271,7 +271,7 @@ static void warnings_are_told(void **state)
 static void watched_files_are_loaded_at_once(void **state)
 {
     struct session s;
-    struct work w;
+    struct render_control w;
 
     (void)state;
     options.watch = true;
@@ -280,17 +280,17 @@ static void watched_files_are_loaded_at_once(void **state)
     end_reload(&w);
     check_close(s.scene.materials[1].color.x, .25, 0);
     /* not while a render of normal mode would be lost */
-    work_set_live(&w, false);
-    work_start_or_halt(&w);
+    render_control_set_live(&w, false);
+    render_control_start_or_halt(&w);
     put("s.mtl", "newmtl m\nKd .5 0 0\n");
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
     usleep(300000);
-    work_look(&w);
+    render_control_look(&w);
     assert_false(w.reload.is_busy);
-    work_reload(&w); /* only says so */
+    render_control_reload(&w); /* only says so */
     assert_false(w.reload.is_busy);
-    work_set_live(&w, true);
+    render_control_set_live(&w, true);
     end_reload(&w);
     check_close(s.scene.materials[1].color.x, .5, 0);
     close_work(&w, &s);
@@ -301,20 +301,20 @@ static void watched_files_are_loaded_at_once(void **state)
 static void unwatched_files_are_looked_at(void **state)
 {
     struct session s;
-    struct work w;
+    struct render_control w;
 
     (void)state;
     open_work(&w, &s);
     close(w.watch.fd);
     w.watch.fd = -1;
     w.files_ns = clock_ns();
-    work_look(&w);
+    render_control_look(&w);
     assert_false(w.has_changed_files);
     assert_true(w.files_ns < clock_ns() + UINT64_C(2000000000));
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
     for (int i = 0; i < 3000 && !w.has_changed_files; i++) {
         usleep(1000);
-        work_look(&w);
+        render_control_look(&w);
     }
     assert_true(w.has_changed_files);
     close_work(&w, &s);
@@ -323,18 +323,18 @@ static void unwatched_files_are_looked_at(void **state)
 static void own_views_are_no_change(void **state)
 {
     struct session s;
-    struct work w;
+    struct render_control w;
 
     (void)state;
     open_work(&w, &s);
     s.view.exposure = 3;
     work_save_view(&w);
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
     s.view.exposure = 4;
     work_save_view(&w);
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_true(w.has_changed_files); /* the other file */
     close_work(&w, &s);
 }
@@ -343,7 +343,7 @@ static void own_views_are_no_change(void **state)
 static void own_materials_are_no_change(void **state)
 {
     struct session s;
-    struct work w;
+    struct render_control w;
     struct mtl_source red;
 
     (void)state;
@@ -352,16 +352,16 @@ static void own_materials_are_no_change(void **state)
     red.kd.rgb[0] = .125;
     edit_material(&s.edit, 1, &red);
     assert_true(work_save_edit(&w));
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
     /* and stays one when the next save takes it over */
     red.kd.rgb[0] = .25;
     edit_material(&s.edit, 1, &red);
     assert_true(work_save_edit(&w));
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
 }
@@ -371,7 +371,7 @@ static void own_materials_are_no_change(void **state)
 static void chosen_skies_are_watched(void **state)
 {
     struct session s;
-    struct work w;
+    struct render_control w;
     struct mood mood;
 
     (void)state;
@@ -383,11 +383,11 @@ static void chosen_skies_are_watched(void **state)
     w.must_restart = session_take_edit(&s);
     assert_true(w.must_restart);
     while (w.must_restart)
-        work_look(&w);
-    work_look_at_files(&w);
+        render_control_look(&w);
+    render_control_look_at_files(&w);
     assert_false(w.has_changed_files);
     put("sky.png", "no image either");
-    work_look_at_files(&w);
+    render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
 }

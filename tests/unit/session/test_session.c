@@ -349,7 +349,7 @@ static void test_statistics(void **state)
     open_session(&s, &o);
     assert_true(session_restart(&s, 2, &err));
     assert_true(render_wait(s.render, 60000));
-    assert_true(stats_write(&s, "out.json", &err));
+    assert_true(stats_json_write(&s, "out.json", &err));
     session_close(&s);
 
     assert_true(file_read("out.json", &text, &size_bytes, &err));

@@ -10,65 +10,65 @@ static struct pose pose_at(double x)
 
 static void starts_empty(void **state)
 {
-    struct history h = {0};
+    struct camera_history h = {0};
     struct pose pose = pose_at(1);
 
     (void)state;
-    assert_false(history_undo(&h, &pose));
-    assert_false(history_redo(&h, &pose));
+    assert_false(camera_history_undo(&h, &pose));
+    assert_false(camera_history_redo(&h, &pose));
     assert_true(pose.eye[0] == 1);
-    history_free(&h);
+    camera_history_free(&h);
 }
 
 /* 1000 steps back and forth again, through every pose. */
 static void goes_all_the_way(void **state)
 {
-    struct history h = {0};
+    struct camera_history h = {0};
     struct pose pose = pose_at(0);
 
     (void)state;
     for (int i = 1; i <= 1000; i++) {
-        history_add(&h, &pose);
+        camera_history_add(&h, &pose);
         pose = pose_at(i);
     }
     for (int round = 0; round < 2; round++) {
         for (int i = 999; i >= 0; i--) {
-            assert_true(history_undo(&h, &pose));
+            assert_true(camera_history_undo(&h, &pose));
             assert_true(pose.eye[0] == i);
         }
-        assert_false(history_undo(&h, &pose));
+        assert_false(camera_history_undo(&h, &pose));
         for (int i = 1; i <= 1000; i++) {
-            assert_true(history_redo(&h, &pose));
+            assert_true(camera_history_redo(&h, &pose));
             assert_true(pose.eye[0] == i);
         }
-        assert_false(history_redo(&h, &pose));
+        assert_false(camera_history_redo(&h, &pose));
     }
-    history_free(&h);
+    camera_history_free(&h);
 }
 
 /* From where one has gone back to, another way begins. */
 static void another_way_forgets_the_first(void **state)
 {
-    struct history h = {0};
+    struct camera_history h = {0};
     struct pose pose = pose_at(0);
 
     (void)state;
-    history_add(&h, &pose);
+    camera_history_add(&h, &pose);
     pose = pose_at(1);
-    history_add(&h, &pose);
+    camera_history_add(&h, &pose);
     pose = pose_at(2);
-    assert_true(history_undo(&h, &pose));
-    history_add(&h, &pose);
+    assert_true(camera_history_undo(&h, &pose));
+    camera_history_add(&h, &pose);
     pose = pose_at(7);
-    assert_false(history_redo(&h, &pose));
-    assert_true(history_undo(&h, &pose));
+    assert_false(camera_history_redo(&h, &pose));
+    assert_true(camera_history_undo(&h, &pose));
     assert_true(pose.eye[0] == 1);
-    assert_true(history_undo(&h, &pose));
+    assert_true(camera_history_undo(&h, &pose));
     assert_true(pose.eye[0] == 0);
-    assert_true(history_redo(&h, &pose));
-    assert_true(history_redo(&h, &pose));
+    assert_true(camera_history_redo(&h, &pose));
+    assert_true(camera_history_redo(&h, &pose));
     assert_true(pose.eye[0] == 7);
-    history_free(&h);
+    camera_history_free(&h);
 }
 
 int main(void)

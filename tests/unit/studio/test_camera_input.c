@@ -20,66 +20,66 @@ static struct view make_view(void)
 /* That distance a second, for the first step of a key. */
 static void speed_follows_what_is_near(void **state)
 {
-    struct steer s;
+    struct camera_input s;
 
     (void)state;
     for (double near = 0.1; near < 1; near *= 2) {
         struct view v = make_view();
 
-        steer_init(&s, lo, hi);
+        camera_input_init(&s, lo, hi);
         check_close(s.scene_size, 5, 1e-12);
-        steer_adapt(&s, near, 0);
-        check_close(steer_speed(&s), near, 1e-12);
-        steer_begin(&s, 1000 * MS);
-        motion_press(&s.motion, MOTION_FORWARD, 1, 1000 * MS);
-        assert_true(steer_step(&s, &v, 1000 * MS));
+        camera_input_adapt(&s, near, 0);
+        check_close(camera_input_speed(&s), near, 1e-12);
+        camera_input_begin(&s, 1000 * MS);
+        held_keys_press(&s.motion, HELD_KEYS_FORWARD, 1, 1000 * MS);
+        assert_true(camera_input_step(&s, &v, 1000 * MS));
         check_close(v.eye[2], -near / 60, 1e-6);
-        assert_false(steer_step(&s, &v, 1000 * MS));
+        assert_false(camera_input_step(&s, &v, 1000 * MS));
     }
-    steer_init(&s, lo, lo); /* a point */
-    assert_true(s.scene_size > 0 && steer_speed(&s) > 0);
+    camera_input_init(&s, lo, lo); /* a point */
+    assert_true(s.scene_size > 0 && camera_input_speed(&s) > 0);
 }
 
 /* At a wall and in the void there is still a way; far off the eye comes back in
  * seconds, and goes away no faster than a number says. */
 static void speed_is_never_none(void **state)
 {
-    struct steer s;
+    struct camera_input s;
     double open, far;
 
     (void)state;
-    steer_init(&s, lo, hi);
-    steer_adapt(&s, 0, 0);
-    assert_true(steer_speed(&s) > 1e-3 * 5 && steer_speed(&s) < 1e-2 * 5);
-    steer_adapt(&s, INFINITY, 0);
-    open = steer_speed(&s);
+    camera_input_init(&s, lo, hi);
+    camera_input_adapt(&s, 0, 0);
+    assert_true(camera_input_speed(&s) > 1e-3 * 5 && camera_input_speed(&s) < 1e-2 * 5);
+    camera_input_adapt(&s, INFINITY, 0);
+    open = camera_input_speed(&s);
     assert_true(open > 0.1 * 5 && open < 5);
-    steer_adapt(&s, INFINITY, 5);
-    check_close(steer_speed(&s), open, 1e-12);
-    steer_adapt(&s, INFINITY, 20);
-    far = steer_speed(&s);
+    camera_input_adapt(&s, INFINITY, 5);
+    check_close(camera_input_speed(&s), open, 1e-12);
+    camera_input_adapt(&s, INFINITY, 20);
+    far = camera_input_speed(&s);
     assert_true(far > open);
-    steer_adapt(&s, INFINITY, 40);
-    check_close(steer_speed(&s), 2 * far, 1e-12);
-    steer_adapt(&s, INFINITY, 1e17);
-    far = steer_speed(&s);
-    steer_adapt(&s, INFINITY, INFINITY);
-    assert_true(isfinite(steer_speed(&s)));
-    check_close(steer_speed(&s), far, 1e-12);
+    camera_input_adapt(&s, INFINITY, 40);
+    check_close(camera_input_speed(&s), 2 * far, 1e-12);
+    camera_input_adapt(&s, INFINITY, 1e17);
+    far = camera_input_speed(&s);
+    camera_input_adapt(&s, INFINITY, INFINITY);
+    assert_true(isfinite(camera_input_speed(&s)));
+    check_close(camera_input_speed(&s), far, 1e-12);
 }
 
 static double held(double seconds)
 {
-    struct steer s;
+    struct camera_input s;
     struct view v = make_view();
     uint64_t end = 1000 * MS + (uint64_t)(1e9 * seconds);
 
-    steer_init(&s, lo, hi);
-    steer_adapt(&s, 0.5, 0);
-    steer_begin(&s, 1000 * MS);
+    camera_input_init(&s, lo, hi);
+    camera_input_adapt(&s, 0.5, 0);
+    camera_input_begin(&s, 1000 * MS);
     for (uint64_t t = 1000 * MS; t < end; t += 30 * MS) {
-        motion_press(&s.motion, MOTION_FORWARD, 1, t);
-        steer_step(&s, &v, t);
+        held_keys_press(&s.motion, HELD_KEYS_FORWARD, 1, t);
+        camera_input_step(&s, &v, t);
     }
     return -v.eye[2];
 }
@@ -98,28 +98,28 @@ static void held_keys_get_faster(void **state)
 
 static void speed_has_ends(void **state)
 {
-    struct steer s;
+    struct camera_input s;
     double start;
 
     (void)state;
-    steer_init(&s, lo, hi);
+    camera_input_init(&s, lo, hi);
     start = s.speed;
-    steer_change_speed(&s, 3);
+    camera_input_change_speed(&s, 3);
     assert_true(s.speed > start);
-    steer_change_speed(&s, -3);
+    camera_input_change_speed(&s, -3);
     check_close(s.speed, start, 1e-12);
     for (int i = 0; i < 1000; i++)
-        steer_change_speed(&s, 1);
+        camera_input_change_speed(&s, 1);
     assert_true(isfinite(s.speed));
     for (int i = 0; i < 1000; i++)
-        steer_change_speed(&s, -1);
+        camera_input_change_speed(&s, -1);
     assert_true(s.speed > 0);
 }
 
 /* Over the whole height of the picture: by its field of view. */
 static void drag_turns_by_what_is_seen(void **state)
 {
-    struct steer s;
+    struct camera_input s;
     struct view v = make_view();
     struct fit fit = {0, 0, 80, 20};
     struct event e = {.kind = EVENT_MOUSE,
@@ -128,43 +128,43 @@ static void drag_turns_by_what_is_seen(void **state)
                       .y = 20};
 
     (void)state;
-    steer_init(&s, lo, hi);
-    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100)); /* no press yet */
+    camera_input_init(&s, lo, hi);
+    assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* no press yet */
     e.mouse = MOUSE_PRESS;
-    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     e.mouse = MOUSE_DRAG;
     e.y -= 20; /* upwards by all 20 rows */
-    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(v.at[1], sin(40 * 0.017453292519943295), 1e-9);
-    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100)); /* stands still */
+    assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* stands still */
     e.x += 80; /* to the right by the whole width */
-    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(atan2(v.at[0], -v.at[2]), 80 * 0.017453292519943295, 1e-9);
     e.mouse = MOUSE_RELEASE;
-    steer_mouse(&s, &v, &e, &fit, 200, 100);
+    camera_input_mouse(&s, &v, &e, &fit, 200, 100);
     e.mouse = MOUSE_DRAG;
     e.x += 3;
-    assert_false(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
 }
 
 /* A second of a held key: the angle, at a constant distance from the pivot. */
 static void orbits_while_keys_are_held(void **state)
 {
-    struct steer s;
+    struct camera_input s;
     struct view v = make_view();
     double begin, angle;
 
     (void)state;
-    steer_init(&s, lo, hi);
+    camera_input_init(&s, lo, hi);
     v.at[2] = -4;
     s.pivot[2] = -4;
     s.is_orbiting = true;
-    motion_press(&s.motion, MOTION_LOOK_RIGHT, 1, 1000 * MS);
-    assert_true(steer_step(&s, &v, 1000 * MS));
+    held_keys_press(&s.motion, HELD_KEYS_LOOK_RIGHT, 1, 1000 * MS);
+    assert_true(camera_input_step(&s, &v, 1000 * MS));
     begin = atan2(v.eye[0], v.eye[2] + 4);
     assert_true(begin > 0); /* to the right of where it was */
     for (uint64_t t = 1010; t <= 1100; t += 10)
-        steer_step(&s, &v, t * MS);
+        camera_input_step(&s, &v, t * MS);
     angle = atan2(v.eye[0], v.eye[2] + 4);
     check_close(angle / begin, (100 + 1000. / 60) / (1000. / 60), 1e-5);
     check_close(hypot(v.eye[0], v.eye[2] + 4), 4, 1e-12);
@@ -182,77 +182,77 @@ static void speeds_follow_the_scene(void **state)
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct steer s;
+        struct camera_input s;
         struct view v = make_view();
 
-        steer_init(&s, lo, hi);
-        steer_change_speed(&s, 3);
+        camera_input_init(&s, lo, hi);
+        camera_input_change_speed(&s, 3);
         if (i == 1)
-            steer_resize(&s, lo, far);
-        motion_press(&s.motion, MOTION_FORWARD, 1, 1000 * MS);
-        steer_step(&s, &v, 1000 * MS);
+            camera_input_resize(&s, lo, far);
+        held_keys_press(&s.motion, HELD_KEYS_FORWARD, 1, 1000 * MS);
+        camera_input_step(&s, &v, 1000 * MS);
         moved[i] = -v.eye[2];
     }
     assert_true(moved[0] > 0);
     check_close(moved[1] / moved[0], 2, 1e-12);
 }
 
-static void hold(struct steer *s, struct view *v, enum motion_axis axis,
+static void hold(struct camera_input *s, struct view *v, enum held_keys_axis axis,
                  int sign, int taps)
 {
     for (uint64_t t = 1000; taps > 0; t += 1000, taps--) {
-        motion_press(&s->motion, axis, sign, t * MS);
-        steer_step(s, v, t * MS);
-        steer_step(s, v, (t + 100) * MS);
-        steer_step(s, v, (t + 200) * MS);
+        held_keys_press(&s->motion, axis, sign, t * MS);
+        camera_input_step(s, v, t * MS);
+        camera_input_step(s, v, (t + 100) * MS);
+        camera_input_step(s, v, (t + 200) * MS);
     }
 }
 
 /* As many taps back as forth. */
 static void widens_and_narrows_alike(void **state)
 {
-    struct steer s;
+    struct camera_input s;
     struct view v = make_view();
 
     (void)state;
-    steer_init(&s, lo, hi);
-    hold(&s, &v, MOTION_WIDEN, 1, 3);
+    camera_input_init(&s, lo, hi);
+    hold(&s, &v, HELD_KEYS_WIDEN, 1, 3);
     assert_true(v.fovy_deg > 45 && v.fovy_deg < 70);
-    hold(&s, &v, MOTION_WIDEN, -1, 3);
+    hold(&s, &v, HELD_KEYS_WIDEN, -1, 3);
     check_close(v.fovy_deg, 40, 1e-9);
     assert_true(v.aperture == 0);
 }
 
 static void opens_from_a_pinhole_and_closes_to_one(void **state)
 {
-    struct steer s;
+    struct camera_input s;
     struct view v = make_view();
     double once;
 
     (void)state;
-    steer_init(&s, lo, hi);
-    hold(&s, &v, MOTION_OPEN, -1, 1);
+    camera_input_init(&s, lo, hi);
+    hold(&s, &v, HELD_KEYS_OPEN, -1, 1);
     assert_true(v.aperture == 0);
-    hold(&s, &v, MOTION_OPEN, 1, 1);
+    hold(&s, &v, HELD_KEYS_OPEN, 1, 1);
     once = v.aperture;
     assert_true(once > 0 && once < 0.01);
-    hold(&s, &v, MOTION_OPEN, 1, 1);
+    hold(&s, &v, HELD_KEYS_OPEN, 1, 1);
     check_close(v.aperture, once * sqrt(2), 1e-4 * once); /* one stop */
-    hold(&s, &v, MOTION_OPEN, -1, 1);
+    hold(&s, &v, HELD_KEYS_OPEN, -1, 1);
     check_close(v.aperture, once, 1e-12);
-    hold(&s, &v, MOTION_OPEN, -1, 1);
+    hold(&s, &v, HELD_KEYS_OPEN, -1, 1);
     assert_true(v.aperture == 0);
-    hold(&s, &v, MOTION_OPEN, 1, 200);
+    hold(&s, &v, HELD_KEYS_OPEN, 1, 200);
     check_close(v.aperture, 1, 1e-12); /* as far as it is sharp */
     v.focus = 3;
-    hold(&s, &v, MOTION_OPEN, 1, 200);
+    hold(&s, &v, HELD_KEYS_OPEN, 1, 200);
     check_close(v.aperture, 3, 1e-12);
 }
 
 /* Over the picture's height: half around; a thing in the middle follows. */
 static void a_modified_drag_orbits(void **state)
 {
-    struct steer s;
+    struct camera_input s;
     struct view v = make_view();
     struct fit fit = {0, 0, 80, 20};
     struct event e = {.kind = EVENT_MOUSE,
@@ -262,27 +262,27 @@ static void a_modified_drag_orbits(void **state)
                       .y = 10};
 
     (void)state;
-    steer_init(&s, lo, hi);
+    camera_input_init(&s, lo, hi);
     v.at[2] = -4;
     s.pivot[2] = -4;
-    assert_true(steer_orbits(&s, &e));
-    steer_mouse(&s, &v, &e, &fit, 200, 100);
+    assert_true(camera_input_orbits(&s, &e));
+    camera_input_mouse(&s, &v, &e, &fit, 200, 100);
     assert_false(s.has_dragged);
     e.mouse = MOUSE_DRAG;
     e.x -= 20; /* a quarter of the width is half the height */
-    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     assert_true(s.has_dragged);
     check_close(v.eye[0], 4, 1e-9);
     check_close(v.eye[2], -4, 1e-9);
     e.y += 5; /* downwards: one looks from above */
-    assert_true(steer_mouse(&s, &v, &e, &fit, 200, 100));
+    assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(v.eye[1], 4 * sin(0.25 * 3.141592653589793), 1e-9);
     e = (struct event){.kind = EVENT_MOUSE, .is_modified = true};
-    assert_true(steer_orbits(&s, &e));
+    assert_true(camera_input_orbits(&s, &e));
     e.is_modified = false;
-    assert_false(steer_orbits(&s, &e));
+    assert_false(camera_input_orbits(&s, &e));
     s.is_orbiting = true;
-    assert_true(steer_orbits(&s, &e));
+    assert_true(camera_input_orbits(&s, &e));
 }
 
 int main(void)

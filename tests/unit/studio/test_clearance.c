@@ -62,7 +62,7 @@ static void box(struct obj *o, const double lo[3], const double hi[3],
 
 static void load(struct obj *o, struct scene *scene)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct world world;
     struct error err;
 
@@ -70,8 +70,8 @@ static void load(struct obj *o, struct scene *scene)
     *scene = (struct scene){0};
     check_or_say(scene_load(scene, "a.obj", false, &report, &err), err.text);
     world = scene_arrays(scene);
-    check_or_say(wide_build(&scene->tree, &world, NULL, &err), err.text);
-    report_free(&report);
+    check_or_say(bvh8_build(&scene->tree, &world, NULL, &err), err.text);
+    warnings_free(&report);
 }
 
 static struct view view_from(double x, double y, double z)
@@ -246,16 +246,16 @@ static void an_empty_picture_is_noticed(void **state)
 }
 
 /* As the pilot does: a look around before each step. */
-static void press(struct steer *s, struct clearance *c,
+static void press(struct camera_input *s, struct clearance *c,
                   const struct scene *scene, struct view *v, uint64_t at_ns)
 {
     uint64_t next;
 
-    motion_press(&s->motion, MOTION_FORWARD, -1, at_ns);
-    while ((next = motion_next_ns(&s->motion)) != UINT64_MAX) {
+    held_keys_press(&s->motion, HELD_KEYS_FORWARD, -1, at_ns);
+    while ((next = held_keys_next_ns(&s->motion)) != UINT64_MAX) {
         clearance_follow(c, scene, v);
-        steer_adapt(s, c->near, c->away);
-        steer_step(s, v, next);
+        camera_input_adapt(s, c->near, c->away);
+        camera_input_step(s, v, next);
     }
 }
 
@@ -265,17 +265,17 @@ static double taps(double scale, const double room[2][3], double z, int count)
     struct view v = view_from(0, 1.6 * scale, z * scale);
     struct clearance c = {0};
     struct scene scene;
-    struct steer s;
+    struct camera_input s;
     struct obj o;
 
     begin(&o, scale);
     box(&o, room[0], room[1], -1);
     load(&o, &scene);
-    steer_init(&s, scene.bounds_lo, scene.bounds_hi);
+    camera_input_init(&s, scene.bounds_lo, scene.bounds_hi);
     for (int i = 0; i < count; i++) {
         uint64_t at_ns = (uint64_t)(1 + i) * 1000 * MS;
 
-        steer_begin(&s, at_ns);
+        camera_input_begin(&s, at_ns);
         press(&s, &c, &scene, &v, at_ns);
     }
     assert_int_equal(c.place, CLEARANCE_AMONG);
@@ -309,15 +309,15 @@ static void walls_give_way_at_last(void **state)
     struct clearance c = {0};
     struct scene scene;
     uint64_t ns = 1000 * MS;
-    struct steer s;
+    struct camera_input s;
     struct obj o;
 
     (void)state;
     begin(&o, 1);
     box(&o, lo, hi, -1);
     load(&o, &scene);
-    steer_init(&s, scene.bounds_lo, scene.bounds_hi);
-    steer_begin(&s, ns);
+    camera_input_init(&s, scene.bounds_lo, scene.bounds_hi);
+    camera_input_begin(&s, ns);
     for (; v.eye[2] < 6 && ns < 20000 * MS; ns += 150 * MS)
         press(&s, &c, &scene, &v, ns);
     assert_true(ns > 1500 * MS && ns < 8000 * MS);

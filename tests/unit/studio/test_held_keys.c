@@ -8,14 +8,14 @@
 #define MS UINT64_C(1000000)
 
 /* Steps as the loop does, whenever one is due, until `to`. The time held. */
-static double run(struct motion *m, uint64_t from_ns, uint64_t to_ns,
-                  enum motion_axis axis)
+static double run(struct held_keys *m, uint64_t from_ns, uint64_t to_ns,
+                  enum held_keys_axis axis)
 {
     double sum = 0;
-    double seconds[MOTION_AXES];
+    double seconds[HELD_KEYS_AXES];
 
     for (uint64_t now = from_ns; now < to_ns; now += MS / 4) {
-        if (now >= motion_next_ns(m) && motion_step(m, now, seconds))
+        if (now >= held_keys_next_ns(m) && held_keys_step(m, now, seconds))
             sum += seconds[axis];
     }
     return sum;
@@ -23,69 +23,69 @@ static double run(struct motion *m, uint64_t from_ns, uint64_t to_ns,
 
 static void a_tap_moves_at_once_and_then_stops(void **state)
 {
-    struct motion m = {0};
-    double seconds[MOTION_AXES];
+    struct held_keys m = {0};
+    double seconds[HELD_KEYS_AXES];
 
     (void)state;
-    assert_true(motion_next_ns(&m) == UINT64_MAX);
-    motion_press(&m, MOTION_FORWARD, -1, 1000 * MS);
-    assert_true(motion_next_ns(&m) <= 1000 * MS);
-    assert_true(motion_step(&m, 1000 * MS, seconds));
-    check_close(seconds[MOTION_FORWARD], -1.0 / 60, 1e-6);
-    assert_true(seconds[MOTION_RIGHT] == 0);
-    check_close(run(&m, 1000 * MS, 2000 * MS, MOTION_FORWARD),
+    assert_true(held_keys_next_ns(&m) == UINT64_MAX);
+    held_keys_press(&m, HELD_KEYS_FORWARD, -1, 1000 * MS);
+    assert_true(held_keys_next_ns(&m) <= 1000 * MS);
+    assert_true(held_keys_step(&m, 1000 * MS, seconds));
+    check_close(seconds[HELD_KEYS_FORWARD], -1.0 / 60, 1e-6);
+    assert_true(seconds[HELD_KEYS_RIGHT] == 0);
+    check_close(run(&m, 1000 * MS, 2000 * MS, HELD_KEYS_FORWARD),
                 -0.150 + 1.0 / 60, 1e-6);
-    assert_true(motion_next_ns(&m) == UINT64_MAX);
+    assert_true(held_keys_next_ns(&m) == UINT64_MAX);
 }
 
 /* Repeats every 33 ms: smooth, as long as the key is held. */
 static void held_keys_move_evenly(void **state)
 {
-    struct motion m = {0};
+    struct held_keys m = {0};
     double sum = 0;
 
     (void)state;
     for (int i = 0; i < 30; i++) {
         uint64_t now = (1000 + 33 * (uint64_t)i) * MS;
 
-        motion_press(&m, MOTION_RIGHT, 1, now);
-        sum += run(&m, now, now + 33 * MS, MOTION_RIGHT);
+        held_keys_press(&m, HELD_KEYS_RIGHT, 1, now);
+        sum += run(&m, now, now + 33 * MS, HELD_KEYS_RIGHT);
     }
-    sum += run(&m, 1990 * MS, 3000 * MS, MOTION_RIGHT);
+    sum += run(&m, 1990 * MS, 3000 * MS, HELD_KEYS_RIGHT);
     check_close(sum, 29 * 0.033 + 0.150, 1e-6);
 }
 
 static void keys_hold_together_and_turn_round(void **state)
 {
-    struct motion m = {0};
-    double seconds[MOTION_AXES];
+    struct held_keys m = {0};
+    double seconds[HELD_KEYS_AXES];
 
     (void)state;
-    motion_press(&m, MOTION_RIGHT, 1, 1000 * MS);
-    motion_press(&m, MOTION_UP, 1, 1000 * MS);
-    assert_true(motion_step(&m, 1000 * MS, seconds));
-    assert_true(seconds[MOTION_RIGHT] > 0 && seconds[MOTION_UP] > 0);
-    motion_press(&m, MOTION_RIGHT, -1, 1010 * MS);
-    assert_true(motion_step(&m, 1010 * MS, seconds));
-    assert_true(seconds[MOTION_RIGHT] < 0 && seconds[MOTION_UP] > 0);
-    motion_stop(&m);
-    assert_false(motion_step(&m, 1020 * MS, seconds));
+    held_keys_press(&m, HELD_KEYS_RIGHT, 1, 1000 * MS);
+    held_keys_press(&m, HELD_KEYS_UP, 1, 1000 * MS);
+    assert_true(held_keys_step(&m, 1000 * MS, seconds));
+    assert_true(seconds[HELD_KEYS_RIGHT] > 0 && seconds[HELD_KEYS_UP] > 0);
+    held_keys_press(&m, HELD_KEYS_RIGHT, -1, 1010 * MS);
+    assert_true(held_keys_step(&m, 1010 * MS, seconds));
+    assert_true(seconds[HELD_KEYS_RIGHT] < 0 && seconds[HELD_KEYS_UP] > 0);
+    held_keys_stop(&m);
+    assert_false(held_keys_step(&m, 1020 * MS, seconds));
 }
 
 /* A frame that took a second is no leap of a second: a tap is as long as ever.
  */
 static void stalls_are_no_leaps(void **state)
 {
-    struct motion m = {0};
-    double seconds[MOTION_AXES];
+    struct held_keys m = {0};
+    double seconds[HELD_KEYS_AXES];
     double sum;
 
     (void)state;
-    motion_press(&m, MOTION_FORWARD, 1, 1000 * MS);
-    motion_step(&m, 1000 * MS, seconds);
-    sum = seconds[MOTION_FORWARD];
-    motion_step(&m, 2000 * MS, seconds);
-    check_close(sum + seconds[MOTION_FORWARD], 0.150, 1e-6);
+    held_keys_press(&m, HELD_KEYS_FORWARD, 1, 1000 * MS);
+    held_keys_step(&m, 1000 * MS, seconds);
+    sum = seconds[HELD_KEYS_FORWARD];
+    held_keys_step(&m, 2000 * MS, seconds);
+    check_close(sum + seconds[HELD_KEYS_FORWARD], 0.150, 1e-6);
 }
 
 int main(void)

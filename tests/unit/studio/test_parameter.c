@@ -76,7 +76,7 @@ static double luminance(struct vec3 c)
 
 static bool is_kind(const struct mtl_source *s, const char *name)
 {
-    return strcmp(look_kind(s), name) == 0;
+    return strcmp(material_params_kind(s), name) == 0;
 }
 
 /* All kinds are reached one after the other, with the colour kept. */
@@ -91,22 +91,22 @@ static void kinds_turn(void **state)
         double before[3], after[3];
         int first = 0;
 
-        look_color(&s, before);
+        material_params_color(&s, before);
         while (!is_kind(&s, names[first]))
             first++;
         for (int i = 1; i <= 10; i++) {
             struct material m;
 
-            look_turn_kind(&s, 1);
-            assert_string_equal(look_kind(&s), names[(first + i) % 5]);
-            look_color(&s, after);
+            material_params_turn_kind(&s, 1);
+            assert_string_equal(material_params_kind(&s), names[(first + i) % 5]);
+            material_params_color(&s, after);
             for (int k = 0; k < 3; k++)
                 check_close(after[k], before[k], 1e-6);
-            m = look_material(&s);
+            m = material_params_material(&s);
             check_color(m.color, before);
         }
-        look_turn_kind(&s, -1);
-        assert_string_equal(look_kind(&s), names[(first + 4) % 5]);
+        material_params_turn_kind(&s, -1);
+        assert_string_equal(material_params_kind(&s), names[(first + 4) % 5]);
     }
 }
 
@@ -121,27 +121,27 @@ static void values_arrive(void **state)
         struct material m;
 
         rgb[0] = fmin(rgb[0], 1);
-        look_set_color(&s, rgb);
-        m = look_material(&s);
+        material_params_set_color(&s, rgb);
+        m = material_params_material(&s);
         check_color(m.color, rgb);
-        look_set_roughness(&s, x);
-        assert_true((float)look_roughness(&s) == (float)x);
-        m = look_material(&s);
+        material_params_set_roughness(&s, x);
+        assert_true((float)material_params_roughness(&s) == (float)x);
+        m = material_params_material(&s);
         if (m.kind == MATERIAL_ROUGH_DIFFUSE)
             check_close((double)m.alpha, x, 1e-6);
         else if (m.kind == MATERIAL_METAL || m.kind == MATERIAL_PLASTIC ||
                  m.kind == MATERIAL_GLASS)
             check_close((double)m.alpha, x * x, 1e-6);
-        look_set_light_color(&s, rgb);
-        look_set_strength(&s, 8);
-        look_light_color(&s, light);
-        m = look_material(&s);
+        material_params_set_light_color(&s, rgb);
+        material_params_set_strength(&s, 8);
+        material_params_light_color(&s, light);
+        m = material_params_material(&s);
         for (int k = 0; k < 3; k++)
             light[k] *= 8;
         check_color(m.emission, light);
         x = luminance(m.emission);
-        look_set_kelvin(&s, 3000);
-        m = look_material(&s);
+        material_params_set_kelvin(&s, 3000);
+        m = material_params_material(&s);
         check_close(luminance(m.emission), x, 1e-3 * x);
         assert_true(m.emission.x > m.emission.y && m.emission.y > m.emission.z);
     }
@@ -157,18 +157,18 @@ static void put(const char *name, const char *text)
                  err.text);
 }
 
-struct stage {
+struct workspace {
     struct scene scene;
     struct view view;
-    struct report report;
+    struct warnings report;
     struct edit edit;
 };
 
-static void open_stage(struct stage *s)
+static void open_stage(struct workspace *s)
 {
     struct error err;
 
-    *s = (struct stage){.report = {0}};
+    *s = (struct workspace){.report = {0}};
     put("k.obj", "mtllib k.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a\nusemtl m\n"
                  "f 1 2 3\no b\nusemtl n\nf 1 2 3\n");
     put("k.mtl", "newmtl m\nKd .5 .25 .125\nmap_Kd no.png\nnewmtl n\n"
@@ -179,15 +179,15 @@ static void open_stage(struct stage *s)
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
 }
 
-static void close_stage(struct stage *s)
+static void close_stage(struct workspace *s)
 {
     edit_free(&s->edit);
     scene_free(&s->scene);
     view_free(&s->view);
-    report_free(&s->report);
+    warnings_free(&s->report);
 }
 
-static void same_knobs(const struct knob *a, const struct knob *b, int count)
+static void same_knobs(const struct parameter *a, const struct parameter *b, int count)
 {
     for (int i = 0; i < count; i++) {
         assert_int_equal(a[i].id, b[i].id);
@@ -198,32 +198,32 @@ static void same_knobs(const struct knob *a, const struct knob *b, int count)
 /* Turned up by some steps and down again, in the middle of its scale. */
 static void knobs_turn_back(void **state)
 {
-    static const struct knob_target targets[] = {
-        {KNOB_MATERIAL, 1, false}, {KNOB_MATERIAL, 1, true},
-        {KNOB_MATERIAL, 2, false}, {KNOB_OBJECT, 1, false},
-        {KNOB_LIGHT, 0, false},    {KNOB_LIGHT, 0, true},
+    static const struct parameter_target targets[] = {
+        {PARAMETER_MATERIAL, 1, false}, {PARAMETER_MATERIAL, 1, true},
+        {PARAMETER_MATERIAL, 2, false}, {PARAMETER_OBJECT, 1, false},
+        {PARAMETER_LIGHT, 0, false},    {PARAMETER_LIGHT, 0, true},
     };
-    struct stage s;
+    struct workspace s;
 
     (void)state;
     open_stage(&s);
     edit_sky(&s.edit, "b.hdr");
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) {
-        struct knob before[KNOBS_MAX], after[KNOBS_MAX];
-        int count = knobs_list(&s.edit, &s.scene, &targets[i], before);
+        struct parameter before[PARAMETERS_MAX], after[PARAMETERS_MAX];
+        int count = parameters_list(&s.edit, &s.scene, &targets[i], before);
 
-        assert_in_range(count, 1, KNOBS_MAX);
+        assert_in_range(count, 1, PARAMETERS_MAX);
         for (int k = 0; k < count; k++) {
             size_t done = s.edit.done_count;
 
             edit_break(&s.edit);
             for (int n = 0; n < 3; n++)
-                knob_turn(&s.edit, &targets[i], before[k].id, 1);
+                parameter_turn(&s.edit, &targets[i], before[k].id, 1);
             if (s.edit.done_count == done)
                 continue; /* a swatch, or at the end of its scale */
             assert_int_equal(s.edit.done_count, done + 1);
             assert_true(edit_undo(&s.edit));
-            assert_int_equal(knobs_list(&s.edit, &s.scene, &targets[i], after),
+            assert_int_equal(parameters_list(&s.edit, &s.scene, &targets[i], after),
                              count);
             same_knobs(before, after, count);
         }
@@ -235,14 +235,14 @@ static void knobs_turn_back(void **state)
  * changes nothing. */
 static void shown_texts_can_be_typed(void **state)
 {
-    struct stage s;
+    struct workspace s;
 
     (void)state;
     open_stage(&s);
     for (uint32_t m = 1; m <= 2; m++) {
-        struct knob_target target = {KNOB_MATERIAL, m, m == 2};
-        struct knob before[KNOBS_MAX], after[KNOBS_MAX];
-        int count = knobs_list(&s.edit, &s.scene, &target, before);
+        struct parameter_target target = {PARAMETER_MATERIAL, m, m == 2};
+        struct parameter before[PARAMETERS_MAX], after[PARAMETERS_MAX];
+        int count = parameters_list(&s.edit, &s.scene, &target, before);
         struct error err;
 
         for (int k = 0; k < count; k++) {
@@ -259,7 +259,7 @@ static void shown_texts_can_be_typed(void **state)
             check_or_say(knob_set_text(&s.edit, &target, before[k].id,
                                        before[k].text, &err),
                          err.text);
-            assert_int_equal(knobs_list(&s.edit, &s.scene, &target, after),
+            assert_int_equal(parameters_list(&s.edit, &s.scene, &target, after),
                              count);
             assert_string_equal(after[k].text, before[k].text);
         }
@@ -267,7 +267,7 @@ static void shown_texts_can_be_typed(void **state)
     close_stage(&s);
 }
 
-static const struct knob *find(const struct knob *knobs, int count,
+static const struct parameter *find(const struct parameter *knobs, int count,
                                const char *label)
 {
     for (int i = 0; i < count; i++)
@@ -288,9 +288,9 @@ static void typed_values_arrive(void **state)
         {"of colour", "2700K", "2700K"},  {"of colour", "4000", "4000K"},
         {"cover", ".75", "0.75"},         {"of colour", "#ffffff", "#ffffff"},
     };
-    struct knob_target target = {KNOB_MATERIAL, 1, false};
-    struct knob knobs[KNOBS_MAX];
-    struct stage s;
+    struct parameter_target target = {PARAMETER_MATERIAL, 1, false};
+    struct parameter knobs[PARAMETERS_MAX];
+    struct workspace s;
     int count;
 
     (void)state;
@@ -298,19 +298,19 @@ static void typed_values_arrive(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct error err;
 
-        count = knobs_list(&s.edit, &s.scene, &target, knobs);
+        count = parameters_list(&s.edit, &s.scene, &target, knobs);
         check_or_say(knob_set_text(&s.edit, &target,
                                    find(knobs, count, cases[i].label)->id,
                                    cases[i].text, &err),
                      err.text);
-        count = knobs_list(&s.edit, &s.scene, &target, knobs);
+        count = parameters_list(&s.edit, &s.scene, &target, knobs);
         assert_string_equal(find(knobs, count, cases[i].label)->text,
                             cases[i].shown);
     }
     /* a texture off and on */
     assert_string_equal(find(knobs, count, "map_Kd")->text, "on no.png");
-    knob_turn(&s.edit, &target, find(knobs, count, "map_Kd")->id, 1);
-    knobs_list(&s.edit, &s.scene, &target, knobs);
+    parameter_turn(&s.edit, &target, find(knobs, count, "map_Kd")->id, 1);
+    parameters_list(&s.edit, &s.scene, &target, knobs);
     assert_string_equal(find(knobs, count, "map_Kd")->text, "off no.png");
     close_stage(&s);
 }

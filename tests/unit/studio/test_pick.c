@@ -26,13 +26,13 @@ static void put(const char *name, const char *text)
 
 static void load(struct scene *scene, const char *obj)
 {
-    struct report report = {0};
+    struct warnings report = {0};
     struct error err;
 
     *scene = (struct scene){0};
     put("a.obj", obj);
     check_or_say(scene_load(scene, "a.obj", false, &report, &err), err.text);
-    report_free(&report);
+    warnings_free(&report);
 }
 
 static struct view view_from(double x, double y, double z)

@@ -11,7 +11,7 @@
 
 #define S_NS UINT64_C(1000000000)
 
-static char lines[METER_ROWS][METER_BYTES];
+static char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES];
 
 static int cols_of(const char *text)
 {
@@ -37,7 +37,7 @@ static void numbers_are_short(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        meter_number(text, sizeof text, cases[i].value);
+        progress_text_number(text, sizeof text, cases[i].value);
         assert_string_equal(text, cases[i].text);
     }
 }
@@ -53,11 +53,11 @@ static void half_a_render(void **state)
                                 .render_ns = 100 * S_NS};
     struct speeds speeds = {0};
     double loads[] = {1, 0.5};
-    struct meter_facts f = {&p, &speeds, loads, 2, false};
+    struct progress_text_facts f = {&p, &speeds, loads, 2, false};
 
     (void)state;
     speeds_look(&speeds, 100 * S_NS, 25000000);
-    meter_format(lines, &f);
+    progress_text_format(lines, &f);
     assert_string_equal(lines[0], "250 of 1000 spp               25.0 %");
     assert_string_equal(lines[1], "#########---------------------------");
     assert_string_equal(lines[2], "samples       25.0 M         250 k/s");
@@ -67,9 +67,9 @@ static void half_a_render(void **state)
     assert_string_equal(lines[9], "2 threads                  busy 75 %");
     assert_string_equal(lines[10], "@=");
     f.has_unicode = true;
-    meter_format(lines, &f);
+    progress_text_format(lines, &f);
     assert_string_equal(lines[10], "█▄");
-    assert_int_equal(cols_of(lines[1]), METER_COLS);
+    assert_int_equal(cols_of(lines[1]), PROGRESS_TEXT_COLS);
     assert_true(strncmp(lines[1], "█████████░", 30) == 0);
 }
 
@@ -78,20 +78,20 @@ static void plots_are_to_scale(void **state)
 {
     struct render_progress p = {.state = RENDER_RUNNING};
     struct speeds speeds = {.count = 4, .span_ns = S_NS, .time_ns = 4 * S_NS};
-    struct meter_facts f = {&p, &speeds, NULL, 0, true};
+    struct progress_text_facts f = {&p, &speeds, NULL, 0, true};
 
     (void)state;
     speeds.samples[0] = 1200;
     speeds.samples[1] = 600;
     speeds.samples[2] = 0;
     speeds.samples[3] = 300;
-    meter_format(lines, &f);
+    progress_text_format(lines, &f);
     /* dots 1 2 3 7 at the left, 4 5 6 8 at the right of U+2800 */
     assert_true(strncmp(lines[6], "⡇⠀⠀", 9) == 0);
     assert_true(strncmp(lines[7], "⣧⠀⠀", 9) == 0);
     assert_true(strncmp(lines[8], "⣿⢰⠀", 9) == 0);
     f.has_unicode = false;
-    meter_format(lines, &f);
+    progress_text_format(lines, &f);
     assert_true(strncmp(lines[6], "#  ", 3) == 0);
     assert_true(strncmp(lines[7], "#  ", 3) == 0);
     assert_true(strncmp(lines[8], "#| ", 3) == 0);
@@ -115,12 +115,12 @@ static void lines_have_room(void **state)
                                     .samples_limit = big,
                                     .rays = big,
                                     .render_ns = big};
-        struct meter_facts f = {&p, &speeds, loads, 1 + bits * 16, bits % 2};
+        struct progress_text_facts f = {&p, &speeds, loads, 1 + bits * 16, bits % 2};
 
         speeds_look(&speeds, (uint64_t)bits * S_NS, big);
-        meter_format(lines, &f);
-        for (int i = 0; i < METER_ROWS; i++)
-            assert_true(cols_of(lines[i]) <= METER_COLS);
+        progress_text_format(lines, &f);
+        for (int i = 0; i < PROGRESS_TEXT_ROWS; i++)
+            assert_true(cols_of(lines[i]) <= PROGRESS_TEXT_COLS);
     }
 }
 
@@ -128,10 +128,10 @@ static void live_and_device_and_nothing(void **state)
 {
     struct render_progress p = {.state = RENDER_IDLE};
     struct speeds speeds = {0};
-    struct meter_facts f = {&p, &speeds, NULL, 0, true};
+    struct progress_text_facts f = {&p, &speeds, NULL, 0, true};
 
     (void)state;
-    meter_format(lines, &f);
+    progress_text_format(lines, &f);
     assert_string_equal(lines[0], "0 spp                       no limit");
     assert_string_equal(lines[4], "elapsed          0 s                ");
     assert_string_equal(lines[10], "");

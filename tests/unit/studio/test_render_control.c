@@ -38,7 +38,7 @@ static int leave_folder(void **state)
 struct fixture {
     struct options options;
     struct session session;
-    struct work work;
+    struct render_control work;
 };
 
 static int open_work(void **state)
@@ -62,7 +62,7 @@ static int open_work(void **state)
                                  .thread_count = 1};
     *state = &f;
     if (!session_open(&f.session, &f.options, clock_ns(), &err) ||
-        !work_init(&f.work, &f.session, &err)) {
+        !render_control_init(&f.work, &f.session, &err)) {
         print_error("%s\n", err.text);
         return -1;
     }
@@ -73,45 +73,45 @@ static int close_work(void **state)
 {
     struct fixture *f = *state;
 
-    work_free(&f->work);
+    render_control_free(&f->work);
     session_close(&f->session);
     return 0;
 }
 
 /* Looks until the render is not running, ten seconds at most. */
-static void run_to_end(struct work *w)
+static void run_to_end(struct render_control *w)
 {
     assert_true(render_wait(w->session->render, 10000));
-    work_look(w);
+    render_control_look(w);
 }
 
-static void render_whole(struct work *w)
+static void render_whole(struct render_control *w)
 {
-    work_set_live(w, false);
-    work_start_or_halt(w);
+    render_control_set_live(w, false);
+    render_control_start_or_halt(w);
     run_to_end(w);
 }
 
 static void live_mode_has_nothing_to_lose(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
     assert_true(w->is_live);
     assert_int_equal(w->progress.spp_limit, 0);
-    while (work_awaits_picture(w))
-        work_look(w);
-    assert_false(work_has_unsaved(w));
-    assert_true(work_may_move(w));
+    while (render_control_awaits_picture(w))
+        render_control_look(w);
+    assert_false(render_control_has_unsaved(w));
+    assert_true(render_control_may_move(w));
 }
 
 static void moving_starts_anew(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
     uint64_t before_ns = w->restarted_ns;
 
     w->must_restart = true;
     while (w->must_restart) /* after the first picture */
-        work_look(w);
+        render_control_look(w);
     assert_true(w->restarted_ns > before_ns);
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
@@ -120,18 +120,18 @@ static void moving_starts_anew(void **state)
  * there is time to show it. */
 static void moving_shows_pictures(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
     for (int i = 0; i < 20; i++) {
         uint64_t before_ns = w->restarted_ns;
 
         w->must_restart = true;
-        while (work_awaits_picture(w)) { /* it may have come by now */
-            work_look(w);
+        while (render_control_awaits_picture(w)) { /* it may have come by now */
+            render_control_look(w);
             assert_int_equal(w->restarted_ns, before_ns);
             assert_true(w->must_restart);
         }
-        work_look(w);
+        render_control_look(w);
         assert_int_not_equal(w->restarted_ns, before_ns);
     }
 }
@@ -140,17 +140,17 @@ static void moving_shows_pictures(void **state)
  * is none. */
 static void drafts_are_live(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
     struct render *render = w->session->render;
 
     w->session->draft_width = 20;
     w->session->draft_height = 12;
-    work_set_live(w, true);
+    render_control_set_live(w, true);
     while (w->progress.samples == 0)
-        work_look(w);
+        render_control_look(w);
     assert_true(w->progress.draft_samples == 5 * 20 * 12);
-    work_set_live(w, false);
-    work_start_or_halt(w);
+    render_control_set_live(w, false);
+    render_control_start_or_halt(w);
     assert_null(render_draft(render));
     run_to_end(w);
     assert_int_equal(w->progress.draft_samples, 0);
@@ -159,93 +159,93 @@ static void drafts_are_live(void **state)
 
 static void normal_mode_renders_to_its_end(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
-    work_set_live(w, false);
+    render_control_set_live(w, false);
     run_to_end(w);
     assert_int_equal(w->progress.state, RENDER_IDLE);
-    assert_false(work_may_move(w));
-    assert_false(work_has_unsaved(w)); /* nothing was begun */
-    work_start_or_halt(w);
+    assert_false(render_control_may_move(w));
+    assert_false(render_control_has_unsaved(w)); /* nothing was begun */
+    render_control_start_or_halt(w);
     run_to_end(w);
     assert_int_equal(w->progress.state, RENDER_DONE);
     assert_int_equal(w->progress.spp_done, 3);
     assert_int_equal(w->progress.samples, 3 * 32 * 16);
-    assert_true(work_has_unsaved(w));
-    work_start_or_halt(w); /* Enter at the end loses nothing */
-    work_look(w);
+    assert_true(render_control_has_unsaved(w));
+    render_control_start_or_halt(w); /* Enter at the end loses nothing */
+    render_control_look(w);
     assert_int_equal(w->progress.state, RENDER_DONE);
-    work_set_live(w, true);
-    assert_false(work_has_unsaved(w));
+    render_control_set_live(w, true);
+    assert_false(render_control_has_unsaved(w));
     assert_int_equal(w->progress.spp_limit, 0);
 }
 
 static void halted_renders_go_on(void **state)
 {
     struct fixture *f = *state;
-    struct work *w = &f->work;
+    struct render_control *w = &f->work;
 
     f->options.spp = 1000000;
-    work_set_live(w, false);
-    work_start_or_halt(w);
-    while (work_awaits_picture(w))
-        work_look(w);
-    work_start_or_halt(w);
+    render_control_set_live(w, false);
+    render_control_start_or_halt(w);
+    while (render_control_awaits_picture(w))
+        render_control_look(w);
+    render_control_start_or_halt(w);
     assert_true(w->is_halted);
     assert_int_equal(w->progress.state, RENDER_IDLE);
-    assert_true(work_has_unsaved(w));
+    assert_true(render_control_has_unsaved(w));
     uint64_t samples = w->progress.samples;
-    work_start_or_halt(w);
+    render_control_start_or_halt(w);
     assert_false(w->is_halted);
     while (w->progress.samples <= samples)
-        work_look(w);
+        render_control_look(w);
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
 
 static void live_mode_pauses(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
     uint64_t samples;
 
-    while (work_awaits_picture(w))
-        work_look(w);
-    work_start_or_halt(w);
+    while (render_control_awaits_picture(w))
+        render_control_look(w);
+    render_control_start_or_halt(w);
     assert_true(w->is_halted);
     assert_int_equal(w->progress.state, RENDER_IDLE);
     samples = w->progress.samples;
-    work_start_or_halt(w);
+    render_control_start_or_halt(w);
     assert_false(w->is_halted);
     while (w->progress.samples <= samples)
-        work_look(w);
+        render_control_look(w);
     assert_int_equal(w->progress.spp_limit, 0);
-    work_start_or_halt(w);
+    render_control_start_or_halt(w);
     w->must_restart = true; /* a change goes on */
-    work_look(w);
+    render_control_look(w);
     assert_false(w->is_halted);
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
 
 static void steps_are_one_sample_each(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
-    work_set_live(w, false);
+    render_control_set_live(w, false);
     for (uint64_t spp = 1; spp <= 2; spp++) {
-        work_step(w);
+        render_control_step(w);
         run_to_end(w);
         assert_true(w->is_halted);
         assert_int_equal(w->progress.state, RENDER_IDLE);
         assert_int_equal(w->progress.spp_done, spp);
         assert_int_equal(w->progress.samples, spp * 32 * 16);
     }
-    work_step(w); /* the last of -s 3 */
+    render_control_step(w); /* the last of -s 3 */
     run_to_end(w);
     assert_int_equal(w->progress.state, RENDER_DONE);
     assert_int_equal(w->progress.samples, 3 * 32 * 16);
-    work_step(w); /* there is no more */
+    render_control_step(w); /* there is no more */
     run_to_end(w);
     assert_int_equal(w->progress.samples, 3 * 32 * 16);
-    work_restart(w);
+    render_control_restart(w);
     run_to_end(w);
     assert_int_equal(w->progress.state, RENDER_DONE);
     assert_int_equal(w->progress.samples, 3 * 32 * 16);
@@ -256,21 +256,21 @@ static void steps_are_one_sample_each(void **state)
 static void steps_after_a_halt_make_the_same_picture(void **state)
 {
     struct fixture *f = *state;
-    struct work *w = &f->work;
+    struct render_control *w = &f->work;
     float whole[32 * 16 * 3], stepped[32 * 16 * 3];
 
     f->options.spp = 40;
     render_whole(w);
     assert_int_equal(w->progress.spp_done, 40);
     film_linear(render_film(w->session->render), whole);
-    work_restart(w);
+    render_control_restart(w);
     for (int i = 0; i < 10000 && w->progress.state != RENDER_DONE; i++) {
-        work_step(w);          /* halts what runs */
-        work_start_or_halt(w); /* halts the step */
+        render_control_step(w);          /* halts what runs */
+        render_control_start_or_halt(w); /* halts the step */
         if (w->progress.state == RENDER_IDLE)
-            work_start_or_halt(w);
+            render_control_start_or_halt(w);
         usleep(100); /* some of a pass */
-        work_look(w);
+        render_control_look(w);
     }
     run_to_end(w);
     assert_int_equal(w->progress.samples, 40 * 32 * 16);
@@ -285,7 +285,7 @@ static bool is_kept(void)
 
 static void what_no_file_has_is_kept(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
     char expected[128];
 
     snprintf(expected, sizeof expected, "kept %s/glim/lost.png, 3 spp", folder);
@@ -300,14 +300,14 @@ static void what_no_file_has_is_kept(void **state)
 
 static void what_a_file_has_is_not_kept(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
     render_whole(w);
     work_save_picture(w, "png");
     assert_true(work_finish_saving(w));
     work_keep(w);
     assert_false(is_kept());
-    work_restart(w); /* what follows is not in the file */
+    render_control_restart(w); /* what follows is not in the file */
     run_to_end(w);
     work_keep(w);
     assert_true(is_kept());
@@ -316,10 +316,10 @@ static void what_a_file_has_is_not_kept(void **state)
 /* Of live mode: what has taken a while, or shows what was edited. */
 static void what_is_made_anew_at_once_is_not_kept(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
     while (w->progress.samples == 0)
-        work_look(w);
+        render_control_look(w);
     work_keep(w);
     assert_false(is_kept());
     w->session->edit.now.mood.exposure += 1;
@@ -327,10 +327,10 @@ static void what_is_made_anew_at_once_is_not_kept(void **state)
     assert_true(is_kept());
     unlink("glim/lost.png");
     w->session->edit.now.mood.exposure -= 1;
-    work_restart(w);
+    render_control_restart(w);
     while (w->progress.render_ns < 5200000000u) {
         usleep(100000);
-        work_look(w);
+        render_control_look(w);
     }
     work_keep(w);
     assert_true(is_kept());
@@ -338,12 +338,12 @@ static void what_is_made_anew_at_once_is_not_kept(void **state)
 
 static void saving_never_replaces(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
     render_whole(w);
     for (int i = 0; i < 2; i++) {
         work_save_picture(w, "png");
-        saver_wait_copied(&w->saver);
+        save_thread_wait_copied(&w->saver);
         assert_true(work_finish_saving(w));
     }
     assert_int_equal(access("s.png", F_OK), 0);
@@ -351,13 +351,13 @@ static void saving_never_replaces(void **state)
     assert_int_equal(w->result_count, 2);
     assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
     assert_string_equal(w->message.text, "saved s-2.png 32x16, 3 spp");
-    assert_false(work_has_unsaved(w));
+    assert_false(render_control_has_unsaved(w));
 }
 
 /* What is saved is what was there at the key, whatever happens after it. */
 static void saving_takes_a_copy(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
     char first[65536], second[65536];
     size_t sizes[2];
 
@@ -367,7 +367,7 @@ static void saving_takes_a_copy(void **state)
     work_save_picture(w, "png");
     for (int i = 0; i < 3; i++)
         w->session->view.eye[i] += 5; /* away: another picture */
-    work_set_live(w, true);
+    render_control_set_live(w, true);
     assert_true(work_finish_saving(w));
     FILE *a = fopen("s.png", "rb");
     FILE *b = fopen("s-2.png", "rb");
@@ -383,13 +383,13 @@ static void saving_takes_a_copy(void **state)
 /* Other sizes may have come meanwhile. */
 static void what_is_said_is_what_was_saved(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
     render_whole(w);
     work_save_picture(w, "png");
-    saver_wait_copied(&w->saver);
+    save_thread_wait_copied(&w->saver);
     w->session->crop.width = 20;
-    work_set_live(w, true);
+    render_control_set_live(w, true);
     assert_true(work_finish_saving(w));
     assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
 }
@@ -397,25 +397,25 @@ static void what_is_said_is_what_was_saved(void **state)
 /* Without a look since it was begun. */
 static void a_young_picture_is_unsaved_too(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
-    work_set_live(w, false);
-    work_start_or_halt(w);
+    render_control_set_live(w, false);
+    render_control_start_or_halt(w);
     assert_true(render_wait(w->session->render, 10000));
-    assert_true(work_has_unsaved(w));
+    assert_true(render_control_has_unsaved(w));
 }
 
 /* The thread that loads may have read the file as it was: the camera would go
  * back to that. */
 static void no_view_is_written_under_a_reload(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
-    work_reload(w);
+    render_control_reload(w);
     w->session->view.eye[0] = 7;
     work_save_view(w);
     assert_int_equal(access("s.view", F_OK), -1);
-    assert_true(work_end_reload(w));
+    assert_true(render_control_end_reload(w));
     assert_true(w->session->view.eye[0] == 7);
     work_save_view(w);
     assert_int_equal(access("s.view", F_OK), 0);
@@ -424,37 +424,37 @@ static void no_view_is_written_under_a_reload(void **state)
 /* An error that comes while somebody types is not gone with the next key. */
 static void errors_are_seen(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
 
-    work_say_error(w, "broken");
+    render_control_say_error(w, "broken");
     assert_true(w->message.until_ns == UINT64_MAX);
-    work_be_heard(w);
+    render_control_be_heard(w);
     assert_string_equal(w->message.text, "broken");
     check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
-    work_be_heard(w);
+    render_control_be_heard(w);
     check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
 }
 
 /* 200 words of six characters a minute, a blank each: 50 ms a character. */
 static void long_messages_can_be_read(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
     struct message *m = &w->message;
     char text[201] = "";
 
-    work_say(w, "short");
+    render_control_say(w, "short");
     check_close((double)(m->until_ns - m->said_ns), 4e9, 1);
     memset(text, 'a', sizeof text - 1);
-    work_say(w, "%s", text);
+    render_control_say(w, "%s", text);
     assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
-    work_say_error(w, text);
-    work_be_heard(w);
+    render_control_say_error(w, text);
+    render_control_be_heard(w);
     assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
 }
 
 static void failures_are_messages(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->work;
     static char path[] = "no-such-folder-of-glim/s.view";
 
     free(w->session->view_path);
@@ -467,8 +467,8 @@ static void failures_are_messages(void **state)
 
 static void views_are_written(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
-    struct report report = {0};
+    struct render_control *w = &((struct fixture *)*state)->work;
+    struct warnings report = {0};
     struct view back;
     struct error err;
 
@@ -479,19 +479,19 @@ static void views_are_written(void **state)
     assert_true(view_read(&back, "s.view", &report, &err));
     assert_true(back.eye[0] == 1.0 / 3);
     view_free(&back);
-    report_free(&report);
+    warnings_free(&report);
 }
 
 /* Under a new name each time; what normal mode has rendered is still to be
  * saved as a picture. */
 static void texts_are_written(void **state)
 {
-    struct work *w = &((struct fixture *)*state)->work;
-    struct text_style style = {8, 2, PALETTE_MONO, GLYPHS_HALF};
+    struct render_control *w = &((struct fixture *)*state)->work;
+    struct ansi_text_style style = {8, 2, PALETTE_MONO, GLYPHS_HALF};
     struct frame frame;
     struct error err;
 
-    assert_true(text_frame_init(&frame, &style, &err));
+    assert_true(ansi_text_frame_init(&frame, &style, &err));
     render_whole(w);
     work_save_text(w, &frame, &style);
     assert_string_equal(w->message.text, "saved s.ans, text of 8x2 characters");
@@ -500,7 +500,7 @@ static void texts_are_written(void **state)
                         "saved s-2.ans, text of 8x2 characters");
     frame_free(&frame);
     assert_int_equal(w->result_count, 2);
-    assert_true(work_has_unsaved(w));
+    assert_true(render_control_has_unsaved(w));
     for (size_t i = 5; i < sizeof names / sizeof names[0]; i++) {
         FILE *in = fopen(names[i], "r");
         char line[32];
@@ -519,15 +519,15 @@ static void texts_are_written(void **state)
 static void messages_name_the_chosen_keys(void **state)
 {
     struct fixture *f = *state;
-    const int chosen[KEYS_MAX] = {'j'};
+    const int chosen[KEYMAP_MAX] = {'j'};
 
-    keys_choose(&f->options.keys, ACTION_MODE, chosen);
-    keys_settle(&f->options.keys, false);
-    work_set_live(&f->work, false);
-    assert_false(work_may_move(&f->work));
+    keymap_choose(&f->options.keys, ACTION_MODE, chosen);
+    keymap_settle(&f->options.keys, false);
+    render_control_set_live(&f->work, false);
+    assert_false(render_control_may_move(&f->work));
     assert_string_equal(f->work.message.text,
                         "the camera moves in live mode: j goes there");
-    work_restart(&f->work);
+    render_control_restart(&f->work);
     assert_string_equal(f->work.message.text,
                         "nothing is rendered yet: Enter starts");
 }

@@ -11,7 +11,7 @@ static const char *duration(uint64_t ns)
 {
     static char text[32];
 
-    status_duration(text, sizeof text, ns);
+    status_line_duration(text, sizeof text, ns);
     return text;
 }
 
@@ -41,7 +41,7 @@ static struct render_progress half_done(void)
 static void normal_mode_says_what_is_left(void **state)
 {
     struct render_progress p = half_done();
-    struct status s = {.is_started = true,
+    struct status_line s = {.is_started = true,
                        .progress = &p,
                        .thread_count = 2,
                        .width_px = 1024,
@@ -51,33 +51,33 @@ static void normal_mode_says_what_is_left(void **state)
     char text[STATUS_BYTES];
 
     (void)state;
-    status_format(text, 120, &s);
+    status_line_format(text, 120, &s);
     assert_string_equal(
         text, " NORMAL  8/16 spp  50 %  4 s  left 4 s  2.00 Msamples/s  2 "
               "threads  1024x576  24 bit                     ? help  q quit ");
     s.is_orbiting = true;
-    status_format(text, 120, &s);
+    status_line_format(text, 120, &s);
     check_has(text, " NORMAL orbit  8/16 spp  ");
     s.is_orbiting = false;
     p.state = RENDER_IDLE;
     s.is_halted = true;
-    status_format(text, 120, &s);
+    status_line_format(text, 120, &s);
     assert_non_null(strstr(text, "NORMAL paused  8/16 spp  50 %  4 s  2.00"));
     p.state = RENDER_DONE;
     p.samples = p.samples_limit;
-    status_format(text, 120, &s);
+    status_line_format(text, 120, &s);
     assert_non_null(strstr(text, "NORMAL done"));
     assert_non_null(strstr(text, "100 %"));
     s.is_started = false;
     p.state = RENDER_IDLE;
-    status_format(text, 120, &s);
+    status_line_format(text, 120, &s);
     assert_non_null(strstr(text, "NORMAL ready  2 threads"));
 }
 
 static void live_mode_has_no_end(void **state)
 {
     struct render_progress p = half_done();
-    struct status s = {.is_live = true,
+    struct status_line s = {.is_live = true,
                        .progress = &p,
                        .thread_count = 1,
                        .width_px = 10,
@@ -88,12 +88,12 @@ static void live_mode_has_no_end(void **state)
 
     (void)state;
     p.spp_limit = p.samples_limit = 0;
-    status_format(text, 100, &s);
+    status_line_format(text, 100, &s);
     assert_non_null(strstr(text, " LIVE  8 spp  4 s  2.00 Msamples/s  1 thread "
                                  " 10x20  mono "));
     assert_null(strchr(text, '%'));
     p = (struct render_progress){.state = RENDER_RUNNING};
-    status_format(text, 100, &s); /* nothing yet: no division by zero */
+    status_line_format(text, 100, &s); /* nothing yet: no division by zero */
     assert_non_null(strstr(text, "0 spp  0 s  0 ksamples/s"));
 }
 
@@ -102,7 +102,7 @@ static void live_mode_has_no_end(void **state)
 static void narrow_windows_drop_fields(void **state)
 {
     struct render_progress p = half_done();
-    struct status s = {.is_started = true,
+    struct status_line s = {.is_started = true,
                        .progress = &p,
                        .thread_count = 64,
                        .width_px = 65536,
@@ -114,7 +114,7 @@ static void narrow_windows_drop_fields(void **state)
 
     (void)state;
     for (int cols = 1; cols < 3000; cols++) {
-        status_format(text, cols, &s);
+        status_line_format(text, cols, &s);
         assert_int_equal(strlen(text),
                          cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1);
         if (cols >= 24)
@@ -133,7 +133,7 @@ static void eighty_columns_have_the_colors(void **state)
     static const char *const colors[] = {"24 bit", "256 colours", "16 colours",
                                          "mono"};
     struct render_progress p = half_done();
-    struct status s = {.progress = &p,
+    struct status_line s = {.progress = &p,
                        .width_px = 65536,
                        .height_px = 65536,
                        .hint = "? help  q quit"};
@@ -150,7 +150,7 @@ static void eighty_columns_have_the_colors(void **state)
         p.spp_limit = i & 32 ? 16 : 0;
         s.thread_count = 1024;
         s.colors = colors[i % 4];
-        status_format(text, 80, &s);
+        status_line_format(text, 80, &s);
         check_has(text, s.colors);
         check_has(text, s.hint);
         if (s.load_key)
@@ -165,11 +165,11 @@ static void messages_are_clean(void **state)
     char text[STATUS_BYTES];
 
     (void)state;
-    status_message(text, 80, "a\033[2Jb\nc\177");
+    status_line_message(text, 80, "a\033[2Jb\nc\177");
     assert_string_equal(text, " a?[2Jb?c?");
-    status_message(text, 4, "abcdef");
+    status_line_message(text, 4, "abcdef");
     assert_string_equal(text, " abc");
-    status_message(text, 0, "abcdef");
+    status_line_message(text, 0, "abcdef");
     assert_string_equal(text, "");
 }
 

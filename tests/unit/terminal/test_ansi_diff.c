@@ -21,7 +21,7 @@ static void forget_colors(void)
     vt.pen.fg = vt.pen.bg = CELL_DEFAULT;
 }
 
-static void show(const struct ansi *a)
+static void show(const struct ansi_diff *a)
 {
     vt_write(&vt, a->bytes, a->length);
 }
@@ -100,12 +100,12 @@ static struct cells make_cells(int cols, int rows)
     return c;
 }
 
-static struct ansi make_ansi(int cols, int rows)
+static struct ansi_diff make_ansi(int cols, int rows)
 {
-    struct ansi a;
+    struct ansi_diff a;
     struct error err;
 
-    assert_true(ansi_init(&a, cols, rows, &err));
+    assert_true(ansi_diff_init(&a, cols, rows, &err));
     return a;
 }
 
@@ -113,8 +113,8 @@ static struct ansi make_ansi(int cols, int rows)
 static void screen_shows_the_cells(void **state)
 {
     struct cells c = make_cells(30, 9);
-    struct ansi a = make_ansi(30, 9);
-    struct ansi_draw how = {.col = 4, .row = 2, .budget_bytes = SIZE_MAX};
+    struct ansi_diff a = make_ansi(30, 9);
+    struct ansi_diff_draw how = {.col = 4, .row = 2, .budget_bytes = SIZE_MAX};
     static const enum glyphs kinds[5] = {GLYPHS_HALF, GLYPHS_LOWER,
                                          GLYPHS_QUADRANT, GLYPHS_SEXTANT,
                                          GLYPHS_BRAILLE};
@@ -128,18 +128,18 @@ static void screen_shows_the_cells(void **state)
 
         c.glyphs = kinds[round / 40];
         scramble(&c, palette, part, &seed);
-        ansi_begin(&a);
-        assert_true(ansi_picture(&a, &c, &how));
-        ansi_end(&a, ROWS - 1);
+        ansi_diff_begin(&a);
+        assert_true(ansi_diff_picture(&a, &c, &how));
+        ansi_diff_end(&a, ROWS - 1);
         show(&a);
         check_shown(&c, 4, 2);
         assert_true(vt.pen.fg == CELL_DEFAULT && vt.pen.bg == CELL_DEFAULT);
         assert_true(vt.row == ROWS - 1 && vt.col == 0);
     }
-    ansi_begin(&a);
-    assert_true(ansi_picture(&a, &c, &how));
+    ansi_diff_begin(&a);
+    assert_true(ansi_diff_picture(&a, &c, &how));
     assert_int_equal(a.length, 0); /* nothing changed, nothing said */
-    ansi_free(&a);
+    ansi_diff_free(&a);
     cells_free(&c);
 }
 
@@ -148,8 +148,8 @@ static void screen_shows_the_cells(void **state)
 static void budget_is_kept(void **state)
 {
     struct cells c = make_cells(COLS, ROWS);
-    struct ansi a = make_ansi(COLS, ROWS);
-    struct ansi_draw how = {.budget_bytes = 100};
+    struct ansi_diff a = make_ansi(COLS, ROWS);
+    struct ansi_diff_draw how = {.budget_bytes = 100};
     uint64_t seed = 6;
     bool is_done = false;
     int frames = 0;
@@ -158,8 +158,8 @@ static void budget_is_kept(void **state)
     vt_open(&vt, COLS, ROWS);
     scramble(&c, PALETTE_24BIT, 1.0, &seed);
     for (; !is_done; frames++) {
-        ansi_begin(&a);
-        is_done = ansi_picture(&a, &c, &how);
+        ansi_diff_begin(&a);
+        is_done = ansi_diff_picture(&a, &c, &how);
         assert_true(a.length < 100 + 56);
         show(&a);
         forget_colors();
@@ -170,59 +170,59 @@ static void budget_is_kept(void **state)
 
     /* a picture that never rests: all cells are drawn sooner or later */
     vt_open(&vt, COLS, ROWS);
-    ansi_forget_all(&a);
+    ansi_diff_forget_all(&a);
     for (int i = 0; i < 4 * frames; i++) {
         scramble(&c, PALETTE_24BIT, 1.0, &seed);
-        ansi_begin(&a);
-        ansi_picture(&a, &c, &how);
+        ansi_diff_begin(&a);
+        ansi_diff_picture(&a, &c, &how);
         show(&a);
         forget_colors();
     }
     for (int i = 0; i < COLS * ROWS; i++)
         assert_int_not_equal(vt.cell[i / COLS][i % COLS].glyph, 0);
-    ansi_free(&a);
+    ansi_diff_free(&a);
     cells_free(&c);
 }
 
 static void small_steps_may_stay(void **state)
 {
     struct cells c = make_cells(3, 1);
-    struct ansi a = make_ansi(3, 1);
-    struct ansi_draw how = {.budget_bytes = SIZE_MAX, .step = 2};
+    struct ansi_diff a = make_ansi(3, 1);
+    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX, .step = 2};
 
     (void)state;
     c.palette = PALETTE_24BIT;
     c.cell[0] = (struct cell){0x101010, 0x202020, CELL_UPPER};
     c.cell[1] = (struct cell){0x303030, 0x303030, ' '};
     c.cell[2] = (struct cell){0x404040, 0x505050, CELL_UPPER};
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
     c.cell[0].fg = 0x12100e; /* by two */
     c.cell[1] = (struct cell){0x313030, 0x302f30, CELL_UPPER};
     c.cell[2].bg = 0x505350; /* by three */
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
-    ansi_text(&a, "");
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
+    ansi_diff_text(&a, "");
     a.bytes[a.length] = '\0';
     assert_string_equal(
         a.bytes, "\033[1;3H\033[38;2;64;64;64;48;2;80;83;80m\xe2\x96\x80");
     how.step = 0; /* exact at the end */
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
     a.bytes[a.length] = '\0';
     assert_string_equal(a.bytes, "\033[1;1H\033[38;2;18;16;14;48;2;32;32;32m"
                                  "\xe2\x96\x80\033[38;2;49;48;48;48;2;48;47;48m"
                                  "\xe2\x96\x80");
-    ansi_free(&a);
+    ansi_diff_free(&a);
     cells_free(&c);
 }
 
 static void covered_cells_stay(void **state)
 {
     struct cells c = make_cells(COLS, ROWS);
-    struct ansi a = make_ansi(COLS, ROWS);
-    struct ansi_rect covers[2] = {{5, 2, 20, 6}, {25, 3, 3, 3}};
-    struct ansi_draw how = {.budget_bytes = SIZE_MAX,
+    struct ansi_diff a = make_ansi(COLS, ROWS);
+    struct ansi_diff_rect covers[2] = {{5, 2, 20, 6}, {25, 3, 3, 3}};
+    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX,
                             .covered = covers,
                             .covered_count = 2};
     uint64_t seed = 7;
@@ -230,8 +230,8 @@ static void covered_cells_stay(void **state)
     (void)state;
     vt_open(&vt, COLS, ROWS);
     scramble(&c, PALETTE_256, 1.0, &seed);
-    ansi_begin(&a);
-    assert_true(ansi_picture(&a, &c, &how));
+    ansi_diff_begin(&a);
+    assert_true(ansi_diff_picture(&a, &c, &how));
     show(&a);
     for (int y = 0; y < ROWS; y++) {
         for (int x = 0; x < COLS; x++) {
@@ -244,13 +244,13 @@ static void covered_cells_stay(void **state)
     how.covered_count = 0; /* the windows close: curses has cleared there */
     for (int y = 2; y < 8; y++)
         memset(vt.cell[y], 0, sizeof vt.cell[y]);
-    ansi_forget(&a, (struct ansi_rect){-3, 2, COLS + 9, 6});
-    ansi_begin(&a);
-    assert_true(ansi_picture(&a, &c, &how));
+    ansi_diff_forget(&a, (struct ansi_diff_rect){-3, 2, COLS + 9, 6});
+    ansi_diff_begin(&a);
+    assert_true(ansi_diff_picture(&a, &c, &how));
     forget_colors();
     show(&a);
     check_shown(&c, 0, 0);
-    ansi_free(&a);
+    ansi_diff_free(&a);
     cells_free(&c);
 }
 
@@ -258,25 +258,25 @@ static void covered_cells_stay(void **state)
 static void bytes_are_few(void **state)
 {
     struct cells c = make_cells(4, 1);
-    struct ansi a = make_ansi(4, 1);
-    struct ansi_draw how = {.budget_bytes = SIZE_MAX};
+    struct ansi_diff a = make_ansi(4, 1);
+    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
 
     (void)state;
     c.palette = PALETTE_16;
     for (int i = 0; i < 4; i++)
         c.cell[i] = (struct cell){12, 1, CELL_UPPER};
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
     a.bytes[a.length] = '\0';
     assert_string_equal(a.bytes, "\033[1;1H\033[94;41m\xe2\x96\x80\xe2\x96\x80"
                                  "\xe2\x96\x80\xe2\x96\x80");
     c.cell[0].fg = 2;
     c.cell[2] = (struct cell){1, 1, ' '}; /* behind one that stays */
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
     a.bytes[a.length] = '\0';
     assert_string_equal(a.bytes, "\033[1;1H\033[32;41m\xe2\x96\x80\033[C ");
-    ansi_free(&a);
+    ansi_diff_free(&a);
     cells_free(&c);
 }
 
@@ -285,8 +285,8 @@ static void bytes_are_few(void **state)
 static void two_colors_stay_set(void **state)
 {
     struct cells c = make_cells(6, 1);
-    struct ansi a = make_ansi(6, 1);
-    struct ansi_draw how = {.budget_bytes = SIZE_MAX};
+    struct ansi_diff a = make_ansi(6, 1);
+    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
 
     (void)state;
     c.palette = PALETTE_256;
@@ -296,22 +296,22 @@ static void two_colors_stay_set(void **state)
                           : (struct cell){30, 20, CELL_UPPER};
     c.cell[4] = (struct cell){20, 20, ' '};
     c.cell[5] = (struct cell){30, 30, ' '};
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
     a.bytes[a.length] = '\0';
     assert_string_equal(a.bytes, "\033[1;1H\033[38;5;30;48;5;20m"
                                  "\xe2\x96\x80\xe2\x96\x84"
                                  "\xe2\x96\x80\xe2\x96\x84 \033[48;5;30m ");
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
     assert_int_equal(a.length, 0); /* it is shown, inverse or not */
     c.glyphs = GLYPHS_UPPER;
-    ansi_begin(&a);
-    ansi_picture(&a, &c, &how);
+    ansi_diff_begin(&a);
+    ansi_diff_picture(&a, &c, &how);
     a.bytes[a.length] = '\0';
     assert_null(strstr(a.bytes, "\xe2\x96\x84"));
     assert_null(strstr(a.bytes, "\xe2\x96\x88"));
-    ansi_free(&a);
+    ansi_diff_free(&a);
     cells_free(&c);
 }
 
@@ -343,7 +343,7 @@ static void lines_show_the_cells(void **state)
         vt_open(&vt, COLS, ROWS + 1);
         c.glyphs = kinds[round / 4];
         scramble(&c, (enum palette)(round % 4), 1.0, &seed);
-        assert_true(ansi_lines(&c, &text, &size_bytes, &err));
+        assert_true(ansi_diff_lines(&c, &text, &size_bytes, &err));
         assert_int_equal(text[size_bytes - 1], '\n');
         for (size_t i = 0; i < size_bytes; i++) {
             if (text[i] == '\n' && c.palette != PALETTE_MONO)

@@ -25,7 +25,7 @@ static struct film make_film(void)
     return film;
 }
 
-static void check_text(const struct text_style *style, const char *expected)
+static void check_text(const struct ansi_text_style *style, const char *expected)
 {
     struct film film = make_film();
     struct frame frame;
@@ -33,9 +33,9 @@ static void check_text(const struct text_style *style, const char *expected)
     size_t size_bytes;
     char *text;
 
-    assert_true(text_frame_init(&frame, style, &err));
+    assert_true(ansi_text_frame_init(&frame, style, &err));
     film_preview(&film, NULL, develop_linear(0), &frame);
-    assert_true(text_of_frame(&frame, style, &text, &size_bytes, &err));
+    assert_true(ansi_text_of_frame(&frame, style, &text, &size_bytes, &err));
     frame_free(&frame);
     assert_int_equal(size_bytes, strlen(expected));
     assert_memory_equal(text, expected, size_bytes);
@@ -46,17 +46,17 @@ static void check_text(const struct text_style *style, const char *expected)
 static void text_is_the_film(void **state)
 {
     (void)state;
-    check_text(&(struct text_style){2, 2, PALETTE_24BIT, GLYPHS_HALF},
+    check_text(&(struct ansi_text_style){2, 2, PALETTE_24BIT, GLYPHS_HALF},
                "\033[48;2;255;0;0m  \033[m\n\033[48;2;0;188;0m  \033[m\n");
-    check_text(&(struct text_style){2, 1, PALETTE_24BIT, GLYPHS_UPPER},
+    check_text(&(struct ansi_text_style){2, 1, PALETTE_24BIT, GLYPHS_UPPER},
                "\033[38;2;255;0;0;48;2;0;188;0m\xe2\x96\x80\xe2\x96\x80"
                "\033[m\n");
     /* of three rows the middle one is half red, half green: light (.5, .25, 0),
      * which is (188, 137, 0); with the green one it makes the second colour */
-    check_text(&(struct text_style){1, 1, PALETTE_24BIT, GLYPHS_SEXTANT},
+    check_text(&(struct ansi_text_style){1, 1, PALETTE_24BIT, GLYPHS_SEXTANT},
                "\033[38;2;255;0;0;48;2;94;163;0m\xf0\x9f\xac\x82\033[m\n");
     /* (128, 94, 0) is as bright as 90: fourth of ten characters */
-    check_text(&(struct text_style){2, 1, PALETTE_MONO, GLYPHS_HALF}, ";;\n");
+    check_text(&(struct ansi_text_style){2, 1, PALETTE_MONO, GLYPHS_HALF}, ";;\n");
 }
 
 int main(void)

@@ -35,25 +35,25 @@ static uint64_t longest_backlog(struct line *l, size_t want,
     uint64_t answer_ns = 0;
     uint64_t worst_ns = 0;
     size_t total = 0;
-    struct pace p;
+    struct frame_pacing p;
 
-    pace_init(&p, now_ns);
+    frame_pacing_init(&p, now_ns);
     for (; now_ns < 11 * SEC; now_ns += MS) {
         if (first_ns && now_ns >= first_ns) {
-            pace_answer(&p, first_ns);
+            frame_pacing_answer(&p, first_ns);
             first_ns = 0;
         }
         if (answer_ns && now_ns >= answer_ns) {
-            pace_answer(&p, answer_ns);
+            frame_pacing_answer(&p, answer_ns);
             answer_ns = 0;
         }
-        pace_tick(&p, now_ns);
-        if (!pace_may_send(&p))
+        frame_pacing_tick(&p, now_ns);
+        if (!frame_pacing_may_send(&p))
             continue;
         size_t size = want < p.budget_bytes ? want : p.budget_bytes;
-        bool asks = pace_wants_request(&p);
+        bool asks = frame_pacing_wants_request(&p);
         answer_ns = line_send(l, now_ns, size);
-        pace_sent(&p, size, asks, now_ns, now_ns);
+        frame_pacing_sent(&p, size, asks, now_ns, now_ns);
         total += size;
         if (total > size && l->free_ns - now_ns > worst_ns)
             worst_ns = l->free_ns - now_ns;
@@ -78,27 +78,27 @@ static void slow_line_has_no_backlog(void **state)
 static void lucky_answers_make_no_fast_line(void **state)
 {
     struct line l = {.bytes_per_s = 32000, .way_ns = 200 * MS};
-    struct pace p;
+    struct frame_pacing p;
     uint64_t now_ns = SEC;
     uint64_t worst_ns = 0;
     uint32_t noise = 1;
 
     (void)state;
-    pace_init(&p, now_ns);
-    pace_answer(&p, line_send(&l, now_ns, 50) + 400 * MS);
+    frame_pacing_init(&p, now_ns);
+    frame_pacing_answer(&p, line_send(&l, now_ns, 50) + 400 * MS);
     for (int i = 0; i < 200; i++) {
         size_t want = i < 100 ? 1200 : 400000;
         size_t size = want < p.budget_bytes ? want : p.budget_bytes;
         uint64_t answer_ns;
 
-        assert_true(pace_may_send(&p));
+        assert_true(frame_pacing_may_send(&p));
         answer_ns = line_send(&l, now_ns, size);
         noise = noise * 1664525u + 1013904223u;
         answer_ns += noise % 40 * MS;
-        pace_sent(&p, size, true, now_ns, now_ns);
+        frame_pacing_sent(&p, size, true, now_ns, now_ns);
         if (i >= 100 && l.free_ns - now_ns > worst_ns)
             worst_ns = l.free_ns - now_ns;
-        pace_answer(&p, answer_ns);
+        frame_pacing_answer(&p, answer_ns);
         now_ns = answer_ns + MS;
     }
     check_at_most((double)worst_ns * 1e-9, 0.3);
@@ -108,13 +108,13 @@ static void lucky_answers_make_no_fast_line(void **state)
  * chance, the first one by 16 ms; the bytes of the last of 200. */
 static size_t last_of_late(struct line *l, size_t want)
 {
-    struct pace p;
+    struct frame_pacing p;
     uint64_t now_ns = SEC;
     uint32_t noise = 1;
     size_t size = 0;
 
-    pace_init(&p, now_ns);
-    pace_answer(&p, line_send(l, now_ns, 50) + 16 * MS);
+    frame_pacing_init(&p, now_ns);
+    frame_pacing_answer(&p, line_send(l, now_ns, 50) + 16 * MS);
     for (int i = 0; i < 200; i++) {
         uint64_t answer_ns;
 
@@ -122,8 +122,8 @@ static size_t last_of_late(struct line *l, size_t want)
         answer_ns = line_send(l, now_ns, size);
         noise = noise * 1664525u + 1013904223u;
         answer_ns += (noise >> 16) % 40 * MS;
-        pace_sent(&p, size, true, now_ns, now_ns);
-        pace_answer(&p, answer_ns);
+        frame_pacing_sent(&p, size, true, now_ns, now_ns);
+        frame_pacing_answer(&p, answer_ns);
         now_ns = answer_ns + MS;
     }
     return size;
@@ -152,79 +152,79 @@ static void fast_line_is_not_held_back(void **state)
 
 static void first_frame_does_not_wait(void **state)
 {
-    struct pace p;
+    struct frame_pacing p;
 
     (void)state;
-    pace_init(&p, SEC);
-    assert_true(pace_may_send(&p));
-    assert_true(pace_wants_request(&p));
-    pace_sent(&p, 10000, true, SEC, SEC);
-    assert_false(pace_may_send(&p));
-    pace_answer(&p, SEC + 3 * MS); /* to the first request */
-    assert_false(pace_may_send(&p));
-    pace_answer(&p, SEC + 4 * MS);
-    assert_true(pace_may_send(&p));
+    frame_pacing_init(&p, SEC);
+    assert_true(frame_pacing_may_send(&p));
+    assert_true(frame_pacing_wants_request(&p));
+    frame_pacing_sent(&p, 10000, true, SEC, SEC);
+    assert_false(frame_pacing_may_send(&p));
+    frame_pacing_answer(&p, SEC + 3 * MS); /* to the first request */
+    assert_false(frame_pacing_may_send(&p));
+    frame_pacing_answer(&p, SEC + 4 * MS);
+    assert_true(frame_pacing_may_send(&p));
     assert_int_equal(p.rtt_min_ns, 3 * MS);
 }
 
 static void mute_terminal_is_not_waited_for(void **state)
 {
-    struct pace p;
+    struct frame_pacing p;
 
     (void)state;
-    pace_init(&p, SEC);
-    pace_sent(&p, 10000, true, SEC, SEC);
-    assert_true(pace_deadline_ns(&p) <= SEC + 500 * MS);
-    pace_tick(&p, pace_deadline_ns(&p) - 1);
-    assert_false(pace_may_send(&p));
-    pace_tick(&p, pace_deadline_ns(&p));
-    assert_true(pace_may_send(&p));
-    assert_false(pace_wants_request(&p));
-    assert_true(pace_deadline_ns(&p) == UINT64_MAX);
+    frame_pacing_init(&p, SEC);
+    frame_pacing_sent(&p, 10000, true, SEC, SEC);
+    assert_true(frame_pacing_deadline_ns(&p) <= SEC + 500 * MS);
+    frame_pacing_tick(&p, frame_pacing_deadline_ns(&p) - 1);
+    assert_false(frame_pacing_may_send(&p));
+    frame_pacing_tick(&p, frame_pacing_deadline_ns(&p));
+    assert_true(frame_pacing_may_send(&p));
+    assert_false(frame_pacing_wants_request(&p));
+    assert_true(frame_pacing_deadline_ns(&p) == UINT64_MAX);
     for (int i = 0; i < 100; i++) {
-        pace_sent(&p, 10000, false, SEC, SEC + 1000);
-        assert_true(pace_may_send(&p));
+        frame_pacing_sent(&p, 10000, false, SEC, SEC + 1000);
+        assert_true(frame_pacing_may_send(&p));
     }
     /* a write() that blocks says how slow it is: 0.08 s of 100 kB/s */
     for (int i = 0; i < 30; i++)
-        pace_sent(&p, 10000, false, SEC, SEC + 100 * MS);
+        frame_pacing_sent(&p, 10000, false, SEC, SEC + 100 * MS);
     check_close((double)p.budget_bytes, 8000, 200);
-    pace_answer(&p, 3 * SEC); /* it speaks after all */
-    assert_true(pace_wants_request(&p));
-    assert_true(pace_may_send(&p));
+    frame_pacing_answer(&p, 3 * SEC); /* it speaks after all */
+    assert_true(frame_pacing_wants_request(&p));
+    assert_true(frame_pacing_may_send(&p));
 }
 
 static void lost_answer_is_given_up(void **state)
 {
-    struct pace p;
+    struct frame_pacing p;
 
     (void)state;
-    pace_init(&p, SEC);
-    pace_answer(&p, SEC + MS);
-    pace_sent(&p, 5000, true, 2 * SEC, 2 * SEC);
-    pace_tick(&p, 6 * SEC);
-    assert_false(pace_may_send(&p));
-    pace_tick(&p, 7 * SEC);
-    assert_true(pace_may_send(&p));
-    pace_sent(&p, 5000, false, 7 * SEC, 7 * SEC);
-    pace_answer(&p, 8 * SEC); /* late */
-    assert_true(pace_may_send(&p));
-    pace_answer(&p, 8 * SEC); /* later: nothing was asked */
-    assert_true(pace_may_send(&p));
+    frame_pacing_init(&p, SEC);
+    frame_pacing_answer(&p, SEC + MS);
+    frame_pacing_sent(&p, 5000, true, 2 * SEC, 2 * SEC);
+    frame_pacing_tick(&p, 6 * SEC);
+    assert_false(frame_pacing_may_send(&p));
+    frame_pacing_tick(&p, 7 * SEC);
+    assert_true(frame_pacing_may_send(&p));
+    frame_pacing_sent(&p, 5000, false, 7 * SEC, 7 * SEC);
+    frame_pacing_answer(&p, 8 * SEC); /* late */
+    assert_true(frame_pacing_may_send(&p));
+    frame_pacing_answer(&p, 8 * SEC); /* later: nothing was asked */
+    assert_true(frame_pacing_may_send(&p));
     assert_int_equal(p.outstanding, 0);
 }
 
 static void slowness_is_known(void **state)
 {
-    struct pace p;
+    struct frame_pacing p;
 
     (void)state;
-    pace_init(&p, SEC);
-    assert_false(pace_is_slow(&p));
-    pace_answer(&p, SEC + MS);
-    pace_sent(&p, 10000, true, SEC, SEC);
-    pace_answer(&p, SEC + 300 * MS);
-    assert_true(pace_is_slow(&p));
+    frame_pacing_init(&p, SEC);
+    assert_false(frame_pacing_is_slow(&p));
+    frame_pacing_answer(&p, SEC + MS);
+    frame_pacing_sent(&p, 10000, true, SEC, SEC);
+    frame_pacing_answer(&p, SEC + 300 * MS);
+    assert_true(frame_pacing_is_slow(&p));
 }
 
 int main(void)

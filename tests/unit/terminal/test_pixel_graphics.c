@@ -81,12 +81,12 @@ static const char *take_kitty(struct screen *s, const char *p)
     return p;
 }
 
-static void screen_write(struct screen *s, struct ansi *a)
+static void screen_write(struct screen *s, struct ansi_diff *a)
 {
     static struct sixels image;
     const char *p = a->bytes;
 
-    assert_true(ansi_reserve(a, 1));
+    assert_true(ansi_diff_reserve(a, 1));
     p = a->bytes;
     a->bytes[a->length] = '\0';
     while (p < a->bytes + a->length) {
@@ -107,24 +107,24 @@ static void screen_write(struct screen *s, struct ansi *a)
     }
 }
 
-struct stage {
-    struct graphics g;
-    struct ansi a;
+struct workspace {
+    struct pixel_graphics g;
+    struct ansi_diff a;
     struct frame frame;
     struct dither dither;
     struct screen screen;
 };
 
-static void stage_init(struct stage *st, enum graphics_kind kind,
+static void workspace_init(struct workspace *st, enum pixel_graphics_kind kind,
                        uint64_t *seed)
 {
-    struct graphics_shape shape = {kind,   COLS,   ROWS,
+    struct pixel_graphics_shape shape = {kind,   COLS,   ROWS,
                                    CELL_W, CELL_H, PALETTE_256};
     struct error err;
 
     memset(st, 0, sizeof *st);
-    assert_true(graphics_init(&st->g, &shape, &err));
-    assert_true(ansi_init(&st->a, COLS, ROWS, &err));
+    assert_true(pixel_graphics_init(&st->g, &shape, &err));
+    assert_true(ansi_diff_init(&st->a, COLS, ROWS, &err));
     assert_true(frame_init(&st->frame, WIDTH, HEIGHT, &err));
     assert_true(dither_init(&st->dither, &err));
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
@@ -133,36 +133,36 @@ static void stage_init(struct stage *st, enum graphics_kind kind,
         blank(&st->screen, 0, row, COLS);
 }
 
-static void stage_free(struct stage *st)
+static void workspace_free(struct workspace *st)
 {
-    graphics_free(&st->g);
-    ansi_free(&st->a);
+    pixel_graphics_free(&st->g);
+    ansi_diff_free(&st->a);
     frame_free(&st->frame);
     dither_free(&st->dither);
 }
 
 /* One frame; how many images it had. */
-static int draw(struct stage *st, const struct ansi_draw *how, bool *is_done)
+static int draw(struct workspace *st, const struct ansi_diff_draw *how, bool *is_done)
 {
     st->screen.images = 0;
-    ansi_begin(&st->a);
-    *is_done = graphics_picture(&st->g, &st->a, &st->frame, how);
+    ansi_diff_begin(&st->a);
+    *is_done = pixel_graphics_picture(&st->g, &st->a, &st->frame, how);
     screen_write(&st->screen, &st->a);
     return st->screen.images;
 }
 
-static int wanted(struct stage *st, int x, int y)
+static int wanted(struct workspace *st, int x, int y)
 {
     const uint8_t *p = st->frame.rgb + 3 * (y * WIDTH + x);
     struct rgb c = {p[0], p[1], p[2]};
 
-    if (st->g.shape.kind == GRAPHICS_SIXEL)
+    if (st->g.shape.kind == PIXEL_GRAPHICS_SIXEL)
         return (int)dither_color(&st->dither, c, x, y, PALETTE_256);
     return c.r << 16 | c.g << 8 | c.b;
 }
 
 /* The picture, and BLANK in this rectangle of cells. */
-static void check_shown(struct stage *st, struct ansi_rect hole)
+static void check_shown(struct workspace *st, struct ansi_diff_rect hole)
 {
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -176,7 +176,7 @@ static void check_shown(struct stage *st, struct ansi_rect hole)
     }
 }
 
-static void set_pixel(struct stage *st, int x, int y, int value)
+static void set_pixel(struct workspace *st, int x, int y, int value)
 {
     memset(st->frame.rgb + 3 * (y * WIDTH + x), value, 3);
 }
@@ -184,29 +184,29 @@ static void set_pixel(struct stage *st, int x, int y, int value)
 /* To the pixel, and after a change only the tile that has changed. */
 static void shows_the_picture(void **state)
 {
-    static const enum graphics_kind kinds[] = {GRAPHICS_SIXEL, GRAPHICS_KITTY};
-    static struct stage st;
-    struct ansi_draw how = {.budget_bytes = SIZE_MAX};
+    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY};
+    static struct workspace st;
+    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
     uint64_t seed = 1;
     bool is_done;
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        stage_init(&st, kinds[i], &seed);
+        workspace_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
         assert_true(is_done);
-        check_shown(&st, (struct ansi_rect){0, 0, 0, 0});
+        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
         assert_int_equal(draw(&st, &how, &is_done), 0);
         set_pixel(&st, 200, 33, 255);
         assert_int_equal(draw(&st, &how, &is_done), 1);
-        check_shown(&st, (struct ansi_rect){0, 0, 0, 0});
+        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
         set_pixel(&st, 200, 33, 253); /* a step of two may stay */
         how.step = 2;
         assert_int_equal(draw(&st, &how, &is_done), 0);
         how.step = 1;
         assert_int_equal(draw(&st, &how, &is_done), 1);
         how.step = 0;
-        stage_free(&st);
+        workspace_free(&st);
     }
 }
 
@@ -214,9 +214,9 @@ static void shows_the_picture(void **state)
  * rests is drawn everywhere. */
 static void budget_is_kept(void **state)
 {
-    static const enum graphics_kind kinds[] = {GRAPHICS_SIXEL, GRAPHICS_KITTY};
-    static struct stage st;
-    struct ansi_draw how = {.budget_bytes = 3000};
+    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY};
+    static struct workspace st;
+    struct ansi_diff_draw how = {.budget_bytes = 3000};
     uint64_t seed = 2;
 
     (void)state;
@@ -224,7 +224,7 @@ static void budget_is_kept(void **state)
         bool is_done = false;
         int frames = 0;
 
-        stage_init(&st, kinds[i], &seed);
+        workspace_init(&st, kinds[i], &seed);
         for (; !is_done && frames < 100; frames++) {
             int images = draw(&st, &how, &is_done);
 
@@ -232,65 +232,65 @@ static void budget_is_kept(void **state)
             check_at_most((double)st.a.length, 3000 + 16 * 7 * 10 * 8);
         }
         assert_in_range(frames, 3, 20);
-        check_shown(&st, (struct ansi_rect){0, 0, 0, 0});
+        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
         for (int row = 0; row < ROWS; row++)
             blank(&st.screen, 0, row, COLS);
         for (int k = 0; k < 2 * frames; k++) {
             for (int x = 0; x < WIDTH; x++)
                 set_pixel(&st, x, (k * 7) % HEIGHT, k);
-            graphics_forget(&st.g, (struct ansi_rect){0, 0, COLS, ROWS});
+            pixel_graphics_forget(&st.g, (struct ansi_diff_rect){0, 0, COLS, ROWS});
             draw(&st, &how, &is_done);
         }
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++)
                 assert_int_not_equal(st.screen.pixel[y][x], BLANK);
-        stage_free(&st);
+        workspace_free(&st);
     }
 }
 
 /* Pixels end where a window begins, and come back when it closes. */
 static void windows_are_left_free(void **state)
 {
-    static const enum graphics_kind kinds[] = {GRAPHICS_SIXEL, GRAPHICS_KITTY};
-    static struct stage st;
-    struct ansi_rect window = {10, 1, 25, 3};
+    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY};
+    static struct workspace st;
+    struct ansi_diff_rect window = {10, 1, 25, 3};
     uint64_t seed = 3;
     bool is_done;
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct ansi_draw how = {.budget_bytes = SIZE_MAX, .covered = &window};
+        struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX, .covered = &window};
 
-        stage_init(&st, kinds[i], &seed);
+        workspace_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
         how.covered_count = 1; /* curses writes over sixels */
-        if (kinds[i] == GRAPHICS_SIXEL) {
+        if (kinds[i] == PIXEL_GRAPHICS_SIXEL) {
             for (int row = 1; row < 4; row++)
                 blank(&st.screen, 10, row, 25);
         }
-        graphics_forget(&st.g, (struct ansi_rect){0, 1, COLS, 3});
+        pixel_graphics_forget(&st.g, (struct ansi_diff_rect){0, 1, COLS, 3});
         draw(&st, &how, &is_done);
         check_shown(&st, window);
         assert_int_equal(draw(&st, &how, &is_done), 0);
         how.covered_count = 0;
         draw(&st, &how, &is_done);
-        check_shown(&st, (struct ansi_rect){0, 0, 0, 0});
-        stage_free(&st);
+        check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
+        workspace_free(&st);
     }
 }
 
 /* A frame with fewer pixels than the terminal: each is a rectangle of them. */
 static void small_frames_are_enlarged(void **state)
 {
-    static struct stage st;
-    struct ansi_draw how = {.budget_bytes = SIZE_MAX};
+    static struct workspace st;
+    struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
     struct frame small;
     struct error err;
     uint64_t seed = 4;
     bool is_done;
 
     (void)state;
-    stage_init(&st, GRAPHICS_KITTY, &seed);
+    workspace_init(&st, PIXEL_GRAPHICS_KITTY, &seed);
     assert_true(frame_init(&small, WIDTH / 4, HEIGHT / 5, &err));
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -300,13 +300,13 @@ static void small_frames_are_enlarged(void **state)
             memcpy(small.rgb + 3 * (y / 5 * (WIDTH / 4) + x / 4), from, 3);
         }
     }
-    ansi_begin(&st.a);
-    assert_true(graphics_picture(&st.g, &st.a, &small, &how));
+    ansi_diff_begin(&st.a);
+    assert_true(pixel_graphics_picture(&st.g, &st.a, &small, &how));
     screen_write(&st.screen, &st.a);
-    check_shown(&st, (struct ansi_rect){0, 0, 0, 0});
+    check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
     assert_int_equal(draw(&st, &how, &is_done), 0);
     frame_free(&small);
-    stage_free(&st);
+    workspace_free(&st);
 }
 
 int main(void)

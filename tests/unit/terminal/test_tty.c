@@ -59,7 +59,7 @@ static int run_glim(char **arguments)
     options_init(&options);
     if (!options_parse(&options, count, arguments, &err) ||
         !session_open(&session, &options, clock_ns(), &err) ||
-        !tui_run(&session, NULL, &status, &err))
+        !event_loop_run(&session, NULL, &status, &err))
         fprintf(stderr, "glim: %s\n", err.text);
     return status;
 }

@@ -16,20 +16,20 @@ static struct event events[EVENTS_MAX];
 /* Feeds the bytes in pieces of so many; how many events came. */
 static int parse(const char *bytes, size_t length, size_t piece)
 {
-    static struct input in;
+    static struct tty_input in;
     int count = 0;
 
     memset(&in, 0, sizeof in);
     for (size_t i = 0; i < length; i += piece) {
         size_t n = length - i < piece ? length - i : piece;
 
-        assert_int_equal(input_feed(&in, bytes + i, n), n);
-        while (input_next(&in, false, &events[count]))
+        assert_int_equal(tty_input_feed(&in, bytes + i, n), n);
+        while (tty_input_next(&in, false, &events[count]))
             assert_true(++count < EVENTS_MAX);
     }
-    while (input_next(&in, true, &events[count]))
+    while (tty_input_next(&in, true, &events[count]))
         assert_true(++count < EVENTS_MAX);
-    assert_false(input_is_partial(&in));
+    assert_false(tty_input_is_partial(&in));
     return count;
 }
 
@@ -54,26 +54,26 @@ static void keys_are_keys(void **state)
         {"\n", '\r'},
         {"\003", 3},
         {"\033", 27},
-        {"\033[A", INPUT_UP},
-        {"\033OA", INPUT_UP},
-        {"\033[B", INPUT_DOWN},
-        {"\033[C", INPUT_RIGHT},
-        {"\033OD", INPUT_LEFT},
-        {"\033[1;2A", INPUT_UP},
-        {"\033[5~", INPUT_PAGE_UP},
-        {"\033[6~", INPUT_PAGE_DOWN},
-        {"\033OP", INPUT_F1},
-        {"\033[11~", INPUT_F1},
-        {"\033[[A", INPUT_F1}, /* the Linux console */
-        {"\033[[B", INPUT_OTHER},
-        {"\033[H", INPUT_HOME},
-        {"\033[1~", INPUT_HOME},
+        {"\033[A", TTY_KEY_UP},
+        {"\033OA", TTY_KEY_UP},
+        {"\033[B", TTY_KEY_DOWN},
+        {"\033[C", TTY_KEY_RIGHT},
+        {"\033OD", TTY_KEY_LEFT},
+        {"\033[1;2A", TTY_KEY_UP},
+        {"\033[5~", TTY_KEY_PAGE_UP},
+        {"\033[6~", TTY_KEY_PAGE_DOWN},
+        {"\033OP", TTY_KEY_F1},
+        {"\033[11~", TTY_KEY_F1},
+        {"\033[[A", TTY_KEY_F1}, /* the Linux console */
+        {"\033[[B", TTY_KEY_OTHER},
+        {"\033[H", TTY_KEY_HOME},
+        {"\033[1~", TTY_KEY_HOME},
         {"\033OM", '\r'}, /* Enter of the keypad */
-        {"\033[15~", INPUT_OTHER},
-        {"\xc3\xa4", INPUT_OTHER}, /* characters beyond ASCII are one key */
-        {"\xe2\x82\xac", INPUT_OTHER},
-        {"\xf0\x9f\x98\x80", INPUT_OTHER},
-        {"\xe4", INPUT_OTHER}, /* in Latin-1 */
+        {"\033[15~", TTY_KEY_OTHER},
+        {"\xc3\xa4", TTY_KEY_OTHER}, /* characters beyond ASCII are one key */
+        {"\xe2\x82\xac", TTY_KEY_OTHER},
+        {"\xf0\x9f\x98\x80", TTY_KEY_OTHER},
+        {"\xe4", TTY_KEY_OTHER}, /* in Latin-1 */
     };
 
     (void)state;
@@ -85,23 +85,23 @@ static void keys_are_keys(void **state)
             assert_int_equal(e.key, cases[i].key);
         }
     }
-    assert_int_equal(only("\xc3\xa9", 2).key, INPUT_OTHER); /* e acute */
+    assert_int_equal(only("\xc3\xa9", 2).key, TTY_KEY_OTHER); /* e acute */
 }
 
 /* Bytes that come together are the keys that they are one by one; Alt and a key
  * are such bytes. */
 static void escape_and_a_key_are_two(void **state)
 {
-    struct input in = {.length = 0};
+    struct tty_input in = {.length = 0};
     struct event e;
 
     (void)state;
-    input_feed(&in, "\033q", 2);
-    assert_true(input_next(&in, false, &e));
+    tty_input_feed(&in, "\033q", 2);
+    assert_true(tty_input_next(&in, false, &e));
     assert_int_equal(e.key, 27);
-    assert_true(input_next(&in, false, &e));
+    assert_true(tty_input_next(&in, false, &e));
     assert_int_equal(e.key, 'q');
-    assert_false(input_next(&in, false, &e));
+    assert_false(tty_input_next(&in, false, &e));
 }
 
 static void answers_are_answers(void **state)
@@ -216,7 +216,7 @@ static void keys_between_answers_are_not_lost(void **state)
             assert_int_equal(events[i].kind, kinds[i]);
         assert_int_equal(events[1].key, 'w');
         assert_int_equal(events[4].key, 'q');
-        assert_int_equal(events[7].key, INPUT_UP);
+        assert_int_equal(events[7].key, TTY_KEY_UP);
         assert_int_equal(events[9].key, '?');
     }
 }
@@ -224,7 +224,7 @@ static void keys_between_answers_are_not_lost(void **state)
 /* Any bytes: no hang, no key that is out of range, never more than fits. */
 static void rubbish_is_survived(void **state)
 {
-    static struct input in;
+    static struct tty_input in;
     static const char alphabet[] =
         "\033\033\033[[P]O\\;?<0123456789mMcRnty~q\007";
     uint64_t seed = 11;
@@ -238,10 +238,10 @@ static void rubbish_is_survived(void **state)
                                                 check_random(&seed))]
                 : (unsigned char)(256 * check_random(&seed));
 
-        assert_int_equal(input_feed(&in, &byte, 1), 1);
-        while (input_next(&in, check_random(&seed) < 0.01, &e)) {
+        assert_int_equal(tty_input_feed(&in, &byte, 1), 1);
+        while (tty_input_next(&in, check_random(&seed) < 0.01, &e)) {
             if (e.kind == EVENT_KEY)
-                assert_in_range(e.key, 0, INPUT_OTHER);
+                assert_in_range(e.key, 0, TTY_KEY_OTHER);
         }
         assert_true(in.length < 600);
     }
