@@ -7,9 +7,6 @@
  * none but 0.
  *
  * Units:     normalised scene units; enum sample_kind says what else
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_AOV_H
 #define KERNELS_AOV_H

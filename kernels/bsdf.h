@@ -8,8 +8,6 @@
  * surface, transmission below.
  *
  * Units:     local frame of bsdf_types.h; densities per solid angle
- * Ownership: none
- * Threads:   none
  * Errors:    a sample without light is refused by the result; impossible
  *            directions are black
  */

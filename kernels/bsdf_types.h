@@ -4,9 +4,6 @@
  *
  * Units:     local frame, z along the shading normal on the eye's side; wo to
  *            the eye, wi to the light, both unit vectors
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_BSDF_TYPES_H
 #define KERNELS_BSDF_TYPES_H

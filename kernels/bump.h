@@ -7,8 +7,6 @@
  * bent until it grazes the face (the trap: Estevez, Lecocq and Stein 2019).
  *
  * Units:     unit vectors; heights of a bump map in texels
- * Ownership: none
- * Threads:   none
  * Errors:    where texture coordinates span no area the normal stays
  */
 #ifndef KERNELS_BUMP_H

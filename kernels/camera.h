@@ -3,9 +3,6 @@
  * camera.h - pinhole and thin lens
  *
  * Units:     pixels; (0, 0) is the top left corner of the picture
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_CAMERA_H
 #define KERNELS_CAMERA_H

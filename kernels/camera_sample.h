@@ -3,9 +3,6 @@
  * camera_sample.h - how a sample begins: its random numbers and its camera ray
  *
  * Units:     pixels; normalised scene units
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_CAMERA_SAMPLE_H
 #define KERNELS_CAMERA_SAMPLE_H

@@ -6,9 +6,6 @@
  * a row. It has `samples` paths for each point, some of which may be empty.
  *
  * Units:     pixels
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_CL_TASK_H
 #define KERNELS_CL_TASK_H

@@ -4,11 +4,6 @@
  *
  * The only file with #ifdef about compilers. Kernel code is written in C
  * names; here they are mapped for the device.
- *
- * Units:     none
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_DIALECT_H
 #define KERNELS_DIALECT_H

@@ -7,9 +7,6 @@
  * drawn by the cosine in both.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_DIFFUSE_H
 #define KERNELS_DIFFUSE_H

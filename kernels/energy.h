@@ -8,9 +8,6 @@
  * inside glass of an index below 1.1, where most is lost).
  *
  * Units:     mu: cosine to the normal, in [0, 1]; alpha from ALPHA_SMOOTH on
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_ENERGY_H
 #define KERNELS_ENERGY_H

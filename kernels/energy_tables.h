@@ -7,9 +7,6 @@
  *
  * Units:     nodes are uniform along the axes of energy.h, the last one (mu)
  *            running fastest
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_ENERGY_TABLES_H
 #define KERNELS_ENERGY_TABLES_H

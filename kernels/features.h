@@ -4,11 +4,6 @@
  *
  * scene_world() says which features a scene has. A build is for all of them,
  * unless FEATURES names those it is for; both give the same bits.
- *
- * Units:     none
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_FEATURES_H
 #define KERNELS_FEATURES_H

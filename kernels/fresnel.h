@@ -5,9 +5,6 @@
  * Exact for dielectrics, Schlick's approximation (1994) for metals and coats.
  *
  * Units:     cosines to the face's normal, from 0 to 1
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_FRESNEL_H
 #define KERNELS_FRESNEL_H

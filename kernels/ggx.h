@@ -8,9 +8,6 @@
  * that all hold at grazing angles and down to ALPHA_SMOOTH.
  *
  * Units:     local frame, z along the normal; densities per solid angle
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_GGX_H
 #define KERNELS_GGX_H

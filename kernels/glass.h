@@ -8,9 +8,6 @@
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine| and without
  *            the 1/eta^2 of a crossing
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_GLASS_H
 #define KERNELS_GLASS_H

@@ -2,15 +2,15 @@
 /*
  * guide.h - directions that light comes from which is hard to find
  *
- * What chance finds rarely: caustics, and the sky through windows. src/light/path_guide.c
- * has traced some rays, and a grid over the scene says for each way that
- * surfaces face in each of its cubes how much came from which of GUIDE_BINS
- * directions (Jensen 1995, "Importance driven path tracing using the photon
- * map"). At what is diffuse a direction is drawn from the cell's table with the
- * probability that is the table's share, else as elsewhere; its density is that
- * of the mixture (Vorba et al. 2014, "On-line learning of parametric mixture
- * models for light transport simulation", 5.2), so that any table is right, and
- * a good one fast.
+ * What chance finds rarely: caustics, and the sky through windows.
+ * src/light/path_guide.c has traced some rays, and a grid over the scene says
+ * for each way that surfaces face in each of its cubes how much came from which
+ * of GUIDE_BINS directions (Jensen 1995, "Importance driven path tracing using
+ * the photon map"). At what is diffuse a direction is drawn from the cell's
+ * table with the probability that is the table's share, else as elsewhere; its
+ * density is that of the mixture (Vorba et al. 2014, "On-line learning of
+ * parametric mixture models for light transport simulation", 5.2), so that any
+ * table is right, and a good one fast.
  *
  * What light samples can find they are led to, and paths only to the rest:
  * caustics, and the sky behind panes. A path that is led to a window has left
@@ -22,9 +22,6 @@
  * dA for a unit vector.
  *
  * Units:     normalised scene units, densities per solid angle
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_GUIDE_H
 #define KERNELS_GUIDE_H

@@ -9,9 +9,6 @@
  * 4th ed., 6.8).
  *
  * Units:     normalised scene units
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_HIT_H
 #define KERNELS_HIT_H

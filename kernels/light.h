@@ -8,9 +8,6 @@
  * and of the same point met by chance are the same bits.
  *
  * Units:     normalised scene units, radiance, densities per solid angle
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_LIGHT_H
 #define KERNELS_LIGHT_H

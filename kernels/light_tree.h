@@ -7,9 +7,6 @@
  * trigonometry. What a cluster is thought to shine is never 0.
  *
  * Units:     normalised scene units
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_LIGHT_TREE_H
 #define KERNELS_LIGHT_TREE_H

@@ -7,9 +7,6 @@
  * (2018): reciprocal, and white metal reflects everything.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_METAL_H
 #define KERNELS_METAL_H

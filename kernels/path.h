@@ -13,7 +13,6 @@
  * first: traverse.h, or faster ones that find the same hits.
  *
  * Units:     normalised scene units, radiance
- * Ownership: none
  * Threads:   path_samples() from any, on one world
  * Errors:    none: what cannot be computed is black
  */

@@ -3,9 +3,6 @@
  * path_types.h - what a sample returns
  *
  * Units:     radiance
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_PATH_TYPES_H
 #define KERNELS_PATH_TYPES_H

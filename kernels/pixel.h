@@ -3,7 +3,6 @@
  * pixel.h - how a sample enters the sums of its pixel
  *
  * Units:     radiance
- * Ownership: none
  * Threads:   one owner for each pixel
  * Errors:    none: what is no number, infinite or negative counts as 0
  */

@@ -8,9 +8,6 @@
  * and light may be followed both ways (Kelemen and Szirmay-Kalos 2001).
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_PLASTIC_H
 #define KERNELS_PLASTIC_H

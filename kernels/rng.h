@@ -19,9 +19,6 @@
  * pattern at all; a set for each would let a pixel's samples clump.)
  *
  * Units:     numbers in [0, 1)
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_RNG_H
 #define KERNELS_RNG_H

@@ -9,9 +9,6 @@
  * beside that of the path, and 2 to 10 % of the time are won.
  *
  * Units:     probabilities
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_ROULETTE_H
 #define KERNELS_ROULETTE_H

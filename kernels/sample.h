@@ -3,9 +3,6 @@
  * sample.h - warps of the unit square
  *
  * Units:     unit vectors around +z; densities per solid angle
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_SAMPLE_H
 #define KERNELS_SAMPLE_H

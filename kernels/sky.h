@@ -2,14 +2,11 @@
 /*
  * sky.h - the dome around the scene: what it shines, and where most of it
  *
- * Directions are drawn from a table over the texels of the image (light/sky_table.h)
- * by inversion, which keeps stratified numbers stratified; inside a texel
- * uniformly by solid angle.
+ * Directions are drawn from a table over the texels of the image
+ * (light/sky_table.h) by inversion, which keeps stratified numbers stratified;
+ * inside a texel uniformly by solid angle.
  *
  * Units:     radiance; densities per solid angle
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_SKY_H
 #define KERNELS_SKY_H

@@ -9,9 +9,6 @@
  * keys are independent.
  *
  * Units:     32-bit fractions of the unit square
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_SOBOL_H
 #define KERNELS_SOBOL_H

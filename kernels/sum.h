@@ -6,7 +6,6 @@
  * never matters, so threads, devices and restarts give the same bits.
  *
  * Units:     whatever is added
- * Ownership: none
  * Threads:   one owner for each sum
  * Errors:    none; the caller counts what sum_accepts() refuses
  */

@@ -3,8 +3,6 @@
  * surface_point.h - a hit with all that shading needs
  *
  * Units:     normalised scene units
- * Ownership: none
- * Threads:   none
  * Errors:    a triangle without a normal is no vertex
  */
 #ifndef KERNELS_SURFACE_POINT_H

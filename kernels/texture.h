@@ -4,9 +4,6 @@
  *
  * Units:     u to the right, v up with 0 at the bottom, both repeating;
  *            colours come out linear
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_TEXTURE_H
 #define KERNELS_TEXTURE_H

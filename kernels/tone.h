@@ -7,8 +7,6 @@
  * the same byte on every machine, without a power.
  *
  * Units:     linear Rec.709 in, 8-bit sRGB out
- * Ownership: none
- * Threads:   none
  * Errors:    NaN gives 0
  */
 #ifndef KERNELS_TONE_H

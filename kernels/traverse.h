@@ -6,9 +6,6 @@
  * does not depend on the tree: the nearest t, at equal t the lowest triangle.
  *
  * Units:     normalised scene units
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_TRAVERSE_H
 #define KERNELS_TRAVERSE_H

@@ -6,9 +6,6 @@
  * The nearest t wins, at equal t the lowest triangle: no tree decides.
  *
  * Units:     normalised scene units
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_TRAVERSE_LEAF_H
 #define KERNELS_TRAVERSE_LEAF_H

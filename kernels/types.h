@@ -7,7 +7,6 @@
  *            [1, 2); colours are linear Rec.709
  * Ownership: struct world borrows all its arrays
  * Threads:   everything here is read only while samples are computed
- * Errors:    none
  */
 #ifndef KERNELS_TYPES_H
 #define KERNELS_TYPES_H

@@ -7,9 +7,6 @@
  * 2e-7 on their ranges.
  *
  * Units:     radians, or turns where a name says so
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef KERNELS_VEC_H
 #define KERNELS_VEC_H

@@ -3,7 +3,6 @@
  * images.h - draws the textures and the sky of the scenes
  *
  * Units:     pixels; PNG in sRGB, the sky in radiance
- * Ownership: none
  * Threads:   one
  * Errors:    stop the program with a message
  */

@@ -250,7 +250,7 @@ static bool save_text(struct view_mode *show, char **name, struct error *err)
                   o->display.cell_aspect > 0 ? o->display.cell_aspect : 2);
     enum palette palette = text_palette(o);
     struct ansi_text_style style = {fit.cols, fit.rows, palette,
-                               text_glyphs(o, palette)};
+                                    text_glyphs(o, palette)};
     const char *path = text_path(o);
     struct frame frame = {0};
     size_t size_bytes;
@@ -276,8 +276,8 @@ static bool write_picture(struct session *s, const struct frame *frame,
     const char *path = s->options->output_path;
 
     return frame ? image_write_frame(frame, path, err)
-                 : image_write(render_film(s->render), session_develop(s),
-                                 path, err);
+                 : image_write(render_film(s->render), session_develop(s), path,
+                               err);
 }
 
 /* Under a name that is free, which comes back for free(). */
@@ -289,8 +289,8 @@ static char *write_numbered(struct session *s, const struct frame *frame,
     const char *last = slash ? slash + 1 : stem;
     char *name =
         frame ? image_write_frame_numbered(frame, last, err)
-              : image_write_numbered(render_film(s->render),
-                                       session_develop(s), last, "png", err);
+              : image_write_numbered(render_film(s->render), session_develop(s),
+                                     last, "png", err);
 
     free(stem);
     return name;
@@ -443,8 +443,8 @@ static bool run_show(struct view_mode *show, struct error *err)
 {
     const struct session *s = show->session;
     char *name = NULL;
-    bool ok =
-        view_mode_set(show, s->options->show, err) && save_picture(show, &name, err);
+    bool ok = view_mode_set(show, s->options->show, err) &&
+              save_picture(show, &name, err);
 
     if (ok)
         print_line(stderr, "%s: %dx%d, %s, %.1f s", name, s->crop.width,

@@ -2,7 +2,6 @@
 /*
  * batch.h - renders to a file without a terminal
  *
- * Units:     none
  * Ownership: the session stays the caller's
  * Threads:   main only
  * Errors:    unwritable output, memory, a failing backend

@@ -2,7 +2,6 @@
 /*
  * main.c - the only place that prints errors and ends the program
  *
- * Units:     none
  * Ownership: owns the options and the session
  * Threads:   main only
  * Errors:    exit status 0 done, 1 failed, 2 usage

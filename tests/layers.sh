@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 # layers.sh - says which file breaks the layers or the look of files
 #
-# The rows come from the table in CONTRIBUTING.md ("| 2 | `scene bvh ...` |"):
-# a file includes from its own row and those with lower numbers. Prints a line
-# for each fault, then "layers: N passed, N failed" counted in files.
+# The order of the folders comes from the table in CONTRIBUTING.md
+# ("| `src/bvh/` | ..."): a file includes from its own folder and from those
+# above it. The files of src/ itself come last. Prints a line for each fault,
+# then "layers: N passed, N failed" counted in files.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
@@ -14,10 +15,10 @@ HEADERLESS='main stb backend_cpu'
 
 # The files that may use the C library's output: what they write are files'
 # texts. People read what goes through print.c.
-WRITERS='print assign mtl_save view_file cl_source stats windows'
+WRITERS='print assign mtl_save view_file cl_source stats_json curses_windows'
 
 {
-    find src include kernels scenes tests -name '*.[ch]' -o -name '*.cl'
+    find src kernels scenes tests -name '*.[ch]' -o -name '*.cl'
     find kernels scenes tests .ci -name '*.sh' -o -path .ci/run
 } | sort | awk -v headerless="$HEADERLESS" -v writers="$WRITERS" '
 function fault(text)
@@ -33,63 +34,67 @@ function stem_of(name)
     return name
 }
 
-# kernels are row 0; the rest is as the table says, -1: not in it
-function row_of(name)
+function folder_of(name)
 {
-    if (name ~ /^kernels\//)
-        return 0
-    return stem_of(name) in rows ? rows[stem_of(name)] : -1
+    return name ~ /\// ? substr(name, 1, match(name, /\/[^\/]*$/) - 1) : "."
 }
 
-function read_table(    line, row, cell, words, n, i)
+# The place of a folder in the table, from 1; 0: it is not there.
+function place_of(folder)
+{
+    return folder == "src" ? folder_count + 1 : places[folder] + 0
+}
+
+function read_table(    line, cell)
 {
     while ((getline line < "CONTRIBUTING.md") > 0) {
-        if (line !~ /^\| [0-9] \|/)
+        if (line !~ /^\| `(kernels|src\/[a-z]+)\/` \|/)
             continue
-        split(line, cell, "|")
-        row = cell[2] + 0
-        gsub(/`/, "", cell[3])
-        n = split(cell[3], words, " ")
-        for (i = 1; i <= n; i++)
-            rows[words[i]] = row
-        table_rows++
+        split(line, cell, "`")
+        sub(/\/$/, "", cell[2])
+        places[cell[2]] = ++folder_count
     }
-    if (table_rows < 5) {
-        print "CONTRIBUTING.md: the table of rows was not found"
+    if (folder_count < 5) {
+        print "CONTRIBUTING.md: the table of folders was not found"
         exit 1
     }
 }
 
-function check_include(name, is_system,    kernel)
+function check_include(name, is_system,    kernel, other)
 {
     kernel = path ~ /^kernels\//
     if (is_system) {
         if (kernel && stem != "dialect")
             fault("kernels include libc only in dialect.h: <" name ">")
-        if (name ~ /curses|^term(info|cap)?\.h$/ && stem !~ /^(term|windows)$/)
-            fault("only term and windows include <" name ">")
-        if (name ~ /^CL\// && stem !~ /^(cl_.*|backend_cl)$/)
-            fault("only cl_* and backend_cl include <" name ">")
+        if (name ~ /curses|^term(info|cap)?\.h$/ && path !~ /^src\/terminal\/(tty|curses_windows)\.c$/)
+            fault("only tty.c and curses_windows.c include <" name ">")
+        if (name ~ /^CL\// && folder != "src/opencl")
+            fault("only src/opencl/ includes <" name ">")
         return
     }
     if (kernel && name !~ /^kernels\//)
         fault("kernels include only kernels: \"" name "\"")
-    if (name == "kernels/path.h" && stem !~ /^(paths|trail|first_hits)$/ && !kernel)
-        fault("only cpu_kernel.c, path_record.c and aov_picture.c include kernels/path.h")
-    if (name ~ /^(glim|kernels)\// && row_of(name) > row_of(path) &&
-        row_of(path) >= 0)
-        fault("row " row_of(path) " includes \"" name "\" of row " \
-              row_of(name))
+    if (name == "kernels/path.h" && !kernel &&
+        stem !~ /^(cpu_kernel|path_record|aov_picture)$/)
+        fault("only cpu_kernel.c, path_record.c and aov_picture.c include it: " \
+              name)
+    other = name ~ /^kernels\// ? "kernels" : "src/" folder_of(name)
+    if (other == "src/.")
+        other = folder
+    if (place_of(other) == 0)
+        fault("in no folder of the table in CONTRIBUTING.md: \"" name "\"")
+    else if (place_of(other) > place_of(folder))
+        fault(other " comes after " folder " in the table: \"" name "\"")
 }
 
-function check_rows(    line)
+function check_folder(    line, header)
 {
-    if (path ~ /^src\/.*\.c$/ && !(stem in exempt) &&
-        (getline line < ("include/glim/" stem ".h")) < 0)
-        fault("has no include/glim/" stem ".h")
-    close("include/glim/" stem ".h")
-    if (row_of(path) < 0)
-        fault("is in no row of the table in CONTRIBUTING.md")
+    header = folder "/" stem ".h"
+    if (path ~ /\.c$/ && !(stem in exempt) && (getline line < header) < 0)
+        fault("has no " header)
+    close(header)
+    if (place_of(folder) == 0)
+        fault("is in no folder of the table in CONTRIBUTING.md")
 }
 
 # foreign text reaches a terminal through print.c and add_columns() alone
@@ -111,9 +116,10 @@ function check_output(line, number)
 function check_file(    line, number, head, is_ours, is_licensed)
 {
     stem = stem_of(path)
-    is_ours = path ~ /^(src|include|kernels)\//
+    folder = folder_of(path)
+    is_ours = path ~ /^(src|kernels)\//
     if (is_ours)
-        check_rows()
+        check_folder()
     while ((getline line < path) > 0) {
         number++
         if (number <= 2 && line ~ /^(\/\/|#) SPDX-License-Identifier: MIT$/)
@@ -133,7 +139,7 @@ function check_file(    line, number, head, is_ours, is_licensed)
         }
         if (line ~ /(^|[^a-z_A-Z0-9])(atoi|atol|atof|strtok)\(/)
             fault("line " number ": atoi, atof and strtok hide errors")
-        if (line ~ /(^|[^a-z_A-Z0-9])_?exit\(/ && path !~ /^src\/(main|util)\.c$/)
+        if (line ~ /(^|[^a-z_A-Z0-9])_?exit\(/ && path !~ /^src\/(main|base\/util)\.c$/)
             fault("line " number ": only main ends the program")
         if (line ~ /(^|[^a-z_A-Z0-9])v?fork\(/)
             fault("line " number ": OpenCL does not survive fork: posix_spawn")
@@ -144,8 +150,8 @@ function check_file(    line, number, head, is_ours, is_licensed)
     if (path ~ /\.h$/) {
         if (head !~ "\n \\* " stem "\\.h - ")
             fault("the head comment does not say what it is")
-        if (head !~ /Units: .*Ownership: .*Threads: .*Errors: /)
-            fault("the head lacks Units, Ownership, Threads or Errors")
+        if (head ~ /\n \* (Units|Ownership|Threads|Errors): *none\n/)
+            fault("the head has a line that only says none")
     }
 }
 

@@ -3,9 +3,7 @@
  * angle.h - degrees for people, radians for sines
  *
  * Units:     as the names say
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_ANGLE_H
 #define GLIM_ANGLE_H

@@ -6,7 +6,6 @@
  * are read below it.
  *
  * Units:     processors, bytes
- * Ownership: none
  * Threads:   any
  * Errors:    none: what cannot be read limits nothing
  */

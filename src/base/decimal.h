@@ -2,8 +2,6 @@
 /*
  * decimal.h - decimal numbers in text, fast and the same in every locale
  *
- * Units:     none
- * Ownership: none
  * Threads:   any
  * Errors:    a false result; the caller knows file and line
  */

@@ -3,7 +3,6 @@
  * event_fd.h - a descriptor by which a thread or a signal's handler tells a
  * poll() that something is done
  *
- * Units:     none
  * Ownership: the descriptor is the caller's to close()
  * Threads:   any
  * Errors:    event_fd_open() fails when no descriptor is left

@@ -143,7 +143,7 @@ void file_watch_settle(struct file_watch *w)
 }
 
 void file_watch_wrote(struct file_watch *w, const char *path,
-                 const struct file_identity *identity)
+                      const struct file_identity *identity)
 {
     struct watched *f = find(w, path);
 
@@ -152,7 +152,7 @@ void file_watch_wrote(struct file_watch *w, const char *path,
 }
 
 void file_watch_replaced(struct file_watch *w, const char *path,
-                    const struct file_change *change)
+                         const struct file_change *change)
 {
     struct watched *f = find(w, path);
 

@@ -6,7 +6,6 @@
  * changed is what the files themselves say then (stat). A file that is gone is
  * about to come back: until it is there again nothing counts as changed.
  *
- * Units:     none
  * Ownership: paths are copied; file_watch_free() frees
  * Threads:   one at a time
  * Errors:    none: where folders cannot be watched fd is -1, and the caller
@@ -51,11 +50,11 @@ void file_watch_settle(struct file_watch *w);
 
 /* This program has written the whole file. */
 void file_watch_wrote(struct file_watch *w, const char *path,
-                 const struct file_identity *identity);
+                      const struct file_identity *identity);
 
 /* It has changed a part of it: if the rest was known before, all is known. */
 void file_watch_replaced(struct file_watch *w, const char *path,
-                    const struct file_change *change);
+                         const struct file_change *change);
 
 void file_watch_free(struct file_watch *w);
 

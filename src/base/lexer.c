@@ -191,8 +191,8 @@ bool lexer_number(struct lexer *lex, double *value)
     return false;
 }
 
-bool lexer_lines(const char *text, size_t size_bytes, lexer_take_line *take_line,
-               void *context, struct error *err)
+bool lexer_lines(const char *text, size_t size_bytes,
+                 lexer_take_line *take_line, void *context, struct error *err)
 {
     struct lexer lex;
 
@@ -206,7 +206,7 @@ bool lexer_lines(const char *text, size_t size_bytes, lexer_take_line *take_line
 }
 
 bool lexer_file(const char *path, lexer_take_line *take_line, void *context,
-              struct error *err)
+                struct error *err)
 {
     char *text;
     size_t size_bytes;

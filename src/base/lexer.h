@@ -9,7 +9,6 @@
  * Units:     bytes; lines count from 1
  * Ownership: borrows the text, which need not end in NUL; lexer_rest() returns
  *            memory for free()
- * Threads:   none
  * Errors:    by the result; the caller knows what it wanted. Of lexer_file() a
  *            file that cannot be read
  */
@@ -39,14 +38,15 @@ bool lexer_is_blank(char c);
 void lexer_init(struct lexer *lex, const char *text, size_t size_bytes);
 
 /* Takes the line that begins at lex->p; what it leaves of it is skipped. */
-typedef bool lexer_take_line(void *context, struct lexer *lex, struct error *err);
+typedef bool lexer_take_line(void *context, struct lexer *lex,
+                             struct error *err);
 
 /* Calls `take_line` at the beginning of each line of the text, or of the file.
  * Ends with the first that fails. */
-bool lexer_lines(const char *text, size_t size_bytes, lexer_take_line *take_line,
-               void *context, struct error *err);
+bool lexer_lines(const char *text, size_t size_bytes,
+                 lexer_take_line *take_line, void *context, struct error *err);
 bool lexer_file(const char *path, lexer_take_line *take_line, void *context,
-              struct error *err);
+                struct error *err);
 
 /* Moves over blanks and joined lines. */
 void lexer_skip_blanks(struct lexer *lex);

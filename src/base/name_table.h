@@ -5,10 +5,8 @@
  * A hash table, so that a file with a million names loads as fast as its size
  * lets one expect.
  *
- * Units:     none
- * Ownership: names are copied; name_table_free() frees; a zeroed struct is empty
- * Threads:   one thread at a time
- * Errors:    NO_NAME when memory is out
+ * Ownership: names are copied; name_table_free() frees; a zeroed struct is
+ * empty Threads:   one thread at a time Errors:    NO_NAME when memory is out
  */
 #ifndef GLIM_NAME_TABLE_H
 #define GLIM_NAME_TABLE_H

@@ -9,7 +9,6 @@
  * to U+2069). Private characters stay: they look odd and do nothing.
  *
  * Units:     bytes; columns of the terminal
- * Ownership: none
  * Threads:   any
  * Errors:    those of the stream, for its owner to ask for
  */

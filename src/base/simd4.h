@@ -4,11 +4,6 @@
  *
  * The arithmetic of floats, lane by lane, without contraction. Masks have a bit
  * a lane, lane 0 the lowest.
- *
- * Units:     none
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef GLIM_SIMD4_H
 #define GLIM_SIMD4_H

@@ -8,11 +8,6 @@
  * everywhere: f8_mul_sub rounds once or twice; of two negative numbers f8_later
  * and f8_sooner return any, and f8_before is for a first number that is not
  * negative; f8_further goes on by so many floats, or a little more.
- *
- * Units:     none
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef GLIM_SIMD8_H
 #define GLIM_SIMD8_H

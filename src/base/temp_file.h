@@ -7,7 +7,6 @@
  * the moment before it replaces another file, it is called
  * .glim-HOST-PID-NUMBER.
  *
- * Units:     none
  * Ownership: temp_file_close() closes and frees what temp_file_open() opened;
  *            folders and names stay the caller's
  * Threads:   any; each file from one thread

@@ -6,7 +6,6 @@
  * the encoding of LC_CTYPE, of which print.h says what is shown.
  *
  * Units:     columns of the terminal; bytes where the name says so
- * Ownership: none
  * Threads:   any
  * Errors:    none; text is cut, and never within a character
  */

@@ -2,7 +2,6 @@
 /*
  * thread.h - threads that leave signals to the main one
  *
- * Units:     none
  * Ownership: the thread is the caller's to join
  * Threads:   any
  * Errors:    those of pthread_create()

@@ -6,7 +6,6 @@
  * worker owns a range of them and steals half of another's when its own is
  * done.
  *
- * Units:     none
  * Ownership: pool_create() returns a pool for pool_destroy(); a job's context
  *            stays the caller's and must outlive pool_run()
  * Threads:   pool_run() from one thread at a time; cancel_request() from any

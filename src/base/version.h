@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
  * version.h - the one place that has the version
- *
- * Units:     none
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef GLIM_VERSION_H
 #define GLIM_VERSION_H

@@ -63,7 +63,7 @@ static int count_named(const struct warnings *r, const char *kind)
 }
 
 void warnings_add_named(struct warnings *r, const char *kind, const char *name,
-                      const char *format, ...)
+                        const char *format, ...)
 {
     /* Long names that begin alike count as one. */
     char *named = xformat("%s '%.100s'", kind, name);

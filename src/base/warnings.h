@@ -2,10 +2,8 @@
 /*
  * warnings.h - warnings of a load: the first of each kind in full, then counts
  *
- * Units:     none
  * Ownership: warnings_free() frees what a report holds; texts are copied
  * Threads:   one thread at a time
- * Errors:    none
  */
 #ifndef GLIM_WARNINGS_H
 #define GLIM_WARNINGS_H
@@ -33,11 +31,11 @@ void warnings_add(struct warnings *r, const char *kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* The same for what has a name in the file: the first of each kind and name in
- * full. After WARNINGS_NAMES_MAX names of a kind the others are counted together,
- * so that no file can fill the screen. */
+ * full. After WARNINGS_NAMES_MAX names of a kind the others are counted
+ * together, so that no file can fill the screen. */
 #define WARNINGS_NAMES_MAX 20
 void warnings_add_named(struct warnings *r, const char *kind, const char *name,
-                      const char *format, ...)
+                        const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* Writes a line for each kind, "glim: warning: TEXT", followed by

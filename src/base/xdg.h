@@ -2,7 +2,6 @@
 /*
  * xdg.h - where files of this person belong: the XDG base directories
  *
- * Units:     none
  * Ownership: what is returned is for free()
  * Threads:   main only, as getenv()
  * Errors:    NULL where there is no such place

@@ -4,9 +4,9 @@
  * parts, each of which one thread makes a tree of. Where a part ends depends on
  * its size alone.
  *
- * No triangle is in two leaves. Measured: in the tree that bvh_reinsert.h makes,
- * spatial splits (Stich, Friedrich and Dietrich 2009) make rooms slower: rays
- * through them take 0 to 30 % longer.
+ * No triangle is in two leaves. Measured: in the tree that bvh_reinsert.h
+ * makes, spatial splits (Stich, Friedrich and Dietrich 2009) make rooms slower:
+ * rays through them take 0 to 30 % longer.
  */
 #include "bvh/bvh.h"
 

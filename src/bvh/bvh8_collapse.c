@@ -118,14 +118,14 @@ static void fit_above_spans(const struct bvh8_collapse *f, struct span s)
 }
 
 bool bvh8_collapse_init(struct bvh8_collapse *f, const struct bvh *bvh,
-                    struct pool *pool)
+                        struct pool *pool)
 {
     const struct span all = {0, bvh->node_count};
     struct fitter fitter = {.fits = f};
     bool ok;
 
-    *f = (struct bvh8_collapse){bvh,
-                            alloc_aligned(bvh->node_count, sizeof *f->fits)};
+    *f = (struct bvh8_collapse){bvh, alloc_aligned(bvh->node_count,
+                                                   sizeof *f->fits)};
     ok = f->fits != NULL && find_spans(&fitter, all);
     if (ok) {
         pool_each(pool, fitter.span_count, fit_span, &fitter);
@@ -218,7 +218,7 @@ static void sort_children(const struct bvh8_collapse *f, uint32_t *children,
 
 /* A leaf is only asked for at the root. */
 uint32_t bvh8_collapse_children(const struct bvh8_collapse *f, uint32_t node,
-                            uint32_t children[BVH8_CHILDREN])
+                                uint32_t children[BVH8_CHILDREN])
 {
     uint32_t count = 1;
 

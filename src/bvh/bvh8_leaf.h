@@ -3,9 +3,7 @@
  * bvh8_leaf.h - a ray against the triangles of a block, four at once
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_BVH8_LEAF_H
 #define GLIM_BVH8_LEAF_H

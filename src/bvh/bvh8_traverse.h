@@ -6,9 +6,7 @@
  * the distance at which the ray enters them.
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   any, on one world
- * Errors:    none
  */
 #ifndef GLIM_BVH8_TRAVERSE_H
 #define GLIM_BVH8_TRAVERSE_H
@@ -309,8 +307,8 @@ meet_group(void *query, const struct tri_block *block, uint32_t more)
     }
 }
 
-/* hit_closest() of up to PACKET_RAYS rays; false, without an answer, if they are
- * better off alone. */
+/* hit_closest() of up to PACKET_RAYS rays; false, without an answer, if they
+ * are better off alone. */
 static inline bool hits_closest(const struct world *w, const struct ray *rays,
                                 uint32_t count, struct hit *hits)
 {

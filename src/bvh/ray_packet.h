@@ -3,9 +3,7 @@
  * ray_packet.h - rays that go much the same way against a triangle, all at once
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_RAY_PACKET_H
 #define GLIM_RAY_PACKET_H
@@ -38,11 +36,11 @@ struct ray_packet {
     uint32_t count;
     struct f8_rays lanes;
     _Alignas(32) float t[PACKET_RAYS]; /* of the hits */
-    float far;                        /* the largest of these */
+    float far;                         /* the largest of these */
 };
 
 static inline void packet_put(struct ray_packet *g, uint32_t lane,
-                             const struct ray *r)
+                              const struct ray *r)
 {
     g->lanes.o[0][lane] = r->o.x;
     g->lanes.o[1][lane] = r->o.y;
@@ -96,8 +94,8 @@ static inline float packet_far(const struct ray_packet *g)
 
 /* For 1 to PACKET_RAYS rays; packet_shear() has to follow. */
 static inline void packet_begin(struct ray_packet *g, const struct world *w,
-                               const struct ray *rays, uint32_t count,
-                               struct hit *hits)
+                                const struct ray *rays, uint32_t count,
+                                struct hit *hits)
 {
     struct ray none = rays[0]; /* meets nothing */
 
@@ -113,7 +111,7 @@ static inline void packet_begin(struct ray_packet *g, const struct world *w,
 }
 
 static inline void packet_meet(struct ray_packet *g,
-                              const struct tri_block *block, uint32_t i)
+                               const struct tri_block *block, uint32_t i)
 {
     struct simd_hits h;
 

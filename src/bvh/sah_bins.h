@@ -9,9 +9,7 @@
  * come, but for that.
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   any, on bins of their own
- * Errors:    none
  */
 #ifndef GLIM_SAH_BINS_H
 #define GLIM_SAH_BINS_H

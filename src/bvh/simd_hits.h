@@ -3,9 +3,7 @@
  * simd_hits.h - what becomes of a triangle test in lanes
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_SIMD_HITS_H
 #define GLIM_SIMD_HITS_H

@@ -11,9 +11,7 @@
  * coordinate: LANES_corner() of where it stands in the block.
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #include "bvh/simd_hits.h"
 

@@ -2,7 +2,6 @@
 /*
  * asset_path.h - finds the files that a scene names
  *
- * Units:     none
  * Ownership: asset_path_find() returns memory for free()
  * Threads:   any
  * Errors:    NULL

@@ -54,14 +54,15 @@ static bool report_index(const struct faces *f, const struct lexer *lex,
 
     if (count == 0)
         warnings_add(f->report, "faces with a bad index",
-                   "%s:%" PRIu64 ": found %s %s in a face, expected none, for "
-                   "there are none so far: face dropped",
-                   f->path, lex->line, what, text.text);
+                     "%s:%" PRIu64
+                     ": found %s %s in a face, expected none, for "
+                     "there are none so far: face dropped",
+                     f->path, lex->line, what, text.text);
     else
         warnings_add(f->report, "faces with a bad index",
-                   "%s:%" PRIu64 ": found %s %s in a face, expected 1 to "
-                   "%" PRIu32 " or -1 to -%" PRIu32 ": face dropped",
-                   f->path, lex->line, what, text.text, count, count);
+                     "%s:%" PRIu64 ": found %s %s in a face, expected 1 to "
+                     "%" PRIu32 " or -1 to -%" PRIu32 ": face dropped",
+                     f->path, lex->line, what, text.text, count, count);
     return false;
 }
 
@@ -73,11 +74,11 @@ static bool was_taken_out(const struct faces *f, const struct lexer *lex, int k,
     if (k == 0 || count > 0 || index < 1)
         return false;
     warnings_add(f->report,
-               k == 1 ? "corners without their texture vertex"
-                      : "corners without their normal",
-               "%s:%" PRIu64 ": found %s %s in a face, but the file has none "
-               "so far: face used without",
-               f->path, lex->line, corner_names[k], word_cut(word).text);
+                 k == 1 ? "corners without their texture vertex"
+                        : "corners without their normal",
+                 "%s:%" PRIu64 ": found %s %s in a face, but the file has none "
+                 "so far: face used without",
+                 f->path, lex->line, corner_names[k], word_cut(word).text);
     return true;
 }
 
@@ -85,9 +86,10 @@ static bool report_malformed(const struct faces *f, const struct lexer *lex,
                              struct word word)
 {
     warnings_add(f->report, "malformed faces",
-               "%s:%" PRIu64 ": found %s in a face, expected v, v/vt, v//vn or "
-               "v/vt/vn: face dropped",
-               f->path, lex->line, word_quote(word).text);
+                 "%s:%" PRIu64
+                 ": found %s in a face, expected v, v/vt, v//vn or "
+                 "v/vt/vn: face dropped",
+                 f->path, lex->line, word_quote(word).text);
     return false;
 }
 
@@ -172,17 +174,18 @@ static bool is_usable(const struct faces *f, uint64_t line)
 {
     if (f->corner_count < 3) {
         warnings_add(f->report, "faces with too few corners",
-                   "%s:%" PRIu64 ": found a face with %" PRIu32 " corners, "
-                   "expected 3 or more: face dropped",
-                   f->path, line, f->corner_count);
+                     "%s:%" PRIu64 ": found a face with %" PRIu32 " corners, "
+                     "expected 3 or more: face dropped",
+                     f->path, line, f->corner_count);
         return false;
     }
     for (size_t i = 0; i < 3 * (size_t)f->corner_count; i++) {
         if (!isfinite(f->points[i])) {
             warnings_add(f->report, "faces with a vertex that is not finite",
-                       "%s:%" PRIu64 ": found a face with a vertex that is not "
-                       "finite: face dropped",
-                       f->path, line);
+                         "%s:%" PRIu64
+                         ": found a face with a vertex that is not "
+                         "finite: face dropped",
+                         f->path, line);
             return false;
         }
     }
@@ -287,9 +290,9 @@ bool faces_read(struct faces *f, struct lexer *lex, uint32_t object,
             return out_of_memory(f, lex, err);
         if (f->corner_count > 3 && f->polygon.crosses_itself)
             warnings_add(f->report, "polygons that cross themselves",
-                       "%s:%" PRIu64 ": found a polygon that crosses itself: "
-                       "its triangles are a guess",
-                       f->path, line);
+                         "%s:%" PRIu64 ": found a polygon that crosses itself: "
+                         "its triangles are a guess",
+                         f->path, line);
     }
     f->face_count++;
     return true;

@@ -2,7 +2,6 @@
 /*
  * faces.h - reads the f statements of OBJ text and makes triangles of them
  *
- * Units:     none
  * Ownership: triangles go to the scene; faces_free() frees the rest
  * Threads:   one thread
  * Errors:    memory; a face that cannot be used is a warning

@@ -168,8 +168,8 @@ static bool finish_material(struct parser *p)
         return true;
     if (*p->name == '\0') {
         warnings_add(p->report, "materials without a name",
-                   "%s:%" PRIu64 ": found newmtl without a name: not used",
-                   p->path, p->name_line);
+                     "%s:%" PRIu64 ": found newmtl without a name: not used",
+                     p->path, p->name_line);
         return true;
     }
     m = material_from_source(&p->source, p->path, p->report);
@@ -178,9 +178,9 @@ static bool finish_material(struct parser *p)
         return out_of_memory(p);
     if (index < p->scene->material_count) {
         warnings_add_named(p->report, "materials defined twice", p->name,
-                         "%s:%" PRIu64 ": found newmtl '%s' again: the later "
-                         "one is used",
-                         p->path, p->name_line, p->name);
+                           "%s:%" PRIu64 ": found newmtl '%s' again: the later "
+                           "one is used",
+                           p->path, p->name_line, p->name);
         p->scene->materials[index] = m;
         p->scene->material_origins[index] = origin;
         return true;
@@ -232,10 +232,10 @@ static bool read_color(struct parser *p, struct word key,
 
     if (word_is(word, "spectral") || word_is(word, "xyz")) {
         warnings_add(p->report, "spectral colours",
-                   "%s:%" PRIu64 ": found %.*s %.*s, expected a colour: not "
-                   "used",
-                   p->path, p->lex.line, (int)key.length, key.start,
-                   (int)word.length, word.start);
+                     "%s:%" PRIu64 ": found %.*s %.*s, expected a colour: not "
+                     "used",
+                     p->path, p->lex.line, (int)key.length, key.start,
+                     (int)word.length, word.start);
         return true;
     }
     p->lex = start;
@@ -263,10 +263,11 @@ static bool read_blackbody(struct parser *p, struct word key)
         return expected(p, key, "a temperature and perhaps a luminance");
     if (!(kelvin >= 0 && kelvin <= BLACKBODY_GREATEST)) {
         warnings_add(p->report, "impossible temperatures",
-                   "%s:%" PRIu64 ": found %.*s %g, expected kelvins from 0 to "
-                   "%g: taken as 0",
-                   p->path, p->lex.line, (int)key.length, key.start, kelvin,
-                   BLACKBODY_GREATEST);
+                     "%s:%" PRIu64
+                     ": found %.*s %g, expected kelvins from 0 to "
+                     "%g: taken as 0",
+                     p->path, p->lex.line, (int)key.length, key.start, kelvin,
+                     BLACKBODY_GREATEST);
         kelvin = 0;
     }
     s->kelvin = (struct mtl_number){kelvin, p->lex.line};
@@ -308,13 +309,13 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
     o.texture.is_data = is_data;
     if (o.unknown_count > 0)
         warnings_add(p->report, "maps with options",
-                   "%s:%" PRIu64 ": found options of %.*s other than -o, -s, "
-                   "-bm and -clamp: the texture is used without them",
-                   p->path, line, (int)key.length, key.start);
+                     "%s:%" PRIu64 ": found options of %.*s other than -o, -s, "
+                     "-bm and -clamp: the texture is used without them",
+                     p->path, line, (int)key.length, key.start);
     if (*name == '\0') {
         warnings_add(p->report, "maps without a file",
-                   "%s:%" PRIu64 ": found %.*s without the name of a file",
-                   p->path, line, (int)key.length, key.start);
+                     "%s:%" PRIu64 ": found %.*s without the name of a file",
+                     p->path, line, (int)key.length, key.start);
         free(name);
         return true;
     }
@@ -336,8 +337,8 @@ static void skip_statement(struct parser *p, struct word key)
         return;
     snprintf(name, sizeof name, "%.*s", length, key.start);
     warnings_add_named(p->report, "unknown statements", name,
-                     "%s:%" PRIu64 ": found '%s', which glim does not use",
-                     p->path, p->lex.line, name);
+                       "%s:%" PRIu64 ": found '%s', which glim does not use",
+                       p->path, p->lex.line, name);
 }
 
 static bool read_property(struct parser *p, struct word key)
@@ -408,8 +409,8 @@ static bool parse_lines(struct parser *p)
                 return false;
         } else if (p->name == NULL) {
             warnings_add(p->report, "statements before newmtl",
-                       "%s:%" PRIu64 ": found %s, expected newmtl", p->path,
-                       p->lex.line, word_quote(key).text);
+                         "%s:%" PRIu64 ": found %s, expected newmtl", p->path,
+                         p->lex.line, word_quote(key).text);
         } else if (!read_property(p, key)) {
             return false;
         }

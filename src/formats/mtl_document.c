@@ -18,10 +18,11 @@ static const char *line_end_of(const char *text, size_t size_bytes)
     return "\n";
 }
 
-bool mtl_document_init(struct mtl_document *t, const char *text, size_t size_bytes)
+bool mtl_document_init(struct mtl_document *t, const char *text,
+                       size_t size_bytes)
 {
     *t = (struct mtl_document){alloc_array(size_bytes + 1, 1), size_bytes,
-                           line_end_of(text, size_bytes)};
+                               line_end_of(text, size_bytes)};
     if (t->bytes != NULL)
         memcpy(t->bytes, text, size_bytes);
     return t->bytes != NULL;
@@ -46,7 +47,7 @@ static bool splice(struct mtl_document *t, size_t at, size_t removed,
 }
 
 bool mtl_document_splice(struct mtl_document *t, size_t at, size_t removed,
-                     const char *insert)
+                         const char *insert)
 {
     return splice(t, at, removed, insert, strlen(insert));
 }
@@ -101,8 +102,8 @@ static bool next_statement(const struct mtl_document *t, struct lexer *lex,
     return false;
 }
 
-bool mtl_document_has_key(const struct mtl_document *t, const struct mtl_statement *s,
-                      mtl_aliases keys)
+bool mtl_document_has_key(const struct mtl_document *t,
+                          const struct mtl_statement *s, mtl_aliases keys)
 {
     struct word word = {t->bytes + s->key, s->key_end - s->key};
 
@@ -113,7 +114,8 @@ bool mtl_document_has_key(const struct mtl_document *t, const struct mtl_stateme
 }
 
 /* What follows the key, joined to one line. NULL when memory is out. */
-static char *rest_of(const struct mtl_document *t, const struct mtl_statement *s)
+static char *rest_of(const struct mtl_document *t,
+                     const struct mtl_statement *s)
 {
     struct lexer lex = mtl_document_lex(t, s->key_end);
 
@@ -121,7 +123,7 @@ static char *rest_of(const struct mtl_document *t, const struct mtl_statement *s
 }
 
 bool mtl_document_find_block(const struct mtl_document *t, const char *name,
-                         struct mtl_block *b)
+                             struct mtl_block *b)
 {
     static mtl_aliases newmtl = {"newmtl"};
     struct lexer lex = mtl_document_lex(t, 0);
@@ -148,8 +150,9 @@ bool mtl_document_find_block(const struct mtl_document *t, const char *name,
 }
 
 /* The last statement of a block with one of these keys. */
-static bool find_statement(const struct mtl_document *t, const struct mtl_block *b,
-                           mtl_aliases keys, struct mtl_statement *found)
+static bool find_statement(const struct mtl_document *t,
+                           const struct mtl_block *b, mtl_aliases keys,
+                           struct mtl_statement *found)
 {
     struct lexer lex = mtl_document_lex(t, b->newmtl.end);
     struct mtl_statement s;
@@ -176,7 +179,7 @@ static char *closing_of(const struct mtl_document *t)
 }
 
 bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
-                     const char *key, const char *value)
+                         const char *key, const char *value)
 {
     const struct mtl_statement *last = &b->last;
     int indent = (int)(last->key - last->line);
@@ -192,8 +195,8 @@ bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
     return ok;
 }
 
-bool mtl_document_set(struct mtl_document *t, const char *name, mtl_aliases keys,
-                  const char *value)
+bool mtl_document_set(struct mtl_document *t, const char *name,
+                      mtl_aliases keys, const char *value)
 {
     struct word word;
     struct mtl_statement s;
@@ -214,7 +217,8 @@ bool mtl_document_set(struct mtl_document *t, const char *name, mtl_aliases keys
     return ok;
 }
 
-bool mtl_document_remove(struct mtl_document *t, const char *name, mtl_aliases keys)
+bool mtl_document_remove(struct mtl_document *t, const char *name,
+                         mtl_aliases keys)
 {
     struct mtl_statement s;
     struct mtl_block b;
@@ -231,7 +235,8 @@ bool mtl_document_remove(struct mtl_document *t, const char *name, mtl_aliases k
     return true;
 }
 
-bool mtl_document_comment(struct mtl_document *t, const char *name, mtl_aliases keys)
+bool mtl_document_comment(struct mtl_document *t, const char *name,
+                          mtl_aliases keys)
 {
     struct mtl_statement s;
     struct mtl_block b;
@@ -244,7 +249,8 @@ bool mtl_document_comment(struct mtl_document *t, const char *name, mtl_aliases 
         char *line;
         bool ok;
 
-        free(lexer_rest(&lex)); /* a name may hold a '#': the rest is all of it */
+        free(lexer_rest(
+            &lex)); /* a name may hold a '#': the rest is all of it */
         end = (size_t)(lex.p - t->bytes);
         if (rest == NULL)
             return false;
@@ -271,7 +277,7 @@ static bool is_open(const struct mtl_document *t)
 }
 
 bool mtl_document_append_block(struct mtl_document *t, const char *name,
-                           const char *copied_from)
+                               const char *copied_from)
 {
     char *closing = is_open(t) ? closing_of(t) : xstrdup("");
     char *head = xformat("%s%snewmtl %s%s%s", closing, t->line_end, name,

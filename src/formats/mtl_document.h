@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * mtl_document.h - the text of an MTL file whose statements are changed in place
+ * mtl_document.h - the text of an MTL file whose statements are changed in
+ * place
  *
  * Comments, order, blanks and line ends stay as they are, and so does all that
  * is not named. Of blocks with the same name the last one counts, and of
@@ -43,41 +44,44 @@ struct mtl_block {
 };
 
 /* A copy of this text. */
-bool mtl_document_init(struct mtl_document *t, const char *text, size_t size_bytes);
+bool mtl_document_init(struct mtl_document *t, const char *text,
+                       size_t size_bytes);
 
 /* Puts `insert` in the place of `removed` bytes. */
 bool mtl_document_splice(struct mtl_document *t, size_t at, size_t removed,
-                     const char *insert);
+                         const char *insert);
 
 /* Reads from there on. */
 struct lexer mtl_document_lex(const struct mtl_document *t, size_t at);
 
 /* True if the statement has one of these keys. */
-bool mtl_document_has_key(const struct mtl_document *t, const struct mtl_statement *s,
-                      mtl_aliases keys);
+bool mtl_document_has_key(const struct mtl_document *t,
+                          const struct mtl_statement *s, mtl_aliases keys);
 
 /* The last block of this name. False if there is none: one without a name is
  * no material. */
 bool mtl_document_find_block(const struct mtl_document *t, const char *name,
-                         struct mtl_block *b);
+                             struct mtl_block *b);
 
 /* A statement of its own behind the last one of the block, as far from the
  * margin as that. */
 bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
-                     const char *key, const char *value);
+                         const char *key, const char *value);
 
 /* Gives the statement of the block of this name this value, wherever it is. */
-bool mtl_document_set(struct mtl_document *t, const char *name, mtl_aliases keys,
-                  const char *value);
+bool mtl_document_set(struct mtl_document *t, const char *name,
+                      mtl_aliases keys, const char *value);
 
 /* Removes all such statements of the block, but not the comments behind them;
  * or turns them into comments. */
-bool mtl_document_remove(struct mtl_document *t, const char *name, mtl_aliases keys);
-bool mtl_document_comment(struct mtl_document *t, const char *name, mtl_aliases keys);
+bool mtl_document_remove(struct mtl_document *t, const char *name,
+                         mtl_aliases keys);
+bool mtl_document_comment(struct mtl_document *t, const char *name,
+                          mtl_aliases keys);
 
 /* A new block at the end of the text, with the statements of the other if there
  * is such a one. */
 bool mtl_document_append_block(struct mtl_document *t, const char *name,
-                           const char *copied_from);
+                               const char *copied_from);
 
 #endif

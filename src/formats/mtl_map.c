@@ -119,7 +119,8 @@ char *mtl_map_read(struct lexer *lex, struct mtl_map_options *o)
 {
     char *name;
 
-    *o = (struct mtl_map_options){.texture = {.scale = {1, 1}}, .bump_scale = 1};
+    *o =
+        (struct mtl_map_options){.texture = {.scale = {1, 1}}, .bump_scale = 1};
     while (read_option(lex, o))
         continue;
     name = lexer_rest(lex);

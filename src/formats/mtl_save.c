@@ -30,7 +30,8 @@ static bool write_color(struct writer *w, const struct mtl_change *c,
     char text[3][DECIMAL_TEXT_BYTES], value[3 * DECIMAL_TEXT_BYTES];
 
     if (after->line == 0)
-        return before->line == 0 || mtl_document_remove(&w->text, c->name, keys);
+        return before->line == 0 ||
+               mtl_document_remove(&w->text, c->name, keys);
     if (mtl_color_equal(before, after))
         return true;
     for (int i = 0; i < 3; i++)
@@ -46,7 +47,8 @@ static bool write_number(struct writer *w, const struct mtl_change *c,
     char text[DECIMAL_TEXT_BYTES];
 
     if (after->line == 0)
-        return before->line == 0 || mtl_document_remove(&w->text, c->name, keys);
+        return before->line == 0 ||
+               mtl_document_remove(&w->text, c->name, keys);
     if (mtl_number_equal(before, after))
         return true;
     decimal_format(text, after->value);
@@ -181,8 +183,8 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
     if (find_commented_map(w, &b, map_keys[map], c->after->maps[map], &hash))
         return mtl_document_splice(&w->text, hash, 1, "");
     value = map_value(w, c->after, map);
-    ok =
-        value != NULL && mtl_document_insert(&w->text, &b, map_keys[map][0], value);
+    ok = value != NULL &&
+         mtl_document_insert(&w->text, &b, map_keys[map][0], value);
     free(value);
     return ok;
 }

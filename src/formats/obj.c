@@ -29,8 +29,8 @@ struct parser {
     uint64_t statement_count, unknown_count;
     size_t position_capacity, normal_capacity, uv_capacity;
     struct name_table objects;
-    struct name_table materials;   /* as used; 0 is "": none yet */
-    uint64_t *material_lines; /* of their first use */
+    struct name_table materials; /* as used; 0 is "": none yet */
+    uint64_t *material_lines;    /* of their first use */
     size_t material_line_capacity;
     struct name_table libraries; /* paths of the MTL files read */
     struct faces faces;
@@ -86,9 +86,9 @@ static void look_for_color(struct parser *p)
     p->has_colors = count >= 3;
     if (p->has_colors)
         warnings_add(p->report, "vertices with colours",
-                   "%s:%" PRIu64 ": found the colour of a vertex: glim has "
-                   "colours of materials and textures only",
-                   p->path, p->lex.line);
+                     "%s:%" PRIu64 ": found the colour of a vertex: glim has "
+                     "colours of materials and textures only",
+                     p->path, p->lex.line);
 }
 
 static bool read_position(struct parser *p)
@@ -214,7 +214,7 @@ static bool load_library(struct parser *p, const char *name, char *path)
         return true;
     if (!file_read(path, &text, &size_bytes, &why)) {
         warnings_add_named(p->report, "lost material files", name, "%s",
-                         why.text);
+                           why.text);
         return true;
     }
     ok = mtl_parse(p->scene, text, size_bytes, path, p->report, p->err);
@@ -230,16 +230,16 @@ static bool load_library_named(struct parser *p, const char *name)
 
     if (length >= PATH_MAX) {
         warnings_add(p->report, "material files with endless names",
-                   "%s:%" PRIu64 ": found a name of %zu bytes for mtllib, "
-                   "expected fewer than %d: its materials will be grey",
-                   p->path, p->lex.line, length, PATH_MAX);
+                     "%s:%" PRIu64 ": found a name of %zu bytes for mtllib, "
+                     "expected fewer than %d: its materials will be grey",
+                     p->path, p->lex.line, length, PATH_MAX);
         return true;
     }
     if (path == NULL) {
         warnings_add_named(p->report, "lost material files", name,
-                         "%s:%" PRIu64 ": found no file '%s' for mtllib: its "
-                         "materials will be grey",
-                         p->path, p->lex.line, name);
+                           "%s:%" PRIu64 ": found no file '%s' for mtllib: its "
+                           "materials will be grey",
+                           p->path, p->lex.line, name);
         return true;
     }
     ok = load_library(p, name, path);
@@ -315,17 +315,17 @@ static bool skip_unknown(struct parser *p, struct word key)
 
     if (is_free_form(key)) {
         warnings_add(p->report, "statements of free forms",
-                   "%s:%" PRIu64 ": found '%.*s': free-form curves and "
-                   "surfaces are not drawn",
-                   p->path, p->lex.line, length, key.start);
+                     "%s:%" PRIu64 ": found '%.*s': free-form curves and "
+                     "surfaces are not drawn",
+                     p->path, p->lex.line, length, key.start);
         return true;
     }
     p->statement_count--;
     p->unknown_count++;
     snprintf(name, sizeof name, "%.*s", length, key.start);
     warnings_add_named(p->report, "unknown statements", name,
-                     "%s:%" PRIu64 ": found '%s', which glim does not use",
-                     p->path, p->lex.line, name);
+                       "%s:%" PRIu64 ": found '%s', which glim does not use",
+                       p->path, p->lex.line, name);
     return true;
 }
 
@@ -371,9 +371,10 @@ static bool resolve_materials(struct parser *p)
             continue;
         numbers[i] = 0;
         warnings_add_named(p->report, "unknown materials", name,
-                         "%s:%" PRIu64 ": found no material '%s': grey is used "
-                         "for it",
-                         p->path, p->material_lines[i], name);
+                           "%s:%" PRIu64
+                           ": found no material '%s': grey is used "
+                           "for it",
+                           p->path, p->material_lines[i], name);
     }
     for (uint32_t i = 0; ok && i < scene->tri_count; i++)
         scene->tris[i].material = numbers[scene->tris[i].material];

@@ -41,7 +41,7 @@ struct polygon {
  * keep the polygon's winding. Of thousands of corners that cross themselves
  * some have no triangle. False when memory is out. */
 bool polygon_triangulate(struct polygon *polygon, const double *corners,
-                 uint32_t corner_count);
+                         uint32_t corner_count);
 
 void polygon_free(struct polygon *polygon);
 

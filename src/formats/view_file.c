@@ -182,7 +182,7 @@ static char *sky_name(const char *sky_path, const char *path)
 {
     char *name = path_seen_from(path, sky_path);
     char *whole = *name == '\0' || lexer_is_blank(*name) ? xformat("./%s", name)
-                                                       : xstrdup(name);
+                                                         : xstrdup(name);
 
     free(name);
     return whole;

@@ -250,8 +250,8 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
     if (key)
         return read_key(r, key, err);
     warnings_add(r->report, "lines with an unknown key",
-               "%s:%" PRIu64 ": found the unknown key %s, skipped", r->path,
-               r->lex->line, word_quote(name).text);
+                 "%s:%" PRIu64 ": found the unknown key %s, skipped", r->path,
+                 r->lex->line, word_quote(name).text);
     return true;
 }
 

@@ -30,8 +30,8 @@ static void trace_row(void *context, uint32_t y, int worker)
     }
 }
 
-void aov_of_pixels(struct pool *pool, const struct world *world,
-                          int width, int height, float *numbers)
+void aov_of_pixels(struct pool *pool, const struct world *world, int width,
+                   int height, float *numbers)
 {
     struct job j = {world, width, numbers};
 

@@ -3,9 +3,7 @@
  * false_color.h - colours for numbers: normals, uvs, depths, materials, counts
  *
  * Units:     numbers as enum sample_kind has them; 0xRRGGBB as it is shown
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_FALSE_COLOR_H
 #define GLIM_FALSE_COLOR_H

@@ -113,7 +113,7 @@ static void draw_box(struct frame *f, const struct camera *c,
 }
 
 uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
-                      const struct bvh *bvh, uint32_t level)
+                       const struct bvh *bvh, uint32_t level)
 {
     struct level l = {0};
     uint32_t first;
@@ -129,8 +129,7 @@ uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
         double part = (double)(i - first + 1) / (l.count - first);
 
         draw_box(frame, camera, &l.boxes[i],
-                 raster_dim(BOX_COLOR,
-                             BOX_DIMMEST + (1 - BOX_DIMMEST) * part));
+                 raster_dim(BOX_COLOR, BOX_DIMMEST + (1 - BOX_DIMMEST) * part));
     }
     free(l.boxes);
     return l.count;
@@ -139,7 +138,7 @@ uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
 /* ---- paths ---- */
 
 void overlay_trail(struct frame *frame, const struct camera *camera,
-                  const struct path_record *trail, int count)
+                   const struct path_record *trail, int count)
 {
     struct projected p;
 
@@ -172,7 +171,7 @@ static uint32_t color_of(struct vec3 weight)
 }
 
 void overlay_lobes(struct frame *frame, const struct camera *camera,
-                  const struct path_record_lobes *l)
+                   const struct path_record_lobes *l)
 {
     float length = LOBE_LENGTH * l->distance;
     float top = 0.0f;

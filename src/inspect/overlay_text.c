@@ -67,7 +67,8 @@ static void format_numbers(char text[NUMBERS_BYTES], const double *values,
 static void add_step(struct overlay_text *l, const struct scene *scene,
                      const struct path_record_step *s, int number)
 {
-    bool goes_on = s->way == PATH_RECORD_REFLECTED || s->way == PATH_RECORD_TRANSMITTED;
+    bool goes_on =
+        s->way == PATH_RECORD_REFLECTED || s->way == PATH_RECORD_TRANSMITTED;
     double pdf = (double)s->pdf;
     double place[3] = {file_coordinate(scene, s->to.x, 0),
                        file_coordinate(scene, s->to.y, 1),
@@ -83,8 +84,9 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
     else if (goes_on)
         snprintf(pdf_text, sizeof pdf_text, "delta");
     text_width_fit(material, sizeof material,
-                s->way == PATH_RECORD_SKY ? "" : material_of(scene, s->hit.tri),
-                MATERIAL_COLS);
+                   s->way == PATH_RECORD_SKY ? ""
+                                             : material_of(scene, s->hit.tri),
+                   MATERIAL_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
              material, PLACE_COLS, place_text, way_name(s),
@@ -94,13 +96,14 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
 }
 
 void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
-                  const struct path_record *trail, int count)
+                        const struct path_record *trail, int count)
 {
     int first = count > OVERLAY_TEXT_STEPS ? count - OVERLAY_TEXT_STEPS : 0;
 
     l->count = 0;
-    snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%2s %-10s %-17s %-8s %-14s %-6s %s",
-             "#", "material", "position", "way", "throughput", "pdf", "light");
+    snprintf(next_line(l), OVERLAY_TEXT_BYTES,
+             "%2s %-10s %-17s %-8s %-14s %-6s %s", "#", "material", "position",
+             "way", "throughput", "pdf", "light");
     for (int i = first; i < count; i++)
         add_step(l, scene, &trail->steps[i], i + 1);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
@@ -109,7 +112,8 @@ void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
              (double)trail->radiance.y, (double)trail->radiance.z);
 }
 
-static void add_direction(struct overlay_text *l, const char *name, struct vec3 d)
+static void add_direction(struct overlay_text *l, const char *name,
+                          struct vec3 d)
 {
     /* + 0: -0 becomes 0 */
     snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%-22s %6.3f %6.3f %6.3f", name,
@@ -117,7 +121,7 @@ static void add_direction(struct overlay_text *l, const char *name, struct vec3 
 }
 
 void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
-                  const struct path_record_lobes *lobes)
+                        const struct path_record_lobes *lobes)
 {
     struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
     float cosine = f_min(v3_dot(lobes->wo, lobes->n), 1.0f);
@@ -135,7 +139,7 @@ void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
         deltas += pdf == 0.0f ? 1 : 0;
     }
     text_width_cut(material, sizeof material, material_of(scene, lobes->tri),
-                LOBES_COLS);
+                   LOBES_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%s, seen %.1f degrees off n",
              material, angle_deg(acos((double)cosine)));
     add_direction(l, "n normal, green", lobes->n);
@@ -144,5 +148,6 @@ void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%d of %d samples go on, %d as deltas; pdf %.3g to %.3g",
              lobes->count, PATH_RECORD_LOBES, deltas, (double)lo, (double)hi);
-    add_direction(l, "mean weight", v3_scale(sum, 1.0f / (float)PATH_RECORD_LOBES));
+    add_direction(l, "mean weight",
+                  v3_scale(sum, 1.0f / (float)PATH_RECORD_LOBES));
 }

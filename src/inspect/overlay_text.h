@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * overlay_text.h - what drawings of the insides say in words: tables of a path and of
- * a surface
+ * overlay_text.h - what drawings of the insides say in words: tables of a path
+ * and of a surface
  *
  * Units:     file units, radiance, densities per solid angle
- * Ownership: none
  * Threads:   any
  * Errors:    none; lines are cut
  */
@@ -28,9 +27,9 @@ struct overlay_text {
 /* A table of the first `count` steps, or of the last of them if there are more,
  * and below it what the whole path has gathered. */
 void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
-                  const struct path_record *trail, int count);
+                        const struct path_record *trail, int count);
 
 void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
-                  const struct path_record_lobes *lobes);
+                        const struct path_record_lobes *lobes);
 
 #endif

@@ -28,29 +28,31 @@ static bool is_same(struct vec3 a, struct vec3 b)
 
 /* On which side of the face does the path go on? */
 static enum path_record_way side_of(const struct world *w, struct hit h,
-                              struct vec3 before, struct vec3 after)
+                                    struct vec3 before, struct vec3 after)
 {
     struct vec3 ng = w->tris[h.tri].ng;
 
     if (v3_is_zero(ng))
         return PATH_RECORD_ENDED;
-    return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f ? PATH_RECORD_REFLECTED
-                                                         : PATH_RECORD_TRANSMITTED;
+    return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f
+               ? PATH_RECORD_REFLECTED
+               : PATH_RECORD_TRANSMITTED;
 }
 
 static enum path_record_way way_of(const struct world *w, struct ray before,
-                             const struct path *after, struct hit h,
-                             bool goes_on)
+                                   const struct path *after, struct hit h,
+                                   bool goes_on)
 {
     if (h.tri == NO_INDEX)
         return PATH_RECORD_SKY;
     if (goes_on)
         return side_of(w, h, before.d, after->ray.d);
-    return is_same(before.o, after->ray.o) ? PATH_RECORD_ENDED : PATH_RECORD_ROULETTE;
+    return is_same(before.o, after->ray.o) ? PATH_RECORD_ENDED
+                                           : PATH_RECORD_ROULETTE;
 }
 
-void path_record_follow(struct path_record *t, const struct world *w, uint32_t x,
-                  uint32_t y, uint64_t index)
+void path_record_follow(struct path_record *t, const struct world *w,
+                        uint32_t x, uint32_t y, uint64_t index)
 {
     struct path_start start = path_begin(&w->settings, x, y, index);
     bool goes_on = true;
@@ -94,8 +96,8 @@ static void add_lobe(struct path_record_lobes *l, const struct bsdf *b,
     l->count++;
 }
 
-bool path_record_scatter(struct path_record_lobes *l, const struct world *w, uint32_t x,
-                   uint32_t y)
+bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
+                         uint32_t x, uint32_t y)
 {
     struct ray r = camera_ray(w->settings.camera, x, y, v2(0.5f, 0.5f));
     struct material m;

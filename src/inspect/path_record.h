@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * path_record.h - one sample step by step: where its path went and what it gathered;
- * and which directions a surface would have sent it
+ * path_record.h - one sample step by step: where its path went and what it
+ * gathered; and which directions a surface would have sent it
  *
  * The steps are path_advance()'s: the radiance at the end is path_trace()'s,
  * bit for bit.
  *
  * Units:     normalised scene units, radiance, densities per solid angle
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_PATH_RECORD_H
 #define GLIM_PATH_RECORD_H
@@ -47,8 +45,8 @@ struct path_record {
 };
 
 /* Sample `index` of pixel (x, y) in a world that has nodes. */
-void path_record_follow(struct path_record *t, const struct world *world, uint32_t x,
-                  uint32_t y, uint64_t index);
+void path_record_follow(struct path_record *t, const struct world *world,
+                        uint32_t x, uint32_t y, uint64_t index);
 
 /* The frame of the surface where the middle of a pixel is seen, and directions
  * in which samples of light from the eye would go on. */
@@ -64,7 +62,7 @@ struct path_record_lobes {
 };
 
 /* False: there is only the sky. */
-bool path_record_scatter(struct path_record_lobes *l, const struct world *world, uint32_t x,
-                   uint32_t y);
+bool path_record_scatter(struct path_record_lobes *l, const struct world *world,
+                         uint32_t x, uint32_t y);
 
 #endif

@@ -34,8 +34,9 @@ static void count_row(void *context, uint32_t y, int worker)
     }
 }
 
-void traversal_cost_of_pixels(struct pool *pool, const struct world *world, int width,
-                    int height, struct traversal_cost *costs)
+void traversal_cost_of_pixels(struct pool *pool, const struct world *world,
+                              int width, int height,
+                              struct traversal_cost *costs)
 {
     struct job j = {world, width, costs};
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * traversal_cost.h - what camera rays cost: boxes and triangles that they are tested with
+ * traversal_cost.h - what camera rays cost: boxes and triangles that they are
+ * tested with
  *
  * In the binary tree and by the plain query of traverse.h, which is compiled
  * here once more, with counters.
  *
  * Units:     tests
- * Ownership: none
  * Threads:   one at a time; the pool's workers count
- * Errors:    none
  */
 #ifndef GLIM_TRAVERSAL_COST_H
 #define GLIM_TRAVERSAL_COST_H
@@ -22,7 +21,8 @@ struct traversal_cost {
 
 /* The cost of the rays through the middles of all pixels of the world's
  * camera, which sees width x height of them. Blocks. */
-void traversal_cost_of_pixels(struct pool *pool, const struct world *world, int width,
-                    int height, struct traversal_cost *costs);
+void traversal_cost_of_pixels(struct pool *pool, const struct world *world,
+                              int width, int height,
+                              struct traversal_cost *costs);
 
 #endif

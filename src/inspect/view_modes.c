@@ -48,7 +48,8 @@ struct develop view_mode_develop(const struct view_mode *s)
                                    : session_develop(s->session);
 }
 
-static bool find_world(const struct view_mode *s, struct world *w, struct error *err)
+static bool find_world(const struct view_mode *s, struct world *w,
+                       struct error *err)
 {
     struct session *of = s->session;
 
@@ -66,8 +67,9 @@ bool view_mode_world(const struct view_mode *s, struct world *w)
     return find_world(s, w, &ignored);
 }
 
-struct camera view_mode_camera(const struct view_mode *s, const struct camera *camera,
-                          const struct frame *frame)
+struct camera view_mode_camera(const struct view_mode *s,
+                               const struct camera *camera,
+                               const struct frame *frame)
 {
     struct rect r = s->session->crop;
     struct projection_part part = {r.x,      r.y,          r.width,
@@ -144,15 +146,15 @@ static void fill(const struct view_mode *s, struct frame *frame, int width,
                 (size_t)scaled(x, frame->width, width);
 
             raster_dot(frame, x, y,
-                        false_color(kinds[s->kind].sample, s->numbers + 3 * at,
-                                    range));
+                       false_color(kinds[s->kind].sample, s->numbers + 3 * at,
+                                   range));
         }
     }
 }
 
 /* The mean, by area, of what pixel (x, y) of the frame covers. */
-static float mean_at(const struct view_mode *s, const struct frame *frame, int x,
-                     int y, int width, int height)
+static float mean_at(const struct view_mode *s, const struct frame *frame,
+                     int x, int y, int width, int height)
 {
     struct area_walk rows = area_walk(height, frame->height, y, 1);
     float sum = 0, whole = 0;
@@ -182,7 +184,7 @@ static void fill_heat(const struct view_mode *s, struct frame *frame, int width,
             float mean = mean_at(s, frame, x, y, width, height);
 
             raster_dot(frame, x, y,
-                        false_color_heat(largest > 0 ? mean / largest : 0));
+                       false_color_heat(largest > 0 ? mean / largest : 0));
         }
     }
 }
@@ -207,7 +209,8 @@ static void paint_numbers(struct view_mode *s, struct frame *frame, int width,
         say_depth(s, range);
 }
 
-static void paint_draft(struct view_mode *s, struct film *draft, struct frame *frame)
+static void paint_draft(struct view_mode *s, struct film *draft,
+                        struct frame *frame)
 {
     if (!draft ||
         !need_numbers(s, 3 * (size_t)draft->width * (size_t)draft->height))
@@ -254,7 +257,8 @@ static bool count_costs(struct view_mode *s, const struct frame *frame)
                            sizeof *s->costs);
     if (!s->costs)
         return false;
-    traversal_cost_of_pixels(s->pool, &w, frame->width, frame->height, s->costs);
+    traversal_cost_of_pixels(s->pool, &w, frame->width, frame->height,
+                             s->costs);
     s->cost_camera = w.settings.camera;
     s->cost_width = frame->width;
     s->cost_height = frame->height;
@@ -284,7 +288,7 @@ static bool paint_costs(struct view_mode *s, struct frame *frame)
 }
 
 void view_mode_paint(struct view_mode *s, struct film *film, struct film *draft,
-                struct frame *frame)
+                     struct frame *frame)
 {
     switch (s->kind) {
     case SHOW_LIGHT:
@@ -328,11 +332,13 @@ static bool find_numbers(struct view_mode *s, const struct frame *frame,
     return true;
 }
 
-bool view_mode_picture(struct view_mode *s, struct film *film, struct frame *frame,
-                  struct error *err)
+bool view_mode_picture(struct view_mode *s, struct film *film,
+                       struct frame *frame, struct error *err)
 {
     switch (s->kind) {
-    case SHOW_LIGHT: film_preview(film, NULL, view_mode_develop(s), frame); break;
+    case SHOW_LIGHT:
+        film_preview(film, NULL, view_mode_develop(s), frame);
+        break;
     case SHOW_SAMPLES:
         return paint_samples(s, film, frame) || fail_memory(frame, err);
     case SHOW_COST: return paint_costs(s, frame) || fail_memory(frame, err);

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * view_modes.h - a scene shown otherwise than by its light: as a preview, or in false
- * colours by normals, uvs, depth, materials, cost of rays, samples
+ * view_modes.h - a scene shown otherwise than by its light: as a preview, or in
+ * false colours by normals, uvs, depth, materials, cost of rays, samples
  *
  * What has samples of its own (enum sample_kind) is rendered as a draft; the
  * cost of rays and the samples of pixels are counted here.
  *
  * Units:     frames' pixels
- * Ownership: the session stays the caller's and outlives it; view_mode_free() frees
- *            the rest
- * Threads:   main only
- * Errors:    memory, threads
+ * Ownership: the session stays the caller's and outlives it; view_mode_free()
+ * frees the rest Threads:   main only Errors:    memory, threads
  */
 #ifndef GLIM_VIEW_MODES_H
 #define GLIM_VIEW_MODES_H
@@ -50,13 +48,13 @@ struct develop view_mode_develop(const struct view_mode *s);
 
 /* Replaces what a film and its draft show in a frame. */
 void view_mode_paint(struct view_mode *s, struct film *film, struct film *draft,
-                struct frame *frame);
+                     struct frame *frame);
 
 /* Fills a frame of any size with the whole picture as it is shown, not through
  * a draft: film is what light and samples are taken from, and may be NULL for
  * the others. Blocks while the rest is computed. */
-bool view_mode_picture(struct view_mode *s, struct film *film, struct frame *frame,
-                  struct error *err);
+bool view_mode_picture(struct view_mode *s, struct film *film,
+                       struct frame *frame, struct error *err);
 
 /* A binary tree of the scene, for drawings and costs, and the world as it is
  * rendered, but with that tree. */
@@ -64,8 +62,9 @@ bool view_mode_need_tree(struct view_mode *s, struct error *err);
 bool view_mode_world(const struct view_mode *s, struct world *w);
 
 /* The same camera in pixels of the frame. */
-struct camera view_mode_camera(const struct view_mode *s, const struct camera *camera,
-                          const struct frame *frame);
+struct camera view_mode_camera(const struct view_mode *s,
+                               const struct camera *camera,
+                               const struct frame *frame);
 
 /* The scene is another one: what was made of the old one is dropped. */
 void view_mode_renew(struct view_mode *s);

@@ -42,9 +42,9 @@ struct landing {
 struct search {
     const struct bvh8_world *w;
     const struct guide_grid *grid;
-    struct triangle_cdf lights;   /* by power */
-    struct triangle_cdf casters;  /* by area */
-    struct landing *landings; /* LANDINGS of each photon */
+    struct triangle_cdf lights;  /* by power */
+    struct triangle_cdf casters; /* by area */
+    struct landing *landings;    /* LANDINGS of each photon */
 };
 
 struct photon {
@@ -235,7 +235,8 @@ bool caustics_find(const struct bvh8_world *w, const struct guide_grid *grid,
 
     s.landings = alloc_array((size_t)PHOTONS * LANDINGS, sizeof *s.landings);
     ok = ok && s.landings != NULL;
-    if (ok && triangle_cdf_total(&s.lights) > 0 && triangle_cdf_total(&s.casters) > 0) {
+    if (ok && triangle_cdf_total(&s.lights) > 0 &&
+        triangle_cdf_total(&s.casters) > 0) {
         pool_each(pool, PHOTONS, photon_send, &s);
         /* in order, whoever sent them */
         for (uint32_t i = 0; i < PHOTONS * LANDINGS; i++)

@@ -3,9 +3,7 @@
  * channels.h - one number for light of three channels
  *
  * Units:     those of the light
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_CHANNELS_H
 #define GLIM_CHANNELS_H

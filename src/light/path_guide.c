@@ -92,8 +92,8 @@ static bool wants_openings(const struct path_guide *g, double sky)
     return g->openings.open.flux == NULL && sky > 0;
 }
 
-static bool find_parts(struct path_guide *g, const struct bvh8_world *w, double sky,
-                       struct pool *pool)
+static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
+                       double sky, struct pool *pool)
 {
     bool has_caustics = wants_caustics(g, &w->world);
     bool has_openings = wants_openings(g, sky);
@@ -157,8 +157,8 @@ static double other_light(const struct path_guide *g, uint32_t cell,
 }
 
 /* For paths to go on, if that is worth its time in this cell. */
-static uint32_t add_ways(struct table *t, const struct path_guide *g, uint32_t cell,
-                         const struct other *o)
+static uint32_t add_ways(struct table *t, const struct path_guide *g,
+                         uint32_t cell, const struct other *o)
 {
     const struct guide_flux *parts[2] = {&g->caustics, &g->openings.glazed};
     const double most[2] = {SHARE_CAUSTICS, SHARE_GLAZED};
@@ -185,8 +185,8 @@ static uint32_t add_ways(struct table *t, const struct path_guide *g, uint32_t c
 }
 
 /* For light samples of the sky, the same. */
-static uint32_t add_sky(struct table *t, const struct path_guide *g, uint32_t cell,
-                        const struct other *o)
+static uint32_t add_sky(struct table *t, const struct path_guide *g,
+                        uint32_t cell, const struct other *o)
 {
     const struct guide_flux *open = &g->openings.open;
     double total = guide_flux_total(open, cell);
@@ -276,14 +276,15 @@ static bool is_done(const struct path_guide *g, double sky)
     return g->is_current && g->sky == sky;
 }
 
-bool path_guide_needs_rays(const struct path_guide *g, const struct world *w, double sky)
+bool path_guide_needs_rays(const struct path_guide *g, const struct world *w,
+                           double sky)
 {
     return !is_done(g, sky) && w->settings.tri_count > 0 &&
            (wants_caustics(g, w) || wants_openings(g, sky));
 }
 
-bool path_guide_update(struct path_guide *g, const struct bvh8_world *w, double sky,
-                  struct pool *pool, struct error *err)
+bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
+                       double sky, struct pool *pool, struct error *err)
 {
     if (is_done(g, sky))
         return true;

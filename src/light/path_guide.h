@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 /*
- * path_guide.h - the table of directions that light comes from which is hard to find
+ * path_guide.h - the table of directions that light comes from which is hard to
+ * find
  *
  * Caustics (caustics.h), and the sky where it is seen through openings
- * (sky_portals.h). The table only says where to look, kernels/guide.h weighs what
- * is found: that it is made of few rays costs time and no truth. A function of
- * the scene and its sky, not of the eye.
+ * (sky_portals.h). The table only says where to look, kernels/guide.h weighs
+ * what is found: that it is made of few rays costs time and no truth. A
+ * function of the scene and its sky, not of the eye.
  *
  * Units:     normalised scene units, radiance
- * Ownership: path_guide_free() frees; a zeroed struct is a scene without a table
- * Threads:   one thread updates, with those of a pool, if it has one, while
- *            nobody renders; read only otherwise
- * Errors:    memory
+ * Ownership: path_guide_free() frees; a zeroed struct is a scene without a
+ * table Threads:   one thread updates, with those of a pool, if it has one,
+ * while nobody renders; read only otherwise Errors:    memory
  */
 #ifndef GLIM_PATH_GUIDE_H
 #define GLIM_PATH_GUIDE_H
@@ -33,15 +33,16 @@ struct path_guide {
 };
 
 /* Would path_guide_update() trace rays? Else it needs no tree. */
-bool path_guide_needs_rays(const struct path_guide *guide, const struct world *world,
-                      double sky);
+bool path_guide_needs_rays(const struct path_guide *guide,
+                           const struct world *world, double sky);
 
 /* Brings the table to what suits the world, which has its lights, and a sky of
  * this mean radiance. Searches only for what the scene has not been searched
- * for since path_guide_outdate(). Arrays that were lent live until the new ones do.
+ * for since path_guide_outdate(). Arrays that were lent live until the new ones
+ * do.
  */
 bool path_guide_update(struct path_guide *guide, const struct bvh8_world *world,
-                  double sky, struct pool *pool, struct error *err);
+                       double sky, struct pool *pool, struct error *err);
 
 /* The world is another. */
 void path_guide_outdate(struct path_guide *guide);

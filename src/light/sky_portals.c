@@ -400,7 +400,7 @@ static void find(struct search *s, struct pool *pool)
 }
 
 bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                   struct pool *pool, struct sky_portals *openings)
+                      struct pool *pool, struct sky_portals *openings)
 {
     struct search s = {.w = w, .grid = grid, .found = openings};
     bool ok = openings_init(openings, w, grid) && search_init(&s);

@@ -16,10 +16,9 @@
  *
  * Units:     normalised scene units; flux as the sky's part of the cosine
  *            weighted hemisphere
- * Ownership: sky_portals_free() frees, also if the search fails; a zeroed struct
- *            is one that was not made
- * Threads:   those of the pool, or without one the caller's
- * Errors:    memory, by false
+ * Ownership: sky_portals_free() frees, also if the search fails; a zeroed
+ * struct is one that was not made Threads:   those of the pool, or without one
+ * the caller's Errors:    memory, by false
  */
 #ifndef GLIM_SKY_PORTALS_H
 #define GLIM_SKY_PORTALS_H
@@ -40,11 +39,12 @@ struct sky_portals {
 
 /* The sky shines 1 from everywhere. */
 bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                   struct pool *pool, struct sky_portals *openings);
+                      struct pool *pool, struct sky_portals *openings);
 
 /* All light that comes by walls as a multiple of `bounced`: the walls' colours
  * may be others than when they were found. */
-double sky_portals_bounces(const struct sky_portals *openings, const struct world *w);
+double sky_portals_bounces(const struct sky_portals *openings,
+                           const struct world *w);
 
 void sky_portals_free(struct sky_portals *openings);
 

@@ -103,8 +103,8 @@ static void free_sums(struct sky_table *table)
 }
 
 bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
-               uint32_t width, uint32_t height, enum sky_use use,
-               struct error *err)
+                     uint32_t width, uint32_t height, enum sky_use use,
+                     struct error *err)
 {
     struct image im = {texels, width, height};
     struct sky sky = {.width = width, .height = height};

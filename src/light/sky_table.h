@@ -31,8 +31,8 @@ enum sky_use {
 
 /* No table for black and, with chance, constant skies. */
 bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
-               uint32_t width, uint32_t height, enum sky_use use,
-               struct error *err);
+                     uint32_t width, uint32_t height, enum sky_use use,
+                     struct error *err);
 
 /* Lends the table to a world that has its sky and its lights, and lets both
  * share the samples. */

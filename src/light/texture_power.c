@@ -17,7 +17,7 @@
 #define REACH 0.5
 
 bool texture_power_init(struct texture_power_sums *f, const struct world *w,
-                    const struct material *m, struct error *err)
+                        const struct material *m, struct error *err)
 {
     struct texture t = w->textures[m->emission_texture];
     size_t stride = (size_t)t.width + 1;
@@ -56,8 +56,8 @@ static double sum_to(const struct texture_power_sums *f, double x, double y)
            columns * row[f->width] + row[column];
 }
 
-static double sum_within(const struct texture_power_sums *f, double x0, double x1,
-                         double y0, double y1)
+static double sum_within(const struct texture_power_sums *f, double x0,
+                         double x1, double y0, double y1)
 {
     return sum_to(f, x1, y1) - sum_to(f, x0, y1) - sum_to(f, x1, y0) +
            sum_to(f, x0, y0);
@@ -95,7 +95,8 @@ double texture_power_whole(const struct texture_power_sums *f)
            ((double)f->width * f->height);
 }
 
-double texture_power_mean(const struct texture_power_sums *f, const struct vec2 uv[3])
+double texture_power_mean(const struct texture_power_sums *f,
+                          const struct vec2 uv[3])
 {
     double whole = texture_power_whole(f);
     double top = INFINITY, bottom = -INFINITY;

@@ -25,13 +25,14 @@ struct texture_power_sums {
 
 /* The radiance of the material, which has an emission texture. */
 bool texture_power_init(struct texture_power_sums *f, const struct world *w,
-                    const struct material *m, struct error *err);
+                        const struct material *m, struct error *err);
 
 /* The mean over the whole image. */
 double texture_power_whole(const struct texture_power_sums *footprint);
 
 /* Over the triangle with these corners. */
-double texture_power_mean(const struct texture_power_sums *f, const struct vec2 uv[3]);
+double texture_power_mean(const struct texture_power_sums *f,
+                          const struct vec2 uv[3]);
 
 void texture_power_free(struct texture_power_sums *f);
 

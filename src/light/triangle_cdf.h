@@ -3,10 +3,9 @@
  * triangle_cdf.h - some triangles of a world, to choose from by weight
  *
  * Units:     normalised scene units
- * Ownership: triangle_cdf_free() frees; a zeroed struct is an empty list without
- *            room
- * Threads:   one thread fills; read only after
- * Errors:    memory, by false
+ * Ownership: triangle_cdf_free() frees; a zeroed struct is an empty list
+ * without room Threads:   one thread fills; read only after Errors:    memory,
+ * by false
  */
 #ifndef GLIM_TRIANGLE_CDF_H
 #define GLIM_TRIANGLE_CDF_H

@@ -2,7 +2,6 @@
 /*
  * backend_cl.h - renders on an OpenCL device
  *
- * Units:     none
  * Ownership: see backend.h; *log is the caller's to free
  * Threads:   see backend.h
  * Errors:    no such device, kernels that do not compile: *log is what the

@@ -5,7 +5,6 @@
  * glim is not linked with libOpenCL, so it starts where there is none. The
  * types of the functions are those of CL/cl.h.
  *
- * Units:     none
  * Ownership: the table is the program's, for good
  * Threads:   any; as OpenCL says, only one at a time for one kernel's arguments
  * Errors:    cl_api_open() says what is missing; cl_error_name() names codes

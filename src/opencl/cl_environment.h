@@ -7,7 +7,6 @@
  * driver must never fork without exec: the child would hang.
  *
  * Units:     threads
- * Ownership: none
  * Threads:   cl_environment_prepare() before there are any; handlers belong to
  *            the whole process, so nobody else may set those that
  *            cl_signals_put_back() puts back in between

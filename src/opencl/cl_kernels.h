@@ -2,7 +2,6 @@
 /*
  * cl_kernels.h - the kernels, built for a device and for some features
  *
- * Units:     none
  * Ownership: cl_kernels_free() releases; a zeroed struct has none; the log is
  *            the caller's to free
  * Threads:   one at a time

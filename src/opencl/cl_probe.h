@@ -6,7 +6,6 @@
  * know. So a copy of the program tries first what we are about to do, and runs
  * the self-test. What it finds is remembered beside PoCL's compiled kernels.
  *
- * Units:     none
  * Ownership: cl_probe_free() frees the texts
  * Threads:   any
  * Errors:    a crash, a failed self-test, what backend_cl_create() says

@@ -8,7 +8,6 @@
  * are replaced by the file, each file once, whatever #if stands around it;
  * #line marks let the driver's messages name our files.
  *
- * Units:     none
  * Ownership: cl_source_text() returns a text for free()
  * Threads:   any
  * Errors:    a file that is not there, with the line that wants it

@@ -2,7 +2,6 @@
 /*
  * cl_start.h - brings an OpenCL device up while something else goes on
  *
- * Units:     none
  * Ownership: cl_start_end() frees; the backend that it returns is the caller's
  * Threads:   main only; the work is done in a thread of its own
  * Errors:    cl_start_end() says why there is no device

@@ -2,7 +2,6 @@
 /*
  * cl_world.h - the arrays of a world on an OpenCL device
  *
- * Units:     none
  * Ownership: cl_world_free() releases; a zeroed struct has nothing uploaded.
  *            A device that is a CPU reads the host's arrays themselves
  * Threads:   one at a time

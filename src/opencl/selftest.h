@@ -5,7 +5,6 @@
  * A small room with every kind of material that needs no other features is
  * rendered by both.
  *
- * Units:     none
  * Ownership: both backends stay the caller's, with another scene loaded
  * Threads:   one at a time
  * Errors:    a device that fails, or computes something else

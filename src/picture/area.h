@@ -7,9 +7,7 @@
  * rounded: a cell of `from` is as long as there are cells of `to`.
  *
  * Units:     cells, and lengths as above
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_AREA_H
 #define GLIM_AREA_H

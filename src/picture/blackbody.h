@@ -3,9 +3,7 @@
  * blackbody.h - the colour of a body that glows by its temperature
  *
  * Units:     kelvin; XYZ of the CIE 1931 observer, linear Rec.709; luminance 1
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_BLACKBODY_H
 #define GLIM_BLACKBODY_H

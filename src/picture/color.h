@@ -6,7 +6,6 @@
  * give a black body's colour whose largest channel is 1.
  *
  * Units:     linear Rec.709; encoded sRGB, hue 0 to 360, the rest 0 to 1
- * Ownership: none
  * Threads:   any
  * Errors:    by the result
  */

@@ -7,7 +7,6 @@
  * a file has to be long enough for its pixels first.
  *
  * Units:     pixels, bytes
- * Ownership: none
  * Threads:   any
  * Errors:    no such image, sides beyond the limits, a file that is too short
  */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * image_read.h - reads image files: PNG, JPEG, BMP and TGA through stb_image, PFM
- * and Radiance HDR by its own code
+ * image_read.h - reads image files: PNG, JPEG, BMP and TGA through stb_image,
+ * PFM and Radiance HDR by its own code
  *
  * A file is opened first: its header says how many pixels it has and how much
  * memory they take. What the file is too short for, and what the process has no
@@ -65,7 +65,8 @@ struct image {
 };
 
 /* Reads the file and its header. All images of a scene may take three quarters
- * of the memory that cgroup_quota_memory() finds; held_bytes are taken already. */
+ * of the memory that cgroup_quota_memory() finds; held_bytes are taken already.
+ */
 bool image_open(struct image_file *file, const char *path, enum image_form form,
                 uint64_t held_bytes, struct error *err);
 

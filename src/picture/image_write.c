@@ -239,7 +239,7 @@ static bool publish(const struct buffer *b, const char *path, struct error *err)
 }
 
 bool image_write(struct film *film, struct develop how, const char *path,
-                   struct error *err)
+                 struct error *err)
 {
     struct buffer b = {.data = NULL};
     bool ok = encode(film, how, path, &b, err) && publish(&b, path, err);
@@ -249,7 +249,7 @@ bool image_write(struct film *film, struct develop how, const char *path,
 }
 
 bool image_write_frame(const struct frame *frame, const char *path,
-                         struct error *err)
+                       struct error *err)
 {
     struct buffer b = {.data = NULL};
     bool ok = expect_size(frame->width, frame->height, 3, path, err) &&
@@ -260,8 +260,8 @@ bool image_write_frame(const struct frame *frame, const char *path,
 }
 
 char *image_write_numbered(struct film *film, struct develop how,
-                             const char *stem, const char *ending,
-                             struct error *err)
+                           const char *stem, const char *ending,
+                           struct error *err)
 {
     struct buffer b = {.data = NULL};
     char *name = xformat("%s.%s", stem, ending);
@@ -275,7 +275,7 @@ char *image_write_numbered(struct film *film, struct develop how,
 }
 
 char *image_write_frame_numbered(const struct frame *frame, const char *stem,
-                                   struct error *err)
+                                 struct error *err)
 {
     struct buffer b = {.data = NULL};
     char *path = NULL;

@@ -31,7 +31,7 @@ static void keep_inside(double at, double slope, double length, double *begin,
 }
 
 void raster_line(struct frame *frame, double x0, double y0, double x1,
-                  double y1, uint32_t rgb)
+                 double y1, uint32_t rgb)
 {
     double dx = x1 - x0, dy = y1 - y0;
     double begin = 0, end = 1;
@@ -51,8 +51,8 @@ void raster_line(struct frame *frame, double x0, double y0, double x1,
     }
 }
 
-void raster_box(struct frame *frame, double x0, double y0, double x1,
-                 double y1, uint32_t rgb)
+void raster_box(struct frame *frame, double x0, double y0, double x1, double y1,
+                uint32_t rgb)
 {
     raster_line(frame, x0, y0, x1, y0, rgb);
     raster_line(frame, x1, y0, x1, y1, rgb);

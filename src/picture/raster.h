@@ -3,7 +3,6 @@
  * raster.h - lines on a frame
  *
  * Units:     pixels, (0, 0) is the top left corner of the first; 0xRRGGBB
- * Ownership: none
  * Threads:   any; one owner of the frame
  * Errors:    none; what is outside of the frame is not drawn
  */
@@ -16,11 +15,11 @@ void raster_dot(struct frame *frame, double x, double y, uint32_t rgb);
 
 /* Both ends and all between, a pixel wide. */
 void raster_line(struct frame *frame, double x0, double y0, double x1,
-                  double y1, uint32_t rgb);
+                 double y1, uint32_t rgb);
 
 /* The outline between two corners. */
-void raster_box(struct frame *frame, double x0, double y0, double x1,
-                 double y1, uint32_t rgb);
+void raster_box(struct frame *frame, double x0, double y0, double x1, double y1,
+                uint32_t rgb);
 
 /* Between black at 0 and the colour at 1. */
 uint32_t raster_dim(uint32_t rgb, double brightness);

@@ -60,7 +60,8 @@ struct backend {
     void (*destroy)(struct backend *b);
 };
 
-struct backend *backend_cpu_create(int thread_count, const struct cpu_kernel *paths,
+struct backend *backend_cpu_create(int thread_count,
+                                   const struct cpu_kernel *paths,
                                    struct error *err);
 
 #endif

@@ -198,7 +198,8 @@ static void cpu_destroy(struct backend *base)
     free(b);
 }
 
-struct backend *backend_cpu_create(int thread_count, const struct cpu_kernel *paths,
+struct backend *backend_cpu_create(int thread_count,
+                                   const struct cpu_kernel *paths,
                                    struct error *err)
 {
     struct backend_cpu *b = xcalloc(1, sizeof *b);

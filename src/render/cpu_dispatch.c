@@ -30,7 +30,7 @@ static bool always(void)
 /* What the Makefile builds for a set of instructions, the smallest first. */
 enum { BUILDS = 4, WHOLE = BUILDS - 1 };
 
-#define DECLARE(isa)                                                     \
+#define DECLARE(isa)                                                          \
     extern const struct cpu_kernel paths_##isa##_lamps, paths_##isa##_images, \
         paths_##isa##_shiny, paths_##isa
 #define BUILDS_OF(isa)                                                     \
@@ -87,7 +87,8 @@ const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err)
     return NULL;
 }
 
-const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths, uint32_t features)
+const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths,
+                                        uint32_t features)
 {
     for (int k = 0; k < COUNT; k++)
         for (int i = 0; all[k].builds[WHOLE] == paths && i < BUILDS; i++)

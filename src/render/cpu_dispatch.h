@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * cpu_dispatch.h - which of the CPU's samples run: those for the best instructions that
- * the processor has, or those that the person names, without what the scene
- * does not need
+ * cpu_dispatch.h - which of the CPU's samples run: those for the best
+ * instructions that the processor has, or those that the person names, without
+ * what the scene does not need
  *
- * Units:     none
  * Ownership: static
  * Threads:   any
  * Errors:    cpu_kernel_named() says which there are
@@ -25,6 +24,7 @@ const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err);
 
 /* The smallest build for the instructions of `paths` that does all features of
  * a world; paths itself if there is none. */
-const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths, uint32_t features);
+const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths,
+                                        uint32_t features);
 
 #endif

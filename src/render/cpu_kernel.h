@@ -3,13 +3,12 @@
  * cpu_kernel.h - the CPU's samples, compiled for sets of instructions and of
  * features
  *
- * src/render/cpu_kernel.c is built several times, as the Makefile says; all give the same
- * bits. cpu_dispatch.h chooses.
+ * src/render/cpu_kernel.c is built several times, as the Makefile says; all
+ * give the same bits. cpu_dispatch.h chooses.
  *
  * Units:     as kernels/path.h
  * Ownership: static
  * Threads:   any, on one world
- * Errors:    none
  */
 #ifndef GLIM_CPU_KERNEL_H
 #define GLIM_CPU_KERNEL_H

@@ -4,7 +4,6 @@
  * backwards
  *
  * Units:     normalised scene units; pixels, (0, 0) is the top left corner
- * Ownership: none
  * Threads:   any
  * Errors:    none; what is not before the eye has no place
  */

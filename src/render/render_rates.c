@@ -16,8 +16,8 @@ void thread_load_begin(struct thread_load *l, const struct backend *b)
         l->cpu_ns[i] = b->cpu_ns(b, i);
 }
 
-double thread_load_share(const struct thread_load *l, const struct backend *b, int thread,
-                  uint64_t time_ns)
+double thread_load_share(const struct thread_load *l, const struct backend *b,
+                         int thread, uint64_t time_ns)
 {
     double share;
 

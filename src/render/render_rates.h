@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * render_rates.h - how busy the threads of a backend are: processor time over time
+ * render_rates.h - how busy the threads of a backend are: processor time over
+ * time
  *
  * Units:     nanoseconds; a share of 1 is a processor all the time
  * Ownership: thread_load_free() frees; a zeroed struct knows no thread
@@ -21,8 +22,8 @@ struct thread_load {
 void thread_load_begin(struct thread_load *l, const struct backend *b);
 
 /* What a thread has used since thread_load_begin() of `time_ns`; 0 to 1. */
-double thread_load_share(const struct thread_load *l, const struct backend *b, int thread,
-                  uint64_t time_ns);
+double thread_load_share(const struct thread_load *l, const struct backend *b,
+                         int thread, uint64_t time_ns);
 
 void thread_load_free(struct thread_load *l);
 

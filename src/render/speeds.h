@@ -8,7 +8,6 @@
  * Units:     nanoseconds of rendering, samples of all pixels together
  * Ownership: none; a zeroed struct has seen nothing yet
  * Threads:   one at a time
- * Errors:    none
  */
 #ifndef GLIM_SPEEDS_H
 #define GLIM_SPEEDS_H

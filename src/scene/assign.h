@@ -6,7 +6,6 @@
  * A name with blanks, quotes, # or \ in it, or an empty one, stands in double
  * quotes; a quote in there is doubled.
  *
- * Units:     none
  * Ownership: names are copied; assigns_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
  * Errors:    a line that does not have two names by the result

@@ -142,9 +142,10 @@ static struct vec3 reflecting(const struct mtl_color *c, const char *key,
     }
     if (is_clamped)
         warnings_add(at->report, "colours outside 0 to 1",
-                   "%s:%" PRIu64 ": found %s %g %g %g, expected numbers from 0 "
-                   "to 1: clamped",
-                   at->path, c->line, key, c->rgb[0], c->rgb[1], c->rgb[2]);
+                     "%s:%" PRIu64
+                     ": found %s %g %g %g, expected numbers from 0 "
+                     "to 1: clamped",
+                     at->path, c->line, key, c->rgb[0], c->rgb[1], c->rgb[2]);
     return (struct vec3){(float)rgb[0], (float)rgb[1], (float)rgb[2]};
 }
 
@@ -161,9 +162,10 @@ static struct vec3 emission(const struct mtl_color *c, const struct place *at)
     }
     if (is_changed)
         warnings_add(at->report, "impossible radiances",
-                   "%s:%" PRIu64 ": found Ke %g %g %g, expected numbers from 0 "
-                   "on: what is not counts as 0",
-                   at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
+                     "%s:%" PRIu64
+                     ": found Ke %g %g %g, expected numbers from 0 "
+                     "on: what is not counts as 0",
+                     at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
     return (struct vec3){rgb[0], rgb[1], rgb[2]};
 }
 
@@ -177,9 +179,10 @@ static double within(const struct mtl_number *n, const char *key, double lo,
     if (n->value >= lo && n->value <= hi)
         return n->value;
     warnings_add(at->report, "impossible material values",
-               "%s:%" PRIu64 ": found %s %g, expected a number from %g to %g: "
-               "taken as %g",
-               at->path, n->line, key, n->value, lo, hi, missing);
+                 "%s:%" PRIu64
+                 ": found %s %g, expected a number from %g to %g: "
+                 "taken as %g",
+                 at->path, n->line, key, n->value, lo, hi, missing);
     return missing;
 }
 
@@ -281,11 +284,12 @@ static void make_opaque(struct material *m, int illum,
     m->opacity = (float)opacity(s, at);
     if (m->opacity <= 0)
         warnings_add(at->report, "materials that are not seen",
-                   "%s:%" PRIu64 ": found %s %g: what has this material is not "
-                   "seen",
-                   at->path, s->d.line != 0 ? s->d.line : s->tr.line,
-                   s->d.line != 0 ? "d" : "Tr",
-                   s->d.line != 0 ? s->d.value : s->tr.value);
+                     "%s:%" PRIu64
+                     ": found %s %g: what has this material is not "
+                     "seen",
+                     at->path, s->d.line != 0 ? s->d.line : s->tr.line,
+                     s->d.line != 0 ? "d" : "Tr",
+                     s->d.line != 0 ? s->d.value : s->tr.value);
     m->opacity_texture = mtl_source_map(s, MTL_MAP_D);
     m->color =
         reflecting(&s->kd, "Kd", map_kd != NO_INDEX ? 0 : MATERIAL_GREY, at);
@@ -319,9 +323,9 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
         map != m->alpha_texture && map != m->metal_texture &&
         map != m->opacity_texture)
         warnings_add(at->report, "maps that do not fit their material",
-                   "%s: found %s of a material that has no use for it: not "
-                   "used",
-                   at->path, mtl_map_keys[which]);
+                     "%s: found %s of a material that has no use for it: not "
+                     "used",
+                     at->path, mtl_map_keys[which]);
 }
 
 struct material material_from_source(const struct mtl_source *s,

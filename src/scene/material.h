@@ -13,8 +13,6 @@
  * map_Pr, Pr is 1 if absent; with map_Pm, Pm too, and the map chooses between
  * metal of colour Kd and the rest.
  *
- * Units:     none
- * Ownership: none
  * Threads:   any
  * Errors:    none: impossible values are replaced, with a warning
  */

@@ -76,9 +76,9 @@ static void drop_tris(struct scene *scene, struct warnings *report,
     for (uint32_t i = 0; i < scene->tri_count; i++) {
         if (!is_usable(scene, &scene->tris[i])) {
             warnings_add(report, "triangles without area",
-                       "%s: found a triangle without area in face %" PRIu32
-                       " of the file: triangle dropped",
-                       scene->path, scene->tri_faces[i] + 1);
+                         "%s: found a triangle without area in face %" PRIu32
+                         " of the file: triangle dropped",
+                         scene->path, scene->tri_faces[i] + 1);
             continue;
         }
         scene->tris[kept] = scene->tris[i];
@@ -255,7 +255,8 @@ uint64_t scene_geometry_bytes(const struct scene *s)
                                      sizeof *s->tri_objects);
 }
 
-bool scene_finish(struct scene *scene, struct warnings *report, struct error *err)
+bool scene_finish(struct scene *scene, struct warnings *report,
+                  struct error *err)
 {
     struct world arrays;
 
@@ -267,10 +268,11 @@ bool scene_finish(struct scene *scene, struct warnings *report, struct error *er
     turn_tris(scene);
     drop_tris(scene, report, tri_gets_normal);
     if (scene->tri_count == 0)
-        warnings_add(report, "scenes without a face",
-                   "%s: found no face that can be seen: only the background is "
-                   "rendered",
-                   scene->path);
+        warnings_add(
+            report, "scenes without a face",
+            "%s: found no face that can be seen: only the background is "
+            "rendered",
+            scene->path);
     if (!find_used_materials(scene, err))
         return false;
     fill_linear_of_srgb(scene->linear_of_srgb);
@@ -295,11 +297,12 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
         return false;
     if (clamped_count > 0)
         warnings_add(report, "skies with impossible values",
-                   "%s: found %" PRIu64 " negative or infinite values: clamped",
-                   view->sky_path, clamped_count);
+                     "%s: found %" PRIu64
+                     " negative or infinite values: clamped",
+                     view->sky_path, clamped_count);
     if (!sky_table_build(&table, (struct vec3 *)(void *)image.rgb,
-                   (uint32_t)image.width, (uint32_t)image.height,
-                   SKY_WITH_CHANCE, err)) {
+                         (uint32_t)image.width, (uint32_t)image.height,
+                         SKY_WITH_CHANCE, err)) {
         image_free(&image);
         return false;
     }

@@ -8,7 +8,6 @@
  * change is built: the lights if one of them changes, the triangles if an
  * object gets another material.
  *
- * Units:     none
  * Ownership: the scene owns all; names and sources are copied
  * Threads:   one, while nobody renders the scene
  * Errors:    memory: the scene is as before, but for textures that were read

@@ -131,8 +131,8 @@ static void report_lost(const struct scene *scene, const struct reading *r,
     struct texture_origin o = scene->texture_origins[r->texture];
 
     warnings_add_named(report, "lost textures", r->path,
-                     "%s:%" PRIu64 ": %s: the texture is not used",
-                     scene->mtl_paths[o.file], o.line, why);
+                       "%s:%" PRIu64 ": %s: the texture is not used",
+                       scene->mtl_paths[o.file], o.line, why);
 }
 
 /* Takes the image that was read. An unreadable one leaves the texture without
@@ -202,7 +202,8 @@ static uint32_t open_some(struct scene *scene, const uint32_t *textures,
 
 /* Takes images that were read by all threads, in order. */
 static bool take_some(struct scene *scene, struct reading *readings,
-                      uint32_t count, struct warnings *report, struct error *err)
+                      uint32_t count, struct warnings *report,
+                      struct error *err)
 {
     bool ok = true;
 

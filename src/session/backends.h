@@ -3,7 +3,6 @@
  * backends.h - the backends of a session: the CPU, always, and an OpenCL
  * device when it is up
  *
- * Units:     none
  * Ownership: backends_close() frees, after the render has let go of them
  * Threads:   main only
  * Errors:    why there is no device; nothing else fails

@@ -55,11 +55,11 @@ struct options {
     struct rect crop;
     enum backend_choice backend;
     bool has_backend;
-    const char *device;        /* number or a part of a name; NULL: the best */
-    const char *kernels_path;  /* NULL: the kernels within the program */
+    const char *device;       /* number or a part of a name; NULL: the best */
+    const char *kernels_path; /* NULL: the kernels within the program */
     const struct cpu_kernel *paths; /* of --isa; NULL: the best */
-    bool watch;                /* changed files are loaded at once */
-    bool phoe_keys;            /* W S A D Q E as phoe_ray had them */
+    bool watch;                     /* changed files are loaded at once */
+    bool phoe_keys;                 /* W S A D Q E as phoe_ray had them */
     struct keymap keys;
     struct term_caps_choice display;
     bool has_color;

@@ -117,8 +117,8 @@ bool config_read(struct options *o, struct error *err)
 {
     char *path = config_path();
     struct reader r = {.options = o, .path = path};
-    bool ok =
-        !path || access(path, F_OK) != 0 || lexer_file(path, read_line, &r, err);
+    bool ok = !path || access(path, F_OK) != 0 ||
+              lexer_file(path, read_line, &r, err);
 
     free(path);
     return ok;

@@ -6,7 +6,6 @@
  * glim/config in the folder of XDG_CONFIG_HOME, or in ~/.config. Lines are
  * `key ACTION KEY...`, `option NAME` and `option NAME VALUE`.
  *
- * Units:     none
  * Ownership: nothing of the file's text is kept
  * Threads:   main only
  * Errors:    what is wrong in the file: file:line

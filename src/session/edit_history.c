@@ -93,9 +93,9 @@ static void read_assigns(struct edit *e, const struct scene *scene,
             e->now.assigned[object] = material;
         else
             warnings_add_named(report, "assignments without effect", a->object,
-                             "%s: found no %s '%s' to assign", scene->path,
-                             object == NO_INDEX ? "object" : "material",
-                             object == NO_INDEX ? a->object : a->material);
+                               "%s: found no %s '%s' to assign", scene->path,
+                               object == NO_INDEX ? "object" : "material",
+                               object == NO_INDEX ? a->object : a->material);
     }
 }
 

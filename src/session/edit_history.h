@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * edit_history.h - what a person changes of an opened scene, step by step and back
+ * edit_history.h - what a person changes of an opened scene, step by step and
+ * back
  *
  * Values of materials, which object has which material, duplicates, sky,
  * exposure and tone. Changes that follow each other without edit_break()

@@ -25,7 +25,10 @@ static const struct binding bindings[] = {
     {ACTION_BACK, "back", {'s', 'S'}, {'e', 'E'}},
     {ACTION_LEFT, "left", {'a', 'A'}, {0}},
     {ACTION_RIGHT, "right", {'d', 'D'}, {0}},
-    {ACTION_DOWN, "down", {'Q', TTY_KEY_PAGE_DOWN}, {'s', 'S', TTY_KEY_PAGE_DOWN}},
+    {ACTION_DOWN,
+     "down",
+     {'Q', TTY_KEY_PAGE_DOWN},
+     {'s', 'S', TTY_KEY_PAGE_DOWN}},
     {ACTION_UP, "up", {'e', 'E', TTY_KEY_PAGE_UP}, {'w', 'W', TTY_KEY_PAGE_UP}},
     {ACTION_LOOK_UP, "look-up", {TTY_KEY_UP}, {0}},
     {ACTION_LOOK_DOWN, "look-down", {TTY_KEY_DOWN}, {0}},
@@ -214,7 +217,8 @@ static void take_away(struct keymap *k, enum action action, int key)
     }
 }
 
-void keymap_choose(struct keymap *k, enum action action, const int keys[KEYMAP_MAX])
+void keymap_choose(struct keymap *k, enum action action,
+                   const int keys[KEYMAP_MAX])
 {
     for (int i = 0; i < KEYMAP_MAX; i++) {
         for (int other = 0; other < ACTIONS; other++)

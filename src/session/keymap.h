@@ -2,14 +2,13 @@
 /*
  * keymap.h - which key does what, and the help that says so
  *
- * The tables are in keymap.c; the configuration file may give actions other keys,
- * but for those of the panel. The manual and the README list the lines of the
- * help: a test compares.
+ * The tables are in keymap.c; the configuration file may give actions other
+ * keys, but for those of the panel. The manual and the README list the lines of
+ * the help: a test compares.
  *
  * Units:     keys are bytes or enum tty_key; 0 is none
  * Ownership: strings live as long as the program
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_KEYMAP_H
 #define GLIM_KEYMAP_H
@@ -118,7 +117,8 @@ struct keymap {
 
 /* Gives an action these keys only, and takes them from others that were given
  * them before. */
-void keymap_choose(struct keymap *k, enum action action, const int keys[KEYMAP_MAX]);
+void keymap_choose(struct keymap *k, enum action action,
+                   const int keys[KEYMAP_MAX]);
 
 /* Gives the others their keys of the table, but for those that are taken; phoe
  * says that W S A D Q E have phoe_ray's meaning. */
@@ -142,7 +142,8 @@ struct keymap_name {
 struct keymap_name keymap_key_name(int key);
 
 /* The name of an action's first key, or "no key". */
-struct keymap_name keymap_first_name(const struct keymap *k, enum action action);
+struct keymap_name keymap_first_name(const struct keymap *k,
+                                     enum action action);
 
 struct keymap_help {
     char keys[32];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * option_table.h - the options one by one: names, what stands behind them, and what
- * that sets
+ * option_table.h - the options one by one: names, what stands behind them, and
+ * what that sets
  *
  * Units:     as command_line.h
  * Ownership: strings stay the caller's, and outlive the options

@@ -7,7 +7,6 @@
  * last opened first. The one file `lost.png` beside it has the picture: a later
  * one replaces it.
  *
- * Units:     none
  * Ownership: recent_free() frees a list
  * Threads:   main only
  * Errors:    none: without such a folder nothing is remembered

@@ -3,7 +3,6 @@
  * reload.h - loads the files of a session anew, in a thread of its own, while
  * the session renders on
  *
- * Units:     none
  * Ownership: reload_end() hands what was loaded over; reload_free() waits for
  *            a load that is on its way
  * Threads:   all functions from one thread

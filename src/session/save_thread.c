@@ -52,15 +52,16 @@ static void *saver_main(void *argument)
     pthread_cond_signal(&s->copied);
     pthread_mutex_unlock(&s->lock);
     if (ok)
-        s->name = image_write_numbered(&copy, s->how, s->stem, s->ending,
-                                         &s->error);
+        s->name =
+            image_write_numbered(&copy, s->how, s->stem, s->ending, &s->error);
     film_free(&copy);
     event_fd_set(s->event_fd);
     return NULL;
 }
 
-bool save_thread_begin(struct save_thread *s, struct film *film, struct develop how,
-                 const char *stem, const char *ending, struct error *err)
+bool save_thread_begin(struct save_thread *s, struct film *film,
+                       struct develop how, const char *stem, const char *ending,
+                       struct error *err)
 {
     int reason;
 

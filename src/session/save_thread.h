@@ -6,9 +6,9 @@
  * after that neither the screen nor the render waits for it.
  *
  * Units:     samples a pixel
- * Ownership: save_thread_free() frees; waits for a picture that is being written
- * Threads:   all functions from one thread
- * Errors:    with the result, by save_thread_finish()
+ * Ownership: save_thread_free() frees; waits for a picture that is being
+ * written Threads:   all functions from one thread Errors:    with the result,
+ * by save_thread_finish()
  */
 #ifndef GLIM_SAVE_THREAD_H
 #define GLIM_SAVE_THREAD_H
@@ -37,11 +37,13 @@ struct save_thread {
 
 bool save_thread_init(struct save_thread *s, struct error *err);
 
-/* Begins to save as STEM.ENDING, "png" or another one of image_write.h, or the next
- * free name. False if another picture is being saved, or no thread can start.
+/* Begins to save as STEM.ENDING, "png" or another one of image_write.h, or the
+ * next free name. False if another picture is being saved, or no thread can
+ * start.
  */
-bool save_thread_begin(struct save_thread *s, struct film *film, struct develop how,
-                 const char *stem, const char *ending, struct error *err);
+bool save_thread_begin(struct save_thread *s, struct film *film,
+                       struct develop how, const char *stem, const char *ending,
+                       struct error *err);
 
 /* Blocks until the film may be cleared: some milliseconds at most for pictures
  * of common sizes. */

@@ -88,16 +88,16 @@ static void complete_view(struct session *s)
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");
         warnings_add(&s->report, "scenes without light",
-                   "%s: found no light: lit by a soft sky",
-                   s->options->scene_path);
+                     "%s: found no light: lit by a soft sky",
+                     s->options->scene_path);
     }
     if (!s->view.has_camera)
         scene_frame(&s->scene, &s->view);
     if (scene_up_is_parallel(&s->view))
         warnings_add(&s->report, "views along their up",
-                   "%s: found the camera's up along its view: took another "
-                   "axis for it",
-                   s->options->scene_path);
+                     "%s: found the camera's up along its view: took another "
+                     "axis for it",
+                     s->options->scene_path);
 }
 
 /* The rectangle to render, which must lie in the picture. */

@@ -66,8 +66,9 @@ static void note_written(struct written *w, size_t count, const char *path)
     w->count += count;
 }
 
-static bool save_file(struct session *s, uint32_t file, struct file_watch *watch,
-                      struct written *written, struct error *err)
+static bool save_file(struct session *s, uint32_t file,
+                      struct file_watch *watch, struct written *written,
+                      struct error *err)
 {
     const char *path = s->scene.mtl_paths[file];
     struct mtl_change *changes =

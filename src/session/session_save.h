@@ -2,7 +2,6 @@
 /*
  * session_save.h - writes what was changed of a session into its files
  *
- * Units:     none
  * Ownership: the session stays the caller's
  * Threads:   main only
  * Errors:    files that cannot be written; those of another's at the same time

@@ -197,7 +197,8 @@ bool stats_json_check(const char *path, struct error *err)
     return strcmp(path, "-") == 0 || file_check(path, err);
 }
 
-bool stats_json_write(const struct session *s, const char *path, struct error *err)
+bool stats_json_write(const struct session *s, const char *path,
+                      struct error *err)
 {
     char *text = NULL;
     size_t size_bytes = 0;

@@ -3,7 +3,6 @@
  * stats_json.h - one JSON object about a render
  *
  * Units:     seconds, pixels, samples a pixel
- * Ownership: none
  * Threads:   main only
  * Errors:    unwritable file
  */
@@ -16,6 +15,7 @@
 bool stats_json_check(const char *path, struct error *err);
 
 /* Writes to the file, or to standard output for "-". */
-bool stats_json_write(const struct session *s, const char *path, struct error *err);
+bool stats_json_write(const struct session *s, const char *path,
+                      struct error *err);
 
 #endif

@@ -41,13 +41,14 @@ static const struct scene *scene_of(const struct camera_control *p)
     return &p->work->session->scene;
 }
 
-void camera_control_init(struct camera_control *p, struct render_control *work, struct screen *canvas)
+void camera_control_init(struct camera_control *p, struct render_control *work,
+                         struct screen *canvas)
 {
     const struct scene *scene = &work->session->scene;
 
     *p = (struct camera_control){.work = work,
-                        .canvas = canvas,
-                        .cursor = {.work = work, .canvas = canvas}};
+                                 .canvas = canvas,
+                                 .cursor = {.work = work, .canvas = canvas}};
     camera_input_init(&p->steer, scene->bounds_lo, scene->bounds_hi);
 }
 
@@ -71,7 +72,8 @@ void camera_control_renew(struct camera_control *p)
     p->cursor.is_pick_new = false;
     p->cursor.must_look = p->canvas->has_cursor;
     forget_place(p);
-    camera_input_resize(&p->steer, scene_of(p)->bounds_lo, scene_of(p)->bounds_hi);
+    camera_input_resize(&p->steer, scene_of(p)->bounds_lo,
+                        scene_of(p)->bounds_hi);
 }
 
 /* ---- where the eye is ---- */
@@ -95,13 +97,15 @@ static void say_place(struct camera_control *p)
 
     if (c->place == CLEARANCE_INSIDE) {
         name = pick_cursor_object_name(&p->cursor, c->passed);
-        render_control_say_long(p->work, "inside of %.60s: %s returns", name, key.text);
+        render_control_say_long(p->work, "inside of %.60s: %s returns", name,
+                                key.text);
     } else if (c->place == CLEARANCE_OUTSIDE) {
         render_control_say_long(p->work, "outside%s, behind a wall: %s returns",
-                      c->away > 0 ? " the scene" : "", key.text);
+                                c->away > 0 ? " the scene" : "", key.text);
     } else {
-        render_control_say_long(p->work, "nothing of the scene is in view: %s returns",
-                      key.text);
+        render_control_say_long(p->work,
+                                "nothing of the scene is in view: %s returns",
+                                key.text);
     }
     p->said_ns = p->work->message.said_ns;
 }
@@ -218,8 +222,8 @@ static void change_speed(struct camera_control *p, int steps)
 {
     camera_input_change_speed(&p->steer, steps);
     look_around(p);
-    render_control_say(p->work, "speed times %.3g: %.3g a second here", p->steer.speed,
-             camera_input_speed(&p->steer));
+    render_control_say(p->work, "speed times %.3g: %.3g a second here",
+                       p->steer.speed, camera_input_speed(&p->steer));
 }
 
 static void reset(struct camera_control *p)
@@ -240,7 +244,8 @@ static void travel(struct camera_control *p, bool is_back)
         return;
     if (is_back ? !camera_history_undo(&p->history, &pose)
                 : !camera_history_redo(&p->history, &pose)) {
-        render_control_say(p->work, is_back ? "nothing to undo" : "nothing to do again");
+        render_control_say(p->work,
+                           is_back ? "nothing to undo" : "nothing to do again");
         return;
     }
     view_set_pose(view_of(p), &pose);
@@ -278,14 +283,15 @@ static void switch_orbit(struct camera_control *p)
     held_keys_stop(&p->steer.motion);
     p->steer.is_orbiting = picks || !p->steer.is_orbiting;
     find_pivot(p);
-    render_control_say(p->work, !p->steer.is_orbiting ? "arrows and mouse look around"
-                      : p->cursor.has_pick
-                          ? "arrows and mouse orbit what is picked"
-                          : "arrows and mouse orbit the middle");
+    render_control_say(p->work, !p->steer.is_orbiting
+                                    ? "arrows and mouse look around"
+                                : p->cursor.has_pick
+                                    ? "arrows and mouse orbit what is picked"
+                                    : "arrows and mouse orbit the middle");
 }
 
-static void frame(struct camera_control *p, const double lo[3], const double hi[3],
-                  const char *name)
+static void frame(struct camera_control *p, const double lo[3],
+                  const double hi[3], const char *name)
 {
     struct view framed = *view_of(p);
     struct pose pose;
@@ -336,7 +342,8 @@ static void focus(struct camera_control *p)
         render_control_say(p->work, "sharp %.4g away", pose.focus);
     else
         render_control_say(p->work, "sharp %.4g away once the lens is open: %s",
-                 pose.focus, render_control_key(p->work, ACTION_OPEN).text);
+                           pose.focus,
+                           render_control_key(p->work, ACTION_OPEN).text);
 }
 
 /* ---- numbered views ---- */
@@ -360,15 +367,18 @@ void camera_control_keep_view(struct camera_control *p, enum action action)
         return;
     v->shots[number - 1] = view_pose(v);
     v->has_shot[number - 1] = true;
-    render_control_say(p->work, "this is view %d: %s writes it to the view file", number,
-             render_control_key(p->work, ACTION_SAVE_VIEW).text);
+    render_control_say(p->work,
+                       "this is view %d: %s writes it to the view file", number,
+                       render_control_key(p->work, ACTION_SAVE_VIEW).text);
 }
 
 static void go_to_view(struct camera_control *p, int number)
 {
     if (!view_of(p)->has_shot[number - 1]) {
-        render_control_say(p->work, "no view %d yet: %s %d makes this one so", number,
-                 render_control_key(p->work, ACTION_KEEP).text, number);
+        render_control_say(p->work, "no view %d yet: %s %d makes this one so",
+                           number,
+                           render_control_key(p->work, ACTION_KEEP).text,
+                           number);
     } else if (may_jump(p)) {
         jump(p, &view_of(p)->shots[number - 1]);
         render_control_say(p->work, "view %d", number);
@@ -423,8 +433,8 @@ static bool steer_by(struct camera_control *p, const struct event *event)
 {
     struct rect r = pick_cursor_shown_rect(&p->cursor);
 
-    return camera_input_mouse(&p->steer, view_of(p), event, &p->canvas->fit, r.width,
-                       r.height);
+    return camera_input_mouse(&p->steer, view_of(p), event, &p->canvas->fit,
+                              r.width, r.height);
 }
 
 static void drag(struct camera_control *p, const struct event *event)

@@ -35,7 +35,8 @@ struct camera_control {
     uint64_t said_ns; /* when, if it was a message */
 };
 
-void camera_control_init(struct camera_control *p, struct render_control *work, struct screen *canvas);
+void camera_control_init(struct camera_control *p, struct render_control *work,
+                         struct screen *canvas);
 
 /* Does what the action says of camera and cursor. False if it is not the
  * pilot's. Any but a move ends what is moving, where it would have ended. */

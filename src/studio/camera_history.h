@@ -5,7 +5,6 @@
  * Units:     steps
  * Ownership: camera_history_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
- * Errors:    none
  */
 #ifndef GLIM_CAMERA_HISTORY_H
 #define GLIM_CAMERA_HISTORY_H

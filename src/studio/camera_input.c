@@ -45,13 +45,15 @@
 #define APERTURE_LEAST    1e-3
 #define APERTURE_GREATEST 1.0
 
-void camera_input_init(struct camera_input *s, const double lo[3], const double hi[3])
+void camera_input_init(struct camera_input *s, const double lo[3],
+                       const double hi[3])
 {
     *s = (struct camera_input){.speed = 1};
     camera_input_resize(s, lo, hi);
 }
 
-void camera_input_resize(struct camera_input *s, const double lo[3], const double hi[3])
+void camera_input_resize(struct camera_input *s, const double lo[3],
+                         const double hi[3])
 {
     double square = 0;
 
@@ -112,7 +114,8 @@ static void open_lens(struct view *view, double seconds)
         aperture > least ? fmin(aperture, APERTURE_GREATEST * sharp) : 0;
 }
 
-bool camera_input_step(struct camera_input *s, struct view *view, uint64_t now_ns)
+bool camera_input_step(struct camera_input *s, struct view *view,
+                       uint64_t now_ns)
 {
     double seconds[HELD_KEYS_AXES];
     double held =
@@ -121,7 +124,8 @@ bool camera_input_step(struct camera_input *s, struct view *view, uint64_t now_n
 
     if (!held_keys_step(&s->motion, now_ns, seconds))
         return false;
-    camera_move(view, speed * seconds[HELD_KEYS_RIGHT], speed * seconds[HELD_KEYS_UP],
+    camera_move(view, speed * seconds[HELD_KEYS_RIGHT],
+                speed * seconds[HELD_KEYS_UP],
                 speed * seconds[HELD_KEYS_FORWARD]);
     turn(s, view, seconds);
     if (seconds[HELD_KEYS_WIDEN] != 0)
@@ -134,8 +138,8 @@ bool camera_input_step(struct camera_input *s, struct view *view, uint64_t now_n
 /* The look turns by the angle that the picture shows under the pointer's way;
  * a thing in the middle turns with the pointer, half around for the picture's
  * height. */
-static bool drag(struct camera_input *s, struct view *view, const struct event *e,
-                 const struct fit *fit, double shape)
+static bool drag(struct camera_input *s, struct view *view,
+                 const struct event *e, const struct fit *fit, double shape)
 {
     double right = (e->x - s->drag_x) * shape / fit->cols;
     double down = (double)(e->y - s->drag_y) / fit->rows;
@@ -153,13 +157,15 @@ static bool drag(struct camera_input *s, struct view *view, const struct event *
     return true;
 }
 
-bool camera_input_orbits(const struct camera_input *s, const struct event *event)
+bool camera_input_orbits(const struct camera_input *s,
+                         const struct event *event)
 {
     return s->is_orbiting || event->button != 0 || event->is_modified;
 }
 
-bool camera_input_mouse(struct camera_input *s, struct view *view, const struct event *event,
-                 const struct fit *fit, int width_px, int height_px)
+bool camera_input_mouse(struct camera_input *s, struct view *view,
+                        const struct event *event, const struct fit *fit,
+                        int width_px, int height_px)
 {
     switch (event->mouse) {
     case MOUSE_PRESS:

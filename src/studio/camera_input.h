@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * camera_input.h - keys that are held and a mouse that is dragged, to motions of a
- * view's camera
+ * camera_input.h - keys that are held and a mouse that is dragged, to motions
+ * of a view's camera
  *
  * Moves are as fast as what is around is far: in a room slow, slower at a wall,
  * fast over a landscape, the same for a model of any size. A key that is held
@@ -10,7 +10,6 @@
  * Units:     nanoseconds of clock_ns(), terminal cells, file units
  * Ownership: the view stays the caller's
  * Threads:   one thread at a time
- * Errors:    none
  */
 #ifndef GLIM_CAMERA_INPUT_H
 #define GLIM_CAMERA_INPUT_H
@@ -35,10 +34,12 @@ struct camera_input {
 };
 
 /* For a scene between these corners. */
-void camera_input_init(struct camera_input *s, const double lo[3], const double hi[3]);
+void camera_input_init(struct camera_input *s, const double lo[3],
+                       const double hi[3]);
 
 /* The scene is between other corners now: what was chosen stays. */
-void camera_input_resize(struct camera_input *s, const double lo[3], const double hi[3]);
+void camera_input_resize(struct camera_input *s, const double lo[3],
+                         const double hi[3]);
 
 /* What the speed of moves follows: how far the surfaces near the eye are
  * (INFINITY: there is none), and how far the scene's box is (0 within it). */
@@ -52,16 +53,19 @@ void camera_input_begin(struct camera_input *s, uint64_t now_ns);
 
 /* Moves by the time that keys were held since the last call. True if the view
  * has changed. */
-bool camera_input_step(struct camera_input *s, struct view *view, uint64_t now_ns);
+bool camera_input_step(struct camera_input *s, struct view *view,
+                       uint64_t now_ns);
 
 /* True for a button that turns about the pivot: any that is no plain left one,
  * and all while is_orbiting. */
-bool camera_input_orbits(const struct camera_input *s, const struct event *event);
+bool camera_input_orbits(const struct camera_input *s,
+                         const struct event *event);
 
 /* Follows the pointer while a button is down; the picture of width_px x
  * height_px pixels lies at `fit`. True if the view has changed. */
-bool camera_input_mouse(struct camera_input *s, struct view *view, const struct event *event,
-                 const struct fit *fit, int width_px, int height_px);
+bool camera_input_mouse(struct camera_input *s, struct view *view,
+                        const struct event *event, const struct fit *fit,
+                        int width_px, int height_px);
 
 /* Faster or slower by some steps. */
 void camera_input_change_speed(struct camera_input *s, int steps);

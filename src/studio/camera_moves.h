@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * camera_moves.h - moves and turns the camera of a view, without ever rolling it
+ * camera_moves.h - moves and turns the camera of a view, without ever rolling
+ * it
  *
  * Units:     file units of the scene, radians
  * Ownership: the view stays the caller's

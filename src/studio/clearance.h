@@ -10,7 +10,6 @@
  * Units:     file units of the scene
  * Ownership: the scene stays the caller's
  * Threads:   any, while the scene and its tree are only read
- * Errors:    none
  */
 #ifndef GLIM_CLEARANCE_H
 #define GLIM_CLEARANCE_H

@@ -25,7 +25,8 @@ static const struct scene *scene_of(const struct editor_panel *p)
     return &p->work->session->scene;
 }
 
-void editor_panel_init(struct editor_panel *p, struct render_control *work, struct screen *canvas)
+void editor_panel_init(struct editor_panel *p, struct render_control *work,
+                       struct screen *canvas)
 {
     *p = (struct editor_panel){.work = work, .canvas = canvas};
     selection_init(&p->selection, work->session);
@@ -36,7 +37,8 @@ void editor_panel_free(struct editor_panel *p)
     selection_free(&p->selection);
 }
 
-void editor_panel_renew(struct editor_panel *p, const struct selection_names *names)
+void editor_panel_renew(struct editor_panel *p,
+                        const struct selection_names *names)
 {
     struct selection before = p->selection;
 
@@ -74,12 +76,14 @@ static void take_change(struct editor_panel *p)
 static bool may_change(struct editor_panel *p)
 {
     if (!p->work->is_live) {
-        render_control_say(p->work, "materials change in live mode: %s goes there",
-                 render_control_key(p->work, ACTION_MODE).text);
+        render_control_say(p->work,
+                           "materials change in live mode: %s goes there",
+                           render_control_key(p->work, ACTION_MODE).text);
         return false;
     }
     if (p->work->reload.is_busy) {
-        render_control_say(p->work, "the scene is being loaded: materials change then");
+        render_control_say(p->work,
+                           "the scene is being loaded: materials change then");
         return false;
     }
     edit_of(p)->is_comparing = false;
@@ -125,7 +129,8 @@ static void travel(struct editor_panel *p, bool is_back)
     if (!may_change(p))
         return;
     if (!(is_back ? edit_undo(edit_of(p)) : edit_redo(edit_of(p))))
-        render_control_say(p->work, is_back ? "nothing to undo" : "nothing to do again");
+        render_control_say(p->work,
+                           is_back ? "nothing to undo" : "nothing to do again");
     take_change(p);
 }
 
@@ -142,8 +147,8 @@ static void duplicate(struct editor_panel *p)
 {
     struct edit *e = edit_of(p);
 
-    if (p->selection.page == PARAMETER_LIGHT || !selection_has_one(&p->selection) ||
-        !may_change(p))
+    if (p->selection.page == PARAMETER_LIGHT ||
+        !selection_has_one(&p->selection) || !may_change(p))
         return;
     edit_break(e);
     if (p->selection.page == PARAMETER_OBJECT) {
@@ -152,12 +157,13 @@ static void duplicate(struct editor_panel *p)
                                                     p->selection.object));
         edit_assign(e, p->selection.object, p->selection.material);
         render_control_say(p->work, "%.40s has its own material now: %.40s",
-                 panel_name(scene_of(p)->object_names[p->selection.object]),
-                 e->names[p->selection.material]);
+                           panel_name(
+                               scene_of(p)->object_names[p->selection.object]),
+                           e->names[p->selection.material]);
     } else {
         p->selection.material = edit_duplicate(e, p->selection.material);
         render_control_say(p->work, "%.60s: Tab goes to the objects for it",
-                 e->names[p->selection.material]);
+                           e->names[p->selection.material]);
     }
     edit_break(e);
     take_change(p);
@@ -204,7 +210,8 @@ static void begin_typing(struct editor_panel *p, int key)
         if (key == ENTER)
             turn(p, 1);
         else
-            render_control_say(p->work, "this is changed with the arrows, or Enter");
+            render_control_say(p->work,
+                               "this is changed with the arrows, or Enter");
         return;
     }
     p->is_typing = true;
@@ -336,8 +343,8 @@ bool editor_panel_key(struct editor_panel *p, int key)
         break;
     case PANEL_HSV: p->selection.by_hsv = !p->selection.by_hsv; break;
     case PANEL_NEXT_PAGE:
-        show_page(p,
-                  (enum parameter_page)((p->selection.page + 1) % (PARAMETER_LIGHT + 1)));
+        show_page(p, (enum parameter_page)((p->selection.page + 1) %
+                                           (PARAMETER_LIGHT + 1)));
         break;
     case PANEL_COPY: duplicate(p); break;
     case PANEL_UNDO: travel(p, true); break;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * editor_panel.h - the panel in which materials, objects and light are edited while
- * the picture renders beside it
+ * editor_panel.h - the panel in which materials, objects and light are edited
+ * while the picture renders beside it
  *
  * A list on top, the knobs of what is selected in it below. Keys that are not
  * the panel's go on to move the camera and so on.
  *
  * Units:     terminal cells
- * Ownership: work and canvas stay the caller's; editor_panel_free() frees the rest
- * Threads:   main only
- * Errors:    become messages
+ * Ownership: work and canvas stay the caller's; editor_panel_free() frees the
+ * rest Threads:   main only Errors:    become messages
  */
 #ifndef GLIM_EDITOR_PANEL_H
 #define GLIM_EDITOR_PANEL_H
@@ -36,7 +35,8 @@ struct editor_panel {
     uint64_t turned_ns;
 };
 
-void editor_panel_init(struct editor_panel *p, struct render_control *work, struct screen *canvas);
+void editor_panel_init(struct editor_panel *p, struct render_control *work,
+                       struct screen *canvas);
 
 /* Opens or closes it; the layout must be done anew. */
 void editor_panel_open(struct editor_panel *p);
@@ -44,7 +44,8 @@ void editor_panel_close(struct editor_panel *p);
 
 /* After the scene was loaded anew: what had these names is selected, and what
  * was being typed goes on. */
-void editor_panel_renew(struct editor_panel *p, const struct selection_names *names);
+void editor_panel_renew(struct editor_panel *p,
+                        const struct selection_names *names);
 
 /* Does what the key means here. False if it is not the panel's. */
 bool editor_panel_key(struct editor_panel *p, int key);

@@ -52,8 +52,8 @@ static void switch_mouse(struct tui *t)
     t->has_mouse = !t->has_mouse;
     camera_control_stop(&t->pilot);
     tty_set_mouse(t->has_mouse);
-    render_control_say(&t->work,
-             t->has_mouse ? "mouse on: drag to look around" : "mouse off");
+    render_control_say(&t->work, t->has_mouse ? "mouse on: drag to look around"
+                                              : "mouse off");
 }
 
 /* ---- input ---- */
@@ -167,7 +167,8 @@ static void answer_question(struct tui *t, int key)
     ask(t, QUESTION_NONE);
     if (question == QUESTION_NUMBER) {
         camera_control_keep_view(&t->pilot,
-                        keymap_action(&t->work.session->options->keys, key));
+                                 keymap_action(&t->work.session->options->keys,
+                                               key));
     } else if (answer == ANSWER_SAVE && question == QUESTION_EDIT) {
         if (work_save_edit(&t->work))
             quit(t);
@@ -296,7 +297,8 @@ static uint64_t input_deadline_ns(const struct tui *t)
 static uint64_t wake_ns(const struct tui *t, uint64_t now_ns)
 {
     return earlier(workspace_next_ns(&t->stage, now_ns),
-                   earlier(camera_control_next_ns(&t->pilot), input_deadline_ns(t)));
+                   earlier(camera_control_next_ns(&t->pilot),
+                           input_deadline_ns(t)));
 }
 
 static void take_reload(struct tui *t)
@@ -418,13 +420,14 @@ static void say_lost(struct tui *t, const char *path)
     char *text = xformat("picture of the lost session: %s", path);
 
     render_control_say_long(&t->work, "%s", text);
-    render_control_add_result(&t->work, text); /* it is long, and the line is not */
+    render_control_add_result(&t->work,
+                              text); /* it is long, and the line is not */
     free(text);
 }
 
 /* The render starts first, so that it works while the terminal is opened. */
 bool event_loop_run(struct session *s, const char *lost, int *status,
-             struct error *err)
+                    struct error *err)
 {
     const char *stats_path = s->options->stats_path;
     struct tui t = {.has_mouse = true};

@@ -16,6 +16,6 @@
  * lost session to tell of, or NULL. *status becomes the exit status; false only
  * if the screen could not be opened. */
 bool event_loop_run(struct session *s, const char *lost, int *status,
-             struct error *err);
+                    struct error *err);
 
 #endif

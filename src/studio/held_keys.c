@@ -6,7 +6,7 @@
 #define HELD_NS 150000000u
 
 void held_keys_press(struct held_keys *m, enum held_keys_axis axis, int sign,
-                  uint64_t now_ns)
+                     uint64_t now_ns)
 {
     bool is_held = m->sign[axis] == sign && now_ns <= m->until_ns[axis];
 
@@ -16,7 +16,8 @@ void held_keys_press(struct held_keys *m, enum held_keys_axis axis, int sign,
     m->until_ns[axis] = now_ns + HELD_NS - HELD_KEYS_STEP_NS;
 }
 
-bool held_keys_step(struct held_keys *m, uint64_t now_ns, double seconds[HELD_KEYS_AXES])
+bool held_keys_step(struct held_keys *m, uint64_t now_ns,
+                    double seconds[HELD_KEYS_AXES])
 {
     bool has_moved = false;
 

@@ -7,9 +7,7 @@
  * for a while.
  *
  * Units:     nanoseconds of clock_ns(); seconds for what an axis was held
- * Ownership: none
  * Threads:   one thread at a time
- * Errors:    none
  */
 #ifndef GLIM_HELD_KEYS_H
 #define GLIM_HELD_KEYS_H
@@ -40,12 +38,12 @@ struct held_keys {
 
 /* A key for this axis came; sign is 1 or -1. */
 void held_keys_press(struct held_keys *m, enum held_keys_axis axis, int sign,
-                  uint64_t now_ns);
+                     uint64_t now_ns);
 
 /* Takes the seconds, with sign, that each axis was held since the last call. A
  * key pressed just now counts as one step at once. False if nothing moved. */
 bool held_keys_step(struct held_keys *m, uint64_t now_ns,
-                 double seconds[HELD_KEYS_AXES]);
+                    double seconds[HELD_KEYS_AXES]);
 
 /* When to call held_keys_step() next; UINT64_MAX: at rest. */
 uint64_t held_keys_next_ns(const struct held_keys *m);

@@ -5,9 +5,7 @@
  * In two columns where there is room, and on as many pages as it takes.
  *
  * Units:     terminal cells
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_HELP_H
 #define GLIM_HELP_H

@@ -86,12 +86,12 @@ static void say_boxes(struct inspector *in)
     struct frame nothing = {0};
     struct camera any = {0};
 
-    render_control_say_long(in->work,
-                  "boxes of level %u of %u: %u nodes; %s %s go up and down",
-                  in->level, in->show.bvh.depth,
-                  overlay_boxes(&nothing, &any, &in->show.bvh, in->level),
-                  render_control_key(in->work, ACTION_LESS).text,
-                  render_control_key(in->work, ACTION_MORE).text);
+    render_control_say_long(
+        in->work, "boxes of level %u of %u: %u nodes; %s %s go up and down",
+        in->level, in->show.bvh.depth,
+        overlay_boxes(&nothing, &any, &in->show.bvh, in->level),
+        render_control_key(in->work, ACTION_LESS).text,
+        render_control_key(in->work, ACTION_MORE).text);
 }
 
 static bool is_new_pick(const struct inspector *in)
@@ -158,8 +158,9 @@ static void say_drawing(struct inspector *in)
     if (in->drawing == INSPECTOR_BOXES)
         say_boxes(in);
     else if (in->drawing == INSPECTOR_LOBES && !in->is_surface)
-        render_control_say(in->work, "only the sky is there: %s picks something else",
-                 render_control_key(in->work, ACTION_CURSOR).text);
+        render_control_say(in->work,
+                           "only the sky is there: %s picks something else",
+                           render_control_key(in->work, ACTION_CURSOR).text);
     inspector_open_panel(in);
 }
 
@@ -168,9 +169,11 @@ static void next_drawing(struct inspector *in)
 {
     struct error err;
 
-    in->drawing = (enum inspector_drawing)((in->drawing + 1) % INSPECTOR_DRAWINGS);
+    in->drawing =
+        (enum inspector_drawing)((in->drawing + 1) % INSPECTOR_DRAWINGS);
     render_control_be_silent(in->work);
-    if (in->drawing != INSPECTOR_NOTHING && !view_mode_need_tree(&in->show, &err)) {
+    if (in->drawing != INSPECTOR_NOTHING &&
+        !view_mode_need_tree(&in->show, &err)) {
         in->drawing = INSPECTOR_NOTHING;
         render_control_say_error(in->work, err.text);
     }
@@ -212,10 +215,11 @@ static void change(struct inspector *in, int by)
     else if (in->drawing == INSPECTOR_PATH)
         change_step(in, by);
     else
-        render_control_say(in->work, "%s %s go through boxes or a path: %s draws them",
-                 render_control_key(in->work, ACTION_LESS).text,
-                 render_control_key(in->work, ACTION_MORE).text,
-                 render_control_key(in->work, ACTION_DRAWING).text);
+        render_control_say(in->work,
+                           "%s %s go through boxes or a path: %s draws them",
+                           render_control_key(in->work, ACTION_LESS).text,
+                           render_control_key(in->work, ACTION_MORE).text,
+                           render_control_key(in->work, ACTION_DRAWING).text);
 }
 
 /* ---- saving ---- */
@@ -231,7 +235,8 @@ static bool has_picture(struct inspector *in)
 }
 
 /* As it is shown, in pixels of the frame. */
-static bool paint_all(struct inspector *in, struct frame *frame, struct error *err)
+static bool paint_all(struct inspector *in, struct frame *frame,
+                      struct error *err)
 {
     struct film *film = render_film(session_of(in)->render);
 
@@ -261,7 +266,8 @@ static void save_text(struct inspector *in)
     struct frame frame = {0};
     struct error err;
 
-    if (ansi_text_frame_init(&frame, &style, &err) && paint_all(in, &frame, &err))
+    if (ansi_text_frame_init(&frame, &style, &err) &&
+        paint_all(in, &frame, &err))
         work_save_text(in->work, &frame, &style);
     else
         render_control_say_error(in->work, err.text);
@@ -282,8 +288,9 @@ static void save_linear(struct inspector *in)
     if (view_mode_sample(in->show.kind) == SAMPLE_LIGHT)
         work_save_picture(in->work, "hdr");
     else
-        render_control_say(in->work, "only light is saved as HDR: %s goes back to it",
-                 render_control_key(in->work, ACTION_VIEW_BACK).text);
+        render_control_say(in->work,
+                           "only light is saved as HDR: %s goes back to it",
+                           render_control_key(in->work, ACTION_VIEW_BACK).text);
 }
 
 /* ---- actions ---- */
@@ -300,7 +307,8 @@ static void show(struct inspector *in, enum show_kind kind)
     s->sample = view_mode_sample(in->show.kind);
     in->work->has_changed = true;
     if (in->work->is_live && s->sample != before)
-        render_control_restart(in->work); /* the film has other numbers until then */
+        render_control_restart(
+            in->work); /* the film has other numbers until then */
 }
 
 /* Normal mode renders light and nothing else. */
@@ -361,8 +369,8 @@ void inspector_renew(struct inspector *in)
     view_mode_renew(&in->show);
 }
 
-void inspector_init(struct inspector *in, struct render_control *work, struct screen *canvas,
-                 struct pick_cursor *cursor)
+void inspector_init(struct inspector *in, struct render_control *work,
+                    struct screen *canvas, struct pick_cursor *cursor)
 {
     *in = (struct inspector){.work = work, .canvas = canvas, .cursor = cursor};
     view_mode_init(&in->show, work->session);

@@ -48,8 +48,8 @@ struct inspector {
 };
 
 /* Takes over the canvas's painter. */
-void inspector_init(struct inspector *in, struct render_control *work, struct screen *canvas,
-                 struct pick_cursor *cursor);
+void inspector_init(struct inspector *in, struct render_control *work,
+                    struct screen *canvas, struct pick_cursor *cursor);
 
 /* Does what the action says of views and drawings, and saves what is shown.
  * False if it is not one. */

@@ -155,7 +155,8 @@ double material_params_largest(const double rgb[3])
 
 double material_params_strength(const struct mtl_source *s)
 {
-    return s->kelvin.line != 0 ? s->luminance.value : material_params_largest(s->ke.rgb);
+    return s->kelvin.line != 0 ? s->luminance.value
+                               : material_params_largest(s->ke.rgb);
 }
 
 void material_params_set_strength(struct mtl_source *s, double x)

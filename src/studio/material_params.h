@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * material_params.h - what a material's MTL statements mean to a person who changes them
+ * material_params.h - what a material's MTL statements mean to a person who
+ * changes them
  *
  * One colour, one roughness, one light, whichever statements have them; which
  * these are follows from material_from_source(). What is set through here is
  * what material_from_source() then finds.
  *
  * Units:     those of MTL
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_MATERIAL_PARAMS_H
 #define GLIM_MATERIAL_PARAMS_H
@@ -39,8 +38,10 @@ double material_params_strength(const struct mtl_source *source);
 void material_params_set_strength(struct mtl_source *source, double strength);
 
 /* The light's colour, its largest channel 1; white if it is dark. */
-void material_params_light_color(const struct mtl_source *source, double rgb[3]);
-void material_params_set_light_color(struct mtl_source *source, const double rgb[3]);
+void material_params_light_color(const struct mtl_source *source,
+                                 double rgb[3]);
+void material_params_set_light_color(struct mtl_source *source,
+                                     const double rgb[3]);
 
 /* The light becomes that of a black body, as bright as it was. */
 void material_params_set_kelvin(struct mtl_source *source, double kelvin);

@@ -83,12 +83,13 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
     double rgb[3];
 
     text_width_fit(name, sizeof name,
-                panel_name(is_object ? scene_of(p)->object_names[i]
-                                     : e->names[i]),
-                NAME_COLS);
+                   panel_name(is_object ? scene_of(p)->object_names[i]
+                                        : e->names[i]),
+                   NAME_COLS);
     text_width_cut(other, sizeof other,
-                is_object ? panel_name(e->names[material]) : material_params_kind(source),
-                OTHER_COLS);
+                   is_object ? panel_name(e->names[material])
+                             : material_params_kind(source),
+                   OTHER_COLS);
     snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
              other);
     material_params_swatch(source, rgb);
@@ -135,11 +136,11 @@ static void add_title(struct editor_panel *p, struct sheet *s)
         bool is_object = p->selection.page == PARAMETER_OBJECT;
 
         text_width_cut(name, sizeof name,
-                    is_object
-                        ? panel_name(
-                              scene_of(p)->object_names[p->selection.object])
-                        : e->names[p->selection.material],
-                    TITLE_COLS);
+                       is_object
+                           ? panel_name(
+                                 scene_of(p)->object_names[p->selection.object])
+                           : e->names[p->selection.material],
+                       TITLE_COLS);
         snprintf(text, sizeof text, " %s%s", name,
                  is_object || edit_is_saved(e, p->selection.material) ? ""
                                                                       : " *");
@@ -156,8 +157,8 @@ static void format_bar(char bar[BAR_COLS + 1], double place)
     bar[BAR_COLS] = '\0';
 }
 
-static void add_knob(struct editor_panel *p, struct sheet *s, const struct parameter *k,
-                     bool is_selected)
+static void add_knob(struct editor_panel *p, struct sheet *s,
+                     const struct parameter *k, bool is_selected)
 {
     char bar[BAR_COLS + 1];
     char text[WINDOW_LINE_BYTES], value[NAME_BYTES];
@@ -234,8 +235,9 @@ void panel_draw(struct editor_panel *p)
     list_rows = selection_count(&p->selection) == 0 ? 0 : LIST_MIN;
     if (knob_rows > rows - OTHER_ROWS - list_rows)
         knob_rows = rows - OTHER_ROWS - list_rows;
-    list_rows =
-        p->selection.page == PARAMETER_LIGHT ? 0 : rows - OTHER_ROWS - knob_rows;
+    list_rows = p->selection.page == PARAMETER_LIGHT
+                    ? 0
+                    : rows - OTHER_ROWS - knob_rows;
     knob_rows = rows - OTHER_ROWS - list_rows;
     s.lines = xcalloc((size_t)rows, sizeof *s.lines);
     swatches_clear(s.swatches);

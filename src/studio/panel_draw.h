@@ -3,9 +3,7 @@
  * panel_draw.h - the panel as lines of text with swatches
  *
  * Units:     terminal cells
- * Ownership: none
  * Threads:   main only
- * Errors:    none
  */
 #ifndef GLIM_PANEL_DRAW_H
 #define GLIM_PANEL_DRAW_H

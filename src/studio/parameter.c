@@ -12,7 +12,9 @@
 /* Where a temperature begins that was none. */
 #define KELVIN_WHITE 6500.0
 
-static const struct value_scale kelvins = {.from = 1000, .to = 20000, .step = 100};
+static const struct value_scale kelvins = {.from = 1000,
+                                           .to = 20000,
+                                           .step = 100};
 
 /* ---- lists ---- */
 
@@ -112,13 +114,15 @@ static void list_material(struct list *l, const struct scene *scene,
     snprintf(add(l, PARAMETER_KIND, "type")->text, sizeof l->knobs->text, "%s",
              material_params_kind(s));
     material_params_color(s, rgb);
-    add_color(l, PARAMETER_COLOR, material_params_is_glass(&m) ? "tint" : "colour", rgb);
+    add_color(l, PARAMETER_COLOR,
+              material_params_is_glass(&m) ? "tint" : "colour", rgb);
     add_channels(l, t, rgb);
     if (m.kind != MATERIAL_THIN_GLASS)
         add_scale(l, PARAMETER_ROUGHNESS, "roughness", &scale_unit,
                   material_params_roughness(s));
     if (m.kind == MATERIAL_PLASTIC)
-        add_scale(l, PARAMETER_COAT, "coat", &scale_unit, material_params_largest(s->ks.rgb));
+        add_scale(l, PARAMETER_COAT, "coat", &scale_unit,
+                  material_params_largest(s->ks.rgb));
     if (material_params_is_glass(&m))
         add_scale(l, PARAMETER_IOR, "index", &scale_ior, (double)m.ior);
     else
@@ -154,7 +158,8 @@ static void list_mood(struct list *l, const struct edit *e,
 }
 
 int parameters_list(const struct edit *e, const struct scene *scene,
-               const struct parameter_target *t, struct parameter knobs[PARAMETERS_MAX])
+                    const struct parameter_target *t,
+                    struct parameter knobs[PARAMETERS_MAX])
 {
     const struct edit_state *s = edit_shown(e);
     struct list l = {knobs, 0};
@@ -166,8 +171,8 @@ int parameters_list(const struct edit *e, const struct scene *scene,
         list_mood(&l, e, t, &s->mood);
     } else {
         material = s->assigned[t->index];
-        snprintf(add(&l, PARAMETER_ASSIGNED, "material")->text, sizeof knobs->text,
-                 "%.60s",
+        snprintf(add(&l, PARAMETER_ASSIGNED, "material")->text,
+                 sizeof knobs->text, "%.60s",
                  material == NO_INDEX ? "as in the file" : e->names[material]);
     }
     return l.count;
@@ -187,12 +192,12 @@ static void turn_channel(double rgb[3], const struct parameter_target *t,
     }
     color_to_hsv(rgb, hsv);
     hsv[channel] = value_scale_turned(channel == 0 ? &scale_hue : &scale_unit,
-                                hsv[channel], steps);
+                                      hsv[channel], steps);
     color_from_hsv(hsv, rgb);
 }
 
-static void turn_material(struct mtl_source *s, const struct parameter_target *t,
-                          int id, int steps)
+static void turn_material(struct mtl_source *s,
+                          const struct parameter_target *t, int id, int steps)
 {
     struct material m = material_params_material(s);
     double rgb[3];
@@ -208,32 +213,40 @@ static void turn_material(struct mtl_source *s, const struct parameter_target *t
         material_params_set_color(s, rgb);
         break;
     case PARAMETER_ROUGHNESS:
-        material_params_set_roughness(s,
-                           value_scale_turned(&scale_unit, material_params_roughness(s), steps));
+        material_params_set_roughness(
+            s, value_scale_turned(&scale_unit, material_params_roughness(s),
+                                  steps));
         break;
     case PARAMETER_COAT:
         /* black would be no coat, and the knob would be gone */
-        rgb[0] = fmax(value_scale_turned(&scale_unit, material_params_largest(s->ks.rgb), steps),
-                      scale_unit.step);
+        rgb[0] =
+            fmax(value_scale_turned(&scale_unit,
+                                    material_params_largest(s->ks.rgb), steps),
+                 scale_unit.step);
         rgb[1] = rgb[2] = rgb[0];
         material_params_put_color(&s->ks, rgb);
         break;
     case PARAMETER_IOR:
-        material_params_put_number(&s->ni, value_scale_turned(&scale_ior, (double)m.ior, steps));
+        material_params_put_number(&s->ni,
+                                   value_scale_turned(&scale_ior, (double)m.ior,
+                                                      steps));
         break;
     case PARAMETER_COVER:
-        material_params_put_number(&s->d,
-                        value_scale_turned(&scale_unit, (double)m.opacity, steps));
+        material_params_put_number(&s->d, value_scale_turned(&scale_unit,
+                                                             (double)m.opacity,
+                                                             steps));
         break;
     case PARAMETER_GLOW:
-        material_params_set_strength(s,
-                          value_scale_turned(&scale_light, material_params_strength(s), steps));
+        material_params_set_strength(
+            s, value_scale_turned(&scale_light, material_params_strength(s),
+                                  steps));
         break;
     case PARAMETER_GLOW_COLOR:
-        material_params_set_kelvin(s,
-                        s->kelvin.line == 0
-                            ? KELVIN_WHITE
-                            : value_scale_turned(&kelvins, s->kelvin.value, steps));
+        material_params_set_kelvin(s, s->kelvin.line == 0
+                                          ? KELVIN_WHITE
+                                          : value_scale_turned(&kelvins,
+                                                               s->kelvin.value,
+                                                               steps));
         break;
     default: s->maps_off ^= 1u << (id - PARAMETER_MAP); break;
     }
@@ -248,7 +261,8 @@ static void turn_mood(const struct edit *e, struct mood *m,
             (m->sky + (steps > 0 ? 1 : e->skies.count - 1)) % e->skies.count;
         break;
     case PARAMETER_SKY_STRENGTH:
-        m->sky_strength = value_scale_turned(&scale_light, m->sky_strength, steps);
+        m->sky_strength =
+            value_scale_turned(&scale_light, m->sky_strength, steps);
         break;
     case PARAMETER_SKY_ROTATION:
         m->sky_rotation_deg =
@@ -284,7 +298,8 @@ static uint32_t next_material(const struct edit *e, uint32_t material, int step)
     return i == count - 1 ? NO_INDEX : i;
 }
 
-void parameter_turn(struct edit *e, const struct parameter_target *t, int id, int steps)
+void parameter_turn(struct edit *e, const struct parameter_target *t, int id,
+                    int steps)
 {
     struct mtl_source source;
     struct mood mood = e->now.mood;

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * parameter.h - the values that a person turns: of a material, of an object, of the
- * light
+ * parameter.h - the values that a person turns: of a material, of an object, of
+ * the light
  *
  * A knob has a name, a text, perhaps a place on a scale and a colour; it is
  * turned by steps, or set by parameter_text.h. All goes through the edit's
  * history. What values mean for a material is material_from_source()'s to say.
  *
  * Units:     those of MTL and view files
- * Ownership: none
  * Threads:   one thread at a time
- * Errors:    none
  */
 #ifndef GLIM_PARAMETER_H
 #define GLIM_PARAMETER_H
@@ -60,10 +58,11 @@ struct parameter {
 
 /* The knobs of the target as they are shown now; their number. */
 int parameters_list(const struct edit *edit, const struct scene *scene,
-               const struct parameter_target *target, struct parameter knobs[PARAMETERS_MAX]);
+                    const struct parameter_target *target,
+                    struct parameter knobs[PARAMETERS_MAX]);
 
 /* Turns a knob by some steps; what has two states goes to the other. */
-void parameter_turn(struct edit *edit, const struct parameter_target *target, int id,
-               int steps);
+void parameter_turn(struct edit *edit, const struct parameter_target *target,
+                    int id, int steps);
 
 #endif

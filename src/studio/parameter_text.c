@@ -26,8 +26,9 @@ bool knob_takes_text(int id)
 }
 
 /* A colour, or a number for one of its channels. */
-static bool type_color(double rgb[3], double most, const struct parameter_target *t,
-                       int id, const char *text, struct error *err)
+static bool type_color(double rgb[3], double most,
+                       const struct parameter_target *t, int id,
+                       const char *text, struct error *err)
 {
     int channel = id - PARAMETER_CHANNEL;
     double hsv[3], kelvin, x;
@@ -35,12 +36,14 @@ static bool type_color(double rgb[3], double most, const struct parameter_target
     if (id == PARAMETER_COLOR || strpbrk(text, "#kK ") != NULL)
         return parse_color(text, most, rgb, &kelvin, err);
     if (!t->by_hsv) {
-        if (!value_scale_parse(most > 1 ? &scale_light : &scale_unit, text, &x, err))
+        if (!value_scale_parse(most > 1 ? &scale_light : &scale_unit, text, &x,
+                               err))
             return false;
         rgb[channel] = x;
         return true;
     }
-    if (!value_scale_parse(channel == 0 ? &scale_hue : &scale_unit, text, &x, err))
+    if (!value_scale_parse(channel == 0 ? &scale_hue : &scale_unit, text, &x,
+                           err))
         return false;
     color_to_hsv(rgb, hsv);
     hsv[channel] = x;
@@ -69,8 +72,9 @@ static bool type_light_color(struct mtl_source *s, const char *text,
     return true;
 }
 
-static bool type_material(struct mtl_source *s, const struct parameter_target *t,
-                          int id, const char *text, struct error *err)
+static bool type_material(struct mtl_source *s,
+                          const struct parameter_target *t, int id,
+                          const char *text, struct error *err)
 {
     double rgb[3], x;
 
@@ -127,15 +131,16 @@ static bool parse_tone(const char *text, uint32_t *tone, struct error *err)
 }
 
 static bool type_mood(struct edit *e, struct mood *m,
-                      const struct parameter_target *t, int id, const char *text,
-                      struct error *err)
+                      const struct parameter_target *t, int id,
+                      const char *text, struct error *err)
 {
     switch (id) {
     case PARAMETER_SKY_IMAGE: m->sky = edit_sky(e, text); return true;
     case PARAMETER_SKY_STRENGTH:
         return value_scale_parse(&scale_light, text, &m->sky_strength, err);
     case PARAMETER_SKY_ROTATION:
-        return value_scale_parse(&scale_rotation, text, &m->sky_rotation_deg, err);
+        return value_scale_parse(&scale_rotation, text, &m->sky_rotation_deg,
+                                 err);
     case PARAMETER_TONE: return parse_tone(text, &m->tone, err);
     case PARAMETER_EXPOSURE:
         return value_scale_parse(&scale_exposure, text, &m->exposure, err);

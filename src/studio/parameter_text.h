@@ -3,7 +3,6 @@
  * parameter_text.h - a knob that is set by what a person types
  *
  * Units:     those of MTL and view files
- * Ownership: none
  * Threads:   one thread at a time
  * Errors:    a text that does not fit: what was expected
  */
@@ -16,7 +15,7 @@
 bool knob_takes_text(int id);
 
 /* Gives the knob the value that the text says, as a step of the edit. */
-bool knob_set_text(struct edit *edit, const struct parameter_target *target, int id,
-                   const char *text, struct error *err);
+bool knob_set_text(struct edit *edit, const struct parameter_target *target,
+                   int id, const char *text, struct error *err);
 
 #endif

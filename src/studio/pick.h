@@ -9,7 +9,6 @@
  * Units:     pixels, (0, 0) is the top left corner of the picture; file units
  * Ownership: the scene stays the caller's
  * Threads:   any, while the scene is only read
- * Errors:    none
  */
 #ifndef GLIM_PICK_H
 #define GLIM_PICK_H

@@ -19,7 +19,8 @@ struct rect pick_cursor_shown_rect(const struct pick_cursor *c)
                : (struct rect){0, 0, s->view.width_px, s->view.height_px};
 }
 
-const char *pick_cursor_object_name(const struct pick_cursor *c, uint32_t object)
+const char *pick_cursor_object_name(const struct pick_cursor *c,
+                                    uint32_t object)
 {
     const char *name = c->work->session->scene.object_names[object];
 
@@ -133,9 +134,9 @@ static void take(struct pick_cursor *c, const struct pick *pick)
     show(c, false);
     describe(c, pick, text);
     render_control_say(c->work, "%s (%s orbit, %s focus, %s frame)", text,
-             render_control_key(c->work, ACTION_ORBIT).text,
-             render_control_key(c->work, ACTION_FOCUS).text,
-             render_control_key(c->work, ACTION_FRAME).text);
+                       render_control_key(c->work, ACTION_ORBIT).text,
+                       render_control_key(c->work, ACTION_FOCUS).text,
+                       render_control_key(c->work, ACTION_FRAME).text);
 }
 
 static bool pick_under(struct pick_cursor *c)
@@ -166,9 +167,10 @@ bool pick_cursor_need_pick(struct pick_cursor *c)
         return pick_under(c);
     if (c->has_pick)
         return true;
-    render_control_say(c->work, "nothing is picked: %s shows a cursor, %s picks",
-             render_control_key(c->work, ACTION_CURSOR).text,
-             render_control_key(c->work, ACTION_START).text);
+    render_control_say(c->work,
+                       "nothing is picked: %s shows a cursor, %s picks",
+                       render_control_key(c->work, ACTION_CURSOR).text,
+                       render_control_key(c->work, ACTION_START).text);
     return false;
 }
 

@@ -50,6 +50,7 @@ bool pick_cursor_look_ahead(const struct pick_cursor *c, struct pick *pick);
 void pick_cursor_step(struct pick_cursor *c);
 
 /* The name of an object, or words for none. */
-const char *pick_cursor_object_name(const struct pick_cursor *c, uint32_t object);
+const char *pick_cursor_object_name(const struct pick_cursor *c,
+                                    uint32_t object);
 
 #endif

@@ -13,7 +13,8 @@ static const struct backend *backend_of(const struct render_control *work)
     return render_backend(work->session->render);
 }
 
-void progress_panel_switch(struct progress_panel *g, const struct render_control *work)
+void progress_panel_switch(struct progress_panel *g,
+                           const struct render_control *work)
 {
     g->is_on = !g->is_on;
     g->due_ns = 0;
@@ -21,7 +22,8 @@ void progress_panel_switch(struct progress_panel *g, const struct render_control
     g->load_ns = clock_ns();
 }
 
-uint64_t progress_panel_next_ns(const struct progress_panel *g, const struct render_control *work)
+uint64_t progress_panel_next_ns(const struct progress_panel *g,
+                                const struct render_control *work)
 {
     bool changes = work->progress.state == RENDER_RUNNING || g->due_ns == 0;
 
@@ -29,8 +31,9 @@ uint64_t progress_panel_next_ns(const struct progress_panel *g, const struct ren
 }
 
 /* Of each thread since the last time; a paused render has none. */
-static void measure_loads(struct progress_panel *g, const struct render_control *work,
-                          uint64_t now_ns, double *loads)
+static void measure_loads(struct progress_panel *g,
+                          const struct render_control *work, uint64_t now_ns,
+                          double *loads)
 {
     const struct backend *b = backend_of(work);
     bool is_running = work->progress.state == RENDER_RUNNING;
@@ -41,8 +44,9 @@ static void measure_loads(struct progress_panel *g, const struct render_control 
     g->load_ns = now_ns;
 }
 
-void progress_panel_draw(struct progress_panel *g, const struct render_control *work, struct screen *canvas,
-                uint64_t now_ns)
+void progress_panel_draw(struct progress_panel *g,
+                         const struct render_control *work,
+                         struct screen *canvas, uint64_t now_ns)
 {
     size_t thread_count = (size_t)backend_of(work)->thread_count;
     double *loads = xcalloc(thread_count, sizeof *loads);

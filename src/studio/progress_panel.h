@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * progress_panel.h - the panel of progress on the screen: when it is drawn, and what it
- * measures for that
+ * progress_panel.h - the panel of progress on the screen: when it is drawn, and
+ * what it measures for that
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: progress_panel_free() frees; a zeroed struct is switched off
  * Threads:   main only
- * Errors:    none
  */
 #ifndef GLIM_PROGRESS_PANEL_H
 #define GLIM_PROGRESS_PANEL_H
@@ -22,14 +21,17 @@ struct progress_panel {
 };
 
 /* On or off; the canvas's window is to be closed if it goes off. */
-void progress_panel_switch(struct progress_panel *g, const struct render_control *work);
+void progress_panel_switch(struct progress_panel *g,
+                           const struct render_control *work);
 
 /* When it wants to be drawn: UINT64_MAX, never, if nothing changes. */
-uint64_t progress_panel_next_ns(const struct progress_panel *g, const struct render_control *work);
+uint64_t progress_panel_next_ns(const struct progress_panel *g,
+                                const struct render_control *work);
 
 /* Opens the panel, or changes its text. */
-void progress_panel_draw(struct progress_panel *g, const struct render_control *work, struct screen *canvas,
-                uint64_t now_ns);
+void progress_panel_draw(struct progress_panel *g,
+                         const struct render_control *work,
+                         struct screen *canvas, uint64_t now_ns);
 
 void progress_panel_free(struct progress_panel *g);
 

@@ -155,7 +155,8 @@ static void put_braille(char *to, int left_dots, int right_dots)
              (char)(0x80 | (bits & 0x3f)));
 }
 
-static void format_plot(char *line, const struct progress_text_facts *f, int row)
+static void format_plot(char *line, const struct progress_text_facts *f,
+                        int row)
 {
     static const char ascii[] = " .:|#";
     double top = top_speed(f->speeds);
@@ -178,8 +179,9 @@ static void format_plot_title(char *line, const struct speeds *s)
 
     /* the last span may have just begun */
     progress_text_number(now, sizeof now,
-                 s->count > 0 ? speeds_at(s, s->count > 1 ? s->count - 2 : 0)
-                              : 0);
+                         s->count > 0
+                             ? speeds_at(s, s->count > 1 ? s->count - 2 : 0)
+                             : 0);
     progress_text_number(top, sizeof top, top_speed(s));
     snprintf(right, sizeof right, "now %s, most %s", now, top);
     put_sides(line, "samples/s", right);
@@ -198,7 +200,8 @@ static double mean_load(const double *loads, int begin, int end)
 static void format_loads(char *line, const struct progress_text_facts *f)
 {
     static const char ascii[] = "_.:-=+*#@";
-    int cols = f->load_count < PROGRESS_TEXT_COLS ? f->load_count : PROGRESS_TEXT_COLS;
+    int cols =
+        f->load_count < PROGRESS_TEXT_COLS ? f->load_count : PROGRESS_TEXT_COLS;
 
     line[0] = '\0';
     for (int i = 0; i < cols; i++) {
@@ -230,7 +233,7 @@ static void format_load_title(char *line, const struct progress_text_facts *f)
 }
 
 void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
-                  const struct progress_text_facts *f)
+                          const struct progress_text_facts *f)
 {
     const struct render_progress *p = f->progress;
     int row = 0;

@@ -8,7 +8,6 @@
  * Units:     terminal columns
  * Ownership: text goes to the caller's memory
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_PROGRESS_TEXT_H
 #define GLIM_PROGRESS_TEXT_H
@@ -31,7 +30,7 @@ struct progress_text_facts {
 };
 
 void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
-                  const struct progress_text_facts *facts);
+                          const struct progress_text_facts *facts);
 
 /* A number in few characters: 950, 9.50 k, 12.3 M, 123 G. */
 void progress_text_number(char *text, size_t size_bytes, double value);

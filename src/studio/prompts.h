@@ -5,7 +5,6 @@
  * Units:     keys are bytes or enum tty_key
  * Ownership: strings live as long as the program
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_PROMPTS_H
 #define GLIM_PROMPTS_H

@@ -32,7 +32,8 @@ static uint64_t reading_ns(const char *text)
 
 /* For `least_ns`, or as long as it takes to read. */
 static void __attribute__((format(printf, 3, 0)))
-say(struct render_control *w, uint64_t least_ns, const char *format, va_list values)
+say(struct render_control *w, uint64_t least_ns, const char *format,
+    va_list values)
 {
     uint64_t read_ns;
 
@@ -89,7 +90,8 @@ void render_control_be_heard(struct render_control *w)
     w->has_changed = true;
 }
 
-struct keymap_name render_control_key(const struct render_control *w, enum action action)
+struct keymap_name render_control_key(const struct render_control *w,
+                                      enum action action)
 {
     return keymap_first_name(&w->session->options->keys, action);
 }
@@ -138,11 +140,12 @@ static void restart(struct render_control *w)
     begin(w, false);
 }
 
-bool render_control_init(struct render_control *w, struct session *session, struct error *err)
+bool render_control_init(struct render_control *w, struct session *session,
+                         struct error *err)
 {
     *w = (struct render_control){.session = session,
-                       .is_live = true,
-                       .restarted_ns = clock_ns()};
+                                 .is_live = true,
+                                 .restarted_ns = clock_ns()};
     if (!session_restart(session, 0, err) || !save_thread_init(&w->saver, err))
         return false;
     if (!reload_init(&w->reload, session->options, err)) {
@@ -237,7 +240,7 @@ bool render_control_may_move(struct render_control *w)
 {
     if (!w->is_live)
         render_control_say(w, "the camera moves in live mode: %s goes there",
-                 render_control_key(w, ACTION_MODE).text);
+                           render_control_key(w, ACTION_MODE).text);
     return w->is_live;
 }
 
@@ -254,7 +257,8 @@ void render_control_set_live(struct render_control *w, bool is_live)
     }
     render_halt(w->session->render);
     render_control_say(w, "normal mode: %s starts the render, %s goes back",
-             render_control_key(w, ACTION_START).text, render_control_key(w, ACTION_MODE).text);
+                       render_control_key(w, ACTION_START).text,
+                       render_control_key(w, ACTION_MODE).text);
 }
 
 static void start_normal(struct render_control *w, bool is_step)
@@ -266,8 +270,10 @@ static void start_normal(struct render_control *w, bool is_step)
 
 static void say_done(struct render_control *w)
 {
-    render_control_say(w, "the render is done: %s saves it, %s goes to live mode",
-             render_control_key(w, ACTION_SAVE).text, render_control_key(w, ACTION_MODE).text);
+    render_control_say(w,
+                       "the render is done: %s saves it, %s goes to live mode",
+                       render_control_key(w, ACTION_SAVE).text,
+                       render_control_key(w, ACTION_MODE).text);
 }
 
 void render_control_start_or_halt(struct render_control *w)
@@ -311,7 +317,7 @@ void render_control_restart(struct render_control *w)
         restart(w);
     else
         render_control_say(w, "nothing is rendered yet: %s starts",
-                 render_control_key(w, ACTION_START).text);
+                           render_control_key(w, ACTION_START).text);
 }
 
 /* ---- backends ---- */
@@ -323,7 +329,8 @@ static void use(struct render_control *w, struct backend *backend)
     render_use(w->session->render, backend);
     restart(w);
     if (backend == m->device)
-        render_control_say(w, "%s renders; self-test: %s", backend->device, m->verdict);
+        render_control_say(w, "%s renders; self-test: %s", backend->device,
+                           m->verdict);
     else
         render_control_say(w, "the CPU renders");
 }
@@ -342,7 +349,7 @@ void render_control_switch_backend(struct render_control *w)
 
     if (!w->is_live) {
         render_control_say(w, "the backend changes in live mode: %s goes there",
-                 render_control_key(w, ACTION_MODE).text);
+                           render_control_key(w, ACTION_MODE).text);
     } else if (session_uses_device(w->session)) {
         use(w, m->cpu);
     } else if (m->device != NULL) {
@@ -379,8 +386,9 @@ void render_control_end_device(struct render_control *w)
         if (w->is_live)
             use(w, m->device);
         else
-            render_control_say(w, "OpenCL: the device is up: %s takes it in live mode",
-                     render_control_key(w, ACTION_BACKEND).text);
+            render_control_say(
+                w, "OpenCL: the device is up: %s takes it in live mode",
+                render_control_key(w, ACTION_BACKEND).text);
     } else if (w->session->options->backend == BACKEND_AUTO) {
         render_control_say(w, "%s", err.text);
     } else {
@@ -414,12 +422,13 @@ void render_control_reload(struct render_control *w)
 
     if (!w->is_live) {
         render_control_say(w, "files are loaded in live mode: %s goes there",
-                 render_control_key(w, ACTION_MODE).text);
+                           render_control_key(w, ACTION_MODE).text);
         return;
     }
     if (render_control_has_unsaved_edit(w)) {
-        render_control_say(w, "not loaded: changes of materials or light are not saved; "
-                    "in the panel ^S saves, u undoes");
+        render_control_say(
+            w, "not loaded: changes of materials or light are not saved; "
+               "in the panel ^S saves, u undoes");
         return;
     }
     file_watch_settle(&w->watch); /* what changes from here on is new again */
@@ -440,7 +449,7 @@ static void say_loaded(struct render_control *w)
         count += r->entries[i].count;
     if (count > 0)
         render_control_say(w, "loaded, %" PRIu64 " warning%s: %s", count,
-                 count == 1 ? "" : "s", r->entries[0].text);
+                           count == 1 ? "" : "s", r->entries[0].text);
     else
         render_control_say(w, "loaded %s", w->session->scene.path);
 }

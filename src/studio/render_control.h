@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * render_control.h - what the screen renders: live and normal mode, starting and halting,
- * on which backend, files that change, messages about it
+ * render_control.h - what the screen renders: live and normal mode, starting
+ * and halting, on which backend, files that change, messages about it
  *
  * Live mode renders without a limit and starts anew at every change. Normal
  * mode renders one view to the samples of -s; it can be halted, and what it has
  * made is not thrown away unasked.
  *
  * Units:     nanoseconds of clock_ns(), samples of all pixels together
- * Ownership: the session stays the caller's; render_control_free() frees the rest
- * Threads:   main only
- * Errors:    become messages, but for render_control_init()
+ * Ownership: the session stays the caller's; render_control_free() frees the
+ * rest Threads:   main only Errors:    become messages, but for
+ * render_control_init()
  */
 #ifndef GLIM_RENDER_CONTROL_H
 #define GLIM_RENDER_CONTROL_H
@@ -54,7 +54,8 @@ struct render_control {
 };
 
 /* Starts to render in live mode. */
-bool render_control_init(struct render_control *w, struct session *session, struct error *err);
+bool render_control_init(struct render_control *w, struct session *session,
+                         struct error *err);
 
 /* Shown for a while, or for longer; an error stays until a key, and so long at
  * least. */
@@ -72,7 +73,8 @@ void render_control_be_silent(struct render_control *w);
 void render_control_be_heard(struct render_control *w);
 
 /* The key of an action, for messages that tell what to do next. */
-struct keymap_name render_control_key(const struct render_control *w, enum action action);
+struct keymap_name render_control_key(const struct render_control *w,
+                                      enum action action);
 
 /* Printed when the screen is closed. */
 void render_control_add_result(struct render_control *w, const char *text);
@@ -124,9 +126,9 @@ void render_control_end_device(struct render_control *w);
 void render_control_look_at_files(struct render_control *w);
 
 /* Begins to load the files of the scene anew; what is rendered stays until the
- * reload's event_fd says, in live mode, that render_control_end_reload() has the result.
- * An error, then render_control_end_reload() is false, leaves the old scene. What is
- * edited and not saved would be lost: it is refused. */
+ * reload's event_fd says, in live mode, that render_control_end_reload() has
+ * the result. An error, then render_control_end_reload() is false, leaves the
+ * old scene. What is edited and not saved would be lost: it is refused. */
 void render_control_reload(struct render_control *w);
 bool render_control_end_reload(struct render_control *w);
 

@@ -37,7 +37,7 @@ void work_save_picture(struct render_control *w, const char *ending)
     }
     stem = scene_name(w);
     if (save_thread_begin(&w->saver, render_film(w->session->render),
-                    session_develop(w->session), stem, ending, &err)) {
+                          session_develop(w->session), stem, ending, &err)) {
         w->saving_samples = now.samples;
         snprintf(w->saving_what, sizeof w->saving_what,
                  "%dx%d, %" PRIu64 " spp",
@@ -127,10 +127,11 @@ void work_save_view(struct render_control *w)
         if (w->is_live)
             render_control_say(w, "not written: the scene is being loaded");
         else
-            render_control_say(w,
-                     "not written: a loaded scene waits for live mode: %s goes "
-                     "there",
-                     render_control_key(w, ACTION_MODE).text);
+            render_control_say(
+                w,
+                "not written: a loaded scene waits for live mode: %s goes "
+                "there",
+                render_control_key(w, ACTION_MODE).text);
         return;
     }
     if (!session_save_view(s, &change, &err)) {
@@ -169,7 +170,8 @@ bool work_save_edit(struct render_control *w)
 static bool is_worth_keeping(const struct render_control *w)
 {
     return w->progress.samples > w->saved_samples &&
-           (w->progress.render_ns >= WORTH_NS || render_control_has_unsaved(w) ||
+           (w->progress.render_ns >= WORTH_NS ||
+            render_control_has_unsaved(w) ||
             render_control_has_unsaved_edit(w));
 }
 
@@ -187,7 +189,7 @@ void work_keep(struct render_control *w)
     if (!path)
         text = xstrdup("not kept: found no folder for the person's state");
     else if (image_write(render_film(s->render), session_develop(s), path,
-                           &err))
+                         &err))
         text = xformat("kept %s, %" PRIu64 " spp", path, w->progress.spp_done);
     else
         text = xstrdup(err.text);

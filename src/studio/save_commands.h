@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * save_commands.h - what of the work becomes files: pictures, texts, the view, what
- * was edited
+ * save_commands.h - what of the work becomes files: pictures, texts, the view,
+ * what was edited
  *
- * Units:     none
- * Ownership: none
  * Threads:   main only
  * Errors:    become messages
  */
@@ -22,8 +20,8 @@ void work_save_picture(struct render_control *w, const char *ending);
 /* Writes a picture that is no film, as STEM.png or the next free name. */
 void work_save_frame(struct render_control *w, const struct frame *frame);
 
-/* Writes a picture of ansi_text_frame_init() as text, as STEM.ans or the next free
- * name. */
+/* Writes a picture of ansi_text_frame_init() as text, as STEM.ans or the next
+ * free name. */
 void work_save_text(struct render_control *w, const struct frame *frame,
                     const struct ansi_text_style *style);
 

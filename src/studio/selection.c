@@ -118,7 +118,7 @@ bool selection_find(struct selection *s, const struct selection_names *names)
         s->object = object;
     return s->page == PARAMETER_MATERIAL ? material != NO_INDEX
            : s->page == PARAMETER_OBJECT ? object < scene->object_count
-                                    : true;
+                                         : true;
 }
 
 struct parameter_target selection_target(const struct selection *s)
@@ -126,13 +126,15 @@ struct parameter_target selection_target(const struct selection *s)
     return (struct parameter_target){s->page, selection_index(s), s->by_hsv};
 }
 
-int selection_knobs(const struct selection *s, struct parameter knobs[PARAMETERS_MAX])
+int selection_knobs(const struct selection *s,
+                    struct parameter knobs[PARAMETERS_MAX])
 {
     struct parameter_target target = selection_target(s);
 
     if (!selection_has_one(s))
         return 0;
-    return parameters_list(&s->session->edit, &s->session->scene, &target, knobs);
+    return parameters_list(&s->session->edit, &s->session->scene, &target,
+                           knobs);
 }
 
 uint32_t selection_material_of(const struct selection *s, uint32_t object)

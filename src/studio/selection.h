@@ -3,10 +3,8 @@
  * selection.h - what of a scene is selected for editing: a material, an object,
  * or the light
  *
- * Units:     none
  * Ownership: the session stays the caller's; selection_free() frees the rest
  * Threads:   one thread at a time
- * Errors:    none
  */
 #ifndef GLIM_SELECTION_H
 #define GLIM_SELECTION_H
@@ -53,7 +51,8 @@ struct selection_names selection_names(const struct selection *s);
 bool selection_find(struct selection *s, const struct selection_names *names);
 
 /* The knobs of what is selected; 0: there is nothing. */
-int selection_knobs(const struct selection *s, struct parameter knobs[PARAMETERS_MAX]);
+int selection_knobs(const struct selection *s,
+                    struct parameter knobs[PARAMETERS_MAX]);
 struct parameter_target selection_target(const struct selection *s);
 
 /* The material that an object is shown with. */

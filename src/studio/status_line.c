@@ -65,7 +65,8 @@ static double samples_left(const struct render_progress *p)
                : 0.0;
 }
 
-bool status_line_left(char *text, size_t size_bytes, const struct render_progress *p)
+bool status_line_left(char *text, size_t size_bytes,
+                      const struct render_progress *p)
 {
     double left_ns;
 
@@ -74,8 +75,8 @@ bool status_line_left(char *text, size_t size_bytes, const struct render_progres
     left_ns = (double)p->render_ns * samples_left(p) / (double)p->samples;
     /* a second that has begun is left as a whole one */
     status_line_duration(text, size_bytes,
-                    left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
-                                   : UINT64_C(1000000000000000000));
+                         left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
+                                        : UINT64_C(1000000000000000000));
     return true;
 }
 
@@ -90,7 +91,8 @@ static void format_limited(char text[FIELDS][FIELD_BYTES],
     snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 "/%" PRIu64 " spp",
              p->spp_done, p->spp_limit);
     snprintf(text[FIELD_PERCENT], FIELD_BYTES, "%d %%", (int)(100.0 * part));
-    if (p->state == RENDER_RUNNING && status_line_left(duration, sizeof duration, p))
+    if (p->state == RENDER_RUNNING &&
+        status_line_left(duration, sizeof duration, p))
         snprintf(text[FIELD_LEFT], FIELD_BYTES, "left %s", duration);
 }
 
@@ -146,7 +148,8 @@ static int length_of(char text[FIELDS][FIELD_BYTES])
     return length;
 }
 
-void status_line_format(char text[STATUS_BYTES], int cols, const struct status_line *s)
+void status_line_format(char text[STATUS_BYTES], int cols,
+                        const struct status_line *s)
 {
     char fields[FIELDS][FIELD_BYTES] = {{0}};
     int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;

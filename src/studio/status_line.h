@@ -28,17 +28,19 @@ struct status_line {
 };
 
 /* Writes a line for `cols` columns. */
-void status_line_format(char text[STATUS_BYTES], int cols, const struct status_line *s);
+void status_line_format(char text[STATUS_BYTES], int cols,
+                        const struct status_line *s);
 
 /* Seconds as people read them: 7 s, 1:07, 2:01:07. Rounds down. */
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns);
 
 /* The time that is left, in such words. False if nobody can know. */
 bool status_line_left(char *text, size_t size_bytes,
-                 const struct render_progress *p);
+                      const struct render_progress *p);
 
 /* Copies a message for the screen: no control characters, cut at `cols`
  * bytes. */
-void status_line_message(char text[STATUS_BYTES], int cols, const char *message);
+void status_line_message(char text[STATUS_BYTES], int cols,
+                         const char *message);
 
 #endif

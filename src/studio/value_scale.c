@@ -10,46 +10,46 @@
 #define GROWTH 1.1
 
 const struct value_scale scale_unit = {.most = 1,
-                                 .to = 1,
-                                 .step = 0.01,
-                                 .digits = 3,
-                                 .expected = "a number from 0 to 1"};
+                                       .to = 1,
+                                       .step = 0.01,
+                                       .digits = 3,
+                                       .expected = "a number from 0 to 1"};
 const struct value_scale scale_hue = {.most = 360,
-                                .to = 360,
-                                .step = 1,
-                                .digits = 3,
-                                .wraps = true,
-                                .expected = "an angle from 0 to 360"};
+                                      .to = 360,
+                                      .step = 1,
+                                      .digits = 3,
+                                      .wraps = true,
+                                      .expected = "an angle from 0 to 360"};
 const struct value_scale scale_light = {.most = 1e30,
-                                  .from = 0.01,
-                                  .to = 1e4,
-                                  .digits = 4,
-                                  .grows = true,
-                                  .expected = "a number from 0 to 1e30"};
+                                        .from = 0.01,
+                                        .to = 1e4,
+                                        .digits = 4,
+                                        .grows = true,
+                                        .expected = "a number from 0 to 1e30"};
 
 const struct value_scale scale_ior = {.least = 1e-6,
-                                .most = 1e6,
-                                .from = 1,
-                                .to = 3,
-                                .step = 0.01,
-                                .digits = 4,
-                                .expected = "a number above 0"};
+                                      .most = 1e6,
+                                      .from = 1,
+                                      .to = 3,
+                                      .step = 0.01,
+                                      .digits = 4,
+                                      .expected = "a number above 0"};
 const struct value_scale scale_rotation = {.least = -1e6,
-                                     .most = 1e6,
-                                     .to = 360,
-                                     .step = 1,
-                                     .digits = 4,
-                                     .wraps = true,
-                                     .expected = "an angle in degrees"};
-const struct value_scale scale_exposure = {.least = -100,
-                                     .most = 100,
-                                     .from = -8,
-                                     .to = 8,
-                                     .step = 0.1,
-                                     .digits = 3,
-                                     .of = " stops",
-                                     .expected =
-                                         "a number of stops from -100 to 100"};
+                                           .most = 1e6,
+                                           .to = 360,
+                                           .step = 1,
+                                           .digits = 4,
+                                           .wraps = true,
+                                           .expected = "an angle in degrees"};
+const struct value_scale scale_exposure = {
+    .least = -100,
+    .most = 100,
+    .from = -8,
+    .to = 8,
+    .step = 0.1,
+    .digits = 3,
+    .of = " stops",
+    .expected = "a number of stops from -100 to 100"};
 
 static double clamped(double x, double least, double most)
 {
@@ -93,14 +93,14 @@ double value_scale_place(const struct value_scale *s, double value)
 }
 
 void value_scale_format(const struct value_scale *s, double value, char *text,
-                  size_t size_bytes)
+                        size_t size_bytes)
 {
     snprintf(text, size_bytes, "%.*g%s", s->digits, value,
              s->of != NULL ? s->of : "");
 }
 
-bool value_scale_parse(const struct value_scale *s, const char *text, double *value,
-                 struct error *err)
+bool value_scale_parse(const struct value_scale *s, const char *text,
+                       double *value, struct error *err)
 {
     const char *p = text;
 

@@ -23,22 +23,24 @@ struct value_scale {
     const char *expected;
 };
 
-extern const struct value_scale scale_unit;  /* 0 to 1 */
-extern const struct value_scale scale_hue;   /* degrees */
-extern const struct value_scale scale_light; /* radiance, or what multiplies it */
+extern const struct value_scale scale_unit; /* 0 to 1 */
+extern const struct value_scale scale_hue;  /* degrees */
+extern const struct value_scale
+    scale_light; /* radiance, or what multiplies it */
 extern const struct value_scale scale_ior;
 extern const struct value_scale scale_rotation; /* degrees */
 extern const struct value_scale scale_exposure; /* stops */
 
 /* The value some steps on. */
-double value_scale_turned(const struct value_scale *scale, double value, int steps);
+double value_scale_turned(const struct value_scale *scale, double value,
+                          int steps);
 
 /* Where the value is between `from` and `to`, 0 to 1. */
 double value_scale_place(const struct value_scale *scale, double value);
 
-void value_scale_format(const struct value_scale *scale, double value, char *text,
-                  size_t size_bytes);
-bool value_scale_parse(const struct value_scale *scale, const char *text, double *value,
-                 struct error *err);
+void value_scale_format(const struct value_scale *scale, double value,
+                        char *text, size_t size_bytes);
+bool value_scale_parse(const struct value_scale *scale, const char *text,
+                       double *value, struct error *err);
 
 #endif

@@ -92,7 +92,8 @@ void workspace_layout(struct workspace *st)
     inspector_open_panel(&st->inside); /* it went with the layout */
 }
 
-void workspace_init(struct workspace *st, struct render_control *work, struct camera_control *pilot)
+void workspace_init(struct workspace *st, struct render_control *work,
+                    struct camera_control *pilot)
 {
     *st = (struct workspace){.work = work, .pilot = pilot};
     editor_panel_init(&st->panel, work, &st->canvas);
@@ -187,7 +188,8 @@ static void close_help(struct workspace *st)
 static void next_colors(struct workspace *st)
 {
     term_caps_next_palette(&st->canvas.display);
-    render_control_say(st->work, "%s", palette_name(st->canvas.display.palette));
+    render_control_say(st->work, "%s",
+                       palette_name(st->canvas.display.palette));
     workspace_layout(st);
 }
 
@@ -362,7 +364,8 @@ bool workspace_draw(struct workspace *st, uint64_t now_ns)
     enum screen_result result;
 
     show_messages(st, now_ns);
-    if (shows_gauge(st) && now_ns >= progress_panel_next_ns(&st->gauge, st->work))
+    if (shows_gauge(st) &&
+        now_ns >= progress_panel_next_ns(&st->gauge, st->work))
         progress_panel_draw(&st->gauge, st->work, c, now_ns);
     if ((!shows && !c->must_update) || !frame_pacing_may_send(&c->pace))
         return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * workspace.h - what is on the screen: the picture, the panel beside it, one window
- * over it, the last line; and when each is drawn
+ * workspace.h - what is on the screen: the picture, the panel beside it, one
+ * window over it, the last line; and when each is drawn
  *
  * Help, progress, directions and a path share one window: the help hides the
  * others while it is open, and there is room either for progress or for the
@@ -30,9 +30,9 @@ struct workspace {
     struct inspector inside;
     struct editor_panel panel;
     struct progress_panel gauge; /* hidden while the help is open */
-    int help_number;    /* the page that is shown, */
-    int help_left;      /* with those behind it; 0: no help */
-    const char *prompt; /* in the last line; NULL: nothing is asked */
+    int help_number;             /* the page that is shown, */
+    int help_left;               /* with those behind it; 0: no help */
+    const char *prompt;          /* in the last line; NULL: nothing is asked */
 
     uint64_t lack_ns; /* when to ask why there are no pixels; 0: never */
 
@@ -45,7 +45,8 @@ struct workspace {
 /* Says what the next restart's draft is like, before there is a screen. */
 void workspace_expect(struct session *s);
 
-void workspace_init(struct workspace *st, struct render_control *work, struct camera_control *pilot);
+void workspace_init(struct workspace *st, struct render_control *work,
+                    struct camera_control *pilot);
 
 /* After tty_open(). */
 void workspace_open(struct workspace *st);

@@ -286,7 +286,7 @@ static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
 }
 
 bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
-                  const struct ansi_diff_draw *how)
+                       const struct ansi_diff_draw *how)
 {
     size_t limit = how->budget_bytes > SIZE_MAX - a->length
                        ? SIZE_MAX
@@ -327,7 +327,7 @@ void ansi_diff_end(struct ansi_diff *a, int row)
 }
 
 bool ansi_diff_lines(const struct cells *cells, char **text, size_t *size_bytes,
-                struct error *err)
+                     struct error *err)
 {
     struct ansi_diff a;
 

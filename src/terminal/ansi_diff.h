@@ -68,12 +68,12 @@ int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row);
 /* Appends what turns the shown picture into `cells`. Leaves colours and cursor
  * anywhere. True if nothing is left for the next frame. */
 bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
-                  const struct ansi_diff_draw *how);
+                       const struct ansi_diff_draw *how);
 
 /* The cells as lines of text for a file or a pipe, each with its colours and
  * the reader's own at its end. *text is for free(). */
 bool ansi_diff_lines(const struct cells *cells, char **text, size_t *size_bytes,
-                struct error *err);
+                     struct error *err);
 
 /* Appends the way back: own colours, cursor at this row, column 0. */
 void ansi_diff_end(struct ansi_diff *a, int row);

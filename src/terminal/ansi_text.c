@@ -3,8 +3,9 @@
 
 #include "terminal/ansi_diff.h"
 
-bool ansi_text_frame_init(struct frame *frame, const struct ansi_text_style *style,
-                     struct error *err)
+bool ansi_text_frame_init(struct frame *frame,
+                          const struct ansi_text_style *style,
+                          struct error *err)
 {
     struct glyph_grid grid = glyphs_grid(style->glyphs);
 
@@ -12,8 +13,9 @@ bool ansi_text_frame_init(struct frame *frame, const struct ansi_text_style *sty
                       err);
 }
 
-bool ansi_text_of_frame(const struct frame *frame, const struct ansi_text_style *style,
-                   char **text, size_t *size_bytes, struct error *err)
+bool ansi_text_of_frame(const struct frame *frame,
+                        const struct ansi_text_style *style, char **text,
+                        size_t *size_bytes, struct error *err)
 {
     struct cells cells = {0};
     bool ok = cells_init(&cells, style->cols, style->rows, err);

@@ -21,10 +21,12 @@ struct ansi_text_style {
 };
 
 /* The frame that such a text is made of, for frame_free(). */
-bool ansi_text_frame_init(struct frame *frame, const struct ansi_text_style *style,
-                     struct error *err);
+bool ansi_text_frame_init(struct frame *frame,
+                          const struct ansi_text_style *style,
+                          struct error *err);
 
-bool ansi_text_of_frame(const struct frame *frame, const struct ansi_text_style *style,
-                   char **text, size_t *size_bytes, struct error *err);
+bool ansi_text_of_frame(const struct frame *frame,
+                        const struct ansi_text_style *style, char **text,
+                        size_t *size_bytes, struct error *err);
 
 #endif

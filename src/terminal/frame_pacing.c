@@ -32,10 +32,10 @@
 void frame_pacing_init(struct frame_pacing *p, uint64_t now_ns)
 {
     *p = (struct frame_pacing){.state = FRAME_PACING_UNKNOWN,
-                       .outstanding = 1,
-                       .asked_ns = now_ns,
-                       .first_asked_ns = now_ns,
-                       .budget_bytes = BUDGET_FIRST};
+                               .outstanding = 1,
+                               .asked_ns = now_ns,
+                               .first_asked_ns = now_ns,
+                               .budget_bytes = BUDGET_FIRST};
 }
 
 bool frame_pacing_may_send(const struct frame_pacing *p)
@@ -110,8 +110,8 @@ static void learn_from_write(struct frame_pacing *p, uint64_t took_ns)
         p->budget_bytes *= 2;
 }
 
-void frame_pacing_sent(struct frame_pacing *p, size_t size_bytes, bool with_request,
-               uint64_t begin_ns, uint64_t end_ns)
+void frame_pacing_sent(struct frame_pacing *p, size_t size_bytes,
+                       bool with_request, uint64_t begin_ns, uint64_t end_ns)
 {
     p->frame_bytes = size_bytes;
     p->first_frame_sent = true;
@@ -155,8 +155,8 @@ uint64_t frame_pacing_deadline_ns(const struct frame_pacing *p)
 {
     if (p->state == FRAME_PACING_MUTE || p->outstanding == 0)
         return UINT64_MAX;
-    return p->asked_ns +
-           (p->state == FRAME_PACING_UNKNOWN ? FIRST_ANSWER_NS : LOST_ANSWER_NS);
+    return p->asked_ns + (p->state == FRAME_PACING_UNKNOWN ? FIRST_ANSWER_NS
+                                                           : LOST_ANSWER_NS);
 }
 
 void frame_pacing_tick(struct frame_pacing *p, uint64_t now_ns)

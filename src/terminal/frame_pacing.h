@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * frame_pacing.h - when the next frame may be written, and how many bytes it may have
+ * frame_pacing.h - when the next frame may be written, and how many bytes it
+ * may have
  *
  * After each frame the terminal is asked for a sign (ESC[5n). The next frame
  * waits for it, and the time it took says how fast the line is. The write
  * queue would not tell: over ssh megabytes fit between here and the screen.
  *
  * Units:     nanoseconds of clock_ns(), bytes
- * Ownership: none
  * Threads:   one thread at a time
  * Errors:    none; a terminal that never answers is written to all the same
  */
@@ -53,14 +53,14 @@ bool frame_pacing_wants_request(const struct frame_pacing *p);
 
 /* A frame of so many bytes was written between these times; with_request says
  * that FRAME_PACING_REQUEST was at its end. */
-void frame_pacing_sent(struct frame_pacing *p, size_t size_bytes, bool with_request,
-               uint64_t begin_ns, uint64_t end_ns);
+void frame_pacing_sent(struct frame_pacing *p, size_t size_bytes,
+                       bool with_request, uint64_t begin_ns, uint64_t end_ns);
 
 /* An answer to FRAME_PACING_REQUEST came. */
 void frame_pacing_answer(struct frame_pacing *p, uint64_t now_ns);
 
-/* Gives up waiting when it took too long. Call it when frame_pacing_deadline_ns() has
- * passed, or more often. */
+/* Gives up waiting when it took too long. Call it when
+ * frame_pacing_deadline_ns() has passed, or more often. */
 void frame_pacing_tick(struct frame_pacing *p, uint64_t now_ns);
 
 /* Answers that are on their way will not come: somebody else has read them. */

@@ -4,9 +4,7 @@
  *
  * Units:     Unicode code points; dots, bit 0 at the upper left, then along
  *            the rows
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_GLYPHS_H
 #define GLIM_GLYPHS_H

@@ -2,10 +2,8 @@
 /*
  * palette.h - which colours a terminal has, guessed from its environment
  *
- * Units:     none
  * Ownership: strings stay the caller's
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_PALETTE_H
 #define GLIM_PALETTE_H

@@ -16,15 +16,17 @@
 /* A jump to any cell. */
 #define JUMP_BYTES 24
 
-static bool init_frame(struct frame *frame, const struct pixel_graphics_shape *shape,
+static bool init_frame(struct frame *frame,
+                       const struct pixel_graphics_shape *shape,
                        struct error *err)
 {
     return frame_init(frame, shape->cols * shape->cell_width_px,
                       shape->rows * shape->cell_height_px, err);
 }
 
-bool pixel_graphics_init(struct pixel_graphics *g, const struct pixel_graphics_shape *shape,
-                   struct error *err)
+bool pixel_graphics_init(struct pixel_graphics *g,
+                         const struct pixel_graphics_shape *shape,
+                         struct error *err)
 {
     int most = SIXEL_WIDTH_MAX / shape->cell_width_px;
 
@@ -76,8 +78,9 @@ const char *pixel_graphics_eraser(enum pixel_graphics_kind kind)
 
 /* The columns of a tile that no window covers: the first stretch of them. A
  * window that leaves both ends of a tile free is narrower than any of ours. */
-static struct pixel_graphics_tile wanted_tile(const struct pixel_graphics *g, int index,
-                                        const struct ansi_diff_draw *how)
+static struct pixel_graphics_tile wanted_tile(const struct pixel_graphics *g,
+                                              int index,
+                                              const struct ansi_diff_draw *how)
 {
     int row = index / g->tiles_across;
     int first = index % g->tiles_across * g->tile_cols;
@@ -89,7 +92,8 @@ static struct pixel_graphics_tile wanted_tile(const struct pixel_graphics *g, in
     if (tile.begin >= last)
         return (struct pixel_graphics_tile){.is_known = true};
     for (tile.end = tile.begin + 1;
-         tile.end < last && ansi_diff_uncovered(how, tile.end, row) == tile.end;)
+         tile.end < last &&
+         ansi_diff_uncovered(how, tile.end, row) == tile.end;)
         tile.end++;
     return tile;
 }
@@ -175,7 +179,8 @@ static size_t encode_kitty(const struct pixel_graphics *g, int index,
     return kitty_encode(&image, bytes);
 }
 
-static size_t tile_bytes_max(const struct pixel_graphics *g, const struct area *area)
+static size_t tile_bytes_max(const struct pixel_graphics *g,
+                             const struct area *area)
 {
     return JUMP_BYTES + (g->shape.kind == PIXEL_GRAPHICS_KITTY
                              ? kitty_bytes_max(area->width, area->height)
@@ -233,7 +238,8 @@ static void enlarge(const struct frame *from, struct frame *to)
 }
 
 bool pixel_graphics_picture(struct pixel_graphics *g, struct ansi_diff *a,
-                      const struct frame *frame, const struct ansi_diff_draw *how)
+                            const struct frame *frame,
+                            const struct ansi_diff_draw *how)
 {
     const char *eraser = pixel_graphics_eraser(g->shape.kind);
     int count = g->tiles_across * g->shape.rows;

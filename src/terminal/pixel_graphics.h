@@ -17,7 +17,11 @@
 
 #include "terminal/ansi_diff.h"
 
-enum pixel_graphics_kind { PIXEL_GRAPHICS_NONE, PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY };
+enum pixel_graphics_kind {
+    PIXEL_GRAPHICS_NONE,
+    PIXEL_GRAPHICS_SIXEL,
+    PIXEL_GRAPHICS_KITTY
+};
 
 struct pixel_graphics_shape {
     enum pixel_graphics_kind kind;
@@ -44,18 +48,21 @@ struct pixel_graphics {
     uint8_t *numbers; /* of a tile */
 };
 
-bool pixel_graphics_init(struct pixel_graphics *g, const struct pixel_graphics_shape *shape,
-                   struct error *err);
+bool pixel_graphics_init(struct pixel_graphics *g,
+                         const struct pixel_graphics_shape *shape,
+                         struct error *err);
 void pixel_graphics_free(struct pixel_graphics *g);
 
 /* Something else has written over these cells of the picture. */
-void pixel_graphics_forget(struct pixel_graphics *g, struct ansi_diff_rect rect);
+void pixel_graphics_forget(struct pixel_graphics *g,
+                           struct ansi_diff_rect rect);
 
 /* Appends what turns the shown picture into the frame, of which pixels are
  * repeated up to those of the terminal. True if nothing is left for the next
  * frame. */
 bool pixel_graphics_picture(struct pixel_graphics *g, struct ansi_diff *a,
-                      const struct frame *frame, const struct ansi_diff_draw *how);
+                            const struct frame *frame,
+                            const struct ansi_diff_draw *how);
 
 /* What removes all pixels where cells that are written over them do not; NULL:
  * nothing. */

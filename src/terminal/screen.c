@@ -118,7 +118,7 @@ static bool init_pixels(struct screen *c, const struct tty_size *size,
 
     if (shape.kind == PIXEL_GRAPHICS_NONE ||
         !term_caps_cell_size(d, size, &shape.cell_width_px,
-                           &shape.cell_height_px))
+                             &shape.cell_height_px))
         return false;
     if (pixel_graphics_init(&c->graphics, &shape, err) &&
         frame_init(&c->frame, at_most(c->graphics.shown.width, width_px),
@@ -198,8 +198,8 @@ static void give_to_picture(struct screen *c, struct ansi_diff_rect rect)
 /* The last row of the screen, as a part of the picture. */
 static struct ansi_diff_rect last_row(const struct screen *c)
 {
-    return (struct ansi_diff_rect){0, term_size().rows - 1 - c->fit.row, c->fit.cols,
-                              1};
+    return (struct ansi_diff_rect){0, term_size().rows - 1 - c->fit.row,
+                                   c->fit.cols, 1};
 }
 
 void screen_status(struct screen *c, const char *text)
@@ -246,7 +246,7 @@ static bool write_swatches(struct screen *c)
 static void cover(struct screen *c, struct window_rect r)
 {
     c->window = (struct ansi_diff_rect){r.col - c->fit.col, r.row - c->fit.row,
-                                   r.cols, r.rows};
+                                        r.cols, r.rows};
     c->must_update = true;
 }
 
@@ -303,11 +303,11 @@ static bool add_picture(struct screen *c, struct film *film, struct film *draft,
 {
     struct ansi_diff_rect covered[2] = {c->window};
     struct ansi_diff_draw draw = {.col = c->fit.col,
-                             .row = c->fit.row,
-                             .budget_bytes = c->pace.budget_bytes,
-                             .step = step,
-                             .covered = covered,
-                             .covered_count = 1};
+                                  .row = c->fit.row,
+                                  .budget_bytes = c->pace.budget_bytes,
+                                  .step = step,
+                                  .covered = covered,
+                                  .covered_count = 1};
 
     if (c->has_status && !c->has_status_row) {
         covered[1] = last_row(c);
@@ -379,8 +379,8 @@ enum screen_result screen_draw(struct screen *c, struct film *film,
 
 struct ansi_text_style screen_style(const struct screen *c)
 {
-    return (struct ansi_text_style){c->fit.cols, c->fit.rows, c->display.palette,
-                               c->display.glyphs};
+    return (struct ansi_text_style){c->fit.cols, c->fit.rows,
+                                    c->display.palette, c->display.glyphs};
 }
 
 static bool awaits_answers(const struct screen *c)

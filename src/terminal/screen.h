@@ -44,11 +44,11 @@ struct screen {
     struct ansi_diff ansi;
     char status[STATUS_BYTES];
     bool has_status;
-    struct ansi_diff_rect window;  /* no columns: closed */
-    bool must_update;         /* curses has something to write */
-    bool has_panel;           /* the next layout leaves room for one */
-    int panel_cols;           /* at the right edge; 0: none */
-    struct swatches swatches; /* of the panel's lines */
+    struct ansi_diff_rect window; /* no columns: closed */
+    bool must_update;             /* curses has something to write */
+    bool has_panel;               /* the next layout leaves room for one */
+    int panel_cols;               /* at the right edge; 0: none */
+    struct swatches swatches;     /* of the panel's lines */
     bool has_new_panel;
     bool has_cursor;
     int cursor_col, cursor_row; /* in the picture */

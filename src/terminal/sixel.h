@@ -8,7 +8,6 @@
  * Units:     pixels, bytes
  * Ownership: the buffer is the caller's
  * Threads:   any
- * Errors:    none
  */
 #ifndef GLIM_SIXEL_H
 #define GLIM_SIXEL_H

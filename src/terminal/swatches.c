@@ -66,13 +66,14 @@ void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
         xcalloc((size_t)s->cells.rows + 1, sizeof *covered);
     int count = find_gaps(s, covered);
     struct ansi_diff_draw how = {.col = col,
-                            .row = row,
-                            .budget_bytes = SIZE_MAX,
-                            .covered = covered,
-                            .covered_count = count + 1};
+                                 .row = row,
+                                 .budget_bytes = SIZE_MAX,
+                                 .covered = covered,
+                                 .covered_count = count + 1};
 
-    covered[count] = (struct ansi_diff_rect){window->col - col, window->row - row,
-                                        window->cols, window->rows};
+    covered[count] =
+        (struct ansi_diff_rect){window->col - col, window->row - row,
+                                window->cols, window->rows};
     ansi_diff_begin(&s->ansi);
     ansi_diff_forget_all(&s->ansi);
     cells_from_frame(&s->cells, &s->frame, palette, GLYPHS_SPACE);

@@ -31,7 +31,7 @@ static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
 }
 
 enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
-                           bool has_unicode)
+                             bool has_unicode)
 {
     switch (mode) {
     case GLYPH_HALF: return GLYPHS_HALF;
@@ -74,7 +74,7 @@ void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice)
     bool may_learn;
 
     *d = (struct term_caps){.cell_aspect = choice->cell_aspect,
-                          .aspect_is_final = choice->cell_aspect > 0};
+                            .aspect_is_final = choice->cell_aspect > 0};
     d->has_unicode = tty_is_utf8(&may_learn);
     d->unicode_is_final = !may_learn;
     choose_palette(d, choice->color);
@@ -93,7 +93,7 @@ static bool is_aspect(double height_over_width)
 }
 
 double term_caps_cell_aspect(const struct term_caps *d,
-                           const struct tty_size *size)
+                             const struct tty_size *size)
 {
     if (d->cell_aspect > 0)
         return d->cell_aspect;
@@ -104,7 +104,7 @@ double term_caps_cell_aspect(const struct term_caps *d,
 }
 
 bool term_caps_cell_size(const struct term_caps *d, const struct tty_size *size,
-                       int *width_px, int *height_px)
+                         int *width_px, int *height_px)
 {
     bool was_told = d->cell_width_px > 0;
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * term_caps.h - what the terminal can show, as far as it is known, and what of it
- * is wanted
+ * term_caps.h - what the terminal can show, as far as it is known, and what of
+ * it is wanted
  *
  * Begins with what the environment says; the terminal's answers tell better
  * when they come.
  *
  * Units:     pixels of the terminal
- * Ownership: none
  * Threads:   main only
- * Errors:    none
  */
 #ifndef GLIM_TERM_CAPS_H
 #define GLIM_TERM_CAPS_H
@@ -66,7 +64,7 @@ enum palette term_caps_palette(enum color_mode mode);
 /* What the cells are made of. Pixels have what is common as the fall-back: half
  * blocks, without colours braille; blanks and letters without Unicode. */
 enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
-                           bool has_unicode);
+                             bool has_unicode);
 
 /* Takes an answer of the terminal. True if cells are others than before, or of
  * another shape. */
@@ -88,10 +86,10 @@ const char *term_caps_lack(const struct term_caps *d);
 /* Height of a cell over its width: what the person gave, what the terminal
  * answered, what the system says, what is common. */
 double term_caps_cell_aspect(const struct term_caps *d,
-                           const struct tty_size *size);
+                             const struct tty_size *size);
 
 /* False if nobody has said how large a cell is. */
 bool term_caps_cell_size(const struct term_caps *d, const struct tty_size *size,
-                       int *width_px, int *height_px);
+                         int *width_px, int *height_px);
 
 #endif

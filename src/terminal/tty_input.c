@@ -287,7 +287,8 @@ static void take_character(struct sequence *s, const unsigned char *p,
         set_key(s, TTY_KEY_OTHER);
 }
 
-bool tty_input_next(struct tty_input *in, bool nothing_follows, struct event *event)
+bool tty_input_next(struct tty_input *in, bool nothing_follows,
+                    struct event *event)
 {
     while (in->length > 0) {
         struct sequence s = {0};

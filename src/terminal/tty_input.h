@@ -5,7 +5,6 @@
  * Sequences may come in pieces, and answers between keys.
  *
  * Units:     terminal cells, from 1
- * Ownership: none
  * Threads:   one thread at a time
  * Errors:    none; what nobody understands is dropped whole
  */
@@ -74,7 +73,8 @@ size_t tty_input_feed(struct tty_input *in, const void *bytes, size_t count);
 /* The next event; false if there is none, perhaps because a sequence is not
  * complete. nothing_follows says that no byte has come for a while, so that a
  * lone ESC is the key and a half sequence is rubbish. */
-bool tty_input_next(struct tty_input *in, bool nothing_follows, struct event *event);
+bool tty_input_next(struct tty_input *in, bool nothing_follows,
+                    struct event *event);
 
 /* True if the beginning of a sequence waits for the rest. */
 static inline bool tty_input_is_partial(const struct tty_input *in)

@@ -5,7 +5,6 @@
  * Units:     the values'
  * Ownership: none; the values stay as they are
  * Threads:   any
- * Errors:    none
  */
 #ifndef BENCH_MEDIAN_H
 #define BENCH_MEDIAN_H

@@ -93,7 +93,8 @@ static void edit(struct session *s, const uint8_t *bytes)
 {
     struct edit *e = &s->edit;
     uint32_t material = bytes[0] % e->material_count;
-    struct parameter_target target = {.page = PARAMETER_MATERIAL, .index = material};
+    struct parameter_target target = {.page = PARAMETER_MATERIAL,
+                                      .index = material};
     struct parameter knobs[PARAMETERS_MAX];
     int count;
 

@@ -3,9 +3,7 @@
  * lamp.h - a rectangle that shines over a floor, with its closed form
  *
  * Units:     file units, radiance
- * Ownership: none
  * Threads:   one
- * Errors:    none
  */
 #ifndef TESTS_LAMP_H
 #define TESTS_LAMP_H

@@ -5,8 +5,6 @@
  * "ok NAME: ..." or "FAIL NAME: ..." or "todo NAME: needs ...": run.sh counts
  * the first two.
  *
- * Units:     none
- * Ownership: none
  * Threads:   one
  * Errors:    rows_status() is what the program ends with
  */

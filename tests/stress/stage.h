@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * workspace.h - scenes that rows write as text, rendered and held to a number
+ * stage.h - scenes that rows write as text, rendered and held to a number
  *
  * A row's scene is written into OBJ and MTL files, loaded as a person's would
  * be, and rendered with SEEDS seeds; the mean of all pixels has to agree with

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * view_modes.c - prints an image file as a small colour picture of half blocks
+ * show.c - prints an image file as a small colour picture of half blocks
  *
  * For `make run` without a terminal, whose output lands in a log. With
  * NO_COLOR set it prints characters.

@@ -10,7 +10,6 @@
  * Units:     cells, row 0 at the top
  * Ownership: the test maps `shared`
  * Threads:   the child's main
- * Errors:    none
  */
 #ifndef TESTS_BELIEF_H
 #define TESTS_BELIEF_H

@@ -3,9 +3,7 @@
  * brute.h - the plainest ray query, which others have to agree with
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   any; the caller's state of random numbers
- * Errors:    none
  */
 #ifndef TESTS_BRUTE_H
 #define TESTS_BRUTE_H

@@ -3,7 +3,6 @@
  * check.h - checks that print both values and the bound that was missed
  *
  * Units:     those of the values
- * Ownership: none
  * Threads:   one
  * Errors:    a failed check ends the test
  */

@@ -5,9 +5,7 @@
  * Pearson's test. Cells with fewer than 5 expected are taken together.
  *
  * Units:     counts; standard deviations
- * Ownership: none
  * Threads:   one
- * Errors:    none
  */
 #ifndef TESTS_CHI_SQUARE_H
 #define TESTS_CHI_SQUARE_H

@@ -3,9 +3,7 @@
  * facets.h - truth about surfaces, from textbook formulas in double
  *
  * Units:     cosines to the normal; alpha of GGX
- * Ownership: none
  * Threads:   one
- * Errors:    none
  */
 #ifndef TESTS_FACETS_H
 #define TESTS_FACETS_H

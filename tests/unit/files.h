@@ -4,7 +4,6 @@
  *
  * enter_folder() and leave_folder() are for cmocka_run_group_tests().
  *
- * Units:     none
  * Ownership: leave_folder() removes all that is in the folder
  * Threads:   one
  * Errors:    a failed check ends the test

@@ -4,7 +4,6 @@
  *
  * make_folder() and remove_folder() are for cmocka_run_group_tests().
  *
- * Units:     none
  * Ownership: remove_folder() removes it with all that is in it
  * Threads:   one
  * Errors:    -1 ends the program's tests

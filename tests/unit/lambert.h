@@ -3,9 +3,7 @@
  * lambert.h - irradiance from a polygon that shines, in closed form
  *
  * Units:     irradiance for a radiance of 1
- * Ownership: none
  * Threads:   one
- * Errors:    none
  */
 #ifndef TESTS_LAMBERT_H
 #define TESTS_LAMBERT_H

@@ -4,7 +4,6 @@
  *
  * For programs whose groups have folder.h's make_folder().
  *
- * Units:     none
  * Ownership: the folder of the tests holds what is made
  * Threads:   one
  * Errors:    false: neither is it there, nor is what it is made of

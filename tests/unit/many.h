@@ -5,7 +5,6 @@
  * Units:     normalised scene units
  * Ownership: mesh_free() frees the mesh
  * Threads:   one
- * Errors:    none
  */
 #ifndef TESTS_MANY_H
 #define TESTS_MANY_H

@@ -3,9 +3,7 @@
  * oklab.h - how different colours look, for tests: by CIE XYZ, in double
  *
  * Units:     8-bit sRGB, light from 0 to 1, OKLab
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef TESTS_OKLAB_H
 #define TESTS_OKLAB_H

@@ -4,7 +4,6 @@
  * VT340's manual, chapter 14, and kitty's graphics protocol
  *
  * Units:     pixels
- * Ownership: none
  * Threads:   one
  * Errors:    bytes that break the rules end the test
  */

@@ -3,9 +3,7 @@
  * sky_pdf.h - the density of light samples at a direction to the sky
  *
  * Units:     per solid angle
- * Ownership: none
  * Threads:   any
- * Errors:    none
  */
 #ifndef TESTS_SKY_PDF_H
 #define TESTS_SKY_PDF_H

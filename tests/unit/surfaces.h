@@ -3,9 +3,7 @@
  * surfaces.h - one of each surface, for tests of all kinds
  *
  * Units:     cosines to the normal
- * Ownership: none
  * Threads:   one
- * Errors:    none
  */
 #ifndef TESTS_SURFACES_H
 #define TESTS_SURFACES_H

@@ -6,7 +6,6 @@
  * included before this one.
  *
  * Units:     normalised scene units
- * Ownership: none
  * Threads:   one
  * Errors:    the test that finds one ends
  */

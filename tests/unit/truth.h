@@ -63,8 +63,9 @@ static inline void stage_finish(struct workspace *s)
     assert_true(lights_build(&s->lights, w, &err));
     for (int use = SKY_WITH_CHANCE; use <= SKY_ALONE; use++)
         assert_true(sky_table_build(&s->skies[use], w->sky_texels,
-                              w->settings.sky.width, w->settings.sky.height,
-                              (enum sky_use)use, &err));
+                                    w->settings.sky.width,
+                                    w->settings.sky.height, (enum sky_use)use,
+                                    &err));
 }
 
 static inline void workspace_free(struct workspace *s)

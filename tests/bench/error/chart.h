@@ -3,7 +3,6 @@
  * chart.h - curves in a log-log diagram, as a PNG file
  *
  * Units:     pixels inside; whatever the axes' labels say outside
- * Ownership: none
  * Threads:   one
  * Errors:    nothing to draw, memory, unwritable file
  */

@@ -32,8 +32,8 @@
 /* References of 256x256 pixels, too many here, become 64x64. */
 #define REDUCE 4
 
-/* Made of src/render/cpu_kernel.c with one function replaced: see the headers in this
- * folder. */
+/* Made of src/render/cpu_kernel.c with one function replaced: see the headers
+ * in this folder. */
 extern const struct cpu_kernel paths_whole, paths_hashed, paths_uniform,
     paths_throughput, paths_shadows;
 
@@ -336,8 +336,8 @@ static bool build_whole_sky(struct measurement *m, struct error *err)
     const struct scene *s = &m->session.scene;
 
     return s->sky_texels == NULL ||
-           sky_table_build(&m->whole_sky, s->sky_texels, s->sky_width, s->sky_height,
-                     SKY_ALONE, err);
+           sky_table_build(&m->whole_sky, s->sky_texels, s->sky_width,
+                           s->sky_height, SKY_ALONE, err);
 }
 
 static bool measure_scene(const struct bench *bench,

@@ -3,9 +3,6 @@
  * hashed.h - for paths without Sobol points: plain hashed numbers
  *
  * Units:     32-bit fractions of the unit square
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef ERROR_HASHED_H
 #define ERROR_HASHED_H

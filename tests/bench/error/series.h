@@ -3,8 +3,6 @@
  * series.h - points of a curve: error against seconds
  *
  * Units:     seconds, mean squares
- * Ownership: none
- * Threads:   none
  * Errors:    numbers that are not above 0 give NaN
  */
 #ifndef ERROR_SERIES_H

@@ -3,9 +3,6 @@
  * shadows.h - for paths that traces a shadow ray for any light
  *
  * Units:     probabilities
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef ERROR_SHADOWS_H
 #define ERROR_SHADOWS_H

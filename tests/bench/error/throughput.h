@@ -4,9 +4,6 @@
  * their throughput itself, from the first vertex on
  *
  * Units:     probabilities
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef ERROR_THROUGHPUT_H
 #define ERROR_THROUGHPUT_H

@@ -2,11 +2,6 @@
 /*
  * uniform.h - for paths without a light tree: all lights are equally
  * likely
- *
- * Units:     none
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */
 #ifndef ERROR_UNIFORM_H
 #define ERROR_UNIFORM_H

@@ -2,9 +2,4 @@
 /*
  * whole.h - for paths as they are, built for the same instructions as those
  * that have a function replaced
- *
- * Units:     none
- * Ownership: none
- * Threads:   none
- * Errors:    none
  */

@@ -5,7 +5,6 @@
  * Units:     normalised scene units
  * Ownership: the tree belongs to who made the racer
  * Threads:   queries from any
- * Errors:    none
  */
 #ifndef RAYS_RACER_H
 #define RAYS_RACER_H

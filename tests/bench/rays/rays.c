@@ -335,8 +335,8 @@ static void contest_free(struct contest *c)
     shape_free(&c->shape);
 }
 
-static bool run_shape(int shape, const char *shared, const struct cpu_kernel *paths,
-                      struct error *err)
+static bool run_shape(int shape, const char *shared,
+                      const struct cpu_kernel *paths, struct error *err)
 {
     struct contest c = {.answers = {NULL}};
     bool ok = shape_load(&c.shape, shape, shared, err);

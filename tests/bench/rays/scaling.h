@@ -3,7 +3,6 @@
  * scaling.h - what more triangles cost a ray
  *
  * Units:     seconds
- * Ownership: none
  * Threads:   all build, one traces
  * Errors:    memory
  */

@@ -3,9 +3,7 @@
  * spent.h - time that something takes, by the clock and of the processor
  *
  * Units:     seconds
- * Ownership: none
  * Threads:   any; the processor's time is that of all together
- * Errors:    none
  */
 #ifndef RAYS_SPENT_H
 #define RAYS_SPENT_H

@@ -102,7 +102,8 @@ static void files_are_known_by_any_name(void **state)
     snprintf(other_way, sizeof other_way, "%s/below/../plain", folder);
     assert_true(file_watch_has(&w, paths[PLAIN]));
     assert_true(file_watch_has(&w, other_way));
-    assert_true(file_watch_has(&w, paths[TARGET])); /* the link is on the list */
+    assert_true(
+        file_watch_has(&w, paths[TARGET])); /* the link is on the list */
     assert_false(file_watch_has(&w, paths[OTHER])); /* listed, but not there */
     snprintf(other_way, sizeof other_way, "%s/same", folder);
     put(other_way, "one");

@@ -84,7 +84,7 @@ static void test_controls_do_not_reach_the_terminal(void **state)
     (void)state;
     for (int i = 0; i < 2; i++)
         warnings_add_named(&r, "names", "\033c", "%s",
-                         "a\033[2Jb\nc\x7f\xc2\x9b z\xc3\xa4");
+                           "a\033[2Jb\nc\x7f\xc2\x9b z\xc3\xa4");
     to = open_memstream(&text, &size_bytes);
     assert_non_null(to);
     warnings_print(&r, to);

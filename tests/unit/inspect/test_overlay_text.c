@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_overlay_text.c - tables of paths and surfaces: the last steps, in file units
+ * test_overlay_text.c - tables of paths and surfaces: the last steps, in file
+ * units
  */
 #include "tests/unit/check.h"
 
@@ -19,17 +20,20 @@ static const struct scene scene = {.material_names = names,
 
 static void paths_show_their_last_steps(void **state)
 {
-    struct path_record trail = {.count = 9, .vertices = 9, .radiance = {1, 2, 3}};
+    struct path_record trail = {.count = 9,
+                                .vertices = 9,
+                                .radiance = {1, 2, 3}};
     struct overlay_text l;
 
     (void)state;
     for (uint32_t i = 0; i < 9; i++)
-        trail.steps[i] = (struct path_record_step){.to = {1, -0.5f, (float)i},
-                                             .hit.tri = i % 2,
-                                             .throughput = {1, 0.5f, 0.25f},
-                                             .light = {0, 4, 0},
-                                             .way = PATH_RECORD_REFLECTED,
-                                             .pdf = i == 7 ? 0.0f : 0.125f};
+        trail.steps[i] =
+            (struct path_record_step){.to = {1, -0.5f, (float)i},
+                                      .hit.tri = i % 2,
+                                      .throughput = {1, 0.5f, 0.25f},
+                                      .light = {0, 4, 0},
+                                      .way = PATH_RECORD_REFLECTED,
+                                      .pdf = i == 7 ? 0.0f : 0.125f};
     trail.steps[8].way = PATH_RECORD_SKY;
     overlay_text_trail(&l, &scene, &trail, 2);
     assert_int_equal(l.count, 4);
@@ -59,8 +63,8 @@ static void numbers_are_not_cut(void **state)
     far.center[1] = 0.00702;
     far.center[2] = -0.124;
     trail.steps[0] = (struct path_record_step){.to = {1, 0, 0},
-                                         .way = PATH_RECORD_REFLECTED,
-                                         .pdf = 1230};
+                                               .way = PATH_RECORD_REFLECTED,
+                                               .pdf = 1230};
     overlay_text_trail(&l, &far, &trail, 1);
     check_has(l.lines[1], " -1e+04 0.007 -0.1 reflect ");
     check_has(l.lines[1], " 1e+03  0 0 0");
@@ -72,11 +76,11 @@ static void numbers_are_not_cut(void **state)
 static void surfaces_show_their_frame(void **state)
 {
     struct path_record_lobes lobes = {.n = {0, 0, 1},
-                                .t = {1, 0, 0},
-                                .b = {0, 1, 0},
-                                .wo = {0, 0.6f, 0.8f},
-                                .tri = 1,
-                                .count = 32};
+                                      .t = {1, 0, 0},
+                                      .b = {0, 1, 0},
+                                      .wo = {0, 0.6f, 0.8f},
+                                      .tri = 1,
+                                      .count = 32};
     struct overlay_text l;
 
     (void)state;
@@ -96,7 +100,9 @@ static void names_are_cut_whole(void **state)
 {
     char wide[21 * 3 + 1] = "";
     char *wide_names[] = {none, wide};
-    struct path_record_lobes lobes = {.n = {0, 0, 1}, .wo = {0, 0, 1}, .tri = 1};
+    struct path_record_lobes lobes = {.n = {0, 0, 1},
+                                      .wo = {0, 0, 1},
+                                      .tri = 1};
     struct scene named = scene;
     struct overlay_text l;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_path_record.c - a path step by step is the path; scattered directions against
- * closed forms; what rays cost against counting by hand
+ * test_path_record.c - a path step by step is the path; scattered directions
+ * against closed forms; what rays cost against counting by hand
  */
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
@@ -28,12 +28,14 @@ static void check_steps(const struct path_record *t)
     double sums[3] = {0};
 
     assert_in_range(t->vertices, 1, PATH_HARD_STOP);
-    assert_int_equal(t->count,
-                     t->vertices < PATH_RECORD_STEPS ? t->vertices : PATH_RECORD_STEPS);
+    assert_int_equal(t->count, t->vertices < PATH_RECORD_STEPS
+                                   ? t->vertices
+                                   : PATH_RECORD_STEPS);
     assert_true(t->steps[0].throughput.x == 1.0f);
     for (int i = 0; i < t->count; i++) {
         const struct path_record_step *s = &t->steps[i];
-        bool goes_on = s->way == PATH_RECORD_REFLECTED || s->way == PATH_RECORD_TRANSMITTED;
+        bool goes_on = s->way == PATH_RECORD_REFLECTED ||
+                       s->way == PATH_RECORD_TRANSMITTED;
 
         sums[0] += (double)s->light.x;
         sums[1] += (double)s->light.y;

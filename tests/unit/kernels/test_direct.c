@@ -49,7 +49,7 @@ static void fill_sky_table(struct scene *s)
         return;
     sky_table_free(&s->sky_table);
     check_or_say(sky_table_build(&s->sky_table, s->sky_texels, s->sky_width,
-                           s->sky_height, SKY_ALONE, &err),
+                                 s->sky_height, SKY_ALONE, &err),
                  err.text);
 }
 

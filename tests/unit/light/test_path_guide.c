@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_path_guide.c - the table of directions: its density, its samples, that any
- * table leaves pictures as bright as they are, and that the one that is built
- * points to where caustics come from, and to windows
+ * test_path_guide.c - the table of directions: its density, its samples, that
+ * any table leaves pictures as bright as they are, and that the one that is
+ * built points to where caustics come from, and to windows
  */
 #include "light/path_guide.h"
 #include "light/triangle_cdf.h"
@@ -184,7 +184,8 @@ static void light_samples_of_a_flat_sky(void **state)
     path_guide_lend(&t.guide, &w);
     for (int i = 0; i < 8; i++)
         image[i] = v3(1, 1, 1);
-    check_or_say(sky_table_build(&tables[1], image, 4, 2, SKY_ALONE, &err), err.text);
+    check_or_say(sky_table_build(&tables[1], image, 4, 2, SKY_ALONE, &err),
+                 err.text);
     for (int way = 0; way < 4; way++) {
         bool guided = way % 2 == 1;
         double sums[3] = {0, 0, 0}, squares[3] = {0, 0, 0};
@@ -272,7 +273,8 @@ static void built(struct workspace *s, float sky, struct path_guide *g)
     struct error err;
 
     path_guide_outdate(g);
-    check_or_say(path_guide_update(g, &s->mesh.wide_world, (double)sky, NULL, &err),
+    check_or_say(path_guide_update(g, &s->mesh.wide_world, (double)sky, NULL,
+                                   &err),
                  err.text);
 }
 
@@ -494,7 +496,8 @@ static void white_rooms_are_left_alone(void **state)
             s.mesh.materials[0] =
                 mesh_material(MATERIAL_DIFFUSE, is_white ? .98f : .3f);
             path_guide_recolor(&g);
-            check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL, NULL),
+            check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL,
+                                           NULL),
                          "");
             path_guide_lend(&g, &s.mesh.world);
             first = (has_pane ? ways_at : sky_at)(&s.mesh.world, p, up);
@@ -550,9 +553,11 @@ static void only_where_the_sky_is_hidden(void **state)
     stage_finish(&s);
     built(&s, 0, &g);
     assert_null(g.cells);
-    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL, &err), err.text);
+    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL, &err),
+                 err.text);
     assert_non_null(g.cells);
-    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 0, NULL, &err), err.text);
+    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 0, NULL, &err),
+                 err.text);
     assert_null(g.cells);
     lights_lend(&s.lights, &s.mesh.world);
     built(&s, 1, &g);
@@ -606,7 +611,7 @@ static void threads_change_nothing(void **state)
         }
         built(&s, (float)sky, &alone);
         check_or_say(path_guide_update(&together, &s.mesh.wide_world, sky, pool,
-                                  &err),
+                                       &err),
                      err.text);
         assert_non_null(alone.cells);
         assert_int_equal(alone.grid.table_count, together.grid.table_count);

@@ -62,7 +62,8 @@ static void dome_init(struct dome *d, uint32_t width, uint32_t height,
                                          .height = height,
                                          .rotation_cos = 1};
     d->world.sky_texels = d->texels;
-    assert_true(sky_table_build(&d->table, d->texels, width, height, use, &err));
+    assert_true(
+        sky_table_build(&d->table, d->texels, width, height, use, &err));
     sky_table_lend(&d->table, &d->world);
 }
 

@@ -249,8 +249,7 @@ static void test_small(void **state)
         struct film film;
         make_film(&film, sizes[i][0], sizes[i][1], light);
         for (int k = 0; k < 3; k++)
-            assert_true(
-                image_write(&film, develop_linear(0), paths[k], &err));
+            assert_true(image_write(&film, develop_linear(0), paths[k], &err));
         struct frame frame;
         assert_true(frame_init(&frame, sizes[i][0], sizes[i][1], &err));
         film_resolve(&film, develop_linear(0), &frame);
@@ -423,7 +422,7 @@ static void test_numbered_race(void **state)
             int written = 0;
             for (int k = 0; k < 10; k++) {
                 char *name = image_write_numbered(&film, develop_linear(0),
-                                                    "race", "png", &err);
+                                                  "race", "png", &err);
                 written += name != NULL;
                 free(name);
             }
@@ -511,8 +510,8 @@ static bool fails_on_full_disk(struct film *film)
         ok = ok && !image_write(film, develop_linear(0), paths[i], &err) &&
              strstr(err.text, ": File too large") &&
              strncmp(err.text, paths[i], 5) == 0;
-    return ok && !image_write_numbered(film, develop_linear(0), "full", "png",
-                                         &err);
+    return ok &&
+           !image_write_numbered(film, develop_linear(0), "full", "png", &err);
 }
 
 static void test_disk_full(void **state)

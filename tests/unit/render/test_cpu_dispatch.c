@@ -86,7 +86,8 @@ static int compare_builds(const char *scene, const struct cpu_kernel *whole)
     check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
     render(&s, FEATURES_ALL & ~(uint32_t)FEATURE_COVERAGE, want);
     for (uint32_t more = 0; more <= FEATURES_ALL; more++) {
-        const struct cpu_kernel *p = cpu_kernel_fit(whole, scene_features(&s.scene) | more);
+        const struct cpu_kernel *p =
+            cpu_kernel_fit(whole, scene_features(&s.scene) | more);
 
         if (!is_new(p, builds, &count))
             continue;

@@ -37,7 +37,8 @@ static void make_room(struct mesh *m)
     mesh_finish(m);
 }
 
-static struct render *open_render_with(const struct cpu_kernel *paths, int threads)
+static struct render *open_render_with(const struct cpu_kernel *paths,
+                                       int threads)
 {
     struct error err;
     struct backend *backend = backend_cpu_create(threads, paths, &err);

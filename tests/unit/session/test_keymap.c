@@ -70,7 +70,8 @@ static void capitals_move_too(void **state)
 
     (void)state;
     for (const char *p = "wasde"; *p; p++)
-        assert_int_equal(keymap_action(&k, *p - 'a' + 'A'), keymap_action(&k, *p));
+        assert_int_equal(keymap_action(&k, *p - 'a' + 'A'),
+                         keymap_action(&k, *p));
 }
 
 static void a_key_has_one_action(void **state)

@@ -50,7 +50,8 @@ static void speed_is_never_none(void **state)
     (void)state;
     camera_input_init(&s, lo, hi);
     camera_input_adapt(&s, 0, 0);
-    assert_true(camera_input_speed(&s) > 1e-3 * 5 && camera_input_speed(&s) < 1e-2 * 5);
+    assert_true(camera_input_speed(&s) > 1e-3 * 5 &&
+                camera_input_speed(&s) < 1e-2 * 5);
     camera_input_adapt(&s, INFINITY, 0);
     open = camera_input_speed(&s);
     assert_true(open > 0.1 * 5 && open < 5);
@@ -129,14 +130,16 @@ static void drag_turns_by_what_is_seen(void **state)
 
     (void)state;
     camera_input_init(&s, lo, hi);
-    assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* no press yet */
+    assert_false(
+        camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* no press yet */
     e.mouse = MOUSE_PRESS;
     assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     e.mouse = MOUSE_DRAG;
     e.y -= 20; /* upwards by all 20 rows */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(v.at[1], sin(40 * 0.017453292519943295), 1e-9);
-    assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* stands still */
+    assert_false(
+        camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* stands still */
     e.x += 80; /* to the right by the whole width */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(atan2(v.at[0], -v.at[2]), 80 * 0.017453292519943295, 1e-9);
@@ -197,8 +200,8 @@ static void speeds_follow_the_scene(void **state)
     check_close(moved[1] / moved[0], 2, 1e-12);
 }
 
-static void hold(struct camera_input *s, struct view *v, enum held_keys_axis axis,
-                 int sign, int taps)
+static void hold(struct camera_input *s, struct view *v,
+                 enum held_keys_axis axis, int sign, int taps)
 {
     for (uint64_t t = 1000; taps > 0; t += 1000, taps--) {
         held_keys_press(&s->motion, axis, sign, t * MS);

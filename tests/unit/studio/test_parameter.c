@@ -98,7 +98,8 @@ static void kinds_turn(void **state)
             struct material m;
 
             material_params_turn_kind(&s, 1);
-            assert_string_equal(material_params_kind(&s), names[(first + i) % 5]);
+            assert_string_equal(material_params_kind(&s),
+                                names[(first + i) % 5]);
             material_params_color(&s, after);
             for (int k = 0; k < 3; k++)
                 check_close(after[k], before[k], 1e-6);
@@ -187,7 +188,8 @@ static void close_stage(struct workspace *s)
     warnings_free(&s->report);
 }
 
-static void same_knobs(const struct parameter *a, const struct parameter *b, int count)
+static void same_knobs(const struct parameter *a, const struct parameter *b,
+                       int count)
 {
     for (int i = 0; i < count; i++) {
         assert_int_equal(a[i].id, b[i].id);
@@ -223,7 +225,8 @@ static void knobs_turn_back(void **state)
                 continue; /* a swatch, or at the end of its scale */
             assert_int_equal(s.edit.done_count, done + 1);
             assert_true(edit_undo(&s.edit));
-            assert_int_equal(parameters_list(&s.edit, &s.scene, &targets[i], after),
+            assert_int_equal(parameters_list(&s.edit, &s.scene, &targets[i],
+                                             after),
                              count);
             same_knobs(before, after, count);
         }
@@ -268,7 +271,7 @@ static void shown_texts_can_be_typed(void **state)
 }
 
 static const struct parameter *find(const struct parameter *knobs, int count,
-                               const char *label)
+                                    const char *label)
 {
     for (int i = 0; i < count; i++)
         if (strcmp(knobs[i].label, label) == 0)

@@ -115,7 +115,8 @@ static void lines_have_room(void **state)
                                     .samples_limit = big,
                                     .rays = big,
                                     .render_ns = big};
-        struct progress_text_facts f = {&p, &speeds, loads, 1 + bits * 16, bits % 2};
+        struct progress_text_facts f = {&p, &speeds, loads, 1 + bits * 16,
+                                        bits % 2};
 
         speeds_look(&speeds, (uint64_t)bits * S_NS, big);
         progress_text_format(lines, &f);

@@ -42,12 +42,12 @@ static void normal_mode_says_what_is_left(void **state)
 {
     struct render_progress p = half_done();
     struct status_line s = {.is_started = true,
-                       .progress = &p,
-                       .thread_count = 2,
-                       .width_px = 1024,
-                       .height_px = 576,
-                       .colors = "24 bit",
-                       .hint = "? help  q quit"};
+                            .progress = &p,
+                            .thread_count = 2,
+                            .width_px = 1024,
+                            .height_px = 576,
+                            .colors = "24 bit",
+                            .hint = "? help  q quit"};
     char text[STATUS_BYTES];
 
     (void)state;
@@ -78,12 +78,12 @@ static void live_mode_has_no_end(void **state)
 {
     struct render_progress p = half_done();
     struct status_line s = {.is_live = true,
-                       .progress = &p,
-                       .thread_count = 1,
-                       .width_px = 10,
-                       .height_px = 20,
-                       .colors = "mono",
-                       .hint = "? help  q quit"};
+                            .progress = &p,
+                            .thread_count = 1,
+                            .width_px = 10,
+                            .height_px = 20,
+                            .colors = "mono",
+                            .hint = "? help  q quit"};
     char text[STATUS_BYTES];
 
     (void)state;
@@ -103,12 +103,12 @@ static void narrow_windows_drop_fields(void **state)
 {
     struct render_progress p = half_done();
     struct status_line s = {.is_started = true,
-                       .progress = &p,
-                       .thread_count = 64,
-                       .width_px = 65536,
-                       .height_px = 65536,
-                       .colors = "256 colours",
-                       .hint = "? help  q quit"};
+                            .progress = &p,
+                            .thread_count = 64,
+                            .width_px = 65536,
+                            .height_px = 65536,
+                            .colors = "256 colours",
+                            .hint = "? help  q quit"};
     static const char *const fields[] = {"8/16 spp", "50 %", "4 s", "left 4 s"};
     char text[STATUS_BYTES];
 
@@ -134,9 +134,9 @@ static void eighty_columns_have_the_colors(void **state)
                                          "mono"};
     struct render_progress p = half_done();
     struct status_line s = {.progress = &p,
-                       .width_px = 65536,
-                       .height_px = 65536,
-                       .hint = "? help  q quit"};
+                            .width_px = 65536,
+                            .height_px = 65536,
+                            .hint = "? help  q quit"};
     char text[STATUS_BYTES];
 
     (void)state;

@@ -223,8 +223,8 @@ static void covered_cells_stay(void **state)
     struct ansi_diff a = make_ansi(COLS, ROWS);
     struct ansi_diff_rect covers[2] = {{5, 2, 20, 6}, {25, 3, 3, 3}};
     struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX,
-                            .covered = covers,
-                            .covered_count = 2};
+                                 .covered = covers,
+                                 .covered_count = 2};
     uint64_t seed = 7;
 
     (void)state;

@@ -25,7 +25,8 @@ static struct film make_film(void)
     return film;
 }
 
-static void check_text(const struct ansi_text_style *style, const char *expected)
+static void check_text(const struct ansi_text_style *style,
+                       const char *expected)
 {
     struct film film = make_film();
     struct frame frame;
@@ -56,7 +57,8 @@ static void text_is_the_film(void **state)
     check_text(&(struct ansi_text_style){1, 1, PALETTE_24BIT, GLYPHS_SEXTANT},
                "\033[38;2;255;0;0;48;2;94;163;0m\xf0\x9f\xac\x82\033[m\n");
     /* (128, 94, 0) is as bright as 90: fourth of ten characters */
-    check_text(&(struct ansi_text_style){2, 1, PALETTE_MONO, GLYPHS_HALF}, ";;\n");
+    check_text(&(struct ansi_text_style){2, 1, PALETTE_MONO, GLYPHS_HALF},
+               ";;\n");
 }
 
 int main(void)

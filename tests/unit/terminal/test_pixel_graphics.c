@@ -116,10 +116,10 @@ struct workspace {
 };
 
 static void workspace_init(struct workspace *st, enum pixel_graphics_kind kind,
-                       uint64_t *seed)
+                           uint64_t *seed)
 {
     struct pixel_graphics_shape shape = {kind,   COLS,   ROWS,
-                                   CELL_W, CELL_H, PALETTE_256};
+                                         CELL_W, CELL_H, PALETTE_256};
     struct error err;
 
     memset(st, 0, sizeof *st);
@@ -142,7 +142,8 @@ static void workspace_free(struct workspace *st)
 }
 
 /* One frame; how many images it had. */
-static int draw(struct workspace *st, const struct ansi_diff_draw *how, bool *is_done)
+static int draw(struct workspace *st, const struct ansi_diff_draw *how,
+                bool *is_done)
 {
     st->screen.images = 0;
     ansi_diff_begin(&st->a);
@@ -184,7 +185,8 @@ static void set_pixel(struct workspace *st, int x, int y, int value)
 /* To the pixel, and after a change only the tile that has changed. */
 static void shows_the_picture(void **state)
 {
-    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY};
+    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
+                                                     PIXEL_GRAPHICS_KITTY};
     static struct workspace st;
     struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
     uint64_t seed = 1;
@@ -214,7 +216,8 @@ static void shows_the_picture(void **state)
  * rests is drawn everywhere. */
 static void budget_is_kept(void **state)
 {
-    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY};
+    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
+                                                     PIXEL_GRAPHICS_KITTY};
     static struct workspace st;
     struct ansi_diff_draw how = {.budget_bytes = 3000};
     uint64_t seed = 2;
@@ -238,7 +241,8 @@ static void budget_is_kept(void **state)
         for (int k = 0; k < 2 * frames; k++) {
             for (int x = 0; x < WIDTH; x++)
                 set_pixel(&st, x, (k * 7) % HEIGHT, k);
-            pixel_graphics_forget(&st.g, (struct ansi_diff_rect){0, 0, COLS, ROWS});
+            pixel_graphics_forget(&st.g,
+                                  (struct ansi_diff_rect){0, 0, COLS, ROWS});
             draw(&st, &how, &is_done);
         }
         for (int y = 0; y < HEIGHT; y++)
@@ -251,7 +255,8 @@ static void budget_is_kept(void **state)
 /* Pixels end where a window begins, and come back when it closes. */
 static void windows_are_left_free(void **state)
 {
-    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL, PIXEL_GRAPHICS_KITTY};
+    static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
+                                                     PIXEL_GRAPHICS_KITTY};
     static struct workspace st;
     struct ansi_diff_rect window = {10, 1, 25, 3};
     uint64_t seed = 3;
@@ -259,7 +264,8 @@ static void windows_are_left_free(void **state)
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX, .covered = &window};
+        struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX,
+                                     .covered = &window};
 
         workspace_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
