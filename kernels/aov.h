@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 /*
- * aov.h - samples that end where the camera's ray does: the preview, and
- * numbers of the surface for pictures in false colours
+ * aov.h - samples that end at the camera ray's first hit: the preview, and
+ * normals, texture coordinates, depths and materials for false colours
  *
- * Numbers are stored where light would be, so none is negative, and the sky has
- * none but 0.
+ * Values are stored in place of radiance, so none is negative. The sky's value
+ * is 0 in all but the preview.
  *
- * Units:     normalised scene units; enum sample_kind says what else
+ * Units: normalised scene units, and those that enum sample_kind states
  */
 #ifndef KERNELS_AOV_H
 #define KERNELS_AOV_H
 
 #include "kernels/light.h"
+#include "kernels/path_types.h"
 #include "kernels/surface_point.h"
 
 /* Of the preview's light the part that comes from everywhere; the rest comes
@@ -23,7 +24,8 @@
 static inline struct vec3 preview_color(const struct world *w,
                                         const struct material *m,
                                         const struct bsdf *b,
-                                        const struct vertex *v, struct vec3 wo)
+                                        const struct surface_point *v,
+                                        struct vec3 wo)
 {
     struct vec3 glow = emission_at(w, m, v->uv, v->has_uv);
     float top = f_max(glow.x, f_max(glow.y, glow.z));
@@ -39,11 +41,14 @@ static inline struct vec3 direction_numbers(struct vec3 d)
     return v3(0.5f + 0.5f * d.x, 0.5f + 0.5f * d.y, 0.5f + 0.5f * d.z);
 }
 
-/* What the settings ask for of the vertex v at a hit on material m. */
-static inline struct vec3
-first_hit(const struct world *w, const struct material *m, const struct bsdf *b,
-          const struct vertex *v, struct ray r, struct hit h)
+/* The quantity that settings.sample names, at a surface point. */
+static inline struct vec3 aov_value(const struct world *w,
+                                    const struct material *m,
+                                    const struct surface_point *v, struct ray r,
+                                    struct hit h)
 {
+    struct bsdf b;
+
     switch (w->settings.sample) {
     case SAMPLE_NORMAL: return direction_numbers(v->n);
     case SAMPLE_FACE:
@@ -54,8 +59,29 @@ first_hit(const struct world *w, const struct material *m, const struct bsdf *b,
     case SAMPLE_DEPTH: return v3(h.t, 0.0f, 0.0f);
     case SAMPLE_MATERIAL:
         return v3((float)w->tris[h.tri].material + 1.0f, 0.0f, 0.0f);
-    default: return preview_color(w, m, b, v, v3_neg(r.d));
+    default:
+        b = bsdf_at(w, m, v);
+        return preview_color(w, m, &b, v, v3_neg(r.d));
     }
+}
+
+/* The sample of a pixel whose camera ray r has met h. */
+static inline struct path_sample aov_sample(const struct world *w, struct ray r,
+                                            struct hit h)
+{
+    struct path_sample out = {{0.0f, 0.0f, 0.0f}, 1, 0};
+    struct material m;
+    struct surface_point v;
+
+    if (h.tri == NO_INDEX) {
+        if (w->settings.sample == SAMPLE_PREVIEW)
+            out.radiance = sky_radiance(w, r.d);
+        return out;
+    }
+    m = w->materials[w->tris[h.tri].material];
+    if (surface_at(w, &m, r, h, &v))
+        out.radiance = aov_value(w, &m, &v, r, h);
+    return out;
 }
 
 #endif

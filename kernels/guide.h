@@ -188,31 +188,33 @@ static inline struct vec3 guide_sample(const struct world *w, uint32_t first,
  * end the paths that were worth finding, and weights of light samples need no
  * look-up, for those of any two densities sum to 1. */
 static inline bool guide_scatter(const struct world *w, uint32_t first,
-                                 const struct vertex *v, const struct bsdf *b,
-                                 struct vec3 wo, struct vec2 u, float choice,
+                                 const struct surface_point *v,
+                                 const struct bsdf *b, struct vec3 wo,
+                                 struct vec2 u, float choice,
                                  struct bsdf_sample *s, struct vec3 *wi,
                                  float *scale)
 {
     float share = guide_share(w, first);
-    struct vec3 drawn, f;
     float pdf;
 
     if (u.x < share) {
+        struct vec3 local, f;
+
         *wi = guide_sample(w, first, u);
-        drawn = vertex_to_local(v, *wi);
-        f = bsdf_terms(b, wo, drawn, &pdf);
-        if (!sample_density(s, drawn, f, pdf))
+        local = surface_to_local(v, *wi);
+        f = bsdf_terms(b, wo, local, &pdf);
+        if (!sample_density(s, local, f, pdf) ||
+            !surface_sides_agree(v, *wi, local.z))
             return false;
-    } else {
-        if (!bsdf_sample(b, wo, guide_rest(u, share), choice, s))
-            return false;
-        *wi = v3_unit_again(vertex_to_world(v, s->wi));
+    } else if (!surface_scatter(v, b, wo, guide_rest(u, share), choice, s,
+                                wi)) {
+        return false;
     }
     if (s->is_delta)
         *scale /= 1.0f - share;
     else
         *scale *= s->pdf / guide_mixed_pdf(w, first, *wi, s->pdf);
-    return vertex_sides_agree(v, *wi, s->wi.z);
+    return true;
 }
 
 #endif

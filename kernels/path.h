@@ -2,19 +2,23 @@
 /*
  * path.h - one sample of a pixel: a path from the eye
  *
- * The estimator of Kajiya 1986 with throughput roulette. At each vertex light
- * is gathered in two ways: from a light that was chosen (next-event
- * estimation), and by chance, where the path meets one; the power heuristic
- * weighs both (Veach 1997, 9.2). Whoever includes this file supplies
+ * The estimator of Kajiya 1986, "The rendering equation", with Russian roulette
+ * by throughput. path_extend() is its loop's body: emission, light sample,
+ * scattering, roulette, next hit. Direct light is estimated in two ways, by
+ * next-event estimation and by the paths that meet a light, and both are
+ * weighted by the power heuristic (Veach 1997, "Robust Monte Carlo methods for
+ * light transport simulation", 9.2).
+ *
+ * The ray queries are supplied by a file that is included first, traverse.h or
+ * a faster one that finds the same hits:
  *     bool hit_closest(const struct world *, struct ray, struct hit *);
- *     bool hits_closest(const struct world *, const struct ray *,
+ *     void hits_closest(const struct world *, const struct ray *,
  *                       uint32_t count, struct hit *);
  *     bool hit_any(const struct world *, struct ray, uint32_t tri);
- * first: traverse.h, or faster ones that find the same hits.
  *
- * Units:     normalised scene units, radiance
- * Threads:   path_samples() from any, on one world
- * Errors:    none: what cannot be computed is black
+ * Units:   normalised scene units, radiance
+ * Threads: path_samples() from any thread; the world is read only
+ * Errors:  what cannot be computed is black
  */
 #ifndef KERNELS_PATH_H
 #define KERNELS_PATH_H
@@ -27,54 +31,55 @@
 #include "kernels/camera_sample.h"
 #include "kernels/surface_point.h"
 
-/* 1: eight random numbers take the time of one, in loops that compilers turn
- * into vector code, and are computed together; 0: each when it is asked for. */
+/* 1: random numbers of several vertices are computed together, in loops that
+ * compilers turn into vector code; 0: each is computed when it is used. */
 #ifndef HAS_WIDE_VECTORS
 #define HAS_WIDE_VECTORS 0
 #endif
 
-/* Vertices whose numbers are computed together. */
+/* Vertices whose random numbers are computed together. */
 #define VERTICES_AHEAD 2u
 
-/* Between the keys of a vertex's next ray and of its shadow ray. */
+/* Offset between the keys of a vertex's next ray and of its shadow ray. */
 #define SHADOW_KEY 0x10000u
 
-/* A path on its way. */
+/* The state of a path between two vertices. */
 struct path {
     struct ray ray;
     struct sampler sampler;
     struct vec2 numbers[VERTICES_AHEAD * DIMENSION_KINDS];
-    struct vec3 beta; /* what radiance that comes along the ray counts, */
-    float scale;      /* apart from this, which roulette does not see */
-    float pdf;        /* of the ray's direction; 0: no light sample has it */
-    struct receiver from;   /* where the ray began, if pdf is not 0 */
-    struct guide_cell cell; /* there of the guide */
+    struct vec3 beta; /* throughput that roulette goes by */
+    float scale;      /* factor of the throughput that roulette ignores */
+    float pdf;        /* density of the ray's direction; 0: a delta lobe or the
+                         camera, which light samples do not compete with */
+    struct receiver from; /* the vertex that the ray left, if pdf is above 0 */
+    struct guide_cell cell; /* path guide at that vertex */
     struct path_sample out;
 };
 
-/* Factors and sums end at the largest float: an infinite one would make no
- * number of a black channel. What is no number stays so, to be counted. */
+/* Caps a factor at the largest float, as an infinite one would make NaN of a
+ * black channel. NaN stays NaN, and the film counts it. */
 static inline float f_finite(float x)
 {
     return f_min(FLOAT_MAX, x);
 }
 
-/* What radiance that comes along the path's ray is worth in the pixel. */
+/* Weights incoming radiance by the path throughput. */
 static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
                                     float weight)
 {
     return v3_mul(v3_scale(p->beta, f_finite(p->scale * weight)), radiance);
 }
 
-/* Random numbers at a vertex, the first of which is 1; `kind` is one of enum
- * dimension's that are counted from DIMENSION_BOUNCE. */
+/* Random numbers of a vertex; vertices are counted from 1. `kind` is one of the
+ * dimensions that enum dimension counts from DIMENSION_BOUNCE. */
 static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
                                     uint32_t kind)
 {
     return random_2d(s, vertex * DIMENSION_STRIDE + kind);
 }
 
-/* All numbers at VERTICES_AHEAD vertices. */
+/* All random numbers of VERTICES_AHEAD vertices. */
 VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
                                    struct vec2 *numbers)
 {
@@ -83,7 +88,8 @@ VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
             vertex_2d(s, vertex + i / DIMENSION_KINDS, i % DIMENSION_KINDS);
 }
 
-/* Before the first path_2d() at a vertex. */
+/* Computes random numbers ahead. Call it before the first path_2d() of a
+ * vertex. */
 static inline void path_prepare_2d(struct path *p, uint32_t vertex)
 {
     if (HAS_WIDE_VECTORS && (vertex - 1) % VERTICES_AHEAD == 0)
@@ -103,10 +109,10 @@ static inline void path_add(struct path *p, struct vec3 radiance, float weight)
     p->out.radiance = v3_add(p->out.radiance, path_part(p, radiance, weight));
 }
 
-/* Weight of a way to gather that had this density, where the other had
- * `other`. With squares the error of the Cornell boxes is 5 to 9 % less than
- * with the densities themselves, of many lights 7 % less; of materials it is
- * 4 % more, elsewhere the same. */
+/* Power heuristic: the MIS weight of a sample with density `pdf` that the other
+ * technique would have drawn with density `other`. With squares the error of
+ * the Cornell boxes is 5 to 9 % less than with the densities themselves, of
+ * many lights 7 % less; of materials it is 4 % more, elsewhere the same. */
 static inline float power_weight(float pdf, float other)
 {
     float ratio = other / pdf;
@@ -114,8 +120,8 @@ static inline float power_weight(float pdf, float other)
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/* Weight of light that was met by chance, where light_pdf is the density with
- * which light_sample() would have found it. */
+/* MIS weight of light that the path has met. light_pdf is the density with
+ * which light_sample() would have drawn the same point. */
 static inline float chance_weight(const struct world *w, float pdf,
                                   float light_pdf)
 {
@@ -126,7 +132,8 @@ static inline float chance_weight(const struct world *w, float pdf,
     return power_weight(pdf, light_pdf);
 }
 
-/* Weight of light that light_sample() has found. */
+/* MIS weight of a light sample. pdf is the density with which the BSDF would
+ * have drawn the same direction. */
 static inline float light_weight(const struct world *w, float light_pdf,
                                  float pdf)
 {
@@ -147,7 +154,7 @@ static inline void path_add_sky(const struct world *w, struct path *p)
 
 static inline void path_add_emission(const struct world *w, struct path *p,
                                      const struct material *m, uint32_t tri,
-                                     const struct vertex *v)
+                                     const struct surface_point *v)
 {
     float light_pdf = 0.0f;
 
@@ -164,7 +171,8 @@ static inline uint32_t shadow_key(const struct path *p, uint32_t vertex)
     return ray_key(p->sampler, SHADOW_KEY + vertex);
 }
 
-/* False if roulette saves the shadow ray for this light. */
+/* Russian roulette on the shadow ray of a light sample. Returns false if the
+ * shadow ray is not traced. */
 static inline bool shadow_survives(const struct path *p, uint32_t vertex,
                                    struct vec3 *light)
 {
@@ -172,14 +180,14 @@ static inline bool shadow_survives(const struct path *p, uint32_t vertex,
 
     if (!(q < 1.0f))
         return true;
-    /* never 0: what is all but impossible must not be divided by */
+    /* the number is above 0, so that q = 0 never survives and divides */
     if (!(1.0f - unit_float(hash_u32(shadow_key(p, vertex))) < q))
         return false;
     *light = v3_scale(*light, 1.0f / q);
     return true;
 }
 
-/* Can light_sample() find anything for it? */
+/* True if light_sample() can contribute at a surface with this BSDF. */
 static inline bool wants_light_sample(const struct world *w,
                                       const struct bsdf *b)
 {
@@ -191,19 +199,19 @@ static inline bool wants_light_sample(const struct world *w,
            !bsdf_is_delta(b);
 }
 
-/* What light that was chosen adds to a path if it is seen. */
+/* A light sample and its contribution to the pixel, if it is not occluded. */
 struct path_light {
     struct light_sample at;
-    float cosine; /* of its direction to the shading normal */
+    float cosine; /* between its direction and the shading normal */
     struct vec3 radiance;
 };
 
-/* Chooses a light for the vertex. False if there is none, or its shadow ray is
+/* Draws a light sample. Returns false if there is none, or if its shadow ray is
  * not worth tracing. */
 FLATTENED static inline bool
 path_choose_light(const struct world *w, const struct path *p,
-                  const struct bsdf *b, const struct vertex *v, struct vec3 wo,
-                  uint32_t vertex, struct path_light *l)
+                  const struct bsdf *b, const struct surface_point *v,
+                  struct vec3 wo, uint32_t vertex, struct path_light *l)
 {
     struct vec3 wi;
     float pdf;
@@ -214,9 +222,9 @@ path_choose_light(const struct world *w, const struct path *p,
                       path_2d(p, vertex, DIMENSION_LIGHT_POSITION),
                       path_2d(p, vertex, DIMENSION_LIGHT_CHOICE), &l->at))
         return false;
-    wi = vertex_to_local(v, l->at.wi);
+    wi = surface_to_local(v, l->at.wi);
     l->cosine = wi.z;
-    if (!vertex_sides_agree(v, l->at.wi, wi.z))
+    if (!surface_sides_agree(v, l->at.wi, wi.z))
         return false;
     l->radiance = v3_mul(bsdf_terms(b, wo, wi, &pdf), l->at.radiance);
     if (v3_is_zero(l->radiance))
@@ -227,15 +235,17 @@ path_choose_light(const struct world *w, const struct path *p,
     return shadow_survives(p, vertex, &l->radiance);
 }
 
-/* Adds the light unless something is in its way: would a ray from here find it
- * by chance? It is aimed anew, as a ray does not begin in the vertex itself; of
- * unit length it need not be. In one piece with the ray's walk: 2 to 13 % less
- * time where there is more than walls and lamps. */
-FLATTENED static inline void
-path_add_light(const struct world *w, struct path *p, const struct vertex *v,
-               const struct path_light *l, uint32_t vertex)
+/* Traces the shadow ray and adds the light sample if it is not occluded. The
+ * ray is aimed anew, as its origin is offset from the vertex; its direction
+ * need not be of unit length. Flattened into one function with the traversal: 2
+ * to 13 % less time where there is more than walls and lamps. */
+FLATTENED static inline void path_add_light(const struct world *w,
+                                            struct path *p,
+                                            const struct surface_point *v,
+                                            const struct path_light *l,
+                                            uint32_t vertex)
 {
-    struct ray r = {vertex_leave(v, l->cosine), l->at.wi, FLOAT_MAX, 0,
+    struct ray r = {surface_ray_origin(v, l->cosine), l->at.wi, FLOAT_MAX, 0,
                     v->face};
 
     if (has_coverage(w))
@@ -254,23 +264,12 @@ path_add_light(const struct world *w, struct path *p, const struct vertex *v,
         p->out.radiance = v3_add(p->out.radiance, l->radiance);
 }
 
-/* Draws a direction; false if there is none, or the face is in its way. */
-static inline bool vertex_scatter(const struct vertex *v, const struct bsdf *b,
-                                  struct vec3 wo, struct vec2 direction,
-                                  float choice, struct bsdf_sample *s,
-                                  struct vec3 *wi)
-{
-    if (!bsdf_sample(b, wo, direction, choice, s))
-        return false;
-    *wi = v3_unit_again(vertex_to_world(v, s->wi));
-    return vertex_sides_agree(v, *wi, s->wi.z);
-}
-
-/* Draws where the path goes on. False if it ends here. */
+/* Samples the BSDF, or the path guide where there is one, for the next ray.
+ * Returns false if the path is absorbed. */
 static inline bool path_scatter(const struct world *w, struct path *p,
-                                const struct bsdf *b, const struct vertex *v,
-                                struct vec3 wo, struct vec2 direction,
-                                float choice)
+                                const struct bsdf *b,
+                                const struct surface_point *v, struct vec3 wo,
+                                struct vec2 direction, float choice)
 {
     struct bsdf_sample s;
     struct vec3 wi;
@@ -279,26 +278,26 @@ static inline bool path_scatter(const struct world *w, struct path *p,
         if (!guide_scatter(w, p->cell.ways, v, b, wo, direction, choice, &s,
                            &wi, &p->scale))
             return false;
-    } else if (!vertex_scatter(v, b, wo, direction, choice, &s, &wi)) {
-        /* clear glass whose normal leans loses nothing: its face bends what
-         * the normal would send to the wrong side */
-        struct vertex face = vertex_of_face(*v);
+    } else if (!surface_scatter(v, b, wo, direction, choice, &s, &wi)) {
+        /* A shading normal may send light that clear glass transmits to the
+         * wrong side of the face. The face's own normal then bends it, so that
+         * glass loses no light. */
+        struct surface_point face = surface_of_face(*v);
 
         if (!bsdf_is_delta(b) ||
-            !vertex_scatter(&face, b, vertex_to_local(&face, v3_neg(p->ray.d)),
-                            direction, choice, &s, &wi))
+            !surface_scatter(&face, b,
+                             surface_to_local(&face, v3_neg(p->ray.d)),
+                             direction, choice, &s, &wi))
             return false;
     }
-    p->ray.o = vertex_leave(v, s.wi.z);
-    p->ray.d = wi;
-    p->ray.from = v->face;
+    surface_spawn_ray(v, wi, s.wi.z, &p->ray);
     p->beta = v3_mul(p->beta, s.weight);
     p->scale = f_finite(p->scale * s.eta_scale);
     p->pdf = s.is_delta ? 0.0f : s.pdf;
     return true;
 }
 
-/* False if roulette ends the path. */
+/* Russian roulette. Returns false if the path is terminated. */
 static inline bool path_survives(struct path *p, uint32_t vertex, float u)
 {
     float q = survival(p->beta, vertex);
@@ -307,64 +306,18 @@ static inline bool path_survives(struct path *p, uint32_t vertex, float u)
     return u < q;
 }
 
-/* Samples are paths: they go on from what they meet first. */
-static inline bool are_paths(const struct world *w)
+/* Finds what the path's ray meets on the way to `vertex`. */
+static inline void path_intersect(const struct world *w, struct path *p,
+                                  uint32_t vertex, struct hit *h)
 {
-    return !HAS(FEATURE_FIRST_HIT) || w->settings.sample == SAMPLE_LIGHT;
+    if (has_coverage(w))
+        p->ray.key = ray_key(p->sampler, vertex);
+    p->ray.t_max = FLOAT_MAX;
+    p->out.rays++;
+    hit_closest(w, p->ray, h);
 }
 
-/* What the path does at a vertex. False if it ends there. */
-static inline bool path_step(const struct world *w, struct path *p,
-                             struct hit h, uint32_t vertex)
-{
-    struct material m = w->materials[w->tris[h.tri].material];
-    struct vertex v;
-    struct bsdf b;
-    struct path_light light;
-    struct vec3 wo;
-    struct vec2 lobe;
-    bool is_lit, goes_on;
-
-    /* first, as it takes long and waits for nothing */
-    if (are_paths(w))
-        path_prepare_2d(p, vertex);
-    if (!vertex_at(w, &m, p->ray, h, &v))
-        return false;
-    b = bsdf_at(w, &m, &v);
-    if (!are_paths(w)) {
-        p->out.radiance = first_hit(w, &m, &b, &v, p->ray, h);
-        return false;
-    }
-    path_add_emission(w, p, &m, h.tri, &v);
-    if (vertex >= w->settings.max_vertices) {
-        p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
-        return false;
-    }
-    if (bsdf_is_black(&b))
-        return false;
-    if (!bsdf_is_glass(&b))
-        vertex_lift(w, h.tri, h, &v);
-    wo = vertex_to_local(&v, v3_neg(p->ray.d));
-    p->from.p = v.p;
-    p->from.n = v.n;
-    p->from.transmits = bsdf_transmits(&b);
-    p->cell = guide_none();
-    if (HAS(FEATURE_GUIDE) && guide_helps(&b))
-        p->cell = guide_at(w, v.p, v.ng);
-    /* The next ray waits for neither the light nor its shadow ray: drawn before
-     * that one walks, it takes 3 to 6 % less time. */
-    is_lit = path_choose_light(w, p, &b, &v, wo, vertex, &light);
-    lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);
-    goes_on =
-        path_scatter(w, p, &b, &v, wo,
-                     path_2d(p, vertex, DIMENSION_BSDF_DIRECTION), lobe.x) &&
-        path_survives(p, vertex, lobe.y);
-    if (is_lit)
-        path_add_light(w, p, &v, &light, vertex);
-    return goes_on;
-}
-
-/* A path that begins with this ray. */
+/* Begins a path with the camera ray r. */
 static inline void path_open(struct path *p, struct ray r,
                              struct sampler sampler)
 {
@@ -377,56 +330,99 @@ static inline void path_open(struct path *p, struct ray r,
     p->from.n = r.d;
     p->from.transmits = true;
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
-    p->out.rays = p->out.cut = 0;
+    p->out.rays = 1; /* the camera ray */
+    p->out.cut = 0;
 }
 
-/* Goes on to vertex `vertex`, counted from 1, and scatters there: *h is what it
- * meets, which may be known. False if the path has ended. */
-static inline bool path_advance(const struct world *w, struct path *p,
-                                uint32_t vertex, const struct hit *known,
-                                struct hit *h)
+/* Extends the path by one vertex. *h is the hit of the path's ray, which is the
+ * vertex, and becomes the hit of the next ray. Returns false where the path
+ * ends. */
+static inline bool path_extend(const struct world *w, struct path *p,
+                               uint32_t vertex, struct hit *h)
 {
-    if (has_coverage(w))
-        p->ray.key = ray_key(p->sampler, vertex);
-    p->ray.t_max = FLOAT_MAX;
-    p->out.rays++;
-    if (known != NULL)
-        *h = *known;
-    else
-        hit_closest(w, p->ray, h);
+    struct material m;
+    struct surface_point v;
+    struct bsdf b;
+    struct path_light light;
+    struct vec3 wo;
+    struct vec2 lobe;
+    bool is_lit, goes_on;
+
     if (h->tri == NO_INDEX) {
-        if (w->settings.sample <= SAMPLE_PREVIEW)
-            path_add_sky(w, p);
+        path_add_sky(w, p);
         return false;
     }
-    return path_step(w, p, *h, vertex);
+    /* early, as it takes long and depends on nothing that follows */
+    path_prepare_2d(p, vertex);
+    m = w->materials[w->tris[h->tri].material];
+    if (!surface_at(w, &m, p->ray, *h, &v))
+        return false;
+    path_add_emission(w, p, &m, h->tri, &v);
+    if (vertex >= w->settings.max_vertices) {
+        p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
+        return false;
+    }
+    b = bsdf_at(w, &m, &v);
+    if (bsdf_is_black(&b))
+        return false;
+    if (!bsdf_is_glass(&b))
+        surface_lift(w, h->tri, *h, &v);
+    wo = surface_to_local(&v, v3_neg(p->ray.d));
+    p->from.p = v.p;
+    p->from.n = v.n;
+    p->from.transmits = bsdf_transmits(&b);
+    p->cell = guide_none();
+    if (HAS(FEATURE_GUIDE) && guide_helps(&b))
+        p->cell = guide_at(w, v.p, v.ng);
+    /* The next direction is sampled before the shadow ray is traced, as it
+     * depends on neither: 3 to 6 % less time. */
+    is_lit = path_choose_light(w, p, &b, &v, wo, vertex, &light);
+    lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);
+    goes_on =
+        path_scatter(w, p, &b, &v, wo,
+                     path_2d(p, vertex, DIMENSION_BSDF_DIRECTION), lobe.x) &&
+        path_survives(p, vertex, lobe.y);
+    if (is_lit)
+        path_add_light(w, p, &v, &light, vertex);
+    if (goes_on)
+        path_intersect(w, p, vertex + 1, h);
+    return goes_on;
 }
 
-/* To its end; what it meets first may be known. Light that no float can hold
- * is more than a sum takes of it, which is counted there. */
-static inline struct path_sample path_run(const struct world *w, struct path *p,
-                                          const struct hit *first)
+/* Radiance along the camera ray r, whose hit is h; or the AOV of the hit.
+ * Radiance beyond the largest float is capped there: the film counts it as
+ * saturated. */
+static inline struct path_sample path_follow(const struct world *w,
+                                             struct ray r,
+                                             struct sampler sampler,
+                                             struct hit h)
 {
+    struct path p;
     uint32_t vertex = 1;
-    struct hit h;
 
-    while (path_advance(w, p, vertex, vertex == 1 ? first : NULL, &h))
+    if (HAS(FEATURE_FIRST_HIT) && w->settings.sample != SAMPLE_LIGHT)
+        return aov_sample(w, r, h);
+    path_open(&p, r, sampler);
+    while (path_extend(w, &p, vertex, &h))
         vertex++;
-    p->out.radiance =
-        v3_low(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p->out.radiance);
-    return p->out;
+    p.out.radiance =
+        v3_low(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
+    return p.out;
 }
 
+/* path_follow() of a camera ray that has not been traced. */
 static inline struct path_sample path_trace(const struct world *w, struct ray r,
                                             struct sampler sampler)
 {
-    struct path p;
+    struct hit h;
 
-    path_open(&p, r, sampler);
-    return path_run(w, &p, NULL);
+    if (has_coverage(w))
+        r.key = ray_key(sampler, 1);
+    hit_closest(w, r, &h);
+    return path_follow(w, r, sampler, h);
 }
 
-/* Where samples begin in their pixels, and their samplers. */
+/* Samplers of some samples, and their points within the pixel. */
 VECTORISED static void path_points(const struct settings *s,
                                    const struct sample_place *places,
                                    uint32_t count, struct sampler *samplers,
@@ -439,8 +435,8 @@ VECTORISED static void path_points(const struct settings *s,
         points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
 }
 
-/* At most SAMPLE_BLOCK samples; those of one pixel, or of neighbours, take less
- * time. */
+/* Computes at most SAMPLE_BLOCK samples. Those of one pixel, or of neighbours,
+ * take less time together. */
 static inline void path_samples(const struct world *w,
                                 const struct sample_place *places,
                                 uint32_t count, struct path_sample *out)
@@ -450,8 +446,6 @@ static inline void path_samples(const struct world *w,
     struct vec2 points[SAMPLE_BLOCK];
     struct ray rays[SAMPLE_BLOCK];
     struct hit hits[SAMPLE_BLOCK];
-    struct path p;
-    bool is_known;
 
     if (count == 0)
         return;
@@ -465,11 +459,9 @@ static inline void path_samples(const struct world *w,
         if (has_coverage(w))
             rays[i].key = ray_key(samplers[i], 1);
     }
-    is_known = hits_closest(w, rays, count, hits);
-    for (uint32_t i = 0; i < count; i++) {
-        path_open(&p, rays[i], samplers[i]);
-        out[i] = path_run(w, &p, is_known ? &hits[i] : NULL);
-    }
+    hits_closest(w, rays, count, hits);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = path_follow(w, rays[i], samplers[i], hits[i]);
 }
 
 #endif

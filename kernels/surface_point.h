@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * surface_point.h - a hit with all that shading needs
+ * surface_point.h - the surface at a hit: position, normals, frame and BSDF
  *
- * Units:     normalised scene units
- * Errors:    a triangle without a normal is no vertex
+ * Units:  normalised scene units
+ * Errors: surface_at() returns false for a triangle without a normal
  */
 #ifndef KERNELS_SURFACE_POINT_H
 #define KERNELS_SURFACE_POINT_H
@@ -13,7 +13,7 @@
 #include "kernels/hit.h"
 #include "kernels/texture.h"
 
-struct vertex {
+struct surface_point {
     struct vec3 p;
     struct vec3 p_error;
     struct vec3 above; /* where a ray begins that leaves upwards */
@@ -22,7 +22,7 @@ struct vertex {
     struct vec2 uv;
     bool has_uv;
     bool is_outside;  /* the eye is on the side of the file's normal */
-    bool is_lifted;   /* p is above its face: vertex_lift() */
+    bool is_lifted;   /* p is above its face: surface_lift() */
     uint32_t face;    /* what a ray that leaves is from: see struct ray */
     struct vec3 t, b; /* with n the frame in which BSDFs are given */
 };
@@ -48,8 +48,9 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
     return v3_dot(n, wo) > 0.0f ? n : ng;
 }
 
-static inline bool vertex_at(const struct world *w, const struct material *m,
-                             struct ray r, struct hit h, struct vertex *v)
+static inline bool surface_at(const struct world *w, const struct material *m,
+                              struct ray r, struct hit h,
+                              struct surface_point *v)
 {
     struct tri t = w->tris[h.tri];
     struct vec3 p0 = w->positions[t.v[0]];
@@ -76,8 +77,9 @@ static inline bool vertex_at(const struct world *w, const struct material *m,
     return true;
 }
 
-static inline struct bsdf
-bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
+static inline struct bsdf bsdf_at(const struct world *w,
+                                  const struct material *m,
+                                  const struct surface_point *v)
 {
     bool has_maps = HAS(FEATURE_TEXTURES) && v->has_uv;
     struct bsdf b;
@@ -104,12 +106,14 @@ bsdf_at(const struct world *w, const struct material *m, const struct vertex *v)
     return b;
 }
 
-static inline struct vec3 vertex_to_local(const struct vertex *v, struct vec3 d)
+static inline struct vec3 surface_to_local(const struct surface_point *v,
+                                           struct vec3 d)
 {
     return v3(v3_dot(d, v->t), v3_dot(d, v->b), v3_dot(d, v->n));
 }
 
-static inline struct vec3 vertex_to_world(const struct vertex *v, struct vec3 d)
+static inline struct vec3 surface_to_world(const struct surface_point *v,
+                                           struct vec3 d)
 {
     struct vec3 x = v3_add(v3_scale(v->t, d.x), v3_scale(v->b, d.y));
 
@@ -120,8 +124,8 @@ static inline struct vec3 vertex_to_world(const struct vertex *v, struct vec3 d)
  * describe, or faces of a coarse mesh would lie in each other's shade (Hanika
  * 2021, "Hacking the shadow terminator", Ray Tracing Gems II, 4). For what
  * does not transmit. */
-static inline void vertex_lift(const struct world *w, uint32_t tri,
-                               struct hit h, struct vertex *v)
+static inline void surface_lift(const struct world *w, uint32_t tri,
+                                struct hit h, struct surface_point *v)
 {
     const float b[3] = {h.b0, h.b1, h.b2};
     struct tri t = w->tris[tri];
@@ -152,8 +156,8 @@ static inline void vertex_lift(const struct world *w, uint32_t tri,
 /* A shading normal must not let light through the face, nor keep it in: is a
  * direction on the same side of both? `z` is its cosine to n. Where the vertex
  * is lifted the face itself is in the way of what must not pass. */
-static inline bool vertex_sides_agree(const struct vertex *v, struct vec3 d,
-                                      float z)
+static inline bool surface_sides_agree(const struct surface_point *v,
+                                       struct vec3 d, float z)
 {
     float side = v3_dot(d, v->ng);
 
@@ -161,7 +165,7 @@ static inline bool vertex_sides_agree(const struct vertex *v, struct vec3 d,
 }
 
 /* The vertex as if its face were flat. */
-static inline struct vertex vertex_of_face(struct vertex v)
+static inline struct surface_point surface_of_face(struct surface_point v)
 {
     v.n = v.ng;
     frame_around(v.n, &v.t, &v.b);
@@ -169,9 +173,33 @@ static inline struct vertex vertex_of_face(struct vertex v)
 }
 
 /* Where a ray begins that leaves upwards, by its cosine to n, or downwards. */
-static inline struct vec3 vertex_leave(const struct vertex *v, float z)
+static inline struct vec3 surface_ray_origin(const struct surface_point *v,
+                                             float z)
 {
     return z > 0.0f ? v->above : leave_surface(v->p, v->p_error, v3_neg(v->ng));
+}
+
+/* A ray that leaves the surface in direction d, whose cosine to n is z. Its
+ * range and key are the caller's to set. */
+static inline void surface_spawn_ray(const struct surface_point *v,
+                                     struct vec3 d, float z, struct ray *r)
+{
+    r->o = surface_ray_origin(v, z);
+    r->d = d;
+    r->from = v->face;
+}
+
+/* Samples the BSDF: *wi is the direction in world space. Returns false if the
+ * BSDF absorbs, or if the face is in the direction's way. */
+static inline bool surface_scatter(const struct surface_point *v,
+                                   const struct bsdf *b, struct vec3 wo,
+                                   struct vec2 direction, float choice,
+                                   struct bsdf_sample *s, struct vec3 *wi)
+{
+    if (!bsdf_sample(b, wo, direction, choice, s))
+        return false;
+    *wi = v3_unit_again(surface_to_world(v, s->wi));
+    return surface_sides_agree(v, *wi, s->wi.z);
 }
 
 #endif

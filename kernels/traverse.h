@@ -135,15 +135,12 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     }
 }
 
-/* Nearest hits of rays that go much the same way: false, which is no answer. */
-static inline bool hits_closest(const struct world *w, const struct ray *rays,
+/* Nearest hits of `count` rays. */
+static inline void hits_closest(const struct world *w, const struct ray *rays,
                                 uint32_t count, struct hit *hits)
 {
-    (void)w;
-    (void)rays;
-    (void)count;
-    (void)hits;
-    return false;
+    for (uint32_t i = 0; i < count; i++)
+        hit_closest(w, rays[i], &hits[i]);
 }
 
 /* True if anything is hit before r.t_max, or at r.t_max with a number below

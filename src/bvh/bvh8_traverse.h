@@ -307,10 +307,10 @@ meet_group(void *query, const struct tri_block *block, uint32_t more)
     }
 }
 
-/* hit_closest() of up to PACKET_RAYS rays; false, without an answer, if they
- * are better off alone. */
-static inline bool hits_closest(const struct world *w, const struct ray *rays,
-                                uint32_t count, struct hit *hits)
+/* Traces rays as one packet. Returns false, with no answer, where they are too
+ * few or go too far apart for it. */
+static inline bool packet_closest(const struct world *w, const struct ray *rays,
+                                  uint32_t count, struct hit *hits)
 {
     const struct bvh8_node *nodes = bvh8_of(w)->nodes;
     struct bvh8_ray first, last;
@@ -327,6 +327,17 @@ static inline bool hits_closest(const struct world *w, const struct ray *rays,
         hits[i] = no_hit(rays[i]);
     bvh8_walk(nodes, &first, &last, g.far, meet_group, &g);
     return true;
+}
+
+/* Nearest hits of up to PACKET_RAYS rays: as one packet if they go much the
+ * same way, else one by one. */
+static inline void hits_closest(const struct world *w, const struct ray *rays,
+                                uint32_t count, struct hit *hits)
+{
+    if (packet_closest(w, rays, count, hits))
+        return;
+    for (uint32_t i = 0; i < count; i++)
+        hit_closest(w, rays[i], &hits[i]);
 }
 
 /* As hit_any() of kernels/traverse.h. */

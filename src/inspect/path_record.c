@@ -57,23 +57,27 @@ void path_record_follow(struct path_record *t, const struct world *w,
     struct path_start start = path_begin(&w->settings, x, y, index);
     bool goes_on = true;
     struct path p;
+    struct hit h;
 
+    if (has_coverage(w))
+        start.ray.key = ray_key(start.sampler, 1);
+    hit_closest(w, start.ray, &h);
     path_open(&p, start.ray, start.sampler);
     t->count = t->vertices = 0;
     while (goes_on) {
         struct path before = p;
-        struct hit h;
+        struct hit vertex = h;
 
-        goes_on = path_advance(w, &p, (uint32_t)++t->vertices, NULL, &h);
+        goes_on = path_extend(w, &p, (uint32_t)++t->vertices, &h);
         if (t->count == PATH_RECORD_STEPS)
             continue;
         t->steps[t->count++] = (struct path_record_step){
             .from = before.ray.o,
-            .to = end_of(w, before.ray, h),
-            .hit = h,
+            .to = end_of(w, before.ray, vertex),
+            .hit = vertex,
             .throughput = v3_scale(before.beta, before.scale),
             .light = v3_sub(p.out.radiance, before.out.radiance),
-            .way = way_of(w, before.ray, &p, h, goes_on),
+            .way = way_of(w, before.ray, &p, vertex, goes_on),
             .pdf = goes_on ? p.pdf : 0.0f,
         };
     }
@@ -81,7 +85,8 @@ void path_record_follow(struct path_record *t, const struct world *w,
 }
 
 static void add_lobe(struct path_record_lobes *l, const struct bsdf *b,
-                     const struct vertex *v, struct vec3 wo, struct sampler s)
+                     const struct surface_point *v, struct vec3 wo,
+                     struct sampler s)
 {
     struct bsdf_sample sample;
 
@@ -90,7 +95,7 @@ static void add_lobe(struct path_record_lobes *l, const struct bsdf *b,
                      random_2d(s, DIMENSION_BOUNCE + DIMENSION_BSDF_LOBE).x,
                      &sample))
         return;
-    l->wi[l->count] = vertex_to_world(v, sample.wi);
+    l->wi[l->count] = surface_to_world(v, sample.wi);
     l->weight[l->count] = sample.weight;
     l->pdf[l->count] = sample.pdf;
     l->count++;
@@ -101,7 +106,7 @@ bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
 {
     struct ray r = camera_ray(w->settings.camera, x, y, v2(0.5f, 0.5f));
     struct material m;
-    struct vertex v;
+    struct surface_point v;
     struct bsdf b;
     struct hit h;
 
@@ -109,7 +114,7 @@ bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
     if (!hit_closest(w, r, &h))
         return false;
     m = w->materials[w->tris[h.tri].material];
-    if (!vertex_at(w, &m, r, h, &v))
+    if (!surface_at(w, &m, r, h, &v))
         return false;
     b = bsdf_at(w, &m, &v);
     l->p = v.p;
@@ -120,7 +125,7 @@ bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
     l->distance = h.t;
     l->tri = h.tri;
     for (uint32_t i = 0; i < PATH_RECORD_LOBES; i++)
-        add_lobe(l, &b, &v, vertex_to_local(&v, l->wo),
+        add_lobe(l, &b, &v, surface_to_local(&v, l->wo),
                  sampler_start(x, y, i, w->settings.seed));
     return true;
 }

@@ -3,7 +3,7 @@
  * path_record.h - one sample step by step: where its path went and what it
  * gathered; and which directions a surface would have sent it
  *
- * The steps are path_advance()'s: the radiance at the end is path_trace()'s,
+ * The steps are path_extend()'s: the radiance at the end is path_trace()'s,
  * bit for bit.
  *
  * Units:     normalised scene units, radiance, densities per solid angle

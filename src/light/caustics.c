@@ -145,7 +145,7 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
 }
 
 static struct landing landing_of(const struct search *s, const struct photon *p,
-                                 const struct vertex *v)
+                                 const struct surface_point *v)
 {
     size_t cell = guide_cell(s->grid, v->p, v->ng);
     struct landing l = {cell * GUIDE_BINS + guide_bin(v3_neg(p->ray.d)),
@@ -154,24 +154,22 @@ static struct landing landing_of(const struct search *s, const struct photon *p,
     return l;
 }
 
-/* Sends the photon on from a vertex; roulette keeps the flux as it is. */
+/* Scatters the photon at a surface. Russian roulette keeps its flux. Returns
+ * false if the photon is absorbed. */
 static bool photon_scatter(struct photon *p, const struct bsdf *b,
-                           const struct vertex *v, uint32_t i, uint32_t vertex)
+                           const struct surface_point *v, uint32_t i,
+                           uint32_t vertex)
 {
-    struct vec3 wo = vertex_to_local(v, v3_neg(p->ray.d));
+    struct vec3 wo = surface_to_local(v, v3_neg(p->ray.d));
     struct vec2 choice = photon_2d(i, vertex + 1, 1);
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (!bsdf_sample(b, wo, photon_2d(i, vertex + 1, 0), choice.x, &s) ||
+    if (!surface_scatter(v, b, wo, photon_2d(i, vertex + 1, 0), choice.x, &s,
+                         &wi) ||
         !(choice.y < v3_max(s.weight)))
         return false;
-    wi = v3_unit(vertex_to_world(v, s.wi));
-    if (!vertex_sides_agree(v, wi, s.wi.z))
-        return false;
-    p->ray.o = vertex_leave(v, s.wi.z);
-    p->ray.d = wi;
-    p->ray.from = v->face;
+    surface_spawn_ray(v, wi, s.wi.z, &p->ray);
     return true;
 }
 
@@ -183,7 +181,7 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
 
     for (uint32_t vertex = 1; vertex <= PHOTON_VERTICES; vertex++) {
         struct material m;
-        struct vertex v;
+        struct surface_point v;
         struct bsdf b;
         struct hit h;
 
@@ -191,7 +189,7 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
         if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
             return;
         m = caustics_material(w->materials[w->tris[h.tri].material]);
-        if (!vertex_at(w, &m, p.ray, h, &v))
+        if (!surface_at(w, &m, p.ray, h, &v))
             return;
         b = bsdf_at(w, &m, &v);
         if (guide_helps(&b)) {

@@ -114,15 +114,15 @@ static void leave_edges(void *context, uint32_t item, int worker)
     (void)worker;
     for (int i = 0; i < CHUNK; i++) {
         struct ray r = ray_to_edge(s, i, &seed);
-        struct vertex v;
+        struct surface_point v;
         struct hit h;
 
-        if (!hit_closest(s->world, r, &h) || !vertex_at(s->world, &m, r, h, &v))
+        if (!hit_closest(s->world, r, &h) || !surface_at(s->world, &m, r, h, &v))
             continue;
         r.d = direction(&seed);
         if (v3_dot(r.d, v.ng) < 0)
             r.d = v3_neg(r.d);
-        r.o = vertex_leave(&v, 1);
+        r.o = surface_ray_origin(&v, 1);
         shot++;
         bad += !hit_closest(s->world, r, &h);
     }

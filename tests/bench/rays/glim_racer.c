@@ -43,10 +43,7 @@ static void coherent(const void *tree, const struct ray *rays, uint32_t count,
         uint32_t left = count - i;
         uint32_t lanes = left < PACKET_RAYS ? left : PACKET_RAYS;
 
-        if (!hits_closest(&w->world, rays + i, lanes, hits)) {
-            closest(tree, rays + i, lanes, answers + i);
-            continue;
-        }
+        hits_closest(&w->world, rays + i, lanes, hits);
         for (uint32_t k = 0; k < lanes; k++)
             answers[i + k] = (struct answer){hits[k].t, hits[k].tri};
     }

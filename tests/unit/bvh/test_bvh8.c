@@ -31,7 +31,7 @@ static bool is_group(uint32_t count, float left, float width)
         rays[k] =
             (struct ray){{0, 0, 0}, v3_unit(v3(x, 0.3f, 1)), FLOAT_MAX, 0, 0};
     }
-    taken = hits_closest(&m.world, rays, count, hits);
+    taken = packet_closest(&m.world, rays, count, hits);
     for (uint32_t k = 0; taken && k < count; k++)
         check_close(hits[k].t * rays[k].d.z, 1, 1e-6);
     mesh_free(&m);

@@ -260,12 +260,12 @@ static void coarse_balls_have_smooth_shade(void **state)
         struct vec3 at = v3((float)cos(angle), 0.1f, (float)sin(angle));
         struct ray r = {v3_scale(at, 3), v3_unit(v3_neg(at)), FLOAT_MAX, 0, 0};
         struct vec3 to_lamp;
-        struct vertex v;
+        struct surface_point v;
         struct hit h;
         double cosine, truth, got = 0;
 
         assert_true(hit_closest(&m.world, r, &h));
-        assert_true(vertex_at(&m.world, &m.materials[0], r, h, &v));
+        assert_true(surface_at(&m.world, &m.materials[0], r, h, &v));
         to_lamp = v3_sub(lamp, v.p);
         cosine = (double)v3_dot(v.n, v3_unit(to_lamp));
         if (cosine < 0.1)
