@@ -198,13 +198,13 @@ static inline bool guide_scatter(const struct world *w, uint32_t first,
     float pdf;
 
     if (u.x < share) {
-        struct vec3 local, f;
+        struct vec3 wi_local, f;
 
         *wi = guide_sample(w, first, u);
-        local = surface_to_local(v, *wi);
-        f = bsdf_terms(b, wo, local, &pdf);
-        if (!sample_density(s, local, f, pdf) ||
-            !surface_sides_agree(v, *wi, local.z))
+        wi_local = surface_to_local(v, *wi);
+        f = bsdf_terms(b, wo, wi_local, &pdf);
+        if (!sample_density(s, wi_local, f, pdf) ||
+            !surface_sides_agree(v, *wi, wi_local.z))
             return false;
     } else if (!surface_scatter(v, b, wo, guide_rest(u, share), choice, s,
                                 wi)) {

@@ -135,6 +135,7 @@ program_is_hardened()
 }
 
 wanted layers && run_check layers tests/layers.sh
+wanted tour && run_check tour tests/tour.sh
 wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1
 wanted scenes && run_check scenes scenes_are_generated
 wanted hardening && run_check hardening program_is_hardened

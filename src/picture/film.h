@@ -9,7 +9,7 @@
  *
  * Units:     radiance sums; 8-bit sRGB in frames
  * Ownership: film_free() frees; a zeroed struct is an empty film
- * Threads:   film_add() for rows that no other thread adds to; reading
+ * Threads:   film_add_row() for rows that no other thread adds to; reading
  *            functions from any thread at any time (a lock a row)
  * Errors:    memory: the text says how much was needed
  */
