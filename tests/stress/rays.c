@@ -117,7 +117,8 @@ static void leave_edges(void *context, uint32_t item, int worker)
         struct surface_point v;
         struct hit h;
 
-        if (!hit_closest(s->world, r, &h) || !surface_at(s->world, &m, r, h, &v))
+        if (!hit_closest(s->world, r, &h) ||
+            !surface_at(s->world, &m, r, h, &v))
             continue;
         r.d = direction(&seed);
         if (v3_dot(r.d, v.ng) < 0)

@@ -89,7 +89,9 @@ static void unload(struct loaded *l)
 
 static struct bsdf surface(const struct loaded *l, float u, float v)
 {
-    struct surface_point at = {.uv = {u, v}, .has_uv = true, .is_outside = true};
+    struct surface_point at = {.uv = {u, v},
+                               .has_uv = true,
+                               .is_outside = true};
 
     return bsdf_at(&l->world, &l->material, &at);
 }
