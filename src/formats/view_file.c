@@ -235,6 +235,7 @@ bool view_format(const struct view *view, const char *path,
     if (fclose(w.to) == 0)
         return true;
     free(*text);
+    *text = NULL;
     return fail(err, "%s: out of memory", path);
 }
 
