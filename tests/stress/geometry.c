@@ -14,7 +14,7 @@
 #define ROOM "Kd .5 .5 .5\nKe .5 .5 .5"
 
 /* The room's faces, from (-1, -1, -1) to (1, 1, 1). */
-static void put_room(struct workspace *s)
+static void put_room(struct stage *s)
 {
     put_material(s, "room", ROOM);
     put_box(s, (double[]){-1, -1, -1}, (double[]){1, 1, 1});
@@ -25,7 +25,7 @@ static const struct shot inside = {.eye = {0.1, 0.2, 0.9},
                                    .fovy_deg = 90};
 
 /* G1: three equal corners, two equal, all on a line; black if seen. */
-static void degenerate_room(struct workspace *s, double number)
+static void degenerate_room(struct stage *s, double number)
 {
     (void)number;
     put_room(s);
@@ -46,7 +46,7 @@ static void degenerate_room(struct workspace *s, double number)
 }
 
 /* G2 */
-static void room_with_nan(struct workspace *s, double number)
+static void room_with_nan(struct stage *s, double number)
 {
     static const char *const bad[] = {"nan", "inf", "-inf", "1e999"};
 
@@ -57,14 +57,14 @@ static void room_with_nan(struct workspace *s, double number)
                 bad[i]);
 }
 
-static void put_hill(struct workspace *s, int i, int j)
+static void put_hill(struct stage *s, int i, int j)
 {
     put_vertex(s, i / 6.0 - 1, sin(i * 1.3) * cos(j * 0.9) / 4, j / 6.0 - 1);
 }
 
 /* G3: hills of faces with four vertices each (1), or with shared ones that have
  * strangers between them (0). */
-static void hills(struct workspace *s, double is_split)
+static void hills(struct stage *s, double is_split)
 {
     const int side = 13;
 
@@ -91,7 +91,7 @@ static void hills(struct workspace *s, double is_split)
 }
 
 /* G4, G19 */
-static void needle_room(struct workspace *s, double width)
+static void needle_room(struct stage *s, double width)
 {
     uint64_t seed = 1;
 
@@ -109,7 +109,7 @@ static void needle_room(struct workspace *s, double width)
 }
 
 /* G5: so many white faces at one place, in an open sky. */
-static void coincident(struct workspace *s, double count)
+static void coincident(struct stage *s, double count)
 {
     put_material(s, "white", "Kd .9 .9 .9");
     for (int i = 0; i < count; i++)
@@ -118,7 +118,7 @@ static void coincident(struct workspace *s, double count)
 }
 
 /* G6: a bright face (number 0) or a black one first, at the same place. */
-static void two_materials(struct workspace *s, double first)
+static void two_materials(struct stage *s, double first)
 {
     for (int i = 0; i < 2; i++) {
         bool is_bright = (i == 0) == (first == 0);
@@ -132,7 +132,7 @@ static void two_materials(struct workspace *s, double first)
 /* G6: triangles in slanted planes, bright (0) or black (1), and behind each in
  * the file, unless 2 is added, a copy that is the other, begins elsewhere or is
  * wound the other way. */
-static void slanted(struct workspace *s, double number)
+static void slanted(struct stage *s, double number)
 {
     static const char *const orders[] = {"-3 -2 -1", "-2 -1 -3", "-1 -3 -2",
                                          "-3 -1 -2", "-1 -2 -3", "-2 -3 -1"};
@@ -156,7 +156,7 @@ static void slanted(struct workspace *s, double number)
 }
 
 /* G7: boxes around one point. */
-static void nested_room(struct workspace *s, double count)
+static void nested_room(struct stage *s, double count)
 {
     put_room(s);
     for (int i = 1; i <= count; i++) {
@@ -167,7 +167,7 @@ static void nested_room(struct workspace *s, double count)
 }
 
 /* A floor and, as often as said, a lamp above it. */
-static void lamps_over_floor(struct workspace *s, double count)
+static void lamps_over_floor(struct stage *s, double count)
 {
     put_floor(s);
     put_shining(s, "lamp", 1);
@@ -176,7 +176,7 @@ static void lamps_over_floor(struct workspace *s, double count)
 }
 
 /* G9: each half as large as the one before. */
-static void chain_room(struct workspace *s, double count)
+static void chain_room(struct stage *s, double count)
 {
     put_room(s);
     for (int k = 0; k < count; k++) {
@@ -187,7 +187,7 @@ static void chain_room(struct workspace *s, double count)
 }
 
 /* G10: 0: no statement that is seen; 1: one triangle. */
-static void one_or_none(struct workspace *s, double count)
+static void one_or_none(struct stage *s, double count)
 {
     put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
     put_vertex(s, -1, 0, 0);
@@ -198,7 +198,7 @@ static void one_or_none(struct workspace *s, double count)
 
 /* G12: a long corridor of perfect mirrors; whatever comes to its end has met
  * walls and edges 10 to 150 times. */
-static void mirror_corridor(struct workspace *s, double length)
+static void mirror_corridor(struct stage *s, double length)
 {
     put_material(s, "mirror", "illum 3\nKs 1 1 1");
     put_box(s, (double[]){-1, -1, -length}, (double[]){1, 1, 1});
@@ -207,14 +207,14 @@ static void mirror_corridor(struct workspace *s, double length)
 }
 
 /* G14: everything in one plane across this axis. */
-static void flat_scene(struct workspace *s, double axis)
+static void flat_scene(struct stage *s, double axis)
 {
     put_material(s, "lamp", "Kd .5 .5 .5\nKe 1 1 1");
     put_quad(s, (int)axis, 0, (double[]){-9, -9}, (double[]){9, 9});
 }
 
 /* G15, G18: the room beside something so far off that it keeps few digits. */
-static void room_far_off(struct workspace *s, double distance)
+static void room_far_off(struct stage *s, double distance)
 {
     const double x = distance, y = distance / 3;
 
@@ -223,7 +223,7 @@ static void room_far_off(struct workspace *s, double distance)
 }
 
 /* G18: the lamp over a floor of this size, of two triangles. */
-static void huge_floor(struct workspace *s, double size)
+static void huge_floor(struct stage *s, double size)
 {
     lamps_over_floor(s, 1);
     put_material(s, "wide", "Kd 0 0 0");
@@ -231,14 +231,14 @@ static void huge_floor(struct workspace *s, double size)
 }
 
 /* G18: a closed slab that is so much wider than it is high. */
-static void wide_slab(struct workspace *s, double width)
+static void wide_slab(struct stage *s, double width)
 {
     put_material(s, "room", ROOM);
     put_box(s, (double[]){-width, -1, -width}, (double[]){width, 1, width});
 }
 
 /* G17: so many clear sheets of thickness 1e-5 before a lamp. */
-static void thin_sheets(struct workspace *s, double count)
+static void thin_sheets(struct stage *s, double count)
 {
     put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
     put_quad(s, 2, -1, (double[]){-1, -1}, (double[]){1, 1});
@@ -249,7 +249,7 @@ static void thin_sheets(struct workspace *s, double count)
 }
 
 /* G20: the lamp in 1024 tiles, in order (0) or shuffled. */
-static void tiled_lamp(struct workspace *s, double is_shuffled)
+static void tiled_lamp(struct stage *s, double is_shuffled)
 {
     lamps_over_floor(s, 0);
     for (int i = 0; i < 1024; i++) {
@@ -261,14 +261,14 @@ static void tiled_lamp(struct workspace *s, double is_shuffled)
     }
 }
 
-static void plain_room(struct workspace *s, double number)
+static void plain_room(struct stage *s, double number)
 {
     (void)number;
     put_room(s);
 }
 
 /* The same picture elsewhere and in other sizes: closed forms stay. */
-static void moved_and_scaled(struct workspace *s)
+static void moved_and_scaled(struct stage *s)
 {
     static const double moves[] = {1e4, 1e5, 1e6};
     static const double scales[] = {1e-6, 1e-5, 1e-4, 1e4, 1e6};
@@ -299,7 +299,7 @@ static void moved_and_scaled(struct workspace *s)
     s->scale = 1;
 }
 
-static void check_truths(struct workspace *s)
+static void check_truths(struct stage *s)
 {
     const double lit = lit_floor(), r = 0.04;
     const struct shot above = {.eye = {0.3, 2, 0.2},
@@ -398,7 +398,7 @@ static void check_truths(struct workspace *s)
         check_truth(s, &truths[i]);
 }
 
-static void check_pairs(struct workspace *s)
+static void check_pairs(struct stage *s)
 {
     const struct shot from_above = {.eye = {1, 2, 3},
                                     .at = {0, 0, 0},
@@ -421,10 +421,10 @@ static void check_pairs(struct workspace *s)
 
 int main(int argc, char **argv)
 {
-    struct workspace s;
+    struct stage s;
 
     (void)argv;
-    if (!workspace_open(&s, argc > 1))
+    if (!stage_open(&s, argc > 1))
         return 0;
     check_truths(&s);
     check_pairs(&s);

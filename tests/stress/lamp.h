@@ -14,13 +14,13 @@
 /* The lamp's corners in the plane y = 0.7, as put_quad() has them: z, x. */
 static const double lamp_lo[2] = {-0.3, -0.4}, lamp_hi[2] = {0.3, 0.4};
 
-static inline void put_floor(struct workspace *s)
+static inline void put_floor(struct stage *s)
 {
     put_material(s, "floor", "Kd .6 .6 .6");
     put_quad(s, 1, 0, (double[]){-2, -2}, (double[]){2, 2});
 }
 
-static inline void put_shining(struct workspace *s, const char *name,
+static inline void put_shining(struct stage *s, const char *name,
                                double radiance)
 {
     char lines[64];

@@ -25,7 +25,7 @@ enum normals {
     NORMALS_NAN
 };
 
-static void put_ball(struct workspace *s, double radius, enum normals normals)
+static void put_ball(struct stage *s, double radius, enum normals normals)
 {
     static const double lengths[] = {0, 1, 1e3, -1, 0, 0};
     const int rows = 16, columns = 24;
@@ -64,14 +64,14 @@ static void put_ball(struct workspace *s, double radius, enum normals normals)
 }
 
 /* M1, M2 */
-static void ball_with_normals(struct workspace *s, double normals)
+static void ball_with_normals(struct stage *s, double normals)
 {
     put_material(s, "white", "Kd 1 1 1");
     put_ball(s, 0.5, (enum normals)normals);
 }
 
 /* M1 */
-static void mirror_ball(struct workspace *s, double alpha)
+static void mirror_ball(struct stage *s, double alpha)
 {
     put_material(s, "white",
                  alpha > 0 ? "illum 3\nKs 1 1 1\nPr .5"
@@ -79,7 +79,7 @@ static void mirror_ball(struct workspace *s, double alpha)
     put_ball(s, 0.5, NORMALS_UNIT);
 }
 
-static void glass_ball(struct workspace *s, double number)
+static void glass_ball(struct stage *s, double number)
 {
     (void)number;
     put_material(s, "white", "illum 7\nNi 1.5");
@@ -110,13 +110,13 @@ static const struct {
     {"M5", "albedo 2", "Kd 2 2 2", 0, true},
 };
 
-static void white_ball(struct workspace *s, double thing)
+static void white_ball(struct stage *s, double thing)
 {
     put_material(s, "white", white_things[(int)thing].lines);
     put_ball(s, 0.5, NORMALS_NONE);
 }
 
-static void check_white_things(struct workspace *s)
+static void check_white_things(struct stage *s)
 {
     for (size_t i = 0; i < sizeof white_things / sizeof white_things[0]; i++) {
         struct truth t = {white_things[i].name,
@@ -136,7 +136,7 @@ static void check_white_things(struct workspace *s)
 }
 
 /* M5: black where the albedo is negative; all that is seen. */
-static void negative_albedo(struct workspace *s, double number)
+static void negative_albedo(struct stage *s, double number)
 {
     (void)number;
     put_material(s, "negative", "Kd -1 -1 -1");
@@ -145,7 +145,7 @@ static void negative_albedo(struct workspace *s, double number)
 
 /* M6: from within glass straight out: the sky times ior squared, less what is
  * reflected, which comes out elsewhere. */
-static void glass_cube(struct workspace *s, double number)
+static void glass_cube(struct stage *s, double number)
 {
     (void)number;
     put_material(s, "glass", "illum 7\nNi 1.5");
@@ -155,7 +155,7 @@ static void glass_cube(struct workspace *s, double number)
 /* M6: a prism that turns a view down the z axis by 90 degrees to a lamp on the
  * right: two faces let 96 % through, the third reflects all. What they reflect
  * leaves the way it came, to the black sky. */
-static void prism(struct workspace *s, double number)
+static void prism(struct stage *s, double number)
 {
     const double p[6][3] = {{-1, -1, 1}, {1, -1, 1}, {1, -1, -1},
                             {-1, 1, 1},  {1, 1, 1},  {1, 1, -1}};
@@ -172,7 +172,7 @@ static void prism(struct workspace *s, double number)
 
 /* M7: two balls into each other (0), two cubes that touch (1), a sheet that is
  * open (2). */
-static void odd_glass(struct workspace *s, double kind)
+static void odd_glass(struct stage *s, double kind)
 {
     put_material(s, "glass", "illum 7\nNi 1.5");
     if (kind == 0) {
@@ -187,7 +187,7 @@ static void odd_glass(struct workspace *s, double kind)
     }
 }
 
-static void lamp_over_floor(struct workspace *s, double radiance)
+static void lamp_over_floor(struct stage *s, double radiance)
 {
     put_floor(s);
     put_shining(s, "lamp", radiance);
@@ -195,7 +195,7 @@ static void lamp_over_floor(struct workspace *s, double radiance)
 }
 
 /* M9: beside one that shines 0. */
-static void lamp_and_dark(struct workspace *s, double number)
+static void lamp_and_dark(struct stage *s, double number)
 {
     (void)number;
     lamp_over_floor(s, 1);
@@ -204,7 +204,7 @@ static void lamp_and_dark(struct workspace *s, double number)
 }
 
 /* M9: the lamp as 2 side^2 triangles, and so many without area. */
-static void many_lamps(struct workspace *s, double side)
+static void many_lamps(struct stage *s, double side)
 {
     const int n = (int)side;
 
@@ -223,7 +223,7 @@ static void many_lamps(struct workspace *s, double side)
         }
 }
 
-static void no_lamp(struct workspace *s, double number)
+static void no_lamp(struct stage *s, double number)
 {
     (void)number;
     put_material(s, "floor", "Kd .6 .6 .6\nKe 0 0 0");
@@ -231,7 +231,7 @@ static void no_lamp(struct workspace *s, double number)
 }
 
 /* M11: a wall that shines, 1 high and 2 wide, stands on the floor. */
-static void wall_lamp(struct workspace *s, double number)
+static void wall_lamp(struct stage *s, double number)
 {
     (void)number;
     put_floor(s);
@@ -249,7 +249,7 @@ static double beside_wall(double distance)
 }
 
 /* M11: a floor with a lamp in its plane. */
-static void flush_floor(struct workspace *s, double number)
+static void flush_floor(struct stage *s, double number)
 {
     (void)number;
     put_material(s, "floor", "Kd .6 .6 .6");
@@ -260,7 +260,7 @@ static void flush_floor(struct workspace *s, double number)
 
 /* M12: a lamp in a ceiling: in the file before it (0), after it (1), or below
  * it by as much as the number says. */
-static void flush_lamp(struct workspace *s, double number)
+static void flush_lamp(struct stage *s, double number)
 {
     put_floor(s);
     for (int i = 0; i < 2; i++)
@@ -274,7 +274,7 @@ static void flush_lamp(struct workspace *s, double number)
 }
 
 /* M13: a closed room of this albedo that shines what is left of 1. */
-static void furnace(struct workspace *s, double albedo)
+static void furnace(struct stage *s, double albedo)
 {
     char lines[128];
     double ke = 1 - albedo;
@@ -286,7 +286,7 @@ static void furnace(struct workspace *s, double albedo)
 }
 
 /* M15: a black body of this temperature and luminance 1. */
-static void black_body(struct workspace *s, double kelvin)
+static void black_body(struct stage *s, double kelvin)
 {
     char lines[64];
 
@@ -296,7 +296,7 @@ static void black_body(struct workspace *s, double kelvin)
 }
 
 /* M16: a bright speck of a ten thousandth of a square. */
-static void speck(struct workspace *s, double radiance)
+static void speck(struct stage *s, double radiance)
 {
     put_shining(s, "speck", radiance);
     put_quad(s, 1, 0, (double[]){-0.01, -0.01}, (double[]){0.01, 0.01});
@@ -382,14 +382,14 @@ static double hot_irradiance(const struct sky_file *sky)
                                   (2 * M_PI / sky->width);
 }
 
-static void ground(struct workspace *s, double number)
+static void ground(struct stage *s, double number)
 {
     (void)number;
     put_material(s, "ground", "Kd .5 .5 .5");
     put_quad(s, 1, 0, (double[]){-9, -9}, (double[]){9, 9});
 }
 
-static void check_skies(struct workspace *s)
+static void check_skies(struct stage *s)
 {
     static const struct {
         const char *what;
@@ -422,7 +422,7 @@ static void check_skies(struct workspace *s)
     }
 }
 
-static void check_sky_of_nan(struct workspace *s)
+static void check_sky_of_nan(struct stage *s)
 {
     const struct sky_file file = {8, 4, 0, 0.25, NAN, true};
     const struct shot up = {.at = {0, 1, 0}, .fovy_deg = 40, .sky = "sky"};
@@ -441,7 +441,7 @@ static void check_sky_of_nan(struct workspace *s)
 }
 
 /* M8: nothing overflows; what is too bright for the sum is counted. */
-static void check_brightest(struct workspace *s)
+static void check_brightest(struct stage *s)
 {
     const double want = 0x1p63 / 64; /* sums of 64 samples stop at 2^63 */
     struct outcome o;
@@ -460,7 +460,7 @@ static void check_brightest(struct workspace *s)
     free(o.rgb);
 }
 
-static void check_normals(struct workspace *s)
+static void check_normals(struct stage *s)
 {
     const struct shot shot = {.eye = {1, 2, 3},
                               .at = {0, 0, 0},
@@ -481,7 +481,7 @@ static void check_normals(struct workspace *s)
         check_twins(s, &twins[i]);
 }
 
-static void check_truths(struct workspace *s)
+static void check_truths(struct stage *s)
 {
     const double lit = lit_floor();
     const struct shot sky = {.eye = {0, 0.5, 3},
@@ -611,10 +611,10 @@ static void check_truths(struct workspace *s)
 
 int main(int argc, char **argv)
 {
-    struct workspace s;
+    struct stage s;
 
     (void)argv;
-    if (!workspace_open(&s, argc > 1))
+    if (!stage_open(&s, argc > 1))
         return 0;
     check_white_things(&s);
     check_normals(&s);

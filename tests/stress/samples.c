@@ -31,7 +31,7 @@ static float played_survival(struct vec3 beta, uint32_t vertex)
 #include "kernels/path.h"
 
 /* The closed room of geometry.c: every pixel's truth is 1. */
-static void put_room(struct workspace *s)
+static void put_room(struct stage *s)
 {
     stage_begin(s);
     put_material(s, "room", "Kd .5 .5 .5\nKe .5 .5 .5");
@@ -71,7 +71,7 @@ static double correlation(const float *one, const float *other, int side, int x,
  * once in 2e6 (two-sided), of 14 numbers on each backend. */
 #define CORRELATION 0.02
 
-static void check_streams(struct workspace *s)
+static void check_streams(struct stage *s)
 {
     static const int shifts[][2] = {{1, 0}, {0, 1}, {1, 1}, {2, 0},
                                     {0, 2}, {8, 0}, {0, 8}};
@@ -105,7 +105,7 @@ static void check_streams(struct workspace *s)
     free(o[1].rgb);
 }
 
-static double squared_error(struct workspace *s, int side_px, uint64_t spp)
+static double squared_error(struct stage *s, int side_px, uint64_t spp)
 {
     struct shot shot = room_shot(side_px, spp, 1);
     struct outcome o = stage_render(s, &shot, 1);
@@ -119,7 +119,7 @@ static double squared_error(struct workspace *s, int side_px, uint64_t spp)
 
 /* C7: at least as fast as 1 / n. The mean of 64 squares of normal numbers has
  * a standard error of sqrt(2 / 64); 4.9 of it come by chance once in 1e6. */
-static void check_slope(struct workspace *s)
+static void check_slope(struct stage *s)
 {
     const double slack = 1 + 4.9 * sqrt(2 / 64.0);
     double begin, end;
@@ -132,7 +132,7 @@ static void check_slope(struct workspace *s)
         begin, end, begin * slack);
 }
 
-static void check_seeds(struct workspace *s)
+static void check_seeds(struct stage *s)
 {
     struct shot shot = room_shot(SIDE_PX, 64, 0xfffffffau);
     struct outcome o;
@@ -528,7 +528,7 @@ static void check_black_bodies(void)
 
 int main(int argc, char **argv)
 {
-    struct workspace s;
+    struct stage s;
 
     (void)argv;
     if (argc == 1) {
@@ -543,7 +543,7 @@ int main(int argc, char **argv)
         check_black_bodies();
         check_late_samples();
     }
-    if (!workspace_open(&s, argc > 1))
+    if (!stage_open(&s, argc > 1))
         return rows_status();
     check_streams(&s);
     check_seeds(&s);

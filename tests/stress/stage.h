@@ -34,7 +34,7 @@
 #define T_LIMIT 9.4
 #define SIDE_PX 16
 
-struct workspace {
+struct stage {
     char folder[32];
     FILE *obj, *mtl;
     double scale, move[3]; /* of what is written, in this order */
@@ -71,13 +71,13 @@ static inline void stage_stop(const char *text)
 }
 
 /* False, with a word to standard output, where there is no such device. */
-static inline bool workspace_open(struct workspace *s, bool on_device)
+static inline bool stage_open(struct stage *s, bool on_device)
 {
     struct cl_request request = {.features = FEATURES_ALL};
     struct error err;
     char *log = NULL;
 
-    *s = (struct workspace){.folder = "/tmp/glim-stress-XXXXXX", .scale = 1};
+    *s = (struct stage){.folder = "/tmp/glim-stress-XXXXXX", .scale = 1};
     if (on_device) {
         cl_environment_prepare(0);
         s->backend = backend_cl_create(&request, &log, &err);
@@ -98,7 +98,7 @@ static inline bool workspace_open(struct workspace *s, bool on_device)
     return true;
 }
 
-static inline void stage_close(struct workspace *s)
+static inline void stage_close(struct stage *s)
 {
     render_destroy(s->render);
     s->backend->destroy(s->backend);
@@ -109,7 +109,7 @@ static inline void stage_close(struct workspace *s)
         stage_stop("files are left in the temporary folder");
 }
 
-static inline void stage_begin(struct workspace *s)
+static inline void stage_begin(struct stage *s)
 {
     s->obj = fopen("a.obj", "w");
     s->mtl = fopen("a.mtl", "w");
@@ -118,26 +118,26 @@ static inline void stage_begin(struct workspace *s)
     fprintf(s->obj, "mtllib a.mtl\n");
 }
 
-static inline void stage_end(struct workspace *s)
+static inline void stage_end(struct stage *s)
 {
     if (fclose(s->obj) != 0 || fclose(s->mtl) != 0)
         stage_stop("cannot write the scene");
 }
 
-static inline void put_material(struct workspace *s, const char *name,
+static inline void put_material(struct stage *s, const char *name,
                                 const char *lines)
 {
     fprintf(s->mtl, "newmtl %s\n%s\n", name, lines);
     fprintf(s->obj, "usemtl %s\n", name);
 }
 
-static inline void put_vertex(struct workspace *s, double x, double y, double z)
+static inline void put_vertex(struct stage *s, double x, double y, double z)
 {
     fprintf(s->obj, "v %.17g %.17g %.17g\n", x * s->scale + s->move[0],
             y * s->scale + s->move[1], z * s->scale + s->move[2]);
 }
 
-static inline void put_tri(struct workspace *s, const double p[3][3])
+static inline void put_tri(struct stage *s, const double p[3][3])
 {
     for (int k = 0; k < 3; k++)
         put_vertex(s, p[k][0], p[k][1], p[k][2]);
@@ -145,7 +145,7 @@ static inline void put_tri(struct workspace *s, const double p[3][3])
 }
 
 /* From lo to hi in the plane where axis has the value `at`. */
-static inline void put_quad(struct workspace *s, int axis, double at,
+static inline void put_quad(struct stage *s, int axis, double at,
                             const double lo[2], const double hi[2])
 {
     for (int i = 0; i < 4; i++) {
@@ -160,7 +160,7 @@ static inline void put_quad(struct workspace *s, int axis, double at,
 }
 
 /* With its normals outwards, its vertices shared. */
-static inline void put_box(struct workspace *s, const double lo[3],
+static inline void put_box(struct stage *s, const double lo[3],
                            const double hi[3])
 {
     for (int i = 0; i < 8; i++)
@@ -183,7 +183,7 @@ static inline void load_scene(struct scene *scene, const struct view *view,
     warnings_free(&report);
 }
 
-static inline struct view make_view(const struct workspace *s,
+static inline struct view make_view(const struct stage *s,
                                     const struct shot *shot)
 {
     struct view view;
@@ -202,7 +202,7 @@ static inline struct view make_view(const struct workspace *s,
     return view;
 }
 
-static inline void render_seed(struct workspace *s, struct scene *scene,
+static inline void render_seed(struct stage *s, struct scene *scene,
                                const struct view *view, const struct shot *shot,
                                uint32_t seed, struct outcome *o)
 {
@@ -226,7 +226,7 @@ static inline void render_seed(struct workspace *s, struct scene *scene,
 }
 
 /* Renders what stage_end() has finished, with `seeds` seeds. */
-static inline struct outcome stage_render(struct workspace *s,
+static inline struct outcome stage_render(struct stage *s,
                                           const struct shot *shot, int seeds)
 {
     struct outcome o = {0};
@@ -256,7 +256,7 @@ static inline struct outcome stage_render(struct workspace *s,
 }
 
 /* A scene, by a number that its maker understands. */
-typedef void scene_maker(struct workspace *s, double number);
+typedef void scene_maker(struct stage *s, double number);
 
 struct truth {
     const char *name, *what;
@@ -271,7 +271,7 @@ struct truth {
 /* The rounding of a sum of some float operations. */
 #define ROUNDING 1e-5
 
-static inline void check_truth(struct workspace *s, const struct truth *t)
+static inline void check_truth(struct stage *s, const struct truth *t)
 {
     struct outcome o;
     double allowed;
@@ -305,7 +305,7 @@ struct twins {
     struct shot shot;
 };
 
-static inline void check_twins(struct workspace *s, const struct twins *t)
+static inline void check_twins(struct stage *s, const struct twins *t)
 {
     const double numbers[] = {t->one, t->other};
     struct outcome o[2];

@@ -6,7 +6,7 @@
  * about it is tried in every way of gathering light, over independent seeds.
  *
  * Units:     normalised scene units, radiance
- * Ownership: workspace_free() frees the arrays
+ * Ownership: stage_free() frees the arrays
  * Threads:   one
  * Errors:    a claim that does not hold ends the test
  */
@@ -33,7 +33,7 @@
 /* Claims are about means known to this, or they would hold of anything. */
 #define PRECISION 0.01
 
-struct workspace {
+struct stage {
     struct mesh mesh;
     struct lights lights;
     struct sky_table skies[2]; /* by enum sky_use */
@@ -54,7 +54,7 @@ struct claim {
 
 static const char *const ways[] = {"both ways", "chosen lights", "chance"};
 
-static inline void stage_finish(struct workspace *s)
+static inline void stage_finish(struct stage *s)
 {
     struct world *w = &s->mesh.world;
     struct error err;
@@ -68,7 +68,7 @@ static inline void stage_finish(struct workspace *s)
                                     &err));
 }
 
-static inline void workspace_free(struct workspace *s)
+static inline void stage_free(struct stage *s)
 {
     sky_table_free(&s->skies[SKY_WITH_CHANCE]);
     sky_table_free(&s->skies[SKY_ALONE]);
@@ -77,7 +77,7 @@ static inline void workspace_free(struct workspace *s)
 }
 
 /* Lends the tables that this way of gathering light needs. */
-static inline void stage_gather(struct workspace *s, enum direct direct)
+static inline void stage_gather(struct stage *s, enum direct direct)
 {
     enum sky_use use = direct == DIRECT_LIGHTS ? SKY_ALONE : SKY_WITH_CHANCE;
 
@@ -152,7 +152,7 @@ static inline void check_claim_this_way(const struct world *w,
     }
 }
 
-static inline void check_claim_at(struct workspace *s, struct claim c,
+static inline void check_claim_at(struct stage *s, struct claim c,
                                   const char *file, int line)
 {
     for (int direct = DIRECT_MIS; direct <= DIRECT_CHANCE; direct++) {

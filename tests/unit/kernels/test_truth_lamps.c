@@ -29,7 +29,7 @@ static struct vec3 eye_over(struct vec3 p, struct vec3 n)
     return v3_add(p, v3_add(v3_scale(n, 0.04f), v3_scale(t, 0.03f)));
 }
 
-static void check_receiver(struct workspace *s, const struct receiver *r,
+static void check_receiver(struct stage *s, const struct receiver *r,
                            double irradiance, int paths)
 {
     double truth = ALBEDO / M_PI * irradiance;
@@ -60,7 +60,7 @@ static void polygons_obey_lambert(void **state)
     (void)state;
     for (size_t k = 0; k < 2 * sizeof receivers / sizeof *receivers; k++) {
         const struct receiver *r = &receivers[k / 2];
-        struct workspace s = {0};
+        struct stage s = {0};
         struct mesh *m = &s.mesh;
 
         m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -71,7 +71,7 @@ static void polygons_obey_lambert(void **state)
                      corners[k % 2 ? i + 1 : i], LAMP);
         stage_finish(&s);
         check_receiver(&s, r, 5 * lambert(corners, 5, r), 2048);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
@@ -130,7 +130,7 @@ static void screens_hide_their_share(void **state)
         float opacity = opacities[k >> 1 & 1];
         float glow = glows[k >> 2];
         struct sheet hidden = hidden_part(ceiling, screen, r->p);
-        struct workspace s = {0};
+        struct stage s = {0};
         struct mesh *m = &s.mesh;
 
         m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -148,7 +148,7 @@ static void screens_hide_their_share(void **state)
                                ((double)glow * sheet_irradiance(screen, r) -
                                 2 * sheet_irradiance(hidden, r)),
                        512);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
@@ -181,7 +181,7 @@ static void cut_outs_hide_and_shine_by_half(void **state)
     for (uint32_t cut = LAMP; cut <= SCREEN; cut++) {
         struct sheet lamp = ceiling, shade = screen;
         struct sheet *sheet = cut == LAMP ? &lamp : &shade;
-        struct workspace s = {0};
+        struct stage s = {0};
         struct mesh *m = &s.mesh;
 
         m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -206,7 +206,7 @@ static void cut_outs_hide_and_shine_by_half(void **state)
                             sheet_irradiance(hidden_part(lamp, shade, r.p),
                                              &r)),
                        1024);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
@@ -260,7 +260,7 @@ static void all_surfaces_shine_as_they_scatter(void **state)
         struct material floor = mesh_material(kinds[k / 2].kind, 1);
         struct vec3 wo = v3(0.6f, 0, k % 2 ? -0.8f : 0.8f);
         struct vec3 truth = {0, 0, 0};
-        struct workspace s = {0};
+        struct stage s = {0};
         struct bsdf b;
 
         floor.color = v3(0.9f, 0.6f, 0.3f);
@@ -290,7 +290,7 @@ static void all_surfaces_shine_as_they_scatter(void **state)
                                               (double)truth.z},
                                     .systematic = 1e-4, /* of the midpoints */
                                     .paths = 4096}));
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
@@ -305,7 +305,7 @@ static void many_lamps_add_up(void **state)
     (void)state;
     for (size_t k = 0; k < 2; k++) {
         const struct receiver *r = &receivers[k];
-        struct workspace s = {0};
+        struct stage s = {0};
         double irradiance = 0;
         uint64_t seed = 15;
 
@@ -326,7 +326,7 @@ static void many_lamps_add_up(void **state)
         }
         stage_finish(&s);
         check_receiver(&s, r, irradiance, 4096);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
@@ -337,7 +337,7 @@ static void mirrors_show_lamps_to_floors(void **state)
     const struct receiver r = {{0.2f, 0, 0.1f}, {0, 1, 0}, false};
     const struct sheet lamp = {0.1f, 0.5f, -0.3f, 0.3f, 0.4f};
     const struct sheet image = {-0.5f, -0.1f, -0.3f, 0.3f, 0.4f};
-    struct workspace s = {0};
+    struct stage s = {0};
 
     (void)state;
     s.mesh.materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -360,7 +360,7 @@ static void mirrors_show_lamps_to_floors(void **state)
                                               (sheet_irradiance(lamp, &r) +
                                                sheet_irradiance(image, &r))),
                                 .paths = 1024}));
-    workspace_free(&s);
+    stage_free(&s);
 }
 
 /* All within glass, seen from within and from outside: a face keeps .96 of what
@@ -370,7 +370,7 @@ static void glass_dims_what_is_in_it(void **state)
     const struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
     const struct sheet lamp = {0.05f, 0.6f, -0.3f, 0.3f, 0.4f};
     double truth = ALBEDO / M_PI * 2 * sheet_irradiance(lamp, &r);
-    struct workspace s = {0};
+    struct stage s = {0};
 
     (void)state;
     s.mesh.materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -386,12 +386,12 @@ static void glass_dims_what_is_in_it(void **state)
     check_claim(&s, ((struct claim){.eye = {0, 2, 0},
                                     .truth = GREY(truth * 0.96 / (1.5 * 1.5)),
                                     .paths = 2048}));
-    workspace_free(&s);
+    stage_free(&s);
 }
 
 /* A room with a glossy ball and a block of glass; four lamps of which one, or
  * all if it is NO_INDEX, are on. */
-static void make_room(struct workspace *s, uint32_t lit)
+static void make_room(struct stage *s, uint32_t lit)
 {
     struct mesh *m = &s->mesh;
 
@@ -430,13 +430,13 @@ static void lamps_add_up_one_by_one(void **state)
         struct estimate all = {{0}, {0}}, sum = {{0}, {0}};
 
         for (uint32_t lit = 0; lit <= 4; lit++) {
-            struct workspace s = {0};
+            struct stage s = {0};
             struct estimate e;
 
             make_room(&s, lit < 4 ? lit : NO_INDEX);
             stage_gather(&s, DIRECT_MIS);
             e = claim_estimate(&s.mesh.world, &c);
-            workspace_free(&s);
+            stage_free(&s);
             if (lit == 4)
                 all = e;
             for (int i = 0; lit < 4 && i < 3; i++) {

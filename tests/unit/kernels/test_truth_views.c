@@ -384,7 +384,7 @@ static void add_square(struct mesh *m)
     m->materials[LAMP] = lamp_material(2);
 }
 
-static void check_receiver(struct workspace *s, const struct receiver *r,
+static void check_receiver(struct stage *s, const struct receiver *r,
                            double irradiance, double systematic)
 {
     struct vec3 t, b;
@@ -439,7 +439,7 @@ static void images_shine_as_they_look(void **state)
     }
     for (size_t k = 0; k < RECEIVERS; k++) {
         const uint32_t corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
-        struct workspace s = {0};
+        struct stage s = {0};
 
         add_receiver(&s.mesh, &receivers[k]);
         add_square(&s.mesh);
@@ -456,7 +456,7 @@ static void images_shine_as_they_look(void **state)
         check_receiver(&s, &receivers[k],
                        square_irradiance(&receivers[k], image_radiance, &p),
                        1e-4);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
@@ -506,7 +506,7 @@ static void skies_light_floors(void **state)
                                        (0.4 * (cos(TURN) * x - sin(TURN) * z) +
                                         0.3 * (double)r->n.y -
                                         0.2 * (sin(TURN) * x + cos(TURN) * z));
-        struct workspace s = {0};
+        struct stage s = {0};
 
         add_receiver(&s.mesh, r);
         if (k % 2) {
@@ -523,7 +523,7 @@ static void skies_light_floors(void **state)
         stage_finish(&s);
         /* (pi / 128)^2 / 8 of the slope between four texels, twice */
         check_receiver(&s, r, irradiance, 2e-4);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 

@@ -229,7 +229,7 @@ static void light_samples_of_a_flat_sky(void **state)
  * a table of nonsense finds that much. */
 static void any_table_is_right(void **state)
 {
-    struct workspace s = {.mesh = {.positions = NULL}};
+    struct stage s = {.mesh = {.positions = NULL}};
     struct claim c = {.eye = {.2f, .1f, .4f},
                       .at = {-.3f, -1, .1f},
                       .truth = GREY(2),
@@ -247,13 +247,13 @@ static void any_table_is_right(void **state)
     table_init(&t, 0.7, 3);
     path_guide_lend(&t.guide, &s.mesh.world);
     check_claim(&s, c);
-    workspace_free(&s);
+    stage_free(&s);
 }
 
 /* A small lamp beside a wall, which hangs above a floor; kind is the wall's. */
-static void lamp_and_wall(struct workspace *s, enum material_kind kind)
+static void lamp_and_wall(struct stage *s, enum material_kind kind)
 {
-    *s = (struct workspace){.mesh = {.positions = NULL}};
+    *s = (struct stage){.mesh = {.positions = NULL}};
     s->mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     s->mesh.materials[1] = mesh_material((uint32_t)kind, .9f);
     s->mesh.materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
@@ -268,7 +268,7 @@ static void lamp_and_wall(struct workspace *s, enum material_kind kind)
     lights_lend(&s->lights, &s->mesh.world);
 }
 
-static void built(struct workspace *s, float sky, struct path_guide *g)
+static void built(struct stage *s, float sky, struct path_guide *g)
 {
     struct error err;
 
@@ -283,7 +283,7 @@ static void mirrors_point_to_images(void **state)
 {
     struct vec3 image = {-.62f, .41f, 0};
     struct path_guide g = {.cells = NULL};
-    struct workspace s;
+    struct stage s;
     int found = 0;
 
     (void)state;
@@ -314,13 +314,13 @@ static void mirrors_point_to_images(void **state)
     }
     assert_true(found >= 6);
     path_guide_free(&g);
-    workspace_free(&s);
+    stage_free(&s);
 }
 
 static void only_where_it_helps(void **state)
 {
     struct path_guide g = {.cells = NULL}, again = {.cells = NULL};
-    struct workspace s;
+    struct stage s;
     size_t count;
 
     (void)state;
@@ -342,7 +342,7 @@ static void only_where_it_helps(void **state)
     built(&s, 0, &g);
     assert_null(g.cells);
     path_guide_free(&again);
-    workspace_free(&s);
+    stage_free(&s);
 }
 
 /* ---- openings ---- */
@@ -359,12 +359,12 @@ static void add_wall(struct mesh *m, float y0, float y1, float z0, float z1,
 }
 
 /* Material 0 is the walls', 1 the pane's, 2 the lamp's. */
-static void room(struct workspace *s, bool has_pane)
+static void room(struct stage *s, bool has_pane)
 {
     struct mesh *m = &s->mesh;
     const float *y = window[0], *z = window[1];
 
-    *s = (struct workspace){.mesh = {.positions = NULL}};
+    *s = (struct stage){.mesh = {.positions = NULL}};
     m->materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     m->materials[1] = mesh_material(MATERIAL_THIN_GLASS, 1);
     m->materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
@@ -429,7 +429,7 @@ static void windows_are_found(void **state)
         uint32_t (*not_at)(const struct world *, struct vec3, struct vec3) =
             has_pane ? sky_at : ways_at;
         struct path_guide g = {.cells = NULL};
-        struct workspace s;
+        struct stage s;
         struct world *w = &s.mesh.world;
         int found = 0;
 
@@ -456,12 +456,12 @@ static void windows_are_found(void **state)
         /* what faces outwards is in the open */
         assert_int_equal(at(w, v3(1, 0, 0), v3(1, 0, 0)), NO_INDEX);
         path_guide_free(&g);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
 /* Standard error of the floor's radiance under a sky of 1. */
-static double noise(struct workspace *s, const struct path_guide *g)
+static double noise(struct stage *s, const struct path_guide *g)
 {
     const struct claim c = {.eye = {.6f, .1f, .4f},
                             .at = {.1f, -1, .1f},
@@ -486,7 +486,7 @@ static void white_rooms_are_left_alone(void **state)
             struct vec3 p = {.1f, -1, .1f}, up = {0, 1, 0};
             struct path_guide g = {.cells = NULL};
             uint32_t first;
-            struct workspace s;
+            struct stage s;
 
             room(&s, has_pane);
             s.mesh.materials[2].emission = v3(0, 0, 0);
@@ -507,7 +507,7 @@ static void white_rooms_are_left_alone(void **state)
             check_at_most(noise(&s, &g),
                           (is_white ? 1.5 : .9) * noise(&s, &none));
             path_guide_free(&g);
-            workspace_free(&s);
+            stage_free(&s);
         }
         check_at_most(.1, shares[0]);
         check_at_most(shares[1], .5 * shares[0]);
@@ -526,7 +526,7 @@ static void rooms_in_balance(void **state)
                           .paths = 2000,
                           /* behind panes there are none */
                           .without = 1 << DIRECT_LIGHTS};
-        struct workspace s;
+        struct stage s;
 
         room(&s, has_pane);
         s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .7f);
@@ -538,7 +538,7 @@ static void rooms_in_balance(void **state)
         path_guide_lend(&g, &s.mesh.world);
         check_claim(&s, c);
         path_guide_free(&g);
-        workspace_free(&s);
+        stage_free(&s);
     }
 }
 
@@ -546,7 +546,7 @@ static void only_where_the_sky_is_hidden(void **state)
 {
     struct path_guide g = {.cells = NULL};
     struct error err;
-    struct workspace s;
+    struct stage s;
 
     (void)state;
     room(&s, false);
@@ -564,16 +564,16 @@ static void only_where_the_sky_is_hidden(void **state)
     assert_non_null(g.cells);
     built(&s, 1e-4f, &g); /* which the lamp outshines */
     assert_null(g.cells);
-    workspace_free(&s);
+    stage_free(&s);
 
     room(&s, true);
     s.mesh.materials[1] = mesh_material(MATERIAL_DIFFUSE, .5f);
     stage_finish(&s);
     built(&s, 1, &g); /* behind a shutter */
     assert_null(g.cells);
-    workspace_free(&s);
+    stage_free(&s);
 
-    s = (struct workspace){.mesh = {.positions = NULL}};
+    s = (struct stage){.mesh = {.positions = NULL}};
     s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), 0);
     mesh_add_quad(&s.mesh, v3(-9, -1, -9), v3(-9, -1, 9), v3(9, -1, 9),
@@ -588,7 +588,7 @@ static void only_where_the_sky_is_hidden(void **state)
         assert_int_equal(sky_at(&s.mesh.world, p[0], v3(0, 1, 0)), NO_INDEX);
     }
     path_guide_free(&g);
-    workspace_free(&s);
+    stage_free(&s);
 }
 
 /* Caustics and openings: bit for bit. */
@@ -601,7 +601,7 @@ static void threads_change_nothing(void **state)
     assert_non_null(pool);
     for (int sky = 0; sky < 2; sky++) {
         struct path_guide alone = {.cells = NULL}, together = {.cells = NULL};
-        struct workspace s;
+        struct stage s;
 
         if (sky == 1) {
             room(&s, false);
@@ -623,7 +623,7 @@ static void threads_change_nothing(void **state)
                                 sizeof *alone.sums);
         path_guide_free(&alone);
         path_guide_free(&together);
-        workspace_free(&s);
+        stage_free(&s);
     }
     pool_destroy(pool);
 }

@@ -158,18 +158,18 @@ static void put(const char *name, const char *text)
                  err.text);
 }
 
-struct workspace {
+struct stage {
     struct scene scene;
     struct view view;
     struct warnings report;
     struct edit edit;
 };
 
-static void open_stage(struct workspace *s)
+static void open_stage(struct stage *s)
 {
     struct error err;
 
-    *s = (struct workspace){.report = {0}};
+    *s = (struct stage){.report = {0}};
     put("k.obj", "mtllib k.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a\nusemtl m\n"
                  "f 1 2 3\no b\nusemtl n\nf 1 2 3\n");
     put("k.mtl", "newmtl m\nKd .5 .25 .125\nmap_Kd no.png\nnewmtl n\n"
@@ -180,7 +180,7 @@ static void open_stage(struct workspace *s)
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
 }
 
-static void close_stage(struct workspace *s)
+static void close_stage(struct stage *s)
 {
     edit_free(&s->edit);
     scene_free(&s->scene);
@@ -205,7 +205,7 @@ static void knobs_turn_back(void **state)
         {PARAMETER_MATERIAL, 2, false}, {PARAMETER_OBJECT, 1, false},
         {PARAMETER_LIGHT, 0, false},    {PARAMETER_LIGHT, 0, true},
     };
-    struct workspace s;
+    struct stage s;
 
     (void)state;
     open_stage(&s);
@@ -238,7 +238,7 @@ static void knobs_turn_back(void **state)
  * changes nothing. */
 static void shown_texts_can_be_typed(void **state)
 {
-    struct workspace s;
+    struct stage s;
 
     (void)state;
     open_stage(&s);
@@ -293,7 +293,7 @@ static void typed_values_arrive(void **state)
     };
     struct parameter_target target = {PARAMETER_MATERIAL, 1, false};
     struct parameter knobs[PARAMETERS_MAX];
-    struct workspace s;
+    struct stage s;
     int count;
 
     (void)state;

@@ -107,7 +107,7 @@ static void screen_write(struct screen *s, struct ansi_diff *a)
     }
 }
 
-struct workspace {
+struct stage {
     struct pixel_graphics g;
     struct ansi_diff a;
     struct frame frame;
@@ -115,8 +115,8 @@ struct workspace {
     struct screen screen;
 };
 
-static void workspace_init(struct workspace *st, enum pixel_graphics_kind kind,
-                           uint64_t *seed)
+static void stage_init(struct stage *st, enum pixel_graphics_kind kind,
+                       uint64_t *seed)
 {
     struct pixel_graphics_shape shape = {kind,   COLS,   ROWS,
                                          CELL_W, CELL_H, PALETTE_256};
@@ -133,7 +133,7 @@ static void workspace_init(struct workspace *st, enum pixel_graphics_kind kind,
         blank(&st->screen, 0, row, COLS);
 }
 
-static void workspace_free(struct workspace *st)
+static void stage_free(struct stage *st)
 {
     pixel_graphics_free(&st->g);
     ansi_diff_free(&st->a);
@@ -142,7 +142,7 @@ static void workspace_free(struct workspace *st)
 }
 
 /* One frame; how many images it had. */
-static int draw(struct workspace *st, const struct ansi_diff_draw *how,
+static int draw(struct stage *st, const struct ansi_diff_draw *how,
                 bool *is_done)
 {
     st->screen.images = 0;
@@ -152,7 +152,7 @@ static int draw(struct workspace *st, const struct ansi_diff_draw *how,
     return st->screen.images;
 }
 
-static int wanted(struct workspace *st, int x, int y)
+static int wanted(struct stage *st, int x, int y)
 {
     const uint8_t *p = st->frame.rgb + 3 * (y * WIDTH + x);
     struct rgb c = {p[0], p[1], p[2]};
@@ -163,7 +163,7 @@ static int wanted(struct workspace *st, int x, int y)
 }
 
 /* The picture, and BLANK in this rectangle of cells. */
-static void check_shown(struct workspace *st, struct ansi_diff_rect hole)
+static void check_shown(struct stage *st, struct ansi_diff_rect hole)
 {
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -177,7 +177,7 @@ static void check_shown(struct workspace *st, struct ansi_diff_rect hole)
     }
 }
 
-static void set_pixel(struct workspace *st, int x, int y, int value)
+static void set_pixel(struct stage *st, int x, int y, int value)
 {
     memset(st->frame.rgb + 3 * (y * WIDTH + x), value, 3);
 }
@@ -187,14 +187,14 @@ static void shows_the_picture(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
-    static struct workspace st;
+    static struct stage st;
     struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
     uint64_t seed = 1;
     bool is_done;
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        workspace_init(&st, kinds[i], &seed);
+        stage_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
         assert_true(is_done);
         check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
@@ -208,7 +208,7 @@ static void shows_the_picture(void **state)
         how.step = 1;
         assert_int_equal(draw(&st, &how, &is_done), 1);
         how.step = 0;
-        workspace_free(&st);
+        stage_free(&st);
     }
 }
 
@@ -218,7 +218,7 @@ static void budget_is_kept(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
-    static struct workspace st;
+    static struct stage st;
     struct ansi_diff_draw how = {.budget_bytes = 3000};
     uint64_t seed = 2;
 
@@ -227,7 +227,7 @@ static void budget_is_kept(void **state)
         bool is_done = false;
         int frames = 0;
 
-        workspace_init(&st, kinds[i], &seed);
+        stage_init(&st, kinds[i], &seed);
         for (; !is_done && frames < 100; frames++) {
             int images = draw(&st, &how, &is_done);
 
@@ -248,7 +248,7 @@ static void budget_is_kept(void **state)
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++)
                 assert_int_not_equal(st.screen.pixel[y][x], BLANK);
-        workspace_free(&st);
+        stage_free(&st);
     }
 }
 
@@ -257,7 +257,7 @@ static void windows_are_left_free(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
-    static struct workspace st;
+    static struct stage st;
     struct ansi_diff_rect window = {10, 1, 25, 3};
     uint64_t seed = 3;
     bool is_done;
@@ -267,7 +267,7 @@ static void windows_are_left_free(void **state)
         struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX,
                                      .covered = &window};
 
-        workspace_init(&st, kinds[i], &seed);
+        stage_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
         how.covered_count = 1; /* curses writes over sixels */
         if (kinds[i] == PIXEL_GRAPHICS_SIXEL) {
@@ -281,14 +281,14 @@ static void windows_are_left_free(void **state)
         how.covered_count = 0;
         draw(&st, &how, &is_done);
         check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-        workspace_free(&st);
+        stage_free(&st);
     }
 }
 
 /* A frame with fewer pixels than the terminal: each is a rectangle of them. */
 static void small_frames_are_enlarged(void **state)
 {
-    static struct workspace st;
+    static struct stage st;
     struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
     struct frame small;
     struct error err;
@@ -296,7 +296,7 @@ static void small_frames_are_enlarged(void **state)
     bool is_done;
 
     (void)state;
-    workspace_init(&st, PIXEL_GRAPHICS_KITTY, &seed);
+    stage_init(&st, PIXEL_GRAPHICS_KITTY, &seed);
     assert_true(frame_init(&small, WIDTH / 4, HEIGHT / 5, &err));
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -312,7 +312,7 @@ static void small_frames_are_enlarged(void **state)
     check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
     assert_int_equal(draw(&st, &how, &is_done), 0);
     frame_free(&small);
-    workspace_free(&st);
+    stage_free(&st);
 }
 
 int main(void)
