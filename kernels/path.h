@@ -306,12 +306,19 @@ static inline bool path_survives(struct path *p, uint32_t vertex, float u)
     return u < q;
 }
 
+/* Sets the key by which coverage lets the ray pass on its way to `vertex`. */
+static inline void path_set_key(const struct world *w, struct sampler s,
+                                uint32_t vertex, struct ray *r)
+{
+    if (has_coverage(w))
+        r->key = ray_key(s, vertex);
+}
+
 /* Finds what the path's ray meets on the way to `vertex`. */
 static inline void path_intersect(const struct world *w, struct path *p,
                                   uint32_t vertex, struct hit *h)
 {
-    if (has_coverage(w))
-        p->ray.key = ray_key(p->sampler, vertex);
+    path_set_key(w, p->sampler, vertex, &p->ray);
     p->ray.t_max = FLOAT_MAX;
     p->out.rays++;
     hit_closest(w, p->ray, h);
@@ -416,8 +423,7 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
 {
     struct hit h;
 
-    if (has_coverage(w))
-        r.key = ray_key(sampler, 1);
+    path_set_key(w, sampler, 1, &r);
     hit_closest(w, r, &h);
     return path_follow(w, r, sampler, h);
 }
@@ -456,8 +462,7 @@ static inline void path_samples(const struct world *w,
     for (uint32_t i = 0; i < count; i++) {
         rays[i] =
             path_ray(&w->settings, all[i].x, all[i].y, points[i], samplers[i]);
-        if (has_coverage(w))
-            rays[i].key = ray_key(samplers[i], 1);
+        path_set_key(w, samplers[i], 1, &rays[i]);
     }
     hits_closest(w, rays, count, hits);
     for (uint32_t i = 0; i < count; i++)

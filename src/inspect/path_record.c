@@ -59,8 +59,7 @@ void path_record_follow(struct path_record *t, const struct world *w,
     struct path p;
     struct hit h;
 
-    if (has_coverage(w))
-        start.ray.key = ray_key(start.sampler, 1);
+    path_set_key(w, start.sampler, 1, &start.ray);
     hit_closest(w, start.ray, &h);
     path_open(&p, start.ray, start.sampler);
     t->count = t->vertices = 0;
