@@ -180,7 +180,7 @@ $(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o \
-	$(foreach i,file temp_file cgroup_quota util print,$(B)/base/$(i).o)
+	$(foreach i,file temp_file error memory clock print,$(B)/base/$(i).o)
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 

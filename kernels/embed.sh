@@ -3,6 +3,8 @@
 # embed.sh - writes C source that holds the named files, as cl_source.h says
 set -eu
 
+echo "#include <stddef.h>"
+echo
 echo '#include "opencl/cl_source.h"'
 # numbers, for compilers need not take strings of more than 4095 characters
 i=0

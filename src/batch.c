@@ -11,14 +11,16 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/file.h"
-#include "picture/image_write.h"
+#include "base/memory.h"
 #include "base/print.h"
-#include "inspect/view_modes.h"
-#include "session/stats_json.h"
-#include "terminal/tty.h"
+#include "picture/image_write.h"
 #include "terminal/ansi_text.h"
+#include "terminal/tty.h"
+#include "session/stats_json.h"
+#include "inspect/view_modes.h"
 
 /* The bar is drawn this often, which also bounds what a slow link gets. */
 #define DRAW_MS 100

@@ -9,6 +9,8 @@
 #ifndef GLIM_BATCH_H
 #define GLIM_BATCH_H
 
+#include <stdbool.h>
+
 #include "session/session.h"
 
 /* Renders, shows progress on stderr if that is a terminal, writes the picture

@@ -15,19 +15,21 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "batch.h"
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/print.h"
+#include "base/version.h"
+#include "render/cpu_dispatch.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
-#include "render/cpu_dispatch.h"
 #include "opencl/cl_probe.h"
-#include "session/config.h"
 #include "session/command_line.h"
-#include "base/print.h"
+#include "session/config.h"
 #include "session/recent.h"
 #include "session/session.h"
 #include "studio/event_loop.h"
-#include "base/util.h"
-#include "base/version.h"
+#include "batch.h"
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
 

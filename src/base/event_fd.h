@@ -10,7 +10,7 @@
 #ifndef GLIM_EVENT_FD_H
 #define GLIM_EVENT_FD_H
 
-#include "base/util.h"
+#include "base/error.h"
 
 /* -1: none; the text begins with `whose`. */
 int event_fd_open(const char *whose, struct error *err);

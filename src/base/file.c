@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/cgroup_quota.h"
+#include "base/memory.h"
 #include "base/temp_file.h"
 
 /* As many links in a row as the kernel follows. */

@@ -10,10 +10,13 @@
 #ifndef GLIM_FILE_H
 #define GLIM_FILE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <sys/types.h>
 #include <time.h>
 
-#include "base/util.h"
+#include "base/error.h"
 
 /* No greater file is read. */
 #define FILE_BYTES_MAX ((int64_t)8 << 30)

@@ -7,7 +7,7 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 /* A file is complete, or has this name now; `touch` and chmod too, for a file
  * may become readable. */

@@ -14,6 +14,9 @@
 #ifndef GLIM_FILE_WATCH_H
 #define GLIM_FILE_WATCH_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "base/file.h"
 
 struct watched;

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
 #include "base/decimal.h"
+#include "base/file.h"
 
 /* Longer words are cut in messages. */
 #define QUOTE_BYTES 40

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 /* FNV-1a: names are short. */
 static uint32_t hash(const char *name)

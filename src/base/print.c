@@ -7,7 +7,7 @@
 #include <string.h>
 #include <wchar.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 bool print_shows(uint32_t c)
 {

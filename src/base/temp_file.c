@@ -13,7 +13,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/util.h"
+#include "base/clock.h"
+#include "base/memory.h"
 
 /* Names tried before giving up; each differs by the clock already. */
 #define TRIES 100

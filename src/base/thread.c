@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "base/thread.h"
 
+#include <sched.h>
 #include <signal.h>
+#include <stdlib.h>
+
+#include "base/cgroup_quota.h"
+#include "base/memory.h"
+
+/* More processors than any kernel is built for. */
+#define PROCESSORS_MAX (1 << 16)
 
 int thread_start(pthread_t *thread, void *(*run)(void *), void *argument)
 {
@@ -16,4 +24,29 @@ int thread_start(pthread_t *thread, void *(*run)(void *), void *argument)
     reason = pthread_create(thread, NULL, run, argument);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return reason;
+}
+
+/* The kernel refuses a mask smaller than its own: try greater ones. */
+static int processors_of_affinity(void)
+{
+    for (int count = CPU_SETSIZE; count <= PROCESSORS_MAX; count *= 2) {
+        size_t size_bytes = CPU_ALLOC_SIZE((size_t)count);
+        cpu_set_t *set = xcalloc(1, size_bytes);
+        int usable = sched_getaffinity(0, size_bytes, set) == 0
+                         ? CPU_COUNT_S(size_bytes, set)
+                         : 0;
+
+        free(set);
+        if (usable > 0)
+            return usable;
+    }
+    return 1;
+}
+
+int usable_threads(void)
+{
+    int usable = processors_of_affinity();
+    int quota = cgroup_quota_processors("");
+
+    return quota > 0 && quota < usable ? quota : usable;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * thread.h - threads that leave signals to the main one
+ * thread.h - threads that leave signals to the main one, and how many to start
  *
  * Ownership: the thread is the caller's to join
  * Threads:   any
@@ -16,5 +16,9 @@
  * of its own reach it, for the handler that gives the terminal back. 0, or what
  * is wrong as errno has it. */
 int thread_start(pthread_t *thread, void *(*run)(void *), void *argument);
+
+/* Threads that this process may use: its affinity mask and its cgroup's quota,
+ * at least 1. */
+int usable_threads(void);
 
 #endif

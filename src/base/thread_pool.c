@@ -7,6 +7,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/memory.h"
 #include "base/thread.h"
 
 /* Items first..end-1 that a worker still has, as first << 32 | end: one word,

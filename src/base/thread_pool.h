@@ -15,8 +15,10 @@
 #define GLIM_THREAD_POOL_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
 
-#include "base/util.h"
+#include "base/error.h"
 
 /* An OpenCL kernel looks at it as one 32-bit word. */
 struct cancel {

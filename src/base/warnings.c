@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/print.h"
-#include "base/util.h"
 
 static struct warnings_entry *find(const struct warnings *r, const char *kind)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/file.h"
-#include "base/util.h"
+#include "base/memory.h"
 
 char *xdg_folder(const char *variable, const char *below_home)
 {

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "bvh/bvh_reinsert.h"
 #include "bvh/sah_splitter.h"
 #include "kernels/traverse_leaf.h"

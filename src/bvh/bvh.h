@@ -16,8 +16,8 @@
 #ifndef GLIM_BVH_H
 #define GLIM_BVH_H
 
+#include "base/error.h"
 #include "base/thread_pool.h"
-#include "base/util.h"
 #include "kernels/types.h"
 
 struct bvh {

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
+#include "base/memory.h"
 #include "bvh/bvh8_collapse.h"
 
 /* Of what is read at once, and of memory in large pages: misses of their table

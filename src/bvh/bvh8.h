@@ -15,6 +15,9 @@
 #ifndef GLIM_BVH8_H
 #define GLIM_BVH8_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "bvh/bvh.h"
 
 #define BVH8_CHILDREN 8

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "bvh/sah_bins.h"
 
 /* Nodes below what one thread takes. */

@@ -16,6 +16,9 @@
 #ifndef GLIM_BVH8_COLLAPSE_H
 #define GLIM_BVH8_COLLAPSE_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "bvh/bvh8.h"
 
 struct bvh8_cost {

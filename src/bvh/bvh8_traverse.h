@@ -11,6 +11,10 @@
 #ifndef GLIM_BVH8_TRAVERSE_H
 #define GLIM_BVH8_TRAVERSE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "base/simd8.h"
 #include "bvh/ray_packet.h"
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "bvh/sah_bins.h"
 #include "kernels/traverse_leaf.h"
 

@@ -21,6 +21,8 @@
 #ifndef GLIM_BVH_REINSERT_H
 #define GLIM_BVH_REINSERT_H
 
+#include <stdbool.h>
+
 #include "bvh/bvh.h"
 
 /* Nodes lie depth-first before and after. False if memory is out. */

@@ -8,8 +8,11 @@
 #ifndef GLIM_RAY_PACKET_H
 #define GLIM_RAY_PACKET_H
 
-#include "bvh/bvh8_leaf.h"
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "base/simd8.h"
+#include "bvh/bvh8_leaf.h"
 
 #define PACKET_RAYS 8
 

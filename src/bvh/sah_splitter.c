@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 #include "kernels/traverse_leaf.h"
 
 /* Where splits by cost end and halving by count begins: 32 more levels hold

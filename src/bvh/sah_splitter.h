@@ -15,6 +15,9 @@
 #ifndef GLIM_SAH_SPLITTER_H
 #define GLIM_SAH_SPLITTER_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "bvh/bvh.h"
 #include "bvh/sah_bins.h"
 

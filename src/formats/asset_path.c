@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "base/util.h"
+#include "base/memory.h"
 
 static char *if_exists(const char *beside, const char *name)
 {

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 /* Above every count, and far from overflow. */
 #define INDEX_TEXT_MAX INT64_C(1000000000000)
 

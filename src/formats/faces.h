@@ -10,8 +10,8 @@
 #define GLIM_FACES_H
 
 #include "base/lexer.h"
-#include "formats/triangulate.h"
 #include "scene/scene.h"
+#include "formats/triangulate.h"
 
 /* Indices from 0; NO_INDEX where there is none. */
 struct corner {

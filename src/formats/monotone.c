@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 /* Index of no edge and of no link. Edge 0 lies below all others: its neighbours
  * are the lowest and the highest edge, its first child is the tree's root. */

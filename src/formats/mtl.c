@@ -6,13 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/asset_path.h"
-#include "picture/blackbody.h"
 #include "base/file.h"
 #include "base/lexer.h"
-#include "formats/mtl_map.h"
-#include "scene/material.h"
+#include "base/memory.h"
 #include "base/name_table.h"
+#include "picture/blackbody.h"
+#include "scene/material.h"
+#include "formats/asset_path.h"
+#include "formats/mtl_map.h"
 
 struct parser {
     struct scene *scene;

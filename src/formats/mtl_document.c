@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 /* The end of the first line, or a line feed. */
 static const char *line_end_of(const char *text, size_t size_bytes)

@@ -15,6 +15,9 @@
 #ifndef GLIM_MTL_DOCUMENT_H
 #define GLIM_MTL_DOCUMENT_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "base/lexer.h"
 
 /* Keys that stand for each other. The first is the one that is written. */

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/asset_path.h"
-#include "formats/mtl_map.h"
-#include "formats/mtl_document.h"
 #include "base/decimal.h"
+#include "formats/asset_path.h"
+#include "formats/mtl_document.h"
+#include "formats/mtl_map.h"
 
 static mtl_aliases light_keys = {"Ke", "Ke_blackbody"};
 static mtl_aliases blackbody_keys = {"Ke_blackbody", "Ke"};

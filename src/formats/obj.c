@@ -7,12 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/asset_path.h"
-#include "formats/faces.h"
 #include "base/file.h"
 #include "base/lexer.h"
-#include "formats/mtl.h"
+#include "base/memory.h"
 #include "base/name_table.h"
+#include "formats/asset_path.h"
+#include "formats/faces.h"
+#include "formats/mtl.h"
 
 /* Text has no NUL; UTF-16 and most binary files have one early. */
 #define BINARY_CHECK_BYTES 1024

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_load.h"
 
-#include "formats/obj.h"
 #include "scene/textures.h"
+#include "formats/obj.h"
 
 static void turn_z_up(struct scene *scene)
 {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 /* Polygons of more corners are swept over. A large fan is slow to trace. */
 #define EARS_MOST 100

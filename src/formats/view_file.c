@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/decimal.h"
+#include "base/memory.h"
 
 bool view_read(struct view *view, const char *path, struct warnings *report,
                struct error *err)

@@ -10,6 +10,9 @@
 #ifndef GLIM_VIEW_FILE_H
 #define GLIM_VIEW_FILE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "base/file.h"
 #include "formats/view_parse.h"
 

@@ -10,6 +10,10 @@
 #ifndef GLIM_VIEW_PARSE_H
 #define GLIM_VIEW_PARSE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "base/lexer.h"
 #include "base/warnings.h"
 #include "scene/view.h"

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "picture/raster.h"
 #include "render/projection.h"
 #include "kernels/vec.h"

@@ -10,8 +10,10 @@
 #ifndef GLIM_OVERLAY_H
 #define GLIM_OVERLAY_H
 
-#include "bvh/bvh.h"
+#include <stdint.h>
+
 #include "picture/film.h"
+#include "bvh/bvh.h"
 #include "inspect/path_record.h"
 
 /* More are not drawn, but the nearest of them. */

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "picture/area.h"
 #include "picture/raster.h"
-#include "inspect/aov_picture.h"
-#include "render/projection.h"
 #include "scene/world.h"
+#include "render/projection.h"
+#include "inspect/aov_picture.h"
 #include "kernels/tone.h"
 
 /* What is rendered for it, and what is said of it. */

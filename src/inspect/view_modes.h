@@ -13,10 +13,13 @@
 #ifndef GLIM_VIEW_MODES_H
 #define GLIM_VIEW_MODES_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "bvh/bvh.h"
-#include "inspect/traversal_cost.h"
-#include "inspect/false_color.h"
 #include "session/session.h"
+#include "inspect/false_color.h"
+#include "inspect/traversal_cost.h"
 
 struct view_mode {
     struct session *session;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "light/triangle_cdf.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"

@@ -16,9 +16,11 @@
 #ifndef GLIM_CAUSTICS_H
 #define GLIM_CAUSTICS_H
 
-#include "light/guide_flux.h"
+#include <stdbool.h>
+
 #include "base/thread_pool.h"
 #include "bvh/bvh8_traverse.h"
+#include "light/guide_flux.h"
 
 /* The material as photons see it, without colours: what they come from is
  * white, the rest grey. */

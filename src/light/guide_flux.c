@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 bool guide_flux_init(struct guide_flux *part, const struct guide_grid *g)
 {

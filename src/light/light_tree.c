@@ -5,6 +5,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/memory.h"
+
 #include "kernels/hit.h"
 
 #define BIN_COUNT 12

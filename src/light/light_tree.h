@@ -15,6 +15,9 @@
 #ifndef GLIM_LIGHT_TREE_H
 #define GLIM_LIGHT_TREE_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "light/lights.h"
 
 struct emitter {

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "light/channels.h"
-#include "light/texture_power.h"
 #include "light/light_tree.h"
+#include "light/texture_power.h"
 #include "kernels/light.h"
 #include "kernels/texture.h"
 

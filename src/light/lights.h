@@ -14,7 +14,7 @@
 #ifndef GLIM_LIGHTS_H
 #define GLIM_LIGHTS_H
 
-#include "base/util.h"
+#include "base/error.h"
 #include "kernels/types.h"
 
 struct lights {

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "light/caustics.h"
+#include "base/memory.h"
 #include "bvh/sah_bins.h"
+#include "light/caustics.h"
 #include "light/triangle_cdf.h"
 #include "kernels/light.h"
 

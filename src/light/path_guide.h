@@ -16,8 +16,10 @@
 #ifndef GLIM_PATH_GUIDE_H
 #define GLIM_PATH_GUIDE_H
 
+#include <stdbool.h>
+
+#include "base/error.h"
 #include "light/sky_portals.h"
-#include "base/util.h"
 
 struct path_guide {
     struct guide_cell

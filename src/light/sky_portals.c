@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "light/triangle_cdf.h"
+#include "base/memory.h"
 #include "bvh/bvh8_traverse.h"
+#include "light/triangle_cdf.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"

@@ -23,9 +23,12 @@
 #ifndef GLIM_SKY_PORTALS_H
 #define GLIM_SKY_PORTALS_H
 
-#include "light/guide_flux.h"
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "base/thread_pool.h"
 #include "bvh/bvh8.h"
+#include "light/guide_flux.h"
 
 struct sky_portals {
     struct guide_flux open;   /* for light samples; NULL: not searched for */

@@ -16,7 +16,7 @@
 #ifndef GLIM_SKY_TABLE_H
 #define GLIM_SKY_TABLE_H
 
-#include "base/util.h"
+#include "base/error.h"
 #include "kernels/types.h"
 
 struct sky_table {

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "light/channels.h"
 #include "kernels/texture.h"
 

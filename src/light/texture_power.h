@@ -15,7 +15,7 @@
 #ifndef GLIM_TEXTURE_POWER_H
 #define GLIM_TEXTURE_POWER_H
 
-#include "base/util.h"
+#include "base/error.h"
 #include "kernels/types.h"
 
 struct texture_power_sums {

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "light/channels.h"
 #include "kernels/vec.h"
 

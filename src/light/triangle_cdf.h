@@ -10,7 +10,6 @@
 #ifndef GLIM_TRIANGLE_CDF_H
 #define GLIM_TRIANGLE_CDF_H
 
-#include "base/util.h"
 #include "kernels/types.h"
 
 struct triangle_cdf {

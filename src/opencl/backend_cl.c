@@ -10,6 +10,9 @@
 #include <pthread.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/thread.h"
 #include "bvh/bvh.h"
 #include "opencl/cl_film.h"
 #include "opencl/cl_kernels.h"

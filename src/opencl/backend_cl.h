@@ -11,6 +11,9 @@
 #ifndef GLIM_BACKEND_CL_H
 #define GLIM_BACKEND_CL_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "render/backend.h"
 
 struct cl_request {

@@ -16,7 +16,7 @@
 #include <CL/cl.h>
 #include <CL/cl_ext.h>
 
-#include "base/util.h"
+#include "base/error.h"
 
 /* What glim calls, without the cl in front. */
 #define CL_API_FUNCTIONS(X)    \

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "opencl/cl_environment.h"
+#include "base/memory.h"
 #include "base/print.h"
+#include "opencl/cl_environment.h"
 
 /* Drivers pad their names. */
 static char *trimmed(char *text)

@@ -13,6 +13,8 @@
 #ifndef GLIM_CL_DEVICE_H
 #define GLIM_CL_DEVICE_H
 
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "opencl/cl_api.h"

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/memory.h"
+#include "base/thread.h"
 #include "base/xdg.h"
 
 /* Where PoCL looks for its cache folder's name. */

@@ -16,8 +16,9 @@
 #define GLIM_CL_ENVIRONMENT_H
 
 #include <signal.h>
+#include <stdbool.h>
 
-#include "base/util.h"
+#include "base/error.h"
 
 /* Tells PoCL how many threads it may use (0: what the process may use), where
  * to keep what it compiles, and to leave SIGFPE alone. The first two are the

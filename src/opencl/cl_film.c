@@ -3,7 +3,8 @@
 
 #include <stdlib.h>
 
-#include "base/util.h"
+#include "base/error.h"
+#include "base/memory.h"
 
 /* How much is read at once. */
 #define READ_BYTES (4u << 20)

@@ -14,8 +14,8 @@
 #ifndef GLIM_CL_FILM_H
 #define GLIM_CL_FILM_H
 
-#include "opencl/cl_machine.h"
 #include "picture/film.h"
+#include "opencl/cl_machine.h"
 #include "kernels/cl_task.h"
 
 struct cl_film {

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 static char *build_log(const struct cl_kernels *k, const struct cl_machine *m)
 {
     size_t size_bytes = 0;

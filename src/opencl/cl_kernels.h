@@ -10,6 +10,9 @@
 #ifndef GLIM_CL_KERNELS_H
 #define GLIM_CL_KERNELS_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "opencl/cl_machine.h"
 
 struct cl_kernels {

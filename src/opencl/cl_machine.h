@@ -10,6 +10,9 @@
 #ifndef GLIM_CL_MACHINE_H
 #define GLIM_CL_MACHINE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "opencl/cl_device.h"
 
 struct cl_machine {

@@ -13,10 +13,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "opencl/cl_source.h"
+#include "base/clock.h"
 #include "base/file.h"
-#include "render/cpu_dispatch.h"
+#include "base/memory.h"
 #include "base/print.h"
+#include "render/cpu_dispatch.h"
+#include "opencl/cl_source.h"
 #include "opencl/selftest.h"
 
 extern char **environ;

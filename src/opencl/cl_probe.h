@@ -14,6 +14,7 @@
 #define GLIM_CL_PROBE_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 
 #include "opencl/backend_cl.h"
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/name_table.h"
 
 /* How the kernels are named in #include and in messages, wherever they are. */

@@ -15,7 +15,9 @@
 #ifndef GLIM_CL_SOURCE_H
 #define GLIM_CL_SOURCE_H
 
-#include "base/util.h"
+#include <stdint.h>
+
+#include "base/error.h"
 
 /* The files of kernels/ as they were when the program was built; the last one
  * has no name. */

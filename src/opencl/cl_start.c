@@ -6,9 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "opencl/cl_probe.h"
 #include "base/event_fd.h"
+#include "base/memory.h"
 #include "base/thread.h"
+#include "opencl/cl_probe.h"
 
 struct cl_start {
     struct cl_request request;

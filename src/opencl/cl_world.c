@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "opencl/cl_world.h"
+
 #include "light/guide_flux.h"
 
 /* What an array of the world is on the host. */

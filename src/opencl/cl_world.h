@@ -10,6 +10,10 @@
 #ifndef GLIM_CL_WORLD_H
 #define GLIM_CL_WORLD_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "bvh/bvh.h"
 #include "opencl/cl_machine.h"
 

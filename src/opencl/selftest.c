@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "scene/material.h"
+#include "scene/scene.h"
+#include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"
 #include "render/render_loop.h"
-#include "scene/scene.h"
-#include "scene/world.h"
 
 #define SIDE 16
 #define SPP  4

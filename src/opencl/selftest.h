@@ -12,6 +12,9 @@
 #ifndef GLIM_SELFTEST_H
 #define GLIM_SELFTEST_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "render/backend.h"
 
 #define SELFTEST_VERDICT_BYTES 64

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/blackbody.h"
 #include "base/decimal.h"
+#include "picture/blackbody.h"
 
 double color_decoded(double encoded)
 {

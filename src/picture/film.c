@@ -8,8 +8,9 @@
 
 #include "base/cgroup_quota.h"
 
-#include "picture/area.h"
+#include "base/memory.h"
 #include "base/simd4.h"
+#include "picture/area.h"
 
 #include "kernels/tone.h"
 #include "kernels/vec.h"

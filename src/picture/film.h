@@ -19,7 +19,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "base/util.h"
+#include "base/error.h"
 #include "kernels/pixel.h"
 #include "kernels/tone.h"
 

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/image_header.h"
 #include "base/decimal.h"
+#include "base/memory.h"
+#include "picture/image_header.h"
 
 static size_t pixels_of(const struct image_file *f)
 {

@@ -10,6 +10,8 @@
 #ifndef GLIM_IMAGE_FLOAT_H
 #define GLIM_IMAGE_FLOAT_H
 
+#include <stdbool.h>
+
 #include "picture/image_read.h"
 
 /* IMAGE_HDR, IMAGE_PFM or IMAGE_UNKNOWN, by the file's first bytes. */

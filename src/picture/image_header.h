@@ -13,6 +13,8 @@
 #ifndef GLIM_IMAGE_HEADER_H
 #define GLIM_IMAGE_HEADER_H
 
+#include <stdbool.h>
+
 #include "picture/image_read.h"
 
 /* Finds kind, sides and decoder_bytes of a PNG, JPEG, BMP or TGA file. */

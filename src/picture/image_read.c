@@ -4,11 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "picture/color.h"
+#include "base/cgroup_quota.h"
 #include "base/file.h"
+#include "base/memory.h"
+#include "picture/color.h"
 #include "picture/image_float.h"
 #include "picture/image_header.h"
-#include "base/cgroup_quota.h"
 #include "picture/stb.h"
 
 #include "kernels/tone.h"

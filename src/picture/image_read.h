@@ -17,7 +17,11 @@
 #ifndef GLIM_IMAGE_READ_H
 #define GLIM_IMAGE_READ_H
 
-#include "base/util.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/error.h"
 
 /* Neither side of an image may be longer, nor its pixels be more. */
 #define IMAGE_SIDE_MAX   32768

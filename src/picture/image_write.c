@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/memory.h"
 #include "picture/stb.h"
 
 #include "kernels/vec.h"

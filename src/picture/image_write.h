@@ -10,6 +10,8 @@
 #ifndef GLIM_IMAGE_WRITE_H
 #define GLIM_IMAGE_WRITE_H
 
+#include <stdbool.h>
+
 #include "picture/film.h"
 
 enum image_write_format {

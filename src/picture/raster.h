@@ -9,6 +9,8 @@
 #ifndef GLIM_RASTER_H
 #define GLIM_RASTER_H
 
+#include <stdint.h>
+
 #include "picture/film.h"
 
 void raster_dot(struct frame *frame, double x, double y, uint32_t rgb);

@@ -10,9 +10,9 @@
 #ifndef GLIM_BACKEND_H
 #define GLIM_BACKEND_H
 
+#include "base/thread_pool.h"
 #include "picture/film.h"
 #include "render/cpu_kernel.h"
-#include "base/thread_pool.h"
 #include "kernels/types.h"
 
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };

@@ -4,8 +4,9 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "render/cpu_dispatch.h"
+#include "base/memory.h"
 #include "bvh/bvh8.h"
+#include "render/cpu_dispatch.h"
 #include "kernels/sobol.h"
 
 /* Points of a pass's grid in a block, each way. */

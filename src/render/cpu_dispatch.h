@@ -11,6 +11,8 @@
 #ifndef GLIM_CPU_DISPATCH_H
 #define GLIM_CPU_DISPATCH_H
 
+#include <stdint.h>
+
 #include "render/cpu_kernel.h"
 
 /* For the i-th set of instructions of this processor, the fastest first, with

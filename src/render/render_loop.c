@@ -7,9 +7,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/event_fd.h"
-#include "render/projection.h"
+#include "base/memory.h"
 #include "base/thread.h"
+#include "render/projection.h"
 
 #include "kernels/path_types.h"
 #include "kernels/rng.h"

@@ -21,8 +21,11 @@
 #ifndef GLIM_RENDER_LOOP_H
 #define GLIM_RENDER_LOOP_H
 
-#include "render/backend.h"
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "picture/film.h"
+#include "render/backend.h"
 
 struct rect {
     int x, y, width, height;

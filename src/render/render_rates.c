@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
+
 void thread_load_begin(struct thread_load *l, const struct backend *b)
 {
     int count = b->cpu_ns ? b->thread_count : 0;

@@ -11,6 +11,8 @@
 #ifndef GLIM_RENDER_RATES_H
 #define GLIM_RENDER_RATES_H
 
+#include <stdint.h>
+
 #include "render/backend.h"
 
 struct thread_load {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 
 /* The next name of the line for free(); NULL if there is none, or no end of
  * its quotes. */

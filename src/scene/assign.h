@@ -13,6 +13,7 @@
 #ifndef GLIM_ASSIGN_H
 #define GLIM_ASSIGN_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "base/lexer.h"

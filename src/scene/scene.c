@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "picture/color.h"
 #include "picture/image_read.h"
 #include "scene/textures.h"

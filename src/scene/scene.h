@@ -14,12 +14,12 @@
 #ifndef GLIM_SCENE_H
 #define GLIM_SCENE_H
 
-#include "light/path_guide.h"
-#include "light/lights.h"
-#include "scene/material.h"
+#include "base/error.h"
 #include "base/warnings.h"
+#include "light/lights.h"
+#include "light/path_guide.h"
 #include "light/sky_table.h"
-#include "base/util.h"
+#include "scene/material.h"
 #include "scene/view.h"
 #include "kernels/types.h"
 

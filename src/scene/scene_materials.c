@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "scene/textures.h"
 
 /* What is to be swapped in; NULL: what is there stays. */

@@ -5,9 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+#include "base/thread.h"
+#include "base/thread_pool.h"
 #include "picture/image_read.h"
 #include "scene/material.h"
-#include "base/thread_pool.h"
 
 /* texture.first is 32 bits wide. */
 #define TEXELS_MAX UINT64_C(0xffffffff)

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 const char *const view_tones[TONES] = {
     [TONE_LINEAR] = "linear",
     [TONE_REINHARD] = "reinhard",

@@ -10,8 +10,8 @@
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
 
+#include "base/error.h"
 #include "scene/assign.h"
-#include "base/util.h"
 #include "kernels/tone.h"
 
 /* Views that have a number: 1 to 9 in the file, from 0 here. */

@@ -10,6 +10,9 @@
 #ifndef GLIM_BACKENDS_H
 #define GLIM_BACKENDS_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "render/backend.h"
 #include "opencl/cl_start.h"
 #include "session/command_line.h"

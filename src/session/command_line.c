@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "session/option_table.h"
+#include "base/thread.h"
 #include "picture/image_write.h"
+#include "session/option_table.h"
 
 const char options_help[] =
     "usage: glim [options] scene.obj\n"

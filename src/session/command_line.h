@@ -10,10 +10,13 @@
 #ifndef GLIM_COMMAND_LINE_H
 #define GLIM_COMMAND_LINE_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/error.h"
+#include "render/render_loop.h"
 #include "terminal/term_caps.h"
 #include "session/keymap.h"
-#include "render/render_loop.h"
-#include "base/util.h"
 
 /* What a picture shows of a scene. */
 enum show_kind {

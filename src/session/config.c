@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/lexer.h"
+#include "base/memory.h"
 #include "base/xdg.h"
 
 /* Longer words are none that is known. */

@@ -13,6 +13,8 @@
 #ifndef GLIM_CONFIG_H
 #define GLIM_CONFIG_H
 
+#include <stdbool.h>
+
 #include "session/command_line.h"
 
 /* Sets what the file says in *o, which has been through options_init(). No

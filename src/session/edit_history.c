@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "formats/mtl.h"
 
 enum step_kind { STEP_MATERIAL, STEP_ASSIGN, STEP_DUPLICATE, STEP_MOOD };

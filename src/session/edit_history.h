@@ -15,6 +15,10 @@
 #ifndef GLIM_EDIT_HISTORY_H
 #define GLIM_EDIT_HISTORY_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "base/name_table.h"
 #include "scene/scene_materials.h"
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/cpu_dispatch.h"
 #include "base/decimal.h"
 #include "scene/view.h"
+#include "render/cpu_dispatch.h"
 
 /* Beyond these a value is a slip of the finger, not a wish. */
 #define SPP_MAX     1000000000000u

@@ -11,6 +11,9 @@
 #ifndef GLIM_OPTION_TABLE_H
 #define GLIM_OPTION_TABLE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "session/command_line.h"
 
 enum option_id {

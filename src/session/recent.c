@@ -5,9 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/print.h"
-#include "base/util.h"
 #include "base/xdg.h"
 
 static bool has(const struct recent *r, const char *path)

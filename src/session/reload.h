@@ -12,6 +12,7 @@
 #define GLIM_RELOAD_H
 
 #include <pthread.h>
+#include <stdbool.h>
 
 #include "session/session.h"
 

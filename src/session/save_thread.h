@@ -14,6 +14,7 @@
 #define GLIM_SAVE_THREAD_H
 
 #include <pthread.h>
+#include <stdbool.h>
 
 #include "picture/film.h"
 

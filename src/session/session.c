@@ -7,10 +7,12 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "scene/world.h"
-#include "formats/view_file.h"
 #include "formats/scene_load.h"
+#include "formats/view_file.h"
 
 /* An overcast noon: bright enough for exposure 0, a little blue. */
 static const double soft_sky[3] = {0.7, 0.8, 0.9};

@@ -11,14 +11,14 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
-#include "session/edit_history.h"
+#include "base/file_watch.h"
+#include "scene/scene.h"
+#include "render/render_loop.h"
 #include "render/render_rates.h"
+#include "render/speeds.h"
 #include "session/backends.h"
 #include "session/command_line.h"
-#include "render/render_loop.h"
-#include "scene/scene.h"
-#include "render/speeds.h"
-#include "base/file_watch.h"
+#include "session/edit_history.h"
 
 struct session {
     const struct options *options;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "formats/mtl_save.h"
 #include "formats/view_file.h"
 

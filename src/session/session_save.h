@@ -9,6 +9,8 @@
 #ifndef GLIM_SESSION_SAVE_H
 #define GLIM_SESSION_SAVE_H
 
+#include <stdbool.h>
+
 #include "session/session.h"
 
 /* Writes changed materials into their MTL files, and if assignments or light

@@ -9,6 +9,8 @@
 #ifndef GLIM_STATS_JSON_H
 #define GLIM_STATS_JSON_H
 
+#include <stdbool.h>
+
 #include "session/session.h"
 
 /* Fails, early, where stats_json_write() could not write. */

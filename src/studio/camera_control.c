@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/clock.h"
 #include "studio/camera_moves.h"
 
 /* The same key again within this time goes on with its step of undo: longer

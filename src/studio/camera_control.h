@@ -16,10 +16,13 @@
 #ifndef GLIM_CAMERA_CONTROL_H
 #define GLIM_CAMERA_CONTROL_H
 
-#include "studio/clearance.h"
-#include "studio/pick_cursor.h"
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "studio/camera_history.h"
 #include "studio/camera_input.h"
+#include "studio/clearance.h"
+#include "studio/pick_cursor.h"
 
 struct camera_control {
     struct render_control *work;

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
+
 /* One more than the steps: the pose that the last undo has left. */
 static void grow(struct camera_history *h)
 {

@@ -9,6 +9,8 @@
 #ifndef GLIM_CAMERA_HISTORY_H
 #define GLIM_CAMERA_HISTORY_H
 
+#include <stdbool.h>
+
 #include "scene/view.h"
 
 struct camera_history {

@@ -14,10 +14,13 @@
 #ifndef GLIM_CAMERA_INPUT_H
 #define GLIM_CAMERA_INPUT_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "scene/view.h"
 #include "terminal/cells.h"
 #include "terminal/tty_input.h"
 #include "studio/held_keys.h"
-#include "scene/view.h"
 
 struct camera_input {
     struct held_keys motion;

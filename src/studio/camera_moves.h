@@ -11,6 +11,8 @@
 #ifndef GLIM_CAMERA_MOVES_H
 #define GLIM_CAMERA_MOVES_H
 
+#include <stdbool.h>
+
 #include "scene/view.h"
 
 /* Moves eye and at by so much along the camera's own axes. */

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "studio/camera_moves.h"
 #include "bvh/bvh8_traverse.h"
+#include "studio/camera_moves.h"
 
 #define RAYS 64
 

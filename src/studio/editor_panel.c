@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-#include "studio/parameter_text.h"
+#include "base/clock.h"
 #include "studio/panel_draw.h"
+#include "studio/parameter_text.h"
 #include "studio/save_commands.h"
 
 #define ENTER     '\r'

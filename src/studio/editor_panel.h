@@ -13,10 +13,13 @@
 #ifndef GLIM_EDITOR_PANEL_H
 #define GLIM_EDITOR_PANEL_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "terminal/screen.h"
 #include "studio/pick.h"
-#include "studio/selection.h"
 #include "studio/render_control.h"
+#include "studio/selection.h"
 
 #define EDITOR_PANEL_TEXT 512
 

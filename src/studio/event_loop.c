@@ -9,13 +9,15 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/event_fd.h"
-#include "studio/panel_draw.h"
+#include "base/memory.h"
 #include "base/print.h"
-#include "studio/prompts.h"
-#include "studio/workspace.h"
 #include "session/stats_json.h"
+#include "studio/panel_draw.h"
+#include "studio/prompts.h"
 #include "studio/save_commands.h"
+#include "studio/workspace.h"
 
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)

@@ -10,6 +10,8 @@
 #ifndef GLIM_EVENT_LOOP_H
 #define GLIM_EVENT_LOOP_H
 
+#include <stdbool.h>
+
 #include "session/session.h"
 
 /* Runs until the person quits or a signal comes. `lost` is the picture of a

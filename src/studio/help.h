@@ -10,6 +10,8 @@
 #ifndef GLIM_HELP_H
 #define GLIM_HELP_H
 
+#include <stdbool.h>
+
 #include "session/keymap.h"
 
 #define HELP_ENTRY_COLS 36

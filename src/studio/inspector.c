@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "inspect/overlay_text.h"
 #include "render/projection.h"
 #include "inspect/overlay.h"
+#include "inspect/overlay_text.h"
 #include "studio/save_commands.h"
 #include "kernels/vec.h"
 

@@ -15,9 +15,12 @@
 #ifndef GLIM_INSPECTOR_H
 #define GLIM_INSPECTOR_H
 
-#include "studio/pick_cursor.h"
-#include "inspect/view_modes.h"
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "inspect/path_record.h"
+#include "inspect/view_modes.h"
+#include "studio/pick_cursor.h"
 
 enum inspector_drawing {
     INSPECTOR_NOTHING,

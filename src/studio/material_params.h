@@ -13,6 +13,8 @@
 #ifndef GLIM_MATERIAL_PARAMS_H
 #define GLIM_MATERIAL_PARAMS_H
 
+#include <stdbool.h>
+
 #include "scene/material.h"
 
 /* What glim makes of it; nothing is reported. */

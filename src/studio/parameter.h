@@ -13,6 +13,9 @@
 #ifndef GLIM_PARAMETER_H
 #define GLIM_PARAMETER_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "session/edit_history.h"
 
 enum parameter_page { PARAMETER_MATERIAL, PARAMETER_OBJECT, PARAMETER_LIGHT };

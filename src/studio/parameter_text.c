@@ -3,10 +3,10 @@
 
 #include <string.h>
 
+#include "base/decimal.h"
 #include "picture/blackbody.h"
 #include "picture/color.h"
 #include "studio/material_params.h"
-#include "base/decimal.h"
 #include "studio/value_scale.h"
 
 static bool parse_color(const char *text, double most, double rgb[3],

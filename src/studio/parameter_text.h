@@ -9,6 +9,8 @@
 #ifndef GLIM_PARAMETER_TEXT_H
 #define GLIM_PARAMETER_TEXT_H
 
+#include <stdbool.h>
+
 #include "studio/parameter.h"
 
 /* False for what has only some states, which are turned through. */

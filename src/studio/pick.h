@@ -13,8 +13,8 @@
 #ifndef GLIM_PICK_H
 #define GLIM_PICK_H
 
-#include "terminal/cells.h"
 #include "scene/scene.h"
+#include "terminal/cells.h"
 
 struct pick {
     uint32_t tri;

@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+#include "base/clock.h"
+
 #define TEXT_BYTES 256
 
 /* An arrow that comes again within this time is held; every so many cells it

@@ -12,6 +12,9 @@
 #ifndef GLIM_PICK_CURSOR_H
 #define GLIM_PICK_CURSOR_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "terminal/screen.h"
 #include "session/keymap.h"
 #include "studio/pick.h"

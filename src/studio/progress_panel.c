@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "base/clock.h"
+#include "base/memory.h"
 #include "studio/progress_text.h"
 
 /* It is to be read, not watched. */

@@ -10,6 +10,9 @@
 #ifndef GLIM_PROGRESS_PANEL_H
 #define GLIM_PROGRESS_PANEL_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "terminal/screen.h"
 #include "studio/render_control.h"
 

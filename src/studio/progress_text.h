@@ -12,6 +12,9 @@
 #ifndef GLIM_PROGRESS_TEXT_H
 #define GLIM_PROGRESS_TEXT_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "render/render_loop.h"
 #include "render/speeds.h"
 

@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
+#include "base/memory.h"
+
 /* The least time for a message, and for each of its bytes: 200 words a minute
  * are read. */
 #define MESSAGE_NS UINT64_C(4000000000)

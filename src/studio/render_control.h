@@ -15,6 +15,9 @@
 #ifndef GLIM_RENDER_CONTROL_H
 #define GLIM_RENDER_CONTROL_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "session/reload.h"
 #include "session/save_thread.h"
 #include "session/session.h"

@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "picture/image_write.h"
 #include "session/recent.h"
 #include "session/session_save.h"

@@ -9,6 +9,8 @@
 #ifndef GLIM_SAVE_COMMANDS_H
 #define GLIM_SAVE_COMMANDS_H
 
+#include <stdbool.h>
+
 #include "terminal/ansi_text.h"
 #include "studio/render_control.h"
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "formats/mtl.h"
 
 void selection_init(struct selection *s, struct session *session)

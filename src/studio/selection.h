@@ -9,8 +9,11 @@
 #ifndef GLIM_SELECTION_H
 #define GLIM_SELECTION_H
 
-#include "studio/parameter.h"
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "session/session.h"
+#include "studio/parameter.h"
 
 struct selection {
     struct session *session;

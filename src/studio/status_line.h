@@ -10,8 +10,12 @@
 #ifndef GLIM_STATUS_LINE_H
 #define GLIM_STATUS_LINE_H
 
-#include "terminal/screen.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "render/render_loop.h"
+#include "terminal/screen.h"
 
 struct status_line {
     bool is_live;

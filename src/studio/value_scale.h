@@ -10,7 +10,10 @@
 #ifndef GLIM_VALUE_SCALE_H
 #define GLIM_VALUE_SCALE_H
 
-#include "base/util.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
 
 struct value_scale {
     double least, most; /* that can be typed */

@@ -4,10 +4,11 @@
 #include <stdio.h>
 #include <time.h>
 
+#include "base/clock.h"
+#include "base/version.h"
 #include "studio/help.h"
 #include "studio/panel_draw.h"
 #include "studio/status_line.h"
-#include "base/version.h"
 
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)

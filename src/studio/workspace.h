@@ -16,11 +16,14 @@
 #ifndef GLIM_WORKSPACE_H
 #define GLIM_WORKSPACE_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "terminal/screen.h"
-#include "studio/progress_panel.h"
-#include "studio/inspector.h"
-#include "studio/editor_panel.h"
 #include "studio/camera_control.h"
+#include "studio/editor_panel.h"
+#include "studio/inspector.h"
+#include "studio/progress_panel.h"
 #include "studio/render_control.h"
 
 struct workspace {

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 /* A jump, two 24-bit colours and a glyph: 10 + 38 + 4 bytes. */
 #define CELL_BYTES_MAX 56
 

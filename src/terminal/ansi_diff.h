@@ -14,6 +14,10 @@
 #ifndef GLIM_ANSI_DIFF_H
 #define GLIM_ANSI_DIFF_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "terminal/cells.h"
 
 struct ansi_diff {

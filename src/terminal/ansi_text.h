@@ -12,6 +12,9 @@
 #ifndef GLIM_ANSI_TEXT_H
 #define GLIM_ANSI_TEXT_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "terminal/cells.h"
 
 struct ansi_text_style {

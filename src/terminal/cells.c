@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
+
 /* Characters by the ink they have, from none to most. */
 static const char ramp[] = " .:;+xo%#@";
 #define RAMP_LENGTH ((int)sizeof ramp - 1)

@@ -11,8 +11,11 @@
 #ifndef GLIM_CELLS_H
 #define GLIM_CELLS_H
 
-#include "terminal/dither.h"
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "picture/film.h"
+#include "terminal/dither.h"
 #include "terminal/glyphs.h"
 
 /* The terminal's own foreground or background. */

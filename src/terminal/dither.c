@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
+
 #include "kernels/tone.h"
 
 /* The first 16 colours: eight whose channels are 0 or 170, eight with 85 or

@@ -15,7 +15,7 @@
 #ifndef GLIM_DITHER_H
 #define GLIM_DITHER_H
 
-#include "base/util.h"
+#include "base/error.h"
 #include "kernels/vec.h"
 
 /* What the terminal can show, from least to most. */

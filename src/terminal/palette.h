@@ -8,6 +8,8 @@
 #ifndef GLIM_PALETTE_H
 #define GLIM_PALETTE_H
 
+#include <stdbool.h>
+
 #include "terminal/cells.h"
 
 /* What there is to know before the terminal has answered; NULL: not set. */

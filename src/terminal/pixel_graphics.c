@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "terminal/kitty.h"
 #include "terminal/sixel.h"
 

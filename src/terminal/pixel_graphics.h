@@ -15,6 +15,9 @@
 #ifndef GLIM_PIXEL_GRAPHICS_H
 #define GLIM_PIXEL_GRAPHICS_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "terminal/ansi_diff.h"
 
 enum pixel_graphics_kind {

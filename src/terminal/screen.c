@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "picture/raster.h"
 
 /* The longest round trip that is waited for at the end. */

@@ -12,12 +12,14 @@
 #ifndef GLIM_SCREEN_H
 #define GLIM_SCREEN_H
 
+#include <stdbool.h>
+
 #include "terminal/ansi_diff.h"
-#include "terminal/term_caps.h"
-#include "terminal/frame_pacing.h"
-#include "terminal/swatches.h"
 #include "terminal/ansi_text.h"
 #include "terminal/curses_windows.h"
+#include "terminal/frame_pacing.h"
+#include "terminal/swatches.h"
+#include "terminal/term_caps.h"
 
 /* The longest text of the status line, with its end. */
 #define STATUS_BYTES 1024

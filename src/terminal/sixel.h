@@ -13,6 +13,7 @@
 #define GLIM_SIXEL_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "terminal/dither.h"
 

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 #include "kernels/tone.h"
 
 bool swatches_init(struct swatches *s, int rows, struct error *err)

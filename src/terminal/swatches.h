@@ -10,6 +10,8 @@
 #ifndef GLIM_SWATCHES_H
 #define GLIM_SWATCHES_H
 
+#include <stdbool.h>
+
 #include "terminal/ansi_diff.h"
 
 #define SWATCH_COLS 2

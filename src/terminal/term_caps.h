@@ -12,10 +12,12 @@
 #ifndef GLIM_TERM_CAPS_H
 #define GLIM_TERM_CAPS_H
 
-#include "terminal/pixel_graphics.h"
-#include "terminal/tty_input.h"
+#include <stdbool.h>
+
 #include "terminal/palette.h"
+#include "terminal/pixel_graphics.h"
 #include "terminal/tty.h"
+#include "terminal/tty_input.h"
 
 enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
 

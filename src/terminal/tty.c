@@ -14,8 +14,9 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "terminal/kitty.h"
+#include "base/memory.h"
 #include "terminal/curses_windows.h"
+#include "terminal/kitty.h"
 
 /* Drags and wheel, with coordinates that have no limit. */
 #define MOUSE_ON  "\033[?1002h\033[?1006h"

@@ -15,8 +15,11 @@
 #ifndef GLIM_TTY_H
 #define GLIM_TTY_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
 #include "terminal/palette.h"
-#include "base/util.h"
 
 struct tty_size {
     int cols, rows;

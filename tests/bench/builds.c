@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "scene/world.h"
 #include "session/session.h"
 #include "tests/bench/median.h"

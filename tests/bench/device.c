@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "opencl/backend_cl.h"
 #include "opencl/cl_environment.h"
 #include "session/session.h"

@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
+
 #include "session/session.h"
 
 #define FRAME_NS  (1000000000u / 60)

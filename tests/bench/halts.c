@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+#include "base/memory.h"
 #include "opencl/backend_cl.h"
 #include "opencl/cl_environment.h"
 #include "session/session.h"

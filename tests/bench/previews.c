@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "base/clock.h"
+#include "base/memory.h"
 #include "terminal/cells.h"
 #include "session/session.h"
 

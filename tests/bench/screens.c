@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "terminal/cells.h"
+#include "base/memory.h"
 #include "scene/view.h"
+#include "terminal/cells.h"
 
 #define WIDTH  1920
 #define HEIGHT 1080

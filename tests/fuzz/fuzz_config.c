@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* The person's configuration file, and the keys that it leaves to others. */
-#include "fuzz.h"
 #include "session/config.h"
+#include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

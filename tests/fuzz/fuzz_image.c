@@ -5,8 +5,8 @@
  */
 #include <math.h>
 
-#include "fuzz.h"
 #include "picture/image_read.h"
+#include "fuzz.h"
 
 static void check_size(const struct image *image)
 {

@@ -3,8 +3,8 @@
  * Keys, mouse reports and answers of terminals: the same events whether the
  * bytes come at once or in pieces of a size that the first byte says.
  */
-#include "fuzz.h"
 #include "terminal/tty_input.h"
+#include "fuzz.h"
 
 /* Longer sequences are dropped where they are broken, so pieces matter there.
  */

@@ -5,8 +5,8 @@
  */
 #include <math.h>
 
-#include "fuzz.h"
 #include "formats/mtl.h"
+#include "fuzz.h"
 
 static int is_light(struct vec3 c)
 {

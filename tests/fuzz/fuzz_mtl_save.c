@@ -4,11 +4,11 @@
  * material is then what the panel has shown. The first byte says how many edits
  * there are, three bytes are an edit, and the rest is the file.
  */
-#include "fuzz.h"
-#include "studio/parameter.h"
 #include "scene/material.h"
 #include "formats/mtl.h"
 #include "session/session_save.h"
+#include "studio/parameter.h"
+#include "fuzz.h"
 
 #define EDITS_MAX 16
 

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <strings.h>
 
-#include "fuzz.h"
 #include "base/decimal.h"
+#include "fuzz.h"
 
 static uint64_t bits_of(double value)
 {

@@ -6,8 +6,8 @@
  */
 #include <math.h>
 
-#include "fuzz.h"
 #include "formats/scene_load.h"
+#include "fuzz.h"
 
 static int is_index(uint32_t index, uint32_t count)
 {

@@ -3,8 +3,8 @@
  * A scene that is opened with its view, its sky and all that it names; one
  * sample a pixel is rendered. fuzz_put_scene() says what the input is.
  */
-#include "fuzz.h"
 #include "session/session.h"
+#include "fuzz.h"
 
 static void render(struct session *s)
 {

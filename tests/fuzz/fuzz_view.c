@@ -3,8 +3,8 @@
  * View files: what was read is written to a new file and over the old one, and
  * read again from both. All three views are equal.
  */
-#include "fuzz.h"
 #include "formats/view_file.h"
+#include "fuzz.h"
 
 static int is_same_text(const char *a, const char *b)
 {

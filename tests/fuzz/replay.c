@@ -7,8 +7,8 @@
  */
 #include <sys/resource.h>
 
-#include "fuzz.h"
 #include "base/file.h"
+#include "fuzz.h"
 
 static void replay(const char *path, long mebibytes)
 {

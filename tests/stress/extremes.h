@@ -20,10 +20,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "scene/world.h"
+#include "render/cpu_dispatch.h"
 #include "opencl/backend_cl.h"
 #include "opencl/cl_environment.h"
-#include "render/cpu_dispatch.h"
-#include "scene/world.h"
 #include "session/session.h"
 #include "tests/unit/check.h"
 

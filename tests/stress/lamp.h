@@ -8,8 +8,8 @@
 #ifndef TESTS_LAMP_H
 #define TESTS_LAMP_H
 
-#include "stage.h"
 #include "tests/unit/lambert.h"
+#include "stage.h"
 
 /* The lamp's corners in the plane y = 0.7, as put_quad() has them: z, x. */
 static const double lamp_lo[2] = {-0.3, -0.4}, lamp_hi[2] = {0.3, 0.4};

@@ -4,9 +4,9 @@
  *
  * usage: samples [opencl]
  */
-#include "stage.h"
 #include "tests/unit/mesh.h"
 #include "tests/unit/sky_pdf.h"
+#include "stage.h"
 
 #include "picture/blackbody.h"
 #include "light/lights.h"

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "terminal/ansi_diff.h"
 #include "picture/image_read.h"
+#include "terminal/ansi_diff.h"
 
 #define COLS        64
 #define ROWS_MAX    48

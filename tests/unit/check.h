@@ -18,7 +18,7 @@
 
 #include <cmocka.h>
 
-#undef fail /* ours is a function, of util.h */
+#undef fail /* ours is a function, of error.h */
 
 static inline void check_close_at(double got, double want, double bound,
                                   const char *what, const char *file, int line)

@@ -12,11 +12,11 @@
 
 #include <math.h>
 
-#include "tests/unit/check.h"
 #include "light/lights.h"
+#include "tests/unit/check.h"
+#include "tests/unit/mesh.h"
 #include "kernels/light.h"
 #include "kernels/rng.h"
-#include "tests/unit/mesh.h"
 
 /* Means of n numbers are compared with the truth within 4.9 standard errors:
  * once in a million by chance; seeds are fixed. */

@@ -12,9 +12,9 @@
 
 #include <stdlib.h>
 
-#include "tests/unit/check.h"
-#include "scene/material.h"
 #include "bvh/bvh8.h"
+#include "scene/material.h"
+#include "tests/unit/check.h"
 #include "kernels/hit.h"
 
 #define MESH_MATERIALS 8

@@ -9,7 +9,7 @@
 #ifndef ERROR_CHART_H
 #define ERROR_CHART_H
 
-#include "base/util.h"
+#include "base/error.h"
 #include "series.h"
 
 /* Points that are not above 0 are left out. Text is of letters, shown as

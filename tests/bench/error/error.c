@@ -20,10 +20,12 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "chart.h"
+#include "base/clock.h"
+#include "base/memory.h"
 #include "scene/world.h"
-#include "reference.h"
 #include "tests/bench/median.h"
+#include "chart.h"
+#include "reference.h"
 
 #define POINTS     7 /* 1 to 64 samples a pixel */
 #define ROUNDS_MAX MEDIAN_MAX

@@ -6,10 +6,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "scene/world.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "picture/image_read.h"
 #include "picture/image_write.h"
+#include "scene/world.h"
 
 #define HALF_SPP 1024
 

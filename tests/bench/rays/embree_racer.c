@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/util.h"
-
 /* What devices hold; only one builds at a time. */
 static atomic_long bytes_held;
 

@@ -15,10 +15,13 @@
 #include "sets.h"
 #include "shapes.h"
 
-#include "render/cpu_dispatch.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/thread.h"
 #include "base/thread_pool.h"
-#include "bvh/bvh_reinsert.h"
 #include "bvh/bvh8.h"
+#include "bvh/bvh_reinsert.h"
+#include "render/cpu_dispatch.h"
 #include "tests/bench/median.h"
 
 #define REPEATS     7

@@ -6,11 +6,14 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/thread.h"
 #include "base/thread_pool.h"
 #include "bvh/bvh8.h"
+#include "tests/bench/median.h"
 #include "sets.h"
 #include "shapes.h"
-#include "tests/bench/median.h"
 
 #define REPEATS 5
 

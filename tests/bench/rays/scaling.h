@@ -9,7 +9,7 @@
 #ifndef RAYS_SCALING_H
 #define RAYS_SCALING_H
 
-#include "base/util.h"
+#include "base/error.h"
 #include "racer.h"
 
 /* Prints times of glim's rays in terrains of 1,000 to 10 million triangles, and

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "base/util.h"
+#include "base/memory.h"
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/rng.h"

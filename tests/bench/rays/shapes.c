@@ -4,10 +4,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "scene/world.h"
 #include "formats/mtl.h"
-#include "formats/view_file.h"
 #include "formats/scene_load.h"
+#include "formats/view_file.h"
 #include "kernels/rng.h"
 
 /* Octaves of a terrain's height. */

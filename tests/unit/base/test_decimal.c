@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/unit/check.h"
+#include "base/clock.h"
 #include "base/decimal.h"
-#include "base/util.h"
+#include "tests/unit/check.h"
 #include "tests/unit/locales.h"
 
 static uint64_t random_state = 1;

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/util.h"
+#include "base/error.h"
 #include "base/file_watch.h"
 
 static char paths[4][128];

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/unit/check.h"
+#include "base/memory.h"
 #include "base/print.h"
-#include "base/util.h"
+#include "tests/unit/check.h"
 
 static void check_shown(const char *text, const char *expected)
 {

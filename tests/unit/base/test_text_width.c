@@ -2,8 +2,8 @@
 #include <locale.h>
 #include <string.h>
 
-#include "tests/unit/check.h"
 #include "base/text_width.h"
+#include "tests/unit/check.h"
 
 /* Greek and Latin letters take one column, CJK and emoji two, what combines
  * with the letter before none: Unicode Standard Annex 11. */

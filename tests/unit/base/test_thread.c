@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /* test_thread.c - which signals reach a thread, and which only the main one */
+#include <sched.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/unit/check.h"
 #include "base/thread.h"
+#include "tests/unit/check.h"
 
 #define HANDLED 7
 
@@ -77,11 +78,31 @@ static void others_are_the_main_thread_s(void **state)
     }
 }
 
+static void test_threads(void **state)
+{
+    cpu_set_t mask, one;
+
+    (void)state;
+    assert_int_equal(sched_getaffinity(0, sizeof mask, &mask), 0);
+    int all = usable_threads();
+    assert_in_range(all, 1, CPU_COUNT(&mask));
+    CPU_ZERO(&one);
+    for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; i++) {
+        if (CPU_ISSET(i, &mask))
+            CPU_SET(i, &one);
+    }
+    assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
+    int single = usable_threads();
+    sched_setaffinity(0, sizeof mask, &mask);
+    assert_int_equal(single, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(faults_reach_their_handler),
         cmocka_unit_test(others_are_the_main_thread_s),
+        cmocka_unit_test(test_threads),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

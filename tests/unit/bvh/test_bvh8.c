@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* Built for other sets of instructions as well; ISA is the name of the set. */
-#include "render/cpu_dispatch.h"
 #include "bvh/bvh8_traverse.h"
+#include "render/cpu_dispatch.h"
 
 #include "tests/unit/trees.h"
 

@@ -5,9 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/unit/check.h"
 #include "scene/material.h"
 #include "formats/mtl.h"
+#include "tests/unit/check.h"
 
 struct loaded {
     struct scene scene;

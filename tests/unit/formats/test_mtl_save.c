@@ -11,12 +11,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/unit/check.h"
-#include "tests/unit/folder.h"
 #include "base/file.h"
-#include "studio/material_params.h"
+#include "base/memory.h"
 #include "formats/mtl.h"
 #include "formats/mtl_save.h"
+#include "studio/material_params.h"
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
 
 struct loaded {
     struct scene scene;

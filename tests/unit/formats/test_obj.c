@@ -3,8 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/unit/check.h"
+#include "base/clock.h"
 #include "formats/obj.h"
+#include "tests/unit/check.h"
 #include "tests/unit/locales.h"
 
 /* A unit square of four vertices, to which tests add faces. */

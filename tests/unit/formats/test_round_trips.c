@@ -7,11 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/unit/check.h"
-#include "tests/unit/folder.h"
+#include "base/memory.h"
 #include "formats/mtl.h"
 #include "formats/mtl_save.h"
 #include "formats/view_file.h"
+#include "tests/unit/check.h"
+#include "tests/unit/folder.h"
 
 #define ROUNDS     20000
 #define TEXT_BYTES 512

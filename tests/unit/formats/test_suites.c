@@ -9,12 +9,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tests/unit/check.h"
-#include "scene/world.h"
 #include "base/file.h"
+#include "base/memory.h"
+#include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"
 #include "formats/scene_load.h"
+#include "tests/unit/check.h"
 
 struct loaded {
     struct scene scene;

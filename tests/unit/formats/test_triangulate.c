@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "tests/unit/check.h"
 #include "formats/triangulate.h"
+#include "tests/unit/check.h"
 
 #define PI 3.14159265358979323846
 

@@ -9,8 +9,8 @@
 #include <math.h>
 
 #include "picture/raster.h"
-#include "inspect/false_color.h"
 #include "render/projection.h"
+#include "inspect/false_color.h"
 #include "inspect/overlay.h"
 #include "kernels/camera.h"
 

@@ -8,10 +8,11 @@
 
 #include <math.h>
 
+#include "base/clock.h"
 #include "scene/world.h"
-#include "inspect/traversal_cost.h"
 #include "session/session.h"
 #include "inspect/path_record.h"
+#include "inspect/traversal_cost.h"
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"

@@ -8,9 +8,10 @@
 #include <math.h>
 #include <unistd.h>
 
-#include "tests/unit/folder.h"
+#include "base/clock.h"
 #include "base/file.h"
 #include "inspect/view_modes.h"
+#include "tests/unit/folder.h"
 
 #define WIDTH  48
 #define HEIGHT 32

@@ -3,6 +3,7 @@
  * test_aov.c - previews and numbers of what the camera's ray meets,
  * against closed forms
  */
+#include "base/memory.h"
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
 

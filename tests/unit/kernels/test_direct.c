@@ -8,10 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/unit/check.h"
+#include "base/clock.h"
+#include "light/sky_table.h"
 #include "scene/world.h"
 #include "session/session.h"
-#include "light/sky_table.h"
+#include "tests/unit/check.h"
 
 static const char *const scenes[] = {
     "scenes/cornell.obj",  "scenes/materials.obj", "scenes/glass_mirror.obj",

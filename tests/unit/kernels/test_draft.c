@@ -11,6 +11,7 @@
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
 
+#include "base/clock.h"
 #include "scene/world.h"
 #include "session/session.h"
 #include "kernels/camera.h"

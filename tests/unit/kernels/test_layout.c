@@ -5,15 +5,16 @@
  */
 #include <stdlib.h>
 
-#include "tests/unit/check.h"
+#include "base/error.h"
+#include "base/memory.h"
 #include "opencl/cl_environment.h"
 #include "opencl/cl_machine.h"
 #include "opencl/cl_source.h"
-#include "base/util.h"
+#include "tests/unit/check.h"
 #include "kernels/camera.h"
-#include "kernels/pixel.h"
 #include "kernels/camera_sample.h"
 #include "kernels/cl_task.h"
+#include "kernels/pixel.h"
 
 /* S(struct, size) M(struct, member, offset) */
 /* clang-format off */

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "light/texture_power.h"
 #include "light/lights.h"
+#include "light/texture_power.h"
 #include "kernels/light.h"
 
 #include "tests/unit/check.h"

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tests/unit/check.h"
 #include "scene/world.h"
 #include "formats/scene_load.h"
+#include "tests/unit/check.h"
 
 #include "kernels/traverse.h"
 

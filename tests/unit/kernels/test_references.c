@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "session/session.h"
 
+#include "base/clock.h"
 #include "tests/unit/check.h"
 
 #define SEEDS   12

@@ -4,9 +4,10 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "tests/unit/check.h"
+#include "base/clock.h"
 #include "scene/world.h"
 #include "session/session.h"
+#include "tests/unit/check.h"
 #include "tests/unit/truth.h"
 
 #define SPP 64

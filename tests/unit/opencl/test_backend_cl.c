@@ -12,18 +12,19 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "tests/unit/check.h"
+#include "base/memory.h"
+#include "scene/scene_materials.h"
+#include "scene/world.h"
+#include "formats/scene_load.h"
+#include "formats/view_file.h"
+#include "render/cpu_dispatch.h"
+#include "render/render_loop.h"
 #include "opencl/backend_cl.h"
 #include "opencl/cl_api.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
-#include "render/cpu_dispatch.h"
-#include "render/render_loop.h"
-#include "scene/scene_materials.h"
-#include "formats/scene_load.h"
-#include "scene/world.h"
 #include "opencl/selftest.h"
-#include "formats/view_file.h"
+#include "tests/unit/check.h"
 #include "kernels/features.h"
 
 static const char *const scenes[] = {

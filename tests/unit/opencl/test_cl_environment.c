@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/thread.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
 

@@ -10,9 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
+#include "base/memory.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_source.h"
-#include "base/file.h"
 
 /* By the C library alone. */
 static void put(const char *name, const char *text)

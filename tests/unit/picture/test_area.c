@@ -8,9 +8,10 @@
 
 #include "tests/unit/check.h"
 
+#include "base/clock.h"
 #include "picture/area.h"
-#include "terminal/cells.h"
 #include "picture/color.h"
+#include "terminal/cells.h"
 #include "session/session.h"
 
 #define WIDTH  150

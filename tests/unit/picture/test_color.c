@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <math.h>
 
-#include "tests/unit/check.h"
 #include "picture/color.h"
+#include "tests/unit/check.h"
 
 /* Colours whose HSV anybody can look up, and greys. */
 static void known_colours(void **state)

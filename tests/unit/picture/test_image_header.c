@@ -7,8 +7,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "picture/image_read.h"
 #include "base/cgroup_quota.h"
+#include "picture/image_read.h"
 
 /* What a file that promises gigabytes may make the process grow by. */
 #define GROWTH_KIB 8192

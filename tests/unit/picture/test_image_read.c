@@ -7,9 +7,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+#include "base/error.h"
 #include "picture/image_read.h"
 #include "picture/stb.h"
-#include "base/util.h"
 
 static char folder[64];
 static char png_suite[500];

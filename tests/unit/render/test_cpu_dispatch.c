@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "scene/world.h"
 #include "render/cpu_dispatch.h"
 #include "session/session.h"

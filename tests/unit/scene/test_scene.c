@@ -4,10 +4,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tests/unit/check.h"
 #include "scene/world.h"
 #include "formats/obj.h"
 #include "formats/scene_load.h"
+#include "tests/unit/check.h"
 
 #define PI 3.14159265358979323846
 

@@ -9,7 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/util.h"
+#include "base/error.h"
+#include "base/memory.h"
 #include "scene/view.h"
 #include "formats/view_file.h"
 

@@ -8,13 +8,15 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "formats/mtl.h"
+#include "formats/view_file.h"
+#include "session/session_save.h"
+#include "studio/material_params.h"
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
-#include "studio/material_params.h"
-#include "base/file.h"
-#include "formats/mtl.h"
-#include "session/session_save.h"
-#include "formats/view_file.h"
 
 static char root[4096]; /* where the scenes are */
 

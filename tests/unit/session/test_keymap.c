@@ -5,11 +5,11 @@
  */
 #include <stdlib.h>
 
-#include "tests/unit/check.h"
 #include "base/file.h"
-#include "studio/help.h"
 #include "terminal/tty_input.h"
 #include "session/keymap.h"
+#include "studio/help.h"
+#include "tests/unit/check.h"
 
 static struct keymap table_keys(bool phoe)
 {

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "formats/view_file.h"
 #include "studio/save_commands.h"
 

@@ -11,9 +11,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "studio/clearance.h"
-#include "studio/camera_input.h"
 #include "formats/scene_load.h"
+#include "studio/camera_input.h"
+#include "studio/clearance.h"
 
 #define MS UINT64_C(1000000)
 

@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/file.h"
+#include "formats/scene_load.h"
+#include "studio/material_params.h"
+#include "studio/parameter_text.h"
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
-#include "base/file.h"
-#include "studio/parameter_text.h"
-#include "studio/material_params.h"
-#include "formats/scene_load.h"
 
 static uint64_t seed = 5;
 

@@ -6,12 +6,12 @@
 #include <math.h>
 #include <unistd.h>
 
+#include "bvh/bvh.h"
+#include "scene/world.h"
+#include "formats/scene_load.h"
+#include "studio/pick.h"
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
-#include "scene/world.h"
-#include "bvh/bvh.h"
-#include "studio/pick.h"
-#include "formats/scene_load.h"
 #include "kernels/camera_sample.h"
 #include "kernels/traverse.h"
 

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "formats/view_file.h"
 #include "studio/save_commands.h"
 

@@ -5,8 +5,8 @@
  */
 #include "tests/unit/pixels.h"
 
-#include "terminal/pixel_graphics.h"
 #include "terminal/kitty.h"
+#include "terminal/pixel_graphics.h"
 
 #define COLS   40 /* no multiple of a tile's */
 #define ROWS   5

@@ -22,10 +22,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/unit/belief.h"
-#include "tests/unit/folder.h"
+#include "base/clock.h"
+#include "base/memory.h"
 #include "session/session.h"
 #include "studio/event_loop.h"
+#include "tests/unit/belief.h"
+#include "tests/unit/folder.h"
 
 #include <term.h> /* last: it takes short names for itself */
 

@@ -1,39 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "base/util.h"
+#include "base/memory.h"
 
-#include <sched.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#include "base/print.h"
-#include "base/cgroup_quota.h"
-
-/* What processors read at once. */
+/* Bytes of a cache line. */
 #define LINE_BYTES 64
-
-/* More processors than any kernel is built for. */
-#define PROCESSORS_MAX (1 << 16)
 
 /* set before the threads start */
 static void (*restore_terminal)(void);
-
-bool fail(struct error *err, const char *format, ...)
-{
-    va_list args;
-
-    va_start(args, format);
-    vsnprintf(err->text, sizeof err->text, format, args);
-    va_end(args);
-    print_replace(err->text);
-    return false;
-}
 
 /* Whatever else runs, this ends the program: no atexit functions, no stdio. */
 static _Noreturn void out_of_memory(void)
@@ -153,42 +135,4 @@ bool grow_array(void **array, size_t *capacity, size_t needed,
     *array = grown;
     *capacity = wanted;
     return true;
-}
-
-uint64_t clock_ns(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
-}
-
-double seconds_between(uint64_t begin_ns, uint64_t end_ns)
-{
-    return end_ns > begin_ns ? (double)(end_ns - begin_ns) * 1e-9 : 0;
-}
-
-/* The kernel refuses a mask smaller than its own: try greater ones. */
-static int processors_of_affinity(void)
-{
-    for (int count = CPU_SETSIZE; count <= PROCESSORS_MAX; count *= 2) {
-        size_t size_bytes = CPU_ALLOC_SIZE((size_t)count);
-        cpu_set_t *set = xcalloc(1, size_bytes);
-        int usable = sched_getaffinity(0, size_bytes, set) == 0
-                         ? CPU_COUNT_S(size_bytes, set)
-                         : 0;
-
-        free(set);
-        if (usable > 0)
-            return usable;
-    }
-    return 1;
-}
-
-int usable_threads(void)
-{
-    int usable = processors_of_affinity();
-    int quota = cgroup_quota_processors("");
-
-    return quota > 0 && quota < usable ? quota : usable;
 }

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
 /*
- * util.h - errors, memory, clock
+ * memory.h - allocation that either says when memory is out or ends the program
  *
- * Units:     nanoseconds, bytes
- * Ownership: what alloc_array() and the x functions return is for free()
+ * Units:     bytes
+ * Ownership: what the functions return is for free()
  * Threads:   any; the hook is set before they start
- * Errors:    fail() makes them; xmalloc() and friends never return NULL
+ * Errors:    alloc_array(), alloc_aligned() and grow_array() say so; xmalloc()
+ *            and friends never return NULL
  */
-#ifndef GLIM_UTIL_H
-#define GLIM_UTIL_H
+#ifndef GLIM_MEMORY_H
+#define GLIM_MEMORY_H
 
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
-
-/* One finished line: place, what was found, what was expected. */
-struct error {
-    char text[1024];
-};
-
-/* Formats the text as print_replace() shows it and returns false. Longer texts
- * are cut. */
-bool fail(struct error *err, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
 
 /* For small things: stops the program when memory is out, after the hook has
  * given the terminal back. */
@@ -51,15 +41,5 @@ void *alloc_aligned(size_t count, size_t size_bytes);
  * *array unchanged, when memory is out. *capacity counts items. */
 bool grow_array(void **array, size_t *capacity, size_t needed,
                 size_t size_bytes);
-
-/* Monotonic. */
-uint64_t clock_ns(void);
-
-/* Seconds between two readings of clock_ns(). */
-double seconds_between(uint64_t begin_ns, uint64_t end_ns);
-
-/* Threads that this process may use: its affinity mask and its cgroup's quota,
- * at least 1. */
-int usable_threads(void);
 
 #endif

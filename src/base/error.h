@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/*
+ * error.h - the text of what went wrong
+ *
+ * Threads:   any
+ */
+#ifndef GLIM_ERROR_H
+#define GLIM_ERROR_H
+
+#include <stdbool.h>
+
+/* One finished line: place, what was found, what was expected. */
+struct error {
+    char text[1024];
+};
+
+/* Formats the text as print_replace() shows it and returns false. Longer texts
+ * are cut. */
+bool fail(struct error *err, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+#endif

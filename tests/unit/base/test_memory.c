@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/check.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+
+static void test_strings(void **state)
+{
+    char *a = xstrdup("abc"), *b = xformat("%s-%d", a, 12);
+
+    (void)state;
+    assert_string_equal(b, "abc-12");
+    a = xrealloc(a, 10);
+    assert_string_equal(a, "abc");
+    free(a);
+    free(b);
+    free(xmalloc(0));
+}
+
+static void test_alloc_array(void **state)
+{
+    (void)state;
+    unsigned char *p = alloc_array(1000, 7);
+    assert_non_null(p);
+    for (int i = 0; i < 7000; i++)
+        assert_int_equal(p[i], 0);
+    free(p);
+    p = alloc_array(0, 8);
+    assert_non_null(p);
+    free(p);
+    assert_null(alloc_array(SIZE_MAX / 2, 4));
+    assert_null(alloc_array((size_t)1 << 33, (size_t)1 << 33));
+    assert_null(alloc_array(SIZE_MAX, 1));
+}
+
+static void test_grow_array(void **state)
+{
+    uint32_t *items = NULL;
+    void *array = NULL;
+    size_t capacity = 0;
+    int moves = 0;
+
+    (void)state;
+    for (uint32_t i = 0; i < 100000; i++) {
+        size_t before = capacity;
+        assert_true(grow_array(&array, &capacity, i + 1, sizeof *items));
+        assert_true(capacity > i);
+        moves += capacity != before;
+        items = array;
+        items[i] = i;
+    }
+    assert_true(moves <= 17);
+    for (uint32_t i = 0; i < 100000; i++)
+        assert_int_equal(items[i], i);
+    size_t before = capacity;
+    assert_false(grow_array(&array, &capacity, SIZE_MAX / 2, sizeof *items));
+    assert_false(grow_array(&array, &capacity, SIZE_MAX, 1));
+    assert_ptr_equal(array, items);
+    assert_int_equal(capacity, before);
+    free(array);
+}
+
+static void hook(void)
+{
+    static const char text[] = "restored\n";
+
+    if (write(STDERR_FILENO, text, sizeof text - 1) < 0)
+        _exit(9);
+}
+
+/* Out of memory: the hook, one line, exit status 1. */
+static void test_out_of_memory(void **state)
+{
+    int ends[2], status;
+    char text[200] = "";
+    size_t length = 0;
+    ssize_t n;
+
+    (void)state;
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        dup2(ends[1], STDERR_FILENO);
+        xmalloc_set_hook(hook);
+        xcalloc(SIZE_MAX / 2, 4);
+        _exit(0);
+    }
+    close(ends[1]);
+    while ((n = read(ends[0], text + length, sizeof text - 1 - length)) > 0)
+        length += (size_t)n;
+    close(ends[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 1);
+    assert_string_equal(text, "restored\nglim: out of memory\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_strings),
+        cmocka_unit_test(test_alloc_array),
+        cmocka_unit_test(test_grow_array),
+        cmocka_unit_test(test_out_of_memory),
+    };
+
+    return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
+}
