@@ -32,97 +32,101 @@ static const struct move {
     {ACTION_OPEN, HELD_KEYS_OPEN, 1},
 };
 
-static struct view *view_of(const struct camera_control *p)
+static struct view *view_of(const struct camera_control *camera)
 {
-    return &p->work->session->view;
+    return &camera->control->session->view;
 }
 
-static const struct scene *scene_of(const struct camera_control *p)
+static const struct scene *scene_of(const struct camera_control *camera)
 {
-    return &p->work->session->scene;
+    return &camera->control->session->scene;
 }
 
-void camera_control_init(struct camera_control *p, struct render_control *work,
-                         struct screen *canvas)
+void camera_control_init(struct camera_control *camera,
+                         struct render_control *control, struct screen *screen)
 {
-    const struct scene *scene = &work->session->scene;
+    const struct scene *scene = &control->session->scene;
 
-    *p = (struct camera_control){.work = work,
-                                 .canvas = canvas,
-                                 .cursor = {.work = work, .canvas = canvas}};
-    camera_input_init(&p->steer, scene->bounds_lo, scene->bounds_hi);
+    *camera = (struct camera_control){.control = control,
+                                      .screen = screen,
+                                      .cursor = {.control = control,
+                                                 .screen = screen}};
+    camera_input_init(&camera->input, scene->bounds_lo, scene->bounds_hi);
 }
 
-void camera_control_stop(struct camera_control *p)
+void camera_control_stop(struct camera_control *camera)
 {
-    held_keys_stop(&p->steer.motion);
-    p->steer.is_dragging = false;
-    p->held = ACTION_NONE;
+    held_keys_stop(&camera->input.motion);
+    camera->input.is_dragging = false;
+    camera->held = ACTION_NONE;
 }
 
 /* The eye is somewhere else, without a way there. */
-static void forget_place(struct camera_control *p)
+static void forget_place(struct camera_control *camera)
 {
-    clearance_forget(&p->around);
-    p->said = CLEARANCE_AMONG;
+    clearance_forget(&camera->clearance);
+    camera->said = CLEARANCE_AMONG;
 }
 
-void camera_control_renew(struct camera_control *p)
+void camera_control_renew(struct camera_control *camera)
 {
-    p->cursor.has_pick = false;
-    p->cursor.is_pick_new = false;
-    p->cursor.must_look = p->canvas->has_cursor;
-    forget_place(p);
-    camera_input_resize(&p->steer, scene_of(p)->bounds_lo,
-                        scene_of(p)->bounds_hi);
+    camera->cursor.has_pick = false;
+    camera->cursor.is_pick_new = false;
+    camera->cursor.must_look = camera->screen->has_cursor;
+    forget_place(camera);
+    camera_input_resize(&camera->input, scene_of(camera)->bounds_lo,
+                        scene_of(camera)->bounds_hi);
 }
 
 /* ---- where the eye is ---- */
 
 /* The tree is the render thread's until it is loaded. */
-static void look_around(struct camera_control *p)
+static void look_around(struct camera_control *camera)
 {
-    const struct scene *s = scene_of(p);
+    const struct scene *s = scene_of(camera);
 
-    if (!render_is_loaded(p->work->session->render) || s->tree.nodes == NULL)
+    if (!render_is_loaded(camera->control->session->render) ||
+        s->tree.nodes == NULL)
         return;
-    clearance_follow(&p->around, s, view_of(p));
-    camera_input_adapt(&p->steer, p->around.near, p->around.away);
+    clearance_follow(&camera->clearance, s, view_of(camera));
+    camera_input_adapt(&camera->input, camera->clearance.near,
+                       camera->clearance.away);
 }
 
-static void say_place(struct camera_control *p)
+static void say_place(struct camera_control *camera)
 {
-    const struct clearance *c = &p->around;
-    struct keymap_name key = render_control_key(p->work, ACTION_RESET);
+    const struct clearance *c = &camera->clearance;
+    struct keymap_name key = render_control_key(camera->control, ACTION_RESET);
     const char *name;
 
     if (c->place == CLEARANCE_INSIDE) {
-        name = pick_cursor_object_name(&p->cursor, c->passed);
-        render_control_say_long(p->work, "inside of %.60s: %s returns", name,
-                                key.text);
+        name = pick_cursor_object_name(&camera->cursor, c->passed);
+        render_control_say_long(camera->control, "inside of %.60s: %s returns",
+                                name, key.text);
     } else if (c->place == CLEARANCE_OUTSIDE) {
-        render_control_say_long(p->work, "outside%s, behind a wall: %s returns",
+        render_control_say_long(camera->control,
+                                "outside%s, behind a wall: %s returns",
                                 c->away > 0 ? " the scene" : "", key.text);
     } else {
-        render_control_say_long(p->work,
+        render_control_say_long(camera->control,
                                 "nothing of the scene is in view: %s returns",
                                 key.text);
     }
-    p->said_ns = p->work->message.said_ns;
+    camera->said_ns = camera->control->message.said_ns;
 }
 
 /* After a move: who loses the scene is told so once; the message goes with its
  * reason. */
-static void judge(struct camera_control *p)
+static void judge(struct camera_control *camera)
 {
-    look_around(p);
-    if (p->around.place == p->said)
+    look_around(camera);
+    if (camera->clearance.place == camera->said)
         return;
-    p->said = p->around.place;
-    if (p->said != CLEARANCE_AMONG)
-        say_place(p);
-    else if (p->said_ns == p->work->message.said_ns)
-        render_control_be_silent(p->work);
+    camera->said = camera->clearance.place;
+    if (camera->said != CLEARANCE_AMONG)
+        say_place(camera);
+    else if (camera->said_ns == camera->control->message.said_ns)
+        render_control_be_silent(camera->control);
 }
 
 /* ---- moves ---- */
@@ -136,215 +140,220 @@ static const struct move *find_move(enum action action)
     return NULL;
 }
 
-static void add_step(struct camera_control *p)
+static void add_step(struct camera_control *camera)
 {
-    struct pose pose = view_pose(view_of(p));
+    struct pose pose = view_pose(view_of(camera));
 
-    camera_history_add(&p->history, &pose);
+    camera_history_add(&camera->history, &pose);
 }
 
-static void say_lens(struct camera_control *p)
+static void say_lens(struct camera_control *camera)
 {
-    const struct view *v = view_of(p);
+    const struct view *v = view_of(camera);
 
-    if (p->held == ACTION_NARROWER || p->held == ACTION_WIDER)
-        render_control_say(p->work, "field of view %.3g degrees", v->fovy_deg);
-    else if (p->held != ACTION_CLOSE && p->held != ACTION_OPEN)
+    if (camera->held == ACTION_NARROWER || camera->held == ACTION_WIDER)
+        render_control_say(camera->control, "field of view %.3g degrees",
+                           v->fovy_deg);
+    else if (camera->held != ACTION_CLOSE && camera->held != ACTION_OPEN)
         return;
     else if (v->aperture > 0)
-        render_control_say(p->work, "lens open by %.3g", v->aperture);
+        render_control_say(camera->control, "lens open by %.3g", v->aperture);
     else
-        render_control_say(p->work, "a pinhole: everything is sharp");
+        render_control_say(camera->control, "a pinhole: everything is sharp");
 }
 
-static void steer_held(struct camera_control *p, uint64_t now_ns)
+static void steer_held(struct camera_control *camera, uint64_t now_ns)
 {
     uint64_t next_ns;
     bool has_moved = false;
 
     /* each step as long as what is around allows, also where the loop is late
      */
-    while ((next_ns = held_keys_next_ns(&p->steer.motion)) <= now_ns &&
+    while ((next_ns = held_keys_next_ns(&camera->input.motion)) <= now_ns &&
            next_ns != UINT64_MAX) {
-        look_around(p);
-        has_moved |= camera_input_step(&p->steer, view_of(p), next_ns);
+        look_around(camera);
+        has_moved |=
+            camera_input_step(&camera->input, view_of(camera), next_ns);
     }
     if (!has_moved)
         return;
-    p->work->must_restart = true;
-    p->cursor.must_look = p->canvas->has_cursor;
-    say_lens(p);
-    judge(p);
+    camera->control->must_restart = true;
+    camera->cursor.must_look = camera->screen->has_cursor;
+    say_lens(camera);
+    judge(camera);
 }
 
 /* The rest of a tap at once: what looks at the view then finds the same,
  * however soon its key comes. */
-static void land(struct camera_control *p)
+static void land(struct camera_control *camera)
 {
-    steer_held(p, UINT64_MAX);
+    steer_held(camera, UINT64_MAX);
 }
 
 /* What was held until now is not lost where the loop was late. */
-static void press(struct camera_control *p, const struct move *move)
+static void press(struct camera_control *camera, const struct move *move)
 {
     uint64_t now_ns = clock_ns();
 
-    if (!render_control_may_move(p->work))
+    if (!render_control_may_move(camera->control))
         return;
-    steer_held(p, now_ns);
-    if (move->action != p->held || now_ns - p->held_ns > HELD_NS) {
-        add_step(p);
-        camera_input_begin(&p->steer, now_ns);
+    steer_held(camera, now_ns);
+    if (move->action != camera->held || now_ns - camera->held_ns > HELD_NS) {
+        add_step(camera);
+        camera_input_begin(&camera->input, now_ns);
     }
-    p->held = move->action;
-    p->held_ns = now_ns;
-    held_keys_press(&p->steer.motion, move->axis, move->sign, now_ns);
-    steer_held(p, now_ns);
+    camera->held = move->action;
+    camera->held_ns = now_ns;
+    held_keys_press(&camera->input.motion, move->axis, move->sign, now_ns);
+    steer_held(camera, now_ns);
 }
 
 /* True if the camera may jump now; what is held is let go. */
-static bool may_jump(struct camera_control *p)
+static bool may_jump(struct camera_control *camera)
 {
-    if (!render_control_may_move(p->work))
+    if (!render_control_may_move(camera->control))
         return false;
-    camera_control_stop(p);
+    camera_control_stop(camera);
     return true;
 }
 
-static void jump(struct camera_control *p, const struct pose *pose)
+static void jump(struct camera_control *camera, const struct pose *pose)
 {
-    add_step(p);
-    view_set_pose(view_of(p), pose);
-    forget_place(p);
-    p->work->must_restart = true;
+    add_step(camera);
+    view_set_pose(view_of(camera), pose);
+    forget_place(camera);
+    camera->control->must_restart = true;
 }
 
-static void change_speed(struct camera_control *p, int steps)
+static void change_speed(struct camera_control *camera, int steps)
 {
-    camera_input_change_speed(&p->steer, steps);
-    look_around(p);
-    render_control_say(p->work, "speed times %.3g: %.3g a second here",
-                       p->steer.speed, camera_input_speed(&p->steer));
+    camera_input_change_speed(&camera->input, steps);
+    look_around(camera);
+    render_control_say(camera->control, "speed times %.3g: %.3g a second here",
+                       camera->input.speed, camera_input_speed(&camera->input));
 }
 
-static void reset(struct camera_control *p)
+static void reset(struct camera_control *camera)
 {
-    struct pose pose = view_pose(&p->work->session->opened);
+    struct pose pose = view_pose(&camera->control->session->opened);
 
-    if (!may_jump(p))
+    if (!may_jump(camera))
         return;
-    jump(p, &pose);
-    render_control_say(p->work, "the view as it was opened");
+    jump(camera, &pose);
+    render_control_say(camera->control, "the view as it was opened");
 }
 
-static void travel(struct camera_control *p, bool is_back)
+static void travel(struct camera_control *camera, bool is_back)
 {
-    struct pose pose = view_pose(view_of(p));
+    struct pose pose = view_pose(view_of(camera));
 
-    if (!may_jump(p))
+    if (!may_jump(camera))
         return;
-    if (is_back ? !camera_history_undo(&p->history, &pose)
-                : !camera_history_redo(&p->history, &pose)) {
-        render_control_say(p->work,
+    if (is_back ? !camera_history_undo(&camera->history, &pose)
+                : !camera_history_redo(&camera->history, &pose)) {
+        render_control_say(camera->control,
                            is_back ? "nothing to undo" : "nothing to do again");
         return;
     }
-    view_set_pose(view_of(p), &pose);
-    forget_place(p);
-    p->work->must_restart = true;
-    render_control_say(p->work, is_back ? "undone" : "done again");
+    view_set_pose(view_of(camera), &pose);
+    forget_place(camera);
+    camera->control->must_restart = true;
+    render_control_say(camera->control, is_back ? "undone" : "done again");
 }
 
 /* ---- orbit, frame, focus ---- */
 
 /* What is picked, or what is in the middle of the picture, or of the scene. */
-static void find_pivot(struct camera_control *p)
+static void find_pivot(struct camera_control *camera)
 {
-    struct pick pick = p->cursor.pick;
+    struct pick pick = camera->cursor.pick;
 
-    if (!p->cursor.has_pick && !pick_cursor_look_ahead(&p->cursor, &pick))
-        memcpy(pick.position, scene_of(p)->center, sizeof pick.position);
-    memcpy(p->steer.pivot, pick.position, sizeof p->steer.pivot);
+    if (!camera->cursor.has_pick &&
+        !pick_cursor_look_ahead(&camera->cursor, &pick))
+        memcpy(pick.position, scene_of(camera)->center, sizeof pick.position);
+    memcpy(camera->input.pivot, pick.position, sizeof camera->input.pivot);
 }
 
-static bool need_pick(struct camera_control *p)
+static bool need_pick(struct camera_control *camera)
 {
-    if (!pick_cursor_need_pick(&p->cursor))
+    if (!pick_cursor_need_pick(&camera->cursor))
         return false;
-    find_pivot(p);
+    find_pivot(camera);
     return true;
 }
 
-static void switch_orbit(struct camera_control *p)
+static void switch_orbit(struct camera_control *camera)
 {
-    bool picks = p->canvas->has_cursor;
+    bool picks = camera->screen->has_cursor;
 
-    if (picks && !need_pick(p))
+    if (picks && !need_pick(camera))
         return;
-    held_keys_stop(&p->steer.motion);
-    p->steer.is_orbiting = picks || !p->steer.is_orbiting;
-    find_pivot(p);
-    render_control_say(p->work, !p->steer.is_orbiting
-                                    ? "arrows and mouse look around"
-                                : p->cursor.has_pick
-                                    ? "arrows and mouse orbit what is picked"
-                                    : "arrows and mouse orbit the middle");
+    held_keys_stop(&camera->input.motion);
+    camera->input.is_orbiting = picks || !camera->input.is_orbiting;
+    find_pivot(camera);
+    render_control_say(camera->control,
+                       !camera->input.is_orbiting
+                           ? "arrows and mouse look around"
+                       : camera->cursor.has_pick
+                           ? "arrows and mouse orbit what is picked"
+                           : "arrows and mouse orbit the middle");
 }
 
-static void frame(struct camera_control *p, const double lo[3],
+static void frame(struct camera_control *camera, const double lo[3],
                   const double hi[3], const char *name)
 {
-    struct view framed = *view_of(p);
+    struct view framed = *view_of(camera);
     struct pose pose;
 
-    if (!may_jump(p))
+    if (!may_jump(camera))
         return;
     camera_frame(&framed, lo, hi);
     pose = view_pose(&framed);
-    jump(p, &pose);
-    render_control_say(p->work, "%s", name);
+    jump(camera, &pose);
+    render_control_say(camera->control, "%s", name);
 }
 
-static void frame_object(struct camera_control *p)
+static void frame_object(struct camera_control *camera)
 {
     uint32_t object;
     double lo[3], hi[3];
 
-    if (!need_pick(p))
+    if (!need_pick(camera))
         return;
-    object = p->cursor.pick.object;
-    pick_bounds(scene_of(p), object, lo, hi);
-    frame(p, lo, hi, pick_cursor_object_name(&p->cursor, object));
+    object = camera->cursor.pick.object;
+    pick_bounds(scene_of(camera), object, lo, hi);
+    frame(camera, lo, hi, pick_cursor_object_name(&camera->cursor, object));
 }
 
-static void frame_all(struct camera_control *p)
+static void frame_all(struct camera_control *camera)
 {
-    const struct scene *s = scene_of(p);
+    const struct scene *s = scene_of(camera);
 
     if (s->tri_count > 0)
-        frame(p, s->bounds_lo, s->bounds_hi, "the whole scene");
+        frame(camera, s->bounds_lo, s->bounds_hi, "the whole scene");
     else
-        render_control_say(p->work, "no faces to frame");
+        render_control_say(camera->control, "no faces to frame");
 }
 
-static void focus(struct camera_control *p)
+static void focus(struct camera_control *camera)
 {
-    struct pose pose = view_pose(view_of(p));
+    struct pose pose = view_pose(view_of(camera));
 
-    if (!need_pick(p) || !may_jump(p))
+    if (!need_pick(camera) || !may_jump(camera))
         return;
-    pose.focus = camera_depth(view_of(p), p->cursor.pick.position);
+    pose.focus = camera_depth(view_of(camera), camera->cursor.pick.position);
     if (!(pose.focus > 0)) {
-        render_control_say(p->work, "what is picked lies behind the camera");
+        render_control_say(camera->control,
+                           "what is picked lies behind the camera");
         return;
     }
-    jump(p, &pose);
+    jump(camera, &pose);
     if (pose.aperture > 0)
-        render_control_say(p->work, "sharp %.4g away", pose.focus);
+        render_control_say(camera->control, "sharp %.4g away", pose.focus);
     else
-        render_control_say(p->work, "sharp %.4g away once the lens is open: %s",
-                           pose.focus,
-                           render_control_key(p->work, ACTION_OPEN).text);
+        render_control_say(
+            camera->control, "sharp %.4g away once the lens is open: %s",
+            pose.focus, render_control_key(camera->control, ACTION_OPEN).text);
 }
 
 /* ---- numbered views ---- */
@@ -359,138 +368,139 @@ static bool is_number(enum action action)
     return action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9;
 }
 
-void camera_control_keep_view(struct camera_control *p, enum action action)
+void camera_control_keep_view(struct camera_control *camera, enum action action)
 {
     int number = number_of(action);
-    struct view *v = view_of(p);
+    struct view *v = view_of(camera);
 
     if (!is_number(action))
         return;
     v->shots[number - 1] = view_pose(v);
     v->has_shot[number - 1] = true;
-    render_control_say(p->work,
-                       "this is view %d: %s writes it to the view file", number,
-                       render_control_key(p->work, ACTION_SAVE_VIEW).text);
+    render_control_say(
+        camera->control, "this is view %d: %s writes it to the view file",
+        number, render_control_key(camera->control, ACTION_SAVE_VIEW).text);
 }
 
-static void go_to_view(struct camera_control *p, int number)
+static void go_to_view(struct camera_control *camera, int number)
 {
-    if (!view_of(p)->has_shot[number - 1]) {
-        render_control_say(p->work, "no view %d yet: %s %d makes this one so",
-                           number,
-                           render_control_key(p->work, ACTION_KEEP).text,
-                           number);
-    } else if (may_jump(p)) {
-        jump(p, &view_of(p)->shots[number - 1]);
-        render_control_say(p->work, "view %d", number);
+    if (!view_of(camera)->has_shot[number - 1]) {
+        render_control_say(
+            camera->control, "no view %d yet: %s %d makes this one so", number,
+            render_control_key(camera->control, ACTION_KEEP).text, number);
+    } else if (may_jump(camera)) {
+        jump(camera, &view_of(camera)->shots[number - 1]);
+        render_control_say(camera->control, "view %d", number);
     }
 }
 
 /* ---- all of it ---- */
 
-bool camera_control_act(struct camera_control *p, enum action action)
+bool camera_control_act(struct camera_control *camera, enum action action)
 {
     const struct move *move = find_move(action);
 
     if (!move)
-        land(p);
+        land(camera);
     if (is_number(action)) {
-        go_to_view(p, number_of(action));
+        go_to_view(camera, number_of(action));
         return true;
     }
-    if (pick_cursor_act(&p->cursor, action)) {
-        if (p->cursor.has_pick)
-            find_pivot(p);
+    if (pick_cursor_act(&camera->cursor, action)) {
+        if (camera->cursor.has_pick)
+            find_pivot(camera);
         return true;
     }
     if (move) {
-        press(p, move);
+        press(camera, move);
         return true;
     }
     switch (action) {
-    case ACTION_FASTER: change_speed(p, 1); break;
-    case ACTION_SLOWER: change_speed(p, -1); break;
-    case ACTION_ORBIT: switch_orbit(p); break;
-    case ACTION_FRAME: frame_object(p); break;
-    case ACTION_FRAME_ALL: frame_all(p); break;
-    case ACTION_FOCUS: focus(p); break;
-    case ACTION_UNDO: travel(p, true); break;
-    case ACTION_REDO: travel(p, false); break;
-    case ACTION_RESET: reset(p); break;
+    case ACTION_FASTER: change_speed(camera, 1); break;
+    case ACTION_SLOWER: change_speed(camera, -1); break;
+    case ACTION_ORBIT: switch_orbit(camera); break;
+    case ACTION_FRAME: frame_object(camera); break;
+    case ACTION_FRAME_ALL: frame_all(camera); break;
+    case ACTION_FOCUS: focus(camera); break;
+    case ACTION_UNDO: travel(camera, true); break;
+    case ACTION_REDO: travel(camera, false); break;
+    case ACTION_RESET: reset(camera); break;
     default: return false;
     }
     return true;
 }
 
-static void wheel(struct camera_control *p, bool is_up, bool is_modified)
+static void wheel(struct camera_control *camera, bool is_up, bool is_modified)
 {
     if (is_modified)
-        press(p, find_move(is_up ? ACTION_NARROWER : ACTION_WIDER));
+        press(camera, find_move(is_up ? ACTION_NARROWER : ACTION_WIDER));
     else
-        change_speed(p, is_up ? 1 : -1);
+        change_speed(camera, is_up ? 1 : -1);
 }
 
-static bool steer_by(struct camera_control *p, const struct event *event)
+static bool steer_by(struct camera_control *camera, const struct event *event)
 {
-    struct rect r = pick_cursor_shown_rect(&p->cursor);
+    struct rect r = pick_cursor_shown_rect(&camera->cursor);
 
-    return camera_input_mouse(&p->steer, view_of(p), event, &p->canvas->fit,
-                              r.width, r.height);
+    return camera_input_mouse(&camera->input, view_of(camera), event,
+                              &camera->screen->fit, r.width, r.height);
 }
 
-static void drag(struct camera_control *p, const struct event *event)
+static void drag(struct camera_control *camera, const struct event *event)
 {
-    struct pose before = view_pose(view_of(p));
+    struct pose before = view_pose(view_of(camera));
 
-    if (!render_control_may_move(p->work)) {
-        p->steer.is_dragging = false; /* nor is it a click */
+    if (!render_control_may_move(camera->control)) {
+        camera->input.is_dragging = false; /* nor is it a click */
         return;
     }
-    if (!steer_by(p, event))
+    if (!steer_by(camera, event))
         return;
-    if (p->drag_is_new)
-        camera_history_add(&p->history, &before);
-    p->drag_is_new = false;
-    p->held = ACTION_NONE;
-    p->work->must_restart = true;
-    judge(p);
+    if (camera->drag_is_new)
+        camera_history_add(&camera->history, &before);
+    camera->drag_is_new = false;
+    camera->held = ACTION_NONE;
+    camera->control->must_restart = true;
+    judge(camera);
 }
 
-void camera_control_mouse(struct camera_control *p, const struct event *event)
+void camera_control_mouse(struct camera_control *camera,
+                          const struct event *event)
 {
     switch (event->mouse) {
-    case MOUSE_WHEEL_UP: wheel(p, true, event->is_modified); break;
-    case MOUSE_WHEEL_DOWN: wheel(p, false, event->is_modified); break;
-    case MOUSE_DRAG: drag(p, event); break;
+    case MOUSE_WHEEL_UP: wheel(camera, true, event->is_modified); break;
+    case MOUSE_WHEEL_DOWN: wheel(camera, false, event->is_modified); break;
+    case MOUSE_DRAG: drag(camera, event); break;
     case MOUSE_PRESS:
-        p->drag_is_new = true;
-        if (camera_input_orbits(&p->steer, event) && !p->steer.is_orbiting)
-            find_pivot(p);
-        steer_by(p, event);
+        camera->drag_is_new = true;
+        if (camera_input_orbits(&camera->input, event) &&
+            !camera->input.is_orbiting)
+            find_pivot(camera);
+        steer_by(camera, event);
         break;
     case MOUSE_RELEASE:
-        if (p->steer.is_dragging && !p->steer.has_dragged &&
+        if (camera->input.is_dragging && !camera->input.has_dragged &&
             event->button == 0 &&
-            pick_cursor_click(&p->cursor, event->x - 1, event->y - 1))
-            find_pivot(p);
-        steer_by(p, event);
+            pick_cursor_click(&camera->cursor, event->x - 1, event->y - 1))
+            find_pivot(camera);
+        steer_by(camera, event);
         break;
     case MOUSE_OTHER: break;
     }
 }
 
-void camera_control_step(struct camera_control *p, uint64_t now_ns)
+void camera_control_step(struct camera_control *camera, uint64_t now_ns)
 {
-    steer_held(p, now_ns);
-    pick_cursor_step(&p->cursor);
+    steer_held(camera, now_ns);
+    pick_cursor_step(&camera->cursor);
 }
 
-uint64_t camera_control_next_ns(const struct camera_control *p)
+uint64_t camera_control_next_ns(const struct camera_control *camera)
 {
-    return held_keys_next_ns(&p->steer.motion);
+    return held_keys_next_ns(&camera->input.motion);
 }
 
-void camera_control_free(struct camera_control *p)
+void camera_control_free(struct camera_control *camera)
 {
-    camera_history_free(&p->history);
+    camera_history_free(&camera->history);
 }

@@ -18,19 +18,19 @@
 
 static struct edit *edit_of(const struct editor_panel *p)
 {
-    return &p->work->session->edit;
+    return &p->control->session->edit;
 }
 
 static const struct scene *scene_of(const struct editor_panel *p)
 {
-    return &p->work->session->scene;
+    return &p->control->session->scene;
 }
 
-void editor_panel_init(struct editor_panel *p, struct render_control *work,
-                       struct screen *canvas)
+void editor_panel_init(struct editor_panel *p, struct render_control *control,
+                       struct screen *screen)
 {
-    *p = (struct editor_panel){.work = work, .canvas = canvas};
-    selection_init(&p->selection, work->session);
+    *p = (struct editor_panel){.control = control, .screen = screen};
+    selection_init(&p->selection, control->session);
 }
 
 void editor_panel_free(struct editor_panel *p)
@@ -69,21 +69,21 @@ void editor_panel_select(struct editor_panel *p, const struct pick *pick)
 /* After any change: what follows from it for picture and panel. */
 static void take_change(struct editor_panel *p)
 {
-    if (session_take_edit(p->work->session))
-        p->work->must_restart = true;
-    p->work->has_changed = true;
+    if (session_take_edit(p->control->session))
+        p->control->must_restart = true;
+    p->control->has_changed = true;
 }
 
 static bool may_change(struct editor_panel *p)
 {
-    if (!p->work->is_live) {
-        render_control_say(p->work,
+    if (!p->control->is_live) {
+        render_control_say(p->control,
                            "materials change in live mode: %s goes there",
-                           render_control_key(p->work, ACTION_MODE).text);
+                           render_control_key(p->control, ACTION_MODE).text);
         return false;
     }
-    if (p->work->reload.is_busy) {
-        render_control_say(p->work,
+    if (p->control->reload.is_busy) {
+        render_control_say(p->control,
                            "the scene is being loaded: materials change then");
         return false;
     }
@@ -121,7 +121,7 @@ static void take_typed(struct editor_panel *p)
         edit_break(edit_of(p));
         take_change(p);
     } else {
-        render_control_say(p->work, "%s", err.text);
+        render_control_say(p->control, "%s", err.text);
     }
 }
 
@@ -130,7 +130,7 @@ static void travel(struct editor_panel *p, bool is_back)
     if (!may_change(p))
         return;
     if (!(is_back ? edit_undo(edit_of(p)) : edit_redo(edit_of(p))))
-        render_control_say(p->work,
+        render_control_say(p->control,
                            is_back ? "nothing to undo" : "nothing to do again");
     take_change(p);
 }
@@ -157,13 +157,13 @@ static void duplicate(struct editor_panel *p)
             edit_duplicate(e, selection_material_of(&p->selection,
                                                     p->selection.object));
         edit_assign(e, p->selection.object, p->selection.material);
-        render_control_say(p->work, "%.40s has its own material now: %.40s",
+        render_control_say(p->control, "%.40s has its own material now: %.40s",
                            panel_name(
                                scene_of(p)->object_names[p->selection.object]),
                            e->names[p->selection.material]);
     } else {
         p->selection.material = edit_duplicate(e, p->selection.material);
-        render_control_say(p->work, "%.60s: Tab goes to the objects for it",
+        render_control_say(p->control, "%.60s: Tab goes to the objects for it",
                            e->names[p->selection.material]);
     }
     edit_break(e);
@@ -211,7 +211,7 @@ static void begin_typing(struct editor_panel *p, int key)
         if (key == ENTER)
             turn(p, 1);
         else
-            render_control_say(p->work,
+            render_control_say(p->control,
                                "this is changed with the arrows, or Enter");
         return;
     }
@@ -305,7 +305,7 @@ static void wheel(struct editor_panel *p, int up)
 
 bool editor_panel_mouse(struct editor_panel *p, const struct event *event)
 {
-    int col = event->x - 1 - (term_size().cols - p->canvas->panel_cols);
+    int col = event->x - 1 - (term_size().cols - p->screen->panel_cols);
 
     if (!p->is_open || col < 0 || event->mouse == MOUSE_RELEASE)
         return false;
@@ -351,7 +351,7 @@ bool editor_panel_key(struct editor_panel *p, int key)
     case PANEL_UNDO: travel(p, true); break;
     case PANEL_REDO: travel(p, false); break;
     case PANEL_COMPARE: compare(p); break;
-    case PANEL_SAVE: work_save_edit(p->work); break;
+    case PANEL_SAVE: save_edit(p->control); break;
     case PANEL_LEAVE: leave(p); break;
     }
     return true;

@@ -7,8 +7,8 @@
  * the panel's go on to move the camera and so on.
  *
  * Units:     terminal cells
- * Ownership: work and canvas stay the caller's; editor_panel_free() frees the
- * rest Threads:   main only Errors:    become messages
+ * Ownership: control and screen stay the caller's; editor_panel_free() frees
+ * the rest Threads:   main only Errors:    become messages
  */
 #ifndef GLIM_EDITOR_PANEL_H
 #define GLIM_EDITOR_PANEL_H
@@ -24,8 +24,8 @@
 #define EDITOR_PANEL_TEXT 512
 
 struct editor_panel {
-    struct render_control *work;
-    struct screen *canvas;
+    struct render_control *control;
+    struct screen *screen;
     struct selection selection;
     bool is_open;
     bool is_in_knobs;         /* else the arrows are the list's */
@@ -38,8 +38,8 @@ struct editor_panel {
     uint64_t turned_ns;
 };
 
-void editor_panel_init(struct editor_panel *p, struct render_control *work,
-                       struct screen *canvas);
+void editor_panel_init(struct editor_panel *p, struct render_control *control,
+                       struct screen *screen);
 
 /* Opens or closes it; the layout must be done anew. */
 void editor_panel_open(struct editor_panel *p);

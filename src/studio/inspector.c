@@ -12,373 +12,391 @@
 
 #define TEXT_BYTES 256
 
-static struct session *session_of(const struct inspector *in)
+static struct session *session_of(const struct inspector *inspector)
 {
-    return in->work->session;
+    return inspector->control->session;
 }
 
 /* ---- drawings ---- */
 
-static void paint_drawing(struct inspector *in, struct frame *frame)
+static void paint_drawing(struct inspector *inspector, struct frame *frame)
 {
     struct world w;
     struct camera camera;
 
-    if (in->drawing == INSPECTOR_NOTHING || !view_mode_world(&in->show, &w))
+    if (inspector->drawing == INSPECTOR_NOTHING ||
+        !view_mode_world(&inspector->view_mode, &w))
         return;
-    camera = view_mode_camera(&in->show, &w.settings.camera, frame);
-    if (in->drawing == INSPECTOR_BOXES)
-        overlay_boxes(frame, &camera, &in->show.bvh, in->level);
-    else if (in->drawing == INSPECTOR_LOBES && in->is_surface)
-        overlay_lobes(frame, &camera, &in->lobes);
-    else if (in->drawing == INSPECTOR_PATH)
-        overlay_trail(frame, &camera, &in->trail, in->step);
+    camera = view_mode_camera(&inspector->view_mode, &w.settings.camera, frame);
+    if (inspector->drawing == INSPECTOR_BOXES)
+        overlay_boxes(frame, &camera, &inspector->view_mode.bvh,
+                      inspector->level);
+    else if (inspector->drawing == INSPECTOR_LOBES && inspector->is_surface)
+        overlay_lobes(frame, &camera, &inspector->lobes);
+    else if (inspector->drawing == INSPECTOR_PATH)
+        overlay_trail(frame, &camera, &inspector->trail, inspector->step);
 }
 
 static void paint(void *context, struct film *film, struct film *draft,
                   struct frame *frame)
 {
-    struct inspector *in = context;
+    struct inspector *inspector = context;
 
-    view_mode_paint(&in->show, film, draft, frame);
-    paint_drawing(in, frame);
+    view_mode_paint(&inspector->view_mode, film, draft, frame);
+    paint_drawing(inspector, frame);
 }
 
-void inspector_close_panel(struct inspector *in)
+void inspector_close_panel(struct inspector *inspector)
 {
-    if (in->has_panel)
-        screen_close_window(in->canvas);
-    in->has_panel = false;
-    in->work->has_changed = true;
+    if (inspector->has_panel)
+        screen_close_window(inspector->screen);
+    inspector->has_panel = false;
+    inspector->control->has_changed = true;
 }
 
-void inspector_open_panel(struct inspector *in)
+void inspector_open_panel(struct inspector *inspector)
 {
-    const struct scene *scene = &session_of(in)->scene;
+    const struct scene *scene = &session_of(inspector)->scene;
     const char *lines[OVERLAY_TEXT_LINES];
     struct overlay_text legend;
     char title[TEXT_BYTES];
 
-    inspector_close_panel(in);
-    if (in->canvas->is_too_small)
+    inspector_close_panel(inspector);
+    if (inspector->screen->is_too_small)
         return;
-    if (in->drawing == INSPECTOR_LOBES && in->is_surface) {
-        overlay_text_lobes(&legend, scene, &in->lobes);
-        snprintf(title, sizeof title, " directions from pixel %u %u ", in->x,
-                 in->y);
-    } else if (in->drawing == INSPECTOR_PATH) {
-        overlay_text_trail(&legend, scene, &in->trail, in->step);
+    if (inspector->drawing == INSPECTOR_LOBES && inspector->is_surface) {
+        overlay_text_lobes(&legend, scene, &inspector->lobes);
+        snprintf(title, sizeof title, " directions from pixel %u %u ",
+                 inspector->x, inspector->y);
+    } else if (inspector->drawing == INSPECTOR_PATH) {
+        overlay_text_trail(&legend, scene, &inspector->trail, inspector->step);
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
-                 (unsigned long long)in->sample, in->x, in->y,
-                 render_control_key(in->work, ACTION_LESS).text,
-                 render_control_key(in->work, ACTION_MORE).text);
+                 (unsigned long long)inspector->sample, inspector->x,
+                 inspector->y,
+                 render_control_key(inspector->control, ACTION_LESS).text,
+                 render_control_key(inspector->control, ACTION_MORE).text);
     } else {
         return;
     }
     for (int i = 0; i < legend.count; i++)
         lines[i] = legend.lines[i];
-    screen_open_panel(in->canvas, title, lines, legend.count);
-    in->has_panel = true;
+    screen_open_panel(inspector->screen, title, lines, legend.count);
+    inspector->has_panel = true;
 }
 
-static void say_boxes(struct inspector *in)
+static void say_boxes(struct inspector *inspector)
 {
     struct frame nothing = {0};
     struct camera any = {0};
 
     render_control_say_long(
-        in->work, "boxes of level %u of %u: %u nodes; %s %s go up and down",
-        in->level, in->show.bvh.depth,
-        overlay_boxes(&nothing, &any, &in->show.bvh, in->level),
-        render_control_key(in->work, ACTION_LESS).text,
-        render_control_key(in->work, ACTION_MORE).text);
+        inspector->control,
+        "boxes of level %u of %u: %u nodes; %s %s go up and down",
+        inspector->level, inspector->view_mode.bvh.depth,
+        overlay_boxes(&nothing, &any, &inspector->view_mode.bvh,
+                      inspector->level),
+        render_control_key(inspector->control, ACTION_LESS).text,
+        render_control_key(inspector->control, ACTION_MORE).text);
 }
 
-static bool is_new_pick(const struct inspector *in)
+static bool is_new_pick(const struct inspector *inspector)
 {
-    const struct pick_cursor *c = in->cursor;
+    const struct pick_cursor *cursor = inspector->cursor;
 
-    return c->has_pick && (!in->is_picked || memcmp(in->place, c->pick.position,
-                                                    sizeof in->place) != 0);
+    return cursor->has_pick && (!inspector->is_picked ||
+                                memcmp(inspector->place, cursor->pick.position,
+                                       sizeof inspector->place) != 0);
 }
 
 /* Where the pick is in the picture now, or its middle. */
-static void find_pixel(struct inspector *in)
+static void find_pixel(struct inspector *inspector)
 {
-    const struct scene *scene = &session_of(in)->scene;
-    struct rect r = session_of(in)->crop;
+    const struct scene *scene = &session_of(inspector)->scene;
+    struct rect r = session_of(inspector)->crop;
     struct projected at;
 
-    in->x = (uint32_t)(r.x + r.width / 2);
-    in->y = (uint32_t)(r.y + r.height / 2);
-    in->is_picked = in->cursor->has_pick;
-    if (!in->is_picked)
+    inspector->x = (uint32_t)(r.x + r.width / 2);
+    inspector->y = (uint32_t)(r.y + r.height / 2);
+    inspector->is_picked = inspector->cursor->has_pick;
+    if (!inspector->is_picked)
         return;
-    memcpy(in->place, in->cursor->pick.position, sizeof in->place);
+    memcpy(inspector->place, inspector->cursor->pick.position,
+           sizeof inspector->place);
     if (projection_point(
-            &in->camera,
-            v3((float)((in->place[0] - scene->center[0]) * scene->scale),
-               (float)((in->place[1] - scene->center[1]) * scene->scale),
-               (float)((in->place[2] - scene->center[2]) * scene->scale)),
+            &inspector->camera,
+            v3((float)((inspector->place[0] - scene->center[0]) * scene->scale),
+               (float)((inspector->place[1] - scene->center[1]) * scene->scale),
+               (float)((inspector->place[2] - scene->center[2]) *
+                       scene->scale)),
             &at) &&
         at.x >= r.x && at.x < r.x + r.width && at.y >= r.y &&
         at.y < r.y + r.height) {
-        in->x = (uint32_t)at.x;
-        in->y = (uint32_t)at.y;
+        inspector->x = (uint32_t)at.x;
+        inspector->y = (uint32_t)at.y;
     }
 }
 
-static void follow(struct inspector *in)
+static void follow(struct inspector *inspector)
 {
     struct world w;
 
-    if (!view_mode_world(&in->show, &w))
+    if (!view_mode_world(&inspector->view_mode, &w))
         return;
-    w.settings.camera = in->camera;
-    path_record_follow(&in->trail, &w, in->x, in->y, in->sample);
+    w.settings.camera = inspector->camera;
+    path_record_follow(&inspector->trail, &w, inspector->x, inspector->y,
+                       inspector->sample);
 }
 
 /* Begins to draw from what is picked. */
-static void place(struct inspector *in)
+static void place(struct inspector *inspector)
 {
     struct world w;
 
-    if (!view_mode_world(&in->show, &w))
+    if (!view_mode_world(&inspector->view_mode, &w))
         return;
-    in->camera = w.settings.camera;
-    find_pixel(in);
-    in->sample = 0;
-    in->step = 1;
-    follow(in);
-    in->is_surface = path_record_scatter(&in->lobes, &w, in->x, in->y);
+    inspector->camera = w.settings.camera;
+    find_pixel(inspector);
+    inspector->sample = 0;
+    inspector->step = 1;
+    follow(inspector);
+    inspector->is_surface =
+        path_record_scatter(&inspector->lobes, &w, inspector->x, inspector->y);
 }
 
-static void say_drawing(struct inspector *in)
+static void say_drawing(struct inspector *inspector)
 {
-    if (in->drawing == INSPECTOR_BOXES)
-        say_boxes(in);
-    else if (in->drawing == INSPECTOR_LOBES && !in->is_surface)
-        render_control_say(in->work,
-                           "only the sky is there: %s picks something else",
-                           render_control_key(in->work, ACTION_CURSOR).text);
-    inspector_open_panel(in);
+    if (inspector->drawing == INSPECTOR_BOXES)
+        say_boxes(inspector);
+    else if (inspector->drawing == INSPECTOR_LOBES && !inspector->is_surface)
+        render_control_say(
+            inspector->control,
+            "only the sky is there: %s picks something else",
+            render_control_key(inspector->control, ACTION_CURSOR).text);
+    inspector_open_panel(inspector);
 }
 
 /* A path goes on from where the directions were drawn. */
-static void next_drawing(struct inspector *in)
+static void next_drawing(struct inspector *inspector)
 {
     struct error err;
 
-    in->drawing =
-        (enum inspector_drawing)((in->drawing + 1) % INSPECTOR_DRAWINGS);
-    render_control_be_silent(in->work);
-    if (in->drawing != INSPECTOR_NOTHING &&
-        !view_mode_need_tree(&in->show, &err)) {
-        in->drawing = INSPECTOR_NOTHING;
-        render_control_say_error(in->work, err.text);
+    inspector->drawing =
+        (enum inspector_drawing)((inspector->drawing + 1) % INSPECTOR_DRAWINGS);
+    render_control_be_silent(inspector->control);
+    if (inspector->drawing != INSPECTOR_NOTHING &&
+        !view_mode_need_tree(&inspector->view_mode, &err)) {
+        inspector->drawing = INSPECTOR_NOTHING;
+        render_control_say_error(inspector->control, err.text);
     }
-    if (in->drawing == INSPECTOR_LOBES)
-        place(in);
-    say_drawing(in);
+    if (inspector->drawing == INSPECTOR_LOBES)
+        place(inspector);
+    say_drawing(inspector);
 }
 
-static void change_level(struct inspector *in, int by)
+static void change_level(struct inspector *inspector, int by)
 {
-    if (by < 0 ? in->level > 0 : in->level < in->show.bvh.depth)
-        in->level += (uint32_t)by;
-    say_boxes(in);
+    if (by < 0 ? inspector->level > 0
+               : inspector->level < inspector->view_mode.bvh.depth)
+        inspector->level += (uint32_t)by;
+    say_boxes(inspector);
 }
 
 /* Behind the last step comes the next sample, before the first the last. */
-static void change_step(struct inspector *in, int by)
+static void change_step(struct inspector *inspector, int by)
 {
-    in->step += by;
-    if (in->step < 1 && in->sample == 0) {
-        in->step = 1;
-    } else if (in->step < 1) {
-        in->sample--;
-        follow(in);
-        in->step = in->trail.count;
-    } else if (in->step > in->trail.count) {
-        in->sample++;
-        follow(in);
-        in->step = 1;
+    inspector->step += by;
+    if (inspector->step < 1 && inspector->sample == 0) {
+        inspector->step = 1;
+    } else if (inspector->step < 1) {
+        inspector->sample--;
+        follow(inspector);
+        inspector->step = inspector->trail.count;
+    } else if (inspector->step > inspector->trail.count) {
+        inspector->sample++;
+        follow(inspector);
+        inspector->step = 1;
     }
-    inspector_open_panel(in);
+    inspector_open_panel(inspector);
 }
 
-static void change(struct inspector *in, int by)
+static void change(struct inspector *inspector, int by)
 {
-    in->work->has_changed = true;
-    if (in->drawing == INSPECTOR_BOXES)
-        change_level(in, by);
-    else if (in->drawing == INSPECTOR_PATH)
-        change_step(in, by);
+    inspector->control->has_changed = true;
+    if (inspector->drawing == INSPECTOR_BOXES)
+        change_level(inspector, by);
+    else if (inspector->drawing == INSPECTOR_PATH)
+        change_step(inspector, by);
     else
-        render_control_say(in->work,
-                           "%s %s go through boxes or a path: %s draws them",
-                           render_control_key(in->work, ACTION_LESS).text,
-                           render_control_key(in->work, ACTION_MORE).text,
-                           render_control_key(in->work, ACTION_DRAWING).text);
+        render_control_say(
+            inspector->control,
+            "%s %s go through boxes or a path: %s draws them",
+            render_control_key(inspector->control, ACTION_LESS).text,
+            render_control_key(inspector->control, ACTION_MORE).text,
+            render_control_key(inspector->control, ACTION_DRAWING).text);
 }
 
 /* ---- saving ---- */
 
 /* Light is there from its first sample on. */
-static bool has_picture(struct inspector *in)
+static bool has_picture(struct inspector *inspector)
 {
-    if (view_mode_sample(in->show.kind) != SAMPLE_LIGHT ||
-        render_progress(session_of(in)->render).samples > 0)
+    if (view_mode_sample(inspector->view_mode.kind) != SAMPLE_LIGHT ||
+        render_progress(session_of(inspector)->render).samples > 0)
         return true;
-    render_control_say(in->work, "nothing to save yet");
+    render_control_say(inspector->control, "nothing to save yet");
     return false;
 }
 
 /* As it is shown, in pixels of the frame. */
-static bool paint_all(struct inspector *in, struct frame *frame,
+static bool paint_all(struct inspector *inspector, struct frame *frame,
                       struct error *err)
 {
-    struct film *film = render_film(session_of(in)->render);
+    struct film *film = render_film(session_of(inspector)->render);
 
-    if (!view_mode_picture(&in->show, film, frame, err))
+    if (!view_mode_picture(&inspector->view_mode, film, frame, err))
         return false;
-    paint_drawing(in, frame);
+    paint_drawing(inspector, frame);
     return true;
 }
 
-static void save_shown(struct inspector *in)
+static void save_shown_frame(struct inspector *inspector)
 {
-    struct rect r = session_of(in)->crop;
+    struct rect r = session_of(inspector)->crop;
     struct frame frame = {0};
     struct error err;
 
     if (frame_init(&frame, r.width, r.height, &err) &&
-        paint_all(in, &frame, &err))
-        work_save_frame(in->work, &frame);
+        paint_all(inspector, &frame, &err))
+        save_frame(inspector->control, &frame);
     else
-        render_control_say_error(in->work, err.text);
+        render_control_say_error(inspector->control, err.text);
     frame_free(&frame);
 }
 
-static void save_text(struct inspector *in)
+static void save_shown_text(struct inspector *inspector)
 {
-    struct ansi_text_style style = screen_style(in->canvas);
+    struct ansi_text_style style = screen_style(inspector->screen);
     struct frame frame = {0};
     struct error err;
 
     if (ansi_text_frame_init(&frame, &style, &err) &&
-        paint_all(in, &frame, &err))
-        work_save_text(in->work, &frame, &style);
+        paint_all(inspector, &frame, &err))
+        save_text(inspector->control, &frame, &style);
     else
-        render_control_say_error(in->work, err.text);
+        render_control_say_error(inspector->control, err.text);
     frame_free(&frame);
 }
 
 /* A picture of light without drawings is a film: a thread saves that. */
-static void save(struct inspector *in)
+static void save(struct inspector *inspector)
 {
-    if (in->show.kind == SHOW_LIGHT && in->drawing == INSPECTOR_NOTHING)
-        work_save_picture(in->work, "png");
-    else if (has_picture(in))
-        save_shown(in);
+    if (inspector->view_mode.kind == SHOW_LIGHT &&
+        inspector->drawing == INSPECTOR_NOTHING)
+        save_picture(inspector->control, "png");
+    else if (has_picture(inspector))
+        save_shown_frame(inspector);
 }
 
-static void save_linear(struct inspector *in)
+static void save_hdr(struct inspector *inspector)
 {
-    if (view_mode_sample(in->show.kind) == SAMPLE_LIGHT)
-        work_save_picture(in->work, "hdr");
+    if (view_mode_sample(inspector->view_mode.kind) == SAMPLE_LIGHT)
+        save_picture(inspector->control, "hdr");
     else
-        render_control_say(in->work,
-                           "only light is saved as HDR: %s goes back to it",
-                           render_control_key(in->work, ACTION_VIEW_BACK).text);
+        render_control_say(
+            inspector->control,
+            "only light is saved as HDR: %s goes back to it",
+            render_control_key(inspector->control, ACTION_VIEW_BACK).text);
 }
 
 /* ---- actions ---- */
 
-static void show(struct inspector *in, enum show_kind kind)
+static void show(struct inspector *inspector, enum show_kind kind)
 {
-    struct session *s = session_of(in);
+    struct session *s = session_of(inspector);
     enum sample_kind before = s->sample;
     struct error err;
 
-    render_control_be_silent(in->work);
-    if (!view_mode_set(&in->show, kind, &err))
-        render_control_say_error(in->work, err.text);
-    s->sample = view_mode_sample(in->show.kind);
-    in->work->has_changed = true;
-    if (in->work->is_live && s->sample != before)
+    render_control_be_silent(inspector->control);
+    if (!view_mode_set(&inspector->view_mode, kind, &err))
+        render_control_say_error(inspector->control, err.text);
+    s->sample = view_mode_sample(inspector->view_mode.kind);
+    inspector->control->has_changed = true;
+    if (inspector->control->is_live && s->sample != before)
         render_control_restart(
-            in->work); /* the film has other numbers until then */
+            inspector->control); /* the film has other numbers until then */
 }
 
 /* Normal mode renders light and nothing else. */
-static void turn(struct inspector *in, int by)
+static void turn(struct inspector *inspector, int by)
 {
-    int kind = (int)in->show.kind;
+    int kind = (int)inspector->view_mode.kind;
 
     do
         kind = (kind + by + SHOW_KINDS) % SHOW_KINDS;
-    while (!in->work->is_live &&
+    while (!inspector->control->is_live &&
            view_mode_sample((enum show_kind)kind) != SAMPLE_LIGHT);
-    show(in, (enum show_kind)kind);
+    show(inspector, (enum show_kind)kind);
 }
 
-bool inspector_act(struct inspector *in, enum action action)
+bool inspector_act(struct inspector *inspector, enum action action)
 {
     switch (action) {
-    case ACTION_VIEW_NEXT: turn(in, 1); break;
-    case ACTION_VIEW_BACK: turn(in, -1); break;
-    case ACTION_DRAWING: next_drawing(in); break;
-    case ACTION_LESS: change(in, -1); break;
-    case ACTION_MORE: change(in, 1); break;
-    case ACTION_SAVE: save(in); break;
-    case ACTION_SAVE_LINEAR: save_linear(in); break;
+    case ACTION_VIEW_NEXT: turn(inspector, 1); break;
+    case ACTION_VIEW_BACK: turn(inspector, -1); break;
+    case ACTION_DRAWING: next_drawing(inspector); break;
+    case ACTION_LESS: change(inspector, -1); break;
+    case ACTION_MORE: change(inspector, 1); break;
+    case ACTION_SAVE: save(inspector); break;
+    case ACTION_SAVE_LINEAR: save_hdr(inspector); break;
     case ACTION_SAVE_TEXT:
-        if (has_picture(in))
-            save_text(in);
+        if (has_picture(inspector))
+            save_shown_text(inspector);
         break;
     default: return false;
     }
     return true;
 }
 
-void inspector_step(struct inspector *in)
+void inspector_step(struct inspector *inspector)
 {
-    if ((in->drawing == INSPECTOR_LOBES || in->drawing == INSPECTOR_PATH) &&
-        is_new_pick(in)) {
-        place(in);
-        say_drawing(in);
+    if ((inspector->drawing == INSPECTOR_LOBES ||
+         inspector->drawing == INSPECTOR_PATH) &&
+        is_new_pick(inspector)) {
+        place(inspector);
+        say_drawing(inspector);
     }
 }
 
-void inspector_leave(struct inspector *in)
+void inspector_leave(struct inspector *inspector)
 {
-    if (view_mode_sample(in->show.kind) != SAMPLE_LIGHT)
-        show(in, SHOW_LIGHT);
+    if (view_mode_sample(inspector->view_mode.kind) != SAMPLE_LIGHT)
+        show(inspector, SHOW_LIGHT);
 }
 
-void inspector_stop_drawing(struct inspector *in)
+void inspector_stop_drawing(struct inspector *inspector)
 {
-    inspector_close_panel(in);
-    in->drawing = INSPECTOR_NOTHING;
+    inspector_close_panel(inspector);
+    inspector->drawing = INSPECTOR_NOTHING;
 }
 
-void inspector_renew(struct inspector *in)
+void inspector_renew(struct inspector *inspector)
 {
-    inspector_stop_drawing(in);
-    view_mode_renew(&in->show);
+    inspector_stop_drawing(inspector);
+    view_mode_renew(&inspector->view_mode);
 }
 
-void inspector_init(struct inspector *in, struct render_control *work,
-                    struct screen *canvas, struct pick_cursor *cursor)
+void inspector_init(struct inspector *inspector, struct render_control *control,
+                    struct screen *screen, struct pick_cursor *cursor)
 {
-    *in = (struct inspector){.work = work, .canvas = canvas, .cursor = cursor};
-    view_mode_init(&in->show, work->session);
-    canvas->painter = (struct painter){paint, in};
+    *inspector = (struct inspector){.control = control,
+                                    .screen = screen,
+                                    .cursor = cursor};
+    view_mode_init(&inspector->view_mode, control->session);
+    screen->painter = (struct painter){paint, inspector};
 }
 
-void inspector_free(struct inspector *in)
+void inspector_free(struct inspector *inspector)
 {
-    view_mode_free(&in->show);
-    *in = (struct inspector){0};
+    view_mode_free(&inspector->view_mode);
+    *inspector = (struct inspector){0};
 }

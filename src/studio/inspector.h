@@ -7,7 +7,7 @@
  * picture; those two stay where they were picked while the camera moves.
  *
  * Units:     frames' pixels
- * Ownership: work, canvas and cursor stay the caller's and outlive it;
+ * Ownership: control, screen and cursor stay the caller's and outlive it;
  *            inspector_free() frees the rest
  * Threads:   main only
  * Errors:    become messages
@@ -31,10 +31,10 @@ enum inspector_drawing {
 };
 
 struct inspector {
-    struct render_control *work;
-    struct screen *canvas;
+    struct render_control *control;
+    struct screen *screen;
     struct pick_cursor *cursor;
-    struct view_mode show;
+    struct view_mode view_mode;
     enum inspector_drawing drawing;
     uint32_t level; /* of boxes */
     /* where lobes and path begin: a pixel of a picture that was */
@@ -50,30 +50,30 @@ struct inspector {
     bool has_panel;
 };
 
-/* Takes over the canvas's painter. */
-void inspector_init(struct inspector *in, struct render_control *work,
-                    struct screen *canvas, struct pick_cursor *cursor);
+/* Takes over the screen's painter. */
+void inspector_init(struct inspector *inspector, struct render_control *control,
+                    struct screen *screen, struct pick_cursor *cursor);
 
 /* Does what the action says of views and drawings, and saves what is shown.
  * False if it is not one. */
-bool inspector_act(struct inspector *in, enum action action);
+bool inspector_act(struct inspector *inspector, enum action action);
 
 /* Nothing is drawn over the picture any more. */
-void inspector_stop_drawing(struct inspector *in);
+void inspector_stop_drawing(struct inspector *inspector);
 
 /* The scene is another one: what was made of the old one is dropped. */
-void inspector_renew(struct inspector *in);
+void inspector_renew(struct inspector *inspector);
 
 /* Follows a new pick. */
-void inspector_step(struct inspector *in);
+void inspector_step(struct inspector *inspector);
 
 /* Back to light: normal mode has no samples of other views. */
-void inspector_leave(struct inspector *in);
+void inspector_leave(struct inspector *inspector);
 
 /* Closes the panel before another window opens, and opens it behind that. */
-void inspector_close_panel(struct inspector *in);
-void inspector_open_panel(struct inspector *in);
+void inspector_close_panel(struct inspector *inspector);
+void inspector_open_panel(struct inspector *inspector);
 
-void inspector_free(struct inspector *in);
+void inspector_free(struct inspector *inspector);
 
 #endif

@@ -31,12 +31,12 @@ struct sheet {
 
 static const struct edit *edit_of(const struct editor_panel *p)
 {
-    return &p->work->session->edit;
+    return &p->control->session->edit;
 }
 
 static const struct scene *scene_of(const struct editor_panel *p)
 {
-    return &p->work->session->scene;
+    return &p->control->session->scene;
 }
 
 const char *panel_name(const char *name)
@@ -205,10 +205,10 @@ static void add_hints(const struct editor_panel *p, struct sheet *s)
 {
     char text[64];
 
-    if (!p->work->is_live) {
+    if (!p->control->is_live) {
         add_line(s, WINDOW_TITLE, " Normal mode: only to look at");
         snprintf(text, sizeof text, " %s goes to live mode to edit",
-                 render_control_key(p->work, ACTION_MODE).text);
+                 render_control_key(p->control, ACTION_MODE).text);
         add_line(s, WINDOW_TITLE, text);
     } else if (p->is_typing) {
         add_line(s, WINDOW_HINT, " number, #rrggbb, r g b or 3000K");
@@ -224,12 +224,12 @@ static void add_hints(const struct editor_panel *p, struct sheet *s)
 
 void panel_draw(struct editor_panel *p)
 {
-    struct sheet s = {.swatches = &p->canvas->swatches};
+    struct sheet s = {.swatches = &p->screen->swatches};
     struct parameter knobs[PARAMETERS_MAX];
     int rows = term_size().rows - 1;
     int list_rows, knob_rows;
 
-    if (!p->is_open || p->canvas->is_too_small)
+    if (!p->is_open || p->screen->is_too_small)
         return;
     selection_settle(&p->selection);
     knob_rows = panel_knobs(p, knobs);
@@ -249,6 +249,6 @@ void panel_draw(struct editor_panel *p)
     add_title(p, &s);
     add_knobs(p, &s, knob_rows);
     add_hints(p, &s);
-    screen_show_panel(p->canvas, s.lines, s.count);
+    screen_show_panel(p->screen, s.lines, s.count);
     free(s.lines);
 }

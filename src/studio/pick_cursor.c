@@ -12,94 +12,94 @@
 #define HELD_NS    UINT64_C(150000000)
 #define HELD_CELLS 8
 
-struct rect pick_cursor_shown_rect(const struct pick_cursor *c)
+struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor)
 {
-    const struct session *s = c->work->session;
+    const struct session *s = cursor->control->session;
 
     return s->options->has_crop
                ? s->options->crop
                : (struct rect){0, 0, s->view.width_px, s->view.height_px};
 }
 
-const char *pick_cursor_object_name(const struct pick_cursor *c,
+const char *pick_cursor_object_name(const struct pick_cursor *cursor,
                                     uint32_t object)
 {
-    const char *name = c->work->session->scene.object_names[object];
+    const char *name = cursor->control->session->scene.object_names[object];
 
     return *name ? name : "no name";
 }
 
-static void describe(const struct pick_cursor *c, const struct pick *pick,
+static void describe(const struct pick_cursor *cursor, const struct pick *pick,
                      char text[TEXT_BYTES])
 {
-    const struct scene *scene = &c->work->session->scene;
+    const struct scene *scene = &cursor->control->session->scene;
     const char *material = scene->material_names[pick->material];
 
     snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away",
-             pick_cursor_object_name(c, pick->object),
+             pick_cursor_object_name(cursor, pick->object),
              *material ? material : "no material", pick->face + 1,
              pick->distance);
 }
 
 /* ---- looking ---- */
 
-static bool look_at_cell(const struct pick_cursor *c, int col, int row,
+static bool look_at_cell(const struct pick_cursor *cursor, int col, int row,
                          struct pick *pick)
 {
-    const struct session *s = c->work->session;
-    struct rect r = pick_cursor_shown_rect(c);
+    const struct session *s = cursor->control->session;
+    struct rect r = pick_cursor_shown_rect(cursor);
     double x_px, y_px;
 
-    return pick_point_of_cell(&c->canvas->fit, r.width, r.height, col, row,
+    return pick_point_of_cell(&cursor->screen->fit, r.width, r.height, col, row,
                               &x_px, &y_px) &&
            pick_at(&s->scene, &s->view, r.x + x_px, r.y + y_px, pick);
 }
 
-static bool look_under(const struct pick_cursor *c, struct pick *pick)
+static bool look_under(const struct pick_cursor *cursor, struct pick *pick)
 {
-    const struct screen *canvas = c->canvas;
+    const struct screen *screen = cursor->screen;
 
-    return look_at_cell(c, canvas->fit.col + canvas->cursor_col,
-                        canvas->fit.row + canvas->cursor_row, pick);
+    return look_at_cell(cursor, screen->fit.col + screen->cursor_col,
+                        screen->fit.row + screen->cursor_row, pick);
 }
 
-bool pick_cursor_look_ahead(const struct pick_cursor *c, struct pick *pick)
+bool pick_cursor_look_ahead(const struct pick_cursor *cursor, struct pick *pick)
 {
-    const struct session *s = c->work->session;
-    struct rect r = pick_cursor_shown_rect(c);
+    const struct session *s = cursor->control->session;
+    struct rect r = pick_cursor_shown_rect(cursor);
 
     return pick_at(&s->scene, &s->view, r.x + r.width / 2.0,
                    r.y + r.height / 2.0, pick);
 }
 
-void pick_cursor_step(struct pick_cursor *c)
+void pick_cursor_step(struct pick_cursor *cursor)
 {
     struct pick pick;
     char text[TEXT_BYTES];
 
-    if (!c->must_look)
+    if (!cursor->must_look)
         return;
-    c->must_look = false;
-    if (look_under(c, &pick))
-        describe(c, &pick, text);
+    cursor->must_look = false;
+    if (look_under(cursor, &pick))
+        describe(cursor, &pick, text);
     else
         snprintf(text, sizeof text, "nothing but the sky");
-    render_control_say_long(c->work, "%s", text);
+    render_control_say_long(cursor->control, "%s", text);
 }
 
 /* ---- moving ---- */
 
-static void show(struct pick_cursor *c, bool is_shown)
+static void show(struct pick_cursor *cursor, bool is_shown)
 {
-    struct screen *canvas = c->canvas;
+    struct screen *screen = cursor->screen;
 
-    if (is_shown && canvas->cursor_col == 0 && canvas->cursor_row == 0) {
-        canvas->cursor_col = canvas->fit.cols / 2;
-        canvas->cursor_row = canvas->fit.rows / 2;
+    if (is_shown && screen->cursor_col == 0 && screen->cursor_row == 0) {
+        screen->cursor_col = screen->fit.cols / 2;
+        screen->cursor_row = screen->fit.rows / 2;
     }
-    canvas->has_cursor = is_shown;
-    c->must_look = is_shown;
-    c->work->has_changed = true;
+    screen->has_cursor = is_shown;
+    cursor->must_look = is_shown;
+    cursor->control->has_changed = true;
 }
 
 static int within(int x, int count)
@@ -107,100 +107,102 @@ static int within(int x, int count)
     return x < 0 ? 0 : x >= count ? count - 1 : x;
 }
 
-static void move(struct pick_cursor *c, enum action action, int right, int down)
+static void move(struct pick_cursor *cursor, enum action action, int right,
+                 int down)
 {
-    struct screen *canvas = c->canvas;
+    struct screen *screen = cursor->screen;
     uint64_t now_ns = clock_ns();
-    bool is_held = action == c->held && now_ns - c->held_ns < HELD_NS;
+    bool is_held = action == cursor->held && now_ns - cursor->held_ns < HELD_NS;
     int cells;
 
-    c->held_count = is_held ? c->held_count + 1 : 0;
-    c->held = action;
-    c->held_ns = now_ns;
-    cells = 1 + c->held_count / HELD_CELLS;
-    canvas->cursor_col =
-        within(canvas->cursor_col + cells * right, canvas->fit.cols);
-    canvas->cursor_row =
-        within(canvas->cursor_row + cells * down, canvas->fit.rows);
-    show(c, true);
+    cursor->held_count = is_held ? cursor->held_count + 1 : 0;
+    cursor->held = action;
+    cursor->held_ns = now_ns;
+    cells = 1 + cursor->held_count / HELD_CELLS;
+    screen->cursor_col =
+        within(screen->cursor_col + cells * right, screen->fit.cols);
+    screen->cursor_row =
+        within(screen->cursor_row + cells * down, screen->fit.rows);
+    show(cursor, true);
 }
 
 /* ---- picking ---- */
 
-static void take(struct pick_cursor *c, const struct pick *pick)
+static void take(struct pick_cursor *cursor, const struct pick *pick)
 {
     char text[TEXT_BYTES];
 
-    c->pick = *pick;
-    c->has_pick = c->is_pick_new = true;
-    show(c, false);
-    describe(c, pick, text);
-    render_control_say(c->work, "%s (%s orbit, %s focus, %s frame)", text,
-                       render_control_key(c->work, ACTION_ORBIT).text,
-                       render_control_key(c->work, ACTION_FOCUS).text,
-                       render_control_key(c->work, ACTION_FRAME).text);
+    cursor->pick = *pick;
+    cursor->has_pick = cursor->is_pick_new = true;
+    show(cursor, false);
+    describe(cursor, pick, text);
+    render_control_say(cursor->control, "%s (%s orbit, %s focus, %s frame)",
+                       text,
+                       render_control_key(cursor->control, ACTION_ORBIT).text,
+                       render_control_key(cursor->control, ACTION_FOCUS).text,
+                       render_control_key(cursor->control, ACTION_FRAME).text);
 }
 
-static bool pick_under(struct pick_cursor *c)
+static bool pick_under(struct pick_cursor *cursor)
 {
     struct pick pick;
 
-    if (look_under(c, &pick)) {
-        take(c, &pick);
+    if (look_under(cursor, &pick)) {
+        take(cursor, &pick);
         return true;
     }
-    render_control_say(c->work, "nothing but the sky");
+    render_control_say(cursor->control, "nothing but the sky");
     return false;
 }
 
-bool pick_cursor_click(struct pick_cursor *c, int col, int row)
+bool pick_cursor_click(struct pick_cursor *cursor, int col, int row)
 {
     struct pick pick;
 
-    if (!look_at_cell(c, col, row, &pick))
+    if (!look_at_cell(cursor, col, row, &pick))
         return false;
-    take(c, &pick);
+    take(cursor, &pick);
     return true;
 }
 
-bool pick_cursor_need_pick(struct pick_cursor *c)
+bool pick_cursor_need_pick(struct pick_cursor *cursor)
 {
-    if (c->canvas->has_cursor)
-        return pick_under(c);
-    if (c->has_pick)
+    if (cursor->screen->has_cursor)
+        return pick_under(cursor);
+    if (cursor->has_pick)
         return true;
-    render_control_say(c->work,
+    render_control_say(cursor->control,
                        "nothing is picked: %s shows a cursor, %s picks",
-                       render_control_key(c->work, ACTION_CURSOR).text,
-                       render_control_key(c->work, ACTION_START).text);
+                       render_control_key(cursor->control, ACTION_CURSOR).text,
+                       render_control_key(cursor->control, ACTION_START).text);
     return false;
 }
 
-static bool act_while_shown(struct pick_cursor *c, enum action action)
+static bool act_while_shown(struct pick_cursor *cursor, enum action action)
 {
     switch (action) {
-    case ACTION_LOOK_LEFT: move(c, action, -1, 0); break;
-    case ACTION_LOOK_RIGHT: move(c, action, 1, 0); break;
-    case ACTION_LOOK_UP: move(c, action, 0, -1); break;
-    case ACTION_LOOK_DOWN: move(c, action, 0, 1); break;
-    case ACTION_START: pick_under(c); break;
+    case ACTION_LOOK_LEFT: move(cursor, action, -1, 0); break;
+    case ACTION_LOOK_RIGHT: move(cursor, action, 1, 0); break;
+    case ACTION_LOOK_UP: move(cursor, action, 0, -1); break;
+    case ACTION_LOOK_DOWN: move(cursor, action, 0, 1); break;
+    case ACTION_START: pick_under(cursor); break;
     case ACTION_CURSOR:
     case ACTION_CANCEL:
-        show(c, false);
-        render_control_be_silent(c->work);
+        show(cursor, false);
+        render_control_be_silent(cursor->control);
         break;
     default: return false;
     }
     return true;
 }
 
-bool pick_cursor_act(struct pick_cursor *c, enum action action)
+bool pick_cursor_act(struct pick_cursor *cursor, enum action action)
 {
-    if (c->canvas->has_cursor)
-        return act_while_shown(c, action);
+    if (cursor->screen->has_cursor)
+        return act_while_shown(cursor, action);
     if (action == ACTION_CURSOR)
-        show(c, true);
+        show(cursor, true);
     else if (action == ACTION_CANCEL)
-        render_control_be_silent(c->work);
+        render_control_be_silent(cursor->control);
     return action == ACTION_CURSOR || action == ACTION_CANCEL;
 }

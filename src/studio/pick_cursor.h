@@ -5,7 +5,7 @@
  * What is under the cursor is said in the last line.
  *
  * Units:     terminal cells
- * Ownership: work and canvas stay the caller's and outlive the cursor
+ * Ownership: control and screen stay the caller's and outlive the cursor
  * Threads:   main only
  * Errors:    become messages
  */
@@ -21,8 +21,8 @@
 #include "studio/render_control.h"
 
 struct pick_cursor {
-    struct render_control *work;
-    struct screen *canvas; /* knows where it is, and whether it is shown */
+    struct render_control *control;
+    struct screen *screen; /* knows where it is, and whether it is shown */
     struct pick pick;
     bool has_pick;
     bool is_pick_new; /* whom it concerns clears it */
@@ -33,27 +33,28 @@ struct pick_cursor {
 };
 
 /* The part of the picture that is on the screen, in pixels. */
-struct rect pick_cursor_shown_rect(const struct pick_cursor *c);
+struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor);
 
 /* Does what the action says while the cursor is shown, and shows it. False if
  * the action is nothing of its own. */
-bool pick_cursor_act(struct pick_cursor *c, enum action action);
+bool pick_cursor_act(struct pick_cursor *cursor, enum action action);
 
 /* Picks what is at a cell of the screen, from 0; false: only the sky. */
-bool pick_cursor_click(struct pick_cursor *c, int col, int row);
+bool pick_cursor_click(struct pick_cursor *cursor, int col, int row);
 
 /* Picks what the cursor is on if it is shown. False, with a message, if then
  * nothing is picked. */
-bool pick_cursor_need_pick(struct pick_cursor *c);
+bool pick_cursor_need_pick(struct pick_cursor *cursor);
 
 /* What is in the middle of the picture, unpicked. */
-bool pick_cursor_look_ahead(const struct pick_cursor *c, struct pick *pick);
+bool pick_cursor_look_ahead(const struct pick_cursor *cursor,
+                            struct pick *pick);
 
 /* Says what is under the cursor if that may have changed. */
-void pick_cursor_step(struct pick_cursor *c);
+void pick_cursor_step(struct pick_cursor *cursor);
 
 /* The name of an object, or words for none. */
-const char *pick_cursor_object_name(const struct pick_cursor *c,
+const char *pick_cursor_object_name(const struct pick_cursor *cursor,
                                     uint32_t object);
 
 #endif

@@ -23,19 +23,19 @@ struct progress_panel {
     uint64_t load_ns; /* when that was begun */
 };
 
-/* On or off; the canvas's window is to be closed if it goes off. */
-void progress_panel_switch(struct progress_panel *g,
-                           const struct render_control *work);
+/* On or off; the screen's window is to be closed if it goes off. */
+void progress_panel_switch(struct progress_panel *panel,
+                           const struct render_control *control);
 
 /* When it wants to be drawn: UINT64_MAX, never, if nothing changes. */
-uint64_t progress_panel_next_ns(const struct progress_panel *g,
-                                const struct render_control *work);
+uint64_t progress_panel_next_ns(const struct progress_panel *panel,
+                                const struct render_control *control);
 
 /* Opens the panel, or changes its text. */
-void progress_panel_draw(struct progress_panel *g,
-                         const struct render_control *work,
-                         struct screen *canvas, uint64_t now_ns);
+void progress_panel_draw(struct progress_panel *panel,
+                         const struct render_control *control,
+                         struct screen *screen, uint64_t now_ns);
 
-void progress_panel_free(struct progress_panel *g);
+void progress_panel_free(struct progress_panel *panel);
 
 #endif

@@ -35,135 +35,140 @@ static uint64_t reading_ns(const char *text)
 
 /* For `least_ns`, or as long as it takes to read. */
 static void __attribute__((format(printf, 3, 0)))
-say(struct render_control *w, uint64_t least_ns, const char *format,
+say(struct render_control *control, uint64_t least_ns, const char *format,
     va_list values)
 {
     uint64_t read_ns;
 
-    vsnprintf(w->message.text, sizeof w->message.text, format, values);
-    w->message.is_error = false;
-    w->message.said_ns = clock_ns();
-    read_ns = reading_ns(w->message.text);
-    w->message.until_ns =
-        w->message.said_ns + (read_ns > least_ns ? read_ns : least_ns);
-    w->has_changed = true;
+    vsnprintf(control->message.text, sizeof control->message.text, format,
+              values);
+    control->message.is_error = false;
+    control->message.said_ns = clock_ns();
+    read_ns = reading_ns(control->message.text);
+    control->message.until_ns =
+        control->message.said_ns + (read_ns > least_ns ? read_ns : least_ns);
+    control->has_changed = true;
 }
 
-void render_control_say(struct render_control *w, const char *format, ...)
+void render_control_say(struct render_control *control, const char *format, ...)
 {
     va_list values;
 
     va_start(values, format);
-    say(w, MESSAGE_NS, format, values);
+    say(control, MESSAGE_NS, format, values);
     va_end(values);
 }
 
-void render_control_say_long(struct render_control *w, const char *format, ...)
+void render_control_say_long(struct render_control *control, const char *format,
+                             ...)
 {
     va_list values;
 
     va_start(values, format);
-    say(w, LONG_NS, format, values);
+    say(control, LONG_NS, format, values);
     va_end(values);
 }
 
-void render_control_say_error(struct render_control *w, const char *text)
+void render_control_say_error(struct render_control *control, const char *text)
 {
-    snprintf(w->message.text, sizeof w->message.text, "%s", text);
-    w->message.is_error = true;
-    w->message.said_ns = clock_ns();
-    w->message.until_ns = UINT64_MAX;
-    w->has_changed = true;
+    snprintf(control->message.text, sizeof control->message.text, "%s", text);
+    control->message.is_error = true;
+    control->message.said_ns = clock_ns();
+    control->message.until_ns = UINT64_MAX;
+    control->has_changed = true;
 }
 
-void render_control_be_silent(struct render_control *w)
+void render_control_be_silent(struct render_control *control)
 {
-    w->message = (struct message){0};
-    w->has_changed = true;
+    control->message = (struct message){0};
+    control->has_changed = true;
 }
 
-void render_control_be_heard(struct render_control *w)
+void render_control_be_heard(struct render_control *control)
 {
-    struct message *m = &w->message;
+    struct message *m = &control->message;
 
     if (!m->is_error)
         return;
     m->is_error = false;
     m->until_ns = m->said_ns + reading_ns(m->text);
-    w->has_changed = true;
+    control->has_changed = true;
 }
 
-struct keymap_name render_control_key(const struct render_control *w,
+struct keymap_name render_control_key(const struct render_control *control,
                                       enum action action)
 {
-    return keymap_first_name(&w->session->options->keys, action);
+    return keymap_first_name(&control->session->options->keys, action);
 }
 
-void render_control_add_result(struct render_control *w, const char *text)
+void render_control_add_result(struct render_control *control, const char *text)
 {
-    w->results = xrealloc(w->results,
-                          ((size_t)w->result_count + 1) * sizeof w->results[0]);
-    w->results[w->result_count++] = xstrdup(text);
+    control->results =
+        xrealloc(control->results, ((size_t)control->result_count + 1) *
+                                       sizeof control->results[0]);
+    control->results[control->result_count++] = xstrdup(text);
 }
 
-static void watch_files(struct render_control *w)
+static void watch_files(struct render_control *control)
 {
-    file_watch_begin(&w->watch);
-    session_watch(w->session, &w->watch);
-    file_watch_end(&w->watch);
-    w->watched_sky = w->session->sky;
-    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+    file_watch_begin(&control->watch);
+    session_watch(control->session, &control->watch);
+    file_watch_end(&control->watch);
+    control->watched_sky = control->session->sky;
+    control->files_ns =
+        control->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
 
-static void begin(struct render_control *w, bool is_step)
+static void begin(struct render_control *control, bool is_step)
 {
-    uint64_t spp = w->is_live ? 0 : w->session->options->spp;
+    uint64_t spp = control->is_live ? 0 : control->session->options->spp;
     struct error err;
 
-    save_thread_wait_copied(&w->saver);
-    if (!(is_step ? session_step(w->session, spp, &err)
-                  : session_restart(w->session, spp, &err)))
-        render_control_say_error(w, err.text);
-    if (w->session->notice[0] != '\0')
-        render_control_say_error(w, w->session->notice);
-    w->session->notice[0] = '\0';
-    w->must_restart = false;
-    w->is_halted = is_step;
-    w->saved_samples = 0;
-    w->saving_samples = 0; /* these are of the picture before */
-    if (w->session->sky != w->watched_sky)
-        watch_files(w); /* of another image from now on */
-    w->restarted_ns = clock_ns();
-    w->progress = render_progress(w->session->render);
-    w->progress.first_picture_ns = 0; /* for the next look to find */
+    save_thread_wait_copied(&control->saver);
+    if (!(is_step ? session_step(control->session, spp, &err)
+                  : session_restart(control->session, spp, &err)))
+        render_control_say_error(control, err.text);
+    if (control->session->notice[0] != '\0')
+        render_control_say_error(control, control->session->notice);
+    control->session->notice[0] = '\0';
+    control->must_restart = false;
+    control->is_halted = is_step;
+    control->saved_samples = 0;
+    control->saving_samples = 0; /* these are of the picture before */
+    if (control->session->sky != control->watched_sky)
+        watch_files(control); /* of another image from now on */
+    control->restarted_ns = clock_ns();
+    control->progress = render_progress(control->session->render);
+    control->progress.first_picture_ns = 0; /* for the next look to find */
 }
 
-static void restart(struct render_control *w)
+static void restart(struct render_control *control)
 {
-    begin(w, false);
+    begin(control, false);
 }
 
-bool render_control_init(struct render_control *w, struct session *session,
-                         struct error *err)
+bool render_control_init(struct render_control *control,
+                         struct session *session, struct error *err)
 {
-    *w = (struct render_control){.session = session,
-                                 .is_live = true,
-                                 .restarted_ns = clock_ns()};
-    if (!session_restart(session, 0, err) || !save_thread_init(&w->saver, err))
+    *control = (struct render_control){.session = session,
+                                       .is_live = true,
+                                       .restarted_ns = clock_ns()};
+    if (!session_restart(session, 0, err) ||
+        !save_thread_init(&control->saver, err))
         return false;
-    if (!reload_init(&w->reload, session->options, err)) {
-        save_thread_free(&w->saver);
+    if (!reload_init(&control->reload, session->options, err)) {
+        save_thread_free(&control->saver);
         return false;
     }
-    file_watch_init(&w->watch);
-    watch_files(w);
-    w->progress = render_progress(session->render);
+    file_watch_init(&control->watch);
+    watch_files(control);
+    control->progress = render_progress(session->render);
     return true;
 }
 
-bool render_control_awaits_picture(const struct render_control *w)
+bool render_control_awaits_picture(const struct render_control *control)
 {
-    const struct render_progress *p = &w->progress;
+    const struct render_progress *p = &control->progress;
 
     return p->state == RENDER_RUNNING &&
            (p->first_picture_ns == 0 ||
@@ -171,319 +176,327 @@ bool render_control_awaits_picture(const struct render_control *w)
 }
 
 /* A device that fails is replaced by the CPU, which starts anew. */
-static void take_failure(struct render_control *w)
+static void take_failure(struct render_control *control)
 {
-    struct session *s = w->session;
+    struct session *s = control->session;
     bool has_cpu = session_uses_device(s);
-    char *text = xformat("%s%s", w->progress.error.text,
+    char *text = xformat("%s%s", control->progress.error.text,
                          has_cpu ? "; the CPU renders" : "");
 
     if (has_cpu) {
         render_use(s->render, s->machines.cpu);
-        restart(w);
+        restart(control);
     }
-    render_control_say_error(w, text);
+    render_control_say_error(control, text);
     free(text);
 }
 
 /* files_ns has come. */
-static void take_files(struct render_control *w)
+static void take_files(struct render_control *control)
 {
     bool loads;
 
-    render_control_look_at_files(w);
-    loads = w->has_changed_files && w->session->options->watch && w->is_live &&
-            !render_control_has_unsaved_edit(w);
-    w->files_ns = w->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
-    if (loads && w->reload.is_busy)
-        w->files_ns = clock_ns() + QUIET_NS;
+    render_control_look_at_files(control);
+    loads = control->has_changed_files && control->session->options->watch &&
+            control->is_live && !render_control_has_unsaved_edit(control);
+    control->files_ns =
+        control->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+    if (loads && control->reload.is_busy)
+        control->files_ns = clock_ns() + QUIET_NS;
     else if (loads)
-        render_control_reload(w);
+        render_control_reload(control);
 }
 
-void render_control_look(struct render_control *w)
+void render_control_look(struct render_control *control)
 {
-    enum render_state before = w->progress.state;
-    bool was_awaited = render_control_awaits_picture(w);
+    enum render_state before = control->progress.state;
+    bool was_awaited = render_control_awaits_picture(control);
 
-    if (clock_ns() >= w->files_ns)
-        take_files(w);
-    w->progress = session_look(w->session);
-    if (w->progress.state != before)
-        w->has_changed = true;
-    if (w->progress.state == RENDER_FAILED && before != RENDER_FAILED)
-        take_failure(w);
+    if (clock_ns() >= control->files_ns)
+        take_files(control);
+    control->progress = session_look(control->session);
+    if (control->progress.state != before)
+        control->has_changed = true;
+    if (control->progress.state == RENDER_FAILED && before != RENDER_FAILED)
+        take_failure(control);
     /* A picture of the old place that has been begun is shown first, between
      * this look and the next, or a scene that is slow to begin would never show
      * anything on the way. */
-    if (w->must_restart && !was_awaited)
-        restart(w);
+    if (control->must_restart && !was_awaited)
+        restart(control);
 }
 
-void render_control_settle(struct render_control *w)
+void render_control_settle(struct render_control *control)
 {
-    if (w->must_restart)
-        restart(w);
+    if (control->must_restart)
+        restart(control);
 }
 
-bool render_control_has_unsaved(const struct render_control *w)
+bool render_control_has_unsaved(const struct render_control *control)
 {
-    return !w->is_live && w->is_started &&
-           render_progress(w->session->render).samples > w->saved_samples;
+    return !control->is_live && control->is_started &&
+           render_progress(control->session->render).samples >
+               control->saved_samples;
 }
 
-bool render_control_has_unsaved_edit(const struct render_control *w)
+bool render_control_has_unsaved_edit(const struct render_control *control)
 {
-    const struct edit *edit = &w->session->edit;
+    const struct edit *edit = &control->session->edit;
 
     return edit_has_unsaved_materials(edit) || edit_has_unsaved_view(edit);
 }
 
-bool render_control_may_move(struct render_control *w)
+bool render_control_may_move(struct render_control *control)
 {
-    if (!w->is_live)
-        render_control_say(w, "the camera moves in live mode: %s goes there",
-                           render_control_key(w, ACTION_MODE).text);
-    return w->is_live;
+    if (!control->is_live)
+        render_control_say(control,
+                           "the camera moves in live mode: %s goes there",
+                           render_control_key(control, ACTION_MODE).text);
+    return control->is_live;
 }
 
-void render_control_set_live(struct render_control *w, bool is_live)
+void render_control_set_live(struct render_control *control, bool is_live)
 {
-    w->is_live = is_live;
-    w->is_started = false;
-    w->must_restart = false;
+    control->is_live = is_live;
+    control->is_started = false;
+    control->must_restart = false;
     if (is_live) {
-        render_control_say(w, "live mode: every change starts anew");
-        w->files_ns = clock_ns(); /* what has changed may be loaded now */
-        restart(w);
+        render_control_say(control, "live mode: every change starts anew");
+        control->files_ns = clock_ns(); /* what has changed may be loaded now */
+        restart(control);
         return;
     }
-    render_halt(w->session->render);
-    render_control_say(w, "normal mode: %s starts the render, %s goes back",
-                       render_control_key(w, ACTION_START).text,
-                       render_control_key(w, ACTION_MODE).text);
+    render_halt(control->session->render);
+    render_control_say(control,
+                       "normal mode: %s starts the render, %s goes back",
+                       render_control_key(control, ACTION_START).text,
+                       render_control_key(control, ACTION_MODE).text);
 }
 
-static void start_normal(struct render_control *w, bool is_step)
+static void start_normal(struct render_control *control, bool is_step)
 {
-    w->is_started = true;
-    render_control_be_silent(w);
-    begin(w, is_step);
+    control->is_started = true;
+    render_control_be_silent(control);
+    begin(control, is_step);
 }
 
-static void say_done(struct render_control *w)
+static void say_done(struct render_control *control)
 {
-    render_control_say(w,
+    render_control_say(control,
                        "the render is done: %s saves it, %s goes to live mode",
-                       render_control_key(w, ACTION_SAVE).text,
-                       render_control_key(w, ACTION_MODE).text);
+                       render_control_key(control, ACTION_SAVE).text,
+                       render_control_key(control, ACTION_MODE).text);
 }
 
-void render_control_start_or_halt(struct render_control *w)
+void render_control_start_or_halt(struct render_control *control)
 {
-    struct render *render = w->session->render;
+    struct render *render = control->session->render;
 
-    w->has_changed = true;
-    if (!w->is_live && !w->is_started) {
-        start_normal(w, false);
-    } else if (w->progress.state == RENDER_RUNNING) {
+    control->has_changed = true;
+    if (!control->is_live && !control->is_started) {
+        start_normal(control, false);
+    } else if (control->progress.state == RENDER_RUNNING) {
         render_halt(render);
-        w->is_halted = true;
-    } else if (w->progress.state == RENDER_IDLE) {
-        render_resume(render, w->is_live ? 0 : w->session->options->spp);
-        w->is_halted = false;
+        control->is_halted = true;
+    } else if (control->progress.state == RENDER_IDLE) {
+        render_resume(render,
+                      control->is_live ? 0 : control->session->options->spp);
+        control->is_halted = false;
     } else {
-        say_done(w);
+        say_done(control);
     }
-    w->progress = render_progress(render);
+    control->progress = render_progress(render);
 }
 
-void render_control_step(struct render_control *w)
+void render_control_step(struct render_control *control)
 {
-    struct render *render = w->session->render;
+    struct render *render = control->session->render;
 
-    w->has_changed = true;
-    if (!w->is_live && !w->is_started) {
-        start_normal(w, true);
+    control->has_changed = true;
+    if (!control->is_live && !control->is_started) {
+        start_normal(control, true);
         return;
     }
-    w->is_halted = render_step(render);
-    w->progress = render_progress(render);
-    if (!w->is_halted)
-        say_done(w);
+    control->is_halted = render_step(render);
+    control->progress = render_progress(render);
+    if (!control->is_halted)
+        say_done(control);
 }
 
-void render_control_restart(struct render_control *w)
+void render_control_restart(struct render_control *control)
 {
-    w->has_changed = true;
-    if (w->is_live || w->is_started)
-        restart(w);
+    control->has_changed = true;
+    if (control->is_live || control->is_started)
+        restart(control);
     else
-        render_control_say(w, "nothing is rendered yet: %s starts",
-                           render_control_key(w, ACTION_START).text);
+        render_control_say(control, "nothing is rendered yet: %s starts",
+                           render_control_key(control, ACTION_START).text);
 }
 
 /* ---- backends ---- */
 
-static void use(struct render_control *w, struct backend *backend)
+static void use(struct render_control *control, struct backend *backend)
 {
-    struct backends *m = &w->session->machines;
+    struct backends *m = &control->session->machines;
 
-    render_use(w->session->render, backend);
-    restart(w);
+    render_use(control->session->render, backend);
+    restart(control);
     if (backend == m->device)
-        render_control_say(w, "%s renders; self-test: %s", backend->device,
-                           m->verdict);
+        render_control_say(control, "%s renders; self-test: %s",
+                           backend->device, m->verdict);
     else
-        render_control_say(w, "the CPU renders");
+        render_control_say(control, "the CPU renders");
 }
 
-void render_control_begin_device(struct render_control *w)
+void render_control_begin_device(struct render_control *control)
 {
     struct error err;
 
-    if (!backends_begin_device(&w->session->machines, FEATURES_ALL, &err))
-        render_control_say_error(w, err.text);
+    if (!backends_begin_device(&control->session->machines, FEATURES_ALL, &err))
+        render_control_say_error(control, err.text);
 }
 
-void render_control_switch_backend(struct render_control *w)
+void render_control_switch_backend(struct render_control *control)
 {
-    struct backends *m = &w->session->machines;
+    struct backends *m = &control->session->machines;
 
-    if (!w->is_live) {
-        render_control_say(w, "the backend changes in live mode: %s goes there",
-                           render_control_key(w, ACTION_MODE).text);
-    } else if (session_uses_device(w->session)) {
-        use(w, m->cpu);
+    if (!control->is_live) {
+        render_control_say(control,
+                           "the backend changes in live mode: %s goes there",
+                           render_control_key(control, ACTION_MODE).text);
+    } else if (session_uses_device(control->session)) {
+        use(control, m->cpu);
     } else if (m->device != NULL) {
-        use(w, m->device);
+        use(control, m->device);
     } else {
-        render_control_say_long(w, "OpenCL: waiting for the device");
+        render_control_say_long(control, "OpenCL: waiting for the device");
         if (m->start == NULL)
-            render_control_begin_device(w);
+            render_control_begin_device(control);
     }
 }
 
 /* Each line is a result. */
-static void add_log(struct render_control *w, const char *log)
+static void add_log(struct render_control *control, const char *log)
 {
     while (*log != '\0') {
         size_t length = strcspn(log, "\n");
         char *line = xformat("%.*s", (int)length, log);
 
-        render_control_add_result(w, line);
+        render_control_add_result(control, line);
         free(line);
         log += length + (log[length] == '\n');
     }
 }
 
-void render_control_end_device(struct render_control *w)
+void render_control_end_device(struct render_control *control)
 {
-    struct backends *m = &w->session->machines;
+    struct backends *m = &control->session->machines;
     struct error err;
     char *log;
 
     if (backends_end_specialising(m))
         return;
     if (backends_end_device(m, &log, &err)) {
-        if (w->is_live)
-            use(w, m->device);
+        if (control->is_live)
+            use(control, m->device);
         else
             render_control_say(
-                w, "OpenCL: the device is up: %s takes it in live mode",
-                render_control_key(w, ACTION_BACKEND).text);
-    } else if (w->session->options->backend == BACKEND_AUTO) {
-        render_control_say(w, "%s", err.text);
+                control, "OpenCL: the device is up: %s takes it in live mode",
+                render_control_key(control, ACTION_BACKEND).text);
+    } else if (control->session->options->backend == BACKEND_AUTO) {
+        render_control_say(control, "%s", err.text);
     } else {
-        render_control_say_error(w, err.text);
+        render_control_say_error(control, err.text);
         if (log != NULL)
-            add_log(w, log);
-        render_control_add_result(w, err.text);
+            add_log(control, log);
+        render_control_add_result(control, err.text);
     }
     free(log);
 }
 
 /* ---- files ---- */
 
-void render_control_look_at_files(struct render_control *w)
+void render_control_look_at_files(struct render_control *control)
 {
     bool has_changed;
 
-    file_watch_drain(&w->watch);
-    has_changed = file_watch_has_changed(&w->watch);
-    if (has_changed != w->has_changed_files)
-        w->has_changed = true;
-    w->has_changed_files = has_changed;
-    if (has_changed && w->session->options->watch &&
-        w->files_ns > clock_ns() + QUIET_NS)
-        w->files_ns = clock_ns() + QUIET_NS;
+    file_watch_drain(&control->watch);
+    has_changed = file_watch_has_changed(&control->watch);
+    if (has_changed != control->has_changed_files)
+        control->has_changed = true;
+    control->has_changed_files = has_changed;
+    if (has_changed && control->session->options->watch &&
+        control->files_ns > clock_ns() + QUIET_NS)
+        control->files_ns = clock_ns() + QUIET_NS;
 }
 
-void render_control_reload(struct render_control *w)
+void render_control_reload(struct render_control *control)
 {
     struct error err;
 
-    if (!w->is_live) {
-        render_control_say(w, "files are loaded in live mode: %s goes there",
-                           render_control_key(w, ACTION_MODE).text);
+    if (!control->is_live) {
+        render_control_say(control,
+                           "files are loaded in live mode: %s goes there",
+                           render_control_key(control, ACTION_MODE).text);
         return;
     }
-    if (render_control_has_unsaved_edit(w)) {
+    if (render_control_has_unsaved_edit(control)) {
         render_control_say(
-            w, "not loaded: changes of materials or light are not saved; "
-               "in the panel ^S saves, u undoes");
+            control, "not loaded: changes of materials or light are not saved; "
+                     "in the panel ^S saves, u undoes");
         return;
     }
-    file_watch_settle(&w->watch); /* what changes from here on is new again */
-    w->has_changed_files = false;
-    if (reload_begin(&w->reload, &err))
-        render_control_say_long(w, "loading ...");
+    file_watch_settle(
+        &control->watch); /* what changes from here on is new again */
+    control->has_changed_files = false;
+    if (reload_begin(&control->reload, &err))
+        render_control_say_long(control, "loading ...");
     else
-        render_control_say_error(w, err.text);
+        render_control_say_error(control, err.text);
 }
 
 /* How many warnings there are, and the first of them. */
-static void say_loaded(struct render_control *w)
+static void say_loaded(struct render_control *control)
 {
-    const struct warnings *r = &w->session->report;
+    const struct warnings *r = &control->session->report;
     uint64_t count = 0;
 
     for (int i = 0; i < r->entry_count; i++)
         count += r->entries[i].count;
     if (count > 0)
-        render_control_say(w, "loaded, %" PRIu64 " warning%s: %s", count,
+        render_control_say(control, "loaded, %" PRIu64 " warning%s: %s", count,
                            count == 1 ? "" : "s", r->entries[0].text);
     else
-        render_control_say(w, "loaded %s", w->session->scene.path);
+        render_control_say(control, "loaded %s", control->session->scene.path);
 }
 
-bool render_control_end_reload(struct render_control *w)
+bool render_control_end_reload(struct render_control *control)
 {
     struct session fresh;
     struct error err;
-    bool ok = reload_end(&w->reload, &fresh, &err);
+    bool ok = reload_end(&control->reload, &fresh, &err);
 
     if (!ok) {
-        render_control_say_error(w, err.text);
+        render_control_say_error(control, err.text);
     } else {
-        save_thread_wait_copied(&w->saver);
-        session_take(w->session, &fresh);
-        watch_files(w);
-        render_control_look_at_files(w); /* what was missed meanwhile */
-        say_loaded(w);
-        restart(w);
+        save_thread_wait_copied(&control->saver);
+        session_take(control->session, &fresh);
+        watch_files(control);
+        render_control_look_at_files(control); /* what was missed meanwhile */
+        say_loaded(control);
+        restart(control);
     }
     session_close(&fresh);
     return ok;
 }
 
-void render_control_free(struct render_control *w)
+void render_control_free(struct render_control *control)
 {
-    save_thread_free(&w->saver);
-    reload_free(&w->reload);
-    file_watch_free(&w->watch);
-    for (int i = 0; i < w->result_count; i++)
-        free(w->results[i]);
-    free(w->results);
-    *w = (struct render_control){0};
+    save_thread_free(&control->saver);
+    reload_free(&control->reload);
+    file_watch_free(&control->watch);
+    for (int i = 0; i < control->result_count; i++)
+        free(control->results[i]);
+    free(control->results);
+    *control = (struct render_control){0};
 }

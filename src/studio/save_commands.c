@@ -17,9 +17,9 @@
 #define WORTH_NS UINT64_C(5000000000)
 
 /* The scene's name without folder and ending. */
-static char *scene_name(const struct render_control *w)
+static char *scene_name(const struct render_control *control)
 {
-    char *stem = path_stem(w->session->scene.path);
+    char *stem = path_stem(control->session->scene.path);
     const char *slash = strrchr(stem, '/');
     char *name = xstrdup(slash ? slash + 1 : stem);
 
@@ -27,79 +27,81 @@ static char *scene_name(const struct render_control *w)
     return name;
 }
 
-void work_save_picture(struct render_control *w, const char *ending)
+void save_picture(struct render_control *control, const char *ending)
 {
-    struct render_progress now = render_progress(w->session->render);
+    struct render_progress now = render_progress(control->session->render);
     struct error err;
     char *stem;
 
     if (now.samples == 0) {
-        render_control_say(w, "nothing to save yet");
+        render_control_say(control, "nothing to save yet");
         return;
     }
-    stem = scene_name(w);
-    if (save_thread_begin(&w->saver, render_film(w->session->render),
-                          session_develop(w->session), stem, ending, &err)) {
-        w->saving_samples = now.samples;
-        snprintf(w->saving_what, sizeof w->saving_what,
+    stem = scene_name(control);
+    if (save_thread_begin(&control->saver,
+                          render_film(control->session->render),
+                          session_develop(control->session), stem, ending,
+                          &err)) {
+        control->saving_samples = now.samples;
+        snprintf(control->saving_what, sizeof control->saving_what,
                  "%dx%d, %" PRIu64 " spp",
-                 render_film(w->session->render)->width,
-                 render_film(w->session->render)->height, now.spp_done);
-        render_control_say_long(w, "saving ...");
+                 render_film(control->session->render)->width,
+                 render_film(control->session->render)->height, now.spp_done);
+        render_control_say_long(control, "saving ...");
     } else {
-        render_control_say_error(w, err.text);
+        render_control_say_error(control, err.text);
     }
     free(stem);
 }
 
-bool work_finish_saving(struct render_control *w)
+bool save_finish(struct render_control *control)
 {
     struct error err;
     char *name, *text;
 
-    if (!w->saver.is_busy)
+    if (!control->saver.is_busy)
         return true;
-    name = save_thread_finish(&w->saver, &err);
+    name = save_thread_finish(&control->saver, &err);
     if (!name) {
-        render_control_say_error(w, err.text);
-        render_control_add_result(w, err.text);
+        render_control_say_error(control, err.text);
+        render_control_add_result(control, err.text);
         return false;
     }
-    text = xformat("saved %s %s", name, w->saving_what);
-    render_control_say(w, "%s", text);
-    render_control_add_result(w, text);
-    w->saved_samples = w->saving_samples;
+    text = xformat("saved %s %s", name, control->saving_what);
+    render_control_say(control, "%s", text);
+    render_control_add_result(control, text);
+    control->saved_samples = control->saving_samples;
     free(text);
     free(name);
     return true;
 }
 
-static void say_saved(struct render_control *w, char *text)
+static void say_saved(struct render_control *control, char *text)
 {
-    render_control_say(w, "%s", text);
-    render_control_add_result(w, text);
+    render_control_say(control, "%s", text);
+    render_control_add_result(control, text);
     free(text);
 }
 
-void work_save_frame(struct render_control *w, const struct frame *frame)
+void save_frame(struct render_control *control, const struct frame *frame)
 {
-    char *stem = scene_name(w);
+    char *stem = scene_name(control);
     struct error err;
     char *name = image_write_frame_numbered(frame, stem, &err);
 
     free(stem);
     if (name)
-        say_saved(w, xformat("saved %s %dx%d, as it is shown", name,
-                             frame->width, frame->height));
+        say_saved(control, xformat("saved %s %dx%d, as it is shown", name,
+                                   frame->width, frame->height));
     else
-        render_control_say_error(w, err.text);
+        render_control_say_error(control, err.text);
     free(name);
 }
 
-void work_save_text(struct render_control *w, const struct frame *frame,
-                    const struct ansi_text_style *style)
+void save_text(struct render_control *control, const struct frame *frame,
+               const struct ansi_text_style *style)
 {
-    char *stem = scene_name(w);
+    char *stem = scene_name(control);
     struct error err;
     char *text, *name = NULL;
     size_t size_bytes;
@@ -110,92 +112,94 @@ void work_save_text(struct render_control *w, const struct frame *frame,
     }
     free(stem);
     if (name)
-        say_saved(w, xformat("saved %s, text of %dx%d characters", name,
-                             style->cols, style->rows));
+        say_saved(control, xformat("saved %s, text of %dx%d characters", name,
+                                   style->cols, style->rows));
     else
-        render_control_say_error(w, err.text);
+        render_control_say_error(control, err.text);
     free(name);
 }
 
-void work_save_view(struct render_control *w)
+void save_view(struct render_control *control)
 {
-    struct session *s = w->session;
+    struct session *s = control->session;
     struct file_change change;
     struct error err;
     const char *slash;
     char *text;
 
-    if (w->reload.is_busy) { /* which has read the file, or not yet */
-        if (w->is_live)
-            render_control_say(w, "not written: the scene is being loaded");
+    if (control->reload.is_busy) { /* which has read the file, or not yet */
+        if (control->is_live)
+            render_control_say(control,
+                               "not written: the scene is being loaded");
         else
             render_control_say(
-                w,
+                control,
                 "not written: a loaded scene waits for live mode: %s goes "
                 "there",
-                render_control_key(w, ACTION_MODE).text);
+                render_control_key(control, ACTION_MODE).text);
         return;
     }
     if (!session_save_view(s, &change, &err)) {
-        render_control_say_error(w, err.text);
+        render_control_say_error(control, err.text);
         return;
     }
-    file_watch_wrote(&w->watch, s->view_path, &change.after);
+    file_watch_wrote(&control->watch, s->view_path, &change.after);
     slash = strrchr(s->view_path, '/');
     text = change.is_kept
                ? xformat("wrote the view to %s, the old one is %s~",
                          s->view_path, slash ? slash + 1 : s->view_path)
                : xformat("wrote the view to %s", s->view_path);
-    render_control_say(w, "%s", text);
-    render_control_add_result(w, text);
+    render_control_say(control, "%s", text);
+    render_control_add_result(control, text);
     free(text);
 }
 
-bool work_save_edit(struct render_control *w)
+bool save_edit(struct render_control *control)
 {
     struct error err;
     char *what;
 
-    if (!session_save_edit(w->session, &w->watch, &what, &err)) {
-        render_control_say_error(w, err.text);
+    if (!session_save_edit(control->session, &control->watch, &what, &err)) {
+        render_control_say_error(control, err.text);
         return false;
     }
-    w->files_ns = clock_ns(); /* what has changed may be loaded now */
-    render_control_say(w, "%s", what);
-    render_control_add_result(w, what);
+    control->files_ns = clock_ns(); /* what has changed may be loaded now */
+    render_control_say(control, "%s", what);
+    render_control_add_result(control, what);
     free(what);
     return true;
 }
 
 /* What somebody would miss: a picture that no file has, and that took a while,
  * or that q would ask about. */
-static bool is_worth_keeping(const struct render_control *w)
+static bool is_worth_keeping(const struct render_control *control)
 {
-    return w->progress.samples > w->saved_samples &&
-           (w->progress.render_ns >= WORTH_NS ||
-            render_control_has_unsaved(w) ||
-            render_control_has_unsaved_edit(w));
+    return control->progress.samples > control->saved_samples &&
+           (control->progress.render_ns >= WORTH_NS ||
+            render_control_has_unsaved(control) ||
+            render_control_has_unsaved_edit(control));
 }
 
-void work_keep(struct render_control *w)
+void save_lost_picture(struct render_control *control)
 {
-    struct session *s = w->session;
+    struct session *s = control->session;
     struct error err;
     char *path, *text;
 
     render_halt(s->render);
-    w->progress = render_progress(s->render);
-    if (!is_worth_keeping(w))
+    control->progress = render_progress(s->render);
+    if (!is_worth_keeping(control))
         return;
     path = recent_lost_path();
     if (!path)
         text = xstrdup("not kept: found no folder for the person's state");
     else if (image_write(render_film(s->render), session_develop(s), path,
                          &err))
-        text = xformat("kept %s, %" PRIu64 " spp", path, w->progress.spp_done);
+        text = xformat("kept %s, %" PRIu64 " spp", path,
+                       control->progress.spp_done);
     else
         text = xstrdup(err.text);
-    render_control_add_result(w, text);
+    render_control_add_result(control, text);
     free(text);
     free(path);
 }

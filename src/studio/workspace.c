@@ -45,17 +45,17 @@ static uint64_t later(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-static const struct film *film_of(const struct workspace *st)
+static const struct film *film_of(const struct workspace *workspace)
 {
-    return render_film(st->work->session->render);
+    return render_film(workspace->control->session->render);
 }
 
-void workspace_refresh(struct workspace *st)
+void workspace_refresh(struct workspace *workspace)
 {
-    st->is_settled = false;
-    st->frame_ns = 0;
-    st->status_ns = 0;
-    st->gauge.due_ns = 0;
+    workspace->is_settled = false;
+    workspace->frame_ns = 0;
+    workspace->status_ns = 0;
+    workspace->progress_panel.due_ns = 0;
 }
 
 /* From the next restart on: a cell shows two pixels, one above the other. */
@@ -73,93 +73,99 @@ void workspace_expect(struct session *s)
     set_draft(s, &fit);
 }
 
-void workspace_layout(struct workspace *st)
+void workspace_layout(struct workspace *workspace)
 {
-    const struct film *film = film_of(st);
+    const struct film *film = film_of(workspace);
     struct error err;
 
-    st->help_left = 0;
-    st->width_px = film->width;
-    st->height_px = film->height;
-    workspace_refresh(st);
-    st->canvas.has_panel = st->panel.is_open;
-    if (!screen_layout(&st->canvas, film->width, film->height, &err)) {
-        st->canvas.is_too_small = true; /* nothing can be drawn */
-        render_control_say_error(st->work, err.text);
+    workspace->help_left = 0;
+    workspace->width_px = film->width;
+    workspace->height_px = film->height;
+    workspace_refresh(workspace);
+    workspace->screen.has_panel = workspace->panel.is_open;
+    if (!screen_layout(&workspace->screen, film->width, film->height, &err)) {
+        workspace->screen.is_too_small = true; /* nothing can be drawn */
+        render_control_say_error(workspace->control, err.text);
     }
-    panel_draw(&st->panel);
+    panel_draw(&workspace->panel);
     /* until then the old draft is resampled */
-    set_draft(st->work->session, &st->canvas.fit);
-    inspector_open_panel(&st->inside); /* it went with the layout */
+    set_draft(workspace->control->session, &workspace->screen.fit);
+    inspector_open_panel(&workspace->inspector); /* it went with the layout */
 }
 
-void workspace_init(struct workspace *st, struct render_control *work,
-                    struct camera_control *pilot)
+void workspace_init(struct workspace *workspace, struct render_control *control,
+                    struct camera_control *camera)
 {
-    *st = (struct workspace){.work = work, .pilot = pilot};
-    editor_panel_init(&st->panel, work, &st->canvas);
+    *workspace = (struct workspace){.control = control, .camera = camera};
+    editor_panel_init(&workspace->panel, control, &workspace->screen);
 }
 
-void workspace_open(struct workspace *st)
+void workspace_open(struct workspace *workspace)
 {
-    screen_init(&st->canvas, &st->work->session->options->display);
-    inspector_init(&st->inside, st->work, &st->canvas, &st->pilot->cursor);
-    st->lack_ns = clock_ns() + LACK_NS;
-    workspace_layout(st);
+    screen_init(&workspace->screen,
+                &workspace->control->session->options->display);
+    inspector_init(&workspace->inspector, workspace->control,
+                   &workspace->screen, &workspace->camera->cursor);
+    workspace->lack_ns = clock_ns() + LACK_NS;
+    workspace_layout(workspace);
 }
 
-void workspace_renew(struct workspace *st, const struct selection_names *names)
+void workspace_renew(struct workspace *workspace,
+                     const struct selection_names *names)
 {
-    inspector_renew(&st->inside);
-    editor_panel_renew(&st->panel, names);
-    panel_draw(&st->panel);
+    inspector_renew(&workspace->inspector);
+    editor_panel_renew(&workspace->panel, names);
+    panel_draw(&workspace->panel);
 }
 
-void workspace_ask(struct workspace *st, const char *prompt)
+void workspace_ask(struct workspace *workspace, const char *prompt)
 {
-    st->prompt = prompt;
-    st->status_ns = 0;
+    workspace->prompt = prompt;
+    workspace->status_ns = 0;
 }
 
 /* ---- windows ---- */
 
-static bool shows_gauge(const struct workspace *st)
+static bool shows_progress(const struct workspace *workspace)
 {
-    return st->gauge.is_on && st->help_left == 0 && !st->canvas.is_too_small;
+    return workspace->progress_panel.is_on && workspace->help_left == 0 &&
+           !workspace->screen.is_too_small;
 }
 
-static void switch_gauge(struct workspace *st)
+static void switch_progress(struct workspace *workspace)
 {
-    inspector_stop_drawing(&st->inside); /* there is one window at a time */
-    progress_panel_switch(&st->gauge, st->work);
-    if (!st->gauge.is_on)
-        screen_close_window(&st->canvas);
-    if (st->panel.is_open) { /* there is no room for both */
-        editor_panel_close(&st->panel);
-        workspace_layout(st);
+    inspector_stop_drawing(
+        &workspace->inspector); /* there is one window at a time */
+    progress_panel_switch(&workspace->progress_panel, workspace->control);
+    if (!workspace->progress_panel.is_on)
+        screen_close_window(&workspace->screen);
+    if (workspace->panel.is_open) { /* there is no room for both */
+        editor_panel_close(&workspace->panel);
+        workspace_layout(workspace);
     }
-    workspace_refresh(st);
+    workspace_refresh(workspace);
 }
 
-static void open_help(struct workspace *st, int number)
+static void open_help(struct workspace *workspace, int number)
 {
-    const struct frame_pacing *pace = &st->canvas.pace;
+    const struct frame_pacing *pace = &workspace->screen.pace;
     const char *lines[HELP_ROWS_MAX];
     struct tty_size size = term_size();
     struct help_page page;
     char note[64], title[64];
 
     snprintf(note, sizeof note, "%s, %s",
-             palette_name(st->canvas.display.palette),
-             screen_glyphs_name(&st->canvas));
+             palette_name(workspace->screen.display.palette),
+             screen_glyphs_name(&workspace->screen));
     if (pace->state == FRAME_PACING_ANSWERS)
         snprintf(note, sizeof note, "%s, %s, %.3g ms away",
-                 palette_name(st->canvas.display.palette),
-                 screen_glyphs_name(&st->canvas),
+                 palette_name(workspace->screen.display.palette),
+                 screen_glyphs_name(&workspace->screen),
                  (double)pace->rtt_min_ns * 1e-6);
     /* within a frame, with a blank on each side, above the status line */
-    help_page(&page, &st->work->session->options->keys, st->panel.is_open, note,
-              number, size.cols - 4, size.rows - 3);
+    help_page(&page, &workspace->control->session->options->keys,
+              workspace->panel.is_open, note, number, size.cols - 4,
+              size.rows - 3);
     if (number + 1 < page.page_count)
         snprintf(title, sizeof title, " keys %d/%d - any key goes on ",
                  number + 1, page.page_count);
@@ -168,130 +174,136 @@ static void open_help(struct workspace *st, int number)
                  " glim " GLIM_VERSION " - any key closes ");
     for (int i = 0; i < page.line_count; i++)
         lines[i] = page.lines[i];
-    if (st->help_left > 0 || st->gauge.is_on)
-        screen_close_window(&st->canvas);
-    inspector_close_panel(&st->inside);
-    screen_open_window(&st->canvas, title, lines, page.line_count);
-    st->help_number = number;
-    st->help_left = page.page_count - number;
-    st->is_settled = false;
+    if (workspace->help_left > 0 || workspace->progress_panel.is_on)
+        screen_close_window(&workspace->screen);
+    inspector_close_panel(&workspace->inspector);
+    screen_open_window(&workspace->screen, title, lines, page.line_count);
+    workspace->help_number = number;
+    workspace->help_left = page.page_count - number;
+    workspace->is_settled = false;
 }
 
-static void close_help(struct workspace *st)
+static void close_help(struct workspace *workspace)
 {
-    screen_close_window(&st->canvas);
-    inspector_open_panel(&st->inside);
-    st->help_left = 0;
-    panel_draw(&st->panel);
-    workspace_refresh(st);
+    screen_close_window(&workspace->screen);
+    inspector_open_panel(&workspace->inspector);
+    workspace->help_left = 0;
+    panel_draw(&workspace->panel);
+    workspace_refresh(workspace);
 }
 
-static void next_colors(struct workspace *st)
+static void next_colors(struct workspace *workspace)
 {
-    term_caps_next_palette(&st->canvas.display);
-    render_control_say(st->work, "%s",
-                       palette_name(st->canvas.display.palette));
-    workspace_layout(st);
+    term_caps_next_palette(&workspace->screen.display);
+    render_control_say(workspace->control, "%s",
+                       palette_name(workspace->screen.display.palette));
+    workspace_layout(workspace);
 }
 
-static void next_glyphs(struct workspace *st)
+static void next_glyphs(struct workspace *workspace)
 {
-    term_caps_next_glyphs(&st->canvas.display);
-    workspace_layout(st);
-    render_control_say(st->work, "%s", screen_glyphs_name(&st->canvas));
+    term_caps_next_glyphs(&workspace->screen.display);
+    workspace_layout(workspace);
+    render_control_say(workspace->control, "%s",
+                       screen_glyphs_name(&workspace->screen));
 }
 
-static void hide(struct workspace *st)
+static void hide(struct workspace *workspace)
 {
-    st->canvas.has_status_row = !st->canvas.has_status_row;
-    st->gauge.is_on = false;
-    workspace_layout(st);
+    workspace->screen.has_status_row = !workspace->screen.has_status_row;
+    workspace->progress_panel.is_on = false;
+    workspace_layout(workspace);
 }
 
-static void open_panel(struct workspace *st)
+static void open_panel(struct workspace *workspace)
 {
-    if (st->pilot->cursor.has_pick)
-        editor_panel_select(&st->panel, &st->pilot->cursor.pick);
-    editor_panel_open(&st->panel);
-    st->gauge.is_on = false; /* there is no room for both */
-    workspace_layout(st);
+    if (workspace->camera->cursor.has_pick)
+        editor_panel_select(&workspace->panel, &workspace->camera->cursor.pick);
+    editor_panel_open(&workspace->panel);
+    workspace->progress_panel.is_on = false; /* there is no room for both */
+    workspace_layout(workspace);
 }
 
-bool workspace_act(struct workspace *st, enum action action)
+bool workspace_act(struct workspace *workspace, enum action action)
 {
-    if (action == ACTION_DRAWING && st->gauge.is_on)
-        switch_gauge(st);
-    if (inspector_act(&st->inside, action))
+    if (action == ACTION_DRAWING && workspace->progress_panel.is_on)
+        switch_progress(workspace);
+    if (inspector_act(&workspace->inspector, action))
         return true;
     switch (action) {
-    case ACTION_METER: switch_gauge(st); break;
-    case ACTION_HIDE: hide(st); break;
-    case ACTION_COLORS: next_colors(st); break;
-    case ACTION_GLYPHS: next_glyphs(st); break;
-    case ACTION_REDRAW: workspace_layout(st); break;
-    case ACTION_PANEL: open_panel(st); break;
-    case ACTION_HELP: open_help(st, 0); break;
+    case ACTION_METER: switch_progress(workspace); break;
+    case ACTION_HIDE: hide(workspace); break;
+    case ACTION_COLORS: next_colors(workspace); break;
+    case ACTION_GLYPHS: next_glyphs(workspace); break;
+    case ACTION_REDRAW: workspace_layout(workspace); break;
+    case ACTION_PANEL: open_panel(workspace); break;
+    case ACTION_HELP: open_help(workspace, 0); break;
     default: return false;
     }
     return true;
 }
 
-void workspace_turn_help(struct workspace *st, bool closes)
+void workspace_turn_help(struct workspace *workspace, bool closes)
 {
-    if (st->help_left > 1 && !closes)
-        open_help(st, st->help_number + 1);
+    if (workspace->help_left > 1 && !closes)
+        open_help(workspace, workspace->help_number + 1);
     else
-        close_help(st);
+        close_help(workspace);
 }
 
 /* ---- drawing ---- */
 
-static void format_status(struct workspace *st, char text[STATUS_BYTES])
+static void format_status(struct workspace *workspace, char text[STATUS_BYTES])
 {
-    const struct film *film = film_of(st);
-    const struct backend *backend = render_backend(st->work->session->render);
-    struct keymap_name load = render_control_key(st->work, ACTION_RELOAD);
+    const struct film *film = film_of(workspace);
+    const struct backend *backend =
+        render_backend(workspace->control->session->render);
+    struct keymap_name load =
+        render_control_key(workspace->control, ACTION_RELOAD);
     char hint[48];
     struct status_line status = {
-        .is_live = st->work->is_live,
-        .is_orbiting = st->pilot->steer.is_orbiting,
-        .is_halted = st->work->is_halted,
-        .is_started = st->work->is_started,
-        .load_key = st->work->has_changed_files ? load.text : NULL,
-        .progress = &st->work->progress,
+        .is_live = workspace->control->is_live,
+        .is_orbiting = workspace->camera->input.is_orbiting,
+        .is_halted = workspace->control->is_halted,
+        .is_started = workspace->control->is_started,
+        .load_key = workspace->control->has_changed_files ? load.text : NULL,
+        .progress = &workspace->control->progress,
         .device = backend->device,
         .thread_count = backend->thread_count,
         .width_px = film->width,
         .height_px = film->height,
-        .colors = palette_name(st->canvas.display.palette),
+        .colors = palette_name(workspace->screen.display.palette),
         .hint = hint,
     };
 
     snprintf(hint, sizeof hint, "%s help  %s quit",
-             render_control_key(st->work, ACTION_HELP).text,
-             render_control_key(st->work, ACTION_QUIT).text);
+             render_control_key(workspace->control, ACTION_HELP).text,
+             render_control_key(workspace->control, ACTION_QUIT).text);
     status_line_format(text, term_size().cols, &status);
 }
 
-static void update_status(struct workspace *st, uint64_t now_ns)
+static void update_status(struct workspace *workspace, uint64_t now_ns)
 {
     char text[STATUS_BYTES];
 
-    if (st->prompt) {
-        status_line_message(text, term_size().cols, st->prompt);
-    } else if (now_ns < st->work->message.until_ns) {
-        status_line_message(text, term_size().cols, st->work->message.text);
-    } else if (st->canvas.has_status_row && st->inside.show.legend[0] != '\0') {
-        status_line_message(text, term_size().cols, st->inside.show.legend);
-    } else if (st->canvas.has_status_row) {
-        format_status(st, text);
+    if (workspace->prompt) {
+        status_line_message(text, term_size().cols, workspace->prompt);
+    } else if (now_ns < workspace->control->message.until_ns) {
+        status_line_message(text, term_size().cols,
+                            workspace->control->message.text);
+    } else if (workspace->screen.has_status_row &&
+               workspace->inspector.view_mode.legend[0] != '\0') {
+        status_line_message(text, term_size().cols,
+                            workspace->inspector.view_mode.legend);
+    } else if (workspace->screen.has_status_row) {
+        format_status(workspace, text);
     } else {
-        if (st->canvas.has_status)
-            st->is_settled = false; /* the picture comes back there */
-        screen_status(&st->canvas, NULL);
+        if (workspace->screen.has_status)
+            workspace->is_settled = false; /* the picture comes back there */
+        screen_status(&workspace->screen, NULL);
         return;
     }
-    screen_status(&st->canvas, text);
+    screen_status(&workspace->screen, text);
 }
 
 /* Processor time of this thread. */
@@ -305,85 +317,93 @@ static uint64_t used_ns(void)
 
 /* Until the next frame after one that took so long, of which it used so much of
  * the processor. */
-static uint64_t frame_interval(const struct workspace *st, uint64_t took_ns,
-                               uint64_t cpu_ns)
+static uint64_t frame_interval(const struct workspace *workspace,
+                               uint64_t took_ns, uint64_t cpu_ns)
 {
     uint64_t interval_ns = FRAME_FIRST_NS;
 
-    if (st->work->progress.spp_done > 0)
-        interval_ns = st->work->progress.render_ns > OLD_NS ? FRAME_OLD_NS
-                                                            : FRAME_YOUNG_NS;
+    if (workspace->control->progress.spp_done > 0)
+        interval_ns = workspace->control->progress.render_ns > OLD_NS
+                          ? FRAME_OLD_NS
+                          : FRAME_YOUNG_NS;
     interval_ns = later(interval_ns, FRAME_SHARE * cpu_ns);
     return later(interval_ns, 2 * took_ns); /* where writing blocks */
 }
 
-static int frame_step(const struct workspace *st)
+static int frame_step(const struct workspace *workspace)
 {
-    if (st->work->progress.state != RENDER_RUNNING)
+    if (workspace->control->progress.state != RENDER_RUNNING)
         return 0;
-    if (frame_pacing_is_slow(&st->canvas.pace))
+    if (frame_pacing_is_slow(&workspace->screen.pace))
         return STEP_SLOW;
-    return st->work->progress.render_ns > SETTLING_NS ? STEP : 0;
+    return workspace->control->progress.render_ns > SETTLING_NS ? STEP : 0;
 }
 
 /* Says it once if the pixels that the person has asked for are not there. */
-static void say_lack(struct workspace *st, uint64_t now_ns)
+static void say_lack(struct workspace *workspace, uint64_t now_ns)
 {
-    const struct screen *c = &st->canvas;
-    const char *lack = term_caps_lack(&c->display);
-    bool is_known = c->has_all_answers || now_ns >= st->lack_ns;
+    const struct screen *screen = &workspace->screen;
+    const char *lack = term_caps_lack(&screen->display);
+    bool is_known = screen->has_all_answers || now_ns >= workspace->lack_ns;
 
-    if (st->lack_ns == 0 || !is_known || st->work->message.until_ns != 0)
+    if (workspace->lack_ns == 0 || !is_known ||
+        workspace->control->message.until_ns != 0)
         return;
-    st->lack_ns = 0;
-    if (lack && c->graphics.shape.kind == PIXEL_GRAPHICS_NONE)
-        render_control_say(st->work, "%s: %s", screen_glyphs_name(c), lack);
+    workspace->lack_ns = 0;
+    if (lack && screen->graphics.shape.kind == PIXEL_GRAPHICS_NONE)
+        render_control_say(workspace->control, "%s: %s",
+                           screen_glyphs_name(screen), lack);
 }
 
-static void show_messages(struct workspace *st, uint64_t now_ns)
+static void show_messages(struct workspace *workspace, uint64_t now_ns)
 {
-    say_lack(st, now_ns);
-    if (st->work->message.until_ns != 0 &&
-        now_ns >= st->work->message.until_ns) {
-        st->work->message.until_ns = 0;
-        st->status_ns = 0;
+    say_lack(workspace, now_ns);
+    if (workspace->control->message.until_ns != 0 &&
+        now_ns >= workspace->control->message.until_ns) {
+        workspace->control->message.until_ns = 0;
+        workspace->status_ns = 0;
     }
-    if (now_ns < st->status_ns)
+    if (now_ns < workspace->status_ns)
         return;
-    update_status(st, now_ns);
-    st->status_ns = now_ns + STATUS_NS;
+    update_status(workspace, now_ns);
+    workspace->status_ns = now_ns + STATUS_NS;
 }
 
-bool workspace_draw(struct workspace *st, uint64_t now_ns)
+bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
 {
-    struct screen *c = &st->canvas;
-    struct render *render = st->work->session->render;
-    bool is_running = st->work->progress.state == RENDER_RUNNING;
-    bool shows = !render_control_awaits_picture(st->work) && !st->is_settled &&
-                 now_ns >= st->frame_ns;
+    struct screen *screen = &workspace->screen;
+    struct render *render = workspace->control->session->render;
+    bool is_running = workspace->control->progress.state == RENDER_RUNNING;
+    bool shows = !render_control_awaits_picture(workspace->control) &&
+                 !workspace->is_settled && now_ns >= workspace->frame_ns;
     uint64_t begin_ns = used_ns();
     enum screen_result result;
 
-    show_messages(st, now_ns);
-    if (shows_gauge(st) &&
-        now_ns >= progress_panel_next_ns(&st->gauge, st->work))
-        progress_panel_draw(&st->gauge, st->work, c, now_ns);
-    if ((!shows && !c->must_update) || !frame_pacing_may_send(&c->pace))
+    show_messages(workspace, now_ns);
+    if (shows_progress(workspace) &&
+        now_ns >= progress_panel_next_ns(&workspace->progress_panel,
+                                         workspace->control))
+        progress_panel_draw(&workspace->progress_panel, workspace->control,
+                            screen, now_ns);
+    if ((!shows && !screen->must_update) ||
+        !frame_pacing_may_send(&screen->pace))
         return true;
-    result =
-        screen_draw(c, shows ? render_film(render) : NULL, render_draft(render),
-                    view_mode_develop(&st->inside.show), frame_step(st));
-    if (st->inside.show.has_news)
-        st->status_ns = 0;
-    st->inside.show.has_news = false;
+    result = screen_draw(screen, shows ? render_film(render) : NULL,
+                         render_draft(render),
+                         view_mode_develop(&workspace->inspector.view_mode),
+                         frame_step(workspace));
+    if (workspace->inspector.view_mode.has_news)
+        workspace->status_ns = 0;
+    workspace->inspector.view_mode.has_news = false;
     if (shows && result != SCREEN_GONE) {
         uint64_t took_ns = clock_ns() - now_ns;
 
-        st->is_settled = result == SCREEN_DONE && !is_running;
-        st->frame_ns =
+        workspace->is_settled = result == SCREEN_DONE && !is_running;
+        workspace->frame_ns =
             result == SCREEN_MORE
                 ? 0
-                : now_ns + frame_interval(st, took_ns, used_ns() - begin_ns);
+                : now_ns +
+                      frame_interval(workspace, took_ns, used_ns() - begin_ns);
     }
     return result != SCREEN_GONE;
 }
@@ -392,61 +412,64 @@ bool workspace_draw(struct workspace *st, uint64_t now_ns)
 
 /* A restart changes the picture, but the status line only in its time: while
  * the camera moves there are 60 a second. */
-void workspace_look(struct workspace *st)
+void workspace_look(struct workspace *workspace)
 {
-    const struct film *film = film_of(st);
-    uint64_t before_ns = st->work->restarted_ns;
+    const struct film *film = film_of(workspace);
+    uint64_t before_ns = workspace->control->restarted_ns;
 
-    inspector_step(&st->inside);
-    render_control_look(st->work);
-    if (film->width != st->width_px || film->height != st->height_px)
-        workspace_layout(st);
-    if (st->work->restarted_ns != before_ns) {
-        st->is_settled = false;
-        st->frame_ns = 0;
+    inspector_step(&workspace->inspector);
+    render_control_look(workspace->control);
+    if (film->width != workspace->width_px ||
+        film->height != workspace->height_px)
+        workspace_layout(workspace);
+    if (workspace->control->restarted_ns != before_ns) {
+        workspace->is_settled = false;
+        workspace->frame_ns = 0;
     }
-    if (st->work->has_changed)
-        workspace_refresh(st);
-    st->work->has_changed = false;
+    if (workspace->control->has_changed)
+        workspace_refresh(workspace);
+    workspace->control->has_changed = false;
 }
 
 /* For the first picture after a restart: looked for often at first, seldom
  * while a tree is built. */
-static uint64_t next_look_ns(const struct workspace *st, uint64_t now_ns)
+static uint64_t next_look_ns(const struct workspace *workspace, uint64_t now_ns)
 {
-    uint64_t waited_ns = now_ns - st->work->restarted_ns;
+    uint64_t waited_ns = now_ns - workspace->control->restarted_ns;
     uint64_t pause_ns = waited_ns / 8;
 
     pause_ns = pause_ns < MS_NS / 2 ? MS_NS / 2 : pause_ns;
     return now_ns + (pause_ns < 20 * MS_NS ? pause_ns : 20 * MS_NS);
 }
 
-uint64_t workspace_next_ns(const struct workspace *st, uint64_t now_ns)
+uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
 {
-    const struct render_control *w = st->work;
-    uint64_t next = w->files_ns;
+    const struct render_control *control = workspace->control;
+    uint64_t next = control->files_ns;
 
-    if (render_control_awaits_picture(w))
-        next = earlier(next, next_look_ns(st, now_ns));
-    else if (w->must_restart)
+    if (render_control_awaits_picture(control))
+        next = earlier(next, next_look_ns(workspace, now_ns));
+    else if (control->must_restart)
         next = now_ns;
-    else if (!st->is_settled && frame_pacing_may_send(&st->canvas.pace))
-        next = earlier(next, st->frame_ns);
-    if (w->progress.state == RENDER_RUNNING || st->status_ns == 0)
-        next = earlier(next, st->status_ns);
-    if (shows_gauge(st))
-        next = earlier(next, progress_panel_next_ns(&st->gauge, w));
-    if (w->message.until_ns != 0)
-        next = earlier(next, w->message.until_ns);
-    else if (st->lack_ns != 0)
-        next = earlier(next, st->lack_ns);
-    return earlier(next, frame_pacing_deadline_ns(&st->canvas.pace));
+    else if (!workspace->is_settled &&
+             frame_pacing_may_send(&workspace->screen.pace))
+        next = earlier(next, workspace->frame_ns);
+    if (control->progress.state == RENDER_RUNNING || workspace->status_ns == 0)
+        next = earlier(next, workspace->status_ns);
+    if (shows_progress(workspace))
+        next = earlier(next, progress_panel_next_ns(&workspace->progress_panel,
+                                                    control));
+    if (control->message.until_ns != 0)
+        next = earlier(next, control->message.until_ns);
+    else if (workspace->lack_ns != 0)
+        next = earlier(next, workspace->lack_ns);
+    return earlier(next, frame_pacing_deadline_ns(&workspace->screen.pace));
 }
 
-void workspace_free(struct workspace *st)
+void workspace_free(struct workspace *workspace)
 {
-    progress_panel_free(&st->gauge);
-    inspector_free(&st->inside);
-    editor_panel_free(&st->panel);
-    screen_free(&st->canvas);
+    progress_panel_free(&workspace->progress_panel);
+    inspector_free(&workspace->inspector);
+    editor_panel_free(&workspace->panel);
+    screen_free(&workspace->screen);
 }

@@ -8,10 +8,9 @@
  * panel.
  *
  * Units:     nanoseconds of clock_ns()
- * Ownership: work and pilot stay the caller's and outlive it; workspace_free()
- *            frees the rest
- * Threads:   main only
- * Errors:    become messages
+ * Ownership: control and camera stay the caller's and outlive it;
+ * workspace_free() frees the rest Threads:   main only Errors:    become
+ * messages
  */
 #ifndef GLIM_WORKSPACE_H
 #define GLIM_WORKSPACE_H
@@ -27,15 +26,15 @@
 #include "studio/render_control.h"
 
 struct workspace {
-    struct render_control *work;
-    struct camera_control *pilot;
-    struct screen canvas;
-    struct inspector inside;
+    struct render_control *control;
+    struct camera_control *camera;
+    struct screen screen;
+    struct inspector inspector;
     struct editor_panel panel;
-    struct progress_panel gauge; /* hidden while the help is open */
-    int help_number;             /* the page that is shown, */
-    int help_left;               /* with those behind it; 0: no help */
-    const char *prompt;          /* in the last line; NULL: nothing is asked */
+    struct progress_panel progress_panel; /* hidden while the help is open */
+    int help_number;                      /* the page that is shown, */
+    int help_left;                        /* with those behind it; 0: no help */
+    const char *prompt; /* in the last line; NULL: nothing is asked */
 
     uint64_t lack_ns; /* when to ask why there are no pixels; 0: never */
 
@@ -48,41 +47,42 @@ struct workspace {
 /* Says what the next restart's draft is like, before there is a screen. */
 void workspace_expect(struct session *s);
 
-void workspace_init(struct workspace *st, struct render_control *work,
-                    struct camera_control *pilot);
+void workspace_init(struct workspace *workspace, struct render_control *control,
+                    struct camera_control *camera);
 
 /* After tty_open(). */
-void workspace_open(struct workspace *st);
+void workspace_open(struct workspace *workspace);
 
 /* Everything anew, for the terminal's size of now. */
-void workspace_layout(struct workspace *st);
+void workspace_layout(struct workspace *workspace);
 
 /* Draws again as soon as possible. */
-void workspace_refresh(struct workspace *st);
+void workspace_refresh(struct workspace *workspace);
 
 /* NULL: the status line again. */
-void workspace_ask(struct workspace *st, const char *prompt);
+void workspace_ask(struct workspace *workspace, const char *prompt);
 
 /* Does what the action says of windows, colours and drawings. False if it is
- * not the stage's. */
-bool workspace_act(struct workspace *st, enum action action);
+ * not the workspace's. */
+bool workspace_act(struct workspace *workspace, enum action action);
 
 /* While the help is open: its next page, or its end. */
-void workspace_turn_help(struct workspace *st, bool closes);
+void workspace_turn_help(struct workspace *workspace, bool closes);
 
 /* After the scene was loaded anew. */
-void workspace_renew(struct workspace *st, const struct selection_names *names);
+void workspace_renew(struct workspace *workspace,
+                     const struct selection_names *names);
 
-/* Looks how far the work is, and what of it there is to show. */
-void workspace_look(struct workspace *st);
+/* Looks how far the render is, and what of it is to be shown. */
+void workspace_look(struct workspace *workspace);
 
 /* Draws what is due. False if the terminal takes nothing any more. */
-bool workspace_draw(struct workspace *st, uint64_t now_ns);
+bool workspace_draw(struct workspace *workspace, uint64_t now_ns);
 
 /* When to look and draw again if nothing happens; UINT64_MAX: never. */
-uint64_t workspace_next_ns(const struct workspace *st, uint64_t now_ns);
+uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns);
 
 /* After tty_close(). */
-void workspace_free(struct workspace *st);
+void workspace_free(struct workspace *workspace);
 
 #endif

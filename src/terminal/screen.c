@@ -30,29 +30,29 @@
 /* Where swatches stand in the panel. */
 #define SWATCH_COL 2
 
-void screen_init(struct screen *c, const struct term_caps_choice *choice)
+void screen_init(struct screen *screen, const struct term_caps_choice *choice)
 {
-    *c = (struct screen){.has_status_row = true};
-    frame_pacing_init(&c->pace, clock_ns());
-    term_caps_init(&c->display, choice);
+    *screen = (struct screen){.has_status_row = true};
+    frame_pacing_init(&screen->pace, clock_ns());
+    term_caps_init(&screen->display, choice);
 }
 
 /* Cells that are written over sixels replace them, over kitty's not. */
-static void erase_pixels(struct screen *c)
+static void erase_pixels(struct screen *screen)
 {
-    const char *eraser = pixel_graphics_eraser(c->graphics.shape.kind);
+    const char *eraser = pixel_graphics_eraser(screen->graphics.shape.kind);
 
     if (eraser)
         tty_write(eraser, strlen(eraser));
 }
 
-static void free_sized(struct screen *c)
+static void free_sized(struct screen *screen)
 {
-    pixel_graphics_free(&c->graphics);
-    cells_free(&c->cells);
-    frame_free(&c->frame);
-    ansi_diff_free(&c->ansi);
-    swatches_free(&c->swatches);
+    pixel_graphics_free(&screen->graphics);
+    cells_free(&screen->cells);
+    frame_free(&screen->frame);
+    ansi_diff_free(&screen->ansi);
+    swatches_free(&screen->swatches);
 }
 
 static void say_too_small(const struct tty_size *size)
@@ -74,28 +74,29 @@ static bool is_too_small(const struct tty_size *size)
     return size->cols < COLS_MIN || size->rows < ROWS_MIN;
 }
 
-static struct fit fit_to(const struct screen *c, const struct tty_size *size,
-                         int width_px, int height_px)
+static struct fit fit_to(const struct screen *screen,
+                         const struct tty_size *size, int width_px,
+                         int height_px)
 {
     /* sixels in the last row would scroll the screen, on some a character */
-    bool is_short = c->has_status_row || tty_scrolls_at_end() ||
-                    term_caps_pixels(&c->display) == PIXEL_GRAPHICS_SIXEL;
+    bool is_short = screen->has_status_row || tty_scrolls_at_end() ||
+                    term_caps_pixels(&screen->display) == PIXEL_GRAPHICS_SIXEL;
 
-    return cells_fit(width_px, height_px, size->cols - c->panel_cols,
+    return cells_fit(width_px, height_px, size->cols - screen->panel_cols,
                      size->rows - (is_short ? 1 : 0),
-                     term_caps_cell_aspect(&c->display, size));
+                     term_caps_cell_aspect(&screen->display, size));
 }
 
 struct fit screen_expect(const struct term_caps_choice *choice, int width_px,
                          int height_px)
 {
-    struct screen c = {.display.cell_aspect = choice->cell_aspect,
-                       .has_status_row = true};
+    struct screen screen = {.display.cell_aspect = choice->cell_aspect,
+                            .has_status_row = true};
     struct tty_size size = term_size();
 
     if (is_too_small(&size))
         return (struct fit){0};
-    return fit_to(&c, &size, width_px, height_px);
+    return fit_to(&screen, &size, width_px, height_px);
 }
 
 static int at_most(int a, int b)
@@ -105,15 +106,15 @@ static int at_most(int a, int b)
 
 /* The frame need not have more pixels than the film of this size. False if the
  * picture is not of pixels, or there is no memory for them: then of cells. */
-static bool init_pixels(struct screen *c, const struct tty_size *size,
+static bool init_pixels(struct screen *screen, const struct tty_size *size,
                         int width_px, int height_px, struct error *err)
 {
-    const struct term_caps *d = &c->display;
+    const struct term_caps *d = &screen->display;
     bool is_poor = d->sixel_colors > 0 && d->sixel_colors < SIXEL_COLORS_MIN;
     struct pixel_graphics_shape shape = {
         .kind = term_caps_pixels(d),
-        .cols = c->fit.cols,
-        .rows = c->fit.rows,
+        .cols = screen->fit.cols,
+        .rows = screen->fit.rows,
         .palette = is_poor ? PALETTE_16 : PALETTE_256,
     };
 
@@ -121,250 +122,260 @@ static bool init_pixels(struct screen *c, const struct tty_size *size,
         !term_caps_cell_size(d, size, &shape.cell_width_px,
                              &shape.cell_height_px))
         return false;
-    if (pixel_graphics_init(&c->graphics, &shape, err) &&
-        frame_init(&c->frame, at_most(c->graphics.shown.width, width_px),
-                   at_most(c->graphics.shown.height, height_px), err))
+    if (pixel_graphics_init(&screen->graphics, &shape, err) &&
+        frame_init(&screen->frame,
+                   at_most(screen->graphics.shown.width, width_px),
+                   at_most(screen->graphics.shown.height, height_px), err))
         return true;
-    pixel_graphics_free(&c->graphics);
+    pixel_graphics_free(&screen->graphics);
     return false;
 }
 
-static bool init_cells(struct screen *c, struct error *err)
+static bool init_cells(struct screen *screen, struct error *err)
 {
-    struct glyph_grid grid = glyphs_grid(c->display.glyphs);
+    struct glyph_grid grid = glyphs_grid(screen->display.glyphs);
 
-    return cells_init(&c->cells, c->fit.cols, c->fit.rows, err) &&
-           frame_init(&c->frame, grid.across * c->fit.cols,
-                      grid.down * c->fit.rows, err);
+    return cells_init(&screen->cells, screen->fit.cols, screen->fit.rows,
+                      err) &&
+           frame_init(&screen->frame, grid.across * screen->fit.cols,
+                      grid.down * screen->fit.rows, err);
 }
 
-bool screen_layout(struct screen *c, int width_px, int height_px,
+bool screen_layout(struct screen *screen, int width_px, int height_px,
                    struct error *err)
 {
     struct tty_size size;
 
-    erase_pixels(c);
-    free_sized(c);
+    erase_pixels(screen);
+    free_sized(screen);
     tty_relayout();
     size = term_size();
-    c->window = (struct ansi_diff_rect){0};
-    c->has_status = false;
-    c->has_new_panel = false;
-    c->must_update = true;
-    c->is_too_small = is_too_small(&size);
-    if (c->is_too_small) {
+    screen->window = (struct ansi_diff_rect){0};
+    screen->has_status = false;
+    screen->has_new_panel = false;
+    screen->must_update = true;
+    screen->is_too_small = is_too_small(&size);
+    if (screen->is_too_small) {
         say_too_small(&size);
         return true;
     }
-    c->panel_cols = c->has_panel ? panel_cols(size.cols) : 0;
-    c->fit = fit_to(c, &size, width_px, height_px);
-    c->cursor_col = c->cursor_col < c->fit.cols ? c->cursor_col : 0;
-    c->cursor_row = c->cursor_row < c->fit.rows ? c->cursor_row : 0;
-    return ansi_diff_init(&c->ansi, c->fit.cols, c->fit.rows, err) &&
-           (init_pixels(c, &size, width_px, height_px, err) ||
-            init_cells(c, err)) &&
-           (c->panel_cols == 0 ||
-            swatches_init(&c->swatches, size.rows - 1, err));
+    screen->panel_cols = screen->has_panel ? panel_cols(size.cols) : 0;
+    screen->fit = fit_to(screen, &size, width_px, height_px);
+    screen->cursor_col =
+        screen->cursor_col < screen->fit.cols ? screen->cursor_col : 0;
+    screen->cursor_row =
+        screen->cursor_row < screen->fit.rows ? screen->cursor_row : 0;
+    return ansi_diff_init(&screen->ansi, screen->fit.cols, screen->fit.rows,
+                          err) &&
+           (init_pixels(screen, &size, width_px, height_px, err) ||
+            init_cells(screen, err)) &&
+           (screen->panel_cols == 0 ||
+            swatches_init(&screen->swatches, size.rows - 1, err));
 }
 
-bool screen_answer(struct screen *c, const struct event *event)
+bool screen_answer(struct screen *screen, const struct event *event)
 {
-    bool is_other = term_caps_answer(&c->display, event);
+    bool is_other = term_caps_answer(&screen->display, event);
 
     if (event->kind == EVENT_READY)
-        frame_pacing_answer(&c->pace, clock_ns());
+        frame_pacing_answer(&screen->pace, clock_ns());
     if (event->kind != EVENT_ATTRIBUTES)
         return is_other;
-    c->has_all_answers = true;
-    return term_caps_pixels(&c->display) != c->graphics.shape.kind;
+    screen->has_all_answers = true;
+    return term_caps_pixels(&screen->display) != screen->graphics.shape.kind;
 }
 
-const char *screen_glyphs_name(const struct screen *c)
+const char *screen_glyphs_name(const struct screen *screen)
 {
-    switch (c->graphics.shape.kind) {
+    switch (screen->graphics.shape.kind) {
     case PIXEL_GRAPHICS_SIXEL: return "sixel pixels";
     case PIXEL_GRAPHICS_KITTY: return "kitty pixels";
     case PIXEL_GRAPHICS_NONE: break;
     }
-    return glyphs_name(c->display.glyphs);
+    return glyphs_name(screen->display.glyphs);
 }
 
 /* Text was there. */
-static void give_to_picture(struct screen *c, struct ansi_diff_rect rect)
+static void give_to_picture(struct screen *screen, struct ansi_diff_rect rect)
 {
-    ansi_diff_forget(&c->ansi, rect);
-    pixel_graphics_forget(&c->graphics, rect);
+    ansi_diff_forget(&screen->ansi, rect);
+    pixel_graphics_forget(&screen->graphics, rect);
 }
 
 /* The last row of the screen, as a part of the picture. */
-static struct ansi_diff_rect last_row(const struct screen *c)
+static struct ansi_diff_rect last_row(const struct screen *screen)
 {
-    return (struct ansi_diff_rect){0, term_size().rows - 1 - c->fit.row,
-                                   c->fit.cols, 1};
+    return (struct ansi_diff_rect){0, term_size().rows - 1 - screen->fit.row,
+                                   screen->fit.cols, 1};
 }
 
-void screen_status(struct screen *c, const char *text)
+void screen_status(struct screen *screen, const char *text)
 {
-    if (text ? c->has_status && strcmp(text, c->status) == 0 : !c->has_status)
+    if (text ? screen->has_status && strcmp(text, screen->status) == 0
+             : !screen->has_status)
         return;
-    c->has_status = text != NULL;
+    screen->has_status = text != NULL;
     if (text)
-        snprintf(c->status, sizeof c->status, "%s", text);
+        snprintf(screen->status, sizeof screen->status, "%s", text);
     windows_status(text);
     if (!text)
-        give_to_picture(c, last_row(c));
-    c->must_update = true;
+        give_to_picture(screen, last_row(screen));
+    screen->must_update = true;
 }
 
-void screen_show_panel(struct screen *c, const struct window_line *panel_lines,
-                       int line_count)
+void screen_show_panel(struct screen *screen,
+                       const struct window_line *panel_lines, int line_count)
 {
-    windows_show_panel(panel_lines, line_count, c->panel_cols);
-    for (int y = 0; y < c->swatches.cells.rows; y++) {
-        if (c->swatches.is_there[y])
+    windows_show_panel(panel_lines, line_count, screen->panel_cols);
+    for (int y = 0; y < screen->swatches.cells.rows; y++) {
+        if (screen->swatches.is_there[y])
             windows_spare(y, SWATCH_COL, SWATCH_COLS);
     }
-    c->has_new_panel = true;
-    c->must_update = true;
+    screen->has_new_panel = true;
+    screen->must_update = true;
 }
 
-static bool write_swatches(struct screen *c)
+static bool write_swatches(struct screen *screen)
 {
-    struct swatches *s = &c->swatches;
+    struct swatches *s = &screen->swatches;
     struct tty_size size = term_size();
-    struct ansi_diff_rect window = c->window;
+    struct ansi_diff_rect window = screen->window;
 
-    if (!c->has_new_panel)
+    if (!screen->has_new_panel)
         return true;
-    c->has_new_panel = false;
-    window.col += c->fit.col;
-    window.row += c->fit.row;
-    swatches_draw(s, c->display.palette, size.cols - c->panel_cols + SWATCH_COL,
-                  0, &window, size.rows - 1);
+    screen->has_new_panel = false;
+    window.col += screen->fit.col;
+    window.row += screen->fit.row;
+    swatches_draw(s, screen->display.palette,
+                  size.cols - screen->panel_cols + SWATCH_COL, 0, &window,
+                  size.rows - 1);
     return tty_write(s->ansi.bytes, s->ansi.length);
 }
 
-static void cover(struct screen *c, struct window_rect r)
+static void cover(struct screen *screen, struct window_rect r)
 {
-    c->window = (struct ansi_diff_rect){r.col - c->fit.col, r.row - c->fit.row,
-                                        r.cols, r.rows};
-    c->must_update = true;
+    screen->window =
+        (struct ansi_diff_rect){r.col - screen->fit.col,
+                                r.row - screen->fit.row, r.cols, r.rows};
+    screen->must_update = true;
 }
 
-void screen_open_window(struct screen *c, const char *title,
+void screen_open_window(struct screen *screen, const char *title,
                         const char *const *texts, int text_count)
 {
-    cover(c, windows_open(title, texts, text_count));
+    cover(screen, windows_open(title, texts, text_count));
 }
 
-void screen_open_panel(struct screen *c, const char *title,
+void screen_open_panel(struct screen *screen, const char *title,
                        const char *const *texts, int text_count)
 {
-    cover(c, windows_open_left(title, texts, text_count));
+    cover(screen, windows_open_left(title, texts, text_count));
 }
 
-void screen_open_corner(struct screen *c, const char *title,
+void screen_open_corner(struct screen *screen, const char *title,
                         const char *const *texts, int text_count)
 {
-    cover(c, windows_open_corner(title, texts, text_count));
+    cover(screen, windows_open_corner(title, texts, text_count));
 }
 
-void screen_set_corner(struct screen *c, const char *const *texts,
+void screen_set_corner(struct screen *screen, const char *const *texts,
                        int text_count)
 {
     windows_set(texts, text_count);
-    c->must_update = true;
+    screen->must_update = true;
 }
 
-void screen_close_window(struct screen *c)
+void screen_close_window(struct screen *screen)
 {
     windows_close();
-    give_to_picture(c, c->window);
-    c->window = (struct ansi_diff_rect){0};
-    c->has_new_panel = c->panel_cols > 0; /* it may have been below */
-    c->must_update = true;
+    give_to_picture(screen, screen->window);
+    screen->window = (struct ansi_diff_rect){0};
+    screen->has_new_panel = screen->panel_cols > 0; /* it may have been below */
+    screen->must_update = true;
 }
 
 /* Around the cell of the cursor: white around black is seen on anything. */
-static void mark_pixels(struct screen *c)
+static void mark_pixels(struct screen *screen)
 {
-    struct frame *f = &c->frame;
-    int x0 = c->cursor_col * f->width / c->fit.cols;
-    int y0 = c->cursor_row * f->height / c->fit.rows;
-    int x1 = (c->cursor_col + 1) * f->width / c->fit.cols - 1;
-    int y1 = (c->cursor_row + 1) * f->height / c->fit.rows - 1;
+    struct frame *f = &screen->frame;
+    int x0 = screen->cursor_col * f->width / screen->fit.cols;
+    int y0 = screen->cursor_row * f->height / screen->fit.rows;
+    int x1 = (screen->cursor_col + 1) * f->width / screen->fit.cols - 1;
+    int y1 = (screen->cursor_row + 1) * f->height / screen->fit.rows - 1;
 
     raster_box(f, x0 - 1, y0 - 1, x1 + 1, y1 + 1, 0);
     raster_box(f, x0 - 2, y0 - 2, x1 + 2, y1 + 2, 0xffffff);
 }
 
 /* Appends what changed in the picture; false if the budget was too small. */
-static bool add_picture(struct screen *c, struct film *film, struct film *draft,
-                        struct develop how, int step)
+static bool add_picture(struct screen *screen, struct film *film,
+                        struct film *draft, struct develop how, int step)
 {
-    struct ansi_diff_rect covered[2] = {c->window};
-    struct ansi_diff_draw draw = {.col = c->fit.col,
-                                  .row = c->fit.row,
-                                  .budget_bytes = c->pace.budget_bytes,
+    struct ansi_diff_rect covered[2] = {screen->window};
+    struct ansi_diff_draw draw = {.col = screen->fit.col,
+                                  .row = screen->fit.row,
+                                  .budget_bytes = screen->pace.budget_bytes,
                                   .step = step,
                                   .covered = covered,
                                   .covered_count = 1};
 
-    if (c->has_status && !c->has_status_row) {
-        covered[1] = last_row(c);
+    if (screen->has_status && !screen->has_status_row) {
+        covered[1] = last_row(screen);
         draw.covered_count = 2;
     }
-    film_preview(film, draft, how, &c->frame);
-    if (c->painter.paint)
-        c->painter.paint(c->painter.context, film, draft, &c->frame);
-    if (c->graphics.shape.kind != PIXEL_GRAPHICS_NONE) {
-        if (c->has_cursor)
-            mark_pixels(c);
+    film_preview(film, draft, how, &screen->frame);
+    if (screen->painter.paint)
+        screen->painter.paint(screen->painter.context, film, draft,
+                              &screen->frame);
+    if (screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE) {
+        if (screen->has_cursor)
+            mark_pixels(screen);
         if (draw.budget_bytes > PIXEL_BYTES_MAX)
             draw.budget_bytes = PIXEL_BYTES_MAX;
-        return pixel_graphics_picture(&c->graphics, &c->ansi, &c->frame, &draw);
+        return pixel_graphics_picture(&screen->graphics, &screen->ansi,
+                                      &screen->frame, &draw);
     }
-    cells_from_frame(&c->cells, &c->frame, c->display.palette,
-                     c->display.glyphs);
-    if (c->has_cursor)
-        cells_mark(&c->cells, c->cursor_col, c->cursor_row);
-    return ansi_diff_picture(&c->ansi, &c->cells, &draw);
+    cells_from_frame(&screen->cells, &screen->frame, screen->display.palette,
+                     screen->display.glyphs);
+    if (screen->has_cursor)
+        cells_mark(&screen->cells, screen->cursor_col, screen->cursor_row);
+    return ansi_diff_picture(&screen->ansi, &screen->cells, &draw);
 }
 
 /* One write() a frame; more before it if text has changed. */
-enum screen_result screen_draw(struct screen *c, struct film *film,
+enum screen_result screen_draw(struct screen *screen, struct film *film,
                                struct film *draft, struct develop how, int step)
 {
-    struct ansi_diff *a = &c->ansi;
+    struct ansi_diff *a = &screen->ansi;
     bool has_sync = tty_has_sync();
-    bool has_updated = c->must_update;
+    bool has_updated = screen->must_update;
     bool is_complete = true;
     bool asks;
     size_t before;
 
-    if (c->is_too_small) {
+    if (screen->is_too_small) {
         if (has_updated)
             windows_update();
-        c->must_update = false;
+        screen->must_update = false;
         return SCREEN_DONE;
     }
     if (has_updated) {
         if (has_sync)
             tty_write(TTY_SYNC_BEGIN, sizeof TTY_SYNC_BEGIN - 1);
         windows_update();
-        if (!write_swatches(c))
+        if (!write_swatches(screen))
             return SCREEN_GONE;
-        c->must_update = false;
+        screen->must_update = false;
     }
     ansi_diff_begin(a);
     if (has_sync && !has_updated)
         ansi_diff_text(a, TTY_SYNC_BEGIN);
     before = a->length;
     if (film)
-        is_complete = add_picture(c, film, draft, how, step);
+        is_complete = add_picture(screen, film, draft, how, step);
     if (a->length == before && !has_updated)
         return is_complete ? SCREEN_DONE : SCREEN_MORE;
-    asks = a->length > before && frame_pacing_wants_request(&c->pace);
+    asks = a->length > before && frame_pacing_wants_request(&screen->pace);
     if (a->length > before)
         ansi_diff_end(a, term_size().rows - 1);
     if (has_sync)
@@ -374,29 +385,30 @@ enum screen_result screen_draw(struct screen *c, struct film *film,
     uint64_t begin_ns = clock_ns();
     if (!tty_write(a->bytes, a->length))
         return SCREEN_GONE;
-    frame_pacing_sent(&c->pace, a->length, asks, begin_ns, clock_ns());
+    frame_pacing_sent(&screen->pace, a->length, asks, begin_ns, clock_ns());
     return is_complete ? SCREEN_DONE : SCREEN_MORE;
 }
 
-struct ansi_text_style screen_style(const struct screen *c)
+struct ansi_text_style screen_style(const struct screen *screen)
 {
-    return (struct ansi_text_style){c->fit.cols, c->fit.rows,
-                                    c->display.palette, c->display.glyphs};
+    return (struct ansi_text_style){screen->fit.cols, screen->fit.rows,
+                                    screen->display.palette,
+                                    screen->display.glyphs};
 }
 
-static bool awaits_answers(const struct screen *c)
+static bool awaits_answers(const struct screen *screen)
 {
-    return c->pace.state != FRAME_PACING_MUTE &&
-           (c->pace.outstanding > 0 || !c->has_all_answers);
+    return screen->pace.state != FRAME_PACING_MUTE &&
+           (screen->pace.outstanding > 0 || !screen->has_all_answers);
 }
 
-void screen_drain(struct screen *c, struct tty_input *input)
+void screen_drain(struct screen *screen, struct tty_input *input)
 {
     uint64_t until_ns = clock_ns() + DRAIN_NS;
     uint64_t now_ns;
 
-    erase_pixels(c);
-    while (awaits_answers(c) && (now_ns = clock_ns()) < until_ns) {
+    erase_pixels(screen);
+    while (awaits_answers(screen) && (now_ns = clock_ns()) < until_ns) {
         struct pollfd in = {.fd = STDIN_FILENO, .events = POLLIN};
         unsigned char bytes[512];
         struct event event;
@@ -409,15 +421,15 @@ void screen_drain(struct screen *c, struct tty_input *input)
             return;
         tty_input_feed(input, bytes, (size_t)count);
         while (tty_input_next(input, false, &event))
-            screen_answer(c, &event);
+            screen_answer(screen, &event);
     }
-    if (awaits_answers(c))
+    if (awaits_answers(screen))
         tty_forget_input();
-    frame_pacing_forget(&c->pace);
-    c->has_all_answers = true;
+    frame_pacing_forget(&screen->pace);
+    screen->has_all_answers = true;
 }
 
-void screen_free(struct screen *c)
+void screen_free(struct screen *screen)
 {
-    free_sized(c);
+    free_sized(screen);
 }

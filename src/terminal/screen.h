@@ -62,38 +62,38 @@ struct fit screen_expect(const struct term_caps_choice *choice, int width_px,
                          int height_px);
 
 /* After tty_open(). */
-void screen_init(struct screen *c, const struct term_caps_choice *choice);
+void screen_init(struct screen *screen, const struct term_caps_choice *choice);
 
 /* Fits a picture of this size to the terminal's size of now; everything is
  * drawn anew. */
-bool screen_layout(struct screen *c, int width_px, int height_px,
+bool screen_layout(struct screen *screen, int width_px, int height_px,
                    struct error *err);
 
 /* Takes an answer of the terminal. True if the layout must be done anew, as it
- * must after a change of c->display. */
-bool screen_answer(struct screen *c, const struct event *event);
+ * must after a change of screen->display. */
+bool screen_answer(struct screen *screen, const struct event *event);
 
 /* The text of the last row; NULL: none, the picture shows there. */
-void screen_status(struct screen *c, const char *text);
+void screen_status(struct screen *screen, const char *text);
 
-/* Shows lines in the panel that the layout has left room for; c->swatches
+/* Shows lines in the panel that the layout has left room for; screen->swatches
  * stand left of them. */
-void screen_show_panel(struct screen *c, const struct window_line *panel_lines,
-                       int line_count);
+void screen_show_panel(struct screen *screen,
+                       const struct window_line *panel_lines, int line_count);
 
-void screen_open_window(struct screen *c, const char *title,
+void screen_open_window(struct screen *screen, const char *title,
                         const char *const *texts, int text_count);
 /* The same at the left edge of the last rows, beside which keys go on. */
-void screen_open_panel(struct screen *c, const char *title,
+void screen_open_panel(struct screen *screen, const char *title,
                        const char *const *texts, int text_count);
 
 /* The same at the right of the top, with lines that change: as many, and as
  * long. */
-void screen_open_corner(struct screen *c, const char *title,
+void screen_open_corner(struct screen *screen, const char *title,
                         const char *const *texts, int text_count);
-void screen_set_corner(struct screen *c, const char *const *texts,
+void screen_set_corner(struct screen *screen, const char *const *texts,
                        int text_count);
-void screen_close_window(struct screen *c);
+void screen_close_window(struct screen *screen);
 
 enum screen_result {
     SCREEN_DONE, /* all is shown */
@@ -103,20 +103,20 @@ enum screen_result {
 
 /* Writes what has changed, and the film's picture if there is one, with the
  * draft's if there is one. Call it only if frame_pacing_may_send(). */
-enum screen_result screen_draw(struct screen *c, struct film *film,
+enum screen_result screen_draw(struct screen *screen, struct film *film,
                                struct film *draft, struct develop how,
                                int step);
 
 /* How the picture is shown, as text would be. */
-struct ansi_text_style screen_style(const struct screen *c);
+struct ansi_text_style screen_style(const struct screen *screen);
 
 /* The kind of glyphs or pixels, for people. */
-const char *screen_glyphs_name(const struct screen *c);
+const char *screen_glyphs_name(const struct screen *screen);
 
 /* Removes pixels and waits for answers on their way, half a second at most:
  * they would be typed into the shell. Keys pressed meanwhile are lost. */
-void screen_drain(struct screen *c, struct tty_input *input);
+void screen_drain(struct screen *screen, struct tty_input *input);
 
-void screen_free(struct screen *c);
+void screen_free(struct screen *screen);
 
 #endif

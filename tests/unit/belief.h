@@ -47,9 +47,11 @@ static struct shared {
 static bool is_child;
 
 int __real_tty_read(void *bytes, size_t size_bytes);
-uint64_t __real_workspace_next_ns(const struct workspace *st, uint64_t now_ns);
+uint64_t __real_workspace_next_ns(const struct workspace *workspace,
+                                  uint64_t now_ns);
 int __wrap_tty_read(void *bytes, size_t size_bytes);
-uint64_t __wrap_workspace_next_ns(const struct workspace *st, uint64_t now_ns);
+uint64_t __wrap_workspace_next_ns(const struct workspace *workspace,
+                                  uint64_t now_ns);
 
 int __wrap_tty_read(void *bytes, size_t size_bytes)
 {
@@ -101,18 +103,18 @@ static void tell_cells(const struct ansi_diff *a, int col, int row)
     }
 }
 
-static void tell_picture(const struct screen *c)
+static void tell_picture(const struct screen *screen)
 {
     struct belief_cell under[VT_ROWS_MAX][VT_COLS_MAX];
-    const struct ansi_diff_rect *r = &c->window;
+    const struct ansi_diff_rect *r = &screen->window;
 
     memcpy(under, shared->cell, sizeof under);
-    tell_cells(&c->ansi, c->fit.col, c->fit.row);
+    tell_cells(&screen->ansi, screen->fit.col, screen->fit.row);
     for (int y = r->row; y < r->row + r->rows; y++)
         for (int x = r->col; x < r->col + r->cols; x++)
-            shared->cell[c->fit.row + y][c->fit.col + x] =
-                under[c->fit.row + y][c->fit.col + x];
-    if (c->has_status)
+            shared->cell[screen->fit.row + y][screen->fit.col + x] =
+                under[screen->fit.row + y][screen->fit.col + x];
+    if (screen->has_status)
         memcpy(shared->cell[shared->rows - 1], under[shared->rows - 1],
                sizeof under[0]);
 }
@@ -124,10 +126,10 @@ static bool covers(const struct ansi_diff_rect *r, int col, int row)
 }
 
 /* Blanks of curses, where there is none or a window covers it. */
-static void tell_swatches(const struct screen *c)
+static void tell_swatches(const struct screen *screen)
 {
-    const struct swatches *s = &c->swatches;
-    int col = shared->cols - c->panel_cols + 2;
+    const struct swatches *s = &screen->swatches;
+    int col = shared->cols - screen->panel_cols + 2;
 
     for (int y = 0; y < s->ansi.rows; y++) {
         for (int x = 0; x < SWATCH_COLS; x++) {
@@ -135,7 +137,8 @@ static void tell_swatches(const struct screen *c)
             struct belief_cell *cell = &shared->cell[y][col + x];
 
             if (shown->glyph == 0 ||
-                covers(&c->window, col + x - c->fit.col, y - c->fit.row))
+                covers(&screen->window, col + x - screen->fit.col,
+                       y - screen->fit.row))
                 continue;
             *cell = (struct belief_cell){BELIEF_PICTURE, cell->text, *shown,
                                          s->ansi.glyphs};
@@ -143,17 +146,17 @@ static void tell_swatches(const struct screen *c)
     }
 }
 
-static void tell(const struct screen *c)
+static void tell(const struct screen *screen)
 {
-    shared->is_whole = !c->must_update && c->has_all_answers;
+    shared->is_whole = !screen->must_update && screen->has_all_answers;
     shared->cols = COLS;
     shared->rows = LINES;
     if (shared->is_whole)
         tell_text();
-    if (shared->is_whole && !c->is_too_small) {
-        tell_picture(c);
-        if (c->panel_cols > 0)
-            tell_swatches(c);
+    if (shared->is_whole && !screen->is_too_small) {
+        tell_picture(screen);
+        if (screen->panel_cols > 0)
+            tell_swatches(screen);
     }
     shared->told++;
     tty_write("\033]told\033\\", 8);
@@ -162,13 +165,14 @@ static void tell(const struct screen *c)
     }
 }
 
-uint64_t __wrap_workspace_next_ns(const struct workspace *st, uint64_t now_ns)
+uint64_t __wrap_workspace_next_ns(const struct workspace *workspace,
+                                  uint64_t now_ns)
 {
-    uint64_t next_ns = __real_workspace_next_ns(st, now_ns);
+    uint64_t next_ns = __real_workspace_next_ns(workspace, now_ns);
 
     if (!is_child)
         return next_ns;
-    tell(&st->canvas);
+    tell(&workspace->screen);
     return next_ns < now_ns + WAKE_NS ? next_ns : now_ns + WAKE_NS;
 }
 

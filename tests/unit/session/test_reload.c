@@ -329,12 +329,12 @@ static void own_views_are_no_change(void **state)
     (void)state;
     open_work(&w, &s);
     s.view.exposure = 3;
-    work_save_view(&w);
+    save_view(&w);
     render_control_look_at_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
     s.view.exposure = 4;
-    work_save_view(&w);
+    save_view(&w);
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files); /* the other file */
     close_work(&w, &s);
@@ -352,7 +352,7 @@ static void own_materials_are_no_change(void **state)
     red = s.edit.now.sources[1];
     red.kd.rgb[0] = .125;
     edit_material(&s.edit, 1, &red);
-    assert_true(work_save_edit(&w));
+    assert_true(save_edit(&w));
     render_control_look_at_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
@@ -361,7 +361,7 @@ static void own_materials_are_no_change(void **state)
     /* and stays one when the next save takes it over */
     red.kd.rgb[0] = .25;
     edit_material(&s.edit, 1, &red);
-    assert_true(work_save_edit(&w));
+    assert_true(save_edit(&w));
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);

@@ -39,7 +39,7 @@ static int leave_folder(void **state)
 struct fixture {
     struct options options;
     struct session session;
-    struct render_control work;
+    struct render_control control;
 };
 
 static int open_work(void **state)
@@ -63,7 +63,7 @@ static int open_work(void **state)
                                  .thread_count = 1};
     *state = &f;
     if (!session_open(&f.session, &f.options, clock_ns(), &err) ||
-        !render_control_init(&f.work, &f.session, &err)) {
+        !render_control_init(&f.control, &f.session, &err)) {
         print_error("%s\n", err.text);
         return -1;
     }
@@ -74,7 +74,7 @@ static int close_work(void **state)
 {
     struct fixture *f = *state;
 
-    render_control_free(&f->work);
+    render_control_free(&f->control);
     session_close(&f->session);
     return 0;
 }
@@ -95,7 +95,7 @@ static void render_whole(struct render_control *w)
 
 static void live_mode_has_nothing_to_lose(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     assert_true(w->is_live);
     assert_int_equal(w->progress.spp_limit, 0);
@@ -107,7 +107,7 @@ static void live_mode_has_nothing_to_lose(void **state)
 
 static void moving_starts_anew(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     uint64_t before_ns = w->restarted_ns;
 
     w->must_restart = true;
@@ -121,7 +121,7 @@ static void moving_starts_anew(void **state)
  * there is time to show it. */
 static void moving_shows_pictures(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     for (int i = 0; i < 20; i++) {
         uint64_t before_ns = w->restarted_ns;
@@ -141,7 +141,7 @@ static void moving_shows_pictures(void **state)
  * is none. */
 static void drafts_are_live(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     struct render *render = w->session->render;
 
     w->session->draft_width = 20;
@@ -160,7 +160,7 @@ static void drafts_are_live(void **state)
 
 static void normal_mode_renders_to_its_end(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_control_set_live(w, false);
     run_to_end(w);
@@ -184,7 +184,7 @@ static void normal_mode_renders_to_its_end(void **state)
 static void halted_renders_go_on(void **state)
 {
     struct fixture *f = *state;
-    struct render_control *w = &f->work;
+    struct render_control *w = &f->control;
 
     f->options.spp = 1000000;
     render_control_set_live(w, false);
@@ -205,7 +205,7 @@ static void halted_renders_go_on(void **state)
 
 static void live_mode_pauses(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     uint64_t samples;
 
     while (render_control_awaits_picture(w))
@@ -228,7 +228,7 @@ static void live_mode_pauses(void **state)
 
 static void steps_are_one_sample_each(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_control_set_live(w, false);
     for (uint64_t spp = 1; spp <= 2; spp++) {
@@ -257,7 +257,7 @@ static void steps_are_one_sample_each(void **state)
 static void steps_after_a_halt_make_the_same_picture(void **state)
 {
     struct fixture *f = *state;
-    struct render_control *w = &f->work;
+    struct render_control *w = &f->control;
     float whole[32 * 16 * 3], stepped[32 * 16 * 3];
 
     f->options.spp = 40;
@@ -286,13 +286,13 @@ static bool is_kept(void)
 
 static void what_no_file_has_is_kept(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     char expected[128];
 
     snprintf(expected, sizeof expected, "kept %s/glim/lost.png, 3 spp", folder);
     render_whole(w);
     for (int i = 0; i < 2; i++) { /* in one file */
-        work_keep(w);
+        save_lost_picture(w);
         assert_true(is_kept());
         assert_int_equal(w->result_count, i + 1);
         assert_string_equal(w->results[i], expected);
@@ -301,30 +301,30 @@ static void what_no_file_has_is_kept(void **state)
 
 static void what_a_file_has_is_not_kept(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_whole(w);
-    work_save_picture(w, "png");
-    assert_true(work_finish_saving(w));
-    work_keep(w);
+    save_picture(w, "png");
+    assert_true(save_finish(w));
+    save_lost_picture(w);
     assert_false(is_kept());
     render_control_restart(w); /* what follows is not in the file */
     run_to_end(w);
-    work_keep(w);
+    save_lost_picture(w);
     assert_true(is_kept());
 }
 
 /* Of live mode: what has taken a while, or shows what was edited. */
 static void what_is_made_anew_at_once_is_not_kept(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     while (w->progress.samples == 0)
         render_control_look(w);
-    work_keep(w);
+    save_lost_picture(w);
     assert_false(is_kept());
     w->session->edit.now.mood.exposure += 1;
-    work_keep(w);
+    save_lost_picture(w);
     assert_true(is_kept());
     unlink("glim/lost.png");
     w->session->edit.now.mood.exposure -= 1;
@@ -333,19 +333,19 @@ static void what_is_made_anew_at_once_is_not_kept(void **state)
         usleep(100000);
         render_control_look(w);
     }
-    work_keep(w);
+    save_lost_picture(w);
     assert_true(is_kept());
 }
 
 static void saving_never_replaces(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_whole(w);
     for (int i = 0; i < 2; i++) {
-        work_save_picture(w, "png");
+        save_picture(w, "png");
         save_thread_wait_copied(&w->saver);
-        assert_true(work_finish_saving(w));
+        assert_true(save_finish(w));
     }
     assert_int_equal(access("s.png", F_OK), 0);
     assert_int_equal(access("s-2.png", F_OK), 0);
@@ -358,18 +358,18 @@ static void saving_never_replaces(void **state)
 /* What is saved is what was there at the key, whatever happens after it. */
 static void saving_takes_a_copy(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     char first[65536], second[65536];
     size_t sizes[2];
 
     render_whole(w);
-    work_save_picture(w, "png");
-    assert_true(work_finish_saving(w));
-    work_save_picture(w, "png");
+    save_picture(w, "png");
+    assert_true(save_finish(w));
+    save_picture(w, "png");
     for (int i = 0; i < 3; i++)
         w->session->view.eye[i] += 5; /* away: another picture */
     render_control_set_live(w, true);
-    assert_true(work_finish_saving(w));
+    assert_true(save_finish(w));
     FILE *a = fopen("s.png", "rb");
     FILE *b = fopen("s-2.png", "rb");
     assert_true(a && b);
@@ -384,21 +384,21 @@ static void saving_takes_a_copy(void **state)
 /* Other sizes may have come meanwhile. */
 static void what_is_said_is_what_was_saved(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_whole(w);
-    work_save_picture(w, "png");
+    save_picture(w, "png");
     save_thread_wait_copied(&w->saver);
     w->session->crop.width = 20;
     render_control_set_live(w, true);
-    assert_true(work_finish_saving(w));
+    assert_true(save_finish(w));
     assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
 }
 
 /* Without a look since it was begun. */
 static void a_young_picture_is_unsaved_too(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_control_set_live(w, false);
     render_control_start_or_halt(w);
@@ -410,22 +410,22 @@ static void a_young_picture_is_unsaved_too(void **state)
  * back to that. */
 static void no_view_is_written_under_a_reload(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_control_reload(w);
     w->session->view.eye[0] = 7;
-    work_save_view(w);
+    save_view(w);
     assert_int_equal(access("s.view", F_OK), -1);
     assert_true(render_control_end_reload(w));
     assert_true(w->session->view.eye[0] == 7);
-    work_save_view(w);
+    save_view(w);
     assert_int_equal(access("s.view", F_OK), 0);
 }
 
 /* An error that comes while somebody types is not gone with the next key. */
 static void errors_are_seen(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
 
     render_control_say_error(w, "broken");
     assert_true(w->message.until_ns == UINT64_MAX);
@@ -439,7 +439,7 @@ static void errors_are_seen(void **state)
 /* 200 words of six characters a minute, a blank each: 50 ms a character. */
 static void long_messages_can_be_read(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     struct message *m = &w->message;
     char text[201] = "";
 
@@ -455,12 +455,12 @@ static void long_messages_can_be_read(void **state)
 
 static void failures_are_messages(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     static char path[] = "no-such-folder-of-glim/s.view";
 
     free(w->session->view_path);
     w->session->view_path = strdup(path);
-    work_save_view(w);
+    save_view(w);
     assert_true(w->message.is_error);
     assert_non_null(strstr(w->message.text, "no-such-folder-of-glim"));
     assert_int_equal(w->result_count, 0);
@@ -468,13 +468,13 @@ static void failures_are_messages(void **state)
 
 static void views_are_written(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     struct warnings report = {0};
     struct view back;
     struct error err;
 
     w->session->view.eye[0] = 1.0 / 3;
-    work_save_view(w);
+    save_view(w);
     assert_string_equal(w->message.text, "wrote the view to s.view");
     view_init(&back);
     assert_true(view_read(&back, "s.view", &report, &err));
@@ -487,16 +487,16 @@ static void views_are_written(void **state)
  * saved as a picture. */
 static void texts_are_written(void **state)
 {
-    struct render_control *w = &((struct fixture *)*state)->work;
+    struct render_control *w = &((struct fixture *)*state)->control;
     struct ansi_text_style style = {8, 2, PALETTE_MONO, GLYPHS_HALF};
     struct frame frame;
     struct error err;
 
     assert_true(ansi_text_frame_init(&frame, &style, &err));
     render_whole(w);
-    work_save_text(w, &frame, &style);
+    save_text(w, &frame, &style);
     assert_string_equal(w->message.text, "saved s.ans, text of 8x2 characters");
-    work_save_text(w, &frame, &style);
+    save_text(w, &frame, &style);
     assert_string_equal(w->message.text,
                         "saved s-2.ans, text of 8x2 characters");
     frame_free(&frame);
@@ -524,12 +524,12 @@ static void messages_name_the_chosen_keys(void **state)
 
     keymap_choose(&f->options.keys, ACTION_MODE, chosen);
     keymap_settle(&f->options.keys, false);
-    render_control_set_live(&f->work, false);
-    assert_false(render_control_may_move(&f->work));
-    assert_string_equal(f->work.message.text,
+    render_control_set_live(&f->control, false);
+    assert_false(render_control_may_move(&f->control));
+    assert_string_equal(f->control.message.text,
                         "the camera moves in live mode: j goes there");
-    render_control_restart(&f->work);
-    assert_string_equal(f->work.message.text,
+    render_control_restart(&f->control);
+    assert_string_equal(f->control.message.text,
                         "nothing is rendered yet: Enter starts");
 }
 
