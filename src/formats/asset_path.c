@@ -23,7 +23,7 @@ static char *if_exists(const char *beside, const char *name)
     return NULL;
 }
 
-/* "a\\ b" as in a shell becomes "a b". */
+/* Replaces each backslash and blank by the blank, as a shell does. */
 static void remove_escapes(char *name)
 {
     char *to = name;
@@ -35,8 +35,8 @@ static void remove_escapes(char *name)
     *to = '\0';
 }
 
-/* The folder's entry that equals `name` but for capital and small letters, the
- * first by strcmp() of several. NULL: there is none. */
+/* Returns the first entry of the folder, in the order of strcmp(), whose name
+ * equals `name` apart from letter case; NULL if there is none. */
 static char *name_in_folder(int folder, const char *name)
 {
     int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -58,8 +58,8 @@ static char *name_in_folder(int folder, const char *name)
     return found;
 }
 
-/* Gives the part of a path the letters that the folder has: a name of the same
- * length, in place. False: the folder has no such entry. */
+/* Replaces one part of a path in place by the entry of the folder whose name
+ * differs only in letter case. Returns false if there is none. */
 static bool correct_part(int folder, char *part)
 {
     char *found;
@@ -73,9 +73,8 @@ static bool correct_part(int folder, char *part)
     return found != NULL;
 }
 
-/* Looks each part of the path up in the folder that the parts before it name,
- * and corrects its letters: some systems do not tell capital ones from small
- * ones. */
+/* Corrects the letter case of each part of the path, from left to right: files
+ * written on systems that ignore case name their neighbours carelessly. */
 static bool correct_letters(char *path)
 {
     int folder = open(*path == '/' ? "/" : ".", O_PATH | O_CLOEXEC);

@@ -8,7 +8,8 @@
 
 #include "base/memory.h"
 
-/* Above every count, and far from overflow. */
+/* Limit for the digits of an index: above every vertex count, and far from
+ * overflow. */
 #define INDEX_TEXT_MAX INT64_C(1000000000000)
 
 static const char *const corner_names[] = {"vertex", "texture vertex",
@@ -21,7 +22,7 @@ static bool out_of_memory(const struct faces *f, const struct lexer *lex,
                 lex->line);
 }
 
-/* Digits with or without '-'; false if there are none. */
+/* Reads digits with an optional '-'. Returns false if there are no digits. */
 static bool parse_index(const char **p, const char *end, int64_t *index)
 {
     bool is_negative = *p < end && **p == '-';
@@ -38,7 +39,8 @@ static bool parse_index(const char **p, const char *end, int64_t *index)
     return q > first;
 }
 
-/* Negative indices count back from the last one so far. */
+/* Turns an index of the file, which counts from 1 or back from the last vertex
+ * so far, into one from 0. Returns false if it is out of range. */
 static bool resolve(int64_t index, uint32_t count, uint32_t *to)
 {
     if (index < 0)
@@ -68,8 +70,9 @@ static bool report_index(const struct faces *f, const struct lexer *lex,
     return false;
 }
 
-/* Where a file has no normals (or texture vertices) at all, somebody took them
- * out and left their numbers in the faces. */
+/* Reports an index into a list (normals or texture vertices) that the file does
+ * not contain at all. Exporters that strip such a list may leave its indices in
+ * the faces, so the face is used without them. */
 static bool was_taken_out(const struct faces *f, const struct lexer *lex, int k,
                           int64_t index, struct word word, uint32_t count)
 {
@@ -95,7 +98,7 @@ static bool report_malformed(const struct faces *f, const struct lexer *lex,
     return false;
 }
 
-/* v, v/vt, v//vn or v/vt/vn; slashes with nothing behind them are harmless. */
+/* Reads v, v/vt, v//vn or v/vt/vn. A slash at the end is accepted. */
 static bool parse_corner(const struct faces *f, const struct lexer *lex,
                          struct word word, struct corner *c)
 {
@@ -147,7 +150,8 @@ static bool grow_corners(struct faces *f, size_t needed)
     return true;
 }
 
-/* *is_good becomes false for a face that was reported. */
+/* Reads the corners up to the end of the line. *is_good becomes false for a
+ * face that was reported and has to be dropped. */
 static bool read_corners(struct faces *f, struct lexer *lex, bool *is_good,
                          struct error *err)
 {
@@ -227,7 +231,8 @@ static bool has_normal(const struct scene *scene, uint32_t vn)
             scene->normals[vn].z != 0);
 }
 
-/* Corners numbered by t; normals and texture vertices of all three or none. */
+/* Returns the triangle of the corners t. It has normals if all three corners
+ * have one, and likewise texture vertices. */
 static struct tri make_tri(const struct faces *f, const uint32_t t[3],
                            uint32_t material)
 {

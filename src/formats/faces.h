@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * faces.h - reads the f statements of OBJ text and makes triangles of them
+ * faces.h - reads the f statements of OBJ text and triangulates them
  *
  * Ownership: triangles go to the scene; faces_free() frees the rest
  * Threads:   one thread
@@ -13,27 +13,28 @@
 #include "scene/scene.h"
 #include "formats/triangulate.h"
 
-/* Indices from 0; NO_INDEX where there is none. */
+/* Indices of one corner, from 0; NO_INDEX if it has none. */
 struct corner {
     uint32_t v, vt, vn;
 };
 
-/* Set the first three members and leave the others zero. */
+/* Reader of faces. The caller sets the first three members and leaves the
+ * others zero. */
 struct faces {
     struct scene *scene;
     const char *path;
     struct warnings *report;
-    uint32_t face_count; /* in the file so far, dropped ones included */
+    uint32_t face_count; /* faces of the file so far, dropped ones included */
     struct corner *corners;
-    double *points; /* 3 a corner */
+    double *points; /* 3 coordinates for each corner */
     size_t corner_capacity;
     uint32_t corner_count;
     struct polygon polygon;
     size_t tri_capacity;
 };
 
-/* Reads what follows "f". A face with a bad index, with fewer than three
- * corners or with a vertex that is not finite is dropped and reported. */
+/* Reads the rest of an f statement. A face with a bad index, with fewer than
+ * three corners or with a vertex that is not finite is dropped and reported. */
 bool faces_read(struct faces *faces, struct lexer *lex, uint32_t object,
                 uint32_t material, struct error *err);
 

@@ -7,24 +7,25 @@
 
 #include "base/memory.h"
 
-/* Index of no edge and of no link. Edge 0 lies below all others: its neighbours
- * are the lowest and the highest edge, its first child is the tree's root. */
+/* Index that means no edge and no link. Edge 0 is a sentinel below all others:
+ * its prev and next are the highest and the lowest edge of the sweep line, and
+ * its child[0] is the root of the treap. */
 #define NONE 0
 
-/* One or more corners at the same place, numbered from left to right, from the
- * lower to the upper one where x is the same. */
+/* Sweep event: all corners at one point. Sites are numbered from left to right,
+ * and at equal x from bottom to top. */
 struct site {
     struct point2 at;
     uint32_t corner;
-    uint32_t edges; /* first of a list: edges that begin here, to be inserted */
+    uint32_t edges; /* first of the list of edges that begin here and await
+                       insertion */
 };
 
-/* The inside between two neighbouring edges of the sweep line, left of it and
- * not yet cut: a stack of links for one monotone piece, or for two pieces that
- * meet in their last site. */
+/* Monotone piece left of the sweep line that is not triangulated yet: a stack
+ * of links. Two pieces of one region share their last site. */
 struct piece {
     uint32_t top;
-    bool is_upper; /* the links above the lowest lie on the upper boundary */
+    bool is_upper; /* all links but the lowest lie on the upper boundary */
 };
 
 struct region {
@@ -35,14 +36,14 @@ struct link {
     uint32_t site, below;
 };
 
-/* Coincident edges are one. */
+/* Edge of the outline. Coincident edges are merged into one. */
 struct edge {
-    uint32_t left, right; /* sites */
-    int32_t winding;      /* of what is above, minus that of what is below */
-    uint32_t prev, next;  /* below and above it on the sweep line; or the list
-                             of the site */
+    uint32_t left, right; /* numbers of sites */
+    int32_t winding;     /* winding number above the edge minus the one below */
+    uint32_t prev, next; /* neighbours below and above on the sweep line; next
+                            also links the list of a site */
     uint32_t parent, child[2];
-    struct region region; /* above it */
+    struct region region; /* the region above the edge */
 };
 
 struct sweep {
@@ -57,7 +58,8 @@ struct sweep {
     uint64_t triangle_max;
 };
 
-/* Twice the area of a, b, c: above 0 if they turn left. Noise is 0. */
+/* Returns twice the signed area of the triangle a, b, c: positive for a left
+ * turn, 0 if it is within the noise. */
 static double turn(const struct sweep *s, uint32_t a, uint32_t b, uint32_t c)
 {
     struct point2 p = s->sites[a].at;
@@ -74,7 +76,8 @@ static double turn(const struct sweep *s, uint32_t a, uint32_t b, uint32_t c)
     return fabs(area) > noise ? area : 0;
 }
 
-/* Above 0 if the site lies above the edge, 0 if they meet. */
+/* Returns a positive number if the site lies above the edge, 0 if it lies on
+ * it. */
 static double side_of(const struct sweep *s, uint32_t e, uint32_t site)
 {
     const struct edge *edge = &s->edges[e];
@@ -82,9 +85,9 @@ static double side_of(const struct sweep *s, uint32_t e, uint32_t site)
     return edge->right == site ? 0 : turn(s, edge->left, edge->right, site);
 }
 
-/* ---- the edges that the sweep line meets: a treap, threaded ---- */
+/* ---- edges on the sweep line: a treap with links to neighbours ---- */
 
-/* A random order of the edges (the finalizer of MurmurHash3). */
+/* Returns a pseudorandom treap priority (the finalizer of MurmurHash3). */
 static uint32_t priority(uint32_t e)
 {
     e = (e ^ e >> 16) * 0x85ebca6bu;
@@ -141,7 +144,8 @@ static void detach(struct sweep *s, uint32_t e)
     s->edges[edge->next].prev = edge->prev;
 }
 
-/* Lists an edge at its left end, for later. */
+/* Adds an edge to the list of its left site, to be inserted when the sweep line
+ * gets there. */
 static void put_off(struct sweep *s, uint32_t e, uint32_t site)
 {
     s->edges[e].left = site;
@@ -149,7 +153,8 @@ static void put_off(struct sweep *s, uint32_t e, uint32_t site)
     s->sites[site].edges = e;
 }
 
-/* False for outlines that could take the time of many edges for each. */
+/* Splits an edge at a site. Returns false when the limit on splits is reached:
+ * outlines with many overlaps would take quadratic time. */
 static bool split(struct sweep *s, uint32_t e, uint32_t site)
 {
     if (s->splits_left == 0)
@@ -159,8 +164,8 @@ static bool split(struct sweep *s, uint32_t e, uint32_t site)
     return true;
 }
 
-/* Two edges leave a site the same way: they are one as far as the nearer end,
- * and the rest of the longer goes on from there. */
+/* Merges two edges that leave a site in the same direction. They become one
+ * edge up to the nearer end; the rest of the longer edge begins there. */
 static bool unite(struct sweep *s, uint32_t e, uint32_t with)
 {
     struct edge *rest = &s->edges[e];
@@ -176,7 +181,8 @@ static bool unite(struct sweep *s, uint32_t e, uint32_t with)
     return near == far || split(s, e, near);
 }
 
-/* Inserts an edge that begins at the site. */
+/* Inserts an edge that begins at the site. Returns false if a merge exceeds the
+ * limit on splits. */
 static bool insert(struct sweep *s, uint32_t e, uint32_t site)
 {
     uint32_t parent = NONE;
@@ -198,7 +204,8 @@ static bool insert(struct sweep *s, uint32_t e, uint32_t site)
     return true;
 }
 
-/* The lowest edge that meets the site, or NONE; *below is the edge under it. */
+/* Returns the lowest edge that passes through the site, or NONE. *below is the
+ * edge under it, or under the site. */
 static uint32_t find(const struct sweep *s, uint32_t site, uint32_t *below)
 {
     uint32_t at = s->edges[NONE].child[0];
@@ -218,7 +225,7 @@ static uint32_t find(const struct sweep *s, uint32_t site, uint32_t *below)
     return at;
 }
 
-/* Whether neighbours on the sweep line cross farther right. */
+/* Returns true if two neighbours on the sweep line cross to the right of it. */
 static bool cross(const struct sweep *s, uint32_t low, uint32_t high)
 {
     const struct edge *a = &s->edges[low];
@@ -249,9 +256,9 @@ static void emit(struct sweep *s, uint32_t a, uint32_t b, uint32_t c)
     s->triangles[n][2] = s->sites[c].corner;
 }
 
-/* The piece goes on to a site on its upper or lower boundary. From the boundary
- * opposite to the links all of them are seen, else those that are not beyond a
- * reflex corner. */
+/* Extends the piece by a site on its upper or lower boundary and emits all
+ * triangles that the site can see. A site opposite to the stack sees every
+ * link; a site on the same side sees those up to the first reflex corner. */
 static void extend(struct sweep *s, struct piece *piece, uint32_t site,
                    bool is_upper)
 {
@@ -288,7 +295,7 @@ static void finish(struct sweep *s, struct piece *piece, uint32_t site)
     piece->top = NONE;
 }
 
-/* The region's lower edge ends at the site. */
+/* Extends the region by the site where its lower edge ends. */
 static void extend_below(struct sweep *s, struct region *r, uint32_t site)
 {
     if (r->low.top == NONE)
@@ -301,7 +308,7 @@ static void extend_below(struct sweep *s, struct region *r, uint32_t site)
     extend(s, &r->low, site, false);
 }
 
-/* The region's upper edge ends at the site. */
+/* Extends the region by the site where its upper edge ends. */
 static void extend_above(struct sweep *s, struct region *r, uint32_t site)
 {
     if (r->low.top == NONE)
@@ -310,8 +317,8 @@ static void extend_above(struct sweep *s, struct region *r, uint32_t site)
     extend(s, &r->low, site, true);
 }
 
-/* Edges begin inside the region. A diagonal from its last site to this one
- * parts it; what is above that is returned. */
+/* Splits a region at a site inside it where edges begin, with a diagonal from
+ * the last site of the region. Returns the part above the diagonal. */
 static struct region part(struct sweep *s, struct region *r, uint32_t site)
 {
     struct region above = {.low = r->high};
@@ -332,8 +339,9 @@ static struct region part(struct sweep *s, struct region *r, uint32_t site)
 
 /* ---- the sweep ---- */
 
-/* Takes the edges that meet the site off the sweep line. Returns the region
- * above them; that below them stays with the edge below. */
+/* Removes all edges through the site from the sweep line. *above is the region
+ * above them; the region below them stays with the edge below. Returns false if
+ * a split exceeds the limit. */
 static bool end_edges(struct sweep *s, uint32_t site, uint32_t first,
                       uint32_t below, struct region *above)
 {
@@ -369,8 +377,8 @@ static bool begin_edges(struct sweep *s, uint32_t site)
     return true;
 }
 
-/* Gives the edges that begin at the site their regions, from below. False if
- * something winds around other than once or not at all. */
+/* Assigns regions to the edges that begin at the site, from bottom to top.
+ * Returns false if a winding number is neither 0 nor 1. */
 static bool begin_regions(struct sweep *s, uint32_t site, uint32_t below,
                           uint32_t end, struct region above)
 {
@@ -425,8 +433,8 @@ static int compare_sites(const void *a, const void *b)
     return (p->corner > q->corner) - (p->corner < q->corner);
 }
 
-/* Sorts the corners. Those of a vertical line get the same x, for noise must
- * not mix up their order. */
+/* Sorts the corners. Corners of one vertical line, within the noise, get the
+ * same x, so that rounding does not change their order. */
 static void sort_sites(struct sweep *s, uint32_t n)
 {
     double x = -INFINITY;
@@ -439,7 +447,8 @@ static void sort_sites(struct sweep *s, uint32_t n)
     qsort(s->sites, n, sizeof *s->sites, compare_sites);
 }
 
-/* Edge i + 1 goes from corner i to the next. */
+/* Merges the sorted corners into sites and makes the edges: edge i + 1 goes
+ * from corner i to the next. */
 static void make_sites(struct sweep *s, const struct point2 *points, uint32_t n)
 {
     uint32_t count = 0;
@@ -476,8 +485,8 @@ static void make_edges(struct sweep *s, uint32_t n)
     }
 }
 
-/* Whether the triangles, none of them turned over, have the outline's area:
- * the last word where noise has misled the sweep. */
+/* Checks that the triangles' areas add up to the area of the outline. This
+ * detects results where noise misled the sweep. */
 static bool area_is_right(const struct sweep *s, const struct point2 *points,
                           uint32_t n)
 {
@@ -498,7 +507,7 @@ static bool area_is_right(const struct sweep *s, const struct point2 *points,
 
         area -= fabs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
     }
-    return fabs(area) <= n * noise; /* sums of n terms */
+    return fabs(area) <= n * noise; /* each sum has n terms */
 }
 
 static bool sweep_over(struct sweep *s, const struct point2 *points, uint32_t n)

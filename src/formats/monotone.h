@@ -2,14 +2,13 @@
 /*
  * monotone.h - triangulates a polygon of any size with a sweep line
  *
- * The sweep parts the inside into monotone pieces (Garey, Johnson, Preparata
+ * The sweep divides the inside into monotone pieces (Garey, Johnson, Preparata
  * and Tarjan 1978) and cuts triangles off each piece as it grows. Edges that
- * cross are found on the way (Shamos and Hoey 1976). The time is n log n,
- * whatever the outline. Bridges to holes, edges that coincide and corners that
- * touch an edge are no crossings.
+ * cross are found during the sweep (Shamos and Hoey 1976). The time is
+ * O(n log n) for every outline. Bridges to holes, coincident edges and corners
+ * that touch an edge do not count as crossings.
  *
  * Units:     those of the points
- * Ownership: all memory that is taken is freed before the return
  * Threads:   any
  * Errors:    memory
  */
@@ -24,13 +23,14 @@ struct point2 {
 
 enum monotone_result {
     MONOTONE_DONE,
-    MONOTONE_CROSSING, /* the outline crosses itself, or is all noise */
+    MONOTONE_CROSSING, /* it crosses itself, or is all within the noise */
     MONOTONE_NO_MEMORY
 };
 
-/* Fills at most count - 2 triangles of corner numbers, counter-clockwise as the
- * outline is. Of corners at one place the first stands for all. Distances
- * within `noise` along either axis are the input's rounding, and count as 0. */
+/* Triangulates an outline. Fills at most count - 2 triangles of corner numbers,
+ * counter-clockwise like the outline. The first of several corners at one point
+ * stands for all. Distances up to `noise` along each axis are taken as rounding
+ * of the input and count as 0. */
 enum monotone_result monotone_cut(const struct point2 *points, uint32_t count,
                                   struct point2 noise, uint32_t (*triangles)[3],
                                   uint32_t *triangle_count);

@@ -21,13 +21,13 @@ struct parser {
     struct warnings *report;
     struct error *err;
     struct lexer lex;
-    struct name_table materials; /* of the scene, numbered alike */
+    struct name_table materials; /* with the numbers they have in the scene */
     struct name_table textures;
     size_t material_capacity;
     size_t texture_capacity;
-    char *name; /* of the material that is being read; NULL: none */
+    char *name; /* of the material that is being read; NULL before the first */
     uint64_t name_line;
-    uint32_t file; /* number of this one in scene->mtl_paths */
+    uint32_t file; /* number of this file in scene->mtl_paths */
     struct mtl_source source;
 };
 
@@ -37,7 +37,7 @@ static bool out_of_memory(const struct parser *p)
                 p->path, p->lex.line);
 }
 
-/* Room for one more material, its name and its origin. */
+/* Makes room for one more material, its name and its origin. */
 static bool grow_materials(struct scene *scene, size_t *capacity)
 {
     size_t needed = (size_t)scene->material_count + 1;
@@ -99,7 +99,8 @@ uint32_t mtl_find(const struct scene *scene, const char *name)
     return NO_INDEX;
 }
 
-/* One texture for each path and way to look it up; NULL when memory is out. */
+/* Returns a text that identifies a texture by its path and its options, for
+ * free(); NULL when memory is out. */
 static char *texture_key(const char *path, const struct texture *t)
 {
     char *key = NULL;
@@ -120,7 +121,8 @@ static uint32_t name_texture(struct name_table *names, const char *path,
     return index;
 }
 
-/* The number of the texture, a new one without texels if need be. */
+/* Returns the number of the texture; adds one without texels if it is new.
+ * NO_NAME when memory is out. */
 static uint32_t add_texture(struct parser *p, const char *path,
                             const struct texture *texture, uint64_t line)
 {
@@ -158,7 +160,7 @@ static uint32_t add_texture(struct parser *p, const char *path,
     return index;
 }
 
-/* The material that was being read is complete. */
+/* Adds the material that was read last to the scene. */
 static bool finish_material(struct parser *p)
 {
     struct material_origin origin = {p->source, p->file};
@@ -214,7 +216,7 @@ static bool read_number(struct parser *p, struct word key,
 {
     struct lexer start = p->lex;
 
-    /* d has an option of its own */
+    /* the only option of d */
     if (!word_is(lexer_word(&p->lex), "-halo"))
         p->lex = start;
     if (lexer_at_line_end(&p->lex) || !lexer_number(&p->lex, &number->value))
@@ -223,7 +225,7 @@ static bool read_number(struct parser *p, struct word key,
     return true;
 }
 
-/* One number is a grey. */
+/* Reads 1 number, a grey, or 3. */
 static bool read_color(struct parser *p, struct word key,
                        struct mtl_color *color)
 {
@@ -252,8 +254,8 @@ static bool read_color(struct parser *p, struct word key,
     return true;
 }
 
-/* Ke_blackbody KELVIN [SCALE]: Ke as the colour of that temperature, with
- * luminance SCALE or 1. */
+/* Reads Ke_blackbody KELVIN [LUMINANCE]: emission with the colour of that
+ * temperature. The luminance is 1 unless it is given. */
 static bool read_blackbody(struct parser *p, struct word key)
 {
     struct mtl_source *s = &p->source;
@@ -276,19 +278,20 @@ static bool read_blackbody(struct parser *p, struct word key)
     return true;
 }
 
-/* Ke after Ke_blackbody: the last of them counts. */
+/* Reads Ke. It replaces an earlier Ke_blackbody. */
 static bool read_light(struct parser *p, struct word key)
 {
     struct mtl_source *s = &p->source;
 
     if (!read_color(p, key, &s->ke))
         return false;
-    if (s->ke.line == p->lex.line) /* not spectral */
+    if (s->ke.line == p->lex.line) /* a colour was read, not a spectral one */
         s->kelvin = s->luminance = (struct mtl_number){.line = 0};
     return true;
 }
 
-/* The file that a map names, or as it is written if there is no such file. */
+/* Returns the path of the file that a map names, for free(); a path beside the
+ * MTL file if none exists. */
 static char *map_path(const struct parser *p, const char *name)
 {
     char *found = asset_path_find(p->path, name);
@@ -296,7 +299,8 @@ static char *map_path(const struct parser *p, const char *name)
     return found != NULL ? found : path_beside(p->path, name);
 }
 
-/* bump_scale: set by -bm; NULL for maps without heights. */
+/* Reads a map statement. *bump_scale is set by -bm; it is NULL for maps that
+ * are not heights. */
 static bool read_map(struct parser *p, struct word key, bool is_data,
                      uint32_t *texture, double *bump_scale)
 {
@@ -419,7 +423,8 @@ static bool parse_lines(struct parser *p)
     return finish_material(p);
 }
 
-/* What other files have brought keeps its numbers. */
+/* Registers the materials and textures of earlier files, so that they keep
+ * their numbers. */
 static bool add_known(struct parser *p)
 {
     const struct scene *scene = p->scene;
@@ -436,7 +441,7 @@ static bool add_known(struct parser *p)
     return true;
 }
 
-/* Its number among the files that have brought materials. */
+/* Adds this file to the scene's list of MTL files. */
 static bool add_file(struct parser *p)
 {
     struct scene *scene = p->scene;

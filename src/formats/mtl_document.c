@@ -6,7 +6,8 @@
 
 #include "base/memory.h"
 
-/* The end of the first line, or a line feed. */
+/* Returns the line end of the first line; a line feed if there is only one
+ * line. */
 static const char *line_end_of(const char *text, size_t size_bytes)
 {
     for (size_t i = 0; i < size_bytes; i++) {
@@ -63,7 +64,7 @@ struct lexer mtl_document_lex(const struct mtl_document *t, size_t at)
     return lex;
 }
 
-/* Finds the values of a statement whose key and end are known. */
+/* Finds the value of a statement whose key and end are known. */
 static void find_value(const struct mtl_document *t, struct mtl_statement *s)
 {
     struct lexer lex = {t->bytes + s->key_end, t->bytes + s->end, 1};
@@ -81,7 +82,7 @@ static void find_value(const struct mtl_document *t, struct mtl_statement *s)
     s->has_comment = lex.p < lex.end && *lex.p == '#';
 }
 
-/* The next statement from *lex on, which moves behind its line. */
+/* Finds the next statement from *lex on and moves *lex to the line after it. */
 static bool next_statement(const struct mtl_document *t, struct lexer *lex,
                            struct mtl_statement *s)
 {
@@ -113,7 +114,8 @@ bool mtl_document_has_key(const struct mtl_document *t,
     return false;
 }
 
-/* What follows the key, joined to one line. NULL when memory is out. */
+/* Returns the value of a statement, joined to one line, for free(). NULL when
+ * memory is out. */
 static char *rest_of(const struct mtl_document *t,
                      const struct mtl_statement *s)
 {
@@ -149,7 +151,7 @@ bool mtl_document_find_block(const struct mtl_document *t, const char *name,
     return is_found;
 }
 
-/* The last statement of a block with one of these keys. */
+/* Finds the last statement of a block with one of these keys. */
 static bool find_statement(const struct mtl_document *t,
                            const struct mtl_block *b, mtl_aliases keys,
                            struct mtl_statement *found)
@@ -167,9 +169,10 @@ static bool find_statement(const struct mtl_document *t,
     return is_found;
 }
 
-/* What closes a text that ends before its last line does. A backslash there has
- * joined nothing: now it joins an empty line. So does a backslash before a
- * carriage return, which the line feed belongs to. */
+/* Returns the line ends that an unterminated last line needs, for free(). A
+ * line that ends in a backslash needs two, for the backslash joins the next
+ * line. The same holds for a backslash and a carriage return, to which the
+ * first line feed belongs. */
 static char *closing_of(const struct mtl_document *t)
 {
     char last = t->size > 0 ? t->bytes[t->size - 1] : '\n';
@@ -250,7 +253,7 @@ bool mtl_document_comment(struct mtl_document *t, const char *name,
         bool ok;
 
         free(lexer_rest(
-            &lex)); /* a name may hold a '#': the rest is all of it */
+            &lex)); /* reads to the end of the line: names may contain '#' */
         end = (size_t)(lex.p - t->bytes);
         if (rest == NULL)
             return false;
@@ -265,7 +268,7 @@ bool mtl_document_comment(struct mtl_document *t, const char *name,
     return true;
 }
 
-/* Whether the text ends before its last line does. */
+/* Returns true if the last line of the text has no line end. */
 static bool is_open(const struct mtl_document *t)
 {
     struct lexer lex = mtl_document_lex(t, 0);
@@ -283,7 +286,7 @@ bool mtl_document_append_block(struct mtl_document *t, const char *name,
     char *head = xformat("%s%snewmtl %s%s%s", closing, t->line_end, name,
                          lexer_rest_guard(name), t->line_end);
     struct mtl_block b;
-    size_t length = 0; /* of what is copied: nothing */
+    size_t length = 0; /* size of the copied block */
     char *copy = NULL;
     bool ok = true;
 

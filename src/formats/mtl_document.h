@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * mtl_document.h - the text of an MTL file whose statements are changed in
- * place
+ * mtl_document.h - the text of an MTL file, edited in place
  *
- * Comments, order, blanks and line ends stay as they are, and so does all that
- * is not named. Of blocks with the same name the last one counts, and of
- * statements that stand for each other, as in reading.
+ * Edits keep comments, order, blanks, line ends and all statements that are
+ * not named. The last of several blocks with the same name counts, and the
+ * last of several statements with the same meaning, as in reading.
  *
  * Units:     bytes from the start of the text
- * Ownership: the bytes are for free()
+ * Ownership: `bytes` is for free()
  * Threads:   one thread
  * Errors:    false when memory is out
  */
@@ -20,7 +19,7 @@
 
 #include "base/lexer.h"
 
-/* Keys that stand for each other. The first is the one that is written. */
+/* Keys with the same meaning. The first is the one that is written. */
 #define MTL_ALIASES_MAX 3
 typedef const char *const mtl_aliases[MTL_ALIASES_MAX];
 
@@ -30,60 +29,63 @@ struct mtl_document {
     const char *line_end;
 };
 
-/* Where a statement stands in the text. */
+/* Position of a statement in the text. */
 struct mtl_statement {
-    size_t line;             /* its line begins here, */
-    size_t key, key_end;     /* the first word, */
-    size_t value, value_end; /* the words after it, */
-    size_t end;              /* behind the end of its line */
+    size_t line;             /* start of its line */
+    size_t key, key_end;     /* the first word */
+    size_t value, value_end; /* the words after it */
+    size_t end;              /* start of the next line */
     bool has_comment;
-    bool is_open; /* the text ends before its line does */
+    bool is_open; /* the text ends without a line end */
 };
 
-/* A newmtl statement, and its last one (itself if there is no other). */
+/* Block of a material: its newmtl statement and its last statement, which may
+ * be the same. */
 struct mtl_block {
     struct mtl_statement newmtl, last;
-    size_t end; /* the next newmtl, or the end of the text */
+    size_t end; /* start of the next newmtl, or end of the text */
 };
 
-/* A copy of this text. */
+/* Initializes the document with a copy of the text. */
 bool mtl_document_init(struct mtl_document *t, const char *text,
                        size_t size_bytes);
 
-/* Puts `insert` in the place of `removed` bytes. */
+/* Replaces `removed` bytes at `at` by the text `insert`. */
 bool mtl_document_splice(struct mtl_document *t, size_t at, size_t removed,
                          const char *insert);
 
-/* Reads from there on. */
+/* Returns a lexer that starts at `at`. */
 struct lexer mtl_document_lex(const struct mtl_document *t, size_t at);
 
-/* True if the statement has one of these keys. */
+/* Returns true if the statement has one of these keys. */
 bool mtl_document_has_key(const struct mtl_document *t,
                           const struct mtl_statement *s, mtl_aliases keys);
 
-/* The last block of this name. False if there is none: one without a name is
- * no material. */
+/* Finds the last block of this name. Returns false if there is none; blocks
+ * without a name are not found. */
 bool mtl_document_find_block(const struct mtl_document *t, const char *name,
                              struct mtl_block *b);
 
-/* A statement of its own behind the last one of the block, as far from the
- * margin as that. */
+/* Inserts a statement after the last one of the block, with the same
+ * indentation. */
 bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
                          const char *key, const char *value);
 
-/* Gives the statement of the block of this name this value, wherever it is. */
+/* Sets the value of a statement in the block of this name. Adds the statement
+ * if the block does not have it. */
 bool mtl_document_set(struct mtl_document *t, const char *name,
                       mtl_aliases keys, const char *value);
 
-/* Removes all such statements of the block, but not the comments behind them;
- * or turns them into comments. */
+/* The first removes all statements with these keys from the block of this name
+ * and keeps comments after them. The second turns the statements into
+ * comments. */
 bool mtl_document_remove(struct mtl_document *t, const char *name,
                          mtl_aliases keys);
 bool mtl_document_comment(struct mtl_document *t, const char *name,
                           mtl_aliases keys);
 
-/* A new block at the end of the text, with the statements of the other if there
- * is such a one. */
+/* Appends a new block with a copy of the statements of the block `copied_from`,
+ * if that exists. */
 bool mtl_document_append_block(struct mtl_document *t, const char *name,
                                const char *copied_from);
 

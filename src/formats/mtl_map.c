@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Steeper heights than these have no use. */
+/* Limit for the scale of bump maps; steeper heights have no use. */
 #define BUMP_MAX 1e6
 
 enum map_option {
@@ -16,7 +16,8 @@ enum map_option {
     OPTION_OTHER
 };
 
-/* Options of a map and the words after each; -o -s -t have 1 to 3 numbers. */
+/* Map options and the number of words after each. -o, -s and -t take 1 to 3
+ * numbers. */
 static const struct {
     const char *name;
     enum map_option option;
@@ -33,7 +34,8 @@ static const struct {
 
 #define OPTION_COUNT (sizeof options / sizeof options[0])
 
-/* Numbers that a float holds. */
+/* Returns the first two numbers as floats, or `other` if a float cannot hold
+ * one of them. */
 static struct vec2 finite_pair(const double values[3], struct vec2 other)
 {
     if (!(fabs(values[0]) <= (double)FLT_MAX) ||
@@ -66,7 +68,7 @@ static void set_option(struct mtl_map_options *o, enum map_option option,
         o->unknown_count++;
 }
 
-/* Reads an option and its values; false if there is none. */
+/* Reads an option and its values. Returns false if the next word is none. */
 static bool read_option(struct lexer *lex, struct mtl_map_options *o)
 {
     struct lexer start = *lex;
@@ -93,8 +95,8 @@ static bool read_option(struct lexer *lex, struct mtl_map_options *o)
     return true;
 }
 
-/* Reads options that come after the name, which some programs write, and cuts
- * them off. */
+/* Reads options after the file name, which some programs write, and removes
+ * them from the name. */
 static void cut_options(char *name, struct mtl_map_options *o)
 {
     const char *end = name + strlen(name);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * mtl_map.h - the rest of an MTL map statement: options and the name of a file
+ * mtl_map.h - reads the options and the file name of an MTL map statement
  *
  * Units:     texture coordinates
- * Ownership: the name is the caller's
  * Threads:   any
  * Errors:    memory; options without their values keep the defaults
  */
@@ -14,13 +13,14 @@
 #include "kernels/types.h"
 
 struct mtl_map_options {
-    struct texture texture; /* how it is looked up: -s, -o, -clamp */
-    double bump_scale;      /* -bm */
-    int unknown_count;      /* options that glim does not know */
+    struct texture texture; /* from -s, -o, -clamp */
+    double bump_scale;      /* from -bm */
+    int unknown_count;      /* options that glim does not use */
 };
 
-/* Reads to the end of the line; options may stand on both sides of the name,
- * which is "" if it is missing. NULL when memory is out. */
+/* Reads to the end of the line and returns the file name for free(), "" if it
+ * is missing. Options may stand before and after the name. NULL when memory is
+ * out. */
 char *mtl_map_read(struct lexer *lex, struct mtl_map_options *options);
 
 #endif

@@ -55,7 +55,7 @@ static bool write_number(struct writer *w, const struct mtl_change *c,
     return mtl_document_set(&w->text, c->name, keys, text);
 }
 
-/* Ke or Ke_blackbody, whichever counts. */
+/* Writes Ke or Ke_blackbody, whichever the material uses. */
 static bool write_light(struct writer *w, const struct mtl_change *c)
 {
     static const struct mtl_color none = {.line = 0};
@@ -76,8 +76,8 @@ static bool write_light(struct writer *w, const struct mtl_change *c)
     return mtl_document_set(&w->text, c->name, blackbody_keys, value);
 }
 
-/* Whether what stands at `at` is a statement of a map that means the texture.
- */
+/* Returns true if the text at `at` is a map statement that names the
+ * texture. */
 static bool is_map(const struct writer *w, size_t at, mtl_aliases keys,
                    uint32_t texture)
 {
@@ -100,7 +100,7 @@ static bool is_map(const struct writer *w, size_t at, mtl_aliases keys,
     return is_same;
 }
 
-/* Finds the last comment of the block that was a statement of the map. */
+/* Finds the last comment of the block that is a disabled map statement. */
 static bool find_commented_map(const struct writer *w,
                                const struct mtl_block *b, mtl_aliases keys,
                                uint32_t texture, size_t *at)
@@ -123,7 +123,8 @@ static bool find_commented_map(const struct writer *w,
     return is_found;
 }
 
-/* The third number is that of texels that lie in depth: the default. */
+/* Writes an option with its three numbers. The third is the depth of a solid
+ * texture; it keeps its default. */
 static void print_pair(FILE *to, const char *option, struct vec2 v, int third)
 {
     char x[DECIMAL_TEXT_BYTES], y[DECIMAL_TEXT_BYTES];
@@ -133,7 +134,8 @@ static void print_pair(FILE *to, const char *option, struct vec2 v, int third)
     fprintf(to, "%s %s %s %d ", option, x, y, third);
 }
 
-/* What follows the key of a map: options and the name. */
+/* Returns the options and the file name of a map statement, for free(). NULL
+ * when memory is out. */
 static char *map_value(const struct writer *w, const struct mtl_source *s,
                        enum mtl_map map)
 {
@@ -212,7 +214,7 @@ static bool write_change(struct writer *w, const struct mtl_change *c)
     if (c->copied_from != NULL) {
         ok = mtl_document_append_block(&w->text, c->name, c->copied_from);
     } else if (!mtl_document_find_block(&w->text, c->name, &block)) {
-        /* somebody has removed it from the file: it comes back */
+        /* the block was removed from the file meanwhile: write it anew */
         struct mtl_source none = mtl_source_empty();
         struct mtl_change whole = {c->name, c->name, &none, c->after};
 
@@ -238,7 +240,7 @@ bool mtl_rewrite(const struct scene *scene, const char *path, const char *text,
     bool ok;
 
     ok = mtl_document_init(&w.text, text, size_bytes);
-    /* new ones copy blocks that are as the file has them */
+    /* new materials first: they copy blocks of the unchanged file */
     for (size_t i = 0; ok && i < change_count; i++)
         ok = changes[i].copied_from == NULL || write_change(&w, &changes[i]);
     for (size_t i = 0; ok && i < change_count; i++)

@@ -15,10 +15,12 @@
 #include "formats/faces.h"
 #include "formats/mtl.h"
 
-/* Text has no NUL; UTF-16 and most binary files have one early. */
+/* Bytes searched for a NUL. Text has none; UTF-16 and most binary files have
+ * one early. */
 #define BINARY_CHECK_BYTES 1024
 
-/* Beyond it a float no longer tells where in the texture it is. */
+/* Largest coordinate that is kept: a larger float has too few digits to address
+ * texels. */
 #define UV_MAX 1e6
 
 struct parser {
@@ -30,14 +32,15 @@ struct parser {
     uint64_t statement_count, unknown_count;
     size_t position_capacity, normal_capacity, uv_capacity;
     struct name_table objects;
-    struct name_table materials; /* as used; 0 is "": none yet */
-    uint64_t *material_lines;    /* of their first use */
+    struct name_table
+        materials; /* names in usemtl; number 0 is "", before the first */
+    uint64_t *material_lines; /* line of the first use of each */
     size_t material_line_capacity;
     struct name_table libraries; /* paths of the MTL files read */
     struct faces faces;
     uint32_t object, material;
-    bool has_objects; /* an o statement: g is only a group */
-    bool has_colors;  /* of vertices: was said */
+    bool has_objects; /* there was an o statement: g is only a group */
+    bool has_colors;  /* a colour of a vertex was reported */
 };
 
 static bool out_of_memory(const struct parser *p)
@@ -46,8 +49,8 @@ static bool out_of_memory(const struct parser *p)
                 p->lex.line);
 }
 
-/* Reads `least` to `most` numbers; the others stay as they are. What follows
- * them (weights, colours) is not used. */
+/* Reads `least` to `most` numbers; values that are not given stay as they are.
+ * The rest of the line (weights, colours) is ignored. */
 static bool read_numbers(struct parser *p, const char *key, int least, int most,
                          double *values)
 {
@@ -64,7 +67,7 @@ static bool read_numbers(struct parser *p, const char *key, int least, int most,
     return true;
 }
 
-/* Room for one more of what may not be more than indices can tell. */
+/* Makes room for one more element. Indices limit the count. */
 static bool grow(struct parser *p, void **array, size_t *capacity,
                  uint32_t count, size_t size_bytes)
 {
@@ -76,7 +79,8 @@ static bool grow(struct parser *p, void **array, size_t *capacity,
            out_of_memory(p);
 }
 
-/* Behind the place stand a weight, a colour or both. */
+/* Reports a colour after the coordinates, once for each file. A single number
+ * there is a weight. */
 static void look_for_color(struct parser *p)
 {
     double ignored;
@@ -111,7 +115,7 @@ static bool read_position(struct parser *p)
     return true;
 }
 
-/* Zero for a direction that there is none of. */
+/* Returns the unit vector; zero for vectors that are zero or not finite. */
 static struct vec3 normalized(const double v[3])
 {
     double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
@@ -145,7 +149,8 @@ static bool read_normal(struct parser *p)
     return true;
 }
 
-/* Textures repeat, so whole numbers may go; what is no number becomes 0. */
+/* Reduces large coordinates to their fraction, for textures repeat. Coordinates
+ * that are not finite become 0. */
 static float texture_coordinate(double x)
 {
     if (!isfinite(x))
@@ -248,8 +253,9 @@ static bool load_library_named(struct parser *p, const char *name)
     return ok;
 }
 
-/* The end of the first name of several: behind ".mtl" if that is in there,
- * else at the next blank. Looks for it only until it is not found. */
+/* Returns the end of the first of several names: after the first .mtl, or at
+ * the next blank if there is none. *has_endings becomes false then and saves
+ * later searches. */
 static char *first_name_end(char *names, bool *has_endings)
 {
     char *p = names;
@@ -279,7 +285,7 @@ static bool load_libraries(struct parser *p, char *names)
     return true;
 }
 
-/* One name with blanks in it, or several. */
+/* Reads mtllib with one name, which may contain blanks, or with several. */
 static bool read_mtllib(struct parser *p)
 {
     char *rest = lexer_rest(&p->lex);
@@ -295,7 +301,7 @@ static bool read_mtllib(struct parser *p)
     return ok;
 }
 
-/* Curves and surfaces that are no faces come in many statements. */
+/* Returns true for statements of free-form curves and surfaces. */
 static bool is_free_form(struct word key)
 {
     static const char *const keys[] = {"cstype", "deg",  "bmat", "step", "curv",
@@ -354,7 +360,8 @@ static bool read_statement(struct parser *p)
     return skip_unknown(p, key);
 }
 
-/* Names were only numbered so far, for mtllib may come after usemtl. */
+/* Replaces the numbers of names in usemtl by those of materials. This is done
+ * at the end because mtllib may come after usemtl. */
 static bool resolve_materials(struct parser *p)
 {
     struct scene *scene = p->scene;
@@ -403,7 +410,7 @@ static bool parse_lines(struct parser *p)
     if (p->statement_count == 0)
         return fail(p->err, "%s: not an OBJ file: found no OBJ statement",
                     p->path);
-    /* a text in which some line begins with one of OBJ's words */
+    /* any text may have a line that begins with an OBJ keyword */
     if (p->scene->position_count == 0 && p->unknown_count > p->statement_count)
         return fail(p->err,
                     "%s: not an OBJ file: found no vertex, and %" PRIu64

@@ -17,7 +17,7 @@
 bool obj_read(struct scene *scene, const char *path, struct warnings *report,
               struct error *err);
 
-/* The same from text in memory, which need not end in NUL; `path` is for
+/* Reads OBJ text from memory, which need not end in NUL. `path` is used for
  * messages and to find MTL files. */
 bool obj_parse(struct scene *scene, const char *text, size_t size_bytes,
                const char *path, struct warnings *report, struct error *err);

@@ -7,41 +7,45 @@
 
 #include "base/memory.h"
 
-/* Polygons of more corners are swept over. A large fan is slow to trace. */
+/* Polygons with more corners are triangulated by the sweep: a large fan has
+ * long thin triangles, which are slow to trace. */
 #define EARS_MOST 100
 
-/* Corners looked at before the rest is cut blindly: no file may take longer
- * than its size explains. */
+/* Limits on the corner tests of ear clipping, after which ears are no longer
+ * tested. They bound the time by the size of the file. */
 #define WORK_AT_LEAST   20000
 #define WORK_PER_CORNER 1000
 #define MANY_CORNERS    1024
 
-/* Triangles that are a guess. They overlap, and a ray meets most of them: large
- * outlines lose corners instead. */
+/* Most triangles made of an outline that crosses itself. They overlap, so a ray
+ * may meet most of them; larger outlines lose corners instead. */
 #define REST_MOST 1000
 
-/* Rounding of coordinates as numbers in files have it, in parts of the largest:
- * a few units in the last place of a double. */
+/* Relative rounding error of coordinates: a few units in the last place of a
+ * double. */
 #define ROUNDING 1e-15
 
-/* Corners in vain after which ears are looked for beside the last one. */
+/* Corners tested in vain before the search for ears stays beside the last
+ * one. */
 #define SCARCE_MISSES 16
 
-/* next[] of a corner that is not in the ring (any more). */
+/* Value of next[] for a corner that is not in the ring. */
 #define NOT_LINKED 0xffffffffu
 
-/* Of the products in turn(); a few dozen roundings. */
+/* Relative rounding error of the products in turn(): a few dozen roundings. */
 #define STRAIGHT 1e-14
 
-/* How little an ear must satisfy, tried in this order. */
+/* Tests for an ear, from the strictest to none. They are tried in this
+ * order. */
 enum ear_rule {
-    EAR_CLEAR,   /* no corner in it or on its edges */
-    EAR_TOUCHED, /* corners on its edges only */
-    EAR_CONVEX,  /* the outline crosses itself: anything that adds area */
+    EAR_CLEAR,   /* no corner inside or on its edges */
+    EAR_TOUCHED, /* corners on its edges are allowed */
+    EAR_CONVEX,  /* any left turn, for outlines that cross themselves */
     EAR_ANY
 };
 
-/* Axes of three that stay, seen with the corners brought near 1. */
+/* Axis-parallel projection plane: the two axes that are kept, and the scale
+ * that brings the corners near 1. */
 struct plane {
     double scale;
     int x, y;
@@ -100,8 +104,8 @@ static bool emit_fan(struct polygon *g, uint32_t n)
     return true;
 }
 
-/* A power of two that brings the corners near 1, so that no product of them
- * overflows or vanishes. */
+/* Returns the power of two that brings the corners near 1, so that products of
+ * coordinates neither overflow nor vanish. */
 static double scale_of(const double *corners, uint32_t n)
 {
     double most = 0;
@@ -115,7 +119,7 @@ static double scale_of(const double *corners, uint32_t n)
     return ldexp(1, exponent < -1000 ? 1000 : -exponent);
 }
 
-/* Corner i against corner 0. */
+/* Returns corner i relative to corner 0. */
 static void offset(const double *corners, double scale, uint32_t i,
                    double to[3])
 {
@@ -123,8 +127,8 @@ static void offset(const double *corners, double scale, uint32_t i,
         to[k] = corners[3 * (size_t)i + k] * scale - corners[k] * scale;
 }
 
-/* Twice the area as a vector (Newell's method: right for corners that are not
- * quite in a plane). */
+/* Computes twice the area as a vector with Newell's method, which also suits
+ * corners that are not quite in a plane. */
 static void area_vector(const double *corners, double scale, uint32_t n,
                         double area[3])
 {
@@ -142,8 +146,9 @@ static void area_vector(const double *corners, double scale, uint32_t n,
     }
 }
 
-/* Finds the axes that a counter-clockwise outline is seen along. False if the
- * polygon has no area. Dropping an axis is enough: lines stay lines. */
+/* Chooses the projection plane in which the outline is counter-clockwise.
+ * Returns false if the polygon has no area. Dropping one axis suffices, since
+ * lines stay lines. */
 static bool find_plane(struct plane *plane, const double *corners, uint32_t n)
 {
     double area[3];
@@ -169,7 +174,7 @@ static void project(struct polygon *g, const struct plane *plane,
     }
 }
 
-/* How far rounding may have moved the corners. */
+/* Returns the bound on rounding errors of the projected corners. */
 static struct point2 noise_of(const struct plane *plane, const double *corners,
                               uint32_t n)
 {
@@ -183,9 +188,10 @@ static struct point2 noise_of(const struct plane *plane, const double *corners,
                            ROUNDING * (plane->scale * most.y)};
 }
 
-/* Above 0 if a, b, c turn left, below if right. What rounding may have made of
- * a straight line is 0: else points on one line would contradict each other
- * (seen: a hole that touches a cut led to a triangle across the hole). */
+/* Returns a positive number if a, b, c turn left, a negative one if they turn
+ * right. Results within the rounding error are 0: otherwise tests of collinear
+ * points contradict each other (a hole that touches a cut once led to a
+ * triangle across the hole). */
 static double turn(const struct polygon *g, uint32_t a, uint32_t b, uint32_t c)
 {
     struct point2 p = g->points[a];
@@ -198,8 +204,8 @@ static double turn(const struct polygon *g, uint32_t a, uint32_t b, uint32_t c)
     return fabs(left - right) > rounding ? left - right : 0;
 }
 
-/* Every corner turns left, and the outline goes around once (a pentagram turns
- * left as well): the edges change from down to up once. */
+/* Returns true if every corner turns left and the outline goes around once. A
+ * pentagram turns left as well but changes from falling to rising twice. */
 static bool is_convex(const struct polygon *g, uint32_t n)
 {
     int rises = 0;
@@ -224,8 +230,8 @@ static bool same_corner(const double *corners, uint32_t a, uint32_t b)
                   3 * sizeof *corners) == 0;
 }
 
-/* Links the corners into a ring, without those that repeat the one before.
- * Returns how many there are. */
+/* Links the corners into a ring, without repeated ones. Returns the number of
+ * corners in the ring. */
 static uint32_t link_corners(struct polygon *g, const double *corners,
                              uint32_t n)
 {
@@ -269,7 +275,7 @@ static bool same_point(struct point2 a, struct point2 b)
     return a.x == b.x && a.y == b.y;
 }
 
-/* Whether corner p keeps a, b, c from being an ear. */
+/* Returns true if corner p keeps a, b, c from being an ear. */
 static bool is_in_the_way(const struct polygon *g, enum ear_rule rule,
                           const uint32_t ear[3], uint32_t p)
 {
@@ -293,8 +299,9 @@ static double least(double a, double b, double c)
     return ab < c ? ab : c;
 }
 
-/* The box keeps out corners far along the line of a needle, which rounding may
- * put on all three edges. */
+/* Returns true if no reflex corner is in the way of the ear. The box test
+ * excludes corners far away on the line of a needle, which rounding may put on
+ * all three edges. */
 static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
                          const uint32_t ear[3])
 {
@@ -319,9 +326,9 @@ static bool is_empty_ear(struct polygon *g, enum ear_rule rule,
     return true;
 }
 
-/* Whether the cut from a to c, past b, starts inside the outline at either end.
- * Where corners coincide, as at a bridge to a hole, points alone do not say. At
- * a reflex corner all that is left of the edge with b is inside. */
+/* Returns true if the cut from a to c starts inside the outline at both ends.
+ * Points alone cannot tell where corners coincide, as at a bridge to a hole. At
+ * a reflex corner everything left of the edge to b is inside. */
 static bool cut_is_inside(const struct polygon *g, enum ear_rule rule,
                           uint32_t a, uint32_t b, uint32_t c)
 {
@@ -359,9 +366,10 @@ static void take_out(struct polygon *g, uint32_t b)
     g->is_reflex[c] = !(turn(g, a, c, g->next[c]) > 0);
 }
 
-/* Going on beside an ear would make a fan of slivers. But on long straight
- * sides, and in narrow places without other branches, nothing else is an ear
- * but what the last cut has made one, at either end of it by turns. */
+/* Cuts ears until a triangle is left. The next candidate is not beside the last
+ * ear, which would make a fan of slivers. On long straight sides and in narrow
+ * corridors the only ears are at the ends of the last cut: there the search
+ * alternates between both ends. */
 static void cut_ring(struct polygon *g, uint32_t count)
 {
     uint64_t work_max =
@@ -390,7 +398,7 @@ static void cut_ring(struct polygon *g, uint32_t count)
             emit(g, a, b, c);
         take_out(g, b);
         count--;
-        if (misses > 1) /* neither end of the last cut */
+        if (misses > 1) /* the ear was at neither end of the last cut */
             is_scarce = misses > SCARCE_MISSES;
         is_back = is_scarce && !is_back;
         b = !is_scarce ? g->next[c] : is_back ? c : a;

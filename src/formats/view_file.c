@@ -59,7 +59,8 @@ static void write_shots(FILE *to, const struct view *v)
     }
 }
 
-/* What is as view_init() made it is left out. */
+/* Writes the line of one key. Most values that equal their default are left
+ * out. */
 static void write_key(FILE *to, const struct view *v, enum view_key_id id,
                       const char *sky)
 {
@@ -119,18 +120,20 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
     }
 }
 
-/* What is written while the lines of the old text are read. */
+/* State of writing over the lines of the old text. */
 struct writer {
     FILE *to;
     const struct view *view;
-    const char *sky; /* NULL: none */
+    const char *sky; /* NULL if the view has none */
     bool is_written[VIEW_KEYS];
-    struct view_reader old; /* into a view that is dropped */
+    struct view_reader
+        old; /* parses the old lines into a view that is dropped */
 };
 
-/* A line that ends where the text does gets an end of its own. A backslash
- * there has joined nothing: now it joins an empty line. So does a backslash
- * before a carriage return, which the line feed belongs to. */
+/* Copies a line; an unterminated last line gets a line end. A line that ends in
+ * a backslash gets two, for the backslash joins the next line. The same holds
+ * for a backslash and a carriage return, to which the first line feed
+ * belongs. */
 static void keep_line(FILE *to, const char *line, const struct lexer *after,
                       bool has_end)
 {
@@ -141,8 +144,8 @@ static void keep_line(FILE *to, const char *line, const struct lexer *after,
         fputs(last == '\\' || last == '\r' ? "\n\n" : "\n", to);
 }
 
-/* The line as the view has it now, if it has a key; it ends where reading says
- * so. */
+/* Writes the current value if the line has a key, otherwise copies the line.
+ * The parser finds the end of the line. */
 static void write_line_over(struct writer *w, struct lexer *lex)
 {
     const char *line = lex->p;
@@ -162,8 +165,8 @@ static void write_line_over(struct writer *w, struct lexer *lex)
     }
 }
 
-/* The lines of `text`, those with a key as the view has it now; then the keys
- * that were not there. */
+/* Writes the old text with the current values, then the keys that it did not
+ * have. */
 static void write_over(struct writer *w, const char *text, size_t size_bytes)
 {
     struct lexer lex;
@@ -177,8 +180,8 @@ static void write_over(struct writer *w, const char *text, size_t size_bytes)
     }
 }
 
-/* How the file at `path` names the sky, for free(). A line has blanks around a
- * name, not in front of one. */
+/* Returns the name of the sky as seen from the file at `path`, for free(). A
+ * leading blank needs ./ before it, for the parser skips blanks. */
 static char *sky_name(const char *sky_path, const char *path)
 {
     char *name = path_seen_from(path, sky_path);
@@ -189,7 +192,8 @@ static char *sky_name(const char *sky_path, const char *path)
     return whole;
 }
 
-/* A line holds no name with a line end in it, or with a blank at its end. */
+/* Refuses names that a line cannot hold: with a line end inside or a blank at
+ * the end. */
 static bool check_sky(const char *sky_path, const char *path, struct error *err)
 {
     size_t length = strlen(sky_path);
@@ -240,7 +244,8 @@ bool view_format(const struct view *view, const char *path,
     return fail(err, "%s: out of memory", path);
 }
 
-/* The text of the file that will be replaced, or how a new one begins. */
+/* Reads the file that will be replaced; returns the first lines of a new one if
+ * there is none. */
 static bool read_old(const char *path, char **text, size_t *size_bytes,
                      struct error *err)
 {
@@ -253,7 +258,7 @@ static bool read_old(const char *path, char **text, size_t *size_bytes,
     return true;
 }
 
-/* Before one text is replaced by another. */
+/* Writes the old text to the file with a ~ if the new text differs. */
 static bool keep_old(const char *path, const char *old_text, size_t old_bytes,
                      const char *text, size_t size_bytes,
                      struct file_change *change, struct error *err)

@@ -10,10 +10,10 @@
 
 #include "base/file.h"
 
-/* Their squares and differences are still finite. */
+/* Largest number: squares and differences stay finite. */
 #define GREATEST 1e30
 
-/* The neighbours of what fovy must not be. */
+/* Limits of fovy, which must be above 0 and below 180 degrees. */
 #define FOVY_LEAST    1e-6
 #define FOVY_GREATEST 179.999999
 
@@ -54,7 +54,7 @@ static bool fail_at(const struct view_reader *r, struct word found,
                 r->lex->line, word_quote(found).text, expected, key);
 }
 
-/* One number of the key, and nothing joined to it. */
+/* Reads one number of a key and checks its range. */
 static bool read_number(struct view_reader *r, const struct view_key *key,
                         double *value, struct error *err)
 {
@@ -100,7 +100,8 @@ static void store(struct view *view, enum view_key_id id, const double *v)
     }
 }
 
-/* The numbers of the key, into a view that may be another than the file's. */
+/* Reads the numbers of the key into a view, which may be a copy of the
+ * reader's. */
 static bool read_numbers(struct view_reader *r, const struct view_key *key,
                          struct view *view, struct error *err)
 {
@@ -119,7 +120,6 @@ static bool read_numbers(struct view_reader *r, const struct view_key *key,
     return true;
 }
 
-/* Other programs write background_map for sky. */
 const struct view_key *view_find_key(struct word name)
 {
     for (size_t i = 0; i < VIEW_KEYS; i++) {
@@ -136,7 +136,8 @@ static bool is_of_pose(const struct view_key *key)
            key->id == KEY_FOCUS;
 }
 
-/* view N eye X Y Z at X Y Z ...: what is left out is as the keys above say. */
+/* Reads view N eye X Y Z at X Y Z ... Keys that are left out have the values of
+ * the lines above. */
 static bool read_shot(struct view_reader *r, const struct view_key *view_key,
                       struct error *err)
 {
@@ -255,8 +256,8 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
     return true;
 }
 
-/* A camera needs both points; which of them the file gave is known only at its
- * end. */
+/* Checks the camera at the end of the file: it needs both points, from this
+ * file or from an earlier one. */
 static bool finish_camera(struct view_reader *r, struct error *err)
 {
     char place[512];

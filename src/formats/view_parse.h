@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * view_parse.h - reads the text of a view file: its keys and lines
+ * view_parse.h - parses the text of a view file
  *
- * Units:     as view.h
- * Ownership: nothing of the text is kept
+ * Units:     as in view.h
  * Threads:   one thread at a time
  * Errors:    a malformed or impossible value: file:line
  */
@@ -31,10 +30,10 @@ enum view_key_id {
     KEY_APERTURE,
     KEY_FOCUS,
     KEY_EXPOSURE,
-    KEY_SKY,    /* has a name */
-    KEY_TONE,   /* has a name */
-    KEY_ASSIGN, /* has two names */
-    KEY_VIEW    /* has a number and other keys */
+    KEY_SKY,    /* takes a name */
+    KEY_TONE,   /* takes a name */
+    KEY_ASSIGN, /* takes two names */
+    KEY_VIEW    /* takes a number and other keys */
 };
 
 #define VIEW_KEYS ((size_t)KEY_VIEW + 1)
@@ -42,31 +41,33 @@ enum view_key_id {
 struct view_key {
     const char *name;
     enum view_key_id id;
-    int count; /* of numbers */
+    int count; /* number of numbers */
     bool is_whole;
     double least, greatest;
     const char *expected;
 };
 
-/* In the order in which a new file has them. */
+/* All keys, in the order in which a new file has them. */
 extern const struct view_key view_keys[VIEW_KEYS];
 
-/* NULL: unknown. Other programs write background_map for sky. */
+/* Returns the key of this name, or NULL. background_map, which other programs
+ * write, is another name for sky. */
 const struct view_key *view_find_key(struct word name);
 
-/* The context of view_parse_line(). */
+/* Context of view_parse_line(). */
 struct view_reader {
     struct view *view;
     const char *path;
     struct lexer *lex;
     struct warnings *report;
-    uint64_t eye_line, at_line; /* 0: not in this file */
+    uint64_t eye_line, at_line; /* 0 if not in this file */
 };
 
 lexer_take_line view_parse_line;
 
-/* Reads `key value` lines over what `view` holds. An unknown key is a warning.
- * `path` is for messages, and names in the text are seen from its folder. */
+/* Parses `key value` lines into `view`; values that are not given stay. An
+ * unknown key is a warning. `path` is used for messages, and file names in the
+ * text are relative to its folder. */
 bool view_parse(struct view *view, const char *text, size_t size_bytes,
                 const char *path, struct warnings *report, struct error *err);
 

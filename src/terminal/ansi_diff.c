@@ -7,7 +7,8 @@
 
 #include "base/memory.h"
 
-/* A jump, two 24-bit colours and a glyph: 10 + 38 + 4 bytes. */
+/* Most bytes of a cell: a jump of 10, two 24-bit colours of 38 together, a
+ * glyph of 4. */
 #define CELL_BYTES_MAX 56
 
 bool ansi_diff_init(struct ansi_diff *a, int cols, int rows, struct error *err)
@@ -95,8 +96,8 @@ static void put_number(struct ansi_diff *a, uint32_t n)
         put_char(a, digits[--count]);
 }
 
-/* 38;2;r;g;b for a foreground (base 30), 48;... for a background (base 40).
- * Semicolons: the form that every terminal takes apart the same way. */
+/* Writes 38;2;r;g;b for a foreground (base 30) or 48;2;r;g;b for a background
+ * (base 40). All terminals parse the form with semicolons alike. */
 static void put_color(struct ansi_diff *a, uint32_t color, enum palette palette,
                       uint32_t base)
 {
@@ -119,7 +120,7 @@ static void put_color(struct ansi_diff *a, uint32_t color, enum palette palette,
     }
 }
 
-/* A blank shows no foreground. */
+/* Returns true if the foreground must be set. Blanks show none. */
 static bool needs_fg(const struct ansi_diff *a, const struct cell *cell)
 {
     return cell->glyph != ' ' && cell->fg != a->fg;
@@ -130,7 +131,7 @@ static bool needs_bg(const struct ansi_diff *a, const struct cell *cell)
     return cell->bg != a->bg;
 }
 
-/* One sequence with only the part that changes. */
+/* Writes one escape sequence for the colours that change. */
 static void put_colors(struct ansi_diff *a, const struct cell *cell,
                        enum palette palette)
 {
@@ -153,9 +154,10 @@ static void put_colors(struct ansi_diff *a, const struct cell *cell,
     put_char(a, 'm');
 }
 
-/* The same dots with foreground and background exchanged; where there is no
- * such glyph, the cell itself. A blank stays one: some fonts' full block leaves
- * hairlines of the background, which flat areas do not hide. */
+/* Returns the cell with the same dots, inverse glyph and exchanged colours, or
+ * the cell itself if there is no inverse glyph. Blanks stay: in some fonts the
+ * full block leaves hairlines of the background, which flat areas do not
+ * hide. */
 static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
 {
     struct glyph_grid grid = glyphs_grid(glyphs);
@@ -169,8 +171,8 @@ static struct cell inverse_of(const struct cell *cell, enum glyphs glyphs)
                          glyphs_of_mask(glyphs, all & ~mask)};
 }
 
-/* Writes the cell or its inverse, whichever changes fewer colours: where a
- * dither mixes two, they stay and the glyphs alternate. */
+/* Writes the cell or its inverse, whichever changes fewer colours. In a dither
+ * of two colours the glyphs alternate and the colours stay. */
 static void put_cell(struct ansi_diff *a, const struct cells *cells,
                      const struct cell *cell)
 {
@@ -193,7 +195,7 @@ void ansi_diff_jump(struct ansi_diff *a, int row, int col)
     put_char(a, 'H');
 }
 
-/* `from` is the column where the cursor stands in this row; -1: elsewhere. */
+/* Moves the cursor. `from` is its column in this row, -1 if it is elsewhere. */
 static void put_jump(struct ansi_diff *a, int row, int col, int from)
 {
     if (from == col)
@@ -217,7 +219,7 @@ static bool channels_close(uint32_t a, uint32_t b, int step)
     return true;
 }
 
-/* Whether every dot of the cells has about the same colour in both. */
+/* Returns true if the channels of all dots differ by at most `step`. */
 static bool dots_close(const struct cell *a, const struct cell *b,
                        enum glyphs glyphs, int step)
 {
@@ -253,14 +255,14 @@ int ansi_diff_uncovered(const struct ansi_diff_draw *how, int col, int row)
         if (row >= r->row && row < r->row + r->rows && col >= r->col &&
             col < r->col + r->cols) {
             col = r->col + r->cols;
-            i = -1; /* another may begin there */
+            i = -1; /* the next window may begin there */
         }
     }
     return col;
 }
 
-/* Writes what differs in columns [begin, end) of a row until the buffer is
- * `limit` long; the column where it stopped, or end. */
+/* Writes the cells that differ in columns [begin, end) of a row until the
+ * buffer has `limit` bytes. Returns the column where it stopped, or `end`. */
 static int put_row(struct ansi_diff *a, const struct cells *cells, int row,
                    int begin, int end, size_t limit,
                    const struct ansi_diff_draw *how)
@@ -297,12 +299,12 @@ bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
     int start_col = a->next_col;
 
     assert(cells->cols == a->cols && cells->rows == a->rows);
-    /* the same number is another colour, the same glyph another mask */
+    /* colour numbers and glyphs have another meaning now */
     if (cells->palette != a->palette || cells->glyphs != a->glyphs)
         ansi_diff_forget_all(a);
     a->palette = cells->palette;
     a->glyphs = cells->glyphs;
-    /* The row of the start comes twice: its right part first, its left last. */
+    /* The first row comes twice: its right part first, its left part last. */
     for (int i = 0; i <= a->rows; i++) {
         int row = (start_row + i) % a->rows;
         int begin = i == 0 ? start_col : 0;

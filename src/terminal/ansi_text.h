@@ -2,7 +2,7 @@
 /*
  * ansi_text.h - a picture as lines of coloured text
  *
- * The cells are those that the screen shows of the same at the same size.
+ * The text has the same cells as the screen at the same size.
  *
  * Units:     terminal cells
  * Ownership: the text is for free()
@@ -23,7 +23,7 @@ struct ansi_text_style {
     enum glyphs glyphs;
 };
 
-/* The frame that such a text is made of, for frame_free(). */
+/* Initializes a frame of the size that the text needs, for frame_free(). */
 bool ansi_text_frame_init(struct frame *frame,
                           const struct ansi_text_style *style,
                           struct error *err);

@@ -7,14 +7,16 @@
 
 #include "base/memory.h"
 
-/* Characters by the ink they have, from none to most. */
+/* Characters in order of their ink, from none to most. */
 static const char ramp[] = " .:;+xo%#@";
 #define RAMP_LENGTH ((int)sizeof ramp - 1)
 
-/* Masks of which the last dot is not set: the others are their inverses. */
+/* Number of masks whose last dot is not set. The other masks are their
+ * inverses. */
 #define MASKS_MAX (1 << (GLYPH_DOTS_MAX - 1))
 
-/* Roots of the weights 2, 4 and 3 that the eye gives the primaries, roughly. */
+/* Square roots of the channel weights 2, 4, 3, a rough measure of the eye's
+ * sensitivity. */
 static const float eye[3] = {1.41421356f, 2.0f, 1.73205081f};
 
 bool cells_init(struct cells *cells, int cols, int rows, struct error *err)
@@ -46,7 +48,7 @@ static struct rgb pixel(const struct frame *frame, int x, int y)
     return (struct rgb){p[0], p[1], p[2]};
 }
 
-/* The pixels of a cell, dot by dot. */
+/* Pixels of a cell, dot by dot. */
 struct dots {
     int count;
     struct rgb color[GLYPH_DOTS_MAX];
@@ -65,9 +67,10 @@ static struct dots dots_of(const struct frame *frame, struct glyph_grid grid,
     return dots;
 }
 
-/* Of the dots whose bits in the mask are `bit`; there is one. In the curve's
- * space, not in light: the eye sees no difference between two neighbours, and
- * a cell of one colour is coarse anyway. */
+/* Returns the mean colour of the dots whose bit in the mask is `bit`; there is
+ * at least one. The mean is taken of sRGB values, not of light: the eye sees no
+ * difference for neighbouring colours, and a cell of one colour is coarse
+ * anyway. */
 static struct rgb mean_of(const struct dots *dots, unsigned mask, unsigned bit)
 {
     struct rgb sum = {0, 0, 0};
@@ -98,7 +101,7 @@ static int largest(struct rgb c)
     return m > c.b ? m : c.b;
 }
 
-/* The character carries the brightness, its colour only the hue. */
+/* Returns a character for the brightness, in a colour with only the hue. */
 static struct cell ascii_cell(struct cells *cells, struct rgb c)
 {
     struct cell cell = {CELL_DEFAULT, CELL_DEFAULT, ' '};
@@ -113,14 +116,14 @@ static struct cell ascii_cell(struct cells *cells, struct rgb c)
         struct rgb hue = {c.r * 255 / light, c.g * 255 / light,
                           c.b * 255 / light};
 
-        /* a threshold of the middle: one colour needs no pattern */
+        /* middle threshold: a cell of one colour needs no pattern */
         cell.fg = dither_color(&cells->dither, hue, 1, 3, cells->palette);
     }
     return cell;
 }
 
-/* Dots that are bright enough for their places. The eye adds light, which is
- * roughly the square of these numbers. */
+/* Returns a cell with the dots set that are brighter than their threshold. The
+ * comparison is of squared values, roughly the light. */
 static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
                              int col, int row)
 {
@@ -139,9 +142,10 @@ static struct cell mono_cell(const struct cells *cells, const struct dots *dots,
                          glyphs_of_mask(cells->glyphs, mask)};
 }
 
-/* About the mean of all dots, with sum S over k of n of them in one group, the
- * others have -S, and two colours instead of one take |S|^2 n / (k (n - k)) off
- * the squared distances. For each mask that factor of |S|^2. */
+/* Gain of each mask. Take the dots relative to their mean, and let S be the sum
+ * over the k of n dots in one group. The other group has the sum -S, and two
+ * colours instead of one reduce the squared error by |S|^2 n / (k (n - k)). The
+ * table holds the factor of |S|^2. */
 struct partition {
     float share[MASKS_MAX];
 };
@@ -156,7 +160,7 @@ static void partition_init(struct partition *p, int dots)
     }
 }
 
-/* The sums of some values over the dots of each mask. */
+/* Sums the values over the dots of each mask. */
 static void sum_masks(const float *values, int count, float sums[MASKS_MAX])
 {
     sums[0] = 0.0f;
@@ -166,7 +170,8 @@ static void sum_masks(const float *values, int count, float sums[MASKS_MAX])
     }
 }
 
-/* The dots about their mean, as the eye weighs them, channel by channel. */
+/* Subtracts the mean from the dots and weighs the channels by the eye's
+ * sensitivity. */
 static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
 {
     float mean[3] = {0.0f, 0.0f, 0.0f};
@@ -184,7 +189,8 @@ static void centre(const struct dots *dots, float values[3][GLYPH_DOTS_MAX])
     }
 }
 
-/* The mask of the two groups that are nearest to their means: all are tried. */
+/* Returns the mask whose two groups have the least squared error. All masks are
+ * tried. */
 static unsigned best_mask(const struct partition *p, const struct dots *dots)
 {
     float values[3][GLYPH_DOTS_MAX];
@@ -212,7 +218,7 @@ static struct cell solid_cell(uint32_t color)
     return (struct cell){color, color, ' '};
 }
 
-/* A cell of two colours where the mask says. */
+/* Returns a cell with the mean colours of the two groups of the mask. */
 static struct cell block_cell(struct cells *cells, const struct dots *dots,
                               unsigned mask, int col, int row)
 {
@@ -251,7 +257,7 @@ static struct cell cell_of(struct cells *cells, const struct dots *dots,
     default: break;
     }
     mask = best_mask(partition, dots);
-    /* where dots do not touch, most of a cell is background */
+    /* where dots leave gaps, most of a cell is background */
     if (!glyphs_are_solid(cells->glyphs) &&
         2 * __builtin_popcount(mask) > dots->count)
         mask ^= (1u << dots->count) - 1;
@@ -286,8 +292,8 @@ static int within(double cells, int most)
     return cells > most ? most : (int)cells;
 }
 
-/* Black on white, whatever the picture shows there; characters alone where
- * there are no colours. */
+/* Returns a character in black on white, or without colours if there are
+ * none. */
 static struct cell mark_cell(enum palette palette, char glyph)
 {
     switch (palette) {

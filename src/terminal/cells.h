@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * cells.h - a picture as terminal cells: blocks of two colours, brightness as
- * characters
+ * cells.h - a picture as terminal cells, each a glyph in two colours
  *
  * Units:     terminal cells, 8-bit sRGB
  * Ownership: cells_free() frees; a zeroed struct is empty
- * Threads:   any; no state but the caller's
+ * Threads:   any
  * Errors:    memory
  */
 #ifndef GLIM_CELLS_H
@@ -18,13 +17,12 @@
 #include "terminal/dither.h"
 #include "terminal/glyphs.h"
 
-/* The terminal's own foreground or background. */
+/* The terminal's default foreground or background. */
 #define CELL_DEFAULT 0xffffffffu
 
 struct cell {
-    uint32_t fg, bg; /* 0xRRGGBB, a number of the palette, CELL_DEFAULT */
-    uint32_t glyph;  /* a code point; a blank's fg is its bg. 0 is no glyph: a
-                        cell of which nobody knows what it shows */
+    uint32_t fg, bg; /* 0xRRGGBB, a palette number or CELL_DEFAULT */
+    uint32_t glyph;  /* code point; 0 if unknown. A blank has fg = bg */
 };
 
 struct cells {
@@ -38,23 +36,24 @@ struct cells {
 bool cells_init(struct cells *cells, int cols, int rows, struct error *err);
 void cells_free(struct cells *cells);
 
-/* The frame has cols * across by rows * down pixels of glyphs_grid(). Without
- * colours (PALETTE_MONO) dots are set or not; one or two pixels a cell are too
- * few for that and become characters. */
+/* Fills the cells from a frame of cols * across by rows * down pixels, see
+ * glyphs_grid(). Without colours (PALETTE_MONO) each dot is set or not; glyphs
+ * of one or two dots become characters, since so few dots show no shades. */
 void cells_from_frame(struct cells *cells, const struct frame *frame,
                       enum palette palette, enum glyphs glyphs);
 
-/* Puts a cursor around a cell: [+]. */
+/* Draws a cursor around a cell: [+]. */
 void cells_mark(struct cells *cells, int col, int row);
 
-/* Where a picture goes in a window, in cells. */
+/* Rectangle of the picture in a window, in cells. */
 struct fit {
-    int col, row; /* of its upper left cell, from 0 */
+    int col, row; /* the upper left cell, from 0 */
     int cols, rows;
 };
 
-/* The largest rectangle of the picture's shape in a window of cols x rows
- * cells that are cell_aspect times as high as wide; centred, at least 1x1. */
+/* Returns the largest centred rectangle with the picture's aspect ratio in a
+ * window of cols x rows cells, at least 1x1. cell_aspect is the height of a
+ * cell divided by its width. */
 struct fit cells_fit(int width_px, int height_px, int cols, int rows,
                      double cell_aspect);
 

@@ -9,36 +9,38 @@
 
 #include "kernels/tone.h"
 
-/* The first 16 colours: eight whose channels are 0 or 170, eight with 85 or
- * 255. Themes differ, and nobody can ask all terminals; these are the VGA's and
- * lie in the middle of what is in use. */
+/* Channel levels of the first 16 colours: eight colours of 0 or 170, eight of
+ * 85 or 255. Themes differ and not every terminal can be asked; these are the
+ * levels of VGA and near the mean of common themes. */
 #define DARK_ON    170
 #define BRIGHT_OFF 85
 
-/* The 6 levels of a channel in the cube of 16..231; the greys are behind it. */
+/* The 6 channel levels of the colour cube 16..231. The greys follow it. */
 static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
 #define CUBE_FIRST 16
 #define GREY_FIRST 232
 #define COLORS     256
 #define INKS       (COLORS - CUBE_FIRST)
 
-/* A mix is found for 6 bits a channel: finer steps than those of the greys. */
+/* Resolution of the cache of mixes: 6 bits a channel, finer than the steps of
+ * the greys. */
 #define KEY_BITS 6
 #define KEY_MAX  ((1 << KEY_BITS) - 1)
 
-/* Colours of a mix, and how many of the nearest are tried for it: with twice
- * as many of either the error of the shipped scenes is the same to 2 %. */
+/* Colours in a mix, and nearest colours that are tried for each. Twice as many
+ * of either change the error of the shipped scenes by less than 2 %. */
 #define MIX_LENGTH 8
 #define CANDIDATES 12
 
-/* How much the squared distance of a mix's colours counts beside that of their
- * mean, beyond a step of the greys, which nobody sees as grain. With half of it
- * the error of the shipped scenes, blurred over 3x3 pixels, is 15 % smaller,
- * the grain 10 % greater and a frame 15 % more bytes. */
+/* Weight of a mix's spread (the squared distance of its colours) beside the
+ * error of its mean. A spread below GRAIN_FREE, a step of the greys, is not
+ * visible and costs nothing. Half the weight would reduce the error of the
+ * shipped scenes, blurred over 3x3 pixels, by 15 %, and increase the spread by
+ * 10 % and the bytes of a frame by 15 %. */
 #define GRAIN_WEIGHT 0.6f
 #define GRAIN_FREE   0.0012f
 
-/* Bayer's matrix: thresholds that spread a level over 4x4 pixels. */
+/* Bayer matrix: thresholds that distribute a level over 4x4 pixels. */
 #define THRESHOLDS 16
 static const int8_t bayer[4][4] = {{0, 8, 2, 10},
                                    {12, 4, 14, 6},
@@ -72,7 +74,8 @@ struct rgb dither_value(uint32_t number, enum palette palette)
     return (struct rgb){levels[n / 36], levels[n / 6 % 6], levels[n % 6]};
 }
 
-/* The light of a byte, from the curve's own thresholds on both sides of it. */
+/* Returns the linear value of a byte: the middle between the thresholds of the
+ * sRGB curve on both sides. */
 static float light_of(int byte)
 {
     if (byte == 0 || byte == 255)
@@ -80,8 +83,8 @@ static float light_of(int byte)
     return 0.5f * (srgb_thresholds[byte - 1] + srgb_thresholds[byte]);
 }
 
-/* OKLab: equal distances look equal. Bjorn Ottosson, "A perceptual color space
- * for image processing", 2020. */
+/* Converts linear RGB to OKLab, where equal distances look equal. Bjorn
+ * Ottosson, "A perceptual color space for image processing", 2020. */
 static struct vec3 oklab(struct vec3 c)
 {
     float l =
@@ -125,10 +128,10 @@ void dither_free(struct dither *d)
 
 /* ---- 256 colours ---- */
 
-/* An ink that may enter a mix. */
+/* Colour that may enter a mix. */
 struct candidate {
     int index;
-    float distance; /* squared, to the colour that is wanted */
+    float distance; /* squared, to the requested colour */
 };
 
 static float distance_of(struct vec3 a, struct vec3 b)
@@ -138,7 +141,7 @@ static float distance_of(struct vec3 a, struct vec3 b)
     return v3_dot(d, d);
 }
 
-/* The nearest inks, by insertion. */
+/* Finds the colours nearest to `lab`, by insertion. */
 static void find_candidates(const struct dither *d, struct vec3 lab,
                             struct candidate found[CANDIDATES])
 {
@@ -156,7 +159,7 @@ static void find_candidates(const struct dither *d, struct vec3 lab,
     }
 }
 
-/* The candidate that brings the mean nearest to what is wanted. */
+/* Returns the candidate that brings the mean of the mix nearest to `lab`. */
 static int next_of_mix(const struct dither *d, struct vec3 lab, int length,
                        struct vec3 sum,
                        const struct candidate candidates[CANDIDATES])
@@ -179,7 +182,7 @@ static int next_of_mix(const struct dither *d, struct vec3 lab, int length,
     return best;
 }
 
-/* Sorts by lightness, so that the threshold of a place means light or dark. */
+/* Inserts by lightness, so that a higher threshold selects a lighter colour. */
 static void insert_sorted(const struct dither *d, int *mix, int length,
                           int index)
 {
@@ -190,8 +193,9 @@ static void insert_sorted(const struct dither *d, int *mix, int length,
     mix[at] = index;
 }
 
-/* Greedily, ink by ink: the light of the mix is added, as the eye adds it, and
- * compared in OKLab. After Thomas Knoll, "Pattern dithering", US 6606166. */
+/* Builds a mix greedily, colour by colour. Means are taken of linear light, as
+ * the eye does, and compared in OKLab. After Thomas Knoll, "Pattern dithering",
+ * US 6606166. */
 static uint64_t find_mix(const struct dither *d, struct rgb c)
 {
     struct vec3 lab = ink_of(c).lab;
@@ -212,8 +216,8 @@ static uint64_t find_mix(const struct dither *d, struct rgb c)
     return packed;
 }
 
-/* Rounds at a quarter or at three quarters. Two places share a colour of a
- * mix: with one of each the steps are half as large. */
+/* Rounds to the cache's resolution, down or up by place. Alternating between
+ * both neighbours halves the visible steps. */
 static int to_key(int v, bool is_up)
 {
     return (v * KEY_MAX + (is_up ? 191 : 64)) / 255;
@@ -246,16 +250,16 @@ static int square(int v)
     return v * v;
 }
 
-/* Whether a channel between `off` and `on` is on at a threshold of 0..15. The
- * eye adds light, which is roughly the square of these numbers. */
+/* Returns true if a channel between `off` and `on` is on at a threshold of
+ * 0..15. The comparison is of squared values, roughly the light. */
 static bool is_on(int v, int off, int on, int threshold)
 {
     return 32 * (square(v) - square(off)) >
            (2 * threshold + 1) * (square(on) - square(off));
 }
 
-/* Dithers each channel between the two values it has among the dark or the
- * bright eight, whichever come closer to the colour. All channels share the
+/* Dithers each channel between its two levels in the dark or the bright
+ * colours, whichever come closer to the colour. All channels share the
  * threshold, so that grey stays grey. */
 static uint32_t dithered_16(struct rgb c, int threshold)
 {

@@ -3,8 +3,8 @@
 
 #include <assert.h>
 
-/* By mask; the first four are also those of half blocks, if bit 1 means the
- * lower one: U+2580..259F. */
+/* Quadrants by mask, U+2580..259F. The first four masks also index half blocks,
+ * where bit 1 means the lower half. */
 static const uint32_t halves[4] = {' ', CELL_UPPER, CELL_LOWER, CELL_FULL};
 
 static const uint32_t quadrants[16] = {' ',        0x2598, 0x259d, CELL_UPPER,
@@ -12,16 +12,16 @@ static const uint32_t quadrants[16] = {' ',        0x2598, 0x259d, CELL_UPPER,
                                        0x2597,     0x259a, 0x2590, 0x259c,
                                        CELL_LOWER, 0x2599, 0x259f, CELL_FULL};
 
-/* U+1FB00 on has the sextants in the order of their masks, without those that
- * were there before: none, left half, right half, all. */
+/* Sextants from U+1FB00 on, by mask. Unicode omits those that existed before:
+ * none, left half, right half and all. */
 #define SEXTANT_FIRST 0x1fb00u
 #define SEXTANT_LAST  0x1fb3bu
 #define LEFT_HALF     0x15u
 #define RIGHT_HALF    0x2au
 #define SEXTANT_ALL   0x3fu
 
-/* U+2800 and the sum of these for each dot: first three rows by columns, then
- * the fourth. */
+/* Braille code points: U+2800 plus these bits for each dot. The standard
+ * numbers the first three rows by columns, then the fourth. */
 #define BRAILLE_FIRST 0x2800u
 #define BRAILLE_LAST  0x28ffu
 static const uint8_t braille_dots[8] = {1, 8, 2, 16, 4, 32, 64, 128};
@@ -89,7 +89,7 @@ uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask)
     }
 }
 
-/* Among the first `count` of a table. */
+/* Finds a glyph among the first `count` of a table; its index is the mask. */
 static bool find(const uint32_t *table, unsigned count, uint32_t glyph,
                  unsigned *mask)
 {
@@ -107,7 +107,7 @@ static bool sextant_mask(uint32_t glyph, unsigned *mask)
 
         if (!find(others, 4, glyph, mask))
             return false;
-        *mask *= LEFT_HALF; /* twice it is the right half, thrice all */
+        *mask *= LEFT_HALF; /* times 2: right half, times 3: all */
         return true;
     }
     *mask = glyph - SEXTANT_FIRST + 1;

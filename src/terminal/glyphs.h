@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * glyphs.h - characters that parts of which have two colours
+ * glyphs.h - characters that divide a cell into dots of two colours
  *
- * Units:     Unicode code points; dots, bit 0 at the upper left, then along
- *            the rows
+ * Units:     Unicode code points; masks of dots, bit 0 at the upper left, then
+ *            row by row
  * Threads:   any
  */
 #ifndef GLIM_GLYPHS_H
@@ -12,16 +12,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* How a cell of the terminal shows the picture. */
+/* Characters that make up the picture. */
 enum glyphs {
     GLYPHS_HALF,  /* half blocks, upper or lower */
-    GLYPHS_UPPER, /* half blocks, only the upper */
+    GLYPHS_UPPER, /* half blocks, upper only */
     GLYPHS_LOWER,
     GLYPHS_QUADRANT,
     GLYPHS_SEXTANT,
     GLYPHS_BRAILLE,
-    GLYPHS_SPACE, /* one colour a cell */
-    GLYPHS_ASCII, /* brightness as characters */
+    GLYPHS_SPACE, /* blanks, one colour a cell */
+    GLYPHS_ASCII, /* ASCII characters by brightness */
     GLYPHS_COUNT
 };
 
@@ -29,31 +29,31 @@ enum glyphs {
 #define CELL_LOWER 0x2584u
 #define CELL_FULL  0x2588u
 
-/* The most dots that a glyph has. */
+/* Most dots of a glyph. */
 #define GLYPH_DOTS_MAX 8
 
 struct glyph_grid {
     int across, down;
 };
 
-/* The pixels that a cell stands for. */
+/* Returns the number of dots across and down a cell. */
 struct glyph_grid glyphs_grid(enum glyphs glyphs);
 
-/* The glyph whose dots of this mask have the foreground; where they do not fill
- * their places (braille) or there is no such glyph, as near as it can be. */
+/* Returns the glyph whose dots in the mask have the foreground colour, or the
+ * nearest glyph if there is none. */
 uint32_t glyphs_of_mask(enum glyphs glyphs, unsigned mask);
 
-/* Its inverse. False if the glyph is none of these. */
+/* Returns the mask of a glyph. False if the glyph is none of this kind. */
 bool glyphs_mask(enum glyphs glyphs, uint32_t glyph, unsigned *mask);
 
-/* True if there is a glyph for every mask and its dots leave no gaps, so that
- * foreground and background may change places. */
+/* Returns true if every mask has a glyph and the dots leave no gaps, so that
+ * inverse glyphs exist for exchanged colours. */
 bool glyphs_are_solid(enum glyphs glyphs);
 
-/* Its name for people. */
+/* Returns the name as a person sees it. */
 const char *glyphs_name(enum glyphs glyphs);
 
-/* UTF-8 of a code point; the number of bytes. */
+/* Writes a code point as UTF-8. Returns the number of bytes. */
 int glyph_utf8(uint32_t glyph, char bytes[4]);
 
 #endif

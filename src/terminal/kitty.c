@@ -4,16 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/* https://sw.kovidgoyal.net/kitty/graphics-protocol/: transmit and show, 24-bit
- * pixels, no answers, the cursor stays; base64 in pieces of at most 4096. */
+/* Transmission with display: 24-bit pixels, no answers, the cursor stays,
+ * base64 in pieces of at most 4096 bytes.
+ * https://sw.kovidgoyal.net/kitty/graphics-protocol/ */
 #define BEGIN "\033_Ga=T,f=24,s=%d,v=%d,i=%d,p=1,q=2,C=1,m=%d;"
 #define GO_ON "\033_Gm=%d;"
 #define END   "\033\\"
 #define ERASE "\033_Ga=d,d=I,i=%d,q=2\033\\"
 
-#define PIECE_BYTES 3072 /* that become 4096 */
+#define PIECE_BYTES 3072 /* 4096 bytes in base64 */
 
-/* Above the longest BEGIN or ERASE, and GO_ON with END. */
+/* Upper bounds: BEGIN and ERASE; GO_ON with END. */
 #define BEGIN_BYTES 96
 #define GO_ON_BYTES 16
 
@@ -28,7 +29,7 @@ size_t kitty_bytes_max(int width, int height)
            (3 * pixels / PIECE_BYTES + 1) * GO_ON_BYTES;
 }
 
-/* A pixel has three bytes, and so have four digits. */
+/* Writes a pixel of three bytes as four base64 digits. */
 static char *put_pixel(char *p, const uint8_t *rgb)
 {
     unsigned bits = (unsigned)rgb[0] << 16 | (unsigned)rgb[1] << 8 | rgb[2];

@@ -5,7 +5,6 @@
  * Units:     pixels, bytes
  * Ownership: the buffer is the caller's
  * Threads:   any
- * Errors:    none; terminals are told not to answer
  */
 #ifndef GLIM_KITTY_H
 #define GLIM_KITTY_H
@@ -13,28 +12,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Asks whether a pixel could be shown; the answer has ";OK". */
+/* Asks whether the terminal shows images; a positive answer contains ";OK". */
 #define KITTY_QUESTION "\033_Gi=1,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
 
 /* Removes all images. */
 #define KITTY_ERASE_ALL "\033_Ga=d,d=A,q=2\033\\"
 
-/* A rectangle of a picture of 3 bytes a pixel, row 0 at the top. */
+/* Rectangle of a picture with 3 bytes a pixel, row 0 at the top. */
 struct kitty_image {
-    int id; /* from 1 on: replaces the image of this number */
+    int id; /* from 1; replaces the image of the same id */
     int width, height;
     const uint8_t *rgb;
-    size_t stride_bytes; /* from a row to the next */
+    size_t stride_bytes; /* from one row to the next */
 };
 
-/* The most that kitty_encode() and kitty_erase() write. */
+/* Most bytes that kitty_encode() and kitty_erase() write. */
 size_t kitty_bytes_max(int width, int height);
 
-/* Writes the image, which appears with its corner in the cursor's cell and
- * leaves the cursor there; the number of bytes. */
+/* Encodes an image. It appears with its corner in the cursor's cell; the cursor
+ * stays there. Returns the number of bytes. */
 size_t kitty_encode(const struct kitty_image *image, char *bytes);
 
-/* Removes one image. */
+/* Encodes the removal of one image. Returns the number of bytes. */
 size_t kitty_erase(int id, char *bytes);
 
 #endif

@@ -31,8 +31,8 @@ enum palette palette_guess(const struct palette_facts *facts, bool *is_final)
     *is_final = true;
     if (is_set(facts->no_color))
         return PALETTE_MONO;
-    /* screen takes 38;2;... apart into dim and backgrounds, whatever the
-     * terminal around it says in COLORTERM */
+    /* screen misreads 38;2;... as attributes, whatever COLORTERM says of the
+     * terminal around it */
     if (!is_set(facts->tmux) &&
         (is_set(facts->sty) || begins_with(facts->term, "screen")))
         return facts->colors >= 8 || is_set(facts->sty) ? PALETTE_256
@@ -43,7 +43,7 @@ enum palette palette_guess(const struct palette_facts *facts, bool *is_final)
     if (colorterm && (strcmp(colorterm, "truecolor") == 0 ||
                       strcmp(colorterm, "24bit") == 0))
         return PALETTE_24BIT;
-    /* tmux understands 24 bit always and rounds for the terminal around it */
+    /* tmux always accepts 24 bit and rounds for the terminal around it */
     if (is_set(facts->tmux) || facts->has_rgb ||
         ends_with(facts->term, "-direct"))
         return PALETTE_24BIT;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * palette.h - which colours a terminal has, guessed from its environment
+ * palette.h - guesses the colours of a terminal from its environment
  *
- * Ownership: strings stay the caller's
  * Threads:   any
  */
 #ifndef GLIM_PALETTE_H
@@ -12,21 +11,22 @@
 
 #include "terminal/cells.h"
 
-/* What there is to know before the terminal has answered; NULL: not set. */
+/* Facts known before the terminal answers; NULL if a variable is not set. */
 struct palette_facts {
     const char *no_color;  /* NO_COLOR */
     const char *colorterm; /* COLORTERM */
     const char *term;      /* TERM */
-    const char *sty;       /* STY: inside screen */
-    const char *tmux;      /* TMUX: inside tmux */
-    int colors;            /* of terminfo; less than 8: none */
-    bool has_rgb;          /* terminfo: RGB or Tc */
+    const char *sty;       /* STY, set inside screen */
+    const char *tmux;      /* TMUX, set inside tmux */
+    int colors;            /* from terminfo; none if less than 8 */
+    bool has_rgb;          /* terminfo has RGB or Tc */
 };
 
-/* *is_final says that no answer of the terminal may raise it. */
+/* Returns the palette. *is_final is true if the terminal's answers must not
+ * raise it. */
 enum palette palette_guess(const struct palette_facts *facts, bool *is_final);
 
-/* Its name for people. */
+/* Returns the name as a person sees it. */
 const char *palette_name(enum palette palette);
 
 #endif

@@ -9,12 +9,11 @@
 #include "terminal/kitty.h"
 #include "terminal/sixel.h"
 
-/* Columns of a tile: few enough for the budget of a slow line, so many that
- * what surrounds the pixels of an image, some 200 bytes of colours, is little
- * beside them. */
+/* Columns of a tile. Few enough for the budget of a slow line, enough to
+ * outweigh the 200 bytes or so of colour definitions that an image needs. */
 #define TILE_COLS 16
 
-/* A jump to any cell. */
+/* Most bytes of a jump to any cell. */
 #define JUMP_BYTES 24
 
 static bool init_frame(struct frame *frame,
@@ -77,8 +76,8 @@ const char *pixel_graphics_eraser(enum pixel_graphics_kind kind)
     return kind == PIXEL_GRAPHICS_KITTY ? KITTY_ERASE_ALL : NULL;
 }
 
-/* The columns of a tile that no window covers: the first stretch of them. A
- * window that leaves both ends of a tile free is narrower than any of ours. */
+/* Returns the first run of columns of a tile that no window covers. Every
+ * window of glim is wider than a tile, so none leaves both ends free. */
 static struct pixel_graphics_tile wanted_tile(const struct pixel_graphics *g,
                                               int index,
                                               const struct ansi_diff_draw *how)
@@ -116,7 +115,7 @@ static bool rows_close(const uint8_t *a, const uint8_t *b, size_t count,
     return true;
 }
 
-/* Pixels of a tile. */
+/* Rectangle of a tile in pixels. */
 struct area {
     int x, y, width, height;
 };
@@ -132,7 +131,8 @@ static struct area area_of(const struct pixel_graphics *g, int row,
                          s->cell_height_px};
 }
 
-/* Whether the terminal shows it already, to a step of 255. */
+/* Returns true if the tile is shown already, with channel differences up to
+ * `step`. */
 static bool may_stay(const struct pixel_graphics *g, int index,
                      const struct pixel_graphics_tile *wanted, int step)
 {
@@ -188,8 +188,8 @@ static size_t tile_bytes_max(const struct pixel_graphics *g,
                              : sixel_bytes_max(area->width, area->height));
 }
 
-/* Sends the pixels, or removes them where a window is. False if memory is
- * out. */
+/* Sends the pixels of a tile, or removes them where a window is. Returns false
+ * when memory is out. */
 static bool put_tile(struct pixel_graphics *g, struct ansi_diff *a, int index,
                      const struct pixel_graphics_tile *wanted,
                      const struct ansi_diff_draw *how)
@@ -215,7 +215,7 @@ static bool put_tile(struct pixel_graphics *g, struct ansi_diff *a, int index,
     return true;
 }
 
-/* Rows that repeat are copied. */
+/* Repeats pixels to the size of `to`; repeated rows are copied. */
 static void enlarge(const struct frame *from, struct frame *to)
 {
     size_t row_bytes = 3 * (size_t)to->width;

@@ -2,10 +2,10 @@
 /*
  * pixel_graphics.h - a picture as pixels of the terminal
  *
- * The picture goes out as tiles, parts of a row of cells: a frame sends those
- * that differ from what is shown, until its budget is spent, and the next one
- * goes on where it stopped. So a slow line never has more on its way than with
- * cells, and windows have their place.
+ * The picture is sent in tiles, parts of a row of cells. A frame sends the
+ * tiles that differ from what is shown until its budget is spent; the next one
+ * continues there. So a slow line has as few bytes on the way as with cells,
+ * and windows can cover parts of the picture.
  *
  * Units:     pixels; terminal cells for places
  * Ownership: pixel_graphics_free() frees; a zeroed struct is empty
@@ -28,14 +28,14 @@ enum pixel_graphics_kind {
 
 struct pixel_graphics_shape {
     enum pixel_graphics_kind kind;
-    int cols, rows; /* of the picture */
+    int cols, rows; /* size of the picture */
     int cell_width_px, cell_height_px;
     enum palette palette; /* of sixels: 256, or 16 for few registers */
 };
 
-/* What a tile shows: columns from the picture's corner. */
+/* Columns of a tile that are shown, from the picture's corner. */
 struct pixel_graphics_tile {
-    int begin, end; /* nothing if equal */
+    int begin, end; /* equal if nothing is shown */
     bool is_known;
 };
 
@@ -43,12 +43,12 @@ struct pixel_graphics {
     struct pixel_graphics_shape shape;
     int tile_cols, tiles_across;
     struct pixel_graphics_tile *tiles;
-    int next;       /* tile to go on with */
-    bool has_begun; /* images of before are removed */
+    int next;       /* first tile of the next frame */
+    bool has_begun; /* earlier images were removed */
     struct frame wanted;
-    struct frame shown; /* pixels of known tiles */
+    struct frame shown; /* pixels of the tiles that are shown */
     struct dither dither;
-    uint8_t *numbers; /* of a tile */
+    uint8_t *numbers; /* palette numbers of one tile */
 };
 
 bool pixel_graphics_init(struct pixel_graphics *g,
@@ -56,19 +56,20 @@ bool pixel_graphics_init(struct pixel_graphics *g,
                          struct error *err);
 void pixel_graphics_free(struct pixel_graphics *g);
 
-/* Something else has written over these cells of the picture. */
+/* Marks cells of the picture as unknown, because something else was drawn
+ * there. */
 void pixel_graphics_forget(struct pixel_graphics *g,
                            struct ansi_diff_rect rect);
 
-/* Appends what turns the shown picture into the frame, of which pixels are
- * repeated up to those of the terminal. True if nothing is left for the next
- * frame. */
+/* Appends the changes from the shown picture to the frame, whose pixels are
+ * repeated to match the terminal's. Returns true if the picture is complete,
+ * false if the budget ended the frame. */
 bool pixel_graphics_picture(struct pixel_graphics *g, struct ansi_diff *a,
                             const struct frame *frame,
                             const struct ansi_diff_draw *how);
 
-/* What removes all pixels where cells that are written over them do not; NULL:
- * nothing. */
+/* Returns the bytes that remove all pixels, for terminals where characters do
+ * not overwrite them; NULL if none are needed. */
 const char *pixel_graphics_eraser(enum pixel_graphics_kind kind);
 
 #endif

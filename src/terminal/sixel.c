@@ -5,24 +5,27 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The VT330/VT340 Programmer Reference Manual, chapter 14: six rows of pixels
- * are a band, and a character from ? on has the pixels of a column as bits, the
- * topmost the lowest. A band is written once for each of its colours. */
+/* Sixel format: six rows of pixels make a band. Each character from '?' on
+ * holds one column as bits, the lowest bit at the top. A band is written once
+ * for each of its colours. VT330/VT340 Programmer Reference Manual, chapter
+ * 14. */
 #define BAND_HEIGHT 6
 #define COLORS      256
 
-/* "1 : 1" pixels, what no colour sets stays as it is, size. */
+/* P2 = 1 keeps pixels that no colour sets; then the aspect ratio 1:1 and the
+ * size. */
 #define BEGIN "\033P0;1q\"1;1;%d;%d"
 #define END   "\033\\"
 
-/* The longest of these, and of "#255;2;100;100;100". */
+/* Upper bounds: BEGIN and END; one colour "#255;2;100;100;100". */
 #define BEGIN_BYTES 40
 #define COLOR_BYTES 18
 
-/* Shorter runs take as many bytes as their characters. */
+/* Shortest run that is written with a repeat count: shorter ones are not longer
+ * as characters. */
 #define RUN_MIN 4
 
-/* A band: bits of each column for each colour that it has. */
+/* Band: bits of each column for each colour in it. */
 struct band {
     bool has[COLORS];
     uint8_t bits[COLORS][SIXEL_WIDTH_MAX];
@@ -34,7 +37,7 @@ size_t sixel_bytes_max(int width, int height)
     size_t pixels = (size_t)width * BAND_HEIGHT;
     size_t colors = pixels < COLORS ? pixels : COLORS;
 
-    /* "#255", its columns and "$" for each colour, "-" */
+    /* "#255", the columns and "$" for each colour, then "-" */
     return BEGIN_BYTES + COLORS * COLOR_BYTES +
            bands * (colors * ((size_t)width + 5) + 1);
 }
@@ -83,7 +86,7 @@ static char *put_run(char *p, char c, int length)
     return p;
 }
 
-/* One colour of a band; columns without it at the end are left out. */
+/* Writes one colour of a band without the empty columns at its end. */
 static char *put_line(char *p, const uint8_t *bits, int width)
 {
     while (width > 0 && bits[width - 1] == 0)
@@ -139,9 +142,9 @@ size_t sixel_encode(const struct sixel_image *image, char *bytes)
             p = put_line(p, band.bits[n], image->width);
             *p++ = '$';
         }
-        p[-1] = '-'; /* the last colour goes on in the next band */
+        p[-1] = '-'; /* next band after the last colour */
     }
-    p--; /* there is no next one */
+    p--; /* there is no next band */
     memcpy(p, END, sizeof END - 1);
     return (size_t)(p - bytes) + sizeof END - 1;
 }

@@ -2,8 +2,8 @@
 /*
  * sixel.h - pixels as the bytes of DEC's sixel graphics
  *
- * Each image names the colours that it uses: whether registers outlast an
- * image differs between terminals.
+ * Each image defines the colours that it uses, since only some terminals keep
+ * colour registers from one image to the next.
  *
  * Units:     pixels, bytes
  * Ownership: the buffer is the caller's
@@ -17,21 +17,21 @@
 
 #include "terminal/dither.h"
 
-/* The widest image. */
+/* Widest image in pixels. */
 #define SIXEL_WIDTH_MAX 256
 
-/* Numbers of PALETTE_256 or PALETTE_16, row 0 at the top. */
+/* Image of numbers of PALETTE_256 or PALETTE_16, row 0 at the top. */
 struct sixel_image {
     int width, height;
     enum palette palette;
     const uint8_t *numbers;
 };
 
-/* The most that sixel_encode() writes. */
+/* Most bytes that sixel_encode() writes. */
 size_t sixel_bytes_max(int width, int height);
 
-/* Writes the image, which appears with its corner in the cursor's cell; the
- * number of bytes. */
+/* Encodes an image, which appears with its corner in the cursor's cell. Returns
+ * the number of bytes. */
 size_t sixel_encode(const struct sixel_image *image, char *bytes);
 
 #endif

@@ -45,7 +45,7 @@ void swatches_set(struct swatches *s, int row, const double rgb[3])
     s->is_there[row] = true;
 }
 
-/* The rows without one, joined; their number. */
+/* Finds the runs of rows without a colour. Returns their number. */
 static int find_gaps(const struct swatches *s, struct ansi_diff_rect *gaps)
 {
     int count = 0;

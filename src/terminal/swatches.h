@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * swatches.h - colours beside the lines of a panel, two cells each
+ * swatches.h - colour samples beside the lines of a panel, two cells each
  *
  * Units:     terminal cells; linear Rec.709
  * Ownership: swatches_free() frees; a zeroed struct is empty
@@ -20,21 +20,20 @@ struct swatches {
     struct frame frame;
     struct cells cells;
     struct ansi_diff ansi;
-    bool *is_there; /* one a row */
+    bool *is_there; /* for each row */
 };
 
 bool swatches_init(struct swatches *s, int rows, struct error *err);
 void swatches_free(struct swatches *s);
 
-/* No row has one. */
+/* Removes the colours of all rows. */
 void swatches_clear(struct swatches *s);
 
-/* Channels beyond 1 are shown as 1. */
+/* Sets the colour of a row. Channels above 1 are shown as 1. */
 void swatches_set(struct swatches *s, int row, const double rgb[3]);
 
-/* All of them but for what a window of the screen covers, as what a terminal is
- * sent, with the upper left cell at (col, row) of the screen and the cursor in
- * end_row at the end: s->ansi.bytes, s->ansi.length. */
+/* Encodes all swatches into s->ansi, except where the window covers them. (col,
+ * row) is their upper left cell on the screen; the cursor ends in end_row. */
 void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
                    const struct ansi_diff_rect *window, int end_row);
 
