@@ -67,21 +67,21 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
     switch (id) {
     case KEY_EYE:
         if (v->has_camera)
-            write_line(to, "eye", v->eye, 3);
+            write_line(to, "eye", v->pose.eye, 3);
         break;
     case KEY_AT:
         if (v->has_camera)
-            write_line(to, "at", v->at, 3);
+            write_line(to, "at", v->pose.at, 3);
         break;
-    case KEY_UP: write_line(to, "up", v->up, 3); break;
-    case KEY_FOVY: write_line(to, "fovy", &v->fovy_deg, 1); break;
+    case KEY_UP: write_line(to, "up", v->pose.up, 3); break;
+    case KEY_FOVY: write_line(to, "fovy", &v->pose.fovy_deg, 1); break;
     case KEY_RES:
         if (v->has_size)
             fprintf(to, "res %d %d\n", v->width_px, v->height_px);
         break;
     case KEY_BACKGROUND:
-        if (v->has_background)
-            write_line(to, "background", v->background, 3);
+        if (v->lighting.has_background)
+            write_line(to, "background", v->lighting.background, 3);
         break;
     case KEY_MAX_BOUNCES:
         if (v->max_bounces >= 0)
@@ -92,28 +92,29 @@ static void write_key(FILE *to, const struct view *v, enum view_key_id id,
             fprintf(to, "sky %s%s\n", sky, lexer_rest_guard(sky));
         break;
     case KEY_SKY_STRENGTH:
-        if (v->sky_strength < 1 || v->sky_strength > 1)
-            write_line(to, "sky_strength", &v->sky_strength, 1);
+        if (v->lighting.sky_strength < 1 || v->lighting.sky_strength > 1)
+            write_line(to, "sky_strength", &v->lighting.sky_strength, 1);
         break;
     case KEY_SKY_ROTATION:
-        if (v->sky_rotation_deg < 0 || v->sky_rotation_deg > 0)
-            write_line(to, "sky_rotation", &v->sky_rotation_deg, 1);
+        if (v->lighting.sky_rotation_deg < 0 ||
+            v->lighting.sky_rotation_deg > 0)
+            write_line(to, "sky_rotation", &v->lighting.sky_rotation_deg, 1);
         break;
     case KEY_APERTURE:
-        if (v->aperture > 0)
-            write_line(to, "aperture", &v->aperture, 1);
+        if (v->pose.aperture > 0)
+            write_line(to, "aperture", &v->pose.aperture, 1);
         break;
     case KEY_FOCUS:
-        if (v->focus > 0)
-            write_line(to, "focus", &v->focus, 1);
+        if (v->pose.focus > 0)
+            write_line(to, "focus", &v->pose.focus, 1);
         break;
     case KEY_EXPOSURE:
-        if (v->exposure < 0 || v->exposure > 0)
-            write_line(to, "exposure", &v->exposure, 1);
+        if (v->lighting.exposure < 0 || v->lighting.exposure > 0)
+            write_line(to, "exposure", &v->lighting.exposure, 1);
         break;
     case KEY_TONE:
-        if (v->tone != TONE_LINEAR)
-            fprintf(to, "tone %s\n", view_tones[v->tone]);
+        if (v->lighting.tone != TONE_LINEAR)
+            fprintf(to, "tone %s\n", view_tones[v->lighting.tone]);
         break;
     case KEY_ASSIGN: assigns_write(&v->assigns, to); break;
     case KEY_VIEW: write_shots(to, v); break;
@@ -223,14 +224,15 @@ bool view_format(const struct view *view, const char *path,
                                .report = &ignored}};
     char *sky = NULL;
 
-    if (view->sky_path && !check_sky(view->sky_path, path, err))
+    if (view->lighting.sky_path &&
+        !check_sky(view->lighting.sky_path, path, err))
         return false;
     *text = NULL;
     w.to = open_memstream(text, size_bytes);
     if (!w.to)
         return fail(err, "%s: out of memory", path);
-    if (view->sky_path)
-        sky = sky_name(view->sky_path, path);
+    if (view->lighting.sky_path)
+        sky = sky_name(view->lighting.sky_path, path);
     w.sky = sky;
     view_init(&scratch);
     write_over(&w, old_text, old_bytes);

@@ -74,25 +74,25 @@ static bool read_number(struct view_reader *r, const struct view_key *key,
 static void store(struct view *view, enum view_key_id id, const double *v)
 {
     switch (id) {
-    case KEY_EYE: memcpy(view->eye, v, sizeof view->eye); break;
-    case KEY_AT: memcpy(view->at, v, sizeof view->at); break;
-    case KEY_UP: memcpy(view->up, v, sizeof view->up); break;
-    case KEY_FOVY: view->fovy_deg = v[0]; break;
+    case KEY_EYE: memcpy(view->pose.eye, v, sizeof view->pose.eye); break;
+    case KEY_AT: memcpy(view->pose.at, v, sizeof view->pose.at); break;
+    case KEY_UP: memcpy(view->pose.up, v, sizeof view->pose.up); break;
+    case KEY_FOVY: view->pose.fovy_deg = v[0]; break;
     case KEY_RES:
         view->width_px = (int)v[0];
         view->height_px = (int)v[1];
         view->has_size = true;
         break;
     case KEY_BACKGROUND:
-        memcpy(view->background, v, sizeof view->background);
-        view->has_background = true;
+        memcpy(view->lighting.background, v, sizeof view->lighting.background);
+        view->lighting.has_background = true;
         break;
     case KEY_MAX_BOUNCES: view->max_bounces = (int)v[0]; break;
-    case KEY_SKY_STRENGTH: view->sky_strength = v[0]; break;
-    case KEY_SKY_ROTATION: view->sky_rotation_deg = v[0]; break;
-    case KEY_APERTURE: view->aperture = v[0]; break;
-    case KEY_FOCUS: view->focus = v[0]; break;
-    case KEY_EXPOSURE: view->exposure = v[0]; break;
+    case KEY_SKY_STRENGTH: view->lighting.sky_strength = v[0]; break;
+    case KEY_SKY_ROTATION: view->lighting.sky_rotation_deg = v[0]; break;
+    case KEY_APERTURE: view->pose.aperture = v[0]; break;
+    case KEY_FOCUS: view->pose.focus = v[0]; break;
+    case KEY_EXPOSURE: view->lighting.exposure = v[0]; break;
     case KEY_SKY:
     case KEY_TONE:
     case KEY_ASSIGN:
@@ -168,7 +168,7 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
     snprintf(place, sizeof place, "%s:%" PRIu64, r->path, line);
     if (!view_check(&shot, place, err))
         return false;
-    r->view->shots[(int)number - 1] = view_pose(&shot);
+    r->view->shots[(int)number - 1] = shot.pose;
     r->view->has_shot[(int)number - 1] = true;
     return true;
 }
@@ -184,8 +184,8 @@ static bool read_sky(struct view_reader *r, struct error *err)
                     "file for sky",
                     r->path, r->lex->line);
     }
-    free(r->view->sky_path);
-    r->view->sky_path = path_beside(r->path, name);
+    free(r->view->lighting.sky_path);
+    r->view->lighting.sky_path = path_beside(r->path, name);
     free(name);
     return true;
 }
@@ -214,7 +214,7 @@ static bool read_tone(struct view_reader *r, const struct view_key *key,
     for (uint32_t i = 0; i < TONES; i++) {
         if (!word_is(name, view_tones[i]) || !lexer_at_line_end(r->lex))
             continue;
-        r->view->tone = i;
+        r->view->lighting.tone = i;
         return true;
     }
     return fail_at(r, name, key->expected, key->name, err);

@@ -89,13 +89,14 @@ static bool make_job(struct scene *scene, uint32_t features,
                                .spp = SPP};
     view_init(&view);
     view.width_px = view.height_px = SIDE;
-    view.eye[0] = 0.3;
-    view.eye[1] = 1.4;
-    view.eye[2] = 1.9;
-    view.at[0] = view.at[2] = 0;
-    view.at[1] = 1.3;
-    view.fovy_deg = 75;
-    view.background[0] = view.background[1] = view.background[2] = 0.5;
+    view.pose.eye[0] = 0.3;
+    view.pose.eye[1] = 1.4;
+    view.pose.eye[2] = 1.9;
+    view.pose.at[0] = view.pose.at[2] = 0;
+    view.pose.at[1] = 1.3;
+    view.pose.fovy_deg = 75;
+    view.lighting.background[0] = view.lighting.background[1] =
+        view.lighting.background[2] = 0.5;
     ok = ((features & FEATURE_GUIDE) == 0 ||
           scene_guide(scene, &view, 1, err)) &&
          scene_world(scene, &view, 1, &job->world, err);

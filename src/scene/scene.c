@@ -291,16 +291,16 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
     struct sky_table table = {0};
     uint64_t clamped_count = 0;
 
-    if (view->sky_path != NULL &&
-        (!image_open(&file, view->sky_path, IMAGE_LINEAR, textures_bytes(scene),
-                     err) ||
+    if (view->lighting.sky_path != NULL &&
+        (!image_open(&file, view->lighting.sky_path, IMAGE_LINEAR,
+                     textures_bytes(scene), err) ||
          !image_decode(&file, &image, &clamped_count, err)))
         return false;
     if (clamped_count > 0)
         warnings_add(report, "skies with impossible values",
                      "%s: found %" PRIu64
                      " negative or infinite values: clamped",
-                     view->sky_path, clamped_count);
+                     view->lighting.sky_path, clamped_count);
     if (!sky_table_build(&table, (struct vec3 *)(void *)image.rgb,
                          (uint32_t)image.width, (uint32_t)image.height,
                          SKY_WITH_CHANCE, err)) {

@@ -21,32 +21,36 @@
  * nonsense. */
 #define VIEW_SIDE_MAX 65536
 
-/* The camera of a view: what moves, and what is undone. */
+/* The camera. */
 struct pose {
     double eye[3], at[3], up[3];
-    double fovy_deg, aperture, focus;
+    double fovy_deg; /* vertical; above 0, below 180 */
+    double aperture; /* diameter of the lens; 0: a pinhole */
+    double focus;    /* from eye to the sharp plane; 0: as far as at */
+};
+
+/* The light that comes from no surface, and how the picture is developed. */
+struct lighting {
+    double background[3]; /* constant radiance */
+    bool has_background;
+    char *sky_path; /* of an image, which replaces the background; NULL: none */
+    double sky_strength;
+    double sky_rotation_deg;
+    double exposure; /* stops: the picture is multiplied by 2^exposure */
+    uint32_t tone;   /* enum tone */
 };
 
 /* has_x says that the file (or the person) gave x; the value is a sensible
  * default else. */
 struct view {
-    double eye[3], at[3], up[3];
+    struct pose pose;
     bool has_camera; /* eye and at are given */
-    double fovy_deg; /* vertical; above 0, below 180 */
+    struct lighting lighting;
     int width_px, height_px;
     bool has_size;
-    double background[3]; /* constant radiance */
-    bool has_background;
-    int max_bounces; /* -1: no limit */
-    char *sky_path;  /* for open(); NULL: none */
-    double sky_strength;
-    double sky_rotation_deg;
-    double aperture; /* diameter of the lens; 0: a pinhole */
-    double focus;    /* from eye to the sharp plane; 0: as far as at */
-    double exposure; /* stops: the picture is multiplied by 2^exposure */
+    int max_bounces;               /* -1: no limit */
     struct pose shots[VIEW_SHOTS]; /* the numbered views */
     bool has_shot[VIEW_SHOTS];
-    uint32_t tone; /* enum tone */
     struct assigns assigns;
 };
 
@@ -58,9 +62,6 @@ void view_init(struct view *view);
 
 /* True if eye, at and fovy make a camera; else the text says what is wrong. */
 bool view_check(const struct view *view, const char *place, struct error *err);
-
-struct pose view_pose(const struct view *view);
-void view_set_pose(struct view *view, const struct pose *pose);
 
 /* Takes over what the file has changed from `before` to `after`; the rest of
  * `view` stays. The camera is one thing. */

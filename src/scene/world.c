@@ -20,7 +20,7 @@
 /* Half the field of view along the narrower side of the picture. */
 static double narrow_angle_rad(const struct view *view)
 {
-    double half = angle_rad(view->fovy_deg) / 2;
+    double half = angle_rad(view->pose.fovy_deg) / 2;
 
     if (view->width_px < view->height_px)
         half = atan(tan(half) * view->width_px / view->height_px);
@@ -41,10 +41,10 @@ void scene_frame(const struct scene *scene, struct view *view)
     }
     radius = radius > 0 ? sqrt(radius) : 1;
     distance = FRAME_MARGIN * radius / sin(narrow_angle_rad(view));
-    memcpy(view->at, scene->center, sizeof view->at);
-    memcpy(view->eye, scene->center, sizeof view->eye);
-    view->eye[1] += distance * sin(elevation) / scene->scale;
-    view->eye[2] += distance * cos(elevation) / scene->scale;
+    memcpy(view->pose.at, scene->center, sizeof view->pose.at);
+    memcpy(view->pose.eye, scene->center, sizeof view->pose.eye);
+    view->pose.eye[1] += distance * sin(elevation) / scene->scale;
+    view->pose.eye[2] += distance * cos(elevation) / scene->scale;
 }
 
 static void cross(const double a[3], const double b[3], double to[3])
@@ -98,8 +98,8 @@ bool scene_up_is_parallel(const struct view *view)
     double forward[3], right[3];
 
     for (int k = 0; k < 3; k++)
-        forward[k] = view->at[k] / 2 - view->eye[k] / 2;
-    return normalize(forward) && !find_right(forward, view->up, right);
+        forward[k] = view->pose.at[k] / 2 - view->pose.eye[k] / 2;
+    return normalize(forward) && !find_right(forward, view->pose.up, right);
 }
 
 static struct vec3 scaled(const double v[3], double scale)
@@ -112,14 +112,14 @@ static struct vec3 scaled(const double v[3], double scale)
 static void add_lens(const struct scene *scene, const struct view *view,
                      struct camera *camera)
 {
-    double focus = view->focus;
+    double focus = view->pose.focus;
 
     if (focus == 0)
-        focus =
-            hypot(hypot(view->at[0] - view->eye[0], view->at[1] - view->eye[1]),
-                  view->at[2] - view->eye[2]);
+        focus = hypot(hypot(view->pose.at[0] - view->pose.eye[0],
+                            view->pose.at[1] - view->pose.eye[1]),
+                      view->pose.at[2] - view->pose.eye[2]);
     camera->lens_radius =
-        (float)fmin(view->aperture / 2 * scene->scale, EYE_MAX);
+        (float)fmin(view->pose.aperture / 2 * scene->scale, EYE_MAX);
     camera->focus =
         (float)fmin(fmax(focus * scene->scale, 1 / EYE_MAX), EYE_MAX);
 }
@@ -127,24 +127,25 @@ static void add_lens(const struct scene *scene, const struct view *view,
 static bool make_camera(const struct scene *scene, const struct view *view,
                         struct camera *camera, struct error *err)
 {
-    double tangent = tan(angle_rad(view->fovy_deg) / 2);
+    double tangent = tan(angle_rad(view->pose.fovy_deg) / 2);
     double forward[3], right[3], up[3], eye[3];
 
     for (int k = 0; k < 3; k++) {
-        forward[k] = view->at[k] / 2 - view->eye[k] / 2;
-        eye[k] = (view->eye[k] - scene->center[k]) * scene->scale;
+        forward[k] = view->pose.at[k] / 2 - view->pose.eye[k] / 2;
+        eye[k] = (view->pose.eye[k] - scene->center[k]) * scene->scale;
         if (!(fabs(eye[k]) < EYE_MAX))
             return fail(err,
                         "camera: found eye %g %g %g, expected it nearer to the "
                         "scene",
-                        view->eye[0], view->eye[1], view->eye[2]);
+                        view->pose.eye[0], view->pose.eye[1],
+                        view->pose.eye[2]);
     }
     if (!normalize(forward))
         return fail(err,
                     "camera: found eye and at both at %g %g %g, expected two "
                     "points",
-                    view->at[0], view->at[1], view->at[2]);
-    find_right(forward, view->up, right);
+                    view->pose.at[0], view->pose.at[1], view->pose.at[2]);
+    find_right(forward, view->pose.up, right);
     cross(right, forward, up);
     camera->eye = scaled(eye, 1);
     camera->width = (float)view->width_px;
@@ -158,16 +159,16 @@ static bool make_camera(const struct scene *scene, const struct view *view,
 
 static struct sky make_sky(const struct scene *scene, const struct view *view)
 {
-    double angle = angle_rad(view->sky_rotation_deg);
+    double angle = angle_rad(view->lighting.sky_rotation_deg);
     double one[3] = {1, 1, 1};
     struct sky sky = {
-        .color = scaled(view->background, 1),
+        .color = scaled(view->lighting.background, 1),
         .rotation_sin = (float)sin(angle),
         .rotation_cos = (float)cos(angle),
     };
 
     if (scene->sky_texels != NULL) {
-        sky.color = scaled(one, view->sky_strength);
+        sky.color = scaled(one, view->lighting.sky_strength);
         sky.width = scene->sky_width;
         sky.height = scene->sky_height;
     }

@@ -115,14 +115,17 @@ void edit_init(struct edit *e, const struct scene *scene,
     read_assigns(e, scene, view, report);
     edit_sky(e, "");
     e->now.mood = (struct mood){
-        .has_background = view->has_background,
-        .sky = edit_sky(e, view->sky_path != NULL ? view->sky_path : ""),
-        .sky_strength = view->sky_strength,
-        .sky_rotation_deg = view->sky_rotation_deg,
-        .exposure = view->exposure,
-        .tone = view->tone,
+        .has_background = view->lighting.has_background,
+        .sky = edit_sky(e, view->lighting.sky_path != NULL
+                               ? view->lighting.sky_path
+                               : ""),
+        .sky_strength = view->lighting.sky_strength,
+        .sky_rotation_deg = view->lighting.sky_rotation_deg,
+        .exposure = view->lighting.exposure,
+        .tone = view->lighting.tone,
     };
-    memcpy(e->now.mood.background, view->background, sizeof view->background);
+    memcpy(e->now.mood.background, view->lighting.background,
+           sizeof view->lighting.background);
     free_state(&e->saved);
     copy_state(e, &e->saved, &e->now);
 }
@@ -400,13 +403,15 @@ void edit_to_view(const struct edit *e, const struct edit_state *s,
 {
     const struct mood *m = &s->mood;
 
-    memcpy(view->background, m->background, sizeof view->background);
-    view->has_background = m->has_background;
-    view->sky_strength = m->sky_strength;
-    view->sky_rotation_deg = m->sky_rotation_deg;
-    view->exposure = m->exposure;
-    view->tone = m->tone;
-    free(view->sky_path);
-    view->sky_path = m->sky != 0 ? xstrdup(e->skies.items[m->sky]) : NULL;
+    memcpy(view->lighting.background, m->background,
+           sizeof view->lighting.background);
+    view->lighting.has_background = m->has_background;
+    view->lighting.sky_strength = m->sky_strength;
+    view->lighting.sky_rotation_deg = m->sky_rotation_deg;
+    view->lighting.exposure = m->exposure;
+    view->lighting.tone = m->tone;
+    free(view->lighting.sky_path);
+    view->lighting.sky_path =
+        m->sky != 0 ? xstrdup(e->skies.items[m->sky]) : NULL;
     write_assigns(e, s, scene, &view->assigns);
 }

@@ -72,7 +72,7 @@ static void apply_options(struct session *s)
 
 static bool is_dark(const struct session *s)
 {
-    const double *b = s->view.background;
+    const double *b = s->view.lighting.background;
 
     return !s->scene.has_emitters && !s->scene.sky_texels && b[0] <= 0.0 &&
            b[1] <= 0.0 && b[2] <= 0.0;
@@ -85,8 +85,8 @@ static void complete_view(struct session *s)
     if (s->scene.tri_count == 0) {
         snprintf(s->notice, sizeof s->notice,
                  "no faces: only the background is rendered");
-    } else if (is_dark(s) && !s->view.has_background) {
-        memcpy(s->view.background, soft_sky, sizeof soft_sky);
+    } else if (is_dark(s) && !s->view.lighting.has_background) {
+        memcpy(s->view.lighting.background, soft_sky, sizeof soft_sky);
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");
         warnings_add(&s->report, "scenes without light",
@@ -242,8 +242,8 @@ void session_watch(const struct session *s, struct file_watch *watch)
     file_watch_add(watch, s->view_path);
     if (!s->options->view_path)
         file_watch_add(watch, camera);
-    if (s->view.sky_path)
-        file_watch_add(watch, s->view.sky_path);
+    if (s->view.lighting.sky_path)
+        file_watch_add(watch, s->view.lighting.sky_path);
     free(camera);
 }
 
@@ -319,17 +319,19 @@ bool session_take_edit(struct session *s)
     struct style style = edit_style(&s->edit);
     const struct view *v = &s->view;
 
-    s->view.exposure = m->exposure;
-    s->view.tone = m->tone;
+    s->view.lighting.exposure = m->exposure;
+    s->view.lighting.tone = m->tone;
     return !scene_is_styled(&s->scene, &style) || s->sky != m->sky ||
-           memcmp(v->background, m->background, sizeof v->background) != 0 ||
-           v->sky_strength != m->sky_strength ||
-           v->sky_rotation_deg != m->sky_rotation_deg;
+           memcmp(v->lighting.background, m->background,
+                  sizeof v->lighting.background) != 0 ||
+           v->lighting.sky_strength != m->sky_strength ||
+           v->lighting.sky_rotation_deg != m->sky_rotation_deg;
 }
 
 struct develop session_develop(const struct session *s)
 {
-    return (struct develop){(float)s->view.exposure, s->view.tone};
+    return (struct develop){(float)s->view.lighting.exposure,
+                            s->view.lighting.tone};
 }
 
 struct render_progress session_look(struct session *s)

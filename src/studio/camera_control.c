@@ -142,9 +142,7 @@ static const struct move *find_move(enum action action)
 
 static void add_step(struct camera_control *camera)
 {
-    struct pose pose = view_pose(view_of(camera));
-
-    camera_history_add(&camera->history, &pose);
+    camera_history_add(&camera->history, &view_of(camera)->pose);
 }
 
 static void say_lens(struct camera_control *camera)
@@ -153,11 +151,12 @@ static void say_lens(struct camera_control *camera)
 
     if (camera->held == ACTION_NARROWER || camera->held == ACTION_WIDER)
         render_control_say(camera->control, "field of view %.3g degrees",
-                           v->fovy_deg);
+                           v->pose.fovy_deg);
     else if (camera->held != ACTION_CLOSE && camera->held != ACTION_OPEN)
         return;
-    else if (v->aperture > 0)
-        render_control_say(camera->control, "lens open by %.3g", v->aperture);
+    else if (v->pose.aperture > 0)
+        render_control_say(camera->control, "lens open by %.3g",
+                           v->pose.aperture);
     else
         render_control_say(camera->control, "a pinhole: everything is sharp");
 }
@@ -220,7 +219,8 @@ static bool may_jump(struct camera_control *camera)
 static void jump(struct camera_control *camera, const struct pose *pose)
 {
     add_step(camera);
-    view_set_pose(view_of(camera), pose);
+    view_of(camera)->pose = *pose;
+    view_of(camera)->has_camera = true;
     forget_place(camera);
     camera->control->must_restart = true;
 }
@@ -235,17 +235,15 @@ static void change_speed(struct camera_control *camera, int steps)
 
 static void reset(struct camera_control *camera)
 {
-    struct pose pose = view_pose(&camera->control->session->opened);
-
     if (!may_jump(camera))
         return;
-    jump(camera, &pose);
+    jump(camera, &camera->control->session->opened.pose);
     render_control_say(camera->control, "the view as it was opened");
 }
 
 static void travel(struct camera_control *camera, bool is_back)
 {
-    struct pose pose = view_pose(view_of(camera));
+    struct pose pose = view_of(camera)->pose;
 
     if (!may_jump(camera))
         return;
@@ -255,7 +253,8 @@ static void travel(struct camera_control *camera, bool is_back)
                            is_back ? "nothing to undo" : "nothing to do again");
         return;
     }
-    view_set_pose(view_of(camera), &pose);
+    view_of(camera)->pose = pose;
+    view_of(camera)->has_camera = true;
     forget_place(camera);
     camera->control->must_restart = true;
     render_control_say(camera->control, is_back ? "undone" : "done again");
@@ -303,13 +302,11 @@ static void frame(struct camera_control *camera, const double lo[3],
                   const double hi[3], const char *name)
 {
     struct view framed = *view_of(camera);
-    struct pose pose;
 
     if (!may_jump(camera))
         return;
     camera_frame(&framed, lo, hi);
-    pose = view_pose(&framed);
-    jump(camera, &pose);
+    jump(camera, &framed.pose);
     render_control_say(camera->control, "%s", name);
 }
 
@@ -337,7 +334,7 @@ static void frame_all(struct camera_control *camera)
 
 static void focus(struct camera_control *camera)
 {
-    struct pose pose = view_pose(view_of(camera));
+    struct pose pose = view_of(camera)->pose;
 
     if (!need_pick(camera) || !may_jump(camera))
         return;
@@ -375,7 +372,7 @@ void camera_control_keep_view(struct camera_control *camera, enum action action)
 
     if (!is_number(action))
         return;
-    v->shots[number - 1] = view_pose(v);
+    v->shots[number - 1] = v->pose;
     v->has_shot[number - 1] = true;
     render_control_say(
         camera->control, "this is view %d: %s writes it to the view file",
@@ -448,7 +445,7 @@ static bool steer_by(struct camera_control *camera, const struct event *event)
 
 static void drag(struct camera_control *camera, const struct event *event)
 {
-    struct pose before = view_pose(view_of(camera));
+    struct pose before = view_of(camera)->pose;
 
     if (!render_control_may_move(camera->control)) {
         camera->input.is_dragging = false; /* nor is it a click */

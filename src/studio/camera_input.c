@@ -106,11 +106,13 @@ static void turn(const struct camera_input *s, struct view *view,
 /* Below the least there is only the pinhole. */
 static void open_lens(struct view *view, double seconds)
 {
-    double sharp = view->focus > 0 ? view->focus : camera_depth(view, view->at);
+    double sharp = view->pose.focus > 0 ? view->pose.focus
+                                        : camera_depth(view, view->pose.at);
     double least = APERTURE_LEAST * sharp;
-    double aperture = fmax(view->aperture, least) * exp(OPEN_SPEED * seconds);
+    double aperture =
+        fmax(view->pose.aperture, least) * exp(OPEN_SPEED * seconds);
 
-    view->aperture =
+    view->pose.aperture =
         aperture > least ? fmin(aperture, APERTURE_GREATEST * sharp) : 0;
 }
 
@@ -143,7 +145,7 @@ static bool drag(struct camera_input *s, struct view *view,
 {
     double right = (e->x - s->drag_x) * shape / fit->cols;
     double down = (double)(e->y - s->drag_y) / fit->rows;
-    double height_rad = angle_rad(view->fovy_deg);
+    double height_rad = angle_rad(view->pose.fovy_deg);
 
     s->drag_x = e->x;
     s->drag_y = e->y;

@@ -54,7 +54,7 @@ static void any_across(double out[3], const double v[3])
 static void up_of(const struct view *view, double up[3])
 {
     for (int i = 0; i < 3; i++)
-        up[i] = view->up[i];
+        up[i] = view->pose.up[i];
     if (!make_unit(up)) {
         up[0] = up[2] = 0;
         up[1] = 1;
@@ -67,7 +67,7 @@ static void axes_of(const struct view *view, struct axes *axes)
 
     up_of(view, up);
     for (int i = 0; i < 3; i++)
-        axes->forward[i] = view->at[i] - view->eye[i];
+        axes->forward[i] = view->pose.at[i] - view->pose.eye[i];
     if (!make_unit(axes->forward)) {
         axes->forward[0] = axes->forward[1] = 0;
         axes->forward[2] = -1;
@@ -88,8 +88,8 @@ void camera_move(struct view *view, double right, double up, double forward)
         double step =
             right * axes.right[i] + up * axes.up[i] + forward * axes.forward[i];
 
-        view->eye[i] += step;
-        view->at[i] += step;
+        view->pose.eye[i] += step;
+        view->pose.at[i] += step;
     }
     view->has_camera = true;
 }
@@ -100,7 +100,7 @@ static double reach_of(const struct view *view)
     double to_at[3], reach;
 
     for (int i = 0; i < 3; i++)
-        to_at[i] = view->at[i] - view->eye[i];
+        to_at[i] = view->pose.at[i] - view->pose.eye[i];
     reach = sqrt(dot(to_at, to_at));
     return reach > 0.0 && !isinf(reach) ? reach : 1;
 }
@@ -127,8 +127,8 @@ void camera_turn(struct view *view, double right_rad, double up_rad)
     for (int i = 0; i < 3; i++) {
         double around = azimuth_cos * level[i] + azimuth_sin * across[i];
 
-        view->at[i] =
-            view->eye[i] + reach * (cos(polar) * up[i] + sin(polar) * around);
+        view->pose.at[i] = view->pose.eye[i] +
+                           reach * (cos(polar) * up[i] + sin(polar) * around);
     }
     view->has_camera = true;
 }
@@ -142,7 +142,7 @@ void camera_orbit(struct view *view, const double around[3], double right_rad,
 
     axes_of(view, &axes);
     for (int i = 0; i < 3; i++)
-        offset[i] = around[i] - view->eye[i];
+        offset[i] = around[i] - view->pose.eye[i];
     right = dot(offset, axes.right);
     up = dot(offset, axes.up);
     forward = dot(offset, axes.forward);
@@ -152,8 +152,8 @@ void camera_orbit(struct view *view, const double around[3], double right_rad,
         double eye = around[i] - right * axes.right[i] - up * axes.up[i] -
                      forward * axes.forward[i];
 
-        view->at[i] += eye - view->eye[i];
-        view->eye[i] = eye;
+        view->pose.at[i] += eye - view->pose.eye[i];
+        view->pose.eye[i] = eye;
     }
 }
 
@@ -169,7 +169,7 @@ static void stand_before(double right, double left, double slope, double *x,
 
 void camera_frame(struct view *view, const double lo[3], const double hi[3])
 {
-    double slope_y = CAMERA_FILL * tan(angle_rad(view->fovy_deg) / 2);
+    double slope_y = CAMERA_FILL * tan(angle_rad(view->pose.fovy_deg) / 2);
     double slope_x = slope_y * view->width_px / view->height_px;
     double right = -INFINITY, left = -INFINITY;
     double above = -INFINITY, below = -INFINITY;
@@ -201,8 +201,8 @@ void camera_frame(struct view *view, const double lo[3], const double hi[3])
     if (!(z < 0))
         z = -reach; /* a point */
     for (int i = 0; i < 3; i++) {
-        view->at[i] = center[i] + x * axes.right[i] + y * axes.up[i];
-        view->eye[i] = view->at[i] + z * axes.forward[i];
+        view->pose.at[i] = center[i] + x * axes.right[i] + y * axes.up[i];
+        view->pose.eye[i] = view->pose.at[i] + z * axes.forward[i];
     }
     view->has_camera = true;
 }
@@ -212,7 +212,7 @@ void camera_frame(struct view *view, const double lo[3], const double hi[3])
 bool camera_sees_box(const struct view *view, const double lo[3],
                      const double hi[3])
 {
-    double slope_y = tan(angle_rad(view->fovy_deg) / 2);
+    double slope_y = tan(angle_rad(view->pose.fovy_deg) / 2);
     double slope_x = slope_y * view->width_px / view->height_px;
     double most[5] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY};
     struct axes axes;
@@ -222,7 +222,7 @@ bool camera_sees_box(const struct view *view, const double lo[3],
         double p[3], x, y, z;
 
         for (int i = 0; i < 3; i++)
-            p[i] = (corner >> i & 1 ? hi[i] : lo[i]) - view->eye[i];
+            p[i] = (corner >> i & 1 ? hi[i] : lo[i]) - view->pose.eye[i];
         x = dot(p, axes.right);
         y = dot(p, axes.up);
         z = dot(p, axes.forward);
@@ -245,14 +245,14 @@ double camera_depth(const struct view *view, const double point[3])
 
     axes_of(view, &axes);
     for (int i = 0; i < 3; i++)
-        offset[i] = point[i] - view->eye[i];
+        offset[i] = point[i] - view->pose.eye[i];
     return dot(offset, axes.forward);
 }
 
 void camera_widen(struct view *view, double factor)
 {
-    double half_rad = atan(factor * tan(angle_rad(view->fovy_deg) / 2));
+    double half_rad = atan(factor * tan(angle_rad(view->pose.fovy_deg) / 2));
 
-    view->fovy_deg =
+    view->pose.fovy_deg =
         fmax(FOVY_MIN_DEG, fmin(FOVY_MAX_DEG, angle_deg(2 * half_rad)));
 }

@@ -160,8 +160,8 @@ static void move(struct clearance *c, const struct scene *scene,
 void clearance_follow(struct clearance *c, const struct scene *scene,
                       const struct view *view)
 {
-    if (!c->is_known || memcmp(c->eye, view->eye, sizeof c->eye) != 0)
-        move(c, scene, view->eye);
+    if (!c->is_known || memcmp(c->eye, view->pose.eye, sizeof c->eye) != 0)
+        move(c, scene, view->pose.eye);
     if (c->place != CLEARANCE_AMONG && c->place != CLEARANCE_AWAY)
         return;
     c->place = scene->tri_count == 0 ||

@@ -60,22 +60,22 @@ static void check_sky(const char *a, const char *b)
 
 static void check_same(const struct view *a, const struct view *b)
 {
-    struct pose poses[2] = {view_pose(a), view_pose(b)};
-
     require(a->has_camera == b->has_camera, "a camera");
-    require(is_same_pose(&poses[0], &poses[1]), "the camera");
+    require(is_same_pose(&a->pose, &b->pose), "the camera");
     require(a->has_size == b->has_size && a->width_px == b->width_px &&
                 a->height_px == b->height_px,
             "size");
-    require(a->has_background == b->has_background &&
-                is_same3(a->background, b->background),
+    require(a->lighting.has_background == b->lighting.has_background &&
+                is_same3(a->lighting.background, b->lighting.background),
             "background");
     require(a->max_bounces == b->max_bounces, "bounces");
-    check_sky(a->sky_path, b->sky_path);
-    require(a->sky_strength == b->sky_strength &&
-                a->sky_rotation_deg == b->sky_rotation_deg,
+    check_sky(a->lighting.sky_path, b->lighting.sky_path);
+    require(a->lighting.sky_strength == b->lighting.sky_strength &&
+                a->lighting.sky_rotation_deg == b->lighting.sky_rotation_deg,
             "sky");
-    require(a->exposure == b->exposure && a->tone == b->tone, "exposure");
+    require(a->lighting.exposure == b->lighting.exposure &&
+                a->lighting.tone == b->lighting.tone,
+            "exposure");
     check_shots(a, b);
     check_assigns(&a->assigns, &b->assigns);
 }

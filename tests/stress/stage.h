@@ -191,15 +191,16 @@ static inline struct view make_view(const struct stage *s,
 
     view_init(&view);
     for (int k = 0; k < 3; k++) {
-        view.eye[k] = shot->eye[k] * s->scale + s->move[k];
-        view.at[k] = shot->at[k] * s->scale + s->move[k];
-        view.background[k] = shot->background;
+        view.pose.eye[k] = shot->eye[k] * s->scale + s->move[k];
+        view.pose.at[k] = shot->at[k] * s->scale + s->move[k];
+        view.lighting.background[k] = shot->background;
     }
-    view.has_camera = view.has_background = true;
-    view.fovy_deg = shot->fovy_deg;
+    view.has_camera = view.lighting.has_background = true;
+    view.pose.fovy_deg = shot->fovy_deg;
     view.width_px = view.height_px =
         shot->side_px > 0 ? shot->side_px : SIDE_PX;
-    view.sky_path = shot->sky != NULL ? xformat("%s", shot->sky) : NULL;
+    view.lighting.sky_path =
+        shot->sky != NULL ? xformat("%s", shot->sky) : NULL;
     return view;
 }
 

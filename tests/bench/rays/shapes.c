@@ -96,7 +96,8 @@ static bool load_terrain(struct scene *s, uint32_t across, struct view *view,
                               .up = {0, 1, 0},
                               .fovy_deg = 60};
 
-    view_set_pose(view, &pose);
+    view->pose = pose;
+    view->has_camera = true;
     s->path = xstrdup("terrain");
     return make_terrain(s, across, err) && scene_finish(s, report, err);
 }

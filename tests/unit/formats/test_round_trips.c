@@ -82,14 +82,14 @@ static bool views_are_equal(const struct view *a, const struct view *b)
 {
     struct view x = *a, y = *b;
     bool ok = a->assigns.count == b->assigns.count &&
-              skies_are_equal(a->sky_path, b->sky_path);
+              skies_are_equal(a->lighting.sky_path, b->lighting.sky_path);
 
     for (size_t i = 0; ok && i < a->assigns.count; i++)
         ok = strcmp(a->assigns.items[i].object, b->assigns.items[i].object) ==
                  0 &&
              strcmp(a->assigns.items[i].material,
                     b->assigns.items[i].material) == 0;
-    x.sky_path = y.sky_path = NULL;
+    x.lighting.sky_path = y.lighting.sky_path = NULL;
     x.assigns = y.assigns = (struct assigns){0};
     /* the numbers of what is not there are those of view_init() */
     return ok && memcmp(&x, &y, sizeof x) == 0;

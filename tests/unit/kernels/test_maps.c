@@ -69,7 +69,7 @@ static void load(struct loaded *l, const char *statements)
     write_file("a.mtl", mtl, strlen(mtl));
     write_file("a.obj", obj, sizeof obj - 1);
     view_init(&l->view);
-    l->view.eye[2] = 5;
+    l->view.pose.eye[2] = 5;
     if (!scene_load(&l->scene, "a.obj", false, &l->report, &err) ||
         !scene_world(&l->scene, &l->view, 0, &l->world, &err))
         print_error("%s\n", err.text);

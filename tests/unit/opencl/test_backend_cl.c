@@ -490,7 +490,7 @@ static void buffers(void **state)
     for (int i = 0; i < 3; i++) { /* the camera moves, materials change */
         struct material *before = p.scene.materials;
 
-        p.view.eye[0] += 5;
+        p.view.pose.eye[0] += 5;
         p.scene.materials = alloc_array(p.scene.material_count, sizeof *before);
         assert_non_null(p.scene.materials);
         memcpy(p.scene.materials, before,

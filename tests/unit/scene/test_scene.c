@@ -387,7 +387,7 @@ static void test_frame_shows_everything(void **state)
         double most = 0;
 
         view_init(&view);
-        view.fovy_deg = fovys[i % 5];
+        view.pose.fovy_deg = fovys[i % 5];
         view.width_px = sizes[i / 5][0];
         view.height_px = sizes[i / 5][1];
         scene_frame(&l.scene, &view);
@@ -403,8 +403,9 @@ static void test_frame_shows_everything(void **state)
             most = fmax(most, fmax(fabs(x), fabs(y)));
         }
         assert_true(most < 1);
-        assert_true(most > 0.3 || view.fovy_deg > 90);
-        assert_true(view.eye[2] > view.at[2] && view.eye[1] > view.at[1]);
+        assert_true(most > 0.3 || view.pose.fovy_deg > 90);
+        assert_true(view.pose.eye[2] > view.pose.at[2] &&
+                    view.pose.eye[1] > view.pose.at[1]);
         view_free(&view);
     }
     unload(&l);
@@ -425,9 +426,9 @@ static void test_camera(void **state)
 
     (void)state;
     view_init(&view);
-    memcpy(view.eye, (double[]){2, 1, 8}, sizeof view.eye);
-    memcpy(view.at, (double[]){2, 1, 0}, sizeof view.at);
-    view.fovy_deg = 90;
+    memcpy(view.pose.eye, (double[]){2, 1, 8}, sizeof view.pose.eye);
+    memcpy(view.pose.at, (double[]){2, 1, 0}, sizeof view.pose.at);
+    view.pose.fovy_deg = 90;
     view.width_px = 200;
     view.height_px = 100;
     assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
@@ -441,15 +442,15 @@ static void test_camera(void **state)
     assert_int_equal(w.settings.max_vertices, 1000);
     assert_int_equal(w.settings.features, 0);
     assert_true(w.settings.camera.lens_radius == 0);
-    view.aperture = 0.8; /* a radius of .4, and the distance to at: 8 */
+    view.pose.aperture = 0.8; /* a radius of .4, and the distance to at: 8 */
     assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
     check_close((double)w.settings.camera.lens_radius, 0.1, 1e-7);
     check_close((double)w.settings.camera.focus, 2, 1e-6);
-    view.focus = 12;
+    view.pose.focus = 12;
     assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
     check_close((double)w.settings.camera.focus, 3, 1e-6);
     view.max_bounces = 0;
-    memcpy(view.up, (double[]){1e300, 1e300, 0}, sizeof view.up);
+    memcpy(view.pose.up, (double[]){1e300, 1e300, 0}, sizeof view.pose.up);
     assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
     check_vec(w.settings.camera.up, sqrt(.5), sqrt(.5), 0);
     assert_int_equal(w.settings.max_vertices, 1);
@@ -471,11 +472,11 @@ static void test_up_along_the_view(void **state)
         double dot;
 
         view_init(&view);
-        view.fovy_deg = 90;
+        view.pose.fovy_deg = 90;
         view.width_px = view.height_px = 100;
-        memcpy(view.eye, (double[]){.5, 9, 0}, sizeof view.eye);
-        memcpy(view.at, (double[]){.5, 0, 0}, sizeof view.at);
-        memcpy(view.up, ups[i], sizeof view.up);
+        memcpy(view.pose.eye, (double[]){.5, 9, 0}, sizeof view.pose.eye);
+        memcpy(view.pose.at, (double[]){.5, 0, 0}, sizeof view.pose.at);
+        memcpy(view.pose.up, ups[i], sizeof view.pose.up);
         if (scene_world(&l.scene, &view, 0, &w, &l.err)) {
             struct vec3 r = w.settings.camera.right;
             struct vec3 u = w.settings.camera.up;
@@ -501,12 +502,12 @@ static void test_impossible_cameras(void **state)
 
     (void)state;
     view_init(&view);
-    memcpy(view.eye, (double[]){1, 2, 3}, sizeof view.eye);
-    memcpy(view.at, (double[]){1, 2, 3}, sizeof view.at);
+    memcpy(view.pose.eye, (double[]){1, 2, 3}, sizeof view.pose.eye);
+    memcpy(view.pose.at, (double[]){1, 2, 3}, sizeof view.pose.at);
     assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
-    view.eye[0] = NAN;
+    view.pose.eye[0] = NAN;
     assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
-    view.eye[0] = 1e300;
+    view.pose.eye[0] = 1e300;
     assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
     view_free(&view);
     unload(&l);
@@ -520,17 +521,18 @@ static void test_sky(void **state)
 
     (void)state;
     view_init(&view);
-    memcpy(view.eye, (double[]){0, 0, 3}, sizeof view.eye);
-    memcpy(view.background, (double[]){.25, .5, 8}, sizeof view.background);
+    memcpy(view.pose.eye, (double[]){0, 0, 3}, sizeof view.pose.eye);
+    memcpy(view.lighting.background, (double[]){.25, .5, 8},
+           sizeof view.lighting.background);
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
     check_vec(w.settings.sky.color, .25, .5, 8);
     assert_int_equal(w.settings.sky.width, 0);
     assert_true(w.settings.sky_share == 1 && w.settings.light_share == 0);
 
     put("two.png", two_texels, sizeof two_texels);
-    view.sky_path = strdup("two.png");
-    view.sky_strength = 3;
-    view.sky_rotation_deg = 90;
+    view.lighting.sky_path = strdup("two.png");
+    view.lighting.sky_strength = 3;
+    view.lighting.sky_rotation_deg = 90;
     assert_true(scene_load_sky(&l.scene, &view, &l.report, &l.err));
     unlink("two.png");
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
@@ -542,13 +544,13 @@ static void test_sky(void **state)
     check_vec(w.sky_texels[0], 1, 0.21586050, 0);
     assert_true(w.sky_sums != NULL && w.settings.sky_share == 1 &&
                 w.settings.light_share == 0);
-    view.sky_strength = 0;
+    view.lighting.sky_strength = 0;
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
     assert_true(w.settings.sky_share == 0);
 
     assert_false(scene_load_sky(&l.scene, &view, &l.report, &l.err));
-    free(view.sky_path);
-    view.sky_path = NULL;
+    free(view.lighting.sky_path);
+    view.lighting.sky_path = NULL;
     assert_true(scene_load_sky(&l.scene, &view, &l.report, &l.err));
     assert_null(l.scene.sky_texels);
     view_free(&view);

@@ -79,13 +79,14 @@ static void test_defaults(void **state)
 
     (void)state;
     read_text(&view, "");
-    assert_false(view.has_camera || view.has_size || view.has_background);
-    is3(view.up, 0, 1, 0);
-    assert_true(view.fovy_deg == 40 && view.sky_strength == 1);
+    assert_false(view.has_camera || view.has_size ||
+                 view.lighting.has_background);
+    is3(view.pose.up, 0, 1, 0);
+    assert_true(view.pose.fovy_deg == 40 && view.lighting.sky_strength == 1);
     assert_int_equal(view.width_px, 1024);
     assert_int_equal(view.height_px, 576);
     assert_int_equal(view.max_bounces, -1);
-    assert_null(view.sky_path);
+    assert_null(view.lighting.sky_path);
     view_free(&view);
 }
 
@@ -111,21 +112,23 @@ static void test_all_keys(void **state)
                      "focus 1e3\r\n"
                      "tone aces # bright\r\n"
                      "exposure -1.5");
-    assert_true(view.has_camera && view.has_size && view.has_background);
-    is3(view.eye, 278, 273, -800);
-    is3(view.at, 0.5, 1, -0.25);
-    is3(view.up, 0, 0, 2);
-    assert_true(view.fovy_deg == 39.3077);
+    assert_true(view.has_camera && view.has_size &&
+                view.lighting.has_background);
+    is3(view.pose.eye, 278, 273, -800);
+    is3(view.pose.at, 0.5, 1, -0.25);
+    is3(view.pose.up, 0, 0, 2);
+    assert_true(view.pose.fovy_deg == 39.3077);
     assert_int_equal(view.width_px, 256);
     assert_int_equal(view.height_px, 128);
-    is3(view.background, 1, 0.5, 0);
+    is3(view.lighting.background, 1, 0.5, 0);
     assert_int_equal(view.max_bounces, 64);
     snprintf(sky, sizeof sky, "%s/my sky #1.hdr", folder);
-    assert_string_equal(view.sky_path, sky);
-    assert_true(view.sky_strength == 2.5 && view.sky_rotation_deg == -90);
-    assert_true(view.aperture == 0.5 && view.focus == 1000);
-    assert_true(view.exposure == -1.5);
-    assert_int_equal(view.tone, TONE_ACES);
+    assert_string_equal(view.lighting.sky_path, sky);
+    assert_true(view.lighting.sky_strength == 2.5 &&
+                view.lighting.sky_rotation_deg == -90);
+    assert_true(view.pose.aperture == 0.5 && view.pose.focus == 1000);
+    assert_true(view.lighting.exposure == -1.5);
+    assert_int_equal(view.lighting.tone, TONE_ACES);
     view_free(&view);
 }
 
@@ -139,10 +142,10 @@ static void test_over(void **state)
     read_text(&view, "eye 1 2 3\nat 0 0 0\nfovy 20\nsky a.png\n");
     assert_true(view_read(&view, put("eye 4 5 6\nsky b.png\nsky c.png\n"),
                           &report, &err));
-    assert_true(view.has_camera && view.fovy_deg == 20);
-    is3(view.eye, 4, 5, 6);
-    is3(view.at, 0, 0, 0);
-    assert_string_equal(strrchr(view.sky_path, '/'), "/c.png");
+    assert_true(view.has_camera && view.pose.fovy_deg == 20);
+    is3(view.pose.eye, 4, 5, 6);
+    is3(view.pose.at, 0, 0, 0);
+    assert_string_equal(strrchr(view.lighting.sky_path, '/'), "/c.png");
     view_free(&view);
 }
 
@@ -152,7 +155,7 @@ static void test_limits(void **state)
 
     (void)state;
     read_text(&view, "fovy 179.9\n");
-    assert_true(view.fovy_deg == 179.9);
+    assert_true(view.pose.fovy_deg == 179.9);
     view_free(&view);
     /* looking along up is for the camera to handle */
     read_text(&view, "eye 0 5 0\nat 0 0 0\nup 0 1 0\nres 1 1\n");
@@ -265,35 +268,10 @@ static void test_numbered_views(void **state)
     is3(view.shots[1].up, 1, 0, 0);
     assert_true(view.shots[1].fovy_deg == 30 && view.shots[1].aperture == .5 &&
                 view.shots[1].focus == 3);
-    is3(view.eye, 0, 0, 5);
-    is3(view.at, 0, 0, 0);
-    assert_true(view.focus == 0);
+    is3(view.pose.eye, 0, 0, 5);
+    is3(view.pose.at, 0, 0, 0);
+    assert_true(view.pose.focus == 0);
     view_free(&view);
-}
-
-static void test_poses(void **state)
-{
-    struct view view, other;
-    struct pose pose;
-
-    (void)state;
-    view_init(&view);
-    view_init(&other);
-    pose = (struct pose){.eye = {1, 2, 3},
-                         .at = {4, 5, 6},
-                         .up = {7, 8, 9},
-                         .fovy_deg = 10,
-                         .aperture = 11,
-                         .focus = 12};
-    other.exposure = 3;
-    view_set_pose(&other, &pose);
-    assert_true(other.has_camera && other.exposure == 3);
-    pose = view_pose(&other);
-    view_set_pose(&view, &pose);
-    is3(view.eye, 1, 2, 3);
-    is3(view.at, 4, 5, 6);
-    is3(view.up, 7, 8, 9);
-    assert_true(view.fovy_deg == 10 && view.aperture == 11 && view.focus == 12);
 }
 
 static void test_no_file(void **state)
@@ -321,7 +299,7 @@ static void test_unknown(void **state)
     view_init(&view);
     assert_true(view_read(&view, put("fov 30\nshutter 1\nfovy 50\nEYE 1\n"),
                           &report, &err));
-    assert_true(view.fovy_deg == 50);
+    assert_true(view.pose.fovy_deg == 50);
     assert_int_equal(report.entry_count, 1);
     assert_int_equal(report.entries[0].count, 3);
     snprintf(expected, sizeof expected,
@@ -361,22 +339,23 @@ static void test_noise(void **state)
 
 static void is_same(const struct view *a, const struct view *b)
 {
-    assert_memory_equal(a->eye, b->eye, sizeof a->eye);
-    assert_memory_equal(a->at, b->at, sizeof a->at);
-    assert_memory_equal(a->up, b->up, sizeof a->up);
-    assert_memory_equal(a->background, b->background, sizeof a->background);
+    assert_memory_equal(a->pose.eye, b->pose.eye, sizeof a->pose.eye);
+    assert_memory_equal(a->pose.at, b->pose.at, sizeof a->pose.at);
+    assert_memory_equal(a->pose.up, b->pose.up, sizeof a->pose.up);
+    assert_memory_equal(a->lighting.background, b->lighting.background,
+                        sizeof a->lighting.background);
     assert_int_equal(a->has_camera, b->has_camera);
     assert_int_equal(a->has_size, b->has_size);
-    assert_int_equal(a->has_background, b->has_background);
+    assert_int_equal(a->lighting.has_background, b->lighting.has_background);
     assert_int_equal(a->width_px, b->width_px);
     assert_int_equal(a->height_px, b->height_px);
     assert_int_equal(a->max_bounces, b->max_bounces);
-    assert_true(a->fovy_deg == b->fovy_deg);
-    assert_true(a->sky_strength == b->sky_strength);
-    assert_true(a->sky_rotation_deg == b->sky_rotation_deg);
-    assert_true(a->aperture == b->aperture);
-    assert_true(a->focus == b->focus);
-    assert_true(a->exposure == b->exposure);
+    assert_true(a->pose.fovy_deg == b->pose.fovy_deg);
+    assert_true(a->lighting.sky_strength == b->lighting.sky_strength);
+    assert_true(a->lighting.sky_rotation_deg == b->lighting.sky_rotation_deg);
+    assert_true(a->pose.aperture == b->pose.aperture);
+    assert_true(a->pose.focus == b->pose.focus);
+    assert_true(a->lighting.exposure == b->lighting.exposure);
     for (int i = 0; i < VIEW_SHOTS; i++) {
         const struct pose *p = &a->shots[i], *q = &b->shots[i];
 
@@ -401,23 +380,25 @@ static void test_round_trip(void **state)
     view_init(&again);
     assert_true(view_read(&again, file("w.view"), &report, &err));
     is_same(&view, &again);
-    view = (struct view){.eye = {1.0 / 3, -2e-9, 1e20},
-                         .at = {0.1 + 0.2, 5, -7},
-                         .up = {0, 0.6, 0.8},
-                         .has_camera = true,
-                         .fovy_deg = 100.0 / 7,
-                         .width_px = 31,
-                         .height_px = 17,
-                         .has_size = true,
-                         .background = {0.1, 2, 3},
-                         .has_background = true,
-                         .max_bounces = 3,
-                         .sky_strength = 0.3,
-                         .sky_rotation_deg = 12.5,
-                         .aperture = 0.05,
-                         .focus = 7.25,
-                         .exposure = -0.7};
-    view.shots[0] = view_pose(&view);
+    view = (struct view){
+        .pose = {.eye = {1.0 / 3, -2e-9, 1e20},
+                 .at = {0.1 + 0.2, 5, -7},
+                 .up = {0, 0.6, 0.8},
+                 .fovy_deg = 100.0 / 7,
+                 .aperture = 0.05,
+                 .focus = 7.25},
+        .has_camera = true,
+        .width_px = 31,
+        .height_px = 17,
+        .has_size = true,
+        .lighting = {.background = {0.1, 2, 3},
+                     .has_background = true,
+                     .sky_strength = 0.3,
+                     .sky_rotation_deg = 12.5,
+                     .exposure = -0.7},
+        .max_bounces = 3,
+    };
+    view.shots[0] = view.pose;
     view.shots[8] = (struct pose){.eye = {1, 1e-9, 1},
                                   .at = {0, 1.0 / 3},
                                   .up = {0, 1},
@@ -476,10 +457,10 @@ static void test_lines_are_kept(void **state)
     view_init(&view);
     assert_true(view_read(&view, path, &report, &err));
     warnings_free(&report);
-    view.eye[0] = 7;
-    view.exposure = 2;
+    view.pose.eye[0] = 7;
+    view.lighting.exposure = 2;
     view.has_shot[3] = true;
-    view.shots[3] = view_pose(&view);
+    view.shots[3] = view.pose;
     assert_true(view_write(&view, path, &change, &err));
     is_file(path, "# my room\r\nfovy 30\n\n  # the door\neye 7 5 6\n"
                   "assign door oak\nat 0 0 0\n"
@@ -519,7 +500,7 @@ static void test_sky_names(void **state)
         char text[1000] = "";
 
         view_init(&view);
-        view.sky_path = xstrdup(cases[i].sky);
+        view.lighting.sky_path = xstrdup(cases[i].sky);
         assert_true(view_write(&view, cases[i].view_path, &change, &err));
         view_free(&view);
         FILE *f = fopen(cases[i].view_path, "r");
@@ -533,7 +514,7 @@ static void test_sky_names(void **state)
     struct error err;
     struct view view;
     view_init(&view);
-    view.sky_path = xstrdup("two\nlines");
+    view.lighting.sky_path = xstrdup("two\nlines");
     assert_false(view_write(&view, "bad.view", &change, &err));
     assert_int_not_equal(access("bad.view", F_OK), 0);
     view_free(&view);
@@ -547,19 +528,19 @@ static void test_check(void **state)
 
     (void)state;
     view_init(&view);
-    view.at[2] = -1;
+    view.pose.at[2] = -1;
     assert_true(view_check(&view, "here", &err));
-    view.fovy_deg = NAN;
+    view.pose.fovy_deg = NAN;
     assert_false(view_check(&view, "here", &err));
-    view.fovy_deg = 180;
+    view.pose.fovy_deg = 180;
     assert_false(view_check(&view, "here", &err));
     assert_string_equal(err.text, "here: found a fovy of 180 degrees, "
                                   "expected one above 0 and below 180");
-    view.fovy_deg = 40;
-    view.eye[0] = INFINITY;
+    view.pose.fovy_deg = 40;
+    view.pose.eye[0] = INFINITY;
     assert_false(view_check(&view, "here", &err));
-    view.eye[0] = 0;
-    view.eye[2] = -1;
+    view.pose.eye[0] = 0;
+    view.pose.eye[2] = -1;
     assert_false(view_check(&view, "here", &err));
     assert_string_equal(err.text,
                         "here: found eye and at in one point, expected two");
@@ -572,13 +553,13 @@ static void test_copy(void **state)
     (void)state;
     view_init(&a);
     view_init(&b);
-    a.sky_path = xstrdup("one");
-    b.sky_path = xstrdup("two");
+    a.lighting.sky_path = xstrdup("one");
+    b.lighting.sky_path = xstrdup("two");
     view_copy(&b, &a);
-    assert_string_equal(b.sky_path, "one");
-    assert_ptr_not_equal(a.sky_path, b.sky_path);
+    assert_string_equal(b.lighting.sky_path, "one");
+    assert_ptr_not_equal(a.lighting.sky_path, b.lighting.sky_path);
     view_free(&a);
-    assert_string_equal(b.sky_path, "one");
+    assert_string_equal(b.lighting.sky_path, "one");
     view_free(&b);
 }
 
@@ -626,7 +607,6 @@ int main(void)
         cmocka_unit_test(test_sky_names),
         cmocka_unit_test(test_check),
         cmocka_unit_test(test_copy),
-        cmocka_unit_test(test_poses),
         cmocka_unit_test(test_numbered_views),
         cmocka_unit_test(test_lines_are_kept),
     };

@@ -310,10 +310,11 @@ static void test_restyle(void **state)
         assert_false(edit_has_unsaved_view(&s.edit));
         open_session(&again);
         check_same_scene(&s.scene, &again.scene);
-        assert_true(again.view.exposure == s.view.exposure);
-        assert_memory_equal(again.view.background, s.view.background,
-                            sizeof s.view.background);
-        assert_true(again.view.eye[2] == 5);
+        assert_true(again.view.lighting.exposure == s.view.lighting.exposure);
+        assert_memory_equal(again.view.lighting.background,
+                            s.view.lighting.background,
+                            sizeof s.view.lighting.background);
+        assert_true(again.view.pose.eye[2] == 5);
         session_close(&again);
         while (edit_undo(&s.edit))
             continue;
@@ -498,7 +499,7 @@ static void test_lost_assignments(void **state)
     mood.exposure = 2;
     edit_mood(&s.edit, &mood);
     assert_false(session_take_edit(&s)); /* no new picture */
-    assert_true(s.view.exposure == 2);
+    assert_true(s.view.lighting.exposure == 2);
     save(&s);
     assert_true(file_read("s.view", &text, &size_bytes, &err));
     check_has(text, "assign nobody lamp\nassign plain \"no such\"\n"

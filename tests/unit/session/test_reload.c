@@ -127,17 +127,17 @@ static void cameras_stay(void **state)
     (void)state;
     for (int moves = 0; moves < 2; moves++) {
         open_scene(&s);
-        s.view.eye[0] = 1.5;
+        s.view.pose.eye[0] = 1.5;
         put("s.view", moves ? "eye 0 9 5\nat 0 0 0\nexposure 2\n"
                             : "eye 0 0 5\nat 0 0 0\nexposure 2\n");
         assert_true(session_load(&fresh, &options, clock_ns(), &err));
         session_take(&s, &fresh);
         session_close(&fresh);
-        check_close(s.view.eye[0], moves ? 0 : 1.5, 0);
-        check_close(s.view.eye[1], moves ? 9 : 0, 0);
-        check_close(s.view.exposure, 2, 0);
+        check_close(s.view.pose.eye[0], moves ? 0 : 1.5, 0);
+        check_close(s.view.pose.eye[1], moves ? 9 : 0, 0);
+        check_close(s.view.lighting.exposure, 2, 0);
         assert_int_equal(s.view.width_px, 1024); /* no res any more */
-        check_close(s.opened.eye[0], 0, 0);
+        check_close(s.opened.pose.eye[0], 0, 0);
         session_close(&s);
     }
 }
@@ -152,11 +152,11 @@ static void numbered_views_are_taken(void **state)
     (void)state;
     open_scene(&s);
     for (int i = 0; i < 2; i++) {
-        s.view.shots[i] = view_pose(&s.view);
+        s.view.shots[i] = s.view.pose;
         s.view.has_shot[i] = true;
     }
-    s.view.eye[0] = 7;
-    s.view.shots[2] = view_pose(&s.view);
+    s.view.pose.eye[0] = 7;
+    s.view.shots[2] = s.view.pose;
     s.view.has_shot[2] = true;
     check_or_say(view_write(&s.view, "s.view", &change, &err), err.text);
     session_close(&s);
@@ -188,13 +188,13 @@ static void framed_cameras_stay(void **state)
     session_close(&s);
     unlink("s.view");
     assert_true(session_open(&s, &options, clock_ns(), &err));
-    eye = s.view.eye[2];
+    eye = s.view.pose.eye[2];
     put("s.obj", OBJ "v 9 9 9\nf 1 3 5\n");
     assert_true(session_load(&fresh, &options, clock_ns(), &err));
     session_take(&s, &fresh);
-    assert_true(fresh.view.eye[2] != eye);
+    assert_true(fresh.view.pose.eye[2] != eye);
     session_close(&fresh);
-    check_close(s.view.eye[2], eye, 0);
+    check_close(s.view.pose.eye[2], eye, 0);
     session_close(&s);
 }
 
@@ -328,12 +328,12 @@ static void own_views_are_no_change(void **state)
 
     (void)state;
     open_work(&w, &s);
-    s.view.exposure = 3;
+    s.view.lighting.exposure = 3;
     save_view(&w);
     render_control_look_at_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
-    s.view.exposure = 4;
+    s.view.lighting.exposure = 4;
     save_view(&w);
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files); /* the other file */

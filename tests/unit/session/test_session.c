@@ -87,20 +87,20 @@ static void test_view_files(void **state)
     put("s.obj", TRIANGLE);
     put("camera.txt", CAMERA "fovy 11\n");
     open_session(&s, &o);
-    assert_true(s.view.fovy_deg == 11.0);
+    assert_true(s.view.pose.fovy_deg == 11.0);
     assert_string_equal(s.view_path, "s.view"); /* camera.txt is not ours */
     session_close(&s);
 
     put("s.view", CAMERA "fovy 22\n");
     open_session(&s, &o);
-    assert_true(s.view.fovy_deg == 22.0);
-    assert_true(s.opened.fovy_deg == 22.0);
+    assert_true(s.view.pose.fovy_deg == 22.0);
+    assert_true(s.opened.pose.fovy_deg == 22.0);
     session_close(&s);
 
     put("o.view", CAMERA "fovy 33\n");
     o.view_path = "o.view";
     open_session(&s, &o);
-    assert_true(s.view.fovy_deg == 33.0);
+    assert_true(s.view.pose.fovy_deg == 33.0);
     assert_string_equal(s.view_path, "o.view");
     session_close(&s);
 }
@@ -232,13 +232,13 @@ static void test_view_before_is_kept(void **state)
     open_session(&s, &o);
     save_view(&s); /* nothing has changed: nothing is to be kept */
     assert_int_equal(access("s.view~", F_OK), -1);
-    s.view.eye[0] = 1;
+    s.view.pose.eye[0] = 1;
     for (int i = 0; i < 2; i++) {
         save_view(&s);
         is_text("s.view", second);
         is_text("s.view~", first);
     }
-    s.view.eye[0] = 2;
+    s.view.pose.eye[0] = 2;
     save_view(&s);
     is_text("s.view", third);
     is_text("s.view~", second);
@@ -246,7 +246,7 @@ static void test_view_before_is_kept(void **state)
     /* what cannot be kept is not replaced */
     unlink("s.view~");
     assert_int_equal(mkdir("s.view~", 0777), 0);
-    s.view.eye[0] = 3;
+    s.view.pose.eye[0] = 3;
     assert_false(session_save_view(&s, &change, &err));
     assert_non_null(strstr(err.text, "s.view~: "));
     is_text("s.view", third);
@@ -263,14 +263,14 @@ static void test_light(void **state)
     put("s.obj", TRIANGLE);
     open_session(&s, &o);
     assert_non_null(strstr(s.notice, "no light"));
-    assert_true(s.view.background[1] > 0.0);
+    assert_true(s.view.lighting.background[1] > 0.0);
     session_close(&s);
 
     /* a person who wants it dark gets it dark */
     put("s.view", CAMERA "background 0 0 0\n");
     open_session(&s, &o);
     assert_string_equal(s.notice, "");
-    assert_true(s.view.background[1] == 0.0);
+    assert_true(s.view.lighting.background[1] == 0.0);
     session_close(&s);
 
     put("s.view", CAMERA);
@@ -278,13 +278,13 @@ static void test_light(void **state)
     put("s.mtl", "newmtl lamp\nKe 1 1 1\n");
     open_session(&s, &o);
     assert_string_equal(s.notice, "");
-    assert_true(s.view.background[1] == 0.0);
+    assert_true(s.view.lighting.background[1] == 0.0);
     session_close(&s);
 
     put("s.obj", "v 0 0 0\n");
     open_session(&s, &o);
     assert_non_null(strstr(s.notice, "no faces"));
-    assert_true(s.view.background[1] == 0.0);
+    assert_true(s.view.lighting.background[1] == 0.0);
     session_close(&s);
 }
 
@@ -300,7 +300,7 @@ static void test_framing(void **state)
     open_session(&s, &o);
     if (!view_check(&s.view, "framed", &err))
         fail_msg("%s", err.text);
-    assert_true(s.view.at[0] > 99.0 && s.view.at[0] < 102.0);
+    assert_true(s.view.pose.at[0] > 99.0 && s.view.pose.at[0] < 102.0);
     session_close(&s);
 }
 

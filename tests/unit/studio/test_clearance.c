@@ -79,10 +79,10 @@ static struct view view_from(double x, double y, double z)
     struct view v;
 
     view_init(&v);
-    v.eye[0] = v.at[0] = x;
-    v.eye[1] = v.at[1] = y;
-    v.eye[2] = z;
-    v.at[2] = z - fmax(1, fabs(z));
+    v.pose.eye[0] = v.pose.at[0] = x;
+    v.pose.eye[1] = v.pose.at[1] = y;
+    v.pose.eye[2] = z;
+    v.pose.at[2] = z - fmax(1, fabs(z));
     v.has_camera = true;
     return v;
 }
@@ -232,14 +232,14 @@ static void an_empty_picture_is_noticed(void **state)
     load(&o, &scene);
     clearance_follow(&c, &scene, &v);
     assert_int_equal(c.place, CLEARANCE_AMONG);
-    v.at[2] = 10; /* turned round */
+    v.pose.at[2] = 10; /* turned round */
     clearance_follow(&c, &scene, &v);
     assert_int_equal(c.place, CLEARANCE_AWAY);
-    v.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
-    v.at[2] = 9 - 9 / tan((31 + 5) * M_PI / 180);
+    v.pose.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
+    v.pose.at[2] = 9 - 9 / tan((31 + 5) * M_PI / 180);
     clearance_follow(&c, &scene, &v);
     assert_int_equal(c.place, CLEARANCE_AMONG); /* the box is 7 wide there */
-    v.at[2] = 9 - 9 / tan((33 + 9) * M_PI / 180);
+    v.pose.at[2] = 9 - 9 / tan((33 + 9) * M_PI / 180);
     clearance_follow(&c, &scene, &v);
     assert_int_equal(c.place, CLEARANCE_AWAY);
     scene_free(&scene);
@@ -280,7 +280,7 @@ static double taps(double scale, const double room[2][3], double z, int count)
     }
     assert_int_equal(c.place, CLEARANCE_AMONG);
     scene_free(&scene);
-    return v.eye[2] / scale - z;
+    return v.pose.eye[2] / scale - z;
 }
 
 /* Half a step from the wall one tap does not reach it, nor do ten; a hall 200
@@ -318,7 +318,7 @@ static void walls_give_way_at_last(void **state)
     load(&o, &scene);
     camera_input_init(&s, scene.bounds_lo, scene.bounds_hi);
     camera_input_begin(&s, ns);
-    for (; v.eye[2] < 6 && ns < 20000 * MS; ns += 150 * MS)
+    for (; v.pose.eye[2] < 6 && ns < 20000 * MS; ns += 150 * MS)
         press(&s, &c, &scene, &v, ns);
     assert_true(ns > 1500 * MS && ns < 8000 * MS);
     press(&s, &c, &scene, &v, ns);

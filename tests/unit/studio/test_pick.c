@@ -40,9 +40,9 @@ static struct view view_from(double x, double y, double z)
     struct view v;
 
     view_init(&v);
-    v.eye[0] = x;
-    v.eye[1] = y;
-    v.eye[2] = z;
+    v.pose.eye[0] = x;
+    v.pose.eye[1] = y;
+    v.pose.eye[2] = z;
     v.has_camera = true;
     return v;
 }
@@ -86,8 +86,8 @@ static void finds_what_the_render_finds(void **state)
     (void)state;
     load_soup(&scene);
     for (int k = 0; k < 3; k++)
-        view.at[k] = 72;
-    view.aperture = 1; /* a pick goes through the middle of the lens */
+        view.pose.at[k] = 72;
+    view.pose.aperture = 1; /* a pick goes through the middle of the lens */
     assert_true(scene_world(&scene, &view, 0, &w, &err));
     w.settings.camera.lens_radius = 0;
     assert_true(bvh_build(&bvh, &w, NULL, &err));
@@ -129,9 +129,9 @@ static void says_what_it_is_in_units_of_the_file(void **state)
                  "v 900 2000 -600\nv 1100 2000 -400\nv 1100 2000 -600\n"
                  "o left\nusemtl red\nf 1 2 3 4\n"
                  "o right\nusemtl blue\nf 2 5 6 3\n");
-    view.at[0] = 1010; /* 10 to the right and 30 down: onto the floor */
-    view.at[1] = 2000;
-    view.at[2] = -500;
+    view.pose.at[0] = 1010; /* 10 to the right and 30 down: onto the floor */
+    view.pose.at[1] = 2000;
+    view.pose.at[2] = -500;
     assert_true(pick_at(&scene, &view, 512, 288, &pick));
     assert_string_equal(scene.object_names[pick.object], "right");
     assert_string_equal(scene.material_names[pick.material], "blue");
@@ -180,7 +180,7 @@ static void misses_the_sky_and_what_is_outside(void **state)
     assert_false(pick_at(&scene, &view, 512, NAN, &pick));
     assert_int_equal(pick.tri, 77);
     assert_true(pick_at(&scene, &view, 512, 288, &pick));
-    view.at[2] = 5; /* no direction */
+    view.pose.at[2] = 5; /* no direction */
     assert_false(pick_at(&scene, &view, 512, 288, &pick));
     scene_free(&scene);
 }

@@ -367,7 +367,7 @@ static void saving_takes_a_copy(void **state)
     assert_true(save_finish(w));
     save_picture(w, "png");
     for (int i = 0; i < 3; i++)
-        w->session->view.eye[i] += 5; /* away: another picture */
+        w->session->view.pose.eye[i] += 5; /* away: another picture */
     render_control_set_live(w, true);
     assert_true(save_finish(w));
     FILE *a = fopen("s.png", "rb");
@@ -413,11 +413,11 @@ static void no_view_is_written_under_a_reload(void **state)
     struct render_control *w = &((struct fixture *)*state)->control;
 
     render_control_reload(w);
-    w->session->view.eye[0] = 7;
+    w->session->view.pose.eye[0] = 7;
     save_view(w);
     assert_int_equal(access("s.view", F_OK), -1);
     assert_true(render_control_end_reload(w));
-    assert_true(w->session->view.eye[0] == 7);
+    assert_true(w->session->view.pose.eye[0] == 7);
     save_view(w);
     assert_int_equal(access("s.view", F_OK), 0);
 }
@@ -473,12 +473,12 @@ static void views_are_written(void **state)
     struct view back;
     struct error err;
 
-    w->session->view.eye[0] = 1.0 / 3;
+    w->session->view.pose.eye[0] = 1.0 / 3;
     save_view(w);
     assert_string_equal(w->message.text, "wrote the view to s.view");
     view_init(&back);
     assert_true(view_read(&back, "s.view", &report, &err));
-    assert_true(back.eye[0] == 1.0 / 3);
+    assert_true(back.pose.eye[0] == 1.0 / 3);
     view_free(&back);
     warnings_free(&report);
 }
