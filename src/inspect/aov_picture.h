@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * aov_picture.h - what the camera's rays find first, for pictures of numbers
+ * aov_picture.h - pictures of the first hit: normals, depth, materials
  *
- * By the plain query of traverse.h in the binary tree.
+ * Rays go through the binary tree with the plain query of traverse.h.
  *
- * Units:     as enum sample_kind says
- * Threads:   one at a time; the pool's workers trace
+ * Units:     as in enum sample_kind
+ * Threads:   one at a time; workers of the pool trace the rays
  */
 #ifndef GLIM_AOV_PICTURE_H
 #define GLIM_AOV_PICTURE_H
@@ -13,9 +13,9 @@
 #include "base/thread_pool.h"
 #include "kernels/types.h"
 
-/* What the world's settings ask for, no light, of the surfaces behind the
- * middles of all pixels of the world's camera, which sees width x height of
- * them: 3 numbers a pixel. Blocks. */
+/* Fills 3 numbers for each pixel: the sample kind in the world's settings,
+ * which must not be light, at the first hit of the ray through the pixel's
+ * centre. The camera has width x height pixels. Blocks. */
 void aov_of_pixels(struct pool *pool, const struct world *world, int width,
                    int height, float *numbers);
 

@@ -4,9 +4,9 @@
 #include <math.h>
 
 #define NO_UV       0x404040u
-#define FARTHEST    0.15f /* of white: the sky alone is black */
+#define FARTHEST    0.15f /* relative to white; only the sky is black */
 #define GOLDEN_TURN 0.618034f
-#define HUES        8 /* that can be told apart beside each other */
+#define HUES        8 /* hues that can be told apart side by side */
 
 struct number_range number_range_of(const float *x, size_t count, size_t stride)
 {
@@ -40,8 +40,8 @@ static float wave(float hue)
     return fminf(fmaxf(x, 0.0f), 1.0f);
 }
 
-/* Turning the hue by the golden section keeps any number of them apart as far
- * as can be; after some they are paler, then darker. */
+/* Returns the colour of a number. Hues advance by the golden ratio, which keeps
+ * any number of them far apart; later ones are paler, then darker. */
 static uint32_t color_of_number(uint32_t i)
 {
     const float saturations[] = {0.75f, 0.45f, 0.75f};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * false_color.h - colours for numbers: normals, uvs, depths, materials, counts
+ * false_color.h - colours for normals, uvs, depths, materials and counts
  *
- * Units:     numbers as enum sample_kind has them; 0xRRGGBB as it is shown
+ * Units:     numbers as in enum sample_kind; colours as 0xRRGGBB in sRGB
  * Threads:   any
  */
 #ifndef GLIM_FALSE_COLOR_H
@@ -12,22 +12,25 @@
 
 #include "kernels/types.h"
 
-/* The least and the largest number; both 0: there is none. */
+/* Least and greatest number; both are 0 if there are none. */
 struct number_range {
     float lo, hi;
 };
 
-/* Of count numbers above 0, which lie `stride` floats apart. */
+/* Returns the range of the numbers above 0 among `count` numbers, which are
+ * `stride` floats apart. */
 struct number_range number_range_of(const float *x, size_t count,
                                     size_t stride);
 
-/* Normals: x red, y green, z blue, 128 for 0. UVs: u red, v green, dark grey
- * without. Depths: white for the nearest, dark grey for the farthest.
- * Materials: a colour for each. The sky is black. */
+/* Returns the colour of a sample. Normals: x, y, z as red, green, blue, with
+ * 128 for 0. UVs: u red, v green, dark grey without. Depths: from white for the
+ * nearest to dark grey for the farthest. Materials: a colour for each. The sky
+ * is black. */
 uint32_t false_color(enum sample_kind kind, const float xyz[3],
                      struct number_range range);
 
-/* From black at 0 by violet, red and yellow to white at 1. */
+/* Returns the heat colour of a number from 0 to 1: black, violet, red, yellow,
+ * white. */
 uint32_t false_color_heat(float part);
 
 #endif

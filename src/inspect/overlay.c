@@ -20,7 +20,8 @@
 #define BINORMAL      0x4080ffu
 #define EYE_COLOR     0xff9020u
 
-/* Of the distance from the eye: the same on the screen from everywhere. */
+/* Length relative to the distance from the eye, which gives a constant size on
+ * the screen. */
 #define LOBE_LENGTH 0.15f
 
 static void line(struct frame *f, const struct camera *c, struct vec3 a,
@@ -36,7 +37,7 @@ static void line(struct frame *f, const struct camera *c, struct vec3 a,
 
 struct near_box {
     struct vec3 lo, hi;
-    float depth; /* of its middle */
+    float depth; /* depth of its centre */
 };
 
 struct level {
@@ -60,7 +61,8 @@ static bool add_box(struct level *l, const struct camera *c,
     return true;
 }
 
-/* The nodes are depth-first: a pile of their right children is the way back. */
+/* Collects the boxes of a level. Nodes are in depth-first order, so a stack of
+ * right children suffices. */
 static bool collect(struct level *l, const struct camera *c,
                     const struct bvh *bvh, uint32_t level)
 {
@@ -95,7 +97,7 @@ static int farther_first(const void *a, const void *b)
     return x > y ? -1 : x < y;
 }
 
-/* Corner i has hi where bit k of it is set, for axis k. */
+/* Returns corner i, which has hi on axis k if bit k of i is set. */
 static struct vec3 corner(const struct near_box *b, int i)
 {
     return v3(i & 1 ? b->hi.x : b->lo.x, i & 2 ? b->hi.y : b->lo.y,
@@ -161,7 +163,7 @@ static void arrow(struct frame *f, const struct camera *c, struct vec3 p,
     line(f, c, p, v3_add(p, v3_scale(d, length)), rgb);
 }
 
-/* Its hue, as bright as can be. */
+/* Returns the hue of the weight at full brightness. */
 static uint32_t color_of(struct vec3 weight)
 {
     float top = f_max(weight.x, f_max(weight.y, weight.z));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * overlay.h - drawings of what cannot be seen, over a picture: the tree's
- * boxes, a path, the directions in which a surface scatters
+ * overlay.h - drawings over a picture: boxes of the tree, a path, directions
+ * of scattering
  *
  * Units:     cameras of the frame's pixels, see projection.h
- * Threads:   any; one owner of the frame
- * Errors:    memory: overlay_boxes() draws nothing then
+ * Threads:   any; the caller owns the frame
+ * Errors:    overlay_boxes() draws nothing if memory is out
  */
 #ifndef GLIM_OVERLAY_H
 #define GLIM_OVERLAY_H
@@ -16,21 +16,22 @@
 #include "bvh/bvh.h"
 #include "inspect/path_record.h"
 
-/* More are not drawn, but the nearest of them. */
+/* Most boxes that are drawn; the nearest are chosen. */
 #define OVERLAY_BOXES_MAX 4096
 
-/* The boxes of the nodes so far below the root, nearer ones brighter and over
- * the others. Returns how many nodes there are. */
+/* Draws the boxes of all nodes at this level below the root. Near ones are
+ * brighter and cover far ones. Returns the number of nodes. */
 uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
                        const struct bvh *bvh, uint32_t level);
 
-/* The first `count` steps, the last of them bright. */
+/* Draws the first `count` steps of a path, the last of them bright. */
 void overlay_trail(struct frame *frame, const struct camera *camera,
                    const struct path_record *trail, int count);
 
-/* The normal green, the tangents red and blue, the eye's ray orange; directions
- * in the colour of their weight, as long as their density is large, or as all
- * others where they have none. */
+/* Draws the frame of a surface (normal green, tangents red and blue), the ray
+ * to the eye in orange, and directions of scattering. The colour of a direction
+ * is its weight and its length the density; directions of a delta distribution
+ * have equal lengths. */
 void overlay_lobes(struct frame *frame, const struct camera *camera,
                    const struct path_record_lobes *lobes);
 

@@ -10,13 +10,13 @@
 #include "kernels/vec.h"
 
 #define MATERIAL_COLS  10
-#define LOBES_COLS     40 /* of the material's name where it has a line */
+#define LOBES_COLS     40 /* width of the material's name on its line */
 #define MATERIAL_BYTES 160
 #define PLACE_COLS     17
 #define PDF_COLS       6
 #define NUMBERS_BYTES  64
 
-/* The name of the material of a triangle, or words for none. */
+/* Returns the name of a triangle's material, or words for none. */
 static const char *material_of(const struct scene *scene, uint32_t tri)
 {
     const char *name = scene->material_names[scene->tris[tri].material];
@@ -41,7 +41,7 @@ static const char *way_name(const struct path_record_step *s)
     return "transmit";
 }
 
-/* In the file's units; what is rounding there is 0. */
+/* Returns a coordinate in file units; rounding errors around 0 become 0. */
 static double file_coordinate(const struct scene *scene, float x, int axis)
 {
     double from_file = x / scene->scale + scene->center[axis];
@@ -49,8 +49,8 @@ static double file_coordinate(const struct scene *scene, float x, int axis)
     return fabs(from_file) * scene->scale < 1e-6 ? 0 : from_file;
 }
 
-/* With the most digits, up to three, with which they take no more than so many
- * columns: a number that is cut is another one. */
+/* Formats numbers with up to three decimals, as many as fit into `cols`
+ * columns: numbers must not be cut. */
 static void format_numbers(char text[NUMBERS_BYTES], const double *values,
                            int count, int cols)
 {
@@ -115,7 +115,7 @@ void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
 static void add_direction(struct overlay_text *l, const char *name,
                           struct vec3 d)
 {
-    /* + 0: -0 becomes 0 */
+    /* + 0 turns -0 into 0 */
     snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%-22s %6.3f %6.3f %6.3f", name,
              (double)d.x + 0, (double)d.y + 0, (double)d.z + 0);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * overlay_text.h - what drawings of the insides say in words: tables of a path
- * and of a surface
+ * overlay_text.h - tables of a path and of the directions at a surface
+ *
+ * Lines that are too long are cut.
  *
  * Units:     file units, radiance, densities per solid angle
  * Threads:   any
- * Errors:    none; lines are cut
  */
 #ifndef GLIM_OVERLAY_TEXT_H
 #define GLIM_OVERLAY_TEXT_H
@@ -13,8 +13,8 @@
 #include "scene/scene.h"
 #include "inspect/path_record.h"
 
-/* Lines of a path's table, at most: the window must leave room for the picture
- * at 80x24. */
+/* Most lines of a path's table: the window must leave room for the picture at
+ * 80x24. */
 #define OVERLAY_TEXT_STEPS 6
 #define OVERLAY_TEXT_LINES (OVERLAY_TEXT_STEPS + 2)
 #define OVERLAY_TEXT_BYTES 256
@@ -24,8 +24,8 @@ struct overlay_text {
     int count;
 };
 
-/* A table of the first `count` steps, or of the last of them if there are more,
- * and below it what the whole path has gathered. */
+/* Lists the first `count` steps, or the last ones of them that fit, and the
+ * light that the whole path has gathered. */
 void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
                         const struct path_record *trail, int count);
 

@@ -5,7 +5,7 @@
 
 #include "kernels/path.h"
 
-/* How far a ray into the sky is drawn: out of the scene, whose extent is below
+/* Length of a ray that hits nothing: out of the scene, whose extent is below
  * 2. */
 #define SKY_DISTANCE 4.0f
 
@@ -26,7 +26,7 @@ static bool is_same(struct vec3 a, struct vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* On which side of the face does the path go on? */
+/* Tells on which side of the face the path continues. */
 static enum path_record_way side_of(const struct world *w, struct hit h,
                                     struct vec3 before, struct vec3 after)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "inspect/traversal_cost.h"
 
-/* Of the ray that this thread follows. */
+/* Counters of the current ray of this thread. */
 static _Thread_local struct traversal_cost counted;
 
 #define COUNT_BOX()      (counted.boxes++)

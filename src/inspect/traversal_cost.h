@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * traversal_cost.h - what camera rays cost: boxes and triangles that they are
- * tested with
+ * traversal_cost.h - counts the box and triangle tests of camera rays
  *
- * In the binary tree and by the plain query of traverse.h, which is compiled
- * here once more, with counters.
+ * Rays go through the binary tree with the plain query of traverse.h, which is
+ * compiled here again with counters.
  *
  * Units:     tests
- * Threads:   one at a time; the pool's workers count
+ * Threads:   one at a time; workers of the pool trace the rays
  */
 #ifndef GLIM_TRAVERSAL_COST_H
 #define GLIM_TRAVERSAL_COST_H
@@ -19,8 +18,8 @@ struct traversal_cost {
     uint32_t boxes, triangles;
 };
 
-/* The cost of the rays through the middles of all pixels of the world's
- * camera, which sees width x height of them. Blocks. */
+/* Counts the tests of the ray through the centre of each pixel. The camera has
+ * width x height pixels. Blocks. */
 void traversal_cost_of_pixels(struct pool *pool, const struct world *world,
                               int width, int height,
                               struct traversal_cost *costs);

@@ -14,7 +14,7 @@
 #include "inspect/aov_picture.h"
 #include "kernels/tone.h"
 
-/* What is rendered for it, and what is said of it. */
+/* Sample kind and legend of each view. */
 static const struct {
     enum sample_kind sample;
     const char *legend;
@@ -96,7 +96,7 @@ static bool need_pool(struct view_mode *s, struct error *err)
     return s->pool != NULL;
 }
 
-/* The line below the picture, if it says something new. */
+/* Sets the legend, the line below the picture, if it has changed. */
 static void __attribute__((format(printf, 2, 3)))
 say(struct view_mode *s, const char *format, ...)
 {
@@ -130,13 +130,13 @@ static bool need_numbers(struct view_mode *s, size_t count)
     return ok;
 }
 
-/* Pixel i of n in the other's length, from 0. */
+/* Scales index i of n to another length. */
 static int scaled(int i, int n, int length)
 {
     return (int)((int64_t)i * length / n);
 }
 
-/* The frame in false colours of the numbers of a picture, 3 a pixel. */
+/* Paints the frame in false colours of a picture with 3 numbers a pixel. */
 static void fill(const struct view_mode *s, struct frame *frame, int width,
                  int height, struct number_range range)
 {
@@ -153,7 +153,7 @@ static void fill(const struct view_mode *s, struct frame *frame, int width,
     }
 }
 
-/* The mean, by area, of what pixel (x, y) of the frame covers. */
+/* Returns the mean number over the area of pixel (x, y) of the frame. */
 static float mean_at(const struct view_mode *s, const struct frame *frame,
                      int x, int y, int width, int height)
 {
@@ -176,7 +176,7 @@ static float mean_at(const struct view_mode *s, const struct frame *frame,
     return sum / whole;
 }
 
-/* The same for counts, one a pixel, up to the largest. */
+/* Paints the frame in heat colours of one count a pixel, up to the largest. */
 static void fill_heat(const struct view_mode *s, struct frame *frame, int width,
                       int height, float largest)
 {
@@ -198,7 +198,7 @@ static void say_depth(struct view_mode *s, struct number_range r)
         r.hi / scale);
 }
 
-/* In false colours of the numbers that a picture of this size has. */
+/* Paints the frame in false colours of the numbers at this size. */
 static void paint_numbers(struct view_mode *s, struct frame *frame, int width,
                           int height)
 {
@@ -239,13 +239,13 @@ static bool paint_samples(struct view_mode *s, struct film *film,
     return true;
 }
 
-/* Counts anew what another camera or frame sees. */
+/* Counts costs again if the camera or the frame's size has changed. */
 static bool count_costs(struct view_mode *s, const struct frame *frame)
 {
     struct error ignored;
     struct world w;
 
-    /* a scene that was loaded anew has no tree yet */
+    /* a reloaded scene has no tree yet */
     if (!view_mode_need_tree(s, &ignored) || !view_mode_world(s, &w))
         return false;
     w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
@@ -300,7 +300,7 @@ void view_mode_paint(struct view_mode *s, struct film *film, struct film *draft,
     }
 }
 
-/* Numbers that are light are shown as such. */
+/* Paints a preview, whose numbers are light. */
 static void paint_preview(const struct view_mode *s, struct frame *frame)
 {
     size_t count = 3 * (size_t)frame->width * (size_t)frame->height;
@@ -315,7 +315,7 @@ static bool fail_memory(const struct frame *frame, struct error *err)
                 frame->width, frame->height);
 }
 
-/* The numbers of the frame's own pixels. */
+/* Computes the numbers at the frame's own size. */
 static bool find_numbers(struct view_mode *s, const struct frame *frame,
                          struct error *err)
 {

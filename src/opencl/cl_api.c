@@ -20,7 +20,7 @@ static const struct {
 #undef ROW
 };
 
-/* The library stays open: drivers do not survive being unloaded. */
+/* Loads the library for good: drivers do not survive being unloaded. */
 static void load(void)
 {
     void *library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
@@ -38,7 +38,8 @@ static void load(void)
                  LIBRARY, functions[i].name);
             return;
         }
-        /* ISO C has no cast from an object's pointer to a function's */
+        /* ISO C does not allow a cast from object pointer to function
+         * pointer */
         memcpy((char *)&api + functions[i].offset, &function, sizeof function);
     }
     is_loaded = true;

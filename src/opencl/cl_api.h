@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * cl_api.h - the functions of OpenCL 1.2, found while the program runs
+ * cl_api.h - the functions of OpenCL 1.2, loaded while the program runs
  *
- * glim is not linked with libOpenCL, so it starts where there is none. The
- * types of the functions are those of CL/cl.h.
+ * glim is not linked with libOpenCL, so it also starts without one. The types
+ * of the functions are those of CL/cl.h.
  *
- * Ownership: the table is the program's, for good
- * Threads:   any; as OpenCL says, only one at a time for one kernel's arguments
- * Errors:    cl_api_open() says what is missing; cl_error_name() names codes
+ * Ownership: the table lives as long as the program
+ * Threads:   any; OpenCL allows one thread at a time to set a kernel's
+ *            arguments
+ * Errors:    cl_api_open() tells what is missing; cl_error_name() names codes
  */
 #ifndef GLIM_CL_API_H
 #define GLIM_CL_API_H
@@ -18,7 +19,7 @@
 
 #include "base/error.h"
 
-/* What glim calls, without the cl in front. */
+/* The functions that glim calls, without the prefix cl. */
 #define CL_API_FUNCTIONS(X)    \
     X(GetPlatformIDs)          \
     X(GetPlatformInfo)         \
@@ -53,11 +54,11 @@ struct cl_api {
 #undef CL_API_MEMBER
 };
 
-/* Loads libOpenCL.so.1 at the first call. NULL if it, or one of its functions,
- * is missing. */
+/* Loads libOpenCL.so.1 at the first call. Returns NULL if the library or one of
+ * the functions is missing. */
 const struct cl_api *cl_api_open(struct error *err);
 
-/* "CL_OUT_OF_RESOURCES" for -5. */
+/* Returns the name of an error code, such as "CL_OUT_OF_RESOURCES" for -5. */
 const char *cl_error_name(cl_int code);
 
 #endif

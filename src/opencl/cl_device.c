@@ -10,7 +10,7 @@
 #include "base/print.h"
 #include "opencl/cl_environment.h"
 
-/* Drivers pad their names. */
+/* Removes blanks around a name; drivers pad theirs. */
 static char *trimmed(char *text)
 {
     size_t begin = strspn(text, " \t\n");
@@ -45,7 +45,7 @@ static char *device_text(const struct cl_api *cl, cl_device_id id,
     return trimmed(text);
 }
 
-/* What the driver does not know stays zero. */
+/* Queries a device. Fields that the driver does not know stay zero. */
 static struct cl_device describe(const struct cl_api *cl,
                                  cl_platform_id platform, cl_device_id id)
 {
@@ -72,7 +72,7 @@ static struct cl_device describe(const struct cl_api *cl,
     return d;
 }
 
-/* A platform may well have no device: its hardware is not there. */
+/* Adds the devices of a platform. A platform without hardware has none. */
 static void add_platform(struct cl_devices *list, const struct cl_api *cl,
                          cl_platform_id platform)
 {
@@ -91,7 +91,8 @@ static void add_platform(struct cl_devices *list, const struct cl_api *cl,
     free(ids);
 }
 
-/* PoCL says nothing where it cannot write, it just has no device. */
+/* Reports that there is no device. PoCL reports no reason if its cache folder
+ * is not writable, so that error is checked first. */
 static bool fail_deviceless(const struct cl_api *cl, cl_platform_id platform,
                             const struct error *no_cache, struct error *err)
 {
@@ -167,7 +168,8 @@ void cl_devices_free(struct cl_devices *list)
     *list = (struct cl_devices){0};
 }
 
-/* Digits alone are a number: 4 is not the device with 4090 in its name. */
+/* Returns true if the word selects the device. Digits only are a number: 4 does
+ * not select a device with 4090 in its name. */
 static bool is_meant(const struct cl_devices *list, int index, const char *word)
 {
     const struct cl_device *d = &list->items[index];
@@ -179,7 +181,8 @@ static bool is_meant(const struct cl_devices *list, int index, const char *word)
     return strcasestr(d->name, word) || strcasestr(d->platform_name, word);
 }
 
-/* "1 'Name', 2 'Name'" of those that are meant (NULL: all), for free(). */
+/* Lists the devices that the word selects (NULL: all) as "1 'Name', 2 'Name'",
+ * for free(). */
 static char *names_of(const struct cl_devices *list, const char *word)
 {
     char *names = xstrdup("");
@@ -233,7 +236,7 @@ const struct cl_device *cl_device_find(const struct cl_devices *list,
     return NULL;
 }
 
-/* "OpenCL 3.0": what follows it is the driver's. */
+/* Returns the length of "OpenCL 3.0"; the driver's own text follows it. */
 static int version_length(const char *version)
 {
     const char *blank = strchr(version, ' ');

@@ -12,16 +12,17 @@
 #include "base/thread.h"
 #include "base/xdg.h"
 
-/* Where PoCL looks for its cache folder's name. */
+/* Variable with the name of PoCL's cache folder. */
 #define CACHE_VARIABLE "POCL_CACHE_DIR"
 
-/* Those of LLVM 15 (lib/Support/Unix/Signals.inc) and PoCL's own, SIGFPE. */
+/* Signals that LLVM 15 handles (lib/Support/Unix/Signals.inc), and SIGFPE,
+ * which PoCL handles. */
 static const int taken[CL_SIGNAL_COUNT] = {SIGHUP,  SIGINT,  SIGQUIT, SIGILL,
                                            SIGTRAP, SIGABRT, SIGBUS,  SIGFPE,
                                            SIGSEGV, SIGUSR1, SIGUSR2, SIGTERM,
                                            SIGXCPU, SIGXFSZ, SIGSYS};
 
-/* Without a home PoCL finds a place of its own. */
+/* Sets the cache folder. Without a home folder PoCL finds one itself. */
 static void choose_cache(void)
 {
     char *cache = xdg_folder("XDG_CACHE_HOME", ".cache");
@@ -43,7 +44,7 @@ void cl_environment_prepare(int thread_count)
         thread_count = usable_threads();
     snprintf(count, sizeof count, "%d", thread_count);
     setenv("POCL_MAX_PTHREAD_COUNT", count, 0);
-    setenv("POCL_CPU_MAX_CU_COUNT", count, 0); /* its name since PoCL 4 */
+    setenv("POCL_CPU_MAX_CU_COUNT", count, 0); /* since PoCL 4 */
     setenv("POCL_SIGFPE_HANDLER", "0", 1);
     choose_cache();
 }
@@ -54,7 +55,7 @@ bool cl_cache_open(struct error *err)
 
     if (!folder || *folder == '\0')
         return true;
-    char *path = xformat("%s/.", folder); /* not a file of that name */
+    char *path = xformat("%s/.", folder); /* fails for a plain file */
     bool ok = folder_make(path) && access(path, R_OK | W_OK | X_OK) == 0;
     free(path);
     return ok || fail(err, "%s: %s", folder, strerror(errno));

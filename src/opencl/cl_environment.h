@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * cl_environment.h - what has to be set up around OpenCL drivers
+ * cl_environment.h - the environment of OpenCL drivers: variables, signals,
+ * cache
  *
- * Drivers live in our process: they read its environment, take over its
- * signals and write to the person's cache folder. A process that has used a
- * driver must never fork without exec: the child would hang.
+ * Drivers run in glim's process: they read its environment, replace its signal
+ * handlers and write to the user's cache folder. A process that has used a
+ * driver must not fork without exec: the child would hang.
  *
- * Units:     threads
- * Threads:   cl_environment_prepare() before there are any; handlers belong to
- *            the whole process, so nobody else may set those that
- *            cl_signals_put_back() puts back in between
- * Errors:    a cache folder that cannot be written to
+ * Threads:   cl_environment_prepare() runs before other threads start; signal
+ *            handlers belong to the process, so no other thread may set them
+ *            between cl_signals_keep() and cl_signals_put_back()
+ * Errors:    a cache folder that is not writable
  */
 #ifndef GLIM_CL_ENVIRONMENT_H
 #define GLIM_CL_ENVIRONMENT_H
@@ -20,13 +20,13 @@
 
 #include "base/error.h"
 
-/* Tells PoCL how many threads it may use (0: what the process may use), where
- * to keep what it compiles, and to leave SIGFPE alone. The first two are the
- * person's where the environment has them. */
+/* Sets variables for PoCL: the number of threads (0: all available), the cache
+ * folder, no handling of SIGFPE. The user's values of the first two have
+ * priority. */
 void cl_environment_prepare(int thread_count);
 
-/* Makes PoCL's cache folder with those above it. Without one it has no
- * device. */
+/* Creates PoCL's cache folder and its parents. PoCL has no device without
+ * it. */
 bool cl_cache_open(struct error *err);
 
 #define CL_SIGNAL_COUNT 15
@@ -35,9 +35,9 @@ struct cl_signals {
     struct sigaction actions[CL_SIGNAL_COUNT];
 };
 
-/* Around calls that start a driver's compiler (the list of devices, builds,
- * first launches): LLVM puts its handlers over ours, and PoCL one that lets
- * the whole program go on after a division by zero. */
+/* Save and restore signal handlers around calls that start a driver's compiler
+ * (device list, builds, first launches). LLVM replaces handlers, and PoCL's own
+ * lets the program continue after a division by zero. */
 void cl_signals_keep(struct cl_signals *s);
 void cl_signals_put_back(const struct cl_signals *s);
 

@@ -6,12 +6,12 @@
 #include "base/error.h"
 #include "base/memory.h"
 
-/* How much is read at once. */
+/* Size of a transfer. */
 #define READ_BYTES (4u << 20)
 
 #define PIXEL_SUMS_BYTES (3 * sizeof(struct sum))
 
-/* ---- the picture there ---- */
+/* ---- device buffers ---- */
 
 void cl_film_free(struct cl_film *f, const struct cl_machine *m)
 {
@@ -79,7 +79,7 @@ void cl_film_store_points(struct cl_film *f, const struct task *t)
     }
 }
 
-/* ---- readings ---- */
+/* ---- transfers ---- */
 
 bool cl_reading_begin(struct cl_reading *r, const struct cl_film *f,
                       struct error *err)
@@ -104,7 +104,7 @@ void cl_reading_free(struct cl_reading *r)
     *r = (struct cl_reading){0};
 }
 
-/* Reads one of the device's buffers, some whole rows a stride apart. */
+/* Enqueues a read of every stride-th row of a device buffer. */
 static bool read_rows(const struct cl_reading *r, const struct cl_film *f,
                       const struct cl_machine *m, cl_mem buffer, void *to,
                       size_t pixel_bytes, uint32_t stride, struct error *err)

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * cl_film.h - a picture on an OpenCL device, and its way to the host's film
+ * cl_film.h - film buffers on an OpenCL device, and transfers to the host's
+ * film
  *
- * The memory of a device that is a CPU is the host's own: its points are stored
- * as they come. Others' rows are read into a reading, and stored from there.
+ * A CPU device shares the host's memory, and pixels are stored from there
+ * directly. For other devices rows are read into a struct cl_reading first.
  *
  * Units:     pixels, bytes
- * Ownership: cl_film_free() and cl_reading_free() release; zeroed structs have
- *            nothing. The host's film is borrowed
+ * Ownership: cl_film_free() and cl_reading_free() release; zeroed structs are
+ *            empty. The host's film is borrowed
  * Threads:   one at a time
- * Errors:    too little memory, here or there
+ * Errors:    too little memory, on the host or the device
  */
 #ifndef GLIM_CL_FILM_H
 #define GLIM_CL_FILM_H
@@ -19,48 +20,48 @@
 #include "kernels/cl_task.h"
 
 struct cl_film {
-    struct film *film; /* the host's */
+    struct film *film; /* the host's film */
     cl_mem sums, counts;
-    struct sum *host_sums; /* a CPU device: the memory of these buffers; */
-    uint64_t *host_counts; /* others: NULL */
+    struct sum *host_sums; /* buffer memory on a CPU device, else NULL */
+    uint64_t *host_counts; /* likewise */
     size_t pixel_capacity;
-    uint32_t reading_rows; /* that a reading has room for */
+    uint32_t reading_rows; /* rows that a reading can hold */
 };
 
-/* Rows of a pass's grid that are on their way to the host. */
+/* Transfer of rows of a pass's grid to the host. */
 struct cl_reading {
     uint32_t first, count;
-    struct sum *sums; /* of whole rows of the film */
+    struct sum *sums; /* whole rows of the film */
     uint64_t *counts;
 };
 
-/* Makes room for a picture of the film's size. What is in it is not defined. */
+/* Allocates buffers of the film's size. Their contents are undefined. */
 bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
                    struct film *film, struct error *err);
 void cl_film_free(struct cl_film *f, const struct cl_machine *m);
 
-/* Has the host the device's picture without reading? */
+/* Returns true if the host can access the device's buffers directly. */
 static inline bool cl_film_is_shared(const struct cl_film *f)
 {
     return f->host_sums != NULL;
 }
 
-/* Stores the points of a task that is done, where memory is shared. Nothing
- * writes to them before the next pass. */
+/* Stores the pixels of a finished task from shared memory. The device does not
+ * write to them before the next pass. */
 void cl_film_store_points(struct cl_film *f, const struct task *t);
 
-/* Makes room for f->reading_rows rows, if any are to be read. */
+/* Allocates room for f->reading_rows rows unless memory is shared. */
 bool cl_reading_begin(struct cl_reading *r, const struct cl_film *f,
                       struct error *err);
 void cl_reading_free(struct cl_reading *r);
 
-/* Puts the reading of r->count rows of a grid from r->first on, so many rows of
- * the film apart, into the queue. */
+/* Enqueues the transfer of r->count rows of a grid from r->first on; `stride`
+ * is the distance of grid rows in rows of the film. */
 bool cl_reading_enqueue(struct cl_reading *r, const struct cl_film *f,
                         const struct cl_machine *m, uint32_t stride,
                         struct error *err);
 
-/* Stores what has been read, and empties the reading. */
+/* Stores the rows that were read and empties the reading. */
 void cl_reading_store(struct cl_reading *r, struct cl_film *f, uint32_t stride);
 
 #endif

@@ -20,7 +20,8 @@ static char *build_log(const struct cl_kernels *k, const struct cl_machine *m)
     return log;
 }
 
-/* The line of a log that says what is wrong, in most compilers' words. */
+/* Finds the first error message of a log; most compilers write "error". Returns
+ * its length. */
 static int first_message(const char *log, const char **line)
 {
     const char *at = strstr(log, "error");
@@ -41,7 +42,7 @@ static bool compile(struct cl_kernels *k, const struct cl_machine *m,
     int length;
     cl_int code;
 
-    /* x / y and sqrt(x) as IEEE 754 has them, where the device can */
+    /* rounds division and sqrt as IEEE 754 does, where the device can */
     snprintf(options, sizeof options, "-cl-std=CL1.2 -Werror -DFEATURES=%uu%s",
              k->features,
              m->device->has_correct_divide

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * cl_kernels.h - the kernels, built for a device and for some features
+ * cl_kernels.h - kernels, built for one device and one set of features
  *
- * Ownership: cl_kernels_free() releases; a zeroed struct has none; the log is
- *            the caller's to free
+ * Ownership: cl_kernels_free() releases; a zeroed struct is empty
  * Threads:   one at a time
  * Errors:    a text that does not compile: its first message, and the log
  */
@@ -24,8 +23,9 @@ struct cl_kernels {
     uint32_t features;
 };
 
-/* Takes seconds where the driver has no build of this text yet. *log is what
- * the compiler said if it failed, else NULL. */
+/* Builds the kernels. Takes seconds unless the driver has cached a build of
+ * this text. After a failure *log is the compiler's output, for free();
+ * otherwise it is NULL. */
 bool cl_kernels_build(struct cl_kernels *k, const struct cl_machine *m,
                       const char *text, uint32_t features, char **log,
                       struct error *err);

@@ -3,11 +3,11 @@
 
 #include <time.h>
 
-/* Between looks at a device whose driver would spin. */
+/* Polling interval for devices whose driver waits busily. */
 #define POLL_NS 100000
 
-/* Work-items in a group: keeps the groups' overhead small and halting quick
- * on a CPU, and is whole warps on GPUs. */
+/* Work-items in a group: whole warps on GPUs; on CPUs large enough to hide the
+ * cost of a group and small enough to halt soon. */
 #define GROUP 64
 
 bool cl_machine_check(const struct cl_machine *m, cl_int code, const char *call,
@@ -71,7 +71,7 @@ cl_mem cl_machine_buffer(const struct cl_machine *m, const void *data,
              (double)m->device->max_alloc_bytes / (1 << 20));
         return NULL;
     }
-    if (size_bytes == 0) { /* which OpenCL refuses */
+    if (size_bytes == 0) { /* OpenCL refuses empty buffers */
         data = nothing;
         size_bytes = sizeof nothing;
         shared = false;
@@ -124,7 +124,7 @@ bool cl_machine_wait(const struct cl_machine *m, cl_event *event,
     cl_int status = CL_QUEUED;
     cl_int code = CL_SUCCESS;
 
-    if (m->device->is_cpu) /* its threads do the work: sleep */
+    if (m->device->is_cpu) /* its threads do the work, so waiting sleeps */
         code = m->api->WaitForEvents(1, event);
     while (code == CL_SUCCESS && status > CL_COMPLETE) {
         code = m->api->GetEventInfo(*event, CL_EVENT_COMMAND_EXECUTION_STATUS,
@@ -135,6 +135,6 @@ bool cl_machine_wait(const struct cl_machine *m, cl_event *event,
     m->api->ReleaseEvent(*event);
     *event = NULL;
     if (code == CL_SUCCESS)
-        code = status; /* negative: the command failed */
+        code = status; /* a negative status is the error of the command */
     return cl_machine_check(m, code, "rendering", err);
 }

@@ -23,18 +23,19 @@
 
 extern char **environ;
 
-/* A compiler takes seconds; a driver that hangs takes forever. */
+/* Time limit: compilers take seconds, a hanging driver takes forever. */
 #define ANSWER_NS UINT64_C(60000000000)
 
-/* Between looks whether anybody still wants to know. */
+/* Polling interval of *is_unwanted. */
 #define LOOK_MS 50
 
-/* More than a compiler has to say. */
+/* Limit for the copy's output, more than a compiler prints. */
 #define OUTPUT_BYTES_MAX ((size_t)1 << 20)
 
-/* ---- memory ---- */
+/* ---- cache ---- */
 
-/* Where the result is kept; NULL without a folder for it. */
+/* Returns the path of the cached result, for free(); NULL without a cache
+ * folder. */
 static char *memory_path(const struct cl_request *r)
 {
     const char *folder = getenv("POCL_CACHE_DIR");
@@ -54,7 +55,7 @@ static char *memory_path(const struct cl_request *r)
     return path;
 }
 
-/* Cuts the last line off, and returns it; NULL if there is none. */
+/* Removes the last line from the text and returns it; NULL if there is none. */
 static char *cut_last_line(char *text)
 {
     size_t length = strlen(text);
@@ -75,7 +76,8 @@ static char *cut_last_line(char *text)
     return xstrdup(line + 1);
 }
 
-/* The last lines of a good answer. Takes the text over. */
+/* Parses a good answer, whose last lines are the device and the verdict. Takes
+ * ownership of the text. */
 static bool take_answer(struct cl_probe *probe, char *text)
 {
     *probe = (struct cl_probe){.log = text};
@@ -149,8 +151,8 @@ char *cl_probe_device(const struct backend *backend)
 
 /* ---- its parent ---- */
 
-/* Both of the copy's outputs go into the pipe, and it has our signals as they
- * were before we took them. */
+/* Starts the copy with both outputs in the pipe and the signal handling that
+ * glim was started with. Returns 0 or an error number. */
 static int spawn(pid_t *pid, const char *const *arguments, int output)
 {
     posix_spawn_file_actions_t files;
@@ -169,7 +171,7 @@ static int spawn(pid_t *pid, const char *const *arguments, int output)
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&files, output, 1);
     posix_spawn_file_actions_adddup2(&files, output, 2);
-    /* it does not change the arguments, whatever its type says */
+    /* posix_spawn() does not change the arguments, in spite of its type */
     reason = posix_spawn(pid, "/proc/self/exe", &files, &attributes,
                          (char *const *)(uintptr_t)arguments, environ);
     posix_spawn_file_actions_destroy(&files);
@@ -198,8 +200,8 @@ static int start_copy(pid_t *pid, const struct cl_request *r, int output)
     return reason;
 }
 
-/* Everything from the pipe until its end. NULL if that does not come, or
- * nobody wants it. */
+/* Reads the pipe to its end. Returns NULL on a timeout, or if *is_unwanted
+ * becomes true. */
 static char *read_output(int fd, const atomic_bool *is_unwanted)
 {
     uint64_t end_ns = clock_ns() + ANSWER_NS;
@@ -223,7 +225,7 @@ static char *read_output(int fd, const atomic_bool *is_unwanted)
         if (count <= 0)
             return text;
         if (length + (size_t)count > OUTPUT_BYTES_MAX)
-            continue; /* the beginning says what is wrong */
+            continue; /* the beginning has the cause, so the rest is skipped */
         text = xrealloc(text, length + (size_t)count + 1);
         memcpy(text + length, bytes, (size_t)count);
         length += (size_t)count;
@@ -231,7 +233,8 @@ static char *read_output(int fd, const atomic_bool *is_unwanted)
     }
 }
 
-/* The copy has failed: its last line says why, or how it died. */
+/* Reports the failure of the copy: its last line, or the signal that killed
+ * it. */
 static bool fail_copy(struct cl_probe *probe, char *output, int status,
                       struct error *err)
 {

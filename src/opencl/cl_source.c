@@ -9,7 +9,8 @@
 #include "base/memory.h"
 #include "base/name_table.h"
 
-/* How the kernels are named in #include and in messages, wherever they are. */
+/* Prefix of kernel files in #include lines and messages, wherever they are read
+ * from. */
 #define PREFIX "kernels/"
 
 static const char *const entries[] = {
@@ -20,7 +21,7 @@ static const char *const entries[] = {
 };
 
 struct splice {
-    const char *folder; /* NULL: within the program */
+    const char *folder; /* NULL: built-in files */
     FILE *out;
     struct name_table seen;
 };
@@ -35,7 +36,7 @@ static char *read_within(const char *name, struct error *err)
     return NULL;
 }
 
-/* The text of a file, for free(), or NULL. */
+/* Returns the text of a file, for free(), or NULL. */
 static char *read_kernel(const char *folder, const char *name,
                          struct error *err)
 {
@@ -51,7 +52,7 @@ static char *read_kernel(const char *folder, const char *name,
     return text;
 }
 
-/* The name in a line `#include "kernels/x.h"`, for free(), or NULL. */
+/* Returns the name in a line `#include "kernels/x.h"`, for free(), or NULL. */
 static char *included_name(const char *line)
 {
     static const char *const parts[] = {"#", "include", "\""};
@@ -72,8 +73,8 @@ static char *included_name(const char *line)
 static bool splice_include(struct splice *s, const char *from, int line,
                            const char *name, struct error *err);
 
-/* Writes the lines of the file `name`, each as one line, so that numbers
- * stay. */
+/* Copies the lines of the file `name`. Each included file ends with a #line
+ * mark, so that line numbers stay right. */
 static bool splice_text(struct splice *s, const char *name, const char *text,
                         struct error *err)
 {
@@ -94,7 +95,7 @@ static bool splice_text(struct splice *s, const char *name, const char *text,
     return ok;
 }
 
-/* Line `line` of the file `from` wants the file `name`. */
+/* Inserts the file `name`, which line `line` of the file `from` includes. */
 static bool splice_include(struct splice *s, const char *from, int line,
                            const char *name, struct error *err)
 {
@@ -153,7 +154,7 @@ char *cl_source_text(const char *folder, struct error *err)
     return NULL;
 }
 
-/* FNV-1a with 64 bits: the texts are ours, not an adversary's. */
+/* 64-bit FNV-1a; collisions made on purpose need not be feared. */
 uint64_t cl_source_hash(const char *text)
 {
     uint64_t h = 0xcbf29ce484222325u;

@@ -13,18 +13,18 @@
 
 struct cl_start {
     struct cl_request request;
-    struct backend *old; /* to be specialised; NULL: a new one */
+    struct backend *old; /* backend that gets new kernels; NULL: create one */
     pthread_t thread;
     int event_fd;
     atomic_bool is_unwanted;
-    /* read when the thread has ended */
+    /* valid when the thread has ended */
     struct backend *backend;
     char *verdict;
     char *log;
     struct error error;
 };
 
-/* Moves the texts of the probe to where the caller gets them. */
+/* Moves the texts of the probe to the caller's results. */
 static void keep_texts(struct cl_start *s, struct cl_probe *probe)
 {
     free(s->verdict);
@@ -59,7 +59,7 @@ static bool create(struct cl_start *s)
     return s->backend != NULL;
 }
 
-/* Another driver than the one that was tried may be worse. */
+/* Returns true if the device still has the driver that was tested. */
 static bool is_tried(const struct cl_start *s, const struct cl_probe *probe)
 {
     char *device = cl_probe_device(s->backend);
@@ -129,7 +129,7 @@ int cl_start_event_fd(const struct cl_start *s)
     return s->event_fd;
 }
 
-/* Behind the end of the thread. */
+/* Collects the result after the thread has ended. */
 static struct backend *finish(struct cl_start *s, char **verdict, char **log,
                               struct error *err)
 {

@@ -15,9 +15,9 @@
 #define SIDE 16
 #define SPP  4
 
-/* Devices may round divisions and roots in their own way. Then a path takes
- * another turn now and then, and its pixel differs; most differ in the last
- * bits at most. A device that computes nonsense differs everywhere. */
+/* Tolerance. Devices may round division and square root differently. Most
+ * pixels then differ in the last bits; a few paths take another branch, and
+ * their pixels differ more. A faulty device differs everywhere. */
 #define NEAR          1e-3
 #define DIFFERENT_MAX 0.1
 
@@ -34,7 +34,7 @@ static const char materials[] = "newmtl wall\nKd .7 .6 .5\n"
                                 "newmtl coated\nKd .5 .1 .1\nKs .2 .2 .2\n"
                                 "illum 2\nPr .5\n";
 
-/* A room, its lamp, and upright triangles in it. */
+/* A room, its lamp, and upright triangles. */
 static const char faces[] =
     "v -2 0 -2\nv 2 0 -2\nv 2 0 2\nv -2 0 2\n"
     "v -2 3 -2\nv 2 3 -2\nv 2 3 2\nv -2 3 2\n"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * selftest.h - does a backend compute what the CPU computes?
+ * selftest.h - compares the pictures of a device and the CPU
  *
- * A small room with every kind of material that needs no other features is
- * rendered by both.
+ * Both render a small room that has every material which needs no further
+ * features.
  *
  * Ownership: both backends stay the caller's, with another scene loaded
  * Threads:   one at a time
- * Errors:    a device that fails, or computes something else
+ * Errors:    a device that fails, or whose picture differs
  */
 #ifndef GLIM_SELFTEST_H
 #define GLIM_SELFTEST_H
@@ -19,7 +19,8 @@
 
 #define SELFTEST_VERDICT_BYTES 64
 
-/* The verdict is "the CPU's bits", or how many pixels differ a little. */
+/* Runs the test. The verdict is "the CPU's bits", or the number of pixels with
+ * small differences. */
 bool selftest_run(struct backend *cpu, struct backend *device,
                   uint32_t features, char verdict[SELFTEST_VERDICT_BYTES],
                   struct error *err);

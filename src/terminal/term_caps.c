@@ -5,7 +5,8 @@
 
 #include "terminal/tty.h"
 
-/* Beyond these a terminal has answered nonsense. */
+/* Plausible sizes and aspect ratios of cells; answers beyond them are
+ * ignored. */
 #define CELL_PX_MAX 200
 #define ASPECT_MIN  0.5
 #define ASPECT_MAX  5
@@ -22,7 +23,8 @@ enum palette term_caps_palette(enum color_mode mode)
     return PALETTE_24BIT;
 }
 
-/* What is not asked for by name, and pixels where there are none. */
+/* Returns the glyphs for automatic choice, and for pixels where there are
+ * none. */
 static enum glyphs common_glyphs(enum palette palette, bool has_unicode)
 {
     if (palette == PALETTE_MONO)
@@ -97,7 +99,7 @@ double term_caps_cell_aspect(const struct term_caps *d,
 {
     if (d->cell_aspect > 0)
         return d->cell_aspect;
-    /* from far away the system's pixels can be nonsense */
+    /* over a network the system's pixel sizes can be wrong */
     if (is_aspect(size->cell_aspect))
         return size->cell_aspect;
     return 2;
@@ -170,8 +172,8 @@ static bool take_true_color(struct term_caps *d)
     return d->glyphs != before;
 }
 
-/* Behind a character that begins with a byte outside ASCII: in column 2 if it
- * was one. */
+/* Takes the cursor position after a character that begins with a byte outside
+ * ASCII. Column 2 means that the terminal took the bytes for one character. */
 static bool take_cursor(struct term_caps *d, const struct event *event)
 {
     enum glyphs before = d->glyphs;
@@ -233,7 +235,7 @@ void term_caps_next_glyphs(struct term_caps *d)
     if (i == count && d->glyph_mode == GLYPH_AUTO)
         for (i = 0; i < count && glyphs_of(d, modes[i]) != d->glyphs;)
             i++;
-    if (i == count) /* upper, lower: the like of half blocks */
+    if (i == count) /* upper and lower count as half blocks */
         i = 0;
     do
         i = (i + 1) % count;

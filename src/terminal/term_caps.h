@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * term_caps.h - what the terminal can show, as far as it is known, and what of
- * it is wanted
+ * term_caps.h - the terminal's capabilities, and which of them are used
  *
- * Begins with what the environment says; the terminal's answers tell better
- * when they come.
+ * The first values come from the environment. The terminal's answers correct
+ * them when they arrive.
  *
  * Units:     pixels of the terminal
  * Threads:   main only
@@ -21,7 +20,8 @@
 
 enum color_mode { COLOR_AUTO, COLOR_MONO, COLOR_16, COLOR_256, COLOR_24BIT };
 
-/* The cells of enum glyphs, or pixels where the terminal has them. */
+/* Requested drawing: glyphs as in enum glyphs, or pixels where the terminal has
+ * them. */
 enum glyph_mode {
     GLYPH_AUTO,
     GLYPH_HALF,
@@ -36,61 +36,64 @@ enum glyph_mode {
     GLYPH_KITTY
 };
 
-/* What the person has asked for. */
+/* Settings from the user. */
 struct term_caps_choice {
     enum color_mode color;
     enum glyph_mode glyph;
-    double cell_aspect; /* height of a cell over its width; 0: ask */
+    double cell_aspect; /* height over width; 0: ask the terminal */
 };
 
 struct term_caps {
     enum palette palette;
     bool palette_is_final;      /* no answer of the terminal changes it */
-    enum glyph_mode glyph_mode; /* what is wanted, */
-    enum glyphs glyphs;         /* and what cells are made of for it */
-    bool has_unicode;           /* characters beyond ASCII are seen as such */
+    enum glyph_mode glyph_mode; /* requested drawing */
+    enum glyphs glyphs;         /* glyphs of the cells, chosen for it */
+    bool has_unicode;           /* the terminal shows characters beyond ASCII */
     bool unicode_is_final;      /* no answer of the terminal changes it */
-    bool has_sixel, has_kitty;  /* the terminal has said so */
-    int sixel_colors;           /* 0: it has not said how many */
-    int cell_width_px, cell_height_px; /* 0: it has not said */
-    double cell_aspect;                /* 0: not known */
+    bool has_sixel, has_kitty;  /* reported by the terminal */
+    int sixel_colors;           /* 0 if not reported */
+    int cell_width_px, cell_height_px; /* 0 if not reported */
+    double cell_aspect;                /* 0 if unknown */
     bool aspect_is_final;
 };
 
-/* After tty_open(). */
+/* Initializes from the environment, after tty_open(). */
 void term_caps_init(struct term_caps *d, const struct term_caps_choice *choice);
 
-/* What a mode that is not COLOR_AUTO means. */
+/* Returns the palette of a mode, which must not be COLOR_AUTO. */
 enum palette term_caps_palette(enum color_mode mode);
 
-/* What the cells are made of. Pixels have what is common as the fall-back: half
- * blocks, without colours braille; blanks and letters without Unicode. */
+/* Returns the glyphs for a mode. Modes for pixels fall back to the common
+ * glyphs: half blocks, or braille without colours; without Unicode blanks, or
+ * characters without colours. */
 enum glyphs term_caps_glyphs(enum glyph_mode mode, enum palette palette,
                              bool has_unicode);
 
-/* Takes an answer of the terminal. True if cells are others than before, or of
- * another shape. */
+/* Takes an answer of the terminal. Returns true if it changes the cells or
+ * their shape. */
 bool term_caps_answer(struct term_caps *d, const struct event *event);
 
-/* The next palette, from most to least and round. */
+/* Selects the next palette, from most colours to least and around. */
 void term_caps_next_palette(struct term_caps *d);
 
-/* The next kind of glyphs that the terminal has, and round. */
+/* Selects the next kind of glyphs that the terminal shows, and around. */
 void term_caps_next_glyphs(struct term_caps *d);
 
-/* The pixels that are wanted instead of cells. */
+/* Returns the kind of pixel graphics in use, if any. */
 enum pixel_graphics_kind term_caps_pixels(const struct term_caps *d);
 
-/* Why there are none although they are wanted, as the end of a sentence; NULL:
- * nothing is amiss. The terminal has answered, or never will. */
+/* Returns why requested pixels are not shown, as the end of a sentence; NULL if
+ * they are shown or were not requested. Call it when the terminal has answered
+ * or will not. */
 const char *term_caps_lack(const struct term_caps *d);
 
-/* Height of a cell over its width: what the person gave, what the terminal
- * answered, what the system says, what is common. */
+/* Returns the height of a cell over its width, from the first of these that is
+ * known: the user's setting, the terminal's answer, the system's size, a common
+ * value. */
 double term_caps_cell_aspect(const struct term_caps *d,
                              const struct tty_size *size);
 
-/* False if nobody has said how large a cell is. */
+/* Finds the size of a cell in pixels. Returns false if it is unknown. */
 bool term_caps_cell_size(const struct term_caps *d, const struct tty_size *size,
                          int *width_px, int *height_px);
 

@@ -18,24 +18,24 @@
 #include "terminal/curses_windows.h"
 #include "terminal/kitty.h"
 
-/* Drags and wheel, with coordinates that have no limit. */
+/* Mouse reports of drags and the wheel, with coordinates of any size (SGR). */
 #define MOUSE_ON  "\033[?1002h\033[?1006h"
 #define MOUSE_OFF "\033[?1002l\033[?1006l"
 
-/* Can it synchronize, how large is a cell, is it there, what is it. */
+/* Queries: synchronized updates, size of a cell, status, device attributes. */
 #define QUESTIONS "\033[?2026$p\033[16t\033[5n\033[c"
 
-/* Sets a 24-bit colour and asks which one is set. */
+/* Sets a 24-bit colour and asks for the colour that is set. */
 #define COLOR_QUESTION "\033[48;2;1;2;3m\033P$qm\033\\\033[m"
 
-/* How many colours a sixel image may have: XTSMGRAPHICS of xterm. */
+/* Asks for the number of colours in a sixel image (XTSMGRAPHICS of xterm). */
 #define SIXEL_QUESTION "\033[?1;1;0S"
 
-/* Draws a half block in the corner and asks where the cursor is. */
+/* Draws a half block in the corner and asks for the cursor position. */
 #define GLYPH_QUESTION "\033[H\xe2\x96\x80\033[6n"
 
-/* Everything that may be on, for the handlers of faults. Terminals skip what
- * they do not know. */
+/* Resets every mode that glim may set, for fault handlers. Terminals skip
+ * sequences that they do not know. */
 static const char restore_text[] =
     TTY_SYNC_END MOUSE_OFF "\033[m\033[?25h\033[?1l\033>\033[?1049l";
 
@@ -51,13 +51,14 @@ static struct {
     SCREEN *screen;
     bool has_mouse;
     bool has_sync;
-    bool may_ask_colors; /* a terminal that swallows what it cannot answer */
+    bool may_ask_colors; /* the terminal ignores questions that it does not
+                            understand */
     struct sigaction old_stop[COUNT(stop_signals)];
     struct sigaction old_other[COUNT(other_signals)];
     struct sigaction old_fault[COUNT(fault_signals)];
 } term;
 
-/* For the handlers. */
+/* read by fault handlers */
 static volatile sig_atomic_t is_open;
 static volatile sig_atomic_t must_stop;
 
@@ -71,19 +72,19 @@ static void on_signal(int number)
             must_stop = 1;
     }
     if (write(term.signal_pipe[1], &byte, 1) < 0) {
-        /* the pipe is full of signals that say the same */
+        /* a full pipe wakes the loop as well */
     }
     errno = saved_errno;
 }
 
-/* Only what may be called in a handler. */
+/* Restores the terminal; async-signal-safe. */
 static void restore_now(void)
 {
     if (!is_open)
         return;
     is_open = 0;
     if (write(STDOUT_FILENO, restore_text, sizeof restore_text - 1) < 0) {
-        /* nobody there to tell */
+        /* errors cannot be reported here */
     }
     tcsetattr(STDIN_FILENO, TCSANOW, &term.before);
 }
@@ -131,9 +132,9 @@ static void give_signals_back(void)
         sigaction(fault_signals[i], &term.old_fault[i], NULL);
 }
 
-/* Many machines do not know the terminals they are reached from: then the name
- * of one that is like all of today's. NULL, with the text, if the terminal is
- * known to be none for a picture. */
+/* Returns the terminal name for curses. A name that terminfo lacks, as is
+ * common on remote machines, is replaced by a similar common one. Returns NULL
+ * with an error for terminals that cannot show a picture. */
 static const char *terminal_name(struct error *err)
 {
     static const char *const others[] = {"xterm-256color", "xterm", "vt100",
@@ -172,7 +173,8 @@ static bool begins_with(const char *text, const char *with)
     return text && strncmp(text, with, strlen(with)) == 0;
 }
 
-/* These print what they do not understand. */
+/* Returns true for terminals that print sequences that they do not
+ * understand. */
 static bool is_simple(const char *name)
 {
     static const char *const simple[] = {"linux",  "vt1",   "vt2",  "vt3",
@@ -186,7 +188,8 @@ static bool is_simple(const char *name)
     return false;
 }
 
-/* tmux takes the question for a title, screen hands it on unseen. */
+/* Returns true inside tmux, which takes KITTY_QUESTION for a title, or screen,
+ * which forwards it blindly. */
 static bool is_inside_another(void)
 {
     const char *tmux = getenv("TMUX");
@@ -201,7 +204,7 @@ static void set_modes(void)
     noecho();
     nonl();
     curs_set(0);
-    typeahead(-1); /* else curses stops half way when keys wait */
+    typeahead(-1); /* otherwise curses stops drawing when keys wait */
     leaveok(stdscr, FALSE);
 }
 
@@ -221,12 +224,12 @@ static void ask(void)
     if (term.may_ask_colors && !is_inside_another())
         tty_write(KITTY_QUESTION, sizeof KITTY_QUESTION - 1);
     tty_write(QUESTIONS, sizeof QUESTIONS - 1);
-    /* removes what a simple mind has printed of it */
+    /* clears whatever a simple terminal printed of the questions */
     length = snprintf(text, sizeof text, "\033[2J\033[%d;1H", LINES);
     tty_write(text, (size_t)length);
 }
 
-/* What tty_open() takes before there is a screen. */
+/* Releases everything that tty_open() takes before the screen. */
 static void give_back(void)
 {
     xmalloc_set_hook(NULL);
@@ -268,7 +271,8 @@ bool tty_open(struct error *err)
     return true;
 }
 
-/* What waits in the line to a terminal that takes nothing would block. */
+/* Discards pending output if the terminal accepts none: closing it would
+ * block. */
 static void drop_stuck_output(void)
 {
     struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
@@ -277,8 +281,8 @@ static void drop_stuck_output(void)
         tcflush(STDOUT_FILENO, TCOFLUSH);
 }
 
-/* A terminal without a second screen would keep the picture below what comes
- * next. */
+/* Leaves the screen. A terminal without an alternate screen is cleared, so that
+ * the picture does not stay above the shell's output. */
 static void leave_screen(void)
 {
     if (!exit_ca_mode) {
@@ -294,7 +298,7 @@ static void write_restoring(void)
     static const char text[] = TTY_SYNC_END MOUSE_OFF "\033[m";
     size_t skip = term.has_sync ? 0 : sizeof TTY_SYNC_END - 1;
 
-    must_stop = 0; /* this must get through */
+    must_stop = 0; /* these bytes must be written */
     tty_write(text + skip, sizeof text - 1 - skip);
 }
 
@@ -335,8 +339,8 @@ bool tty_is_utf8(bool *may_learn)
 {
     const char *tmux = getenv("TMUX");
 
-    /* tmux takes everything and shows underscores where the terminal around
-     * it does not: its answer is not that terminal's */
+    /* tmux accepts every character and shows underscores if the outer terminal
+     * lacks it, so its answer does not tell */
     *may_learn = !(tmux && tmux[0]) && !is_simple(getenv("TERM"));
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
@@ -424,7 +428,7 @@ void tty_suspend(void)
     is_open = 0;
     sigemptyset(&stop.sa_mask);
     sigaction(SIGTSTP, &stop, &own);
-    raise(SIGTSTP); /* returns when we are continued */
+    raise(SIGTSTP); /* returns when the process is continued */
     sigaction(SIGTSTP, &own, NULL);
     tty_resume();
 }

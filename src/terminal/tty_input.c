@@ -5,15 +5,15 @@
 
 #define ESC 27
 
-/* Longer than any answer that is expected; what goes on is rubbish. */
+/* Longer than any expected answer; longer sequences are dropped. */
 #define SEQUENCE_MAX 512
 
-/* As many as terminals list what they can. */
+/* Enough for the device attributes of all terminals. */
 #define PARAMS_MAX 32
 
-/* What stands at the beginning of the bytes. */
+/* First sequence in the buffer. */
 struct sequence {
-    size_t length; /* 0: not complete */
+    size_t length; /* 0 if incomplete */
     bool has_event;
     struct event event;
 };
@@ -41,7 +41,7 @@ static void set_answer(struct sequence *s, enum event_kind kind, int x, int y)
     s->event = (struct event){.kind = kind, .x = x, .y = y};
 }
 
-/* Reads "12;3" into params; the rest are 0. */
+/* Parses "12;3" into params; the rest are 0. Returns their number. */
 static int read_params(const unsigned char *p, size_t length,
                        int params[PARAMS_MAX])
 {
@@ -61,7 +61,8 @@ static int read_params(const unsigned char *p, size_t length,
     return count;
 }
 
-/* b;x;yM or b;x;ym: bits 0-1 button, 5 motion, 6 wheel, 2-4 Shift, Alt, Ctrl */
+/* Parses b;x;yM or b;x;ym. Bits of b: 0-1 button, 2-4 Shift, Alt and Ctrl, 5
+ * motion, 6 wheel. */
 static void set_mouse(struct sequence *s, const int *params, bool released)
 {
     int b = params[0];
@@ -96,7 +97,7 @@ static int key_of_letter(unsigned char letter)
     case 'D': return TTY_KEY_LEFT;
     case 'H': return TTY_KEY_HOME;
     case 'P': return TTY_KEY_F1;
-    case 'M': return '\r'; /* of the keypad */
+    case 'M': return '\r'; /* Enter of the keypad */
     default: return TTY_KEY_OTHER;
     }
 }
@@ -113,7 +114,7 @@ static int key_of_number(int number)
     }
 }
 
-/* Among the attributes behind the terminal's class 4 is for sixels. */
+/* Returns true if attribute 4, sixel graphics, follows the terminal's class. */
 static bool lists_sixels(const int *params, int count)
 {
     for (int i = 1; i < count; i++) {
@@ -123,7 +124,7 @@ static bool lists_sixels(const int *params, int count)
     return false;
 }
 
-/* Answers that begin with ESC[? */
+/* Takes an answer that begins with ESC[? */
 static void set_private(struct sequence *s, const int *params, int count,
                         unsigned char last)
 {
@@ -148,7 +149,7 @@ static void set_csi(struct sequence *s, const unsigned char *p, size_t length,
     } else if (length > 0 && p[0] == '?') {
         set_private(s, params, count, last);
     } else if (length > 0 && (p[0] == '>' || p[0] == '=')) {
-        return; /* nothing was asked that is answered so */
+        return; /* not an answer to a question of glim's */
     } else if (last == 'n') {
         if (params[0] == 0)
             set_answer(s, EVENT_READY, 0, 0);
@@ -164,12 +165,13 @@ static void set_csi(struct sequence *s, const unsigned char *p, size_t length,
     }
 }
 
-/* ESC [ parameters and intermediates (0x20-0x3f), a last byte (0x40-0x7e) */
+/* Takes ESC [, parameters and intermediates (0x20-0x3f), a final byte
+ * (0x40-0x7e). */
 static void take_csi(struct sequence *s, const unsigned char *p, size_t length)
 {
     size_t i = 2;
 
-    if (length > 2 && p[2] == '[') { /* the Linux console's F1 is ESC[[A */
+    if (length > 2 && p[2] == '[') { /* F1 on the Linux console is ESC[[A */
         if (length > 3) {
             s->length = 4;
             set_key(s, p[3] == 'A' ? TTY_KEY_F1 : TTY_KEY_OTHER);
@@ -181,15 +183,15 @@ static void take_csi(struct sequence *s, const unsigned char *p, size_t length)
     if (i == length)
         return;
     if (p[i] < 0x40 || p[i] > 0x7e) {
-        s->length = i; /* broken off: what comes now is something new */
+        s->length = i; /* interrupted: this byte begins another sequence */
         return;
     }
     s->length = i + 1;
     set_csi(s, p + 2, i - 2, p[i]);
 }
 
-/* The colours that are set, as DECRQSS reports them: 0;48:2::1:2:3m, with
- * colons or semicolons. A terminal that rounds says 48:5:16. */
+/* Checks the colour that DECRQSS reports: 0;48:2::1:2:3m, with colons or
+ * semicolons. A terminal that rounds colours reports 48:5:16. */
 static bool reports_true_color(const unsigned char *p, size_t length)
 {
     for (size_t i = 0; i + 4 <= length; i++) {
@@ -201,13 +203,14 @@ static bool reports_true_color(const unsigned char *p, size_t length)
     return false;
 }
 
-/* _Gi=1;OK: one that does not know them says nothing, or what is wrong. */
+/* Checks for _Gi=1;OK. Terminals without the protocol do not answer, or report
+ * an error. */
 static bool accepts_kitty(const unsigned char *p, size_t length)
 {
     return length >= 4 && p[0] == 'G' && memcmp(p + length - 3, ";OK", 3) == 0;
 }
 
-/* ESC P, ], ^, _, X: text up to ESC \ (or BEL) */
+/* Takes ESC P, ], ^, _ or X and the text up to ESC \ or BEL. */
 static void take_string(struct sequence *s, const unsigned char *p,
                         size_t length)
 {
@@ -252,7 +255,7 @@ static void take_escape(struct sequence *s, const unsigned char *p,
     case '^':
     case '_':
     case 'X': take_string(s, p, length); break;
-    default: /* a key that came soon; Alt and a key are the same bytes */
+    default: /* ESC and a key soon after: the same bytes as Alt and the key */
         s->length = 1;
         set_key(s, ESC);
         break;
@@ -261,7 +264,8 @@ static void take_escape(struct sequence *s, const unsigned char *p,
         s->length = length;
 }
 
-/* Bytes of the UTF-8 character that begins so; 1: none does. */
+/* Returns the length of the UTF-8 character that starts with this byte; 1 for
+ * an invalid byte. */
 static size_t character_bytes(unsigned char first)
 {
     if (first < 0xc2 || first > 0xf4)
@@ -269,7 +273,7 @@ static size_t character_bytes(unsigned char first)
     return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
 }
 
-/* Bytes of one character in UTF-8 are one key. */
+/* Takes one UTF-8 character as one key. */
 static void take_character(struct sequence *s, const unsigned char *p,
                            size_t length)
 {

@@ -2,11 +2,11 @@
 /*
  * tty_input.h - bytes from the terminal to keys, mouse reports and answers
  *
- * Sequences may come in pieces, and answers between keys.
+ * Escape sequences may arrive in pieces, and answers between keys. Unknown
+ * sequences are dropped as a whole.
  *
  * Units:     terminal cells, from 1
  * Threads:   one thread at a time
- * Errors:    none; what nobody understands is dropped whole
  */
 #ifndef GLIM_TTY_INPUT_H
 #define GLIM_TTY_INPUT_H
@@ -14,7 +14,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Keys that are no ASCII characters. Enter is '\r', Escape 27. */
+/* Keys that are not ASCII characters. Enter is '\r', Escape is 27. */
 enum tty_key {
     TTY_KEY_UP = 256,
     TTY_KEY_DOWN,
@@ -24,21 +24,21 @@ enum tty_key {
     TTY_KEY_PAGE_DOWN,
     TTY_KEY_HOME,
     TTY_KEY_F1,
-    TTY_KEY_OTHER /* some key that has no use here */
+    TTY_KEY_OTHER /* a key that glim does not use */
 };
 
 enum event_kind {
     EVENT_KEY,
     EVENT_MOUSE,
-    EVENT_READY,      /* ESC[0n: the answer to FRAME_PACING_REQUEST */
-    EVENT_ATTRIBUTES, /* the answer to ESC[c, the last of the questions; x: 1 if
-                         the terminal has sixels */
-    EVENT_SIXEL_COLORS, /* x: how many a sixel image may have */
-    EVENT_KITTY,        /* it has kitty's graphics */
-    EVENT_TRUE_COLOR,   /* the terminal keeps 24-bit colours */
-    EVENT_SYNC,         /* it knows synchronized updates */
-    EVENT_CELL_SIZE,    /* x, y: pixels of a cell */
-    EVENT_CURSOR        /* x, y: where the cursor is */
+    EVENT_READY,        /* ESC[0n: the answer to FRAME_PACING_REQUEST */
+    EVENT_ATTRIBUTES,   /* the answer to ESC[c, the last question; x is 1 with
+                           sixel graphics */
+    EVENT_SIXEL_COLORS, /* x: number of colours in a sixel image */
+    EVENT_KITTY,        /* kitty's graphics are supported */
+    EVENT_TRUE_COLOR,   /* 24-bit colours are supported */
+    EVENT_SYNC,         /* synchronized updates are supported */
+    EVENT_CELL_SIZE,    /* x, y: size of a cell in pixels */
+    EVENT_CURSOR        /* x, y: position of the cursor */
 };
 
 enum mouse_kind {
@@ -54,7 +54,7 @@ struct event {
     enum event_kind kind;
     int key; /* a byte, or enum tty_key */
     enum mouse_kind mouse;
-    int button;       /* of the mouse: 0 is the left one, 2 the right one */
+    int button;       /* mouse button: 0 left, 2 right */
     bool is_modified; /* with Ctrl or Alt */
     int x, y;
 };
@@ -66,17 +66,17 @@ struct tty_input {
     size_t length;
 };
 
-/* Takes up to what fits; the number of bytes taken. Fits always after
+/* Stores bytes and returns how many fit. There is always room after
  * tty_input_next() has returned false. */
 size_t tty_input_feed(struct tty_input *in, const void *bytes, size_t count);
 
-/* The next event; false if there is none, perhaps because a sequence is not
- * complete. nothing_follows says that no byte has come for a while, so that a
- * lone ESC is the key and a half sequence is rubbish. */
+/* Takes the next event. Returns false if there is none or its sequence is
+ * incomplete. nothing_follows tells that no byte has arrived for a while: then
+ * a lone ESC is the Escape key, and an incomplete sequence is dropped. */
 bool tty_input_next(struct tty_input *in, bool nothing_follows,
                     struct event *event);
 
-/* True if the beginning of a sequence waits for the rest. */
+/* Returns true if an incomplete sequence is waiting. */
 static inline bool tty_input_is_partial(const struct tty_input *in)
 {
     return in->length > 0;
