@@ -3,6 +3,7 @@
  * every EACH_DEVICE-th is rendered on the device too. */
 #include "extremes.h"
 #include "rows.h"
+#include "tests/unit/folder.h"
 
 #define SCENES      10000
 #define EACH_DEVICE 10
@@ -11,11 +12,10 @@ int main(int argc, char **argv)
 {
     uint32_t count = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : SCENES;
     uint32_t first = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 0;
-    char folder[] = "/tmp/glim-extremes-XXXXXX";
     struct extremes x;
     uint32_t bad = 0;
 
-    if (mkdtemp(folder) == NULL || chdir(folder) != 0)
+    if (enter_folder(NULL) != 0)
         return 2;
     extremes_open(&x, true);
     for (uint32_t i = first; i < first + count; i++)
@@ -27,7 +27,7 @@ int main(int argc, char **argv)
         x.scenes, x.on_device, x.refused, (unsigned long long)x.saturated,
         (unsigned long long)x.samples, bad);
     extremes_close(&x);
-    if (chdir("/") != 0 || rmdir(folder) != 0)
+    if (leave_empty_folder(NULL) != 0)
         return 2;
     return rows_status();
 }

@@ -30,13 +30,13 @@
 #include "opencl/backend_cl.h"
 #include "opencl/cl_environment.h"
 #include "rows.h"
+#include "tests/unit/folder.h"
 
 #define SEEDS   12
 #define T_LIMIT 9.4
 #define SIDE_PX 16
 
 struct stage {
-    char folder[32];
     FILE *obj, *mtl;
     double scale, move[3]; /* of what is written, in this order */
     struct backend *backend;
@@ -78,7 +78,7 @@ static inline bool stage_open(struct stage *s, bool on_device)
     struct error err;
     char *log = NULL;
 
-    *s = (struct stage){.folder = "/tmp/glim-stress-XXXXXX", .scale = 1};
+    *s = (struct stage){.scale = 1};
     if (on_device) {
         cl_environment_prepare(0);
         s->backend = backend_cl_create(&request, &log, &err);
@@ -94,7 +94,7 @@ static inline bool stage_open(struct stage *s, bool on_device)
     s->render = render_create(s->backend, &err);
     if (s->render == NULL)
         stage_stop(err.text);
-    if (mkdtemp(s->folder) == NULL || chdir(s->folder) != 0)
+    if (enter_folder(NULL) != 0)
         stage_stop("no temporary folder");
     return true;
 }
@@ -106,7 +106,7 @@ static inline void stage_close(struct stage *s)
     unlink("a.obj");
     unlink("a.mtl");
     unlink("sky");
-    if (chdir("/") != 0 || rmdir(s->folder) != 0)
+    if (leave_empty_folder(NULL) != 0)
         stage_stop("files are left in the temporary folder");
 }
 

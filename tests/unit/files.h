@@ -2,9 +2,6 @@
 /*
  * files.h - small files in a folder of their own, by the C library alone
  *
- * enter_folder() and leave_folder() are for cmocka_run_group_tests().
- *
- * Ownership: leave_folder() removes all that is in the folder
  * Threads:   one
  * Errors:    a failed check ends the test
  */
@@ -12,41 +9,26 @@
 #define TESTS_FILES_H
 
 #include <dirent.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include "tests/unit/check.h"
+#include "tests/unit/folder.h"
 
-static char folder[64];
-
-static int enter_folder(void **state)
+static inline void put_bytes(const char *path, const void *bytes,
+                             size_t size_bytes)
 {
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state)
-{
-    char command[256];
-
-    (void)state;
-    snprintf(command, sizeof command, "chmod -R u+w %s; rm -rf %s", folder,
-             folder);
-    return chdir("/") == 0 && system(command) == 0 ? 0 : -1;
-}
-
-/* By the C library alone. */
-static void put(const char *path, const char *text)
-{
-    FILE *f = fopen(path, "w");
+    FILE *f = fopen(path, "wb");
 
     assert_non_null(f);
-    fputs(text, f);
+    assert_int_equal(fwrite(bytes, 1, size_bytes, f), size_bytes);
     assert_int_equal(fclose(f), 0);
 }
 
-static void has(const char *path, const char *expected)
+static inline void put(const char *path, const char *text)
+{
+    put_bytes(path, text, strlen(text));
+}
+
+static inline void has(const char *path, const char *expected)
 {
     char text[256] = "";
     FILE *f = fopen(path, "r");
@@ -58,7 +40,7 @@ static void has(const char *path, const char *expected)
     assert_string_equal(text, expected);
 }
 
-static int count_files(const char *path)
+static inline int count_files(const char *path)
 {
     DIR *d = opendir(path);
     int count = -2; /* . and .. */

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * folder.h - a folder of its own for a test program
+ * folder.h - a folder of its own for a test program, in $TMPDIR or /tmp
  *
- * make_folder() and remove_folder() are for cmocka_run_group_tests().
+ * The functions can be the setup and teardown of cmocka_run_group_tests().
  *
- * Ownership: remove_folder() removes it with all that is in it
  * Threads:   one
  * Errors:    -1 ends the program's tests
  */
@@ -13,23 +12,43 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
-static char folder[64];
+static char folder[160];
 
-static int make_folder(void **state)
+/* Makes the folder, for remove_folder() or leave_empty_folder(). */
+static inline int make_folder(void **state)
 {
+    const char *parent = getenv("TMPDIR");
+    int length = snprintf(folder, sizeof folder, "%s/glim-test-XXXXXX",
+                          parent != NULL && parent[0] == '/' ? parent : "/tmp");
+
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
+    return length < (int)sizeof folder && mkdtemp(folder) != NULL ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+/* The same, and makes it the current folder. */
+static inline int enter_folder(void **state)
 {
-    char command[128];
+    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
+}
+
+/* Removes the folder with all that is in it. */
+static inline int remove_folder(void **state)
+{
+    char command[2 * sizeof folder + 64];
 
     (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command) == 0 ? 0 : -1;
+    snprintf(command, sizeof command, "chmod -R u+w '%s'; rm -rf '%s'", folder,
+             folder);
+    return chdir("/") == 0 && system(command) == 0 ? 0 : -1;
+}
+
+/* Removes the folder; fails if a file was left in it. */
+static inline int leave_empty_folder(void **state)
+{
+    (void)state;
+    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
 }
 
 #endif

@@ -21,7 +21,7 @@
 /* Sets the category to language "de_DE", ... in UTF-8. */
 static inline bool set_language(int category, const char *language)
 {
-    char name[32], command[256];
+    char name[32], command[320];
 
     snprintf(name, sizeof name, "%s.UTF-8", language);
     unsetenv("LOCPATH"); /* where nothing was found is not searched again */

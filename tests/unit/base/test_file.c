@@ -359,5 +359,5 @@ int main(void)
     };
 
     return cmocka_run_group_tests_name("file", tests, enter_folder,
-                                       leave_folder);
+                                       remove_folder);
 }

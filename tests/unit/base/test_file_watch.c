@@ -4,7 +4,7 @@
  * links, from nothing; and what is no change.
  */
 #include "tests/unit/check.h"
-#include "tests/unit/folder.h"
+#include "tests/unit/files.h"
 
 #include <poll.h>
 #include <sys/stat.h>
@@ -13,25 +13,16 @@
 #include "base/error.h"
 #include "base/file_watch.h"
 
-static char paths[4][128];
+static char paths[4][256];
 
 enum { PLAIN, OTHER, LINK, TARGET };
-
-static void put(const char *path, const char *text)
-{
-    FILE *to = fopen(path, "w");
-
-    assert_non_null(to);
-    assert_true(fputs(text, to) >= 0);
-    assert_int_equal(fclose(to), 0);
-}
 
 /* link -> below/target, plain; other is not there. */
 static void begin(struct file_watch *w)
 {
     static const char *const names[] = {"plain", "other", "link",
                                         "below/target"};
-    char below[128];
+    char below[256];
 
     snprintf(below, sizeof below, "%s/below", folder);
     mkdir(below, 0700);
@@ -95,7 +86,7 @@ static void writing_in_place_is_noticed(void **state)
 static void files_are_known_by_any_name(void **state)
 {
     struct file_watch w;
-    char other_way[192];
+    char other_way[256];
 
     (void)state;
     begin(&w);

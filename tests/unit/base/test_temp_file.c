@@ -197,5 +197,5 @@ int main(void)
     };
 
     return cmocka_run_group_tests_name("temp_file", tests, enter_folder,
-                                       leave_folder);
+                                       remove_folder);
 }

@@ -49,7 +49,7 @@ static void folders_are_where_they_belong(void **state)
 
 static void state_folders_are_made(void **state)
 {
-    char home[128], expected[256];
+    char home[256], expected[320];
     struct stat st;
     char *path;
 
@@ -71,7 +71,7 @@ static void state_folders_are_made(void **state)
 
 static void no_folder_is_no_path(void **state)
 {
-    char file[128];
+    char file[256];
     FILE *to;
 
     (void)state;

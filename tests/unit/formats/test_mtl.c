@@ -7,7 +7,7 @@
 
 #include "scene/material.h"
 #include "formats/mtl.h"
-#include "tests/unit/check.h"
+#include "tests/unit/files.h"
 
 struct loaded {
     struct scene scene;
@@ -450,19 +450,10 @@ static void test_paths_of_other_machines(void **state)
                                         "sub/wood\\ a.png",
                                         "C:\\models\\wood a.png",
                                         "/home/x/wood a.png"};
-    char folder[] = "/tmp/glim-mtl-XXXXXX";
-    char path[64];
-
     (void)state;
-    assert_non_null(mkdtemp(folder));
-    assert_int_equal(chdir(folder), 0);
     assert_int_equal(mkdir("sub", 0700), 0);
-    for (int i = 0; i < 2; i++) {
-        FILE *f = fopen(i == 0 ? "sub/wood a.png" : "wood a.png", "w");
-
-        assert_non_null(f);
-        fclose(f);
-    }
+    put("sub/wood a.png", "");
+    put("wood a.png", "");
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char text[256];
         struct loaded l;
@@ -473,12 +464,6 @@ static void test_paths_of_other_machines(void **state)
         assert_int_equal(access(l.scene.texture_paths[0], R_OK), 0);
         unload(&l);
     }
-    unlink("sub/wood a.png");
-    unlink("wood a.png");
-    snprintf(path, sizeof path, "%s/sub", folder);
-    rmdir(path);
-    assert_int_equal(chdir("/"), 0);
-    rmdir(folder);
 }
 
 int main(void)
@@ -499,7 +484,8 @@ int main(void)
         cmocka_unit_test(test_maps_of_other_scales_are_not_shared),
         cmocka_unit_test(test_maps_of_numbers),
         cmocka_unit_test(test_bumps),
-        cmocka_unit_test(test_paths_of_other_machines),
+        cmocka_unit_test_setup_teardown(test_paths_of_other_machines,
+                                        enter_folder, remove_folder),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,21 +11,13 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "inspect/view_modes.h"
-#include "tests/unit/folder.h"
+#include "tests/unit/files.h"
 
 #define WIDTH  48
 #define HEIGHT 32
 
 static struct options options;
 static char root[PATH_MAX]; /* of the repository */
-
-static void put(const char *name, const char *text)
-{
-    struct error err;
-
-    check_or_say(file_write(name, text, strlen(text), false, NULL, &err),
-                 err.text);
-}
 
 static void open_scene(struct session *s, const char *path)
 {
@@ -125,12 +117,9 @@ static void depths_of_a_wall(void **state)
     session_close(&s);
 }
 
-static int enter_folder(void **state)
+static int enter(void **state)
 {
-    return getcwd(root, sizeof root) && make_folder(state) == 0 &&
-                   chdir(folder) == 0
-               ? 0
-               : -1;
+    return getcwd(root, sizeof root) != NULL ? enter_folder(state) : -1;
 }
 
 int main(void)
@@ -140,5 +129,5 @@ int main(void)
         cmocka_unit_test(depths_of_a_wall),
     };
 
-    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter, remove_folder);
 }

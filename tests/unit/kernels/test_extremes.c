@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/stress/extremes.h"
+#include "tests/unit/folder.h"
 
 /* Of which so many are rendered on the device as well. */
 #define SCENES    300
@@ -52,12 +53,11 @@ static void facing_lamps_are_finite(void **state)
     session_close(&s);
 }
 
-static char folder[] = "/tmp/glim-extremes-XXXXXX";
 static struct extremes extremes;
 
 static int open_all(void **state)
 {
-    if (mkdtemp(folder) == NULL || chdir(folder) != 0)
+    if (enter_folder(state) != 0)
         return -1;
     extremes_open(&extremes, true);
     *state = &extremes;
@@ -67,7 +67,7 @@ static int open_all(void **state)
 static int close_all(void **state)
 {
     extremes_close(*state);
-    return chdir("/") != 0 || rmdir(folder) != 0 ? -1 : 0;
+    return leave_empty_folder(state);
 }
 
 int main(void)

@@ -7,7 +7,7 @@
 
 #include "scene/world.h"
 #include "formats/scene_load.h"
-#include "tests/unit/check.h"
+#include "tests/unit/files.h"
 
 #include "kernels/traverse.h"
 
@@ -22,15 +22,6 @@ struct loaded {
     struct world world;
     struct material material;
 };
-
-static void write_file(const char *path, const void *bytes, size_t size)
-{
-    FILE *f = fopen(path, "wb");
-
-    assert_non_null(f);
-    assert_int_equal(fwrite(bytes, 1, size, f), size);
-    fclose(f);
-}
 
 /* Uncompressed Targa with the top row first; channels 3 or 4 a pixel, in the
  * order red, green, blue, alpha. */
@@ -53,7 +44,7 @@ static void write_image(const char *path, int width, int height, int channels,
 
         bytes[18 + to] = pixels[i];
     }
-    write_file(path, bytes, 18 + size);
+    put_bytes(path, bytes, 18 + size);
 }
 
 static void load(struct loaded *l, const char *statements)
@@ -66,8 +57,8 @@ static void load(struct loaded *l, const char *statements)
 
     memset(l, 0, sizeof *l);
     snprintf(mtl, sizeof mtl, "newmtl m\n%s\n", statements);
-    write_file("a.mtl", mtl, strlen(mtl));
-    write_file("a.obj", obj, sizeof obj - 1);
+    put_bytes("a.mtl", mtl, strlen(mtl));
+    put_bytes("a.obj", obj, sizeof obj - 1);
     view_init(&l->view);
     l->view.pose.eye[2] = 5;
     if (!scene_load(&l->scene, "a.obj", false, &l->report, &err) ||
@@ -395,22 +386,14 @@ static void bent_normals_reflect_upwards(void **state)
     }
 }
 
-static int enter_folder(void **state)
-{
-    static char folder[] = "/tmp/glim-maps-XXXXXX";
-
-    *state = folder;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int leave_folder(void **state)
+static int remove_files(void **state)
 {
     const char *const names[] = {"a.obj", "a.mtl", "six.tga", "two.tga",
                                  "leaf.tga"};
 
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
-    return chdir("/") != 0 || rmdir(*state) != 0;
+    return leave_empty_folder(state);
 }
 
 int main(void)
@@ -430,5 +413,5 @@ int main(void)
         cmocka_unit_test(bent_normals_reflect_upwards),
     };
 
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+    return cmocka_run_group_tests(tests, enter_folder, remove_files);
 }

@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "scene/world.h"
 #include "session/session.h"
-#include "tests/unit/check.h"
+#include "tests/unit/files.h"
 #include "tests/unit/truth.h"
 
 #define SPP 64
@@ -17,20 +17,6 @@ struct picture {
     int width, height;
     double texels[32][64];
 };
-
-static void write_file(const char *path, const void *bytes, size_t size)
-{
-    FILE *f = fopen(path, "wb");
-
-    assert_non_null(f);
-    assert_int_equal(fwrite(bytes, 1, size, f), size);
-    assert_int_equal(fclose(f), 0);
-}
-
-static void write_text(const char *path, const char *text)
-{
-    write_file(path, text, strlen(text));
-}
 
 /* IEC 61966-2-1. */
 static double srgb_decoded(uint8_t byte)
@@ -55,7 +41,7 @@ static void write_noise(const char *path, struct picture *p, uint64_t seed)
         memset(bytes + 18 + 3 * i, grey, 3);
         p->texels[i / p->width][i % p->width] = srgb_decoded(grey);
     }
-    write_file(path, bytes, (size_t)(18 + 3 * p->width * p->height));
+    put_bytes(path, bytes, (size_t)(18 + 3 * p->width * p->height));
 }
 
 /* The mean over SEEDS renders of the scene with this view, and its standard
@@ -139,14 +125,13 @@ static void texels_are_pixels(void **state)
 
     (void)state;
     write_noise("noise.tga", &p, 17);
-    write_text("noise.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n"
-                            "map_Ke noise.tga\n");
+    put("noise.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n"
+                     "map_Ke noise.tga\n");
     /* u from 0 to 2, v from -1/2 at the bottom to 1 */
-    write_text("noise.obj", "mtllib noise.mtl\nv 2 4 0\nv 18 4 0\nv 18 10 0\n"
-                            "v 2 10 0\nvt 0 -.5\nvt 2 -.5\nvt 2 1\nvt 0 1\n"
-                            "usemtl lamp\nf 1/1 2/2 3/3 4/4\n");
-    write_text("noise.view",
-               "eye 10 7 3\nat 10 7 0\nup 0 1 0\nfovy 90\nres 16 6\n");
+    put("noise.obj", "mtllib noise.mtl\nv 2 4 0\nv 18 4 0\nv 18 10 0\n"
+                     "v 2 10 0\nvt 0 -.5\nvt 2 -.5\nvt 2 1\nvt 0 1\n"
+                     "usemtl lamp\nf 1/1 2/2 3/3 4/4\n");
+    put("noise.view", "eye 10 7 3\nat 10 7 0\nup 0 1 0\nfovy 90\nres 16 6\n");
     render_means("noise.obj", "noise.view", means, errors);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         double truth = 0;
@@ -233,7 +218,7 @@ static void skies_are_where_they_should_be(void **state)
 
     (void)state;
     write_dome("dome.pfm", &p);
-    write_text("speck.obj", "v 9 9 9\nv 9 9 9.001\nv 9 9.001 9\nf 1 2 3\n");
+    put("speck.obj", "v 9 9 9\nv 9 9 9.001\nv 9 9.001 9\nf 1 2 3\n");
     for (size_t k = 0; k < sizeof gazes / sizeof *gazes; k++) {
         const struct gaze *g = &gazes[k];
         char view[512];
@@ -243,7 +228,7 @@ static void skies_are_where_they_should_be(void **state)
                  "sky dome.pfm\nsky_strength 2\nsky_rotation %d\n",
                  g->at[0], g->at[1], g->at[2], g->up[0], g->up[1], g->up[2],
                  WIDTH, HEIGHT, angles_deg[k]);
-        write_text("dome.view", view);
+        put("dome.view", view);
         render_means("speck.obj", "dome.view", means, errors);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             double truth = 0;
@@ -292,10 +277,10 @@ static void lamps_blur_as_lenses_want(void **state)
     static double means[SIDE * SIDE], errors[SIDE * SIDE];
 
     (void)state;
-    write_text("spot.mtl", "newmtl lamp\nKd 0 0 0\nKe 7 7 7\n");
-    write_text("spot.obj",
-               "mtllib spot.mtl\nv 101.65 48.15 0\nv 102.15 48.15 0\n"
-               "v 102.15 48.65 0\nv 101.65 48.65 0\nusemtl lamp\nf 1 2 3 4\n");
+    put("spot.mtl", "newmtl lamp\nKd 0 0 0\nKe 7 7 7\n");
+    put("spot.obj",
+        "mtllib spot.mtl\nv 101.65 48.15 0\nv 102.15 48.15 0\n"
+        "v 102.15 48.65 0\nv 101.65 48.65 0\nusemtl lamp\nf 1 2 3 4\n");
     for (size_t k = 0; k < 2; k++) {
         double focus = focuses[k], shrink = 1 - distance / focus;
         double truths = 0, sum = 0, variance = 0;
@@ -305,7 +290,7 @@ static void lamps_blur_as_lenses_want(void **state)
                  "eye 100 50 6\nat 100 50 0\nup 0 1 0\nfovy 60\nres %d %d\n"
                  "aperture %g\nfocus %g\n",
                  SIDE, SIDE, 2 * radius, focus);
-        write_text("spot.view", view);
+        put("spot.view", view);
         render_means("spot.obj", "spot.view", means, errors);
         for (int i = 0; i < SIDE * SIDE; i++) {
             double truth = 0;
@@ -528,15 +513,7 @@ static void skies_light_floors(void **state)
     }
 }
 
-static int enter_folder(void **state)
-{
-    static char folder[] = "/tmp/glim-views-XXXXXX";
-
-    *state = folder;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int leave_folder(void **state)
+static int remove_files(void **state)
 {
     const char *const names[] = {"noise.tga",  "noise.mtl", "noise.obj",
                                  "noise.view", "dome.pfm",  "dome.view",
@@ -545,7 +522,7 @@ static int leave_folder(void **state)
 
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
-    return chdir("/") != 0 || rmdir(*state) != 0;
+    return leave_empty_folder(state);
 }
 
 int main(void)
@@ -558,5 +535,5 @@ int main(void)
         cmocka_unit_test(skies_light_floors),
     };
 
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+    return cmocka_run_group_tests(tests, enter_folder, remove_files);
 }

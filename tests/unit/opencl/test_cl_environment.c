@@ -130,7 +130,7 @@ static void cache_fails(const char *within, const char *why)
 static void test_cache_is_made(void **state)
 {
     struct error err;
-    char path[128];
+    char path[256];
 
     (void)state;
     assert_true(cache_is_made("a/b c//d/", &err));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/unit/check.h"
-#include "tests/unit/folder.h"
+#include "tests/unit/files.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,20 +12,6 @@
 
 /* What a file that promises gigabytes may make the process grow by. */
 #define GROWTH_KIB 8192
-
-static int enter_folder(void **state)
-{
-    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
-}
-
-static void put(const char *path, const void *data, size_t size_bytes)
-{
-    FILE *f = fopen(path, "wb");
-
-    assert_non_null(f);
-    assert_int_equal(fwrite(data, 1, size_bytes, f), size_bytes);
-    assert_int_equal(fclose(f), 0);
-}
 
 static long resident_kib(void)
 {
@@ -70,9 +56,9 @@ static void is_just_enough(const char *path, const void *data,
 {
     char expected[200];
 
-    put(path, data, size_bytes);
+    put_bytes(path, data, size_bytes);
     reads(path, width, height);
-    put(path, data, size_bytes - 1);
+    put_bytes(path, data, size_bytes - 1);
     snprintf(expected, sizeof expected,
              "%s: found %zu bytes, expected more for %dx%d pixels", path,
              size_bytes - 1, width, height);
@@ -96,7 +82,7 @@ static void test_tga(void **state)
                                        "\10\0abcdefgh\xff\0\xff\1\xff\0\xff\1";
 
     (void)state;
-    put("a.tga", short_raw, sizeof short_raw - 1);
+    put_bytes("a.tga", short_raw, sizeof short_raw - 1);
     fails("a.tga",
           "a.tga: found 19 bytes, expected more for 32767x8191 pixels");
     is_just_enough("a.tga", raw, sizeof raw - 1, 3, 2);
@@ -118,12 +104,12 @@ static void test_bmp(void **state)
     memcpy(bmp + 22, "\xfe\xff\xff\xff", 4); /* rows from the top down */
     is_just_enough("a.bmp", bmp, sizeof bmp, 3, 2);
     memcpy(bmp + 18, "\0\x40\0\0\0\x40\0\0", 8);
-    put("a.bmp", bmp, sizeof bmp);
+    put_bytes("a.bmp", bmp, sizeof bmp);
     fails("a.bmp",
           "a.bmp: found 75 bytes, expected more for 16384x16384 pixels");
     memcpy(bmp + 10, "\xff\xff\xff\x7f", 4); /* where the pixels begin */
     memcpy(bmp + 18, "\1\0\0\0\1\0\0\0", 8);
-    put("a.bmp", bmp, sizeof bmp);
+    put_bytes("a.bmp", bmp, sizeof bmp);
     fails("a.bmp", "a.bmp: found 75 bytes, expected more for 1x1 pixels");
 }
 
@@ -150,7 +136,7 @@ static void put_jpeg(const char *path, int side, int blocks)
     }
     p = (char *)mempcpy(p, scan, sizeof scan - 1) + blocks / 4;
     p = (char *)mempcpy(p, "\xff\xd9", 2);
-    put(path, jpeg, (size_t)(p - jpeg));
+    put_bytes(path, jpeg, (size_t)(p - jpeg));
 }
 
 static void test_jpeg(void **state)
@@ -161,7 +147,7 @@ static void test_jpeg(void **state)
     put_jpeg("a.jpg", 16384, 32 * 32);
     fails("a.jpg", "a.jpg: found 396 bytes, expected more for 16384x16384 "
                    "pixels");
-    put("a.jpg", "\xff\xd8\xff\xe0\0\4zz\xff\xd9", 10);
+    put_bytes("a.jpg", "\xff\xd8\xff\xe0\0\4zz\xff\xd9", 10);
     fails("a.jpg", "a.jpg: found an image that cannot be read (JPEG without a "
                    "frame that is known)");
 }
@@ -178,7 +164,7 @@ static void put_png(const char *path, uint32_t side, char depth, char color,
     head[24] = (unsigned char)depth;
     head[25] = (unsigned char)color;
     memcpy(data, head, sizeof head);
-    put(path, data, sizeof head + zeros);
+    put_bytes(path, data, sizeof head + zeros);
     free(data);
 }
 
@@ -197,7 +183,7 @@ static void test_png(void **state)
     put_png("a.png", 16, 8, 6, 100);
     fails("a.png", "a.png: found an image that cannot be read (PNG not "
                    "supported: unknown PNG chunk type)");
-    put("a.png", "\x89PNG\r\n\x1a\n", 8);
+    put_bytes("a.png", "\x89PNG\r\n\x1a\n", 8);
     fails("a.png", "a.png: found an image that cannot be read (PNG without a "
                    "header)");
 }
@@ -210,15 +196,15 @@ static void test_hdr(void **state)
     size_t length = strlen(whole);
 
     (void)state;
-    put("a.hdr", head, sizeof head - 1);
+    put_bytes("a.hdr", head, sizeof head - 1);
     fails("a.hdr", "a.hdr: found 9 bytes of pixels, expected more for "
                    "16384x16384");
     /* the fewest bytes of the longest row: a pixel, 255 more, 127 * 256 more,
      * which makes 32768 */
     memcpy(whole + length, "abcd\1\1\1\xff\1\1\1\x7f", 12);
-    put("a.hdr", whole, length + 12);
+    put_bytes("a.hdr", whole, length + 12);
     reads("a.hdr", 32768, 1);
-    put("a.hdr", whole, length + 11);
+    put_bytes("a.hdr", whole, length + 11);
     fails("a.hdr", "a.hdr: found 11 bytes of pixels, expected more for "
                    "32768x1");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/unit/check.h"
+#include "tests/unit/files.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,42 +12,22 @@
 #include "picture/image_read.h"
 #include "picture/stb.h"
 
-static char folder[64];
 static char png_suite[500];
 
-static int make_folder(void **state)
+/* Finds the suite before the current folder is another one. */
+static int enter(void **state)
 {
     const char *shared = getenv("GLIM_SHARED");
     char *real = realpath(shared ? shared : "../shared", NULL);
 
-    (void)state;
     snprintf(png_suite, sizeof png_suite, "%s/suites/png", real ? real : "");
     free(real);
-    snprintf(folder, sizeof folder, "/tmp/glim-test-XXXXXX");
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 && system(command) == 0 ? 0 : -1;
-}
-
-static void put(const char *path, const void *data, size_t size_bytes)
-{
-    FILE *f = fopen(path, "wb");
-
-    assert_non_null(f);
-    assert_int_equal(fwrite(data, 1, size_bytes, f), size_bytes);
-    assert_int_equal(fclose(f), 0);
+    return enter_folder(state);
 }
 
 static void put_text(const char *path, const char *text)
 {
-    put(path, text, strlen(text));
+    put_bytes(path, text, strlen(text));
 }
 
 static void append(void *context, void *data, int size_bytes)
@@ -129,7 +109,7 @@ static void test_hdr(void **state)
     uint64_t clamped;
 
     (void)state;
-    put("a.hdr", text, sizeof text - 1);
+    put_bytes("a.hdr", text, sizeof text - 1);
     assert_true(image_read_linear(&image, "a.hdr", &clamped, &err));
     assert_int_equal(image.width, 1);
     assert_int_equal(image.height, 2);
@@ -163,7 +143,7 @@ static void test_hdr_packed(void **state)
     uint64_t clamped;
 
     (void)state;
-    put("packed.hdr", text, sizeof text - 1);
+    put_bytes("packed.hdr", text, sizeof text - 1);
     assert_true(image_read_linear(&image, "packed.hdr", &clamped, &err));
     assert_int_equal(image.width, 8);
     assert_int_equal(image.height, 2);
@@ -181,7 +161,7 @@ static void test_hdr_packed(void **state)
     }
     image_free(&image);
     for (size_t size = 60; size < sizeof text - 1; size++) {
-        put("cut.hdr", text, size);
+        put_bytes("cut.hdr", text, size);
         assert_false(image_read_linear(&image, "cut.hdr", &clamped, &err));
     }
     assert_string_equal(err.text, "cut.hdr: found no end of row 2 of 2");
@@ -209,9 +189,9 @@ static void test_hdr_errors(void **state)
     both_fail("e.hdr", "e.hdr: found a side of 1.5 pixels, expected a whole");
     put_text("e.hdr", HDR_HEAD "-Y 99999 +X 99999\n1234");
     both_fail("e.hdr", "e.hdr: found 99999x99999 pixels, expected sides");
-    put("e.hdr", no_end, sizeof no_end - 1);
+    put_bytes("e.hdr", no_end, sizeof no_end - 1);
     both_fail("e.hdr", "e.hdr: found no end of row 1 of 1");
-    put("e.hdr", repeat, sizeof repeat - 1);
+    put_bytes("e.hdr", repeat, sizeof repeat - 1);
     both_fail("e.hdr", "e.hdr: found no end of row 1 of 1");
 }
 
@@ -227,7 +207,7 @@ static void test_jpeg_tables(void **state)
     assert_true(stb_is_safe(jpeg, sizeof jpeg));
     jpeg[20] = 17;
     assert_false(stb_is_safe(jpeg, sizeof jpeg));
-    put("tables.jpg", jpeg, sizeof jpeg);
+    put_bytes("tables.jpg", jpeg, sizeof jpeg);
     both_fail("tables.jpg", "tables.jpg: found a Huffman table of more than");
     memcpy(jpeg + 2, "\xff\xda\0\x04zz", 6); /* a scan comes first */
     assert_false(stb_is_safe(jpeg, sizeof jpeg));
@@ -245,7 +225,7 @@ static void test_hdr_greatest(void **state)
     uint64_t clamped;
 
     (void)state;
-    put("b.hdr", text, sizeof text - 1);
+    put_bytes("b.hdr", text, sizeof text - 1);
     assert_true(image_read_linear(&image, "b.hdr", &clamped, &err));
     assert_int_equal(clamped, 2);
     assert_true(image.rgb[0] == 1e30f);
@@ -283,7 +263,7 @@ static void test_pfm(void **state)
     assert_memory_equal(image.rgb, expected, sizeof expected);
     image_free(&image);
 
-    put("big.pfm", "Pf 1 1 1\n\x3f\x80\x00\x00", 13);
+    put_bytes("big.pfm", "Pf 1 1 1\n\x3f\x80\x00\x00", 13);
     assert_true(image_read_linear(&image, "big.pfm", &clamped, &err));
     for (int c = 0; c < 3; c++)
         assert_true(image.rgb[c] == 1);
@@ -314,7 +294,7 @@ static void put_png_header(const char *path, uint32_t width, uint32_t height)
     }
     png[24] = 8; /* depth */
     png[25] = 6; /* RGBA */
-    put(path, png, sizeof png);
+    put_bytes(path, png, sizeof png);
 }
 
 static void test_errors(void **state)
@@ -388,7 +368,7 @@ static void test_mutations(void **state)
                     (char)(unsigned char)(check_random(&random) * 256);
             size_t kept =
                 i % 2 ? size : (size_t)(check_random(&random) * (double)size);
-            put("changed", changed, kept);
+            put_bytes("changed", changed, kept);
             if (image_read_8bit(&image, "changed", &err))
                 image_free(&image);
             if (image_read_linear(&image, "changed", &clamped, &err))
@@ -445,7 +425,8 @@ static int read_one(const char *suites, const char *name, const char *sum)
             print_error("%s\n", err.text);
         return *sum != '\0';
     }
-    put("pixels", image.rgba, 4 * (size_t)image.width * (size_t)image.height);
+    put_bytes("pixels", image.rgba,
+              4 * (size_t)image.width * (size_t)image.height);
     image_free(&image);
     if (*sum == '\0')
         return 0;
@@ -499,6 +480,5 @@ int main(void)
         cmocka_unit_test(test_suite),
     };
 
-    return cmocka_run_group_tests_name("image", tests, make_folder,
-                                       remove_folder);
+    return cmocka_run_group_tests_name("image", tests, enter, remove_folder);
 }

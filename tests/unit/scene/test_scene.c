@@ -7,11 +7,9 @@
 #include "scene/world.h"
 #include "formats/obj.h"
 #include "formats/scene_load.h"
-#include "tests/unit/check.h"
+#include "tests/unit/files.h"
 
 #define PI 3.14159265358979323846
-
-static char folder[] = "/tmp/glim-scene-XXXXXX";
 
 /* Two texels: an opaque 255 128 0 and a clear 10 20 30. */
 static const unsigned char two_texels[] = {
@@ -20,27 +18,6 @@ static const unsigned char two_texels[] = {
     34,  127, 138, 0,   0,  0,  17,  73, 68, 65, 84,  120, 218, 99,  248,
     223, 192, 240, 159, 75, 68, 142, 1,  0,  17, 28,  2,   187, 140, 47,
     119, 109, 0,   0,   0,  0,  73,  69, 78, 68, 174, 66,  96,  130};
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) != NULL && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
-}
-
-static void put(const char *path, const void *data, size_t size_bytes)
-{
-    FILE *f = fopen(path, "wb");
-
-    assert_non_null(f);
-    assert_int_equal(fwrite(data, 1, size_bytes, f), size_bytes);
-    assert_int_equal(fclose(f), 0);
-}
 
 struct loaded {
     struct scene scene;
@@ -52,7 +29,7 @@ static struct loaded load_turned(const char *text, bool up_is_z)
 {
     struct loaded l = {.scene = {.path = NULL}};
 
-    put("a.obj", text, strlen(text));
+    put_bytes("a.obj", text, strlen(text));
     if (!scene_load(&l.scene, "a.obj", up_is_z, &l.report, &l.err)) {
         print_error("%s\n", l.err.text);
         _fail(__FILE__, __LINE__);
@@ -285,8 +262,8 @@ static void test_textures(void **state)
     struct loaded l;
 
     (void)state;
-    put("two.png", two_texels, sizeof two_texels);
-    put("a.mtl", mtl, strlen(mtl));
+    put_bytes("two.png", two_texels, sizeof two_texels);
+    put_bytes("a.mtl", mtl, strlen(mtl));
     l = load("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
              "usemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\n"
              "usemtl e\nf 1 2 3\n");
@@ -323,8 +300,8 @@ static void test_libraries(void **state)
     struct loaded l;
 
     (void)state;
-    put("a b.mtl", one, strlen(one));
-    put("c.mtl", two, strlen(two));
+    put_bytes("a b.mtl", one, strlen(one));
+    put_bytes("c.mtl", two, strlen(two));
     l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl two\nf 1 2 3\n"
              "mtllib a b.mtl c.mtl\nmtllib c.mtl\nmtllib a b.mtl\n"
              "usemtl one\nf 1 2 3\n");
@@ -529,7 +506,7 @@ static void test_sky(void **state)
     assert_int_equal(w.settings.sky.width, 0);
     assert_true(w.settings.sky_share == 1 && w.settings.light_share == 0);
 
-    put("two.png", two_texels, sizeof two_texels);
+    put_bytes("two.png", two_texels, sizeof two_texels);
     view.lighting.sky_path = strdup("two.png");
     view.lighting.sky_strength = 3;
     view.lighting.sky_rotation_deg = 90;
@@ -564,13 +541,13 @@ static void test_coverage(void **state)
                                        "newmtl m\nd .5\nillum 7\n"};
 
     (void)state;
-    put("two.png", two_texels, sizeof two_texels);
+    put_bytes("two.png", two_texels, sizeof two_texels);
     for (size_t i = 0; i < sizeof mtls / sizeof mtls[0]; i++) {
         struct loaded l;
         struct view view;
         struct world w;
 
-        put("a.mtl", mtls[i], strlen(mtls[i]));
+        put_bytes("a.mtl", mtls[i], strlen(mtls[i]));
         l = load("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\n"
                  "f 1 2 3\n");
         view_init(&view);
@@ -622,5 +599,5 @@ int main(void)
         cmocka_unit_test(test_srgb_table),
     };
 
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter_folder, leave_empty_folder);
 }

@@ -15,8 +15,7 @@
 #include "formats/view_file.h"
 #include "session/session_save.h"
 #include "studio/material_params.h"
-#include "tests/unit/check.h"
-#include "tests/unit/folder.h"
+#include "tests/unit/files.h"
 
 static char root[4096]; /* where the scenes are */
 
@@ -30,14 +29,6 @@ static const char a_mtl[] = "# a\nnewmtl lamp\nKe 3 2 1 # warm\nPs 1\n"
 static const char b_mtl[] = "newmtl glass\r\nillum 7\r\nNi 1.5\r\n"
                             "newmtl spare\r\nKd 0 1 0\r\n";
 static const char view[] = "# mine\neye 0 0 5\nat 0 0 0\nexposure 1\n";
-
-static void put(const char *name, const char *text)
-{
-    struct error err;
-
-    check_or_say(file_write(name, text, strlen(text), false, NULL, &err),
-                 err.text);
-}
 
 static void put_scene(void)
 {
@@ -591,9 +582,7 @@ static void test_textures_come_into_use(void **state)
 
 static int enter(void **state)
 {
-    if (getcwd(root, sizeof root) == NULL)
-        return -1;
-    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
+    return getcwd(root, sizeof root) != NULL ? enter_folder(state) : -1;
 }
 
 int main(void)

@@ -27,7 +27,7 @@ static void make_scene(int number)
 /* Whether entry i is N.obj in the folder. */
 static void is_scene(const struct recent *r, int i, int number)
 {
-    char path[128];
+    char path[256];
 
     assert_true(i < r->count);
     snprintf(path, sizeof path, "%s/%d.obj", folder, number);
@@ -36,7 +36,7 @@ static void is_scene(const struct recent *r, int i, int number)
 
 static void forget(void)
 {
-    char path[128];
+    char path[256];
 
     snprintf(path, sizeof path, "%s/state/glim/recent", folder);
     unlink(path);
@@ -185,11 +185,11 @@ static void answers(void **state)
     gives("not there\n", "");
 }
 
-static int enter_folder(void **state)
+static int enter(void **state)
 {
-    char path[128];
+    char path[256];
 
-    if (make_folder(state) != 0 || chdir(folder) != 0)
+    if (enter_folder(state) != 0)
         return -1;
     snprintf(path, sizeof path, "%s/state", folder);
     return setenv("XDG_STATE_HOME", path, 1);
@@ -206,5 +206,5 @@ int main(void)
         cmocka_unit_test(answers),
     };
 
-    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter, remove_folder);
 }

@@ -3,8 +3,7 @@
  * A session that takes changed files renders bit for bit what a session renders
  * that was opened after the change; what is broken leaves the old scene.
  */
-#include "tests/unit/check.h"
-#include "tests/unit/folder.h"
+#include "tests/unit/files.h"
 
 #include <unistd.h>
 
@@ -20,15 +19,6 @@
 #define VIEW "eye 0 0 5\nat 0 0 0\nres 24 16\nbackground .5 .5 .5\n"
 
 #define FLOATS (3 * 24 * 16)
-
-static void put(const char *name, const char *text)
-{
-    FILE *to = fopen(name, "w");
-
-    assert_non_null(to);
-    assert_true(fputs(text, to) >= 0);
-    assert_int_equal(fclose(to), 0);
-}
 
 static struct options options = {.scene_path = "s.obj",
                                  .spp = 2,
@@ -391,11 +381,6 @@ static void chosen_skies_are_watched(void **state)
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
-}
-
-static int enter_folder(void **state)
-{
-    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
 }
 
 int main(void)

@@ -3,11 +3,6 @@
  * Which view counts, what the command line changes in it, what is said about
  * scenes without camera, light or faces; and the JSON about a render.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -18,7 +13,7 @@
 #include "session/session_save.h"
 #include "session/stats_json.h"
 
-#include <cmocka.h> /* last: it has a macro fail() */
+#include "tests/unit/files.h"
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 #define CAMERA   "eye 0 0 5\nat 0 0 0\n"
@@ -29,20 +24,12 @@
 static const char *const names[] = {"s.obj", "s.view",   "camera.txt", "o.view",
                                     "s.mtl", "out.json", "s.view~",    ODD};
 
-static char folder[] = "/tmp/glim-test-XXXXXX";
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state)
+static int leave(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
-    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
+    return leave_empty_folder(state);
 }
 
 static int remove_files(void **state)
@@ -51,15 +38,6 @@ static int remove_files(void **state)
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
     return 0;
-}
-
-static void put(const char *name, const char *text)
-{
-    FILE *to = fopen(name, "w");
-
-    assert_non_null(to);
-    assert_true(fputs(text, to) >= 0);
-    assert_int_equal(fclose(to), 0);
 }
 
 static struct options options_for(const char *scene)
@@ -74,8 +52,7 @@ static void open_session(struct session *s, const struct options *o)
 {
     struct error err;
 
-    if (!session_open(s, o, clock_ns(), &err))
-        fail_msg("%s", err.text);
+    check_or_say(session_open(s, o, clock_ns(), &err), err.text);
 }
 
 static void test_view_files(void **state)
@@ -156,8 +133,7 @@ static void is_text(const char *name, const char *expected)
     size_t size_bytes;
     char *text;
 
-    if (!file_read(name, &text, &size_bytes, &err))
-        fail_msg("%s", err.text);
+    check_or_say(file_read(name, &text, &size_bytes, &err), err.text);
     assert_string_equal(text, expected);
     free(text);
 }
@@ -167,8 +143,7 @@ static void save_view(struct session *s)
     struct file_change change;
     struct error err;
 
-    if (!session_save_view(s, &change, &err))
-        fail_msg("%s", err.text);
+    check_or_say(session_save_view(s, &change, &err), err.text);
 }
 
 /* The size and the bounces of -w, -h and -d are for one run: the file keeps its
@@ -191,8 +166,7 @@ static void test_options_are_not_written(void **state)
     assert_int_equal(s.view.width_px, 150);
 
     put("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 100\nmax_bounces 5\n");
-    if (!session_load(&fresh, &o, clock_ns(), &err))
-        fail_msg("%s", err.text);
+    check_or_say(session_load(&fresh, &o, clock_ns(), &err), err.text);
     session_take(&s, &fresh);
     session_close(&fresh);
     assert_int_equal(s.view.width_px, 150); /* the option wins as before */
@@ -298,8 +272,7 @@ static void test_framing(void **state)
     (void)state;
     put("s.obj", "v 100 0 0\nv 101 0 0\nv 100 3 0\nf 1 2 3\n");
     open_session(&s, &o);
-    if (!view_check(&s.view, "framed", &err))
-        fail_msg("%s", err.text);
+    check_or_say(view_check(&s.view, "framed", &err), err.text);
     assert_true(s.view.pose.at[0] > 99.0 && s.view.pose.at[0] < 102.0);
     session_close(&s);
 }
@@ -380,6 +353,5 @@ int main(void)
         cmocka_unit_test_teardown(test_statistics, remove_files),
     };
 
-    return cmocka_run_group_tests_name("session", tests, enter_folder,
-                                       leave_folder);
+    return cmocka_run_group_tests_name("session", tests, enter_folder, leave);
 }

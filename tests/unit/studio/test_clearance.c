@@ -326,11 +326,6 @@ static void walls_give_way_at_last(void **state)
     scene_free(&scene);
 }
 
-static int enter_folder(void **state)
-{
-    return make_folder(state) == 0 ? chdir(folder) : -1;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {

@@ -13,7 +13,7 @@
 #include "studio/material_params.h"
 #include "studio/parameter_text.h"
 #include "tests/unit/check.h"
-#include "tests/unit/folder.h"
+#include "tests/unit/files.h"
 
 static uint64_t seed = 5;
 
@@ -149,14 +149,6 @@ static void values_arrive(void **state)
 }
 
 /* ---- knobs, of a scene that was read ---- */
-
-static void put(const char *name, const char *text)
-{
-    struct error err;
-
-    check_or_say(file_write(name, text, strlen(text), false, NULL, &err),
-                 err.text);
-}
 
 struct stage {
     struct scene scene;
@@ -318,11 +310,6 @@ static void typed_values_arrive(void **state)
     close_stage(&s);
 }
 
-static int enter(void **state)
-{
-    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,5 +320,5 @@ int main(void)
         cmocka_unit_test(typed_values_arrive),
     };
 
-    return cmocka_run_group_tests(tests, enter, remove_folder);
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

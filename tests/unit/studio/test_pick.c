@@ -11,18 +11,9 @@
 #include "formats/scene_load.h"
 #include "studio/pick.h"
 #include "tests/unit/check.h"
-#include "tests/unit/folder.h"
+#include "tests/unit/files.h"
 #include "kernels/camera_sample.h"
 #include "kernels/traverse.h"
-
-static void put(const char *name, const char *text)
-{
-    FILE *to = fopen(name, "w");
-
-    assert_non_null(to);
-    assert_true(fputs(text, to) >= 0);
-    assert_int_equal(fclose(to), 0);
-}
 
 static void load(struct scene *scene, const char *obj)
 {
@@ -220,11 +211,6 @@ static void cells_share_the_picture(void **state)
     assert_false(pick_point_of_cell(&fit, 200, 100, 3, 1, &x, &y));
     assert_false(pick_point_of_cell(&fit, 200, 100, 43, 2, &x, &y));
     assert_false(pick_point_of_cell(&fit, 200, 100, 3, 12, &x, &y));
-}
-
-static int enter_folder(void **state)
-{
-    return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
 }
 
 int main(void)

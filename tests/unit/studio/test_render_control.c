@@ -4,6 +4,7 @@
  * thought to be unsaved.
  */
 #include "tests/unit/check.h"
+#include "tests/unit/folder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,24 +17,17 @@
 static const char *const names[] = {"s.obj",      "s.view", "s.png",  "s-2.png",
                                     "s-kept.png", "s.ans",  "s-2.ans"};
 
-static char folder[] = "/tmp/glim-test-XXXXXX";
-
-static int enter_folder(void **state)
+static int enter(void **state)
 {
-    (void)state;
-    return mkdtemp(folder) && chdir(folder) == 0 &&
-                   setenv("XDG_STATE_HOME", folder, 1) == 0
-               ? 0
-               : -1;
+    return enter_folder(state) == 0 ? setenv("XDG_STATE_HOME", folder, 1) : -1;
 }
 
-static int leave_folder(void **state)
+static int leave(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         unlink(names[i]);
     rmdir("glim");
-    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
+    return leave_empty_folder(state);
 }
 
 struct fixture {
@@ -287,7 +281,7 @@ static bool is_kept(void)
 static void what_no_file_has_is_kept(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
-    char expected[128];
+    char expected[256];
 
     snprintf(expected, sizeof expected, "kept %s/glim/lost.png, 3 spp", folder);
     render_whole(w);
@@ -562,5 +556,5 @@ int main(void)
         WORK_TEST(messages_name_the_chosen_keys),
     };
 
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+    return cmocka_run_group_tests(tests, enter, leave);
 }
