@@ -2,9 +2,8 @@
 /*
  * generate.c - writes the scenes of this folder: `make scenes`
  *
- * A test compares what it writes with the files in the repository, so a scene
- * changes here and nowhere else. The head comment of each OBJ file says what
- * the scene shows.
+ * A test compares the output with the files in the repository, so scenes are
+ * changed here only. The first comment of each OBJ file describes the scene.
  */
 #include "images.h"
 #include "mesh.h"
@@ -14,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SEGMENTS     8 /* 1,280 triangles a sphere */
+#define SEGMENTS     8 /* subdivision: 1,280 triangles a sphere */
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
 static const char *folder;
@@ -37,7 +36,8 @@ static void write_text(const char *name, const char *ending, const char *text)
     }
 }
 
-/* --- cornell: Cornell University Program of Computer Graphics, box data --- */
+/* --- cornell: box data of Cornell University Program of Computer Graphics
+ * --- */
 
 static const double cornell_quads[][4][3] = {
     /* floor, back wall, right wall, left wall */
@@ -245,8 +245,8 @@ static void interior_walls(struct mesh *m)
     mesh_quad(m, at(5, 0, 0), at(5, 0, 6), at(5, 3, 6), at(5, 3, 0), 6, 3);
     mesh_object(m, "front_wall", "white");
     mesh_quad(m, at(5, 0, 6), at(0, 0, 6), at(0, 3, 6), at(5, 3, 6), 1, 1);
-    /* The window is from .8 to 2.6 up and from 1 to 4.5 deep; around it the
-     * wall is of four pieces that meet at corners only. */
+    /* The window spans .8 to 2.6 in height and 1 to 4.5 in depth. The wall
+     * around it has four pieces that meet at corners only. */
     mesh_object(m, "left_wall", "white");
     mesh_quad(m, at(0, 0, 6), at(0, 0, 0), at(0, .8, 1), at(0, .8, 4.5), 1, 1);
     mesh_quad(m, at(0, 0, 0), at(0, 3, 0), at(0, 2.6, 1), at(0, .8, 1), 1, 1);
@@ -384,7 +384,7 @@ static void make_skylit(void)
 
 /* --- lights200 ------------------------------------------------------------ */
 
-/* The same numbers on every machine, in [0, 1). */
+/* Returns a pseudorandom number in [0, 1), the same on every machine. */
 static double next_random(uint32_t *state)
 {
     *state = *state * 1664525u + 1013904223u;

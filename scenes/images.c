@@ -16,7 +16,7 @@ struct color {
     double r, g, b;
 };
 
-/* A number in [0, 1) for a place on a grid, always the same. */
+/* Returns a pseudorandom number in [0, 1) for a point of a grid. */
 static double noise_at(int x, int y, uint32_t seed)
 {
     uint32_t h = (uint32_t)x * 0x9e3779b9u ^ (uint32_t)y * 0x85ebca6bu ^ seed;
@@ -31,7 +31,7 @@ static int wrap(int x, int period)
     return ((x % period) + period) % period;
 }
 
-/* Smooth noise that repeats after `period` steps in both directions. */
+/* Returns smooth noise that repeats after `period` steps in both directions. */
 static double smooth_noise(double x, double y, int period, uint32_t seed)
 {
     int xi = (int)floor(x), yi = (int)floor(y);
@@ -55,7 +55,8 @@ static struct color mix_colors(struct color a, struct color b, double t)
                           a.b + t * (b.b - a.b)};
 }
 
-/* In steps of 1/64: the eye does not see them, and PNG packs them better. */
+/* Quantises to steps of 1/64, which are not visible and compress better as
+ * PNG. */
 static uint8_t byte_of(double x)
 {
     double value = floor(x * 64 + .5) * 4;
@@ -63,7 +64,7 @@ static uint8_t byte_of(double x)
     return (uint8_t)(value < 0 ? 0 : value > 255 ? 255 : value);
 }
 
-/* What the encoders write to. */
+/* Output file of the encoders. */
 struct output {
     char path[4096];
     FILE *file;
@@ -84,7 +85,7 @@ static void open_output(struct output *out, const char *folder,
     out->file = fopen(out->path, "wb");
 }
 
-/* Closes; any failure on the way is found here. */
+/* Closes the file and reports any earlier failure. */
 static void close_output(struct output *out, int is_encoded)
 {
     int is_bad = !out->file || !is_encoded || ferror(out->file);
@@ -97,7 +98,7 @@ static void close_output(struct output *out, int is_encoded)
     }
 }
 
-/* Draws point by point: x and y in [0, 1), y down. */
+/* Writes an image point by point: x and y in [0, 1), y down. */
 static void write_png(const char *folder, const char *name, int width,
                       int height, struct color (*draw)(double x, double y))
 {
@@ -119,7 +120,8 @@ static void write_png(const char *folder, const char *name, int width,
                                               rgb, width * 3));
 }
 
-/* Eight planks side by side, each with its own tone and grain. */
+/* Returns a point of eight planks side by side, each with its own tone and
+ * grain. */
 static struct color draw_planks(double x, double y)
 {
     const struct color light = {.72, .52, .34}, dark = {.42, .26, .15};
@@ -136,7 +138,7 @@ static struct color draw_planks(double x, double y)
     return mix_colors(light, dark, .15 + .45 * tone + .4 * grain);
 }
 
-/* Wallpaper: stripes with a small diamond between them. */
+/* Returns a point of wallpaper: stripes with a small diamond between them. */
 static struct color draw_paper(double x, double y)
 {
     const struct color ground = {.86, .84, .76}, stripe = {.74, .78, .70};
@@ -166,7 +168,7 @@ static struct color draw_rug(double x, double y)
     return red;
 }
 
-/* A sun over hills, for the wall. */
+/* Returns a point of a painting for the wall: a sun over hills. */
 static struct color draw_painting(double x, double y)
 {
     const struct color top = {.20, .34, .55}, low = {.96, .72, .45};
@@ -194,8 +196,9 @@ static struct color draw_tiles(double x, double y)
     return is_dark ? dark : light;
 }
 
-/* A hazy evening: blue above, pale at the horizon, brown below, and a wide
- * low sun to the right behind the camera that looks along -z. */
+/* Returns the radiance of a hazy evening sky: blue above, pale at the horizon,
+ * brown below, and a wide low sun to the right, behind a camera that looks
+ * along -z. */
 static struct color sky_radiance(double x, double y, double z)
 {
     const struct color zenith = {.16, .30, .62}, horizon = {.85, .80, .72};
@@ -214,7 +217,8 @@ static struct color sky_radiance(double x, double y, double z)
     return c;
 }
 
-/* Radiance's four bytes: three mantissas and the exponent of the greatest. */
+/* Encodes Radiance's four bytes: three mantissas and the exponent of the
+ * largest channel. */
 static void put_rgbe(struct color c, uint8_t rgbe[4])
 {
     int exponent;
@@ -228,7 +232,8 @@ static void put_rgbe(struct color c, uint8_t rgbe[4])
     rgbe[3] = (uint8_t)(exponent + 128);
 }
 
-/* The middle column is along -z, u grows towards +x, row 0 is +y. */
+/* Writes the sky image: the middle column is -z, u grows towards +x, row 0 is
+ * +y. */
 static void write_sky(const char *folder)
 {
     static uint8_t rgbe[SKY_WIDTH * SKY_HEIGHT][4];

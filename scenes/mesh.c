@@ -31,7 +31,7 @@ static double length(struct point a)
     return sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
 }
 
-/* Never "-0", so that the text does not depend on the sign of nothing. */
+/* Turns -0 into 0, so that the text does not depend on the sign of zero. */
 static double shown(double x)
 {
     return fabs(x) < 5e-6 ? 0.0 : x;
@@ -116,8 +116,8 @@ void mesh_box(struct mesh *m, struct point foot, struct point size,
     }
 }
 
-/* Neighbouring faces of the icosahedron must have the very same points on
- * their common edge. */
+/* Returns the number of a point and adds it if it is new: neighbouring faces of
+ * the icosahedron must share the points of their common edge. */
 static int find_or_add(struct point *points, int *count, struct point p)
 {
     for (int i = 0; i < *count; i++)
@@ -128,7 +128,8 @@ static int find_or_add(struct point *points, int *count, struct point p)
     return (*count)++;
 }
 
-/* The point i steps from a to b and j steps on towards c, on the unit sphere */
+/* Returns the point of the unit sphere i steps from a to b and j steps on
+ * towards c. */
 static struct point on_sphere(const struct point corner[3], int i, int j,
                               int segments)
 {
@@ -203,7 +204,8 @@ void mesh_sphere(struct mesh *m, struct point center, double radius,
     }
 }
 
-/* The normal of a profile's segment, in the plane of radius and height. */
+/* Computes the normal of a profile's segment, in the plane of radius and
+ * height. */
 static void segment_normal(const double (*profile)[2], int segment, double n[2])
 {
     double dr = profile[segment + 1][0] - profile[segment][0];
@@ -214,7 +216,7 @@ static void segment_normal(const double (*profile)[2], int segment, double n[2])
     n[1] = -dr / size;
 }
 
-/* The normal that a segment has at one of its ends: halfway to its neighbour's
+/* Computes the normal at one end of a segment: the mean with the neighbour's,
  * unless there is a corner between them. */
 static void end_normal(const double (*profile)[2], int count, int segment,
                        int end, double n[2])
@@ -227,7 +229,7 @@ static void end_normal(const double (*profile)[2], int count, int segment,
     segment_normal(profile, segment, n);
     if (is_ring)
         other = (other + count - 1) % (count - 1);
-    if (profile[segment + end][0] == 0) { /* a tip is round where it is flat */
+    if (profile[segment + end][0] == 0) { /* a flat tip is smooth */
         if (fabs(n[1]) > .8) {
             n[0] = 0;
             n[1] = n[1] < 0 ? -1 : 1;
@@ -247,7 +249,7 @@ static void end_normal(const double (*profile)[2], int count, int segment,
     n[1] /= size;
 }
 
-/* Faces between two rings; a ring on the axis is one vertex. */
+/* Writes the faces between two rings; a ring on the axis is a single vertex. */
 static void put_band(struct mesh *m, const unsigned ring[2], unsigned vn,
                      const bool is_tip[2], int segments)
 {

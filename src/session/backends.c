@@ -16,7 +16,7 @@ bool backends_open(struct backends *m, const struct options *options,
     return m->cpu != NULL;
 }
 
-/* For a device that is up only new kernels. */
+/* A running device only gets new kernels. */
 bool backends_begin_device(struct backends *m, uint32_t features,
                            struct error *err)
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * backends.h - the backends of a session: the CPU, always, and an OpenCL
- * device when it is up
+ * backends.h - the backends of a session: the CPU, and an OpenCL device if one
+ * is available
  *
- * Ownership: backends_close() frees, after the render has let go of them
+ * Ownership: backends_close() frees, after the renderer has released them
  * Threads:   main only
- * Errors:    why there is no device; nothing else fails
+ * Errors:    why there is no device
  */
 #ifndef GLIM_BACKENDS_H
 #define GLIM_BACKENDS_H
@@ -20,32 +20,34 @@
 struct backends {
     const struct options *options;
     struct backend *cpu;
-    struct backend *device; /* NULL: not up */
-    struct cl_start *start; /* NULL: not on its way */
+    struct backend *device; /* NULL if there is none */
+    struct cl_start *start; /* NULL unless it is starting */
     char *verdict;          /* of the device's self-test */
-    uint32_t features;      /* that it has kernels for, or will have */
+    uint32_t features; /* features that its kernels support, or will after the
+                          start */
 };
 
 bool backends_open(struct backends *m, const struct options *options,
                    struct error *err);
 
-/* Begins to bring the device of the options up, with kernels for these
+/* Starts the selected device in the background, with kernels for these
  * features. */
 bool backends_begin_device(struct backends *m, uint32_t features,
                            struct error *err);
 
-/* Waits until it is up. *log, for free(), is what drivers said, or NULL. */
+/* Waits for the device. *log, for free(), is the output of drivers, or NULL. */
 bool backends_end_device(struct backends *m, char **log, struct error *err);
 
-/* Begins to build kernels for just these features, for a device that is up.
- * The next picture is made with them. Without them nothing is missing, so
- * nothing is said. */
+/* Starts to build kernels for exactly these features, for a running device. The
+ * next picture uses them. A failure is not reported, since general kernels
+ * exist. */
 void backends_specialise(struct backends *m, uint32_t features);
 
-/* If the start that is over is that of backends_specialise(): ends it. */
+/* Completes a start that backends_specialise() began. Returns true if it
+ * did. */
 bool backends_end_specialising(struct backends *m);
 
-/* Nobody wants it any more. */
+/* Cancels a start. */
 void backends_abandon_device(struct backends *m);
 
 void backends_close(struct backends *m);

@@ -81,11 +81,10 @@ const char *const options_shows[] = {
     [SHOW_DEPTH] = "depth",
     [SHOW_MATERIALS] = "materials",
     [SHOW_COST] = "cost",
-    [SHOW_SAMPLES] = NULL, /* all pixels of a file have as many */
+    [SHOW_SAMPLES] = NULL, /* all pixels of a file have the same number */
 };
 
-/* Finds the rule of the option at the start of `text`, which is behind its
- * dashes. */
+/* Finds the rule of an option. `text` is the option without its dashes. */
 static bool find_option(struct option_given *g, const char *dashes,
                         const char *text, size_t length, struct error *err)
 {
@@ -93,14 +92,14 @@ static bool find_option(struct option_given *g, const char *dashes,
     if (!g->rule || (length == 1) != (dashes[1] == '\0'))
         return fail(err, "unknown option '%s%.*s', see glim --help", dashes,
                     (int)length, text);
-    /* the names in the table fit */
+    /* all names in the table fit */
     memcpy(g->shown, dashes, strlen(dashes));
     memcpy(g->shown + strlen(dashes), text, length);
     g->shown[strlen(dashes) + length] = '\0';
     return true;
 }
 
-/* Takes `attached` or the next argument as the value. */
+/* Takes the value: `attached` or the next argument. */
 static bool take_value(struct option_given *g, const char *attached, int argc,
                        char **argv, int *i, struct error *err)
 {
@@ -113,7 +112,7 @@ static bool take_value(struct option_given *g, const char *attached, int argc,
     return true;
 }
 
-/* --name, --name=value or --name value */
+/* Parses --name, --name=value or --name value. */
 static bool parse_long(struct options *o, int argc, char **argv, int *i,
                        struct error *err)
 {
@@ -132,7 +131,8 @@ static bool parse_long(struct options *o, int argc, char **argv, int *i,
     return option_set(o, &g, err);
 }
 
-/* -x, -xvalue, -x value, or several letters where only the last has a value */
+/* Parses -x, -xvalue, -x value, or several letters of which only the last takes
+ * a value. */
 static bool parse_short(struct options *o, int argc, char **argv, int *i,
                         struct error *err)
 {
@@ -155,7 +155,7 @@ static bool parse_short(struct options *o, int argc, char **argv, int *i,
     return true;
 }
 
-/* Whoever names a device wants to use it. */
+/* Selects OpenCL if a device was named. */
 static bool settle_backend(struct options *o, struct error *err)
 {
     if ((o->device || o->kernels_path) && !o->has_backend)
@@ -176,7 +176,7 @@ static bool is_standard_output(const char *path)
     return path && strcmp(path, "-") == 0;
 }
 
-/* What only batch mode has. */
+/* Refuses options that only batch mode has. */
 static bool check_batch(const struct options *o, struct error *err)
 {
     bool takes_output = is_standard_output(o->output_path) ||
@@ -218,7 +218,7 @@ static bool check_batch(const struct options *o, struct error *err)
     return true;
 }
 
-/* What is computed at once knows no samples. */
+/* Refuses options about samples of light beside --show. */
 static bool check_show(const struct options *o, struct error *err)
 {
     if (o->show == SHOW_LIGHT)
@@ -240,7 +240,7 @@ static bool check_show(const struct options *o, struct error *err)
     return true;
 }
 
-/* What is right alone but wrong together. */
+/* Refuses combinations of options. */
 static bool check_together(const struct options *o, struct error *err)
 {
     if (o->list_devices || o->probe)
@@ -253,7 +253,7 @@ int options_threads(const struct options *o)
     return o->thread_count != 0 ? o->thread_count : usable_threads();
 }
 
-/* GLIM_COLOR is what --color is where that is not given. */
+/* Takes the colours from GLIM_COLOR unless --color is given. */
 static bool take_environment(struct options *o, struct error *err)
 {
     struct option_given g = {option_rule_named("color", 5), "GLIM_COLOR",
@@ -270,7 +270,8 @@ void options_init(struct options *o)
     *o = (struct options){.spp = 16, .max_bounces = -1};
 }
 
-/* What a person or a machine is like, and no picture depends on. */
+/* Returns true for options that suit a person or a machine and do not change
+ * pictures. Only these are allowed in the configuration file. */
 static bool is_taste(enum option_id id)
 {
     return id == OPTION_THREADS || id == OPTION_BACKEND || id == OPTION_COLOR ||
@@ -296,7 +297,7 @@ bool options_set_taste(struct options *o, const char *name, const char *value,
         return fail(err, "%s: found '%s', expected no value", g.shown, value);
     if (!option_set(o, &g, err))
         return false;
-    /* what was not typed now gives way to what was */
+    /* the command line replaces the configuration */
     o->has_backend = false;
     o->has_color = false;
     return true;
@@ -323,7 +324,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
         if (!ok)
             return false;
         if (o->show_help || o->show_version)
-            return true; /* whatever else is on the line */
+            return true; /* the rest of the command line does not matter */
     }
     keymap_settle(&o->keys, o->phoe_keys);
     if (!settle_backend(o, err) || !check_together(o, err) ||

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * command_line.h - the command line
+ * command_line.h - parses the command line
  *
- * Units:     pixels, samples a pixel
+ * Units:     pixels, samples per pixel
  * Ownership: strings point into argv
  * Threads:   main only
  * Errors:    a wrong value is an error that names it, never a silent default
@@ -18,7 +18,7 @@
 #include "terminal/term_caps.h"
 #include "session/keymap.h"
 
-/* What a picture shows of a scene. */
+/* Property of the scene that the picture shows. */
 enum show_kind {
     SHOW_LIGHT,
     SHOW_PREVIEW,
@@ -35,19 +35,19 @@ enum show_kind {
 enum backend_choice {
     BACKEND_CPU,
     BACKEND_OPENCL,
-    BACKEND_AUTO /* a GPU through OpenCL where there is one, else the CPU */
+    BACKEND_AUTO /* a GPU through OpenCL if there is one, else the CPU */
 };
 
 struct options {
     const char *scene_path;
-    bool lacks_scene;        /* and the screen needs one; all else is right */
+    bool lacks_scene;        /* no scene was given and the screen needs one */
     const char *view_path;   /* NULL: beside the scene */
     const char *output_path; /* NULL: STEM.png in batch mode */
-    const char *stats_path;  /* NULL: none */
-    int width_px, height_px; /* 0: not given */
-    uint64_t spp;            /* 16 by default */
+    const char *stats_path;  /* NULL: no statistics */
+    int width_px, height_px; /* 0 if not given */
+    uint64_t spp;            /* samples per pixel */
     bool has_spp;
-    int thread_count; /* 0: what the process may use */
+    int thread_count; /* 0: all that the process may use */
     int max_bounces;  /* -1: no limit */
     bool has_max_bounces;
     uint32_t seed;
@@ -58,40 +58,41 @@ struct options {
     struct rect crop;
     enum backend_choice backend;
     bool has_backend;
-    const char *device;       /* number or a part of a name; NULL: the best */
-    const char *kernels_path; /* NULL: the kernels within the program */
-    const struct cpu_kernel *paths; /* of --isa; NULL: the best */
-    bool watch;                     /* changed files are loaded at once */
-    bool phoe_keys;                 /* W S A D Q E as phoe_ray had them */
+    const char *device; /* number or part of a name; NULL: the best device */
+    const char *kernels_path;       /* NULL: built-in kernels */
+    const struct cpu_kernel *paths; /* from --isa; NULL: the best */
+    bool watch;                     /* reload files when they change */
+    bool phoe_keys;                 /* phoe_ray's keys W S A D Q E */
     struct keymap keys;
     struct term_caps_choice display;
     bool has_color;
-    int text_cols, text_rows; /* batch mode writes text; 0: not */
+    int text_cols,
+        text_rows; /* size of text output in batch mode; 0: a picture */
     bool show_help, show_version;
-    bool list_devices; /* then there need be no scene */
-    bool probe;        /* cl_probe.h: this is the copy; nor need there then */
-    uint32_t features; /* that it tries */
+    bool list_devices; /* list devices; no scene is needed */
+    bool probe;        /* test a device, see cl_probe.h; no scene is needed */
+    uint32_t features; /* features for the test */
 };
 
-/* What is so if nobody says anything; no keys yet. */
+/* Sets the defaults. There are no keys yet. */
 void options_init(struct options *o);
 
-/* Sets an option that the configuration file may have; NULL: without value.
- * What is wrong is said of `place`. */
+/* Sets an option from the configuration file; `value` is NULL if it has none.
+ * `place` is used for messages. */
 bool options_set_taste(struct options *o, const char *name, const char *value,
                        const char *place, struct error *err);
 
-/* Takes argv over what *o holds, and for the screen GLIM_COLOR; settles the
- * keys. */
+/* Parses argv over the values in *o, takes GLIM_COLOR for the screen and
+ * completes the keys. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
 
-/* Threads of the CPU that work. */
+/* Returns the number of CPU threads. */
 int options_threads(const struct options *o);
 
-/* Names of enum show_kind, as far as files can show it, and NULL. */
+/* Names of enum show_kind in batch mode, ending with NULL. */
 extern const char *const options_shows[];
 
-/* The text of --help. */
+/* Text of --help. */
 extern const char options_help[];
 
 #endif

@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "base/xdg.h"
 
-/* Longer words are none that is known. */
+/* Longer than every known word. */
 #define WORD_BYTES 64
 
 #define NO_KEY "none"
@@ -23,7 +23,7 @@ struct reader {
     char place[400]; /* file:line */
 };
 
-/* NULL: there is no such place. */
+/* Returns the path of the file, for free(); NULL without a home folder. */
 static char *config_path(void)
 {
     char *folder = xdg_folder("XDG_CONFIG_HOME", ".config");
@@ -40,7 +40,7 @@ static bool fail_at(const struct reader *r, struct word found,
                 word_quote(found).text, expected);
 }
 
-/* The next word of the line, empty at its end. */
+/* Returns the next word of the line; an empty one at its end. */
 static struct word next_word(struct reader *r)
 {
     struct word none = {.start = ""};

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * config.h - the person's configuration file: keys, and what options are if
- * they are not given
+ * config.h - reads the user's configuration file: keys and default options
  *
- * glim/config in the folder of XDG_CONFIG_HOME, or in ~/.config. Lines are
- * `key ACTION KEY...`, `option NAME` and `option NAME VALUE`.
+ * The file is glim/config in the folder $XDG_CONFIG_HOME, or in ~/.config. Its
+ * lines are `key ACTION KEY...`, `option NAME` and `option NAME VALUE`.
  *
- * Ownership: nothing of the file's text is kept
  * Threads:   main only
- * Errors:    what is wrong in the file: file:line
+ * Errors:    file:line, what was found and expected
  */
 #ifndef GLIM_CONFIG_H
 #define GLIM_CONFIG_H
@@ -17,8 +15,8 @@
 
 #include "session/command_line.h"
 
-/* Sets what the file says in *o, which has been through options_init(). No
- * file is fine. */
+/* Sets the file's options in *o, after options_init(). It is not an error if
+ * there is no file. */
 bool config_read(struct options *o, struct error *err);
 
 #endif

@@ -15,11 +15,11 @@ struct binding {
     enum action action;
     const char *name;
     int keys[KEYMAP_MAX];
-    int phoe[KEYMAP_MAX]; /* phoe_ray's; none: the same */
+    int phoe[KEYMAP_MAX]; /* phoe_ray's keys; empty: the same */
 };
 
-/* q quits, so the letter of the row Q E that moves down needs Shift; with Caps
- * Lock on all six do as they are written. */
+/* Default keys. q quits, so the key for down is Q, beside e for up. With Caps
+ * Lock on, all of W A S D Q E move. */
 static const struct binding bindings[] = {
     {ACTION_FORWARD, "forward", {'w', 'W'}, {'Q'}},
     {ACTION_BACK, "back", {'s', 'S'}, {'e', 'E'}},
@@ -88,10 +88,10 @@ static const struct binding bindings[] = {
     {ACTION_QUIT, "quit", {'q'}, {0}},
 };
 
-/* A line shows the first key of each of its actions, or all that its only
- * action has but capitals beside small letters; or `keys`, for as long as
- * nobody has chosen others. Texts have room beside 8 columns of keys, in a
- * frame of 40. */
+/* Lines of the help. A line shows the first key of each of its actions, or all
+ * keys of its only action, without capitals beside their small letters. `keys`
+ * replaces them while the defaults are in use. Keys take 8 columns of a window
+ * of 40. */
 static const struct line {
     const char *keys;
     enum action actions[4];
@@ -142,7 +142,7 @@ static const struct line {
     {NULL, {ACTION_QUIT}, "quit"},
 };
 
-/* Of the panel: keys as they are shown where that is not by their names. */
+/* Lines of the help for the panel. `keys` replaces the keys' names. */
 #define PANEL_KEYS_MAX 13
 
 static const struct panel_line {
@@ -321,7 +321,7 @@ static void add_key(struct keymap_help *help, int key)
              length > 0 ? " " : "", keymap_key_name(key).text);
 }
 
-/* A capital beside its small letter is not shown. */
+/* Returns false for a capital beside its small letter. */
 static bool is_shown(const int keys[KEYMAP_MAX], int i)
 {
     int key = keys[i];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * keymap.h - which key does what, and the help that says so
+ * keymap.h - key bindings and the help text made from them
  *
- * The tables are in keymap.c; the configuration file may give actions other
- * keys, but for those of the panel. The manual and the README list the lines of
- * the help: a test compares.
+ * keymap.c has the tables. The configuration file can give actions other keys,
+ * except in the panel. The manual and the README repeat the help; a test
+ * compares them.
  *
  * Units:     keys are bytes or enum tty_key; 0 is none
  * Ownership: strings live as long as the program
@@ -38,12 +38,12 @@ enum action {
     ACTION_NARROWER,
     ACTION_WIDER,
     ACTION_FOCUS,
-    ACTION_CLOSE, /* the aperture */
+    ACTION_CLOSE, /* closes the aperture */
     ACTION_OPEN,
     ACTION_UNDO,
     ACTION_REDO,
     ACTION_RESET,
-    ACTION_KEEP, /* as the numbered view of the next key */
+    ACTION_KEEP, /* stores the view under the number of the next key */
     ACTION_VIEW_1,
     ACTION_VIEW_2,
     ACTION_VIEW_3,
@@ -54,7 +54,7 @@ enum action {
     ACTION_VIEW_8,
     ACTION_VIEW_9,
     ACTION_SAVE_VIEW,
-    ACTION_VIEW_NEXT, /* light, preview, normals, .. */
+    ACTION_VIEW_NEXT, /* light, preview, normals, ... */
     ACTION_VIEW_BACK,
     ACTION_DRAWING, /* boxes, directions, a path */
     ACTION_LESS,
@@ -62,16 +62,16 @@ enum action {
     ACTION_PANEL,
     ACTION_MODE,
     ACTION_START,
-    ACTION_STEP, /* one more sample a pixel */
+    ACTION_STEP, /* one more sample per pixel */
     ACTION_RESTART,
     ACTION_SAVE,
     ACTION_SAVE_TEXT,
     ACTION_SAVE_LINEAR,
     ACTION_BACKEND,
-    ACTION_RELOAD, /* the files of the scene */
+    ACTION_RELOAD, /* reloads the files of the scene */
     ACTION_COLORS,
     ACTION_GLYPHS,
-    ACTION_METER, /* progress */
+    ACTION_METER, /* progress display */
     ACTION_HIDE,
     ACTION_MOUSE,
     ACTION_REDRAW,
@@ -83,7 +83,7 @@ enum action {
     ACTIONS
 };
 
-/* What keys do in the panel, where they are the same for everybody. */
+/* Actions of keys in the panel, which cannot be configured. */
 enum panel_action {
     PANEL_NONE,
     PANEL_UP,
@@ -106,33 +106,33 @@ enum panel_action {
     PANEL_LEAVE
 };
 
-/* Keys that an action can have. */
+/* Most keys of an action. */
 #define KEYMAP_MAX 4
 
-/* A zeroed struct has no keys yet. */
+/* Keys of all actions. A zeroed struct has no keys yet. */
 struct keymap {
     int keys[ACTIONS][KEYMAP_MAX];
-    bool is_chosen[ACTIONS]; /* by the person */
+    bool is_chosen[ACTIONS]; /* set by the configuration */
 };
 
-/* Gives an action these keys only, and takes them from others that were given
- * them before. */
+/* Gives the action exactly these keys and takes them from other actions that
+ * were given them before. */
 void keymap_choose(struct keymap *k, enum action action,
                    const int keys[KEYMAP_MAX]);
 
-/* Gives the others their keys of the table, but for those that are taken; phoe
- * says that W S A D Q E have phoe_ray's meaning. */
+/* Gives all other actions their default keys, except keys that are taken. phoe
+ * selects phoe_ray's meaning of W S A D Q E. */
 void keymap_settle(struct keymap *k, bool phoe);
 
-/* What a key does. */
+/* Returns the action of a key. */
 enum action keymap_action(const struct keymap *k, int key);
 
-/* The action of this name; ACTION_NONE: there is none. */
+/* Returns the action of this name, or ACTION_NONE. */
 enum action keymap_find_action(const char *name, size_t length);
 const char *keymap_action_name(enum action action);
 
-/* The key of this name: a character that is visible, ^A to ^_ for Ctrl, or a
- * word such as PgUp. 0: there is none. */
+/* Returns the key of this name: a visible character, ^A to ^_ for Ctrl, or a
+ * word such as PgUp. Returns 0 for unknown names. */
 int keymap_find_key(const char *name, size_t length);
 
 struct keymap_name {
@@ -141,7 +141,7 @@ struct keymap_name {
 
 struct keymap_name keymap_key_name(int key);
 
-/* The name of an action's first key, or "no key". */
+/* Returns the name of an action's first key, or "no key". */
 struct keymap_name keymap_first_name(const struct keymap *k,
                                      enum action action);
 
@@ -150,10 +150,10 @@ struct keymap_help {
     const char *text;
 };
 
-/* Line `line` of the help, from 0; false behind the last. */
+/* Fills line `line` of the help, from 0. Returns false after the last line. */
 bool keys_help(const struct keymap *k, int line, struct keymap_help *help);
 
-/* The same for the panel. */
+/* Returns the panel's action of a key. */
 enum panel_action keymap_panel_action(int key);
 bool keymap_panel_help(int line, struct keymap_help *help);
 

@@ -10,7 +10,7 @@
 #include "scene/view.h"
 #include "render/cpu_dispatch.h"
 
-/* Beyond these a value is a slip of the finger, not a wish. */
+/* Limits on values; anything beyond is a mistake. */
 #define SPP_MAX     1000000000000u
 #define THREADS_MAX 1024
 #define BOUNCES_MAX 999
@@ -32,7 +32,8 @@ static const struct option_rule rules[] = {
     {"list-devices", OPTION_LIST_DEVICES, NULL},
     {"kernels", OPTION_KERNELS, "the name of a folder"},
     {"isa", OPTION_ISA, "the name of a set of instructions"},
-    {"probe", OPTION_PROBE, "a number of features"}, /* for glim itself */
+    {"probe", OPTION_PROBE,
+     "a number of features"}, /* internal, see cl_probe.h */
     {"b", OPTION_BATCH, NULL},
     {"o", OPTION_OUTPUT, "the name of a picture"},
     {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
@@ -55,7 +56,7 @@ static bool parse_digits(const char *text, uint64_t max, uint64_t *value)
     char *end;
 
     if (*text < '0' || *text > '9')
-        return false; /* strtoull() takes blanks and signs */
+        return false; /* strtoull() accepts blanks and signs */
     errno = 0;
     *value = strtoull(text, &end, 10);
     return errno == 0 && *end == '\0' && *value <= max;
@@ -88,7 +89,7 @@ static bool whole_int(const struct option_given *g, int min, int max,
     return true;
 }
 
-/* Index in the words that end with NULL. */
+/* Finds the value in a list of words that ends with NULL. */
 static bool choice(const struct option_given *g, const char *const *words,
                    int *index, struct error *err)
 {
@@ -165,7 +166,7 @@ static bool set_cell_aspect(struct options *o, const struct option_given *g,
     return true;
 }
 
-/* COLSxROWS */
+/* Parses COLSxROWS. */
 static bool set_text_size(struct options *o, const struct option_given *g,
                           struct error *err)
 {
@@ -209,7 +210,7 @@ static bool set_seed(struct options *o, const struct option_given *g,
     return true;
 }
 
-/* The options that choose one of some words. */
+/* Sets an option whose value is one of several words. */
 static bool set_word(struct options *o, const struct option_given *g,
                      struct error *err)
 {
@@ -238,7 +239,7 @@ static bool set_word(struct options *o, const struct option_given *g,
     case OPTION_COLOR:
         if (!choice(g, colors, &index, err))
             return false;
-        /* 24bit, as in COLORTERM, is the same */
+        /* 24bit, as in COLORTERM, means truecolor */
         o->display.color =
             index > COLOR_24BIT ? COLOR_24BIT : (enum color_mode)index;
         o->has_color = true;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * option_table.h - the options one by one: names, what stands behind them, and
- * what that sets
+ * option_table.h - table of all options, and the function that sets each
  *
- * Units:     as command_line.h
- * Ownership: strings stay the caller's, and outlive the options
+ * Units:     as in command_line.h
+ * Ownership: strings stay the caller's and must outlive the options
  * Threads:   main only
- * Errors:    a wrong value: which option has it, and what was expected
+ * Errors:    a wrong value: the option, the value and the expected one
  */
 #ifndef GLIM_OPTION_TABLE_H
 #define GLIM_OPTION_TABLE_H
@@ -48,30 +47,31 @@ enum option_id {
 };
 
 struct option_rule {
-    const char *name; /* as it is typed: one letter is a short option */
+    const char *name; /* without dashes; one letter is a short option */
     enum option_id id;
-    const char *value; /* what is expected behind it; NULL: nothing */
+    const char *value; /* the expected value, for messages; NULL: no value */
 };
 
-/* An option as it stands on the command line or in a file. */
+/* Option from the command line or a file, with its value. */
 struct option_given {
     const struct option_rule *rule;
-    char shown[512]; /* "-w" or "--seed" or its place, for messages */
+    char shown[512]; /* "-w", "--seed" or the place in a file, for messages */
     const char *value;
 };
 
-/* NULL: there is none of this name, which is without dashes. */
+/* Returns the rule of the option of this name, without dashes; NULL if there is
+ * none. */
 const struct option_rule *option_rule_named(const char *name, size_t length);
 
-/* Takes an option whose value is there if the rule wants one. */
+/* Sets an option. The value must be present if the rule wants one. */
 bool option_set(struct options *o, const struct option_given *g,
                 struct error *err);
 
-/* A scene that was named without its option. */
+/* Sets the scene, which is given without an option. */
 bool option_set_scene(struct options *o, const char *path, struct error *err);
 
-/* What may be said behind a message about the value: -h asks for help
- * elsewhere. "" is nothing. */
+/* Returns a hint to append to a message about a wrong value: -h is the height
+ * here, but help in other programs. "" if there is none. */
 const char *option_hint(const struct option_given *g);
 
 #endif

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * recent.h - the scenes that were opened last, and the picture of a session
- * that was lost
+ * recent.h - the scenes that were opened last, and the picture of a lost
+ * session
  *
- * The file `recent` in the folder of the person's state has a path a line, the
- * last opened first. The one file `lost.png` beside it has the picture: a later
- * one replaces it.
+ * The file `recent` in the user's state folder has one path a line, the last
+ * one first. The file `lost.png` beside it has the picture of the last session
+ * that was lost. Without such a folder nothing is remembered.
  *
  * Ownership: recent_free() frees a list
  * Threads:   main only
- * Errors:    none: without such a folder nothing is remembered
  */
 #ifndef GLIM_RECENT_H
 #define GLIM_RECENT_H
@@ -23,22 +22,23 @@ struct recent {
     int count;
 };
 
-/* The remembered scenes that are still there. */
+/* Reads the remembered scenes whose files still exist. */
 void recent_read(struct recent *r);
 
-/* Remembers this one as the last. */
+/* Adds a scene in the first place. */
 void recent_add(const char *path);
 
-/* Where the picture of a session is written that is being lost; for free(),
- * NULL: nowhere. */
+/* Returns the path for the picture of a session that is being lost, for free();
+ * NULL without a state folder. */
 char *recent_lost_path(void);
 
-/* The picture, if a session was lost since recent_add() was called last: so the
- * next one tells of it, and only that. For free(); NULL: none. */
+/* Returns the path of a picture that was lost since the last recent_add(), for
+ * free(); NULL if there is none. So it is reported once, by the next
+ * session. */
 char *recent_find_lost(void);
 
-/* Shows the list and lets the person choose by number, or write another name.
- * The path is for free(); NULL: none. */
+/* Shows the list and lets the user choose by number or enter another path.
+ * Returns the path for free(), or NULL. */
 char *recent_choose(const struct recent *r, FILE *in, FILE *out);
 
 void recent_free(struct recent *r);

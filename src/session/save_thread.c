@@ -20,7 +20,7 @@ bool save_thread_init(struct save_thread *s, struct error *err)
     return true;
 }
 
-/* Each row as it is at one moment: its sums and counts belong together. */
+/* Copies row by row, so that the sums and counts of a row belong together. */
 static bool copy_film(struct film *to, struct film *from, struct error *err)
 {
     size_t width = (size_t)from->width;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * save_thread.h - saves pictures in a thread of its own
+ * save_thread.h - saves pictures in a background thread
  *
- * The thread copies the film first. Until then the film must not be cleared;
- * after that neither the screen nor the render waits for it.
+ * The thread first copies the film, which must not be cleared before the copy
+ * is complete. Neither the screen nor the renderer waits for the rest.
  *
- * Units:     samples a pixel
- * Ownership: save_thread_free() frees; waits for a picture that is being
- * written Threads:   all functions from one thread Errors:    with the result,
- * by save_thread_finish()
+ * Units:     samples per pixel
+ * Ownership: save_thread_free() frees, after waiting for a running save
+ * Threads:   all functions from one thread
+ * Errors:    save_thread_finish() returns them with the result
  */
 #ifndef GLIM_SAVE_THREAD_H
 #define GLIM_SAVE_THREAD_H
@@ -19,7 +19,7 @@
 #include "picture/film.h"
 
 struct save_thread {
-    int event_fd; /* readable when a picture is done */
+    int event_fd; /* readable when a picture is complete */
     bool is_busy; /* between save_thread_begin() and save_thread_finish() */
     pthread_t thread;
     /* set before the thread starts */
@@ -31,26 +31,25 @@ struct save_thread {
     pthread_mutex_t lock;
     pthread_cond_t copied;
     bool has_copied;
-    /* the thread's until save_thread_finish() joins it */
+    /* owned by the thread until save_thread_finish() joins it */
     char *name;
     struct error error;
 };
 
 bool save_thread_init(struct save_thread *s, struct error *err);
 
-/* Begins to save as STEM.ENDING, "png" or another one of image_write.h, or the
- * next free name. False if another picture is being saved, or no thread can
- * start.
- */
+/* Starts to save as STEM.ENDING or the next free name. ENDING is "png" or
+ * another one of image_write.h. Returns false if another picture is being saved
+ * or no thread can start. */
 bool save_thread_begin(struct save_thread *s, struct film *film,
                        struct develop how, const char *stem, const char *ending,
                        struct error *err);
 
-/* Blocks until the film may be cleared: some milliseconds at most for pictures
- * of common sizes. */
+/* Blocks until the film may be cleared: a few milliseconds for common sizes. */
 void save_thread_wait_copied(struct save_thread *s);
 
-/* Blocks until the picture is written. The name is for free(); NULL: failed. */
+/* Blocks until the picture is written. Returns its name, for free(), or NULL
+ * after a failure. */
 char *save_thread_finish(struct save_thread *s, struct error *err);
 
 void save_thread_free(struct save_thread *s);

@@ -12,7 +12,7 @@
 #include "base/print.h"
 #include "base/version.h"
 
-/* Bytes of the UTF-8 character at p, or 0 if there is none. */
+/* Returns the length of the UTF-8 character at p, or 0 if it is invalid. */
 static size_t utf8_length(const unsigned char *p)
 {
     size_t length = *p < 0x80                 ? 1
@@ -32,7 +32,7 @@ static size_t utf8_length(const unsigned char *p)
     return length;
 }
 
-/* The number of the character in Unicode. */
+/* Returns the code point of a UTF-8 character. */
 static uint32_t utf8_code(const unsigned char *p, size_t length)
 {
     uint32_t code = length == 1 ? *p : *p & (0x7fu >> length);
@@ -42,9 +42,9 @@ static uint32_t utf8_code(const unsigned char *p, size_t length)
     return code;
 }
 
-/* A JSON string. File names may have any bytes: those that are no UTF-8
- * become U+FFFD, as JSON cannot hold them. What print.h does not show is
- * escaped: it is never beyond U+FFFF. */
+/* Writes a JSON string. Bytes that are not UTF-8, which JSON cannot hold,
+ * become U+FFFD. Characters that print.h does not show are escaped; they are
+ * never beyond U+FFFF. */
 static void write_string(FILE *to, const char *text)
 {
     const unsigned char *p = (const unsigned char *)text;
@@ -75,7 +75,7 @@ static void write_seconds(FILE *to, const char *key, uint64_t duration_ns)
     fprintf(to, "  \"%s\": %.6f,\n", key, seconds_between(0, duration_ns));
 }
 
-/* Null where there is none. */
+/* Writes a number, or null if there is none. */
 static void write_real(FILE *to, const char *key, double value, bool has_value)
 {
     if (has_value)
@@ -104,7 +104,8 @@ static void write_load(FILE *to, const struct session *s, uint64_t render_ns)
     fputs("],\n", to);
 }
 
-/* What the screen's panel shows. Rates are those of rendering alone. */
+/* Writes the progress as in the screen's panel. Rates exclude everything but
+ * rendering. */
 static void write_progress(FILE *to, const struct session *s,
                            const struct render_progress *p)
 {
@@ -127,7 +128,7 @@ static void write_progress(FILE *to, const struct session *s,
     write_load(to, s, p->render_ns);
 }
 
-/* Of those in files: the first is the default one. */
+/* Counts unused materials of files; material 0 is the default one. */
 static uint32_t unused_materials(const struct scene *scene)
 {
     uint32_t count = 0;
@@ -183,7 +184,7 @@ static void write_object(FILE *to, const struct session *s)
     write_progress(to, s, &p);
     write_seconds(to, "load_s", s->load_ns);
     write_seconds(to, "build_s", p.build_ns);
-    /* what a person waits: from the start of the program */
+    /* from the start of the program: the user's waiting time */
     write_seconds(to, "first_picture_s",
                   p.first_picture_ns == 0
                       ? 0

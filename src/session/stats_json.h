@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * stats_json.h - one JSON object about a render
+ * stats_json.h - statistics of a render as one JSON object
  *
- * Units:     seconds, pixels, samples a pixel
+ * Units:     seconds, pixels, samples per pixel
  * Threads:   main only
  * Errors:    unwritable file
  */
@@ -13,10 +13,10 @@
 
 #include "session/session.h"
 
-/* Fails, early, where stats_json_write() could not write. */
+/* Checks before the render that the file can be written. */
 bool stats_json_check(const char *path, struct error *err);
 
-/* Writes to the file, or to standard output for "-". */
+/* Writes the object to the file, or to standard output for "-". */
 bool stats_json_write(const struct session *s, const char *path,
                       struct error *err);
 
