@@ -43,7 +43,7 @@ enum sample_kind view_mode_sample(enum show_kind kind)
     return kinds[kind].sample;
 }
 
-struct develop view_mode_develop(const struct view_mode *s)
+static struct develop develop_of(const struct view_mode *s)
 {
     return s->kind == SHOW_PREVIEW ? develop_linear(0)
                                    : session_develop(s->session);
@@ -210,14 +210,15 @@ static void paint_numbers(struct view_mode *s, struct frame *frame, int width,
         say_depth(s, range);
 }
 
-static void paint_draft(struct view_mode *s, struct film *draft,
+static bool paint_draft(struct view_mode *s, struct film *draft,
                         struct frame *frame)
 {
     if (!draft ||
         !need_numbers(s, 3 * (size_t)draft->width * (size_t)draft->height))
-        return;
+        return false;
     film_linear(draft, s->numbers);
     paint_numbers(s, frame, draft->width, draft->height);
+    return true;
 }
 
 static bool paint_samples(struct view_mode *s, struct film *film,
@@ -288,16 +289,21 @@ static bool paint_costs(struct view_mode *s, struct frame *frame)
     return true;
 }
 
-void view_mode_paint(struct view_mode *s, struct film *film, struct film *draft,
-                     struct frame *frame)
+/* Without a draft or memory for its numbers the film is shown as light. */
+void view_mode_preview(struct view_mode *s, struct film *film,
+                       struct film *draft, struct frame *frame)
 {
+    bool is_painted = false;
+
     switch (s->kind) {
     case SHOW_LIGHT:
     case SHOW_PREVIEW: break;
-    case SHOW_COST: paint_costs(s, frame); break;
-    case SHOW_SAMPLES: paint_samples(s, film, frame); break;
-    default: paint_draft(s, draft, frame); break;
+    case SHOW_COST: is_painted = paint_costs(s, frame); break;
+    case SHOW_SAMPLES: is_painted = paint_samples(s, film, frame); break;
+    default: is_painted = paint_draft(s, draft, frame); break;
     }
+    if (!is_painted)
+        film_preview(film, draft, develop_of(s), frame);
 }
 
 /* Paints a preview, whose numbers are light. */
@@ -337,9 +343,7 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
                        struct frame *frame, struct error *err)
 {
     switch (s->kind) {
-    case SHOW_LIGHT:
-        film_preview(film, NULL, view_mode_develop(s), frame);
-        break;
+    case SHOW_LIGHT: film_preview(film, NULL, develop_of(s), frame); break;
     case SHOW_SAMPLES:
         return paint_samples(s, film, frame) || fail_memory(frame, err);
     case SHOW_COST: return paint_costs(s, frame) || fail_memory(frame, err);

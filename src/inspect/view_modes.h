@@ -48,12 +48,10 @@ enum sample_kind view_mode_sample(enum show_kind kind);
 /* Switches the view. If that fails, light is shown. */
 bool view_mode_set(struct view_mode *s, enum show_kind kind, struct error *err);
 
-/* Returns how films are developed: colours of a preview are shown unchanged. */
-struct develop view_mode_develop(const struct view_mode *s);
-
-/* Paints the view over a frame that shows a film and its draft. */
-void view_mode_paint(struct view_mode *s, struct film *film, struct film *draft,
-                     struct frame *frame);
+/* Fills a frame for the screen: light and the preview as film_preview() does,
+ * false colours from the numbers of the draft or the film. */
+void view_mode_preview(struct view_mode *s, struct film *film,
+                       struct film *draft, struct frame *frame);
 
 /* Fills a frame of any size with the whole picture of this view, without a
  * draft. Light and sample counts are taken from `film`, which may be NULL for

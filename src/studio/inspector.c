@@ -19,7 +19,7 @@ static struct session *session_of(const struct inspector *inspector)
 
 /* ---- drawings ---- */
 
-static void paint_drawing(struct inspector *inspector, struct frame *frame)
+static void draw_over(struct inspector *inspector, struct frame *frame)
 {
     struct world w;
     struct camera camera;
@@ -37,13 +37,13 @@ static void paint_drawing(struct inspector *inspector, struct frame *frame)
         overlay_trail(frame, &camera, &inspector->trail, inspector->step);
 }
 
-static void paint(void *context, struct film *film, struct film *draft,
-                  struct frame *frame)
+void inspector_preview(struct inspector *inspector, struct frame *frame)
 {
-    struct inspector *inspector = context;
+    struct render *render = session_of(inspector)->render;
 
-    view_mode_paint(&inspector->view_mode, film, draft, frame);
-    paint_drawing(inspector, frame);
+    view_mode_preview(&inspector->view_mode, render_film(render),
+                      render_draft(render), frame);
+    draw_over(inspector, frame);
 }
 
 void inspector_close_panel(struct inspector *inspector)
@@ -255,7 +255,7 @@ static bool paint_all(struct inspector *inspector, struct frame *frame,
 
     if (!view_mode_picture(&inspector->view_mode, film, frame, err))
         return false;
-    paint_drawing(inspector, frame);
+    draw_over(inspector, frame);
     return true;
 }
 
@@ -392,7 +392,6 @@ void inspector_init(struct inspector *inspector, struct render_control *control,
                                     .screen = screen,
                                     .cursor = cursor};
     view_mode_init(&inspector->view_mode, control->session);
-    screen->painter = (struct painter){paint, inspector};
 }
 
 void inspector_free(struct inspector *inspector)

@@ -50,9 +50,12 @@ struct inspector {
     bool has_panel;
 };
 
-/* Takes over the screen's painter. */
 void inspector_init(struct inspector *inspector, struct render_control *control,
                     struct screen *screen, struct pick_cursor *cursor);
+
+/* Fills a frame for the screen: the render in the present view mode, with
+ * drawings over it. */
+void inspector_preview(struct inspector *inspector, struct frame *frame);
 
 /* Does what the action says of views and drawings, and saves what is shown.
  * False if it is not one. */

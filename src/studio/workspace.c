@@ -73,6 +73,17 @@ void workspace_expect(struct session *s)
     set_draft(s, &fit);
 }
 
+/* A frame of the size that the screen wants, or none. */
+static bool resize_frame(struct workspace *workspace, struct error *err)
+{
+    const struct screen *screen = &workspace->screen;
+
+    frame_free(&workspace->frame);
+    return screen->is_too_small ||
+           frame_init(&workspace->frame, screen->frame_width,
+                      screen->frame_height, err);
+}
+
 void workspace_layout(struct workspace *workspace)
 {
     const struct film *film = film_of(workspace);
@@ -83,7 +94,8 @@ void workspace_layout(struct workspace *workspace)
     workspace->height_px = film->height;
     workspace_refresh(workspace);
     workspace->screen.has_panel = workspace->panel.is_open;
-    if (!screen_layout(&workspace->screen, film->width, film->height, &err)) {
+    if (!screen_layout(&workspace->screen, film->width, film->height, &err) ||
+        !resize_frame(workspace, &err)) {
         workspace->screen.is_too_small = true; /* nothing can be drawn */
         render_control_say_error(workspace->control, err.text);
     }
@@ -369,10 +381,26 @@ static void show_messages(struct workspace *workspace, uint64_t now_ns)
     workspace->status_ns = now_ns + STATUS_NS;
 }
 
+/* Shows a new frame and text that has changed, or only the text. */
+static enum screen_result send(struct workspace *workspace, bool has_frame)
+{
+    struct screen *screen = &workspace->screen;
+    struct view_mode *view_mode = &workspace->inspector.view_mode;
+    enum screen_result result;
+
+    if (!has_frame || screen->is_too_small)
+        return screen_draw(screen, NULL, 0);
+    inspector_preview(&workspace->inspector, &workspace->frame);
+    result = screen_draw(screen, &workspace->frame, frame_step(workspace));
+    if (view_mode->has_news)
+        workspace->status_ns = 0;
+    view_mode->has_news = false;
+    return result;
+}
+
 bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
 {
     struct screen *screen = &workspace->screen;
-    struct render *render = workspace->control->session->render;
     bool is_running = workspace->control->progress.state == RENDER_RUNNING;
     bool shows = !render_control_awaits_picture(workspace->control) &&
                  !workspace->is_settled && now_ns >= workspace->frame_ns;
@@ -388,13 +416,7 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
     if ((!shows && !screen->must_update) ||
         !frame_pacing_may_send(&screen->pace))
         return true;
-    result = screen_draw(screen, shows ? render_film(render) : NULL,
-                         render_draft(render),
-                         view_mode_develop(&workspace->inspector.view_mode),
-                         frame_step(workspace));
-    if (workspace->inspector.view_mode.has_news)
-        workspace->status_ns = 0;
-    workspace->inspector.view_mode.has_news = false;
+    result = send(workspace, shows);
     if (shows && result != SCREEN_GONE) {
         uint64_t took_ns = clock_ns() - now_ns;
 
@@ -472,4 +494,5 @@ void workspace_free(struct workspace *workspace)
     inspector_free(&workspace->inspector);
     editor_panel_free(&workspace->panel);
     screen_free(&workspace->screen);
+    frame_free(&workspace->frame);
 }

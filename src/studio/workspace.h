@@ -29,6 +29,7 @@ struct workspace {
     struct render_control *control;
     struct camera_control *camera;
     struct screen screen;
+    struct frame frame; /* of the size that the screen wants */
     struct inspector inspector;
     struct editor_panel panel;
     struct progress_panel progress_panel; /* hidden while the help is open */

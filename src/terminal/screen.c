@@ -50,7 +50,7 @@ static void free_sized(struct screen *screen)
 {
     pixel_graphics_free(&screen->graphics);
     cells_free(&screen->cells);
-    frame_free(&screen->frame);
+    screen->frame_width = screen->frame_height = 0;
     ansi_diff_free(&screen->ansi);
     swatches_free(&screen->swatches);
 }
@@ -104,8 +104,8 @@ static int at_most(int a, int b)
     return a < b ? a : b;
 }
 
-/* The frame need not have more pixels than the film of this size. False if the
- * picture is not of pixels, or there is no memory for them: then of cells. */
+/* Frames have no more pixels than the picture. Returns false if the terminal
+ * shows no pixels, or without memory: cells are shown then. */
 static bool init_pixels(struct screen *screen, const struct tty_size *size,
                         int width_px, int height_px, struct error *err)
 {
@@ -122,23 +122,20 @@ static bool init_pixels(struct screen *screen, const struct tty_size *size,
         !term_caps_cell_size(d, size, &shape.cell_width_px,
                              &shape.cell_height_px))
         return false;
-    if (pixel_graphics_init(&screen->graphics, &shape, err) &&
-        frame_init(&screen->frame,
-                   at_most(screen->graphics.shown.width, width_px),
-                   at_most(screen->graphics.shown.height, height_px), err))
-        return true;
-    pixel_graphics_free(&screen->graphics);
-    return false;
+    if (!pixel_graphics_init(&screen->graphics, &shape, err))
+        return false;
+    screen->frame_width = at_most(screen->graphics.shown.width, width_px);
+    screen->frame_height = at_most(screen->graphics.shown.height, height_px);
+    return true;
 }
 
 static bool init_cells(struct screen *screen, struct error *err)
 {
     struct glyph_grid grid = glyphs_grid(screen->display.glyphs);
 
-    return cells_init(&screen->cells, screen->fit.cols, screen->fit.rows,
-                      err) &&
-           frame_init(&screen->frame, grid.across * screen->fit.cols,
-                      grid.down * screen->fit.rows, err);
+    screen->frame_width = grid.across * screen->fit.cols;
+    screen->frame_height = grid.down * screen->fit.rows;
+    return cells_init(&screen->cells, screen->fit.cols, screen->fit.rows, err);
 }
 
 bool screen_layout(struct screen *screen, int width_px, int height_px,
@@ -295,9 +292,8 @@ void screen_close_window(struct screen *screen)
 }
 
 /* Around the cell of the cursor: white around black is seen on anything. */
-static void mark_pixels(struct screen *screen)
+static void mark_pixels(const struct screen *screen, struct frame *f)
 {
-    struct frame *f = &screen->frame;
     int x0 = screen->cursor_col * f->width / screen->fit.cols;
     int y0 = screen->cursor_row * f->height / screen->fit.rows;
     int x1 = (screen->cursor_col + 1) * f->width / screen->fit.cols - 1;
@@ -308,8 +304,7 @@ static void mark_pixels(struct screen *screen)
 }
 
 /* Appends what changed in the picture; false if the budget was too small. */
-static bool add_picture(struct screen *screen, struct film *film,
-                        struct film *draft, struct develop how, int step)
+static bool add_picture(struct screen *screen, struct frame *frame, int step)
 {
     struct ansi_diff_rect covered[2] = {screen->window};
     struct ansi_diff_draw draw = {.col = screen->fit.col,
@@ -323,19 +318,15 @@ static bool add_picture(struct screen *screen, struct film *film,
         covered[1] = last_row(screen);
         draw.covered_count = 2;
     }
-    film_preview(film, draft, how, &screen->frame);
-    if (screen->painter.paint)
-        screen->painter.paint(screen->painter.context, film, draft,
-                              &screen->frame);
     if (screen->graphics.shape.kind != PIXEL_GRAPHICS_NONE) {
         if (screen->has_cursor)
-            mark_pixels(screen);
+            mark_pixels(screen, frame);
         if (draw.budget_bytes > PIXEL_BYTES_MAX)
             draw.budget_bytes = PIXEL_BYTES_MAX;
-        return pixel_graphics_picture(&screen->graphics, &screen->ansi,
-                                      &screen->frame, &draw);
+        return pixel_graphics_picture(&screen->graphics, &screen->ansi, frame,
+                                      &draw);
     }
-    cells_from_frame(&screen->cells, &screen->frame, screen->display.palette,
+    cells_from_frame(&screen->cells, frame, screen->display.palette,
                      screen->display.glyphs);
     if (screen->has_cursor)
         cells_mark(&screen->cells, screen->cursor_col, screen->cursor_row);
@@ -343,8 +334,8 @@ static bool add_picture(struct screen *screen, struct film *film,
 }
 
 /* One write() a frame; more before it if text has changed. */
-enum screen_result screen_draw(struct screen *screen, struct film *film,
-                               struct film *draft, struct develop how, int step)
+enum screen_result screen_draw(struct screen *screen, struct frame *frame,
+                               int step)
 {
     struct ansi_diff *a = &screen->ansi;
     bool has_sync = tty_has_sync();
@@ -371,8 +362,8 @@ enum screen_result screen_draw(struct screen *screen, struct film *film,
     if (has_sync && !has_updated)
         ansi_diff_text(a, TTY_SYNC_BEGIN);
     before = a->length;
-    if (film)
-        is_complete = add_picture(screen, film, draft, how, step);
+    if (frame)
+        is_complete = add_picture(screen, frame, step);
     if (a->length == before && !has_updated)
         return is_complete ? SCREEN_DONE : SCREEN_MORE;
     asks = a->length > before && frame_pacing_wants_request(&screen->pace);

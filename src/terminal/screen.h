@@ -24,15 +24,7 @@
 /* The longest text of the status line, with its end. */
 #define STATUS_BYTES 1024
 
-/* Draws into frames before they are shown. */
-struct painter {
-    void (*paint)(void *context, struct film *film, struct film *draft,
-                  struct frame *frame);
-    void *context;
-};
-
 struct screen {
-    struct painter painter; /* none: films are shown as they are */
     struct frame_pacing pace;
     struct term_caps display;
     bool has_status_row; /* else the line shows only what is urgent */
@@ -40,7 +32,7 @@ struct screen {
     bool has_all_answers; /* to what was asked at the start */
     /* of the present size */
     struct fit fit;
-    struct frame frame;
+    int frame_width, frame_height; /* pixels of the frames it wants */
     struct cells cells;
     struct pixel_graphics graphics; /* instead of cells, if of a kind */
     struct ansi_diff ansi;
@@ -101,10 +93,11 @@ enum screen_result {
     SCREEN_GONE  /* the terminal is gone, or a signal wants an end */
 };
 
-/* Writes what has changed, and the film's picture if there is one, with the
- * draft's if there is one. Call it only if frame_pacing_may_send(). */
-enum screen_result screen_draw(struct screen *screen, struct film *film,
-                               struct film *draft, struct develop how,
+/* Writes text that has changed and the frame, or only the text if that is NULL.
+ * The frame has frame_width x frame_height pixels; a cursor is drawn into it
+ * where pixels are shown. Cells whose colours changed by no more than `step` of
+ * 255 may stay as they are. Call it only if frame_pacing_may_send(). */
+enum screen_result screen_draw(struct screen *screen, struct frame *frame,
                                int step);
 
 /* How the picture is shown, as text would be. */

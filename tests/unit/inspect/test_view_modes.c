@@ -46,8 +46,7 @@ static void draw_draft(struct session *s, struct view_mode *show,
     film = render_film(s->render);
     draft = render_draft(s->render);
     assert_non_null(draft);
-    film_preview(film, draft, view_mode_develop(show), frame);
-    view_mode_paint(show, film, draft, frame);
+    view_mode_preview(show, film, draft, frame);
 }
 
 static void files_show_what_the_screen_shows(void **state)
