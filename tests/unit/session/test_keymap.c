@@ -318,7 +318,7 @@ static void readme_lists_the_same_keys(void **state)
 
 static void manual_lists_the_actions(void **state)
 {
-    char *text = section("man/glim.1", "The actions are\n", "\nWhat");
+    char *text = section("man/glim.1", "The actions are\n", "\nAn error");
     char *rest = text;
     int action = 1;
 
