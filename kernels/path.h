@@ -430,7 +430,7 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
 
 /* Samplers of some samples, and their points within the pixel. */
 VECTORISED static void path_points(const struct settings *s,
-                                   const struct sample_place *places,
+                                   const struct sample_id *places,
                                    uint32_t count, struct sampler *samplers,
                                    struct vec2 *points)
 {
@@ -444,10 +444,10 @@ VECTORISED static void path_points(const struct settings *s,
 /* Computes at most SAMPLE_BLOCK samples. Those of one pixel, or of neighbours,
  * take less time together. */
 static inline void path_samples(const struct world *w,
-                                const struct sample_place *places,
-                                uint32_t count, struct path_sample *out)
+                                const struct sample_id *places, uint32_t count,
+                                struct path_sample *out)
 {
-    struct sample_place all[SAMPLE_BLOCK];
+    struct sample_id all[SAMPLE_BLOCK];
     struct sampler samplers[SAMPLE_BLOCK];
     struct vec2 points[SAMPLE_BLOCK];
     struct ray rays[SAMPLE_BLOCK];

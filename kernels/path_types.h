@@ -13,7 +13,7 @@
 #define SAMPLE_BLOCK 8
 
 /* Sample `index` of pixel (x, y) of the whole picture. */
-struct sample_place {
+struct sample_id {
     uint32_t x, y;
     uint64_t index;
 };

@@ -20,7 +20,7 @@ static void trace_row(void *context, uint32_t y, int worker)
 
     (void)worker;
     for (int x = 0; x < j->width; x++) {
-        struct sample_place place = {(uint32_t)x, y, 0};
+        struct sample_id place = {(uint32_t)x, y, 0};
         struct path_sample sample;
 
         path_samples(j->world, &place, 1, &sample);

@@ -64,7 +64,7 @@ static uint32_t shuffled(const struct job *j, uint32_t item)
 struct row {
     int counts[BLOCK_SIDE];
     uint32_t count; /* in all */
-    struct sample_place places[BLOCK_SIDE * SAMPLE_BLOCK];
+    struct sample_id places[BLOCK_SIDE * SAMPLE_BLOCK];
     struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
 };
 
@@ -81,8 +81,8 @@ static void row_begin(struct row *r, const struct job *j, int x, int y,
 
         for (uint64_t k = film_count(b->film, px, y); k < j->pass.target; k++)
             r->places[r->count++] =
-                (struct sample_place){(uint32_t)(b->x0 + px),
-                                      (uint32_t)(b->y0 + y), k};
+                (struct sample_id){(uint32_t)(b->x0 + px),
+                                   (uint32_t)(b->y0 + y), k};
         r->counts[i] = (int)(r->count - before);
     }
 }

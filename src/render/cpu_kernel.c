@@ -23,8 +23,8 @@
 __attribute__((flatten))
 #endif
 static void
-samples(const struct world *w, const struct sample_place *places,
-        uint32_t count, struct path_sample *out)
+samples(const struct world *w, const struct sample_id *places, uint32_t count,
+        struct path_sample *out)
 {
     path_samples(w, places, count, out);
 }

@@ -21,7 +21,7 @@ struct cpu_kernel {
     uint32_t features; /* enum feature: those of worlds that it can do */
 
     /* path_samples() of kernels/path.h; w is within a struct bvh8_world. */
-    void (*samples)(const struct world *w, const struct sample_place *places,
+    void (*samples)(const struct world *w, const struct sample_id *places,
                     uint32_t count, struct path_sample *out);
 };
 

@@ -59,14 +59,14 @@ static void check_steps(const struct path_record *t)
 /* Samples of several pixels at once. */
 static void check_trails(const struct world *w, uint32_t first, int *bright)
 {
-    struct sample_place places[SAMPLE_BLOCK];
+    struct sample_id places[SAMPLE_BLOCK];
     struct path_sample want[SAMPLE_BLOCK];
     struct path_record t;
 
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
         uint32_t k = first + i;
 
-        places[i] = (struct sample_place){k % SIDE, k / SIDE, k % 5};
+        places[i] = (struct sample_id){k % SIDE, k / SIDE, k % 5};
     }
     path_samples(w, places, SAMPLE_BLOCK, want);
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {

@@ -35,7 +35,7 @@ static void look_down(struct world *w, double half)
 static struct vec3 sample_of(enum sample_kind kind, uint32_t x, uint32_t y,
                              uint64_t index)
 {
-    struct sample_place place = {x, y, index};
+    struct sample_id place = {x, y, index};
     struct path_sample s;
 
     mesh.world.settings.sample = kind;
