@@ -413,7 +413,7 @@ static inline struct path_sample path_follow(const struct world *w,
     while (path_extend(w, &p, vertex, &h))
         vertex++;
     p.out.radiance =
-        v3_low(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
+        v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
     return p.out;
 }
 

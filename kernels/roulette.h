@@ -20,7 +20,7 @@
  * branches, as vertices come in no order that could be foreseen. */
 static inline float survival(struct vec3 beta, uint32_t vertex)
 {
-    float q = sqrtf(v3_max(beta));
+    float q = sqrtf(v3_max_component(beta));
     float is_first = (float)((uint32_t)(vertex == 1) & (uint32_t)(q > 0.0f));
 
     return f_max(f_min(1.0f, q), is_first);
@@ -30,7 +30,7 @@ static inline float survival(struct vec3 beta, uint32_t vertex)
  * path that has gathered `sum`. 1 or more: surely. */
 static inline float shadow_survival(struct vec3 light, struct vec3 sum)
 {
-    return v3_max(light) / (0.25f * v3_max(sum));
+    return v3_max_component(light) / (0.25f * v3_max_component(sum));
 }
 
 #endif

@@ -47,7 +47,7 @@ static inline struct vec3 sky_image_at(const struct world *w, struct vec2 uv)
                   w->sky_texels[f.y0 * s.width + f.x1], f.fx);
     bottom = v3_lerp(w->sky_texels[f.y1 * s.width + f.x0],
                      w->sky_texels[f.y1 * s.width + f.x1], f.fx);
-    return v3_low(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX),
+    return v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX),
                   v3_mul(v3_lerp(top, bottom, f.fy), s.color));
 }
 

@@ -91,7 +91,7 @@ static inline struct vec3 v3_unit_again(struct vec3 a)
     return v3_scale(a, 1.5f - 0.5f * v3_dot(a, a));
 }
 
-static inline float v3_max(struct vec3 a)
+static inline float v3_max_component(struct vec3 a)
 {
     return f_max(a.x, f_max(a.y, a.z));
 }
@@ -103,12 +103,12 @@ static inline bool v3_is_zero(struct vec3 a)
 }
 
 /* The corners of the box around a and b. */
-static inline struct vec3 v3_low(struct vec3 a, struct vec3 b)
+static inline struct vec3 v3_min(struct vec3 a, struct vec3 b)
 {
     return v3(f_min(a.x, b.x), f_min(a.y, b.y), f_min(a.z, b.z));
 }
 
-static inline struct vec3 v3_high(struct vec3 a, struct vec3 b)
+static inline struct vec3 v3_max(struct vec3 a, struct vec3 b)
 {
     return v3(f_max(a.x, b.x), f_max(a.y, b.y), f_max(a.z, b.z));
 }

@@ -168,7 +168,7 @@ static bool photon_scatter(struct photon *p, const struct bsdf *b,
 
     if (!surface_scatter(v, b, wo, photon_2d(i, vertex + 1, 0), choice.x, &s,
                          &wi) ||
-        !(choice.y < v3_max(s.weight)))
+        !(choice.y < v3_max_component(s.weight)))
         return false;
     surface_spawn_ray(v, wi, s.wi.z, &p->ray);
     return true;

@@ -56,8 +56,8 @@ static struct cluster cluster_empty(void)
 
 static void cluster_add(struct cluster *a, const struct cluster *b)
 {
-    a->lo = v3_low(a->lo, b->lo);
-    a->hi = v3_high(a->hi, b->hi);
+    a->lo = v3_min(a->lo, b->lo);
+    a->hi = v3_max(a->hi, b->hi);
     a->axis = v3_add(a->axis, b->axis);
     a->power += b->power;
     a->count += b->count;

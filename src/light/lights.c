@@ -94,8 +94,8 @@ static bool make_emitter(const struct world *w, uint32_t tri,
     *glare += e->power / 2 * radiance;
     e->lo = e->hi = corner(w, tri, 0);
     for (uint32_t k = 1; k < 3; k++) {
-        e->lo = v3_low(e->lo, corner(w, tri, k));
-        e->hi = v3_high(e->hi, corner(w, tri, k));
+        e->lo = v3_min(e->lo, corner(w, tri, k));
+        e->hi = v3_max(e->hi, corner(w, tri, k));
     }
     return e->power > 0;
 }
@@ -162,8 +162,8 @@ static bool join_light(const struct world *w, struct light *l,
     l->twice[0] = v3_scale(l->twice[0], 2.0f);
     l->twice[1] = v3_scale(other->twice[0], 2.0f);
     last->power += e->power;
-    last->lo = v3_low(last->lo, e->lo);
-    last->hi = v3_high(last->hi, e->hi);
+    last->lo = v3_min(last->lo, e->lo);
+    last->hi = v3_max(last->hi, e->hi);
     return true;
 }
 

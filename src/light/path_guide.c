@@ -57,8 +57,8 @@ static double make_grid(const struct world *w, struct guide_grid *g)
 
         tri_corners(w, i, p);
         for (int k = 0; k < 3; k++) {
-            lo = v3_low(lo, p[k]);
-            hi = v3_high(hi, p[k]);
+            lo = v3_min(lo, p[k]);
+            hi = v3_max(hi, p[k]);
         }
     }
     size = v3_sub(hi, lo);

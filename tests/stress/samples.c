@@ -23,8 +23,8 @@ static float played_survival(struct vec3 beta, uint32_t vertex)
     if (played == ROULETTE_OURS)
         return survival(beta, vertex);
     if (played == ROULETTE_PLAIN)
-        return f_min(v3_max(beta), 1.0f);
-    return v3_max(beta) > 0.0f ? 1.0f : 0.0f;
+        return f_min(v3_max_component(beta), 1.0f);
+    return v3_max_component(beta) > 0.0f ? 1.0f : 0.0f;
 }
 
 #define survival played_survival
@@ -261,7 +261,7 @@ static bool is_fine(struct bsdf_sample s)
 {
     float sum = s.weight.x + s.weight.y + s.weight.z + s.wi.x + s.wi.y + s.wi.z;
 
-    return isfinite(sum) && v3_max(s.weight) >= 0.0f &&
+    return isfinite(sum) && v3_max_component(s.weight) >= 0.0f &&
            (s.is_delta || (isfinite(s.pdf) && s.pdf > 0.0f));
 }
 

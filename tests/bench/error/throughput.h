@@ -13,7 +13,7 @@
 static inline float throughput(struct vec3 beta, uint32_t vertex)
 {
     (void)vertex;
-    return v3_max(beta);
+    return v3_max_component(beta);
 }
 
 #define survival throughput

@@ -23,8 +23,8 @@ static double area(struct vec3 lo, struct vec3 hi)
 
 static void join(struct node *n, const struct node *m)
 {
-    n->lo = v3_low(n->lo, m->lo);
-    n->hi = v3_high(n->hi, m->hi);
+    n->lo = v3_min(n->lo, m->lo);
+    n->hi = v3_max(n->hi, m->hi);
 }
 
 static void grove_init(struct grove *g)
