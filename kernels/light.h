@@ -122,7 +122,7 @@ static inline bool sample_surface(const struct world *w,
 {
     uint32_t light, part = 0;
     float probability =
-        w->settings.light_share * light_tree_choose(w, r, choice, &light);
+        w->settings.light_share * light_tree_sample(w, r, choice, &light);
     struct vec3 p_error, to_point;
     struct hit h;
 
@@ -162,7 +162,7 @@ static inline float light_pdf_at(const struct world *w,
     if (light == NO_INDEX)
         return 0.0f;
     part = w->lights[light].tris[1] == tri ? 1u : 0u;
-    return w->settings.light_share * light_tree_probability(w, r, light) *
+    return w->settings.light_share * light_tree_pmf(w, r, light) *
            light_point_pdf(w, light, part, v3_sub(p, r->p));
 }
 

@@ -39,9 +39,9 @@ struct receiver {
  * Cosines are times the distance: the root and the division need not wait for
  * each other. Sums by pairs are half as long a chain. Together they save 5 % of
  * the time of 200 lamps. */
-static inline void light_sums(const struct world *w, uint32_t node,
-                              const struct receiver *r,
-                              float sums[LIGHT_WIDTH + 1])
+static inline void light_node_cdf(const struct world *w, uint32_t node,
+                                  const struct receiver *r,
+                                  float sums[LIGHT_WIDTH + 1])
 {
     float behind = r->transmits ? -1.0f : 1.0f;
     float parts[LIGHT_WIDTH];
@@ -74,15 +74,15 @@ static inline void light_sums(const struct world *w, uint32_t node,
 }
 
 /* The probability of child i: of the interval that a number can fall in. */
-static inline float light_child_share(const float sums[LIGHT_WIDTH + 1],
-                                      uint32_t i)
+static inline float light_child_pmf(const float sums[LIGHT_WIDTH + 1],
+                                    uint32_t i)
 {
     return (sums[i + 1] - sums[i]) / sums[LIGHT_WIDTH];
 }
 
 /* A light and, as result, its probability; 0: none. `choice` is two random
  * numbers. */
-static inline float light_tree_choose(const struct world *w,
+static inline float light_tree_sample(const struct world *w,
                                       const struct receiver *r,
                                       struct vec2 choice, uint32_t *light)
 {
@@ -99,11 +99,11 @@ static inline float light_tree_choose(const struct world *w,
 
         if (level == LIGHT_LEVELS_A_NUMBER)
             u = choice.y;
-        light_sums(w, at, r, sums);
+        light_node_cdf(w, at, r, sums);
         u *= sums[LIGHT_WIDTH];
         for (uint32_t k = 1; k < LIGHT_WIDTH; k++)
             i += u >= sums[k] ? 1u : 0u;
-        probability *= light_child_share(sums, i);
+        probability *= light_child_pmf(sums, i);
         if (!(probability > 0.0f))
             return 0.0f;
         at = w->light_nodes[at].child[i];
@@ -115,11 +115,10 @@ static inline float light_tree_choose(const struct world *w,
     }
 }
 
-/* The probability that light_tree_choose() finds this light: the same
+/* The probability that light_tree_sample() finds this light: the same
  * products in the same order, so the same bits. */
-static inline float light_tree_probability(const struct world *w,
-                                           const struct receiver *r,
-                                           uint32_t light)
+static inline float light_tree_pmf(const struct world *w,
+                                   const struct receiver *r, uint32_t light)
 {
     float probability = 1.0f;
     uint32_t at = 0;
@@ -131,8 +130,8 @@ static inline float light_tree_probability(const struct world *w,
         uint32_t i = bits >> 3 * (level % (LIGHT_LEVELS / 2)) & 7u;
         float sums[LIGHT_WIDTH + 1];
 
-        light_sums(w, at, r, sums);
-        probability *= light_child_share(sums, i);
+        light_node_cdf(w, at, r, sums);
+        probability *= light_child_pmf(sums, i);
         if (!(probability > 0.0f))
             return 0.0f;
         at = w->light_nodes[at].child[i];

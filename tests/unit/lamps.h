@@ -137,7 +137,7 @@ static inline double sum_of_probabilities(const struct world *w,
     double sum = 0;
 
     for (uint32_t i = 0; i < w->settings.light_count; i++)
-        sum += (double)light_tree_probability(w, r, i);
+        sum += (double)light_tree_pmf(w, r, i);
     return sum;
 }
 

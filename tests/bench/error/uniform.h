@@ -27,7 +27,7 @@ static inline float uniform_choose(const struct world *w,
     return uniform_probability(w, r, *light);
 }
 
-#define light_tree_choose      uniform_choose
-#define light_tree_probability uniform_probability
+#define light_tree_sample uniform_choose
+#define light_tree_pmf    uniform_probability
 
 #endif

@@ -118,9 +118,8 @@ static void both_halves_count(void **state)
     }
     finish(&m, &lights);
     assert_int_equal(lights.light_count, 3);
-    whole = light_tree_probability(&m.world, &r, 0);
-    halves = light_tree_probability(&m.world, &r, 1) +
-             light_tree_probability(&m.world, &r, 2);
+    whole = light_tree_pmf(&m.world, &r, 0);
+    halves = light_tree_pmf(&m.world, &r, 1) + light_tree_pmf(&m.world, &r, 2);
     check_close(whole, halves, 0.02);
     i = lights.lights[0].path[0] & 7;
     check_close(lights.nodes[0].x[i], 0.505, 1e-6);

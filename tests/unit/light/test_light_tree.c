@@ -53,13 +53,13 @@ static void choices_follow_probabilities(void **state)
         for (int i = 0; i < n; i++) {
             uint32_t light;
             float p =
-                light_tree_choose(&m.world, &r, any_choice(&seed), &light);
+                light_tree_sample(&m.world, &r, any_choice(&seed), &light);
 
-            assert_true(p == light_tree_probability(&m.world, &r, light));
+            assert_true(p == light_tree_pmf(&m.world, &r, light));
             counts[light]++;
         }
         for (uint32_t i = 0; i < 100; i++)
-            chi_add(&chi, n * (double)light_tree_probability(&m.world, &r, i),
+            chi_add(&chi, n * (double)light_tree_pmf(&m.world, &r, i),
                     counts[i]);
         chi_end(&chi);
         check_at_most(fabs(chi_deviate(&chi)), Z_LIMIT);
@@ -105,9 +105,8 @@ static void no_contributing_light_is_left_out(void **state)
 
             for (uint32_t t = 0; t < m.tri_count; t++)
                 if (contributes(&m.world, &r, t))
-                    assert_true(light_tree_probability(&m.world, &r,
-                                                       lights.tri_lights[t]) >
-                                0);
+                    assert_true(
+                        light_tree_pmf(&m.world, &r, lights.tri_lights[t]) > 0);
         }
         discard(&m, &lights);
     }
@@ -157,7 +156,7 @@ static void clusters_are_not_underrated(void **state)
             const struct light_node *node = &lights.nodes[n];
             float sums[LIGHT_WIDTH + 1];
 
-            light_sums(&m.world, n, &r, sums);
+            light_node_cdf(&m.world, n, &r, sums);
             for (int i = 0; i < LIGHT_WIDTH; i++) {
                 struct vec3 to =
                     v3_sub(v3(node->x[i], node->y[i], node->z[i]), r.p);
@@ -191,8 +190,8 @@ static void facing_counts_and_sides_do_not(void **state)
              LAMP);
     finish(&m, &lights);
     for (uint32_t l = 0; l < 3; l++)
-        check_close(light_tree_probability(&m.world, &r, l), 1.0 / 3, 0.02);
-    check_at_most(light_tree_probability(&m.world, &r, 3), 0.02);
+        check_close(light_tree_pmf(&m.world, &r, l), 1.0 / 3, 0.02);
+    check_at_most(light_tree_pmf(&m.world, &r, 3), 0.02);
     discard(&m, &lights);
 }
 
@@ -212,9 +211,9 @@ static void both_numbers_choose(void **state)
         uint32_t first, light;
         int others = 0;
 
-        assert_true(light_tree_choose(&m.world, &r, v2(0.3f, 0), &first) > 0);
+        assert_true(light_tree_sample(&m.world, &r, v2(0.3f, 0), &first) > 0);
         for (int i = 1; i < 16; i++) {
-            light_tree_choose(&m.world, &r, v2(0.3f, (float)i / 16), &light);
+            light_tree_sample(&m.world, &r, v2(0.3f, (float)i / 16), &light);
             others += light != first;
         }
         assert_true(others > 0);
@@ -286,7 +285,7 @@ static void deep_trees_fit(void **state)
     finish(&m, &lights);
     check_close(sum_of_probabilities(&m.world, &r), 1, 1e-3);
     for (uint32_t l = 0; l < lights.light_count; l += 977)
-        check_close(light_tree_probability(&m.world, &r, l) * 20000, 1, 0.3);
+        check_close(light_tree_pmf(&m.world, &r, l) * 20000, 1, 0.3);
     discard(&m, &lights);
 }
 
