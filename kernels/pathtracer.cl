@@ -22,7 +22,7 @@ __kernel void trace_paths(
     __global const struct leaf_tri *leaf_tris,
     __global const struct light *lights, __global const uint *tri_lights,
     __global const struct light_node *light_nodes,
-    __global const float *sky_sums,
+    __global const float *sky_cdf,
     __global const struct guide_cell *guide_cells,
     __global const float *guide_sums)
 {
@@ -35,7 +35,7 @@ __kernel void trace_paths(
         struct world w = {*settings,      positions,  normals,     uvs,
                           tris,           materials,  textures,    texels,
                           linear_of_srgb, sky_texels, nodes,       leaf_tris,
-                          lights,         tri_lights, light_nodes, sky_sums,
+                          lights,         tri_lights, light_nodes, sky_cdf,
                           guide_cells,    guide_sums};
 
         samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);

@@ -73,8 +73,8 @@ static inline float sky_texel_angle(struct sky s, uint32_t row)
 
 /* The last of n intervals that begins at or below u, and how far into it u is;
  * intervals without width are never found. Their ends are n + 1 numbers from 0
- * to 1 from sky_sums[first] on. */
-static inline uint32_t sky_interval(const struct world *w, uint32_t first,
+ * to 1 from sky_cdf[first] on. */
+static inline uint32_t sky_cdf_find(const struct world *w, uint32_t first,
                                     uint32_t n, float u, float *rest)
 {
     uint32_t low = first;
@@ -83,18 +83,18 @@ static inline uint32_t sky_interval(const struct world *w, uint32_t first,
     while (n > 1) {
         uint32_t jump = n / 2;
 
-        if (w->sky_sums[low + jump] <= u)
+        if (w->sky_cdf[low + jump] <= u)
             low += jump;
         n -= jump;
     }
-    begin = w->sky_sums[low];
-    *rest = f_min((u - begin) / (w->sky_sums[low + 1] - begin), 1.0f);
+    begin = w->sky_cdf[low];
+    *rest = f_min((u - begin) / (w->sky_cdf[low + 1] - begin), 1.0f);
     return low - first;
 }
 
 /* Where the sums of a row's columns begin: after those of the rows. For the row
  * behind the last one it is how many there are. */
-static inline uint32_t sky_row_sums(struct sky s, uint32_t row)
+static inline uint32_t sky_row_cdf(struct sky s, uint32_t row)
 {
     return s.height + 1u + row * (s.width + 1u);
 }
@@ -104,9 +104,9 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
 {
     struct sky s = w->settings.sky;
     float right, down, low, high, haversine, radius, y;
-    uint32_t row = sky_interval(w, 0, s.height, u.y, &down);
+    uint32_t row = sky_cdf_find(w, 0, s.height, u.y, &down);
     uint32_t column =
-        sky_interval(w, sky_row_sums(s, row), s.width, u.x, &right);
+        sky_cdf_find(w, sky_row_cdf(s, row), s.width, u.x, &right);
     bool is_below = 2u * row >= s.height;
     struct vec2 turn = cos_sin_turns(((float)column + right) / (float)s.width);
     struct vec3 d;
@@ -132,7 +132,7 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
 /* Whether sky_sample() may be called. */
 static inline bool sky_has_table(const struct world *w)
 {
-    return HAS(FEATURE_SKY_IMAGE) && w->settings.sky_sum_count > 0;
+    return HAS(FEATURE_SKY_IMAGE) && w->settings.sky_cdf_count > 0;
 }
 
 /* Density of sky_sample() at a direction whose place in the image is uv. */
@@ -145,9 +145,9 @@ static inline float sky_table_pdf(const struct world *w, struct vec2 uv)
 
     row = row < s.height ? row : s.height - 1u;
     column = column < s.width ? column : s.width - 1u;
-    first = sky_row_sums(s, row) + column;
-    return (w->sky_sums[row + 1] - w->sky_sums[row]) *
-           (w->sky_sums[first + 1] - w->sky_sums[first]) /
+    first = sky_row_cdf(s, row) + column;
+    return (w->sky_cdf[row + 1] - w->sky_cdf[row]) *
+           (w->sky_cdf[first + 1] - w->sky_cdf[first]) /
            sky_texel_angle(s, row);
 }
 

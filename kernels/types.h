@@ -227,7 +227,7 @@ struct settings {
     uint32_t texel_count;
     uint32_t light_count;
     uint32_t light_node_count;
-    uint32_t sky_sum_count;
+    uint32_t sky_cdf_count;
 
     struct guide_grid guide;
 };
@@ -250,7 +250,7 @@ struct world {
     GLOBAL const struct light *lights;
     GLOBAL const uint32_t *tri_lights;           /* NO_INDEX where it is dark */
     GLOBAL const struct light_node *light_nodes; /* none for one light */
-    GLOBAL const float *sky_sums; /* see kernels/sky.h; none: no table */
+    GLOBAL const float *sky_cdf; /* see kernels/sky.h; none: no table */
     GLOBAL const struct guide_cell *guide_cells; /* see kernels/guide.h */
     GLOBAL const float *guide_sums; /* GUIDE_BINS of each table there */
 };

@@ -129,7 +129,7 @@ bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
                     height);
     }
     for (uint32_t y = 0; y < height; y++) {
-        float *sums = table->sums + sky_row_sums(sky, y);
+        float *sums = table->sums + sky_row_cdf(sky, y);
 
         rows[y] = fill_row(&im, y, floor, sums) * row_angle(&im, y);
         total += rows[y];
@@ -159,12 +159,12 @@ void sky_table_lend(const struct sky_table *table, struct world *world)
 {
     struct settings *s = &world->settings;
 
-    world->sky_sums = table->sums;
+    world->sky_cdf = table->sums;
     s->sky_share = share_of(table, s);
-    s->sky_sum_count = 0;
+    s->sky_cdf_count = 0;
     if (table->sums == NULL || s->sky_share == 0)
         return;
-    s->sky_sum_count = sky_row_sums(s->sky, s->sky.height);
+    s->sky_cdf_count = sky_row_cdf(s->sky, s->sky.height);
     s->light_share = 1 - s->sky_share;
 }
 

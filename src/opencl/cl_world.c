@@ -52,7 +52,7 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
         [CL_ARRAY_TRI_LIGHTS] =
             SOURCE(w->tri_lights, s->light_count > 0 ? s->tri_count : 0),
         [CL_ARRAY_LIGHT_NODES] = SOURCE(w->light_nodes, s->light_node_count),
-        [CL_ARRAY_SKY_SUMS] = SOURCE(w->sky_sums, s->sky_sum_count),
+        [CL_ARRAY_SKY_SUMS] = SOURCE(w->sky_cdf, s->sky_cdf_count),
         [CL_ARRAY_GUIDE_CELLS] =
             SOURCE(w->guide_cells, guide_cell_count(&s->guide)),
         [CL_ARRAY_GUIDE_SUMS] =

@@ -519,7 +519,7 @@ static void test_sky(void **state)
     check_close((double)w.settings.sky.rotation_sin, 1, 1e-7);
     check_close((double)w.settings.sky.rotation_cos, 0, 1e-7);
     check_vec(w.sky_texels[0], 1, 0.21586050, 0);
-    assert_true(w.sky_sums != NULL && w.settings.sky_share == 1 &&
+    assert_true(w.sky_cdf != NULL && w.settings.sky_share == 1 &&
                 w.settings.light_share == 0);
     view.lighting.sky_strength = 0;
     assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
