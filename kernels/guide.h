@@ -130,13 +130,13 @@ static inline struct vec3 guide_direction(float x, float y)
  */
 static inline float guide_share(const struct world *w, uint32_t first)
 {
-    return w->guide_sums[first + GUIDE_BINS - 1];
+    return w->guide_cdf[first + GUIDE_BINS - 1];
 }
 
-static inline float guide_sum_before(const struct world *w, uint32_t first,
+static inline float guide_cdf_before(const struct world *w, uint32_t first,
                                      uint32_t bin)
 {
-    return bin == 0 ? 0.0f : w->guide_sums[first + bin - 1];
+    return bin == 0 ? 0.0f : w->guide_cdf[first + bin - 1];
 }
 
 /* Density of guide_sample() at the unit vector d, times the table's share. */
@@ -146,7 +146,7 @@ static inline float guide_pdf(const struct world *w, uint32_t first,
     uint32_t bin = guide_bin(d);
     float norm = guide_norm(d);
 
-    return (w->guide_sums[first + bin] - guide_sum_before(w, first, bin)) *
+    return (w->guide_cdf[first + bin] - guide_cdf_before(w, first, bin)) *
            (0.25f * (float)GUIDE_BINS) / (norm * norm * norm);
 }
 
@@ -174,10 +174,10 @@ static inline struct vec3 guide_sample(const struct world *w, uint32_t first,
 
     /* the first bin whose sum is above u.x */
     for (uint32_t jump = GUIDE_BINS / 2; jump > 0; jump /= 2)
-        if (w->guide_sums[first + bin + jump - 1] <= u.x)
+        if (w->guide_cdf[first + bin + jump - 1] <= u.x)
             bin += jump;
-    before = guide_sum_before(w, first, bin);
-    part = f_min((u.x - before) / (w->guide_sums[first + bin] - before), 1.0f);
+    before = guide_cdf_before(w, first, bin);
+    part = f_min((u.x - before) / (w->guide_cdf[first + bin] - before), 1.0f);
     return guide_direction((float)(bin % GUIDE_SIDE) + part,
                            (float)(bin / GUIDE_SIDE) + u.y);
 }

@@ -24,7 +24,7 @@ __kernel void trace_paths(
     __global const struct light_node *light_nodes,
     __global const float *sky_cdf,
     __global const struct guide_cell *guide_cells,
-    __global const float *guide_sums)
+    __global const float *guide_cdf)
 {
     uint i = (uint)get_global_id(0);
 
@@ -36,7 +36,7 @@ __kernel void trace_paths(
                           tris,           materials,  textures,    texels,
                           linear_of_srgb, sky_texels, nodes,       leaf_tris,
                           lights,         tri_lights, light_nodes, sky_cdf,
-                          guide_cells,    guide_sums};
+                          guide_cells,    guide_cdf};
 
         samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);
     }

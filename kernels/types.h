@@ -168,7 +168,7 @@ struct guide_grid {
     uint32_t table_count;          /* of directions that cells have */
 };
 
-/* Where in guide_sums a cell's directions begin; NO_INDEX: it has none. */
+/* Where in guide_cdf a cell's directions begin; NO_INDEX: it has none. */
 struct guide_cell {
     uint32_t ways; /* for a path to go on, */
     uint32_t sky;  /* and for light samples of the sky */
@@ -252,7 +252,7 @@ struct world {
     GLOBAL const struct light_node *light_nodes; /* none for one light */
     GLOBAL const float *sky_cdf; /* see kernels/sky.h; none: no table */
     GLOBAL const struct guide_cell *guide_cells; /* see kernels/guide.h */
-    GLOBAL const float *guide_sums; /* GUIDE_BINS of each table there */
+    GLOBAL const float *guide_cdf; /* GUIDE_BINS of each table there */
 };
 
 struct ray {

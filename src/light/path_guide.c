@@ -323,7 +323,7 @@ void path_guide_lend(const struct path_guide *g, struct world *world)
     if (g->cells != NULL)
         world->settings.guide = g->grid;
     world->guide_cells = g->cells;
-    world->guide_sums = g->sums;
+    world->guide_cdf = g->sums;
 }
 
 void path_guide_free(struct path_guide *g)

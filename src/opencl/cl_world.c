@@ -56,7 +56,7 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
         [CL_ARRAY_GUIDE_CELLS] =
             SOURCE(w->guide_cells, guide_cell_count(&s->guide)),
         [CL_ARRAY_GUIDE_SUMS] =
-            SOURCE(w->guide_sums, (size_t)s->guide.table_count * GUIDE_BINS),
+            SOURCE(w->guide_cdf, (size_t)s->guide.table_count * GUIDE_BINS),
     };
 
     for (int i = 0; i < CL_ARRAY_COUNT; i++) {
