@@ -53,8 +53,8 @@ static inline uint32_t guide_facing(struct vec3 n)
 
 /* The cell of a surface with this normal: in the cube that p is in or, outside
  * the grid, nearest to. */
-static inline uint32_t guide_cell(const struct guide_grid *g, struct vec3 p,
-                                  struct vec3 n)
+static inline uint32_t guide_cell_index(const struct guide_grid *g,
+                                        struct vec3 p, struct vec3 n)
 {
     struct vec3 at = v3_scale(v3_sub(p, g->lo), g->cells_a_unit);
     uint32_t x = (uint32_t)f_min(f_max(at.x, 0.0f), (float)(g->width - 1));
@@ -66,7 +66,7 @@ static inline uint32_t guide_cell(const struct guide_grid *g, struct vec3 p,
 }
 
 /* A cell without directions. */
-static inline struct guide_cell guide_none(void)
+static inline struct guide_cell guide_cell_none(void)
 {
     struct guide_cell none = {NO_INDEX, NO_INDEX};
 
@@ -78,8 +78,8 @@ static inline struct guide_cell guide_at(const struct world *w, struct vec3 p,
                                          struct vec3 n)
 {
     if (w->settings.guide.width == 0)
-        return guide_none();
-    return w->guide_cells[guide_cell(&w->settings.guide, p, n)];
+        return guide_cell_none();
+    return w->guide_cells[guide_cell_index(&w->settings.guide, p, n)];
 }
 
 static inline float guide_sign(float x)
@@ -159,7 +159,7 @@ static inline float guide_mixed_pdf(const struct world *w, uint32_t first,
 }
 
 /* What is left of u.x, no less than the table's share, for the other cases. */
-static inline struct vec2 guide_rest(struct vec2 u, float share)
+static inline struct vec2 guide_remap(struct vec2 u, float share)
 {
     u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);
     return u;
@@ -206,7 +206,7 @@ static inline bool guide_scatter(const struct world *w, uint32_t first,
         if (!sample_density(s, wi_local, f, pdf) ||
             !surface_sides_agree(v, *wi, wi_local.z))
             return false;
-    } else if (!surface_scatter(v, b, wo, guide_rest(u, share), choice, s,
+    } else if (!surface_scatter(v, b, wo, guide_remap(u, share), choice, s,
                                 wi)) {
         return false;
     }

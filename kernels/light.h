@@ -204,7 +204,7 @@ static inline struct vec3 sky_direction(const struct world *w,
 
         if (u.x < share)
             return guide_sample(w, first, u);
-        u = guide_rest(u, share);
+        u = guide_remap(u, share);
     }
     return sky_has_table(w) ? sky_sample(w, u) : cosine_around(r->n, u);
 }

@@ -378,7 +378,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     p->from.p = v.p;
     p->from.n = v.n;
     p->from.transmits = bsdf_transmits(&b);
-    p->cell = guide_none();
+    p->cell = guide_cell_none();
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
     /* The next direction is sampled before the shadow ray is traced, as it

@@ -148,7 +148,7 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
 static struct landing landing_of(const struct search *s, const struct photon *p,
                                  const struct surface_point *v)
 {
-    size_t cell = guide_cell(s->grid, v->p, v->ng);
+    size_t cell = guide_cell_index(s->grid, v->p, v->ng);
     struct landing l = {cell * GUIDE_BINS + guide_bin(v3_neg(p->ray.d)),
                         p->flux};
 

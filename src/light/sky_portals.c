@@ -214,7 +214,7 @@ static void look_around(void *context, uint32_t i, int worker)
                         &p->ray, &p->n);
     if (!l->is_there)
         return;
-    p->cell = guide_cell(s->grid, p->ray.o, p->n);
+    p->cell = guide_cell_index(s->grid, p->ray.o, p->n);
     for (uint32_t k = i * LOOKS; k < (i + 1) * LOOKS; k++)
         look(s, l, k);
 }

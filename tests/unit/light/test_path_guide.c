@@ -43,7 +43,7 @@ static void table_init(struct table *t, double share, uint64_t seed)
         uint32_t first = i / GUIDE_FACINGS * GUIDE_BINS;
 
         t->cells[i] =
-            has_none ? guide_none() : (struct guide_cell){first, first};
+            has_none ? guide_cell_none() : (struct guide_cell){first, first};
     }
     t->guide = (struct path_guide){
         .grid = {.lo = {-1, -1, -1}, .cells_a_unit = 1, 2, 2, 2, 7},
