@@ -17,7 +17,7 @@
 #include "kernels/ggx.h"
 
 /* What remains, by colour, of the light that one bounce loses. */
-static inline float metal_echo(float f0_mean, float loss_mean)
+static inline float multiscatter_color(float f0_mean, float loss_mean)
 {
     return f0_mean * f0_mean * (1.0f - loss_mean) /
            (1.0f - f0_mean * loss_mean);
@@ -26,14 +26,14 @@ static inline float metal_echo(float f0_mean, float loss_mean)
 /* The echo shines by (1 - E_i) mu_i, which is about 1 / mu_i down to alpha:
  * drawn by its cosine with the density b (1 + b) / (mu_i + b)^2, whose
  * weights stay below 1 / b; those of cosine_hemisphere() reach 1 / alpha^2. */
-static inline float echo_width(float alpha)
+static inline float multiscatter_width(float alpha)
 {
     return sqrtf(alpha);
 }
 
-static inline struct vec3 echo_direction(float alpha, struct vec2 u)
+static inline struct vec3 multiscatter_direction(float alpha, struct vec2 u)
 {
-    float b = echo_width(alpha);
+    float b = multiscatter_width(alpha);
     float z = b * u.y / (1.0f + b - u.y);
     float r = sqrtf(f_max((1.0f - z) * (1.0f + z), 0.0f));
     struct vec2 turn = cos_sin_turns(u.x);
@@ -41,9 +41,9 @@ static inline struct vec3 echo_direction(float alpha, struct vec2 u)
     return v3(r * turn.x, r * turn.y, z);
 }
 
-static inline float echo_pdf(struct vec3 wi, float alpha)
+static inline float multiscatter_pdf(struct vec3 wi, float alpha)
 {
-    float b = echo_width(alpha);
+    float b = multiscatter_width(alpha);
 
     return b * (1.0f + b) / ((wi.z + b) * (wi.z + b)) * (0.5f / PI);
 }
@@ -60,12 +60,13 @@ static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
     struct vec3 single = v3_scale(fresnel_schlick(m->color, v3_dot(wo, h)),
                                   ggx_reflection(wo, wi, h, m->alpha));
     struct vec3 multiple =
-        v3_scale(v3(metal_echo(f.x, loss_mean), metal_echo(f.y, loss_mean),
-                    metal_echo(f.z, loss_mean)),
+        v3_scale(v3(multiscatter_color(f.x, loss_mean),
+                    multiscatter_color(f.y, loss_mean),
+                    multiscatter_color(f.z, loss_mean)),
                  loss_o * loss_i / loss_mean * wi.z * (1.0f / PI));
 
     *pdf = (1.0f - loss_o) * ggx_reflection_pdf(wo, h, m->alpha) +
-           loss_o * echo_pdf(wi, m->alpha);
+           loss_o * multiscatter_pdf(wi, m->alpha);
     return v3_add(single, multiple);
 }
 
@@ -80,7 +81,7 @@ static inline bool metal_sample(const struct bsdf *m, struct vec3 wo,
         return sample_delta(s, v3(-wo.x, -wo.y, wo.z),
                             fresnel_schlick(m->color, wo.z));
     loss_o = ggx_albedo(wo.z, m->alpha).loss;
-    wi = choice < loss_o ? echo_direction(m->alpha, u)
+    wi = choice < loss_o ? multiscatter_direction(m->alpha, u)
                          : ggx_reflect(wo, m->alpha, u);
     if (!(wi.z > COSINE_MIN))
         return false;
