@@ -18,7 +18,7 @@
 #include "kernels/ggx.h"
 
 /* Schlick's albedo from that of its two parts: F0 (E - S) + S. */
-static inline struct vec3 coat_of(struct vec3 f0, struct ggx_albedo e)
+static inline struct vec3 coat_albedo_of(struct vec3 f0, struct ggx_albedo e)
 {
     float part = 1.0f - e.loss - e.schlick;
 
@@ -30,25 +30,25 @@ static inline struct vec3 coat_albedo(const struct bsdf *m, float mu)
 {
     if (is_smooth(m))
         return fresnel_schlick(m->coat, mu);
-    return coat_of(m->coat, ggx_albedo(mu, m->alpha));
+    return coat_albedo_of(m->coat, ggx_albedo(mu, m->alpha));
 }
 
 static inline struct vec3 coat_albedo_mean(const struct bsdf *m)
 {
     if (is_smooth(m))
         return fresnel_schlick_mean(m->coat);
-    return coat_of(m->coat, ggx_albedo_mean(m->alpha));
+    return coat_albedo_of(m->coat, ggx_albedo_mean(m->alpha));
 }
 
 /* (1 - o) (1 - i) / (1 - mean), nothing under a coat that reflects all. */
-static inline float base_share(float o, float i, float mean)
+static inline float base_scale(float o, float i, float mean)
 {
     return mean < 1.0f ? (1.0f - o) * (1.0f - i) / (1.0f - mean) : 0.0f;
 }
 
 /* The probability to follow the coat: its part of the light, by the sums of
  * the channels. coat_o: coat_albedo() at wo. */
-static inline float coat_chance(const struct bsdf *m, struct vec3 coat_o)
+static inline float coat_probability(const struct bsdf *m, struct vec3 coat_o)
 {
     float coat = coat_o.x + coat_o.y + coat_o.z;
     float base = m->color.x * (1.0f - coat_o.x) +
@@ -65,10 +65,10 @@ static inline struct vec3 plastic_terms(const struct bsdf *m, struct vec3 wo,
     struct vec3 coat_i = coat_albedo(m, wi.z);
     struct vec3 mean = coat_albedo_mean(m);
     float cosine = cosine_pdf(wi);
-    float chance = coat_chance(m, coat_o);
-    struct vec3 share = v3(base_share(coat_o.x, coat_i.x, mean.x),
-                           base_share(coat_o.y, coat_i.y, mean.y),
-                           base_share(coat_o.z, coat_i.z, mean.z));
+    float chance = coat_probability(m, coat_o);
+    struct vec3 share = v3(base_scale(coat_o.x, coat_i.x, mean.x),
+                           base_scale(coat_o.y, coat_i.y, mean.y),
+                           base_scale(coat_o.z, coat_i.z, mean.z));
     struct vec3 f = v3_scale(v3_mul(m->color, share), cosine);
     struct vec3 h;
 
@@ -86,7 +86,7 @@ static inline bool plastic_sample(const struct bsdf *m, struct vec3 wo,
                                   struct bsdf_sample *s)
 {
     struct vec3 coat_o = coat_albedo(m, wo.z);
-    float chance = coat_chance(m, coat_o);
+    float chance = coat_probability(m, coat_o);
     struct vec3 wi, f;
     float pdf;
 
