@@ -39,7 +39,7 @@ static inline bool bsdf_is_delta(const struct bsdf *m)
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
         return is_smooth(m);
     if (HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS)
-        return is_smooth(m) || glass_is_absent(m);
+        return is_smooth(m) || glass_is_index_matched(m);
     if (HAS(FEATURE_PLASTIC) && m->kind == MATERIAL_PLASTIC)
         return is_smooth(m) && v3_is_zero(m->color);
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS;

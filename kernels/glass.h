@@ -18,15 +18,15 @@
 #include "kernels/ggx.h"
 
 /* Closer to 1 an index is none: wo + eta wi would cancel. */
-#define ETA_STEP 1e-3f
+#define ETA_MATCHED 1e-3f
 
 /* Where E falls below, inside a medium hardly denser than its surroundings,
  * light stays lost rather than that single samples grow without bound. */
 #define GLASS_ALBEDO_MIN 0.05f
 
-static inline bool glass_is_absent(const struct bsdf *m)
+static inline bool glass_is_index_matched(const struct bsdf *m)
 {
-    return fabsf(m->eta - 1.0f) < ETA_STEP;
+    return fabsf(m->eta - 1.0f) < ETA_MATCHED;
 }
 
 /* Rough faces only. */
@@ -67,12 +67,14 @@ static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
 /* Radiance scales by this towards wi. */
 static inline float glass_eta_scale(const struct bsdf *m, struct vec3 wi)
 {
-    return wi.z < 0.0f && !glass_is_absent(m) ? 1.0f / (m->eta * m->eta) : 1.0f;
+    return wi.z < 0.0f && !glass_is_index_matched(m) ? 1.0f / (m->eta * m->eta)
+                                                     : 1.0f;
 }
 
 /* Reflection or refraction at a face with normal h, chosen by `choice`. */
-static inline struct vec3 glass_choose(const struct bsdf *m, struct vec3 wo,
-                                       struct vec3 h, float choice)
+static inline struct vec3 glass_reflect_or_refract(const struct bsdf *m,
+                                                   struct vec3 wo,
+                                                   struct vec3 h, float choice)
 {
     float c = v3_dot(wo, h);
     float cos_t;
@@ -89,8 +91,8 @@ static inline bool glass_sample_smooth(const struct bsdf *m, struct vec3 wo,
 {
     struct vec3 wi = v3_neg(wo);
 
-    if (!glass_is_absent(m))
-        wi = glass_choose(m, wo, v3(0.0f, 0.0f, 1.0f), choice);
+    if (!glass_is_index_matched(m))
+        wi = glass_reflect_or_refract(m, wo, v3(0.0f, 0.0f, 1.0f), choice);
     sample_delta(s, wi, wi.z < 0.0f ? m->color : v3(1.0f, 1.0f, 1.0f));
     s->eta_scale = glass_eta_scale(m, wi);
     return true;
@@ -103,12 +105,12 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
     struct vec3 h, wi, f;
     float pdf;
 
-    if (is_smooth(m) || glass_is_absent(m))
+    if (is_smooth(m) || glass_is_index_matched(m))
         return glass_sample_smooth(m, wo, choice, s);
     h = ggx_visible_normal(wo, m->alpha, 1.0f, u);
     if (!(v3_dot(wo, h) > 0.0f))
         return false;
-    wi = glass_choose(m, wo, h, choice);
+    wi = glass_reflect_or_refract(m, wo, h, choice);
     /* a reflection must end above the surface, a refraction below */
     if ((v3_dot(wi, h) > 0.0f) != (wi.z > 0.0f) || !(fabsf(wi.z) > COSINE_MIN))
         return false;
