@@ -122,10 +122,10 @@ static inline float power_weight(float pdf, float other)
 
 /* MIS weight of light that the path has met. light_pdf is the density with
  * which light_sample() would have drawn the same point. */
-static inline float chance_weight(const struct world *w, float pdf,
-                                  float light_pdf)
+static inline float bsdf_mis_weight(const struct world *w, float pdf,
+                                    float light_pdf)
 {
-    if (pdf == 0.0f || w->settings.direct == DIRECT_CHANCE)
+    if (pdf == 0.0f || w->settings.direct == DIRECT_BSDF)
         return 1.0f;
     if (w->settings.direct == DIRECT_LIGHTS)
         return light_pdf > 0.0f ? 0.0f : 1.0f;
@@ -134,8 +134,8 @@ static inline float chance_weight(const struct world *w, float pdf,
 
 /* MIS weight of a light sample. pdf is the density with which the BSDF would
  * have drawn the same direction. */
-static inline float light_weight(const struct world *w, float light_pdf,
-                                 float pdf)
+static inline float light_mis_weight(const struct world *w, float light_pdf,
+                                     float pdf)
 {
     return w->settings.direct == DIRECT_LIGHTS ? 1.0f
                                                : power_weight(light_pdf, pdf);
@@ -149,7 +149,7 @@ static inline void path_add_sky(const struct world *w, struct path *p)
             ? sky_light_terms(w, &p->from, p->cell.sky, p->ray.d, &pdf)
             : sky_radiance(w, p->ray.d);
 
-    path_add(p, radiance, chance_weight(w, p->pdf, pdf));
+    path_add(p, radiance, bsdf_mis_weight(w, p->pdf, pdf));
 }
 
 static inline void path_add_emission(const struct world *w, struct path *p,
@@ -163,7 +163,7 @@ static inline void path_add_emission(const struct world *w, struct path *p,
     if (p->pdf > 0.0f)
         light_pdf = light_pdf_at(w, &p->from, tri, v->p);
     path_add(p, emission_at(w, m, v->uv, v->has_uv),
-             chance_weight(w, p->pdf, light_pdf));
+             bsdf_mis_weight(w, p->pdf, light_pdf));
 }
 
 static inline uint32_t shadow_key(const struct path *p, uint32_t vertex)
@@ -195,8 +195,7 @@ static inline bool wants_light_sample(const struct world *w,
 
     if (HAS(FEATURE_EMITTERS))
         has_lights = has_lights || w->settings.light_count > 0;
-    return has_lights && w->settings.direct != DIRECT_CHANCE &&
-           !bsdf_is_delta(b);
+    return has_lights && w->settings.direct != DIRECT_BSDF && !bsdf_is_delta(b);
 }
 
 /* A light sample and its contribution to the pixel, if it is not occluded. */
@@ -229,9 +228,10 @@ path_choose_light(const struct world *w, const struct path *p,
     l->radiance = v3_mul(bsdf_terms(b, wo, wi, &pdf), l->at.radiance);
     if (v3_is_zero(l->radiance))
         return false;
-    l->radiance = path_part(p, l->radiance,
-                            bsdf_eta_scale(b, wi) *
-                                light_weight(w, l->at.pdf, pdf) / l->at.pdf);
+    l->radiance =
+        path_part(p, l->radiance,
+                  bsdf_eta_scale(b, wi) * light_mis_weight(w, l->at.pdf, pdf) /
+                      l->at.pdf);
     return shadow_survives(p, vertex, &l->radiance);
 }
 

@@ -179,7 +179,7 @@ struct guide_cell {
 enum direct {
     DIRECT_MIS,    /* both ways, weighed */
     DIRECT_LIGHTS, /* only from lights that are chosen */
-    DIRECT_CHANCE  /* only where paths meet them */
+    DIRECT_BSDF    /* only where paths meet them */
 };
 
 /* What a sample is: light, or what the ray through a pixel's middle meets. */

@@ -110,7 +110,7 @@ bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
     struct image im = {texels, width, height};
     struct sky sky = {.width = width, .height = height};
     double mean = texels != NULL ? mean_radiance(&im) : 0;
-    double floor = use == SKY_WITH_CHANCE ? mean : 0;
+    double floor = use == SKY_WITH_MIS ? mean : 0;
     double total = 0;
     double *rows;
 

@@ -25,8 +25,8 @@ struct sky_table {
 };
 
 enum sky_use {
-    SKY_WITH_CHANCE, /* compensated: for next-event estimation with MIS */
-    SKY_ALONE        /* nowhere zero where the sky shines */
+    SKY_WITH_MIS, /* compensated: for next-event estimation with MIS */
+    SKY_ALONE     /* nowhere zero where the sky shines */
 };
 
 /* No table for black and, with chance, constant skies. */

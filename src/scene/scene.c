@@ -303,7 +303,7 @@ bool scene_load_sky(struct scene *scene, const struct view *view,
                      view->lighting.sky_path, clamped_count);
     if (!sky_table_build(&table, (struct vec3 *)(void *)image.rgb,
                          (uint32_t)image.width, (uint32_t)image.height,
-                         SKY_WITH_CHANCE, err)) {
+                         SKY_WITH_MIS, err)) {
         image_free(&image);
         return false;
     }

@@ -137,8 +137,7 @@ static bool bench_sky(uint32_t width, struct error *err)
         texels[i] = v3(u.x, u.y, u.x > 0.999f ? 1000 : 0);
     }
     uint64_t begin_ns = clock_ns();
-    ok = ok ? sky_table_build(&table, texels, width, height, SKY_WITH_CHANCE,
-                              err)
+    ok = ok ? sky_table_build(&table, texels, width, height, SKY_WITH_MIS, err)
             : fail(err, "out of memory");
     double build_ms = (double)(clock_ns() - begin_ns) * 1e-6;
     if (ok) {

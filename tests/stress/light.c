@@ -516,7 +516,7 @@ static void check_truths(struct stage *s)
     const struct shot by_chance = {.eye = {0.1, 0.2, 0.9},
                                    .at = {0.1, 0, 0},
                                    .fovy_deg = 90,
-                                   .direct = DIRECT_CHANCE};
+                                   .direct = DIRECT_BSDF};
     const double open = 0.04 + 0.96 / (1.5 * 1.5);
     const double share = pow(0.02 / (2 * 2 * tan(2.5 * M_PI / 180)), 2);
     const struct truth truths[] = {

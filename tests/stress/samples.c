@@ -390,8 +390,8 @@ static void check_weights(void)
 
     for (float a = 1e-35f; a < 1e35f; a *= 10)
         for (float b = 1e-35f; b < 1e35f; b *= 10) {
-            double sum = (double)chance_weight(&w, a, b) +
-                         (double)light_weight(&w, b, a);
+            double sum = (double)bsdf_mis_weight(&w, a, b) +
+                         (double)light_mis_weight(&w, b, a);
 
             worst = fmax(worst, isfinite(sum) ? fabs(sum - 1) : INFINITY);
             count++;
@@ -400,11 +400,11 @@ static void check_weights(void)
         "%d pairs of densities: weights add up to 1 "
         "within %.2g, want 1e-6",
         count, worst);
-    row(chance_weight(&w, 0, 5) == 1 && chance_weight(&w, 5, 0) == 1 &&
-            light_weight(&w, 5, 0) == 1,
+    row(bsdf_mis_weight(&w, 0, 5) == 1 && bsdf_mis_weight(&w, 5, 0) == 1 &&
+            light_mis_weight(&w, 5, 0) == 1,
         "M14", "one density 0: the other way weighs %g, %g and %g, want 1",
-        (double)chance_weight(&w, 0, 5), (double)chance_weight(&w, 5, 0),
-        (double)light_weight(&w, 5, 0));
+        (double)bsdf_mis_weight(&w, 0, 5), (double)bsdf_mis_weight(&w, 5, 0),
+        (double)light_mis_weight(&w, 5, 0));
 }
 
 /* M13: what roulette does with weights that are none. */

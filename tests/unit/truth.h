@@ -61,7 +61,7 @@ static inline void stage_finish(struct stage *s)
 
     mesh_finish(&s->mesh);
     assert_true(lights_build(&s->lights, w, &err));
-    for (int use = SKY_WITH_CHANCE; use <= SKY_ALONE; use++)
+    for (int use = SKY_WITH_MIS; use <= SKY_ALONE; use++)
         assert_true(sky_table_build(&s->skies[use], w->sky_texels,
                                     w->settings.sky.width,
                                     w->settings.sky.height, (enum sky_use)use,
@@ -70,7 +70,7 @@ static inline void stage_finish(struct stage *s)
 
 static inline void stage_free(struct stage *s)
 {
-    sky_table_free(&s->skies[SKY_WITH_CHANCE]);
+    sky_table_free(&s->skies[SKY_WITH_MIS]);
     sky_table_free(&s->skies[SKY_ALONE]);
     lights_free(&s->lights);
     mesh_free(&s->mesh);
@@ -79,7 +79,7 @@ static inline void stage_free(struct stage *s)
 /* Lends the tables that this way of gathering light needs. */
 static inline void stage_gather(struct stage *s, enum direct direct)
 {
-    enum sky_use use = direct == DIRECT_LIGHTS ? SKY_ALONE : SKY_WITH_CHANCE;
+    enum sky_use use = direct == DIRECT_LIGHTS ? SKY_ALONE : SKY_WITH_MIS;
 
     s->mesh.world.settings.direct = direct;
     lights_lend(&s->lights, &s->mesh.world);
@@ -155,7 +155,7 @@ static inline void check_claim_this_way(const struct world *w,
 static inline void check_claim_at(struct stage *s, struct claim c,
                                   const char *file, int line)
 {
-    for (int direct = DIRECT_MIS; direct <= DIRECT_CHANCE; direct++) {
+    for (int direct = DIRECT_MIS; direct <= DIRECT_BSDF; direct++) {
         if ((c.without >> direct & 1) != 0)
             continue;
         stage_gather(s, (enum direct)direct);

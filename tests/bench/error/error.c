@@ -57,25 +57,24 @@ static const struct technique {
     enum need need;
     bool is_unguided;
 } techniques[] = {
-    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_CHANCE, NEED_NOTHING,
-     false},
-    {"first integrator", &paths_hashed, DIRECT_CHANCE, SKY_WITH_CHANCE,
-     NEED_NOTHING, true},
-    {"without light samples", &paths_whole, DIRECT_CHANCE, SKY_WITH_CHANCE,
+    {"everything", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_NOTHING, false},
+    {"first integrator", &paths_hashed, DIRECT_BSDF, SKY_WITH_MIS, NEED_NOTHING,
+     true},
+    {"without light samples", &paths_whole, DIRECT_BSDF, SKY_WITH_MIS,
      NEED_LIGHT_SAMPLES, false},
     {"without light by chance", &paths_whole, DIRECT_LIGHTS, SKY_ALONE,
      NEED_LIGHT_SAMPLES, false},
-    {"without sobol points", &paths_hashed, DIRECT_MIS, SKY_WITH_CHANCE,
+    {"without sobol points", &paths_hashed, DIRECT_MIS, SKY_WITH_MIS,
      NEED_NOTHING, false},
-    {"without the light tree", &paths_uniform, DIRECT_MIS, SKY_WITH_CHANCE,
+    {"without the light tree", &paths_uniform, DIRECT_MIS, SKY_WITH_MIS,
      NEED_LIGHTS, false},
     {"without compensation", &paths_whole, DIRECT_MIS, SKY_ALONE,
      NEED_SKY_TABLE, false},
-    {"without root in roulette", &paths_throughput, DIRECT_MIS, SKY_WITH_CHANCE,
+    {"without root in roulette", &paths_throughput, DIRECT_MIS, SKY_WITH_MIS,
      NEED_NOTHING, false},
-    {"with all shadow rays", &paths_shadows, DIRECT_MIS, SKY_WITH_CHANCE,
+    {"with all shadow rays", &paths_shadows, DIRECT_MIS, SKY_WITH_MIS,
      NEED_LIGHT_SAMPLES, false},
-    {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_CHANCE, NEED_GUIDE,
+    {"without the guide", &paths_whole, DIRECT_MIS, SKY_WITH_MIS, NEED_GUIDE,
      true},
 };
 
@@ -93,9 +92,9 @@ static const struct subject {
     double goal;
 } subjects[] = {
     {"cornell", SHIPPED, DIRECT_MIS, 30},
-    {"materials", SHIPPED, DIRECT_CHANCE, 0.95},
+    {"materials", SHIPPED, DIRECT_BSDF, 0.95},
     {"glass_mirror", SHIPPED, DIRECT_MIS, 0.95},
-    {"interior", SHIPPED, DIRECT_CHANCE, 0.95},
+    {"interior", SHIPPED, DIRECT_BSDF, 0.95},
     {"skylit", SHIPPED, DIRECT_MIS, 0.95},
     {"lights200", SHIPPED, DIRECT_MIS, 0.95},
     {"cornell", SHARED, DIRECT_MIS, 30},

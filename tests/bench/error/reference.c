@@ -186,7 +186,7 @@ bool reference_make(struct reference *r, struct session *s, enum direct direct,
         r->noise = reference_error(r, halves[0].rgb);
         snprintf(r->origin, sizeof r->origin, "2 halves of %d spp by %s",
                  HALF_SPP,
-                 direct == DIRECT_CHANCE
+                 direct == DIRECT_BSDF
                      ? "light met by chance alone"
                      : "glim itself, all techniques on, other seeds");
     }

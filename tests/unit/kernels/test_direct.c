@@ -123,7 +123,7 @@ static void same_mean(void **state)
         s.view.width_px = WIDTH;
         s.view.height_px = HEIGHT;
         measure(&s, DIRECT_MIS, &outcomes[DIRECT_MIS]);
-        measure(&s, DIRECT_CHANCE, &outcomes[DIRECT_CHANCE]);
+        measure(&s, DIRECT_BSDF, &outcomes[DIRECT_BSDF]);
         measure(&s, UNGUIDED, &outcomes[UNGUIDED]);
         fill_sky_table(&s.scene);
         measure(&s, DIRECT_LIGHTS, &outcomes[DIRECT_LIGHTS]);
@@ -146,7 +146,7 @@ static void same_mean(void **state)
         check_at_most(outcomes[DIRECT_MIS].noise,
                       1.1 * outcomes[DIRECT_LIGHTS].noise);
         check_at_most(outcomes[DIRECT_MIS].noise,
-                      1.1 * outcomes[DIRECT_CHANCE].noise);
+                      1.1 * outcomes[DIRECT_BSDF].noise);
         check_at_most(outcomes[DIRECT_MIS].noise,
                       1.1 * outcomes[UNGUIDED].noise);
         session_close(&s);

@@ -116,7 +116,7 @@ static void density_integrates_to_one(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
-        for (int use = SKY_WITH_CHANCE; use <= SKY_ALONE; use++) {
+        for (int use = SKY_WITH_MIS; use <= SKY_ALONE; use++) {
             struct dome d;
             double sum = 0;
 
@@ -152,7 +152,7 @@ static void samples_follow_the_density(void **state)
     const int n = 20000;
 
     (void)state;
-    for (int use = SKY_WITH_CHANCE; use <= SKY_ALONE; use++) {
+    for (int use = SKY_WITH_MIS; use <= SKY_ALONE; use++) {
         struct dome d;
         double expected[CELLS] = {0};
         int counts[CELLS] = {0};
@@ -237,7 +237,7 @@ static double irradiance(const struct world *w, struct vec3 n, int count,
 static void linear_sky_has_its_irradiance(void **state)
 {
     (void)state;
-    for (int use = SKY_WITH_CHANCE; use <= SKY_ALONE; use++) {
+    for (int use = SKY_WITH_MIS; use <= SKY_ALONE; use++) {
         struct dome d;
         uint64_t seed = 12;
 
@@ -293,7 +293,7 @@ static void hot_texel_makes_no_firefly(void **state)
     double error, most, e;
 
     (void)state;
-    dome_init(&d, s.width, s.height, SKY_WITH_CHANCE, spot_radiance, &s);
+    dome_init(&d, s.width, s.height, SKY_WITH_MIS, spot_radiance, &s);
     e = irradiance(&d.world, n, 200000, &error, &most);
     check_close(e, truth, Z_LIMIT * error + 1e-4 * truth);
     /* the tent is 16/9 times its mean over the texel at its peak, and the
@@ -373,7 +373,7 @@ static void flat_skies_have_no_table(void **state)
         struct light_sample s;
         struct dome d;
 
-        dome_init(&d, 20, 10, SKY_WITH_CHANCE, constant, &level);
+        dome_init(&d, 20, 10, SKY_WITH_MIS, constant, &level);
         assert_null(d.table.sums);
         assert_true(d.world.settings.sky_share == (level > 0 ? 1 : 0));
         assert_true(sky_light_pdf(&d.world, &r, v3(-0.6f, 0, 0.8f)) == 0);
