@@ -176,7 +176,7 @@ static inline uint32_t shadow_key(const struct path *p, uint32_t vertex)
 static inline bool shadow_survives(const struct path *p, uint32_t vertex,
                                    struct vec3 *light)
 {
-    float q = shadow_survival(*light, p->out.radiance);
+    float q = roulette_shadow_survival(*light, p->out.radiance);
 
     if (!(q < 1.0f))
         return true;
@@ -300,7 +300,7 @@ static inline bool path_scatter(const struct world *w, struct path *p,
 /* Russian roulette. Returns false if the path is terminated. */
 static inline bool path_survives(struct path *p, uint32_t vertex, float u)
 {
-    float q = survival(p->beta, vertex);
+    float q = roulette_survival(p->beta, vertex);
 
     p->beta = v3_scale(p->beta, 1.0f / q);
     return u < q;

@@ -18,7 +18,7 @@
 /* With which probability a path goes on that counts beta after this vertex, the
  * first of which is 1. 0: never, also where beta is no number. Without
  * branches, as vertices come in no order that could be foreseen. */
-static inline float survival(struct vec3 beta, uint32_t vertex)
+static inline float roulette_survival(struct vec3 beta, uint32_t vertex)
 {
     float q = sqrtf(v3_max_component(beta));
     float is_first = (float)((uint32_t)(vertex == 1) & (uint32_t)(q > 0.0f));
@@ -28,7 +28,7 @@ static inline float survival(struct vec3 beta, uint32_t vertex)
 
 /* With which probability a shadow ray is traced that would add `light` to a
  * path that has gathered `sum`. 1 or more: surely. */
-static inline float shadow_survival(struct vec3 light, struct vec3 sum)
+static inline float roulette_shadow_survival(struct vec3 light, struct vec3 sum)
 {
     return v3_max_component(light) / (0.25f * v3_max_component(sum));
 }

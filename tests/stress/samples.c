@@ -21,7 +21,7 @@ static enum { ROULETTE_OURS, ROULETTE_PLAIN, ROULETTE_NONE, ROULETTES } played;
 static float played_survival(struct vec3 beta, uint32_t vertex)
 {
     if (played == ROULETTE_OURS)
-        return survival(beta, vertex);
+        return roulette_survival(beta, vertex);
     if (played == ROULETTE_PLAIN)
         return f_min(v3_max_component(beta), 1.0f);
     return v3_max_component(beta) > 0.0f ? 1.0f : 0.0f;

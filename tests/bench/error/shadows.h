@@ -16,6 +16,6 @@ static inline float always(struct vec3 light, struct vec3 sum)
     return 1.0f;
 }
 
-#define shadow_survival always
+#define roulette_shadow_survival always
 
 #endif
