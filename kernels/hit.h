@@ -253,7 +253,7 @@ static inline float aimed_distance(struct ray r, struct vec3 p0, struct vec3 p1,
 
 /* Where a hit is, with a bound of its rounding error on each axis: from the
  * barycentrics, so that the distance travelled does not matter. It has seven
- * roundings, and leave_surface() has less than two more. */
+ * roundings, and offset_ray_origin() has less than two more. */
 static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
                                     struct vec3 p1, struct vec3 p2,
                                     struct vec3 *error)
@@ -275,9 +275,9 @@ static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
  * neighbour as well, or by its error behind it, and what left it could leave a
  * closed mesh: it is drawn towards the middle of its triangle until it is as
  * far from each edge as all its errors. */
-static inline struct vec3 hit_inside(struct hit h, struct vec3 p0,
-                                     struct vec3 p1, struct vec3 p2,
-                                     struct vec3 *error)
+static inline struct vec3 hit_point_inset(struct hit h, struct vec3 p0,
+                                          struct vec3 p1, struct vec3 p2,
+                                          struct vec3 *error)
 {
     float least = f_min(h.b0, f_min(h.b1, h.b2));
     struct vec3 p = hit_point(h, p0, p1, p2, error);
@@ -302,17 +302,17 @@ static inline struct vec3 hit_inside(struct hit h, struct vec3 p0,
 
 /* How far in front of its face a ray begins at least: where a plane's
  * coordinate is 0 there is no error. Lost in rounding elsewhere. */
-#define LEAVE_MIN 0x1p-100f
+#define ORIGIN_OFFSET_MIN 0x1p-100f
 
 /* The origin of a ray that leaves p on the side of the unit normal ng: out of
  * reach of p's error, which has room for the rounding here. */
-static inline struct vec3 leave_surface(struct vec3 p, struct vec3 error,
-                                        struct vec3 ng)
+static inline struct vec3 offset_ray_origin(struct vec3 p, struct vec3 error,
+                                            struct vec3 ng)
 {
     float distance =
         fabsf(ng.x) * error.x + fabsf(ng.y) * error.y + fabsf(ng.z) * error.z;
 
-    return v3_add(p, v3_scale(ng, distance + LEAVE_MIN));
+    return v3_add(p, v3_scale(ng, distance + ORIGIN_OFFSET_MIN));
 }
 
 /* Scales v until its largest component is 1. False if that is 0. Of numbers

@@ -63,8 +63,8 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     v->is_outside = v3_dot(t.ng, wo) > 0.0f;
     v->ng = v3_scale(t.ng, minus_if(!v->is_outside));
     v->n = shading_normal(w, t, h, v->ng, wo);
-    v->p = hit_inside(h, p0, p1, p2, &v->p_error);
-    v->above = leave_surface(v->p, v->p_error, v->ng);
+    v->p = hit_point_inset(h, p0, p1, p2, &v->p_error);
+    v->above = offset_ray_origin(v->p, v->p_error, v->ng);
     v->is_lifted = false;
     v->face = h.tri + 1u;
     v->has_uv = t.vt[0] != NO_INDEX;
@@ -148,7 +148,7 @@ static inline void surface_lift(const struct world *w, uint32_t tri,
     if (v->is_lifted) {
         v->p = v3_add(v->p, up);
         v->p_error = v3_scale(v->p_error, 2.0f);
-        v->above = leave_surface(v->p, v->p_error, v->ng);
+        v->above = offset_ray_origin(v->p, v->p_error, v->ng);
         v->face = 0;
     }
 }
@@ -176,7 +176,8 @@ static inline struct surface_point surface_of_face(struct surface_point v)
 static inline struct vec3 surface_ray_origin(const struct surface_point *v,
                                              float z)
 {
-    return z > 0.0f ? v->above : leave_surface(v->p, v->p_error, v3_neg(v->ng));
+    return z > 0.0f ? v->above
+                    : offset_ray_origin(v->p, v->p_error, v3_neg(v->ng));
 }
 
 /* A ray that leaves the surface in direction d, whose cosine to n is z. Its

@@ -127,8 +127,8 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
         return false;
     to =
         hit_point(triangle_point(photon_2d(i, 1, 0)), b[0], b[1], b[2], &error);
-    from = hit_inside(triangle_point(photon_2d(i, 1, 1)), a[0], a[1], a[2],
-                      &error);
+    from = hit_point_inset(triangle_point(photon_2d(i, 1, 1)), a[0], a[1], a[2],
+                           &error);
     d = v3_sub(to, from);
     if (!(v3_dot(d, d) > DISTANCE2_LEAST))
         return false;
@@ -138,7 +138,7 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     if (cos_b > 0.0f &&
         w->materials[w->tris[p->aim].material].kind == MATERIAL_GLASS)
         return false;
-    p->ray.o = leave_surface(from, error, cos_a > 0.0f ? na : v3_neg(na));
+    p->ray.o = offset_ray_origin(from, error, cos_a > 0.0f ? na : v3_neg(na));
     p->ray.key = hash_u32(i);
     p->ray.from = light + 1;
     p->flux = fabsf(cos_a * cos_b) / v3_dot(d, d);

@@ -116,8 +116,8 @@ static bool leave(const struct world *w, struct hit h, struct vec3 side,
     if (v3_dot(*n, side) < 0.0f)
         *n = v3_neg(*n);
     tri_corners(w, h.tri, p);
-    at = hit_inside(h, p[0], p[1], p[2], &error);
-    r->o = leave_surface(at, error, *n);
+    at = hit_point_inset(h, p[0], p[1], p[2], &error);
+    r->o = offset_ray_origin(at, error, *n);
     r->from = h.tri + 1;
     return true;
 }

@@ -243,7 +243,7 @@ static bool land(uint64_t *seed, float size, struct place *x)
     r.d = v3_unit(v3_sub(aim, r.o));
     if (!triangle_hit(r, shear_of(r), x->p[0], x->p[1], x->p[2], FLOAT_MAX, &h))
         return false;
-    x->at = hit_inside(h, x->p[0], x->p[1], x->p[2], &x->error);
+    x->at = hit_point_inset(h, x->p[0], x->p[1], x->p[2], &x->error);
     return true;
 }
 
@@ -268,8 +268,8 @@ static void leave_faces(void *context, uint32_t item, int worker)
             v3_sub(r.d, v3_scale(x.ng, (1 - nearness) * v3_dot(r.d, x.ng))));
         if (v3_dot(r.d, x.ng) == 0.0f)
             continue;
-        r.o = leave_surface(x.at, x.error,
-                            v3_dot(r.d, x.ng) > 0 ? x.ng : v3_neg(x.ng));
+        r.o = offset_ray_origin(x.at, x.error,
+                                v3_dot(r.d, x.ng) > 0 ? x.ng : v3_neg(x.ng));
         shot++;
         bad +=
             triangle_hit(r, shear_of(r), x.p[0], x.p[1], x.p[2], FLOAT_MAX, &h);
@@ -368,8 +368,8 @@ static void cross_gaps(void *context, uint32_t item, int worker)
         r.d = v3_unit(v3_sub(middle, r.o));
         if (!triangle_hit(r, shear_of(r), p[0], p[1], p[2], FLOAT_MAX, &h))
             continue;
-        at = hit_inside(h, p[0], p[1], p[2], &error);
-        r.o = leave_surface(at, error, ng);
+        at = hit_point_inset(h, p[0], p[1], p[2], &error);
+        r.o = offset_ray_origin(at, error, ng);
         r.d = direction(&seed);
         if (v3_dot(r.d, ng) < 0.05f) /* shallower ones may miss its border */
             continue;

@@ -247,14 +247,14 @@ static void edges_are_left_inwards(void **state)
         r.d = v3_unit(v3_sub(at, r.o));
         assert_true(hit_closest(&m.world, r, &h));
         t = m.tris[h.tri];
-        p = hit_inside(h, m.positions[t.v[0]], m.positions[t.v[1]],
-                       m.positions[t.v[2]], &error);
+        p = hit_point_inset(h, m.positions[t.v[0]], m.positions[t.v[1]],
+                            m.positions[t.v[2]], &error);
         assert_true(triangle_normal(m.positions[t.v[0]], m.positions[t.v[1]],
                                     m.positions[t.v[2]], &ng));
         ng = v3_neg(ng); /* a box is wound outwards */
         r.d = v3_unit(point(&seed));
         r.d = v3_dot(r.d, ng) < 0 ? v3_neg(r.d) : r.d;
-        r.o = leave_surface(p, error, ng);
+        r.o = offset_ray_origin(p, error, ng);
         assert_true(hit_closest(&m.world, r, &h));
     }
     mesh_free(&m);
@@ -347,7 +347,7 @@ static void no_ray_hits_its_own_face(void **state)
         in.d = v3_unit(v3_sub(aim, in.o));
         if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
             continue;
-        p = hit_inside(h, p0, p1, p2, &error);
+        p = hit_point_inset(h, p0, p1, p2, &error);
         frame_around(ng, &t, &b);
         out.d = v3_add(v3_add(v3_scale(t, (float)(rest * cos(angle))),
                               v3_scale(b, (float)(rest * sin(angle)))),
@@ -355,7 +355,7 @@ static void no_ray_hits_its_own_face(void **state)
         out.d = v3_unit(out.d);
         if (!(v3_dot(out.d, ng) > 0))
             continue;
-        out.o = leave_surface(p, error, ng);
+        out.o = offset_ray_origin(p, error, ng);
         assert_false(
             triangle_hit(out, shear_of(out), p0, p1, p2, FLOAT_MAX, &again));
     }
@@ -385,12 +385,12 @@ static void near_sheets_are_both_hit(void **state)
             v3_sub(v3_scale(v3_add(p0, v3_add(p1, p2)), 1 / 3.0f), in.o));
         if (!triangle_hit(in, shear_of(in), p0, p1, p2, FLOAT_MAX, &h))
             continue;
-        p = hit_inside(h, p0, p1, p2, &error);
+        p = hit_point_inset(h, p0, p1, p2, &error);
         q0 = v3_add(p0, v3_scale(ng, 1e-5f));
         q1 = v3_add(p1, v3_scale(ng, 1e-5f));
         q2 = v3_add(p2, v3_scale(ng, 1e-5f));
         frame_around(ng, &t, &b);
-        out.o = leave_surface(p, error, ng);
+        out.o = offset_ray_origin(p, error, ng);
         out.d = v3_unit(v3_add(v3_add(v3_scale(t, (float)(rest * cos(angle))),
                                       v3_scale(b, (float)(rest * sin(angle)))),
                                v3_scale(ng, (float)z)));
