@@ -16,11 +16,11 @@ enum feature {
     FEATURE_PLASTIC = 16, /* a coat over diffuse */
     FEATURE_ROUGH = 32,   /* metal, glass or coat that is not smooth */
     FEATURE_ROUGH_DIFFUSE = 64,
-    FEATURE_SKY_IMAGE = 128,  /* the sky is an image */
-    FEATURE_EMITTERS = 256,   /* surfaces that shine */
-    FEATURE_BUMPS = 512,      /* maps of heights or normals */
-    FEATURE_FIRST_HIT = 1024, /* samples are no light: see aov.h */
-    FEATURE_GUIDE = 2048      /* directions of hidden light: guide.h */
+    FEATURE_SKY_IMAGE = 128, /* the sky is an image */
+    FEATURE_EMITTERS = 256,  /* surfaces that shine */
+    FEATURE_BUMPS = 512,     /* maps of heights or normals */
+    FEATURE_AOV = 1024,      /* samples are no light: see aov.h */
+    FEATURE_GUIDE = 2048     /* directions of hidden light: guide.h */
 };
 
 #define FEATURES_ALL 4095u

@@ -407,7 +407,7 @@ static inline struct path_sample path_follow(const struct world *w,
     struct path p;
     uint32_t vertex = 1;
 
-    if (HAS(FEATURE_FIRST_HIT) && w->settings.sample != SAMPLE_LIGHT)
+    if (HAS(FEATURE_AOV) && w->settings.sample != SAMPLE_LIGHT)
         return aov_sample(w, r, h);
     path_open(&p, r, sampler);
     while (path_extend(w, &p, vertex, &h))

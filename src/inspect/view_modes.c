@@ -334,7 +334,7 @@ static bool find_numbers(struct view_mode *s, const struct frame *frame,
         return fail_memory(frame, err);
     w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
     w.settings.sample = kinds[s->kind].sample;
-    w.settings.features |= FEATURE_FIRST_HIT;
+    w.settings.features |= FEATURE_AOV;
     aov_of_pixels(s->pool, &w, frame->width, frame->height, s->numbers);
     return true;
 }

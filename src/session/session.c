@@ -290,7 +290,7 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     features = job.world.settings.features;
     if (spp == 0 && s->sample != SAMPLE_LIGHT) {
         job.world.settings.sample = s->sample;
-        job.world.settings.features |= FEATURE_FIRST_HIT;
+        job.world.settings.features |= FEATURE_AOV;
     }
     s->restart_ns = clock_ns();
     s->speeds = (struct speeds){0};

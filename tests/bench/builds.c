@@ -90,7 +90,7 @@ static void bench(const char *path)
     open_scene(&s, path);
     rate(&s, 0, crop, SPP, &p); /* loads code and data */
     for (int i = 0; i < ROUNDS; i++) {
-        whole[i] = rate(&s, FEATURE_FIRST_HIT, crop, SPP, &p);
+        whole[i] = rate(&s, FEATURE_AOV, crop, SPP, &p);
         fit[i] = rate(&s, 0, crop, SPP, &p);
     }
     double all = median(whole, ROUNDS), own = median(fit, ROUNDS);
@@ -107,8 +107,8 @@ static void once(const char *build, const char *path)
     struct session s;
 
     open_scene(&s, path);
-    rate(&s, strcmp(build, "whole") == 0 ? FEATURE_FIRST_HIT : 0, crop,
-         SMALL_SPP, &p);
+    rate(&s, strcmp(build, "whole") == 0 ? FEATURE_AOV : 0, crop, SMALL_SPP,
+         &p);
     printf("%llu\n", (unsigned long long)p.samples);
     session_close(&s);
 }

@@ -126,7 +126,7 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                  err.text);
     job.world.settings.sample = p->sample;
     if (p->sample != SAMPLE_LIGHT)
-        job.world.settings.features |= FEATURE_FIRST_HIT;
+        job.world.settings.features |= FEATURE_AOV;
     check_or_say(render_start(p->renders[which], &job, &err), err.text);
 }
 

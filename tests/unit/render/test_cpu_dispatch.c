@@ -37,7 +37,7 @@ static void a_build_fits(void **state)
         }
         assert_int_equal(cpu_kernel_fit(whole, FEATURE_EMITTERS)->features,
                          FEATURE_EMITTERS);
-        assert_ptr_equal(cpu_kernel_fit(whole, FEATURE_FIRST_HIT), whole);
+        assert_ptr_equal(cpu_kernel_fit(whole, FEATURE_AOV), whole);
     }
 }
 
