@@ -10,14 +10,14 @@
 #include "kernels/camera.h"
 #include "kernels/rng.h"
 
-struct path_start {
+struct camera_sample {
     struct ray ray;
     struct sampler sampler;
 };
 
 /* Of sample `index` of pixel (x, y) of the whole picture. */
-static inline struct sampler path_sampler(const struct settings *s, uint32_t x,
-                                          uint32_t y, uint64_t index)
+static inline struct sampler
+camera_sampler(const struct settings *s, uint32_t x, uint32_t y, uint64_t index)
 {
     return s->order == ORDER_DRAFT
                ? sampler_start_draft(x, y, (uint32_t)index, s->seed)
@@ -25,9 +25,9 @@ static inline struct sampler path_sampler(const struct settings *s, uint32_t x,
 }
 
 /* The camera's ray of a sample through a point of pixel (x, y). */
-static inline struct ray path_ray(const struct settings *s, uint32_t x,
-                                  uint32_t y, struct vec2 point,
-                                  struct sampler sampler)
+static inline struct ray camera_sample_ray(const struct settings *s, uint32_t x,
+                                           uint32_t y, struct vec2 point,
+                                           struct sampler sampler)
 {
     struct ray r;
 
@@ -40,14 +40,16 @@ static inline struct ray path_ray(const struct settings *s, uint32_t x,
     return r;
 }
 
-static inline struct path_start path_begin(const struct settings *s, uint32_t x,
-                                           uint32_t y, uint64_t index)
+static inline struct camera_sample camera_sample_begin(const struct settings *s,
+                                                       uint32_t x, uint32_t y,
+                                                       uint64_t index)
 {
-    struct path_start start;
+    struct camera_sample start;
 
-    start.sampler = path_sampler(s, x, y, index);
-    start.ray = path_ray(s, x, y, random_2d(start.sampler, DIMENSION_PIXEL),
-                         start.sampler);
+    start.sampler = camera_sampler(s, x, y, index);
+    start.ray =
+        camera_sample_ray(s, x, y, random_2d(start.sampler, DIMENSION_PIXEL),
+                          start.sampler);
     return start;
 }
 

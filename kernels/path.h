@@ -436,7 +436,7 @@ VECTORISED static void path_points(const struct settings *s,
 {
     for (uint32_t i = 0; i < count; i++)
         samplers[i] =
-            path_sampler(s, places[i].x, places[i].y, places[i].index);
+            camera_sampler(s, places[i].x, places[i].y, places[i].index);
     for (uint32_t i = 0; i < count; i++)
         points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
 }
@@ -460,8 +460,8 @@ static inline void path_samples(const struct world *w,
     path_points(&w->settings, all, HAS_WIDE_VECTORS ? SAMPLE_BLOCK : count,
                 samplers, points);
     for (uint32_t i = 0; i < count; i++) {
-        rays[i] =
-            path_ray(&w->settings, all[i].x, all[i].y, points[i], samplers[i]);
+        rays[i] = camera_sample_ray(&w->settings, all[i].x, all[i].y, points[i],
+                                    samplers[i]);
         path_set_key(w, samplers[i], 1, &rays[i]);
     }
     hits_closest(w, rays, count, hits);

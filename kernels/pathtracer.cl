@@ -10,7 +10,7 @@
 /* A path that is not traced, or cancelled, has no rays. */
 __kernel void trace_paths(
     struct task task, volatile __global const uint *cancel,
-    __global const struct path_start *starts,
+    __global const struct camera_sample *starts,
     __global struct path_sample *samples,
     __global const struct settings *settings,
     __global const struct vec3 *positions, __global const struct vec3 *normals,

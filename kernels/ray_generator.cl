@@ -9,7 +9,7 @@ __kernel void generate_rays(struct task task,
                             volatile __global const uint *cancel,
                             __global const struct settings *settings,
                             __global const ulong *counts,
-                            __global struct path_start *starts)
+                            __global struct camera_sample *starts)
 {
     uint i = (uint)get_global_id(0);
     uint point = i / task.samples;
@@ -21,7 +21,7 @@ __kernel void generate_rays(struct task task,
     if (index < task.target) {
         struct settings s = *settings;
 
-        starts[i] = path_begin(&s, task.x0 + task_x(task, point),
+        starts[i] = camera_sample_begin(&s, task.x0 + task_x(task, point),
                                task.y0 + task_y(task, point), index);
     } else {
         starts[i].ray.t_max = -1.0f; /* no path */

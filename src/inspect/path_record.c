@@ -54,7 +54,7 @@ static enum path_record_way way_of(const struct world *w, struct ray before,
 void path_record_follow(struct path_record *t, const struct world *w,
                         uint32_t x, uint32_t y, uint64_t index)
 {
-    struct path_start start = path_begin(&w->settings, x, y, index);
+    struct camera_sample start = camera_sample_begin(&w->settings, x, y, index);
     bool goes_on = true;
     struct path p;
     struct hit h;

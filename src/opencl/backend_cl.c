@@ -181,7 +181,7 @@ static bool make_room(struct backend_cl *b, struct slot *s, uint32_t paths,
     cl_machine_drop(m, &s->starts);
     cl_machine_drop(m, &s->samples);
     s->capacity = 0;
-    s->starts = cl_machine_buffer(m, NULL, paths * sizeof(struct path_start),
+    s->starts = cl_machine_buffer(m, NULL, paths * sizeof(struct camera_sample),
                                   false, err);
     if (s->starts != NULL)
         s->samples =

@@ -86,7 +86,7 @@ static void finds_what_the_render_finds(void **state)
     w.leaf_tris = bvh.leaf_tris;
     for (uint32_t i = 0; i < 1000; i++) {
         uint32_t x = i * 617 % 1024, y = i * 211 % 576;
-        struct path_start start = path_begin(&w.settings, x, y, i);
+        struct camera_sample start = camera_sample_begin(&w.settings, x, y, i);
         struct vec2 at = random_2d(start.sampler, DIMENSION_PIXEL);
         struct pick pick;
         struct hit hit;
