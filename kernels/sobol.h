@@ -48,7 +48,7 @@ static inline uint32_t reverse_bits(uint32_t x)
 
 /* A permutation in which each bit is flipped or not as the lower ones say:
  * Owen's scrambling of the number whose bits these are in reverse. */
-static inline uint32_t scramble_upwards(uint32_t x, uint32_t key)
+static inline uint32_t laine_karras_permutation(uint32_t x, uint32_t key)
 {
     x ^= x * 0x3d20adeau;
     x += key;
@@ -72,13 +72,13 @@ static inline uint32_t pascal_bits(uint32_t p)
 /* The point of this index, given with its bits reversed. */
 static inline struct bits2 sobol_point(uint32_t reversed_index, uint32_t key)
 {
-    uint32_t i = reverse_bits(scramble_upwards(reversed_index, key));
+    uint32_t i = reverse_bits(laine_karras_permutation(reversed_index, key));
     uint32_t key_x = hash_u32(key + 0x9e3779b9u);
     uint32_t key_y = hash_u32(key + 0x3c6ef372u);
     struct bits2 p;
 
-    p.x = reverse_bits(scramble_upwards(i, key_x));
-    p.y = reverse_bits(scramble_upwards(pascal_bits(i), key_y));
+    p.x = reverse_bits(laine_karras_permutation(i, key_x));
+    p.y = reverse_bits(laine_karras_permutation(pascal_bits(i), key_y));
     return p;
 }
 
