@@ -94,7 +94,7 @@ enum tone {
 };
 
 /* Beyond it every curve has reached its end, and products stay finite. */
-#define TONE_MOST 1e6f
+#define TONE_MAX 1e6f
 
 static inline float aces(float x)
 {
@@ -109,7 +109,7 @@ static inline void tone_curve(uint32_t tone, float *rgb)
     if (tone == TONE_LINEAR)
         return;
     for (int c = 0; c < 3; c++)
-        rgb[c] = rgb[c] < TONE_MOST ? rgb[c] : TONE_MOST;
+        rgb[c] = rgb[c] < TONE_MAX ? rgb[c] : TONE_MAX;
     luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
     for (int c = 0; c < 3; c++)
         rgb[c] = tone == TONE_ACES ? aces(rgb[c]) : rgb[c] / (1.0f + luminance);
