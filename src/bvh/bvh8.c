@@ -21,7 +21,7 @@
  * cost of 4. Large triangles that would share a block are better apart, where a
  * node can hold them with others: rooms save 5 to 15 %; small ones cost as much
  * by the memory. */
-const struct bvh_leaves wide_leaves = {2, 1, 4.0f, BVH8_LEAF_TRIS};
+const struct bvh_leaves bvh8_leaves = {2, 1, 4.0f, BVH8_LEAF_TRIS};
 
 /* Which nodes of the binary tree are the children of a node, and which nodes,
  * first blocks or parts these become. */
@@ -322,7 +322,7 @@ bool bvh8_build(struct bvh8 *wide, const struct world *w, struct pool *pool,
     bool ok;
 
     bvh8_free(wide);
-    if (!bvh_build_nodes(&bvh, w, &wide_leaves, pool, err))
+    if (!bvh_build_nodes(&bvh, w, &bvh8_leaves, pool, err))
         return false;
     ok = bvh.node_count == 0 || build(&b, pool);
     end(&b);

@@ -65,7 +65,7 @@ struct bvh8_world {
 };
 
 /* The binary tree that it is made from. */
-extern const struct bvh_leaves wide_leaves;
+extern const struct bvh_leaves bvh8_leaves;
 
 /* Tests of a block in visits of a node. Measured: flat from 0.7 to 1, where
  * memory grows. */

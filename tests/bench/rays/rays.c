@@ -235,7 +235,7 @@ static bool time_reinsertion(const struct contest *c, struct pool *pool,
                              struct spent *spent, struct error *err)
 {
     struct bvh bvh = {.nodes = NULL};
-    bool ok = bvh_split(&bvh, &c->shape.world, &wide_leaves, pool, err);
+    bool ok = bvh_split(&bvh, &c->shape.world, &bvh8_leaves, pool, err);
     struct spent begin = spent_now();
 
     ok = ok && bvh_reinsert(&bvh);

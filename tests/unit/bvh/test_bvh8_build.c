@@ -102,7 +102,7 @@ static struct bvh binary_of(const struct mesh *m)
     struct bvh bvh = {0};
     struct error err;
 
-    assert_true(bvh_build_nodes(&bvh, &m->world, &wide_leaves, NULL, &err));
+    assert_true(bvh_build_nodes(&bvh, &m->world, &bvh8_leaves, NULL, &err));
     return bvh;
 }
 
