@@ -19,13 +19,13 @@
 #define ROOT_SMOOTH 0.0223606798f
 
 /* Four neighbouring nodes of a table and their weights. */
-struct nodes {
+struct cubic_nodes {
     uint32_t first;
     float w[4];
 };
 
 /* Lagrange's cubic through the nodes around t, which runs from 0 to 1. */
-static inline struct nodes nodes_around(float t, uint32_t count)
+static inline struct cubic_nodes cubic_nodes_around(float t, uint32_t count)
 {
     float x = f_min(f_max(t, 0.0f), 1.0f) * (float)(count - 1u);
     float first = f_min(f_max(floorf(x) - 1.0f, 0.0f), (float)(count - 4u));
@@ -33,7 +33,7 @@ static inline struct nodes nodes_around(float t, uint32_t count)
     float b = a - 1.0f;
     float c = a - 2.0f;
     float d = a - 3.0f;
-    struct nodes n;
+    struct cubic_nodes n;
 
     n.first = (uint32_t)first;
     n.w[0] = b * c * d * (-1.0f / 6.0f);
@@ -84,8 +84,10 @@ struct ggx_albedo {
 
 static inline struct ggx_albedo ggx_albedo(float mu, float alpha)
 {
-    struct nodes a = nodes_around(energy_axis_alpha(alpha), GGX_ALPHA_NODES);
-    struct nodes m = nodes_around(energy_axis_mu(mu, alpha), GGX_MU_NODES);
+    struct cubic_nodes a =
+        cubic_nodes_around(energy_axis_alpha(alpha), GGX_ALPHA_NODES);
+    struct cubic_nodes m =
+        cubic_nodes_around(energy_axis_mu(mu, alpha), GGX_MU_NODES);
     struct ggx_albedo e = {0.0f, 0.0f};
     float shift = 0.0f;
     float c;
@@ -108,7 +110,8 @@ static inline struct ggx_albedo ggx_albedo(float mu, float alpha)
 /* 2 int albedo mu dmu. */
 static inline struct ggx_albedo ggx_albedo_mean(float alpha)
 {
-    struct nodes a = nodes_around(energy_axis_alpha(alpha), GGX_MEAN_NODES);
+    struct cubic_nodes a =
+        cubic_nodes_around(energy_axis_alpha(alpha), GGX_MEAN_NODES);
     struct ggx_albedo e = {0.0f, 0.0f};
 
     for (uint32_t i = 0; i < 4; i++) {
@@ -122,9 +125,12 @@ static inline struct ggx_albedo ggx_albedo_mean(float alpha)
 /* The albedo of rough glass, reflection and transmission together. */
 static inline float glass_albedo(float mu, float alpha, float eta)
 {
-    struct nodes e = nodes_around(energy_axis_eta(eta), GLASS_ETA_NODES);
-    struct nodes a = nodes_around(energy_axis_alpha(alpha), GLASS_ALPHA_NODES);
-    struct nodes m = nodes_around(energy_axis_mu(mu, alpha), GLASS_MU_NODES);
+    struct cubic_nodes e =
+        cubic_nodes_around(energy_axis_eta(eta), GLASS_ETA_NODES);
+    struct cubic_nodes a =
+        cubic_nodes_around(energy_axis_alpha(alpha), GLASS_ALPHA_NODES);
+    struct cubic_nodes m =
+        cubic_nodes_around(energy_axis_mu(mu, alpha), GLASS_MU_NODES);
     float sum = 0.0f;
 
     for (uint32_t i = 0; i < 4; i++)
