@@ -27,7 +27,7 @@ static float played_survival(struct vec3 beta, uint32_t vertex)
     return v3_max_component(beta) > 0.0f ? 1.0f : 0.0f;
 }
 
-#define survival played_survival
+#define roulette_survival played_survival
 #include "kernels/path.h"
 
 /* The closed room of geometry.c: every pixel's truth is 1. */

@@ -16,6 +16,6 @@ static inline float throughput(struct vec3 beta, uint32_t vertex)
     return v3_max_component(beta);
 }
 
-#define survival throughput
+#define roulette_survival throughput
 
 #endif
