@@ -90,7 +90,7 @@ static inline struct hit pair_point(struct vec2 u, uint32_t *part)
 }
 
 /* The same place by the mesh's order of the corners. */
-static inline struct hit hit_turned(struct hit h, uint32_t turn)
+static inline struct hit hit_rotated(struct hit h, uint32_t turn)
 {
     const float b[5] = {h.b0, h.b1, h.b2, h.b0, h.b1};
 
@@ -140,7 +140,8 @@ static inline bool sample_surface(const struct world *w,
         return false;
     s->wi = v3_unit(to_point);
     s->radiance =
-        light_radiance(w, light, hit_turned(h, w->lights[light].turns[part]));
+        light_radiance(w, light,
+                       hit_rotated(h, w->lights[light].rotation[part]));
     return true;
 }
 

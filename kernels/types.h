@@ -128,8 +128,8 @@ struct leaf_tri {
 struct light {
     uint32_t tris[2]; /* the second NO_INDEX: one triangle */
     uint32_t path[2];
-    uint32_t texture;  /* multiplies emission; NO_INDEX: none */
-    uint32_t turns[2]; /* of these corners, where the mesh's begin */
+    uint32_t texture;     /* multiplies emission; NO_INDEX: none */
+    uint32_t rotation[2]; /* of these corners, where the mesh's begin */
     struct vec3 corners[4];
     struct vec3 twice[2]; /* normals, 2 / density of a point long */
     struct vec3 emission;

@@ -157,8 +157,8 @@ static bool join_light(const struct world *w, struct light *l,
     l->corners[2] = corner(w, tri, k);
     l->corners[3] = corner(w, l->tris[0], i + 2);
     l->tris[1] = tri;
-    l->turns[0] = (3 - i) % 3;
-    l->turns[1] = (3 - k) % 3;
+    l->rotation[0] = (3 - i) % 3;
+    l->rotation[1] = (3 - k) % 3;
     l->twice[0] = v3_scale(l->twice[0], 2.0f);
     l->twice[1] = v3_scale(other->twice[0], 2.0f);
     last->power += e->power;

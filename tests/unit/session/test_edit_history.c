@@ -454,8 +454,8 @@ static void test_kinds_leave_nothing(void **state)
         size_t size_bytes;
         char *text;
 
-        for (int n = 0; n < abs(cases[i].turns); n++)
-            material_params_turn_kind(&source, cases[i].turns);
+        for (int n = 0; n < abs(cases[i].rotation); n++)
+            material_params_turn_kind(&source, cases[i].rotation);
         edit_material(&s.edit, wall, &source);
         save(&s);
         assert_false(edit_has_unsaved_materials(&s.edit));
