@@ -54,7 +54,7 @@ static inline float light_point_pdf(const struct world *w, uint32_t light,
 {
     float square = v3_dot(to_point, to_point);
     float pdf = 2.0f * square * sqrtf(square) /
-                fabsf(v3_dot(to_point, w->lights[light].twice[part]));
+                fabsf(v3_dot(to_point, w->lights[light].scaled_normals[part]));
 
     return pdf <= FLOAT_MAX ? pdf : 0.0f;
 }

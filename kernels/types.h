@@ -131,7 +131,7 @@ struct light {
     uint32_t texture;     /* multiplies emission; NO_INDEX: none */
     uint32_t rotation[2]; /* of these corners, where the mesh's begin */
     struct vec3 corners[4];
-    struct vec3 twice[2]; /* normals, 2 / density of a point long */
+    struct vec3 scaled_normals[2]; /* normals, 2 / density of a point long */
     struct vec3 emission;
 };
 

@@ -108,7 +108,7 @@ static struct light make_light(const struct world *w, uint32_t tri)
                       .texture = NO_INDEX,
                       .corners = {corner(w, tri, 0), corner(w, tri, 1),
                                   corner(w, tri, 2), corner(w, tri, 2)},
-                      .twice = {long_normal(w, tri)},
+                      .scaled_normals = {long_normal(w, tri)},
                       .emission = m->emission};
 
     if (t->vt[0] != NO_INDEX)
@@ -159,8 +159,8 @@ static bool join_light(const struct world *w, struct light *l,
     l->tris[1] = tri;
     l->rotation[0] = (3 - i) % 3;
     l->rotation[1] = (3 - k) % 3;
-    l->twice[0] = v3_scale(l->twice[0], 2.0f);
-    l->twice[1] = v3_scale(other->twice[0], 2.0f);
+    l->scaled_normals[0] = v3_scale(l->scaled_normals[0], 2.0f);
+    l->scaled_normals[1] = v3_scale(other->scaled_normals[0], 2.0f);
     last->power += e->power;
     last->lo = v3_min(last->lo, e->lo);
     last->hi = v3_max(last->hi, e->hi);
