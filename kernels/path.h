@@ -274,8 +274,8 @@ static inline bool path_scatter(const struct world *w, struct path *p,
     struct bsdf_sample s;
     struct vec3 wi;
 
-    if (HAS(FEATURE_GUIDE) && p->cell.ways != NO_INDEX) {
-        if (!guide_scatter(w, p->cell.ways, v, b, wo, direction, choice, &s,
+    if (HAS(FEATURE_GUIDE) && p->cell.scatter != NO_INDEX) {
+        if (!guide_scatter(w, p->cell.scatter, v, b, wo, direction, choice, &s,
                            &wi, &p->scale))
             return false;
     } else if (!surface_scatter(v, b, wo, direction, choice, &s, &wi)) {

@@ -170,8 +170,8 @@ struct guide_grid {
 
 /* Where in guide_cdf a cell's directions begin; NO_INDEX: it has none. */
 struct guide_cell {
-    uint32_t ways; /* for a path to go on, */
-    uint32_t sky;  /* and for light samples of the sky */
+    uint32_t scatter; /* for a path to go on, */
+    uint32_t sky;     /* and for light samples of the sky */
 };
 
 /* How light is gathered where a path could meet it by chance as well. The

@@ -158,8 +158,8 @@ static double other_light(const struct path_guide *g, uint32_t cell,
 }
 
 /* For paths to go on, if that is worth its time in this cell. */
-static uint32_t add_ways(struct table *t, const struct path_guide *g,
-                         uint32_t cell, const struct other *o)
+static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
+                                  uint32_t cell, const struct other *o)
 {
     const struct guide_flux *parts[2] = {&g->caustics, &g->openings.glazed};
     const double most[2] = {SHARE_CAUSTICS, SHARE_GLAZED};
@@ -186,8 +186,8 @@ static uint32_t add_ways(struct table *t, const struct path_guide *g,
 }
 
 /* For light samples of the sky, the same. */
-static uint32_t add_sky(struct table *t, const struct path_guide *g,
-                        uint32_t cell, const struct other *o)
+static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
+                              uint32_t cell, const struct other *o)
 {
     const struct guide_flux *open = &g->openings.open;
     double total = guide_flux_total(open, cell);
@@ -229,8 +229,8 @@ static bool make_table(const struct path_guide *g, const struct other *o,
     if (t->cells == NULL || t->sums == NULL)
         return false;
     for (uint32_t i = 0; i < count; i++) {
-        t->cells[i].ways = add_ways(t, g, i, o);
-        t->cells[i].sky = has_sky ? add_sky(t, g, i, o) : NO_INDEX;
+        t->cells[i].scatter = add_scatter_table(t, g, i, o);
+        t->cells[i].sky = has_sky ? add_sky_table(t, g, i, o) : NO_INDEX;
     }
     return true;
 }

@@ -131,9 +131,10 @@ static void density_and_samples(void **state)
     check_at_most(chi2, degrees + 5 * sqrt(2.0 * degrees));
 }
 
-static uint32_t ways_at(const struct world *w, struct vec3 p, struct vec3 n)
+static uint32_t scatter_table_at(const struct world *w, struct vec3 p,
+                                 struct vec3 n)
 {
-    return guide_at(w, p, n).ways;
+    return guide_at(w, p, n).scatter;
 }
 
 static uint32_t sky_at(const struct world *w, struct vec3 p, struct vec3 n)
@@ -149,17 +150,20 @@ static void cells(void **state)
     struct table t;
 
     (void)state;
-    assert_int_equal(ways_at(&w, v3(0, 0, 0), up), NO_INDEX);
+    assert_int_equal(scatter_table_at(&w, v3(0, 0, 0), up), NO_INDEX);
     table_init(&t, 0.5, 1);
     path_guide_lend(&t.guide, &w);
-    assert_int_equal(ways_at(&w, v3(-.5f, -.5f, -.5f), up), 0);
-    assert_int_equal(ways_at(&w, v3(.5f, -.5f, -.5f), up), GUIDE_BINS);
-    assert_int_equal(ways_at(&w, v3(-.5f, .5f, -.5f), up), 2 * GUIDE_BINS);
-    assert_int_equal(ways_at(&w, v3(-.5f, -.5f, .5f), up), 4 * GUIDE_BINS);
-    assert_int_equal(ways_at(&w, v3(.5f, .5f, .5f), up), NO_INDEX);
-    assert_int_equal(ways_at(&w, v3(9, -9, -9), up), GUIDE_BINS);
-    assert_int_equal(ways_at(&w, v3(9, -9, -9), v3_neg(up)), NO_INDEX);
-    assert_int_equal(ways_at(&w, v3(9, -9, -9), v3(-.8f, -.6f, 0)), GUIDE_BINS);
+    assert_int_equal(scatter_table_at(&w, v3(-.5f, -.5f, -.5f), up), 0);
+    assert_int_equal(scatter_table_at(&w, v3(.5f, -.5f, -.5f), up), GUIDE_BINS);
+    assert_int_equal(scatter_table_at(&w, v3(-.5f, .5f, -.5f), up),
+                     2 * GUIDE_BINS);
+    assert_int_equal(scatter_table_at(&w, v3(-.5f, -.5f, .5f), up),
+                     4 * GUIDE_BINS);
+    assert_int_equal(scatter_table_at(&w, v3(.5f, .5f, .5f), up), NO_INDEX);
+    assert_int_equal(scatter_table_at(&w, v3(9, -9, -9), up), GUIDE_BINS);
+    assert_int_equal(scatter_table_at(&w, v3(9, -9, -9), v3_neg(up)), NO_INDEX);
+    assert_int_equal(scatter_table_at(&w, v3(9, -9, -9), v3(-.8f, -.6f, 0)),
+                     GUIDE_BINS);
 }
 
 /* Light samples of a sky that shines 1 everywhere, by the cosine or by a table
@@ -293,7 +297,7 @@ static void mirrors_point_to_images(void **state)
     path_guide_lend(&g, &s.mesh.world);
     for (float x = -.4f; x < .45f; x += .1f) {
         struct vec3 p = v3(x, 0, 0);
-        uint32_t cell = ways_at(&s.mesh.world, p, v3(0, 1, 0));
+        uint32_t cell = scatter_table_at(&s.mesh.world, p, v3(0, 1, 0));
         struct vec3 d = v3_unit(v3_sub(image, p));
         double sure = 0;
         uint64_t random = 1;
@@ -425,9 +429,9 @@ static void windows_are_found(void **state)
     (void)state;
     for (int has_pane = 0; has_pane < 2; has_pane++) {
         uint32_t (*at)(const struct world *, struct vec3, struct vec3) =
-            has_pane ? ways_at : sky_at;
+            has_pane ? scatter_table_at : sky_at;
         uint32_t (*not_at)(const struct world *, struct vec3, struct vec3) =
-            has_pane ? sky_at : ways_at;
+            has_pane ? sky_at : scatter_table_at;
         struct path_guide g = {.cells = NULL};
         struct stage s;
         struct world *w = &s.mesh.world;
@@ -500,7 +504,8 @@ static void white_rooms_are_left_alone(void **state)
                                            NULL),
                          "");
             path_guide_lend(&g, &s.mesh.world);
-            first = (has_pane ? ways_at : sky_at)(&s.mesh.world, p, up);
+            first =
+                (has_pane ? scatter_table_at : sky_at)(&s.mesh.world, p, up);
             if (first != NO_INDEX)
                 shares[is_white] = (double)guide_share(&s.mesh.world, first);
             /* the errors of errors of 32 means are an eighth each */
