@@ -56,7 +56,7 @@ static inline uint32_t guide_facing(struct vec3 n)
 static inline uint32_t guide_cell_index(const struct guide_grid *g,
                                         struct vec3 p, struct vec3 n)
 {
-    struct vec3 at = v3_scale(v3_sub(p, g->lo), g->cells_a_unit);
+    struct vec3 at = v3_scale(v3_sub(p, g->lo), g->cells_per_unit);
     uint32_t x = (uint32_t)f_min(f_max(at.x, 0.0f), (float)(g->width - 1));
     uint32_t y = (uint32_t)f_min(f_max(at.y, 0.0f), (float)(g->height - 1));
     uint32_t z = (uint32_t)f_min(f_max(at.z, 0.0f), (float)(g->depth - 1));

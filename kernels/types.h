@@ -163,7 +163,7 @@ struct light_node {
  * fastest, z slowest. */
 struct guide_grid {
     struct vec3 lo; /* the box's corner */
-    float cells_a_unit;
+    float cells_per_unit;
     uint32_t width, height, depth; /* cells; 0: there is no grid */
     uint32_t table_count;          /* of directions that cells have */
 };

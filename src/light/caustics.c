@@ -218,7 +218,7 @@ static void photon_send(void *context, uint32_t i, int worker)
 static void fill_rest(const struct search *s, double box,
                       struct guide_flux *part)
 {
-    double cell = 1 / (double)s->grid->cells_a_unit;
+    double cell = 1 / (double)s->grid->cells_per_unit;
     double rest = REST * 2 * M_PI * PHOTONS / triangle_cdf_total(&s->casters) *
                   cell * cell / box;
 

@@ -43,7 +43,7 @@ struct table {
 
 static uint32_t cells_along(float length, const struct guide_grid *g)
 {
-    return (uint32_t)f_max(ceilf(length * g->cells_a_unit), 1.0f);
+    return (uint32_t)f_max(ceilf(length * g->cells_per_unit), 1.0f);
 }
 
 /* Around all triangles; returns the surface of the box. */
@@ -63,7 +63,7 @@ static double make_grid(const struct world *w, struct guide_grid *g)
     }
     size = v3_sub(hi, lo);
     g->lo = lo;
-    g->cells_a_unit = CELLS_A_SIDE / f_max(size.x, f_max(size.y, size.z));
+    g->cells_per_unit = CELLS_A_SIDE / f_max(size.x, f_max(size.y, size.z));
     g->width = cells_along(size.x, g);
     g->height = cells_along(size.y, g);
     g->depth = cells_along(size.z, g);

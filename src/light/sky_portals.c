@@ -168,7 +168,7 @@ static struct mark leave_box(const struct guide_grid *g, struct ray r)
     float least = FLOAT_MAX;
 
     for (uint32_t k = 0; k < 3; k++) {
-        float end = d[k] > 0.0f ? (float)cells[k] / g->cells_a_unit : 0.0f;
+        float end = d[k] > 0.0f ? (float)cells[k] / g->cells_per_unit : 0.0f;
         float t = d[k] == 0.0f ? FLOAT_MAX : (end - o[k]) / d[k];
 
         if (t < least) {
@@ -242,7 +242,7 @@ static void keep(struct search *s, const struct looks *l)
 static struct beam aim_at(const struct search *s, const struct place *p,
                           const struct mark *m)
 {
-    float cell = 1.0f / s->grid->cells_a_unit;
+    float cell = 1.0f / s->grid->cells_per_unit;
     struct vec3 d = v3_sub(m->at, p->ray.o);
     float distance2 = v3_dot(d, d), cosine;
     struct ray r = p->ray;

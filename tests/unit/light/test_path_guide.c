@@ -46,7 +46,7 @@ static void table_init(struct table *t, double share, uint64_t seed)
             has_none ? guide_cell_none() : (struct guide_cell){first, first};
     }
     t->guide = (struct path_guide){
-        .grid = {.lo = {-1, -1, -1}, .cells_a_unit = 1, 2, 2, 2, 7},
+        .grid = {.lo = {-1, -1, -1}, .cells_per_unit = 1, 2, 2, 2, 7},
         .cells = t->cells,
         .sums = t->sums};
 }
