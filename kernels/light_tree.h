@@ -24,7 +24,7 @@ struct receiver {
 #define LIGHT_COSINE_SLACK 1e-4f
 
 /* Levels that one random number of 24 bits decides: 9 bits of it. */
-#define LIGHT_LEVELS_A_NUMBER 3u
+#define LIGHT_LEVELS_PER_NUMBER 3u
 
 /* How much the eight children shine at the receiver, about, summed up: before
  * each of them, and at the end.
@@ -97,7 +97,7 @@ static inline float light_tree_sample(const struct world *w,
         float sums[LIGHT_WIDTH + 1];
         uint32_t i = 0;
 
-        if (level == LIGHT_LEVELS_A_NUMBER)
+        if (level == LIGHT_LEVELS_PER_NUMBER)
             u = choice.y;
         light_node_cdf(w, at, r, sums);
         u *= sums[LIGHT_WIDTH];
