@@ -25,8 +25,8 @@
  * five scenes (6 times the square and more) leave 3 to 80 times the error
  * without sampling, a large paper lamp in a room with a window (.01) 1.2 times,
  * where its shadow rays double the time. */
-#define GLARE_FULL  0.1
-#define SHARE_LEAST 0.1
+#define VARIANCE_FULL 0.1
+#define SHARE_LEAST   0.1
 
 /* Two triangles that are sampled half the time each: their normals' angle, as a
  * cosine, which the tree knows of one only, and how much more one may shine.
@@ -77,10 +77,11 @@ static struct vec3 long_normal(const struct world *w, uint32_t tri)
     return v3_cross(v3_sub(corner(w, tri, 1), p), v3_sub(corner(w, tri, 2), p));
 }
 
-/* False if the triangle is not worth sampling. *glare grows by its own. */
+/* False if the triangle is not worth sampling. *unsampled_variance grows by its
+ * own. */
 static bool make_emitter(const struct world *w, uint32_t tri,
                          const struct texture_power_sums *footprints,
-                         struct emitter *e, double *glare)
+                         struct emitter *e, double *unsampled_variance)
 {
     const struct tri *t = &w->tris[tri];
     double twice_area = (double)v3_length(long_normal(w, tri));
@@ -91,7 +92,7 @@ static bool make_emitter(const struct world *w, uint32_t tri,
     e->normal = t->ng;
     radiance = mean_radiance(w, t, footprints);
     e->power = twice_area * radiance;
-    *glare += e->power / 2 * radiance;
+    *unsampled_variance += e->power / 2 * radiance;
     e->lo = e->hi = corner(w, tri, 0);
     for (uint32_t k = 1; k < 3; k++) {
         e->lo = v3_min(e->lo, corner(w, tri, k));
@@ -201,7 +202,7 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
 
         l->tri_lights[i] = NO_INDEX;
         if (!material_shines(&w->materials[w->tris[i].material]) ||
-            !make_emitter(w, i, footprints, &e, &l->glare))
+            !make_emitter(w, i, footprints, &e, &l->unsampled_variance))
             continue;
         total += e.power;
         add_light(w, l, *emitters, i, &e);
@@ -282,13 +283,13 @@ out:
 static float light_share(const struct lights *lights, const struct sky *sky)
 {
     double radiance = channels_mean(sky->color);
-    double ratio = lights->glare / (M_PI * radiance * radiance);
+    double ratio = lights->unsampled_variance / (M_PI * radiance * radiance);
 
     if (lights->light_count == 0)
         return 0;
-    if (sky->width != 0 || !(ratio < GLARE_FULL))
+    if (sky->width != 0 || !(ratio < VARIANCE_FULL))
         return 1;
-    return (float)fmax(ratio / GLARE_FULL, SHARE_LEAST);
+    return (float)fmax(ratio / VARIANCE_FULL, SHARE_LEAST);
 }
 
 void lights_lend(const struct lights *lights, struct world *world)

@@ -23,7 +23,7 @@ struct lights {
     uint32_t *tri_lights;
     struct light_node *nodes;
     uint32_t node_count;
-    double glare; /* sum of area times radiance squared */
+    double unsampled_variance; /* sum of area times radiance squared */
 };
 
 /* Reads the world's triangles, materials and textures. */

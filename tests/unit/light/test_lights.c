@@ -206,7 +206,7 @@ static void weak_lamps_are_sampled_less(void **state)
     (void)state;
     mesh_add(&m, v3(0, 1, 0), v3(1, 1, 0), v3(0, 1, 1), LAMP);
     finish(&m, &lights);
-    check_close(lights.glare, 2, 1e-6);
+    check_close(lights.unsampled_variance, 2, 1e-6);
     for (float sky = 0; sky < 20; sky += 0.5f) {
         m.world.settings.sky.color = v3(sky, sky, sky);
         lights_lend(&lights, &m.world);
