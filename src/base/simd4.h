@@ -27,12 +27,12 @@ static inline void f4_store(float *p, f4 a)
     _mm_store_ps(p, a);
 }
 
-static inline f4 f4_all(float x)
+static inline f4 f4_set1(float x)
 {
     return _mm_set1_ps(x);
 }
 
-static inline f4 f4_of(float x, float y, float z)
+static inline f4 f4_set3(float x, float y, float z)
 {
     return _mm_set_ps(0.0f, z, y, x);
 }
@@ -73,24 +73,24 @@ static inline f4 f4_max(f4 a, f4 b)
 }
 
 /* 0 where it is above the most. */
-static inline f4 f4_up_to(f4 a, f4 most)
+static inline f4 f4_zero_above(f4 a, f4 most)
 {
     return _mm_and_ps(a, _mm_cmple_ps(a, most));
 }
 
 /* Of whole numbers below 2^31. */
-static inline f4 f4_of_counts(const uint32_t *p)
+static inline f4 f4_from_u32(const uint32_t *p)
 {
     return _mm_cvtepi32_ps(_mm_load_si128((const void *)p));
 }
 
-/* Without what is behind the point, as f4_whole(). */
-static inline void f4_store_counts(uint32_t *p, f4 a)
+/* Without what is behind the point, as f4_truncate(). */
+static inline void f4_store_u32(uint32_t *p, f4 a)
 {
     _mm_store_si128((void *)p, _mm_cvttps_epi32(a));
 }
 
-static inline f4 f4_whole(f4 a)
+static inline f4 f4_truncate(f4 a)
 {
     return _mm_cvtepi32_ps(_mm_cvttps_epi32(a));
 }
@@ -107,7 +107,7 @@ static inline float f4_pairs3(f4 a)
 
 /* Of three vectors all first numbers, all second and all third ones; the last
  * lane is as the one before. */
-static inline void f4_transpose(f4 a, f4 b, f4 c, f4 to[3])
+static inline void f4_transpose3(f4 a, f4 b, f4 c, f4 to[3])
 {
     f4 low = _mm_unpacklo_ps(a, b), high = _mm_unpackhi_ps(a, b);
 
@@ -116,25 +116,25 @@ static inline void f4_transpose(f4 a, f4 b, f4 c, f4 to[3])
     to[2] = _mm_shuffle_ps(high, c, _MM_SHUFFLE(2, 2, 1, 0));
 }
 
-static inline uint32_t f4_not_above(f4 a, f4 b)
+static inline uint32_t f4_mask_le(f4 a, f4 b)
 {
     return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
 }
 
-static inline uint32_t f4_below(f4 a, f4 b)
+static inline uint32_t f4_mask_lt(f4 a, f4 b)
 {
     return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
 }
 
 /* Where a, b and c are the same. */
-static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+static inline uint32_t f4_mask_equal3(f4 a, f4 b, f4 c)
 {
     return (uint32_t)_mm_movemask_ps(
         _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
 }
 
 /* Where one of four numbers is n. */
-static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
+static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
 {
     __m128i same = _mm_cmpeq_epi32(_mm_load_si128((const void *)p),
                                    _mm_set1_epi32((int)n));
@@ -143,7 +143,7 @@ static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
 }
 
 /* There x, y elsewhere. */
-static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+static inline f4 f4_select_equal3(f4 a, f4 b, f4 c, f4 x, f4 y)
 {
     f4 same = _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));
 
@@ -173,12 +173,12 @@ static inline void f4_store(float *p, f4 a)
         p[i] = a.v[i];
 }
 
-static inline f4 f4_all(float x)
+static inline f4 f4_set1(float x)
 {
     F4_EACH(r, x);
 }
 
-static inline f4 f4_of(float x, float y, float z)
+static inline f4 f4_set3(float x, float y, float z)
 {
     f4 r = {{x, y, z, 0.0f}};
 
@@ -220,23 +220,23 @@ static inline f4 f4_max(f4 a, f4 b)
     F4_EACH(r, a.v[i] > b.v[i] ? a.v[i] : b.v[i]);
 }
 
-static inline f4 f4_up_to(f4 a, f4 most)
+static inline f4 f4_zero_above(f4 a, f4 most)
 {
     F4_EACH(r, a.v[i] <= most.v[i] ? a.v[i] : 0.0f);
 }
 
-static inline f4 f4_of_counts(const uint32_t *p)
+static inline f4 f4_from_u32(const uint32_t *p)
 {
     F4_EACH(r, (float)p[i]);
 }
 
-static inline void f4_store_counts(uint32_t *p, f4 a)
+static inline void f4_store_u32(uint32_t *p, f4 a)
 {
     for (int i = 0; i < 4; i++)
         p[i] = (uint32_t)a.v[i];
 }
 
-static inline f4 f4_whole(f4 a)
+static inline f4 f4_truncate(f4 a)
 {
     F4_EACH(r, (float)(uint32_t)a.v[i]);
 }
@@ -246,13 +246,13 @@ static inline float f4_pairs3(f4 a)
     return a.v[0] * a.v[1] + a.v[1] * a.v[2] + a.v[2] * a.v[0];
 }
 
-static inline void f4_transpose(f4 a, f4 b, f4 c, f4 to[3])
+static inline void f4_transpose3(f4 a, f4 b, f4 c, f4 to[3])
 {
     for (int i = 0; i < 3; i++)
         to[i] = (f4){{a.v[i], b.v[i], c.v[i], c.v[i]}};
 }
 
-static inline uint32_t f4_not_above(f4 a, f4 b)
+static inline uint32_t f4_mask_le(f4 a, f4 b)
 {
     uint32_t mask = 0;
 
@@ -261,7 +261,7 @@ static inline uint32_t f4_not_above(f4 a, f4 b)
     return mask;
 }
 
-static inline uint32_t f4_below(f4 a, f4 b)
+static inline uint32_t f4_mask_lt(f4 a, f4 b)
 {
     uint32_t mask = 0;
 
@@ -270,7 +270,7 @@ static inline uint32_t f4_below(f4 a, f4 b)
     return mask;
 }
 
-static inline uint32_t f4_same(f4 a, f4 b, f4 c)
+static inline uint32_t f4_mask_equal3(f4 a, f4 b, f4 c)
 {
     uint32_t mask = 0;
 
@@ -279,7 +279,7 @@ static inline uint32_t f4_same(f4 a, f4 b, f4 c)
     return mask;
 }
 
-static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
+static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
 {
     uint32_t mask = 0;
 
@@ -288,7 +288,7 @@ static inline uint32_t f4_which(const uint32_t *p, uint32_t n)
     return mask;
 }
 
-static inline f4 f4_if_same(f4 a, f4 b, f4 c, f4 x, f4 y)
+static inline f4 f4_select_equal3(f4 a, f4 b, f4 c, f4 x, f4 y)
 {
     F4_EACH(r, a.v[i] == b.v[i] && a.v[i] == c.v[i] ? x.v[i] : y.v[i]);
 }

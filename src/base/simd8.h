@@ -5,9 +5,10 @@
  * What simd4.h has by the same name is the same here: the arithmetic of floats,
  * lane by lane, without contraction, and masks with a bit a lane, lane 0 the
  * lowest. The rest is about distances, which need not have the same bits
- * everywhere: f8_mul_sub rounds once or twice; of two negative numbers f8_later
- * and f8_sooner return any, and f8_before is for a first number that is not
- * negative; f8_further goes on by so many floats, or a little more.
+ * everywhere: f8_mul_sub rounds once or twice; of two negative numbers
+ * f8_distance_max and f8_distance_min return any, and f8_distance_mask_lt is
+ * for a first number that is not negative; f8_distance_add_ulps goes on by so
+ * many floats, or a little more.
  */
 #ifndef GLIM_SIMD8_H
 #define GLIM_SIMD8_H
@@ -30,7 +31,7 @@ static inline void f8_store(float *p, f8 a)
     _mm256_store_ps(p, a);
 }
 
-static inline f8 f8_all(float x)
+static inline f8 f8_set1(float x)
 {
     return _mm256_set1_ps(x);
 }
@@ -70,30 +71,30 @@ static inline f8 f8_max(f8 a, f8 b)
     return _mm256_max_ps(a, b);
 }
 
-static inline uint32_t f8_not_above(f8 a, f8 b)
+static inline uint32_t f8_mask_le(f8 a, f8 b)
 {
     return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OS));
 }
 
-static inline uint32_t f8_below(f8 a, f8 b)
+static inline uint32_t f8_mask_lt(f8 a, f8 b)
 {
     return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OS));
 }
 
-static inline f8 f8_are_same(f8 a, f8 b, f8 c)
+static inline f8 f8_equal3(f8 a, f8 b, f8 c)
 {
     return _mm256_and_ps(_mm256_cmp_ps(a, b, _CMP_EQ_OQ),
                          _mm256_cmp_ps(a, c, _CMP_EQ_OQ));
 }
 
-static inline uint32_t f8_same(f8 a, f8 b, f8 c)
+static inline uint32_t f8_mask_equal3(f8 a, f8 b, f8 c)
 {
-    return (uint32_t)_mm256_movemask_ps(f8_are_same(a, b, c));
+    return (uint32_t)_mm256_movemask_ps(f8_equal3(a, b, c));
 }
 
-static inline f8 f8_if_same(f8 a, f8 b, f8 c, f8 x, f8 y)
+static inline f8 f8_select_equal3(f8 a, f8 b, f8 c, f8 x, f8 y)
 {
-    return _mm256_blendv_ps(y, x, f8_are_same(a, b, c));
+    return _mm256_blendv_ps(y, x, f8_equal3(a, b, c));
 }
 
 static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
@@ -107,25 +108,25 @@ static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
 
 /* The bits of positive floats sort as these do, and integers are compared in a
  * quarter of the time. */
-static inline f8 f8_later(f8 a, f8 b)
+static inline f8 f8_distance_max(f8 a, f8 b)
 {
     return _mm256_castsi256_ps(
         _mm256_max_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)));
 }
 
-static inline f8 f8_sooner(f8 a, f8 b)
+static inline f8 f8_distance_min(f8 a, f8 b)
 {
     return _mm256_castsi256_ps(
         _mm256_min_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)));
 }
 
-static inline f8 f8_further(f8 a, int steps)
+static inline f8 f8_distance_add_ulps(f8 a, int steps)
 {
     return _mm256_castsi256_ps(
         _mm256_add_epi32(_mm256_castps_si256(a), _mm256_set1_epi32(steps)));
 }
 
-static inline uint32_t f8_before(f8 a, f8 b)
+static inline uint32_t f8_distance_mask_lt(f8 a, f8 b)
 {
     return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(
         _mm256_cmpgt_epi32(_mm256_castps_si256(b), _mm256_castps_si256(a))));
@@ -150,9 +151,9 @@ static inline void f8_store(float *p, f8 a)
     f4_store(p + 4, a.hi);
 }
 
-static inline f8 f8_all(float x)
+static inline f8 f8_set1(float x)
 {
-    return (f8){f4_all(x), f4_all(x)};
+    return (f8){f4_set1(x), f4_set1(x)};
 }
 
 static inline f8 f8_add(f8 a, f8 b)
@@ -190,25 +191,26 @@ static inline f8 f8_max(f8 a, f8 b)
     return (f8){f4_max(a.lo, b.lo), f4_max(a.hi, b.hi)};
 }
 
-static inline uint32_t f8_not_above(f8 a, f8 b)
+static inline uint32_t f8_mask_le(f8 a, f8 b)
 {
-    return f4_not_above(a.lo, b.lo) | f4_not_above(a.hi, b.hi) << 4;
+    return f4_mask_le(a.lo, b.lo) | f4_mask_le(a.hi, b.hi) << 4;
 }
 
-static inline uint32_t f8_below(f8 a, f8 b)
+static inline uint32_t f8_mask_lt(f8 a, f8 b)
 {
-    return f4_below(a.lo, b.lo) | f4_below(a.hi, b.hi) << 4;
+    return f4_mask_lt(a.lo, b.lo) | f4_mask_lt(a.hi, b.hi) << 4;
 }
 
-static inline uint32_t f8_same(f8 a, f8 b, f8 c)
+static inline uint32_t f8_mask_equal3(f8 a, f8 b, f8 c)
 {
-    return f4_same(a.lo, b.lo, c.lo) | f4_same(a.hi, b.hi, c.hi) << 4;
+    return f4_mask_equal3(a.lo, b.lo, c.lo) | f4_mask_equal3(a.hi, b.hi, c.hi)
+                                                  << 4;
 }
 
-static inline f8 f8_if_same(f8 a, f8 b, f8 c, f8 x, f8 y)
+static inline f8 f8_select_equal3(f8 a, f8 b, f8 c, f8 x, f8 y)
 {
-    return (f8){f4_if_same(a.lo, b.lo, c.lo, x.lo, y.lo),
-                f4_if_same(a.hi, b.hi, c.hi, x.hi, y.hi)};
+    return (f8){f4_select_equal3(a.lo, b.lo, c.lo, x.lo, y.lo),
+                f4_select_equal3(a.hi, b.hi, c.hi, x.hi, y.hi)};
 }
 
 static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
@@ -216,24 +218,24 @@ static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
     return f8_sub(f8_mul(a, b), c);
 }
 
-static inline f8 f8_later(f8 a, f8 b)
+static inline f8 f8_distance_max(f8 a, f8 b)
 {
     return f8_max(a, b);
 }
 
-static inline f8 f8_sooner(f8 a, f8 b)
+static inline f8 f8_distance_min(f8 a, f8 b)
 {
     return f8_min(a, b);
 }
 
-static inline f8 f8_further(f8 a, int steps)
+static inline f8 f8_distance_add_ulps(f8 a, int steps)
 {
-    return f8_mul(a, f8_all(1.0f + (float)steps * 0x1p-23f));
+    return f8_mul(a, f8_set1(1.0f + (float)steps * 0x1p-23f));
 }
 
-static inline uint32_t f8_before(f8 a, f8 b)
+static inline uint32_t f8_distance_mask_lt(f8 a, f8 b)
 {
-    return f8_below(a, b);
+    return f8_mask_lt(a, b);
 }
 
 #endif

@@ -20,7 +20,7 @@ static inline f4 f4_corner(const float *place)
 
 static inline f4 f4_ray(const float *place)
 {
-    return f4_all(*place);
+    return f4_set1(*place);
 }
 
 #define LANES      f4
@@ -62,10 +62,10 @@ blocks_hit(const struct world *w, const struct block_ray *r,
     struct simd_hits h;
 
     for (;; more--, block++) {
-        uint32_t passed = f4_which(block->tri, r->passed[0]) |
-                          f4_which(block->tri, r->passed[1]);
+        uint32_t passed = f4_mask_equal_u32(block->tri, r->passed[0]) |
+                          f4_mask_equal_u32(block->tri, r->passed[1]);
 
-        if (f4_test(block, 0, &r->lanes, f4_all(best->t), ~passed, &h)) {
+        if (f4_test(block, 0, &r->lanes, f4_set1(best->t), ~passed, &h)) {
             for (; h.sure != 0; h.sure &= h.sure - 1) {
                 uint32_t i = lowest(h.sure);
 

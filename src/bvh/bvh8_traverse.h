@@ -28,7 +28,7 @@
 
 /* Both ends of a box are this much further apart for a ray; see BOX_WIDEN. A
  * step from one float to the next is at least FLOAT_EPSILON of it; one more,
- * for f8_before() leaves the end out. */
+ * for f8_distance_mask_lt() leaves the end out. */
 #define WIDEN       (1.0f + 2.0f * BOX_WIDEN)
 #define WIDEN_STEPS 33
 
@@ -60,8 +60,8 @@ static inline void bvh8_ray_axis(struct bvh8_ray *r, int axis, float o, float d)
     uint32_t low_is_far = float_bits(d) >> 31;
     size_t low = offsetof(struct bvh8_node, planes[axis][0]);
 
-    r->inverse[axis] = f8_all(inverse);
-    r->start[axis] = f8_all(o * inverse);
+    r->inverse[axis] = f8_set1(inverse);
+    r->start[axis] = f8_set1(o * inverse);
     r->near[axis] = low + low_is_far * sizeof(float[BVH8_CHILDREN]);
     r->far[axis] = low + (low_is_far ^ 1u) * sizeof(float[BVH8_CHILDREN]);
 }
@@ -98,10 +98,12 @@ bvh8_enter(const struct bvh8_node *n, const struct bvh8_ray *first,
             bvh8_planes(n, first->near[i], first->inverse[i], first->start[i]);
         out[i] = bvh8_planes(n, last->far[i], last->inverse[i], last->start[i]);
     }
-    *entries = f8_later(f8_later(in[0], in[1]), f8_later(in[2], f8_all(0.0f)));
-    leave = f8_sooner(f8_sooner(out[0], out[1]), out[2]);
-    leave = f8_further(leave, WIDEN_STEPS);
-    return f8_before(*entries, f8_sooner(leave, f8_all(t_far)));
+    *entries = f8_distance_max(f8_distance_max(in[0], in[1]),
+                               f8_distance_max(in[2], f8_set1(0.0f)));
+    leave = f8_distance_min(f8_distance_min(out[0], out[1]), out[2]);
+    leave = f8_distance_add_ulps(leave, WIDEN_STEPS);
+    return f8_distance_mask_lt(*entries,
+                               f8_distance_min(leave, f8_set1(t_far)));
 }
 
 /* Beyond this nothing is entered for a hit at t; finite, as the boxes that

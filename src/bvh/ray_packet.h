@@ -19,7 +19,7 @@
 /* Each lane has a ray. */
 static inline f8 f8_corner(const float *place)
 {
-    return f8_all(*place);
+    return f8_set1(*place);
 }
 
 static inline f8 f8_ray(const float *place)
@@ -61,16 +61,16 @@ static inline bool packet_shear(struct f8_rays *r)
     f8 x = f8_abs(f8_load(r->d[0]));
     f8 y = f8_abs(f8_load(r->d[1]));
     f8 z = f8_abs(f8_load(r->d[2]));
-    uint32_t x_over_y = f8_below(y, x);
-    uint32_t is_x = x_over_y & f8_below(z, x);
-    uint32_t is_y = ~x_over_y & f8_below(z, y);
+    uint32_t x_over_y = f8_mask_lt(y, x);
+    uint32_t is_x = x_over_y & f8_mask_lt(z, x);
+    uint32_t is_y = ~x_over_y & f8_mask_lt(z, y);
     uint32_t all = (1u << PACKET_RAYS) - 1;
     uint32_t axis = is_x == all ? 0 : is_y == all ? 1 : 2;
     f8 along = f8_load(r->d[axis]);
 
     f8_store(r->sx, f8_div(f8_load(r->d[(axis + 1) % 3]), along));
     f8_store(r->sy, f8_div(f8_load(r->d[(axis + 2) % 3]), along));
-    f8_store(r->sz, f8_div(f8_all(1.0f), along));
+    f8_store(r->sz, f8_div(f8_set1(1.0f), along));
     r->axis = axis;
     return axis != 2 || (is_x | is_y) == 0;
 }
@@ -78,12 +78,12 @@ static inline bool packet_shear(struct f8_rays *r)
 /* ray_is_finite() of all of them; lanes without a ray are NaN. */
 static inline bool packet_is_finite(const struct ray_packet *g)
 {
-    f8 sum = f8_all(0.0f);
+    f8 sum = f8_set1(0.0f);
 
     for (int i = 0; i < 3; i++)
         sum =
             f8_add(sum, f8_mul(f8_load(g->lanes.o[i]), f8_load(g->lanes.d[i])));
-    return f8_not_above(f8_abs(sum), f8_all(FLOAT_MAX)) == (1u << g->count) - 1;
+    return f8_mask_le(f8_abs(sum), f8_set1(FLOAT_MAX)) == (1u << g->count) - 1;
 }
 
 static inline float packet_far(const struct ray_packet *g)

@@ -13,9 +13,9 @@ struct reach {
 
 static inline struct reach reach_none(void)
 {
-    f4 most = f4_all(FLOAT_MAX);
+    f4 most = f4_set1(FLOAT_MAX);
 
-    return (struct reach){most, most, most, f4_all(-FLOAT_MAX)};
+    return (struct reach){most, most, most, f4_set1(-FLOAT_MAX)};
 }
 
 static inline void reach_add(struct reach *r, const struct box *box)
@@ -46,7 +46,7 @@ struct extent extent_of(const struct box *boxes, uint32_t count)
     f4_store(e.bounds.planes + 4, f4_min(a.hi, b.hi));
     f4_store(e.centers.planes, f4_min(a.first, b.first));
     f4_store(e.centers.planes + 4,
-             f4_sub(f4_all(0.0f), f4_max(a.last, b.last)));
+             f4_sub(f4_set1(0.0f), f4_max(a.last, b.last)));
     return e;
 }
 
@@ -66,13 +66,13 @@ void bins_clear(struct bins *bins, uint32_t count, const struct box *centers)
     struct binning *b = &bins->binning;
     const struct box empty = box_empty();
     const float *p = centers->planes;
-    f4 first = f4_of(p[0], p[1], p[2]), last = f4_of(-p[4], -p[5], -p[6]);
+    f4 first = f4_set3(p[0], p[1], p[2]), last = f4_set3(-p[4], -p[5], -p[6]);
 
     b->count = bin_count_for(count);
     f4_store(b->first, first);
-    f4_store(b->scale,
-             f4_up_to(f4_div(f4_all((float)b->count), f4_sub(last, first)),
-                      f4_all(FLOAT_MAX)));
+    f4_store(b->scale, f4_zero_above(f4_div(f4_set1((float)b->count),
+                                            f4_sub(last, first)),
+                                     f4_set1(FLOAT_MAX)));
     bins->box_count = 0;
     for (uint32_t i = 0; i < b->count; i++) {
         struct bin *bin = &bins->bins[i];
@@ -89,7 +89,7 @@ static f4 bins_of(const struct binning *b, const struct box *box)
     f4 center = f4_sub(f4_load(box->planes), f4_load(box->planes + 4));
     f4 bin = f4_mul(f4_sub(center, f4_load(b->first)), f4_load(b->scale));
 
-    return f4_min(bin, f4_all((float)(b->count - 1)));
+    return f4_min(bin, f4_set1((float)(b->count - 1)));
 }
 
 void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
@@ -101,7 +101,7 @@ void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
         const struct box box = boxes[i];
         _Alignas(16) uint32_t at[4];
 
-        f4_store_counts(at, bins_of(&binning, &box));
+        f4_store_u32(at, bins_of(&binning, &box));
         for (int axis = 0; axis < 3; axis++) {
             struct bin *bin = &bins->bins[at[axis]];
 
@@ -122,7 +122,7 @@ struct front {
 static void front_clear(struct front *f)
 {
     for (int axis = 0; axis < 3; axis++)
-        f->lo[axis] = f->hi[axis] = f4_all(FLOAT_MAX);
+        f->lo[axis] = f->hi[axis] = f4_set1(FLOAT_MAX);
 }
 
 static void front_join(struct front *f, const struct box boxes[3])
@@ -139,8 +139,8 @@ static f4 front_areas(const struct front *f)
     f4 sides[3], to[3];
 
     for (int axis = 0; axis < 3; axis++)
-        sides[axis] = f4_sub(f4_sub(f4_all(0.0f), f->hi[axis]), f->lo[axis]);
-    f4_transpose(sides[0], sides[1], sides[2], to);
+        sides[axis] = f4_sub(f4_sub(f4_set1(0.0f), f->hi[axis]), f->lo[axis]);
+    f4_transpose3(sides[0], sides[1], sides[2], to);
     return f4_add(f4_add(f4_mul(to[0], to[1]), f4_mul(to[1], to[2])),
                   f4_mul(to[2], to[0]));
 }
@@ -162,8 +162,8 @@ static f4 blocks(f4 counts, uint32_t block_bits)
 {
     float most = (float)(1u << block_bits);
 
-    return f4_whole(
-        f4_mul(f4_add(counts, f4_all(most - 1.0f)), f4_all(1.0f / most)));
+    return f4_truncate(
+        f4_mul(f4_add(counts, f4_set1(most - 1.0f)), f4_set1(1.0f / most)));
 }
 
 /* The costs of each plane, and the least of them, lane by lane. A plane with
@@ -172,8 +172,8 @@ static f4 blocks(f4 counts, uint32_t block_bits)
 static f4 sweep_costs(const struct bins *bins, uint32_t block_bits,
                       f4 costs[SPLIT_BINS])
 {
-    const f4 all = f4_all((float)bins->box_count);
-    f4 left = f4_all(0.0f), least = f4_all(INFINITY);
+    const f4 all = f4_set1((float)bins->box_count);
+    f4 left = f4_set1(0.0f), least = f4_set1(INFINITY);
     f4 right_areas[SPLIT_BINS];
     struct front f;
 
@@ -181,7 +181,7 @@ static f4 sweep_costs(const struct bins *bins, uint32_t block_bits,
     front_clear(&f);
     for (uint32_t i = 1; i < bins->binning.count; i++) {
         front_join(&f, bins->bins[i - 1].boxes);
-        left = f4_add(left, f4_of_counts(bins->bins[i - 1].counts));
+        left = f4_add(left, f4_from_u32(bins->bins[i - 1].counts));
         costs[i] = f4_add(f4_mul(front_areas(&f), blocks(left, block_bits)),
                           f4_mul(right_areas[i],
                                  blocks(f4_sub(all, left), block_bits)));
@@ -201,7 +201,7 @@ struct split bins_split(const struct bins *bins, uint32_t block_bits)
     s.cost = f_min(f_min(least[0], least[1]), least[2]);
     if (!(s.cost < INFINITY))
         return s;
-    while (!(found = 7 & f4_not_above(costs[s.bin], f4_all(s.cost))))
+    while (!(found = 7 & f4_mask_le(costs[s.bin], f4_set1(s.cost))))
         s.bin++;
     s.axis = found & 1 ? 0 : found & 2 ? 1 : 2;
     return s;

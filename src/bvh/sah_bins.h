@@ -32,8 +32,8 @@ static inline struct box box_empty(void)
 {
     struct box b;
 
-    f4_store(b.planes, f4_all(FLOAT_MAX));
-    f4_store(b.planes + 4, f4_all(FLOAT_MAX));
+    f4_store(b.planes, f4_set1(FLOAT_MAX));
+    f4_store(b.planes + 4, f4_set1(FLOAT_MAX));
     return b;
 }
 
@@ -48,8 +48,8 @@ static inline struct box box_of_corners(struct vec3 lo, struct vec3 hi)
 {
     struct box b;
 
-    f4_store(b.planes, f4_of(lo.x, lo.y, lo.z));
-    f4_store(b.planes + 4, f4_sub(f4_all(0.0f), f4_of(hi.x, hi.y, hi.z)));
+    f4_store(b.planes, f4_set3(lo.x, lo.y, lo.z));
+    f4_store(b.planes + 4, f4_sub(f4_set1(0.0f), f4_set3(hi.x, hi.y, hi.z)));
     return b;
 }
 
@@ -64,7 +64,7 @@ static inline float box_joined_area(const struct box *a, const struct box *b)
     f4 lo = f4_min(f4_load(a->planes), f4_load(b->planes));
     f4 hi = f4_min(f4_load(a->planes + 4), f4_load(b->planes + 4));
 
-    return f4_pairs3(f4_sub(f4_sub(f4_all(0.0f), hi), lo));
+    return f4_pairs3(f4_sub(f4_sub(f4_set1(0.0f), hi), lo));
 }
 
 /* Half of its surface. */

@@ -86,16 +86,16 @@ static inline LANES OF(error)(const struct CORNERS *c, LANES det)
     LANES reach_x = OF(reach)(c->x);
     LANES reach_y = OF(reach)(c->y);
     LANES reach_z = OF(reach)(c->z);
-    LANES gamma = OF(all)(GAMMA(5));
+    LANES gamma = OF(set1)(GAMMA(5));
     LANES error_x = OF(mul)(gamma, OF(add)(reach_x, reach_z));
     LANES error_y = OF(mul)(gamma, OF(add)(reach_y, reach_z));
     LANES products =
-        OF(add)(OF(mul)(OF(mul)(OF(all)(GAMMA(2)), reach_x), reach_y),
+        OF(add)(OF(mul)(OF(mul)(OF(set1)(GAMMA(2)), reach_x), reach_y),
                 OF(add)(OF(mul)(error_y, reach_x), OF(mul)(error_x, reach_y)));
-    LANES weights = OF(mul)(OF(all)(6.0f * (1.0f + 0x1p-20f)), products);
+    LANES weights = OF(mul)(OF(set1)(6.0f * (1.0f + 0x1p-20f)), products);
 
     return OF(add)(OF(div)(OF(mul)(weights, spread), OF(abs)(det)),
-                   OF(mul)(OF(all)(GAMMA(12)), reach_z));
+                   OF(mul)(OF(set1)(GAMMA(12)), reach_z));
 }
 
 /* The distances, and in *is_exact the lanes where they are triangle_hit()'s:
@@ -119,13 +119,15 @@ static inline LANES OF(distance)(const struct tri_block *block, uint32_t at,
         LANES p1 = OF(corner)(&block->corners[1][i][at]);
         LANES p2 = OF(corner)(&block->corners[2][i][at]);
 
-        over = OF(if_same)(p0, p1, p2, OF(sub)(p0, OF(ray)(r->o[i])), over);
-        under = OF(if_same)(p0, p1, p2, OF(ray)(r->d[i]), under);
-        is_flat |= OF(same)(p0, p1, p2);
+        over =
+            OF(select_equal3)(p0, p1, p2, OF(sub)(p0, OF(ray)(r->o[i])), over);
+        under = OF(select_equal3)(p0, p1, p2, OF(ray)(r->d[i]), under);
+        is_flat |= OF(mask_equal3)(p0, p1, p2);
     }
     t = OF(div)(over, under);
-    *is_exact = is_flat | OF(below)(OF(error)(c, det),
-                                    OF(mul)(OF(abs)(t), OF(all)(T_PRECISION)));
+    *is_exact =
+        is_flat | OF(mask_lt)(OF(error)(c, det),
+                              OF(mul)(OF(abs)(t), OF(set1)(T_PRECISION)));
     return t;
 }
 
@@ -136,14 +138,14 @@ static inline bool OF(test)(const struct tri_block *block, uint32_t at,
                             struct simd_hits *h)
 {
     struct CORNERS c = OF(shear)(block, at, r);
-    LANES zero = OF(all)(0.0f);
+    LANES zero = OF(set1)(0.0f);
     LANES edges[3] = {
         OF(sub)(OF(mul)(c.x[2], c.y[1]), OF(mul)(c.y[2], c.x[1])),
         OF(sub)(OF(mul)(c.x[0], c.y[2]), OF(mul)(c.y[0], c.x[2])),
         OF(sub)(OF(mul)(c.x[1], c.y[0]), OF(mul)(c.y[1], c.x[0])),
     };
-    uint32_t met = (OF(not_above)(zero, OF(least)(edges)) |
-                    OF(not_above)(OF(most)(edges), zero)) &
+    uint32_t met = (OF(mask_le)(zero, OF(least)(edges)) |
+                    OF(mask_le)(OF(most)(edges), zero)) &
                    wanted;
     uint32_t is_exact;
     LANES t;
@@ -153,11 +155,10 @@ static inline bool OF(test)(const struct tri_block *block, uint32_t at,
     t = OF(distance)(block, at, r, &c, edges, &is_exact);
     /* an edge function of 0 has lost its sign; a product that is too small for
      * a float only costs time */
-    is_exact &=
-        ~OF(not_above)(OF(abs)(OF(mul)(OF(mul)(edges[0], edges[1]), edges[2])),
-                       zero);
+    is_exact &= ~OF(
+        mask_le)(OF(abs)(OF(mul)(OF(mul)(edges[0], edges[1]), edges[2])), zero);
     h->unsure = met & ~is_exact;
-    h->sure = met & is_exact & OF(below)(zero, t) & OF(not_above)(t, t_max);
+    h->sure = met & is_exact & OF(mask_lt)(zero, t) & OF(mask_le)(t, t_max);
     OF(store)(h->t, t);
     for (int i = 0; i < 3; i++)
         OF(store)(h->edges[i], edges[i]);

@@ -160,16 +160,17 @@ void film_count_more(struct film *f, const struct tally *tally)
 
 static inline f4 mean_of(const struct sum *sums, uint64_t count)
 {
-    f4 all = f4_of(sum_float(sums[0]), sum_float(sums[1]), sum_float(sums[2]));
+    f4 all =
+        f4_set3(sum_float(sums[0]), sum_float(sums[1]), sum_float(sums[2]));
 
-    return f4_div(all, f4_all((float)count));
+    return f4_div(all, f4_set1((float)count));
 }
 
 /* A pixel without samples: the mean of the nearest coarser grid point that has
  * some, or black. */
 static f4 coarse_mean(struct film *f, int x, int y)
 {
-    f4 rgb = f4_all(0.0f);
+    f4 rgb = f4_set1(0.0f);
     bool found = false;
 
     for (int stride = 2; !found && stride <= FILM_STRIDE_MAX; stride *= 2) {
@@ -243,13 +244,13 @@ static inline f4 show(f4 light, float factor, uint32_t tone)
 {
     alignas(16) float rgb[4];
 
-    light = f4_mul(light, f4_all(factor));
+    light = f4_mul(light, f4_set1(factor));
     if (tone != TONE_LINEAR) {
         f4_store(rgb, light);
         tone_curve(tone, rgb);
-        light = f4_of(rgb[0], rgb[1], rgb[2]);
+        light = f4_set3(rgb[0], rgb[1], rgb[2]);
     }
-    return f4_min(light, f4_all(1.0f));
+    return f4_min(light, f4_set1(1.0f));
 }
 
 static void encode(f4 shown, uint8_t *bytes)
@@ -272,7 +273,7 @@ void film_resolve(struct film *f, struct develop how, struct frame *frame)
 
             linear_run(f, x, y, count, rgb);
             for (int i = 0; i < count; i++) {
-                f4 light = f4_of(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
+                f4 light = f4_set3(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
 
                 encode(show(light, factor, how.tone),
                        frame->rgb + 3 * pixel_index(f, x + i, y));
@@ -305,7 +306,7 @@ struct showing {
 static inline void add(struct weighted *sum, f4 rgb, float weight)
 {
     static const alignas(16) float one[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-    f4 more = f4_mul(f4_add(rgb, f4_load(one)), f4_all(weight));
+    f4 more = f4_mul(f4_add(rgb, f4_load(one)), f4_set1(weight));
 
     f4_store(sum->rgb_weight, f4_add(f4_load(sum->rgb_weight), more));
 }
@@ -336,7 +337,7 @@ static void add_row(const struct showing *how, const struct film *f, int y,
         int x = w.from;
         uint64_t samples = counts[x];
         float trusted = 0.0f;
-        f4 light = f4_all(0.0f), shown = light;
+        f4 light = f4_set1(0.0f), shown = light;
 
         if (x + AHEAD < f->width)
             __builtin_prefetch(sums + 3 * (x + AHEAD));
@@ -397,16 +398,16 @@ static f4 finish(const struct showing *s, struct film *film, struct film *draft,
     float light_weight = r->light[i].rgb_weight[3];
 
     if (!draft && sure_weight > 0.0f)
-        return f4_div(sure, f4_all(sure_weight));
+        return f4_div(sure, f4_set1(sure_weight));
     if (light_weight > 0.0f)
-        light = f4_div(light, f4_all(light_weight));
+        light = f4_div(light, f4_set1(light_weight));
     else
         light = coarse_part(s, draft ? draft : film, r, i);
     light = show(light, s->factor, s->tone);
     if (!draft)
         return light;
-    light = f4_mul(light, f4_all(1.0f - sure_weight / whole));
-    return f4_add(light, f4_div(sure, f4_all(whole)));
+    light = f4_mul(light, f4_set1(1.0f - sure_weight / whole));
+    return f4_add(light, f4_div(sure, f4_set1(whole)));
 }
 
 void film_preview(struct film *film, struct film *draft, struct develop how,
