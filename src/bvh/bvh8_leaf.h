@@ -67,13 +67,13 @@ blocks_hit(const struct world *w, const struct block_ray *r,
 
         if (f4_test(block, 0, &r->lanes, f4_set1(best->t), ~passed, &h)) {
             for (; h.sure != 0; h.sure &= h.sure - 1) {
-                uint32_t i = lowest(h.sure);
+                uint32_t i = lowest_bit(h.sure);
 
-                found |= lane_take(w, &h, i, &r->ray, block->tri[i], best);
+                found |= lane_accept(w, &h, i, &r->ray, block->tri[i], best);
             }
             for (; h.unsure != 0; h.unsure &= h.unsure - 1)
-                found |= lane_decide(w, &r->ray, &r->shear, block,
-                                     lowest(h.unsure), best);
+                found |= lane_retest(w, &r->ray, &r->shear, block,
+                                     lowest_bit(h.unsure), best);
         }
         if (more == 0)
             return found;

@@ -135,13 +135,14 @@ static inline void bvh8_prefetch(const struct bvh8_node *root, uint32_t child)
 }
 
 /* A child that waits: the bits of the distance at which it is entered, which
- * sort as the distance does, above its code. Takes the lowest of the mask. */
+ * sort as the distance does, above its code. Takes the lowest_bit of the mask.
+ */
 static inline uint64_t bvh8_take(const struct bvh8_node *nodes,
                                  const struct bvh8_node *n,
                                  const float entries[BVH8_CHILDREN],
                                  uint32_t *mask)
 {
-    uint32_t i = lowest(*mask);
+    uint32_t i = lowest_bit(*mask);
 
     *mask &= *mask - 1;
     bvh8_prefetch(nodes, n->child[i]);
@@ -225,7 +226,7 @@ bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
             uint32_t mask = bvh8_enter(n, first, last, t_far, &enter);
 
             if (mask != 0) {
-                at = n->child[lowest(mask)];
+                at = n->child[lowest_bit(mask)];
                 if ((mask & (mask - 1)) != 0)
                     at = bvh8_choose(nodes, n, mask, enter, &top);
                 continue;
@@ -368,11 +369,11 @@ static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 
             if (mask != 0) {
                 for (; (mask & (mask - 1)) != 0; mask &= mask - 1) {
-                    *top = n->child[lowest(mask)];
+                    *top = n->child[lowest_bit(mask)];
                     bvh8_prefetch(nodes, *top);
                     top++;
                 }
-                at = n->child[lowest(mask)];
+                at = n->child[lowest_bit(mask)];
                 continue;
             }
         } else if (blocks_hit(w, &block_ray, bvh8_block_at(nodes, at),

@@ -121,17 +121,17 @@ static inline void packet_meet(struct ray_packet *g,
     if (!f8_test(block, i, &g->lanes, f8_load(g->t), ~0u, &h))
         return;
     for (; h.sure != 0; h.sure &= h.sure - 1) {
-        uint32_t k = lowest(h.sure);
+        uint32_t k = lowest_bit(h.sure);
 
-        lane_take(g->world, &h, k, &g->rays[k], block->tri[i], &g->hits[k]);
+        lane_accept(g->world, &h, k, &g->rays[k], block->tri[i], &g->hits[k]);
         g->t[k] = g->hits[k].t;
     }
     for (; h.unsure != 0; h.unsure &= h.unsure - 1) {
-        uint32_t k = lowest(h.unsure);
+        uint32_t k = lowest_bit(h.unsure);
         struct shear s = {g->rays[k].o, g->lanes.sx[k], g->lanes.sy[k],
                           g->lanes.sz[k], g->lanes.axis};
 
-        lane_decide(g->world, &g->rays[k], &s, block, i, &g->hits[k]);
+        lane_retest(g->world, &g->rays[k], &s, block, i, &g->hits[k]);
         g->t[k] = g->hits[k].t;
     }
     g->far = packet_far(g);

@@ -13,7 +13,7 @@
 
 #define LANES_MAX 8
 
-static inline uint32_t lowest(uint32_t mask)
+static inline uint32_t lowest_bit(uint32_t mask)
 {
     return (uint32_t)__builtin_ctz(mask);
 }
@@ -27,9 +27,9 @@ struct simd_hits {
 };
 
 /* The rule of tri_hit() for a lane that is sure; true if it is a nearer hit. */
-static inline bool lane_take(const struct world *w, const struct simd_hits *h,
-                             uint32_t lane, const struct ray *r, uint32_t tri,
-                             struct hit *best)
+static inline bool lane_accept(const struct world *w, const struct simd_hits *h,
+                               uint32_t lane, const struct ray *r, uint32_t tri,
+                               struct hit *best)
 {
     float u = h->edges[0][lane], v = h->edges[1][lane], s = h->edges[2][lane];
     float t = h->t[lane];
@@ -44,7 +44,7 @@ static inline bool lane_take(const struct world *w, const struct simd_hits *h,
 
 /* tri_hit() for triangle i of a block; rarely needed. */
 static __attribute__((noinline, flatten)) bool
-lane_decide(const struct world *w, const struct ray *r, const struct shear *s,
+lane_retest(const struct world *w, const struct ray *r, const struct shear *s,
             const struct tri_block *b, uint32_t i, struct hit *best)
 {
     struct leaf_tri t = {
