@@ -39,11 +39,11 @@ struct ray_packet {
     uint32_t count;
     struct f8_rays lanes;
     _Alignas(32) float t[PACKET_RAYS]; /* of the hits */
-    float far;                         /* the largest of these */
+    float t_max;                       /* the largest of these */
 };
 
-static inline void packet_put(struct ray_packet *g, uint32_t lane,
-                              const struct ray *r)
+static inline void packet_set_ray(struct ray_packet *g, uint32_t lane,
+                                  const struct ray *r)
 {
     g->lanes.o[0][lane] = r->o.x;
     g->lanes.o[1][lane] = r->o.y;
@@ -86,7 +86,7 @@ static inline bool packet_is_finite(const struct ray_packet *g)
     return f8_mask_le(f8_abs(sum), f8_set1(FLOAT_MAX)) == (1u << g->count) - 1;
 }
 
-static inline float packet_far(const struct ray_packet *g)
+static inline float packet_t_max(const struct ray_packet *g)
 {
     float far = g->t[0];
 
@@ -109,12 +109,12 @@ static inline void packet_begin(struct ray_packet *g, const struct world *w,
     g->hits = hits;
     g->count = count;
     for (uint32_t i = 0; i < PACKET_RAYS; i++)
-        packet_put(g, i, i < count ? &rays[i] : &none);
-    g->far = packet_far(g);
+        packet_set_ray(g, i, i < count ? &rays[i] : &none);
+    g->t_max = packet_t_max(g);
 }
 
-static inline void packet_meet(struct ray_packet *g,
-                               const struct tri_block *block, uint32_t i)
+static inline void packet_intersect(struct ray_packet *g,
+                                    const struct tri_block *block, uint32_t i)
 {
     struct simd_hits h;
 
@@ -134,7 +134,7 @@ static inline void packet_meet(struct ray_packet *g,
         lane_retest(g->world, &g->rays[k], &s, block, i, &g->hits[k]);
         g->t[k] = g->hits[k].t;
     }
-    g->far = packet_far(g);
+    g->t_max = packet_t_max(g);
 }
 
 #endif
