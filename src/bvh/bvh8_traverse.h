@@ -137,10 +137,10 @@ static inline void bvh8_prefetch(const struct bvh8_node *root, uint32_t child)
 /* A child that waits: the bits of the distance at which it is entered, which
  * sort as the distance does, above its code. Takes the lowest_bit of the mask.
  */
-static inline uint64_t bvh8_take(const struct bvh8_node *nodes,
-                                 const struct bvh8_node *n,
-                                 const float entries[BVH8_CHILDREN],
-                                 uint32_t *mask)
+static inline uint64_t bvh8_child_key(const struct bvh8_node *nodes,
+                                      const struct bvh8_node *n,
+                                      const float entries[BVH8_CHILDREN],
+                                      uint32_t *mask)
 {
     uint32_t i = lowest_bit(*mask);
 
@@ -150,7 +150,7 @@ static inline uint64_t bvh8_take(const struct bvh8_node *nodes,
 }
 
 /* Without a branch, which would be wrong every other time. */
-static inline void in_order(uint64_t *a, uint64_t *b)
+static inline void sort_two(uint64_t *a, uint64_t *b)
 {
     uint64_t less = *a < *b ? *a : *b;
 
@@ -160,38 +160,39 @@ static inline void in_order(uint64_t *a, uint64_t *b)
 
 /* The nearest of two or more children. The others wait on the stack, nearer
  * ones above: most are two to four, which a network sorts. */
-static inline uint32_t bvh8_choose(const struct bvh8_node *nodes,
-                                   const struct bvh8_node *n, uint32_t mask,
-                                   f8 enter, uint64_t **stack)
+static inline uint32_t bvh8_push_children(const struct bvh8_node *nodes,
+                                          const struct bvh8_node *n,
+                                          uint32_t mask, f8 enter,
+                                          uint64_t **stack)
 {
     _Alignas(32) float entries[BVH8_CHILDREN];
     uint64_t *base = *stack, *top = base;
     uint64_t a, b, c, d;
 
     f8_store(entries, enter);
-    a = bvh8_take(nodes, n, entries, &mask);
-    b = bvh8_take(nodes, n, entries, &mask);
-    in_order(&a, &b);
+    a = bvh8_child_key(nodes, n, entries, &mask);
+    b = bvh8_child_key(nodes, n, entries, &mask);
+    sort_two(&a, &b);
     if (mask != 0) {
-        c = bvh8_take(nodes, n, entries, &mask);
+        c = bvh8_child_key(nodes, n, entries, &mask);
         if (mask != 0) {
-            d = bvh8_take(nodes, n, entries, &mask);
-            in_order(&c, &d);
-            in_order(&a, &c);
-            in_order(&b, &d);
+            d = bvh8_child_key(nodes, n, entries, &mask);
+            sort_two(&c, &d);
+            sort_two(&a, &c);
+            sort_two(&b, &d);
             *top++ = d;
         } else {
-            in_order(&a, &c);
+            sort_two(&a, &c);
         }
-        in_order(&b, &c);
+        sort_two(&b, &c);
         *top++ = c;
     }
     *top++ = b;
     while (mask != 0) {
-        uint64_t e = bvh8_take(nodes, n, entries, &mask);
+        uint64_t e = bvh8_child_key(nodes, n, entries, &mask);
         uint64_t *at = top++;
 
-        in_order(&a, &e);
+        sort_two(&a, &e);
         for (; at > base && at[-1] < e; at--)
             *at = at[-1];
         *at = e;
@@ -228,7 +229,7 @@ bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
             if (mask != 0) {
                 at = n->child[lowest_bit(mask)];
                 if ((mask & (mask - 1)) != 0)
-                    at = bvh8_choose(nodes, n, mask, enter, &top);
+                    at = bvh8_push_children(nodes, n, mask, enter, &top);
                 continue;
             }
         } else {
