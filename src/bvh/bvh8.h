@@ -25,7 +25,7 @@
 
 /* A child is how far it is from the root in units of 32 bytes, times 8: so many
  * bytes are one shift of it away. With BVH8_LEAF it is a block, and the
- * lowest_bit two bits say how many more follow it. */
+ * lowest two bits say how many more follow it. */
 #define BVH8_UNIT 32
 #define BVH8_LEAF 4u
 #define BVH8_MORE 3u

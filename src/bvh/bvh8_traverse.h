@@ -135,7 +135,7 @@ static inline void bvh8_prefetch(const struct bvh8_node *root, uint32_t child)
 }
 
 /* A child that waits: the bits of the distance at which it is entered, which
- * sort as the distance does, above its code. Takes the lowest_bit of the mask.
+ * sort as the distance does, above its code. Takes the lowest of the mask.
  */
 static inline uint64_t bvh8_child_key(const struct bvh8_node *nodes,
                                       const struct bvh8_node *n,
