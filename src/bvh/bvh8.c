@@ -45,7 +45,7 @@ struct builder {
     const struct world *world;
     const struct bvh *bvh;
     struct bvh8 *wide;
-    struct bvh8_collapse fits;
+    struct bvh8_collapse collapse;
     struct part top;
     struct part *parts; /* below it */
     uint32_t part_count;
@@ -56,7 +56,7 @@ struct builder {
 
 static uint32_t tris_below(const struct builder *b, uint32_t node)
 {
-    return b->fits.fits[node].tri_count;
+    return b->collapse.costs[node].tri_count;
 }
 
 static uint32_t plan_leaf(const struct builder *b, struct part *part,
@@ -98,11 +98,11 @@ static bool plan(struct builder *b, struct part *part, uint32_t node,
                     sizeof *part->plans))
         return false;
     part->plans = plans;
-    p.count = bvh8_collapse_children(&b->fits, node, p.from);
+    p.count = bvh8_collapse_children(&b->collapse, node, p.from);
     for (uint32_t i = 0; i < p.count; i++) {
         bool ok = true;
 
-        if (bvh8_collapse_leaf(&b->fits, p.from[i]))
+        if (bvh8_collapse_leaf(&b->collapse, p.from[i]))
             p.to[i] = plan_leaf(b, part, p.from[i]);
         else if (part == &b->top && is_part(b, p.from[i]))
             ok = add_part(b, p.from[i], &p.to[i]);
@@ -211,7 +211,7 @@ static void fill_box(struct bvh8_node *n, uint32_t i, struct vec3 lo,
 static uint32_t fill_child(const struct builder *b, const struct part *part,
                            uint32_t from, uint32_t to)
 {
-    if (bvh8_collapse_leaf(&b->fits, from))
+    if (bvh8_collapse_leaf(&b->collapse, from))
         return fill_leaf(b, from, &b->wide->blocks[part->first_block + to]);
     if (part == &b->top && is_part(b, from))
         to = b->parts[to].first_node;
@@ -248,7 +248,7 @@ static void fetch_tris(const struct builder *b, const struct plan *p)
     for (uint32_t i = 0; i < p->count; i++) {
         const uint32_t *tris;
 
-        if (!bvh8_collapse_leaf(&b->fits, p->from[i]))
+        if (!bvh8_collapse_leaf(&b->collapse, p->from[i]))
             continue;
         tris = first_tri(b, p->from[i]);
         for (uint32_t k = 0; k < tris_below(b, p->from[i]); k++)
@@ -293,7 +293,7 @@ static bool build(struct builder *b, struct pool *pool)
 {
     struct bvh8 *wide = b->wide;
 
-    if (!bvh8_collapse_init(&b->fits, b->bvh, pool) || !plan_all(b, pool))
+    if (!bvh8_collapse_init(&b->collapse, b->bvh, pool) || !plan_all(b, pool))
         return false;
     wide->nodes = alloc_tree(wide->node_count, wide->block_count);
     if (wide->nodes == NULL)
@@ -311,7 +311,7 @@ static void end(struct builder *b)
         free(b->parts[i].plans);
     free(b->parts);
     free(b->top.plans);
-    bvh8_collapse_free(&b->fits);
+    bvh8_collapse_free(&b->collapse);
 }
 
 bool bvh8_build(struct bvh8 *wide, const struct world *w, struct pool *pool,

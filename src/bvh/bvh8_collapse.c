@@ -15,8 +15,8 @@ struct span {
     uint32_t first, end;
 };
 
-struct fitter {
-    const struct bvh8_collapse *fits;
+struct cost_job {
+    const struct bvh8_collapse *collapse;
     struct span *spans;
     uint32_t span_count;
     size_t span_capacity;
@@ -33,7 +33,7 @@ static float area_of(const struct node *n)
 
 static float leaf_cost(const struct bvh8_collapse *f, uint32_t node)
 {
-    uint32_t tri_count = f->fits[node].tri_count;
+    uint32_t tri_count = f->costs[node].tri_count;
 
     if (tri_count > BVH8_LEAF_TRIS)
         return INFINITY;
@@ -54,35 +54,35 @@ static void share_places(const struct bvh8_cost *left,
     }
 }
 
-static void fit_node(const struct bvh8_collapse *f, uint32_t node)
+static void cost_node(const struct bvh8_collapse *f, uint32_t node)
 {
     const struct node *n = &f->bvh->nodes[node];
-    struct bvh8_cost *fit = &f->fits[node];
+    struct bvh8_cost *cost = &f->costs[node];
     float shared[BVH8_CHILDREN];
 
-    fit->tri_count = n->count;
+    cost->tri_count = n->count;
     if (n->count != 0) {
         for (uint32_t k = 0; k < BVH8_CHILDREN; k++)
-            fit->costs[k] = leaf_cost(f, node);
+            cost->costs[k] = leaf_cost(f, node);
         return;
     }
-    fit->tri_count = fit[1].tri_count + f->fits[n->next].tri_count;
-    share_places(&fit[1], &f->fits[n->next], shared);
-    fit->costs[0] =
+    cost->tri_count = cost[1].tri_count + f->costs[n->next].tri_count;
+    share_places(&cost[1], &f->costs[n->next], shared);
+    cost->costs[0] =
         f_min(leaf_cost(f, node), area_of(n) + shared[BVH8_CHILDREN - 1]);
     for (uint32_t k = 1; k < BVH8_CHILDREN; k++)
-        fit->costs[k] = f_min(fit->costs[k - 1], shared[k]);
+        cost->costs[k] = f_min(cost->costs[k - 1], shared[k]);
 }
 
 /* Children lie behind their parents. */
-static void fit_span(void *context, uint32_t item, int worker)
+static void cost_span(void *context, uint32_t item, int worker)
 {
-    const struct fitter *f = context;
+    const struct cost_job *f = context;
     struct span s = f->spans[item];
 
     (void)worker;
     while (s.end-- > s.first)
-        fit_node(f->fits, s.end);
+        cost_node(f->collapse, s.end);
 }
 
 static uint32_t right_of(const struct bvh8_collapse *f, uint32_t node)
@@ -91,9 +91,9 @@ static uint32_t right_of(const struct bvh8_collapse *f, uint32_t node)
 }
 
 /* Recursion is as deep as the tree, at most. */
-static bool find_spans(struct fitter *f, struct span s)
+static bool find_spans(struct cost_job *f, struct span s)
 {
-    uint32_t right = right_of(f->fits, s.first);
+    uint32_t right = right_of(f->collapse, s.first);
     void *spans = f->spans;
 
     if (s.end - s.first > SPAN_NODES)
@@ -107,46 +107,46 @@ static bool find_spans(struct fitter *f, struct span s)
     return true;
 }
 
-static void fit_above_spans(const struct bvh8_collapse *f, struct span s)
+static void cost_above_spans(const struct bvh8_collapse *f, struct span s)
 {
     uint32_t right = right_of(f, s.first);
 
     if (s.end - s.first <= SPAN_NODES)
         return;
-    fit_above_spans(f, (struct span){s.first + 1, right});
-    fit_above_spans(f, (struct span){right, s.end});
-    fit_node(f, s.first);
+    cost_above_spans(f, (struct span){s.first + 1, right});
+    cost_above_spans(f, (struct span){right, s.end});
+    cost_node(f, s.first);
 }
 
 bool bvh8_collapse_init(struct bvh8_collapse *f, const struct bvh *bvh,
                         struct pool *pool)
 {
     const struct span all = {0, bvh->node_count};
-    struct fitter fitter = {.fits = f};
+    struct cost_job job = {.collapse = f};
     bool ok;
 
     *f = (struct bvh8_collapse){bvh, alloc_aligned(bvh->node_count,
-                                                   sizeof *f->fits)};
-    ok = f->fits != NULL && find_spans(&fitter, all);
+                                                   sizeof *f->costs)};
+    ok = f->costs != NULL && find_spans(&job, all);
     if (ok) {
-        pool_each(pool, fitter.span_count, fit_span, &fitter);
-        fit_above_spans(f, all);
+        pool_each(pool, job.span_count, cost_span, &job);
+        cost_above_spans(f, all);
     }
-    free(fitter.spans);
+    free(job.spans);
     return ok;
 }
 
 void bvh8_collapse_free(struct bvh8_collapse *f)
 {
-    free(f->fits);
-    *f = (struct bvh8_collapse){.fits = NULL};
+    free(f->costs);
+    *f = (struct bvh8_collapse){.costs = NULL};
 }
 
 /* ---- choices ---- */
 
 bool bvh8_collapse_leaf(const struct bvh8_collapse *f, uint32_t node)
 {
-    return leaf_cost(f, node) <= f->fits[node].costs[0];
+    return leaf_cost(f, node) <= f->costs[node].costs[0];
 }
 
 /* How many of so many places go to the left of two nodes. */
@@ -174,10 +174,10 @@ static uint32_t open_node(const struct bvh8_collapse *f, uint32_t node,
 {
     const uint32_t nodes[2] = {node + 1, right_of(f, node)};
     uint32_t lefts =
-        left_places(&f->fits[nodes[0]], &f->fits[nodes[1]], places);
+        left_places(&f->costs[nodes[0]], &f->costs[nodes[1]], places);
 
     for (int i = 0; i < 2; i++) {
-        const float *costs = f->fits[nodes[i]].costs;
+        const float *costs = f->costs[nodes[i]].costs;
         uint32_t n = i == 0 ? lefts : places - lefts;
 
         while (n > 1 && costs[n - 2] <= costs[n - 1])

@@ -28,7 +28,7 @@ struct bvh8_cost {
 
 struct bvh8_collapse {
     const struct bvh *bvh;
-    struct bvh8_cost *fits; /* of each of its nodes */
+    struct bvh8_cost *costs; /* of each of its nodes */
 };
 
 static inline uint32_t bvh8_blocks(uint32_t tri_count)
