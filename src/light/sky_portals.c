@@ -14,19 +14,19 @@
 #include "kernels/texture.h"
 
 /* On surfaces, by area, on either side; and looks from each. */
-#define PLACES 4096u
-#define LOOKS  16u
+#define PROBES     4096u
+#define PROBE_RAYS 16u
 
 /* A place from which more of them see the sky is in the open. With 4 an arcade
  * has 5 % less error, and what stands under the sky 8 % more. */
-#define OPEN_LOOKS 2u
+#define OPEN_RAYS 2u
 
 /* One look in so many goes on from what it meets. */
 #define BOUNCE_EVERY 4u
 
 /* Rays from each place that is not in the open. On a room four times as many
  * places and aims leave 4 % less error. */
-#define AIMS 32u
+#define PORTAL_RAYS 32u
 
 /* Panes of glass that are looked through, as if they did not bend. */
 #define PANES  4
@@ -39,20 +39,20 @@
 #define MEAN_BOUNCES 16.0
 
 /* Of their random numbers, which no sample of a pixel has. */
-#define OPENINGS_KEY       0x3c6ef372u
-#define OPENINGS_DIMENSION 0x20000u
+#define PORTALS_KEY       0x3c6ef372u
+#define PORTALS_DIMENSION 0x20000u
 
 enum decision {
     DECISION_TRI,
     DECISION_POINT,
     DECISION_SIDE,
-    DECISION_LOOK,
+    DECISION_DIRECTION,
     DECISION_BOUNCE,
-    DECISION_AIM
+    DECISION_PORTAL
 };
 
 /* On a side of a surface, not in the open. */
-struct place {
+struct probe_point {
     struct hit at;
     struct ray ray; /* from there, anywhere */
     struct vec3 n;
@@ -60,22 +60,22 @@ struct place {
 };
 
 /* Where a look has left the box around the scene, through which side. */
-struct mark {
+struct portal_point {
     struct vec3 at;
     uint32_t axis;
 };
 
 /* What the looks around a place have found. */
-struct looks {
-    struct place place;
-    struct mark marks[OPEN_LOOKS]; /* of the first that saw the sky */
-    uint32_t seen;                 /* looks that did */
-    uint32_t bounces, lit;         /* looks that bounced, and saw it then */
-    bool is_there;                 /* the place has a side */
+struct visibility_probe {
+    struct probe_point point;
+    struct portal_point portals[OPEN_RAYS]; /* of the first that saw the sky */
+    uint32_t seen;                          /* looks that did */
+    uint32_t bounces, lit; /* looks that bounced, and saw it then */
+    bool is_valid;         /* the place has a side */
 };
 
 /* Of an aim: how much of the sky, from which bin of directions. */
-struct beam {
+struct portal_ray {
     uint32_t bin;
     float flux;
     bool is_glazed; /* came through panes */
@@ -86,27 +86,27 @@ struct search {
     const struct guide_grid *grid;
     struct sky_portals *found;
     struct triangle_cdf surfaces;
-    struct looks *looks;  /* of all places */
-    struct place *places; /* those that are not in the open */
-    uint32_t place_count;
-    struct mark *marks;
-    uint32_t mark_count;
-    struct beam *beams; /* of their aims */
+    struct visibility_probe *probes; /* of all places */
+    struct probe_point *points;      /* those that are not in the open */
+    uint32_t point_count;
+    struct portal_point *portals;
+    uint32_t portal_count;
+    struct portal_ray *portal_rays; /* of their aims */
     /* of each cell: places, those of them that are not in the open, their looks
      * that bounced, and those of these that saw the sky then */
-    float *tried, *enclosed, *bounces, *lit;
+    float *probe_counts, *enclosed, *bounces, *lit;
 };
 
-static struct vec2 number(uint32_t i, enum decision decision)
+static struct vec2 probe_2d(uint32_t i, enum decision decision)
 {
-    struct sampler s = {OPENINGS_KEY, reverse_bits(i)};
+    struct sampler s = {PORTALS_KEY, reverse_bits(i)};
 
-    return random_2d(s, OPENINGS_DIMENSION + (uint32_t)decision);
+    return random_2d(s, PORTALS_DIMENSION + (uint32_t)decision);
 }
 
 /* Lets the ray begin at the hit on the side where `side` is, n. */
-static bool leave(const struct world *w, struct hit h, struct vec3 side,
-                  struct ray *r, struct vec3 *n)
+static bool leave_surface(const struct world *w, struct hit h, struct vec3 side,
+                          struct ray *r, struct vec3 *n)
 {
     struct vec3 p[3], at, error;
 
@@ -139,7 +139,7 @@ static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
             return i;
         if (!is_glass(&w->materials[w->tris[h->tri].material]))
             return HIDDEN;
-        if (!leave(w, *h, r.d, &r, &n))
+        if (!leave_surface(w, *h, r.d, &r, &n))
             break;
     }
     h->tri = NO_INDEX;
@@ -147,24 +147,24 @@ static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
 }
 
 /* Does what the look has met see the sky, in a direction by chance? */
-static bool is_lit(const struct world *w, struct ray look_ray, struct hit h,
+static bool is_lit(const struct world *w, struct ray probe_ray, struct hit h,
                    uint32_t i)
 {
-    struct ray r = look_ray;
+    struct ray r = probe_ray;
     struct vec3 n;
 
-    if (h.tri == NO_INDEX || !leave(w, h, v3_neg(look_ray.d), &r, &n))
+    if (h.tri == NO_INDEX || !leave_surface(w, h, v3_neg(probe_ray.d), &r, &n))
         return false;
-    r.d = cosine_around(n, number(i, DECISION_BOUNCE));
+    r.d = cosine_around(n, probe_2d(i, DECISION_BOUNCE));
     return panes_to_sky(w, r, &h) != HIDDEN;
 }
 
-static struct mark leave_box(const struct guide_grid *g, struct ray r)
+static struct portal_point exit_box(const struct guide_grid *g, struct ray r)
 {
     const float o[3] = {r.o.x - g->lo.x, r.o.y - g->lo.y, r.o.z - g->lo.z};
     const float d[3] = {r.d.x, r.d.y, r.d.z};
     const uint32_t cells[3] = {g->width, g->height, g->depth};
-    struct mark m = {r.o, 0};
+    struct portal_point m = {r.o, 0};
     float least = FLOAT_MAX;
 
     for (uint32_t k = 0; k < 3; k++) {
@@ -180,73 +180,75 @@ static struct mark leave_box(const struct guide_grid *g, struct ray r)
     return m;
 }
 
-static void look(const struct search *s, struct looks *l, uint32_t k)
+static void trace_probe_ray(const struct search *s, struct visibility_probe *l,
+                            uint32_t k)
 {
     const struct world *w = &s->w->world;
-    struct ray *r = &l->place.ray;
+    struct ray *r = &l->point.ray;
     struct hit met;
     bool is_blocked;
 
-    r->d = cosine_around(l->place.n, number(k, DECISION_LOOK));
+    r->d = cosine_around(l->point.n, probe_2d(k, DECISION_DIRECTION));
     is_blocked = panes_to_sky(w, *r, &met) == HIDDEN;
-    if (!is_blocked && l->seen++ < OPEN_LOOKS)
-        l->marks[l->seen - 1] = leave_box(s->grid, *r);
+    if (!is_blocked && l->seen++ < OPEN_RAYS)
+        l->portals[l->seen - 1] = exit_box(s->grid, *r);
     if (k % BOUNCE_EVERY == 0) {
         l->bounces++;
         l->lit += is_blocked && is_lit(w, *r, met, k) ? 1 : 0;
     }
 }
 
-static void look_around(void *context, uint32_t i, int worker)
+static void trace_probe(void *context, uint32_t i, int worker)
 {
     const struct search *s = context;
-    struct vec2 side = number(i, DECISION_SIDE);
-    struct looks *l = &s->looks[i];
-    struct place *p = &l->place;
+    struct vec2 side = probe_2d(i, DECISION_SIDE);
+    struct visibility_probe *l = &s->probes[i];
+    struct probe_point *p = &l->point;
 
     (void)worker;
-    p->at = triangle_point(number(i, DECISION_POINT));
-    p->at.tri = triangle_cdf_choose(&s->surfaces, number(i, DECISION_TRI).x);
+    p->at = triangle_point(probe_2d(i, DECISION_POINT));
+    p->at.tri = triangle_cdf_choose(&s->surfaces, probe_2d(i, DECISION_TRI).x);
     p->ray.key = hash_u32(i);
-    l->is_there = leave(&s->w->world, p->at,
-                        guide_direction(side.x * (float)GUIDE_SIDE,
-                                        side.y * (float)GUIDE_SIDE),
-                        &p->ray, &p->n);
-    if (!l->is_there)
+    l->is_valid = leave_surface(&s->w->world, p->at,
+                                guide_direction(side.x * (float)GUIDE_SIDE,
+                                                side.y * (float)GUIDE_SIDE),
+                                &p->ray, &p->n);
+    if (!l->is_valid)
         return;
     p->cell = guide_cell_index(s->grid, p->ray.o, p->n);
-    for (uint32_t k = i * LOOKS; k < (i + 1) * LOOKS; k++)
-        look(s, l, k);
+    for (uint32_t k = i * PROBE_RAYS; k < (i + 1) * PROBE_RAYS; k++)
+        trace_probe_ray(s, l, k);
 }
 
 /* Keeps a place and what it has found if it is not in the open. */
-static void keep(struct search *s, const struct looks *l)
+static void keep_probe(struct search *s, const struct visibility_probe *l)
 {
-    uint32_t cell = l->place.cell;
+    uint32_t cell = l->point.cell;
 
-    if (!l->is_there)
+    if (!l->is_valid)
         return;
-    s->tried[cell]++;
-    if (l->seen > OPEN_LOOKS)
+    s->probe_counts[cell]++;
+    if (l->seen > OPEN_RAYS)
         return;
     s->enclosed[cell]++;
     s->bounces[cell] += (float)l->bounces;
     s->lit[cell] += (float)l->lit;
-    s->places[s->place_count++] = l->place;
+    s->points[s->point_count++] = l->point;
     for (uint32_t i = 0; i < l->seen; i++)
-        s->marks[s->mark_count++] = l->marks[i];
+        s->portals[s->portal_count++] = l->portals[i];
 }
 
 /* What a mark that is in sight brings, as a part of the sky's opening around
  * it. */
-static struct beam aim_at(const struct search *s, const struct place *p,
-                          const struct mark *m)
+static struct portal_ray trace_portal_ray(const struct search *s,
+                                          const struct probe_point *p,
+                                          const struct portal_point *m)
 {
     float cell = 1.0f / s->grid->cells_per_unit;
     struct vec3 d = v3_sub(m->at, p->ray.o);
     float distance2 = v3_dot(d, d), cosine;
     struct ray r = p->ray;
-    struct beam b = {0, 0.0f, false};
+    struct portal_ray b = {0, 0.0f, false};
     struct hit met;
     int panes;
 
@@ -266,26 +268,27 @@ static struct beam aim_at(const struct search *s, const struct place *p,
     return b;
 }
 
-static void aim(void *context, uint32_t i, int worker)
+static void trace_portal_rays(void *context, uint32_t i, int worker)
 {
     const struct search *s = context;
 
     (void)worker;
-    for (uint32_t k = i * AIMS; k < (i + 1) * AIMS; k++) {
-        float u = number(k, DECISION_AIM).x;
+    for (uint32_t k = i * PORTAL_RAYS; k < (i + 1) * PORTAL_RAYS; k++) {
+        float u = probe_2d(k, DECISION_PORTAL).x;
 
-        s->beams[k] = aim_at(s, &s->places[i],
-                             &s->marks[(uint32_t)(u * (float)s->mark_count)]);
+        s->portal_rays[k] = trace_portal_ray(
+            s, &s->points[i],
+            &s->portals[(uint32_t)(u * (float)s->portal_count)]);
     }
 }
 
-static void add_beams(struct search *s)
+static void add_portal_rays(struct search *s)
 {
-    for (uint32_t k = 0; k < s->place_count * AIMS; k++) {
-        const struct beam *b = &s->beams[k];
+    for (uint32_t k = 0; k < s->point_count * PORTAL_RAYS; k++) {
+        const struct portal_ray *b = &s->portal_rays[k];
         struct guide_flux *part =
             b->is_glazed ? &s->found->glazed : &s->found->open;
-        size_t cell = s->places[k / AIMS].cell;
+        size_t cell = s->points[k / PORTAL_RAYS].cell;
 
         part->flux[cell * GUIDE_BINS + b->bin] += b->flux;
     }
@@ -307,7 +310,7 @@ static void finish_cell(struct search *s, uint32_t cell, double scale)
 {
     struct sky_portals *o = s->found;
     struct guide_flux *parts[2] = {&o->open, &o->glazed};
-    double all = (double)s->tried[cell] / (double)s->enclosed[cell];
+    double all = (double)s->probe_counts[cell] / (double)s->enclosed[cell];
     double totals[2] = {0, 0};
 
     for (int i = 0; i < 2 && parts[i]->flux != NULL; i++) {
@@ -330,7 +333,7 @@ static void finish(struct search *s)
 {
     struct sky_portals *o = s->found;
     uint32_t count = guide_cell_count(s->grid);
-    double found = (double)s->mark_count / LOOKS;
+    double found = (double)s->portal_count / PROBE_RAYS;
     double arrived = sum_of(o->open.flux, (size_t)count * GUIDE_BINS);
 
     if (o->glazed.flux != NULL)
@@ -341,8 +344,8 @@ static void finish(struct search *s)
     for (uint32_t i = 0; i < count; i++)
         if (s->enclosed[i] > 0.0f)
             finish_cell(s, i, found / arrived);
-    for (uint32_t i = 0; i < s->place_count; i++)
-        o->walls[o->wall_count++] = s->places[i].at;
+    for (uint32_t i = 0; i < s->point_count; i++)
+        o->walls[o->wall_count++] = s->points[i].at;
 }
 
 static bool has_glass(const struct world *w)
@@ -354,11 +357,11 @@ static bool has_glass(const struct world *w)
     return has;
 }
 
-static bool openings_init(struct sky_portals *o, const struct bvh8_world *w,
-                          const struct guide_grid *grid)
+static bool portals_init(struct sky_portals *o, const struct bvh8_world *w,
+                         const struct guide_grid *grid)
 {
     o->bounced = alloc_array(guide_cell_count(grid), sizeof *o->bounced);
-    o->walls = alloc_array(PLACES, sizeof *o->walls);
+    o->walls = alloc_array(PROBES, sizeof *o->walls);
     return o->bounced != NULL && o->walls != NULL &&
            guide_flux_init(&o->open, grid) &&
            (!has_glass(&w->world) || guide_flux_init(&o->glazed, grid));
@@ -369,18 +372,19 @@ static bool search_init(struct search *s)
     const struct world *w = &s->w->world;
     uint32_t count = guide_cell_count(s->grid);
 
-    s->looks = alloc_array(PLACES, sizeof *s->looks);
-    s->places = alloc_array(PLACES, sizeof *s->places);
-    s->marks = alloc_array((size_t)PLACES * OPEN_LOOKS, sizeof *s->marks);
-    s->beams = alloc_array((size_t)PLACES * AIMS, sizeof *s->beams);
-    s->tried = alloc_array(count, sizeof *s->tried);
+    s->probes = alloc_array(PROBES, sizeof *s->probes);
+    s->points = alloc_array(PROBES, sizeof *s->points);
+    s->portals = alloc_array((size_t)PROBES * OPEN_RAYS, sizeof *s->portals);
+    s->portal_rays =
+        alloc_array((size_t)PROBES * PORTAL_RAYS, sizeof *s->portal_rays);
+    s->probe_counts = alloc_array(count, sizeof *s->probe_counts);
     s->enclosed = alloc_array(count, sizeof *s->enclosed);
     s->bounces = alloc_array(count, sizeof *s->bounces);
     s->lit = alloc_array(count, sizeof *s->lit);
     if (!triangle_cdf_init(&s->surfaces, w->settings.tri_count) ||
-        s->looks == NULL || s->places == NULL || s->marks == NULL ||
-        s->beams == NULL || s->tried == NULL || s->enclosed == NULL ||
-        s->bounces == NULL || s->lit == NULL)
+        s->probes == NULL || s->points == NULL || s->portals == NULL ||
+        s->portal_rays == NULL || s->probe_counts == NULL ||
+        s->enclosed == NULL || s->bounces == NULL || s->lit == NULL)
         return false;
     for (uint32_t i = 0; i < w->settings.tri_count; i++)
         triangle_cdf_add(&s->surfaces, i, tri_area(w, i));
@@ -390,30 +394,30 @@ static bool search_init(struct search *s)
 /* What is found in parallel is added in order. */
 static void find(struct search *s, struct pool *pool)
 {
-    pool_each(pool, PLACES, look_around, s);
-    for (uint32_t i = 0; i < PLACES; i++)
-        keep(s, &s->looks[i]);
-    if (s->mark_count == 0)
+    pool_each(pool, PROBES, trace_probe, s);
+    for (uint32_t i = 0; i < PROBES; i++)
+        keep_probe(s, &s->probes[i]);
+    if (s->portal_count == 0)
         return;
-    pool_each(pool, s->place_count, aim, s);
-    add_beams(s);
+    pool_each(pool, s->point_count, trace_portal_rays, s);
+    add_portal_rays(s);
     finish(s);
 }
 
 bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                      struct pool *pool, struct sky_portals *openings)
+                      struct pool *pool, struct sky_portals *portals)
 {
     struct search s = {.w = w, .grid = grid, .found = openings};
-    bool ok = openings_init(openings, w, grid) && search_init(&s);
+    bool ok = portals_init(portals, w, grid) && search_init(&s);
 
     if (ok)
         find(&s, pool);
     triangle_cdf_free(&s.surfaces);
-    free(s.looks);
-    free(s.places);
-    free(s.marks);
-    free(s.beams);
-    free(s.tried);
+    free(s.probes);
+    free(s.points);
+    free(s.portals);
+    free(s.portal_rays);
+    free(s.probe_counts);
     free(s.enclosed);
     free(s.bounces);
     free(s.lit);

@@ -42,13 +42,13 @@ struct sky_portals {
 
 /* The sky shines 1 from everywhere. */
 bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                      struct pool *pool, struct sky_portals *openings);
+                      struct pool *pool, struct sky_portals *portals);
 
 /* All light that comes by walls as a multiple of `bounced`: the walls' colours
  * may be others than when they were found. */
-double sky_portals_bounces(const struct sky_portals *openings,
+double sky_portals_bounces(const struct sky_portals *portals,
                            const struct world *w);
 
-void sky_portals_free(struct sky_portals *openings);
+void sky_portals_free(struct sky_portals *portals);
 
 #endif
