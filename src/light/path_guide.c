@@ -88,26 +88,26 @@ static bool wants_caustics(const struct path_guide *g, const struct world *w)
     return g->caustics.flux == NULL && caustics_possible(w);
 }
 
-static bool wants_openings(const struct path_guide *g, double sky)
+static bool wants_portals(const struct path_guide *g, double sky)
 {
-    return g->openings.open.flux == NULL && sky > 0;
+    return g->portals.open.flux == NULL && sky > 0;
 }
 
 static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
                        double sky, struct pool *pool)
 {
     bool has_caustics = wants_caustics(g, &w->world);
-    bool has_openings = wants_openings(g, sky);
+    bool has_portals = wants_portals(g, sky);
     double box;
 
-    if (!has_caustics && !has_openings)
+    if (!has_caustics && !has_portals)
         return true;
     box = make_grid(&w->world, &g->grid);
     g->lights = 2 * power_of(&w->world) / box;
     return (!has_caustics ||
             (guide_flux_init(&g->caustics, &g->grid) &&
              caustics_find(w, &g->grid, box, pool, &g->caustics))) &&
-           (!has_openings || sky_portals_find(w, &g->grid, pool, &g->openings));
+           (!has_portals || sky_portals_find(w, &g->grid, pool, &g->portals));
 }
 
 /* ---- the table ---- */
@@ -154,14 +154,14 @@ static uint32_t take_sums(struct table *t)
 static double other_light(const struct path_guide *g, uint32_t cell,
                           const struct other *o)
 {
-    return o->bounces * (double)g->openings.bounced[cell] + o->lights;
+    return o->bounces * (double)g->portals.bounced[cell] + o->lights;
 }
 
 /* For paths to go on, if that is worth its time in this cell. */
 static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
                                   uint32_t cell, const struct other *o)
 {
-    const struct guide_flux *parts[2] = {&g->caustics, &g->openings.glazed};
+    const struct guide_flux *parts[2] = {&g->caustics, &g->portals.glazed};
     const double most[2] = {SHARE_CAUSTICS, SHARE_GLAZED};
     double totals[2] = {0, 0}, shares[2] = {0, 0};
     double scale;
@@ -189,7 +189,7 @@ static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
 static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
                               uint32_t cell, const struct other *o)
 {
-    const struct guide_flux *open = &g->openings.open;
+    const struct guide_flux *open = &g->portals.open;
     double total = guide_flux_total(open, cell);
 
     if (part_of_light(open, cell, total, other_light(g, cell, o)) < PART_LEAST)
@@ -203,7 +203,7 @@ static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
  * time. */
 static bool is_sky_worth_it(const struct path_guide *g, const struct other *o)
 {
-    const struct guide_flux *open = &g->openings.open;
+    const struct guide_flux *open = &g->portals.open;
     double direct = 0, all = 0;
 
     for (uint32_t i = 0; open->flux != NULL && i < guide_cell_count(&g->grid);
@@ -261,7 +261,7 @@ static bool update(struct path_guide *g, const struct bvh8_world *w, double sky,
             return false;
         if (sky > 0)
             o = (struct other){g->lights / sky,
-                               sky_portals_bounces(&g->openings, &w->world)};
+                               sky_portals_bounces(&g->portals, &w->world)};
         if (!make_table(g, &o, &t)) {
             free(t.cells);
             free(t.sums);
@@ -281,7 +281,7 @@ bool path_guide_needs_rays(const struct path_guide *g, const struct world *w,
                            double sky)
 {
     return !is_done(g, sky) && w->settings.tri_count > 0 &&
-           (wants_caustics(g, w) || wants_openings(g, sky));
+           (wants_caustics(g, w) || wants_portals(g, sky));
 }
 
 bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
@@ -301,13 +301,13 @@ bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
 void path_guide_outdate(struct path_guide *g)
 {
     guide_flux_free(&g->caustics);
-    sky_portals_free(&g->openings);
+    sky_portals_free(&g->portals);
     g->is_current = false;
 }
 
 void path_guide_recolor(struct path_guide *g)
 {
-    g->is_current = g->is_current && g->openings.open.flux == NULL;
+    g->is_current = g->is_current && g->portals.open.flux == NULL;
 }
 
 bool path_guides_differ(const struct material *a, const struct material *b)

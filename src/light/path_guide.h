@@ -28,7 +28,7 @@ struct path_guide {
     struct guide_grid grid;
     /* what they are made of */
     struct guide_flux caustics; /* NULL: not searched for */
-    struct sky_portals openings;
+    struct sky_portals portals;
     double lights; /* mean radiance that all lights would shed on a box */
     double sky;    /* that the cells suit */
     bool is_current;
