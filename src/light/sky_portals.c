@@ -407,7 +407,7 @@ static void find(struct search *s, struct pool *pool)
 bool sky_portals_find(const struct bvh8_world *w, const struct guide_grid *grid,
                       struct pool *pool, struct sky_portals *portals)
 {
-    struct search s = {.w = w, .grid = grid, .found = openings};
+    struct search s = {.w = w, .grid = grid, .found = portals};
     bool ok = portals_init(portals, w, grid) && search_init(&s);
 
     if (ok)
