@@ -366,8 +366,8 @@ static void test_what_is_needed(void **state)
         load(&l, "a.mtl", text, strlen(text));
         before = &l.scene.material_origins[1].source;
         after = *before;
-        for (int n = 0; n < abs(cases[i].rotation); n++)
-            material_params_turn_kind(&after, cases[i].rotation);
+        for (int n = 0; n < abs(cases[i].turns); n++)
+            material_params_turn_kind(&after, cases[i].turns);
         needed = mtl_source_needed(before, &after);
         change = (struct mtl_change){"m", NULL, before, &needed};
         got = rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1,

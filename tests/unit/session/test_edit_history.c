@@ -89,7 +89,7 @@ static void check_same_scene(const struct scene *a, const struct scene *b)
     }
     assert_int_equal(a->lights.light_count, b->lights.light_count);
     assert_int_equal(a->lights.node_count, b->lights.node_count);
-    assert_true(a->lights.glare == b->lights.glare);
+    assert_true(a->lights.unsampled_variance == b->lights.unsampled_variance);
     if (a->lights.light_count > 0) {
         assert_memory_equal(a->lights.lights, b->lights.lights,
                             a->lights.light_count * sizeof *a->lights.lights);
@@ -454,8 +454,8 @@ static void test_kinds_leave_nothing(void **state)
         size_t size_bytes;
         char *text;
 
-        for (int n = 0; n < abs(cases[i].rotation); n++)
-            material_params_turn_kind(&source, cases[i].rotation);
+        for (int n = 0; n < abs(cases[i].turns); n++)
+            material_params_turn_kind(&source, cases[i].turns);
         edit_material(&s.edit, wall, &source);
         save(&s);
         assert_false(edit_has_unsaved_materials(&s.edit));
