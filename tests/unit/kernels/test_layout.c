@@ -43,15 +43,16 @@
     S(leaf_tri) M(leaf_tri, p0) M(leaf_tri, p1) M(leaf_tri, p2)               \
       M(leaf_tri, tri)                                                        \
     S(light) M(light, tris) M(light, path) M(light, texture)                  \
-      M(light, turns) M(light, corners) M(light, twice) M(light, emission)    \
+      M(light, rotation) M(light, corners) M(light, scaled_normals)           \
+      M(light, emission)                                                      \
     S(light_node) M(light_node, x) M(light_node, y) M(light_node, z)          \
       M(light_node, radius) M(light_node, axis_x) M(light_node, axis_y)       \
       M(light_node, axis_z) M(light_node, spread) M(light_node, power)        \
       M(light_node, child)                                                    \
-    S(guide_grid) M(guide_grid, lo) M(guide_grid, cells_a_unit)               \
+    S(guide_grid) M(guide_grid, lo) M(guide_grid, cells_per_unit)             \
       M(guide_grid, width) M(guide_grid, height) M(guide_grid, depth)         \
       M(guide_grid, table_count)                                              \
-    S(guide_cell) M(guide_cell, ways) M(guide_cell, sky)                      \
+    S(guide_cell) M(guide_cell, scatter) M(guide_cell, sky)                   \
     S(settings) M(settings, camera) M(settings, sky)                          \
       M(settings, max_vertices) M(settings, seed) M(settings, features)       \
       M(settings, direct) M(settings, order) M(settings, sample)              \
@@ -60,7 +61,7 @@
       M(settings, normal_count) M(settings, uv_count)                         \
       M(settings, material_count) M(settings, texture_count)                  \
       M(settings, texel_count) M(settings, light_count)                       \
-      M(settings, light_node_count) M(settings, sky_sum_count)                \
+      M(settings, light_node_count) M(settings, sky_cdf_count)                \
       M(settings, guide)                                                      \
     S(ray) M(ray, o) M(ray, d) M(ray, t_max) M(ray, key) M(ray, from)         \
     S(path_sample) M(path_sample, radiance) M(path_sample, rays)              \
@@ -71,7 +72,7 @@
     S(task) M(task, target) M(task, samples) M(task, first) M(task, count)    \
       M(task, columns) M(task, stride) M(task, width) M(task, x0)             \
       M(task, y0)                                                             \
-    S(path_start) M(path_start, ray) M(path_start, sampler)
+    S(camera_sample) M(camera_sample, ray) M(camera_sample, sampler)
 /* clang-format on */
 
 struct fact {
