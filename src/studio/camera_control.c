@@ -10,28 +10,6 @@
  * than keyboards wait before they repeat. */
 #define HELD_NS UINT64_C(700000000)
 
-/* Actions that last as long as their key is held. */
-static const struct move {
-    enum action action;
-    enum held_keys_axis axis;
-    int sign;
-} moves[] = {
-    {ACTION_FORWARD, HELD_KEYS_FORWARD, 1},
-    {ACTION_BACK, HELD_KEYS_FORWARD, -1},
-    {ACTION_LEFT, HELD_KEYS_RIGHT, -1},
-    {ACTION_RIGHT, HELD_KEYS_RIGHT, 1},
-    {ACTION_DOWN, HELD_KEYS_UP, -1},
-    {ACTION_UP, HELD_KEYS_UP, 1},
-    {ACTION_LOOK_UP, HELD_KEYS_LOOK_UP, 1},
-    {ACTION_LOOK_DOWN, HELD_KEYS_LOOK_UP, -1},
-    {ACTION_LOOK_LEFT, HELD_KEYS_LOOK_RIGHT, -1},
-    {ACTION_LOOK_RIGHT, HELD_KEYS_LOOK_RIGHT, 1},
-    {ACTION_NARROWER, HELD_KEYS_WIDEN, -1},
-    {ACTION_WIDER, HELD_KEYS_WIDEN, 1},
-    {ACTION_CLOSE, HELD_KEYS_OPEN, -1},
-    {ACTION_OPEN, HELD_KEYS_OPEN, 1},
-};
-
 static struct view *view_of(const struct camera_control *camera)
 {
     return &camera->control->session->view;
@@ -58,7 +36,7 @@ void camera_control_stop(struct camera_control *camera)
 {
     held_keys_stop(&camera->input.motion);
     camera->input.is_dragging = false;
-    camera->held = ACTION_NONE;
+    camera->held_sign = 0;
 }
 
 /* The eye is somewhere else, without a way there. */
@@ -131,15 +109,6 @@ static void judge(struct camera_control *camera)
 
 /* ---- moves ---- */
 
-static const struct move *find_move(enum action action)
-{
-    for (size_t i = 0; i < sizeof moves / sizeof moves[0]; i++) {
-        if (moves[i].action == action)
-            return &moves[i];
-    }
-    return NULL;
-}
-
 static void add_step(struct camera_control *camera)
 {
     camera_history_add(&camera->history, &view_of(camera)->pose);
@@ -149,10 +118,10 @@ static void say_lens(struct camera_control *camera)
 {
     const struct view *v = view_of(camera);
 
-    if (camera->held == ACTION_NARROWER || camera->held == ACTION_WIDER)
+    if (camera->held == HELD_KEYS_WIDEN)
         render_control_say(camera->control, "field of view %.3g degrees",
                            v->pose.fovy_deg);
-    else if (camera->held != ACTION_CLOSE && camera->held != ACTION_OPEN)
+    else if (camera->held != HELD_KEYS_OPEN)
         return;
     else if (v->pose.aperture > 0)
         render_control_say(camera->control, "lens open by %.3g",
@@ -182,28 +151,29 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
     judge(camera);
 }
 
-/* The rest of a tap at once: what looks at the view then finds the same,
- * however soon its key comes. */
-static void land(struct camera_control *camera)
+void camera_control_end_move(struct camera_control *camera)
 {
     steer_held(camera, UINT64_MAX);
 }
 
-/* What was held until now is not lost where the loop was late. */
-static void press(struct camera_control *camera, const struct move *move)
+/* Time that the key was held until now counts even if the loop is late. */
+void camera_control_move(struct camera_control *camera,
+                         enum held_keys_axis axis, int sign)
 {
     uint64_t now_ns = clock_ns();
 
     if (!render_control_may_move(camera->control))
         return;
     steer_held(camera, now_ns);
-    if (move->action != camera->held || now_ns - camera->held_ns > HELD_NS) {
+    if (axis != camera->held || sign != camera->held_sign ||
+        now_ns - camera->held_ns > HELD_NS) {
         add_step(camera);
         camera_input_begin(&camera->input, now_ns);
     }
-    camera->held = move->action;
+    camera->held = axis;
+    camera->held_sign = sign;
     camera->held_ns = now_ns;
-    held_keys_press(&camera->input.motion, move->axis, move->sign, now_ns);
+    held_keys_press(&camera->input.motion, axis, sign, now_ns);
     steer_held(camera, now_ns);
 }
 
@@ -233,7 +203,17 @@ static void change_speed(struct camera_control *camera, int steps)
                        camera->input.speed, camera_input_speed(&camera->input));
 }
 
-static void reset(struct camera_control *camera)
+void camera_control_faster(struct camera_control *camera)
+{
+    change_speed(camera, 1);
+}
+
+void camera_control_slower(struct camera_control *camera)
+{
+    change_speed(camera, -1);
+}
+
+void camera_control_reset(struct camera_control *camera)
 {
     if (!may_jump(camera))
         return;
@@ -260,6 +240,16 @@ static void travel(struct camera_control *camera, bool is_back)
     render_control_say(camera->control, is_back ? "undone" : "done again");
 }
 
+void camera_control_undo(struct camera_control *camera)
+{
+    travel(camera, true);
+}
+
+void camera_control_redo(struct camera_control *camera)
+{
+    travel(camera, false);
+}
+
 /* ---- orbit, frame, focus ---- */
 
 /* What is picked, or what is in the middle of the picture, or of the scene. */
@@ -281,7 +271,13 @@ static bool need_pick(struct camera_control *camera)
     return true;
 }
 
-static void switch_orbit(struct camera_control *camera)
+void camera_control_pick(struct camera_control *camera)
+{
+    if (pick_cursor_pick(&camera->cursor))
+        find_pivot(camera);
+}
+
+void camera_control_switch_orbit(struct camera_control *camera)
 {
     bool picks = camera->screen->has_cursor;
 
@@ -310,7 +306,7 @@ static void frame(struct camera_control *camera, const double lo[3],
     render_control_say(camera->control, "%s", name);
 }
 
-static void frame_object(struct camera_control *camera)
+void camera_control_frame_object(struct camera_control *camera)
 {
     uint32_t object;
     double lo[3], hi[3];
@@ -322,7 +318,7 @@ static void frame_object(struct camera_control *camera)
     frame(camera, lo, hi, pick_cursor_object_name(&camera->cursor, object));
 }
 
-static void frame_all(struct camera_control *camera)
+void camera_control_frame_all(struct camera_control *camera)
 {
     const struct scene *s = scene_of(camera);
 
@@ -332,7 +328,7 @@ static void frame_all(struct camera_control *camera)
         render_control_say(camera->control, "no faces to frame");
 }
 
-static void focus(struct camera_control *camera)
+void camera_control_focus(struct camera_control *camera)
 {
     struct pose pose = view_of(camera)->pose;
 
@@ -355,23 +351,10 @@ static void focus(struct camera_control *camera)
 
 /* ---- numbered views ---- */
 
-static int number_of(enum action action)
+void camera_control_keep_view(struct camera_control *camera, int number)
 {
-    return (int)action - ACTION_VIEW_1 + 1;
-}
-
-static bool is_number(enum action action)
-{
-    return action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9;
-}
-
-void camera_control_keep_view(struct camera_control *camera, enum action action)
-{
-    int number = number_of(action);
     struct view *v = view_of(camera);
 
-    if (!is_number(action))
-        return;
     v->shots[number - 1] = v->pose;
     v->has_shot[number - 1] = true;
     render_control_say(
@@ -379,7 +362,7 @@ void camera_control_keep_view(struct camera_control *camera, enum action action)
         number, render_control_key(camera->control, ACTION_SAVE_VIEW).text);
 }
 
-static void go_to_view(struct camera_control *camera, int number)
+void camera_control_go_to_view(struct camera_control *camera, int number)
 {
     if (!view_of(camera)->has_shot[number - 1]) {
         render_control_say(
@@ -391,46 +374,12 @@ static void go_to_view(struct camera_control *camera, int number)
     }
 }
 
-/* ---- all of it ---- */
-
-bool camera_control_act(struct camera_control *camera, enum action action)
-{
-    const struct move *move = find_move(action);
-
-    if (!move)
-        land(camera);
-    if (is_number(action)) {
-        go_to_view(camera, number_of(action));
-        return true;
-    }
-    if (pick_cursor_act(&camera->cursor, action)) {
-        if (camera->cursor.has_pick)
-            find_pivot(camera);
-        return true;
-    }
-    if (move) {
-        press(camera, move);
-        return true;
-    }
-    switch (action) {
-    case ACTION_FASTER: change_speed(camera, 1); break;
-    case ACTION_SLOWER: change_speed(camera, -1); break;
-    case ACTION_ORBIT: switch_orbit(camera); break;
-    case ACTION_FRAME: frame_object(camera); break;
-    case ACTION_FRAME_ALL: frame_all(camera); break;
-    case ACTION_FOCUS: focus(camera); break;
-    case ACTION_UNDO: travel(camera, true); break;
-    case ACTION_REDO: travel(camera, false); break;
-    case ACTION_RESET: reset(camera); break;
-    default: return false;
-    }
-    return true;
-}
+/* ---- mouse ---- */
 
 static void wheel(struct camera_control *camera, bool is_up, bool is_modified)
 {
     if (is_modified)
-        press(camera, find_move(is_up ? ACTION_NARROWER : ACTION_WIDER));
+        camera_control_move(camera, HELD_KEYS_WIDEN, is_up ? -1 : 1);
     else
         change_speed(camera, is_up ? 1 : -1);
 }
@@ -456,7 +405,7 @@ static void drag(struct camera_control *camera, const struct event *event)
     if (camera->drag_is_new)
         camera_history_add(&camera->history, &before);
     camera->drag_is_new = false;
-    camera->held = ACTION_NONE;
+    camera->held_sign = 0;
     camera->control->must_restart = true;
     judge(camera);
 }

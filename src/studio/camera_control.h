@@ -29,9 +29,10 @@ struct camera_control {
     struct screen *screen;
     struct camera_input input;
     struct camera_history history;
-    enum action held; /* what the last step of undo was made by, and when */
-    uint64_t held_ns;
-    bool drag_is_new; /* no step of undo yet */
+    enum held_keys_axis held; /* the last step of undo was made by this key, */
+    int held_sign;            /* 0: by none, */
+    uint64_t held_ns;         /* then */
+    bool drag_is_new;         /* no step of undo yet */
     struct pick_cursor cursor;
     struct clearance clearance; /* of the eye, where it was last */
     enum clearance_place said;
@@ -41,13 +42,39 @@ struct camera_control {
 void camera_control_init(struct camera_control *camera,
                          struct render_control *control, struct screen *screen);
 
-/* Does what the action says of camera and cursor. False if it is not the
- * camera's. Any but a move ends what is moving, where it would have ended. */
-bool camera_control_act(struct camera_control *camera, enum action action);
+/* A key for this axis was pressed, or repeats: the camera moves as long as it
+ * is held. Sign is 1 or -1. */
+void camera_control_move(struct camera_control *camera,
+                         enum held_keys_axis axis, int sign);
 
-/* Gives the view the number of an ACTION_VIEW_1 to _9; no other action does. */
-void camera_control_keep_view(struct camera_control *camera,
-                              enum action action);
+/* Ends what is moving, where it would have ended: a command that follows a tap
+ * finds the same view, however soon its key comes. */
+void camera_control_end_move(struct camera_control *camera);
+
+void camera_control_faster(struct camera_control *camera);
+void camera_control_slower(struct camera_control *camera);
+
+/* Picks what is under the cursor; that is the point to orbit then. */
+void camera_control_pick(struct camera_control *camera);
+
+/* Orbits what the cursor shows; without a cursor switches between looking
+ * around and orbiting what was picked. */
+void camera_control_switch_orbit(struct camera_control *camera);
+
+/* Moves back until the picked object or the whole scene is in view. */
+void camera_control_frame_object(struct camera_control *camera);
+void camera_control_frame_all(struct camera_control *camera);
+
+void camera_control_focus(struct camera_control *camera);
+void camera_control_undo(struct camera_control *camera);
+void camera_control_redo(struct camera_control *camera);
+
+/* Back to the view as it was opened. */
+void camera_control_reset(struct camera_control *camera);
+
+/* Numbers are 1 to VIEW_SHOTS. */
+void camera_control_keep_view(struct camera_control *camera, int number);
+void camera_control_go_to_view(struct camera_control *camera, int number);
 
 void camera_control_mouse(struct camera_control *camera,
                           const struct event *event);

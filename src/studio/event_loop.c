@@ -14,10 +14,10 @@
 #include "base/memory.h"
 #include "base/print.h"
 #include "session/stats_json.h"
+#include "studio/commands.h"
 #include "studio/panel_draw.h"
-#include "studio/prompts.h"
 #include "studio/save_commands.h"
-#include "studio/workspace.h"
+#include "studio/studio.h"
 
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)
@@ -30,78 +30,7 @@
  * files that change, and those that are loaded. */
 #define FDS 7
 
-struct studio {
-    struct render_control control;
-    struct camera_control camera;
-    struct workspace workspace;
-    struct tty_input input;
-    uint64_t byte_ns; /* when its last one came */
-    bool has_mouse;
-    enum question question;
-    bool is_ending;
-    bool is_gone; /* the terminal */
-    int status;   /* exit status */
-};
-
-static void end(struct studio *studio, int status)
-{
-    studio->is_ending = true;
-    studio->status = status;
-}
-
-static void switch_mouse(struct studio *studio)
-{
-    studio->has_mouse = !studio->has_mouse;
-    camera_control_stop(&studio->camera);
-    tty_set_mouse(studio->has_mouse);
-    render_control_say(&studio->control, studio->has_mouse
-                                             ? "mouse on: drag to look around"
-                                             : "mouse off");
-}
-
 /* ---- input ---- */
-
-static void suspend(struct studio *studio)
-{
-    screen_drain(&studio->workspace.screen, &studio->input);
-    studio->input.length = 0; /* what was typed behind it is for the shell */
-    tty_suspend();
-    workspace_layout(&studio->workspace);
-}
-
-static void set_live(struct studio *studio, bool is_live)
-{
-    camera_control_stop(&studio->camera);
-    inspector_leave(&studio->workspace.inspector);
-    render_control_set_live(&studio->control, is_live);
-}
-
-static void ask(struct studio *studio, enum question question)
-{
-    studio->question = question;
-    workspace_ask(&studio->workspace, question_text(question));
-}
-
-static void change_mode(struct studio *studio)
-{
-    if (save_finish(&studio->control) &&
-        render_control_has_unsaved(&studio->control))
-        ask(studio, QUESTION_LIVE);
-    else
-        set_live(studio, !studio->control.is_live);
-}
-
-static void quit(struct studio *studio)
-{
-    if (!save_finish(&studio->control))
-        return;
-    if (render_control_has_unsaved(&studio->control))
-        ask(studio, QUESTION_QUIT);
-    else if (render_control_has_unsaved_edit(&studio->control))
-        ask(studio, QUESTION_EDIT);
-    else
-        end(studio, 0);
-}
 
 /* What was picked while the panel is open is selected in it. */
 static void follow_pick(struct studio *studio)
@@ -131,83 +60,33 @@ static bool panel_takes(struct studio *studio, int key)
     return true;
 }
 
-static void restart(struct studio *studio)
+static bool is_urgent(enum action action)
 {
-    if (save_finish(&studio->control) &&
-        render_control_has_unsaved(&studio->control))
-        ask(studio, QUESTION_RESTART);
-    else
-        render_control_restart(&studio->control);
+    return action == ACTION_INTERRUPT || action == ACTION_ABORT ||
+           action == ACTION_SUSPEND || action == ACTION_REDRAW;
 }
 
-static void act(struct studio *studio, enum action action)
-{
-    if (camera_control_act(&studio->camera, action))
-        return;
-    render_control_settle(&studio->control);
-    if (workspace_act(&studio->workspace, action))
-        return;
-    switch (action) {
-    case ACTION_KEEP: ask(studio, QUESTION_NUMBER); break;
-    case ACTION_MODE: change_mode(studio); break;
-    case ACTION_START: render_control_start_or_halt(&studio->control); break;
-    case ACTION_STEP: render_control_step(&studio->control); break;
-    case ACTION_RESTART: restart(studio); break;
-    case ACTION_SAVE_VIEW: save_view(&studio->control); break;
-    case ACTION_RELOAD: render_control_reload(&studio->control); break;
-    case ACTION_BACKEND: render_control_switch_backend(&studio->control); break;
-    case ACTION_MOUSE: switch_mouse(studio); break;
-    case ACTION_QUIT: quit(studio); break;
-    case ACTION_INTERRUPT: end(studio, 128 + SIGINT); break;
-    case ACTION_ABORT: end(studio, 128 + SIGQUIT); break;
-    case ACTION_SUSPEND: suspend(studio); break;
-    default: break;
-    }
-}
-
-static void answer_question(struct studio *studio, int key)
-{
-    enum question question = studio->question;
-    enum answer answer = question_answer(question, key);
-
-    ask(studio, QUESTION_NONE);
-    if (question == QUESTION_NUMBER) {
-        camera_control_keep_view(
-            &studio->camera,
-            keymap_action(&studio->control.session->options->keys, key));
-    } else if (answer == ANSWER_SAVE && question == QUESTION_EDIT) {
-        if (save_edit(&studio->control))
-            quit(studio);
-    } else if (answer == ANSWER_SAVE) {
-        save_picture(&studio->control, "png");
-    } else if (answer == ANSWER_YES) {
-        if (question == QUESTION_LIVE)
-            set_live(studio, true);
-        else if (question == QUESTION_RESTART)
-            render_control_restart(&studio->control);
-        else
-            end(studio, 0);
-    }
-}
-
+/* Urgent keys always work. Any other key goes to the first of these that is
+ * there: a question, the help, a window too small for anything but quitting,
+ * the editor panel, the cursor. */
 static void take_key(struct studio *studio, int key)
 {
+    struct workspace *workspace = &studio->workspace;
     enum action action =
         keymap_action(&studio->control.session->options->keys, key);
-    bool is_urgent = action == ACTION_INTERRUPT || action == ACTION_ABORT ||
-                     action == ACTION_SUSPEND || action == ACTION_REDRAW;
 
     render_control_be_heard(&studio->control);
-    if (is_urgent)
-        act(studio, action);
+    if (is_urgent(action))
+        command_run(studio, action);
     else if (studio->question != QUESTION_NONE)
-        answer_question(studio, key);
-    else if (studio->workspace.help_left > 0)
-        workspace_turn_help(&studio->workspace, action == ACTION_CANCEL);
-    else if (studio->workspace.screen.is_too_small && action != ACTION_QUIT)
+        question_answer(studio, key);
+    else if (workspace->help_left > 0)
+        workspace_turn_help(workspace, action == ACTION_CANCEL);
+    else if (workspace->screen.is_too_small && action != ACTION_QUIT)
         return;
-    else if (!panel_takes(studio, key))
-        act(studio, action);
+    else if (!panel_takes(studio, key) &&
+             !command_run_at_cursor(studio, action))
+        command_run(studio, action);
     follow_pick(studio);
 }
 
@@ -257,7 +136,7 @@ static void take_input(struct studio *studio)
     while (!studio->is_ending && (count = tty_read(bytes, sizeof bytes)) != 0) {
         if (count < 0) {
             studio->is_gone = true;
-            end(studio, 128 + SIGHUP);
+            studio_end(studio, 128 + SIGHUP);
             return;
         }
         studio->byte_ns = clock_ns();
@@ -275,8 +154,8 @@ static void take_signals(struct studio *studio)
         case SIGTERM:
         case SIGHUP:
         case SIGINT:
-        case SIGQUIT: end(studio, 128 + number); return;
-        case SIGTSTP: suspend(studio); break;
+        case SIGQUIT: studio_end(studio, 128 + number); return;
+        case SIGTSTP: studio_suspend(studio); break;
         case SIGCONT:
             tty_resume();
             workspace_layout(&studio->workspace);
@@ -382,7 +261,7 @@ static void lose_terminal(struct studio *studio)
     if (studio->is_ending)
         return;
     studio->is_gone = true;
-    end(studio, 128 + SIGHUP);
+    studio_end(studio, 128 + SIGHUP);
 }
 
 static void loop(struct studio *studio)

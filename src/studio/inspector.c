@@ -176,7 +176,7 @@ static void say_drawing(struct inspector *inspector)
 }
 
 /* A path goes on from where the directions were drawn. */
-static void next_drawing(struct inspector *inspector)
+void inspector_next_drawing(struct inspector *inspector)
 {
     struct error err;
 
@@ -235,6 +235,16 @@ static void change(struct inspector *inspector, int by)
             render_control_key(inspector->control, ACTION_DRAWING).text);
 }
 
+void inspector_less(struct inspector *inspector)
+{
+    change(inspector, -1);
+}
+
+void inspector_more(struct inspector *inspector)
+{
+    change(inspector, 1);
+}
+
 /* ---- saving ---- */
 
 /* Light is there from its first sample on. */
@@ -273,12 +283,14 @@ static void save_shown_frame(struct inspector *inspector)
     frame_free(&frame);
 }
 
-static void save_shown_text(struct inspector *inspector)
+void inspector_save_text(struct inspector *inspector)
 {
     struct ansi_text_style style = screen_style(inspector->screen);
     struct frame frame = {0};
     struct error err;
 
+    if (!has_picture(inspector))
+        return;
     if (ansi_text_frame_init(&frame, &style, &err) &&
         paint_all(inspector, &frame, &err))
         save_text(inspector->control, &frame, &style);
@@ -288,7 +300,7 @@ static void save_shown_text(struct inspector *inspector)
 }
 
 /* A picture of light without drawings is a film: a thread saves that. */
-static void save(struct inspector *inspector)
+void inspector_save(struct inspector *inspector)
 {
     if (inspector->view_mode.kind == SHOW_LIGHT &&
         inspector->drawing == INSPECTOR_NOTHING)
@@ -297,7 +309,7 @@ static void save(struct inspector *inspector)
         save_shown_frame(inspector);
 }
 
-static void save_hdr(struct inspector *inspector)
+void inspector_save_hdr(struct inspector *inspector)
 {
     if (view_mode_sample(inspector->view_mode.kind) == SAMPLE_LIGHT)
         save_picture(inspector->control, "hdr");
@@ -338,23 +350,14 @@ static void turn(struct inspector *inspector, int by)
     show(inspector, (enum show_kind)kind);
 }
 
-bool inspector_act(struct inspector *inspector, enum action action)
+void inspector_next_view(struct inspector *inspector)
 {
-    switch (action) {
-    case ACTION_VIEW_NEXT: turn(inspector, 1); break;
-    case ACTION_VIEW_BACK: turn(inspector, -1); break;
-    case ACTION_DRAWING: next_drawing(inspector); break;
-    case ACTION_LESS: change(inspector, -1); break;
-    case ACTION_MORE: change(inspector, 1); break;
-    case ACTION_SAVE: save(inspector); break;
-    case ACTION_SAVE_LINEAR: save_hdr(inspector); break;
-    case ACTION_SAVE_TEXT:
-        if (has_picture(inspector))
-            save_shown_text(inspector);
-        break;
-    default: return false;
-    }
-    return true;
+    turn(inspector, 1);
+}
+
+void inspector_previous_view(struct inspector *inspector)
+{
+    turn(inspector, -1);
 }
 
 void inspector_step(struct inspector *inspector)

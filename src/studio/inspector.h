@@ -57,9 +57,22 @@ void inspector_init(struct inspector *inspector, struct render_control *control,
  * drawings over it. */
 void inspector_preview(struct inspector *inspector, struct frame *frame);
 
-/* Does what the action says of views and drawings, and saves what is shown.
- * False if it is not one. */
-bool inspector_act(struct inspector *inspector, enum action action);
+/* Light, preview, normals, and so on. */
+void inspector_next_view(struct inspector *inspector);
+void inspector_previous_view(struct inspector *inspector);
+
+/* Boxes, directions, a path, nothing. */
+void inspector_next_drawing(struct inspector *inspector);
+
+/* The level of boxes, or the step of the path. */
+void inspector_less(struct inspector *inspector);
+void inspector_more(struct inspector *inspector);
+
+/* Saves the picture with the present view mode and drawings: as PNG, light
+ * alone as HDR, or as coloured text. */
+void inspector_save(struct inspector *inspector);
+void inspector_save_hdr(struct inspector *inspector);
+void inspector_save_text(struct inspector *inspector);
 
 /* Nothing is drawn over the picture any more. */
 void inspector_stop_drawing(struct inspector *inspector);

@@ -89,17 +89,28 @@ void pick_cursor_step(struct pick_cursor *cursor)
 
 /* ---- moving ---- */
 
-static void show(struct pick_cursor *cursor, bool is_shown)
+static void set_shown(struct pick_cursor *cursor, bool is_shown)
+{
+    cursor->screen->has_cursor = is_shown;
+    cursor->must_look = is_shown;
+    cursor->control->has_changed = true;
+}
+
+void pick_cursor_show(struct pick_cursor *cursor)
 {
     struct screen *screen = cursor->screen;
 
-    if (is_shown && screen->cursor_col == 0 && screen->cursor_row == 0) {
+    if (screen->cursor_col == 0 && screen->cursor_row == 0) {
         screen->cursor_col = screen->fit.cols / 2;
         screen->cursor_row = screen->fit.rows / 2;
     }
-    screen->has_cursor = is_shown;
-    cursor->must_look = is_shown;
-    cursor->control->has_changed = true;
+    set_shown(cursor, true);
+}
+
+void pick_cursor_hide(struct pick_cursor *cursor)
+{
+    set_shown(cursor, false);
+    render_control_be_silent(cursor->control);
 }
 
 static int within(int x, int count)
@@ -107,23 +118,24 @@ static int within(int x, int count)
     return x < 0 ? 0 : x >= count ? count - 1 : x;
 }
 
-static void move(struct pick_cursor *cursor, enum action action, int right,
-                 int down)
+void pick_cursor_move(struct pick_cursor *cursor, int right, int down)
 {
     struct screen *screen = cursor->screen;
     uint64_t now_ns = clock_ns();
-    bool is_held = action == cursor->held && now_ns - cursor->held_ns < HELD_NS;
+    bool is_held = right == cursor->held_right && down == cursor->held_down &&
+                   now_ns - cursor->held_ns < HELD_NS;
     int cells;
 
     cursor->held_count = is_held ? cursor->held_count + 1 : 0;
-    cursor->held = action;
+    cursor->held_right = right;
+    cursor->held_down = down;
     cursor->held_ns = now_ns;
     cells = 1 + cursor->held_count / HELD_CELLS;
     screen->cursor_col =
         within(screen->cursor_col + cells * right, screen->fit.cols);
     screen->cursor_row =
         within(screen->cursor_row + cells * down, screen->fit.rows);
-    show(cursor, true);
+    pick_cursor_show(cursor);
 }
 
 /* ---- picking ---- */
@@ -134,7 +146,7 @@ static void take(struct pick_cursor *cursor, const struct pick *pick)
 
     cursor->pick = *pick;
     cursor->has_pick = cursor->is_pick_new = true;
-    show(cursor, false);
+    set_shown(cursor, false);
     describe(cursor, pick, text);
     render_control_say(cursor->control, "%s (%s orbit, %s focus, %s frame)",
                        text,
@@ -143,7 +155,7 @@ static void take(struct pick_cursor *cursor, const struct pick *pick)
                        render_control_key(cursor->control, ACTION_FRAME).text);
 }
 
-static bool pick_under(struct pick_cursor *cursor)
+bool pick_cursor_pick(struct pick_cursor *cursor)
 {
     struct pick pick;
 
@@ -168,7 +180,7 @@ bool pick_cursor_click(struct pick_cursor *cursor, int col, int row)
 bool pick_cursor_need_pick(struct pick_cursor *cursor)
 {
     if (cursor->screen->has_cursor)
-        return pick_under(cursor);
+        return pick_cursor_pick(cursor);
     if (cursor->has_pick)
         return true;
     render_control_say(cursor->control,
@@ -176,33 +188,4 @@ bool pick_cursor_need_pick(struct pick_cursor *cursor)
                        render_control_key(cursor->control, ACTION_CURSOR).text,
                        render_control_key(cursor->control, ACTION_START).text);
     return false;
-}
-
-static bool act_while_shown(struct pick_cursor *cursor, enum action action)
-{
-    switch (action) {
-    case ACTION_LOOK_LEFT: move(cursor, action, -1, 0); break;
-    case ACTION_LOOK_RIGHT: move(cursor, action, 1, 0); break;
-    case ACTION_LOOK_UP: move(cursor, action, 0, -1); break;
-    case ACTION_LOOK_DOWN: move(cursor, action, 0, 1); break;
-    case ACTION_START: pick_under(cursor); break;
-    case ACTION_CURSOR:
-    case ACTION_CANCEL:
-        show(cursor, false);
-        render_control_be_silent(cursor->control);
-        break;
-    default: return false;
-    }
-    return true;
-}
-
-bool pick_cursor_act(struct pick_cursor *cursor, enum action action)
-{
-    if (cursor->screen->has_cursor)
-        return act_while_shown(cursor, action);
-    if (action == ACTION_CURSOR)
-        show(cursor, true);
-    else if (action == ACTION_CANCEL)
-        render_control_be_silent(cursor->control);
-    return action == ACTION_CURSOR || action == ACTION_CANCEL;
 }

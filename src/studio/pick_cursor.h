@@ -25,19 +25,26 @@ struct pick_cursor {
     struct screen *screen; /* knows where it is, and whether it is shown */
     struct pick pick;
     bool has_pick;
-    bool is_pick_new; /* whom it concerns clears it */
-    bool must_look;   /* what is under it is not yet said */
-    enum action held; /* the arrow that came last, when, */
-    uint64_t held_ns;
-    int held_count; /* and how often without a pause */
+    bool is_pick_new;          /* whom it concerns clears it */
+    bool must_look;            /* what is under it is not yet said */
+    int held_right, held_down; /* the last step of the arrows, */
+    uint64_t held_ns;          /* when it was made, */
+    int held_count;            /* and how often before without a pause */
 };
 
 /* The part of the picture that is on the screen, in pixels. */
 struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor);
 
-/* Does what the action says while the cursor is shown, and shows it. False if
- * the action is nothing of its own. */
-bool pick_cursor_act(struct pick_cursor *cursor, enum action action);
+/* Shows the cursor where it was last; in the middle at first. */
+void pick_cursor_show(struct pick_cursor *cursor);
+void pick_cursor_hide(struct pick_cursor *cursor);
+
+/* A step of an arrow key: one of both is 1 or -1. Held keys get faster. */
+void pick_cursor_move(struct pick_cursor *cursor, int right, int down);
+
+/* Picks what is under the cursor and hides the cursor; false, with a message:
+ * only the sky. */
+bool pick_cursor_pick(struct pick_cursor *cursor);
 
 /* Picks what is at a cell of the screen, from 0; false: only the sky. */
 bool pick_cursor_click(struct pick_cursor *cursor, int col, int row);

@@ -144,7 +144,7 @@ static bool shows_progress(const struct workspace *workspace)
            !workspace->screen.is_too_small;
 }
 
-static void switch_progress(struct workspace *workspace)
+void workspace_switch_progress(struct workspace *workspace)
 {
     inspector_stop_drawing(
         &workspace->inspector); /* there is one window at a time */
@@ -158,7 +158,7 @@ static void switch_progress(struct workspace *workspace)
     workspace_refresh(workspace);
 }
 
-static void open_help(struct workspace *workspace, int number)
+static void open_help_page(struct workspace *workspace, int number)
 {
     const struct frame_pacing *pace = &workspace->screen.pace;
     const char *lines[HELP_ROWS_MAX];
@@ -204,7 +204,14 @@ static void close_help(struct workspace *workspace)
     workspace_refresh(workspace);
 }
 
-static void next_colors(struct workspace *workspace)
+void workspace_next_drawing(struct workspace *workspace)
+{
+    if (workspace->progress_panel.is_on) /* there is one window at a time */
+        workspace_switch_progress(workspace);
+    inspector_next_drawing(&workspace->inspector);
+}
+
+void workspace_next_colors(struct workspace *workspace)
 {
     term_caps_next_palette(&workspace->screen.display);
     render_control_say(workspace->control, "%s",
@@ -212,7 +219,7 @@ static void next_colors(struct workspace *workspace)
     workspace_layout(workspace);
 }
 
-static void next_glyphs(struct workspace *workspace)
+void workspace_next_glyphs(struct workspace *workspace)
 {
     term_caps_next_glyphs(&workspace->screen.display);
     workspace_layout(workspace);
@@ -220,14 +227,14 @@ static void next_glyphs(struct workspace *workspace)
                        screen_glyphs_name(&workspace->screen));
 }
 
-static void hide(struct workspace *workspace)
+void workspace_hide(struct workspace *workspace)
 {
     workspace->screen.has_status_row = !workspace->screen.has_status_row;
     workspace->progress_panel.is_on = false;
     workspace_layout(workspace);
 }
 
-static void open_panel(struct workspace *workspace)
+void workspace_open_panel(struct workspace *workspace)
 {
     if (workspace->camera->cursor.has_pick)
         editor_panel_select(&workspace->panel, &workspace->camera->cursor.pick);
@@ -236,29 +243,15 @@ static void open_panel(struct workspace *workspace)
     workspace_layout(workspace);
 }
 
-bool workspace_act(struct workspace *workspace, enum action action)
+void workspace_open_help(struct workspace *workspace)
 {
-    if (action == ACTION_DRAWING && workspace->progress_panel.is_on)
-        switch_progress(workspace);
-    if (inspector_act(&workspace->inspector, action))
-        return true;
-    switch (action) {
-    case ACTION_METER: switch_progress(workspace); break;
-    case ACTION_HIDE: hide(workspace); break;
-    case ACTION_COLORS: next_colors(workspace); break;
-    case ACTION_GLYPHS: next_glyphs(workspace); break;
-    case ACTION_REDRAW: workspace_layout(workspace); break;
-    case ACTION_PANEL: open_panel(workspace); break;
-    case ACTION_HELP: open_help(workspace, 0); break;
-    default: return false;
-    }
-    return true;
+    open_help_page(workspace, 0);
 }
 
 void workspace_turn_help(struct workspace *workspace, bool closes)
 {
     if (workspace->help_left > 1 && !closes)
-        open_help(workspace, workspace->help_number + 1);
+        open_help_page(workspace, workspace->help_number + 1);
     else
         close_help(workspace);
 }

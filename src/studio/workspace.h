@@ -63,9 +63,16 @@ void workspace_refresh(struct workspace *workspace);
 /* NULL: the status line again. */
 void workspace_ask(struct workspace *workspace, const char *prompt);
 
-/* Does what the action says of windows, colours and drawings. False if it is
- * not the workspace's. */
-bool workspace_act(struct workspace *workspace, enum action action);
+void workspace_switch_progress(struct workspace *workspace);
+void workspace_open_panel(struct workspace *workspace);
+void workspace_next_drawing(struct workspace *workspace);
+void workspace_next_colors(struct workspace *workspace);
+void workspace_next_glyphs(struct workspace *workspace);
+
+/* Only the picture, or the status line as well. */
+void workspace_hide(struct workspace *workspace);
+
+void workspace_open_help(struct workspace *workspace);
 
 /* While the help is open: its next page, or its end. */
 void workspace_turn_help(struct workspace *workspace, bool closes);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "studio/questions.h"
+
+#include "studio/save_commands.h"
+#include "studio/studio.h"
+
+static void end(struct studio *studio)
+{
+    studio_end(studio, 0);
+}
+
+static void go_live(struct studio *studio)
+{
+    studio_set_live(studio, true);
+}
+
+static void restart(struct studio *studio)
+{
+    render_control_restart(&studio->control);
+}
+
+static void save_render(struct studio *studio)
+{
+    save_picture(&studio->control, "png");
+}
+
+static void save_and_quit(struct studio *studio)
+{
+    if (save_edit(&studio->control))
+        studio_quit(studio);
+}
+
+/* Every question has its row: y does `yes`, the save key does `save`, any
+ * other key means no. */
+static const struct {
+    const char *text;
+    void (*yes)(struct studio *studio);
+    char save_key;
+    void (*save)(struct studio *studio);
+} questions[] = {
+    [QUESTION_NONE] = {0},
+    [QUESTION_QUIT] = {"The render is not saved. Quit? y: yes, p: save it, "
+                       "other: no",
+                       end, 'p', save_render},
+    [QUESTION_EDIT] = {"Changes of materials or light are not saved. Quit? "
+                       "y: yes, s: save, other: no",
+                       end, 's', save_and_quit},
+    [QUESTION_LIVE] = {"The render is not saved. Leave it? y: yes, p: save "
+                       "it, other: no",
+                       go_live, 'p', save_render},
+    [QUESTION_RESTART] = {"The render is not saved. Start anew? y: yes, p: "
+                          "save it, other: no",
+                          restart, 'p', save_render},
+    [QUESTION_NUMBER] = {.text = "Which number for this view? 1 to 9, other: "
+                                 "none"},
+};
+
+void question_ask(struct studio *studio, enum question question)
+{
+    studio->question = question;
+    workspace_ask(&studio->workspace, questions[question].text);
+}
+
+/* The answer is the key that goes to the view of that number. */
+static void answer_number(struct studio *studio, int key)
+{
+    enum action action =
+        keymap_action(&studio->control.session->options->keys, key);
+
+    if (action >= ACTION_VIEW_1 && action <= ACTION_VIEW_9)
+        camera_control_keep_view(&studio->camera,
+                                 (int)action - ACTION_VIEW_1 + 1);
+}
+
+void question_answer(struct studio *studio, int key)
+{
+    enum question question = studio->question;
+    int small = key >= 'A' && key <= 'Z' ? key - 'A' + 'a' : key;
+
+    question_ask(studio, QUESTION_NONE);
+    if (question == QUESTION_NUMBER)
+        answer_number(studio, key);
+    else if (small == 'y')
+        questions[question].yes(studio);
+    else if (small == questions[question].save_key)
+        questions[question].save(studio);
+}

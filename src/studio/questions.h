@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/*
+ * questions.h - questions in the last line, most of them before something is
+ * lost, and what their answers do
+ *
+ * Units:     keys are bytes or enum tty_key
+ * Threads:   main only
+ * Errors:    become messages
+ */
+#ifndef GLIM_QUESTIONS_H
+#define GLIM_QUESTIONS_H
+
+struct studio;
+
+enum question {
+    QUESTION_NONE,
+    QUESTION_QUIT,
+    QUESTION_EDIT, /* quit without saving edits */
+    QUESTION_LIVE, /* leave normal mode */
+    QUESTION_RESTART,
+    QUESTION_NUMBER /* of a view */
+};
+
+/* Shows a question instead of the status line; QUESTION_NONE: none. */
+void question_ask(struct studio *studio, enum question question);
+
+/* Takes any key as the answer; the question disappears. */
+void question_answer(struct studio *studio, int key);
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+/*
+ * studio.h - the interactive program: its parts, and commands that concern
+ * several of them
+ *
+ * Units:     nanoseconds of clock_ns()
+ * Threads:   main only
+ * Errors:    become messages
+ */
+#ifndef GLIM_STUDIO_H
+#define GLIM_STUDIO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "terminal/tty_input.h"
+#include "studio/camera_control.h"
+#include "studio/questions.h"
+#include "studio/render_control.h"
+#include "studio/workspace.h"
+
+struct studio {
+    struct render_control control;
+    struct camera_control camera;
+    struct workspace workspace;
+    struct tty_input input;
+    uint64_t byte_ns; /* when the last byte of input came */
+    bool has_mouse;
+    enum question question; /* that waits for an answer */
+    bool is_ending;
+    bool is_gone; /* the terminal */
+    int status;   /* exit status */
+};
+
+/* Ends the loop; the program exits with this status. */
+void studio_end(struct studio *studio, int status);
+
+/* Ends as Ctrl-C and Ctrl-\ end a program. */
+void studio_interrupt(struct studio *studio);
+void studio_abort(struct studio *studio);
+
+/* Stops the program until the shell continues it. */
+void studio_suspend(struct studio *studio);
+
+/* Live or normal mode; loses what normal mode has rendered. */
+void studio_set_live(struct studio *studio, bool is_live);
+
+/* These ask first if something would be lost. */
+void studio_change_mode(struct studio *studio);
+void studio_restart(struct studio *studio);
+void studio_quit(struct studio *studio);
+
+/* Asks which number the view shall have. */
+void studio_keep_view(struct studio *studio);
+
+/* Switches the mouse on or off. */
+void studio_switch_mouse(struct studio *studio);
+
+#endif
