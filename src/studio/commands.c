@@ -78,7 +78,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_COLORS] = {.workspace = workspace_next_colors},
     [ACTION_GLYPHS] = {.workspace = workspace_next_glyphs},
     [ACTION_METER] = {.workspace = workspace_switch_progress},
-    [ACTION_HIDE] = {.workspace = workspace_hide},
+    [ACTION_HIDE] = {.workspace = workspace_switch_status},
     [ACTION_MOUSE] = {.studio = studio_switch_mouse},
     [ACTION_REDRAW] = {.workspace = workspace_layout},
     [ACTION_HELP] = {.workspace = workspace_open_help},

@@ -23,16 +23,25 @@
 #define S_NS  UINT64_C(1000000000)
 #define NEVER UINT64_MAX
 
-/* A lone ESC is the key when nothing has followed for so long. */
+/* An ESC byte is the Esc key if no byte follows within this time; it begins the
+ * sequence of another key otherwise. */
 #define ESCAPE_NS (50 * MS_NS)
 
-/* What the loop waits for: keys, signals, the render, the saver, a device,
- * files that change, and those that are loaded. */
-#define FDS 7
+/* Descriptors that wake the loop. */
+enum {
+    FD_KEYS,
+    FD_SIGNALS,
+    FD_RENDER,
+    FD_SAVER,
+    FD_DEVICE, /* an OpenCL device has started, or cannot */
+    FD_FILES,  /* files of the scene have changed */
+    FD_RELOAD, /* the scene was loaded anew */
+    FDS
+};
 
 /* ---- input ---- */
 
-/* What was picked while the panel is open is selected in it. */
+/* Selects a new pick in the panel if that is open. */
 static void follow_pick(struct studio *studio)
 {
     struct editor_panel *panel = &studio->workspace.panel;
@@ -44,7 +53,8 @@ static void follow_pick(struct studio *studio)
     studio->camera.cursor.is_pick_new = false;
 }
 
-/* The cursor on the picture has its keys first. */
+/* Gives a key to the editor panel. Returns false if the key is not the panel's,
+ * or the cursor on the picture is shown and takes the arrows. */
 static bool panel_takes(struct studio *studio, int key)
 {
     struct editor_panel *panel = &studio->workspace.panel;
@@ -127,7 +137,7 @@ static void take_byte_events(struct studio *studio, bool nothing_follows)
         take_event(studio, &event);
 }
 
-/* All keys that wait, so that a frame follows all of them. */
+/* Takes all keys that wait before the next frame is drawn. */
 static void take_input(struct studio *studio)
 {
     unsigned char bytes[1024];
@@ -173,7 +183,8 @@ static uint64_t earlier(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-/* A lone ESC becomes a key soon; an answer may come in pieces. */
+/* When a sequence that is not complete is taken as it is. The terminal's
+ * answers may come in pieces, so they have longer than a lone ESC. */
 static uint64_t input_deadline_ns(const struct studio *studio)
 {
     if (!tty_input_is_partial(&studio->input))
@@ -181,7 +192,7 @@ static uint64_t input_deadline_ns(const struct studio *studio)
     return studio->byte_ns + (studio->input.length == 1 ? ESCAPE_NS : S_NS);
 }
 
-/* When there is something to do if nothing happens. */
+/* When the loop has to go on if no descriptor wakes it. */
 static uint64_t wake_ns(const struct studio *studio, uint64_t now_ns)
 {
     return earlier(workspace_next_ns(&studio->workspace, now_ns),
@@ -202,26 +213,26 @@ static void take_reload(struct studio *studio)
     free(names.object);
 }
 
-/* Keys last: they find what is done by then. */
+/* Keys come last, so that they find finished saves and loaded files. */
 static void take_events(struct studio *studio, struct pollfd fds[FDS])
 {
     uint64_t now_ns;
 
-    if (fds[1].revents)
+    if (fds[FD_SIGNALS].revents)
         take_signals(studio);
     if (studio->is_ending)
         return;
-    if (fds[2].revents)
-        event_fd_clear(fds[2].fd); /* render_control_look() sees what it says */
-    if (fds[3].revents)
+    if (fds[FD_RENDER].revents)
+        event_fd_clear(fds[FD_RENDER].fd); /* render_control_look() follows */
+    if (fds[FD_SAVER].revents)
         save_finish(&studio->control);
-    if (fds[4].revents)
+    if (fds[FD_DEVICE].revents)
         render_control_end_device(&studio->control);
-    if (fds[5].revents)
+    if (fds[FD_FILES].revents)
         render_control_look_at_files(&studio->control);
-    if (fds[6].revents)
+    if (fds[FD_RELOAD].revents)
         take_reload(studio);
-    if (fds[0].revents)
+    if (fds[FD_KEYS].revents)
         take_input(studio);
     now_ns = clock_ns();
     if (now_ns >= input_deadline_ns(studio))
@@ -233,15 +244,14 @@ static void wait_for_events(struct studio *studio)
 {
     const struct cl_start *start = studio->control.session->machines.start;
     struct pollfd fds[FDS] = {
-        {.fd = STDIN_FILENO, .events = POLLIN},
-        {.fd = tty_signal_fd(), .events = POLLIN},
-        {.fd = render_event_fd(studio->control.session->render),
-         .events = POLLIN},
-        {.fd = studio->control.saver.event_fd, .events = POLLIN},
-        {.fd = start ? cl_start_event_fd(start) : -1, .events = POLLIN},
-        {.fd = studio->control.watch.fd, .events = POLLIN},
-        {.fd = studio->control.is_live ? studio->control.reload.event_fd : -1,
-         .events = POLLIN},
+        [FD_KEYS].fd = STDIN_FILENO,
+        [FD_SIGNALS].fd = tty_signal_fd(),
+        [FD_RENDER].fd = render_event_fd(studio->control.session->render),
+        [FD_SAVER].fd = studio->control.saver.event_fd,
+        [FD_DEVICE].fd = start ? cl_start_event_fd(start) : -1,
+        [FD_FILES].fd = studio->control.watch.fd,
+        [FD_RELOAD].fd =
+            studio->control.is_live ? studio->control.reload.event_fd : -1,
     };
     uint64_t now_ns = clock_ns();
     uint64_t until_ns = wake_ns(studio, now_ns);
@@ -249,12 +259,15 @@ static void wait_for_events(struct studio *studio)
     struct timespec pause = {(time_t)(pause_ns / S_NS),
                              (long)(pause_ns % S_NS)};
 
+    for (int i = 0; i < FDS; i++)
+        fds[i].events = POLLIN;
     if (ppoll(fds, FDS, until_ns == NEVER ? NULL : &pause, NULL) < 0)
-        memset(fds, 0, sizeof fds); /* a signal: its byte is in the pipe */
+        memset(fds, 0, sizeof fds); /* interrupted: FD_SIGNALS wakes it next */
     take_events(studio, fds);
 }
 
-/* The terminal takes nothing any more: why? */
+/* A write to the terminal has failed: a signal has come, or the terminal is
+ * gone. */
 static void lose_terminal(struct studio *studio)
 {
     take_signals(studio);
@@ -278,9 +291,9 @@ static void loop(struct studio *studio)
     }
 }
 
-/* A line that is lost is nobody's wish: the picture is kept if it is worth it.
- * SIGTERM is an orderly end, as q is, but cannot ask: what q would ask about is
- * kept. Ctrl-C and Ctrl-\ are typed, and mean it. */
+/* Keeps the picture where the person had no chance to save it: when the line to
+ * the terminal is lost, if it took a while; at SIGTERM, if q would have asked.
+ * Ctrl-C and Ctrl-\ are typed, so nothing is kept then. */
 static void keep_picture(struct studio *studio)
 {
     if (studio->status == 128 + SIGHUP ||
@@ -295,7 +308,7 @@ static void close_screen(struct studio *studio)
         tty_ignore_ends(); /* shells send SIGHUP again */
     if (!studio->is_gone)
         screen_drain(&studio->workspace.screen, &studio->input);
-    /* else it might put our signals back when they are no longer ours */
+    /* before tty_close(): its end puts back the signal handlers of its start */
     backends_abandon_device(&studio->control.session->machines);
     tty_close(studio->is_gone);
     render_halt(studio->control.session->render);
@@ -311,12 +324,12 @@ static void say_lost(struct studio *studio, const char *path)
     char *text = xformat("picture of the lost session: %s", path);
 
     render_control_say_long(&studio->control, "%s", text);
-    render_control_add_result(&studio->control,
-                              text); /* it is long, and the line is not */
+    /* printed at the end as well: the status line may cut it */
+    render_control_add_result(&studio->control, text);
     free(text);
 }
 
-/* The render starts first, so that it works while the terminal is opened. */
+/* The render starts first: it works while the terminal is opened. */
 bool event_loop_run(struct session *s, const char *lost, int *status,
                     struct error *err)
 {
@@ -341,7 +354,7 @@ bool event_loop_run(struct session *s, const char *lost, int *status,
         s->notice[0] = '\0';
         if (lost)
             say_lost(&studio, lost);
-        /* not before: it puts back the signals that it has found */
+        /* after tty_open(): it puts back the signal handlers that it finds */
         if (s->options->backend != BACKEND_CPU)
             render_control_begin_device(&studio.control);
         loop(&studio);

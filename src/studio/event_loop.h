@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * event_loop.h - the screen: live picture, status line, keys, help
+ * event_loop.h - the loop of the interactive program: it waits for keys,
+ * signals and the render, and draws
  *
- * Units:     terminal cells
  * Ownership: the session stays the caller's
- * Threads:   main only; alone may include curses
- * Errors:    by the text when no terminal can be opened
+ * Threads:   main only
  */
 #ifndef GLIM_EVENT_LOOP_H
 #define GLIM_EVENT_LOOP_H
@@ -14,9 +13,10 @@
 
 #include "session/session.h"
 
-/* Runs until the person quits or a signal comes. `lost` is the picture of a
- * lost session to tell of, or NULL. *status becomes the exit status; false only
- * if the screen could not be opened. */
+/* Runs until the person quits or a signal ends the program. `lost` is the path
+ * of a picture that a lost session has left, or NULL: the person is told.
+ * *status becomes the exit status. Returns false if the screen cannot be
+ * opened, or the file of --stats cannot be written. */
 bool event_loop_run(struct session *s, const char *lost, int *status,
                     struct error *err);
 

@@ -13,26 +13,27 @@
 #define MS_NS UINT64_C(1000000)
 #define S_NS  UINT64_C(1000000000)
 
-/* Between frames: while the first pass fills the picture, while it is young,
- * and when a frame differs little from the one before. */
+/* Time between frames: during the first pass, in the first OLD_NS of a render,
+ * and later, when frames differ little. */
 #define FRAME_FIRST_NS (16 * MS_NS)
 #define FRAME_YOUNG_NS (100 * MS_NS)
 #define FRAME_OLD_NS   (250 * MS_NS)
 #define OLD_NS         (10 * S_NS)
 
-/* From this age on cells that changed by no more than STEP of 255 may stay
- * until the end; on a slow line from the beginning, and more. */
+/* Cells that changed by no more than STEP of 255 are not sent from this age of
+ * the render on, until its end. On a slow line STEP_SLOW applies from its
+ * beginning. */
 #define SETTLING_NS (2 * S_NS)
 #define STEP        2
 #define STEP_SLOW   8
 
 #define STATUS_NS (250 * MS_NS)
 
-/* A terminal that has not answered by then has no pixels. */
+/* A terminal that has not answered within this time shows no pixels. */
 #define LACK_NS S_NS
 
-/* While nothing but samples come, frames have a twelfth of a core: the rest is
- * the render's. */
+/* Frames take at most 1/FRAME_SHARE of a core while only new samples arrive:
+ * the rest is for the render. */
 #define FRAME_SHARE 12
 
 static uint64_t earlier(uint64_t a, uint64_t b)
@@ -58,7 +59,8 @@ void workspace_refresh(struct workspace *workspace)
     workspace->progress_panel.due_ns = 0;
 }
 
-/* From the next restart on: a cell shows two pixels, one above the other. */
+/* Sets the draft's size from the next restart on: a cell shows two pixels, one
+ * above the other. */
 static void set_draft(struct session *s, const struct fit *fit)
 {
     s->draft_width = fit->cols;
@@ -73,7 +75,8 @@ void workspace_expect(struct session *s)
     set_draft(s, &fit);
 }
 
-/* A frame of the size that the screen wants, or none. */
+/* Makes the frame in the size that the screen wants; none if the window is too
+ * small. */
 static bool resize_frame(struct workspace *workspace, struct error *err)
 {
     const struct screen *screen = &workspace->screen;
@@ -96,13 +99,13 @@ void workspace_layout(struct workspace *workspace)
     workspace->screen.has_panel = workspace->panel.is_open;
     if (!screen_layout(&workspace->screen, film->width, film->height, &err) ||
         !resize_frame(workspace, &err)) {
-        workspace->screen.is_too_small = true; /* nothing can be drawn */
+        workspace->screen.is_too_small = true; /* so nothing is drawn */
         render_control_say_error(workspace->control, err.text);
     }
     panel_draw(&workspace->panel);
-    /* until then the old draft is resampled */
+    /* the present draft is resampled until the next restart */
     set_draft(workspace->control->session, &workspace->screen.fit);
-    inspector_open_panel(&workspace->inspector); /* it went with the layout */
+    inspector_open_panel(&workspace->inspector); /* the layout closed it */
 }
 
 void workspace_init(struct workspace *workspace, struct render_control *control,
@@ -174,7 +177,8 @@ static void open_help_page(struct workspace *workspace, int number)
                  palette_name(workspace->screen.display.palette),
                  screen_glyphs_name(&workspace->screen),
                  (double)pace->rtt_min_ns * 1e-6);
-    /* within a frame, with a blank on each side, above the status line */
+    /* The window has a border, a blank at each side of the text, and the status
+     * line below. */
     help_page(&page, &workspace->control->session->options->keys,
               workspace->panel.is_open, note, number, size.cols - 4,
               size.rows - 3);
@@ -227,7 +231,7 @@ void workspace_next_glyphs(struct workspace *workspace)
                        screen_glyphs_name(&workspace->screen));
 }
 
-void workspace_hide(struct workspace *workspace)
+void workspace_switch_status(struct workspace *workspace)
 {
     workspace->screen.has_status_row = !workspace->screen.has_status_row;
     workspace->progress_panel.is_on = false;
@@ -304,14 +308,14 @@ static void update_status(struct workspace *workspace, uint64_t now_ns)
         format_status(workspace, text);
     } else {
         if (workspace->screen.has_status)
-            workspace->is_settled = false; /* the picture comes back there */
+            workspace->is_settled = false; /* the picture is drawn there */
         screen_status(&workspace->screen, NULL);
         return;
     }
     screen_status(&workspace->screen, text);
 }
 
-/* Processor time of this thread. */
+/* Processor time of the calling thread. */
 static uint64_t used_ns(void)
 {
     struct timespec t;
@@ -320,8 +324,8 @@ static uint64_t used_ns(void)
     return (uint64_t)t.tv_sec * S_NS + (uint64_t)t.tv_nsec;
 }
 
-/* Until the next frame after one that took so long, of which it used so much of
- * the processor. */
+/* Time from one frame to the next. The last one took took_ns by the clock and
+ * cpu_ns of processor time. */
 static uint64_t frame_interval(const struct workspace *workspace,
                                uint64_t took_ns, uint64_t cpu_ns)
 {
@@ -332,7 +336,7 @@ static uint64_t frame_interval(const struct workspace *workspace,
                           ? FRAME_OLD_NS
                           : FRAME_YOUNG_NS;
     interval_ns = later(interval_ns, FRAME_SHARE * cpu_ns);
-    return later(interval_ns, 2 * took_ns); /* where writing blocks */
+    return later(interval_ns, 2 * took_ns); /* for terminals that block */
 }
 
 static int frame_step(const struct workspace *workspace)
@@ -344,7 +348,7 @@ static int frame_step(const struct workspace *workspace)
     return workspace->control->progress.render_ns > SETTLING_NS ? STEP : 0;
 }
 
-/* Says it once if the pixels that the person has asked for are not there. */
+/* Says once why the pixels that the person has asked for are not shown. */
 static void say_lack(struct workspace *workspace, uint64_t now_ns)
 {
     const struct screen *screen = &workspace->screen;
@@ -423,10 +427,10 @@ bool workspace_draw(struct workspace *workspace, uint64_t now_ns)
     return result != SCREEN_GONE;
 }
 
-/* ---- what there is to draw ---- */
+/* ---- what has to be drawn ---- */
 
-/* A restart changes the picture, but the status line only in its time: while
- * the camera moves there are 60 a second. */
+/* A restart draws the picture at once, but not the status line: a moving camera
+ * restarts the render 60 times a second. */
 void workspace_look(struct workspace *workspace)
 {
     const struct film *film = film_of(workspace);
@@ -446,7 +450,7 @@ void workspace_look(struct workspace *workspace)
     workspace->control->has_changed = false;
 }
 
-/* For the first picture after a restart: looked for often at first, seldom
+/* When to look for the first picture after a restart: often at first, seldom
  * while a tree is built. */
 static uint64_t next_look_ns(const struct workspace *workspace, uint64_t now_ns)
 {

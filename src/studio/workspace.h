@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * workspace.h - what is on the screen: the picture, the panel beside it, one
- * window over it, the last line; and when each is drawn
+ * workspace.h - the layout of the screen: the picture, the editor panel beside
+ * it, one window over it and the status line; and when each is drawn
  *
- * Help, progress, directions and a path share one window: the help hides the
- * others while it is open, and there is room either for progress or for the
- * panel.
+ * The help, the progress panel and the inspector's table share the window. The
+ * help hides the others while it is open. Progress and the editor panel exclude
+ * each other, as there is room for one of them.
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: control and camera stay the caller's and outlive it;
@@ -33,19 +33,21 @@ struct workspace {
     struct inspector inspector;
     struct editor_panel panel;
     struct progress_panel progress_panel; /* hidden while the help is open */
-    int help_number;                      /* the page that is shown, */
-    int help_left;                        /* with those behind it; 0: no help */
-    const char *prompt; /* in the last line; NULL: nothing is asked */
+    int help_number;    /* the page of the help that is shown, from 0 */
+    int help_left;      /* pages from that one on; 0: the help is closed */
+    const char *prompt; /* a question in the last line; NULL: none */
 
-    uint64_t lack_ns; /* when to ask why there are no pixels; 0: never */
+    uint64_t lack_ns; /* when the terminal's answers count as lost, and a
+                         message says why no pixels are shown; 0: never */
 
-    bool is_settled;         /* nothing of the picture is left to be shown */
+    bool is_settled;         /* the screen shows the final picture */
     uint64_t frame_ns;       /* when the next frame is due */
-    uint64_t status_ns;      /* when to look for a new status line */
-    int width_px, height_px; /* of the picture that has been laid out */
+    uint64_t status_ns;      /* when the status line is formatted next */
+    int width_px, height_px; /* size of the picture in this layout */
 };
 
-/* Says what the next restart's draft is like, before there is a screen. */
+/* Sets the size of the draft for the first restart, by the size that the
+ * terminal has now. Call it before tty_open(). */
 void workspace_expect(struct session *s);
 
 void workspace_init(struct workspace *workspace, struct render_control *control,
@@ -54,13 +56,14 @@ void workspace_init(struct workspace *workspace, struct render_control *control,
 /* After tty_open(). */
 void workspace_open(struct workspace *workspace);
 
-/* Everything anew, for the terminal's size of now. */
+/* Lays everything out for the present size of the terminal, and closes the
+ * help. */
 void workspace_layout(struct workspace *workspace);
 
-/* Draws again as soon as possible. */
+/* Draws all parts again as soon as possible. */
 void workspace_refresh(struct workspace *workspace);
 
-/* NULL: the status line again. */
+/* Shows a question in the last line; NULL: the status line. */
 void workspace_ask(struct workspace *workspace, const char *prompt);
 
 void workspace_switch_progress(struct workspace *workspace);
@@ -69,25 +72,27 @@ void workspace_next_drawing(struct workspace *workspace);
 void workspace_next_colors(struct workspace *workspace);
 void workspace_next_glyphs(struct workspace *workspace);
 
-/* Only the picture, or the status line as well. */
-void workspace_hide(struct workspace *workspace);
+/* Shows the status line, or lets the picture have its row. */
+void workspace_switch_status(struct workspace *workspace);
 
 void workspace_open_help(struct workspace *workspace);
 
-/* While the help is open: its next page, or its end. */
+/* Goes to the next page of the open help; closes it after the last page, or if
+ * `closes`. */
 void workspace_turn_help(struct workspace *workspace, bool closes);
 
-/* After the scene was loaded anew. */
+/* Takes a scene that was loaded anew; what had these names stays selected. */
 void workspace_renew(struct workspace *workspace,
                      const struct selection_names *names);
 
-/* Looks how far the render is, and what of it is to be shown. */
+/* Looks how far the render is, and decides what has to be drawn. */
 void workspace_look(struct workspace *workspace);
 
-/* Draws what is due. False if the terminal takes nothing any more. */
+/* Draws what is due. Returns false if the terminal is gone. */
 bool workspace_draw(struct workspace *workspace, uint64_t now_ns);
 
-/* When to look and draw again if nothing happens; UINT64_MAX: never. */
+/* When workspace_look() and workspace_draw() are due if no event comes;
+ * UINT64_MAX: never. */
 uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns);
 
 /* After tty_close(). */
