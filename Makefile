@@ -180,7 +180,8 @@ $(B)/error/error: $(ERROR_BENCH) $(LIBRARY)
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 
 $(B)/error/scenes: $(B)/error/scenes.o $(B)/scenes/mesh.o \
-	$(foreach i,file temp_file error memory clock print,$(B)/base/$(i).o)
+	$(foreach i,file temp_file error memory clock print,$(B)/base/$(i).o) \
+	$(B)/terminal/xmalloc.o
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
 

@@ -14,11 +14,11 @@
 #include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/file.h"
-#include "base/memory.h"
 #include "base/print.h"
 #include "picture/image_write.h"
 #include "terminal/ansi_text.h"
 #include "terminal/tty.h"
+#include "terminal/xmalloc.h"
 #include "session/stats_json.h"
 #include "inspect/view_modes.h"
 
@@ -286,7 +286,7 @@ static bool write_picture(struct session *s, const struct frame *frame,
 static char *write_numbered(struct session *s, const struct frame *frame,
                             struct error *err)
 {
-    char *stem = path_stem(s->options->scene_path);
+    char *stem = xchecked(path_stem(s->options->scene_path));
     const char *slash = strrchr(stem, '/');
     const char *last = slash ? slash + 1 : stem;
     char *name =

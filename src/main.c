@@ -24,6 +24,7 @@
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
 #include "opencl/cl_probe.h"
+#include "terminal/xmalloc.h"
 #include "session/command_line.h"
 #include "session/config.h"
 #include "session/recent.h"
@@ -86,11 +87,18 @@ static int probe(const struct options *o)
         .needs_gpu = o->backend == BACKEND_AUTO,
         .features = o->features,
     };
+    struct cl_probe probe;
     struct error err;
+    bool ok = cl_probe_answer(&probe, &request, &err);
 
-    if (!cl_probe_answer(&request, &err))
-        return complain(EXIT_FAILED, &err);
-    return print_out("");
+    if (probe.log)
+        print_lines(stderr, probe.log);
+    if (ok) {
+        print_line(stdout, "%s", probe.device);
+        print_line(stdout, "%s", probe.verdict);
+    }
+    cl_probe_free(&probe);
+    return ok ? print_out("") : complain(EXIT_FAILED, &err);
 }
 
 /* Is there a screen for the live mode, or a place for the picture? */

@@ -161,24 +161,25 @@ bool file_is_same(const struct file_identity *a, const struct file_identity *b)
            a->modified.tv_nsec == b->modified.tv_nsec;
 }
 
+/* For free(), as all that the functions on paths return; NULL when memory is
+ * out. */
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
 
     if (!slash)
-        return xstrdup(".");
-    return slash == path ? xstrdup("/")
-                         : xformat("%.*s", (int)(slash - path), path);
+        return strdup(".");
+    return slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
 }
 
 /* Where writing to path ends: what its links point to, even if that does not
- * exist yet. For free(). */
+ * exist yet. */
 static char *target_of(const char *path)
 {
-    char *target = xstrdup(path);
+    char *target = strdup(path);
     char link[PATH_MAX];
 
-    for (int i = 0; i < LINKS_MAX; i++) {
+    for (int i = 0; target && i < LINKS_MAX; i++) {
         ssize_t length = readlink(target, link, sizeof link - 1);
         if (length < 0)
             break;
@@ -190,10 +191,15 @@ static char *target_of(const char *path)
     return target;
 }
 
-bool file_check(const char *path, struct error *err)
+static bool fail_memory(struct error *err, const char *path)
 {
-    char *target = target_of(path);
-    char *folder = folder_of(target);
+    return fail(err, "%s: out of memory for its name", path);
+}
+
+/* A target, its folder, and how messages name it. */
+static bool check_target(const char *target, const char *folder,
+                         const char *path, struct error *err)
+{
     struct stat st;
     bool ok = true;
 
@@ -205,6 +211,16 @@ bool file_check(const char *path, struct error *err)
     }
     if (ok && access(folder, W_OK | X_OK) != 0)
         ok = fail_errno(err, folder);
+    return ok;
+}
+
+bool file_check(const char *path, struct error *err)
+{
+    char *target = target_of(path);
+    char *folder = target ? folder_of(target) : NULL;
+    bool ok = folder ? check_target(target, folder, path, err)
+                     : fail_memory(err, path);
+
     free(folder);
     free(target);
     return ok;
@@ -306,11 +322,12 @@ static bool write_file(const char *path, const void *data, size_t size_bytes,
                        bool must_be_new, bool *exists,
                        struct file_change *change, struct error *err)
 {
-    char *target = must_be_new ? xstrdup(path) : target_of(path);
-    char *folder = folder_of(target);
+    char *target = must_be_new ? strdup(path) : target_of(path);
+    char *folder = target ? folder_of(target) : NULL;
     struct replacement r = {folder,     target,      data,
                             size_bytes, must_be_new, change};
-    bool ok = must_be_new || file_check(path, err);
+    bool ok = folder ? must_be_new || check_target(target, folder, path, err)
+                     : fail_memory(err, path);
 
     if (ok)
         temp_file_sweep(folder);
@@ -363,9 +380,9 @@ char *file_write_numbered(const char *stem, const char *ending,
                           const void *data, size_t size_bytes,
                           struct error *err)
 {
-    char *path = xformat("%s.%s", stem, ending);
+    char *path = format_text("%s.%s", stem, ending);
 
-    for (int i = 2; i <= NUMBER_MAX; i++) {
+    for (int i = 2; path && i <= NUMBER_MAX; i++) {
         struct stat st;
         /* looking first saves writing the file for each name that is taken */
         bool exists = lstat(path, &st) == 0;
@@ -375,9 +392,12 @@ char *file_write_numbered(const char *stem, const char *ending,
         if (!exists)
             goto failed;
         free(path);
-        path = xformat("%s-%d.%s", stem, i, ending);
+        path = format_text("%s-%d.%s", stem, i, ending);
     }
-    fail(err, "%s: expected a free name", path);
+    if (path)
+        fail(err, "%s: expected a free name", path);
+    else
+        fail_memory(err, stem);
 failed:
     free(path);
     return NULL;
@@ -403,22 +423,22 @@ char *path_beside(const char *beside, const char *name)
     const char *slash = strrchr(beside, '/');
 
     if (*name == '/' || !slash)
-        return xstrdup(name);
-    return xformat("%.*s%s", (int)(slash + 1 - beside), beside, name);
+        return strdup(name);
+    return format_text("%.*s%s", (int)(slash + 1 - beside), beside, name);
 }
 
 /* The path with its folder as the system knows it; NULL if there is no such
- * folder. */
+ * folder or memory is out. */
 static char *real_path(const char *path)
 {
     const char *slash = strrchr(path, '/');
     char *folder = folder_of(path);
-    char *real = realpath(folder, NULL);
+    char *real = folder ? realpath(folder, NULL) : NULL;
     char *whole = NULL;
 
     if (real)
-        whole = xformat("%s/%s", strcmp(real, "/") == 0 ? "" : real,
-                        slash ? slash + 1 : path);
+        whole = format_text("%s/%s", strcmp(real, "/") == 0 ? "" : real,
+                            slash ? slash + 1 : path);
     free(real);
     free(folder);
     return whole;
@@ -432,10 +452,10 @@ char *path_seen_from(const char *beside, const char *path)
 
     if (real && real_beside) {
         size_t below = (size_t)(strrchr(real_beside, '/') + 1 - real_beside);
-        name = xstrdup(strncmp(real, real_beside, below) == 0 ? real + below
-                                                              : real);
+        name = strdup(strncmp(real, real_beside, below) == 0 ? real + below
+                                                             : real);
     } else {
-        name = xstrdup(path);
+        name = strdup(path);
     }
     free(real);
     free(real_beside);
@@ -445,7 +465,8 @@ char *path_seen_from(const char *beside, const char *path)
 bool path_is_same(const char *a, const char *b)
 {
     char *targets[2] = {target_of(a), target_of(b)};
-    char *real[2] = {real_path(targets[0]), real_path(targets[1])};
+    char *real[2] = {targets[0] ? real_path(targets[0]) : NULL,
+                     targets[1] ? real_path(targets[1]) : NULL};
     bool is_same = real[0] && real[1] && strcmp(real[0], real[1]) == 0;
 
     for (int i = 0; i < 2; i++) {
@@ -462,5 +483,5 @@ char *path_stem(const char *path)
     const char *dot = strrchr(name, '.');
     size_t length = dot && dot != name ? (size_t)(dot - path) : strlen(path);
 
-    return xformat("%.*s", (int)length, path);
+    return strndup(path, length);
 }

@@ -5,7 +5,8 @@
  * Units:     bytes
  * Ownership: what file_read() and the path functions return is for free()
  * Threads:   any
- * Errors:    the system's words, with the path
+ * Errors:    the system's words, with the path; the path functions return NULL
+ *            when memory is out
  */
 #ifndef GLIM_FILE_H
 #define GLIM_FILE_H

@@ -4,8 +4,6 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -13,21 +11,6 @@
 
 /* Bytes of a cache line. */
 #define LINE_BYTES 64
-
-/* set before the threads start */
-static void (*restore_terminal)(void);
-
-/* Whatever else runs, this ends the program: no atexit functions, no stdio. */
-static _Noreturn void out_of_memory(void)
-{
-    static const char text[] = "glim: out of memory\n";
-
-    if (restore_terminal)
-        restore_terminal();
-    ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
-    (void)written; /* nobody is left to tell */
-    _exit(1);
-}
 
 /* Arrays of fewer bytes are kept when they are freed, twice as many bytes in
  * all: a page of memory that is new to the process costs 2 us. Measured: scenes
@@ -44,53 +27,20 @@ void memory_init(void)
 #endif
 }
 
-void xmalloc_set_hook(void (*hook)(void))
-{
-    restore_terminal = hook;
-}
-
-static void *checked(void *p)
-{
-    if (!p)
-        out_of_memory();
-    return p;
-}
-
-void *xmalloc(size_t size_bytes)
-{
-    return checked(malloc(size_bytes ? size_bytes : 1));
-}
-
-void *xcalloc(size_t count, size_t size_bytes)
-{
-    return checked(alloc_array(count, size_bytes));
-}
-
-void *xrealloc(void *p, size_t size_bytes)
-{
-    return checked(realloc(p, size_bytes ? size_bytes : 1));
-}
-
-char *xstrdup(const char *s)
-{
-    return checked(strdup(s));
-}
-
-char *xformat_list(const char *format, va_list values)
+char *format_list(const char *format, va_list values)
 {
     char *text;
-    int length = vasprintf(&text, format, values);
 
-    return checked(length < 0 ? NULL : text);
+    return vasprintf(&text, format, values) < 0 ? NULL : text;
 }
 
-char *xformat(const char *format, ...)
+char *format_text(const char *format, ...)
 {
     va_list values;
     char *text;
 
     va_start(values, format);
-    text = xformat_list(format, values);
+    text = format_list(format, values);
     va_end(values);
     return text;
 }

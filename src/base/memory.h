@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * memory.h - allocation that either says when memory is out or ends the program
+ * memory.h - allocation that says when memory is out
  *
  * Units:     bytes
  * Ownership: what the functions return is for free()
- * Threads:   any; the hook is set before they start
- * Errors:    alloc_array(), alloc_aligned() and grow_array() say so; xmalloc()
- *            and friends never return NULL
+ * Threads:   any
+ * Errors:    NULL or false when memory is out
  */
 #ifndef GLIM_MEMORY_H
 #define GLIM_MEMORY_H
@@ -15,19 +14,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* For small things: stops the program when memory is out, after the hook has
- * given the terminal back. */
-void *xmalloc(size_t size_bytes);
-void *xcalloc(size_t count, size_t size_bytes);
-void *xrealloc(void *p, size_t size_bytes);
-char *xstrdup(const char *s);
-char *xformat(const char *format, ...) __attribute__((format(printf, 1, 2)));
-char *xformat_list(const char *format, va_list values)
+/* The text that printf() would print. */
+char *format_text(const char *format, ...)
+    __attribute__((format(printf, 1, 2)));
+char *format_list(const char *format, va_list values)
     __attribute__((format(printf, 1, 0)));
-void xmalloc_set_hook(void (*restore_terminal)(void));
 
-/* Before the first allocation: large arrays go back to the system when they are
- * freed. */
+/* Sets the C library's allocator up for the whole process, before the first
+ * allocation: large arrays go back to the system when they are freed. */
 void memory_init(void);
 
 /* For what a file or a picture sizes: zeroed memory, or NULL when it is out or

@@ -47,16 +47,21 @@ void print_replace(char *text)
     *to = '\0';
 }
 
+/* Stands for a text that memory is out for. */
+static const char out_of_memory[] = "glim: out of memory\n";
+
 /* In one piece, so that no other program's output gets between. */
 __attribute__((format(printf, 3, 0))) static void
 print(FILE *to, const char *end, const char *format, va_list values)
 {
-    char *text = xformat_list(format, values);
-    char *whole;
+    char *text = format_list(format, values);
+    char *whole = NULL;
 
-    print_replace(text);
-    whole = xformat("%s%s", text, end);
-    fputs(whole, to);
+    if (text)
+        print_replace(text);
+    if (text)
+        whole = format_text("%s%s", text, end);
+    fputs(whole ? whole : out_of_memory, to);
     free(whole);
     free(text);
 }
@@ -83,11 +88,14 @@ void print_lines(FILE *to, const char *text)
 {
     while (*text != '\0') {
         size_t length = strcspn(text, "\n");
-        char *line = xformat("%.*s", (int)length, text);
+        char *line = strndup(text, length);
 
-        for (char *tab = line; (tab = strchr(tab, '\t')) != NULL;)
+        for (char *tab = line; tab && (tab = strchr(tab, '\t')) != NULL;)
             *tab = ' ';
-        print_line(to, "%s", line);
+        if (line)
+            print_line(to, "%s", line);
+        else
+            fputs(out_of_memory, to);
         free(line);
         text += length + (text[length] == '\n');
     }

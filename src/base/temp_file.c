@@ -42,25 +42,30 @@ static uint32_t host_id(void)
     return (uint32_t)(hash >> 32) | 1;
 }
 
-static char *temporary_name(uint32_t host, int pid, unsigned number)
+#define NAME_BYTES 40
+
+static void format_name(char name[NAME_BYTES], uint32_t host, int pid,
+                        unsigned number)
 {
-    return xformat(".glim-%08" PRIx32 "-%d-%08x", host, pid, number);
+    snprintf(name, NAME_BYTES, ".glim-%08" PRIx32 "-%d-%08x", host, pid,
+             number);
 }
 
+/* For free(); NULL and ENOMEM when memory is out. */
 static char *new_name(const char *folder, unsigned try)
 {
-    char *name =
-        temporary_name(host_id(), (int)getpid(), (unsigned)clock_ns() + try);
-    char *path = xformat("%s/%s", folder, name);
+    char name[NAME_BYTES];
 
-    free(name);
-    return path;
+    format_name(name, host_id(), (int)getpid(), (unsigned)clock_ns() + try);
+    return format_text("%s/%s", folder, name);
 }
 
 static bool open_named(struct temp_file *t, mode_t mode)
 {
     for (unsigned i = 0; i < TRIES; i++) {
         t->name = new_name(t->folder, i);
+        if (!t->name)
+            return false;
         t->fd = open(t->name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (t->fd >= 0)
             return true;
@@ -95,7 +100,7 @@ static bool link_temporarily(struct temp_file *t)
 {
     for (unsigned i = 0; i < TRIES; i++) {
         char *name = new_name(t->folder, i);
-        if (link_unnamed(t, name)) {
+        if (name && link_unnamed(t, name)) {
             t->name = name;
             return true;
         }
@@ -156,19 +161,16 @@ bool temp_file_close(struct temp_file *t)
     return ok;
 }
 
-/* Is it exactly what temporary_name() makes? */
+/* Is it exactly what format_name() makes? */
 static bool parse_name(const char *name, uint32_t *host, int *pid)
 {
+    char same[NAME_BYTES];
     unsigned number;
-    char *same;
-    bool ok;
 
     if (sscanf(name, ".glim-%8" SCNx32 "-%d-%8x", host, pid, &number) != 3)
         return false;
-    same = temporary_name(*host, *pid, number);
-    ok = strcmp(name, same) == 0 && *pid > 0;
-    free(same);
-    return ok;
+    format_name(same, *host, *pid, number);
+    return strcmp(name, same) == 0 && *pid > 0;
 }
 
 static bool is_left_over(int folder, const char *name, uint32_t here)

@@ -31,8 +31,8 @@ static int processors_of_affinity(void)
 {
     for (int count = CPU_SETSIZE; count <= PROCESSORS_MAX; count *= 2) {
         size_t size_bytes = CPU_ALLOC_SIZE((size_t)count);
-        cpu_set_t *set = xcalloc(1, size_bytes);
-        int usable = sched_getaffinity(0, size_bytes, set) == 0
+        cpu_set_t *set = alloc_array(1, size_bytes);
+        int usable = set && sched_getaffinity(0, size_bytes, set) == 0
                          ? CPU_COUNT_S(size_bytes, set)
                          : 0;
 

@@ -136,16 +136,20 @@ static void *worker_main(void *argument)
 
 struct pool *pool_create(int thread_count, struct error *err)
 {
-    struct pool *p = xcalloc(1, sizeof *p);
+    struct pool *p = alloc_array(1, sizeof *p);
     int started = 0;
     int reason = ENOMEM;
 
-    p->workers = xcalloc((size_t)thread_count, sizeof *p->workers);
+    if (p == NULL) {
+        fail(err, "threads: out of memory");
+        return NULL;
+    }
+    p->workers = alloc_array((size_t)thread_count, sizeof *p->workers);
     p->shares = aligned_alloc(64, (size_t)thread_count * sizeof *p->shares);
     pthread_mutex_init(&p->lock, NULL);
     pthread_cond_init(&p->begin, NULL);
     pthread_cond_init(&p->end, NULL);
-    if (p->shares != NULL) {
+    if (p->workers != NULL && p->shares != NULL) {
         memset(p->shares, 0, (size_t)thread_count * sizeof *p->shares);
         for (; started < thread_count; started++) {
             struct worker *w = &p->workers[started];

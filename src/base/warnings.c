@@ -18,7 +18,24 @@ static struct warnings_entry *find(const struct warnings *r, const char *kind)
     return NULL;
 }
 
-/* The entry of this kind, made with the text if there is none yet. */
+/* Takes both texts over; NULL: memory is out. */
+static void append(struct warnings *r, char *kind, char *text)
+{
+    void *entries = r->entries;
+
+    if (kind == NULL || text == NULL ||
+        !grow_array(&entries, &r->capacity, (size_t)r->entry_count + 1,
+                    sizeof *r->entries)) {
+        r->has_lost = true;
+        free(kind);
+        free(text);
+        return;
+    }
+    r->entries = entries;
+    r->entries[r->entry_count++] = (struct warnings_entry){kind, text, 1};
+}
+
+/* Counts in the entry of this kind, made with the text if there is none yet. */
 __attribute__((format(printf, 3, 0))) static void
 add(struct warnings *r, const char *kind, const char *format, va_list args)
 {
@@ -29,16 +46,8 @@ add(struct warnings *r, const char *kind, const char *format, va_list args)
         entry->count++;
         return;
     }
-    if (r->entry_count == r->capacity) {
-        r->capacity = r->capacity == 0 ? 8 : 2 * r->capacity;
-        r->entries =
-            xrealloc(r->entries, (size_t)r->capacity * sizeof *r->entries);
-    }
     vsnprintf(text, sizeof text, format, args);
-    entry = &r->entries[r->entry_count++];
-    entry->kind = xstrdup(kind);
-    entry->text = xstrdup(text);
-    entry->count = 1;
+    append(r, strdup(kind), strdup(text));
 }
 
 void warnings_add(struct warnings *r, const char *kind, const char *format, ...)
@@ -66,10 +75,11 @@ void warnings_add_named(struct warnings *r, const char *kind, const char *name,
                         const char *format, ...)
 {
     /* Long names that begin alike count as one. */
-    char *named = xformat("%s '%.100s'", kind, name);
+    char *named = format_text("%s '%.100s'", kind, name);
 
     bool is_full =
-        find(r, named) == NULL && count_named(r, kind) >= WARNINGS_NAMES_MAX;
+        named == NULL ||
+        (find(r, named) == NULL && count_named(r, kind) >= WARNINGS_NAMES_MAX);
     va_list args;
 
     va_start(args, format);

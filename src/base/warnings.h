@@ -4,10 +4,13 @@
  *
  * Ownership: warnings_free() frees what a report holds; texts are copied
  * Threads:   one thread at a time
+ * Errors:    has_lost says that memory was out
  */
 #ifndef GLIM_WARNINGS_H
 #define GLIM_WARNINGS_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -21,7 +24,8 @@ struct warnings_entry {
 struct warnings {
     struct warnings_entry *entries;
     int entry_count;
-    int capacity;
+    size_t capacity;
+    bool has_lost; /* an entry, as memory was out */
 };
 
 /* Counts one warning of this kind; keeps the text if it is the first. `kind`

@@ -12,9 +12,9 @@ char *xdg_folder(const char *variable, const char *below_home)
     const char *home = getenv("HOME");
 
     if (folder && *folder == '/')
-        return xformat("%s/glim", folder);
+        return format_text("%s/glim", folder);
     if (home && *home == '/')
-        return xformat("%s/%s/glim", home, below_home);
+        return format_text("%s/%s/glim", home, below_home);
     return NULL;
 }
 
@@ -24,7 +24,7 @@ char *xdg_state_path(const char *name)
     char *path = NULL;
 
     if (folder && folder_make(folder))
-        path = xformat("%s/%s", folder, name);
+        path = format_text("%s/%s", folder, name);
     free(folder);
     return path;
 }

@@ -11,16 +11,33 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "base/memory.h"
 
-static char *if_exists(const char *beside, const char *name)
+/* What the search has found so far. */
+struct search {
+    const char *beside;
+    char *path; /* NULL: nothing */
+    bool has_memory;
+};
+
+/* Takes the name if nothing was found before, and there is such a file. */
+static void try_name(struct search *s, const char *name,
+                     bool (*is_there)(char *path))
 {
-    char *path = path_beside(beside, name);
+    char *path;
 
-    if (access(path, F_OK) == 0)
-        return path;
-    free(path);
-    return NULL;
+    if (s->path != NULL || !s->has_memory)
+        return;
+    path = path_beside(s->beside, name);
+    s->has_memory = path != NULL;
+    if (path != NULL && is_there(path))
+        s->path = path;
+    else
+        free(path);
+}
+
+static bool exists(char *path)
+{
+    return access(path, F_OK) == 0;
 }
 
 /* Replaces each backslash and blank by the blank, as a shell does. */
@@ -35,42 +52,41 @@ static void remove_escapes(char *name)
     *to = '\0';
 }
 
-/* Returns the first entry of the folder, in the order of strcmp(), whose name
- * equals `name` apart from letter case; NULL if there is none. */
-static char *name_in_folder(int folder, const char *name)
+/* Finds the first entry of the folder, in the order of strcmp(), whose name
+ * equals `name` apart from letter case. Returns false if there is none. */
+static bool name_in_folder(int folder, const char *name,
+                           char found[NAME_MAX + 1])
 {
     int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     DIR *entries = copy >= 0 ? fdopendir(copy) : NULL;
     struct dirent *entry;
-    char *found = NULL;
 
+    *found = '\0';
     while (entries != NULL && (entry = readdir(entries)) != NULL) {
         if (strcasecmp(entry->d_name, name) != 0 ||
-            (found != NULL && strcmp(found, entry->d_name) < 0))
+            (*found != '\0' && strcmp(found, entry->d_name) < 0))
             continue;
-        free(found);
-        found = xstrdup(entry->d_name);
+        strcpy(found, entry->d_name);
     }
     if (entries != NULL)
         closedir(entries);
     else if (copy >= 0)
         close(copy);
-    return found;
+    return *found != '\0';
 }
 
 /* Replaces one part of a path in place by the entry of the folder whose name
  * differs only in letter case. Returns false if there is none. */
 static bool correct_part(int folder, char *part)
 {
-    char *found;
+    char found[NAME_MAX + 1];
 
     if (*part == '\0' || faccessat(folder, part, F_OK, 0) == 0)
         return true;
-    found = name_in_folder(folder, part);
-    if (found != NULL)
-        memcpy(part, found, strlen(part));
-    free(found);
-    return found != NULL;
+    if (!name_in_folder(folder, part, found))
+        return false;
+    memcpy(part, found, strlen(part));
+    return true;
 }
 
 /* Corrects the letter case of each part of the path, from left to right: files
@@ -105,43 +121,43 @@ static bool correct_letters(char *path)
     return ok;
 }
 
-static char *find_in_any_case(const char *beside, const char *name)
+/* The names that other systems may mean by a name that is not there. */
+static void try_others(struct search *s, char *name)
 {
-    char *path = path_beside(beside, name);
-
-    if (correct_letters(path))
-        return path;
-    free(path);
-    return NULL;
-}
-
-char *asset_path_find(const char *beside, const char *name)
-{
-    char *found, *other;
     const char *last;
 
-    if (*name == '\0' || strlen(name) >= PATH_MAX)
-        return NULL;
-    found = if_exists(beside, name);
-    if (found != NULL)
-        return found;
-    other = xstrdup(name);
-    remove_escapes(other);
-    found = if_exists(beside, other);
-    for (char *p = other; *p != '\0'; p++) {
+    remove_escapes(name);
+    try_name(s, name, exists);
+    for (char *p = name; *p != '\0'; p++) {
         if (*p == '\\')
             *p = '/';
     }
-    last = strrchr(other, '/');
-    last = last != NULL ? last + 1 : other;
-    if (found == NULL)
-        found = if_exists(beside, other);
-    if (found == NULL && *last != '\0')
-        found = if_exists(beside, last);
-    if (found == NULL)
-        found = find_in_any_case(beside, other);
-    if (found == NULL && *last != '\0')
-        found = find_in_any_case(beside, last);
-    free(other);
-    return found;
+    last = strrchr(name, '/');
+    last = last != NULL ? last + 1 : name;
+    try_name(s, name, exists);
+    if (*last != '\0')
+        try_name(s, last, exists);
+    try_name(s, name, correct_letters);
+    if (*last != '\0')
+        try_name(s, last, correct_letters);
+}
+
+bool asset_path_find(const char *beside, const char *name, char **path)
+{
+    struct search s = {beside, NULL, true};
+    char *other;
+
+    *path = NULL;
+    if (*name == '\0' || strlen(name) >= PATH_MAX)
+        return true;
+    try_name(&s, name, exists);
+    if (s.path == NULL && s.has_memory) {
+        other = strdup(name);
+        s.has_memory = other != NULL;
+        if (other != NULL)
+            try_others(&s, other);
+        free(other);
+    }
+    *path = s.path;
+    return s.has_memory;
 }

@@ -291,11 +291,13 @@ static bool read_light(struct parser *p, struct word key)
 }
 
 /* Returns the path of the file that a map names, for free(); a path beside the
- * MTL file if none exists. */
+ * MTL file if none exists. NULL if memory is out. */
 static char *map_path(const struct parser *p, const char *name)
 {
-    char *found = asset_path_find(p->path, name);
+    char *found;
 
+    if (!asset_path_find(p->path, name, &found))
+        return NULL;
     return found != NULL ? found : path_beside(p->path, name);
 }
 
@@ -327,7 +329,7 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
     path = map_path(p, name);
     if (bump_scale != NULL)
         *bump_scale = o.bump_scale;
-    *texture = add_texture(p, path, &o.texture, line);
+    *texture = path == NULL ? NO_NAME : add_texture(p, path, &o.texture, line);
     free(path);
     free(name);
     return *texture != NO_NAME || out_of_memory(p);

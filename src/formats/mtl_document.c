@@ -169,16 +169,16 @@ static bool find_statement(const struct mtl_document *t,
     return is_found;
 }
 
-/* Returns the line ends that an unterminated last line needs, for free(). A
- * line that ends in a backslash needs two, for the backslash joins the next
- * line. The same holds for a backslash and a carriage return, to which the
- * first line feed belongs. */
+/* Returns the line ends that an unterminated last line needs, for free(), or
+ * NULL if memory is out. A line that ends in a backslash needs two, for the
+ * backslash joins the next line. The same holds for a backslash and a carriage
+ * return, to which the first line feed belongs. */
 static char *closing_of(const struct mtl_document *t)
 {
     char last = t->size > 0 ? t->bytes[t->size - 1] : '\n';
     bool joins = last == '\\' || last == '\r';
 
-    return xformat("%s%s", joins ? t->line_end : "", t->line_end);
+    return format_text("%s%s", joins ? t->line_end : "", t->line_end);
 }
 
 bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
@@ -187,11 +187,13 @@ bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
     const struct mtl_statement *last = &b->last;
     int indent = (int)(last->key - last->line);
     const char *margin = t->bytes + last->line;
-    char *closing = last->is_open ? closing_of(t) : xstrdup("");
-    char *line =
-        xformat("%s%.*s%s %s%s%s", closing, indent, margin, key, value,
-                lexer_rest_guard(value), last->is_open ? "" : t->line_end);
-    bool ok = mtl_document_splice(t, last->end, 0, line);
+    char *closing = last->is_open ? closing_of(t) : strdup("");
+    char *line = closing == NULL
+                     ? NULL
+                     : format_text("%s%.*s%s %s%s%s", closing, indent, margin,
+                                   key, value, lexer_rest_guard(value),
+                                   last->is_open ? "" : t->line_end);
+    bool ok = line != NULL && mtl_document_splice(t, last->end, 0, line);
 
     free(line);
     free(closing);
@@ -214,8 +216,9 @@ bool mtl_document_set(struct mtl_document *t, const char *name,
     word = (struct word){t->bytes + s.key, s.key_end - s.key};
     if (word_is(word, keys[0]) && s.value > s.key_end)
         return mtl_document_splice(t, s.value, s.value_end - s.value, value);
-    whole = xformat("%s %s", keys[0], value);
-    ok = mtl_document_splice(t, s.key, s.value_end - s.key, whole);
+    whole = format_text("%s %s", keys[0], value);
+    ok = whole != NULL &&
+         mtl_document_splice(t, s.key, s.value_end - s.key, whole);
     free(whole);
     return ok;
 }
@@ -257,9 +260,9 @@ bool mtl_document_comment(struct mtl_document *t, const char *name,
         end = (size_t)(lex.p - t->bytes);
         if (rest == NULL)
             return false;
-        line = xformat("#%.*s %s%s", (int)(s.key_end - s.key), t->bytes + s.key,
-                       rest, lexer_rest_guard(rest));
-        ok = mtl_document_splice(t, s.key, end - s.key, line);
+        line = format_text("#%.*s %s%s", (int)(s.key_end - s.key),
+                           t->bytes + s.key, rest, lexer_rest_guard(rest));
+        ok = line != NULL && mtl_document_splice(t, s.key, end - s.key, line);
         free(line);
         free(rest);
         if (!ok)
@@ -282,18 +285,20 @@ static bool is_open(const struct mtl_document *t)
 bool mtl_document_append_block(struct mtl_document *t, const char *name,
                                const char *copied_from)
 {
-    char *closing = is_open(t) ? closing_of(t) : xstrdup("");
-    char *head = xformat("%s%snewmtl %s%s%s", closing, t->line_end, name,
-                         lexer_rest_guard(name), t->line_end);
+    char *closing = is_open(t) ? closing_of(t) : strdup("");
+    char *head = closing == NULL
+                     ? NULL
+                     : format_text("%s%snewmtl %s%s%s", closing, t->line_end,
+                                   name, lexer_rest_guard(name), t->line_end);
     struct mtl_block b;
     size_t length = 0; /* size of the copied block */
     char *copy = NULL;
-    bool ok = true;
+    bool ok = head != NULL;
 
     if (mtl_document_find_block(t, copied_from, &b)) {
         length = b.last.end - b.newmtl.end;
         copy = alloc_array(length, 1);
-        ok = copy != NULL;
+        ok = ok && copy != NULL;
     }
     if (ok && length > 0)
         memcpy(copy, t->bytes + b.newmtl.end, length);

@@ -85,16 +85,16 @@ static bool is_map(const struct writer *w, size_t at, mtl_aliases keys,
     struct lexer lex = mtl_document_lex(&w->text, at);
     struct mtl_map_options options;
     struct word word = lexer_word(&lex);
-    char *name, *path;
+    char *name, *path = NULL;
     bool is_same;
 
     s.key_end = at + word.length;
     if (!mtl_document_has_key(&w->text, &s, keys))
         return false;
     name = mtl_map_read(&lex, &options);
-    path = name == NULL ? NULL : asset_path_find(w->path, name);
-    is_same =
-        path != NULL && strcmp(path, w->scene->texture_paths[texture]) == 0;
+    is_same = name != NULL && asset_path_find(w->path, name, &path) &&
+              path != NULL &&
+              strcmp(path, w->scene->texture_paths[texture]) == 0;
     free(path);
     free(name);
     return is_same;
@@ -144,7 +144,7 @@ static char *map_value(const struct writer *w, const struct mtl_source *s,
     char bump[DECIMAL_TEXT_BYTES];
     char *text = NULL;
     size_t size_bytes;
-    FILE *to = open_memstream(&text, &size_bytes);
+    FILE *to = name == NULL ? NULL : open_memstream(&text, &size_bytes);
 
     if (to != NULL) {
         if (t->scale.x != 1 || t->scale.y != 1)

@@ -231,7 +231,7 @@ static bool load_library(struct parser *p, const char *name, char *path)
 static bool load_library_named(struct parser *p, const char *name)
 {
     size_t length = strlen(name);
-    char *path = asset_path_find(p->path, name);
+    char *path;
     bool ok;
 
     if (length >= PATH_MAX) {
@@ -241,6 +241,8 @@ static bool load_library_named(struct parser *p, const char *name)
                      p->path, p->lex.line, length, PATH_MAX);
         return true;
     }
+    if (!asset_path_find(p->path, name, &path))
+        return out_of_memory(p);
     if (path == NULL) {
         warnings_add_named(p->report, "lost material files", name,
                            "%s:%" PRIu64 ": found no file '%s' for mtllib: its "
@@ -292,9 +294,10 @@ static bool read_mtllib(struct parser *p)
     char *path;
     bool ok;
 
-    if (rest == NULL)
+    if (rest == NULL || !asset_path_find(p->path, rest, &path)) {
+        free(rest);
         return out_of_memory(p);
-    path = asset_path_find(p->path, rest);
+    }
     ok = path != NULL ? load_library(p, rest, path) : load_libraries(p, rest);
     free(path);
     free(rest);
@@ -424,7 +427,9 @@ static bool begin(struct parser *p)
     void *lines = NULL;
 
     if (p->scene->path == NULL)
-        p->scene->path = xstrdup(p->path);
+        p->scene->path = strdup(p->path);
+    if (p->scene->path == NULL)
+        return out_of_memory(p);
     if (!mtl_add_default(p->scene, p->err))
         return false;
     if (name_table_add(&p->objects, "") == NO_NAME ||

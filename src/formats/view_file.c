@@ -186,8 +186,11 @@ static void write_over(struct writer *w, const char *text, size_t size_bytes)
 static char *sky_name(const char *sky_path, const char *path)
 {
     char *name = path_seen_from(path, sky_path);
-    char *whole = *name == '\0' || lexer_is_blank(*name) ? xformat("./%s", name)
-                                                         : xstrdup(name);
+    if (!name)
+        return NULL;
+    char *whole = *name == '\0' || lexer_is_blank(*name)
+                      ? format_text("./%s", name)
+                      : strdup(name);
 
     free(name);
     return whole;
@@ -239,7 +242,7 @@ bool view_format(const struct view *view, const char *path,
     view_free(&scratch);
     warnings_free(&ignored);
     free(sky);
-    if (fclose(w.to) == 0)
+    if (fclose(w.to) == 0 && (sky || !view->lighting.sky_path))
         return true;
     free(*text);
     *text = NULL;
@@ -253,9 +256,11 @@ static bool read_old(const char *path, char **text, size_t *size_bytes,
 {
     if (access(path, F_OK) == 0)
         return file_read(path, text, size_bytes, err);
-    *text = xstrdup("# a view of a scene: points in the scene's units, angles "
-                    "in degrees,\n# background as radiance, exposure in "
-                    "stops\n");
+    *text = strdup("# a view of a scene: points in the scene's units, angles "
+                   "in degrees,\n# background as radiance, exposure in "
+                   "stops\n");
+    if (!*text)
+        return fail(err, "%s: out of memory", path);
     *size_bytes = strlen(*text);
     return true;
 }
@@ -272,7 +277,9 @@ static bool keep_old(const char *path, const char *old_text, size_t old_bytes,
         (old_bytes != size_bytes || memcmp(old_text, text, size_bytes) != 0);
     if (!change->is_kept)
         return true;
-    name = xformat("%s~", path);
+    name = format_text("%s~", path);
+    if (!name)
+        return fail(err, "%s: out of memory", path);
     bool ok = file_write(name, old_text, old_bytes, false, NULL, err);
     free(name);
     return ok;

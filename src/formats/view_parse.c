@@ -173,11 +173,18 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
     return true;
 }
 
+static bool fail_memory(const struct view_reader *r, struct error *err)
+{
+    return fail(err, "%s: out of memory", r->path);
+}
+
 static bool read_sky(struct view_reader *r, struct error *err)
 {
     char *name = lexer_rest(r->lex);
 
-    if (!name || *name == '\0') {
+    if (!name)
+        return fail_memory(r, err);
+    if (*name == '\0') {
         free(name);
         return fail(err,
                     "%s:%" PRIu64 ": found no name, expected an image "
@@ -187,7 +194,7 @@ static bool read_sky(struct view_reader *r, struct error *err)
     free(r->view->lighting.sky_path);
     r->view->lighting.sky_path = path_beside(r->path, name);
     free(name);
-    return true;
+    return r->view->lighting.sky_path || fail_memory(r, err);
 }
 
 static bool read_key(struct view_reader *r, const struct view_key *key,
@@ -223,8 +230,11 @@ static bool read_tone(struct view_reader *r, const struct view_key *key,
 static bool read_assign(struct view_reader *r, struct error *err)
 {
     uint64_t line = r->lex->line;
+    bool has_names;
 
-    return assigns_read(&r->view->assigns, r->lex) ||
+    if (!assigns_read(&r->view->assigns, r->lex, &has_names))
+        return fail_memory(r, err);
+    return has_names ||
            fail(err,
                 "%s:%" PRIu64 ": found another line than assign OBJECT "
                 "MATERIAL, expected two names, those with blanks in quotes",

@@ -450,9 +450,13 @@ static bool open_machine(struct cl_machine *m, const struct cl_request *r,
 struct backend *backend_cl_create(const struct cl_request *r, char **log,
                                   struct error *err)
 {
-    struct backend_cl *b = xcalloc(1, sizeof *b);
+    struct backend_cl *b = alloc_array(1, sizeof *b);
 
     *log = NULL;
+    if (b == NULL) {
+        fail(err, "OpenCL: out of memory");
+        return NULL;
+    }
     if (!open_machine(&b->machine, r, err)) {
         free(b);
         return NULL;

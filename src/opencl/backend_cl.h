@@ -17,6 +17,7 @@
 #include "render/backend.h"
 
 struct cl_request {
+    const char *program;      /* the copy to try first: cl_probe_run() */
     const char *device;       /* as cl_device_find() has it; NULL: the best */
     const char *kernels_path; /* folder, or NULL for those in the program */
     bool needs_gpu;           /* else any kind of device will do */

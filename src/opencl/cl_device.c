@@ -13,6 +13,9 @@
 /* Removes blanks around a name; drivers pad theirs. */
 static char *trimmed(char *text)
 {
+    if (!text)
+        return NULL;
+
     size_t begin = strspn(text, " \t\n");
     size_t length = strlen(text + begin);
 
@@ -24,13 +27,15 @@ static char *trimmed(char *text)
     return text;
 }
 
+/* For free(), or NULL when memory is out. */
 static char *platform_name(const struct cl_api *cl, cl_platform_id platform)
 {
     size_t size_bytes = 0;
 
     cl->GetPlatformInfo(platform, CL_PLATFORM_NAME, 0, NULL, &size_bytes);
-    char *text = xcalloc(size_bytes + 1, 1);
-    cl->GetPlatformInfo(platform, CL_PLATFORM_NAME, size_bytes, text, NULL);
+    char *text = alloc_array(size_bytes + 1, 1);
+    if (text)
+        cl->GetPlatformInfo(platform, CL_PLATFORM_NAME, size_bytes, text, NULL);
     return trimmed(text);
 }
 
@@ -40,8 +45,9 @@ static char *device_text(const struct cl_api *cl, cl_device_id id,
     size_t size_bytes = 0;
 
     cl->GetDeviceInfo(id, what, 0, NULL, &size_bytes);
-    char *text = xcalloc(size_bytes + 1, 1);
-    cl->GetDeviceInfo(id, what, size_bytes, text, NULL);
+    char *text = alloc_array(size_bytes + 1, 1);
+    if (text)
+        cl->GetDeviceInfo(id, what, size_bytes, text, NULL);
     return trimmed(text);
 }
 
@@ -72,8 +78,39 @@ static struct cl_device describe(const struct cl_api *cl,
     return d;
 }
 
-/* Adds the devices of a platform. A platform without hardware has none. */
-static void add_platform(struct cl_devices *list, const struct cl_api *cl,
+static void free_device(struct cl_device *d)
+{
+    free(d->platform_name);
+    free(d->name);
+    free(d->version);
+    free(d->driver_version);
+}
+
+static bool has_texts(const struct cl_device *d)
+{
+    return d->platform_name && d->name && d->version && d->driver_version;
+}
+
+/* Adds so many devices to the list, which has room for them. */
+static bool add_devices(struct cl_devices *list, const struct cl_api *cl,
+                        cl_platform_id platform, const cl_device_id *ids,
+                        cl_uint count)
+{
+    for (cl_uint i = 0; i < count; i++) {
+        struct cl_device d = describe(cl, platform, ids[i]);
+
+        if (!has_texts(&d)) {
+            free_device(&d);
+            return false;
+        }
+        list->items[list->count++] = d;
+    }
+    return true;
+}
+
+/* Adds the devices of a platform. A platform without hardware has none. Returns
+ * false if memory is out. */
+static bool add_platform(struct cl_devices *list, const struct cl_api *cl,
                          cl_platform_id platform)
 {
     cl_uint count = 0;
@@ -81,14 +118,24 @@ static void add_platform(struct cl_devices *list, const struct cl_api *cl,
     if (cl->GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, NULL, &count) !=
             CL_SUCCESS ||
         count == 0)
-        return;
-    cl_device_id *ids = xcalloc(count, sizeof *ids);
-    cl->GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids, NULL);
-    list->items = xrealloc(list->items,
-                           ((size_t)list->count + count) * sizeof *list->items);
-    for (cl_uint i = 0; i < count; i++)
-        list->items[list->count++] = describe(cl, platform, ids[i]);
+        return true;
+    cl_device_id *ids = alloc_array(count, sizeof *ids);
+    void *items = realloc(list->items,
+                          ((size_t)list->count + count) * sizeof *list->items);
+    bool ok = ids && items;
+    if (items)
+        list->items = items;
+    if (ok) {
+        cl->GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids, NULL);
+        ok = add_devices(list, cl, platform, ids, count);
+    }
     free(ids);
+    return ok;
+}
+
+static bool fail_memory(struct error *err)
+{
+    return fail(err, "OpenCL: out of memory for the list of devices");
 }
 
 /* Reports that there is no device. PoCL reports no reason if its cache folder
@@ -99,7 +146,9 @@ static bool fail_deviceless(const struct cl_api *cl, cl_platform_id platform,
     char *name = platform_name(cl, platform);
     const char *chosen = getenv("POCL_DEVICES");
 
-    if (no_cache)
+    if (!name)
+        fail_memory(err);
+    else if (no_cache)
         fail(err,
              "OpenCL: platform '%s' has no device; PoCL needs a cache folder "
              "that it can write to, found %s (POCL_CACHE_DIR names another)",
@@ -129,13 +178,16 @@ static bool list_platforms(struct cl_devices *list, const struct cl_api *cl,
     if (status != CL_SUCCESS)
         return fail(err, "OpenCL: clGetPlatformIDs: %s", cl_error_name(status));
 
-    cl_platform_id *platforms = xcalloc(count, sizeof *platforms);
+    cl_platform_id *platforms = alloc_array(count, sizeof *platforms);
+    if (!platforms)
+        return fail_memory(err);
     cl->GetPlatformIDs(count, platforms, NULL);
-    for (cl_uint i = 0; i < count; i++)
-        add_platform(list, cl, platforms[i]);
-    bool ok =
-        list->count > 0 ||
-        fail_deviceless(cl, platforms[0], has_cache ? NULL : &no_cache, err);
+    bool ok = true;
+    for (cl_uint i = 0; ok && i < count; i++)
+        ok = add_platform(list, cl, platforms[i]) || fail_memory(err);
+    if (ok && list->count == 0)
+        ok = fail_deviceless(cl, platforms[0], has_cache ? NULL : &no_cache,
+                             err);
     free(platforms);
     return ok;
 }
@@ -151,19 +203,15 @@ bool cl_device_list(struct cl_devices *list, struct error *err)
     cl_signals_keep(&signals);
     bool ok = list_platforms(list, cl, err);
     cl_signals_put_back(&signals);
+    if (!ok)
+        cl_devices_free(list);
     return ok;
 }
 
 void cl_devices_free(struct cl_devices *list)
 {
-    for (int i = 0; i < list->count; i++) {
-        struct cl_device *d = &list->items[i];
-
-        free(d->platform_name);
-        free(d->name);
-        free(d->version);
-        free(d->driver_version);
-    }
+    for (int i = 0; i < list->count; i++)
+        free_device(&list->items[i]);
     free(list->items);
     *list = (struct cl_devices){0};
 }
@@ -181,21 +229,21 @@ static bool is_meant(const struct cl_devices *list, int index, const char *word)
     return strcasestr(d->name, word) || strcasestr(d->platform_name, word);
 }
 
-/* Lists the devices that the word selects (NULL: all) as "1 'Name', 2 'Name'",
- * for free(). */
-static char *names_of(const struct cl_devices *list, const char *word)
+/* Writes the devices that the word selects (NULL: all) as "1 'Name', 2 'Name'".
+ * A list that is too long for an error is cut. */
+static void format_names(struct error *names, const struct cl_devices *list,
+                         const char *word)
 {
-    char *names = xstrdup("");
+    size_t length = 0;
 
+    names->text[0] = '\0';
     for (int i = 0; i < list->count; i++) {
         if (word && !is_meant(list, i, word))
             continue;
-        char *longer = xformat("%s%s%d '%s'", names, *names ? ", " : "", i + 1,
-                               list->items[i].name);
-        free(names);
-        names = longer;
+        snprintf(names->text + length, sizeof names->text - length, "%s%d '%s'",
+                 length > 0 ? ", " : "", i + 1, list->items[i].name);
+        length = strlen(names->text);
     }
-    return names;
 }
 
 static const struct cl_device *find_best(const struct cl_devices *list)
@@ -224,15 +272,15 @@ const struct cl_device *cl_device_find(const struct cl_devices *list,
     if (count == 1)
         return found;
 
-    char *names = names_of(list, found ? word : NULL);
+    struct error names;
+    format_names(&names, list, found ? word : NULL);
     if (found)
         fail(err,
              "--device: '%s' is in the names of %d devices, expected one of %s",
-             word, count, names);
+             word, count, names.text);
     else
         fail(err, "--device: found no device '%s', expected one of %s", word,
-             names);
-    free(names);
+             names.text);
     return NULL;
 }
 

@@ -30,8 +30,9 @@ static void choose_cache(void)
 
     if (!cache)
         return;
-    folder = xformat("%s/pocl", cache);
-    setenv(CACHE_VARIABLE, folder, 0);
+    folder = format_text("%s/pocl", cache);
+    if (folder)
+        setenv(CACHE_VARIABLE, folder, 0);
     free(folder);
     free(cache);
 }
@@ -55,7 +56,9 @@ bool cl_cache_open(struct error *err)
 
     if (!folder || *folder == '\0')
         return true;
-    char *path = xformat("%s/.", folder); /* fails for a plain file */
+    char *path = format_text("%s/.", folder); /* fails for a plain file */
+    if (!path)
+        return fail(err, "OpenCL: out of memory");
     bool ok = folder_make(path) && access(path, R_OK | W_OK | X_OK) == 0;
     free(path);
     return ok || fail(err, "%s: %s", folder, strerror(errno));

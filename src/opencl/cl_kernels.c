@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 
+/* For free(), or NULL when memory is out. */
 static char *build_log(const struct cl_kernels *k, const struct cl_machine *m)
 {
     size_t size_bytes = 0;
@@ -14,7 +15,9 @@ static char *build_log(const struct cl_kernels *k, const struct cl_machine *m)
 
     m->api->GetProgramBuildInfo(k->program, m->device->id, CL_PROGRAM_BUILD_LOG,
                                 0, NULL, &size_bytes);
-    log = xcalloc(1, size_bytes + 1);
+    log = alloc_array(1, size_bytes + 1);
+    if (log == NULL)
+        return NULL;
     m->api->GetProgramBuildInfo(k->program, m->device->id, CL_PROGRAM_BUILD_LOG,
                                 size_bytes, log, NULL);
     return log;
@@ -53,7 +56,7 @@ static bool compile(struct cl_kernels *k, const struct cl_machine *m,
     if (code == CL_SUCCESS)
         return true;
     *log = build_log(k, m);
-    length = first_message(*log, &line);
+    length = first_message(*log != NULL ? *log : "", &line);
     return fail(err, "OpenCL device %s: the kernels do not compile: %.*s",
                 m->device->name, length, length > 0 ? line : "");
 }

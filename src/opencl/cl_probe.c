@@ -16,7 +16,6 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/print.h"
 #include "render/cpu_dispatch.h"
 #include "opencl/cl_source.h"
 #include "opencl/selftest.h"
@@ -35,7 +34,7 @@ extern char **environ;
 /* ---- cache ---- */
 
 /* Returns the path of the cached result, for free(); NULL without a cache
- * folder. */
+ * folder, or if memory is out. */
 static char *memory_path(const struct cl_request *r)
 {
     const char *folder = getenv("POCL_CACHE_DIR");
@@ -47,15 +46,18 @@ static char *memory_path(const struct cl_request *r)
     text = cl_source_text(r->kernels_path, &ignored);
     if (text == NULL)
         return NULL;
-    key = xformat("%s %u %s", r->device != NULL ? r->device : "", r->features,
-                  text);
-    path = xformat("%s/glim-%016" PRIx64, folder, cl_source_hash(key));
+    key = format_text("%s %u %s", r->device != NULL ? r->device : "",
+                      r->features, text);
+    path = key != NULL
+               ? format_text("%s/glim-%016" PRIx64, folder, cl_source_hash(key))
+               : NULL;
     free(key);
     free(text);
     return path;
 }
 
-/* Removes the last line from the text and returns it; NULL if there is none. */
+/* Removes the last line from the text and returns it, for free(); NULL if there
+ * is none, or memory is out. */
 static char *cut_last_line(char *text)
 {
     size_t length = strlen(text);
@@ -67,13 +69,13 @@ static char *cut_last_line(char *text)
         return NULL;
     line = strrchr(text, '\n');
     if (line == NULL) {
-        char *copy = xstrdup(text);
+        char *copy = strdup(text);
 
         *text = '\0';
         return copy;
     }
     *line = '\0';
-    return xstrdup(line + 1);
+    return strdup(line + 1);
 }
 
 /* Parses a good answer, whose last lines are the device and the verdict. Takes
@@ -83,7 +85,7 @@ static bool take_answer(struct cl_probe *probe, char *text)
     *probe = (struct cl_probe){.log = text};
     probe->verdict = cut_last_line(text);
     probe->device = cut_last_line(text);
-    return probe->device != NULL;
+    return probe->device != NULL && probe->verdict != NULL;
 }
 
 bool cl_probe_recall(struct cl_probe *probe, const struct cl_request *r)
@@ -105,10 +107,10 @@ bool cl_probe_recall(struct cl_probe *probe, const struct cl_request *r)
 static void remember(const struct cl_probe *probe, const struct cl_request *r)
 {
     char *path = memory_path(r);
-    char *text = xformat("%s\n%s\n", probe->device, probe->verdict);
+    char *text = format_text("%s\n%s\n", probe->device, probe->verdict);
     struct error ignored;
 
-    if (path != NULL)
+    if (path != NULL && text != NULL)
         file_write(path, text, strlen(text), false, NULL, &ignored);
     free(text);
     free(path);
@@ -116,17 +118,15 @@ static void remember(const struct cl_probe *probe, const struct cl_request *r)
 
 /* ---- the copy ---- */
 
-bool cl_probe_answer(const struct cl_request *r, struct error *err)
+bool cl_probe_answer(struct cl_probe *probe, const struct cl_request *r,
+                     struct error *err)
 {
     char verdict[SELFTEST_VERDICT_BYTES];
-    char *log, *name;
-    struct backend *device = backend_cl_create(r, &log, err);
-    struct backend *cpu;
+    struct backend *device, *cpu;
     bool ok = false;
 
-    if (log != NULL)
-        print_lines(stderr, log);
-    free(log);
+    *probe = (struct cl_probe){0};
+    device = backend_cl_create(r, &probe->log, err);
     if (device == NULL)
         return false;
     cpu = backend_cpu_create(1, cpu_kernel_best(), err);
@@ -135,10 +135,10 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
         cpu->destroy(cpu);
     }
     if (ok) {
-        name = cl_probe_device(device);
-        print_line(stdout, "%s", name);
-        print_line(stdout, "%s", verdict);
-        free(name);
+        probe->device = cl_probe_device(device);
+        probe->verdict = strdup(verdict);
+        ok = (probe->device != NULL && probe->verdict != NULL) ||
+             fail(err, "OpenCL: out of memory");
     }
     device->destroy(device);
     return ok;
@@ -146,14 +146,15 @@ bool cl_probe_answer(const struct cl_request *r, struct error *err)
 
 char *cl_probe_device(const struct backend *backend)
 {
-    return xformat("%s, %s", backend->device, backend->driver);
+    return format_text("%s, %s", backend->device, backend->driver);
 }
 
 /* ---- its parent ---- */
 
 /* Starts the copy with both outputs in the pipe and the signal handling that
  * glim was started with. Returns 0 or an error number. */
-static int spawn(pid_t *pid, const char *const *arguments, int output)
+static int spawn(pid_t *pid, const char *program, const char *const *arguments,
+                 int output)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -172,7 +173,7 @@ static int spawn(pid_t *pid, const char *const *arguments, int output)
     posix_spawn_file_actions_adddup2(&files, output, 1);
     posix_spawn_file_actions_adddup2(&files, output, 2);
     /* posix_spawn() does not change the arguments, in spite of its type */
-    reason = posix_spawn(pid, "/proc/self/exe", &files, &attributes,
+    reason = posix_spawn(pid, program, &files, &attributes,
                          (char *const *)(uintptr_t)arguments, environ);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
@@ -181,12 +182,12 @@ static int spawn(pid_t *pid, const char *const *arguments, int output)
 
 static int start_copy(pid_t *pid, const struct cl_request *r, int output)
 {
-    char *features = xformat("%u", r->features);
+    char features[16];
     const char *arguments[10] = {"glim", "--probe", features, "--backend",
                                  r->needs_gpu ? "auto" : "opencl"};
     int count = 5;
-    int reason;
 
+    snprintf(features, sizeof features, "%u", r->features);
     if (r->device != NULL) {
         arguments[count++] = "--device";
         arguments[count++] = r->device;
@@ -195,20 +196,18 @@ static int start_copy(pid_t *pid, const struct cl_request *r, int output)
         arguments[count++] = "--kernels";
         arguments[count++] = r->kernels_path;
     }
-    reason = spawn(pid, arguments, output);
-    free(features);
-    return reason;
+    return spawn(pid, r->program, arguments, output);
 }
 
-/* Reads the pipe to its end. Returns NULL on a timeout, or if *is_unwanted
- * becomes true. */
+/* Reads the pipe to its end. Returns NULL on a timeout, if *is_unwanted becomes
+ * true, or if memory is out. */
 static char *read_output(int fd, const atomic_bool *is_unwanted)
 {
     uint64_t end_ns = clock_ns() + ANSWER_NS;
-    char *text = xcalloc(1, 1);
+    char *text = alloc_array(1, 1);
     size_t length = 0;
 
-    for (;;) {
+    while (text != NULL) {
         struct pollfd in = {.fd = fd, .events = POLLIN};
         char bytes[4096];
         ssize_t count;
@@ -226,11 +225,17 @@ static char *read_output(int fd, const atomic_bool *is_unwanted)
             return text;
         if (length + (size_t)count > OUTPUT_BYTES_MAX)
             continue; /* the beginning has the cause, so the rest is skipped */
-        text = xrealloc(text, length + (size_t)count + 1);
+        char *longer = realloc(text, length + (size_t)count + 1);
+        if (longer == NULL)
+            free(text);
+        text = longer;
+        if (text == NULL)
+            break;
         memcpy(text + length, bytes, (size_t)count);
         length += (size_t)count;
         text[length] = '\0';
     }
+    return NULL;
 }
 
 /* Reports the failure of the copy: its last line, or the signal that killed
@@ -284,15 +289,20 @@ bool cl_probe_run(struct cl_probe *probe, const struct cl_request *r,
     close(fds[1]);
     if (reason != 0) {
         close(fds[0]);
-        return fail(err, "OpenCL: no copy of the program for the self-test: %s",
-                    strerror(reason));
+        return fail(err, "OpenCL: %s: no program for the self-test: %s",
+                    r->program, strerror(reason));
     }
     output = read_output(fds[0], is_unwanted);
     close(fds[0]);
     if (output == NULL)
         kill(child, SIGKILL);
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-        continue;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno == EINTR)
+            continue;
+        free(output);
+        return fail(err, "OpenCL: how the self-test ended is not known: %s",
+                    strerror(errno));
+    }
     if (!take_output(probe, output, status, err))
         return false;
     remember(probe, r);

@@ -24,21 +24,23 @@ struct cl_probe {
     char *log;     /* other output of the copy, mostly compiler messages */
 };
 
-/* Runs the copy: this program with --probe. It is killed when *is_unwanted
- * becomes true. After a failure only the log is set. */
+/* Runs the copy: the request's program with --probe. It is killed when
+ * *is_unwanted becomes true. After a failure only the log is set. */
 bool cl_probe_run(struct cl_probe *probe, const struct cl_request *request,
                   const atomic_bool *is_unwanted, struct error *err);
 
-/* Runs the test, in the copy. Its last lines of output are the device and the
- * verdict. After a failure it prints the log; the caller prints the error as
- * the last line of stderr. */
-bool cl_probe_answer(const struct cl_request *request, struct error *err);
+/* Runs the test, in the copy, which prints the log, and then the device and the
+ * verdict as its last lines, or the error. After a failure only the log is
+ * set. */
+bool cl_probe_answer(struct cl_probe *probe, const struct cl_request *request,
+                     struct error *err);
 
 /* Returns the cached result of such a request; false if there is none. The
  * device may have another driver by now. */
 bool cl_probe_recall(struct cl_probe *probe, const struct cl_request *request);
 
-/* Returns "NAME, DRIVER" for comparison with probe->device, for free(). */
+/* Returns "NAME, DRIVER" for comparison with probe->device, for free(), or
+ * NULL. */
 char *cl_probe_device(const struct backend *backend);
 
 void cl_probe_free(struct cl_probe *probe);

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/lexer.h"
 #include "base/name_table.h"
 
 /* Prefix of kernel files in #include lines and messages, wherever they are read
@@ -26,11 +27,21 @@ struct splice {
     struct name_table seen;
 };
 
+/* For free(), or NULL. */
+static char *copied(const char *text, struct error *err)
+{
+    char *copy = strdup(text);
+
+    if (!copy)
+        fail(err, "out of memory for the kernels");
+    return copy;
+}
+
 static char *read_within(const char *name, struct error *err)
 {
     for (const struct cl_source_file *f = cl_source_files; f->name; f++) {
         if (strcmp(f->name, name) == 0)
-            return xstrdup(f->text);
+            return copied(f->text, err);
     }
     fail(err, "found no '%s' within the program", name);
     return NULL;
@@ -43,35 +54,40 @@ static char *read_kernel(const char *folder, const char *name,
     if (!folder)
         return read_within(name, err);
 
-    char *path = xformat("%s/%s", folder, name + strlen(PREFIX));
+    char *path = format_text("%s/%s", folder, name + strlen(PREFIX));
     char *text = NULL;
     size_t size_bytes;
 
-    file_read(path, &text, &size_bytes, err);
+    if (path)
+        file_read(path, &text, &size_bytes, err);
+    else
+        fail(err, "out of memory for the kernels");
     free(path);
     return text;
 }
 
-/* Returns the name in a line `#include "kernels/x.h"`, for free(), or NULL. */
-static char *included_name(const char *line)
+/* Finds the name in a line `#include "kernels/x.h"`. Returns false if the line
+ * is another one. */
+static bool included_name(const char *line, struct word *name)
 {
     static const char *const parts[] = {"#", "include", "\""};
 
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         line += strspn(line, " \t");
         if (strncmp(line, parts[i], strlen(parts[i])) != 0)
-            return NULL;
+            return false;
         line += strlen(parts[i]);
     }
 
     size_t length = strcspn(line, "\"\n");
     if (line[length] != '"' || strncmp(line, PREFIX, strlen(PREFIX)) != 0)
-        return NULL;
-    return xformat("%.*s", (int)length, line);
+        return false;
+    *name = (struct word){line, length};
+    return true;
 }
 
 static bool splice_include(struct splice *s, const char *from, int line,
-                           const char *name, struct error *err);
+                           struct word name, struct error *err);
 
 /* Copies the lines of the file `name`. Each included file ends with a #line
  * mark, so that line numbers stay right. */
@@ -82,22 +98,20 @@ static bool splice_text(struct splice *s, const char *name, const char *text,
 
     fprintf(s->out, "#line 1 \"%s\"\n", name);
     for (int line = 1; ok && *text != '\0'; line++) {
-        char *included = included_name(text);
         size_t length = strcspn(text, "\n");
+        struct word included;
 
-        if (included)
+        if (included_name(text, &included))
             ok = splice_include(s, name, line, included, err);
         else
             fprintf(s->out, "%.*s\n", (int)length, text);
-        free(included);
         text += length + (text[length] == '\n');
     }
     return ok;
 }
 
-/* Inserts the file `name`, which line `line` of the file `from` includes. */
-static bool splice_include(struct splice *s, const char *from, int line,
-                           const char *name, struct error *err)
+static bool splice_file(struct splice *s, const char *from, int line,
+                        const char *name, struct error *err)
 {
     struct error reason;
 
@@ -114,6 +128,18 @@ static bool splice_include(struct splice *s, const char *from, int line,
     bool ok = splice_text(s, name, text, err);
     free(text);
     fprintf(s->out, "#line %d \"%s\"\n", line + 1, from);
+    return ok;
+}
+
+/* Inserts the file `name`, which line `line` of the file `from` includes. */
+static bool splice_include(struct splice *s, const char *from, int line,
+                           struct word name, struct error *err)
+{
+    char *copy = strndup(name.start, name.length);
+    bool ok = copy ? splice_file(s, from, line, copy, err)
+                   : fail(err, "out of memory for the kernels");
+
+    free(copy);
     return ok;
 }
 

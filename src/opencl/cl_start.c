@@ -63,7 +63,7 @@ static bool create(struct cl_start *s)
 static bool is_tried(const struct cl_start *s, const struct cl_probe *probe)
 {
     char *device = cl_probe_device(s->backend);
-    bool ok = strcmp(device, probe->device) == 0;
+    bool ok = device != NULL && strcmp(device, probe->device) == 0;
 
     free(device);
     return ok;
@@ -104,9 +104,13 @@ static void *start_main(void *argument)
 struct cl_start *cl_start_begin(const struct cl_request *request,
                                 struct backend *backend, struct error *err)
 {
-    struct cl_start *s = xcalloc(1, sizeof *s);
+    struct cl_start *s = alloc_array(1, sizeof *s);
     int reason;
 
+    if (s == NULL) {
+        fail(err, "OpenCL: out of memory");
+        return NULL;
+    }
     s->request = *request;
     s->old = backend;
     s->event_fd = event_fd_open("OpenCL", err);

@@ -233,9 +233,9 @@ static float *hdr_pixels(const struct image_file *f, struct error *err)
 {
     const unsigned char *data = (const unsigned char *)f->data;
     const unsigned char *p = data + f->pixels_at, *end = data + f->size_bytes;
-    unsigned char *rgbe = xmalloc(4 * (size_t)f->width);
+    unsigned char *rgbe = malloc(4 * (size_t)f->width);
     float *rgb = alloc_array(pixels_of(f), 3 * sizeof *rgb);
-    bool ok = rgb || fail_memory(f, err);
+    bool ok = (rgbe && rgb) || fail_memory(f, err);
 
     for (int y = 0; ok && y < f->height; y++) {
         float *row = rgb + 3 * (size_t)y * (size_t)f->width;

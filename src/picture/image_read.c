@@ -114,13 +114,13 @@ static bool fail_decoding(const struct image_file *f, struct error *err)
                   : fail_memory(f, err);
 }
 
-/* The sRGB curve, IEC 61966-2-1, for all 16-bit values; for free(). An 8-bit
- * value v comes as 257 v, which is the same number between 0 and 1. */
+/* The sRGB curve, IEC 61966-2-1, for all 16-bit values; for free(), or NULL. An
+ * 8-bit value v comes as 257 v, which is the same number between 0 and 1. */
 static float *linear_of_srgb16(void)
 {
-    float *table = xmalloc(65536 * sizeof *table);
+    float *table = malloc(65536 * sizeof *table);
 
-    for (int i = 0; i < 65536; i++) {
+    for (int i = 0; table && i < 65536; i++) {
         double v = i / 65535.0;
         table[i] = (float)color_decoded(v);
     }
@@ -156,14 +156,16 @@ static float *decode_linear(struct image_file *f, struct error *err)
     if (!pixels)
         return NULL;
     float *rgb = alloc_array(pixels_of(f), 3 * sizeof *rgb);
-    if (rgb) {
-        float *table = linear_of_srgb16();
+    float *table = linear_of_srgb16();
+    if (rgb && table) {
         for (size_t i = 0; i < 3 * pixels_of(f); i++)
             rgb[i] = table[pixels[i]];
-        free(table);
     } else {
         fail_memory(f, err);
+        free(rgb);
+        rgb = NULL;
     }
+    free(table);
     free(pixels);
     return rgb;
 }

@@ -265,10 +265,12 @@ char *image_write_numbered(struct film *film, struct develop how,
                            struct error *err)
 {
     struct buffer b = {.data = NULL};
-    char *name = xformat("%s.%s", stem, ending);
+    char *name = format_text("%s.%s", stem, ending);
     char *path = NULL;
 
-    if (encode(film, how, name, &b, err))
+    if (!name)
+        fail(err, "%s: out of memory for its name", stem);
+    if (name && encode(film, how, name, &b, err))
         path = file_write_numbered(stem, ending, b.data, b.size_bytes, err);
     free(b.data);
     free(name);

@@ -203,8 +203,12 @@ struct backend *backend_cpu_create(int thread_count,
                                    const struct cpu_kernel *paths,
                                    struct error *err)
 {
-    struct backend_cpu *b = xcalloc(1, sizeof *b);
+    struct backend_cpu *b = alloc_array(1, sizeof *b);
 
+    if (b == NULL) {
+        fail(err, "render: out of memory");
+        return NULL;
+    }
     b->pool = pool_create(thread_count, err);
     if (b->pool == NULL) {
         free(b);

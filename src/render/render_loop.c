@@ -251,10 +251,14 @@ static void *render_main(void *argument)
 
 struct render *render_create(struct backend *backend, struct error *err)
 {
-    struct render *r = xcalloc(1, sizeof *r);
+    struct render *r = alloc_array(1, sizeof *r);
     pthread_condattr_t monotonic;
     int reason;
 
+    if (r == NULL) {
+        fail(err, "render: out of memory");
+        return NULL;
+    }
     r->backend = backend;
     r->event_fd = event_fd_open("render", err);
     if (r->event_fd < 0) {

@@ -11,10 +11,10 @@ void thread_load_begin(struct thread_load *l, const struct backend *b)
 
     if (count != l->count) {
         thread_load_free(l);
-        l->cpu_ns = xcalloc((size_t)count, sizeof *l->cpu_ns);
-        l->count = count;
+        l->cpu_ns = alloc_array((size_t)count, sizeof *l->cpu_ns);
+        l->count = l->cpu_ns ? count : 0;
     }
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < l->count; i++)
         l->cpu_ns[i] = b->cpu_ns(b, i);
 }
 

@@ -6,7 +6,7 @@
  * Units:     nanoseconds; a share of 1 is a processor all the time
  * Ownership: thread_load_free() frees; a zeroed struct knows no thread
  * Threads:   one at a time; the backend may render
- * Errors:    none; a device's threads are not known
+ * Errors:    threads of a device are not known, nor any when memory is out
  */
 #ifndef GLIM_RENDER_RATES_H
 #define GLIM_RENDER_RATES_H

@@ -6,45 +6,58 @@
 
 #include "base/memory.h"
 
-/* The next name of the line for free(); NULL if there is none, or no end of
- * its quotes. */
-static char *read_name(struct lexer *lex)
+/* Copies what stands in quotes to `name`, which has room for the rest of the
+ * text. False if the quotes have no end. */
+static bool read_quoted(struct lexer *lex, char *name)
 {
-    struct word word;
-    char *name;
-    size_t length = 0;
-
-    if (lexer_at_line_end(lex))
-        return NULL;
-    if (*lex->p != '"') {
-        word = lexer_word(lex);
-        return xformat("%.*s", (int)word.length, word.start);
-    }
-    name = xmalloc((size_t)(lex->end - lex->p));
     for (lex->p++; lex->p < lex->end; lex->p++) {
         if (*lex->p == '\n' || *lex->p == '\r')
-            break;
+            return false;
         if (*lex->p == '"') {
             lex->p++;
             if (lex->p == lex->end || *lex->p != '"') {
-                name[length] = '\0';
-                return name;
+                *name = '\0';
+                return true;
             }
         }
-        name[length++] = *lex->p;
+        *name++ = *lex->p;
     }
-    free(name);
-    return NULL;
+    return false;
 }
 
-bool assigns_read(struct assigns *a, struct lexer *lex)
+/* The next name of the line, for free(): NULL if there is none, or no end of
+ * its quotes. False when memory is out. */
+static bool read_name(struct lexer *lex, char **name)
 {
-    char *object = read_name(lex);
-    char *material = object == NULL ? NULL : read_name(lex);
-    bool ok = material != NULL && lexer_at_line_end(lex);
+    struct word word;
 
-    if (ok)
-        assigns_set(a, object, material);
+    *name = NULL;
+    if (lexer_at_line_end(lex))
+        return true;
+    if (*lex->p != '"') {
+        word = lexer_word(lex);
+        *name = strndup(word.start, word.length);
+        return *name != NULL;
+    }
+    *name = malloc((size_t)(lex->end - lex->p));
+    if (*name == NULL)
+        return false;
+    if (!read_quoted(lex, *name)) {
+        free(*name);
+        *name = NULL;
+    }
+    return true;
+}
+
+bool assigns_read(struct assigns *a, struct lexer *lex, bool *has_names)
+{
+    char *object, *material = NULL;
+    bool ok = read_name(lex, &object) &&
+              (object == NULL || read_name(lex, &material));
+
+    *has_names = ok && material != NULL && lexer_at_line_end(lex);
+    if (*has_names)
+        ok = assigns_set(a, object, material);
     free(object);
     free(material);
     return ok;
@@ -85,7 +98,25 @@ static void remove_at(struct assigns *a, size_t i)
             (a->count - i) * sizeof a->items[0]);
 }
 
-void assigns_set(struct assigns *a, const char *object, const char *material)
+/* Behind the others. */
+static bool append(struct assigns *a, const char *object, const char *material)
+{
+    struct assign item = {strdup(object), strdup(material)};
+    struct assign *items =
+        realloc(a->items, (a->count + 1) * sizeof a->items[0]);
+
+    if (items != NULL)
+        a->items = items;
+    if (items == NULL || item.object == NULL || item.material == NULL) {
+        free(item.object);
+        free(item.material);
+        return false;
+    }
+    a->items[a->count++] = item;
+    return true;
+}
+
+bool assigns_set(struct assigns *a, const char *object, const char *material)
 {
     for (size_t i = 0; i < a->count; i++) {
         if (strcmp(a->items[i].object, object) == 0) {
@@ -93,20 +124,23 @@ void assigns_set(struct assigns *a, const char *object, const char *material)
             break;
         }
     }
-    if (material == NULL)
-        return;
-    a->items = xrealloc(a->items, (a->count + 1) * sizeof a->items[0]);
-    a->items[a->count++] = (struct assign){xstrdup(object), xstrdup(material)};
+    return material == NULL || append(a, object, material);
 }
 
-void assigns_copy(struct assigns *to, const struct assigns *from)
+bool assigns_copy(struct assigns *to, const struct assigns *from)
 {
     struct assigns copy = {0};
+    bool ok = true;
 
-    for (size_t i = 0; i < from->count; i++)
-        assigns_set(&copy, from->items[i].object, from->items[i].material);
+    for (size_t i = 0; ok && i < from->count; i++)
+        ok = append(&copy, from->items[i].object, from->items[i].material);
+    if (!ok) {
+        assigns_free(&copy);
+        return false;
+    }
     assigns_free(to);
     *to = copy;
+    return true;
 }
 
 void assigns_free(struct assigns *a)

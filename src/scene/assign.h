@@ -8,7 +8,7 @@
  *
  * Ownership: names are copied; assigns_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
- * Errors:    a line that does not have two names by the result
+ * Errors:    false when memory is out
  */
 #ifndef GLIM_ASSIGN_H
 #define GLIM_ASSIGN_H
@@ -27,17 +27,17 @@ struct assigns {
     size_t count;
 };
 
-/* Reads what follows the key `assign`. */
-bool assigns_read(struct assigns *assigns, struct lexer *lex);
+/* Reads what follows the key `assign`. *has_names: those two, and no more. */
+bool assigns_read(struct assigns *assigns, struct lexer *lex, bool *has_names);
 
 /* A line each, in order. */
 void assigns_write(const struct assigns *assigns, FILE *to);
 
 /* The later of two for one object counts; NULL: what its file says. */
-void assigns_set(struct assigns *assigns, const char *object,
+bool assigns_set(struct assigns *assigns, const char *object,
                  const char *material);
 
-void assigns_copy(struct assigns *to, const struct assigns *from);
+bool assigns_copy(struct assigns *to, const struct assigns *from);
 void assigns_free(struct assigns *assigns);
 
 #endif

@@ -9,6 +9,8 @@
 
 /* What is to be swapped in; NULL: what is there stays. */
 struct next {
+    char **names; /* of new materials, behind those of the scene */
+    uint32_t name_count;
     struct tri *tris;
     struct material *materials;
     bool *material_is_used;
@@ -220,9 +222,11 @@ static bool needs_guide(const struct scene *scene, const struct next *next)
 /* ---- all ---- */
 
 /* Names and origins, which no world has. */
-static bool grow_names(struct scene *scene, const struct style *style)
+static bool grow_names(struct scene *scene, const struct style *style,
+                       struct next *next)
 {
     size_t count = style->material_count;
+    uint32_t new_count = style->material_count - scene->material_count;
     char **names;
     struct material_origin *origins;
 
@@ -234,19 +238,32 @@ static bool grow_names(struct scene *scene, const struct style *style)
     if (origins == NULL)
         return false;
     scene->material_origins = origins;
+    next->names = alloc_array(new_count, sizeof *next->names);
+    if (next->names == NULL)
+        return false;
+    for (; next->name_count < new_count; next->name_count++) {
+        uint32_t i = scene->material_count + next->name_count;
+
+        next->names[next->name_count] = strdup(style->names[i]);
+        if (next->names[next->name_count] == NULL)
+            return false;
+    }
     return true;
 }
 
-static void take_sources(struct scene *scene, const struct style *style)
+static void take_sources(struct scene *scene, const struct style *style,
+                         struct next *next)
 {
-    for (uint32_t i = 0; i < style->material_count; i++) {
-        if (i >= scene->material_count) {
-            scene->material_names[i] = xstrdup(style->names[i]);
-            scene->material_origins[i].file = NO_INDEX;
-        }
-        scene->material_origins[i].source = style->sources[i];
+    for (uint32_t i = 0; i < next->name_count; i++) {
+        uint32_t material = scene->material_count + i;
+
+        scene->material_names[material] = next->names[i];
+        scene->material_origins[material].file = NO_INDEX;
     }
+    free(next->names); /* the scene owns the texts now */
     scene->material_count = style->material_count;
+    for (uint32_t i = 0; i < style->material_count; i++)
+        scene->material_origins[i].source = style->sources[i];
 }
 
 static void swap_in(struct scene *scene, const struct style *style,
@@ -274,6 +291,9 @@ static void swap_in(struct scene *scene, const struct style *style,
 
 static void drop(struct next *next)
 {
+    for (uint32_t i = 0; i < next->name_count; i++)
+        free(next->names[i]);
+    free(next->names);
     free(next->materials);
     free(next->material_is_used);
     free(next->tris);
@@ -301,7 +321,7 @@ bool scene_restyle(struct scene *scene, const struct style *style,
 
     if (scene_is_styled(scene, style))
         return true;
-    ok = (grow_names(scene, style) && make_tris(scene, style, &next)) ||
+    ok = (grow_names(scene, style, &next) && make_tris(scene, style, &next)) ||
          out_of_memory(scene, err);
     ok = ok && make_materials(scene, style, &next, err) &&
          make_lights(scene, style, &next, err);
@@ -313,7 +333,7 @@ bool scene_restyle(struct scene *scene, const struct style *style,
         path_guide_outdate(&scene->guide);
     path_guide_recolor(&scene->guide);
     swap_in(scene, style, &next);
-    take_sources(scene, style);
+    take_sources(scene, style, &next);
     scene_find_emitters(scene);
     return true;
 }

@@ -223,8 +223,9 @@ static bool load_all(struct scene *scene, const uint32_t *textures,
     struct pool *pool = count > 1 ? pool_create(usable_threads(), err) : NULL;
     uint32_t at_once =
         pool ? IMAGES_EACH * (uint32_t)pool_thread_count(pool) : 1;
-    struct reading *readings = xcalloc(at_once, sizeof *readings);
-    bool ok = true;
+    struct reading *readings = alloc_array(at_once, sizeof *readings);
+    bool ok = readings != NULL ||
+              fail(err, "%s: out of memory for the textures", scene->path);
 
     for (uint32_t i = 0, n; ok && i < count; i += n) {
         uint32_t wanted = count - i < at_once ? count - i : at_once;

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
-
 const char *const view_tones[TONES] = {
     [TONE_LINEAR] = "linear",
     [TONE_REINHARD] = "reinhard",
@@ -62,21 +60,28 @@ void view_take_frame(struct view *view, const struct view *from)
     view->max_bounces = from->max_bounces;
 }
 
-static char *copy_path(const char *path)
+/* False when memory is out. */
+static bool copy_path(char **to, const char *from)
 {
-    return path != NULL ? xstrdup(path) : NULL;
+    *to = from ? strdup(from) : NULL;
+    return *to || !from;
 }
 
-void view_copy(struct view *to, const struct view *from)
+bool view_copy(struct view *to, const struct view *from)
 {
-    char *sky_path = copy_path(from->lighting.sky_path);
+    char *sky_path;
     struct assigns assigns = {0};
 
-    assigns_copy(&assigns, &from->assigns);
+    if (!copy_path(&sky_path, from->lighting.sky_path) ||
+        !assigns_copy(&assigns, &from->assigns)) {
+        free(sky_path);
+        return false;
+    }
     view_free(to);
     *to = *from;
     to->lighting.sky_path = sky_path; /* copies of its own */
     to->assigns = assigns;
+    return true;
 }
 
 static void take_shots(struct view *view, const struct view *before,
@@ -98,6 +103,20 @@ static bool has_other_sky(const struct lighting *a, const struct lighting *b)
            (a->sky_path && strcmp(a->sky_path, b->sky_path) != 0);
 }
 
+static bool take_sky(struct lighting *to, const struct lighting *before,
+                     const struct lighting *after)
+{
+    char *sky_path;
+
+    if (!has_other_sky(before, after))
+        return true;
+    if (!copy_path(&sky_path, after->sky_path))
+        return false;
+    free(to->sky_path);
+    to->sky_path = sky_path;
+    return true;
+}
+
 static void take_lighting(struct lighting *to, const struct lighting *before,
                           const struct lighting *after)
 {
@@ -105,10 +124,6 @@ static void take_lighting(struct lighting *to, const struct lighting *before,
                sizeof after->background) != 0) {
         memcpy(to->background, after->background, sizeof to->background);
         to->has_background = after->has_background;
-    }
-    if (has_other_sky(before, after)) {
-        free(to->sky_path);
-        to->sky_path = copy_path(after->sky_path);
     }
     if (before->sky_strength != after->sky_strength)
         to->sky_strength = after->sky_strength;
@@ -120,9 +135,11 @@ static void take_lighting(struct lighting *to, const struct lighting *before,
         to->tone = after->tone;
 }
 
-void view_merge(struct view *view, const struct view *before,
+bool view_merge(struct view *view, const struct view *before,
                 const struct view *after)
 {
+    if (!take_sky(&view->lighting, &before->lighting, &after->lighting))
+        return false;
     /* one that was placed by the program follows the scene, not the file */
     if (after->has_camera &&
         (!before->has_camera ||
@@ -140,6 +157,7 @@ void view_merge(struct view *view, const struct view *before,
     take_lighting(&view->lighting, &before->lighting, &after->lighting);
     if (before->max_bounces != after->max_bounces)
         view->max_bounces = after->max_bounces;
+    return true;
 }
 
 void view_free(struct view *view)

@@ -5,7 +5,8 @@
  * Units:     file units of the scene, degrees, pixels, radiance, stops
  * Ownership: view_free() frees what is in it
  * Threads:   one thread at a time
- * Errors:    an impossible camera
+ * Errors:    an impossible camera; view_copy() and view_merge() return false,
+ *            and change nothing, when memory is out
  */
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
@@ -65,14 +66,14 @@ bool view_check(const struct view *view, const char *place, struct error *err);
 
 /* Takes over what the file has changed from `before` to `after`; the rest of
  * `view` stays. The camera is one thing. */
-void view_merge(struct view *view, const struct view *before,
+bool view_merge(struct view *view, const struct view *before,
                 const struct view *after);
 
 /* Takes over size and bounces: what the command line may say for one run. */
 void view_take_frame(struct view *view, const struct view *from);
 
 /* `to` has been through view_init(). */
-void view_copy(struct view *to, const struct view *from);
+bool view_copy(struct view *to, const struct view *from);
 void view_free(struct view *view);
 
 #endif

@@ -22,6 +22,7 @@ bool backends_begin_device(struct backends *m, uint32_t features,
 {
     const struct options *o = m->options;
     struct cl_request request = {
+        .program = "/proc/self/exe",
         .device = o->device,
         .kernels_path = o->kernels_path,
         .needs_gpu = o->backend == BACKEND_AUTO,

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "base/lexer.h"
-#include "base/memory.h"
 #include "base/xdg.h"
+#include "terminal/xmalloc.h"
 
 /* Longer than every known word. */
 #define WORD_BYTES 64

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "formats/mtl.h"
+#include "terminal/xmalloc.h"
 
 enum step_kind { STEP_MATERIAL, STEP_ASSIGN, STEP_DUPLICATE, STEP_MOOD };
 
@@ -391,10 +392,11 @@ static void write_assigns(const struct edit *e, const struct edit_state *s,
         uint32_t material = s->assigned[i];
 
         if (material != NO_INDEX)
-            assigns_set(assigns, scene->object_names[i], e->names[material]);
+            xcheck(assigns_set(assigns, scene->object_names[i],
+                               e->names[material]));
         else if (e->saved.assigned[i] != NO_INDEX ||
                  e->now.assigned[i] != NO_INDEX)
-            assigns_set(assigns, scene->object_names[i], NULL);
+            xcheck(assigns_set(assigns, scene->object_names[i], NULL));
     }
 }
 

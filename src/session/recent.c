@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/memory.h"
 #include "base/print.h"
 #include "base/xdg.h"
+#include "terminal/xmalloc.h"
 
 static bool has(const struct recent *r, const char *path)
 {

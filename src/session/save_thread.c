@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include "base/event_fd.h"
-#include "base/memory.h"
 #include "base/thread.h"
 #include "picture/image_write.h"
+#include "terminal/xmalloc.h"
 
 bool save_thread_init(struct save_thread *s, struct error *err)
 {

@@ -9,10 +9,10 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/memory.h"
 #include "scene/world.h"
 #include "formats/scene_load.h"
 #include "formats/view_file.h"
+#include "terminal/xmalloc.h"
 
 /* An overcast noon: bright enough for exposure 0, a little blue. */
 static const double soft_sky[3] = {0.7, 0.8, 0.9};
@@ -28,13 +28,13 @@ static bool read_view(struct session *s, struct error *err)
         s->view_path = xstrdup(o->view_path);
         return view_read(&s->view, s->view_path, &s->report, err);
     }
-    char *stem = path_stem(o->scene_path);
+    char *stem = xchecked(path_stem(o->scene_path));
     s->view_path = xformat("%s.view", stem);
     free(stem);
     /* a file that is there but cannot be read is an error of view_read() */
     if (access(s->view_path, F_OK) == 0)
         return view_read(&s->view, s->view_path, &s->report, err);
-    camera = path_beside(o->scene_path, "camera.txt");
+    camera = xchecked(path_beside(o->scene_path, "camera.txt"));
     if (access(camera, F_OK) == 0)
         ok = view_read(&s->view, camera, &s->report, err);
     free(camera);
@@ -150,7 +150,7 @@ bool session_load(struct session *s, const struct options *options,
     view_init(&s->filed);
     if (!read_view(s, err))
         return false;
-    view_copy(&s->filed, &s->view);
+    xcheck(view_copy(&s->filed, &s->view));
     apply_options(s);
     if (!find_crop(s, err) ||
         !scene_load(&s->scene, options->scene_path, options->up_is_z,
@@ -160,9 +160,9 @@ bool session_load(struct session *s, const struct options *options,
     complete_view(s);
     if (!view_check(&s->view, options->scene_path, err))
         return false;
-    view_copy(&s->opened, &s->view);
+    xcheck(view_copy(&s->opened, &s->view));
     view_take_frame(&s->opened, &s->filed);
-    view_copy(&s->filed, &s->opened);
+    xcheck(view_copy(&s->filed, &s->opened));
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
     s->sky = s->edit.now.mood.sky;
     if (!apply_edit(s, err))
@@ -220,9 +220,9 @@ void session_take(struct session *s, struct session *fresh)
     render_halt(s->render);
     s->geometry_changed |= render_progress(s->render).samples == 0 ||
                            !scene_has_same_shape(&s->scene, &fresh->scene);
-    view_merge(&s->view, &s->filed, &fresh->filed);
+    xcheck(view_merge(&s->view, &s->filed, &fresh->filed));
     /* these are the edit's, of which there is another one now */
-    assigns_copy(&s->view.assigns, &fresh->filed.assigns);
+    xcheck(assigns_copy(&s->view.assigns, &fresh->filed.assigns));
     apply_options(s);
     swap_loaded(s, fresh);
     if (!s->geometry_changed)
@@ -232,7 +232,7 @@ void session_take(struct session *s, struct session *fresh)
 void session_watch(const struct session *s, struct file_watch *watch)
 {
     const struct scene *scene = &s->scene;
-    char *camera = path_beside(s->options->scene_path, "camera.txt");
+    char *camera = xchecked(path_beside(s->options->scene_path, "camera.txt"));
 
     file_watch_add(watch, s->options->scene_path);
     for (uint32_t i = 0; i < scene->mtl_path_count; i++)

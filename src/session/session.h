@@ -11,7 +11,7 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
-#include "base/file_watch.h"
+#include "session/file_watch.h"
 #include "scene/scene.h"
 #include "render/render_loop.h"
 #include "render/render_rates.h"

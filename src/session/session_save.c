@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/memory.h"
 #include "formats/mtl_save.h"
 #include "formats/view_file.h"
+#include "terminal/xmalloc.h"
 
 /* The material whose block a new one begins with: the nearest in a file. */
 static uint32_t pattern_of(const struct edit *e, uint32_t material)
@@ -103,7 +103,7 @@ static bool save_light(struct session *s, struct file_watch *watch,
     view_init(&view);
     ok = access(s->view_path, F_OK) == 0
              ? view_read(&view, s->view_path, &report, err)
-             : (view_copy(&view, &s->opened), true);
+             : (xcheck(view_copy(&view, &s->opened)), true);
     edit_to_view(&s->edit, &s->edit.now, &s->scene, &view);
     ok = ok && view_write(&view, s->view_path, &change, err);
     if (ok) {
@@ -124,12 +124,12 @@ bool session_save_view(struct session *s, struct file_change *change,
     s->view.has_camera = true; /* also one that was placed by the program */
     edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
     view_init(&view);
-    view_copy(&view, &s->view);
+    xcheck(view_copy(&view, &s->view));
     view_take_frame(&view, &s->filed);
     ok = view_write(&view, s->view_path, change, err);
     if (ok) {
         edit_saved_view(&s->edit);
-        view_copy(&s->filed, &view);
+        xcheck(view_copy(&s->filed, &view));
     }
     view_free(&view);
     return ok;

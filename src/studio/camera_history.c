@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
 
 /* One more than the steps: the pose that the last undo has left. */
 static void grow(struct camera_history *h)

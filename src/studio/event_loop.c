@@ -11,8 +11,8 @@
 
 #include "base/clock.h"
 #include "base/event_fd.h"
-#include "base/memory.h"
 #include "base/print.h"
+#include "terminal/xmalloc.h"
 #include "session/stats_json.h"
 #include "studio/commands.h"
 #include "studio/panel_draw.h"

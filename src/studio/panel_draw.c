@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/text_width.h"
+#include "terminal/xmalloc.h"
 #include "studio/material_params.h"
 
 /* Rows beside list and knobs: pages, a title, two of hints. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
 #include "studio/progress_text.h"
 
 /* It is to be read, not watched. */

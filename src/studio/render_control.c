@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
 
 /* The least time for a message, and for each of its bytes: 200 words a minute
  * are read. */

@@ -8,8 +8,8 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/memory.h"
 #include "picture/image_write.h"
+#include "terminal/xmalloc.h"
 #include "session/recent.h"
 #include "session/session_save.h"
 
@@ -19,7 +19,7 @@
 /* The scene's name without folder and ending. */
 static char *scene_name(const struct render_control *control)
 {
-    char *stem = path_stem(control->session->scene.path);
+    char *stem = xchecked(path_stem(control->session->scene.path));
     const char *slash = strrchr(stem, '/');
     char *name = xstrdup(slash ? slash + 1 : stem);
 

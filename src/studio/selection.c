@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "formats/mtl.h"
+#include "terminal/xmalloc.h"
 
 void selection_init(struct selection *s, struct session *session)
 {

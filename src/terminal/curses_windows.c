@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/text_width.h"
 #include "terminal/tty.h"
+#include "terminal/xmalloc.h"
 
 static WINDOW *window;
 static WINDOW *panel;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
 
 #include "kernels/tone.h"
 

@@ -14,9 +14,9 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "base/memory.h"
 #include "terminal/curses_windows.h"
 #include "terminal/kitty.h"
+#include "terminal/xmalloc.h"
 
 /* Mouse reports of drags and the wheel, with coordinates of any size (SGR). */
 #define MOUSE_ON  "\033[?1002h\033[?1006h"

@@ -11,9 +11,9 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "opencl/backend_cl.h"
 #include "opencl/cl_environment.h"
+#include "terminal/xmalloc.h"
 #include "session/session.h"
 
 static int compare(const void *a, const void *b)

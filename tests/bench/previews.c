@@ -10,8 +10,8 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "terminal/cells.h"
+#include "terminal/xmalloc.h"
 #include "session/session.h"
 
 #define COLS 200

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "base/memory.h"
 #include "scene/view.h"
 #include "terminal/cells.h"
+#include "terminal/xmalloc.h"
 
 #define WIDTH  1920
 #define HEIGHT 1080

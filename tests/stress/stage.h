@@ -22,13 +22,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/memory.h"
 #include "scene/world.h"
 #include "formats/scene_load.h"
 #include "render/cpu_dispatch.h"
 #include "render/render_loop.h"
 #include "opencl/backend_cl.h"
 #include "opencl/cl_environment.h"
+#include "terminal/xmalloc.h"
 #include "rows.h"
 #include "tests/unit/folder.h"
 

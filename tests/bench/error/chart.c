@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "picture/stb.h"
+#include "terminal/xmalloc.h"
 
 #define WIDTH  930
 #define HEIGHT 600

@@ -21,8 +21,8 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/memory.h"
 #include "scene/world.h"
+#include "terminal/xmalloc.h"
 #include "tests/bench/median.h"
 #include "chart.h"
 #include "reference.h"

@@ -11,6 +11,7 @@
 #include "picture/image_read.h"
 #include "picture/image_write.h"
 #include "scene/world.h"
+#include "terminal/xmalloc.h"
 
 #define HALF_SPP 1024
 

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
 #include "scenes/mesh.h"
 
 static const char *folder;

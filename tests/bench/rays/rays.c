@@ -22,6 +22,7 @@
 #include "bvh/bvh8.h"
 #include "bvh/bvh_reinsert.h"
 #include "render/cpu_dispatch.h"
+#include "terminal/xmalloc.h"
 #include "tests/bench/median.h"
 
 #define REPEATS     7

@@ -3,7 +3,8 @@
 
 #include <stdlib.h>
 
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
+
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/rng.h"

@@ -9,6 +9,7 @@
 #include "formats/mtl.h"
 #include "formats/scene_load.h"
 #include "formats/view_file.h"
+#include "terminal/xmalloc.h"
 #include "kernels/rng.h"
 
 /* Octaves of a terrain's height. */

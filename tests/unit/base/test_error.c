@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
 
 static void test_fail(void **state)
 {

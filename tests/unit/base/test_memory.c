@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "terminal/xmalloc.h"
 
 static void test_strings(void **state)
 {

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/print.h"
+#include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 
 static void check_shown(const char *text, const char *expected)

@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "formats/mtl.h"
 #include "formats/mtl_save.h"
+#include "terminal/xmalloc.h"
 #include "studio/material_params.h"
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"

@@ -11,6 +11,7 @@
 #include "formats/mtl.h"
 #include "formats/mtl_save.h"
 #include "formats/view_file.h"
+#include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
 

@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "base/memory.h"
 #include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"
 #include "formats/scene_load.h"
+#include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 
 struct loaded {

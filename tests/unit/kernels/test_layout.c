@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "opencl/cl_environment.h"
 #include "opencl/cl_machine.h"
 #include "opencl/cl_source.h"
+#include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 #include "kernels/camera.h"
 #include "kernels/camera_sample.h"

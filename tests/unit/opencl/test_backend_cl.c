@@ -24,6 +24,7 @@
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
 #include "opencl/selftest.h"
+#include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
 #include "kernels/features.h"
 

@@ -11,9 +11,9 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "base/memory.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_source.h"
+#include "terminal/xmalloc.h"
 
 /* By the C library alone. */
 static void put(const char *name, const char *text)

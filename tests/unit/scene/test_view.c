@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "scene/view.h"
 #include "formats/view_file.h"
+#include "terminal/xmalloc.h"
 
 static struct file_change change; /* of what was written last */
 

@@ -10,9 +10,9 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/memory.h"
 #include "formats/mtl.h"
 #include "formats/view_file.h"
+#include "terminal/xmalloc.h"
 #include "session/session_save.h"
 #include "studio/material_params.h"
 #include "tests/unit/files.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/file_watch.h"
+#include "session/file_watch.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
-#include "base/memory.h"
+#include "terminal/xmalloc.h"
 
 /* A file is complete, or has this name now; `touch` and chmod too, for a file
  * may become readable. */
@@ -57,7 +57,7 @@ void file_watch_add(struct file_watch *w, const char *path)
 
 static void watch_folder_of(int fd, const char *path)
 {
-    char *folder = path_beside(path, ".");
+    char *folder = xchecked(path_beside(path, "."));
 
     /* a folder that is not there has no files that change */
     inotify_add_watch(fd, folder, EVENTS);

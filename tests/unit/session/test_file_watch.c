@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/file_watch.h"
+#include "session/file_watch.h"
 
 static char paths[4][256];
 
