@@ -2,8 +2,7 @@
 /*
  * surface_point.h - the surface at a hit: position, normals, frame and BSDF
  *
- * Units:  normalised scene units
- * Errors: surface_at() returns false for a triangle without a normal
+ * Units: normalised scene units
  */
 #ifndef KERNELS_SURFACE_POINT_H
 #define KERNELS_SURFACE_POINT_H
@@ -48,7 +47,8 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
     return v3_dot(n, wo) > 0.0f ? n : ng;
 }
 
-static inline bool surface_at(const struct world *w, const struct material *m,
+/* Fills *v with the surface at hit h of ray r. m is the triangle's material. */
+static inline void surface_at(const struct world *w, const struct material *m,
                               struct ray r, struct hit h,
                               struct surface_point *v)
 {
@@ -58,8 +58,6 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     struct vec3 p2 = w->positions[t.v[2]];
     struct vec3 wo = v3_neg(r.d);
 
-    if (v3_is_zero(t.ng))
-        return false;
     v->is_outside = v3_dot(t.ng, wo) > 0.0f;
     v->ng = v3_scale(t.ng, minus_if(!v->is_outside));
     v->n = shading_normal(w, t, h, v->ng, wo);
@@ -74,7 +72,6 @@ static inline bool surface_at(const struct world *w, const struct material *m,
     if (HAS(FEATURE_BUMPS) && v->has_uv && has_bumps(m))
         v->n = bumped_normal(w, m, t, v->uv, v->n, v->ng, wo);
     frame_around(v->n, &v->t, &v->b);
-    return true;
 }
 
 static inline struct bsdf bsdf_at(const struct world *w,

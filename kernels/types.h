@@ -31,7 +31,7 @@ struct tri {
     uint32_t vn[3];
     uint32_t vt[3];
     uint32_t material;
-    struct vec3 ng; /* unit normal as it is wound */
+    struct vec3 ng; /* unit normal by the winding; every triangle has one */
 };
 
 enum material_kind {

@@ -32,8 +32,6 @@ static enum path_record_way side_of(const struct world *w, struct hit h,
 {
     struct vec3 ng = w->tris[h.tri].ng;
 
-    if (v3_is_zero(ng))
-        return PATH_RECORD_ENDED;
     return v3_dot(before, ng) * v3_dot(after, ng) < 0.0f
                ? PATH_RECORD_REFLECTED
                : PATH_RECORD_TRANSMITTED;
@@ -113,8 +111,7 @@ bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
     if (!hit_closest(w, r, &h))
         return false;
     m = w->materials[w->tris[h.tri].material];
-    if (!surface_at(w, &m, r, h, &v))
-        return false;
+    surface_at(w, &m, r, h, &v);
     b = bsdf_at(w, &m, &v);
     l->p = v.p;
     l->n = v.n;

@@ -123,8 +123,6 @@ static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
     tri_corners(w, light, a);
     tri_corners(w, p->aim, b);
     nb = w->tris[p->aim].ng;
-    if (v3_is_zero(na) || v3_is_zero(nb))
-        return false;
     to =
         hit_point(triangle_point(photon_2d(i, 1, 0)), b[0], b[1], b[2], &error);
     from = hit_point_inset(triangle_point(photon_2d(i, 1, 1)), a[0], a[1], a[2],
@@ -190,8 +188,7 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
         if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
             return;
         m = caustics_material(w->materials[w->tris[h.tri].material]);
-        if (!surface_at(w, &m, p.ray, h, &v))
-            return;
+        surface_at(w, &m, p.ray, h, &v);
         b = bsdf_at(w, &m, &v);
         if (guide_helps(&b)) {
             landings[landed++] = landing_of(s, &p, &v);

@@ -87,7 +87,7 @@ static bool make_emitter(const struct world *w, uint32_t tri,
     double twice_area = (double)v3_length(long_normal(w, tri));
     double radiance;
 
-    if (!(twice_area > AREA_LEAST) || v3_is_zero(t->ng))
+    if (!(twice_area > AREA_LEAST))
         return false;
     e->normal = t->ng;
     radiance = mean_radiance(w, t, footprints);

@@ -71,7 +71,6 @@ struct visibility_probe {
     struct portal_point portals[OPEN_RAYS]; /* of the first that saw the sky */
     uint32_t seen;                          /* looks that did */
     uint32_t bounces, lit; /* looks that bounced, and saw it then */
-    bool is_valid;         /* the place has a side */
 };
 
 /* Of an aim: how much of the sky, from which bin of directions. */
@@ -104,22 +103,20 @@ static struct vec2 probe_2d(uint32_t i, enum decision decision)
     return random_2d(s, PORTALS_DIMENSION + (uint32_t)decision);
 }
 
-/* Lets the ray begin at the hit on the side where `side` is, n. */
-static bool leave_surface(const struct world *w, struct hit h, struct vec3 side,
-                          struct ray *r, struct vec3 *n)
+/* Sets the origin of the ray at the hit, on the side of its face that `side`
+ * points to. Returns the face's normal on that side. */
+static struct vec3 leave_surface(const struct world *w, struct hit h,
+                                 struct vec3 side, struct ray *r)
 {
-    struct vec3 p[3], at, error;
+    struct vec3 n = w->tris[h.tri].ng, p[3], at, error;
 
-    *n = w->tris[h.tri].ng;
-    if (v3_is_zero(*n))
-        return false;
-    if (v3_dot(*n, side) < 0.0f)
-        *n = v3_neg(*n);
+    if (v3_dot(n, side) < 0.0f)
+        n = v3_neg(n);
     tri_corners(w, h.tri, p);
     at = hit_point_inset(h, p[0], p[1], p[2], &error);
-    r->o = offset_ray_origin(at, error, *n);
+    r->o = offset_ray_origin(at, error, n);
     r->from = h.tri + 1;
-    return true;
+    return n;
 }
 
 static bool is_glass(const struct material *m)
@@ -131,16 +128,13 @@ static bool is_glass(const struct material *m)
  * NO_INDEX for too many panes. */
 static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
 {
-    struct vec3 n;
-
     r.t_max = FLOAT_MAX;
     for (int i = 0; i <= PANES; i++) {
         if (!hit_closest(w, r, h))
             return i;
         if (!is_glass(&w->materials[w->tris[h->tri].material]))
             return HIDDEN;
-        if (!leave_surface(w, *h, r.d, &r, &n))
-            break;
+        leave_surface(w, *h, r.d, &r);
     }
     h->tri = NO_INDEX;
     return HIDDEN;
@@ -151,11 +145,11 @@ static bool is_lit(const struct world *w, struct ray probe_ray, struct hit h,
                    uint32_t i)
 {
     struct ray r = probe_ray;
-    struct vec3 n;
 
-    if (h.tri == NO_INDEX || !leave_surface(w, h, v3_neg(probe_ray.d), &r, &n))
+    if (h.tri == NO_INDEX)
         return false;
-    r.d = cosine_around(n, probe_2d(i, DECISION_BOUNCE));
+    r.d = cosine_around(leave_surface(w, h, v3_neg(probe_ray.d), &r),
+                        probe_2d(i, DECISION_BOUNCE));
     return panes_to_sky(w, r, &h) != HIDDEN;
 }
 
@@ -209,12 +203,10 @@ static void trace_probe(void *context, uint32_t i, int worker)
     p->at = triangle_point(probe_2d(i, DECISION_POINT));
     p->at.tri = triangle_cdf_choose(&s->surfaces, probe_2d(i, DECISION_TRI).x);
     p->ray.key = hash_u32(i);
-    l->is_valid = leave_surface(&s->w->world, p->at,
-                                guide_direction(side.x * (float)GUIDE_SIDE,
-                                                side.y * (float)GUIDE_SIDE),
-                                &p->ray, &p->n);
-    if (!l->is_valid)
-        return;
+    p->n = leave_surface(&s->w->world, p->at,
+                         guide_direction(side.x * (float)GUIDE_SIDE,
+                                         side.y * (float)GUIDE_SIDE),
+                         &p->ray);
     p->cell = guide_cell_index(s->grid, p->ray.o, p->n);
     for (uint32_t k = i * PROBE_RAYS; k < (i + 1) * PROBE_RAYS; k++)
         trace_probe_ray(s, l, k);
@@ -225,8 +217,6 @@ static void keep_probe(struct search *s, const struct visibility_probe *l)
 {
     uint32_t cell = l->point.cell;
 
-    if (!l->is_valid)
-        return;
     s->probe_counts[cell]++;
     if (l->seen > OPEN_RAYS)
         return;
