@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "light/channels.h"
+#include "picture/color.h"
 #include "light/light_tree.h"
 #include "light/texture_power.h"
 #include "kernels/light.h"
@@ -47,7 +47,7 @@ static double mean_radiance(const struct world *w, const struct tri *t,
                             const struct texture_power_sums *footprints)
 {
     const struct material *m = &w->materials[t->material];
-    double mean = channels_mean(m->emission);
+    double mean = color_mean(m->emission);
 
     if (m->emission_texture != NO_INDEX && t->vt[0] != NO_INDEX) {
         const struct texture_power_sums *f = &footprints[t->material];
@@ -282,7 +282,7 @@ out:
  * power times radiance at distance 1. */
 static float light_share(const struct lights *lights, const struct sky *sky)
 {
-    double radiance = channels_mean(sky->color);
+    double radiance = color_mean(sky->color);
     double ratio = lights->unsampled_variance / (M_PI * radiance * radiance);
 
     if (lights->light_count == 0)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "picture/color.h"
 #include "bvh/bvh8_traverse.h"
 #include "light/triangle_cdf.h"
 #include "kernels/guide.h"
@@ -422,7 +423,7 @@ static double color_at(const struct world *w, struct hit h)
 
     if (m->color_texture != NO_INDEX && t.vt[0] != NO_INDEX)
         c = v3_mul(c, texture_at(w, m->color_texture, uv_at(w, t, h)).color);
-    return ((double)c.x + (double)c.y + (double)c.z) / 3;
+    return color_mean(c);
 }
 
 /* As between walls that all see each other alike: of what leaves them some

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "light/channels.h"
+#include "picture/color.h"
 #include "kernels/sky.h"
 
 /* What is left of a constant sky after subtraction is rounding. */
@@ -22,7 +22,7 @@ struct image {
 
 static double radiance(const struct image *im, uint32_t x, uint32_t y)
 {
-    return channels_mean(im->texels[(size_t)y * im->width + x]);
+    return color_mean(im->texels[(size_t)y * im->width + x]);
 }
 
 /* The mean of a linear interpolation over a texel is 3/4 of its own value and

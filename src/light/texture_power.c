@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "light/channels.h"
+#include "picture/color.h"
 #include "kernels/texture.h"
 
 /* Bands of a triangle, at most. */
@@ -36,7 +36,7 @@ bool texture_power_init(struct texture_power_sums *f, const struct world *w,
         for (uint32_t x = 0; x < t.width; x++) {
             struct vec3 c = v3_mul(m->emission, texel(w, t, x, y).color);
 
-            row += channels_mean(c);
+            row += color_mean(c);
             above[stride + x + 1] = above[x + 1] + row;
         }
     }

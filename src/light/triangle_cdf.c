@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "light/channels.h"
+#include "picture/color.h"
 #include "kernels/vec.h"
 
 bool triangle_cdf_init(struct triangle_cdf *l, uint32_t capacity)
@@ -70,5 +70,5 @@ double tri_power(const struct world *w, uint32_t tri)
 {
     struct vec3 e = w->materials[w->tris[tri].material].emission;
 
-    return tri_area(w, tri) * channels_mean(e);
+    return tri_area(w, tri) * color_mean(e);
 }

@@ -14,6 +14,15 @@
 
 #include <stdbool.h>
 
+#include "kernels/vec.h"
+
+/* The mean of the channels. One number for a colour where errors of all three
+ * count alike. */
+static inline double color_mean(struct vec3 color)
+{
+    return ((double)color.x + (double)color.y + (double)color.z) / 3;
+}
+
 /* The sRGB curve (IEC 61966-2-1) and back. */
 double color_decoded(double encoded);
 double color_encoded(double linear);

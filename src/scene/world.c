@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/angle.h"
-#include "light/channels.h"
+#include "picture/color.h"
 
 /* The sine of the angle below which `up` is parallel to the view. */
 #define PARALLEL 1e-6
@@ -180,7 +180,7 @@ bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
 {
     struct bvh8_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
     struct vec3 color = make_sky(scene, view).color;
-    double sky = channels_mean(color);
+    double sky = color_mean(color);
     struct pool *pool;
     bool ok;
 
