@@ -20,7 +20,7 @@
 
 #include "base/thread_pool.h"
 #include "bvh/bvh8_traverse.h"
-#include "light/guide_flux.h"
+#include "light/guide_grid.h"
 
 /* The material as photons see it, without colours: what they come from is
  * white, the rest grey. */

@@ -6,14 +6,9 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "bvh/sah_bins.h"
 #include "light/caustics.h"
 #include "light/triangle_cdf.h"
 #include "kernels/light.h"
-
-/* Along the longest side of the scene. On two balls 8 to 16 leave the same
- * error within 2 %, and many sums do not stay near. */
-#define CELLS_A_SIDE 10
 
 /* How often a path is led to caustics at most; where they are as much as the
  * rest it is led there half as often. */
@@ -38,38 +33,6 @@ struct table {
     float *sums;
     uint32_t count;
 };
-
-/* ---- the grid ---- */
-
-static uint32_t cells_along(float length, const struct guide_grid *g)
-{
-    return (uint32_t)f_max(ceilf(length * g->cells_per_unit), 1.0f);
-}
-
-/* Around all triangles; returns the surface of the box. */
-static double make_grid(const struct world *w, struct guide_grid *g)
-{
-    struct vec3 lo = w->positions[w->tris[0].v[0]], hi = lo, size;
-    struct box box;
-
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
-        struct vec3 p[3];
-
-        tri_corners(w, i, p);
-        for (int k = 0; k < 3; k++) {
-            lo = v3_min(lo, p[k]);
-            hi = v3_max(hi, p[k]);
-        }
-    }
-    size = v3_sub(hi, lo);
-    g->lo = lo;
-    g->cells_per_unit = CELLS_A_SIDE / f_max(size.x, f_max(size.y, size.z));
-    g->width = cells_along(size.x, g);
-    g->height = cells_along(size.y, g);
-    g->depth = cells_along(size.z, g);
-    box = box_of_corners(lo, hi);
-    return 2.0 * (double)box_area(&box);
-}
 
 /* ---- the parts ---- */
 
@@ -102,7 +65,7 @@ static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
 
     if (!has_caustics && !has_portals)
         return true;
-    box = make_grid(&w->world, &g->grid);
+    box = guide_grid_init(&g->grid, &w->world);
     g->lights = 2 * power_of(&w->world) / box;
     return (!has_caustics ||
             (guide_flux_init(&g->caustics, &g->grid) &&
@@ -117,26 +80,6 @@ struct other {
     double lights;
     double bounces; /* what walls return, as sky_portals_bounces() */
 };
-
-/* Which part of a cell's light this part of the guide brings. */
-static double part_of_light(const struct guide_flux *part, uint32_t cell,
-                            double total, double other)
-{
-    return total > 0 ? total / (total + (double)part->rest[cell] + other) : 0;
-}
-
-/* Adds a part's sums, the last of which is `share`. */
-static void add_sums(const struct guide_flux *part, uint32_t cell, double total,
-                     double share, float *sums)
-{
-    size_t first = (size_t)cell * GUIDE_BINS;
-    double sum = 0;
-
-    for (uint32_t i = 0; i < GUIDE_BINS && share > 0; i++) {
-        sum += (double)part->flux[first + i];
-        sums[i] += (float)(sum / total * share);
-    }
-}
 
 /* Room for the sums of one more table, all 0. */
 static float *next_sums(struct table *t)
@@ -172,7 +115,7 @@ static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
             double other = i == 0 ? 0 : other_light(g, cell, o), part;
 
             totals[i] = guide_flux_total(parts[i], cell);
-            part = part_of_light(parts[i], cell, totals[i], other);
+            part = guide_flux_share(parts[i], cell, totals[i], other);
             shares[i] = part < PART_LEAST ? 0 : most[i] * part;
         }
     if (shares[0] + shares[1] == 0)
@@ -181,7 +124,7 @@ static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
     scale = 1 - shares[0] * shares[1] / (shares[0] + shares[1]);
     sums = next_sums(t);
     for (int i = 0; i < 2; i++)
-        add_sums(parts[i], cell, totals[i], scale * shares[i], sums);
+        guide_flux_add_cdf(parts[i], cell, totals[i], scale * shares[i], sums);
     return take_sums(t);
 }
 
@@ -192,9 +135,10 @@ static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
     const struct guide_flux *open = &g->portals.open;
     double total = guide_flux_total(open, cell);
 
-    if (part_of_light(open, cell, total, other_light(g, cell, o)) < PART_LEAST)
+    if (guide_flux_share(open, cell, total, other_light(g, cell, o)) <
+        PART_LEAST)
         return NO_INDEX;
-    add_sums(open, cell, total, SHARE_SKY, next_sums(t));
+    guide_flux_add_cdf(open, cell, total, SHARE_SKY, next_sums(t));
     return take_sums(t);
 }
 

@@ -28,7 +28,7 @@
 
 #include "base/thread_pool.h"
 #include "bvh/bvh8.h"
-#include "light/guide_flux.h"
+#include "light/guide_grid.h"
 
 struct sky_portals {
     struct guide_flux open;   /* for light samples; NULL: not searched for */

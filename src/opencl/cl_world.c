@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "opencl/cl_world.h"
 
-#include "light/guide_flux.h"
+#include "light/guide_grid.h"
 
 /* What an array of the world is on the host. */
 struct source {
