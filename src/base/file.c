@@ -418,6 +418,13 @@ bool folder_make(char *path)
     }
 }
 
+const char *path_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    return slash ? slash + 1 : path;
+}
+
 char *path_beside(const char *beside, const char *name)
 {
     const char *slash = strrchr(beside, '/');
@@ -431,14 +438,13 @@ char *path_beside(const char *beside, const char *name)
  * folder or memory is out. */
 static char *real_path(const char *path)
 {
-    const char *slash = strrchr(path, '/');
     char *folder = folder_of(path);
     char *real = folder ? realpath(folder, NULL) : NULL;
     char *whole = NULL;
 
     if (real)
         whole = format_text("%s/%s", strcmp(real, "/") == 0 ? "" : real,
-                            slash ? slash + 1 : path);
+                            path_name(path));
     free(real);
     free(folder);
     return whole;
@@ -478,8 +484,7 @@ bool path_is_same(const char *a, const char *b)
 
 char *path_stem(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *name = slash ? slash + 1 : path;
+    const char *name = path_name(path);
     const char *dot = strrchr(name, '.');
     size_t length = dot && dot != name ? (size_t)(dot - path) : strlen(path);
 

@@ -85,6 +85,9 @@ char *path_seen_from(const char *beside, const char *path);
 /* Would writing to either path write the same file, which may not exist yet? */
 bool path_is_same(const char *a, const char *b);
 
+/* The last part of the path, which it points into. */
+const char *path_name(const char *path);
+
 /* The path without the ending of its last part: a/b.obj gives a/b. */
 char *path_stem(const char *path);
 

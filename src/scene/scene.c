@@ -201,6 +201,14 @@ static void fill_linear_of_srgb(float table[256])
         table[i] = (float)color_decoded(i / 255.0);
 }
 
+uint32_t scene_find_object(const struct scene *scene, const char *name)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (strcmp(scene->object_names[i], name) == 0)
+            return i;
+    return NO_INDEX;
+}
+
 void scene_find_emitters(struct scene *scene)
 {
     scene->has_emitters = false;

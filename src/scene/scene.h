@@ -107,6 +107,9 @@ struct world scene_arrays(const struct scene *scene);
 /* Of vertices, normals, texture coordinates and triangles. */
 uint64_t scene_geometry_bytes(const struct scene *scene);
 
+/* The object of this name, or NO_INDEX. */
+uint32_t scene_find_object(const struct scene *scene, const char *name);
+
 /* Finds whether one of the used materials shines. */
 void scene_find_emitters(struct scene *scene);
 

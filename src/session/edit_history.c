@@ -75,20 +75,12 @@ static void add_material(struct edit *e, const char *name, uint32_t copied_from)
     e->copied_from[index] = copied_from;
 }
 
-static uint32_t find_object(const struct scene *scene, const char *name)
-{
-    for (uint32_t i = 0; i < scene->object_count; i++)
-        if (strcmp(scene->object_names[i], name) == 0)
-            return i;
-    return NO_INDEX;
-}
-
 static void read_assigns(struct edit *e, const struct scene *scene,
                          const struct view *view, struct warnings *report)
 {
     for (size_t i = 0; i < view->assigns.count; i++) {
         const struct assign *a = &view->assigns.items[i];
-        uint32_t object = find_object(scene, a->object);
+        uint32_t object = scene_find_object(scene, a->object);
         uint32_t material = mtl_find(scene, a->material);
 
         if (object != NO_INDEX && material != NO_INDEX)

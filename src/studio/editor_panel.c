@@ -5,25 +5,22 @@
 
 #include "base/clock.h"
 #include "studio/panel_draw.h"
-#include "studio/parameter_text.h"
 #include "studio/save_commands.h"
 
 #define ENTER     '\r'
 #define ESCAPE    27
 #define BACKSPACE 127
 
-/* The same knob turned again within this time is the same step of undo: longer
- * than keyboards wait before they repeat. */
-#define TURN_NS UINT64_C(700000000)
+/* A parameter that is changed again within this time is the same step of undo.
+ * The time is longer than keyboards wait before they repeat. */
+#define REPEAT_NS UINT64_C(700000000)
+
+/* Steps of the keys for a large change. */
+#define MANY_STEPS 10
 
 static struct edit *edit_of(const struct editor_panel *p)
 {
     return &p->control->session->edit;
-}
-
-static const struct scene *scene_of(const struct editor_panel *p)
-{
-    return &p->control->session->scene;
 }
 
 void editor_panel_init(struct editor_panel *p, struct render_control *control,
@@ -48,8 +45,8 @@ void editor_panel_renew(struct editor_panel *p,
     p->selection.by_hsv = before.by_hsv;
     if (!selection_find(&p->selection, names)) {
         p->is_typing = false;
-        p->is_in_knobs = false;
-        p->knob = p->knob_top = 0;
+        p->is_in_parameters = false;
+        p->parameter = p->parameter_top = 0;
     }
     selection_settle(&p->selection);
     selection_free(&before);
@@ -57,16 +54,18 @@ void editor_panel_renew(struct editor_panel *p,
 
 void editor_panel_select(struct editor_panel *p, const struct pick *pick)
 {
-    p->selection.material = pick->material;
-    p->selection.object = pick->object;
-    if (p->selection.page == PARAMETER_LIGHT)
-        p->selection.page = PARAMETER_MATERIAL;
-    selection_settle(&p->selection);
+    struct selection *s = &p->selection;
+
+    s->index[PARAMETER_MATERIAL] = pick->material;
+    s->index[PARAMETER_OBJECT] = pick->object;
+    if (s->page == PARAMETER_LIGHT)
+        s->page = PARAMETER_MATERIAL;
+    selection_settle(s);
 }
 
 /* ---- changes ---- */
 
-/* After any change: what follows from it for picture and panel. */
+/* Due after any change: the picture and the panel show it. */
 static void take_change(struct editor_panel *p)
 {
     if (session_take_edit(p->control->session))
@@ -91,32 +90,42 @@ static bool may_change(struct editor_panel *p)
     return true;
 }
 
-static void turn(struct editor_panel *p, int steps)
+/* The id of the selected parameter, or -1 if there is none that may change. */
+static int changeable_id(struct editor_panel *p)
 {
-    struct parameter knobs[PARAMETERS_MAX];
+    struct parameter list[PARAMETERS_MAX];
+
+    if (panel_parameters(p, list) == 0 || !may_change(p))
+        return -1;
+    return list[p->parameter].id;
+}
+
+static void change_by(struct editor_panel *p, int steps)
+{
     struct parameter_target target = selection_target(&p->selection);
     uint64_t now_ns = clock_ns();
+    int id = changeable_id(p);
 
-    if (panel_knobs(p, knobs) == 0 || !may_change(p))
+    if (id < 0)
         return;
-    if (knobs[p->knob].id != p->turned_id || now_ns - p->turned_ns > TURN_NS)
+    if (id != p->stepped_id || now_ns - p->stepped_ns > REPEAT_NS)
         edit_break(edit_of(p));
-    p->turned_id = knobs[p->knob].id;
-    p->turned_ns = now_ns;
-    parameter_turn(edit_of(p), &target, p->turned_id, steps);
+    p->stepped_id = id;
+    p->stepped_ns = now_ns;
+    parameter_step(&target, id, steps);
     take_change(p);
 }
 
 static void take_typed(struct editor_panel *p)
 {
-    struct parameter knobs[PARAMETERS_MAX];
     struct parameter_target target = selection_target(&p->selection);
+    int id = changeable_id(p);
     struct error err;
 
-    if (panel_knobs(p, knobs) == 0 || !may_change(p))
+    if (id < 0)
         return;
     edit_break(edit_of(p));
-    if (knob_set_text(edit_of(p), &target, knobs[p->knob].id, p->typed, &err)) {
+    if (parameter_set_text(&target, id, p->typed, &err)) {
         p->is_typing = false;
         edit_break(edit_of(p));
         take_change(p);
@@ -143,28 +152,27 @@ static void compare(struct editor_panel *p)
     take_change(p);
 }
 
-/* A copy of the material; an object gets it at once. */
+/* Copies the material. An object whose page is shown gets the copy. */
 static void duplicate(struct editor_panel *p)
 {
+    struct selection *s = &p->selection;
     struct edit *e = edit_of(p);
+    uint32_t object = s->index[PARAMETER_OBJECT];
+    uint32_t *material = &s->index[PARAMETER_MATERIAL];
 
-    if (p->selection.page == PARAMETER_LIGHT ||
-        !selection_has_one(&p->selection) || !may_change(p))
+    if (s->page == PARAMETER_LIGHT || !selection_has_one(s) || !may_change(p))
         return;
     edit_break(e);
-    if (p->selection.page == PARAMETER_OBJECT) {
-        p->selection.material =
-            edit_duplicate(e, selection_material_of(&p->selection,
-                                                    p->selection.object));
-        edit_assign(e, p->selection.object, p->selection.material);
+    if (s->page == PARAMETER_OBJECT) {
+        *material = edit_duplicate(e, selection_material_of(s, object));
+        edit_assign(e, object, *material);
         render_control_say(p->control, "%.40s has its own material now: %.40s",
-                           panel_name(
-                               scene_of(p)->object_names[p->selection.object]),
-                           e->names[p->selection.material]);
+                           selection_name(s, PARAMETER_OBJECT, object),
+                           e->names[*material]);
     } else {
-        p->selection.material = edit_duplicate(e, p->selection.material);
+        *material = edit_duplicate(e, *material);
         render_control_say(p->control, "%.60s: Tab goes to the objects for it",
-                           e->names[p->selection.material]);
+                           e->names[*material]);
     }
     edit_break(e);
     take_change(p);
@@ -175,7 +183,7 @@ static void duplicate(struct editor_panel *p)
 void editor_panel_open(struct editor_panel *p)
 {
     p->is_open = true;
-    p->is_in_knobs = p->selection.page == PARAMETER_LIGHT;
+    p->is_in_parameters = p->selection.page == PARAMETER_LIGHT;
     selection_settle(&p->selection);
 }
 
@@ -188,28 +196,28 @@ void editor_panel_close(struct editor_panel *p)
 static void show_page(struct editor_panel *p, enum parameter_page page)
 {
     p->selection.page = page;
-    p->is_in_knobs = page == PARAMETER_LIGHT;
-    p->knob = p->knob_top = p->list_top = 0;
+    p->is_in_parameters = page == PARAMETER_LIGHT;
+    p->parameter = p->parameter_top = p->list_top = 0;
 }
 
 static void move(struct editor_panel *p, int step)
 {
-    if (p->is_in_knobs)
-        p->knob += step; /* panel_knobs() keeps it in bounds */
+    if (p->is_in_parameters)
+        p->parameter += step; /* panel_parameters() keeps it in bounds */
     else
         selection_move(&p->selection, step);
 }
 
-/* What cannot be typed is turned by Enter. */
+/* Enter changes a parameter that takes no text by a step. */
 static void begin_typing(struct editor_panel *p, int key)
 {
-    struct parameter knobs[PARAMETERS_MAX];
+    struct parameter list[PARAMETERS_MAX];
 
-    if (panel_knobs(p, knobs) == 0)
+    if (panel_parameters(p, list) == 0)
         return;
-    if (!knob_takes_text(knobs[p->knob].id)) {
+    if (!list[p->parameter].takes_text) {
         if (key == ENTER)
-            turn(p, 1);
+            change_by(p, 1);
         else
             render_control_say(p->control,
                                "this is changed with the arrows, or Enter");
@@ -239,25 +247,25 @@ static void type(struct editor_panel *p, int key)
 
 static void enter(struct editor_panel *p)
 {
-    if (p->is_in_knobs)
+    if (p->is_in_parameters)
         begin_typing(p, ENTER);
     else
-        p->is_in_knobs = selection_has_one(&p->selection);
+        p->is_in_parameters = selection_has_one(&p->selection);
 }
 
-/* In the list there is only a way to the values. */
+/* In the list a step to the right goes to the parameters. */
 static void step(struct editor_panel *p, int by)
 {
-    if (p->is_in_knobs)
-        turn(p, by);
+    if (p->is_in_parameters)
+        change_by(p, by);
     else if (by > 0)
         enter(p);
 }
 
 static void leave(struct editor_panel *p)
 {
-    if (p->is_in_knobs && p->selection.page != PARAMETER_LIGHT)
-        p->is_in_knobs = false;
+    if (p->is_in_parameters && p->selection.page != PARAMETER_LIGHT)
+        p->is_in_parameters = false;
     else
         editor_panel_close(p);
 }
@@ -273,14 +281,14 @@ static void select_row(struct editor_panel *p, int row)
         if (!selection_is_listed(&p->selection, i) ||
             number++ != p->list_top + row)
             continue;
-        selection_set(&p->selection, i);
-        p->is_in_knobs = false;
+        p->selection.index[p->selection.page] = i;
+        p->is_in_parameters = false;
     }
 }
 
 static void click(struct editor_panel *p, int col, int row)
 {
-    int knob_row = row - 2 - p->list_rows;
+    int parameter_row = row - 2 - p->list_rows;
 
     p->is_typing = false;
     if (row == 0)
@@ -289,16 +297,16 @@ static void click(struct editor_panel *p, int col, int row)
                                     : PARAMETER_LIGHT);
     else if (row <= p->list_rows)
         select_row(p, row - 1);
-    else if (knob_row >= 0 && knob_row < p->knob_rows) {
-        p->knob = p->knob_top + knob_row;
-        p->is_in_knobs = true;
+    else if (parameter_row >= 0 && parameter_row < p->parameter_rows) {
+        p->parameter = p->parameter_top + parameter_row;
+        p->is_in_parameters = true;
     }
 }
 
 static void wheel(struct editor_panel *p, int up)
 {
-    if (p->is_in_knobs)
-        turn(p, up);
+    if (p->is_in_parameters)
+        change_by(p, up);
     else
         selection_move(&p->selection, -up);
 }
@@ -335,10 +343,10 @@ bool editor_panel_key(struct editor_panel *p, int key)
     case PANEL_PAGE_UP: move(p, -10); break;
     case PANEL_PAGE_DOWN: move(p, 10); break;
     case PANEL_ENTER: enter(p); break;
-    case PANEL_MUCH_LESS: turn(p, -PARAMETER_COARSE); break;
-    case PANEL_MUCH_MORE: turn(p, PARAMETER_COARSE); break;
+    case PANEL_MUCH_LESS: change_by(p, -MANY_STEPS); break;
+    case PANEL_MUCH_MORE: change_by(p, MANY_STEPS); break;
     case PANEL_TYPE:
-        if (!p->is_in_knobs)
+        if (!p->is_in_parameters)
             return false;
         begin_typing(p, key);
         break;

@@ -7,22 +7,22 @@
 
 #include "base/text_width.h"
 #include "terminal/xmalloc.h"
-#include "studio/material_params.h"
+#include "studio/material_parameters.h"
 
-/* Rows beside list and knobs: pages, a title, two of hints. */
+/* Rows that are neither list nor parameters: pages, a title, two hints. */
 #define OTHER_ROWS 4
 #define LIST_MIN   3
 
 #define BAR_COLS 9
 
-/* Of the columns that foreign names have. */
+/* Columns of texts that come from files. */
 #define NAME_COLS  17
 #define OTHER_COLS 13
 #define TITLE_COLS 32
 #define VALUE_COLS 20
 #define NAME_BYTES 100
 
-/* What there is to draw on. */
+/* The lines drawn so far, and the colours beside them. */
 struct sheet {
     struct window_line *lines;
     int count;
@@ -34,22 +34,16 @@ static const struct edit *edit_of(const struct editor_panel *p)
     return &p->control->session->edit;
 }
 
-static const struct scene *scene_of(const struct editor_panel *p)
+int panel_parameters(struct editor_panel *p,
+                     struct parameter list[PARAMETERS_MAX])
 {
-    return &p->control->session->scene;
-}
+    struct parameter_target target = selection_target(&p->selection);
+    int count = 0;
 
-const char *panel_name(const char *name)
-{
-    return *name != '\0' ? name : "(no name)";
-}
-
-int panel_knobs(struct editor_panel *p, struct parameter knobs[PARAMETERS_MAX])
-{
-    int count = selection_knobs(&p->selection, knobs);
-
-    p->knob = p->knob >= count ? count - 1 : p->knob;
-    p->knob = p->knob < 0 ? 0 : p->knob;
+    if (selection_has_one(&p->selection))
+        count = parameters_list(&target, list);
+    p->parameter = p->parameter >= count ? count - 1 : p->parameter;
+    p->parameter = p->parameter < 0 ? 0 : p->parameter;
     return count;
 }
 
@@ -72,47 +66,55 @@ static void add_pages(struct sheet *s, enum parameter_page page)
     add_line(s, WINDOW_TITLE, titles[page]);
 }
 
+/* Moves the first row that is shown until the selected one is shown. */
+static void scroll(int *top, int selected, int rows)
+{
+    if (*top > selected)
+        *top = selected;
+    if (*top < selected - rows + 1)
+        *top = selected - rows + 1;
+}
+
 /* A material with its kind, or an object with its material. */
 static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
 {
-    const struct edit *e = edit_of(p);
-    bool is_object = p->selection.page == PARAMETER_OBJECT;
-    uint32_t material = is_object ? selection_material_of(&p->selection, i) : i;
-    const struct mtl_source *source = &edit_shown(e)->sources[material];
-    bool is_selected = i == selection_index(&p->selection);
+    const struct selection *sel = &p->selection;
+    bool is_object = sel->page == PARAMETER_OBJECT;
+    bool is_selected = i == sel->index[sel->page];
+    uint32_t material = is_object ? selection_material_of(sel, i) : i;
+    const struct mtl_source *source =
+        &edit_shown(edit_of(p))->sources[material];
     char text[WINDOW_LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
     double rgb[3];
 
-    text_width_fit(name, sizeof name,
-                   panel_name(is_object ? scene_of(p)->object_names[i]
-                                        : e->names[i]),
+    text_width_fit(name, sizeof name, selection_name(sel, sel->page, i),
                    NAME_COLS);
     text_width_cut(other, sizeof other,
-                   is_object ? panel_name(e->names[material])
-                             : material_params_kind(source),
+                   is_object ? selection_name(sel, PARAMETER_MATERIAL, material)
+                             : material_parameters_kind(source),
                    OTHER_COLS);
     snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
              other);
-    material_params_swatch(source, rgb);
+    material_parameters_swatch(source, rgb);
     swatches_set(s->swatches, s->count, rgb);
-    add_line(s, is_selected && !p->is_in_knobs ? WINDOW_SELECTED : WINDOW_PLAIN,
+    add_line(s,
+             is_selected && !p->is_in_parameters ? WINDOW_SELECTED
+                                                 : WINDOW_PLAIN,
              text);
 }
 
-/* Part of the list, with what is selected in it. */
+/* The part of the list that has the selected one. */
 static void add_list(struct editor_panel *p, struct sheet *s, int rows)
 {
-    uint32_t count = selection_count(&p->selection);
-    int number = 0, chosen = 0, shown = 0;
+    const struct selection *sel = &p->selection;
+    uint32_t count = selection_count(sel);
+    int number = 0, selected = 0, shown = 0;
 
-    for (uint32_t i = 0; i < count && i < selection_index(&p->selection); i++)
-        chosen += selection_is_listed(&p->selection, i);
-    if (p->list_top > chosen)
-        p->list_top = chosen;
-    if (p->list_top < chosen - rows + 1)
-        p->list_top = chosen - rows + 1;
+    for (uint32_t i = 0; i < count && i < sel->index[sel->page]; i++)
+        selected += selection_is_listed(sel, i);
+    scroll(&p->list_top, selected, rows);
     for (uint32_t i = 0; i < count && shown < rows; i++) {
-        if (!selection_is_listed(&p->selection, i) || number++ < p->list_top)
+        if (!selection_is_listed(sel, i) || number++ < p->list_top)
             continue;
         add_item(p, s, i);
         shown++;
@@ -121,81 +123,75 @@ static void add_list(struct editor_panel *p, struct sheet *s, int rows)
         add_line(s, WINDOW_PLAIN, "");
 }
 
-static void add_title(struct editor_panel *p, struct sheet *s)
+static void add_title(const struct editor_panel *p, struct sheet *s)
 {
+    const struct selection *sel = &p->selection;
     const struct edit *e = edit_of(p);
+    uint32_t i = sel->index[sel->page];
     char text[WINDOW_LINE_BYTES], name[NAME_BYTES];
 
-    if (e->is_comparing)
+    if (e->is_comparing) {
         snprintf(text, sizeof text, " as saved: x goes back");
-    else if (p->selection.page == PARAMETER_LIGHT)
+    } else if (sel->page == PARAMETER_LIGHT) {
         snprintf(text, sizeof text, " Sky and picture%s",
                  edit_has_unsaved_view(e) ? " *" : "");
-    else if (!selection_has_one(&p->selection))
+    } else if (!selection_has_one(sel)) {
         snprintf(text, sizeof text, " nothing to edit");
-    else {
-        bool is_object = p->selection.page == PARAMETER_OBJECT;
-
-        text_width_cut(name, sizeof name,
-                       is_object
-                           ? panel_name(
-                                 scene_of(p)->object_names[p->selection.object])
-                           : e->names[p->selection.material],
+    } else {
+        text_width_cut(name, sizeof name, selection_name(sel, sel->page, i),
                        TITLE_COLS);
         snprintf(text, sizeof text, " %s%s", name,
-                 is_object || edit_is_saved(e, p->selection.material) ? ""
-                                                                      : " *");
+                 sel->page == PARAMETER_MATERIAL && !edit_is_saved(e, i) ? " *"
+                                                                         : "");
     }
     add_line(s, WINDOW_TITLE, text);
 }
 
-static void format_bar(char bar[BAR_COLS + 1], double place)
+static void format_bar(char bar[BAR_COLS + 1], double fraction)
 {
-    int filled = (int)(place * BAR_COLS + 0.5);
+    int filled = (int)(fraction * BAR_COLS + 0.5);
 
     for (int i = 0; i < BAR_COLS; i++)
-        bar[i] = place < 0 ? ' ' : i < filled ? '=' : '.';
+        bar[i] = fraction < 0 ? ' ' : i < filled ? '=' : '.';
     bar[BAR_COLS] = '\0';
 }
 
-static void add_knob(struct editor_panel *p, struct sheet *s,
-                     const struct parameter *k, bool is_selected)
+static void add_parameter(struct editor_panel *p, struct sheet *s,
+                          const struct parameter *v, bool is_selected)
 {
     char bar[BAR_COLS + 1];
     char text[WINDOW_LINE_BYTES], value[NAME_BYTES];
     size_t length = strlen(p->typed);
 
-    format_bar(bar, k->place);
-    text_width_cut(value, sizeof value, k->text, VALUE_COLS);
+    format_bar(bar, v->fraction);
+    text_width_cut(value, sizeof value, v->text, VALUE_COLS);
     if (is_selected && p->is_typing)
-        snprintf(text, sizeof text, "     %-10s %.18s_", k->label,
+        snprintf(text, sizeof text, "     %-10s %.18s_", v->label,
                  length > 18 ? p->typed + length - 18 : p->typed);
-    else if (k->place >= 0)
-        snprintf(text, sizeof text, "     %-10s %-10.10s %s", k->label, k->text,
+    else if (v->fraction >= 0)
+        snprintf(text, sizeof text, "     %-10s %-10.10s %s", v->label, v->text,
                  bar);
     else
-        snprintf(text, sizeof text, "     %-10s %s", k->label, value);
+        snprintf(text, sizeof text, "     %-10s %s", v->label, value);
     if (is_selected)
         text[0] = '>';
-    if (k->has_color)
-        swatches_set(s->swatches, s->count, k->color);
+    if (v->has_color)
+        swatches_set(s->swatches, s->count, v->color);
     add_line(s, is_selected ? WINDOW_SELECTED : WINDOW_PLAIN, text);
 }
 
-static void add_knobs(struct editor_panel *p, struct sheet *s, int rows)
+static void add_parameters(struct editor_panel *p, struct sheet *s, int rows)
 {
-    struct parameter knobs[PARAMETERS_MAX];
-    int count = panel_knobs(p, knobs);
+    struct parameter list[PARAMETERS_MAX];
+    int count = panel_parameters(p, list);
 
-    if (p->knob_top > p->knob)
-        p->knob_top = p->knob;
-    if (p->knob_top < p->knob - rows + 1)
-        p->knob_top = p->knob - rows + 1;
+    scroll(&p->parameter_top, p->parameter, rows);
     for (int i = 0; i < rows; i++) {
-        int k = p->knob_top + i;
+        int row = p->parameter_top + i;
 
-        if (k < count)
-            add_knob(p, s, &knobs[k], p->is_in_knobs && k == p->knob);
+        if (row < count)
+            add_parameter(p, s, &list[row],
+                          p->is_in_parameters && row == p->parameter);
         else
             add_line(s, WINDOW_PLAIN, "");
     }
@@ -213,7 +209,7 @@ static void add_hints(const struct editor_panel *p, struct sheet *s)
     } else if (p->is_typing) {
         add_line(s, WINDOW_HINT, " number, #rrggbb, r g b or 3000K");
         add_line(s, WINDOW_HINT, " Enter takes it   Esc leaves it");
-    } else if (p->is_in_knobs) {
+    } else if (p->is_in_parameters) {
         add_line(s, WINDOW_HINT, " Left Right change  [ ] tenfold  Esc");
         add_line(s, WINDOW_HINT, " type a value  h HSV  u undo  ^S save");
     } else {
@@ -225,29 +221,24 @@ static void add_hints(const struct editor_panel *p, struct sheet *s)
 void panel_draw(struct editor_panel *p)
 {
     struct sheet s = {.swatches = &p->screen->swatches};
-    struct parameter knobs[PARAMETERS_MAX];
-    int rows = term_size().rows - 1;
-    int list_rows, knob_rows;
+    struct parameter list[PARAMETERS_MAX];
+    int rows = term_size().rows - 1 - OTHER_ROWS;
 
     if (!p->is_open || p->screen->is_too_small)
         return;
     selection_settle(&p->selection);
-    knob_rows = panel_knobs(p, knobs);
-    list_rows = selection_count(&p->selection) == 0 ? 0 : LIST_MIN;
-    if (knob_rows > rows - OTHER_ROWS - list_rows)
-        knob_rows = rows - OTHER_ROWS - list_rows;
-    list_rows = p->selection.page == PARAMETER_LIGHT
-                    ? 0
-                    : rows - OTHER_ROWS - knob_rows;
-    knob_rows = rows - OTHER_ROWS - list_rows;
-    s.lines = xcalloc((size_t)rows, sizeof *s.lines);
+    p->parameter_rows = panel_parameters(p, list);
+    if (p->parameter_rows > rows - LIST_MIN)
+        p->parameter_rows = rows - LIST_MIN;
+    if (p->selection.page == PARAMETER_LIGHT)
+        p->parameter_rows = rows;
+    p->list_rows = rows - p->parameter_rows;
+    s.lines = xcalloc((size_t)rows + OTHER_ROWS, sizeof *s.lines);
     swatches_clear(s.swatches);
-    p->list_rows = list_rows;
-    p->knob_rows = knob_rows;
     add_pages(&s, p->selection.page);
-    add_list(p, &s, list_rows);
+    add_list(p, &s, p->list_rows);
     add_title(p, &s);
-    add_knobs(p, &s, knob_rows);
+    add_parameters(p, &s, p->parameter_rows);
     add_hints(p, &s);
     screen_show_panel(p->screen, s.lines, s.count);
     free(s.lines);

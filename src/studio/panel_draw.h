@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * panel_draw.h - the panel as lines of text with swatches
+ * panel_draw.h - draws the editor panel as lines of text with swatches
  *
  * Units:     terminal cells
  * Threads:   main only
@@ -10,17 +10,16 @@
 
 #include "studio/editor_panel.h"
 
-/* Columns of the second title and the third. */
+/* Columns of the titles of the second page and the third. */
 #define PAGE_2 13
 #define PAGE_3 22
 
-/* Shows it as it is now, after layouts and changes. */
+/* Draws the panel if it is open: after a layout, and after a change. */
 void panel_draw(struct editor_panel *p);
 
-/* The knobs of what is selected; their number. One of them is selected too. */
-int panel_knobs(struct editor_panel *p, struct parameter knobs[PARAMETERS_MAX]);
-
-/* A name for people: "" is none. */
-const char *panel_name(const char *name);
+/* Lists the parameters of what is selected and returns their number. Selects
+ * the last one if there are fewer than before. */
+int panel_parameters(struct editor_panel *p,
+                     struct parameter list[PARAMETERS_MAX]);
 
 #endif

@@ -1,318 +1,314 @@
 // SPDX-License-Identifier: MIT
 #include "studio/parameter.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "picture/color.h"
-#include "studio/material_params.h"
-#include "studio/value_scale.h"
+#include "studio/parameter_table.h"
 
-/* Where a temperature begins that was none. */
+/* A step of a scale without fixed steps. */
+#define GROWTH 1.1
+
+/* The first temperature of a light that had none. */
 #define KELVIN_WHITE 6500.0
 
-static const struct value_scale kelvins = {.from = 1000,
-                                           .to = 20000,
-                                           .step = 100};
+/* An id is a row of the table times PARTS, plus the part: 0 is the value, 1 to
+ * 3 are the channels of a colour. */
+#define PARTS 4
 
-/* ---- lists ---- */
+/* ---- scales ---- */
 
-struct list {
-    struct parameter *knobs;
-    int count;
-};
-
-static struct parameter *add(struct list *l, int id, const char *label)
+static double clamped(double x, double least, double most)
 {
-    struct parameter *k = &l->knobs[l->count];
-
-    l->count += l->count < PARAMETERS_MAX - 1;
-    *k = (struct parameter){.id = id, .label = label, .place = -1};
-    return k;
+    return x < least ? least : x > most ? most : x;
 }
 
-static void add_scale(struct list *l, int id, const char *label,
-                      const struct value_scale *s, double value)
+static double grown(const struct value_scale *s, double value, int steps)
 {
-    struct parameter *k = add(l, id, label);
+    double next = fmax(value, s->from) * pow(GROWTH, steps);
+    double digit;
 
-    k->place = value_scale_place(s, value);
-    value_scale_format(s, value, k->text, sizeof k->text);
+    if (next < s->from || (value < s->from && steps < 0))
+        return 0;
+    /* three digits are finer than a step */
+    digit = pow(10, floor(log10(next)) - 2);
+    return fmin(round(next / digit) * digit, fmax(s->to, value));
 }
 
-static void add_color(struct list *l, int id, const char *label,
-                      const double rgb[3])
+static double stepped(const struct value_scale *s, double value, int steps)
 {
-    struct parameter *k = add(l, id, label);
+    double next;
 
-    k->has_color = true;
-    memcpy(k->color, rgb, sizeof k->color);
-    color_to_hex(rgb, k->text);
+    if (s->step == 0)
+        return grown(s, value, steps);
+    /* a multiple of the step, without the digits of rounding errors */
+    next = (round(value / s->step) + steps) * s->step;
+    next = round(next * 1e6) / 1e6;
+    if (s->wraps)
+        return fmod(next + s->to, s->to);
+    /* a value that was typed beyond the ends stays there */
+    next = clamped(next, fmin(s->from, value), fmax(s->to, value));
+    return s->is_positive ? fmax(next, s->step) : next;
 }
 
-static void add_channels(struct list *l, const struct parameter_target *t,
-                         const double rgb[3])
+static double fraction_of(const struct value_scale *s, double value)
 {
-    static const char *const rgb_labels[] = {"red", "green", "blue"};
-    static const char *const hsv_labels[] = {"hue", "saturation", "value"};
-    double v[3];
-
-    memcpy(v, rgb, sizeof v);
-    if (t->by_hsv)
-        color_to_hsv(rgb, v);
-    for (int i = 0; i < 3; i++)
-        add_scale(l, PARAMETER_CHANNEL + i,
-                  t->by_hsv ? hsv_labels[i] : rgb_labels[i],
-                  t->by_hsv && i == 0 ? &scale_hue : &scale_unit, v[i]);
+    if (s->step != 0)
+        return clamped((value - s->from) / (s->to - s->from), 0, 1);
+    return value < s->from
+               ? 0
+               : fmin(log(value / s->from) / log(s->to / s->from), 1);
 }
 
-static void add_light(struct list *l, const struct mtl_source *s)
+static void format_number(const struct value_scale *s, double value,
+                          char text[PARAMETER_TEXT_BYTES])
 {
-    double strength = material_params_strength(s);
-    struct parameter *k = add(l, PARAMETER_GLOW, "light");
-    double rgb[3];
-
-    k->place = value_scale_place(&scale_light, strength);
-    if (!(strength > 0)) {
-        snprintf(k->text, sizeof k->text, "off");
-        return;
-    }
-    value_scale_format(&scale_light, strength, k->text, sizeof k->text);
-    material_params_light_color(s, rgb);
-    add_color(l, PARAMETER_GLOW_COLOR, "of colour", rgb);
-    k = &l->knobs[l->count - 1];
-    if (s->kelvin.line != 0)
-        snprintf(k->text, sizeof k->text, "%.6gK", s->kelvin.value);
-}
-
-static void add_maps(struct list *l, const struct scene *scene,
-                     const struct mtl_source *s)
-{
-    for (int i = 0; i < MTL_MAPS; i++) {
-        const char *path, *slash;
-        struct parameter *k;
-
-        if (s->maps[i] == NO_INDEX)
-            continue;
-        path = scene->texture_paths[s->maps[i]];
-        slash = strrchr(path, '/');
-        k = add(l, PARAMETER_MAP + i, mtl_map_keys[i]);
-        snprintf(k->text, sizeof k->text, "%s %.50s",
-                 (s->maps_off >> i & 1) != 0 ? "off" : "on",
-                 slash != NULL ? slash + 1 : path);
-    }
-}
-
-static void list_material(struct list *l, const struct scene *scene,
-                          const struct parameter_target *t,
-                          const struct mtl_source *s)
-{
-    struct material m = material_params_material(s);
-    double rgb[3];
-
-    snprintf(add(l, PARAMETER_KIND, "type")->text, sizeof l->knobs->text, "%s",
-             material_params_kind(s));
-    material_params_color(s, rgb);
-    add_color(l, PARAMETER_COLOR,
-              material_params_is_glass(&m) ? "tint" : "colour", rgb);
-    add_channels(l, t, rgb);
-    if (m.kind != MATERIAL_THIN_GLASS)
-        add_scale(l, PARAMETER_ROUGHNESS, "roughness", &scale_unit,
-                  material_params_roughness(s));
-    if (m.kind == MATERIAL_PLASTIC)
-        add_scale(l, PARAMETER_COAT, "coat", &scale_unit,
-                  material_params_largest(s->ks.rgb));
-    if (material_params_is_glass(&m))
-        add_scale(l, PARAMETER_IOR, "index", &scale_ior, (double)m.ior);
+    if (s->zero != NULL && !(value > 0))
+        snprintf(text, PARAMETER_TEXT_BYTES, "%s", s->zero);
     else
-        add_scale(l, PARAMETER_COVER, "cover", &scale_unit, (double)m.opacity);
-    add_light(l, s);
-    add_maps(l, scene, s);
+        snprintf(text, PARAMETER_TEXT_BYTES, "%.*g%s", s->digits, value,
+                 s->suffix != NULL ? s->suffix : "");
 }
 
-static void list_mood(struct list *l, const struct edit *e,
-                      const struct parameter_target *t, const struct mood *m)
+static bool parse_number(const struct value_scale *s, const char *text,
+                         double *value, struct error *err)
 {
-    const char *path = e->skies.items[m->sky];
-    const char *slash = strrchr(path, '/');
-    struct parameter *k = add(l, PARAMETER_SKY_IMAGE, "sky image");
+    const char *p = text;
 
-    snprintf(k->text, sizeof k->text, "%.60s",
-             m->sky == 0     ? "none"
-             : slash != NULL ? slash + 1
-                             : path);
-    if (m->sky != 0) {
-        add_scale(l, PARAMETER_SKY_STRENGTH, "strength", &scale_light,
-                  m->sky_strength);
-        snprintf(k->text, sizeof k->text, "%.4g", m->sky_strength);
-        add_scale(l, PARAMETER_SKY_ROTATION, "rotation", &scale_rotation,
-                  m->sky_rotation_deg);
-    } else {
-        add_color(l, PARAMETER_COLOR, "constant", m->background);
-        add_channels(l, t, m->background);
-    }
-    add_scale(l, PARAMETER_EXPOSURE, "exposure", &scale_exposure, m->exposure);
-    k = add(l, PARAMETER_TONE, "tone");
-    snprintf(k->text, sizeof k->text, "%s", view_tones[m->tone]);
+    if (decimal_parse(&p, text + strlen(text), value) && *p == '\0' &&
+        *value >= s->least && *value <= s->most)
+        return true;
+    return fail(err, "found '%s', expected %s", text, s->expected);
 }
 
-int parameters_list(const struct edit *e, const struct scene *scene,
-                    const struct parameter_target *t,
-                    struct parameter knobs[PARAMETERS_MAX])
+/* ---- numbers: of a parameter or a channel ---- */
+
+static const struct value_scale *scale_of(const struct owner *o, int part)
 {
-    const struct edit_state *s = edit_shown(e);
-    struct list l = {knobs, 0};
-    uint32_t material;
-
-    if (t->page == PARAMETER_MATERIAL) {
-        list_material(&l, scene, t, &s->sources[t->index]);
-    } else if (t->page == PARAMETER_LIGHT) {
-        list_mood(&l, e, t, &s->mood);
-    } else {
-        material = s->assigned[t->index];
-        snprintf(add(&l, PARAMETER_ASSIGNED, "material")->text,
-                 sizeof knobs->text, "%.60s",
-                 material == NO_INDEX ? "as in the file" : e->names[material]);
-    }
-    return l.count;
+    if (part == 0 || !o->target->by_hsv)
+        return o->row->scale;
+    return part == 1 ? &scale_hue : &scale_unit;
 }
 
-/* ---- turning ---- */
-
-/* A colour that is turned or typed: the material's or the sky's. */
-static void turn_channel(double rgb[3], const struct parameter_target *t,
-                         int channel, int steps)
+static double number_of(const struct owner *o, const struct value *v, int part)
 {
     double hsv[3];
 
-    if (!t->by_hsv) {
-        rgb[channel] = value_scale_turned(&scale_unit, rgb[channel], steps);
-        return;
-    }
-    color_to_hsv(rgb, hsv);
-    hsv[channel] = value_scale_turned(channel == 0 ? &scale_hue : &scale_unit,
-                                      hsv[channel], steps);
-    color_from_hsv(hsv, rgb);
+    if (part == 0)
+        return v->number;
+    color_to_hsv(v->rgb, hsv);
+    return (o->target->by_hsv ? hsv : v->rgb)[part - 1];
 }
 
-static void turn_material(struct mtl_source *s,
-                          const struct parameter_target *t, int id, int steps)
+static void set_number(const struct owner *o, struct value *v, int part,
+                       double number)
 {
-    struct material m = material_params_material(s);
-    double rgb[3];
+    double hsv[3];
 
-    material_params_color(s, rgb);
-    switch (id) {
-    case PARAMETER_KIND: material_params_turn_kind(s, steps); break;
-    case PARAMETER_COLOR: break;
-    case PARAMETER_CHANNEL:
-    case PARAMETER_CHANNEL + 1:
-    case PARAMETER_CHANNEL + 2:
-        turn_channel(rgb, t, id - PARAMETER_CHANNEL, steps);
-        material_params_set_color(s, rgb);
-        break;
-    case PARAMETER_ROUGHNESS:
-        material_params_set_roughness(
-            s, value_scale_turned(&scale_unit, material_params_roughness(s),
-                                  steps));
-        break;
-    case PARAMETER_COAT:
-        /* black would be no coat, and the knob would be gone */
-        rgb[0] =
-            fmax(value_scale_turned(&scale_unit,
-                                    material_params_largest(s->ks.rgb), steps),
-                 scale_unit.step);
-        rgb[1] = rgb[2] = rgb[0];
-        material_params_put_color(&s->ks, rgb);
-        break;
-    case PARAMETER_IOR:
-        material_params_put_number(&s->ni,
-                                   value_scale_turned(&scale_ior, (double)m.ior,
-                                                      steps));
-        break;
-    case PARAMETER_COVER:
-        material_params_put_number(&s->d, value_scale_turned(&scale_unit,
-                                                             (double)m.opacity,
-                                                             steps));
-        break;
-    case PARAMETER_GLOW:
-        material_params_set_strength(
-            s, value_scale_turned(&scale_light, material_params_strength(s),
-                                  steps));
-        break;
-    case PARAMETER_GLOW_COLOR:
-        material_params_set_kelvin(s, s->kelvin.line == 0
-                                          ? KELVIN_WHITE
-                                          : value_scale_turned(&kelvins,
-                                                               s->kelvin.value,
-                                                               steps));
-        break;
-    default: s->maps_off ^= 1u << (id - PARAMETER_MAP); break;
-    }
-}
-
-static void turn_mood(const struct edit *e, struct mood *m,
-                      const struct parameter_target *t, int id, int steps)
-{
-    switch (id) {
-    case PARAMETER_SKY_IMAGE:
-        m->sky =
-            (m->sky + (steps > 0 ? 1 : e->skies.count - 1)) % e->skies.count;
-        break;
-    case PARAMETER_SKY_STRENGTH:
-        m->sky_strength =
-            value_scale_turned(&scale_light, m->sky_strength, steps);
-        break;
-    case PARAMETER_SKY_ROTATION:
-        m->sky_rotation_deg =
-            value_scale_turned(&scale_rotation, m->sky_rotation_deg, steps);
-        break;
-    case PARAMETER_EXPOSURE:
-        m->exposure = value_scale_turned(&scale_exposure, m->exposure, steps);
-        break;
-    case PARAMETER_TONE:
-        m->tone = (m->tone + (steps > 0 ? 1 : TONES - 1)) % TONES;
-        break;
-    case PARAMETER_CHANNEL:
-    case PARAMETER_CHANNEL + 1:
-    case PARAMETER_CHANNEL + 2:
-        turn_channel(m->background, t, id - PARAMETER_CHANNEL, steps);
-        material_params_shorten(m->background);
-        m->has_background = true;
-        break;
-    default: break;
-    }
-}
-
-/* The next material that has a name, round; between last and first what the
- * file says. */
-static uint32_t next_material(const struct edit *e, uint32_t material, int step)
-{
-    uint32_t count = e->material_count + 1;
-    uint32_t i = material == NO_INDEX ? count - 1 : material;
-
-    do
-        i = (i + (step > 0 ? 1 : count - 1)) % count;
-    while (i == 0 || (i < count - 1 && !e->now.is_there[i]));
-    return i == count - 1 ? NO_INDEX : i;
-}
-
-void parameter_turn(struct edit *e, const struct parameter_target *t, int id,
-                    int steps)
-{
-    struct mtl_source source;
-    struct mood mood = e->now.mood;
-
-    if (t->page == PARAMETER_MATERIAL) {
-        source = e->now.sources[t->index];
-        turn_material(&source, t, id, steps);
-        edit_material(e, t->index, &source);
-    } else if (t->page == PARAMETER_LIGHT) {
-        turn_mood(e, &mood, t, id, steps);
-        edit_mood(e, &mood);
+    if (part == 0) {
+        v->number = number;
+    } else if (!o->target->by_hsv) {
+        v->rgb[part - 1] = number;
     } else {
-        edit_assign(e, t->index,
-                    next_material(e, e->now.assigned[t->index], steps));
+        color_to_hsv(v->rgb, hsv);
+        hsv[part - 1] = number;
+        color_from_hsv(hsv, v->rgb);
     }
+}
+
+/* ---- list ---- */
+
+static const char *label_of(const struct owner *o, int part)
+{
+    static const char *const labels[2][PARTS] = {
+        {NULL, "red", "green", "blue"},
+        {NULL, "hue", "saturation", "value"},
+    };
+
+    return part == 0 ? o->row->label : labels[o->target->by_hsv][part];
+}
+
+static struct parameter describe(const struct owner *o, const struct value *v,
+                                 int part)
+{
+    const struct parameter_row *row = o->row;
+    struct parameter p = {.label = label_of(o, part),
+                          .fraction = -1,
+                          .takes_text = true};
+
+    if (part > 0 || row->type == VALUE_NUMBER) {
+        const struct value_scale *scale = scale_of(o, part);
+        double number = number_of(o, v, part);
+
+        p.fraction = fraction_of(scale, number);
+        format_number(scale, number, p.text);
+    } else if (row->type == VALUE_CHOICE) {
+        p.takes_text = row->expected != NULL;
+        snprintf(p.text, sizeof p.text, "%.60s",
+                 row->name(o, (uint32_t)v->number));
+        if (v->note != NULL)
+            snprintf(p.text + strlen(p.text), sizeof p.text - strlen(p.text),
+                     " %.50s", v->note);
+    } else {
+        p.has_color = true;
+        memcpy(p.color, v->rgb, sizeof p.color);
+        if (v->number > 0)
+            format_number(row->scale, v->number, p.text);
+        else
+            color_to_hex(v->rgb, p.text);
+    }
+    return p;
+}
+
+int parameters_list(const struct parameter_target *t,
+                    struct parameter list[PARAMETERS_MAX])
+{
+    struct owner o = parameter_owner(t, edit_shown(t->edit));
+    int row_count, count = 0;
+    const struct parameter_row *rows = parameter_table(t->page, &row_count);
+
+    for (int i = 0; i < row_count; i++) {
+        struct value v;
+        int parts = rows[i].type == VALUE_COLOR ? PARTS : 1;
+
+        o.row = &rows[i];
+        if (!parameter_read(&o, &v))
+            continue;
+        for (int part = 0; part < parts; part++) {
+            assert(count < PARAMETERS_MAX);
+            list[count] = describe(&o, &v, part);
+            list[count++].id = i * PARTS + part;
+        }
+    }
+    return count;
+}
+
+/* ---- changes ---- */
+
+/* The values of now, for the parameter of the id. */
+static struct owner open_parameter(const struct parameter_target *t, int id,
+                                   struct value *v)
+{
+    struct owner o = parameter_owner(t, &t->edit->now);
+    int count;
+
+    o.row = &parameter_table(t->page, &count)[id / PARTS];
+    parameter_read(&o, v);
+    return o;
+}
+
+static void take_change(struct owner *o, const struct value *v)
+{
+    const struct parameter_target *t = o->target;
+
+    o->row->set(o, v);
+    switch (t->page) {
+    case PARAMETER_MATERIAL:
+        edit_material(t->edit, t->index, &o->source);
+        break;
+    case PARAMETER_OBJECT: edit_assign(t->edit, t->index, o->assigned); break;
+    case PARAMETER_LIGHT: edit_mood(t->edit, &o->mood); break;
+    }
+}
+
+/* The next choice that has a name, or the one before; round. */
+static uint32_t next_choice(const struct owner *o, uint32_t i, bool is_forward)
+{
+    uint32_t count = 0;
+
+    while (o->row->name(o, count) != NULL)
+        count++;
+    do
+        i = (i + (is_forward ? 1 : count - 1)) % count;
+    while (*o->row->name(o, i) == '\0');
+    return i;
+}
+
+void parameter_step(const struct parameter_target *t, int id, int steps)
+{
+    struct value v;
+    struct owner o = open_parameter(t, id, &v);
+    int part = id % PARTS;
+
+    if (part > 0 || o.row->type == VALUE_NUMBER)
+        set_number(&o, &v, part,
+                   stepped(scale_of(&o, part), number_of(&o, &v, part), steps));
+    else if (o.row->type == VALUE_CHOICE)
+        v.number = next_choice(&o, (uint32_t)v.number, steps > 0);
+    else if (o.row->type == VALUE_LIGHT_COLOR)
+        v.number = v.number > 0 ? stepped(o.row->scale, v.number, steps)
+                                : KELVIN_WHITE;
+    else
+        return; /* a colour has no steps, its channels have */
+    take_change(&o, &v);
+}
+
+/* ---- texts ---- */
+
+static bool parse_color(const char *text, double most, struct value *v,
+                        struct error *err)
+{
+    if (color_parse(text, v->rgb, &v->number) &&
+        fmax(v->rgb[0], fmax(v->rgb[1], v->rgb[2])) <= most)
+        return true;
+    return fail(err,
+                "found '%s', expected #rrggbb, r g b or a temperature "
+                "such as 3000K",
+                text);
+}
+
+static bool parse_choice(const struct owner *o, const char *text,
+                         struct value *v, struct error *err)
+{
+    const char *name;
+
+    if (o->row->find != NULL) {
+        v->number = o->row->find(o, text);
+        return true;
+    }
+    for (uint32_t i = 0; (name = o->row->name(o, i)) != NULL; i++) {
+        if (*name == '\0' || strcmp(name, text) != 0)
+            continue;
+        v->number = i;
+        return true;
+    }
+    return fail(err, "found '%s', expected %s", text, o->row->expected);
+}
+
+/* A channel takes a whole colour as well. */
+static bool parse(const struct owner *o, const char *text, int part,
+                  struct value *v, struct error *err)
+{
+    const struct parameter_row *row = o->row;
+    struct error ignored;
+    double number;
+
+    if (row->type == VALUE_CHOICE)
+        return parse_choice(o, text, v, err);
+    if (row->type == VALUE_LIGHT_COLOR) /* a number alone is a temperature */
+        return parse_number(row->scale, text, &v->number, &ignored) ||
+               parse_color(text, RADIANCE_MAX, v, err);
+    if (row->type == VALUE_COLOR &&
+        (part == 0 || strpbrk(text, "#kK ") != NULL))
+        return parse_color(text, row->scale->most, v, err);
+    if (!parse_number(scale_of(o, part), text, &number, err))
+        return false;
+    set_number(o, v, part, number);
+    return true;
+}
+
+bool parameter_set_text(const struct parameter_target *t, int id,
+                        const char *text, struct error *err)
+{
+    struct value v;
+    struct owner o = open_parameter(t, id, &v);
+
+    if (!parse(&o, text, id % PARTS, &v, err))
+        return false;
+    take_change(&o, &v);
+    return true;
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * parameter.h - the values that a person turns: of a material, of an object, of
- * the light
+ * parameter.h - the values that a person can change: of a material, of an
+ * object, of the light
  *
- * A knob has a name, a text, perhaps a place on a scale and a colour; it is
- * turned by steps, or set by parameter_text.h. All goes through the edit's
- * history. What values mean for a material is material_from_source()'s to say.
+ * A parameter is a row of parameter_table.h. It is shown as a text with a
+ * position on a scale or a colour, and changed by steps or by a typed text.
+ * Every change goes through the edit's history.
  *
  * Units:     those of MTL and view files
  * Threads:   one thread at a time
+ * Errors:    a typed text that does not fit: what was expected
  */
 #ifndef GLIM_PARAMETER_H
 #define GLIM_PARAMETER_H
@@ -20,52 +21,40 @@
 
 enum parameter_page { PARAMETER_MATERIAL, PARAMETER_OBJECT, PARAMETER_LIGHT };
 
-/* Whose knobs. */
+/* The material, the object or the light whose parameters are meant. */
 struct parameter_target {
+    struct edit *edit;
+    const struct scene *scene;
     enum parameter_page page;
     uint32_t index; /* of the material or object */
-    bool by_hsv;    /* colours are turned by hue, saturation, value */
+    bool by_hsv;    /* channels of colours are hue, saturation and value */
 };
 
-/* What a knob turns. */
-enum parameter_id {
-    PARAMETER_KIND,
-    PARAMETER_COLOR,
-    PARAMETER_CHANNEL, /* and the two after it */
-    PARAMETER_ROUGHNESS = PARAMETER_CHANNEL + 3,
-    PARAMETER_COAT,
-    PARAMETER_IOR,
-    PARAMETER_GLOW,
-    PARAMETER_GLOW_COLOR,
-    PARAMETER_COVER,
-    PARAMETER_ASSIGNED,
-    PARAMETER_SKY_IMAGE,
-    PARAMETER_SKY_STRENGTH,
-    PARAMETER_SKY_ROTATION,
-    PARAMETER_EXPOSURE,
-    PARAMETER_TONE,
-    PARAMETER_MAP /* and the others after it */
-};
+#define PARAMETER_TEXT_BYTES 64
 
+/* A parameter as it is now. */
 struct parameter {
-    int id; /* enum parameter_id */
+    int id; /* for parameter_step() and parameter_set_text() */
     const char *label;
-    char text[64];
-    double place; /* on a scale from 0 to 1; below 0: there is none */
+    char text[PARAMETER_TEXT_BYTES];
+    double fraction; /* of its scale, 0 to 1; below 0: it has none */
+    bool takes_text;
     bool has_color;
     double color[3]; /* linear */
 };
 
-#define PARAMETERS_MAX   24
-#define PARAMETER_COARSE 10 /* steps at once */
+#define PARAMETERS_MAX 64
 
-/* The knobs of the target as they are shown now; their number. */
-int parameters_list(const struct edit *edit, const struct scene *scene,
-                    const struct parameter_target *target,
-                    struct parameter knobs[PARAMETERS_MAX]);
+/* Lists the target's parameters and returns their number. */
+int parameters_list(const struct parameter_target *target,
+                    struct parameter list[PARAMETERS_MAX]);
 
-/* Turns a knob by some steps; what has two states goes to the other. */
-void parameter_turn(struct edit *edit, const struct parameter_target *target,
-                    int id, int steps);
+/* Moves a number by some steps of its scale, and a choice to the next one or
+ * the one before. */
+void parameter_step(const struct parameter_target *target, int id, int steps);
+
+/* Gives a parameter that takes text the value that the text says. */
+bool parameter_set_text(const struct parameter_target *target, int id,
+                        const char *text, struct error *err);
 
 #endif

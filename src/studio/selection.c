@@ -41,19 +41,6 @@ bool selection_is_listed(const struct selection *s, uint32_t i)
     return s->first_tris[i] != NO_INDEX;
 }
 
-uint32_t selection_index(const struct selection *s)
-{
-    return s->page == PARAMETER_OBJECT ? s->object : s->material;
-}
-
-void selection_set(struct selection *s, uint32_t i)
-{
-    if (s->page == PARAMETER_OBJECT)
-        s->object = i;
-    else
-        s->material = i;
-}
-
 /* The next one in the list, or the same at its end. */
 static uint32_t next_in_list(const struct selection *s, uint32_t from, int step)
 {
@@ -67,75 +54,75 @@ static uint32_t next_in_list(const struct selection *s, uint32_t from, int step)
 
 void selection_move(struct selection *s, int steps)
 {
-    for (int i = abs(steps); i > 0; i--)
-        selection_set(s,
-                      next_in_list(s, selection_index(s), steps > 0 ? 1 : -1));
-}
+    uint32_t *index = &s->index[s->page];
 
-static bool is_in_list(const struct selection *s)
-{
-    return selection_index(s) < selection_count(s) &&
-           selection_is_listed(s, selection_index(s));
+    for (int i = abs(steps); i > 0; i--)
+        *index = next_in_list(s, *index, steps > 0 ? 1 : -1);
 }
 
 bool selection_has_one(const struct selection *s)
 {
-    return s->page == PARAMETER_LIGHT || is_in_list(s);
+    uint32_t index = s->index[s->page];
+
+    return s->page == PARAMETER_LIGHT ||
+           (index < selection_count(s) && selection_is_listed(s, index));
 }
 
 void selection_settle(struct selection *s)
 {
-    if (selection_count(s) == 0 || is_in_list(s))
-        return;
-    selection_move(s, -1);
-    if (!is_in_list(s))
-        selection_set(s, next_in_list(s, 0, 1));
+    if (!selection_has_one(s))
+        selection_move(s, -1);
+    if (!selection_has_one(s))
+        s->index[s->page] = next_in_list(s, 0, 1);
 }
 
 struct selection_names selection_names(const struct selection *s)
 {
     const struct scene *scene = &s->session->scene;
+    const struct edit *e = &s->session->edit;
+    uint32_t material = s->index[PARAMETER_MATERIAL];
+    uint32_t object = s->index[PARAMETER_OBJECT];
 
     return (struct selection_names){
-        xstrdup(s->material < s->session->edit.material_count
-                    ? s->session->edit.names[s->material]
-                    : ""),
-        xstrdup(s->object < scene->object_count ? scene->object_names[s->object]
-                                                : "")};
+        xstrdup(material < e->material_count ? e->names[material] : ""),
+        xstrdup(object < scene->object_count ? scene->object_names[object]
+                                             : "")};
 }
 
 bool selection_find(struct selection *s, const struct selection_names *names)
 {
     const struct scene *scene = &s->session->scene;
-    uint32_t material = mtl_find(scene, names->material);
-    uint32_t object = 0;
+    uint32_t found[] = {
+        [PARAMETER_MATERIAL] = mtl_find(scene, names->material),
+        [PARAMETER_OBJECT] = scene_find_object(scene, names->object),
+        [PARAMETER_LIGHT] = 0,
+    };
 
-    while (object < scene->object_count &&
-           strcmp(scene->object_names[object], names->object) != 0)
-        object++;
-    if (material != NO_INDEX)
-        s->material = material;
-    if (object < scene->object_count)
-        s->object = object;
-    return s->page == PARAMETER_MATERIAL ? material != NO_INDEX
-           : s->page == PARAMETER_OBJECT ? object < scene->object_count
-                                         : true;
+    for (int page = 0; page <= PARAMETER_LIGHT; page++)
+        if (found[page] != NO_INDEX)
+            s->index[page] = found[page];
+    return found[s->page] != NO_INDEX;
 }
 
 struct parameter_target selection_target(const struct selection *s)
 {
-    return (struct parameter_target){s->page, selection_index(s), s->by_hsv};
+    return (struct parameter_target){
+        .edit = &s->session->edit,
+        .scene = &s->session->scene,
+        .page = s->page,
+        .index = s->index[s->page],
+        .by_hsv = s->by_hsv,
+    };
 }
 
-int selection_knobs(const struct selection *s,
-                    struct parameter knobs[PARAMETERS_MAX])
+const char *selection_name(const struct selection *s, enum parameter_page page,
+                           uint32_t i)
 {
-    struct parameter_target target = selection_target(s);
+    const char *name = page == PARAMETER_OBJECT
+                           ? s->session->scene.object_names[i]
+                           : s->session->edit.names[i];
 
-    if (!selection_has_one(s))
-        return 0;
-    return parameters_list(&s->session->edit, &s->session->scene, &target,
-                           knobs);
+    return *name != '\0' ? name : "(no name)";
 }
 
 uint32_t selection_material_of(const struct selection *s, uint32_t object)

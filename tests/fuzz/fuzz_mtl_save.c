@@ -93,9 +93,11 @@ static void edit(struct session *s, const uint8_t *bytes)
 {
     struct edit *e = &s->edit;
     uint32_t material = bytes[0] % e->material_count;
-    struct parameter_target target = {.page = PARAMETER_MATERIAL,
+    struct parameter_target target = {.edit = e,
+                                      .scene = &s->scene,
+                                      .page = PARAMETER_MATERIAL,
                                       .index = material};
-    struct parameter knobs[PARAMETERS_MAX];
+    struct parameter list[PARAMETERS_MAX];
     int count;
 
     edit_break(e);
@@ -105,8 +107,8 @@ static void edit(struct session *s, const uint8_t *bytes)
         edit_duplicate(e, material);
     if (bytes[1] >= 254 || material == 0 || !e->now.is_there[material])
         return;
-    count = parameters_list(e, &s->scene, &target, knobs);
-    parameter_turn(e, &target, knobs[bytes[1] % count].id, bytes[2] - 128);
+    count = parameters_list(&target, list);
+    parameter_step(&target, list[bytes[1] % count].id, bytes[2] - 128);
 }
 
 static void save(struct session *s)

@@ -16,9 +16,9 @@
 #include "formats/mtl.h"
 #include "formats/mtl_save.h"
 #include "terminal/xmalloc.h"
-#include "studio/material_params.h"
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
+#include "tests/unit/kinds.h"
 
 struct loaded {
     struct scene scene;
@@ -339,7 +339,7 @@ static void test_what_is_needed(void **state)
 {
     static const struct {
         const char *text;
-        int turns;
+        int steps;
         const char *want;
     } cases[] = {
         {"newmtl m\nKd .5 .5 .5\n", 3,
@@ -367,8 +367,7 @@ static void test_what_is_needed(void **state)
         load(&l, "a.mtl", text, strlen(text));
         before = &l.scene.material_origins[1].source;
         after = *before;
-        for (int n = 0; n < abs(cases[i].turns); n++)
-            material_params_turn_kind(&after, cases[i].turns);
+        step_kind(&after, cases[i].steps);
         needed = mtl_source_needed(before, &after);
         change = (struct mtl_change){"m", NULL, before, &needed};
         got = rewrite(&l.scene, "a.mtl", text, strlen(text), &change, 1,

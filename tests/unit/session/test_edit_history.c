@@ -14,8 +14,8 @@
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
 #include "session/session_save.h"
-#include "studio/material_params.h"
 #include "tests/unit/files.h"
+#include "tests/unit/kinds.h"
 
 static char root[4096]; /* where the scenes are */
 
@@ -433,7 +433,7 @@ static void test_what_was_saved(void **state)
 static void test_kinds_leave_nothing(void **state)
 {
     static const struct {
-        int turns; /* from what was saved before */
+        int steps; /* from what was saved before */
         const char *wall;
     } cases[] = {
         {3, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 7\n"},
@@ -454,8 +454,7 @@ static void test_kinds_leave_nothing(void **state)
         size_t size_bytes;
         char *text;
 
-        for (int n = 0; n < abs(cases[i].turns); n++)
-            material_params_turn_kind(&source, cases[i].turns);
+        step_kind(&source, cases[i].steps);
         edit_material(&s.edit, wall, &source);
         save(&s);
         assert_false(edit_has_unsaved_materials(&s.edit));

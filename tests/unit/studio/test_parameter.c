@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * What a person sets is what material_from_source() finds, for materials as
- * files may have them; what a knob shows can be typed, and what was turned can
- * be turned back.
+ * material_from_source() finds the values that were set, for materials as files
+ * may have them. The text of a parameter can be typed, and steps are undone.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +9,7 @@
 
 #include "base/file.h"
 #include "formats/scene_load.h"
-#include "studio/material_params.h"
-#include "studio/parameter_text.h"
+#include "studio/material_parameters.h"
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
 
@@ -74,13 +72,57 @@ static double luminance(struct vec3 c)
     return 0.2126 * (double)c.x + 0.7152 * (double)c.y + 0.0722 * (double)c.z;
 }
 
-static bool is_kind(const struct mtl_source *s, const char *name)
+/* The material with these statements, and its parameter of this name. */
+static struct owner open_source(const struct mtl_source *source,
+                                const char *label)
 {
-    return strcmp(material_params_kind(s), name) == 0;
+    struct owner o = {.target = NULL};
+
+    material_parameters_open(&o, source);
+    for (int i = 0; i < MATERIAL_PARAMETERS; i++) {
+        const struct parameter_row *row = &material_parameters[i];
+
+        if (strcmp(row->label, label) == 0 && (row->kinds >> o.kind & 1) != 0)
+            o.row = row;
+    }
+    return o;
 }
 
-/* All kinds are reached one after the other, with the colour kept. */
-static void kinds_turn(void **state)
+/* False if the material has no such parameter. */
+static bool get(const struct mtl_source *source, const char *label,
+                struct value *value)
+{
+    struct owner o = open_source(source, label);
+
+    return o.row != NULL && parameter_read(&o, value);
+}
+
+static void set(struct mtl_source *source, const char *label,
+                const struct value *value)
+{
+    struct owner o = open_source(source, label);
+
+    if (o.row == NULL)
+        return;
+    o.row->set(&o, value);
+    *source = o.source;
+}
+
+static struct value get_color(const struct mtl_source *source)
+{
+    struct value value;
+
+    assert_true(get(source, "colour", &value) || get(source, "tint", &value));
+    return value;
+}
+
+static struct material material_of(const struct mtl_source *source)
+{
+    return open_source(source, "").material;
+}
+
+/* Each kind can be chosen, with the colour kept. */
+static void kinds_keep_the_color(void **state)
 {
     static const char *const names[] = {"diffuse", "plastic", "metal", "glass",
                                         "thin glass"};
@@ -88,26 +130,24 @@ static void kinds_turn(void **state)
     (void)state;
     for (int round = 0; round < 2000; round++) {
         struct mtl_source s = any_source();
-        double before[3], after[3];
-        int first = 0;
+        struct value before = get_color(&s), kind;
+        int first;
 
-        material_params_color(&s, before);
-        while (!is_kind(&s, names[first]))
-            first++;
+        assert_true(get(&s, "type", &kind));
+        first = (int)kind.number;
+        assert_string_equal(material_parameters_kind(&s), names[first]);
         for (int i = 1; i <= 10; i++) {
-            struct material m;
+            struct value after;
 
-            material_params_turn_kind(&s, 1);
-            assert_string_equal(material_params_kind(&s),
+            kind.number = (first + i) % 5;
+            set(&s, "type", &kind);
+            assert_string_equal(material_parameters_kind(&s),
                                 names[(first + i) % 5]);
-            material_params_color(&s, after);
+            after = get_color(&s);
             for (int k = 0; k < 3; k++)
-                check_close(after[k], before[k], 1e-6);
-            m = material_params_material(&s);
-            check_color(m.color, before);
+                check_close(after.rgb[k], before.rgb[k], 1e-6);
+            check_color(material_of(&s).color, before.rgb);
         }
-        material_params_turn_kind(&s, -1);
-        assert_string_equal(material_params_kind(&s), names[(first + 4) % 5]);
     }
 }
 
@@ -116,39 +156,41 @@ static void values_arrive(void **state)
     (void)state;
     for (int round = 0; round < 2000; round++) {
         struct mtl_source s = any_source();
-        double rgb[3] = {.01 + check_random(&seed), check_random(&seed),
-                         check_random(&seed)};
-        double x = check_random(&seed), light[3];
+        struct value color = {.rgb = {.01 + check_random(&seed),
+                                      check_random(&seed),
+                                      check_random(&seed)}};
+        struct value roughness = {.number = check_random(&seed)}, found;
+        double x = roughness.number, bright;
         struct material m;
 
-        rgb[0] = fmin(rgb[0], 1);
-        material_params_set_color(&s, rgb);
-        m = material_params_material(&s);
-        check_color(m.color, rgb);
-        material_params_set_roughness(&s, x);
-        assert_true((float)material_params_roughness(&s) == (float)x);
-        m = material_params_material(&s);
+        color.rgb[0] = fmin(color.rgb[0], 1);
+        set(&s, "colour", &color);
+        set(&s, "tint", &color);
+        check_color(material_of(&s).color, color.rgb);
+        set(&s, "roughness", &roughness);
+        if (get(&s, "roughness", &found))
+            assert_true((float)found.number == (float)x);
+        m = material_of(&s);
         if (m.kind == MATERIAL_ROUGH_DIFFUSE)
             check_close((double)m.alpha, x, 1e-6);
         else if (m.kind == MATERIAL_METAL || m.kind == MATERIAL_PLASTIC ||
                  m.kind == MATERIAL_GLASS)
             check_close((double)m.alpha, x * x, 1e-6);
-        material_params_set_light_color(&s, rgb);
-        material_params_set_strength(&s, 8);
-        material_params_light_color(&s, light);
-        m = material_params_material(&s);
+        set(&s, "of colour", &color);
+        set(&s, "light", &(struct value){.number = 8});
+        assert_true(get(&s, "of colour", &found));
         for (int k = 0; k < 3; k++)
-            light[k] *= 8;
-        check_color(m.emission, light);
-        x = luminance(m.emission);
-        material_params_set_kelvin(&s, 3000);
-        m = material_params_material(&s);
-        check_close(luminance(m.emission), x, 1e-3 * x);
+            found.rgb[k] *= 8;
+        check_color(material_of(&s).emission, found.rgb);
+        bright = luminance(material_of(&s).emission);
+        set(&s, "of colour", &(struct value){.number = 3000});
+        m = material_of(&s);
+        check_close(luminance(m.emission), bright, 1e-3 * bright);
         assert_true(m.emission.x > m.emission.y && m.emission.y > m.emission.z);
     }
 }
 
-/* ---- knobs, of a scene that was read ---- */
+/* ---- parameters of a scene that was read ---- */
 
 struct stage {
     struct scene scene;
@@ -180,7 +222,7 @@ static void close_stage(struct stage *s)
     warnings_free(&s->report);
 }
 
-static void same_knobs(const struct parameter *a, const struct parameter *b,
+static void check_same(const struct parameter *a, const struct parameter *b,
                        int count)
 {
     for (int i = 0; i < count; i++) {
@@ -189,10 +231,32 @@ static void same_knobs(const struct parameter *a, const struct parameter *b,
     }
 }
 
-/* Turned up by some steps and down again, in the middle of its scale. */
-static void knobs_turn_back(void **state)
+static struct parameter_target target_of(struct stage *s,
+                                         enum parameter_page page,
+                                         uint32_t index, bool by_hsv)
 {
-    static const struct parameter_target targets[] = {
+    return (struct parameter_target){&s->edit, &s->scene, page, index, by_hsv};
+}
+
+static const struct parameter *find(const struct parameter *list, int count,
+                                    const char *label)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(list[i].label, label) == 0)
+            return &list[i];
+    print_error("no parameter '%s'\n", label);
+    assert_true(false);
+    return NULL;
+}
+
+/* Steps of a parameter that follow each other are undone at once. */
+static void steps_are_undone(void **state)
+{
+    static const struct {
+        enum parameter_page page;
+        uint32_t index;
+        bool by_hsv;
+    } targets[] = {
         {PARAMETER_MATERIAL, 1, false}, {PARAMETER_MATERIAL, 1, true},
         {PARAMETER_MATERIAL, 2, false}, {PARAMETER_OBJECT, 1, false},
         {PARAMETER_LIGHT, 0, false},    {PARAMETER_LIGHT, 0, true},
@@ -203,8 +267,10 @@ static void knobs_turn_back(void **state)
     open_stage(&s);
     edit_sky(&s.edit, "b.hdr");
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) {
+        struct parameter_target target =
+            target_of(&s, targets[i].page, targets[i].index, targets[i].by_hsv);
         struct parameter before[PARAMETERS_MAX], after[PARAMETERS_MAX];
-        int count = parameters_list(&s.edit, &s.scene, &targets[i], before);
+        int count = parameters_list(&target, before);
 
         assert_in_range(count, 1, PARAMETERS_MAX);
         for (int k = 0; k < count; k++) {
@@ -212,65 +278,89 @@ static void knobs_turn_back(void **state)
 
             edit_break(&s.edit);
             for (int n = 0; n < 3; n++)
-                parameter_turn(&s.edit, &targets[i], before[k].id, 1);
+                parameter_step(&target, before[k].id, 1);
             if (s.edit.done_count == done)
-                continue; /* a swatch, or at the end of its scale */
+                continue; /* a colour, or at the end of its scale */
             assert_int_equal(s.edit.done_count, done + 1);
             assert_true(edit_undo(&s.edit));
-            assert_int_equal(parameters_list(&s.edit, &s.scene, &targets[i],
-                                             after),
-                             count);
-            same_knobs(before, after, count);
+            assert_int_equal(parameters_list(&target, after), count);
+            check_same(before, after, count);
         }
     }
     close_stage(&s);
 }
 
-/* What a knob shows, typed into it, shows the same; nonsense is refused and
+/* A choice of n is as before after n steps in either direction. */
+static void choices_go_round(void **state)
+{
+    static const struct {
+        enum parameter_page page;
+        const char *label;
+        int count;
+    } choices[] = {{PARAMETER_MATERIAL, "type", 5},
+                   {PARAMETER_MATERIAL, "map_Kd", 2},
+                   {PARAMETER_OBJECT, "material", 3},
+                   {PARAMETER_LIGHT, "tone", 3}};
+    struct stage s;
+
+    (void)state;
+    open_stage(&s);
+    for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
+        struct parameter_target target =
+            target_of(&s, choices[i].page, 1, false);
+        struct parameter list[PARAMETERS_MAX];
+        int count = parameters_list(&target, list);
+        struct parameter first = *find(list, count, choices[i].label);
+
+        for (int direction = -1; direction <= 1; direction += 2) {
+            for (int n = 1; n <= choices[i].count; n++) {
+                bool is_same;
+
+                parameter_step(&target, first.id, direction);
+                count = parameters_list(&target, list);
+                is_same = strcmp(find(list, count, first.label)->text,
+                                 first.text) == 0;
+                assert_int_equal(is_same, n == choices[i].count);
+            }
+        }
+    }
+    close_stage(&s);
+}
+
+/* The text of a parameter, typed, gives the same text; nonsense is refused and
  * changes nothing. */
-static void shown_texts_can_be_typed(void **state)
+static void texts_can_be_typed(void **state)
 {
     struct stage s;
 
     (void)state;
     open_stage(&s);
     for (uint32_t m = 1; m <= 2; m++) {
-        struct parameter_target target = {PARAMETER_MATERIAL, m, m == 2};
+        struct parameter_target target =
+            target_of(&s, PARAMETER_MATERIAL, m, m == 2);
         struct parameter before[PARAMETERS_MAX], after[PARAMETERS_MAX];
-        int count = parameters_list(&s.edit, &s.scene, &target, before);
+        int count = parameters_list(&target, before);
         struct error err;
 
         for (int k = 0; k < count; k++) {
             size_t done = s.edit.done_count;
             bool is_map = strncmp(before[k].label, "map", 3) == 0;
 
-            assert_int_equal(knob_takes_text(before[k].id), k > 0 && !is_map);
+            assert_int_equal(before[k].takes_text, k > 0 && !is_map);
             if (k == 0 || is_map || strcmp(before[k].text, "off") == 0)
                 continue;
             assert_false(
-                knob_set_text(&s.edit, &target, before[k].id, "many", &err));
+                parameter_set_text(&target, before[k].id, "many", &err));
             check_has(err.text, "found 'many', expected ");
             assert_int_equal(s.edit.done_count, done);
-            check_or_say(knob_set_text(&s.edit, &target, before[k].id,
-                                       before[k].text, &err),
+            check_or_say(parameter_set_text(&target, before[k].id,
+                                            before[k].text, &err),
                          err.text);
-            assert_int_equal(parameters_list(&s.edit, &s.scene, &target, after),
-                             count);
+            assert_int_equal(parameters_list(&target, after), count);
             assert_string_equal(after[k].text, before[k].text);
         }
     }
     close_stage(&s);
-}
-
-static const struct parameter *find(const struct parameter *knobs, int count,
-                                    const char *label)
-{
-    for (int i = 0; i < count; i++)
-        if (strcmp(knobs[i].label, label) == 0)
-            return &knobs[i];
-    print_error("no knob '%s'\n", label);
-    assert_true(false);
-    return NULL;
 }
 
 static void typed_values_arrive(void **state)
@@ -283,40 +373,42 @@ static void typed_values_arrive(void **state)
         {"of colour", "2700K", "2700K"},  {"of colour", "4000", "4000K"},
         {"cover", ".75", "0.75"},         {"of colour", "#ffffff", "#ffffff"},
     };
-    struct parameter_target target = {PARAMETER_MATERIAL, 1, false};
-    struct parameter knobs[PARAMETERS_MAX];
+    struct parameter_target target;
+    struct parameter list[PARAMETERS_MAX];
     struct stage s;
     int count;
 
     (void)state;
     open_stage(&s);
+    target = target_of(&s, PARAMETER_MATERIAL, 1, false);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct error err;
 
-        count = parameters_list(&s.edit, &s.scene, &target, knobs);
-        check_or_say(knob_set_text(&s.edit, &target,
-                                   find(knobs, count, cases[i].label)->id,
-                                   cases[i].text, &err),
+        count = parameters_list(&target, list);
+        check_or_say(parameter_set_text(&target,
+                                        find(list, count, cases[i].label)->id,
+                                        cases[i].text, &err),
                      err.text);
-        count = parameters_list(&s.edit, &s.scene, &target, knobs);
-        assert_string_equal(find(knobs, count, cases[i].label)->text,
+        count = parameters_list(&target, list);
+        assert_string_equal(find(list, count, cases[i].label)->text,
                             cases[i].shown);
     }
     /* a texture off and on */
-    assert_string_equal(find(knobs, count, "map_Kd")->text, "on no.png");
-    parameter_turn(&s.edit, &target, find(knobs, count, "map_Kd")->id, 1);
-    parameters_list(&s.edit, &s.scene, &target, knobs);
-    assert_string_equal(find(knobs, count, "map_Kd")->text, "off no.png");
+    assert_string_equal(find(list, count, "map_Kd")->text, "on no.png");
+    parameter_step(&target, find(list, count, "map_Kd")->id, 1);
+    parameters_list(&target, list);
+    assert_string_equal(find(list, count, "map_Kd")->text, "off no.png");
     close_stage(&s);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kinds_turn),
+        cmocka_unit_test(kinds_keep_the_color),
         cmocka_unit_test(values_arrive),
-        cmocka_unit_test(knobs_turn_back),
-        cmocka_unit_test(shown_texts_can_be_typed),
+        cmocka_unit_test(steps_are_undone),
+        cmocka_unit_test(choices_go_round),
+        cmocka_unit_test(texts_can_be_typed),
         cmocka_unit_test(typed_values_arrive),
     };
 

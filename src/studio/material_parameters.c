@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#include "studio/material_parameters.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/decimal.h"
+#include "base/file.h"
+
+/* Ks of a plastic that had none; see MATERIAL_COAT. */
+#define COAT_DEFAULT 0.5
+
+/* ---- statements ---- */
+
+static void put_number(struct mtl_number *n, double value)
+{
+    *n = (struct mtl_number){decimal_shortened(value),
+                             n->line != 0 ? n->line : 1};
+}
+
+static void put_color(struct mtl_color *c, const double rgb[3])
+{
+    for (int i = 0; i < 3; i++)
+        c->rgb[i] = decimal_shortened(rgb[i]);
+    c->line = c->line != 0 ? c->line : 1;
+}
+
+static void put_grey(struct mtl_color *c, double value)
+{
+    put_color(c, (const double[3]){value, value, value});
+}
+
+static double largest(const double rgb[3])
+{
+    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
+}
+
+/* A number that a statement sets and the material has as a float. */
+static bool get_statement(const struct owner *o, struct value *v)
+{
+    const void *at = (const char *)&o->material + o->row->result;
+
+    v->number = (double)*(const float *)at;
+    return true;
+}
+
+static void set_statement(struct owner *o, const struct value *v)
+{
+    void *number = (char *)&o->source + o->row->member;
+
+    put_number(number, v->number);
+}
+
+/* ---- kind and colour of a material ---- */
+
+/* Kinds of a parameter_row. */
+#define DIFFUSE (1u << MATERIAL_DIFFUSE | 1u << MATERIAL_ROUGH_DIFFUSE)
+#define PLASTIC (1u << MATERIAL_PLASTIC)
+#define METAL   (1u << MATERIAL_METAL)
+#define GLASS   (1u << MATERIAL_GLASS)
+#define THIN    (1u << MATERIAL_THIN_GLASS)
+#define OPAQUE  (DIFFUSE | PLASTIC | METAL)
+#define CLEAR   (GLASS | THIN)
+
+/* Rough diffuse is diffuse with another roughness. */
+static const struct {
+    uint32_t bits;
+    const char *name;
+} kinds[] = {
+    {DIFFUSE, "diffuse"}, {PLASTIC, "plastic"}, {METAL, "metal"},
+    {GLASS, "glass"},     {THIN, "thin glass"},
+};
+
+#define KINDS (sizeof kinds / sizeof kinds[0])
+
+void material_parameters_open(struct owner *o, const struct mtl_source *source)
+{
+    struct warnings ignored = {0};
+
+    o->source = *source;
+    o->material = material_from_source(source, "", &ignored);
+    o->kind = o->material.kind;
+    warnings_free(&ignored);
+}
+
+static bool is_kind(const struct owner *o, uint32_t bits)
+{
+    return (bits >> o->kind & 1) != 0;
+}
+
+static const char *kind_name(const struct owner *o, uint32_t i)
+{
+    (void)o;
+    return i < KINDS ? kinds[i].name : NULL;
+}
+
+static bool get_kind(const struct owner *o, struct value *v)
+{
+    for (size_t i = 0; i < KINDS; i++)
+        if (is_kind(o, kinds[i].bits))
+            v->number = (double)i;
+    return true;
+}
+
+/* Offset of the statement that has the colour of this kind of material. */
+static size_t color_member(const struct owner *o)
+{
+    if (!is_kind(o, OPAQUE))
+        return offsetof(struct mtl_source, tf);
+    return is_kind(o, METAL) && !(o->source.pm.value >= 0.5)
+               ? offsetof(struct mtl_source, ks)
+               : offsetof(struct mtl_source, kd);
+}
+
+static bool get_color(const struct owner *o, struct value *v)
+{
+    const void *at = (const char *)&o->source + color_member(o);
+    const struct mtl_color *c = at;
+    struct vec3 found = o->material.color;
+
+    v->rgb[0] = c->line != 0 ? c->rgb[0] : (double)found.x;
+    v->rgb[1] = c->line != 0 ? c->rgb[1] : (double)found.y;
+    v->rgb[2] = c->line != 0 ? c->rgb[2] : (double)found.z;
+    return true;
+}
+
+static void set_color(struct owner *o, const struct value *v)
+{
+    void *color = (char *)&o->source + color_member(o);
+
+    put_color(color, v->rgb);
+}
+
+static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
+{
+    put_number(&s->illum, bits == METAL ? 3 : 2);
+    put_color(&s->kd, rgb);
+    if (bits == METAL || s->pm.line != 0)
+        put_number(&s->pm, bits == METAL ? 1 : 0);
+    if (bits == PLASTIC && s->ks.rgb[0] == 0 && s->ks.rgb[1] == 0 &&
+        s->ks.rgb[2] == 0)
+        put_grey(&s->ks, COAT_DEFAULT);
+    if (bits == DIFFUSE && s->ks.line != 0)
+        put_grey(&s->ks, 0);
+}
+
+/* The material keeps its colour. Maps that would make another kind of it are
+ * off. */
+static void set_kind(struct owner *o, const struct value *v)
+{
+    uint32_t bits = kinds[(size_t)v->number].bits;
+    struct mtl_source *s = &o->source;
+    struct value color;
+
+    get_color(o, &color);
+    if (s->maps[MTL_MAP_KS] != NO_INDEX)
+        s->maps_off |= 1u << MTL_MAP_KS;
+    if (s->maps[MTL_MAP_PM] != NO_INDEX)
+        s->maps_off |= 1u << MTL_MAP_PM;
+    if ((bits & OPAQUE) != 0) {
+        set_opaque(s, bits, color.rgb);
+        return;
+    }
+    put_number(&s->illum, bits == GLASS ? 7 : 4);
+    put_color(&s->tf, color.rgb);
+}
+
+/* ---- surface of a material ---- */
+
+static bool get_roughness(const struct owner *o, struct value *v)
+{
+    const struct mtl_source *s = &o->source;
+
+    if (is_kind(o, DIFFUSE))
+        v->number = s->kd_roughness.value;
+    else
+        v->number =
+            s->pr.line != 0 ? s->pr.value : sqrt((double)o->material.alpha);
+    return true;
+}
+
+static void set_roughness(struct owner *o, const struct value *v)
+{
+    put_number(is_kind(o, DIFFUSE) ? &o->source.kd_roughness : &o->source.pr,
+               v->number);
+}
+
+static bool get_coat(const struct owner *o, struct value *v)
+{
+    v->number = largest(o->source.ks.rgb);
+    return true;
+}
+
+static void set_coat(struct owner *o, const struct value *v)
+{
+    put_grey(&o->source.ks, v->number);
+}
+
+static const char *map_state(const struct owner *o, uint32_t i)
+{
+    static const char *const names[] = {"on", "off", NULL};
+
+    (void)o;
+    return names[i];
+}
+
+static bool get_map(const struct owner *o, struct value *v)
+{
+    uint32_t texture = o->source.maps[o->row->map];
+
+    if (texture == NO_INDEX)
+        return false;
+    v->number = o->source.maps_off >> o->row->map & 1;
+    v->note = path_name(o->target->scene->texture_paths[texture]);
+    return true;
+}
+
+static void set_map(struct owner *o, const struct value *v)
+{
+    o->source.maps_off &= ~(1u << o->row->map);
+    o->source.maps_off |= (uint32_t)v->number << o->row->map;
+}
+
+/* ---- emission of a material ---- */
+
+/* Luminance of a black body, or the largest channel of Ke. */
+static double strength_of(const struct mtl_source *s)
+{
+    return s->kelvin.line != 0 ? s->luminance.value : largest(s->ke.rgb);
+}
+
+static bool get_emission(const struct owner *o, struct value *v)
+{
+    v->number = strength_of(&o->source);
+    return true;
+}
+
+static void set_emission(struct owner *o, const struct value *v)
+{
+    struct mtl_source *s = &o->source;
+    double most = largest(s->ke.rgb);
+    double rgb[3];
+
+    if (s->kelvin.line != 0) {
+        put_number(&s->luminance, v->number);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        rgb[i] = most > 0 ? s->ke.rgb[i] / most * v->number : v->number;
+    put_color(&s->ke, rgb);
+}
+
+/* White if nothing is emitted. */
+static bool get_emission_color(const struct owner *o, struct value *v)
+{
+    struct mtl_color light = mtl_source_light(&o->source);
+    double most = largest(light.rgb);
+
+    v->number = o->source.kelvin.line != 0 ? o->source.kelvin.value : 0;
+    for (int i = 0; i < 3; i++)
+        v->rgb[i] = most > 0 ? light.rgb[i] / most : 1;
+    return strength_of(&o->source) > 0;
+}
+
+/* A black body gets the luminance of the colour that it replaces; a colour
+ * the largest channel of the light that it replaces. */
+static void set_emission_color(struct owner *o, const struct value *v)
+{
+    struct mtl_source *s = &o->source;
+    double strength = largest(mtl_source_light(s).rgb);
+    double most = largest(v->rgb);
+    double luminance = s->luminance.value;
+    double rgb[3];
+
+    if (v->number > 0) {
+        if (s->kelvin.line == 0) /* Rec.709 */
+            luminance = 0.2126 * s->ke.rgb[0] + 0.7152 * s->ke.rgb[1] +
+                        0.0722 * s->ke.rgb[2];
+        s->ke = (struct mtl_color){.line = 0};
+        put_number(&s->kelvin, v->number);
+        put_number(&s->luminance, luminance);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        rgb[i] = most > 0 ? v->rgb[i] / most * strength : 0;
+    s->kelvin = s->luminance = (struct mtl_number){.line = 0};
+    put_color(&s->ke, rgb);
+}
+
+/* ---- table ---- */
+
+#define STATEMENT(name, found)                   \
+    .get = get_statement, .set = set_statement,  \
+    .member = offsetof(struct mtl_source, name), \
+    .result = offsetof(struct material, found)
+#define MAP(which) \
+    .get = get_map, .set = set_map, .name = map_state, .map = which
+
+const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
+    {"type", ALL, VALUE_CHOICE, NULL, .get = get_kind, .set = set_kind,
+     .name = kind_name},
+    {"colour", OPAQUE, VALUE_COLOR, &scale_unit, .get = get_color,
+     .set = set_color},
+    {"tint", CLEAR, VALUE_COLOR, &scale_unit, .get = get_color,
+     .set = set_color},
+    {"roughness", OPAQUE | GLASS, VALUE_NUMBER, &scale_unit,
+     .get = get_roughness, .set = set_roughness},
+    {"coat", PLASTIC, VALUE_NUMBER, &scale_coat, .get = get_coat,
+     .set = set_coat},
+    {"index", CLEAR, VALUE_NUMBER, &scale_ior, STATEMENT(ni, ior)},
+    {"cover", OPAQUE, VALUE_NUMBER, &scale_unit, STATEMENT(d, opacity)},
+    {"light", ALL, VALUE_NUMBER, &scale_emission, .get = get_emission,
+     .set = set_emission},
+    {"of colour", ALL, VALUE_LIGHT_COLOR, &scale_kelvin,
+     .get = get_emission_color, .set = set_emission_color},
+    {"map_Kd", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KD)},
+    {"map_Ks", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KS)},
+    {"map_Ke", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_KE)},
+    {"map_Pr", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PR)},
+    {"map_Pm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_PM)},
+    {"map_d", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_D)},
+    {"norm", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_NORM)},
+    {"map_Bump", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_BUMP)},
+};
+
+const char *material_parameters_kind(const struct mtl_source *source)
+{
+    struct owner o = {.target = NULL};
+    struct value v;
+
+    material_parameters_open(&o, source);
+    get_kind(&o, &v);
+    return kinds[(size_t)v.number].name;
+}
+
+void material_parameters_swatch(const struct mtl_source *source, double rgb[3])
+{
+    struct owner o = {.target = NULL};
+    struct value v;
+
+    material_parameters_open(&o, source);
+    if (!(largest(mtl_source_light(source).rgb) > 0) ||
+        !get_emission_color(&o, &v))
+        get_color(&o, &v);
+    memcpy(rgb, v.rgb, sizeof v.rgb);
+}

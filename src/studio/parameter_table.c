@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "studio/parameter_table.h"
+
+#include <string.h>
+
+#include "base/decimal.h"
+#include "base/file.h"
+#include "picture/blackbody.h"
+#include "studio/material_parameters.h"
+
+/* ---- scales ---- */
+
+#define TO_1   "a number from 0 to 1"
+#define TO_MAX "a number from 0 to 1e30"
+
+const struct value_scale scale_unit = {0, 1, 0, 1, 0.01, 3, .expected = TO_1};
+const struct value_scale scale_coat = {
+    0, 1, 0, 1, 0.01, 3, .is_positive = true, .expected = TO_1};
+const struct value_scale scale_hue = {
+    0, 360, 0, 360, 1, 3, .wraps = true, .expected = "an angle from 0 to 360"};
+const struct value_scale scale_ior = {
+    1e-6, 1e6, 1, 3, 0.01, 4, .expected = "a number above 0"};
+const struct value_scale scale_emission = {
+    0, RADIANCE_MAX, 0.01, 1e4, 0, 4, .zero = "off", .expected = TO_MAX};
+const struct value_scale scale_kelvin = {
+    BLACKBODY_LEAST, BLACKBODY_GREATEST, 1000, 20000, 100, 6, .suffix = "K"};
+static const struct value_scale scale_radiance = {
+    0, RADIANCE_MAX, 0, 1, 0.01, 3, .expected = TO_MAX};
+static const struct value_scale scale_sky = {0, RADIANCE_MAX,      0.01, 1e4, 0,
+                                             4, .expected = TO_MAX};
+static const struct value_scale scale_rotation = {
+    -1e6, 1e6, 0, 360, 1, 4, .wraps = true, .expected = "an angle in degrees"};
+static const struct value_scale scale_exposure = {
+    -100,
+    100,
+    -8,
+    8,
+    0.1,
+    3,
+    .suffix = " stops",
+    .expected = "a number of stops from -100 to 100"};
+
+/* ---- material of an object ---- */
+
+/* After the last material comes the file's own. */
+static const char *material_name(const struct owner *o, uint32_t i)
+{
+    const struct edit *e = o->target->edit;
+
+    if (i >= e->material_count)
+        return i == e->material_count ? "as in the file" : NULL;
+    return i == o->assigned || e->now.is_there[i] ? e->names[i] : "";
+}
+
+static bool get_assigned(const struct owner *o, struct value *v)
+{
+    v->number =
+        o->assigned != NO_INDEX ? o->assigned : o->target->edit->material_count;
+    return true;
+}
+
+static void set_assigned(struct owner *o, const struct value *v)
+{
+    uint32_t i = (uint32_t)v->number;
+
+    o->assigned = i < o->target->edit->material_count ? i : NO_INDEX;
+}
+
+/* ---- light ---- */
+
+/* Kinds of a parameter_row: of a light without image, and with one. */
+#define NO_SKY  (1u << 0)
+#define HAS_SKY (1u << 1)
+
+static const char *sky_name(const struct owner *o, uint32_t i)
+{
+    const struct name_table *skies = &o->target->edit->skies;
+
+    if (i == 0)
+        return "none";
+    return i < skies->count ? path_name(skies->items[i]) : NULL;
+}
+
+static uint32_t find_sky(const struct owner *o, const char *path)
+{
+    return edit_sky(o->target->edit, path);
+}
+
+/* A double of struct mood. */
+static bool get_mood(const struct owner *o, struct value *v)
+{
+    const void *at = (const char *)&o->mood + o->row->member;
+
+    v->number = *(const double *)at;
+    return true;
+}
+
+static void set_mood(struct owner *o, const struct value *v)
+{
+    void *at = (char *)&o->mood + o->row->member;
+
+    *(double *)at = v->number;
+}
+
+/* A uint32_t of struct mood. */
+static bool get_mood_choice(const struct owner *o, struct value *v)
+{
+    const void *at = (const char *)&o->mood + o->row->member;
+
+    v->number = *(const uint32_t *)at;
+    return true;
+}
+
+static void set_mood_choice(struct owner *o, const struct value *v)
+{
+    void *at = (char *)&o->mood + o->row->member;
+
+    *(uint32_t *)at = (uint32_t)v->number;
+}
+
+static bool get_background(const struct owner *o, struct value *v)
+{
+    memcpy(v->rgb, o->mood.background, sizeof v->rgb);
+    return true;
+}
+
+static void set_background(struct owner *o, const struct value *v)
+{
+    for (int i = 0; i < 3; i++)
+        o->mood.background[i] = decimal_shortened(v->rgb[i]);
+    o->mood.has_background = true;
+}
+
+static const char *tone_name(const struct owner *o, uint32_t i)
+{
+    (void)o;
+    return i < TONES ? view_tones[i] : NULL;
+}
+
+/* ---- table ---- */
+
+#define MOOD(name) \
+    .get = get_mood, .set = set_mood, .member = offsetof(struct mood, name)
+#define MOOD_CHOICE(name)                           \
+    .get = get_mood_choice, .set = set_mood_choice, \
+    .member = offsetof(struct mood, name)
+
+static const struct parameter_row object_rows[] = {
+    {"material", ALL, VALUE_CHOICE, NULL, .get = get_assigned,
+     .set = set_assigned, .name = material_name,
+     .expected = "the name of a material"},
+};
+
+static const struct parameter_row light_rows[] = {
+    {"sky image", ALL, VALUE_CHOICE, NULL, MOOD_CHOICE(sky), .name = sky_name,
+     .find = find_sky, .expected = "the path of an image"},
+    {"strength", HAS_SKY, VALUE_NUMBER, &scale_sky, MOOD(sky_strength)},
+    {"rotation", HAS_SKY, VALUE_NUMBER, &scale_rotation,
+     MOOD(sky_rotation_deg)},
+    {"constant", NO_SKY, VALUE_COLOR, &scale_radiance, .get = get_background,
+     .set = set_background},
+    {"exposure", ALL, VALUE_NUMBER, &scale_exposure, MOOD(exposure)},
+    {"tone", ALL, VALUE_CHOICE, NULL, MOOD_CHOICE(tone), .name = tone_name,
+     .expected = "linear, reinhard or aces"},
+};
+
+#define COUNT(rows) ((int)(sizeof rows / sizeof rows[0]))
+
+static const struct {
+    const struct parameter_row *rows;
+    int count;
+} tables[] = {
+    [PARAMETER_MATERIAL] = {material_parameters, MATERIAL_PARAMETERS},
+    [PARAMETER_OBJECT] = {object_rows, COUNT(object_rows)},
+    [PARAMETER_LIGHT] = {light_rows, COUNT(light_rows)},
+};
+
+const struct parameter_row *parameter_table(enum parameter_page page,
+                                            int *count)
+{
+    *count = tables[page].count;
+    return tables[page].rows;
+}
+
+struct owner parameter_owner(const struct parameter_target *t,
+                             const struct edit_state *state)
+{
+    struct owner o = {.target = t};
+
+    switch (t->page) {
+    case PARAMETER_MATERIAL:
+        material_parameters_open(&o, &state->sources[t->index]);
+        break;
+    case PARAMETER_OBJECT: o.assigned = state->assigned[t->index]; break;
+    case PARAMETER_LIGHT:
+        o.mood = state->mood;
+        o.kind = o.mood.sky != 0;
+        break;
+    }
+    return o;
+}
+
+bool parameter_read(const struct owner *o, struct value *v)
+{
+    *v = (struct value){.number = 0};
+    return (o->row->kinds >> o->kind & 1) != 0 && o->row->get(o, v);
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+/*
+ * parameter_table.h - one row for each parameter: its label, its scale, how it
+ * is read and written
+ *
+ * A new parameter is a new row. A number that one MTL statement sets needs
+ * nothing else; other values have a function that reads them and one that
+ * writes them. Rows are listed on the screen in the order of the table.
+ *
+ * Units:     those of MTL and view files
+ * Ownership: names live as long as edit and scene do not change
+ * Threads:   one thread at a time
+ */
+#ifndef GLIM_PARAMETER_TABLE_H
+#define GLIM_PARAMETER_TABLE_H
+
+#include <stddef.h>
+
+#include "studio/parameter.h"
+
+struct value_scale {
+    double least, most; /* limits of a typed number */
+    double from, to;    /* ends of the scale, and limits of steps */
+    double step;        /* 0: a tenth of the value; only 0 is below `from` */
+    int digits;         /* in the text */
+    bool wraps;         /* 0 follows `to` */
+    bool is_positive;   /* steps end one step above 0 */
+    const char *suffix; /* after the number; NULL: none */
+    const char *zero;   /* text of 0; NULL: the number */
+    const char *expected;
+};
+
+/* Largest channel of a colour that is radiance. */
+#define RADIANCE_MAX 1e30
+
+extern const struct value_scale scale_unit;
+extern const struct value_scale scale_coat; /* 0 is no coat and no parameter */
+extern const struct value_scale scale_hue;
+extern const struct value_scale scale_ior;
+extern const struct value_scale scale_emission;
+extern const struct value_scale scale_kelvin;
+
+struct parameter_row;
+
+/* The values of a target, while one of its parameters is read or written. */
+struct owner {
+    const struct parameter_target *target;
+    const struct parameter_row *row;
+    struct mtl_source source; /* of a material, */
+    struct material material; /* and what glim makes of it */
+    uint32_t assigned;        /* of an object: its material, or NO_INDEX */
+    struct mood mood;         /* of the light */
+    uint32_t kind; /* enum material_kind; of the light: 1 if there is a sky */
+};
+
+enum value_type {
+    VALUE_NUMBER,
+    VALUE_CHOICE,
+    VALUE_COLOR, /* linear, with three channels as parameters of their own */
+    VALUE_LIGHT_COLOR /* largest channel 1; or a temperature, moved by steps */
+};
+
+struct value {
+    double number; /* or number of a choice, or kelvins of a colour (0: none) */
+    double rgb[3];
+    const char *note; /* after the text of a choice; NULL: none */
+};
+
+/* Kinds of owners: all. */
+#define ALL 0xffffffffu
+
+struct parameter_row {
+    const char *label;
+    uint32_t kinds; /* 1 << kind of the owners that have it */
+    enum value_type type;
+    const struct value_scale *scale; /* of the number, channels or kelvins */
+
+    /* False if the owner has no such parameter now. */
+    bool (*get)(const struct owner *owner, struct value *value);
+    void (*set)(struct owner *owner, const struct value *value);
+    size_t member; /* for get and set: offset in mtl_source or mood, */
+    size_t result; /* offset of the float in struct material, */
+    enum mtl_map map;
+
+    /* Name of choice i: "" if it cannot be chosen, NULL after the last. */
+    const char *(*name)(const struct owner *owner, uint32_t i);
+    /* Number of the choice that a text means; NULL: that of its name. */
+    uint32_t (*find)(const struct owner *owner, const char *text);
+    const char *expected; /* as text; NULL: choices are not typed */
+};
+
+/* The rows of a page. */
+const struct parameter_row *parameter_table(enum parameter_page page,
+                                            int *count);
+
+/* The target's values in this state of the edit. */
+struct owner parameter_owner(const struct parameter_target *target,
+                             const struct edit_state *state);
+
+/* Reads the value of owner->row. False if the owner has none. */
+bool parameter_read(const struct owner *owner, struct value *value);
+
+#endif
