@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/geometry.h"
 #include "base/lexer.h"
 #include "base/memory.h"
 #include "base/name_table.h"
@@ -115,25 +116,6 @@ static bool read_position(struct parser *p)
     return true;
 }
 
-/* Returns the unit vector; zero for vectors that are zero or not finite. */
-static struct vec3 normalized(const double v[3])
-{
-    double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    struct vec3 n = {0, 0, 0};
-
-    if (!(most > 0) || !isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2]))
-        return n;
-
-    double x = v[0] / most;
-    double y = v[1] / most;
-    double z = v[2] / most;
-    double length = sqrt(x * x + y * y + z * z);
-    n.x = (float)(x / length);
-    n.y = (float)(y / length);
-    n.z = (float)(z / length);
-    return n;
-}
-
 static bool read_normal(struct parser *p)
 {
     struct scene *scene = p->scene;
@@ -145,7 +127,10 @@ static bool read_normal(struct parser *p)
               sizeof *scene->normals))
         return false;
     scene->normals = array;
-    scene->normals[scene->normal_count++] = normalized(xyz);
+    if (!vec3d_normalize(xyz))
+        memset(xyz, 0, sizeof xyz); /* unusable */
+    scene->normals[scene->normal_count++] =
+        (struct vec3){(float)xyz[0], (float)xyz[1], (float)xyz[2]};
     return true;
 }
 

@@ -166,7 +166,7 @@ static bool read_shot(struct view_reader *r, const struct view_key *view_key,
         return fail_at(r, (struct word){.length = 0}, "eye and at",
                        view_key->name, err);
     snprintf(place, sizeof place, "%s:%" PRIu64, r->path, line);
-    if (!view_check(&shot, place, err))
+    if (!pose_check(&shot.pose, place, err))
         return false;
     r->view->shots[(int)number - 1] = shot.pose;
     r->view->has_shot[(int)number - 1] = true;
@@ -281,7 +281,7 @@ static bool finish_camera(struct view_reader *r, struct error *err)
                     r->path, line, r->eye_line ? "eye" : "at");
     r->view->has_camera = true;
     snprintf(place, sizeof place, "%s:%" PRIu64, r->path, line);
-    return view_check(r->view, place, err);
+    return pose_check(&r->view->pose, place, err);
 }
 
 bool view_parse(struct view *view, const char *text, size_t size_bytes,

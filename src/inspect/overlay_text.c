@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/angle.h"
+#include "base/geometry.h"
 #include "base/text_width.h"
 
 #include "kernels/vec.h"

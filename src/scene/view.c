@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/view.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,36 +19,6 @@ void view_init(struct view *view)
         .height_px = 576,
         .max_bounces = -1,
     };
-}
-
-static bool is_zero(const double v[3])
-{
-    return v[0] == 0 && v[1] == 0 && v[2] == 0;
-}
-
-bool view_check(const struct view *view, const char *place, struct error *err)
-{
-    double look[3];
-
-    for (int i = 0; i < 3; i++) {
-        look[i] = view->pose.at[i] - view->pose.eye[i];
-        if (!isfinite(look[i]) || !isfinite(view->pose.up[i]))
-            return fail(err,
-                        "%s: found a camera at infinity, expected finite "
-                        "numbers for eye, at and up",
-                        place);
-    }
-    if (is_zero(look))
-        return fail(err, "%s: found eye and at in one point, expected two",
-                    place);
-    if (is_zero(view->pose.up))
-        return fail(err, "%s: found 0 0 0, expected a direction for up", place);
-    if (!(view->pose.fovy_deg > 0 && view->pose.fovy_deg < 180))
-        return fail(err,
-                    "%s: found a fovy of %g degrees, expected one above "
-                    "0 and below 180",
-                    place, view->pose.fovy_deg);
-    return true;
 }
 
 void view_take_frame(struct view *view, const struct view *from)

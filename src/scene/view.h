@@ -2,17 +2,18 @@
 /*
  * view.h - where the camera stands, what the sky is, how the picture is exposed
  *
- * Units:     file units of the scene, degrees, pixels, radiance, stops
+ * Units:     as pose.h; pixels, radiance, degrees, stops
  * Ownership: view_free() frees what is in it
  * Threads:   one thread at a time
- * Errors:    an impossible camera; view_copy() and view_merge() return false,
- *            and change nothing, when memory is out
+ * Errors:    view_copy() and view_merge() return false, and change nothing,
+ *            when memory is out
  */
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
 
 #include "base/error.h"
 #include "scene/assign.h"
+#include "scene/pose.h"
 #include "kernels/tone.h"
 
 /* Views that have a number: 1 to 9 in the file, from 0 here. */
@@ -21,14 +22,6 @@
 /* Neither side of a picture is longer: its square fits no memory, but is no
  * nonsense. */
 #define VIEW_SIDE_MAX 65536
-
-/* The camera. */
-struct pose {
-    double eye[3], at[3], up[3];
-    double fovy_deg; /* vertical; above 0, below 180 */
-    double aperture; /* diameter of the lens; 0: a pinhole */
-    double focus;    /* from eye to the sharp plane; 0: as far as at */
-};
 
 /* The light that comes from no surface, and how the picture is developed. */
 struct lighting {
@@ -60,9 +53,6 @@ extern const char *const view_tones[TONES];
 
 /* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
 void view_init(struct view *view);
-
-/* True if eye, at and fovy make a camera; else the text says what is wrong. */
-bool view_check(const struct view *view, const char *place, struct error *err);
 
 /* Takes over what the file has changed from `before` to `after`; the rest of
  * `view` stays. The camera is one thing. */

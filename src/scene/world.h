@@ -28,8 +28,4 @@ void scene_frame(const struct scene *scene, struct view *view);
 bool scene_world(const struct scene *scene, const struct view *view,
                  uint32_t seed, struct world *world, struct error *err);
 
-/* True if the view's up runs along its direction: scene_world() then takes
- * another axis for it. */
-bool scene_up_is_parallel(const struct view *view);
-
 #endif

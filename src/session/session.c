@@ -95,7 +95,7 @@ static void complete_view(struct session *s)
     }
     if (!s->view.has_camera)
         scene_frame(&s->scene, &s->view);
-    if (scene_up_is_parallel(&s->view))
+    if (pose_up_is_parallel(&s->view.pose))
         warnings_add(&s->report, "views along their up",
                      "%s: found the camera's up along its view: took another "
                      "axis for it",
@@ -158,7 +158,7 @@ bool session_load(struct session *s, const struct options *options,
         !scene_load_sky(&s->scene, &s->view, &s->report, err))
         return false;
     complete_view(s);
-    if (!view_check(&s->view, options->scene_path, err))
+    if (!pose_check(&s->view.pose, options->scene_path, err))
         return false;
     xcheck(view_copy(&s->opened, &s->view));
     view_take_frame(&s->opened, &s->filed);

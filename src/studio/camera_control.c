@@ -15,6 +15,18 @@ static struct view *view_of(const struct camera_control *camera)
     return &camera->control->session->view;
 }
 
+static struct pose *pose_of(const struct camera_control *camera)
+{
+    return &view_of(camera)->pose;
+}
+
+static double aspect_of(const struct camera_control *camera)
+{
+    const struct view *view = view_of(camera);
+
+    return (double)view->width_px / view->height_px;
+}
+
 static const struct scene *scene_of(const struct camera_control *camera)
 {
     return &camera->control->session->scene;
@@ -66,7 +78,7 @@ static void look_around(struct camera_control *camera)
     if (!render_is_loaded(camera->control->session->render) ||
         s->tree.nodes == NULL)
         return;
-    clearance_follow(&camera->clearance, s, view_of(camera));
+    clearance_follow(&camera->clearance, s, pose_of(camera), aspect_of(camera));
     camera_input_adapt(&camera->input, camera->clearance.near,
                        camera->clearance.away);
 }
@@ -111,21 +123,21 @@ static void judge(struct camera_control *camera)
 
 static void add_step(struct camera_control *camera)
 {
-    camera_history_add(&camera->history, &view_of(camera)->pose);
+    camera_history_add(&camera->history, pose_of(camera));
 }
 
 static void say_lens(struct camera_control *camera)
 {
-    const struct view *v = view_of(camera);
+    const struct pose *pose = pose_of(camera);
 
     if (camera->held == HELD_KEYS_WIDEN)
         render_control_say(camera->control, "field of view %.3g degrees",
-                           v->pose.fovy_deg);
+                           pose->fovy_deg);
     else if (camera->held != HELD_KEYS_OPEN)
         return;
-    else if (v->pose.aperture > 0)
+    else if (pose->aperture > 0)
         render_control_say(camera->control, "lens open by %.3g",
-                           v->pose.aperture);
+                           pose->aperture);
     else
         render_control_say(camera->control, "a pinhole: everything is sharp");
 }
@@ -141,7 +153,7 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
            next_ns != UINT64_MAX) {
         look_around(camera);
         has_moved |=
-            camera_input_step(&camera->input, view_of(camera), next_ns);
+            camera_input_step(&camera->input, pose_of(camera), next_ns);
     }
     if (!has_moved)
         return;
@@ -189,8 +201,7 @@ static bool may_jump(struct camera_control *camera)
 static void jump(struct camera_control *camera, const struct pose *pose)
 {
     add_step(camera);
-    view_of(camera)->pose = *pose;
-    view_of(camera)->has_camera = true;
+    *pose_of(camera) = *pose;
     forget_place(camera);
     camera->control->must_restart = true;
 }
@@ -223,7 +234,7 @@ void camera_control_reset(struct camera_control *camera)
 
 static void travel(struct camera_control *camera, bool is_back)
 {
-    struct pose pose = view_of(camera)->pose;
+    struct pose pose = *pose_of(camera);
 
     if (!may_jump(camera))
         return;
@@ -233,8 +244,7 @@ static void travel(struct camera_control *camera, bool is_back)
                            is_back ? "nothing to undo" : "nothing to do again");
         return;
     }
-    view_of(camera)->pose = pose;
-    view_of(camera)->has_camera = true;
+    *pose_of(camera) = pose;
     forget_place(camera);
     camera->control->must_restart = true;
     render_control_say(camera->control, is_back ? "undone" : "done again");
@@ -297,12 +307,12 @@ void camera_control_switch_orbit(struct camera_control *camera)
 static void frame(struct camera_control *camera, const double lo[3],
                   const double hi[3], const char *name)
 {
-    struct view framed = *view_of(camera);
+    struct pose framed = *pose_of(camera);
 
     if (!may_jump(camera))
         return;
-    camera_frame(&framed, lo, hi);
-    jump(camera, &framed.pose);
+    camera_frame(&framed, aspect_of(camera), lo, hi);
+    jump(camera, &framed);
     render_control_say(camera->control, "%s", name);
 }
 
@@ -330,11 +340,11 @@ void camera_control_frame_all(struct camera_control *camera)
 
 void camera_control_focus(struct camera_control *camera)
 {
-    struct pose pose = view_of(camera)->pose;
+    struct pose pose = *pose_of(camera);
 
     if (!need_pick(camera) || !may_jump(camera))
         return;
-    pose.focus = camera_depth(view_of(camera), camera->cursor.pick.position);
+    pose.focus = camera_depth(pose_of(camera), camera->cursor.pick.position);
     if (!(pose.focus > 0)) {
         render_control_say(camera->control,
                            "what is picked lies behind the camera");
@@ -388,13 +398,13 @@ static bool steer_by(struct camera_control *camera, const struct event *event)
 {
     struct rect r = pick_cursor_shown_rect(&camera->cursor);
 
-    return camera_input_mouse(&camera->input, view_of(camera), event,
+    return camera_input_mouse(&camera->input, pose_of(camera), event,
                               &camera->screen->fit, r.width, r.height);
 }
 
 static void drag(struct camera_control *camera, const struct event *event)
 {
-    struct pose before = view_of(camera)->pose;
+    struct pose before = *pose_of(camera);
 
     if (!render_control_may_move(camera->control)) {
         camera->input.is_dragging = false; /* nor is it a click */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/angle.h"
+#include "base/geometry.h"
 #include "studio/camera_moves.h"
 
 /* Reaches a second that a key moves at first. A tap, which lasts 150 ms, moves
@@ -55,11 +55,10 @@ void camera_input_init(struct camera_input *s, const double lo[3],
 void camera_input_resize(struct camera_input *s, const double lo[3],
                          const double hi[3])
 {
-    double square = 0;
+    double diagonal[3];
 
-    for (int i = 0; i < 3; i++)
-        square += (hi[i] - lo[i]) * (hi[i] - lo[i]);
-    s->scene_size = sqrt(square);
+    vec3d_sub(hi, lo, diagonal);
+    s->scene_size = vec3d_length(diagonal);
     if (!(s->scene_size > 0) || isinf(s->scene_size))
         s->scene_size = 1; /* a scene without extent */
     s->reach = REACH_FIRST * s->scene_size;
@@ -89,7 +88,7 @@ static double ramp(double seconds)
     return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MOST);
 }
 
-static void turn(const struct camera_input *s, struct view *view,
+static void turn(const struct camera_input *s, struct pose *pose,
                  const double seconds[HELD_KEYS_AXES])
 {
     double right = seconds[HELD_KEYS_LOOK_RIGHT];
@@ -98,25 +97,23 @@ static void turn(const struct camera_input *s, struct view *view,
     if (right == 0 && up == 0)
         return;
     if (s->is_orbiting)
-        camera_orbit(view, s->pivot, ORBIT_SPEED * right, ORBIT_SPEED * up);
+        camera_orbit(pose, s->pivot, ORBIT_SPEED * right, ORBIT_SPEED * up);
     else
-        camera_turn(view, LOOK_SPEED * right, LOOK_SPEED * up);
+        camera_turn(pose, LOOK_SPEED * right, LOOK_SPEED * up);
 }
 
 /* Below the least there is only the pinhole. */
-static void open_lens(struct view *view, double seconds)
+static void open_lens(struct pose *pose, double seconds)
 {
-    double sharp = view->pose.focus > 0 ? view->pose.focus
-                                        : camera_depth(view, view->pose.at);
+    double sharp = pose->focus > 0 ? pose->focus : camera_depth(pose, pose->at);
     double least = APERTURE_LEAST * sharp;
-    double aperture =
-        fmax(view->pose.aperture, least) * exp(OPEN_SPEED * seconds);
+    double aperture = fmax(pose->aperture, least) * exp(OPEN_SPEED * seconds);
 
-    view->pose.aperture =
+    pose->aperture =
         aperture > least ? fmin(aperture, APERTURE_GREATEST * sharp) : 0;
 }
 
-bool camera_input_step(struct camera_input *s, struct view *view,
+bool camera_input_step(struct camera_input *s, struct pose *pose,
                        uint64_t now_ns)
 {
     double seconds[HELD_KEYS_AXES];
@@ -126,26 +123,26 @@ bool camera_input_step(struct camera_input *s, struct view *view,
 
     if (!held_keys_step(&s->motion, now_ns, seconds))
         return false;
-    camera_move(view, speed * seconds[HELD_KEYS_RIGHT],
+    camera_move(pose, speed * seconds[HELD_KEYS_RIGHT],
                 speed * seconds[HELD_KEYS_UP],
                 speed * seconds[HELD_KEYS_FORWARD]);
-    turn(s, view, seconds);
+    turn(s, pose, seconds);
     if (seconds[HELD_KEYS_WIDEN] != 0)
-        camera_widen(view, exp(WIDEN_SPEED * seconds[HELD_KEYS_WIDEN]));
+        camera_widen(pose, exp(WIDEN_SPEED * seconds[HELD_KEYS_WIDEN]));
     if (seconds[HELD_KEYS_OPEN] != 0)
-        open_lens(view, seconds[HELD_KEYS_OPEN]);
+        open_lens(pose, seconds[HELD_KEYS_OPEN]);
     return true;
 }
 
 /* The look turns by the angle that the picture shows under the pointer's way;
  * a thing in the middle turns with the pointer, half around for the picture's
  * height. */
-static bool drag(struct camera_input *s, struct view *view,
+static bool drag(struct camera_input *s, struct pose *pose,
                  const struct event *e, const struct fit *fit, double shape)
 {
     double right = (e->x - s->drag_x) * shape / fit->cols;
     double down = (double)(e->y - s->drag_y) / fit->rows;
-    double height_rad = angle_rad(view->pose.fovy_deg);
+    double height_rad = angle_rad(pose->fovy_deg);
 
     s->drag_x = e->x;
     s->drag_y = e->y;
@@ -153,9 +150,9 @@ static bool drag(struct camera_input *s, struct view *view,
         return false;
     s->has_dragged = true;
     if (s->drag_orbits)
-        camera_orbit(view, s->pivot, -right * M_PI, down * M_PI);
+        camera_orbit(pose, s->pivot, -right * M_PI, down * M_PI);
     else
-        camera_turn(view, right * height_rad, -down * height_rad);
+        camera_turn(pose, right * height_rad, -down * height_rad);
     return true;
 }
 
@@ -165,7 +162,7 @@ bool camera_input_orbits(const struct camera_input *s,
     return s->is_orbiting || event->button != 0 || event->is_modified;
 }
 
-bool camera_input_mouse(struct camera_input *s, struct view *view,
+bool camera_input_mouse(struct camera_input *s, struct pose *pose,
                         const struct event *event, const struct fit *fit,
                         int width_px, int height_px)
 {
@@ -179,7 +176,7 @@ bool camera_input_mouse(struct camera_input *s, struct view *view,
         break;
     case MOUSE_RELEASE: s->is_dragging = false; break;
     case MOUSE_DRAG:
-        return drag(s, view, event, fit, (double)width_px / height_px);
+        return drag(s, pose, event, fit, (double)width_px / height_px);
     case MOUSE_WHEEL_UP:
     case MOUSE_WHEEL_DOWN:
     case MOUSE_OTHER: break;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
  * camera_input.h - keys that are held and a mouse that is dragged, to motions
- * of a view's camera
+ * of a camera
  *
  * Moves are as fast as what is around is far: in a room slow, slower at a wall,
  * fast over a landscape, the same for a model of any size. A key that is held
  * on gets faster.
  *
  * Units:     nanoseconds of clock_ns(), terminal cells, file units
- * Ownership: the view stays the caller's
+ * Ownership: the pose stays the caller's
  * Threads:   one thread at a time
  */
 #ifndef GLIM_CAMERA_INPUT_H
@@ -17,7 +17,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/view.h"
+#include "scene/pose.h"
 #include "terminal/cells.h"
 #include "terminal/tty_input.h"
 #include "studio/held_keys.h"
@@ -54,9 +54,9 @@ double camera_input_speed(const struct camera_input *s);
 /* A key goes down that was not held: moves begin slowly. */
 void camera_input_begin(struct camera_input *s, uint64_t now_ns);
 
-/* Moves by the time that keys were held since the last call. True if the view
+/* Moves by the time that keys were held since the last call. True if the pose
  * has changed. */
-bool camera_input_step(struct camera_input *s, struct view *view,
+bool camera_input_step(struct camera_input *s, struct pose *pose,
                        uint64_t now_ns);
 
 /* True for a button that turns about the pivot: any that is no plain left one,
@@ -65,8 +65,8 @@ bool camera_input_orbits(const struct camera_input *s,
                          const struct event *event);
 
 /* Follows the pointer while a button is down; the picture of width_px x
- * height_px pixels lies at `fit`. True if the view has changed. */
-bool camera_input_mouse(struct camera_input *s, struct view *view,
+ * height_px pixels lies at `fit`. True if the pose has changed. */
+bool camera_input_mouse(struct camera_input *s, struct pose *pose,
                         const struct event *event, const struct fit *fit,
                         int width_px, int height_px);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/geometry.h"
 #include "bvh/bvh8_traverse.h"
 #include "studio/camera_moves.h"
 
@@ -57,14 +58,12 @@ static bool trace(const struct scene *scene, struct ray ray, struct hit *hit)
 
 static double distance_to_box(const struct scene *s, const double eye[3])
 {
-    double square = 0;
+    double off[3];
 
-    for (int k = 0; k < 3; k++) {
-        double off = fmax(s->bounds_lo[k] - eye[k], eye[k] - s->bounds_hi[k]);
-
-        square += off > 0 ? off * off : 0;
-    }
-    return sqrt(square);
+    for (int k = 0; k < 3; k++)
+        off[k] =
+            fmax(0, fmax(s->bounds_lo[k] - eye[k], eye[k] - s->bounds_hi[k]));
+    return vec3d_length(off);
 }
 
 static void look_around(struct clearance *c, const struct scene *scene)
@@ -139,7 +138,7 @@ static enum clearance_place place_beside(const struct clearance *before,
     return CLEARANCE_AMONG;
 }
 
-/* To where the view's eye is now. */
+/* Follows the eye to its new place. */
 static void move(struct clearance *c, const struct scene *scene,
                  const double eye[3])
 {
@@ -158,16 +157,17 @@ static void move(struct clearance *c, const struct scene *scene,
 }
 
 void clearance_follow(struct clearance *c, const struct scene *scene,
-                      const struct view *view)
+                      const struct pose *pose, double aspect)
 {
-    if (!c->is_known || memcmp(c->eye, view->pose.eye, sizeof c->eye) != 0)
-        move(c, scene, view->pose.eye);
+    if (!c->is_known || memcmp(c->eye, pose->eye, sizeof c->eye) != 0)
+        move(c, scene, pose->eye);
     if (c->place != CLEARANCE_AMONG && c->place != CLEARANCE_AWAY)
         return;
-    c->place = scene->tri_count == 0 ||
-                       camera_sees_box(view, scene->bounds_lo, scene->bounds_hi)
-                   ? CLEARANCE_AMONG
-                   : CLEARANCE_AWAY;
+    c->place =
+        scene->tri_count == 0 || camera_sees_box(pose, aspect, scene->bounds_lo,
+                                                 scene->bounds_hi)
+            ? CLEARANCE_AMONG
+            : CLEARANCE_AWAY;
 }
 
 void clearance_forget(struct clearance *c)

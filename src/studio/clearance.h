@@ -41,11 +41,11 @@ struct clearance {
     enum clearance_place place;
 };
 
-/* Finds what is around the view's eye, which has come there on a straight way
- * from where the last call has found it. 65 rays, 15 us, and none where it has
- * not moved. A scene without a tree has no surface. */
+/* Finds what is around the eye, which has come there on a straight way from
+ * where the last call has found it. 65 rays, 15 us, and none where it has not
+ * moved. A scene without a tree has no surface. */
 void clearance_follow(struct clearance *c, const struct scene *scene,
-                      const struct view *view);
+                      const struct pose *pose, double aspect);
 
 /* The eye has jumped: there was no way. */
 void clearance_forget(struct clearance *c);

@@ -521,31 +521,6 @@ static void test_sky_names(void **state)
     assert_int_equal(chdir("/"), 0);
 }
 
-static void test_check(void **state)
-{
-    struct error err;
-    struct view view;
-
-    (void)state;
-    view_init(&view);
-    view.pose.at[2] = -1;
-    assert_true(view_check(&view, "here", &err));
-    view.pose.fovy_deg = NAN;
-    assert_false(view_check(&view, "here", &err));
-    view.pose.fovy_deg = 180;
-    assert_false(view_check(&view, "here", &err));
-    assert_string_equal(err.text, "here: found a fovy of 180 degrees, "
-                                  "expected one above 0 and below 180");
-    view.pose.fovy_deg = 40;
-    view.pose.eye[0] = INFINITY;
-    assert_false(view_check(&view, "here", &err));
-    view.pose.eye[0] = 0;
-    view.pose.eye[2] = -1;
-    assert_false(view_check(&view, "here", &err));
-    assert_string_equal(err.text,
-                        "here: found eye and at in one point, expected two");
-}
-
 static void test_copy(void **state)
 {
     struct view a, b;
@@ -605,7 +580,6 @@ int main(void)
         cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_text),
         cmocka_unit_test(test_sky_names),
-        cmocka_unit_test(test_check),
         cmocka_unit_test(test_copy),
         cmocka_unit_test(test_numbered_views),
         cmocka_unit_test(test_lines_are_kept),

@@ -272,7 +272,7 @@ static void test_framing(void **state)
     (void)state;
     put("s.obj", "v 100 0 0\nv 101 0 0\nv 100 3 0\nf 1 2 3\n");
     open_session(&s, &o);
-    check_or_say(view_check(&s.view, "framed", &err), err.text);
+    check_or_say(pose_check(&s.view.pose, "framed", &err), err.text);
     assert_true(s.view.pose.at[0] > 99.0 && s.view.pose.at[0] < 102.0);
     session_close(&s);
 }

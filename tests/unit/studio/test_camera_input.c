@@ -10,10 +10,9 @@
 static const double lo[3] = {0, 0, 0};
 static const double hi[3] = {3, 4, 0}; /* a diagonal of 5 */
 
-static struct view make_view(void)
+static struct pose make_pose(void)
 {
-    struct view v = {
-        .pose = {.at = {0, 0, -1}, .up = {0, 1, 0}, .fovy_deg = 40}};
+    struct pose v = {.at = {0, 0, -1}, .up = {0, 1, 0}, .fovy_deg = 40};
 
     return v;
 }
@@ -25,7 +24,7 @@ static void speed_follows_what_is_near(void **state)
 
     (void)state;
     for (double near = 0.1; near < 1; near *= 2) {
-        struct view v = make_view();
+        struct pose v = make_pose();
 
         camera_input_init(&s, lo, hi);
         check_close(s.scene_size, 5, 1e-12);
@@ -34,7 +33,7 @@ static void speed_follows_what_is_near(void **state)
         camera_input_begin(&s, 1000 * MS);
         held_keys_press(&s.motion, HELD_KEYS_FORWARD, 1, 1000 * MS);
         assert_true(camera_input_step(&s, &v, 1000 * MS));
-        check_close(v.pose.eye[2], -near / 60, 1e-6);
+        check_close(v.eye[2], -near / 60, 1e-6);
         assert_false(camera_input_step(&s, &v, 1000 * MS));
     }
     camera_input_init(&s, lo, lo); /* a point */
@@ -73,7 +72,7 @@ static void speed_is_never_none(void **state)
 static double held(double seconds)
 {
     struct camera_input s;
-    struct view v = make_view();
+    struct pose v = make_pose();
     uint64_t end = 1000 * MS + (uint64_t)(1e9 * seconds);
 
     camera_input_init(&s, lo, hi);
@@ -83,7 +82,7 @@ static double held(double seconds)
         held_keys_press(&s.motion, HELD_KEYS_FORWARD, 1, t);
         camera_input_step(&s, &v, t);
     }
-    return -v.pose.eye[2];
+    return -v.eye[2];
 }
 
 /* The second second goes further than the first, a minute not for ever faster;
@@ -122,7 +121,7 @@ static void speed_has_ends(void **state)
 static void drag_turns_by_what_is_seen(void **state)
 {
     struct camera_input s;
-    struct view v = make_view();
+    struct pose v = make_pose();
     struct fit fit = {0, 0, 80, 20};
     struct event e = {.kind = EVENT_MOUSE,
                       .mouse = MOUSE_DRAG,
@@ -138,13 +137,12 @@ static void drag_turns_by_what_is_seen(void **state)
     e.mouse = MOUSE_DRAG;
     e.y -= 20; /* upwards by all 20 rows */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
-    check_close(v.pose.at[1], sin(40 * 0.017453292519943295), 1e-9);
+    check_close(v.at[1], sin(40 * 0.017453292519943295), 1e-9);
     assert_false(
         camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* stands still */
     e.x += 80; /* to the right by the whole width */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
-    check_close(atan2(v.pose.at[0], -v.pose.at[2]), 80 * 0.017453292519943295,
-                1e-9);
+    check_close(atan2(v.at[0], -v.at[2]), 80 * 0.017453292519943295, 1e-9);
     e.mouse = MOUSE_RELEASE;
     camera_input_mouse(&s, &v, &e, &fit, 200, 100);
     e.mouse = MOUSE_DRAG;
@@ -156,25 +154,25 @@ static void drag_turns_by_what_is_seen(void **state)
 static void orbits_while_keys_are_held(void **state)
 {
     struct camera_input s;
-    struct view v = make_view();
+    struct pose v = make_pose();
     double begin, angle;
 
     (void)state;
     camera_input_init(&s, lo, hi);
-    v.pose.at[2] = -4;
+    v.at[2] = -4;
     s.pivot[2] = -4;
     s.is_orbiting = true;
     held_keys_press(&s.motion, HELD_KEYS_LOOK_RIGHT, 1, 1000 * MS);
     assert_true(camera_input_step(&s, &v, 1000 * MS));
-    begin = atan2(v.pose.eye[0], v.pose.eye[2] + 4);
+    begin = atan2(v.eye[0], v.eye[2] + 4);
     assert_true(begin > 0); /* to the right of where it was */
     for (uint64_t t = 1010; t <= 1100; t += 10)
         camera_input_step(&s, &v, t * MS);
-    angle = atan2(v.pose.eye[0], v.pose.eye[2] + 4);
+    angle = atan2(v.eye[0], v.eye[2] + 4);
     check_close(angle / begin, (100 + 1000. / 60) / (1000. / 60), 1e-5);
-    check_close(hypot(v.pose.eye[0], v.pose.eye[2] + 4), 4, 1e-12);
-    check_close(v.pose.at[2], -4, 1e-12);
-    check_close(v.pose.eye[1], 0, 1e-12);
+    check_close(hypot(v.eye[0], v.eye[2] + 4), 4, 1e-12);
+    check_close(v.at[2], -4, 1e-12);
+    check_close(v.eye[1], 0, 1e-12);
 }
 
 /* A scene that is loaded anew twice as large is crossed in the same time, at
@@ -188,7 +186,7 @@ static void speeds_follow_the_scene(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         struct camera_input s;
-        struct view v = make_view();
+        struct pose v = make_pose();
 
         camera_input_init(&s, lo, hi);
         camera_input_change_speed(&s, 3);
@@ -196,13 +194,13 @@ static void speeds_follow_the_scene(void **state)
             camera_input_resize(&s, lo, far);
         held_keys_press(&s.motion, HELD_KEYS_FORWARD, 1, 1000 * MS);
         camera_input_step(&s, &v, 1000 * MS);
-        moved[i] = -v.pose.eye[2];
+        moved[i] = -v.eye[2];
     }
     assert_true(moved[0] > 0);
     check_close(moved[1] / moved[0], 2, 1e-12);
 }
 
-static void hold(struct camera_input *s, struct view *v,
+static void hold(struct camera_input *s, struct pose *v,
                  enum held_keys_axis axis, int sign, int taps)
 {
     for (uint64_t t = 1000; taps > 0; t += 1000, taps--) {
@@ -217,48 +215,48 @@ static void hold(struct camera_input *s, struct view *v,
 static void widens_and_narrows_alike(void **state)
 {
     struct camera_input s;
-    struct view v = make_view();
+    struct pose v = make_pose();
 
     (void)state;
     camera_input_init(&s, lo, hi);
     hold(&s, &v, HELD_KEYS_WIDEN, 1, 3);
-    assert_true(v.pose.fovy_deg > 45 && v.pose.fovy_deg < 70);
+    assert_true(v.fovy_deg > 45 && v.fovy_deg < 70);
     hold(&s, &v, HELD_KEYS_WIDEN, -1, 3);
-    check_close(v.pose.fovy_deg, 40, 1e-9);
-    assert_true(v.pose.aperture == 0);
+    check_close(v.fovy_deg, 40, 1e-9);
+    assert_true(v.aperture == 0);
 }
 
 static void opens_from_a_pinhole_and_closes_to_one(void **state)
 {
     struct camera_input s;
-    struct view v = make_view();
+    struct pose v = make_pose();
     double once;
 
     (void)state;
     camera_input_init(&s, lo, hi);
     hold(&s, &v, HELD_KEYS_OPEN, -1, 1);
-    assert_true(v.pose.aperture == 0);
+    assert_true(v.aperture == 0);
     hold(&s, &v, HELD_KEYS_OPEN, 1, 1);
-    once = v.pose.aperture;
+    once = v.aperture;
     assert_true(once > 0 && once < 0.01);
     hold(&s, &v, HELD_KEYS_OPEN, 1, 1);
-    check_close(v.pose.aperture, once * sqrt(2), 1e-4 * once); /* one stop */
+    check_close(v.aperture, once * sqrt(2), 1e-4 * once); /* one stop */
     hold(&s, &v, HELD_KEYS_OPEN, -1, 1);
-    check_close(v.pose.aperture, once, 1e-12);
+    check_close(v.aperture, once, 1e-12);
     hold(&s, &v, HELD_KEYS_OPEN, -1, 1);
-    assert_true(v.pose.aperture == 0);
+    assert_true(v.aperture == 0);
     hold(&s, &v, HELD_KEYS_OPEN, 1, 200);
-    check_close(v.pose.aperture, 1, 1e-12); /* as far as it is sharp */
-    v.pose.focus = 3;
+    check_close(v.aperture, 1, 1e-12); /* as far as it is sharp */
+    v.focus = 3;
     hold(&s, &v, HELD_KEYS_OPEN, 1, 200);
-    check_close(v.pose.aperture, 3, 1e-12);
+    check_close(v.aperture, 3, 1e-12);
 }
 
 /* Over the picture's height: half around; a thing in the middle follows. */
 static void a_modified_drag_orbits(void **state)
 {
     struct camera_input s;
-    struct view v = make_view();
+    struct pose v = make_pose();
     struct fit fit = {0, 0, 80, 20};
     struct event e = {.kind = EVENT_MOUSE,
                       .mouse = MOUSE_PRESS,
@@ -268,7 +266,7 @@ static void a_modified_drag_orbits(void **state)
 
     (void)state;
     camera_input_init(&s, lo, hi);
-    v.pose.at[2] = -4;
+    v.at[2] = -4;
     s.pivot[2] = -4;
     assert_true(camera_input_orbits(&s, &e));
     camera_input_mouse(&s, &v, &e, &fit, 200, 100);
@@ -277,11 +275,11 @@ static void a_modified_drag_orbits(void **state)
     e.x -= 20; /* a quarter of the width is half the height */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     assert_true(s.has_dragged);
-    check_close(v.pose.eye[0], 4, 1e-9);
-    check_close(v.pose.eye[2], -4, 1e-9);
+    check_close(v.eye[0], 4, 1e-9);
+    check_close(v.eye[2], -4, 1e-9);
     e.y += 5; /* downwards: one looks from above */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
-    check_close(v.pose.eye[1], 4 * sin(0.25 * 3.141592653589793), 1e-9);
+    check_close(v.eye[1], 4 * sin(0.25 * 3.141592653589793), 1e-9);
     e = (struct event){.kind = EVENT_MOUSE, .is_modified = true};
     assert_true(camera_input_orbits(&s, &e));
     e.is_modified = false;

@@ -6,13 +6,14 @@
 
 #include "studio/camera_moves.h"
 
+#define ASPECT 1.25 /* of the picture */
+
 #define RAD 0.017453292519943295
 
-static struct view make_view(double ex, double ey, double ez, double ax,
+static struct pose make_pose(double ex, double ey, double ez, double ax,
                              double ay, double az)
 {
-    struct view v = {
-        .pose = {.eye = {ex, ey, ez}, .at = {ax, ay, az}, .up = {0, 1, 0}}};
+    struct pose v = {.eye = {ex, ey, ez}, .at = {ax, ay, az}, .up = {0, 1, 0}};
 
     return v;
 }
@@ -24,85 +25,83 @@ static void check_point(const double got[3], double x, double y, double z)
     check_close(got[2], z, 1e-9);
 }
 
-static double distance(const struct view *v)
+static double distance(const struct pose *v)
 {
-    return sqrt(pow(v->pose.at[0] - v->pose.eye[0], 2) +
-                pow(v->pose.at[1] - v->pose.eye[1], 2) +
-                pow(v->pose.at[2] - v->pose.eye[2], 2));
+    return sqrt(pow(v->at[0] - v->eye[0], 2) + pow(v->at[1] - v->eye[1], 2) +
+                pow(v->at[2] - v->eye[2], 2));
 }
 
 /* Looking along -z with y up, x is to the right. */
 static void moves_along_its_axes(void **state)
 {
-    struct view v = make_view(1, 2, 3, 1, 2, -7);
+    struct pose v = make_pose(1, 2, 3, 1, 2, -7);
 
     (void)state;
     camera_move(&v, 0.5, 0.25, 2);
-    check_point(v.pose.eye, 1.5, 2.25, 1);
-    check_point(v.pose.at, 1.5, 2.25, -9);
-    assert_true(v.has_camera);
+    check_point(v.eye, 1.5, 2.25, 1);
+    check_point(v.at, 1.5, 2.25, -9);
 }
 
 /* Looking down at 45 degrees, up is the camera's, not the world's. */
 static void up_is_the_cameras(void **state)
 {
-    struct view v = make_view(0, 0, 0, 0, -1, -1);
+    struct pose v = make_pose(0, 0, 0, 0, -1, -1);
 
     (void)state;
     camera_move(&v, 0, sqrt(2), 0);
-    check_point(v.pose.eye, 0, 1, -1);
+    check_point(v.eye, 0, 1, -1);
 }
 
 static void turns_about_up(void **state)
 {
-    struct view v = make_view(0, 0, 0, 0, 0, -5);
+    struct pose v = make_pose(0, 0, 0, 0, 0, -5);
 
     (void)state;
     camera_turn(&v, 90 * RAD, 0);
-    check_point(v.pose.eye, 0, 0, 0);
-    check_point(v.pose.at, 5, 0, 0);
+    check_point(v.eye, 0, 0, 0);
+    check_point(v.at, 5, 0, 0);
     camera_turn(&v, -180 * RAD, 0);
-    check_point(v.pose.at, -5, 0, 0);
+    check_point(v.at, -5, 0, 0);
     camera_turn(&v, 90 * RAD, 30 * RAD);
-    check_point(v.pose.at, 0, 2.5, -5 * cos(30 * RAD));
+    check_point(v.at, 0, 2.5, -5 * cos(30 * RAD));
     /* the turn to the side keeps the height, wherever it looks */
     camera_turn(&v, 77 * RAD, 0);
-    check_close(v.pose.at[1], 2.5, 1e-9);
+    check_close(v.at[1], 2.5, 1e-9);
     check_close(distance(&v), 5, 1e-9);
 }
 
 static void stops_at_the_poles(void **state)
 {
-    struct view v = make_view(0, 0, 0, 0, 0, -1);
-    struct view w;
+    struct pose v = make_pose(0, 0, 0, 0, 0, -1);
+    struct pose w;
 
     (void)state;
     for (int i = 0; i < 100; i++)
         camera_turn(&v, 0, 10 * RAD);
-    check_close(v.pose.at[1], 1, 1e-3);
-    assert_true(v.pose.at[2] < 0); /* not over the top */
+    check_close(v.at[1], 1, 1e-3);
+    assert_true(v.at[2] < 0); /* not over the top */
     camera_turn(&v, 0, -90 * RAD);
-    assert_true(v.pose.at[1] < 0.02 && v.pose.at[2] < -0.99);
+    assert_true(v.at[1] < 0.02 && v.at[2] < -0.99);
     w = v;
     for (int i = 0; i < 100; i++)
         camera_turn(&w, 3 * RAD, -10 * RAD);
-    check_close(w.pose.at[1], -1, 1e-3);
+    check_close(w.at[1], -1, 1e-3);
 }
 
 /* Any up vector: turning a whole round comes back, forward and back too. */
-static void random_views_come_back(void **state)
+static void random_poses_come_back(void **state)
 {
     uint64_t seed = 4;
 
     (void)state;
     for (int i = 0; i < 2000; i++) {
         double p[9];
-        struct view v, w;
+        struct pose v, w;
 
         for (int k = 0; k < 9; k++)
             p[k] = 200 * check_random(&seed) - 100;
-        v = make_view(p[0], p[1], p[2], p[3], p[4], p[5]);
-        memcpy(v.pose.up, p + 6, sizeof v.pose.up);
+        v = make_pose(p[0], p[1], p[2], p[3], p[4], p[5]);
+        memcpy(v.up, p + 6, sizeof v.up);
         camera_turn(&v, 0.3,
                     0); /* away from the poles, where clamping begins */
         w = v;
@@ -112,27 +111,27 @@ static void random_views_come_back(void **state)
         for (int k = 0; k < 36; k++)
             camera_turn(&w, 10 * RAD, 0);
         for (int k = 0; k < 3; k++) {
-            check_close(w.pose.eye[k], v.pose.eye[k], 1e-9);
-            check_close(w.pose.at[k], v.pose.at[k], 1e-8);
+            check_close(w.eye[k], v.eye[k], 1e-9);
+            check_close(w.at[k], v.at[k], 1e-8);
         }
     }
 }
 
 /* Where a point is in the picture: -1 to 1 to the right and upwards, by rows of
  * a matrix made anew; the result is its depth. */
-static double project(const struct view *v, const double p[3], double *x,
+static double project(const struct pose *v, const double p[3], double *x,
                       double *y)
 {
-    double f[3], r[3], u[3], d[3], tangent = tan(v->pose.fovy_deg / 2 * RAD);
+    double f[3], r[3], u[3], d[3], tangent = tan(v->fovy_deg / 2 * RAD);
     double length = distance(v), depth, across;
 
     for (int k = 0; k < 3; k++) {
-        f[k] = (v->pose.at[k] - v->pose.eye[k]) / length;
-        d[k] = p[k] - v->pose.eye[k];
+        f[k] = (v->at[k] - v->eye[k]) / length;
+        d[k] = p[k] - v->eye[k];
     }
     for (int k = 0; k < 3; k++)
-        r[k] = f[(k + 1) % 3] * v->pose.up[(k + 2) % 3] -
-               f[(k + 2) % 3] * v->pose.up[(k + 1) % 3];
+        r[k] = f[(k + 1) % 3] * v->up[(k + 2) % 3] -
+               f[(k + 2) % 3] * v->up[(k + 1) % 3];
     across = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
     for (int k = 0; k < 3; k++)
         r[k] /= across;
@@ -140,42 +139,39 @@ static double project(const struct view *v, const double p[3], double *x,
         u[k] =
             r[(k + 1) % 3] * f[(k + 2) % 3] - r[(k + 2) % 3] * f[(k + 1) % 3];
     depth = d[0] * f[0] + d[1] * f[1] + d[2] * f[2];
-    *x = (d[0] * r[0] + d[1] * r[1] + d[2] * r[2]) /
-         (depth * tangent * v->width_px / v->height_px);
+    *x = (d[0] * r[0] + d[1] * r[1] + d[2] * r[2]) / (depth * tangent * ASPECT);
     *y = (d[0] * u[0] + d[1] * u[1] + d[2] * u[2]) / (depth * tangent);
     return depth;
 }
 
-static struct view random_view(uint64_t *seed)
+static struct pose random_pose(uint64_t *seed)
 {
     double p[6];
-    struct view v;
+    struct pose v;
 
     for (int k = 0; k < 6; k++)
         p[k] = 20 * check_random(seed) - 10;
-    v = make_view(p[0], p[1], p[2], p[3], p[4], p[5]);
-    v.pose.fovy_deg = 5 + 120 * check_random(seed);
-    v.width_px = 100 + (int)(300 * check_random(seed));
-    v.height_px = 200;
+    v = make_pose(p[0], p[1], p[2], p[3], p[4], p[5]);
+    v.fovy_deg = 5 + 120 * check_random(seed);
     return v;
 }
 
 static void orbits_on_a_ball(void **state)
 {
     static const double origin[3] = {0, 0, 0};
-    struct view v = make_view(0, 0, 5, 0, 0, 0);
+    struct pose v = make_pose(0, 0, 5, 0, 0, 0);
 
     (void)state;
     camera_orbit(&v, origin, 90 * RAD, 0);
-    check_point(v.pose.eye, 5, 0, 0);
-    check_point(v.pose.at, 0, 0, 0);
+    check_point(v.eye, 5, 0, 0);
+    check_point(v.at, 0, 0, 0);
     camera_orbit(&v, origin, -90 * RAD, 30 * RAD);
-    check_point(v.pose.eye, 0, 2.5, 5 * cos(30 * RAD));
-    check_point(v.pose.at, 0, 0, 0);
+    check_point(v.eye, 0, 2.5, 5 * cos(30 * RAD));
+    check_point(v.at, 0, 0, 0);
     for (int i = 0; i < 100; i++)
         camera_orbit(&v, origin, 0, 10 * RAD);
-    check_close(v.pose.eye[1], 5, 1e-3);
-    assert_true(v.pose.eye[2] > 0); /* not over the top */
+    check_close(v.eye[1], 5, 1e-3);
+    assert_true(v.eye[2] > 0); /* not over the top */
 }
 
 /* Whatever is picked stays where it is in the picture, as far away. */
@@ -185,11 +181,11 @@ static void orbit_keeps_the_point_in_its_place(void **state)
 
     (void)state;
     for (int i = 0; i < 1000; i++) {
-        struct view v = random_view(&seed);
+        struct pose v = random_pose(&seed);
         double p[3], x, y, depth, after_x, after_y;
 
         for (int k = 0; k < 3; k++)
-            p[k] = v.pose.at[k] + check_random(&seed);
+            p[k] = v.at[k] + check_random(&seed);
         depth = project(&v, p, &x, &y);
         check_close(camera_depth(&v, p), depth, 1e-9);
         camera_orbit(&v, p, 6 * check_random(&seed) - 3,
@@ -209,15 +205,15 @@ static void frames_as_near_as_can_be(void **state)
 
     (void)state;
     for (int i = 0; i < 1000; i++) {
-        struct view v = random_view(&seed);
-        struct view before = v;
+        struct pose v = random_pose(&seed);
+        struct pose before = v;
         double lo[3], hi[3], radius, most[4] = {-9, -9, -9, -9};
 
         for (int k = 0; k < 3; k++) {
             lo[k] = 20 * check_random(&seed) - 10;
             hi[k] = lo[k] + 5 * check_random(&seed);
         }
-        camera_frame(&v, lo, hi);
+        camera_frame(&v, ASPECT, lo, hi);
         for (int corner = 0; corner < 8; corner++) {
             double p[3], x, y;
 
@@ -241,9 +237,8 @@ static void frames_as_near_as_can_be(void **state)
             tight_count++;
         }
         for (int k = 0; k < 3; k++)
-            check_close((v.pose.at[k] - v.pose.eye[k]) / distance(&v),
-                        (before.pose.at[k] - before.pose.eye[k]) /
-                            distance(&before),
+            check_close((v.at[k] - v.eye[k]) / distance(&v),
+                        (before.at[k] - before.eye[k]) / distance(&before),
                         1e-9);
     }
     assert_in_range(tight_count, 500, 1000);
@@ -253,30 +248,29 @@ static void frames_as_near_as_can_be(void **state)
 static void frames_a_point_from_where_it_was(void **state)
 {
     static const double point[3] = {1, 2, 3};
-    struct view v = make_view(0, 0, 5, 0, 0, 1);
+    struct pose v = make_pose(0, 0, 5, 0, 0, 1);
 
     (void)state;
-    v.pose.fovy_deg = 40;
-    v.width_px = v.height_px = 1;
-    camera_frame(&v, point, point);
-    check_point(v.pose.at, 1, 2, 3);
-    check_point(v.pose.eye, 1, 2, 7);
+    v.fovy_deg = 40;
+    camera_frame(&v, 1, point, point);
+    check_point(v.at, 1, 2, 3);
+    check_point(v.eye, 1, 2, 7);
 }
 
 static void widens_what_is_seen(void **state)
 {
-    struct view v = make_view(0, 0, 5, 0, 0, 0);
+    struct pose v = make_pose(0, 0, 5, 0, 0, 0);
 
     (void)state;
-    v.pose.fovy_deg = 90;
+    v.fovy_deg = 90;
     camera_widen(&v, 0.5);
-    check_close(v.pose.fovy_deg, 2 * atan(0.5) / RAD, 1e-9);
+    check_close(v.fovy_deg, 2 * atan(0.5) / RAD, 1e-9);
     camera_widen(&v, 2);
-    check_close(v.pose.fovy_deg, 90, 1e-9);
+    check_close(v.fovy_deg, 90, 1e-9);
     camera_widen(&v, 1e9);
-    check_close(v.pose.fovy_deg, FOVY_MAX_DEG, 1e-9);
+    check_close(v.fovy_deg, FOVY_MAX_DEG, 1e-9);
     camera_widen(&v, 1e-9);
-    check_close(v.pose.fovy_deg, FOVY_MIN_DEG, 1e-9);
+    check_close(v.fovy_deg, FOVY_MIN_DEG, 1e-9);
 }
 
 static void impossible_cameras_stay_finite(void **state)
@@ -291,15 +285,14 @@ static void impossible_cameras_stay_finite(void **state)
     (void)state;
     for (int u = 0; u < 5; u++) {
         for (int a = 0; a < 4; a++) {
-            struct view v = make_view(0, 0, 0, ats[a][0], ats[a][1], ats[a][2]);
+            struct pose v = make_pose(0, 0, 0, ats[a][0], ats[a][1], ats[a][2]);
 
-            memcpy(v.pose.up, ups[u], sizeof v.pose.up);
+            memcpy(v.up, ups[u], sizeof v.up);
             for (int i = 0; i < 5; i++) {
                 camera_move(&v, 0.1, 0.2, 0.3);
                 camera_turn(&v, 0.1, 0.2);
                 for (int k = 0; k < 3; k++)
-                    assert_true(isfinite(v.pose.eye[k]) &&
-                                isfinite(v.pose.at[k]));
+                    assert_true(isfinite(v.eye[k]) && isfinite(v.at[k]));
                 assert_true(distance(&v) > 0.9);
             }
         }
@@ -313,7 +306,7 @@ int main(void)
         cmocka_unit_test(up_is_the_cameras),
         cmocka_unit_test(turns_about_up),
         cmocka_unit_test(stops_at_the_poles),
-        cmocka_unit_test(random_views_come_back),
+        cmocka_unit_test(random_poses_come_back),
         cmocka_unit_test(orbits_on_a_ball),
         cmocka_unit_test(orbit_keeps_the_point_in_its_place),
         cmocka_unit_test(frames_as_near_as_can_be),

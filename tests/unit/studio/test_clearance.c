@@ -15,6 +15,8 @@
 #include "studio/camera_input.h"
 #include "studio/clearance.h"
 
+#define ASPECT (1024.0 / 576) /* of the picture */
+
 #define MS UINT64_C(1000000)
 
 struct obj {
@@ -74,16 +76,14 @@ static void load(struct obj *o, struct scene *scene)
     warnings_free(&report);
 }
 
-static struct view view_from(double x, double y, double z)
+static struct pose pose_from(double x, double y, double z)
 {
-    struct view v;
+    struct pose v = {.up = {0, 1, 0}, .fovy_deg = 40};
 
-    view_init(&v);
-    v.pose.eye[0] = v.pose.at[0] = x;
-    v.pose.eye[1] = v.pose.at[1] = y;
-    v.pose.eye[2] = z;
-    v.pose.at[2] = z - fmax(1, fabs(z));
-    v.has_camera = true;
+    v.eye[0] = v.at[0] = x;
+    v.eye[1] = v.at[1] = y;
+    v.eye[2] = z;
+    v.at[2] = z - fmax(1, fabs(z));
     return v;
 }
 
@@ -91,9 +91,9 @@ static struct view view_from(double x, double y, double z)
 static enum clearance_place go(struct clearance *c, const struct scene *scene,
                                double x, double z)
 {
-    struct view v = view_from(x, 1, z);
+    struct pose v = pose_from(x, 1, z);
 
-    clearance_follow(c, scene, &v);
+    clearance_follow(c, scene, &v, ASPECT);
     return c->place;
 }
 
@@ -112,10 +112,10 @@ static void a_floor_is_as_near_as_its_height(void **state)
         box(&o, lo, hi, -1);
         load(&o, &scene);
         for (double h = 1; h < 100; h *= 3) {
-            struct view v = view_from(0, (0.001 + h) * scale, 0);
+            struct pose v = pose_from(0, (0.001 + h) * scale, 0);
             struct clearance c = {0};
 
-            clearance_follow(&c, &scene, &v);
+            clearance_follow(&c, &scene, &v, ASPECT);
             assert_true(c.near > h * scale / (1 - 2 * 0.09));
             assert_true(c.near < h * scale / (1 - 2 * 0.12));
             check_close(c.closed, 0.5, 0.04);
@@ -221,7 +221,7 @@ static void open_places_are_no_loss(void **state)
 static void an_empty_picture_is_noticed(void **state)
 {
     static const double lo[3] = {-1, -1, -1}, hi[3] = {1, 1, 1};
-    struct view v = view_from(0, 0, 9);
+    struct pose v = pose_from(0, 0, 9);
     struct clearance c = {0};
     struct scene scene;
     struct obj o;
@@ -230,30 +230,30 @@ static void an_empty_picture_is_noticed(void **state)
     begin(&o, 1);
     box(&o, lo, hi, -1);
     load(&o, &scene);
-    clearance_follow(&c, &scene, &v);
+    clearance_follow(&c, &scene, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AMONG);
-    v.pose.at[2] = 10; /* turned round */
-    clearance_follow(&c, &scene, &v);
+    v.at[2] = 10; /* turned round */
+    clearance_follow(&c, &scene, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AWAY);
-    v.pose.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
-    v.pose.at[2] = 9 - 9 / tan((31 + 5) * M_PI / 180);
-    clearance_follow(&c, &scene, &v);
+    v.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
+    v.at[2] = 9 - 9 / tan((31 + 5) * M_PI / 180);
+    clearance_follow(&c, &scene, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AMONG); /* the box is 7 wide there */
-    v.pose.at[2] = 9 - 9 / tan((33 + 9) * M_PI / 180);
-    clearance_follow(&c, &scene, &v);
+    v.at[2] = 9 - 9 / tan((33 + 9) * M_PI / 180);
+    clearance_follow(&c, &scene, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AWAY);
     scene_free(&scene);
 }
 
 /* As the pilot does: a look around before each step. */
 static void press(struct camera_input *s, struct clearance *c,
-                  const struct scene *scene, struct view *v, uint64_t at_ns)
+                  const struct scene *scene, struct pose *v, uint64_t at_ns)
 {
     uint64_t next;
 
     held_keys_press(&s->motion, HELD_KEYS_FORWARD, -1, at_ns);
     while ((next = held_keys_next_ns(&s->motion)) != UINT64_MAX) {
-        clearance_follow(c, scene, v);
+        clearance_follow(c, scene, v, ASPECT);
         camera_input_adapt(s, c->near, c->away);
         camera_input_step(s, v, next);
     }
@@ -262,7 +262,7 @@ static void press(struct camera_input *s, struct clearance *c,
 /* How far so many taps, a second each, go back from z, as a part of it. */
 static double taps(double scale, const double room[2][3], double z, int count)
 {
-    struct view v = view_from(0, 1.6 * scale, z * scale);
+    struct pose v = pose_from(0, 1.6 * scale, z * scale);
     struct clearance c = {0};
     struct scene scene;
     struct camera_input s;
@@ -280,7 +280,7 @@ static double taps(double scale, const double room[2][3], double z, int count)
     }
     assert_int_equal(c.place, CLEARANCE_AMONG);
     scene_free(&scene);
-    return v.pose.eye[2] / scale - z;
+    return v.eye[2] / scale - z;
 }
 
 /* Half a step from the wall one tap does not reach it, nor do ten; a hall 200
@@ -305,7 +305,7 @@ static void taps_are_as_long_as_the_place_allows(void **state)
 static void walls_give_way_at_last(void **state)
 {
     static const double lo[3] = {-2.5, 0, 0}, hi[3] = {2.5, 3, 6};
-    struct view v = view_from(0, 1.6, 5.7);
+    struct pose v = pose_from(0, 1.6, 5.7);
     struct clearance c = {0};
     struct scene scene;
     uint64_t ns = 1000 * MS;
@@ -318,7 +318,7 @@ static void walls_give_way_at_last(void **state)
     load(&o, &scene);
     camera_input_init(&s, scene.bounds_lo, scene.bounds_hi);
     camera_input_begin(&s, ns);
-    for (; v.pose.eye[2] < 6 && ns < 20000 * MS; ns += 150 * MS)
+    for (; v.eye[2] < 6 && ns < 20000 * MS; ns += 150 * MS)
         press(&s, &c, &scene, &v, ns);
     assert_true(ns > 1500 * MS && ns < 8000 * MS);
     press(&s, &c, &scene, &v, ns);

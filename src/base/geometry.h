@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/*
+ * geometry.h - angles, and vectors of three doubles
+ *
+ * Cameras and files are computed in double; kernels/vec.h has the floats of
+ * samples.
+ *
+ * Units:     as the names say
+ * Threads:   any
+ */
+#ifndef GLIM_GEOMETRY_H
+#define GLIM_GEOMETRY_H
+
+#include <math.h>
+#include <stdbool.h>
+
+static inline double angle_rad(double degrees)
+{
+    return degrees * M_PI / 180;
+}
+
+static inline double angle_deg(double radians)
+{
+    return radians * 180 / M_PI;
+}
+
+static inline double vec3d_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void vec3d_cross(const double a[3], const double b[3],
+                               double to[3])
+{
+    to[0] = a[1] * b[2] - a[2] * b[1];
+    to[1] = a[2] * b[0] - a[0] * b[2];
+    to[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline void vec3d_sub(const double a[3], const double b[3], double to[3])
+{
+    for (int i = 0; i < 3; i++)
+        to[i] = a[i] - b[i];
+}
+
+/* Overflows only where the result does. */
+static inline double vec3d_length(const double v[3])
+{
+    return hypot(hypot(v[0], v[1]), v[2]);
+}
+
+/* Scales v to length 1. Returns false, with v unchanged, if it is zero or not
+ * finite. */
+static inline bool vec3d_normalize(double v[3])
+{
+    double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    double x = v[0] / most, y = v[1] / most, z = v[2] / most;
+    double length = sqrt(x * x + y * y + z * z);
+
+    if (!(most > 0 && length < INFINITY))
+        return false;
+    v[0] = x / length;
+    v[1] = y / length;
+    v[2] = z / length;
+    return true;
+}
+
+#endif
