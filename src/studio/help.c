@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Entry `i` of all: those of the panel, if it is open, come first. */
+/* Finds entry `i` of the list: the panel's entries come first, if in_panel. */
 static bool find_entry(const struct keymap *keys, bool in_panel, int i,
                        struct keymap_help *help)
 {
@@ -27,7 +27,8 @@ static int count_lines(const struct keymap *keys, bool in_panel)
     return count;
 }
 
-/* Appends entry `i` to a line, at its column; the note is behind the keys. */
+/* Appends entry `i` to a line, at its column. The entry after the last key is
+ * the note. */
 static void add_entry(char line[HELP_LINE_BYTES], const struct keymap *keys,
                       bool in_panel, const char *note, int i)
 {

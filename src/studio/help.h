@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * help.h - the keys, laid out for a window of any size
+ * help.h - the list of keys, laid out for a window of any size
  *
- * In two columns where there is room, and on as many pages as it takes.
+ * It has two columns where there is room, and as many pages as needed.
  *
  * Units:     terminal cells
  * Threads:   any
@@ -24,11 +24,11 @@
 struct help_page {
     char lines[HELP_ROWS_MAX][HELP_LINE_BYTES];
     int line_count;
-    int page_count; /* of the whole help; at least 1 */
+    int page_count; /* pages of the whole help; at least 1 */
 };
 
-/* Page `number`, from 0, where cols x rows cells are free for text; with those
- * of the panel, or without; the note stands behind the last key. */
+/* Lays out page `number`, from 0, for cols x rows cells of text. The panel's
+ * keys come first if in_panel; the note is the entry after the last key. */
 void help_page(struct help_page *page, const struct keymap *keys, bool in_panel,
                const char *note, int number, int cols, int rows);
 

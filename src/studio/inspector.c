@@ -46,22 +46,22 @@ void inspector_preview(struct inspector *inspector, struct frame *frame)
     draw_over(inspector, frame);
 }
 
-void inspector_close_panel(struct inspector *inspector)
+void inspector_close_table(struct inspector *inspector)
 {
-    if (inspector->has_panel)
+    if (inspector->has_table)
         screen_close_window(inspector->screen);
-    inspector->has_panel = false;
+    inspector->has_table = false;
     inspector->control->has_changed = true;
 }
 
-void inspector_open_panel(struct inspector *inspector)
+void inspector_open_table(struct inspector *inspector)
 {
     const struct scene *scene = &session_of(inspector)->scene;
     const char *lines[OVERLAY_TEXT_LINES];
     struct overlay_text legend;
     char title[TEXT_BYTES];
 
-    inspector_close_panel(inspector);
+    inspector_close_table(inspector);
     if (inspector->screen->is_too_small)
         return;
     if (inspector->drawing == INSPECTOR_LOBES && inspector->is_surface) {
@@ -80,8 +80,8 @@ void inspector_open_panel(struct inspector *inspector)
     }
     for (int i = 0; i < legend.count; i++)
         lines[i] = legend.lines[i];
-    screen_open_panel(inspector->screen, title, lines, legend.count);
-    inspector->has_panel = true;
+    screen_open_left(inspector->screen, title, lines, legend.count);
+    inspector->has_table = true;
 }
 
 static void say_boxes(struct inspector *inspector)
@@ -103,12 +103,14 @@ static bool is_new_pick(const struct inspector *inspector)
 {
     const struct pick_cursor *cursor = inspector->cursor;
 
-    return cursor->has_pick && (!inspector->is_picked ||
-                                memcmp(inspector->place, cursor->pick.position,
-                                       sizeof inspector->place) != 0);
+    return cursor->has_pick &&
+           (!inspector->is_picked ||
+            memcmp(inspector->position, cursor->pick.position,
+                   sizeof inspector->position) != 0);
 }
 
-/* Where the pick is in the picture now, or its middle. */
+/* Finds the pixel where the pick is seen now; without a pick, or if it is not
+ * in view, the middle of the picture. */
 static void find_pixel(struct inspector *inspector)
 {
     const struct scene *scene = &session_of(inspector)->scene;
@@ -120,13 +122,15 @@ static void find_pixel(struct inspector *inspector)
     inspector->is_picked = inspector->cursor->has_pick;
     if (!inspector->is_picked)
         return;
-    memcpy(inspector->place, inspector->cursor->pick.position,
-           sizeof inspector->place);
+    memcpy(inspector->position, inspector->cursor->pick.position,
+           sizeof inspector->position);
     if (projection_point(
             &inspector->camera,
-            v3((float)((inspector->place[0] - scene->center[0]) * scene->scale),
-               (float)((inspector->place[1] - scene->center[1]) * scene->scale),
-               (float)((inspector->place[2] - scene->center[2]) *
+            v3((float)((inspector->position[0] - scene->center[0]) *
+                       scene->scale),
+               (float)((inspector->position[1] - scene->center[1]) *
+                       scene->scale),
+               (float)((inspector->position[2] - scene->center[2]) *
                        scene->scale)),
             &at) &&
         at.x >= r.x && at.x < r.x + r.width && at.y >= r.y &&
@@ -136,7 +140,7 @@ static void find_pixel(struct inspector *inspector)
     }
 }
 
-static void follow(struct inspector *inspector)
+static void follow_path(struct inspector *inspector)
 {
     struct world w;
 
@@ -147,8 +151,8 @@ static void follow(struct inspector *inspector)
                        inspector->sample);
 }
 
-/* Begins to draw from what is picked. */
-static void place(struct inspector *inspector)
+/* Begins directions and path at what is picked. */
+static void begin_at_pick(struct inspector *inspector)
 {
     struct world w;
 
@@ -158,7 +162,7 @@ static void place(struct inspector *inspector)
     find_pixel(inspector);
     inspector->sample = 0;
     inspector->step = 1;
-    follow(inspector);
+    follow_path(inspector);
     inspector->is_surface =
         path_record_scatter(&inspector->lobes, &w, inspector->x, inspector->y);
 }
@@ -172,10 +176,10 @@ static void say_drawing(struct inspector *inspector)
             inspector->control,
             "only the sky is there: %s picks something else",
             render_control_key(inspector->control, ACTION_CURSOR).text);
-    inspector_open_panel(inspector);
+    inspector_open_table(inspector);
 }
 
-/* A path goes on from where the directions were drawn. */
+/* The path comes after the directions and begins at the same pixel. */
 void inspector_next_drawing(struct inspector *inspector)
 {
     struct error err;
@@ -189,7 +193,7 @@ void inspector_next_drawing(struct inspector *inspector)
         render_control_say_error(inspector->control, err.text);
     }
     if (inspector->drawing == INSPECTOR_LOBES)
-        place(inspector);
+        begin_at_pick(inspector);
     say_drawing(inspector);
 }
 
@@ -201,7 +205,8 @@ static void change_level(struct inspector *inspector, int by)
     say_boxes(inspector);
 }
 
-/* Behind the last step comes the next sample, before the first the last. */
+/* After the last step comes the first of the next sample, before the first step
+ * the last of the sample before. */
 static void change_step(struct inspector *inspector, int by)
 {
     inspector->step += by;
@@ -209,14 +214,14 @@ static void change_step(struct inspector *inspector, int by)
         inspector->step = 1;
     } else if (inspector->step < 1) {
         inspector->sample--;
-        follow(inspector);
+        follow_path(inspector);
         inspector->step = inspector->trail.count;
     } else if (inspector->step > inspector->trail.count) {
         inspector->sample++;
-        follow(inspector);
+        follow_path(inspector);
         inspector->step = 1;
     }
-    inspector_open_panel(inspector);
+    inspector_open_table(inspector);
 }
 
 static void change(struct inspector *inspector, int by)
@@ -247,7 +252,7 @@ void inspector_more(struct inspector *inspector)
 
 /* ---- saving ---- */
 
-/* Light is there from its first sample on. */
+/* True if there is something to save; light needs a sample first. */
 static bool has_picture(struct inspector *inspector)
 {
     if (view_mode_sample(inspector->view_mode.kind) != SAMPLE_LIGHT ||
@@ -257,7 +262,7 @@ static bool has_picture(struct inspector *inspector)
     return false;
 }
 
-/* As it is shown, in pixels of the frame. */
+/* Fills a frame of any size with the picture and drawings as they are shown. */
 static bool paint_all(struct inspector *inspector, struct frame *frame,
                       struct error *err)
 {
@@ -299,7 +304,7 @@ void inspector_save_text(struct inspector *inspector)
     frame_free(&frame);
 }
 
-/* A picture of light without drawings is a film: a thread saves that. */
+/* Light without drawings is saved from the film, by a thread. */
 void inspector_save(struct inspector *inspector)
 {
     if (inspector->view_mode.kind == SHOW_LIGHT &&
@@ -335,10 +340,10 @@ static void show(struct inspector *inspector, enum show_kind kind)
     inspector->control->has_changed = true;
     if (inspector->control->is_live && s->sample != before)
         render_control_restart(
-            inspector->control); /* the film has other numbers until then */
+            inspector->control); /* the film has samples of the old kind */
 }
 
-/* Normal mode renders light and nothing else. */
+/* Goes through the view modes; in normal mode through those made of light. */
 static void turn(struct inspector *inspector, int by)
 {
     int kind = (int)inspector->view_mode.kind;
@@ -365,7 +370,7 @@ void inspector_step(struct inspector *inspector)
     if ((inspector->drawing == INSPECTOR_LOBES ||
          inspector->drawing == INSPECTOR_PATH) &&
         is_new_pick(inspector)) {
-        place(inspector);
+        begin_at_pick(inspector);
         say_drawing(inspector);
     }
 }
@@ -378,7 +383,7 @@ void inspector_leave(struct inspector *inspector)
 
 void inspector_stop_drawing(struct inspector *inspector)
 {
-    inspector_close_panel(inspector);
+    inspector_close_table(inspector);
     inspector->drawing = INSPECTOR_NOTHING;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * inspector.h - pictures of what happens inside: other views than light, and
- * drawings over any of them
+ * inspector.h - the view modes on the screen, and drawings over the picture
  *
- * Boxes of the tree, scattered directions and a path are drawn over the
- * picture; those two stay where they were picked while the camera moves.
+ * Drawings are the boxes of the tree, the directions that a surface scatters
+ * light to, and the path of one sample. Directions and path stay where they
+ * were picked while the camera moves.
  *
  * Units:     frames' pixels
  * Ownership: control, screen and cursor stay the caller's and outlive it;
@@ -36,18 +36,18 @@ struct inspector {
     struct pick_cursor *cursor;
     struct view_mode view_mode;
     enum inspector_drawing drawing;
-    uint32_t level; /* of boxes */
-    /* where lobes and path begin: a pixel of a picture that was */
+    uint32_t level; /* of the boxes that are drawn */
+    /* Directions and path begin at this camera's pixel (x, y). */
     struct camera camera;
     uint32_t x, y;
-    bool is_picked; /* by the cursor, at */
-    double place[3];
-    bool is_surface; /* else the sky is there */
-    uint64_t sample;
-    int step; /* of the path: so many are shown */
+    bool is_picked;     /* the cursor has picked the pixel, */
+    double position[3]; /* at this point, in file units */
+    bool is_surface;    /* the pixel shows a surface, not the sky */
+    uint64_t sample;    /* whose path is drawn */
+    int step;           /* so many steps of the path are drawn */
     struct path_record trail;
     struct path_record_lobes lobes;
-    bool has_panel;
+    bool has_table; /* its table is in the window */
 };
 
 void inspector_init(struct inspector *inspector, struct render_control *control,
@@ -74,21 +74,23 @@ void inspector_save(struct inspector *inspector);
 void inspector_save_hdr(struct inspector *inspector);
 void inspector_save_text(struct inspector *inspector);
 
-/* Nothing is drawn over the picture any more. */
+/* Removes drawings and their table. */
 void inspector_stop_drawing(struct inspector *inspector);
 
-/* The scene is another one: what was made of the old one is dropped. */
+/* Takes a scene that was loaded anew: drops all that was made of the old one.
+ */
 void inspector_renew(struct inspector *inspector);
 
-/* Follows a new pick. */
+/* Draws from a new pick, if there is one. */
 void inspector_step(struct inspector *inspector);
 
-/* Back to light: normal mode has no samples of other views. */
+/* Goes back to light if the view mode has samples of its own: normal mode
+ * renders light only. */
 void inspector_leave(struct inspector *inspector);
 
-/* Closes the panel before another window opens, and opens it behind that. */
-void inspector_close_panel(struct inspector *inspector);
-void inspector_open_panel(struct inspector *inspector);
+/* Close the table before another window opens, and open it again after that. */
+void inspector_close_table(struct inspector *inspector);
+void inspector_open_table(struct inspector *inspector);
 
 void inspector_free(struct inspector *inspector);
 

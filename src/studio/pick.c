@@ -8,9 +8,11 @@
 #include "kernels/hit.h"
 #include "kernels/texture.h"
 
+/* The least coverage that counts as solid. */
 #define SOLID 0.5f
 
-/* As the traversal: the nearest t, at equal t the lowest number. */
+/* Finds the nearest t, at equal t the lowest triangle number, as traversal of
+ * the tree does. */
 static bool closest_hit(const struct world *w, struct ray ray, struct hit *best)
 {
     struct shear shear = shear_of(ray);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * pick.h - what of a scene is seen at a point of its picture
+ * pick.h - the surface that a picture shows at a point
  *
- * Through the middle of the lens, with the render's camera and its triangle
- * test: what is picked is what the render shows there. A half-transparent
- * surface counts as solid from one half on, for a pick is no chance.
+ * The ray goes through the middle of the lens, with the render's camera and its
+ * triangle test, so a pick is what the render shows there. A surface with a
+ * coverage of one half or more counts as solid: picks are not random.
  *
  * Units:     pixels, (0, 0) is the top left corner of the picture; file units
  * Ownership: the scene stays the caller's
@@ -25,17 +25,19 @@ struct pick {
     double position[3];
 };
 
-/* False, with *pick unchanged, if there is only the sky. Looks at every
- * triangle: 17 ms for a million. */
+/* Finds the surface at a point of the picture. Returns false, with *pick
+ * unchanged, if there is only the sky. Tests every triangle: 17 ms for a
+ * million. */
 bool pick_at(const struct scene *scene, const struct view *view, double x_px,
              double y_px, struct pick *pick);
 
-/* The box around an object's triangles, in file units. */
+/* The bounding box of an object's triangles, in file units. */
 void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],
                  double hi[3]);
 
-/* The point of a picture of width_px x height_px pixels, shown at `fit`, that
- * is in the middle of a cell. False outside of the picture. */
+/* Finds the point of the picture in the middle of a cell. The picture has
+ * width_px x height_px pixels and is shown at `fit`. Returns false outside of
+ * it. */
 bool pick_point_of_cell(const struct fit *fit, int width_px, int height_px,
                         int col, int row, double *x_px, double *y_px);
 

@@ -7,8 +7,8 @@
 
 #define TEXT_BYTES 256
 
-/* An arrow that comes again within this time is held; every so many cells it
- * goes a cell further at once. */
+/* An arrow key that comes again within this time is held down. After every
+ * HELD_CELLS repeats its step grows by a cell. */
 #define HELD_NS    UINT64_C(150000000)
 #define HELD_CELLS 8
 

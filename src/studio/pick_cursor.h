@@ -2,7 +2,7 @@
 /*
  * pick_cursor.h - a cursor on the picture, and what it or a click has picked
  *
- * What is under the cursor is said in the last line.
+ * The last line says what is under the cursor.
  *
  * Units:     terminal cells
  * Ownership: control and screen stay the caller's and outlive the cursor
@@ -22,11 +22,11 @@
 
 struct pick_cursor {
     struct render_control *control;
-    struct screen *screen; /* knows where it is, and whether it is shown */
+    struct screen *screen; /* has its cell, and whether it is shown */
     struct pick pick;
     bool has_pick;
-    bool is_pick_new;          /* whom it concerns clears it */
-    bool must_look;            /* what is under it is not yet said */
+    bool is_pick_new; /* until the event loop has told the panel */
+    bool must_look;   /* the last line does not say yet what is under it */
     int held_right, held_down; /* the last step of the arrows, */
     uint64_t held_ns;          /* when it was made, */
     int held_count;            /* and how often before without a pause */
@@ -42,22 +42,24 @@ void pick_cursor_hide(struct pick_cursor *cursor);
 /* A step of an arrow key: one of both is 1 or -1. Held keys get faster. */
 void pick_cursor_move(struct pick_cursor *cursor, int right, int down);
 
-/* Picks what is under the cursor and hides the cursor; false, with a message:
- * only the sky. */
+/* Picks what is under the cursor and hides the cursor. Returns false, with a
+ * message, if that is only the sky. */
 bool pick_cursor_pick(struct pick_cursor *cursor);
 
-/* Picks what is at a cell of the screen, from 0; false: only the sky. */
+/* Picks what is at a cell of the screen, from 0. Returns false if that is only
+ * the sky. */
 bool pick_cursor_click(struct pick_cursor *cursor, int col, int row);
 
-/* Picks what the cursor is on if it is shown. False, with a message, if then
- * nothing is picked. */
+/* Picks what is under the cursor if it is shown. Returns false, with a message,
+ * if nothing is picked after that. */
 bool pick_cursor_need_pick(struct pick_cursor *cursor);
 
-/* What is in the middle of the picture, unpicked. */
+/* Finds what is in the middle of the picture, without picking it. Returns false
+ * if that is only the sky. */
 bool pick_cursor_look_ahead(const struct pick_cursor *cursor,
                             struct pick *pick);
 
-/* Says what is under the cursor if that may have changed. */
+/* Says in the last line what is under the cursor, if that may have changed. */
 void pick_cursor_step(struct pick_cursor *cursor);
 
 /* The name of an object, or words for none. */

@@ -36,7 +36,7 @@ void studio_set_live(struct studio *studio, bool is_live)
     render_control_set_live(&studio->control, is_live);
 }
 
-/* True if a finished render is in no file. Waits for one that is being
+/* True if a render of normal mode is in no file. Waits for one that is being
  * written. */
 static bool would_lose_render(struct studio *studio)
 {

@@ -105,7 +105,7 @@ void workspace_layout(struct workspace *workspace)
     panel_draw(&workspace->panel);
     /* the present draft is resampled until the next restart */
     set_draft(workspace->control->session, &workspace->screen.fit);
-    inspector_open_panel(&workspace->inspector); /* the layout closed it */
+    inspector_open_table(&workspace->inspector); /* the layout closed it */
 }
 
 void workspace_init(struct workspace *workspace, struct render_control *control,
@@ -192,7 +192,7 @@ static void open_help_page(struct workspace *workspace, int number)
         lines[i] = page.lines[i];
     if (workspace->help_left > 0 || workspace->progress_panel.is_on)
         screen_close_window(&workspace->screen);
-    inspector_close_panel(&workspace->inspector);
+    inspector_close_table(&workspace->inspector);
     screen_open_window(&workspace->screen, title, lines, page.line_count);
     workspace->help_number = number;
     workspace->help_left = page.page_count - number;
@@ -202,7 +202,7 @@ static void open_help_page(struct workspace *workspace, int number)
 static void close_help(struct workspace *workspace)
 {
     screen_close_window(&workspace->screen);
-    inspector_open_panel(&workspace->inspector);
+    inspector_open_table(&workspace->inspector);
     workspace->help_left = 0;
     panel_draw(&workspace->panel);
     workspace_refresh(workspace);

@@ -14,26 +14,28 @@
 static WINDOW *window;
 static WINDOW *panel;
 
-/* Blank until there is a picture. */
+/* A cell of picture or swatch: blank until that is drawn. */
 static const struct window_cell spared = {WINDOW_CELL_SPARED, L" ", 0};
 
-/* What the terminal shows. */
+/* Cells as the terminal shows them. */
 static struct {
     int cols, rows;
     struct window_cell *cell;
     bool must_clear;
 } shown;
 
-/* Bytes of a column: a character, and some that combine with it. */
+/* Bytes of a column: a character and some that combine with it. */
 #define COLUMN_BYTES 16
 
-/* Attribute of cells that the picture and swatches have. Text never has it. */
+/* Curses attribute that marks cells of picture and swatches. Text never has
+ * it. */
 #define SPARED WA_LOW
 
-/* The attributes that are used. */
+/* Attributes of text. */
 #define ATTRIBUTES (A_BOLD | A_DIM | A_REVERSE)
 
-/* Puts exactly so many columns where the cursor is. */
+/* Puts text at the cursor, cut or filled with blanks to exactly `cols`
+ * columns. */
 static void add_columns(WINDOW *to, const char *text, int cols)
 {
     if (cols <= 0)
@@ -79,7 +81,7 @@ void windows_clear(void)
     shown.must_clear = true;
 }
 
-/* What a text takes of so many columns. */
+/* Columns that a text takes if there are `cols`. */
 static int shown_columns(const char *text, int cols)
 {
     int all = text_width_of(text);
@@ -239,11 +241,11 @@ void windows_notice(const char *text)
 
 /* ---- writing ---- */
 
-/* Appends to what is to be written; knows where the cursor is and how the next
- * character will look. */
+/* A stream to the terminal with the cursor's cell and the attributes that are
+ * in force there. */
 struct writer {
     FILE *to;
-    int row, col; /* row -1: anywhere */
+    int row, col; /* of the cursor; row -1: unknown */
     attr_t attributes;
 };
 
@@ -259,7 +261,7 @@ static bool has_cell(const WINDOW *w, int col, int row)
            row >= getbegy(w) && row < getbegy(w) + getmaxy(w);
 }
 
-/* The topmost window there. */
+/* Returns the topmost window at a cell. */
 static WINDOW *owner_of(int col, int row)
 {
     if (has_cell(window, col, row))
@@ -267,7 +269,7 @@ static WINDOW *owner_of(int col, int row)
     return has_cell(panel, col, row) ? panel : stdscr;
 }
 
-/* Half of a wide character, of which a window above covers the other half. */
+/* True for half of a wide character if a window above covers the other half. */
 static bool is_torn(WINDOW *w, const struct window_cell *cell, int col, int row)
 {
     if (cell->kind == WINDOW_CELL_TAIL)
@@ -290,7 +292,7 @@ static void look_at(int col, int row, struct window_cell *cell)
     cell->kind = WINDOW_CELL_TEXT;
     if (attributes & SPARED)
         *cell = spared;
-    else if ((c.attr & A_CHARTEXT) > 1) /* how curses marks it */
+    else if ((c.attr & A_CHARTEXT) > 1) /* curses' mark of a right half */
         *cell = (struct window_cell){.kind = WINDOW_CELL_TAIL};
     if (is_torn(w, cell, col, row))
         *cell = (struct window_cell){.kind = WINDOW_CELL_TEXT, .text = L" "};
@@ -305,7 +307,8 @@ static void put_attributes(struct writer *w, attr_t attributes)
     w->attributes = attributes;
 }
 
-/* A line that only the terminal's other set of characters has. */
+/* Writes a line-drawing character from the terminal's alternate character
+ * set. */
 static void put_line(struct writer *w, wchar_t name)
 {
     const char *begin = tigetstr("smacs");
@@ -325,7 +328,7 @@ static void put_cell(struct writer *w, const struct window_cell *cell, int col,
         put_line(w, cell->text[0]);
     else
         fprintf(w->to, "%ls", cell->text);
-    /* of others terminals may think otherwise than we */
+    /* terminals disagree about the width of other characters */
     w->row = wcwidth(cell->text[0]) == 1 && cell->text[1] == L'\0' ? row : -1;
     w->col = col + 1;
 }
@@ -345,9 +348,9 @@ static void update_cell(struct writer *w, int col, int row)
         put_cell(w, &now, col, row);
 }
 
-/* Not by curses' own doupdate(), which saves bytes by what it knows of the
- * screen: it scrolls, erases to the end of a line, and writes blanks to get
- * past them. It does not know of the picture, which all that would tear. */
+/* Curses' doupdate() would destroy the picture, which it does not know: to save
+ * bytes it scrolls, erases to the end of a line, and writes blanks instead of
+ * moving the cursor. */
 void windows_update(void)
 {
     char *bytes;

@@ -3,13 +3,14 @@
  * curses_windows.h - the text on the screen: the status line, a window over the
  * picture, a panel beside it
  *
- * They are windows of curses, which windows_update() writes; nothing else of
- * the screen changes by that. There is one screen, so there is one state.
+ * They are windows of curses. windows_update() writes what has changed in them
+ * and touches nothing else of the screen. There is one screen, so the module
+ * has one state.
  *
  * Units:     terminal cells
  * Ownership: texts stay the caller's
  * Threads:   main only, between tty_open() and tty_close()
- * Errors:    without memory for a window there is none
+ * Errors:    without memory a window does not open
  */
 #ifndef GLIM_CURSES_WINDOWS_H
 #define GLIM_CURSES_WINDOWS_H
@@ -20,35 +21,36 @@ struct window_rect {
     int col, row, cols, rows;
 };
 
-/* Closes all of them. The next update empties the screen, which is the
- * picture's. */
+/* Closes all windows. The next update clears the screen and leaves it to the
+ * picture. */
 void windows_clear(void);
 
-/* At the end, before the screen is left. */
+/* Frees all. Call it before the screen is left. */
 void windows_free(void);
 
-/* Puts text in the last row, reversed; NULL leaves it to the picture. */
+/* Puts text into the last row, in reverse video; NULL leaves the row to the
+ * picture. */
 void windows_status(const char *text);
 
-/* A window with these lines and a title, in the middle; where it is. One at a
- * time. */
+/* Opens a window with these lines and a title in the middle of the screen and
+ * returns where it is. One window is open at a time. */
 struct window_rect windows_open(const char *title, const char *const *texts,
                                 int text_count);
-/* The same at the left edge, above the last row; in the corner at the top
- * right. */
+/* The same in the corner at the bottom left, above the last row, and in the
+ * corner at the top right. */
 struct window_rect windows_open_left(const char *title,
                                      const char *const *texts, int text_count);
 struct window_rect windows_open_corner(const char *title,
                                        const char *const *texts,
                                        int text_count);
 
-/* Replaces the lines of the window, by as long ones. */
+/* Replaces the lines of the window; its size stays. */
 void windows_set(const char *const *texts, int text_count);
 void windows_close(void);
 
 enum window_look { WINDOW_PLAIN, WINDOW_SELECTED, WINDOW_TITLE, WINDOW_HINT };
 
-/* The columns of a panel, in characters of several bytes. */
+/* Bytes of a line: the columns of a panel in characters of several bytes. */
 #define WINDOW_LINE_BYTES 256
 
 struct window_line {
@@ -56,38 +58,39 @@ struct window_line {
     enum window_look look;
 };
 
-/* Lines at the right edge, cols wide with a bar at their left, down to the row
- * above the last; where they are. Shown in place of those before. */
+/* Shows lines at the right edge of the screen, in `cols` columns with a bar at
+ * their left, above the last row. They replace those shown before. Returns
+ * where they are. */
 struct window_rect windows_show_panel(const struct window_line *panel_lines,
                                       int line_count, int cols);
 void windows_hide_panel(void);
 
-/* Columns of the panel that something else writes. */
+/* Leaves columns of a row of the panel to be written by others. */
 void windows_spare(int row, int col, int cols);
 
-/* Text in the middle of an empty screen. */
+/* Shows text in the middle of an empty screen. */
 void windows_notice(const char *text);
 
-/* Writes what changed; blanks once where the picture or a swatch will be. The
- * cursor is in the last row, column 0, afterwards. */
+/* Writes what has changed, and blanks once where picture or swatches will be.
+ * The cursor is in the last row, column 0, afterwards. */
 void windows_update(void);
 
 enum window_cell_kind {
-    WINDOW_CELL_SPARED, /* something else writes there */
+    WINDOW_CELL_SPARED, /* written by others: picture or swatch */
     WINDOW_CELL_TEXT,
     WINDOW_CELL_TAIL /* the right half of a wide character */
 };
 
-/* A character, and those that combine with it. */
+/* A character and those that combine with it. */
 #define WINDOW_CELL_CHARS 6
 
 struct window_cell {
     enum window_cell_kind kind;
     wchar_t text[WINDOW_CELL_CHARS];
-    unsigned attributes; /* of curses */
+    unsigned attributes; /* curses' A_ constants */
 };
 
-/* What the terminal shows since the last update. */
+/* Returns what the terminal shows in a cell since the last update. */
 const struct window_cell *windows_shown(int col, int row);
 
 #endif

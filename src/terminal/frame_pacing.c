@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "terminal/frame_pacing.h"
 
-/* A key waits for the frame on its way and its answer, half of that on average,
- * and for its own frame: at 200 ms there and back 0.08 s of output are a median
- * of 0.42 s, and more than a quarter of what the line could carry. */
+/* Seconds of output in a frame. A key waits for the frame on its way and its
+ * answer, half of that on average, and for its own frame. With a round trip of
+ * 200 ms a frame of 0.08 s makes that a median of 0.42 s, and uses more than a
+ * quarter of the line. */
 #define FRAME_SECONDS 0.08
 
-/* Enough for some cells however slow the line. */
+/* Least bytes of a frame, enough for some cells on any line. */
 #define BUDGET_MIN 600
 
-/* Before anything is known: half a second at 256 kbit/s. */
+/* Bytes of the first frame: half a second at 256 kbit/s. */
 #define BUDGET_FIRST 16384
 
 #define BUDGET_MAX ((size_t)1 << 30)
 
-/* From frame to frame: what was measured too fast is so before it costs
- * seconds. */
+/* Most growth from one frame to the next: a rate that was measured too high is
+ * corrected before a frame takes seconds. */
 #define GROWTH_MAX 2
 
-/* Smaller frames say more about the clock than about the line. */
+/* Smaller frames take too short to measure the line. */
 #define MEASURE_BYTES 1000
 
-/* The longest round trip that is waited for at start, then later. */
+/* Longest wait for an answer: the first, and later ones. */
 #define FIRST_ANSWER_NS 400000000u
 #define LOST_ANSWER_NS  5000000000u
 
-/* Below a megabyte a second a frame of a common window lasts longer than a
- * blink. */
+/* Below a megabyte a second a frame of a common window takes visibly long. */
 #define SLOW_RATE 1e6
 
 void frame_pacing_init(struct frame_pacing *p, uint64_t now_ns)
@@ -50,8 +50,8 @@ bool frame_pacing_wants_request(const struct frame_pacing *p)
     return p->state != FRAME_PACING_MUTE;
 }
 
-/* Bytes and times are smoothed apart: a small frame whose answer was lucky by
- * some milliseconds would else be a line of megabytes a second. */
+/* Bytes and times are smoothed separately: otherwise a small frame whose answer
+ * was quick by chance would mean megabytes a second. */
 static void learn_rate(struct frame_pacing *p, size_t bytes, double seconds)
 {
     double weight = p->rate > 0 ? 0.3 : 1;
@@ -69,9 +69,8 @@ static void learn_rate(struct frame_pacing *p, size_t bytes, double seconds)
         p->budget_bytes = budget < BUDGET_MIN ? BUDGET_MIN : (size_t)budget;
 }
 
-/* Nothing tells how fast the line is where all frames are as large as the
- * quickest: they become smaller, down to what has passed in time before, and
- * from there on larger, until one tells. */
+/* Frames of equal size say nothing about the rate. So frames become smaller,
+ * down to what sure_rate allows, and then larger, until sizes differ enough. */
 static void look_for_rate(struct frame_pacing *p)
 {
     double sure = p->sure_rate * FRAME_SECONDS;
@@ -83,8 +82,9 @@ static void look_for_rate(struct frame_pacing *p)
         p->budget_bytes *= 2;
 }
 
-/* What a frame took more than the quickest, for what it was larger, is the
- * line's: neither the way nor a start that was slow are in it. */
+/* The rate comes from the additional time of a larger frame over that of the
+ * quickest: the difference has neither the round trip nor a slow start in it.
+ */
 static void learn_from_answer(struct frame_pacing *p, uint64_t rtt_ns)
 {
     double least = (double)p->frame_bytes / ((double)(rtt_ns + 1) * 1e-9);
@@ -101,7 +101,7 @@ static void learn_from_answer(struct frame_pacing *p, uint64_t rtt_ns)
     }
 }
 
-/* Without answers the time that write() took is all there is to see. */
+/* Without answers the rate comes from the time that write() took. */
 static void learn_from_write(struct frame_pacing *p, uint64_t took_ns)
 {
     if (took_ns > 2000000u && p->frame_bytes > MEASURE_BYTES)
@@ -123,8 +123,8 @@ void frame_pacing_sent(struct frame_pacing *p, size_t size_bytes,
         learn_from_write(p, end_ns - begin_ns);
 }
 
-/* The answer to the very first request: nothing but the way there and back,
- * even if a frame has followed it. */
+/* The first request was written without a frame, so its answer measures the
+ * round trip alone, even if a frame has followed. */
 static void first_answer(struct frame_pacing *p, uint64_t now_ns)
 {
     p->rtt_min_ns = now_ns - p->first_asked_ns;
@@ -138,7 +138,7 @@ void frame_pacing_answer(struct frame_pacing *p, uint64_t now_ns)
 
     p->state = FRAME_PACING_ANSWERS;
     if (before == FRAME_PACING_MUTE)
-        p->outstanding = 0; /* the others may be lost */
+        p->outstanding = 0; /* earlier answers may be lost */
     else if (p->outstanding > 0)
         p->outstanding--;
     if (before != FRAME_PACING_ANSWERS) {

@@ -9,25 +9,26 @@
 #include "base/clock.h"
 #include "picture/raster.h"
 
-/* The longest round trip that is waited for at the end. */
+/* Longest wait for answers in screen_drain(). */
 #define DRAIN_NS UINT64_C(500000000)
 
-/* Of a frame of pixels, however fast the line: what is encoded in the time that
- * a key may wait, some 20 ms. */
+/* Most bytes of a frame of pixels on any line: encoding them takes some 20 ms,
+ * and a key waits for that. */
 #define PIXEL_BYTES_MAX ((size_t)512 << 10)
 
-/* Sixel images with fewer colours have the 16. */
+/* A sixel terminal with fewer colours gets the palette of 16. */
 #define SIXEL_COLORS_MIN 256
 
-/* A smaller window has no room for a picture and a word about it. */
+/* Smallest window that has room for a picture and a status line. */
 #define COLS_MIN 40
 #define ROWS_MIN 12
 
-/* The panel, and what it leaves of a narrow window. */
+/* Columns of the panel, and those of the picture beside it in a narrow window.
+ */
 #define PANEL_COLS   38
 #define PICTURE_COLS 10
 
-/* Where swatches stand in the panel. */
+/* First column of swatches in the panel. */
 #define SWATCH_COL 2
 
 void screen_init(struct screen *screen, const struct term_caps_choice *choice)
@@ -37,7 +38,8 @@ void screen_init(struct screen *screen, const struct term_caps_choice *choice)
     term_caps_init(&screen->display, choice);
 }
 
-/* Cells that are written over sixels replace them, over kitty's not. */
+/* Removes the picture's pixels where characters do not overwrite them: kitty's,
+ * but not sixels. */
 static void erase_pixels(struct screen *screen)
 {
     const char *eraser = pixel_graphics_eraser(screen->graphics.shape.kind);
@@ -78,7 +80,8 @@ static struct fit fit_to(const struct screen *screen,
                          const struct tty_size *size, int width_px,
                          int height_px)
 {
-    /* sixels in the last row would scroll the screen, on some a character */
+    /* Sixels in the last row scroll the screen; on some terminals a character
+     * in its last cell does. */
     bool is_short = screen->has_status_row || tty_scrolls_at_end() ||
                     term_caps_pixels(&screen->display) == PIXEL_GRAPHICS_SIXEL;
 
@@ -192,14 +195,14 @@ const char *screen_glyphs_name(const struct screen *screen)
     return glyphs_name(screen->display.glyphs);
 }
 
-/* Text was there. */
+/* The picture has to be drawn again where text was. */
 static void give_to_picture(struct screen *screen, struct ansi_diff_rect rect)
 {
     ansi_diff_forget(&screen->ansi, rect);
     pixel_graphics_forget(&screen->graphics, rect);
 }
 
-/* The last row of the screen, as a part of the picture. */
+/* The last row of the screen, in cells of the picture. */
 static struct ansi_diff_rect last_row(const struct screen *screen)
 {
     return (struct ansi_diff_rect){0, term_size().rows - 1 - screen->fit.row,
@@ -263,8 +266,8 @@ void screen_open_window(struct screen *screen, const char *title,
     cover(screen, windows_open(title, texts, text_count));
 }
 
-void screen_open_panel(struct screen *screen, const char *title,
-                       const char *const *texts, int text_count)
+void screen_open_left(struct screen *screen, const char *title,
+                      const char *const *texts, int text_count)
 {
     cover(screen, windows_open_left(title, texts, text_count));
 }
@@ -287,11 +290,12 @@ void screen_close_window(struct screen *screen)
     windows_close();
     give_to_picture(screen, screen->window);
     screen->window = (struct ansi_diff_rect){0};
-    screen->has_new_panel = screen->panel_cols > 0; /* it may have been below */
+    screen->has_new_panel = screen->panel_cols > 0; /* the window covered it */
     screen->must_update = true;
 }
 
-/* Around the cell of the cursor: white around black is seen on anything. */
+/* Draws the cursor around its cell: a white box around a black one is visible
+ * on any colour. */
 static void mark_pixels(const struct screen *screen, struct frame *f)
 {
     int x0 = screen->cursor_col * f->width / screen->fit.cols;
@@ -303,7 +307,8 @@ static void mark_pixels(const struct screen *screen, struct frame *f)
     raster_box(f, x0 - 2, y0 - 2, x1 + 2, y1 + 2, 0xffffff);
 }
 
-/* Appends what changed in the picture; false if the budget was too small. */
+/* Appends changes of the picture. Returns false if the budget was too small for
+ * all of them. */
 static bool add_picture(struct screen *screen, struct frame *frame, int step)
 {
     struct ansi_diff_rect covered[2] = {screen->window};
@@ -333,7 +338,7 @@ static bool add_picture(struct screen *screen, struct frame *frame, int step)
     return ansi_diff_picture(&screen->ansi, &screen->cells, &draw);
 }
 
-/* One write() a frame; more before it if text has changed. */
+/* A frame is one write(). Text that has changed is written before it. */
 enum screen_result screen_draw(struct screen *screen, struct frame *frame,
                                int step)
 {

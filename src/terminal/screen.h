@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * screen.h - the picture, the status line and the help window on the terminal
+ * screen.h - the terminal's screen: the picture, the editor panel, a window and
+ * the status line
  *
- * Knows where they are and what they cover; writes frames as the pace allows.
+ * The screen knows where these are and which cover the others. It shows frames
+ * that it is given and sends as many bytes as frame_pacing allows.
  *
  * Units:     terminal cells
  * Ownership: screen_free() frees
  * Threads:   main only
- * Errors:    memory; a terminal that is gone by the result of screen_draw()
+ * Errors:    memory; screen_draw() says if the terminal is gone
  */
 #ifndef GLIM_SCREEN_H
 #define GLIM_SCREEN_H
@@ -21,66 +23,68 @@
 #include "terminal/swatches.h"
 #include "terminal/term_caps.h"
 
-/* The longest text of the status line, with its end. */
+/* Bytes of the longest status line, with its final 0. */
 #define STATUS_BYTES 1024
 
 struct screen {
     struct frame_pacing pace;
     struct term_caps display;
-    bool has_status_row; /* else the line shows only what is urgent */
+    bool has_status_row; /* else only messages appear in the last row */
     bool is_too_small;
-    bool has_all_answers; /* to what was asked at the start */
-    /* of the present size */
+    bool has_all_answers; /* to the questions of tty_open() */
+    /* These have the size of the present layout. */
     struct fit fit;
     int frame_width, frame_height; /* pixels of the frames it wants */
     struct cells cells;
-    struct pixel_graphics graphics; /* instead of cells, if of a kind */
+    struct pixel_graphics graphics; /* used instead of cells unless NONE */
     struct ansi_diff ansi;
     char status[STATUS_BYTES];
     bool has_status;
-    struct ansi_diff_rect window; /* no columns: closed */
-    bool must_update;             /* curses has something to write */
-    bool has_panel;               /* the next layout leaves room for one */
-    int panel_cols;               /* at the right edge; 0: none */
-    struct swatches swatches;     /* of the panel's lines */
-    bool has_new_panel;
+    struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
+    bool must_update;             /* text has changed since the last update */
+    bool has_panel;           /* the next layout leaves room for the panel */
+    int panel_cols;           /* columns at the right edge; 0: none */
+    struct swatches swatches; /* colours beside the panel's lines */
+    bool has_new_panel;       /* swatches have to be written */
     bool has_cursor;
-    int cursor_col, cursor_row; /* in the picture */
+    int cursor_col, cursor_row; /* from the picture's corner */
 };
 
-/* Where a picture of this size will go, as far as that is known before
- * tty_open(). No columns: nowhere. */
+/* Returns where a picture of this size will be shown, as far as that is known
+ * before tty_open(); no columns if the window is too small. */
 struct fit screen_expect(const struct term_caps_choice *choice, int width_px,
                          int height_px);
 
-/* After tty_open(). */
+/* Call it after tty_open(). */
 void screen_init(struct screen *screen, const struct term_caps_choice *choice);
 
-/* Fits a picture of this size to the terminal's size of now; everything is
- * drawn anew. */
+/* Fits a picture of this size to the present size of the terminal. The window
+ * closes, and everything has to be drawn anew. */
 bool screen_layout(struct screen *screen, int width_px, int height_px,
                    struct error *err);
 
-/* Takes an answer of the terminal. True if the layout must be done anew, as it
- * must after a change of screen->display. */
+/* Takes an answer of the terminal. Returns true if screen_layout() has to be
+ * called, as it has to be after a change of screen->display. */
 bool screen_answer(struct screen *screen, const struct event *event);
 
-/* The text of the last row; NULL: none, the picture shows there. */
+/* Sets the text of the last row; NULL leaves the row to the picture. */
 void screen_status(struct screen *screen, const char *text);
 
-/* Shows lines in the panel that the layout has left room for; screen->swatches
- * stand left of them. */
+/* Shows lines in the panel, with screen->swatches at their left. The layout
+ * must have left room for it. */
 void screen_show_panel(struct screen *screen,
                        const struct window_line *panel_lines, int line_count);
 
+/* Opens a window with these lines in the middle of the screen. One window is
+ * open at a time. */
 void screen_open_window(struct screen *screen, const char *title,
                         const char *const *texts, int text_count);
-/* The same at the left edge of the last rows, beside which keys go on. */
-void screen_open_panel(struct screen *screen, const char *title,
-                       const char *const *texts, int text_count);
+/* The same in the corner at the bottom left; keys keep their meaning. */
+void screen_open_left(struct screen *screen, const char *title,
+                      const char *const *texts, int text_count);
 
-/* The same at the right of the top, with lines that change: as many, and as
- * long. */
+/* The same in the corner at the top right. screen_set_corner() replaces the
+ * lines by as many of the same length. */
 void screen_open_corner(struct screen *screen, const char *title,
                         const char *const *texts, int text_count);
 void screen_set_corner(struct screen *screen, const char *const *texts,
@@ -88,9 +92,9 @@ void screen_set_corner(struct screen *screen, const char *const *texts,
 void screen_close_window(struct screen *screen);
 
 enum screen_result {
-    SCREEN_DONE, /* all is shown */
-    SCREEN_MORE, /* the budget was too small for all */
-    SCREEN_GONE  /* the terminal is gone, or a signal wants an end */
+    SCREEN_DONE, /* the screen shows all of the frame */
+    SCREEN_MORE, /* the budget of bytes was too small for all of it */
+    SCREEN_GONE  /* the terminal is gone, or a signal ends the program */
 };
 
 /* Writes text that has changed and the frame, or only the text if that is NULL.
@@ -100,14 +104,14 @@ enum screen_result {
 enum screen_result screen_draw(struct screen *screen, struct frame *frame,
                                int step);
 
-/* How the picture is shown, as text would be. */
+/* Size, colours and glyphs of the picture, for saving it as text. */
 struct ansi_text_style screen_style(const struct screen *screen);
 
-/* The kind of glyphs or pixels, for people. */
+/* Name of the kind of glyphs or pixels, for messages. */
 const char *screen_glyphs_name(const struct screen *screen);
 
-/* Removes pixels and waits for answers on their way, half a second at most:
- * they would be typed into the shell. Keys pressed meanwhile are lost. */
+/* Removes pixels and waits half a second at most for the terminal's answers,
+ * which the shell would read as typed text. Keys pressed meanwhile are lost. */
 void screen_drain(struct screen *screen, struct tty_input *input);
 
 void screen_free(struct screen *screen);
