@@ -84,19 +84,21 @@ bool caustics_possible(const struct world *w)
     return found;
 }
 
-static bool find_lists(struct search *s)
+static bool find_lists(struct search *s, const struct lights *lights)
 {
     const struct world *w = &s->w->world;
 
     if (!triangle_cdf_init(&s->lights, 2 * w->settings.light_count) ||
         !triangle_cdf_init(&s->casters, w->settings.tri_count))
         return false;
-    for (uint32_t i = 0; i < w->settings.tri_count; i++) {
-        if (light_of(w, i) != NO_INDEX)
-            triangle_cdf_add(&s->lights, i, tri_power(w, i));
+    for (uint32_t i = 0; i < lights->light_count; i++)
+        for (int k = 0; k < 2; k++)
+            if (lights->lights[i].tris[k] != NO_INDEX)
+                triangle_cdf_add(&s->lights, lights->lights[i].tris[k],
+                                 lights->powers[i][k]);
+    for (uint32_t i = 0; i < w->settings.tri_count; i++)
         if (casts(&w->materials[w->tris[i].material]))
             triangle_cdf_add(&s->casters, i, tri_area(w, i));
-    }
     return true;
 }
 
@@ -223,11 +225,12 @@ static void fill_rest(const struct search *s, double box,
         part->rest[i] = (float)rest;
 }
 
-bool caustics_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                   double box, struct pool *pool, struct guide_flux *part)
+bool caustics_find(const struct bvh8_world *w, const struct lights *lights,
+                   const struct guide_grid *grid, double box, struct pool *pool,
+                   struct guide_flux *part)
 {
     struct search s = {.w = w, .grid = grid};
-    bool ok = find_lists(&s);
+    bool ok = find_lists(&s, lights);
 
     s.landings = alloc_array((size_t)PHOTONS * LANDINGS, sizeof *s.landings);
     ok = ok && s.landings != NULL;

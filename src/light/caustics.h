@@ -21,6 +21,7 @@
 #include "base/thread_pool.h"
 #include "bvh/bvh8_traverse.h"
 #include "light/guide_grid.h"
+#include "light/lights.h"
 
 /* The material as photons see it, without colours: what they come from is
  * white, the rest grey. */
@@ -30,7 +31,8 @@ struct material caustics_material(struct material m);
 bool caustics_possible(const struct world *w);
 
 /* `box` is the surface of the box around the scene. */
-bool caustics_find(const struct bvh8_world *w, const struct guide_grid *grid,
-                   double box, struct pool *pool, struct guide_flux *part);
+bool caustics_find(const struct bvh8_world *w, const struct lights *lights,
+                   const struct guide_grid *grid, double box, struct pool *pool,
+                   struct guide_flux *part);
 
 #endif

@@ -176,9 +176,13 @@ static void add_light(const struct world *w, struct lights *l,
     struct light light = make_light(w, tri);
     uint32_t n = l->light_count;
 
-    if (n > 0 && join_light(w, &l->lights[n - 1], &emitters[n - 1], &light, e))
+    if (n > 0 &&
+        join_light(w, &l->lights[n - 1], &emitters[n - 1], &light, e)) {
+        l->powers[n - 1][1] = e->power / 2;
         return;
+    }
     l->lights[n] = light;
+    l->powers[n][0] = e->power / 2;
     emitters[n] = *e;
     emitters[n].light = n;
     l->light_count++;
@@ -194,8 +198,10 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
 
     *emitters = alloc_array(candidate_count, sizeof **emitters);
     l->lights = alloc_array(candidate_count, sizeof *l->lights);
+    l->powers = alloc_array(candidate_count, sizeof *l->powers);
     l->tri_lights = alloc_array(w->settings.tri_count, sizeof *l->tri_lights);
-    if (*emitters == NULL || l->lights == NULL || l->tri_lights == NULL)
+    if (*emitters == NULL || l->lights == NULL || l->powers == NULL ||
+        l->tri_lights == NULL)
         return fail(err, "out of memory for %u lights", candidate_count);
     for (uint32_t i = 0; i < w->settings.tri_count; i++) {
         struct emitter e;
@@ -278,6 +284,15 @@ out:
     return ok;
 }
 
+double lights_power(const struct lights *lights)
+{
+    double power = 0;
+
+    for (uint32_t i = 0; i < lights->light_count; i++)
+        power += lights->powers[i][0] + lights->powers[i][1];
+    return power;
+}
+
 /* Light found by chance that falls on a plane has a variance of about pi times
  * power times radiance at distance 1. */
 static float light_share(const struct lights *lights, const struct sky *sky)
@@ -305,6 +320,7 @@ void lights_lend(const struct lights *lights, struct world *world)
 void lights_free(struct lights *lights)
 {
     free(lights->lights);
+    free(lights->powers);
     free(lights->tri_lights);
     free(lights->nodes);
     memset(lights, 0, sizeof *lights);

@@ -20,6 +20,8 @@
 struct lights {
     struct light *lights; /* in the order of their first triangles */
     uint32_t light_count;
+    double (
+        *powers)[2]; /* of each light: of its triangles, see lights_power() */
     uint32_t *tri_lights;
     struct light_node *nodes;
     uint32_t node_count;
@@ -29,6 +31,11 @@ struct lights {
 /* Reads the world's triangles, materials and textures. */
 bool lights_build(struct lights *lights, const struct world *world,
                   struct error *err);
+
+/* Returns the power of all lights. The power of a triangle is its area times
+ * the mean of its radiance over its part of the emission map and over the
+ * channels, times its opacity. */
+double lights_power(const struct lights *lights);
 
 /* True if a triangle that gets the other material becomes another light. */
 bool lights_differ(const struct material *a, const struct material *b);

@@ -36,16 +36,6 @@ struct table {
 
 /* ---- the parts ---- */
 
-static double power_of(const struct world *w)
-{
-    double power = 0;
-
-    for (uint32_t i = 0; i < w->settings.tri_count; i++)
-        if (light_of(w, i) != NO_INDEX)
-            power += tri_power(w, i);
-    return power;
-}
-
 static bool wants_caustics(const struct path_guide *g, const struct world *w)
 {
     return g->caustics.flux == NULL && caustics_possible(w);
@@ -57,7 +47,8 @@ static bool wants_portals(const struct path_guide *g, double sky)
 }
 
 static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
-                       double sky, struct pool *pool)
+                       const struct lights *lights, double sky,
+                       struct pool *pool)
 {
     bool has_caustics = wants_caustics(g, &w->world);
     bool has_portals = wants_portals(g, sky);
@@ -66,10 +57,10 @@ static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
     if (!has_caustics && !has_portals)
         return true;
     box = guide_grid_init(&g->grid, &w->world);
-    g->lights = 2 * power_of(&w->world) / box;
+    g->lights = 2 * lights_power(lights) / box;
     return (!has_caustics ||
             (guide_flux_init(&g->caustics, &g->grid) &&
-             caustics_find(w, &g->grid, box, pool, &g->caustics))) &&
+             caustics_find(w, lights, &g->grid, box, pool, &g->caustics))) &&
            (!has_portals || sky_portals_find(w, &g->grid, pool, &g->portals));
 }
 
@@ -193,15 +184,15 @@ static void take_table(struct path_guide *g, struct table *t)
     g->grid.table_count = t->count;
 }
 
-static bool update(struct path_guide *g, const struct bvh8_world *w, double sky,
-                   struct pool *pool)
+static bool update(struct path_guide *g, const struct bvh8_world *w,
+                   const struct lights *lights, double sky, struct pool *pool)
 {
     struct table t = {.cells = NULL};
 
     if (w->world.settings.tri_count > 0) {
         struct other o = {.lights = INFINITY};
 
-        if (!find_parts(g, w, sky, pool))
+        if (!find_parts(g, w, lights, sky, pool))
             return false;
         if (sky > 0)
             o = (struct other){g->lights / sky,
@@ -229,11 +220,12 @@ bool path_guide_needs_rays(const struct path_guide *g, const struct world *w,
 }
 
 bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
-                       double sky, struct pool *pool, struct error *err)
+                       const struct lights *lights, double sky,
+                       struct pool *pool, struct error *err)
 {
     if (is_done(g, sky))
         return true;
-    if (!update(g, w, sky, pool)) {
+    if (!update(g, w, lights, sky, pool)) {
         path_guide_outdate(g);
         return fail(err, "out of memory for the table of directions");
     }

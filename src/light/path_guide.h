@@ -19,6 +19,7 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+#include "light/lights.h"
 #include "light/sky_portals.h"
 
 struct path_guide {
@@ -38,13 +39,14 @@ struct path_guide {
 bool path_guide_needs_rays(const struct path_guide *guide,
                            const struct world *world, double sky);
 
-/* Brings the table to what suits the world, which has its lights, and a sky of
- * this mean radiance. Searches only for what the scene has not been searched
- * for since path_guide_outdate(). Arrays that were lent live until the new ones
- * do.
+/* Brings the table to what suits the world, its lights, which it has been lent,
+ * and a sky of this mean radiance. Searches only for what the scene has not
+ * been searched for since path_guide_outdate(). Arrays that were lent live
+ * until the new ones do.
  */
 bool path_guide_update(struct path_guide *guide, const struct bvh8_world *world,
-                       double sky, struct pool *pool, struct error *err);
+                       const struct lights *lights, double sky,
+                       struct pool *pool, struct error *err);
 
 /* The world is another. */
 void path_guide_outdate(struct path_guide *guide);

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "picture/color.h"
 #include "kernels/vec.h"
 
 bool triangle_cdf_init(struct triangle_cdf *l, uint32_t capacity)
@@ -64,11 +63,4 @@ double tri_area(const struct world *w, uint32_t tri)
     tri_corners(w, tri, p);
     return 0.5 *
            (double)v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
-}
-
-double tri_power(const struct world *w, uint32_t tri)
-{
-    struct vec3 e = w->materials[w->tris[tri].material].emission;
-
-    return tri_area(w, tri) * color_mean(e);
 }

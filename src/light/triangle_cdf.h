@@ -34,7 +34,4 @@ void tri_corners(const struct world *world, uint32_t tri, struct vec3 p[3]);
 
 double tri_area(const struct world *world, uint32_t tri);
 
-/* Area times the mean of what the material's channels emit. */
-double tri_power(const struct world *world, uint32_t tri);
-
 #endif

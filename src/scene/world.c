@@ -112,12 +112,13 @@ bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
     if (scene->sky_texels != NULL)
         sky *= scene->sky_table.mean;
     if (!path_guide_needs_rays(&scene->guide, &w.world, sky))
-        return path_guide_update(&scene->guide, &w, sky, NULL, err);
+        return path_guide_update(&scene->guide, &w, &scene->lights, sky, NULL,
+                                 err);
     /* without threads this one works */
     pool = thread_count > 1 ? pool_create(thread_count, err) : NULL;
     ok = (scene->tree.nodes != NULL ||
           bvh8_build(&scene->tree, &w.world, pool, err)) &&
-         path_guide_update(&scene->guide, &w, sky, pool, err);
+         path_guide_update(&scene->guide, &w, &scene->lights, sky, pool, err);
     pool_destroy(pool);
     return ok;
 }

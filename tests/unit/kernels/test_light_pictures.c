@@ -137,6 +137,27 @@ static void holes_do_not_shine(void **state)
     discard(&m, &lights);
 }
 
+/* A square of area 1 and radiance 1 under a grey picture that covers half. */
+static void power_counts_picture_and_opacity(void **state)
+{
+    static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
+    float linear[256];
+    struct texture texture;
+    struct vec2 uvs[4];
+    struct mesh m = {0};
+    struct lights lights;
+
+    (void)state;
+    for (int i = 0; i < TEXTURE_SIDE * TEXTURE_SIDE; i++)
+        texels[i] = 0xff333333u;
+    add_picture(&m, uvs, texels, &texture, linear, 1);
+    m.materials[LAMP].opacity = 0.5f;
+    finish(&m, &lights);
+    check_close(lights_power(&lights), 0.5 * 0x33 / 255, 1e-6);
+    check_close(lights.powers[0][0], lights.powers[0][1], 1e-6);
+    discard(&m, &lights);
+}
+
 /* Of the two halves of a square only that with light in its picture is a
  * light; it is the one below the diagonal from left bottom to right top. */
 static void dark_pictures_are_no_lights(void **state)
@@ -244,6 +265,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_shine_as_they_look),
         cmocka_unit_test(holes_do_not_shine),
+        cmocka_unit_test(power_counts_picture_and_opacity),
         cmocka_unit_test(dark_pictures_are_no_lights),
         cmocka_unit_test(footprints_miss_nothing),
     };

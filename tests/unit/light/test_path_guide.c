@@ -272,13 +272,21 @@ static void lamp_and_wall(struct stage *s, enum material_kind kind)
     lights_lend(&s->lights, &s->mesh.world);
 }
 
+/* The lights that the world has been lent. */
+static const struct lights *lent_lights(const struct stage *s)
+{
+    static const struct lights none = {.light_count = 0};
+
+    return s->mesh.world.settings.light_count > 0 ? &s->lights : &none;
+}
+
 static void built(struct stage *s, float sky, struct path_guide *g)
 {
     struct error err;
 
     path_guide_outdate(g);
-    check_or_say(path_guide_update(g, &s->mesh.wide_world, (double)sky, NULL,
-                                   &err),
+    check_or_say(path_guide_update(g, &s->mesh.wide_world, lent_lights(s),
+                                   (double)sky, NULL, &err),
                  err.text);
 }
 
@@ -500,8 +508,8 @@ static void white_rooms_are_left_alone(void **state)
             s.mesh.materials[0] =
                 mesh_material(MATERIAL_DIFFUSE, is_white ? .98f : .3f);
             path_guide_recolor(&g);
-            check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL,
-                                           NULL),
+            check_or_say(path_guide_update(&g, &s.mesh.wide_world,
+                                           lent_lights(&s), 1, NULL, NULL),
                          "");
             path_guide_lend(&g, &s.mesh.world);
             first =
@@ -558,10 +566,12 @@ static void only_where_the_sky_is_hidden(void **state)
     stage_finish(&s);
     built(&s, 0, &g);
     assert_null(g.cells);
-    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 1, NULL, &err),
+    check_or_say(path_guide_update(&g, &s.mesh.wide_world, lent_lights(&s), 1,
+                                   NULL, &err),
                  err.text);
     assert_non_null(g.cells);
-    check_or_say(path_guide_update(&g, &s.mesh.wide_world, 0, NULL, &err),
+    check_or_say(path_guide_update(&g, &s.mesh.wide_world, lent_lights(&s), 0,
+                                   NULL, &err),
                  err.text);
     assert_null(g.cells);
     lights_lend(&s.lights, &s.mesh.world);
@@ -615,8 +625,8 @@ static void threads_change_nothing(void **state)
             lamp_and_wall(&s, MATERIAL_METAL);
         }
         built(&s, (float)sky, &alone);
-        check_or_say(path_guide_update(&together, &s.mesh.wide_world, sky, pool,
-                                       &err),
+        check_or_say(path_guide_update(&together, &s.mesh.wide_world,
+                                       lent_lights(&s), sky, pool, &err),
                      err.text);
         assert_non_null(alone.cells);
         assert_int_equal(alone.grid.table_count, together.grid.table_count);
