@@ -107,7 +107,8 @@ static bool check_outputs(const struct session *s, struct error *err)
     if (o->output_path)
         return image_write_check(o->output_path, err);
     if (access(".", W_OK | X_OK) != 0)
-        return fail(err, "the current folder: %s, expected -o FILE elsewhere",
+        return fail(err,
+                    "current folder: %s, expected a writable one or -o FILE",
                     strerror(errno));
     return true;
 }
@@ -365,7 +366,7 @@ static bool save_stats(const struct session *s, const char *picture,
 
     if (path_is_same(picture, path))
         return fail(err,
-                    "--stats: found '%s', where the picture is now, expected "
+                    "--stats: found '%s', the file of the picture, expected "
                     "another file",
                     path);
     return stats_json_write(s, path, err);

@@ -107,13 +107,13 @@ static bool check_terminal(const struct options *o, struct error *err)
     if (o->batch) {
         if (o->text_cols == 0 && o->output_path &&
             strcmp(o->output_path, "-") == 0 && isatty(STDOUT_FILENO))
-            return fail(err, "-o: standard output is a terminal, expected a "
-                             "file or a pipe");
+            return fail(err, "-o: found a terminal as standard output, "
+                             "expected a file or a pipe");
         return true;
     }
     if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO))
         return fail(err,
-                    "standard %s is no terminal, expected one or -b to "
+                    "standard %s: found no terminal, expected one or -b to "
                     "render to a file",
                     isatty(STDOUT_FILENO) ? "input" : "output");
     return true;

@@ -11,7 +11,8 @@ int event_fd_open(const char *whose, struct error *err)
     int fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 
     if (fd < 0)
-        fail(err, "%s: no event descriptor: %s", whose, strerror(errno));
+        fail(err, "%s: cannot open an event descriptor: %s", whose,
+             strerror(errno));
     return fd;
 }
 

@@ -27,12 +27,10 @@ static bool fail_errno(struct error *err, const char *path)
     switch (errno) {
     case ENOENT: return fail(err, "%s: no such file or folder", path);
     case ENOTDIR:
-        return fail(err, "%s: no such file: a part of it is not a folder",
+        return fail(err, "%s: no such file: a part of the path is not a folder",
                     path);
     case ESTALE:
-        return fail(err,
-                    "%s: someone else has written it at the same time: nothing "
-                    "is saved",
+        return fail(err, "%s: found changes by another program, not saved",
                     path);
     case ENAMETOOLONG:
         if (strlen(path) >= PATH_MAX)
@@ -395,7 +393,7 @@ char *file_write_numbered(const char *stem, const char *ending,
         path = format_text("%s-%d.%s", stem, i, ending);
     }
     if (path)
-        fail(err, "%s: expected a free name", path);
+        fail(err, "%s: found no free name", path);
     else
         fail_memory(err, stem);
 failed:

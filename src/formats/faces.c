@@ -57,11 +57,11 @@ static bool report_index(const struct faces *f, const struct lexer *lex,
     struct word_text text = word_cut(index);
 
     if (count == 0)
-        warnings_add(f->report, "faces with a bad index",
-                     "%s:%" PRIu64
-                     ": found %s %s in a face, expected none, for "
-                     "there are none so far: face dropped",
-                     f->path, lex->line, what, text.text);
+        warnings_add(
+            f->report, "faces with a bad index",
+            "%s:%" PRIu64
+            ": found %s %s in a face, but none before it: face dropped",
+            f->path, lex->line, what, text.text);
     else
         warnings_add(f->report, "faces with a bad index",
                      "%s:%" PRIu64 ": found %s %s in a face, expected 1 to "
@@ -78,12 +78,13 @@ static bool was_taken_out(const struct faces *f, const struct lexer *lex, int k,
 {
     if (k == 0 || count > 0 || index < 1)
         return false;
-    warnings_add(f->report,
-                 k == 1 ? "corners without their texture vertex"
-                        : "corners without their normal",
-                 "%s:%" PRIu64 ": found %s %s in a face, but the file has none "
-                 "so far: face used without",
-                 f->path, lex->line, corner_names[k], word_cut(word).text);
+    warnings_add(
+        f->report,
+        k == 1 ? "corners without their texture vertex"
+               : "corners without their normal",
+        "%s:%" PRIu64
+        ": found %s %s in a face, but none before it: face used without",
+        f->path, lex->line, corner_names[k], word_cut(word).text);
     return true;
 }
 
@@ -298,7 +299,7 @@ bool faces_read(struct faces *f, struct lexer *lex, uint32_t object,
         if (f->corner_count > 3 && f->polygon.crosses_itself)
             warnings_add(f->report, "polygons that cross themselves",
                          "%s:%" PRIu64 ": found a polygon that crosses itself: "
-                         "its triangles are a guess",
+                         "its triangles are approximate",
                          f->path, line);
     }
     f->face_count++;

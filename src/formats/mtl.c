@@ -171,7 +171,8 @@ static bool finish_material(struct parser *p)
         return true;
     if (*p->name == '\0') {
         warnings_add(p->report, "materials without a name",
-                     "%s:%" PRIu64 ": found newmtl without a name: not used",
+                     "%s:%" PRIu64
+                     ": found newmtl without a name: material ignored",
                      p->path, p->name_line);
         return true;
     }
@@ -235,8 +236,8 @@ static bool read_color(struct parser *p, struct word key,
 
     if (word_is(word, "spectral") || word_is(word, "xyz")) {
         warnings_add(p->report, "spectral colours",
-                     "%s:%" PRIu64 ": found %.*s %.*s, expected a colour: not "
-                     "used",
+                     "%s:%" PRIu64
+                     ": found %.*s %.*s, expected a colour: ignored",
                      p->path, p->lex.line, (int)key.length, key.start,
                      (int)word.length, word.start);
         return true;
@@ -265,7 +266,7 @@ static bool read_blackbody(struct parser *p, struct word key)
         (!lexer_at_line_end(&p->lex) && !lexer_number(&p->lex, &scale)))
         return expected(p, key, "a temperature and perhaps a luminance");
     if (!(kelvin >= 0 && kelvin <= BLACKBODY_GREATEST)) {
-        warnings_add(p->report, "impossible temperatures",
+        warnings_add(p->report, "temperatures out of range",
                      "%s:%" PRIu64
                      ": found %.*s %g, expected kelvins from 0 to "
                      "%g: taken as 0",
@@ -315,13 +316,13 @@ static bool read_map(struct parser *p, struct word key, bool is_data,
         return out_of_memory(p);
     o.texture.is_data = is_data;
     if (o.unknown_count > 0)
-        warnings_add(p->report, "maps with options",
-                     "%s:%" PRIu64 ": found options of %.*s other than -o, -s, "
-                     "-bm and -clamp: the texture is used without them",
+        warnings_add(p->report, "maps with unknown options",
+                     "%s:%" PRIu64 ": found an unknown option of %.*s, "
+                     "expected -o, -s, -bm or -clamp: ignored",
                      p->path, line, (int)key.length, key.start);
     if (*name == '\0') {
         warnings_add(p->report, "maps without a file",
-                     "%s:%" PRIu64 ": found %.*s without the name of a file",
+                     "%s:%" PRIu64 ": found %.*s without a file name: ignored",
                      p->path, line, (int)key.length, key.start);
         free(name);
         return true;

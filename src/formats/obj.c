@@ -92,8 +92,8 @@ static void look_for_color(struct parser *p)
     p->has_colors = count >= 3;
     if (p->has_colors)
         warnings_add(p->report, "vertices with colours",
-                     "%s:%" PRIu64 ": found the colour of a vertex: glim has "
-                     "colours of materials and textures only",
+                     "%s:%" PRIu64
+                     ": found the colour of a vertex, which glim does not use",
                      p->path, p->lex.line);
 }
 
@@ -204,7 +204,7 @@ static bool load_library(struct parser *p, const char *name, char *path)
     if (index < known)
         return true;
     if (!file_read(path, &text, &size_bytes, &why)) {
-        warnings_add_named(p->report, "lost material files", name, "%s",
+        warnings_add_named(p->report, "missing material files", name, "%s",
                            why.text);
         return true;
     }
@@ -220,7 +220,7 @@ static bool load_library_named(struct parser *p, const char *name)
     bool ok;
 
     if (length >= PATH_MAX) {
-        warnings_add(p->report, "material files with endless names",
+        warnings_add(p->report, "material files with names that are too long",
                      "%s:%" PRIu64 ": found a name of %zu bytes for mtllib, "
                      "expected fewer than %d: its materials will be grey",
                      p->path, p->lex.line, length, PATH_MAX);
@@ -229,7 +229,7 @@ static bool load_library_named(struct parser *p, const char *name)
     if (!asset_path_find(p->path, name, &path))
         return out_of_memory(p);
     if (path == NULL) {
-        warnings_add_named(p->report, "lost material files", name,
+        warnings_add_named(p->report, "missing material files", name,
                            "%s:%" PRIu64 ": found no file '%s' for mtllib: its "
                            "materials will be grey",
                            p->path, p->lex.line, name);
@@ -309,9 +309,9 @@ static bool skip_unknown(struct parser *p, struct word key)
     int length = key.length < 40 ? (int)key.length : 40;
 
     if (is_free_form(key)) {
-        warnings_add(p->report, "statements of free forms",
-                     "%s:%" PRIu64 ": found '%.*s': free-form curves and "
-                     "surfaces are not drawn",
+        warnings_add(p->report, "statements of free-form surfaces",
+                     "%s:%" PRIu64 ": found '%.*s', a free-form curve or "
+                     "surface, which glim does not draw",
                      p->path, p->lex.line, length, key.start);
         return true;
     }
@@ -368,8 +368,7 @@ static bool resolve_materials(struct parser *p)
         numbers[i] = 0;
         warnings_add_named(p->report, "unknown materials", name,
                            "%s:%" PRIu64
-                           ": found no material '%s': grey is used "
-                           "for it",
+                           ": found no material '%s': grey is used instead",
                            p->path, p->material_lines[i], name);
     }
     for (uint32_t i = 0; ok && i < scene->tri_count; i++)
@@ -401,8 +400,8 @@ static bool parse_lines(struct parser *p)
     /* any text may have a line that begins with an OBJ keyword */
     if (p->scene->position_count == 0 && p->unknown_count > p->statement_count)
         return fail(p->err,
-                    "%s: not an OBJ file: found no vertex, and %" PRIu64
-                    " statements that are not OBJ's",
+                    "%s: not an OBJ file: found no vertex and %" PRIu64
+                    " unknown statements",
                     p->path, p->unknown_count);
     return resolve_materials(p);
 }

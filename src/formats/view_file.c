@@ -204,14 +204,13 @@ static bool check_sky(const char *sky_path, const char *path, struct error *err)
 
     if (strpbrk(sky_path, "\r\n"))
         return fail(err,
-                    "%s: found a line end in the name of the sky, "
-                    "expected none",
+                    "%s: found a line end in the sky's name, expected none",
                     path);
     if (length > 0 && lexer_is_blank(sky_path[length - 1]))
-        return fail(err,
-                    "%s: found a blank at the end of the name of the sky, "
-                    "expected none",
-                    path);
+        return fail(
+            err,
+            "%s: found a blank at the end of the sky's name, expected none",
+            path);
     return true;
 }
 

@@ -236,8 +236,9 @@ static bool read_assign(struct view_reader *r, struct error *err)
         return fail_memory(r, err);
     return has_names ||
            fail(err,
-                "%s:%" PRIu64 ": found another line than assign OBJECT "
-                "MATERIAL, expected two names, those with blanks in quotes",
+                "%s:%" PRIu64
+                ": found a malformed line, expected assign OBJECT MATERIAL, "
+                "with names that contain blanks in quotes",
                 r->path, line);
 }
 
@@ -261,7 +262,7 @@ bool view_parse_line(void *context, struct lexer *lex, struct error *err)
     if (key)
         return read_key(r, key, err);
     warnings_add(r->report, "lines with an unknown key",
-                 "%s:%" PRIu64 ": found the unknown key %s, skipped", r->path,
+                 "%s:%" PRIu64 ": found the unknown key %s: ignored", r->path,
                  r->lex->line, word_quote(name).text);
     return true;
 }

@@ -150,15 +150,15 @@ static bool fail_deviceless(const struct cl_api *cl, cl_platform_id platform,
         fail_memory(err);
     else if (no_cache)
         fail(err,
-             "OpenCL: platform '%s' has no device; PoCL needs a cache folder "
-             "that it can write to, found %s (POCL_CACHE_DIR names another)",
+             "OpenCL: found no device of platform '%s': PoCL cannot write its "
+             "cache, %s (POCL_CACHE_DIR names another folder)",
              name, no_cache->text);
     else if (chosen)
         fail(err,
-             "OpenCL: platform '%s' has no device; found POCL_DEVICES='%s'",
+             "OpenCL: found no device of platform '%s' with POCL_DEVICES='%s'",
              name, chosen);
     else
-        fail(err, "OpenCL: platform '%s' has no device", name);
+        fail(err, "OpenCL: found no device of platform '%s'", name);
     free(name);
     return false;
 }
@@ -276,7 +276,8 @@ const struct cl_device *cl_device_find(const struct cl_devices *list,
     format_names(&names, list, found ? word : NULL);
     if (found)
         fail(err,
-             "--device: '%s' is in the names of %d devices, expected one of %s",
+             "--device: found '%s' in the names of %d devices, expected one of "
+             "%s",
              word, count, names.text);
     else
         fail(err, "--device: found no device '%s', expected one of %s", word,

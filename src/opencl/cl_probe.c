@@ -284,13 +284,13 @@ bool cl_probe_run(struct cl_probe *probe, const struct cl_request *r,
 
     *probe = (struct cl_probe){0};
     if (pipe2(fds, O_CLOEXEC) != 0)
-        return fail(err, "OpenCL: no pipe: %s", strerror(errno));
+        return fail(err, "OpenCL: cannot open a pipe: %s", strerror(errno));
     reason = start_copy(&child, r, fds[1]);
     close(fds[1]);
     if (reason != 0) {
         close(fds[0]);
-        return fail(err, "OpenCL: %s: no program for the self-test: %s",
-                    r->program, strerror(reason));
+        return fail(err, "OpenCL: %s: cannot run the self-test: %s", r->program,
+                    strerror(reason));
     }
     output = read_output(fds[0], is_unwanted);
     close(fds[0]);

@@ -120,7 +120,7 @@ struct cl_start *cl_start_begin(const struct cl_request *request,
     }
     reason = thread_start(&s->thread, start_main, s);
     if (reason != 0) {
-        fail(err, "OpenCL: no thread: %s", strerror(reason));
+        fail(err, "OpenCL: cannot start a thread: %s", strerror(reason));
         close(s->event_fd);
         free(s);
         return NULL;

@@ -58,8 +58,8 @@ bool image_write_check(const char *path, struct error *err)
 
     if (is_stdout(path))
         return !isatty(STDOUT_FILENO) ||
-               fail(err, "standard output is a terminal, expected a file or "
-                         "a pipe: give -o FILE");
+               fail(err, "standard output: found a terminal, expected a file "
+                         "or a pipe: give -o FILE");
     if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
         return fail(err, "%s: found a folder, expected a file", path);
     if (image_write_format_of(path) == IMAGE_WRITE_UNKNOWN)

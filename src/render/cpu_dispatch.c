@@ -83,7 +83,8 @@ const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err)
         snprintf(known + length, sizeof known - length, "%s%s",
                  i == 0 ? "" : ", ", p->name);
     }
-    fail(err, "--isa: '%s' is none of this processor's: %s", name, known);
+    fail(err, "--isa: found '%s', expected one of this processor's: %s", name,
+         known);
     return NULL;
 }
 

@@ -273,7 +273,7 @@ struct render *render_create(struct backend *backend, struct error *err)
     pthread_condattr_destroy(&monotonic);
     reason = thread_start(&r->thread, render_main, r);
     if (reason != 0) {
-        fail(err, "render: no thread: %s", strerror(reason));
+        fail(err, "render: cannot start a thread: %s", strerror(reason));
         close(r->event_fd);
         free(r);
         return NULL;

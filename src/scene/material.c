@@ -161,10 +161,9 @@ static struct vec3 emission(const struct mtl_color *c, const struct place *at)
             is_changed = true;
     }
     if (is_changed)
-        warnings_add(at->report, "impossible radiances",
-                     "%s:%" PRIu64
-                     ": found Ke %g %g %g, expected numbers from 0 "
-                     "on: what is not counts as 0",
+        warnings_add(at->report, "radiances out of range",
+                     "%s:%" PRIu64 ": found Ke %g %g %g, expected numbers of "
+                     "at least 0: others taken as 0",
                      at->path, c->line, c->rgb[0], c->rgb[1], c->rgb[2]);
     return (struct vec3){rgb[0], rgb[1], rgb[2]};
 }
@@ -178,7 +177,7 @@ static double within(const struct mtl_number *n, const char *key, double lo,
         return missing;
     if (n->value >= lo && n->value <= hi)
         return n->value;
-    warnings_add(at->report, "impossible material values",
+    warnings_add(at->report, "material values out of range",
                  "%s:%" PRIu64
                  ": found %s %g, expected a number from %g to %g: "
                  "taken as %g",
@@ -283,10 +282,9 @@ static void make_opaque(struct material *m, int illum,
 
     m->opacity = (float)opacity(s, at);
     if (m->opacity <= 0)
-        warnings_add(at->report, "materials that are not seen",
+        warnings_add(at->report, "invisible materials",
                      "%s:%" PRIu64
-                     ": found %s %g: what has this material is not "
-                     "seen",
+                     ": found %s %g: surfaces with this material are invisible",
                      at->path, s->d.line != 0 ? s->d.line : s->tr.line,
                      s->d.line != 0 ? "d" : "Tr",
                      s->d.line != 0 ? s->d.value : s->tr.value);
@@ -322,9 +320,8 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
     if (map != NO_INDEX && map != m->color_texture && map != m->coat_texture &&
         map != m->alpha_texture && map != m->metal_texture &&
         map != m->opacity_texture)
-        warnings_add(at->report, "maps that do not fit their material",
-                     "%s: found %s of a material that has no use for it: not "
-                     "used",
+        warnings_add(at->report, "maps that their material does not use",
+                     "%s: found %s, which this material does not use: ignored",
                      at->path, mtl_map_keys[which]);
 }
 

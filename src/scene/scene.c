@@ -279,8 +279,7 @@ bool scene_finish(struct scene *scene, struct warnings *report,
     if (scene->tri_count == 0)
         warnings_add(
             report, "scenes without a face",
-            "%s: found no face that can be seen: only the background is "
-            "rendered",
+            "%s: found no visible face: only the background is rendered",
             scene->path);
     if (!find_used_materials(scene, err))
         return false;

@@ -132,7 +132,7 @@ static void report_lost(const struct scene *scene, const struct reading *r,
 {
     struct texture_origin o = scene->texture_origins[r->texture];
 
-    warnings_add_named(report, "lost textures", r->path,
+    warnings_add_named(report, "unusable textures", r->path,
                        "%s:%" PRIu64 ": %s: the texture is not used",
                        scene->mtl_paths[o.file], o.line, why);
 }

@@ -14,62 +14,58 @@ const char options_help[] =
     "usage: glim [options] scene.obj\n"
     "       glim -b [options] [-o picture.png] scene.obj\n"
     "\n"
-    "Path traces a Wavefront OBJ scene, live in the terminal; with -b into\n"
-    "a file. On the screen, ? shows the keys and q quits.\n"
+    "Path traces a Wavefront OBJ scene, live in the terminal or, with -b, to "
+    "a\n"
+    "file. On the screen, ? shows the keys and q quits.\n"
     "\n"
     "scene and picture\n"
-    "  -f FILE          the scene, as without -f\n"
+    "  -f FILE          the scene; -f may be omitted\n"
     "  -c FILE          the view file (default: SCENE.view beside the scene)\n"
-    "  -w WIDTH         in pixels (default: as the view file, or 1024)\n"
-    "  -h HEIGHT        in pixels (default: as the view file, or 576)\n"
-    "  -s SAMPLES       samples a pixel (default: 16)\n"
-    "  -d BOUNCES       0 to 999 bounces of a path (default: as the view\n"
-    "                   file, or no limit)\n"
-    "  --seed N         0 to 4294967295: another noise (default: 0)\n"
-    "  --crop X,Y,W,H   only W x H pixels of the picture, from (X, Y) on\n"
-    "  --up y|z         which way is up in the scene file (default: y)\n"
-    "  -t THREADS       1 to 1024 (default: what the process may use)\n"
-    "  --stats FILE     times and counts as JSON at the end, - for standard\n"
-    "                   output\n"
+    "  -w WIDTH         in pixels (default: from the view file, or 1024)\n"
+    "  -h HEIGHT        in pixels (default: from the view file, or 576)\n"
+    "  -s SAMPLES       samples per pixel (default: 16)\n"
+    "  -d BOUNCES       most bounces of a path, 0 to 999 (default: from the\n"
+    "                   view file, or no limit)\n"
+    "  --seed N         seed of the noise, 0 to 4294967295 (default: 0)\n"
+    "  --crop X,Y,W,H   render W x H pixels with (X, Y) as the upper left one\n"
+    "  --up y|z         axis that points up in the scene file (default: y)\n"
+    "  -t THREADS       1 to 1024 threads (default: one for each processor)\n"
+    "  --stats FILE     write times and counts as JSON, - to standard output\n"
     "\n"
     "device\n"
-    "  --backend KIND   cpu, opencl or auto: OpenCL if it has a GPU, else\n"
-    "                   the CPU (default: cpu)\n"
-    "  --device N|NAME  the OpenCL device of this number, or with this in its\n"
-    "                   name (default: the first GPU, or the first device)\n"
-    "  --list-devices   show the OpenCL devices\n"
-    "  --kernels FOLDER read the OpenCL kernels from there\n"
-    "  --isa NAME       the processor's instructions: plain, avx2 or avx512\n"
-    "                   (default: the best it has; see --version)\n"
+    "  --backend KIND   cpu, opencl or auto: an OpenCL GPU if there is one,\n"
+    "                   else the CPU (default: cpu)\n"
+    "  --device N|NAME  number or part of the name of the OpenCL device\n"
+    "                   (default: the first GPU, or the first device)\n"
+    "  --list-devices   list the OpenCL devices\n"
+    "  --kernels FOLDER read the OpenCL kernels from this folder\n"
+    "  --isa NAME       instruction set: plain, avx2 or avx512 (default: the\n"
+    "                   best of the processor, see --version)\n"
     "\n"
     "batch mode\n"
     "  -b               render to a file, without the screen\n"
-    "  -o FILE          a .png, .hdr or .pfm file, which is replaced, or -\n"
-    "                   for standard output (default: a new .png file in\n"
-    "                   the current folder, named after the scene)\n"
-    "  --ansi COLSxROWS a text of coloured characters, at most so many, for "
-    "-o\n"
-    "                   or standard output, instead of a picture\n"
+    "  -o FILE          .png, .hdr or .pfm file to write or replace, or - for\n"
+    "                   standard output (default: a new .png file in the\n"
+    "                   current folder, named after the scene)\n"
+    "  --ansi COLSxROWS write coloured text of at most this size instead of a\n"
+    "                   picture, to the file of -o or standard output\n"
     "  --show KIND      preview, normals, faces, uvs, depth, materials or "
     "cost\n"
     "                   instead of light\n"
     "\n"
     "screen\n"
     "  --color MODE     24, 256, 16, mono or auto (default: auto)\n"
-    "  --glyph KIND     half, upper, lower, quadrant, sextant, braille, space\n"
-    "                   or ascii cells; sixel or kitty pixels; or auto:\n"
-    "                   half or space, without colours braille or ascii\n"
+    "  --glyph KIND     characters: half, upper, lower, quadrant, sextant,\n"
+    "                   braille, space or ascii; pixels: sixel or kitty; or\n"
+    "                   auto: half or space, without colours braille or ascii\n"
     "                   (default: auto)\n"
     "  --cell-aspect R  height of a character over its width, 0.25 to 8\n"
     "                   (default: ask the terminal)\n"
-    "  --watch          load files of the scene that have changed at once, "
-    "not\n"
-    "                   only when l is pressed\n"
-    "  --phoe-keys      W S A D Q E move up, down, left, right, forward and\n"
-    "                   back\n"
+    "  --watch          load the scene's files again when they change\n"
+    "  --phoe-keys      W S A D Q E move up, down, left, right, forward, back\n"
     "\n"
-    "  --help           show this text\n"
-    "  --version        show the version\n"
+    "  --help           print this text\n"
+    "  --version        print the version\n"
     "  --               end of the options\n";
 
 const char *const options_shows[] = {
@@ -107,7 +103,7 @@ static bool take_value(struct option_given *g, const char *attached, int argc,
     if (!g->value && *i + 1 < argc)
         g->value = argv[++*i];
     if (!g->value)
-        return fail(err, "%s: expected %s behind it%s", g->shown,
+        return fail(err, "%s: found no value, expected %s%s", g->shown,
                     g->rule->value, option_hint(g));
     return true;
 }
@@ -163,11 +159,11 @@ static bool settle_backend(struct options *o, struct error *err)
     if (o->backend != BACKEND_CPU)
         return true;
     if (o->device)
-        return fail(err, "--device: is for OpenCL, expected no --backend cpu "
-                         "beside it");
+        return fail(err,
+                    "--device: found --backend cpu, expected opencl or auto");
     if (o->kernels_path)
-        return fail(err, "--kernels: is for OpenCL, expected no --backend cpu "
-                         "beside it");
+        return fail(err,
+                    "--kernels: found --backend cpu, expected opencl or auto");
     return true;
 }
 
@@ -184,20 +180,20 @@ static bool check_batch(const struct options *o, struct error *err)
 
     if (o->output_path && !o->batch)
         return fail(err,
-                    "-o: is for batch mode, expected -b beside it (on the "
-                    "screen %s saves a picture)",
+                    "-o: found no -b, expected batch mode (on the screen %s "
+                    "saves a picture)",
                     keymap_first_name(&o->keys, ACTION_SAVE).text);
     if (o->watch && o->batch)
-        return fail(err, "--watch: is for the screen, expected no -b beside "
-                         "it");
+        return fail(err, "--watch: found -b, expected the screen");
     if (o->text_cols > 0 && !o->batch)
         return fail(err,
-                    "--ansi: is for batch mode, expected -b beside it (on the "
-                    "screen %s saves a text)",
+                    "--ansi: found no -b, expected batch mode (on the screen "
+                    "%s saves a text)",
                     keymap_first_name(&o->keys, ACTION_SAVE_TEXT).text);
     if (o->text_cols > 0 && o->display.glyph >= GLYPH_SIXEL)
-        return fail(err, "--ansi: a text has no pixels, expected a --glyph "
-                         "of cells beside it");
+        return fail(
+            err,
+            "--ansi: found --glyph for pixels, expected one for characters");
     if (o->output_path && o->text_cols == 0 &&
         image_write_format_of(o->output_path) == IMAGE_WRITE_UNKNOWN)
         return fail(err,
@@ -206,14 +202,12 @@ static bool check_batch(const struct options *o, struct error *err)
                     o->output_path);
     if (o->output_path && o->stats_path && !takes_output &&
         path_is_same(o->output_path, o->stats_path))
-        return fail(err,
-                    "--stats: found '%s', the file of -o, expected "
-                    "another one",
-                    o->stats_path);
+        return fail(
+            err, "--stats: found '%s', the file of -o, expected another file",
+            o->stats_path);
     if (takes_output && is_standard_output(o->stats_path))
         return fail(err,
-                    "--stats: standard output is taken by %s, expected the "
-                    "name of a file",
+                    "--stats: found - beside %s, expected the name of a file",
                     o->text_cols > 0 ? "--ansi" : "-o -");
     return true;
 }
@@ -225,18 +219,16 @@ static bool check_show(const struct options *o, struct error *err)
         return true;
     if (!o->batch)
         return fail(err,
-                    "--show: is for batch mode, expected -b beside it (on the "
-                    "screen %s shows it)",
+                    "--show: found no -b, expected batch mode (on the screen "
+                    "%s shows it)",
                     keymap_first_name(&o->keys, ACTION_VIEW_NEXT).text);
     if (o->stats_path)
-        return fail(err, "--stats: is about a render, expected no --show "
-                         "beside it");
+        return fail(err, "--stats: found --show, expected a render of light");
     if (o->output_path && o->text_cols == 0 &&
         image_write_format_of(o->output_path) != IMAGE_WRITE_PNG)
-        return fail(err,
-                    "-o: found '%s', expected a name that ends in .png, for "
-                    "--show makes no light",
-                    o->output_path);
+        return fail(
+            err, "-o: found '%s', expected a name that ends in .png for --show",
+            o->output_path);
     return true;
 }
 
@@ -287,12 +279,13 @@ bool options_set_taste(struct options *o, const char *name, const char *value,
 
     if (!g.rule || !is_taste(g.rule->id))
         return fail(err,
-                    "%s: found '%s', expected an option that may stand here "
-                    "(man glim lists them)",
+                    "%s: found '%s', expected an option of the configuration "
+                    "file (man glim lists them)",
                     place, name);
     snprintf(g.shown, sizeof g.shown, "%s: %s", place, name);
     if (g.rule->value && !value)
-        return fail(err, "%s: expected %s behind it", g.shown, g.rule->value);
+        return fail(err, "%s: found no value, expected %s", g.shown,
+                    g.rule->value);
     if (!g.rule->value && value)
         return fail(err, "%s: found '%s', expected no value", g.shown, value);
     if (!option_set(o, &g, err))
@@ -333,6 +326,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
     if (o->scene_path || o->list_devices || o->probe)
         return true;
     o->lacks_scene = !o->batch;
-    return fail(err, "no scene given, expected: glim [options] scene.obj "
-                     "(see glim --help)");
+    return fail(
+        err,
+        "found no scene, expected: glim [options] scene.obj (see glim --help)");
 }

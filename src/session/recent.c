@@ -131,7 +131,7 @@ char *recent_choose(const struct recent *r, FILE *in, FILE *out)
     for (int i = 0; i < r->count; i++)
         print_line(out, "%3d  %s", i + 1, r->paths[i]);
     while (!path) {
-        print_text(out, "number or name of a scene (Enter: 1, q: none): ");
+        print_text(out, "number or file of a scene (Enter: 1, q: quit): ");
         fflush(out);
         if (getline(&answer, &capacity, in) < 0)
             break;

@@ -67,8 +67,8 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
     int reason;
 
     if (s->is_busy)
-        return fail(err, "%s.%s: the picture before is still being saved", stem,
-                    ending);
+        return fail(err, "%s.%s: the previous picture is still being saved",
+                    stem, ending);
     s->film = film;
     s->how = how;
     s->stem = xstrdup(stem);
@@ -78,8 +78,8 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
     reason = thread_start(&s->thread, saver_main, s);
     if (reason != 0) {
         free(s->stem);
-        return fail(err, "%s.%s: no thread to save it: %s", stem, ending,
-                    strerror(reason));
+        return fail(err, "%s.%s: cannot start a thread to save it: %s", stem,
+                    ending, strerror(reason));
     }
     s->is_busy = true;
     return true;

@@ -22,7 +22,8 @@ bool ansi_diff_init(struct ansi_diff *a, int cols, int rows, struct error *err)
     a->bytes = alloc_array(a->capacity, 1);
     if (!a->shown || !a->bytes) {
         ansi_diff_free(a);
-        return fail(err, "no memory for a window of %dx%d cells", cols, rows);
+        return fail(err, "out of memory for a window of %dx%d cells", cols,
+                    rows);
     }
     return true;
 }

@@ -26,7 +26,8 @@ bool cells_init(struct cells *cells, int cols, int rows, struct error *err)
     cells->cell =
         alloc_array((size_t)cols * (size_t)rows, sizeof cells->cell[0]);
     if (!cells->cell)
-        return fail(err, "no memory for a window of %dx%d cells", cols, rows);
+        return fail(err, "out of memory for a window of %dx%d cells", cols,
+                    rows);
     if (dither_init(&cells->dither, err))
         return true;
     cells_free(cells);

@@ -112,7 +112,7 @@ bool dither_init(struct dither *d, struct error *err)
     d->mixes = alloc_array((size_t)1 << 3 * KEY_BITS, sizeof d->mixes[0]);
     if (!d->inks || !d->mixes) {
         dither_free(d);
-        return fail(err, "no memory for the mixes of 256 colours");
+        return fail(err, "out of memory for dithering in 256 colours");
     }
     for (uint32_t i = 0; i < INKS; i++)
         d->inks[i] = ink_of(dither_value(CUBE_FIRST + i, PALETTE_256));

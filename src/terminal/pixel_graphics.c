@@ -43,7 +43,7 @@ bool pixel_graphics_init(struct pixel_graphics *g,
         init_frame(&g->shown, shape, err) && dither_init(&g->dither, err))
         return true;
     pixel_graphics_free(g);
-    return fail(err, "no memory for a picture of %dx%d cells as pixels",
+    return fail(err, "out of memory for a picture of %dx%d cells as pixels",
                 shape->cols, shape->rows);
 }
 

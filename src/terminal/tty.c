@@ -151,8 +151,8 @@ static const char *terminal_name(struct error *err)
     }
     if (!name) {
         fail(err,
-             "TERM=%s: no description of this terminal or of a usual "
-             "one is installed (-b renders to a file)",
+             "TERM=%s: found no description of this terminal or of a common "
+             "one (-b renders to a file)",
              own ? own : "");
         return NULL;
     }
@@ -162,7 +162,7 @@ static const char *terminal_name(struct error *err)
     if (is_ansi)
         return name;
     fail(err,
-         "TERM=%s: this terminal cannot show a picture, expected one "
+         "TERM=%s: found a terminal that cannot show a picture, expected one "
          "like xterm (-b renders to a file)",
          own);
     return NULL;
@@ -244,13 +244,13 @@ bool tty_open(struct error *err)
 
     if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) ||
         tcgetattr(STDIN_FILENO, &term.before) != 0)
-        return fail(err, "standard input and output are no terminal, "
+        return fail(err, "standard input and output: found no terminal, "
                          "expected one or -b to render to a file");
     name = terminal_name(err);
     if (!name)
         return false;
     if (pipe2(term.signal_pipe, O_CLOEXEC | O_NONBLOCK) != 0)
-        return fail(err, "no pipe for signals: %s", strerror(errno));
+        return fail(err, "cannot open a pipe for signals: %s", strerror(errno));
     must_stop = 0;
     take_signals();
     xmalloc_set_hook(restore_now);

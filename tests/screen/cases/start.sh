@@ -6,11 +6,11 @@ wait_for "^glim: nosuch.obj: "
 expect_end 1
 fresh
 start_line "TERM=dumb glim flat.obj"
-wait_for "^glim: TERM=dumb: this terminal cannot show a picture"
+wait_for "^glim: TERM=dumb: found a terminal that cannot show a picture"
 expect_end 1
 fresh
 start_line "TERM=tmux-256color glim flat.obj </dev/null"
-wait_for "^glim: standard input is no terminal"
+wait_for "^glim: standard input: found no terminal"
 expect_end 2
 fresh
 start_line "sleep 1; TERM=tmux-256color glim -b -w 2 -h 2 -s 1 -o x.png flat.obj

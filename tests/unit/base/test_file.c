@@ -67,7 +67,7 @@ static void test_read_errors(void **state)
     read_fails("nothing", "nothing: no such file or folder");
     read_fails("sub", "sub: found a folder, expected a file");
     read_fails("plain/x",
-               "plain/x: no such file: a part of it is not a folder");
+               "plain/x: no such file: a part of the path is not a folder");
     alarm(5); /* a pipe without a writer must not be waited for */
     read_fails("pipe", "pipe: found a pipe, expected a file");
     alarm(0);
@@ -119,8 +119,7 @@ static void test_replace(void **state)
     first = change.after;
     assert_false(file_replace("r/a", "new", 3, &change, &err));
     assert_string_equal(err.text,
-                        "r/a: someone else has written it at the same time: "
-                        "nothing is saved");
+                        "r/a: found changes by another program, not saved");
     change.before = first;
     assert_true(file_replace("r/a", "two", 3, &change, &err));
     change.before = change.after;
@@ -215,7 +214,7 @@ static void test_write_errors(void **state)
     write_fails("no/a", "no: no such file or folder");
     write_fails("", ": no such file or folder");
     write_fails("plain/a",
-                "plain/a: no such file: a part of it is not a folder");
+                "plain/a: no such file: a part of the path is not a folder");
     write_fails("/dev/null", "/dev/null: found a device, expected a file");
     char name[300];
     memset(name, 'n', sizeof name - 1);

@@ -43,7 +43,7 @@ static void test_first_of_each_kind_then_counts(void **state)
     (void)state;
     for (int i = 1; i <= 1000; i++)
         warnings_add(&r, "faces with a bad index", "a.obj:%d: found 0", i);
-    warnings_add(&r, "lost textures", "a.mtl:7: no 'wood.png'");
+    warnings_add(&r, "unusable textures", "a.mtl:7: no 'wood.png'");
     text = printed(&r);
     assert_string_equal(text,
                         "glim: warning: a.obj:1: found 0 (and 999 more faces "
@@ -123,7 +123,7 @@ static void test_names_of_a_kind(void **state)
             warnings_add_named(&r, "unknown materials", name, "no '%s'", name);
         }
     }
-    warnings_add_named(&r, "lost textures", "m0", "no texture 'm0'");
+    warnings_add_named(&r, "unusable textures", "m0", "no texture 'm0'");
     assert_int_equal(r.entry_count, WARNINGS_NAMES_MAX + 2);
     assert_string_equal(r.entries[3].kind, "unknown materials 'm3'");
     assert_int_equal(r.entries[3].count, 2);

@@ -269,14 +269,14 @@ static void test_what_is_not_used(void **state)
     assert_int_equal(l.report.entry_count, 5);
     assert_string_equal(l.report.entries[0].text,
                         "a.mtl:1: found 'Kd', expected newmtl");
-    assert_string_equal(l.report.entries[1].text,
-                        "a.mtl:4: found Kd spectral, expected a colour: not "
-                        "used");
+    assert_string_equal(
+        l.report.entries[1].text,
+        "a.mtl:4: found Kd spectral, expected a colour: ignored");
     assert_string_equal(l.report.entries[2].text,
                         "a.mtl:5: found 'disp', which glim does not use");
     assert_int_equal(l.report.entries[2].count, 2);
     assert_string_equal(l.report.entries[4].text,
-                        "a.mtl:8: found map_Kd without the name of a file");
+                        "a.mtl:8: found map_Kd without a file name: ignored");
     assert_int_equal(l.scene.texture_count, 0);
     unload(&l);
 }

@@ -182,10 +182,10 @@ static void test_bad_indices_drop_the_face(void **state)
                  "a.obj:6: found normal 0 in a face, expected 1 to 1 or -1 to "
                  "-1: face dropped",
                  1);
-    check_warned("f 1 2 3\n", 0,
-                 "a.obj:1: found vertex 1 in a face, expected none, for there "
-                 "are none so far: face dropped",
-                 1);
+    check_warned(
+        "f 1 2 3\n", 0,
+        "a.obj:1: found vertex 1 in a face, but none before it: face dropped",
+        1);
     check_warned(SQUARE "f 1 2\nf 1\nf\n", 0,
                  "a.obj:5: found a face with 2 corners, expected 3 or more: "
                  "face dropped",
@@ -217,8 +217,8 @@ static void test_absent_normals(void **state)
 {
     (void)state;
     check_warned(SQUARE "f 1//1 2//1 3//1\n", 1,
-                 "a.obj:5: found normal 1 in a face, but the file has none so "
-                 "far: face used without",
+                 "a.obj:5: found normal 1 in a face, but none before it: face "
+                 "used without",
                  3);
 }
 
@@ -385,8 +385,7 @@ static void test_unknown_statements(void **state)
 static void test_colors_of_vertices(void **state)
 {
     static const char said[] =
-        "a.obj:1: found the colour of a vertex: glim has colours of materials "
-        "and textures only";
+        "a.obj:1: found the colour of a vertex, which glim does not use";
 
     (void)state;
     check_clean("v 0 0 0 1\nv 1 0 0 1 # a b c\nv 0 1 0 1\nf 1 2 3\n", 1);
@@ -400,8 +399,8 @@ static void test_free_forms(void **state)
     (void)state;
     check_warned(SQUARE "cstype bspline\ndeg 3\ncurv 0 1 1 2\nend\nf 1 2 3\n",
                  1,
-                 "a.obj:5: found 'cstype': free-form curves and surfaces are "
-                 "not drawn",
+                 "a.obj:5: found 'cstype', a free-form curve or surface, which "
+                 "glim does not draw",
                  4);
 }
 
@@ -447,12 +446,12 @@ static void test_unknown_materials(void **state)
 
     (void)state;
     assert_int_equal(l.report.entry_count, 2);
-    assert_string_equal(l.report.entries[0].text,
-                        "a.obj:5: found no material 'red': grey is used for "
-                        "it");
-    assert_string_equal(l.report.entries[1].text,
-                        "a.obj:7: found no material 'two words': grey is used "
-                        "for it");
+    assert_string_equal(
+        l.report.entries[0].text,
+        "a.obj:5: found no material 'red': grey is used instead");
+    assert_string_equal(
+        l.report.entries[1].text,
+        "a.obj:7: found no material 'two words': grey is used instead");
     for (int t = 0; t < 4; t++)
         assert_int_equal(l.scene.tris[t].material, 0);
     check_close(l.scene.materials[0].color.x, 0.8, 1e-7);

@@ -85,8 +85,8 @@ static void test_find_errors(void **state)
 {
     (void)state;
     means_none("alpha",
-               "--device: 'alpha' is in the names of 2 devices, expected one "
-               "of 2 'Alpha 3 Small', 3 'Alpha 4090 Big'");
+               "--device: found 'alpha' in the names of 2 devices, expected "
+               "one of 2 'Alpha 3 Small', 3 'Alpha 4090 Big'");
     means_none("4", "--device: found no device '4', expected one of 1 "
                     "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha 4090 "
                     "Big'"); /* although it is in a name */

@@ -195,9 +195,9 @@ static void test_no_faces(void **state)
 
     (void)state;
     assert_int_equal(l.scene.tri_count, 0);
-    assert_string_equal(l.report.entries[0].text,
-                        "a.obj: found no face that can be seen: only the "
-                        "background is rendered");
+    assert_string_equal(
+        l.report.entries[0].text,
+        "a.obj: found no visible face: only the background is rendered");
     check_close(l.scene.scale, 1, 0);
     check_close(l.scene.center[1], 0, 0);
     view_init(&view);

@@ -303,7 +303,7 @@ static void test_unknown(void **state)
     assert_int_equal(report.entry_count, 1);
     assert_int_equal(report.entries[0].count, 3);
     snprintf(expected, sizeof expected,
-             "%s:1: found the unknown key 'fov', skipped", file("t.view"));
+             "%s:1: found the unknown key 'fov': ignored", file("t.view"));
     assert_string_equal(report.entries[0].text, expected);
     warnings_free(&report);
 }

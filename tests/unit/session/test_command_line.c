@@ -209,7 +209,7 @@ static void test_help(void **state)
     assert_true(good("--help").show_help);
     assert_true(good("--version").show_version);
     assert_true(good("-o a.png --help -w x").show_help);
-    bad("-h", "-h: expected a height in pixels behind it (for help: glim "
+    bad("-h", "-h: found no value, expected a height in pixels (for help: glim "
               "--help)");
     bad("-h a.obj", "-h: found 'a.obj', expected a whole number from 1 to "
                     "65536 (for help: glim --help)");
@@ -258,9 +258,9 @@ static void test_backend(void **state)
     bad("a --device=", "--device: found '', expected the number or name of a "
                        "device");
     bad("a --device 1 --backend cpu",
-        "--device: is for OpenCL, expected no --backend cpu beside it");
+        "--device: found --backend cpu, expected opencl or auto");
     bad("--backend cpu a --kernels k",
-        "--kernels: is for OpenCL, expected no --backend cpu beside it");
+        "--kernels: found --backend cpu, expected opencl or auto");
 }
 
 static void test_list_devices(void **state)
@@ -278,23 +278,22 @@ static void test_list_devices(void **state)
 static void test_together(void **state)
 {
     (void)state;
-    bad("", "no scene given, expected: glim [options] scene.obj (see glim "
-            "--help)");
-    bad("-b", "no scene given, expected: glim [options] scene.obj (see glim "
-              "--help)");
+    bad("",
+        "found no scene, expected: glim [options] scene.obj (see glim --help)");
+    bad("-b",
+        "found no scene, expected: glim [options] scene.obj (see glim --help)");
     bad("a.obj b.obj", "found a second scene 'b.obj', expected only 'a.obj'");
     bad("-f a.obj b.obj",
         "found a second scene 'b.obj', expected only 'a.obj'");
-    bad("a -o x.png", "-o: is for batch mode, expected -b beside it (on the "
-                      "screen p saves a picture)");
-    bad("-b a --watch", "--watch: is for the screen, expected no -b beside it");
+    bad("a -o x.png", "-o: found no -b, expected batch mode (on the screen p "
+                      "saves a picture)");
+    bad("-b a --watch", "--watch: found -b, expected the screen");
     bad("-b a -o - --stats -",
-        "--stats: standard output is taken by -o -, expected the name of a "
-        "file");
+        "--stats: found - beside -o -, expected the name of a file");
     bad("-b a -o x.jpg",
         "-o: found 'x.jpg', expected a name that ends in .png, .hdr or .pfm, "
         "or - for standard output");
-    bad("-f", "-f: expected the name of a scene behind it");
+    bad("-f", "-f: found no value, expected the name of a scene");
 }
 
 /* What is on the line wins over GLIM_COLOR, also "auto"; that is read only
