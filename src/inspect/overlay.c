@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "picture/raster.h"
 #include "render/projection.h"
 #include "kernels/vec.h"
 
@@ -30,7 +29,7 @@ static void line(struct frame *f, const struct camera *c, struct vec3 a,
     struct projected p[2];
 
     if (projection_line(c, a, b, p))
-        raster_line(f, p[0].x, p[0].y, p[1].x, p[1].y, rgb);
+        frame_line(f, p[0].x, p[0].y, p[1].x, p[1].y, rgb);
 }
 
 /* ---- boxes ---- */
@@ -132,7 +131,7 @@ uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
         double part = (double)(i - first + 1) / (l.count - first);
 
         draw_box(frame, camera, &l.boxes[i],
-                 raster_dim(BOX_COLOR, BOX_DIMMEST + (1 - BOX_DIMMEST) * part));
+                 frame_dim(BOX_COLOR, BOX_DIMMEST + (1 - BOX_DIMMEST) * part));
     }
     free(l.boxes);
     return l.count;
@@ -151,7 +150,7 @@ void overlay_trail(struct frame *frame, const struct camera *camera,
     for (int i = 0; i < count; i++) {
         if (trail->steps[i].way != PATH_RECORD_SKY &&
             projection_point(camera, trail->steps[i].to, &p))
-            raster_dot(frame, p.x, p.y, VERTEX_COLOR);
+            frame_dot(frame, p.x, p.y, VERTEX_COLOR);
     }
 }
 

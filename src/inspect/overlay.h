@@ -12,7 +12,7 @@
 
 #include <stdint.h>
 
-#include "picture/film.h"
+#include "picture/frame.h"
 #include "bvh/bvh.h"
 #include "inspect/path_record.h"
 

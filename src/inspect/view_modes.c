@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 #include "picture/area.h"
-#include "picture/raster.h"
+#include "picture/frame.h"
 #include "scene/world.h"
 #include "render/projection.h"
 #include "inspect/aov_picture.h"
@@ -146,9 +146,9 @@ static void fill(const struct view_mode *s, struct frame *frame, int width,
                 (size_t)scaled(y, frame->height, height) * (size_t)width +
                 (size_t)scaled(x, frame->width, width);
 
-            raster_dot(frame, x, y,
-                       false_color(kinds[s->kind].sample, s->numbers + 3 * at,
-                                   range));
+            frame_dot(frame, x, y,
+                      false_color(kinds[s->kind].sample, s->numbers + 3 * at,
+                                  range));
         }
     }
 }
@@ -184,8 +184,8 @@ static void fill_heat(const struct view_mode *s, struct frame *frame, int width,
         for (int x = 0; x < frame->width; x++) {
             float mean = mean_at(s, frame, x, y, width, height);
 
-            raster_dot(frame, x, y,
-                       false_color_heat(largest > 0 ? mean / largest : 0));
+            frame_dot(frame, x, y,
+                      false_color_heat(largest > 0 ? mean / largest : 0));
         }
     }
 }

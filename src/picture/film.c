@@ -431,20 +431,3 @@ void film_preview(struct film *film, struct film *draft, struct develop how,
         }
     }
 }
-
-bool frame_init(struct frame *frame, int width, int height, struct error *err)
-{
-    frame->width = width;
-    frame->height = height;
-    frame->rgb = alloc_array((size_t)width * (size_t)height, 3);
-    if (frame->rgb == NULL)
-        return fail(err, "out of memory for a frame of %dx%d pixels", width,
-                    height);
-    return true;
-}
-
-void frame_free(struct frame *frame)
-{
-    free(frame->rgb);
-    *frame = (struct frame){0};
-}

@@ -20,6 +20,7 @@
 #include <stdatomic.h>
 
 #include "base/error.h"
+#include "picture/frame.h"
 #include "kernels/pixel.h"
 #include "kernels/tone.h"
 
@@ -42,12 +43,6 @@ struct film {
     atomic_uint_least64_t non_finite; /* NaN, Inf or negative: count as 0 */
     atomic_uint_least64_t saturated;  /* above 2^62: count as 2^62 */
     atomic_uint_least64_t cut_paths;  /* ended at the hard stop */
-};
-
-/* 8-bit sRGB, 3 bytes a pixel, row 0 at the top. */
-struct frame {
-    int width, height;
-    uint8_t *rgb;
 };
 
 /* How linear light becomes a picture: times 2^exposure, through the curve. */
@@ -100,8 +95,5 @@ void film_resolve(struct film *film, struct develop how, struct frame *frame);
  * FILM_YOUNG_SPP on. */
 void film_preview(struct film *film, struct film *draft, struct develop how,
                   struct frame *frame);
-
-bool frame_init(struct frame *frame, int width, int height, struct error *err);
-void frame_free(struct frame *frame);
 
 #endif

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "picture/raster.h"
+#include "picture/frame.h"
 
 /* Longest wait for answers in screen_drain(). */
 #define DRAIN_NS UINT64_C(500000000)
@@ -303,8 +303,8 @@ static void mark_pixels(const struct screen *screen, struct frame *f)
     int x1 = (screen->cursor_col + 1) * f->width / screen->fit.cols - 1;
     int y1 = (screen->cursor_row + 1) * f->height / screen->fit.rows - 1;
 
-    raster_box(f, x0 - 1, y0 - 1, x1 + 1, y1 + 1, 0);
-    raster_box(f, x0 - 2, y0 - 2, x1 + 2, y1 + 2, 0xffffff);
+    frame_box(f, x0 - 1, y0 - 1, x1 + 1, y1 + 1, 0);
+    frame_box(f, x0 - 2, y0 - 2, x1 + 2, y1 + 2, 0xffffff);
 }
 
 /* Appends changes of the picture. Returns false if the budget was too small for

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "picture/raster.h"
+#include "picture/frame.h"
 #include "render/projection.h"
 #include "inspect/false_color.h"
 #include "inspect/overlay.h"
@@ -57,7 +57,7 @@ static void lines_are_lines(void **state)
             p[i] = SIDE * (3 * check_random(&seed) - 1);
         dx = p[2] - p[0];
         dy = p[3] - p[1];
-        raster_line(&f, p[0], p[1], p[2], p[3], 0x123456);
+        frame_line(&f, p[0], p[1], p[2], p[3], 0x123456);
         for (int y = 0; y < SIDE; y++) {
             for (int x = 0; x < SIDE; x++) {
                 double ax = x + 0.5 - p[0], ay = y + 0.5 - p[1];
@@ -88,19 +88,19 @@ static void far_lines_end_soon(void **state)
 
     (void)state;
     open_frame(&f);
-    raster_line(&f, -1e12, 5.5, 1e12, 5.5, 0xffffff);
+    frame_line(&f, -1e12, 5.5, 1e12, 5.5, 0xffffff);
     assert_int_equal(count(&f, 0xffffff), SIDE);
     for (int x = 0; x < SIDE; x++)
         assert_int_equal(pixel(&f, x, 5), 0xffffff);
-    raster_line(&f, -5, -1, 60, -1, 0xff);
-    raster_line(&f, (double)NAN, 1, 3, 4, 0xff);
+    frame_line(&f, -5, -1, 60, -1, 0xff);
+    frame_line(&f, (double)NAN, 1, 3, 4, 0xff);
     assert_int_equal(count(&f, 0xff), 0);
-    raster_line(&f, 7.5, 8.5, 7.5, 8.5, 0xff00);
+    frame_line(&f, 7.5, 8.5, 7.5, 8.5, 0xff00);
     assert_int_equal(count(&f, 0xff00), 1);
     assert_int_equal(pixel(&f, 7, 8), 0xff00);
     frame_free(&f);
-    assert_int_equal(raster_dim(0x204080, 0.5), 0x102040);
-    assert_int_equal(raster_dim(0x204080, 1), 0x204080);
+    assert_int_equal(frame_dim(0x204080, 0.5), 0x102040);
+    assert_int_equal(frame_dim(0x204080, 1), 0x204080);
 }
 
 static struct camera some_camera(uint64_t *seed)

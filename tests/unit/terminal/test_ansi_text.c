@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "picture/film.h"
 #include "terminal/ansi_text.h"
 
 /* 4x4 pixels: red above, of light 1; below it green of a half, which is 188 in
