@@ -3,7 +3,8 @@
 #
 # A case runs in an empty folder; `start` opens a window of tmux in which the
 # program runs, the other functions press keys and look. What does not come
-# within half a minute fails.
+# within half a minute fails. Nothing is awaited by the clock: after
+# `wait_until rests` nothing happens by itself any more.
 
 mux()
 {
@@ -168,6 +169,38 @@ expect_end()
     cmp before after || die "other settings of the terminal than before"
     flags=$(mux display-message -p '#{alternate_on}#{mouse_any_flag}#{mouse_sgr_flag}#{keypad_cursor_flag}#{cursor_flag}')
     [ "$flags" = 00001 ] || die "modes were left on: $flags, expected 00001"
+}
+
+# What each of the program's threads waits for, and how often it has slept. A
+# sanitizer has a thread of its own that sleeps by the clock.
+waits()
+{
+    for task in "/proc/$1/task"/*; do
+        echo "$(cat "$task/syscall")" \
+            "$(awk '/ctxt_switches/ { printf "%s ", $2 }' "$task/status")"
+    done | awk -v sleeps="$sleeps" 'index(sleeps, " " $1 " ") == 0'
+}
+
+# True if every thread waits without a time limit: only a key, a signal or a
+# changed file wakes the program, until then it neither computes nor writes. Two
+# equal looks at all threads mean that none has run between them.
+case $(uname -m) in
+x86_64) ppoll=271 futex=202 sleeps=" 35 230 " ;;
+aarch64) ppoll=73 futex=98 sleeps=" 101 115 " ;;
+*) ppoll='' ;;
+esac
+rests()
+{
+    process=$(program_pid)
+    if [ -z "$ppoll" ] || ! cat "/proc/$process/syscall" >/dev/null 2>&1; then
+        echo "skip: threads cannot be watched here"
+        return 0
+    fi
+    seen=$(waits "$process")
+    [ "$seen" = "$(waits "$process")" ] || return 1
+    echo "$seen" | awk -v ppoll=$ppoll -v futex=$futex '
+        !($1 == ppoll && $4 == "0x0" || $1 == futex && $5 == "0x0") { n++ }
+        END { exit n > 0 }'
 }
 
 program_pid()

@@ -1,12 +1,40 @@
 # SPDX-License-Identifier: MIT
 # SIGINT, SIGTERM and SIGHUP save the picture so far and say how far it is.
 take box
+# True when the process has computed for 20 ticks: it is rendering.
+renders()
+{
+    [ "$(awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$1/stat")" -ge 20 ]
+}
+# Runs glim as process $(cat pid): in the foreground, as SIGINT is ignored by
+# programs in the background.
+glim_with_pid()
+{
+    sh -c 'echo $$ >pid.new; mv pid.new pid; exec glim "$@"' glim "$@" 2>err
+}
+# Waits until that process renders, and sends it the signals.
+send_when_it_renders()
+{
+    until [ -e pid ]; do
+        sleep 0.02
+    done
+    until renders "$(cat pid)"; do
+        [ -d "/proc/$(cat pid)" ] || break
+        sleep 0.02
+    done
+    for signal in "$@"; do
+        kill -s "$signal" "$(cat pid)" || echo "SIG$signal came too late"
+    done
+    rm pid
+} 2>/dev/null
 stop()
 {
     echo old >out.png
-    timeout --preserve-status -s "$1" 1 glim -b -w 40 -h 30 -s 1000000000 \
-        -o out.png --stats run.json box.obj 2>err
+    send_when_it_renders "$1" &
+    glim_with_pid -b -w 40 -h 30 -s 1000000000 -o out.png --stats run.json \
+        box.obj
     echo "exit $?"
+    wait
     sed 's/ at [0-9]* of/ at N of/' err
     kind out.png
     grep stopped run.json
@@ -17,24 +45,19 @@ stop INT
 stop TERM
 stop HUP
 # more signals do not disturb the saving
-glim -b -w 900 -h 600 -s 1000000000 -o more.png box.obj 2>err &
-sleep 0.5
-for i in 1 2 3 4 5; do
-    kill -TERM $! 2>/dev/null
-    sleep 0.01
-done
-wait $!
+send_when_it_renders TERM TERM TERM &
+glim_with_pid -b -w 900 -h 600 -s 1000000000 -o more.png box.obj
 echo "exit $?"
+wait
 sed 's/ at [0-9]* of/ at N of/' err
 kind more.png
 # a job that was told to ignore the signal goes on
 (
     trap '' HUP
-    glim -b -w 80 -h 60 -s 300 -o hup.png box.obj 2>err &
-    sleep 0.2
-    kill -HUP $!
-    wait $!
+    send_when_it_renders HUP &
+    glim_with_pid -b -w 80 -h 60 -s 1500 -o hup.png box.obj
     echo "exit $?"
+    wait
 )
 sed 's/, [0-9.]* s$/, T s/' err
 ls -A

@@ -23,18 +23,22 @@ start wall.obj
 wait_for_rows 20 "$YELLOW"
 # a tap is as long as ever, whatever key comes at once
 at_once=$(written Right w c)
-sleep 0.5
+wait_for "wrote the view"
+keys Enter
+wait_for "LIVE paused"
+wait_until rests
 [ "$(written c)" = "$at_once" ] || die "moved on: $(cat wall.view) after $at_once"
 keys u U
 [ "$(written c)" = "$at_once" ] || die "other moves again: $(cat wall.view)"
+wait_for "wrote the view"
 # a change goes on, and then it is paused
 keys s Enter
 wait_for "LIVE paused"
-sleep 0.5
+wait_until rests
 expect "LIVE paused"
 keys s .
 wait_for "LIVE paused  [1-9][0-9]* spp"
-sleep 0.5
+wait_until rests
 expect "LIVE paused"
 keys Enter
 wait_until_gone "paused"

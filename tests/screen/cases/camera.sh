@@ -4,8 +4,7 @@ lamp_scene
 view_of() # key, number of the eye or at value: presses it, prints the value
 {
     keys "$1"
-    sleep 0.4
-    keys c
+    keys c # ends a move
     wait_for "wrote the view"
     rm -f lamp.view.old
     awk -v k="$2" -v n="$3" '$1 == k { print $(n + 1) }' lamp.view
@@ -41,11 +40,13 @@ raw_keys "$drag"
 moved x at 1 '==' 0
 raw_keys '+'
 wait_for "speed times 1.25: "
-# held for a second: a way that no single tap makes
-for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+# held: a way that no single tap makes
+closer() # presses w; true when the triangle is as large as from 4 ahead
+{
     keys w
-    sleep 0.05
-done
+    [ "$(rows_with '48;2;255;255;255')" -ge 13 ]
+}
+wait_until closer
 moved w eye 3 '<' 4.5
 keys q
 expect_end 0

@@ -31,8 +31,8 @@ keys Enter
 shows '255;0;0'
 expect " l \*"
 # the camera still moves
-keys w
-sleep 0.3
+keys w c
+wait_until test -s lamp.view
 expect "│>    of colour  #ff0000"
 # a type is not typed: Enter goes to the next, and back with the undo
 keys Up Up Up Up Up Up Up Up

@@ -38,7 +38,7 @@ keys Enter
 wait_for "│>    of colour  #00ff00"
 keys C-s
 wait_for "wrote 1 material to lamp.mtl"
-sleep 1
+wait_until_gone "wrote 1 material" # a load would say so in its place
 reject "changed\|loaded"
 # one at a time
 keys g

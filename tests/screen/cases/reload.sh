@@ -43,7 +43,6 @@ story() # options: which backend
     wait_for "LIVE .* $machine"
     wait_for_rows 20 "$ORANGE"
     keys w # a step ahead, which is kept
-    sleep 0.5
 
     shines 0 .5 0 | write wall.mtl
     wait_for "LIVE  changed: l loads"
@@ -59,7 +58,6 @@ story() # options: which backend
     keys l
     wait_for "wall.mtl:3: found 'oops'"
     wait_for_rows 20 "$GREEN"
-    sleep 1
     expect "wall.mtl:3: found 'oops'"
     shines .5 .2 0 >wall.mtl # in place
     keys x                   # takes the message away
@@ -97,7 +95,6 @@ story() # options: which backend
     keys Escape
     wait_until_gone "wrote the view"
     grep -q "^eye 0 [^ ]* [34]\." wall.view || die "the camera: $(cat wall.view)"
-    sleep 0.5
     reject "changed" # by ourselves
     # another shape of the picture: 50x100 pixels are 20 columns in 20 rows
     sed 's/^res .*/res 50 100/' wall.view | write wall.view

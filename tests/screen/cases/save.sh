@@ -37,9 +37,11 @@ mkdir readonly
 chmod a-w readonly
 start_line "cd readonly && TERM=tmux-256color glim ../sub/flat.obj; cd .."
 wait_for "LIVE .* [1-9][0-9]* spp"
+keys Enter
+wait_for "LIVE paused"
 keys p
 wait_for "flat.png: "
-sleep 5
+wait_until rests
 expect "flat.png: "
 keys '~'
 wait_for "LIVE"

@@ -13,9 +13,10 @@ start_line "TERM=tmux-256color glim flat.obj </dev/null"
 wait_for "^glim: standard input: found no terminal"
 expect_end 2
 fresh
-start_line "sleep 1; TERM=tmux-256color glim -b -w 2 -h 2 -s 1 -o x.png flat.obj
+start_line "until [ -e go ]; do sleep 0.05; done; TERM=tmux-256color glim -b -w 2 -h 2 -s 1 -o x.png flat.obj
 TERM=tmux-256color glim flat.obj"
-keys q # long before the program
+keys q # before the program
+: >go
 expect_end 0
 fresh
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >dark.obj

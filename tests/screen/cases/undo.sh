@@ -1,21 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Moves are undone one by one; numbered views are gone to, kept and written.
 lamp_scene
-line() # of the view file that is written now
+line() # of the view file that is written now; c ends a move
 {
     rm -f lamp.view
     keys c
     wait_until test -s lamp.view
     grep "^$1" lamp.view
-}
-settled() # the same when it does not change any more
-{
-    before=none
-    until now=$(line "$1") && [ "$now" = "$before" ]; do
-        before=$now
-        sleep 0.3 # longer than a key counts as held
-    done
-    echo "$now"
 }
 start --cell-aspect 2 lamp.obj
 wait_for "▀"
@@ -23,7 +14,7 @@ keys u
 wait_for "nothing to undo"
 # held for a while, and a drag: two moves
 keys -N 20 w
-forward=$(settled eye)
+forward=$(line eye)
 raw_keys "$(printf '\033[<0;20;10M\033[<32;30;10M\033[<32;40;10M\033[<0;40;10m')"
 [ "$(line at)" != "at 0 0 0" ] || die "the drag turned nothing"
 keys u
@@ -47,16 +38,18 @@ wait_for "undone"
 [ "$(line fovy)" = "fovy 40" ] || die "not back: $(line fovy)"
 keys 3
 wait_for "no view 3 yet"
+keys Enter
+wait_for "LIVE paused"
 keys k
 wait_for "Which number"
-sleep 5 # as long as it takes
+wait_until rests # the question has no time limit
 expect "Which number"
 keys 3
 wait_for "this is view 3"
 keys k x 4 # the x is no number: nothing is kept
 wait_for "no view 4 yet"
 keys s
-[ "$(settled eye)" != "eye 0 0 5" ] || die "not moved"
+[ "$(line eye)" != "eye 0 0 5" ] || die "not moved"
 keys 3
 wait_for "^ view 3"
 [ "$(line eye)" = "eye 0 0 5" ] || die "not at view 3: $(line eye)"
