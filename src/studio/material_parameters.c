@@ -62,16 +62,11 @@ static void set_statement(struct owner *o, const struct value *v)
 #define OPAQUE  (DIFFUSE | PLASTIC | METAL)
 #define CLEAR   (GLASS | THIN)
 
-/* Rough diffuse is diffuse with another roughness. */
-static const struct {
-    uint32_t bits;
-    const char *name;
-} kinds[] = {
-    {DIFFUSE, "diffuse"}, {PLASTIC, "plastic"}, {METAL, "metal"},
-    {GLASS, "glass"},     {THIN, "thin glass"},
-};
+static const char *const kind_names[] = {"diffuse", "plastic", "metal", "glass",
+                                         "thin glass"};
 
-#define KINDS (sizeof kinds / sizeof kinds[0])
+/* Rough diffuse is diffuse with another roughness. */
+static const uint32_t kind_bits[] = {DIFFUSE, PLASTIC, METAL, GLASS, THIN};
 
 void material_parameters_open(struct owner *o, const struct mtl_source *source)
 {
@@ -88,17 +83,10 @@ static bool is_kind(const struct owner *o, uint32_t bits)
     return (bits >> o->kind & 1) != 0;
 }
 
-static const char *kind_name(const struct owner *o, uint32_t i)
-{
-    (void)o;
-    return i < KINDS ? kinds[i].name : NULL;
-}
-
 static bool get_kind(const struct owner *o, struct value *v)
 {
-    for (size_t i = 0; i < KINDS; i++)
-        if (is_kind(o, kinds[i].bits))
-            v->number = (double)i;
+    while (!is_kind(o, kind_bits[(size_t)v->number]))
+        v->number++;
     return true;
 }
 
@@ -148,7 +136,7 @@ static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
  * off. */
 static void set_kind(struct owner *o, const struct value *v)
 {
-    uint32_t bits = kinds[(size_t)v->number].bits;
+    uint32_t bits = kind_bits[(size_t)v->number];
     struct mtl_source *s = &o->source;
     struct value color;
 
@@ -194,14 +182,6 @@ static bool get_coat(const struct owner *o, struct value *v)
 static void set_coat(struct owner *o, const struct value *v)
 {
     put_grey(&o->source.ks, v->number);
-}
-
-static const char *map_state(const struct owner *o, uint32_t i)
-{
-    static const char *const names[] = {"on", "off", NULL};
-
-    (void)o;
-    return names[i];
 }
 
 static bool get_map(const struct owner *o, struct value *v)
@@ -293,12 +273,14 @@ static void set_emission_color(struct owner *o, const struct value *v)
     .get = get_statement, .set = set_statement,  \
     .member = offsetof(struct mtl_source, name), \
     .result = offsetof(struct material, found)
+static const char *const map_states[] = {"on", "off"};
+
 #define MAP(which) \
-    .get = get_map, .set = set_map, .name = map_state, .map = which
+    .get = get_map, .set = set_map, CHOICES(map_states), .map = which
 
 const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"type", ALL, VALUE_CHOICE, NULL, .get = get_kind, .set = set_kind,
-     .name = kind_name},
+     CHOICES(kind_names)},
     {"colour", OPAQUE, VALUE_COLOR, &scale_unit, .get = get_color,
      .set = set_color},
     {"tint", CLEAR, VALUE_COLOR, &scale_unit, .get = get_color,
@@ -323,24 +305,18 @@ const struct parameter_row material_parameters[MATERIAL_PARAMETERS] = {
     {"map_Bump", ALL, VALUE_CHOICE, NULL, MAP(MTL_MAP_BUMP)},
 };
 
-const char *material_parameters_kind(const struct mtl_source *source)
+const char *material_parameters_summary(const struct mtl_source *source,
+                                        double swatch[3])
 {
     struct owner o = {.target = NULL};
-    struct value v;
+    struct value kind = {.number = 0}, color;
 
     material_parameters_open(&o, source);
-    get_kind(&o, &v);
-    return kinds[(size_t)v.number].name;
-}
-
-void material_parameters_swatch(const struct mtl_source *source, double rgb[3])
-{
-    struct owner o = {.target = NULL};
-    struct value v;
-
-    material_parameters_open(&o, source);
-    if (!(largest(mtl_source_light(source).rgb) > 0) ||
-        !get_emission_color(&o, &v))
-        get_color(&o, &v);
-    memcpy(rgb, v.rgb, sizeof v.rgb);
+    get_kind(&o, &kind);
+    if (largest(mtl_source_light(source).rgb) > 0)
+        get_emission_color(&o, &color);
+    else
+        get_color(&o, &color);
+    memcpy(swatch, color.rgb, sizeof color.rgb);
+    return kind_names[(size_t)kind.number];
 }

@@ -22,11 +22,9 @@ extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
 void material_parameters_open(struct owner *owner,
                               const struct mtl_source *source);
 
-/* Name of the kind: "diffuse", "plastic", "metal", "glass", "thin glass". */
-const char *material_parameters_kind(const struct mtl_source *source);
-
-/* The colour that stands for the material in a list: that of its light, if it
- * emits any. */
-void material_parameters_swatch(const struct mtl_source *source, double rgb[3]);
+/* Name of the kind, and the colour that stands for the material in a list: that
+ * of its light if it emits any. */
+const char *material_parameters_summary(const struct mtl_source *source,
+                                        double swatch[3]);
 
 #endif

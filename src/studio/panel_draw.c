@@ -85,17 +85,18 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
     const struct mtl_source *source =
         &edit_shown(edit_of(p))->sources[material];
     char text[WINDOW_LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
+    const char *kind;
     double rgb[3];
 
     text_width_fit(name, sizeof name, selection_name(sel, sel->page, i),
                    NAME_COLS);
+    kind = material_parameters_summary(source, rgb);
     text_width_cut(other, sizeof other,
                    is_object ? selection_name(sel, PARAMETER_MATERIAL, material)
-                             : material_parameters_kind(source),
+                             : kind,
                    OTHER_COLS);
     snprintf(text, sizeof text, "%s    %s %s", is_selected ? ">" : " ", name,
              other);
-    material_parameters_swatch(source, rgb);
     swatches_set(s->swatches, s->count, rgb);
     add_line(s,
              is_selected && !p->is_in_parameters ? WINDOW_SELECTED

@@ -120,6 +120,30 @@ static void set_number(const struct owner *o, struct value *v, int part,
     }
 }
 
+/* ---- choices ---- */
+
+static const char *choice_name(const struct owner *o, uint32_t i)
+{
+    const struct parameter_row *row = o->row;
+
+    if (row->name != NULL)
+        return row->name(o, i);
+    return i < row->name_count ? row->names[i] : NULL;
+}
+
+/* The next choice that is offered, or the one before; round. */
+static uint32_t next_choice(const struct owner *o, uint32_t i, bool is_forward)
+{
+    uint32_t count = 0;
+
+    while (choice_name(o, count) != NULL)
+        count++;
+    do
+        i = (i + (is_forward ? 1 : count - 1)) % count;
+    while (*choice_name(o, i) == '\0');
+    return i;
+}
+
 /* ---- list ---- */
 
 static const char *label_of(const struct owner *o, int part)
@@ -149,7 +173,7 @@ static struct parameter describe(const struct owner *o, const struct value *v,
     } else if (row->type == VALUE_CHOICE) {
         p.takes_text = row->expected != NULL;
         snprintf(p.text, sizeof p.text, "%.60s",
-                 row->name(o, (uint32_t)v->number));
+                 choice_name(o, (uint32_t)v->number));
         if (v->note != NULL)
             snprintf(p.text + strlen(p.text), sizeof p.text - strlen(p.text),
                      " %.50s", v->note);
@@ -215,19 +239,6 @@ static void take_change(struct owner *o, const struct value *v)
     }
 }
 
-/* The next choice that has a name, or the one before; round. */
-static uint32_t next_choice(const struct owner *o, uint32_t i, bool is_forward)
-{
-    uint32_t count = 0;
-
-    while (o->row->name(o, count) != NULL)
-        count++;
-    do
-        i = (i + (is_forward ? 1 : count - 1)) % count;
-    while (*o->row->name(o, i) == '\0');
-    return i;
-}
-
 void parameter_step(const struct parameter_target *t, int id, int steps)
 {
     struct value v;
@@ -270,7 +281,7 @@ static bool parse_choice(const struct owner *o, const char *text,
         v->number = o->row->find(o, text);
         return true;
     }
-    for (uint32_t i = 0; (name = o->row->name(o, i)) != NULL; i++) {
+    for (uint32_t i = 0; (name = choice_name(o, i)) != NULL; i++) {
         if (*name == '\0' || strcmp(name, text) != 0)
             continue;
         v->number = i;

@@ -86,12 +86,13 @@ static uint32_t find_sky(const struct owner *o, const char *path)
     return edit_sky(o->target->edit, path);
 }
 
-/* A double of struct mood. */
+/* A member of struct mood: a double, or a uint32_t that is a choice. */
 static bool get_mood(const struct owner *o, struct value *v)
 {
     const void *at = (const char *)&o->mood + o->row->member;
 
-    v->number = *(const double *)at;
+    v->number = o->row->type == VALUE_CHOICE ? *(const uint32_t *)at
+                                             : *(const double *)at;
     return true;
 }
 
@@ -99,23 +100,10 @@ static void set_mood(struct owner *o, const struct value *v)
 {
     void *at = (char *)&o->mood + o->row->member;
 
-    *(double *)at = v->number;
-}
-
-/* A uint32_t of struct mood. */
-static bool get_mood_choice(const struct owner *o, struct value *v)
-{
-    const void *at = (const char *)&o->mood + o->row->member;
-
-    v->number = *(const uint32_t *)at;
-    return true;
-}
-
-static void set_mood_choice(struct owner *o, const struct value *v)
-{
-    void *at = (char *)&o->mood + o->row->member;
-
-    *(uint32_t *)at = (uint32_t)v->number;
+    if (o->row->type == VALUE_CHOICE)
+        *(uint32_t *)at = (uint32_t)v->number;
+    else
+        *(double *)at = v->number;
 }
 
 static bool get_background(const struct owner *o, struct value *v)
@@ -131,19 +119,10 @@ static void set_background(struct owner *o, const struct value *v)
     o->mood.has_background = true;
 }
 
-static const char *tone_name(const struct owner *o, uint32_t i)
-{
-    (void)o;
-    return i < TONES ? view_tones[i] : NULL;
-}
-
 /* ---- table ---- */
 
 #define MOOD(name) \
     .get = get_mood, .set = set_mood, .member = offsetof(struct mood, name)
-#define MOOD_CHOICE(name)                           \
-    .get = get_mood_choice, .set = set_mood_choice, \
-    .member = offsetof(struct mood, name)
 
 static const struct parameter_row object_rows[] = {
     {"material", ALL, VALUE_CHOICE, NULL, .get = get_assigned,
@@ -152,7 +131,7 @@ static const struct parameter_row object_rows[] = {
 };
 
 static const struct parameter_row light_rows[] = {
-    {"sky image", ALL, VALUE_CHOICE, NULL, MOOD_CHOICE(sky), .name = sky_name,
+    {"sky image", ALL, VALUE_CHOICE, NULL, MOOD(sky), .name = sky_name,
      .find = find_sky, .expected = "the path of an image"},
     {"strength", HAS_SKY, VALUE_NUMBER, &scale_sky, MOOD(sky_strength)},
     {"rotation", HAS_SKY, VALUE_NUMBER, &scale_rotation,
@@ -160,7 +139,7 @@ static const struct parameter_row light_rows[] = {
     {"constant", NO_SKY, VALUE_COLOR, &scale_radiance, .get = get_background,
      .set = set_background},
     {"exposure", ALL, VALUE_NUMBER, &scale_exposure, MOOD(exposure)},
-    {"tone", ALL, VALUE_CHOICE, NULL, MOOD_CHOICE(tone), .name = tone_name,
+    {"tone", ALL, VALUE_CHOICE, NULL, MOOD(tone), CHOICES(view_tones),
      .expected = "linear, reinhard or aces"},
 };
 

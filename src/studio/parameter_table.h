@@ -82,12 +82,18 @@ struct parameter_row {
     size_t result; /* offset of the float in struct material, */
     enum mtl_map map;
 
-    /* Name of choice i: "" if it cannot be chosen, NULL after the last. */
+    const char *const *names; /* of choices, which do not change; */
+    uint32_t name_count;
+    /* else name of choice i: "" if it is not offered, NULL after the last. */
     const char *(*name)(const struct owner *owner, uint32_t i);
     /* Number of the choice that a text means; NULL: that of its name. */
     uint32_t (*find)(const struct owner *owner, const char *text);
     const char *expected; /* as text; NULL: choices are not typed */
 };
+
+/* For a row whose choices have these names. */
+#define CHOICES(array) \
+    .names = array, .name_count = sizeof array / sizeof array[0]
 
 /* The rows of a page. */
 const struct parameter_row *parameter_table(enum parameter_page page,
