@@ -38,18 +38,11 @@ void editor_panel_free(struct editor_panel *p)
 void editor_panel_renew(struct editor_panel *p,
                         const struct selection_names *names)
 {
-    struct selection before = p->selection;
-
-    selection_init(&p->selection, before.session);
-    p->selection.page = before.page;
-    p->selection.by_hsv = before.by_hsv;
-    if (!selection_find(&p->selection, names)) {
-        p->is_typing = false;
-        p->is_in_parameters = false;
-        p->parameter = p->parameter_top = 0;
-    }
-    selection_settle(&p->selection);
-    selection_free(&before);
+    if (selection_renew(&p->selection, names))
+        return;
+    p->is_typing = false;
+    p->is_in_parameters = false;
+    p->parameter = p->parameter_top = 0;
 }
 
 void editor_panel_select(struct editor_panel *p, const struct pick *pick)
@@ -175,6 +168,7 @@ static void duplicate(struct editor_panel *p)
                            e->names[*material]);
     }
     edit_break(e);
+    selection_settle(s);
     take_change(p);
 }
 
@@ -196,6 +190,7 @@ void editor_panel_close(struct editor_panel *p)
 static void show_page(struct editor_panel *p, enum parameter_page page)
 {
     p->selection.page = page;
+    selection_settle(&p->selection);
     p->is_in_parameters = page == PARAMETER_LIGHT;
     p->parameter = p->parameter_top = p->list_top = 0;
 }
@@ -272,32 +267,21 @@ static void leave(struct editor_panel *p)
 
 /* ---- mouse ---- */
 
-static void select_row(struct editor_panel *p, int row)
-{
-    uint32_t count = selection_count(&p->selection);
-    int number = 0;
-
-    for (uint32_t i = 0; i < count; i++) {
-        if (!selection_is_listed(&p->selection, i) ||
-            number++ != p->list_top + row)
-            continue;
-        p->selection.index[p->selection.page] = i;
-        p->is_in_parameters = false;
-    }
-}
-
 static void click(struct editor_panel *p, int col, int row)
 {
+    struct selection *s = &p->selection;
+    int list_row = p->list_top + row - 1;
     int parameter_row = row - 2 - p->list_rows;
 
     p->is_typing = false;
-    if (row == 0)
+    if (row == 0) {
         show_page(p, col < PAGE_2   ? PARAMETER_MATERIAL
                      : col < PAGE_3 ? PARAMETER_OBJECT
                                     : PARAMETER_LIGHT);
-    else if (row <= p->list_rows)
-        select_row(p, row - 1);
-    else if (parameter_row >= 0 && parameter_row < p->parameter_rows) {
+    } else if (row <= p->list_rows && list_row < s->listed_count) {
+        selection_move(s, list_row - s->row);
+        p->is_in_parameters = false;
+    } else if (parameter_row >= 0 && parameter_row < p->parameter_rows) {
         p->parameter = p->parameter_top + parameter_row;
         p->is_in_parameters = true;
     }

@@ -29,11 +29,6 @@ struct sheet {
     struct swatches *swatches;
 };
 
-static const struct edit *edit_of(const struct editor_panel *p)
-{
-    return &p->control->session->edit;
-}
-
 int panel_parameters(struct editor_panel *p,
                      struct parameter list[PARAMETERS_MAX])
 {
@@ -83,7 +78,7 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
     bool is_selected = i == sel->index[sel->page];
     uint32_t material = is_object ? selection_material_of(sel, i) : i;
     const struct mtl_source *source =
-        &edit_shown(edit_of(p))->sources[material];
+        &edit_shown(&sel->session->edit)->sources[material];
     char text[WINDOW_LINE_BYTES], name[NAME_BYTES], other[NAME_BYTES];
     const char *kind;
     double rgb[3];
@@ -104,30 +99,23 @@ static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
              text);
 }
 
-/* The part of the list that has the selected one. */
 static void add_list(struct editor_panel *p, struct sheet *s, int rows)
 {
     const struct selection *sel = &p->selection;
-    uint32_t count = selection_count(sel);
-    int number = 0, selected = 0, shown = 0;
 
-    for (uint32_t i = 0; i < count && i < sel->index[sel->page]; i++)
-        selected += selection_is_listed(sel, i);
-    scroll(&p->list_top, selected, rows);
-    for (uint32_t i = 0; i < count && shown < rows; i++) {
-        if (!selection_is_listed(sel, i) || number++ < p->list_top)
-            continue;
-        add_item(p, s, i);
-        shown++;
+    scroll(&p->list_top, sel->row, rows);
+    for (int row = p->list_top; row < p->list_top + rows; row++) {
+        if (row < sel->listed_count)
+            add_item(p, s, sel->listed[row]);
+        else
+            add_line(s, WINDOW_PLAIN, "");
     }
-    for (; shown < rows; shown++)
-        add_line(s, WINDOW_PLAIN, "");
 }
 
 static void add_title(const struct editor_panel *p, struct sheet *s)
 {
     const struct selection *sel = &p->selection;
-    const struct edit *e = edit_of(p);
+    const struct edit *e = &sel->session->edit;
     uint32_t i = sel->index[sel->page];
     char text[WINDOW_LINE_BYTES], name[NAME_BYTES];
 
@@ -187,9 +175,7 @@ static void add_parameters(struct editor_panel *p, struct sheet *s, int rows)
     int count = panel_parameters(p, list);
 
     scroll(&p->parameter_top, p->parameter, rows);
-    for (int i = 0; i < rows; i++) {
-        int row = p->parameter_top + i;
-
+    for (int row = p->parameter_top; row < p->parameter_top + rows; row++) {
         if (row < count)
             add_parameter(p, s, &list[row],
                           p->is_in_parameters && row == p->parameter);

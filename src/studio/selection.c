@@ -7,11 +7,11 @@
 #include "formats/mtl.h"
 #include "terminal/xmalloc.h"
 
-void selection_init(struct selection *s, struct session *session)
+static void find_first_tris(struct selection *s)
 {
-    const struct scene *scene = &session->scene;
+    const struct scene *scene = &s->session->scene;
 
-    *s = (struct selection){.session = session};
+    free(s->first_tris);
     s->first_tris = xcalloc(scene->object_count + 1, sizeof *s->first_tris);
     for (uint32_t i = 0; i < scene->object_count; i++)
         s->first_tris[i] = NO_INDEX;
@@ -19,62 +19,66 @@ void selection_init(struct selection *s, struct session *session)
         s->first_tris[scene->tri_objects[i]] = i;
 }
 
+void selection_init(struct selection *s, struct session *session)
+{
+    *s = (struct selection){.session = session};
+    find_first_tris(s);
+    selection_settle(s);
+}
+
 void selection_free(struct selection *s)
 {
     free(s->first_tris);
+    free(s->listed);
 }
 
-uint32_t selection_count(const struct selection *s)
-{
-    switch (s->page) {
-    case PARAMETER_MATERIAL: return s->session->edit.material_count;
-    case PARAMETER_OBJECT: return s->session->edit.object_count;
-    case PARAMETER_LIGHT: break;
-    }
-    return 0;
-}
+/* ---- list ---- */
 
-bool selection_is_listed(const struct selection *s, uint32_t i)
+static bool is_listed(const struct selection *s, uint32_t i)
 {
     if (s->page == PARAMETER_MATERIAL)
         return i > 0 && s->session->edit.now.is_there[i];
     return s->first_tris[i] != NO_INDEX;
 }
 
-/* The next one in the list, or the same at its end. */
-static uint32_t next_in_list(const struct selection *s, uint32_t from, int step)
+void selection_settle(struct selection *s)
 {
-    uint32_t count = selection_count(s);
+    const uint32_t counts[] = {
+        [PARAMETER_MATERIAL] = s->session->edit.material_count,
+        [PARAMETER_OBJECT] = s->session->edit.object_count,
+        [PARAMETER_LIGHT] = 0,
+    };
+    uint32_t count = counts[s->page];
 
-    for (int64_t i = (int64_t)from + step; i >= 0 && i < count; i += step)
-        if (selection_is_listed(s, (uint32_t)i))
-            return (uint32_t)i;
-    return from;
-}
-
-void selection_move(struct selection *s, int steps)
-{
-    uint32_t *index = &s->index[s->page];
-
-    for (int i = abs(steps); i > 0; i--)
-        *index = next_in_list(s, *index, steps > 0 ? 1 : -1);
+    s->listed = xrealloc(s->listed, (count + 1) * sizeof *s->listed);
+    s->listed_count = s->row = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!is_listed(s, i))
+            continue;
+        if (i <= s->index[s->page])
+            s->row = s->listed_count;
+        s->listed[s->listed_count++] = i;
+    }
+    selection_move(s, 0);
 }
 
 bool selection_has_one(const struct selection *s)
 {
-    uint32_t index = s->index[s->page];
-
-    return s->page == PARAMETER_LIGHT ||
-           (index < selection_count(s) && selection_is_listed(s, index));
+    return s->page == PARAMETER_LIGHT || s->listed_count > 0;
 }
 
-void selection_settle(struct selection *s)
+void selection_move(struct selection *s, int steps)
 {
-    if (!selection_has_one(s))
-        selection_move(s, -1);
-    if (!selection_has_one(s))
-        s->index[s->page] = next_in_list(s, 0, 1);
+    int row = s->row + steps;
+
+    if (s->listed_count == 0)
+        return;
+    row = row >= s->listed_count ? s->listed_count - 1 : row;
+    s->row = row < 0 ? 0 : row;
+    s->index[s->page] = s->listed[s->row];
 }
+
+/* ---- names ---- */
 
 struct selection_names selection_names(const struct selection *s)
 {
@@ -89,7 +93,7 @@ struct selection_names selection_names(const struct selection *s)
                                              : "")};
 }
 
-bool selection_find(struct selection *s, const struct selection_names *names)
+bool selection_renew(struct selection *s, const struct selection_names *names)
 {
     const struct scene *scene = &s->session->scene;
     uint32_t found[] = {
@@ -99,8 +103,9 @@ bool selection_find(struct selection *s, const struct selection_names *names)
     };
 
     for (int page = 0; page <= PARAMETER_LIGHT; page++)
-        if (found[page] != NO_INDEX)
-            s->index[page] = found[page];
+        s->index[page] = found[page] != NO_INDEX ? found[page] : 0;
+    find_first_tris(s);
+    selection_settle(s);
     return found[s->page] != NO_INDEX;
 }
 

@@ -22,34 +22,37 @@ struct selection {
     uint32_t *first_tris; /* one an object; NO_INDEX: it has none */
     enum parameter_page page;
     uint32_t index[PARAMETER_LIGHT + 1]; /* of each page: what is selected */
-    bool by_hsv;                         /* see struct parameter_target */
+    uint32_t *listed; /* the list of the page: materials with a name, objects
+                         with a face, no duplicate that was undone */
+    int listed_count;
+    int row;     /* of what is selected, in the list */
+    bool by_hsv; /* see struct parameter_target */
+};
+
+/* Names of what is selected. */
+struct selection_names {
+    char *material, *object;
 };
 
 void selection_init(struct selection *s, struct session *session);
 void selection_free(struct selection *s);
 
-/* Number of materials or objects of the page. The list shows those that are
- * listed: no material without a name, no object without a face, no duplicate
- * that was undone. */
-uint32_t selection_count(const struct selection *s);
-bool selection_is_listed(const struct selection *s, uint32_t i);
+/* Makes the list anew, after a change of the page, the index or the scene. What
+ * has gone from it is no longer selected, but the one above it is. */
+void selection_settle(struct selection *s);
 
 /* True if there is something to edit. */
 bool selection_has_one(const struct selection *s);
 
-/* Selects the one so many steps further down the list, or its last. */
+/* Selects a row so many steps further down, or the last there is. */
 void selection_move(struct selection *s, int steps);
 
-/* Selects a neighbour of what is no longer there. */
-void selection_settle(struct selection *s);
-
-/* The names of what is selected, for free(). Selects what has these names, in
- * a scene that was loaded anew; false if it has none for the page. */
-struct selection_names {
-    char *material, *object;
-};
+/* The names are for free(). */
 struct selection_names selection_names(const struct selection *s);
-bool selection_find(struct selection *s, const struct selection_names *names);
+
+/* For a scene that was loaded anew: selects what has these names. False if the
+ * page has none. */
+bool selection_renew(struct selection *s, const struct selection_names *names);
 
 struct parameter_target selection_target(const struct selection *s);
 
