@@ -1,8 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_load.h"
 
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/memory.h"
 #include "scene/textures.h"
+#include "scene/world.h"
+#include "formats/mtl.h"
 #include "formats/obj.h"
+#include "formats/view_file.h"
+
+/* An overcast noon: bright enough for exposure 0, a little blue. */
+static const double soft_sky[3] = {0.7, 0.8, 0.9};
 
 static void turn_z_up(struct scene *scene)
 {
@@ -32,4 +44,127 @@ bool scene_load(struct scene *scene, const char *path, bool up_is_z,
     if (!textures_load(scene, report, err))
         return false;
     return scene_finish(scene, report, err);
+}
+
+/* ---- the view ---- */
+
+/* Reads the file at path if it is there: *is_there. One that is there but
+ * cannot be read is an error. */
+static bool read_if_there(struct view *view, const char *path, bool *is_there,
+                          struct warnings *report, struct error *err)
+{
+    *is_there = access(path, F_OK) == 0;
+    return !*is_there || view_read(view, path, report, err);
+}
+
+/* Reads STEM.view, or camera.txt beside the scene if there is no such file. */
+static bool read_beside(struct view *view, const char *scene_path,
+                        const char *path, struct warnings *report,
+                        struct error *err)
+{
+    bool is_there;
+    bool ok = read_if_there(view, path, &is_there, report, err);
+    char *camera;
+
+    if (!ok || is_there)
+        return ok;
+    camera = path_beside(scene_path, "camera.txt");
+    if (camera == NULL)
+        return fail(err, "%s: out of memory", scene_path);
+    ok = read_if_there(view, camera, &is_there, report, err);
+    free(camera);
+    return ok;
+}
+
+/* Returns STEM.view for free(), or NULL when memory is out. */
+static char *path_of_view(const char *scene_path)
+{
+    char *stem = path_stem(scene_path);
+    char *path = stem != NULL ? format_text("%s.view", stem) : NULL;
+
+    free(stem);
+    return path;
+}
+
+bool view_find(struct view *view, const char *scene_path, const char *view_path,
+               char **path, struct warnings *report, struct error *err)
+{
+    *path = view_path != NULL ? strdup(view_path) : path_of_view(scene_path);
+    if (*path == NULL)
+        return fail(err, "%s: out of memory", scene_path);
+    return view_path != NULL
+               ? view_read(view, *path, report, err)
+               : read_beside(view, scene_path, *path, report, err);
+}
+
+/* ---- the scene with its view ---- */
+
+static bool is_dark(const struct scene *scene, const struct view *view)
+{
+    const double *b = view->lighting.background;
+
+    return !scene->has_emitters && !scene->sky_texels && b[0] <= 0.0 &&
+           b[1] <= 0.0 && b[2] <= 0.0;
+}
+
+bool view_has_soft_sky(const struct view *view)
+{
+    const struct lighting *l = &view->lighting;
+
+    return !l->has_background &&
+           memcmp(l->background, soft_sky, sizeof soft_sky) == 0;
+}
+
+/* A scene without camera or light still shows something. */
+static void complete_view(const struct scene *scene, struct view *view,
+                          struct warnings *report)
+{
+    if (scene->tri_count > 0 && is_dark(scene, view) &&
+        !view->lighting.has_background) {
+        memcpy(view->lighting.background, soft_sky, sizeof soft_sky);
+        warnings_add(report, "scenes without light",
+                     "%s: found no light: lit by a soft sky", scene->path);
+    }
+    if (!view->has_camera)
+        scene_frame(scene, view);
+    if (pose_up_is_parallel(&view->pose))
+        warnings_add(report, "views along their up",
+                     "%s: found the camera's up along its view: took another "
+                     "axis for it",
+                     scene->path);
+}
+
+bool scene_open(struct scene *scene, struct view *view, const char *path,
+                bool up_is_z, struct warnings *report, struct error *err)
+{
+    if (!scene_load(scene, path, up_is_z, report, err) ||
+        !scene_load_sky(scene, view, report, err))
+        return false;
+    complete_view(scene, view, report);
+    return pose_check(&view->pose, path, err) &&
+           (!report->has_lost ||
+            fail(err, "%s: out of memory for the warnings", path));
+}
+
+/* ---- materials that the view gives to objects ---- */
+
+void scene_find_assigned(const struct scene *scene,
+                         const struct assigns *assigns, uint32_t *assigned,
+                         struct warnings *report)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        assigned[i] = NO_INDEX;
+    for (size_t i = 0; i < assigns->count; i++) {
+        const struct assign *a = &assigns->items[i];
+        uint32_t object = scene_find_object(scene, a->object);
+        uint32_t material = mtl_find(scene, a->material);
+
+        if (object != NO_INDEX && material != NO_INDEX)
+            assigned[object] = material;
+        else
+            warnings_add_named(report, "assignments without effect", a->object,
+                               "%s: found no %s '%s' to assign", scene->path,
+                               object == NO_INDEX ? "object" : "material",
+                               object == NO_INDEX ? a->object : a->material);
+    }
 }

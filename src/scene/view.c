@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/view.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,6 +28,32 @@ void view_take_frame(struct view *view, const struct view *from)
     view->height_px = from->height_px;
     view->has_size = from->has_size;
     view->max_bounces = from->max_bounces;
+}
+
+/* The other side of a picture whose shape is kept. */
+static int other_side(int side, int from, int to)
+{
+    double other = round((double)side * to / from);
+
+    return other < 1.0 ? 1 : other > VIEW_SIDE_MAX ? VIEW_SIDE_MAX : (int)other;
+}
+
+void view_set_size(struct view *view, int width_px, int height_px)
+{
+    if (height_px == 0)
+        height_px = other_side(width_px, view->width_px, view->height_px);
+    else if (width_px == 0)
+        width_px = other_side(height_px, view->height_px, view->width_px);
+    view->width_px = width_px;
+    view->height_px = height_px;
+    view->has_size = true;
+}
+
+bool view_has_part(const struct view *view, int x, int y, int width, int height)
+{
+    return x >= 0 && y >= 0 && width > 0 && height > 0 &&
+           width <= view->width_px && height <= view->height_px &&
+           x <= view->width_px - width && y <= view->height_px - height;
 }
 
 /* False when memory is out. */

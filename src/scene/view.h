@@ -54,6 +54,14 @@ extern const char *const view_tones[TONES];
 /* Defaults: no camera, up +y, fovy 40, 1024x576, black, no limit. */
 void view_init(struct view *view);
 
+/* Sets the size of the picture. A side of 0 follows from the other one and the
+ * shape of the picture before. */
+void view_set_size(struct view *view, int width_px, int height_px);
+
+/* True if the rectangle lies in the picture. */
+bool view_has_part(const struct view *view, int x, int y, int width,
+                   int height);
+
 /* Takes over what the file has changed from `before` to `after`; the rest of
  * `view` stays. The camera is one thing. */
 bool view_merge(struct view *view, const struct view *before,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "formats/mtl.h"
+#include "formats/scene_load.h"
 #include "terminal/xmalloc.h"
 
 enum step_kind { STEP_MATERIAL, STEP_ASSIGN, STEP_DUPLICATE, STEP_MOOD };
@@ -75,24 +75,6 @@ static void add_material(struct edit *e, const char *name, uint32_t copied_from)
     e->copied_from[index] = copied_from;
 }
 
-static void read_assigns(struct edit *e, const struct scene *scene,
-                         const struct view *view, struct warnings *report)
-{
-    for (size_t i = 0; i < view->assigns.count; i++) {
-        const struct assign *a = &view->assigns.items[i];
-        uint32_t object = scene_find_object(scene, a->object);
-        uint32_t material = mtl_find(scene, a->material);
-
-        if (object != NO_INDEX && material != NO_INDEX)
-            e->now.assigned[object] = material;
-        else
-            warnings_add_named(report, "assignments without effect", a->object,
-                               "%s: found no %s '%s' to assign", scene->path,
-                               object == NO_INDEX ? "object" : "material",
-                               object == NO_INDEX ? a->object : a->material);
-    }
-}
-
 void edit_init(struct edit *e, const struct scene *scene,
                const struct view *view, struct warnings *report)
 {
@@ -103,9 +85,7 @@ void edit_init(struct edit *e, const struct scene *scene,
         e->now.is_there[i] = true;
     }
     e->now.assigned = xcalloc(e->object_count + 1, sizeof *e->now.assigned);
-    for (uint32_t i = 0; i < e->object_count; i++)
-        e->now.assigned[i] = NO_INDEX;
-    read_assigns(e, scene, view, report);
+    scene_find_assigned(scene, &view->assigns, e->now.assigned, report);
     edit_sky(e, "");
     e->now.mood = (struct mood){
         .has_background = view->lighting.has_background,

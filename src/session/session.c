@@ -1,105 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include "session/session.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/clock.h"
 #include "base/file.h"
 #include "scene/world.h"
 #include "formats/scene_load.h"
-#include "formats/view_file.h"
 #include "terminal/xmalloc.h"
-
-/* An overcast noon: bright enough for exposure 0, a little blue. */
-static const double soft_sky[3] = {0.7, 0.8, 0.9};
-
-/* Reads the view file that there is: -c FILE, STEM.view, camera.txt. */
-static bool read_view(struct session *s, struct error *err)
-{
-    const struct options *o = s->options;
-    char *camera;
-    bool ok = true;
-
-    if (o->view_path) {
-        s->view_path = xstrdup(o->view_path);
-        return view_read(&s->view, s->view_path, &s->report, err);
-    }
-    char *stem = xchecked(path_stem(o->scene_path));
-    s->view_path = xformat("%s.view", stem);
-    free(stem);
-    /* a file that is there but cannot be read is an error of view_read() */
-    if (access(s->view_path, F_OK) == 0)
-        return view_read(&s->view, s->view_path, &s->report, err);
-    camera = xchecked(path_beside(o->scene_path, "camera.txt"));
-    if (access(camera, F_OK) == 0)
-        ok = view_read(&s->view, camera, &s->report, err);
-    free(camera);
-    return ok;
-}
-
-/* The other side of a picture whose shape is kept. */
-static int other_side(int side, int from, int to)
-{
-    double other = round((double)side * to / from);
-
-    return other < 1.0 ? 1 : other > VIEW_SIDE_MAX ? VIEW_SIDE_MAX : (int)other;
-}
 
 /* The command line wins over the view file. */
 static void apply_options(struct session *s)
 {
     const struct options *o = s->options;
-    struct view *v = &s->view;
-    int width = o->width_px;
-    int height = o->height_px;
 
-    if (width != 0 || height != 0) {
-        if (height == 0)
-            height = other_side(width, v->width_px, v->height_px);
-        else if (width == 0)
-            width = other_side(height, v->height_px, v->width_px);
-        v->width_px = width;
-        v->height_px = height;
-        v->has_size = true;
-    }
+    if (o->width_px != 0 || o->height_px != 0)
+        view_set_size(&s->view, o->width_px, o->height_px);
     if (o->has_max_bounces)
-        v->max_bounces = o->max_bounces;
+        s->view.max_bounces = o->max_bounces;
 }
 
-static bool is_dark(const struct session *s)
+/* Says on the status line what scene_open() has added. */
+static void note_additions(struct session *s)
 {
-    const double *b = s->view.lighting.background;
-
-    return !s->scene.has_emitters && !s->scene.sky_texels && b[0] <= 0.0 &&
-           b[1] <= 0.0 && b[2] <= 0.0;
-}
-
-/* A scene without camera or light still shows something. The report, which
- * knows of missing faces, goes to stderr, the notice to the status line. */
-static void complete_view(struct session *s)
-{
-    if (s->scene.tri_count == 0) {
+    if (s->scene.tri_count == 0)
         snprintf(s->notice, sizeof s->notice,
                  "no faces: only the background is rendered");
-    } else if (is_dark(s) && !s->view.lighting.has_background) {
-        memcpy(s->view.lighting.background, soft_sky, sizeof soft_sky);
+    else if (view_has_soft_sky(&s->view))
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");
-        warnings_add(&s->report, "scenes without light",
-                     "%s: found no light: lit by a soft sky",
-                     s->options->scene_path);
-    }
-    if (!s->view.has_camera)
-        scene_frame(&s->scene, &s->view);
-    if (pose_up_is_parallel(&s->view.pose))
-        warnings_add(&s->report, "views along their up",
-                     "%s: found the camera's up along its view: took another "
-                     "axis for it",
-                     s->options->scene_path);
 }
 
 /* The rectangle to render, which must lie in the picture. */
@@ -112,7 +43,7 @@ static bool find_crop(struct session *s, struct error *err)
     s->crop = (struct rect){0, 0, width, height};
     if (!s->options->has_crop)
         return true;
-    if (c->x > width - c->width || c->y > height - c->height)
+    if (!view_has_part(&s->view, c->x, c->y, c->width, c->height))
         return fail(err,
                     "--crop: found %d,%d,%d,%d, expected a part of the "
                     "picture, which has %dx%d pixels",
@@ -148,18 +79,16 @@ bool session_load(struct session *s, const struct options *options,
     view_init(&s->view);
     view_init(&s->opened);
     view_init(&s->filed);
-    if (!read_view(s, err))
+    if (!view_find(&s->view, options->scene_path, options->view_path,
+                   &s->view_path, &s->report, err))
         return false;
     xcheck(view_copy(&s->filed, &s->view));
     apply_options(s);
     if (!find_crop(s, err) ||
-        !scene_load(&s->scene, options->scene_path, options->up_is_z,
-                    &s->report, err) ||
-        !scene_load_sky(&s->scene, &s->view, &s->report, err))
+        !scene_open(&s->scene, &s->view, options->scene_path, options->up_is_z,
+                    &s->report, err))
         return false;
-    complete_view(s);
-    if (!pose_check(&s->view.pose, options->scene_path, err))
-        return false;
+    note_additions(s);
     xcheck(view_copy(&s->opened, &s->view));
     view_take_frame(&s->opened, &s->filed);
     xcheck(view_copy(&s->filed, &s->opened));
