@@ -58,7 +58,7 @@ void editor_panel_select(struct editor_panel *p, const struct pick *pick)
 
 /* ---- changes ---- */
 
-/* Due after any change: the picture and the panel show it. */
+/* Makes the picture and the panel show a change. */
 static void take_change(struct editor_panel *p)
 {
     if (session_take_edit(p->control->session))
@@ -83,7 +83,7 @@ static bool may_change(struct editor_panel *p)
     return true;
 }
 
-/* The id of the selected parameter, or -1 if there is none that may change. */
+/* Id of the selected parameter; -1 if there is none, or none may change now. */
 static int changeable_id(struct editor_panel *p)
 {
     struct parameter list[PARAMETERS_MAX];
@@ -145,7 +145,8 @@ static void compare(struct editor_panel *p)
     take_change(p);
 }
 
-/* Copies the material. An object whose page is shown gets the copy. */
+/* Copies the selected material. On the page of objects the object gets the
+ * copy. */
 static void duplicate(struct editor_panel *p)
 {
     struct selection *s = &p->selection;
@@ -248,7 +249,7 @@ static void enter(struct editor_panel *p)
         p->is_in_parameters = selection_has_one(&p->selection);
 }
 
-/* In the list a step to the right goes to the parameters. */
+/* A step to the right in the list goes to the parameters. */
 static void step(struct editor_panel *p, int by)
 {
     if (p->is_in_parameters)

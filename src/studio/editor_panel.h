@@ -31,14 +31,14 @@ struct editor_panel {
     struct screen *screen;
     struct selection selection;
     bool is_open;
-    bool is_in_parameters;       /* where the arrows move; else in the list */
-    int parameter;               /* the selected one, a row of the parameters */
-    int list_top, parameter_top; /* first row of each that is shown, */
-    int list_rows, parameter_rows; /* and number of rows, as drawn last */
+    bool is_in_parameters;         /* the arrows move there; else in the list */
+    int parameter;                 /* row of the selected parameter */
+    int list_top, parameter_top;   /* first row that is shown */
+    int list_rows, parameter_rows; /* number of rows in the last drawing */
     bool is_typing;
     char typed[EDITOR_PANEL_TEXT];
-    int stepped_id; /* the parameter that a step has changed last, and when */
-    uint64_t stepped_ns;
+    int stepped_id;      /* parameter of the last step */
+    uint64_t stepped_ns; /* time of the last step */
 };
 
 void editor_panel_init(struct editor_panel *p, struct render_control *control,

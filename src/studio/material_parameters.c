@@ -53,7 +53,7 @@ static void set_statement(struct owner *o, const struct value *v)
 
 /* ---- kind and colour of a material ---- */
 
-/* Kinds of a parameter_row. */
+/* Bits of the kinds of material. */
 #define DIFFUSE (1u << MATERIAL_DIFFUSE | 1u << MATERIAL_ROUGH_DIFFUSE)
 #define PLASTIC (1u << MATERIAL_PLASTIC)
 #define METAL   (1u << MATERIAL_METAL)
@@ -230,7 +230,7 @@ static void set_emission(struct owner *o, const struct value *v)
     put_color(&s->ke, rgb);
 }
 
-/* White if nothing is emitted. */
+/* The colour is white if nothing is emitted. */
 static bool get_emission_color(const struct owner *o, struct value *v)
 {
     struct mtl_color light = mtl_source_light(&o->source);
@@ -242,8 +242,8 @@ static bool get_emission_color(const struct owner *o, struct value *v)
     return strength_of(&o->source) > 0;
 }
 
-/* A black body gets the luminance of the colour that it replaces; a colour
- * the largest channel of the light that it replaces. */
+/* Keeps the luminance for a temperature, and the largest channel for a colour.
+ */
 static void set_emission_color(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;
@@ -253,7 +253,7 @@ static void set_emission_color(struct owner *o, const struct value *v)
     double rgb[3];
 
     if (v->number > 0) {
-        if (s->kelvin.line == 0) /* Rec.709 */
+        if (s->kelvin.line == 0) /* luminance of Rec.709 */
             luminance = 0.2126 * s->ke.rgb[0] + 0.7152 * s->ke.rgb[1] +
                         0.0722 * s->ke.rgb[2];
         s->ke = (struct mtl_color){.line = 0};

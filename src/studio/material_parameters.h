@@ -18,12 +18,12 @@
 
 extern const struct parameter_row material_parameters[MATERIAL_PARAMETERS];
 
-/* Makes the material with these statements the owner. */
+/* Fills the owner with a material of these statements. */
 void material_parameters_open(struct owner *owner,
                               const struct mtl_source *source);
 
-/* Name of the kind, and the colour that stands for the material in a list: that
- * of its light if it emits any. */
+/* Returns the name of the kind. The swatch is the colour of the light if the
+ * material emits any, else the colour of the material. */
 const char *material_parameters_summary(const struct mtl_source *source,
                                         double swatch[3]);
 

@@ -22,7 +22,7 @@
 #define VALUE_COLS 20
 #define NAME_BYTES 100
 
-/* The lines drawn so far, and the colours beside them. */
+/* Lines that are drawn, with colours at their left. */
 struct sheet {
     struct window_line *lines;
     int count;
@@ -61,7 +61,7 @@ static void add_pages(struct sheet *s, enum parameter_page page)
     add_line(s, WINDOW_TITLE, titles[page]);
 }
 
-/* Moves the first row that is shown until the selected one is shown. */
+/* Changes the first row that is shown so that the selected row is shown. */
 static void scroll(int *top, int selected, int rows)
 {
     if (*top > selected)
@@ -70,7 +70,7 @@ static void scroll(int *top, int selected, int rows)
         *top = selected - rows + 1;
 }
 
-/* A material with its kind, or an object with its material. */
+/* Adds a material with its kind, or an object with its material. */
 static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
 {
     const struct selection *sel = &p->selection;

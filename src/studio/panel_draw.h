@@ -10,7 +10,7 @@
 
 #include "studio/editor_panel.h"
 
-/* Columns of the titles of the second page and the third. */
+/* Columns where the titles of the second and the third page begin. */
 #define PAGE_2 13
 #define PAGE_3 22
 

@@ -10,7 +10,7 @@
 #include "picture/color.h"
 #include "studio/parameter_table.h"
 
-/* A step of a scale without fixed steps. */
+/* A step on a scale whose step is a tenth of the value. */
 #define GROWTH 1.1
 
 /* The first temperature of a light that had none. */
@@ -131,7 +131,8 @@ static const char *choice_name(const struct owner *o, uint32_t i)
     return i < row->name_count ? row->names[i] : NULL;
 }
 
-/* The next choice that is offered, or the one before; round. */
+/* The next choice that is offered, or the one before. The first follows the
+ * last. */
 static uint32_t next_choice(const struct owner *o, uint32_t i, bool is_forward)
 {
     uint32_t count = 0;
@@ -213,7 +214,7 @@ int parameters_list(const struct parameter_target *t,
 
 /* ---- changes ---- */
 
-/* The values of now, for the parameter of the id. */
+/* Reads the parameter of this id. */
 static struct owner open_parameter(const struct parameter_target *t, int id,
                                    struct value *v)
 {
@@ -290,7 +291,7 @@ static bool parse_choice(const struct owner *o, const char *text,
     return fail(err, "found '%s', expected %s", text, o->row->expected);
 }
 
-/* A channel takes a whole colour as well. */
+/* A channel takes a number or a whole colour. */
 static bool parse(const struct owner *o, const char *text, int part,
                   struct value *v, struct error *err)
 {

@@ -42,7 +42,7 @@ static const struct value_scale scale_exposure = {
 
 /* ---- material of an object ---- */
 
-/* After the last material comes the file's own. */
+/* The choice after the last material is the material of the file. */
 static const char *material_name(const struct owner *o, uint32_t i)
 {
     const struct edit *e = o->target->edit;
@@ -68,7 +68,7 @@ static void set_assigned(struct owner *o, const struct value *v)
 
 /* ---- light ---- */
 
-/* Kinds of a parameter_row: of a light without image, and with one. */
+/* Kinds of light: without an image of the sky, and with one. */
 #define NO_SKY  (1u << 0)
 #define HAS_SKY (1u << 1)
 

@@ -21,10 +21,10 @@
 struct value_scale {
     double least, most; /* limits of a typed number */
     double from, to;    /* ends of the scale, and limits of steps */
-    double step;        /* 0: a tenth of the value; only 0 is below `from` */
-    int digits;         /* in the text */
-    bool wraps;         /* 0 follows `to` */
-    bool is_positive;   /* steps end one step above 0 */
+    double step; /* 0: a tenth of the value, and only 0 lies below `from` */
+    int digits;  /* of the text */
+    bool wraps;  /* a step beyond `to` goes to 0 */
+    bool is_positive;   /* steps do not reach 0 */
     const char *suffix; /* after the number; NULL: none */
     const char *zero;   /* text of 0; NULL: the number */
     const char *expected;
@@ -34,7 +34,7 @@ struct value_scale {
 #define RADIANCE_MAX 1e30
 
 extern const struct value_scale scale_unit;
-extern const struct value_scale scale_coat; /* 0 is no coat and no parameter */
+extern const struct value_scale scale_coat; /* without 0, which is no coat */
 extern const struct value_scale scale_hue;
 extern const struct value_scale scale_ior;
 extern const struct value_scale scale_emission;
@@ -42,7 +42,7 @@ extern const struct value_scale scale_kelvin;
 
 struct parameter_row;
 
-/* The values of a target, while one of its parameters is read or written. */
+/* The owner of parameters: a copy of the values of a target. */
 struct owner {
     const struct parameter_target *target;
     const struct parameter_row *row;
@@ -56,42 +56,42 @@ struct owner {
 enum value_type {
     VALUE_NUMBER,
     VALUE_CHOICE,
-    VALUE_COLOR, /* linear, with three channels as parameters of their own */
-    VALUE_LIGHT_COLOR /* largest channel 1; or a temperature, moved by steps */
+    VALUE_COLOR,      /* its three channels are listed as parameters, too */
+    VALUE_LIGHT_COLOR /* with largest channel 1, or a temperature */
 };
 
 struct value {
-    double number; /* or number of a choice, or kelvins of a colour (0: none) */
-    double rgb[3];
+    double number; /* or index of a choice, or kelvins of a colour; 0: none */
+    double rgb[3]; /* linear */
     const char *note; /* after the text of a choice; NULL: none */
 };
 
-/* Kinds of owners: all. */
+/* For `kinds`: every owner has the parameter. */
 #define ALL 0xffffffffu
 
 struct parameter_row {
     const char *label;
-    uint32_t kinds; /* 1 << kind of the owners that have it */
+    uint32_t kinds; /* bits 1 << owner.kind of those that have it */
     enum value_type type;
     const struct value_scale *scale; /* of the number, channels or kelvins */
 
     /* False if the owner has no such parameter now. */
     bool (*get)(const struct owner *owner, struct value *value);
     void (*set)(struct owner *owner, const struct value *value);
-    size_t member; /* for get and set: offset in mtl_source or mood, */
-    size_t result; /* offset of the float in struct material, */
+    size_t member; /* offset in mtl_source or mood, for get and set */
+    size_t result; /* offset of a float in struct material, for get */
     enum mtl_map map;
 
-    const char *const *names; /* of choices, which do not change; */
+    const char *const *names; /* of the choices; NULL: see name() */
     uint32_t name_count;
-    /* else name of choice i: "" if it is not offered, NULL after the last. */
+    /* Name of choice i: "" if it is not offered, NULL after the last. */
     const char *(*name)(const struct owner *owner, uint32_t i);
-    /* Number of the choice that a text means; NULL: that of its name. */
+    /* Index of the choice for a text; NULL: the one of this name. */
     uint32_t (*find)(const struct owner *owner, const char *text);
-    const char *expected; /* as text; NULL: choices are not typed */
+    const char *expected; /* text; NULL: the choice is not typed */
 };
 
-/* For a row whose choices have these names. */
+/* Members of a row whose choices have these names. */
 #define CHOICES(array) \
     .names = array, .name_count = sizeof array / sizeof array[0]
 
@@ -99,7 +99,7 @@ struct parameter_row {
 const struct parameter_row *parameter_table(enum parameter_page page,
                                             int *count);
 
-/* The target's values in this state of the edit. */
+/* Copies the values of the target from a state of the edit. */
 struct owner parameter_owner(const struct parameter_target *target,
                              const struct edit_state *state);
 

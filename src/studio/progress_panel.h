@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * progress_panel.h - the panel of progress on the screen: when it is drawn, and
- * what it measures for that
+ * progress_panel.h - shows the progress of the render: measures the threads and
+ * draws the text of progress_text.h twice a second
  *
  * Units:     nanoseconds of clock_ns()
  * Ownership: progress_panel_free() frees; a zeroed struct is switched off
@@ -18,20 +18,21 @@
 
 struct progress_panel {
     bool is_on;
-    uint64_t due_ns; /* when it is drawn next; 0: as soon as possible */
+    uint64_t due_ns; /* of the next update; 0: as soon as possible */
     struct thread_load load;
-    uint64_t load_ns; /* when that was begun */
+    uint64_t load_ns; /* when the load was begun */
 };
 
-/* On or off; the screen's window is to be closed if it goes off. */
+/* Switches the panel on or off. The caller closes the screen's window if it
+ * goes off. */
 void progress_panel_switch(struct progress_panel *panel,
                            const struct render_control *control);
 
-/* When it wants to be drawn: UINT64_MAX, never, if nothing changes. */
+/* Time of the next update; UINT64_MAX if nothing will change. */
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,
                                 const struct render_control *control);
 
-/* Opens the panel, or changes its text. */
+/* Opens the panel or updates its text. */
 void progress_panel_draw(struct progress_panel *panel,
                          const struct render_control *control,
                          struct screen *screen, uint64_t now_ns);

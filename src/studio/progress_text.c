@@ -39,7 +39,7 @@ void progress_text_number(char *text, size_t size_bytes, double value)
                  value, units[unit]);
 }
 
-/* Copies a character; the place behind it. */
+/* Copies a character and returns its end. */
 static char *put(char *to, const char *character)
 {
     size_t length = strlen(character);
@@ -48,7 +48,7 @@ static char *put(char *to, const char *character)
     return to + length;
 }
 
-/* `right` ends in the last column. */
+/* Puts one text at the left end of the line and one at the right. */
 static void put_sides(char *line, const char *left, const char *right)
 {
     int gap = PROGRESS_TEXT_COLS - (int)strlen(left) - (int)strlen(right);
@@ -119,7 +119,7 @@ static void format_time(char *line, const struct render_progress *p)
 
 /* ---- diagrams ---- */
 
-/* The speed in half a column of the plot; 0 where there is none. */
+/* Speed of span `i`, which is half a column of the plot; 0 if there is none. */
 static double speed_at(const struct speeds *s, int i)
 {
     return i < s->count ? speeds_at(s, i) : 0;
@@ -134,8 +134,8 @@ static double top_speed(const struct speeds *s)
     return top;
 }
 
-/* Dots of a column that stands in a row of the plot, 0 to DOT_ROWS; row 0 is
- * the highest. */
+/* Number of dots that a bar of this height has in a row of the plot, 0 to
+ * DOT_ROWS. Row 0 is the top. */
 static int dots_in_row(double part, int row)
 {
     int dots = (int)(part * PLOT_ROWS * DOT_ROWS + 0.5);
@@ -144,7 +144,8 @@ static int dots_in_row(double part, int row)
     return dots < 0 ? 0 : dots > DOT_ROWS ? DOT_ROWS : dots;
 }
 
-/* Columns of dots from below: bits as Unicode numbers them. */
+/* Formats a braille character with two columns of dots, filled from the bottom.
+ * The tables have the bits that Unicode gives to the dots. */
 static void put_braille(char *to, int left_dots, int right_dots)
 {
     static const unsigned char left[] = {0, 0x40, 0x44, 0x46, 0x47};
@@ -177,7 +178,7 @@ static void format_plot_title(char *line, const struct speeds *s)
 {
     char now[NUMBER_BYTES], top[NUMBER_BYTES], right[48];
 
-    /* the last span may have just begun */
+    /* the last span may have begun a moment ago */
     progress_text_number(now, sizeof now,
                          s->count > 0
                              ? speeds_at(s, s->count > 1 ? s->count - 2 : 0)
@@ -196,7 +197,7 @@ static double mean_load(const double *loads, int begin, int end)
     return end > begin ? sum / (end - begin) : 0;
 }
 
-/* A column a thread, or for some threads that are neighbours. */
+/* One column per thread, or per group of threads where there are more. */
 static void format_loads(char *line, const struct progress_text_facts *f)
 {
     static const char ascii[] = "_.:-=+*#@";
@@ -210,7 +211,7 @@ static void format_loads(char *line, const struct progress_text_facts *f)
         int eighths = (int)(load * 8 + 0.5);
         char cell[4] = {ascii[eighths]};
 
-        if (f->has_unicode) /* U+2581 to U+2588; an idle one has a foot */
+        if (f->has_unicode) /* U+2581 to U+2588; idle is the lowest of them */
             snprintf(cell, sizeof cell, "\xe2\x96%c",
                      (char)(0x80 + (eighths > 0 ? eighths : 1)));
         line = put(line, cell);

@@ -19,17 +19,17 @@
 
 struct selection {
     struct session *session;
-    uint32_t *first_tris; /* one an object; NO_INDEX: it has none */
+    uint32_t *first_tris; /* of each object; NO_INDEX: it has no triangle */
     enum parameter_page page;
-    uint32_t index[PARAMETER_LIGHT + 1]; /* of each page: what is selected */
+    uint32_t index[PARAMETER_LIGHT + 1]; /* of the selected one, by page */
     uint32_t *listed; /* the list of the page: materials with a name, objects
                          with a face, no duplicate that was undone */
     int listed_count;
-    int row;     /* of what is selected, in the list */
+    int row;     /* of the selected one, in the list */
     bool by_hsv; /* see struct parameter_target */
 };
 
-/* Names of what is selected. */
+/* Names of the selected material and object. */
 struct selection_names {
     char *material, *object;
 };
@@ -37,14 +37,14 @@ struct selection_names {
 void selection_init(struct selection *s, struct session *session);
 void selection_free(struct selection *s);
 
-/* Makes the list anew, after a change of the page, the index or the scene. What
- * has gone from it is no longer selected, but the one above it is. */
+/* Makes the list anew, after a change of page, index or scene. If the selected
+ * one has gone, the one above it is selected. */
 void selection_settle(struct selection *s);
 
 /* True if there is something to edit. */
 bool selection_has_one(const struct selection *s);
 
-/* Selects a row so many steps further down, or the last there is. */
+/* Selects the row some steps further down, or up, as far as the list goes. */
 void selection_move(struct selection *s, int steps);
 
 /* The names are for free(). */
@@ -56,8 +56,7 @@ bool selection_renew(struct selection *s, const struct selection_names *names);
 
 struct parameter_target selection_target(const struct selection *s);
 
-/* Name of a material or object as it is shown: an empty one is said to be so.
- */
+/* Name of a material or object, with a text in place of an empty name. */
 const char *selection_name(const struct selection *s, enum parameter_page page,
                            uint32_t i);
 

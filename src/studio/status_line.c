@@ -23,8 +23,9 @@ enum field {
     FIELDS
 };
 
-/* What goes first when there is no room: what a person knows or sees elsewhere
- * (the meter has it all), last what a key has changed. */
+/* Fields in the order in which they are left out when there is no room. The
+ * first are known or stand elsewhere, as in the progress panel; the last tell
+ * what a key has changed. */
 static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
                                          FIELD_SPEED,   FIELD_LEFT,
                                          FIELD_ELAPSED, FIELD_PERCENT,
@@ -73,7 +74,7 @@ bool status_line_left(char *text, size_t size_bytes,
     if (p->samples_limit == 0 || p->samples == 0)
         return false;
     left_ns = (double)p->render_ns * samples_left(p) / (double)p->samples;
-    /* a second that has begun is left as a whole one */
+    /* rounded up: 0 s means that it is done */
     status_line_duration(text, size_bytes,
                          left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
                                         : UINT64_C(1000000000000000000));

@@ -5,7 +5,7 @@
  * Units:     terminal columns, nanoseconds
  * Ownership: text goes to the caller's memory
  * Threads:   any
- * Errors:    none; what has no room is left out, the least important first
+ * Errors:    none; a field without room is left out, the least important first
  */
 #ifndef GLIM_STATUS_LINE_H
 #define GLIM_STATUS_LINE_H
@@ -22,28 +22,27 @@ struct status_line {
     bool is_orbiting;
     bool is_halted;       /* by the person */
     bool is_started;      /* normal mode: a render was begun */
-    const char *load_key; /* for files that have changed; NULL: none have */
+    const char *load_key; /* that loads changed files; NULL: none has changed */
     const struct render_progress *progress;
-    const char *device; /* NULL: the CPU, with so many threads */
+    const char *device; /* NULL: the CPU, with thread_count threads */
     int thread_count;
     int width_px, height_px;
-    const char *colors; /* "24 bit" */
+    const char *colors; /* name of the palette: "24 bit" */
     const char *hint;   /* at the right end */
 };
 
-/* Writes a line for `cols` columns. */
+/* Formats the line for `cols` columns. */
 void status_line_format(char text[STATUS_BYTES], int cols,
                         const struct status_line *s);
 
-/* Seconds as people read them: 7 s, 1:07, 2:01:07. Rounds down. */
+/* Formats a time in seconds, rounded down: 7 s, 1:07, 2:01:07. */
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns);
 
-/* The time that is left, in such words. False if nobody can know. */
+/* Formats the time that the render still needs. False if it is not known. */
 bool status_line_left(char *text, size_t size_bytes,
                       const struct render_progress *p);
 
-/* Copies a message for the screen: no control characters, cut at `cols`
- * bytes. */
+/* Copies a message without its control characters, cut at `cols` columns. */
 void status_line_message(char text[STATUS_BYTES], int cols,
                          const char *message);
 
