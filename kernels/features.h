@@ -2,7 +2,7 @@
 /*
  * features.h - what a scene may need, for leaving out what it does not
  *
- * scene_world() says which features a scene has. A build is for all of them,
+ * world_lend() says which features a scene has. A build is for all of them,
  * unless FEATURES names those it is for; both give the same bits.
  */
 #ifndef KERNELS_FEATURES_H

@@ -409,7 +409,7 @@ static bool use_device(struct session *s, struct error *err)
     const struct options *o = s->options;
     struct backends *m = &s->machines;
     char *log = NULL;
-    bool is_up = backends_begin_device(m, scene_features(&s->scene), err) &&
+    bool is_up = backends_begin_device(m, world_features(&s->world), err) &&
                  backends_end_device(m, &log, err);
 
     if (is_up)

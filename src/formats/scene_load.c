@@ -7,8 +7,6 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "scene/textures.h"
-#include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"
 #include "formats/view_file.h"
@@ -41,8 +39,6 @@ bool scene_load(struct scene *scene, const char *path, bool up_is_z,
         return false;
     if (up_is_z)
         turn_z_up(scene);
-    if (!textures_load(scene, report, err))
-        return false;
     return scene_finish(scene, report, err);
 }
 
@@ -99,11 +95,11 @@ bool view_find(struct view *view, const char *scene_path, const char *view_path,
 
 /* ---- the scene with its view ---- */
 
-static bool is_dark(const struct scene *scene, const struct view *view)
+static bool is_dark(const struct host_world *host, const struct view *view)
 {
     const double *b = view->lighting.background;
 
-    return !scene->has_emitters && !scene->sky_texels && b[0] <= 0.0 &&
+    return !world_has_emitters(host) && !host->sky_texels && b[0] <= 0.0 &&
            b[1] <= 0.0 && b[2] <= 0.0;
 }
 
@@ -116,10 +112,11 @@ bool view_has_soft_sky(const struct view *view)
 }
 
 /* A scene without camera or light still shows something. */
-static void complete_view(const struct scene *scene, struct view *view,
+static void complete_view(const struct scene *scene,
+                          const struct host_world *host, struct view *view,
                           struct warnings *report)
 {
-    if (scene->tri_count > 0 && is_dark(scene, view) &&
+    if (scene->tri_count > 0 && is_dark(host, view) &&
         !view->lighting.has_background) {
         memcpy(view->lighting.background, soft_sky, sizeof soft_sky);
         warnings_add(report, "scenes without light",
@@ -134,13 +131,15 @@ static void complete_view(const struct scene *scene, struct view *view,
                      scene->path);
 }
 
-bool scene_open(struct scene *scene, struct view *view, const char *path,
-                bool up_is_z, struct warnings *report, struct error *err)
+bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
+                const char *path, bool up_is_z, struct warnings *report,
+                struct error *err)
 {
     if (!scene_load(scene, path, up_is_z, report, err) ||
-        !scene_load_sky(scene, view, report, err))
+        !world_init(host, scene, report, err) ||
+        !world_load_sky(host, view, report, err))
         return false;
-    complete_view(scene, view, report);
+    complete_view(scene, host, view, report);
     return pose_check(&view->pose, path, err) &&
            (!report->has_lost ||
             fail(err, "%s: out of memory for the warnings", path));

@@ -17,9 +17,9 @@
 #define NUMBERS_BYTES  64
 
 /* Returns the name of a triangle's material, or words for none. */
-static const char *material_of(const struct scene *scene, uint32_t tri)
+static const char *material_of(const struct overlay_names *names, uint32_t tri)
 {
-    const char *name = scene->material_names[scene->tris[tri].material];
+    const char *name = names->materials[names->tris[tri].material];
 
     return *name ? name : "no material";
 }
@@ -65,6 +65,7 @@ static void format_numbers(char text[NUMBERS_BYTES], const double *values,
 }
 
 static void add_step(struct overlay_text *l, const struct scene *scene,
+                     const struct overlay_names *names,
                      const struct path_record_step *s, int number)
 {
     bool goes_on =
@@ -85,7 +86,7 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
         snprintf(pdf_text, sizeof pdf_text, "delta");
     text_width_fit(material, sizeof material,
                    s->way == PATH_RECORD_SKY ? ""
-                                             : material_of(scene, s->hit.tri),
+                                             : material_of(names, s->hit.tri),
                    MATERIAL_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "%2d %s %-*s %-8s %4.2f %4.2f %4.2f %-*s %.2g %.2g %.2g", number,
@@ -96,6 +97,7 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
 }
 
 void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
+                        const struct overlay_names *names,
                         const struct path_record *trail, int count)
 {
     int first = count > OVERLAY_TEXT_STEPS ? count - OVERLAY_TEXT_STEPS : 0;
@@ -105,7 +107,7 @@ void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
              "%2s %-10s %-17s %-8s %-14s %-6s %s", "#", "material", "position",
              "way", "throughput", "pdf", "light");
     for (int i = first; i < count; i++)
-        add_step(l, scene, &trail->steps[i], i + 1);
+        add_step(l, scene, names, &trail->steps[i], i + 1);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "step %d of %d; radiance of the whole path %.4g %.4g %.4g", count,
              trail->vertices, (double)trail->radiance.x,
@@ -120,7 +122,8 @@ static void add_direction(struct overlay_text *l, const char *name,
              (double)d.x + 0, (double)d.y + 0, (double)d.z + 0);
 }
 
-void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
+void overlay_text_lobes(struct overlay_text *l,
+                        const struct overlay_names *names,
                         const struct path_record_lobes *lobes)
 {
     struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
@@ -138,7 +141,7 @@ void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
         lo = i == 0 ? pdf : f_min(lo, pdf);
         deltas += pdf == 0.0f ? 1 : 0;
     }
-    text_width_cut(material, sizeof material, material_of(scene, lobes->tri),
+    text_width_cut(material, sizeof material, material_of(names, lobes->tri),
                    LOBES_COLS);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES, "%s, seen %.1f degrees off n",
              material, angle_deg(acos((double)cosine)));

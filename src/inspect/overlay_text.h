@@ -24,12 +24,20 @@ struct overlay_text {
     int count;
 };
 
+/* Where a triangle's material has its name. */
+struct overlay_names {
+    const struct tri *tris;
+    char *const *materials;
+};
+
 /* Lists the first `count` steps, or the last ones of them that fit, and the
  * light that the whole path has gathered. */
 void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
+                        const struct overlay_names *names,
                         const struct path_record *trail, int count);
 
-void overlay_text_lobes(struct overlay_text *l, const struct scene *scene,
+void overlay_text_lobes(struct overlay_text *l,
+                        const struct overlay_names *names,
                         const struct path_record_lobes *lobes);
 
 #endif

@@ -84,14 +84,14 @@ static uint64_t smaller(uint64_t a, uint64_t b)
 
 /* ---- geometry, picture ---- */
 
-static bool cl_load(struct backend *base, const struct world *world,
-                    struct bvh8 *tree, struct error *err)
+static bool cl_load(struct backend *base, struct host_world *host,
+                    const struct world *world, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
     struct pool *pool = pool_create(usable_threads(), err);
     bool ok;
 
-    (void)tree;
+    (void)host;
     cl_world_free(&b->world, &b->machine);
     /* without threads this one builds */
     ok = bvh_build(&b->bvh, world, pool, err);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "scene/material.h"
-#include "scene/scene.h"
 #include "scene/world.h"
 #include "formats/mtl.h"
 #include "formats/obj.h"
@@ -53,11 +52,10 @@ static const char faces[] =
     "usemtl frosted\nf 22 23 24\nusemtl pane\n"
     "f 25 26 27\nusemtl clear\nf 28 29 30\n";
 
-static bool make_scene(struct scene *scene, uint32_t features,
-                       struct error *err)
+static bool make_world(struct scene *scene, struct host_world *host,
+                       uint32_t features, struct error *err)
 {
     struct warnings report = {0};
-    struct world arrays;
     bool ok =
         mtl_add_default(scene, err) &&
         mtl_parse(scene, materials, sizeof materials - 1, "self-test", &report,
@@ -65,25 +63,25 @@ static bool make_scene(struct scene *scene, uint32_t features,
         obj_parse(scene, faces, sizeof faces - 1, "self-test", &report, err) &&
         scene_finish(scene, &report, err);
 
-    warnings_free(&report);
     for (uint32_t i = 0; ok && i < scene->material_count; i++) {
         struct material *m = &scene->materials[i];
 
-        if ((scene_material_features(scene, m) & ~features) != 0)
+        if ((material_features(m, scene->textures) & ~features) != 0)
             *m = material_default();
     }
-    arrays = scene_arrays(scene);
-    ok = ok && lights_build(&scene->lights, &arrays, err);
+    ok = ok && world_init(host, scene, &report, err);
+    warnings_free(&report);
     return ok;
 }
 
-static bool make_job(struct scene *scene, uint32_t features,
-                     struct render_job *job, struct error *err)
+static bool make_job(const struct scene *scene, struct host_world *host,
+                     uint32_t features, struct render_job *job,
+                     struct error *err)
 {
     struct view view;
     bool ok;
 
-    *job = (struct render_job){.tree = &scene->tree,
+    *job = (struct render_job){.host = host,
                                .geometry_changed = true,
                                .crop = {0, 0, SIDE, SIDE},
                                .spp = SPP};
@@ -98,8 +96,8 @@ static bool make_job(struct scene *scene, uint32_t features,
     view.lighting.background[0] = view.lighting.background[1] =
         view.lighting.background[2] = 0.5;
     ok = ((features & FEATURE_GUIDE) == 0 ||
-          scene_guide(scene, &view, 1, err)) &&
-         scene_world(scene, &view, 1, &job->world, err);
+          world_guide(host, scene, &view, 1, err)) &&
+         world_lend(host, scene, &view, 1, &job->world, err);
     view_free(&view);
     return ok;
 }
@@ -165,14 +163,16 @@ bool selftest_run(struct backend *cpu, struct backend *device,
                   struct error *err)
 {
     struct scene scene = {0};
+    struct host_world host = {.tris = NULL};
     struct render_job job;
     float rgb[2][3 * SIDE * SIDE];
-    bool ok = make_scene(&scene, features, err) &&
-              make_job(&scene, features, &job, err) &&
+    bool ok = make_world(&scene, &host, features, err) &&
+              make_job(&scene, &host, features, &job, err) &&
               render_with(cpu, &job, rgb[0], err) &&
               render_with(device, &job, rgb[1], err) &&
               judge(rgb[0], rgb[1], verdict, err);
 
+    world_free(&host);
     scene_free(&scene);
     return ok;
 }

@@ -12,8 +12,8 @@
 
 #include "base/thread_pool.h"
 #include "picture/film.h"
+#include "scene/world.h"
 #include "render/cpu_kernel.h"
-#include "kernels/types.h"
 
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 
@@ -34,11 +34,11 @@ struct backend {
     uint64_t tree_bytes; /* of what load() built, or found */
 
     /* New geometry: builds what the ray queries need. For backends that have
-     * none of their own this is *tree, which others may have built before. It
-     * and the arrays of the world must stay until the next load() or destroy().
-     */
-    bool (*load)(struct backend *b, const struct world *world,
-                 struct bvh8 *tree, struct error *err);
+     * no tree of their own this is the host's, which others may have built
+     * before. The host and the arrays of the world, which it has lent, must
+     * stay until the next load() or destroy(). */
+    bool (*load)(struct backend *b, struct host_world *host,
+                 const struct world *world, struct error *err);
 
     /* Frees what load() built but the tree: another backend renders now. */
     void (*unload)(struct backend *b);

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "bvh/bvh8.h"
 #include "render/cpu_dispatch.h"
 #include "kernels/sobol.h"
 
@@ -16,7 +15,7 @@ struct backend_cpu {
     struct backend base;
     const struct cpu_kernel *paths; /* that can do every world */
     struct pool *pool;
-    struct bvh8 *tree; /* from load() */
+    const struct bvh8 *tree; /* from load() */
     /* from begin() */
     const struct cpu_kernel *fit; /* that can do this one */
     struct bvh8_world world;
@@ -135,15 +134,15 @@ static void render_block(void *context, uint32_t item, int worker)
             return;
 }
 
-static bool cpu_load(struct backend *base, const struct world *world,
-                     struct bvh8 *tree, struct error *err)
+static bool cpu_load(struct backend *base, struct host_world *host,
+                     const struct world *world, struct error *err)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    if (tree->nodes == NULL && !bvh8_build(tree, world, b->pool, err))
+    if (!world_need_tree(host, world, b->pool, err))
         return false;
-    b->tree = tree;
-    base->tree_bytes = bvh8_bytes(tree);
+    b->tree = world_tree(host);
+    base->tree_bytes = bvh8_bytes(b->tree);
     return true;
 }
 

@@ -43,7 +43,6 @@ struct render {
     uint64_t run_before_ns; /* of earlier runs of the same picture */
     uint64_t build_ns;
     uint64_t first_picture_ns;
-    bool is_loaded; /* the geometry, by the backend */
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
@@ -109,11 +108,10 @@ static enum pass_result load(struct render *r)
 {
     uint64_t begin_ns = clock_ns();
     bool ok =
-        r->backend->load(r->backend, &r->job.world, r->job.tree, &r->error);
+        r->backend->load(r->backend, r->job.host, &r->job.world, &r->error);
 
     pthread_mutex_lock(&r->lock);
     r->build_ns = clock_ns() - begin_ns;
-    r->is_loaded = ok;
     pthread_mutex_unlock(&r->lock);
     r->job.geometry_changed = !ok;
     return ok ? PASS_DONE : PASS_FAILED;
@@ -341,7 +339,6 @@ bool render_start(struct render *r, const struct render_job *job,
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
-    r->is_loaded &= !geometry_changed;
     go(r, job->steps);
     pthread_mutex_unlock(&r->lock);
     return true;
@@ -404,16 +401,6 @@ bool render_wait(struct render *r, int timeout_ms)
     is_parked = r->state != RENDER_RUNNING;
     pthread_mutex_unlock(&r->lock);
     return is_parked;
-}
-
-bool render_is_loaded(struct render *r)
-{
-    bool is_loaded;
-
-    pthread_mutex_lock(&r->lock);
-    is_loaded = r->is_loaded;
-    pthread_mutex_unlock(&r->lock);
-    return is_loaded;
 }
 
 int render_event_fd(const struct render *r)

@@ -12,7 +12,7 @@
  * (enum sample_kind), is a draft only, and the film stays empty.
  *
  * Units:     samples a pixel (spp), pixels, nanoseconds
- * Ownership: the backend, the world's arrays and its tree stay the caller's
+ * Ownership: the backend, the host and the world's arrays stay the caller's
  *            and must live until render_use(), render_halt() or
  *            render_destroy()
  * Threads:   all functions from one thread (the main one)
@@ -32,8 +32,8 @@ struct rect {
 };
 
 struct render_job {
-    struct world world;
-    struct bvh8 *tree;     /* of its triangles, for backends to share */
+    struct host_world *host;
+    struct world world;    /* lent from the host */
     bool geometry_changed; /* since the last start: the backend loads anew */
     struct rect crop;      /* in the picture that world.settings.camera has */
     uint64_t spp;          /* 0: no limit */
@@ -96,10 +96,6 @@ bool render_step(struct render *r);
 /* Blocks until the state is not RENDER_RUNNING or timeout_ms has passed (-1:
  * no limit). True if it is not running. */
 bool render_wait(struct render *r, int timeout_ms);
-
-/* True once the backend has the geometry of the last start: from then on it
- * only reads the job's tree. */
-bool render_is_loaded(struct render *r);
 
 /* A file descriptor that becomes readable when the state changes from
  * RENDER_RUNNING; read it empty. */

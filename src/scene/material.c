@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "picture/blackbody.h"
+#include "kernels/light.h"
 
 /* From here on a highlight is a mirror image: exporters write 1000 for it. */
 #define NS_SMOOTH 1000
@@ -401,4 +402,52 @@ struct mtl_source mtl_source_needed(const struct mtl_source *file,
     candidate.luminance = file->luminance;
     take_if_same(&s, &candidate);
     return s;
+}
+
+static bool has_texture(const struct material *m)
+{
+    const uint32_t textures[] = {
+        m->color_texture,  m->coat_texture,  m->emission_texture,
+        m->alpha_texture,  m->metal_texture, m->opacity_texture,
+        m->normal_texture, m->bump_texture,
+    };
+
+    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
+        if (textures[i] != NO_INDEX)
+            return true;
+    return false;
+}
+
+static bool has_holes(const struct texture *textures, uint32_t texture)
+{
+    return texture != NO_INDEX && textures[texture].has_holes != 0;
+}
+
+uint32_t material_features(const struct material *m,
+                           const struct texture *textures)
+{
+    bool is_metal = m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX;
+    uint32_t features = 0;
+
+    if (material_shines(m))
+        features |= FEATURE_EMITTERS;
+    if (has_texture(m))
+        features |= FEATURE_TEXTURES;
+    if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
+        features |= FEATURE_BUMPS;
+    if (m->opacity < 1 || has_holes(textures, m->color_texture) ||
+        has_holes(textures, m->opacity_texture))
+        features |= FEATURE_COVERAGE;
+    if (is_metal)
+        features |= FEATURE_METAL;
+    if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
+        features |= FEATURE_GLASS;
+    if (m->kind == MATERIAL_PLASTIC)
+        features |= FEATURE_PLASTIC;
+    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
+        features |= FEATURE_ROUGH_DIFFUSE;
+    else if ((is_metal || m->kind != MATERIAL_DIFFUSE) &&
+             m->alpha >= ALPHA_SMOOTH)
+        features |= FEATURE_ROUGH;
+    return features;
 }

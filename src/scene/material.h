@@ -87,6 +87,10 @@ struct material material_default(void);
 struct material material_from_source(const struct mtl_source *source,
                                      const char *path, struct warnings *report);
 
+/* Enum feature, or-ed: what samples of the material need. */
+uint32_t material_features(const struct material *material,
+                           const struct texture *textures);
+
 /* The statements that a file must have to give the wanted material: where those
  * that it has already give the same, they stay. */
 struct mtl_source mtl_source_needed(const struct mtl_source *file,

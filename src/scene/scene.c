@@ -7,11 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "picture/color.h"
-#include "picture/image_read.h"
-#include "scene/textures.h"
 #include "kernels/hit.h"
-#include "kernels/light.h"
 
 /* Whether the triangle's edges span an area, computed in double. */
 static bool has_area(const double a[3], const double b[3], const double c[3])
@@ -195,64 +191,12 @@ static void turn_tris(struct scene *scene)
     }
 }
 
-static void fill_linear_of_srgb(float table[256])
-{
-    for (int i = 0; i < 256; i++)
-        table[i] = (float)color_decoded(i / 255.0);
-}
-
 uint32_t scene_find_object(const struct scene *scene, const char *name)
 {
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (strcmp(scene->object_names[i], name) == 0)
             return i;
     return NO_INDEX;
-}
-
-void scene_find_emitters(struct scene *scene)
-{
-    scene->has_emitters = false;
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        scene->has_emitters |=
-            scene->material_is_used[i] && material_shines(&scene->materials[i]);
-}
-
-static bool find_used_materials(struct scene *scene, struct error *err)
-{
-    free(scene->material_is_used);
-    scene->material_is_used =
-        alloc_array(scene->material_count, sizeof *scene->material_is_used);
-    if (scene->material_is_used == NULL)
-        return fail(err, "%s: out of memory for its materials", scene->path);
-    for (uint32_t i = 0; i < scene->tri_count; i++)
-        scene->material_is_used[scene->tris[i].material] = true;
-    scene_find_emitters(scene);
-    return true;
-}
-
-struct world scene_arrays(const struct scene *scene)
-{
-    return (struct world){
-        .positions = scene->positions,
-        .normals = scene->normals,
-        .uvs = scene->uvs,
-        .tris = scene->tris,
-        .materials = scene->materials,
-        .textures = scene->textures,
-        .texels = scene->texels,
-        .linear_of_srgb = scene->linear_of_srgb,
-        .sky_texels = scene->sky_texels,
-        .settings =
-            {
-                .tri_count = scene->tri_count,
-                .position_count = scene->position_count,
-                .normal_count = scene->normal_count,
-                .uv_count = scene->uv_count,
-                .material_count = scene->material_count,
-                .texture_count = scene->texture_count,
-                .texel_count = (uint32_t)scene->texel_count,
-            },
-    };
 }
 
 uint64_t scene_geometry_bytes(const struct scene *s)
@@ -267,8 +211,6 @@ uint64_t scene_geometry_bytes(const struct scene *s)
 bool scene_finish(struct scene *scene, struct warnings *report,
                   struct error *err)
 {
-    struct world arrays;
-
     drop_tris(scene, report, file_tri_is_usable);
     find_bounds(scene);
     find_scale(scene);
@@ -281,110 +223,7 @@ bool scene_finish(struct scene *scene, struct warnings *report,
             report, "scenes without a face",
             "%s: found no visible face: only the background is rendered",
             scene->path);
-    if (!find_used_materials(scene, err))
-        return false;
-    fill_linear_of_srgb(scene->linear_of_srgb);
-    arrays = scene_arrays(scene);
-    bvh8_free(&scene->tree);
-    path_guide_outdate(&scene->guide);
-    return lights_build(&scene->lights, &arrays, err);
-}
-
-bool scene_load_sky(struct scene *scene, const struct view *view,
-                    struct warnings *report, struct error *err)
-{
-    struct image_file file;
-    struct image image = {0};
-    struct sky_table table = {0};
-    uint64_t clamped_count = 0;
-
-    if (view->lighting.sky_path != NULL &&
-        (!image_open(&file, view->lighting.sky_path, IMAGE_LINEAR,
-                     textures_bytes(scene), err) ||
-         !image_decode(&file, &image, &clamped_count, err)))
-        return false;
-    if (clamped_count > 0)
-        warnings_add(report, "skies with impossible values",
-                     "%s: found %" PRIu64
-                     " negative or infinite values: clamped",
-                     view->lighting.sky_path, clamped_count);
-    if (!sky_table_build(&table, (struct vec3 *)(void *)image.rgb,
-                         (uint32_t)image.width, (uint32_t)image.height,
-                         SKY_WITH_MIS, err)) {
-        image_free(&image);
-        return false;
-    }
-    /* not before: what has another address is known to be another array */
-    free(scene->sky_texels);
-    sky_table_free(&scene->sky_table);
-    scene->sky_table = table;
-    /* the scene owns the floats now, three of which are a vec3 */
-    scene->sky_texels = (struct vec3 *)(void *)image.rgb;
-    scene->sky_width = (uint32_t)image.width;
-    scene->sky_height = (uint32_t)image.height;
-    image.rgb = NULL;
-    image_free(&image);
     return true;
-}
-
-static bool has_texture(const struct material *m)
-{
-    const uint32_t textures[] = {
-        m->color_texture,  m->coat_texture,  m->emission_texture,
-        m->alpha_texture,  m->metal_texture, m->opacity_texture,
-        m->normal_texture, m->bump_texture,
-    };
-
-    for (size_t i = 0; i < sizeof textures / sizeof textures[0]; i++)
-        if (textures[i] != NO_INDEX)
-            return true;
-    return false;
-}
-
-static bool has_holes(const struct scene *scene, uint32_t texture)
-{
-    return texture != NO_INDEX && scene->textures[texture].has_holes != 0;
-}
-
-uint32_t scene_material_features(const struct scene *scene,
-                                 const struct material *m)
-{
-    bool is_metal = m->kind == MATERIAL_METAL || m->metal_texture != NO_INDEX;
-    uint32_t features = 0;
-
-    if (material_shines(m))
-        features |= FEATURE_EMITTERS;
-    if (has_texture(m))
-        features |= FEATURE_TEXTURES;
-    if (m->bump_texture != NO_INDEX || m->normal_texture != NO_INDEX)
-        features |= FEATURE_BUMPS;
-    if (m->opacity < 1 || has_holes(scene, m->color_texture) ||
-        has_holes(scene, m->opacity_texture))
-        features |= FEATURE_COVERAGE;
-    if (is_metal)
-        features |= FEATURE_METAL;
-    if (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS)
-        features |= FEATURE_GLASS;
-    if (m->kind == MATERIAL_PLASTIC)
-        features |= FEATURE_PLASTIC;
-    if (m->kind == MATERIAL_ROUGH_DIFFUSE)
-        features |= FEATURE_ROUGH_DIFFUSE;
-    else if ((is_metal || m->kind != MATERIAL_DIFFUSE) &&
-             m->alpha >= ALPHA_SMOOTH)
-        features |= FEATURE_ROUGH;
-    return features;
-}
-
-uint32_t scene_features(const struct scene *scene)
-{
-    uint32_t features = scene->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
-
-    if (scene->guide.grid.table_count > 0)
-        features |= FEATURE_GUIDE;
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        if (scene->material_is_used[i])
-            features |= scene_material_features(scene, &scene->materials[i]);
-    return features;
 }
 
 static bool is_same_place(const struct scene *a, const struct scene *b)
@@ -424,23 +263,13 @@ void scene_free(struct scene *scene)
     free(scene->tris);
     free(scene->tri_faces);
     free(scene->tri_objects);
-    free(scene->file_materials);
-    free(scene->assigned);
     free_strings(scene->object_names, scene->object_count);
     free(scene->materials);
-    free(scene->material_is_used);
     free(scene->material_origins);
     free_strings(scene->material_names, scene->material_count);
     free_strings(scene->mtl_paths, scene->mtl_path_count);
     free(scene->textures);
-    free(scene->texture_is_tried);
     free(scene->texture_origins);
     free_strings(scene->texture_paths, scene->texture_count);
-    free(scene->texels);
-    free(scene->sky_texels);
-    lights_free(&scene->lights);
-    sky_table_free(&scene->sky_table);
-    path_guide_free(&scene->guide);
-    bvh8_free(&scene->tree);
     memset(scene, 0, sizeof *scene);
 }

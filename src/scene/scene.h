@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * scene.h - a loaded scene: geometry, materials, textures, sky, names
+ * scene.h - what the files of a scene said: geometry, materials, names
  *
  * The loaders fill it in file units; scene_finish() drops what cannot be
- * rendered, normalises and makes it ready. struct world is made from a scene
- * and a view and borrows the scene's arrays.
+ * rendered, normalises and makes it ready. world.h makes of it what samples
+ * read.
  *
  * Units:     file units in double until scene_finish(), normalised float after
  * Ownership: scene_free() frees everything; a zeroed struct is an empty scene
@@ -16,11 +16,7 @@
 
 #include "base/error.h"
 #include "base/warnings.h"
-#include "light/lights.h"
-#include "light/path_guide.h"
-#include "light/sky_table.h"
 #include "scene/material.h"
-#include "scene/view.h"
 #include "kernels/types.h"
 
 /* What a material was made from. */
@@ -50,10 +46,6 @@ struct scene {
     struct tri *tris;
     uint32_t *tri_faces;   /* number of the face in the file, from 0 */
     uint32_t *tri_objects; /* index into object_names */
-    /* of triangles, as the file has it, and for each object the one it has
-     * instead, or NO_INDEX; NULL: no object has another than in the file */
-    uint32_t *file_materials;
-    uint32_t *assigned;
     uint32_t tri_count;
     uint32_t dropped_count; /* triangles of the file that are not here */
 
@@ -63,32 +55,19 @@ struct scene {
     struct material *materials; /* 0 is the default material, "" */
     char **material_names;
     struct material_origin *material_origins;
-    bool *material_is_used; /* by a triangle; from scene_finish() */
     uint32_t material_count;
     char **mtl_paths; /* of the files that were read, in order */
     uint32_t mtl_path_count;
 
-    struct texture *textures;
+    struct texture *textures; /* how they are looked up: no texels yet */
     char **texture_paths;
     struct texture_origin *texture_origins; /* the first statements of them */
-    bool *texture_is_tried;                 /* its image was looked for */
     uint32_t texture_count;
-    uint32_t *texels;
-    size_t texel_count;
-
-    struct vec3 *sky_texels; /* NULL: no image */
-    uint32_t sky_width, sky_height;
-    struct sky_table sky_table;
 
     /* stored = (file - center) * scale */
     double center[3];
     double scale;
     double bounds_lo[3], bounds_hi[3]; /* file units; all 0 without triangles */
-    bool has_emitters;
-    struct lights lights;
-    struct path_guide guide;
-    struct bvh8 tree; /* of the triangles; without nodes: nobody needs one */
-    float linear_of_srgb[256];
 };
 
 /* Drops triangles with a non-finite vertex or without area (counted in the
@@ -97,26 +76,11 @@ struct scene {
 bool scene_finish(struct scene *scene, struct warnings *report,
                   struct error *err);
 
-/* Loads view->sky_path, or removes the image if that is NULL. */
-bool scene_load_sky(struct scene *scene, const struct view *view,
-                    struct warnings *report, struct error *err);
-
-/* The part of a world that no view changes. */
-struct world scene_arrays(const struct scene *scene);
-
 /* Of vertices, normals, texture coordinates and triangles. */
 uint64_t scene_geometry_bytes(const struct scene *scene);
 
 /* The object of this name, or NO_INDEX. */
 uint32_t scene_find_object(const struct scene *scene, const char *name);
-
-/* Finds whether one of the used materials shines. */
-void scene_find_emitters(struct scene *scene);
-
-/* What the scene needs, of enum feature; and what a material of it needs. */
-uint32_t scene_features(const struct scene *scene);
-uint32_t scene_material_features(const struct scene *scene,
-                                 const struct material *material);
 
 /* True if both have the same triangles at the same places, whatever their
  * materials, normals and texture coordinates. */

@@ -34,23 +34,23 @@ static uint32_t number_of(const uint8_t *texel, bool by_alpha)
     return ((uint32_t)texel[0] + texel[1] + texel[2] + 1) / 3;
 }
 
-static bool append(struct scene *scene, const struct image *image,
-                   struct texture *texture, struct error *err)
+static bool append(struct host_world *host, const struct image *image,
+                   struct texture *texture, const char *path, struct error *err)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
-    size_t total = scene->texel_count + count;
+    size_t total = host->texel_count + count;
     bool by_alpha = !texture->is_data || has_alpha(image);
     uint32_t *texels;
 
     texels = total > SIZE_MAX / sizeof *texels
                  ? NULL
-                 : realloc(scene->texels, total * sizeof *texels);
+                 : realloc(host->texels, total * sizeof *texels);
     if (texels == NULL)
-        return fail(err, "%s: out of memory for the textures: %zu MB",
-                    scene->path, total * sizeof *texels >> 20);
-    scene->texels = texels;
-    texels += scene->texel_count;
-    texture->first = (uint32_t)scene->texel_count;
+        return fail(err, "%s: out of memory for the textures: %zu MB", path,
+                    total * sizeof *texels >> 20);
+    host->texels = texels;
+    texels += host->texel_count;
+    texture->first = (uint32_t)host->texel_count;
     texture->width = (uint32_t)image->width;
     texture->height = (uint32_t)image->height;
     for (size_t i = 0; i < count; i++) {
@@ -61,17 +61,18 @@ static bool append(struct scene *scene, const struct image *image,
                     (uint32_t)p[2] << 16 | alpha << 24;
         texture->has_holes |= alpha < 128;
     }
-    scene->texel_count = total;
+    host->texel_count = total;
     return true;
 }
 
 /* The same image with other options is read once. */
-static bool shares_texels(struct scene *scene, uint32_t index)
+static bool shares_texels(struct host_world *host, const struct scene *scene,
+                          uint32_t index)
 {
-    struct texture *t = &scene->textures[index];
+    struct texture *t = &host->textures[index];
 
     for (uint32_t i = 0; i < scene->texture_count; i++) {
-        const struct texture *other = &scene->textures[i];
+        const struct texture *other = &host->textures[i];
 
         if (other->width == 0 || other->is_data != t->is_data ||
             strcmp(scene->texture_paths[i], scene->texture_paths[index]) != 0)
@@ -102,13 +103,13 @@ static struct reading reading_of(const struct scene *scene, uint32_t texture)
                             .path = scene->texture_paths[texture]};
 }
 
-uint64_t textures_bytes(const struct scene *scene)
+uint64_t textures_bytes(const struct host_world *host)
 {
     uint64_t sky_pixels =
-        (uint64_t)scene->sky_width * (uint64_t)scene->sky_height;
+        (uint64_t)host->sky_width * (uint64_t)host->sky_height;
 
-    return scene->texel_count * sizeof *scene->texels +
-           sky_pixels * (sizeof *scene->sky_texels + sizeof(float));
+    return host->texel_count * sizeof *host->texels +
+           sky_pixels * (sizeof *host->sky_texels + sizeof(float));
 }
 
 static void open_image(struct reading *r, uint64_t held_bytes)
@@ -139,22 +140,24 @@ static void report_lost(const struct scene *scene, const struct reading *r,
 
 /* Takes the image that was read. An unreadable one leaves the texture without
  * texels. */
-static bool take(struct scene *scene, const struct reading *r,
-                 struct warnings *report, struct error *err)
+static bool take(struct host_world *host, const struct scene *scene,
+                 const struct reading *r, struct warnings *report,
+                 struct error *err)
 {
     const struct reading *source = r->twin != NULL ? r->twin : r;
     const struct image *image = &source->image;
 
-    if (shares_texels(scene, r->texture))
+    if (shares_texels(host, scene, r->texture))
         return true;
     if (!source->is_there)
         report_lost(scene, r, report, source->why.text);
     else if ((uint64_t)image->width * (uint64_t)image->height >
-             TEXELS_MAX - scene->texel_count)
+             TEXELS_MAX - host->texel_count)
         report_lost(scene, r, report,
                     "found more than 4e9 texels in all textures");
     else
-        return append(scene, image, &scene->textures[r->texture], err);
+        return append(host, image, &host->textures[r->texture], scene->path,
+                      err);
     return true;
 }
 
@@ -181,17 +184,18 @@ static const struct reading *find_twin(const struct scene *scene,
  * same time, but at least one; returns their number. One that has no room
  * beside the others comes first the next time, so that only what the scene
  * holds by then decides whether it is refused, not the number of threads. */
-static uint32_t open_some(struct scene *scene, const uint32_t *textures,
-                          uint32_t count, struct reading *readings)
+static uint32_t open_some(struct host_world *host, const struct scene *scene,
+                          const uint32_t *textures, uint32_t count,
+                          struct reading *readings)
 {
-    uint64_t held_bytes = textures_bytes(scene);
+    uint64_t held_bytes = textures_bytes(host);
 
     for (uint32_t i = 0; i < count; i++) {
         struct reading *r = &readings[i];
 
         *r = reading_of(scene, textures[i]);
         r->twin = find_twin(scene, readings, i);
-        if (r->twin != NULL || shares_texels(scene, r->texture))
+        if (r->twin != NULL || shares_texels(host, scene, r->texture))
             continue;
         open_image(r, held_bytes);
         if (r->file.is_beyond && i > 0)
@@ -203,21 +207,22 @@ static uint32_t open_some(struct scene *scene, const uint32_t *textures,
 }
 
 /* Takes images that were read by all threads, in order. */
-static bool take_some(struct scene *scene, struct reading *readings,
-                      uint32_t count, struct warnings *report,
-                      struct error *err)
+static bool take_some(struct host_world *host, const struct scene *scene,
+                      struct reading *readings, uint32_t count,
+                      struct warnings *report, struct error *err)
 {
     bool ok = true;
 
     for (uint32_t i = 0; i < count; i++)
-        ok = ok && take(scene, &readings[i], report, err);
+        ok = ok && take(host, scene, &readings[i], report, err);
     for (uint32_t i = 0; i < count; i++)
         image_free(&readings[i].image);
     return ok;
 }
 
-static bool load_all(struct scene *scene, const uint32_t *textures,
-                     uint32_t count, struct warnings *report, struct error *err)
+static bool load_all(struct host_world *host, const struct scene *scene,
+                     const uint32_t *textures, uint32_t count,
+                     struct warnings *report, struct error *err)
 {
     /* without threads this one reads */
     struct pool *pool = count > 1 ? pool_create(usable_threads(), err) : NULL;
@@ -230,9 +235,9 @@ static bool load_all(struct scene *scene, const uint32_t *textures,
     for (uint32_t i = 0, n; ok && i < count; i += n) {
         uint32_t wanted = count - i < at_once ? count - i : at_once;
 
-        n = open_some(scene, textures + i, wanted, readings);
+        n = open_some(host, scene, textures + i, wanted, readings);
         pool_each(pool, n, decode_image, readings);
-        ok = take_some(scene, readings, n, report, err);
+        ok = take_some(host, scene, readings, n, report, err);
     }
     free(readings);
     pool_destroy(pool);
@@ -248,10 +253,10 @@ static bool is_black(const struct vec3 *c)
 
 /* A map multiplies its colour, but beside a black or absent one it stands
  * alone, times `alone`. Without its image the map is gone. */
-static void settle(const struct scene *scene, uint32_t *texture,
+static void settle(const struct host_world *host, uint32_t *texture,
                    struct vec3 *color, float alone, float lost)
 {
-    bool is_lost = *texture != NO_INDEX && scene->textures[*texture].width == 0;
+    bool is_lost = *texture != NO_INDEX && host->textures[*texture].width == 0;
     float x = is_lost ? lost : alone;
 
     if (*texture != NO_INDEX && is_black(color))
@@ -261,9 +266,9 @@ static void settle(const struct scene *scene, uint32_t *texture,
 }
 
 /* A map of numbers without its image is gone. */
-static void settle_data(const struct scene *scene, uint32_t *texture)
+static void settle_data(const struct host_world *host, uint32_t *texture)
 {
-    if (*texture != NO_INDEX && scene->textures[*texture].width == 0)
+    if (*texture != NO_INDEX && host->textures[*texture].width == 0)
         *texture = NO_INDEX;
 }
 
@@ -279,19 +284,20 @@ static void list_maps(const struct material *m, uint32_t maps[MAPS])
     memcpy(maps, all, sizeof all);
 }
 
-bool textures_are_tried(const struct scene *scene, const struct material *m)
+bool textures_are_tried(const struct host_world *host, const struct material *m)
 {
     uint32_t maps[MAPS];
 
     list_maps(m, maps);
     for (int i = 0; i < MAPS; i++)
-        if (maps[i] != NO_INDEX && !scene->texture_is_tried[maps[i]])
+        if (maps[i] != NO_INDEX && !host->texture_is_tried[maps[i]])
             return false;
     return true;
 }
 
-bool textures_load_for(struct scene *scene, struct material *m,
-                       struct warnings *report, struct error *err)
+bool textures_load_for(struct host_world *host, const struct scene *scene,
+                       struct material *m, struct warnings *report,
+                       struct error *err)
 {
     uint32_t maps[MAPS];
 
@@ -300,71 +306,75 @@ bool textures_load_for(struct scene *scene, struct material *m,
         struct reading r;
         bool ok;
 
-        if (maps[i] == NO_INDEX || scene->texture_is_tried[maps[i]])
+        if (maps[i] == NO_INDEX || host->texture_is_tried[maps[i]])
             continue;
-        scene->texture_is_tried[maps[i]] = true;
+        host->texture_is_tried[maps[i]] = true;
         r = reading_of(scene, maps[i]);
-        if (!shares_texels(scene, r.texture))
-            open_image(&r, textures_bytes(scene));
+        if (!shares_texels(host, scene, r.texture))
+            open_image(&r, textures_bytes(host));
         decode_image(&r, 0, 0);
-        ok = take(scene, &r, report, err);
+        ok = take(host, scene, &r, report, err);
         image_free(&r.image);
         if (!ok)
             return false;
     }
-    settle(scene, &m->color_texture, &m->color, 1, MATERIAL_GREY);
-    settle(scene, &m->emission_texture, &m->emission, 1, 0);
-    settle(scene, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
-    settle_data(scene, &m->alpha_texture);
-    settle_data(scene, &m->metal_texture);
-    settle_data(scene, &m->opacity_texture);
-    settle_data(scene, &m->normal_texture);
-    settle_data(scene, &m->bump_texture);
+    settle(host, &m->color_texture, &m->color, 1, MATERIAL_GREY);
+    settle(host, &m->emission_texture, &m->emission, 1, 0);
+    settle(host, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
+    settle_data(host, &m->alpha_texture);
+    settle_data(host, &m->metal_texture);
+    settle_data(host, &m->opacity_texture);
+    settle_data(host, &m->normal_texture);
+    settle_data(host, &m->bump_texture);
     if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
         m->kind = MATERIAL_DIFFUSE;
     return true;
 }
 
 /* Those that used materials name, in their order; their number. */
-static uint32_t list_textures(struct scene *scene, const bool *is_used,
-                              uint32_t *textures)
+static uint32_t list_textures(struct host_world *host, uint32_t *textures)
 {
     uint32_t count = 0;
 
-    for (uint32_t i = 0; i < scene->material_count; i++) {
+    for (uint32_t i = 0; i < host->material_count; i++) {
         uint32_t maps[MAPS];
 
-        list_maps(&scene->materials[i], maps);
-        for (int k = 0; is_used[i] && k < MAPS; k++)
-            if (maps[k] != NO_INDEX && !scene->texture_is_tried[maps[k]]) {
-                scene->texture_is_tried[maps[k]] = true;
+        list_maps(&host->materials[i], maps);
+        for (int k = 0; host->material_is_used[i] && k < MAPS; k++)
+            if (maps[k] != NO_INDEX && !host->texture_is_tried[maps[k]]) {
+                host->texture_is_tried[maps[k]] = true;
                 textures[count++] = maps[k];
             }
     }
     return count;
 }
 
-bool textures_load(struct scene *scene, struct warnings *report,
-                   struct error *err)
+static bool copy_textures(struct host_world *host, const struct scene *scene)
 {
-    bool *is_used = alloc_array(scene->material_count, sizeof *is_used);
-    uint32_t *textures = alloc_array(scene->texture_count, sizeof *textures);
-    bool ok;
+    uint32_t count = scene->texture_count;
 
-    free(scene->texture_is_tried);
-    scene->texture_is_tried =
-        alloc_array(scene->texture_count, sizeof *scene->texture_is_tried);
-    ok = (is_used != NULL && textures != NULL &&
-          scene->texture_is_tried != NULL) ||
-         fail(err, "%s: out of memory for the textures", scene->path);
-    for (uint32_t i = 0; ok && i < scene->tri_count; i++)
-        is_used[scene->tris[i].material] = true;
-    ok = ok && load_all(scene, textures,
-                        list_textures(scene, is_used, textures), report, err);
-    for (uint32_t i = 0; ok && i < scene->material_count; i++)
-        if (is_used[i]) /* nothing is left to read: what is lost is known */
-            ok = textures_load_for(scene, &scene->materials[i], report, err);
-    free(is_used);
+    host->textures = alloc_array(count, sizeof *host->textures);
+    host->texture_is_tried = alloc_array(count, sizeof *host->texture_is_tried);
+    if (host->textures == NULL || host->texture_is_tried == NULL)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        host->textures[i] = scene->textures[i];
+    return true;
+}
+
+bool textures_load(struct host_world *host, const struct scene *scene,
+                   struct warnings *report, struct error *err)
+{
+    uint32_t *textures = alloc_array(scene->texture_count, sizeof *textures);
+    bool ok = (textures != NULL && copy_textures(host, scene)) ||
+              fail(err, "%s: out of memory for the textures", scene->path);
+
+    ok = ok && load_all(host, scene, textures, list_textures(host, textures),
+                        report, err);
+    for (uint32_t i = 0; ok && i < host->material_count; i++)
+        if (host->material_is_used[i]) /* what is lost is known by now */
+            ok = textures_load_for(host, scene, &host->materials[i], report,
+                                   err);
     free(textures);
     return ok;
 }

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "scene/world.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/geometry.h"
+#include "base/memory.h"
 #include "picture/color.h"
+#include "picture/image_read.h"
+#include "scene/textures.h"
+#include "kernels/light.h"
 
 /* A framed scene is seen from this far above, with this much air around. */
 #define FRAME_ELEVATION_DEG 20
@@ -81,7 +87,181 @@ static bool make_camera(const struct scene *scene, const struct view *view,
     return true;
 }
 
-static struct sky make_sky(const struct scene *scene, const struct view *view)
+/* ---- arrays ---- */
+
+static bool find_used_materials(struct host_world *host,
+                                const struct scene *scene, struct error *err)
+{
+    host->material_is_used =
+        alloc_array(scene->material_count, sizeof *host->material_is_used);
+    if (host->material_is_used == NULL)
+        return fail(err, "%s: out of memory for its materials", scene->path);
+    for (uint32_t i = 0; i < scene->tri_count; i++)
+        host->material_is_used[scene->tris[i].material] = true;
+    return true;
+}
+
+static bool copy_materials(struct host_world *host, const struct scene *scene,
+                           struct error *err)
+{
+    uint32_t count = scene->material_count;
+
+    host->materials = alloc_array(count, sizeof *host->materials);
+    host->sources = alloc_array(count, sizeof *host->sources);
+    if (host->materials == NULL || host->sources == NULL)
+        return fail(err, "%s: out of memory for its materials", scene->path);
+    for (uint32_t i = 0; i < count; i++) {
+        host->materials[i] = scene->materials[i];
+        host->sources[i] = scene->material_origins[i].source;
+    }
+    host->material_count = count;
+    return true;
+}
+
+bool world_init(struct host_world *host, const struct scene *scene,
+                struct warnings *report, struct error *err)
+{
+    struct world arrays;
+
+    *host = (struct host_world){.tris = NULL};
+    for (int i = 0; i < 256; i++)
+        host->linear_of_srgb[i] = (float)color_decoded(i / 255.0);
+    if (!find_used_materials(host, scene, err) ||
+        !copy_materials(host, scene, err) ||
+        !textures_load(host, scene, report, err))
+        return false;
+    arrays = world_arrays(host, scene);
+    return lights_build(&host->lights, &arrays, err);
+}
+
+bool world_load_sky(struct host_world *host, const struct view *view,
+                    struct warnings *report, struct error *err)
+{
+    struct image_file file;
+    struct image image = {0};
+    struct sky_table table = {0};
+    uint64_t clamped_count = 0;
+
+    if (view->lighting.sky_path != NULL &&
+        (!image_open(&file, view->lighting.sky_path, IMAGE_LINEAR,
+                     textures_bytes(host), err) ||
+         !image_decode(&file, &image, &clamped_count, err)))
+        return false;
+    if (clamped_count > 0)
+        warnings_add(report, "skies with impossible values",
+                     "%s: found %" PRIu64
+                     " negative or infinite values: clamped",
+                     view->lighting.sky_path, clamped_count);
+    if (!sky_table_build(&table, (struct vec3 *)(void *)image.rgb,
+                         (uint32_t)image.width, (uint32_t)image.height,
+                         SKY_WITH_MIS, err)) {
+        image_free(&image);
+        return false;
+    }
+    /* not before: what has another address is known to be another array */
+    free(host->sky_texels);
+    sky_table_free(&host->sky_table);
+    host->sky_table = table;
+    /* the world owns the floats now, three of which are a vec3 */
+    host->sky_texels = (struct vec3 *)(void *)image.rgb;
+    host->sky_width = (uint32_t)image.width;
+    host->sky_height = (uint32_t)image.height;
+    image.rgb = NULL;
+    image_free(&image);
+    return true;
+}
+
+const struct tri *world_tris(const struct host_world *host,
+                             const struct scene *scene)
+{
+    return host->tris != NULL ? host->tris : scene->tris;
+}
+
+struct world world_arrays(const struct host_world *host,
+                          const struct scene *scene)
+{
+    return (struct world){
+        .positions = scene->positions,
+        .normals = scene->normals,
+        .uvs = scene->uvs,
+        .tris = world_tris(host, scene),
+        .materials = host->materials,
+        .textures = host->textures,
+        .texels = host->texels,
+        .linear_of_srgb = host->linear_of_srgb,
+        .sky_texels = host->sky_texels,
+        .settings =
+            {
+                .tri_count = scene->tri_count,
+                .position_count = scene->position_count,
+                .normal_count = scene->normal_count,
+                .uv_count = scene->uv_count,
+                .material_count = host->material_count,
+                .texture_count = scene->texture_count,
+                .texel_count = (uint32_t)host->texel_count,
+            },
+    };
+}
+
+uint32_t world_features(const struct host_world *host)
+{
+    uint32_t features = host->sky_texels != NULL ? FEATURE_SKY_IMAGE : 0;
+
+    if (host->guide.grid.table_count > 0)
+        features |= FEATURE_GUIDE;
+    for (uint32_t i = 0; i < host->material_count; i++)
+        if (host->material_is_used[i])
+            features |= material_features(&host->materials[i], host->textures);
+    return features;
+}
+
+bool world_has_emitters(const struct host_world *host)
+{
+    for (uint32_t i = 0; i < host->material_count; i++)
+        if (host->material_is_used[i] && material_shines(&host->materials[i]))
+            return true;
+    return false;
+}
+
+/* ---- tree ---- */
+
+bool world_need_tree(struct host_world *host, const struct world *world,
+                     struct pool *pool, struct error *err)
+{
+    if (atomic_load(&host->has_tree))
+        return true;
+    if (!bvh8_build(&host->tree, world, pool, err))
+        return false;
+    atomic_store(&host->has_tree, true);
+    return true;
+}
+
+const struct bvh8 *world_tree(const struct host_world *host)
+{
+    return atomic_load(&host->has_tree) ? &host->tree : NULL;
+}
+
+void world_drop_tree(struct host_world *host)
+{
+    atomic_store(&host->has_tree, false);
+    bvh8_free(&host->tree);
+}
+
+void world_take_tree(struct host_world *host, struct host_world *from)
+{
+    if (world_tree(from) == NULL)
+        return;
+    world_drop_tree(host);
+    host->tree = from->tree;
+    from->tree = (struct bvh8){0}; /* the other world owns it now */
+    atomic_store(&from->has_tree, false);
+    atomic_store(&host->has_tree, true);
+}
+
+/* ---- sky, guide ---- */
+
+static struct sky make_sky(const struct host_world *host,
+                           const struct view *view)
 {
     double angle = angle_rad(view->lighting.sky_rotation_deg);
     double one[3] = {1, 1, 1};
@@ -91,55 +271,74 @@ static struct sky make_sky(const struct scene *scene, const struct view *view)
         .rotation_cos = (float)cos(angle),
     };
 
-    if (scene->sky_texels != NULL) {
+    if (host->sky_texels != NULL) {
         sky.color = scaled(one, view->lighting.sky_strength);
-        sky.width = scene->sky_width;
-        sky.height = scene->sky_height;
+        sky.width = host->sky_width;
+        sky.height = host->sky_height;
     }
     return sky;
 }
 
-bool scene_guide(struct scene *scene, const struct view *view, int thread_count,
-                 struct error *err)
+bool world_guide(struct host_world *host, const struct scene *scene,
+                 const struct view *view, int thread_count, struct error *err)
 {
-    struct bvh8_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
-    struct vec3 color = make_sky(scene, view).color;
+    struct bvh8_world w = {.world = world_arrays(host, scene),
+                           .tree = &host->tree};
+    struct vec3 color = make_sky(host, view).color;
     double sky = color_mean(color);
     struct pool *pool;
     bool ok;
 
-    lights_lend(&scene->lights, &w.world);
-    if (scene->sky_texels != NULL)
-        sky *= scene->sky_table.mean;
-    if (!path_guide_needs_rays(&scene->guide, &w.world, sky))
-        return path_guide_update(&scene->guide, &w, &scene->lights, sky, NULL,
+    lights_lend(&host->lights, &w.world);
+    if (host->sky_texels != NULL)
+        sky *= host->sky_table.mean;
+    if (!path_guide_needs_rays(&host->guide, &w.world, sky))
+        return path_guide_update(&host->guide, &w, &host->lights, sky, NULL,
                                  err);
     /* without threads this one works */
     pool = thread_count > 1 ? pool_create(thread_count, err) : NULL;
-    ok = (scene->tree.nodes != NULL ||
-          bvh8_build(&scene->tree, &w.world, pool, err)) &&
-         path_guide_update(&scene->guide, &w, &scene->lights, sky, pool, err);
+    ok = world_need_tree(host, &w.world, pool, err) &&
+         path_guide_update(&host->guide, &w, &host->lights, sky, pool, err);
     pool_destroy(pool);
     return ok;
 }
 
-bool scene_world(const struct scene *scene, const struct view *view,
-                 uint32_t seed, struct world *world, struct error *err)
+bool world_lend(const struct host_world *host, const struct scene *scene,
+                const struct view *view, uint32_t seed, struct world *world,
+                struct error *err)
 {
-    struct world w = scene_arrays(scene);
+    struct world w = world_arrays(host, scene);
 
-    w.settings.sky = make_sky(scene, view);
-    lights_lend(&scene->lights, &w);
-    sky_table_lend(&scene->sky_table, &w);
-    path_guide_lend(&scene->guide, &w);
+    w.settings.sky = make_sky(host, view);
+    lights_lend(&host->lights, &w);
+    sky_table_lend(&host->sky_table, &w);
+    path_guide_lend(&host->guide, &w);
     w.settings.max_vertices = view->max_bounces < 0
                                   ? PATH_HARD_STOP
                                   : (uint32_t)view->max_bounces + 1;
     w.settings.seed = seed;
-    w.settings.features = scene_features(scene);
+    w.settings.features = world_features(host);
     if (!pose_check(&view->pose, "camera", err) ||
         !make_camera(scene, view, &w.settings.camera, err))
         return false;
     *world = w;
     return true;
+}
+
+void world_free(struct host_world *host)
+{
+    free(host->tris);
+    free(host->assigned);
+    free(host->materials);
+    free(host->sources);
+    free(host->material_is_used);
+    free(host->textures);
+    free(host->texture_is_tried);
+    free(host->texels);
+    free(host->sky_texels);
+    sky_table_free(&host->sky_table);
+    lights_free(&host->lights);
+    path_guide_free(&host->guide);
+    bvh8_free(&host->tree);
+    *host = (struct host_world){.tris = NULL};
 }

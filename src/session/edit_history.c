@@ -308,7 +308,7 @@ struct style edit_style(const struct edit *e)
 {
     const struct edit_state *s = edit_shown(e);
 
-    return (struct style){e->material_count, e->names, s->sources, s->assigned};
+    return (struct style){e->material_count, s->sources, s->assigned};
 }
 
 bool edit_is_saved(const struct edit *e, uint32_t i)

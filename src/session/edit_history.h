@@ -20,7 +20,7 @@
 #include <stdint.h>
 
 #include "base/name_table.h"
-#include "scene/scene_materials.h"
+#include "scene/world_materials.h"
 
 /* The light that is no surface, and how the picture is developed. */
 struct mood {

@@ -52,22 +52,23 @@ static bool find_crop(struct session *s, struct error *err)
     return true;
 }
 
-/* Brings the scene and the view to what the edit shows. An image of the sky
+/* Brings the world and the view to what the edit shows. An image of the sky
  * that cannot be read leaves the one before, and a notice. */
 static bool apply_edit(struct session *s, struct error *err)
 {
     struct style style = edit_style(&s->edit);
     struct error why;
 
-    if (!scene_restyle(&s->scene, &style, err))
+    if (!world_restyle(&s->world, &s->scene, &style, err))
         return false;
     edit_to_view(&s->edit, edit_shown(&s->edit), &s->scene, &s->view);
     if (s->sky != edit_shown(&s->edit)->mood.sky) {
         s->sky = edit_shown(&s->edit)->mood.sky;
-        if (!scene_load_sky(&s->scene, &s->view, &s->report, &why))
+        if (!world_load_sky(&s->world, &s->view, &s->report, &why))
             snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     }
-    return scene_guide(&s->scene, &s->view, options_threads(s->options), err);
+    return world_guide(&s->world, &s->scene, &s->view,
+                       options_threads(s->options), err);
 }
 
 bool session_load(struct session *s, const struct options *options,
@@ -85,8 +86,8 @@ bool session_load(struct session *s, const struct options *options,
     xcheck(view_copy(&s->filed, &s->view));
     apply_options(s);
     if (!find_crop(s, err) ||
-        !scene_open(&s->scene, &s->view, options->scene_path, options->up_is_z,
-                    &s->report, err))
+        !scene_open(&s->scene, &s->world, &s->view, options->scene_path,
+                    options->up_is_z, &s->report, err))
         return false;
     note_additions(s);
     xcheck(view_copy(&s->opened, &s->view));
@@ -117,6 +118,7 @@ static void swap_loaded(struct session *a, struct session *b)
     struct session old = *a;
 
     a->scene = b->scene;
+    a->world = b->world;
     a->edit = b->edit;
     a->sky = b->sky;
     a->crop = b->crop;
@@ -124,6 +126,7 @@ static void swap_loaded(struct session *a, struct session *b)
     a->filed = b->filed;
     a->report = b->report;
     b->scene = old.scene;
+    b->world = old.world;
     b->edit = old.edit;
     b->sky = old.sky;
     b->crop = old.crop;
@@ -131,14 +134,6 @@ static void swap_loaded(struct session *a, struct session *b)
     b->filed = old.filed;
     b->report = old.report;
     memcpy(a->notice, b->notice, sizeof a->notice);
-}
-
-static void swap_trees(struct scene *a, struct scene *b)
-{
-    struct bvh8 tree = a->tree;
-
-    a->tree = b->tree;
-    b->tree = tree;
 }
 
 /* The same triangles need no new tree. But a device knows arrays by their
@@ -155,7 +150,7 @@ void session_take(struct session *s, struct session *fresh)
     apply_options(s);
     swap_loaded(s, fresh);
     if (!s->geometry_changed)
-        swap_trees(&s->scene, &fresh->scene);
+        world_take_tree(&s->world, &fresh->world);
 }
 
 void session_watch(const struct session *s, struct file_watch *watch)
@@ -195,7 +190,7 @@ bool session_spares(const struct session *s, const char *option,
 static bool begin(struct session *s, uint64_t spp, uint64_t steps,
                   struct error *err)
 {
-    struct render_job job = {.tree = &s->scene.tree,
+    struct render_job job = {.host = &s->world,
                              .geometry_changed = s->geometry_changed,
                              .crop = s->crop,
                              .spp = spp,
@@ -210,12 +205,12 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     /* until a device has seen these arrays: it must not know the next ones by
      * their addresses */
     s->geometry_changed = true;
-    if (!apply_edit(s, err) ||
-        !scene_world(&s->scene, &s->view, s->options->seed, &job.world, err))
+    if (!apply_edit(s, err) || !world_lend(&s->world, &s->scene, &s->view,
+                                           s->options->seed, &job.world, err))
         return false;
     /* a device has another; moves on the screen ask this one for distances */
     if (session_uses_device(s) && s->options->batch)
-        bvh8_free(&s->scene.tree);
+        world_drop_tree(&s->world);
     features = job.world.settings.features;
     if (spp == 0 && s->sample != SAMPLE_LIGHT) {
         job.world.settings.sample = s->sample;
@@ -250,7 +245,7 @@ bool session_take_edit(struct session *s)
 
     s->view.lighting.exposure = m->exposure;
     s->view.lighting.tone = m->tone;
-    return !scene_is_styled(&s->scene, &style) || s->sky != m->sky ||
+    return !world_is_styled(&s->world, &s->scene, &style) || s->sky != m->sky ||
            memcmp(v->lighting.background, m->background,
                   sizeof v->lighting.background) != 0 ||
            v->lighting.sky_strength != m->sky_strength ||
@@ -281,6 +276,7 @@ void session_close(struct session *s)
     if (s->render)
         render_destroy(s->render); /* reads the scene until it returns */
     backends_close(&s->machines);
+    world_free(&s->world);
     scene_free(&s->scene);
     view_free(&s->view);
     view_free(&s->opened);

@@ -11,27 +11,28 @@
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
 
-#include "session/file_watch.h"
-#include "scene/scene.h"
+#include "scene/world.h"
 #include "render/render_loop.h"
 #include "render/render_rates.h"
 #include "render/speeds.h"
 #include "session/backends.h"
 #include "session/command_line.h"
 #include "session/edit_history.h"
+#include "session/file_watch.h"
 
 struct session {
     const struct options *options;
     struct scene scene;
-    struct view view;   /* what is rendered now */
-    struct view opened; /* as loaded, to go back to */
-    struct rect crop;   /* of the view's picture, that is rendered */
-    struct edit edit;   /* of materials and light; session_restart() applies */
-    uint32_t sky;       /* of the edit's skies, that was looked for last */
-    struct view filed;  /* as the view file has it, or would: without what
-                           the command line says of this run */
-    char *view_path;    /* where the view is kept: STEM.view or -c FILE */
-    char notice[256];   /* one line for the person, or "" */
+    struct host_world world; /* made of the scene, the view's sky, the edit */
+    struct view view;        /* what is rendered now */
+    struct view opened;      /* as loaded, to go back to */
+    struct rect crop;        /* of the view's picture, that is rendered */
+    struct edit edit;  /* of materials and light; session_restart() applies */
+    uint32_t sky;      /* of the edit's skies, that was looked for last */
+    struct view filed; /* as the view file has it, or would: without what
+                          the command line says of this run */
+    char *view_path;   /* where the view is kept: STEM.view or -c FILE */
+    char notice[256];  /* one line for the person, or "" */
     struct warnings report;
     struct backends machines;
     struct render *render;

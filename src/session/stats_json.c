@@ -129,21 +129,22 @@ static void write_progress(FILE *to, const struct session *s,
 }
 
 /* Counts unused materials of files; material 0 is the default one. */
-static uint32_t unused_materials(const struct scene *scene)
+static uint32_t unused_materials(const struct host_world *host)
 {
     uint32_t count = 0;
 
-    for (uint32_t i = 1; i < scene->material_count; i++)
-        count += !scene->material_is_used[i];
+    for (uint32_t i = 1; i < host->material_count; i++)
+        count += !host->material_is_used[i];
     return count;
 }
 
-static void write_scene(FILE *to, const struct scene *scene)
+static void write_scene(FILE *to, const struct scene *scene,
+                        const struct host_world *host)
 {
     write_number(to, "triangles", scene->tri_count);
     write_number(to, "dropped_triangles", scene->dropped_count);
     write_number(to, "materials", scene->material_count - 1);
-    write_number(to, "unused_materials", unused_materials(scene));
+    write_number(to, "unused_materials", unused_materials(host));
     write_number(to, "geometry_bytes", scene_geometry_bytes(scene));
 }
 
@@ -169,7 +170,7 @@ static void write_object(FILE *to, const struct session *s)
     fputs(",\n", to);
     write_number(to, "threads", (uint64_t)backend->thread_count);
     write_number(to, "seed", s->options->seed);
-    write_scene(to, &s->scene);
+    write_scene(to, &s->scene, &s->world);
     write_number(to, "tree_bytes", backend->tree_bytes);
     write_number(to, "width", (uint64_t)film->width);
     write_number(to, "height", (uint64_t)film->height);

@@ -70,15 +70,14 @@ void camera_control_renew(struct camera_control *camera)
 
 /* ---- where the eye is ---- */
 
-/* The tree is the render thread's until it is loaded. */
 static void look_around(struct camera_control *camera)
 {
-    const struct scene *s = scene_of(camera);
+    const struct session *s = camera->control->session;
 
-    if (!render_is_loaded(camera->control->session->render) ||
-        s->tree.nodes == NULL)
-        return;
-    clearance_follow(&camera->clearance, s, pose_of(camera), aspect_of(camera));
+    if (world_tree(&s->world) == NULL)
+        return; /* the render thread may be building it */
+    clearance_follow(&camera->clearance, &s->scene, &s->world, pose_of(camera),
+                     aspect_of(camera));
     camera_input_adapt(&camera->input, camera->clearance.near,
                        camera->clearance.away);
 }

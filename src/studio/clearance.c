@@ -48,11 +48,13 @@ static void insert(double *sorted, int count, double x)
     }
 }
 
-static bool trace(const struct scene *scene, struct ray ray, struct hit *hit)
+static bool trace(const struct scene *scene, const struct host_world *host,
+                  struct ray ray, struct hit *hit)
 {
-    struct bvh8_world w = {.world = scene_arrays(scene), .tree = &scene->tree};
+    struct bvh8_world w = {.world = world_arrays(host, scene),
+                           .tree = world_tree(host)};
 
-    return scene->tree.nodes != NULL && isfinite(ray.o.x + ray.o.y + ray.o.z) &&
+    return w.tree != NULL && isfinite(ray.o.x + ray.o.y + ray.o.z) &&
            hit_closest(&w.world, ray, hit);
 }
 
@@ -66,7 +68,8 @@ static double distance_to_box(const struct scene *s, const double eye[3])
     return vec3d_length(off);
 }
 
-static void look_around(struct clearance *c, const struct scene *scene)
+static void look_around(struct clearance *c, const struct scene *scene,
+                        const struct host_world *host)
 {
     double nearest[NEAR_RAY + 1];
     struct ray ray = {.o = stored(scene, c->eye), .t_max = FLOAT_MAX};
@@ -78,7 +81,7 @@ static void look_around(struct clearance *c, const struct scene *scene)
         struct hit hit;
 
         ray.d = direction(i);
-        if (!trace(scene, ray, &hit))
+        if (!trace(scene, host, ray, &hit))
             continue;
         hits++;
         within += scene->tri_objects[hit.tri] == c->passed ? 1 : 0;
@@ -90,8 +93,9 @@ static void look_around(struct clearance *c, const struct scene *scene)
 }
 
 /* The object of the first surface between two points; NO_INDEX: none. */
-static uint32_t object_between(const struct scene *scene, const double from[3],
-                               const double to[3])
+static uint32_t object_between(const struct scene *scene,
+                               const struct host_world *host,
+                               const double from[3], const double to[3])
 {
     struct vec3 o = stored(scene, from);
     struct vec3 way = v3_sub(stored(scene, to), o);
@@ -103,7 +107,8 @@ static uint32_t object_between(const struct scene *scene, const double from[3],
     struct ray ray = {.o = o,
                       .d = v3_scale(way, 1.0f / length),
                       .t_max = length};
-    return trace(scene, ray, &hit) ? scene->tri_objects[hit.tri] : NO_INDEX;
+    return trace(scene, host, ray, &hit) ? scene->tri_objects[hit.tri]
+                                         : NO_INDEX;
 }
 
 /* After a surface was passed. Solids are told from rooms by what is in them:
@@ -140,27 +145,28 @@ static enum clearance_place place_beside(const struct clearance *before,
 
 /* Follows the eye to its new place. */
 static void move(struct clearance *c, const struct scene *scene,
-                 const double eye[3])
+                 const struct host_world *host, const double eye[3])
 {
     struct clearance before = *c;
     uint32_t passed =
-        c->is_known ? object_between(scene, c->eye, eye) : NO_INDEX;
+        c->is_known ? object_between(scene, host, c->eye, eye) : NO_INDEX;
 
     c->is_known = true;
     memcpy(c->eye, eye, sizeof c->eye);
     c->away = distance_to_box(scene, c->eye);
     if (passed != NO_INDEX)
         c->passed = passed;
-    look_around(c, scene);
+    look_around(c, scene, host);
     c->place = passed != NO_INDEX ? place_behind(&before, c, scene)
                                   : place_beside(&before, c);
 }
 
 void clearance_follow(struct clearance *c, const struct scene *scene,
-                      const struct pose *pose, double aspect)
+                      const struct host_world *host, const struct pose *pose,
+                      double aspect)
 {
     if (!c->is_known || memcmp(c->eye, pose->eye, sizeof c->eye) != 0)
-        move(c, scene, pose->eye);
+        move(c, scene, host, pose->eye);
     if (c->place != CLEARANCE_AMONG && c->place != CLEARANCE_AWAY)
         return;
     c->place =

@@ -2,19 +2,19 @@
 /*
  * clearance.h - how far surfaces are from a camera, and where it is lost
  *
- * Rays go from the eye in fixed directions all around, through the scene's
+ * Rays go from the eye in fixed directions all around, through the world's
  * tree. A camera that leaves a room through its wall, or enters a solid, is
  * known by what it has passed and by what is around it then: how faces are
  * wound says nothing in files of strangers.
  *
  * Units:     file units of the scene
- * Ownership: the scene stays the caller's
- * Threads:   any, while the scene and its tree are only read
+ * Ownership: scene and world stay the caller's
+ * Threads:   any, while scene and world are only read
  */
 #ifndef GLIM_CLEARANCE_H
 #define GLIM_CLEARANCE_H
 
-#include "scene/scene.h"
+#include "scene/world.h"
 
 /* From this share of all directions on a place counts as closed. Measured: in
  * rooms and an arcade 0.98 and more, in the open 0.5 and less. */
@@ -43,9 +43,10 @@ struct clearance {
 
 /* Finds what is around the eye, which has come there on a straight way from
  * where the last call has found it. 65 rays, 15 us, and none where it has not
- * moved. A scene without a tree has no surface. */
+ * moved. A world without a tree has no surface. */
 void clearance_follow(struct clearance *c, const struct scene *scene,
-                      const struct pose *pose, double aspect);
+                      const struct host_world *host, const struct pose *pose,
+                      double aspect);
 
 /* The eye has jumped: there was no way. */
 void clearance_forget(struct clearance *c);

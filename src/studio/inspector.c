@@ -56,7 +56,9 @@ void inspector_close_table(struct inspector *inspector)
 
 void inspector_open_table(struct inspector *inspector)
 {
-    const struct scene *scene = &session_of(inspector)->scene;
+    const struct session *s = session_of(inspector);
+    const struct overlay_names names = {world_tris(&s->world, &s->scene),
+                                        s->edit.names};
     const char *lines[OVERLAY_TEXT_LINES];
     struct overlay_text legend;
     char title[TEXT_BYTES];
@@ -65,11 +67,12 @@ void inspector_open_table(struct inspector *inspector)
     if (inspector->screen->is_too_small)
         return;
     if (inspector->drawing == INSPECTOR_LOBES && inspector->is_surface) {
-        overlay_text_lobes(&legend, scene, &inspector->lobes);
+        overlay_text_lobes(&legend, &names, &inspector->lobes);
         snprintf(title, sizeof title, " directions from pixel %u %u ",
                  inspector->x, inspector->y);
     } else if (inspector->drawing == INSPECTOR_PATH) {
-        overlay_text_trail(&legend, scene, &inspector->trail, inspector->step);
+        overlay_text_trail(&legend, &s->scene, &names, &inspector->trail,
+                           inspector->step);
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
                  (unsigned long long)inspector->sample, inspector->x,
                  inspector->y,

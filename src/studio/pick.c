@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "scene/world.h"
 #include "kernels/camera.h"
 #include "kernels/hit.h"
 #include "kernels/texture.h"
@@ -48,8 +47,9 @@ static void file_point(const struct scene *scene, struct vec3 p,
     point[2] = p.z / scene->scale + scene->center[2];
 }
 
-bool pick_at(const struct scene *scene, const struct view *view, double x_px,
-             double y_px, struct pick *pick)
+bool pick_at(const struct scene *scene, const struct host_world *host,
+             const struct view *view, double x_px, double y_px,
+             struct pick *pick)
 {
     struct world world;
     struct error err;
@@ -57,7 +57,7 @@ bool pick_at(const struct scene *scene, const struct view *view, double x_px,
 
     if (!(x_px >= 0 && x_px < view->width_px && y_px >= 0 &&
           y_px < view->height_px) ||
-        !scene_world(scene, view, 0, &world, &err))
+        !world_lend(host, scene, view, 0, &world, &err))
         return false;
     uint32_t x = (uint32_t)x_px;
     uint32_t y = (uint32_t)y_px;
@@ -69,7 +69,7 @@ bool pick_at(const struct scene *scene, const struct view *view, double x_px,
         .tri = hit.tri,
         .face = scene->tri_faces[hit.tri],
         .object = scene->tri_objects[hit.tri],
-        .material = scene->tris[hit.tri].material,
+        .material = world.tris[hit.tri].material,
         .distance = hit.t / scene->scale,
     };
     file_point(scene, point_of(&world, hit), pick->position);

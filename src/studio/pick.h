@@ -13,14 +13,14 @@
 #ifndef GLIM_PICK_H
 #define GLIM_PICK_H
 
-#include "scene/scene.h"
+#include "scene/world.h"
 #include "terminal/cells.h"
 
 struct pick {
     uint32_t tri;
     uint32_t face;     /* its number in the file, from 0 */
     uint32_t object;   /* of scene.object_names */
-    uint32_t material; /* of scene.materials */
+    uint32_t material; /* of the world's */
     double distance;   /* from the eye */
     double position[3];
 };
@@ -28,8 +28,9 @@ struct pick {
 /* Finds the surface at a point of the picture. Returns false, with *pick
  * unchanged, if there is only the sky. Tests every triangle: 17 ms for a
  * million. */
-bool pick_at(const struct scene *scene, const struct view *view, double x_px,
-             double y_px, struct pick *pick);
+bool pick_at(const struct scene *scene, const struct host_world *host,
+             const struct view *view, double x_px, double y_px,
+             struct pick *pick);
 
 /* The bounding box of an object's triangles, in file units. */
 void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],

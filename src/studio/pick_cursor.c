@@ -32,8 +32,8 @@ const char *pick_cursor_object_name(const struct pick_cursor *cursor,
 static void describe(const struct pick_cursor *cursor, const struct pick *pick,
                      char text[TEXT_BYTES])
 {
-    const struct scene *scene = &cursor->control->session->scene;
-    const char *material = scene->material_names[pick->material];
+    const struct edit *edit = &cursor->control->session->edit;
+    const char *material = edit->names[pick->material];
 
     snprintf(text, TEXT_BYTES, "%.60s, %.60s, face %u, %.4g away",
              pick_cursor_object_name(cursor, pick->object),
@@ -52,7 +52,8 @@ static bool look_at_cell(const struct pick_cursor *cursor, int col, int row,
 
     return pick_point_of_cell(&cursor->screen->fit, r.width, r.height, col, row,
                               &x_px, &y_px) &&
-           pick_at(&s->scene, &s->view, r.x + x_px, r.y + y_px, pick);
+           pick_at(&s->scene, &s->world, &s->view, r.x + x_px, r.y + y_px,
+                   pick);
 }
 
 static bool look_under(const struct pick_cursor *cursor, struct pick *pick)
@@ -68,7 +69,7 @@ bool pick_cursor_look_ahead(const struct pick_cursor *cursor, struct pick *pick)
     const struct session *s = cursor->control->session;
     struct rect r = pick_cursor_shown_rect(cursor);
 
-    return pick_at(&s->scene, &s->view, r.x + r.width / 2.0,
+    return pick_at(&s->scene, &s->world, &s->view, r.x + r.width / 2.0,
                    r.y + r.height / 2.0, pick);
 }
 

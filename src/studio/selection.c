@@ -138,6 +138,5 @@ uint32_t selection_material_of(const struct selection *s, uint32_t object)
 
     if (assigned != NO_INDEX)
         return assigned;
-    return scene->file_materials != NULL ? scene->file_materials[tri]
-                                         : scene->tris[tri].material;
+    return scene->tris[tri].material;
 }

@@ -51,14 +51,14 @@ static uint64_t cpu_ns(const struct session *s)
 static double rate(struct session *s, uint32_t more_features, struct rect crop,
                    uint64_t spp, struct render_progress *p)
 {
-    struct render_job job = {.tree = &s->scene.tree,
+    struct render_job job = {.host = &s->world,
                              .geometry_changed = p->samples == 0,
                              .crop = crop,
                              .spp = spp};
     uint64_t begin_ns = cpu_ns(s);
     struct error err;
 
-    if (!scene_world(&s->scene, &s->view, 0, &job.world, &err))
+    if (!world_lend(&s->world, &s->scene, &s->view, 0, &job.world, &err))
         stop(&err);
     job.world.settings.features |= more_features;
     if (!render_start(s->render, &job, &err))

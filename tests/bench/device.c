@@ -67,7 +67,7 @@ static void bench(const char *path, int threads)
     }
     backends[CPU] = s.machines.cpu;
     backends[FULL] = open_device(FEATURES_ALL);
-    backends[SPECIAL] = open_device(scene_features(&s.scene));
+    backends[SPECIAL] = open_device(world_features(&s.world));
     for (int i = 0; i < CONTESTANTS; i++)
         rate(&s, backends[i]); /* loads code and data */
     for (int i = 0; i < ROUNDS; i++)

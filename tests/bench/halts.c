@@ -38,7 +38,7 @@ static void print_row(const char *what, uint64_t *times_ns, int count)
 /* The OpenCL device that there is. */
 static bool use_device(struct session *s, struct error *err)
 {
-    struct cl_request request = {.features = scene_features(&s->scene)};
+    struct cl_request request = {.features = world_features(&s->world)};
     char *log;
 
     s->machines.device = backend_cl_create(&request, &log, err);

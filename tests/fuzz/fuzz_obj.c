@@ -6,6 +6,7 @@
  */
 #include <math.h>
 
+#include "scene/world.h"
 #include "formats/scene_load.h"
 #include "fuzz.h"
 
@@ -36,13 +37,14 @@ static void check_tris(const struct scene *scene)
     }
 }
 
-static void check_textures(const struct scene *scene)
+static void check_textures(const struct host_world *host,
+                           const struct scene *scene)
 {
     for (uint32_t i = 0; i < scene->texture_count; i++) {
-        const struct texture *t = &scene->textures[i];
+        const struct texture *t = &host->textures[i];
 
         require((uint64_t)t->first + (uint64_t)t->width * t->height <=
-                    scene->texel_count,
+                    host->texel_count,
                 "texels");
     }
 }
@@ -51,17 +53,20 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char *path = fuzz_put_scene(data, size);
     struct scene scene = {.path = NULL};
+    struct host_world host = {.tris = NULL};
     struct warnings report = {0};
     struct error err = {""};
 
-    if (scene_load(&scene, path, false, &report, &err)) {
+    if (scene_load(&scene, path, false, &report, &err) &&
+        world_init(&host, &scene, &report, &err)) {
         check_tris(&scene);
-        check_textures(&scene);
+        check_textures(&host, &scene);
     } else {
         fuzz_check_message(err.text);
     }
     fuzz_check_report(&report);
     warnings_free(&report);
+    world_free(&host);
     scene_free(&scene);
     free(path);
     return 0;

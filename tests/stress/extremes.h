@@ -292,7 +292,7 @@ static inline void extremes_close(struct extremes *x)
 static inline bool extremes_render(struct extremes *x, struct session *s,
                                    int which, uint32_t number, float *first)
 {
-    struct render_job job = {.tree = &s->scene.tree,
+    struct render_job job = {.host = &s->world,
                              .geometry_changed = true,
                              .crop = s->crop,
                              .spp = EXTREMES_SPP};
@@ -301,7 +301,7 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
     struct render_progress p;
     struct error err;
 
-    if (!scene_world(&s->scene, &s->view, number, &job.world, &err))
+    if (!world_lend(&s->world, &s->scene, &s->view, number, &job.world, &err))
         return true; /* a camera that is out of the world */
     if (!render_start(render, &job, &err) || !render_wait(render, 60000)) {
         printf("scene %u: does not end\n", number);

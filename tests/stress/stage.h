@@ -171,14 +171,16 @@ static inline void put_box(struct stage *s, const double lo[3],
                     "f -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n");
 }
 
-static inline void load_scene(struct scene *scene, const struct view *view,
-                              struct outcome *o)
+static inline void load_scene(struct scene *scene, struct host_world *host,
+                              const struct view *view, struct outcome *o)
 {
     struct warnings report = {0};
 
     *scene = (struct scene){0};
+    *host = (struct host_world){.tris = NULL};
     o->is_refused = !scene_load(scene, "a.obj", false, &report, &o->err) ||
-                    !scene_load_sky(scene, view, &report, &o->err);
+                    !world_init(host, scene, &report, &o->err) ||
+                    !world_load_sky(host, view, &report, &o->err);
     for (int i = 0; i < report.entry_count; i++)
         o->warning_count += report.entries[i].count;
     warnings_free(&report);
@@ -204,17 +206,18 @@ static inline struct view make_view(const struct stage *s,
     return view;
 }
 
-static inline void render_seed(struct stage *s, struct scene *scene,
-                               const struct view *view, const struct shot *shot,
-                               uint32_t seed, struct outcome *o)
+static inline void render_seed(struct stage *s, const struct scene *scene,
+                               struct host_world *host, const struct view *view,
+                               const struct shot *shot, uint32_t seed,
+                               struct outcome *o)
 {
-    struct render_job job = {.tree = &scene->tree,
+    struct render_job job = {.host = host,
                              .geometry_changed = seed == shot->seed,
                              .crop = {0, 0, view->width_px, view->height_px},
                              .spp = shot->spp > 0 ? shot->spp : 64};
     struct error err;
 
-    if (!scene_world(scene, view, seed, &job.world, &err))
+    if (!world_lend(host, scene, view, seed, &job.world, &err))
         stage_stop(err.text);
     job.world.settings.direct = shot->direct;
     if (!render_start(s->render, &job, &err))
@@ -234,15 +237,17 @@ static inline struct outcome stage_render(struct stage *s,
     struct outcome o = {0};
     struct view view = make_view(s, shot);
     struct scene scene;
+    struct host_world host;
     double sum = 0, squares = 0;
 
-    load_scene(&scene, &view, &o);
+    load_scene(&scene, &host, &view, &o);
     o.number_count = 3 * (size_t)view.width_px * (size_t)view.height_px;
     o.rgb = xcalloc(o.number_count, sizeof *o.rgb);
     for (int i = 0; i < seeds && !o.is_refused; i++) {
         double mean = 0;
 
-        render_seed(s, &scene, &view, shot, shot->seed + (uint32_t)i, &o);
+        render_seed(s, &scene, &host, &view, shot, shot->seed + (uint32_t)i,
+                    &o);
         for (size_t k = 0; k < o.number_count; k++)
             mean += (double)o.rgb[k] / (double)o.number_count;
         sum += mean;
@@ -252,6 +257,7 @@ static inline struct outcome stage_render(struct stage *s,
     o.error =
         sqrt(fmax(squares / seeds - o.mean * o.mean, 0) / fmax(seeds - 1, 1));
     render_halt(s->render);
+    world_free(&host);
     scene_free(&scene);
     view_free(&view);
     return o;

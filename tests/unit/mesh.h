@@ -12,8 +12,7 @@
 
 #include <stdlib.h>
 
-#include "bvh/bvh8.h"
-#include "scene/material.h"
+#include "scene/world.h"
 #include "tests/unit/check.h"
 #include "kernels/hit.h"
 
@@ -26,6 +25,7 @@ struct mesh {
     struct material materials[MESH_MATERIALS];
     struct bvh bvh;
     struct bvh8 wide;
+    struct host_world host; /* for backends: it has this tree */
     union {
         struct world world;
         struct bvh8_world wide_world; /* for the queries of bvh8_traverse.h */
@@ -143,6 +143,7 @@ static inline void mesh_finish(struct mesh *m)
     w->leaf_tris = m->bvh.leaf_tris;
     assert_true(bvh8_build(&m->wide, w, NULL, &err));
     m->wide_world.tree = &m->wide;
+    m->host = (struct host_world){.tree = m->wide, .has_tree = true};
 }
 
 static inline void mesh_free(struct mesh *m)

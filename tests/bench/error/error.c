@@ -177,7 +177,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
 {
     struct session *s = &m->session;
     struct render_job job = {.world = *world,
-                             .tree = &s->scene.tree,
+                             .host = &s->world,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
                              .spp = 1};
@@ -214,7 +214,8 @@ static bool measure_round(struct measurement *m, int technique, int round,
     struct curve *c = &m->curves[technique];
     struct world world;
 
-    if (!scene_world(&s->scene, &s->view, (uint32_t)round, &world, err))
+    if (!world_lend(&s->world, &s->scene, &s->view, (uint32_t)round, &world,
+                    err))
         return false;
     c->is_measured = matters(t, &world.settings);
     if (!c->is_measured)

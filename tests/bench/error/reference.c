@@ -137,14 +137,14 @@ static bool is_fresh(const char *path, const char *scene_path)
 static bool render_half(struct session *s, enum direct direct, int half,
                         const char *path, struct error *err)
 {
-    struct render_job job = {.tree = &s->scene.tree,
+    struct render_job job = {.host = &s->world,
                              .geometry_changed = true,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
                              .spp = HALF_SPP};
 
-    if (!scene_world(&s->scene, &s->view, SEED_OF_HALVES + (uint32_t)half,
-                     &job.world, err))
+    if (!world_lend(&s->world, &s->scene, &s->view,
+                    SEED_OF_HALVES + (uint32_t)half, &job.world, err))
         return false;
     job.world.settings.direct = direct;
     if (!render_start(s->render, &job, err))

@@ -123,13 +123,15 @@ static bool load_file(struct scene *s, const char *name, const char *shared,
 
 /* The world as the view sees it, if the scene was loaded. */
 static bool finish(struct shape *shape, struct view *view, bool is_loaded,
-                   struct error *err)
+                   struct warnings *report, struct error *err)
 {
     bool ok;
 
     view->width_px = WIDTH_PX;
     view->height_px = HEIGHT_PX;
-    ok = is_loaded && scene_world(&shape->scene, view, 0, &shape->world, err);
+    ok = is_loaded && world_init(&shape->host, &shape->scene, report, err) &&
+         world_lend(&shape->host, &shape->scene, view, 0, &shape->world, err);
+    warnings_free(report);
     /* no holes: Embree's rays would not pass them */
     shape->world.settings.features = 0;
     view_free(view);
@@ -147,8 +149,7 @@ bool shape_make_terrain(struct shape *shape, uint32_t across, struct error *err)
     *shape = (struct shape){.scene.path = NULL};
     view_init(&view);
     ok = load_terrain(&shape->scene, across, &view, &report, err);
-    warnings_free(&report);
-    return finish(shape, &view, ok, err);
+    return finish(shape, &view, ok, &report, err);
 }
 
 bool shape_load(struct shape *shape, int i, const char *shared,
@@ -163,11 +164,11 @@ bool shape_load(struct shape *shape, int i, const char *shared,
     *shape = (struct shape){.scene.path = NULL};
     view_init(&view);
     ok = load_file(&shape->scene, shape_names[i], shared, &view, &report, err);
-    warnings_free(&report);
-    return finish(shape, &view, ok, err);
+    return finish(shape, &view, ok, &report, err);
 }
 
 void shape_free(struct shape *shape)
 {
+    world_free(&shape->host);
     scene_free(&shape->scene);
 }

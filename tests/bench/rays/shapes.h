@@ -11,12 +11,13 @@
 #ifndef RAYS_SHAPES_H
 #define RAYS_SHAPES_H
 
-#include "scene/scene.h"
+#include "scene/world.h"
 
 #define SHAPES 5
 
 struct shape {
     struct scene scene;
+    struct host_world host;
     struct world world; /* as the shape's camera sees it */
 };
 

@@ -19,6 +19,7 @@
 
 struct loaded {
     struct scene scene;
+    struct host_world world;
     struct warnings report;
     struct error err;
     bool ok;
@@ -28,12 +29,14 @@ static struct loaded load(const char *path)
 {
     struct loaded l = {.ok = false};
 
-    l.ok = scene_load(&l.scene, path, false, &l.report, &l.err);
+    l.ok = scene_load(&l.scene, path, false, &l.report, &l.err) &&
+           world_init(&l.world, &l.scene, &l.report, &l.err);
     return l;
 }
 
 static void unload(struct loaded *l)
 {
+    world_free(&l->world);
     scene_free(&l->scene);
     warnings_free(&l->report);
 }
@@ -379,10 +382,11 @@ static void load_broken(const char *text, size_t size_bytes, bool is_mtl)
         return;
     }
     assert_true(scene_finish(&l.scene, &l.report, &l.err));
+    assert_true(world_init(&l.world, &l.scene, &l.report, &l.err));
     check_scene(&l.scene);
     view_init(&view);
     scene_frame(&l.scene, &view);
-    scene_world(&l.scene, &view, 0, &world, &l.err);
+    world_lend(&l.world, &l.scene, &view, 0, &world, &l.err);
     view_free(&view);
     unload(&l);
 }

@@ -11,12 +11,10 @@
 #include "inspect/overlay_text.h"
 
 static char none[] = "", red_paint[] = "red paint";
-static char *names[] = {none, red_paint};
+static char *materials[] = {none, red_paint};
 static struct tri tris[] = {{.material = 0}, {.material = 1}};
-static const struct scene scene = {.material_names = names,
-                                   .tris = tris,
-                                   .scale = 0.25,
-                                   .center = {1, 2, 3}};
+static const struct overlay_names names = {tris, materials};
+static const struct scene scene = {.scale = 0.25, .center = {1, 2, 3}};
 
 static void paths_show_their_last_steps(void **state)
 {
@@ -35,7 +33,7 @@ static void paths_show_their_last_steps(void **state)
                                       .way = PATH_RECORD_REFLECTED,
                                       .pdf = i == 7 ? 0.0f : 0.125f};
     trail.steps[8].way = PATH_RECORD_SKY;
-    overlay_text_trail(&l, &scene, &trail, 2);
+    overlay_text_trail(&l, &scene, &names, &trail, 2);
     assert_int_equal(l.count, 4);
     check_has(l.lines[0], "throughput");
     /* 1 / 0.25 + 1, -0.5 / 0.25 + 2, 1 / 0.25 + 3 */
@@ -43,7 +41,7 @@ static void paths_show_their_last_steps(void **state)
     check_has(l.lines[2], "reflect  1.00 0.50 0.25 0.125  0 4 0");
     check_has(l.lines[1], " 1 no materia ");
     check_has(l.lines[3], "step 2 of 9; radiance of the whole path 1 2 3");
-    overlay_text_trail(&l, &scene, &trail, 9);
+    overlay_text_trail(&l, &scene, &names, &trail, 9);
     assert_int_equal(l.count, OVERLAY_TEXT_LINES);
     check_has(l.lines[1], " 4 red paint ");
     check_has(l.lines[5], " delta ");
@@ -65,11 +63,11 @@ static void numbers_are_not_cut(void **state)
     trail.steps[0] = (struct path_record_step){.to = {1, 0, 0},
                                                .way = PATH_RECORD_REFLECTED,
                                                .pdf = 1230};
-    overlay_text_trail(&l, &far, &trail, 1);
+    overlay_text_trail(&l, &far, &names, &trail, 1);
     check_has(l.lines[1], " -1e+04 0.007 -0.1 reflect ");
     check_has(l.lines[1], " 1e+03  0 0 0");
     far.center[0] = -4;
-    overlay_text_trail(&l, &far, &trail, 1);
+    overlay_text_trail(&l, &far, &names, &trail, 1);
     check_has(l.lines[1], " 0 0.00702 -0.124  reflect ");
 }
 
@@ -88,7 +86,7 @@ static void surfaces_show_their_frame(void **state)
         lobes.weight[i].x = 1;
         lobes.pdf[i] = i == 5 ? 0 : i == 6 ? 8 : 0.5f;
     }
-    overlay_text_lobes(&l, &scene, &lobes);
+    overlay_text_lobes(&l, &names, &lobes);
     check_has(l.lines[0], "red paint, seen 36.9 degrees off n"); /* acos 0.8 */
     check_has(l.lines[1], "0.000  0.000  1.000");
     check_has(l.lines[4], "32 of 64 samples go on, 1 as deltas; pdf 0 to 8");
@@ -103,13 +101,13 @@ static void names_are_cut_whole(void **state)
     struct path_record_lobes lobes = {.n = {0, 0, 1},
                                       .wo = {0, 0, 1},
                                       .tri = 1};
-    struct scene named = scene;
+    struct overlay_names named = names;
     struct overlay_text l;
 
     (void)state;
     for (int i = 0; i < 21; i++)
         strcat(wide, "\u5149");
-    named.material_names = wide_names;
+    named.materials = wide_names;
     assert_non_null(setlocale(LC_CTYPE, "C.UTF-8"));
     overlay_text_lobes(&l, &named, &lobes);
     assert_int_equal(strcspn(l.lines[0], ","), 20 * strlen("\u5149"));

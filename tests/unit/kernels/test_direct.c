@@ -42,27 +42,29 @@ struct outcome {
 };
 
 /* Compensated tables are zero in places, where only chance finds the sky. */
-static void fill_sky_table(struct scene *s)
+static void fill_sky_table(struct host_world *host)
 {
     struct error err;
 
-    if (s->sky_texels == NULL)
+    if (host->sky_texels == NULL)
         return;
-    sky_table_free(&s->sky_table);
-    check_or_say(sky_table_build(&s->sky_table, s->sky_texels, s->sky_width,
-                                 s->sky_height, SKY_ALONE, &err),
+    sky_table_free(&host->sky_table);
+    check_or_say(sky_table_build(&host->sky_table, host->sky_texels,
+                                 host->sky_width, host->sky_height, SKY_ALONE,
+                                 &err),
                  err.text);
 }
 
 static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
 {
-    struct render_job job = {.tree = &s->scene.tree,
+    struct render_job job = {.host = &s->world,
                              .geometry_changed = mode == 0 && seed == 1,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = SPP};
     struct error err;
 
-    check_or_say(scene_world(&s->scene, &s->view, seed, &job.world, &err),
+    check_or_say(world_lend(&s->world, &s->scene, &s->view, seed, &job.world,
+                            &err),
                  err.text);
     if (mode == UNGUIDED)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &job.world);
@@ -125,7 +127,7 @@ static void same_mean(void **state)
         measure(&s, DIRECT_MIS, &outcomes[DIRECT_MIS]);
         measure(&s, DIRECT_BSDF, &outcomes[DIRECT_BSDF]);
         measure(&s, UNGUIDED, &outcomes[UNGUIDED]);
-        fill_sky_table(&s.scene);
+        fill_sky_table(&s.world);
         measure(&s, DIRECT_LIGHTS, &outcomes[DIRECT_LIGHTS]);
         for (int k = DIRECT_LIGHTS; k < MODES; k++)
             for (int c = 0; c < 3; c++) {

@@ -34,7 +34,8 @@ static int open_scene(void **state)
 
     (void)state;
     if (session_open(&session, &options, clock_ns(), &err) &&
-        scene_world(&session.scene, &session.view, 0, &box, &err))
+        world_lend(&session.world, &session.scene, &session.view, 0, &box,
+                   &err))
         return 0;
     print_error("%s\n", err.text);
     return -1;
@@ -47,11 +48,12 @@ static int close_scene(void **state)
     return 0;
 }
 
-static void start(const struct world *world, struct bvh8 *tree, uint64_t spp,
-                  int draft_width, int draft_height, uint32_t seed)
+static void start(struct host_world *host, const struct world *world,
+                  uint64_t spp, int draft_width, int draft_height,
+                  uint32_t seed)
 {
     struct render_job job = {.world = *world,
-                             .tree = tree,
+                             .host = host,
                              .geometry_changed = true,
                              .crop = {0, 0, SIDE, SIDE},
                              .spp = spp,
@@ -85,11 +87,11 @@ static void films_do_not_know_of_drafts(void **state)
     int halts = 0, draft_halts = 0;
 
     (void)state;
-    start(&box, &session.scene.tree, 30, 0, 0, 1);
+    start(&session.world, &box, 30, 0, 0, 1);
     assert_null(render_draft(session.render));
     finish(sums[0], counts[0]);
     p[0] = render_progress(session.render);
-    start(&box, &session.scene.tree, 30, 31, 40, 1);
+    start(&session.world, &box, 30, 31, 40, 1);
     assert_non_null(render_draft(session.render));
     while (!render_wait(session.render, 0)) {
         nanosleep(&pause, NULL);
@@ -116,10 +118,10 @@ static void films_do_not_know_of_drafts(void **state)
 static void drafts_are_small(void **state)
 {
     (void)state;
-    start(&box, &session.scene.tree, 1, SIDE + 1, 1 << 20, 1);
+    start(&session.world, &box, 1, SIDE + 1, 1 << 20, 1);
     assert_int_equal(render_draft(session.render)->width, SIDE);
     assert_int_equal(render_draft(session.render)->height, SIDE);
-    start(&box, &session.scene.tree, 1, 5, 0, 1);
+    start(&session.world, &box, 1, 5, 0, 1);
     assert_null(render_draft(session.render));
     assert_true(render_wait(session.render, 60000));
     assert_int_equal(render_progress(session.render).draft_samples, 0);
@@ -135,10 +137,10 @@ struct notes {
     int begin_count;
 };
 
-static bool note_load(struct backend *b, const struct world *world,
-                      struct bvh8 *tree, struct error *err)
+static bool note_load(struct backend *b, struct host_world *host,
+                      const struct world *world, struct error *err)
 {
-    (void)b, (void)world, (void)tree, (void)err;
+    (void)b, (void)host, (void)world, (void)err;
     return true;
 }
 
@@ -224,11 +226,11 @@ static void drafts_look_where_films_do(void **state)
 /* ---- what it shows ---- */
 
 /* Draft and film of the same size and samples, linear. */
-static void render_two(const struct world *world, struct bvh8 *tree,
+static void render_two(struct host_world *host, const struct world *world,
                        uint32_t seed, float draft[3 * PIXELS],
                        float film[3 * PIXELS])
 {
-    start(world, tree, DRAFT_SPP, SIDE, SIDE, seed);
+    start(host, world, DRAFT_SPP, SIDE, SIDE, seed);
     assert_true(render_wait(session.render, 60000));
     film_linear(render_draft(session.render), draft);
     film_linear(render_film(session.render), film);
@@ -258,7 +260,7 @@ static void drafts_have_the_films_mean(void **state)
 
     (void)state;
     for (int seed = 0; seed < n; seed++) {
-        render_two(&box, &session.scene.tree, (uint32_t)seed, draft, film);
+        render_two(&session.world, &box, (uint32_t)seed, draft, film);
         for (int i = 0; i < 12; i++) {
             double d = quarter_mean(draft, i % 4, i / 4) -
                        quarter_mean(film, i % 4, i / 4);
@@ -337,11 +339,11 @@ static void drafts_are_calm(void **state)
 
     (void)state;
     make_floor(&m);
-    start(&m.world, &m.wide, 500, 0, 0, 12345);
+    start(&m.host, &m.world, 500, 0, 0, 12345);
     assert_true(render_wait(session.render, 60000));
     film_linear(render_film(session.render), truth);
     for (uint32_t seed = 0; seed < 20; seed++) {
-        render_two(&m.world, &m.wide, seed, draft, film);
+        render_two(&m.host, &m.world, seed, draft, film);
         add_errors(&of_draft, draft, truth);
         add_errors(&of_film, film, truth);
     }

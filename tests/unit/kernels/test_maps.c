@@ -17,6 +17,7 @@
  * world. */
 struct loaded {
     struct scene scene;
+    struct host_world host;
     struct warnings report;
     struct view view;
     struct world world;
@@ -62,17 +63,19 @@ static void load(struct loaded *l, const char *statements)
     view_init(&l->view);
     l->view.pose.eye[2] = 5;
     if (!scene_load(&l->scene, "a.obj", false, &l->report, &err) ||
-        !scene_world(&l->scene, &l->view, 0, &l->world, &err))
+        !world_init(&l->host, &l->scene, &l->report, &err) ||
+        !world_lend(&l->host, &l->scene, &l->view, 0, &l->world, &err))
         print_error("%s\n", err.text);
     assert_string_equal(err.text, "");
     for (int i = 0; i < l->report.entry_count; i++)
         print_error("%s\n", l->report.entries[i].text);
     assert_int_equal(l->report.entry_count, 0);
-    l->material = l->scene.materials[1];
+    l->material = l->host.materials[1];
 }
 
 static void unload(struct loaded *l)
 {
+    world_free(&l->host);
     scene_free(&l->scene);
     warnings_free(&l->report);
     view_free(&l->view);
@@ -188,7 +191,7 @@ static void an_image_is_read_once(void **state)
     write_image("six.tga", 3, 2, 3, six);
     load(&l, "Kd 1\nmap_Kd six.tga\nKe 1\nmap_Ke -s 2 2 six.tga");
     assert_int_equal(l.scene.texture_count, 2);
-    assert_int_equal(l.scene.texel_count, 6);
+    assert_int_equal(l.host.texel_count, 6);
     unload(&l);
 }
 
@@ -200,6 +203,7 @@ static void many_images_are_read(void **state)
 {
     uint32_t expected = 0;
     struct scene scene = {0};
+    struct host_world host;
     struct warnings report = {0};
     struct error err;
     char path[32];
@@ -221,23 +225,25 @@ static void many_images_are_read(void **state)
     assert_int_equal(fclose(obj), 0);
     assert_int_equal(fclose(mtl), 0);
     assert_true(scene_load(&scene, "many.obj", false, &report, &err));
+    assert_true(world_init(&host, &scene, &report, &err));
     assert_int_equal(report.entry_count, 1);
     for (int i = 0; i < MANY; i++) {
-        uint32_t map = scene.materials[1 + i].color_texture;
+        uint32_t map = host.materials[1 + i].color_texture;
         int image = i % 5 == 4 ? i - 1 : i;
 
         if (i == 7) {
             assert_int_equal(map, NO_INDEX);
             continue;
         }
-        assert_int_equal(scene.textures[map].width, 1 + image % 2);
-        assert_int_equal(scene.texels[scene.textures[map].first] & 0xff, image);
+        assert_int_equal(host.textures[map].width, 1 + image % 2);
+        assert_int_equal(host.texels[host.textures[map].first] & 0xff, image);
         if (image == i) {
-            assert_int_equal(scene.textures[map].first, expected);
-            expected += scene.textures[map].width;
+            assert_int_equal(host.textures[map].first, expected);
+            expected += host.textures[map].width;
         }
     }
-    assert_int_equal(scene.texel_count, expected);
+    assert_int_equal(host.texel_count, expected);
+    world_free(&host);
     scene_free(&scene);
     warnings_free(&report);
     for (int i = 0; i < MANY; i++) {

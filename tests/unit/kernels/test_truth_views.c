@@ -54,7 +54,7 @@ static void render_means(const char *scene, const char *view, double *means,
                         .max_bounces = -1,
                         .batch = true};
     struct session s;
-    struct render_job job = {.tree = &s.scene.tree,
+    struct render_job job = {.host = &s.world,
                              .geometry_changed = true,
                              .spp = SPP};
     struct error err;
@@ -73,7 +73,8 @@ static void render_means(const char *scene, const char *view, double *means,
     memset(means, 0, (size_t)count * sizeof *means);
     memset(errors, 0, (size_t)count * sizeof *errors);
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
-        check_or_say(scene_world(&s.scene, &s.view, seed, &job.world, &err),
+        check_or_say(world_lend(&s.world, &s.scene, &s.view, seed, &job.world,
+                                &err),
                      err.text);
         check_or_say(render_start(s.render, &job, &err), err.text);
         assert_true(render_wait(s.render, 300000));

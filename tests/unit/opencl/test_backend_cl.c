@@ -13,7 +13,7 @@
 #include <time.h>
 
 #include "base/memory.h"
-#include "scene/scene_materials.h"
+#include "scene/world_materials.h"
 #include "scene/world.h"
 #include "formats/scene_load.h"
 #include "formats/view_file.h"
@@ -36,6 +36,7 @@ static const char *const scenes[] = {
 /* An opened scene, and a render of it on the CPU and on the device. */
 struct pair {
     struct scene scene;
+    struct host_world world;
     struct view view;
     struct render *renders[2];
     int draft_width, draft_height;
@@ -88,8 +89,9 @@ static void open_pair(struct pair *p, const char *path, int width, int height)
     assert_non_null(cpu);
     check_or_say(view_read(&p->view, view_path, &report, &err) &&
                      scene_load(&p->scene, path, false, &report, &err) &&
-                     scene_load_sky(&p->scene, &p->view, &report, &err) &&
-                     scene_guide(&p->scene, &p->view, 1, &err),
+                     world_init(&p->world, &p->scene, &report, &err) &&
+                     world_load_sky(&p->world, &p->view, &report, &err) &&
+                     world_guide(&p->world, &p->scene, &p->view, 1, &err),
                  err.text);
     p->view.width_px = width;
     p->view.height_px = height;
@@ -108,6 +110,7 @@ static void close_pair(struct pair *p)
     render_destroy(p->renders[0]);
     render_destroy(p->renders[1]);
     cpu->destroy(cpu);
+    world_free(&p->world);
     scene_free(&p->scene);
     view_free(&p->view);
 }
@@ -115,7 +118,7 @@ static void close_pair(struct pair *p)
 static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                   uint32_t seed)
 {
-    struct render_job job = {.tree = &p->scene.tree,
+    struct render_job job = {.host = &p->world,
                              .geometry_changed = !p->keeps_geometry,
                              .crop = crop,
                              .spp = spp,
@@ -123,7 +126,8 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                              .draft_height = p->draft_height};
     struct error err;
 
-    check_or_say(scene_world(&p->scene, &p->view, seed, &job.world, &err),
+    check_or_say(world_lend(&p->world, &p->scene, &p->view, seed, &job.world,
+                            &err),
                  err.text);
     job.world.settings.sample = p->sample;
     if (p->sample != SAMPLE_LIGHT)
@@ -328,8 +332,7 @@ static void edits(void **state)
         uint32_t count = p.scene.material_count - 1;
         uint32_t m = 1 + (uint32_t)(check_random(&seed) * count);
         uint32_t o = (uint32_t)(check_random(&seed) * p.scene.object_count);
-        struct style style = {count + 1, p.scene.material_names, sources,
-                              assigned};
+        struct style style = {count + 1, sources, assigned};
         struct error err;
 
         sources[m].kd = (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
@@ -338,7 +341,7 @@ static void edits(void **state)
                 (struct mtl_color){{3 * check_random(&seed), 1, 1}, 1};
         if (round % 3 == 2)
             assigned[o] = m;
-        check_or_say(scene_restyle(&p.scene, &style, &err), err.text);
+        check_or_say(world_restyle(&p.world, &p.scene, &style, &err), err.text);
         render_both(&p, (struct rect){0, 0, 48, 48}, 2, round);
     }
     close_pair(&p);
@@ -355,8 +358,8 @@ static void special_builds(void **state)
         char *log;
 
         open_pair(&p, scenes[i], 64, 36);
-        assert_true(scene_features(&p.scene) != FEATURES_ALL);
-        check_or_say(backend_cl_specialise(device, scene_features(&p.scene),
+        assert_true(world_features(&p.world) != FEATURES_ALL);
+        check_or_say(backend_cl_specialise(device, world_features(&p.world),
                                            &log, &err),
                      err.text);
         render_both(&p, (struct rect){0, 0, 64, 36}, 4, 1);
@@ -379,7 +382,7 @@ static void self_tests(void **state)
         char *log;
 
         open_pair(&p, scenes[i], 8, 8);
-        request.features = i == 0 ? 0 : scene_features(&p.scene);
+        request.features = i == 0 ? 0 : world_features(&p.world);
         cpu = backend_cpu_create(1, cpu_kernel_best(), &err);
         special = backend_cl_create(&request, &log, &err);
         check_or_say(cpu != NULL && special != NULL, err.text);
@@ -489,14 +492,14 @@ static void buffers(void **state)
     open_pair(&p, "scenes/cornell.obj", 32, 32);
     render_both(&p, (struct rect){0, 0, 32, 32}, 2, 0);
     for (int i = 0; i < 3; i++) { /* the camera moves, materials change */
-        struct material *before = p.scene.materials;
+        struct material *before = p.world.materials;
 
         p.view.pose.eye[0] += 5;
-        p.scene.materials = alloc_array(p.scene.material_count, sizeof *before);
-        assert_non_null(p.scene.materials);
-        memcpy(p.scene.materials, before,
+        p.world.materials = alloc_array(p.scene.material_count, sizeof *before);
+        assert_non_null(p.world.materials);
+        memcpy(p.world.materials, before,
                p.scene.material_count * sizeof *before);
-        p.scene.materials[1].color.x = 0.1f * (float)i;
+        p.world.materials[1].color.x = 0.1f * (float)i;
         render_both(&p, (struct rect){0, 0, 32, 32}, 2, 0);
         free(before);
     }

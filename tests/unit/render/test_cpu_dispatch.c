@@ -43,13 +43,14 @@ static void a_build_fits(void **state)
 
 static void render(struct session *s, uint32_t more_features, float *rgb)
 {
-    struct render_job job = {.tree = &s->scene.tree,
+    struct render_job job = {.host = &s->world,
                              .geometry_changed = true,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = SPP};
     struct error err;
 
-    check_or_say(scene_world(&s->scene, &s->view, 1, &job.world, &err),
+    check_or_say(world_lend(&s->world, &s->scene, &s->view, 1, &job.world,
+                            &err),
                  err.text);
     job.world.settings.features |= more_features;
     check_or_say(render_start(s->render, &job, &err), err.text);
@@ -88,7 +89,7 @@ static int compare_builds(const char *scene, const struct cpu_kernel *whole)
     render(&s, FEATURES_ALL & ~(uint32_t)FEATURE_COVERAGE, want);
     for (uint32_t more = 0; more <= FEATURES_ALL; more++) {
         const struct cpu_kernel *p =
-            cpu_kernel_fit(whole, scene_features(&s.scene) | more);
+            cpu_kernel_fit(whole, world_features(&s.world) | more);
 
         if (!is_new(p, builds, &count))
             continue;

@@ -66,7 +66,7 @@ static void close_render(struct render *r)
 static struct render_job job_of(struct mesh *m, uint64_t spp)
 {
     struct render_job job = {.world = m->world,
-                             .tree = &m->wide,
+                             .host = &m->host,
                              .geometry_changed = true,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = spp};

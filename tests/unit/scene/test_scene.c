@@ -21,6 +21,7 @@ static const unsigned char two_texels[] = {
 
 struct loaded {
     struct scene scene;
+    struct host_world world;
     struct warnings report;
     struct error err;
 };
@@ -30,7 +31,8 @@ static struct loaded load_turned(const char *text, bool up_is_z)
     struct loaded l = {.scene = {.path = NULL}};
 
     put_bytes("a.obj", text, strlen(text));
-    if (!scene_load(&l.scene, "a.obj", up_is_z, &l.report, &l.err)) {
+    if (!scene_load(&l.scene, "a.obj", up_is_z, &l.report, &l.err) ||
+        !world_init(&l.world, &l.scene, &l.report, &l.err)) {
         print_error("%s\n", l.err.text);
         _fail(__FILE__, __LINE__);
     }
@@ -45,6 +47,7 @@ static struct loaded load(const char *text)
 
 static void unload(struct loaded *l)
 {
+    world_free(&l->world);
     scene_free(&l->scene);
     warnings_free(&l->report);
 }
@@ -202,7 +205,7 @@ static void test_no_faces(void **state)
     check_close(l.scene.center[1], 0, 0);
     view_init(&view);
     scene_frame(&l.scene, &view);
-    assert_true(scene_world(&l.scene, &view, 0, &world, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 0, &world, &l.err));
     assert_int_equal(world.settings.tri_count, 0);
     view_free(&view);
     unload(&l);
@@ -270,15 +273,15 @@ static void test_textures(void **state)
     unlink("two.png");
     unlink("a.mtl");
     assert_int_equal(l.scene.texture_count, 3);
-    assert_int_equal(l.scene.textures[0].width, 2);
-    assert_int_equal(l.scene.textures[0].height, 1);
-    assert_int_equal(l.scene.textures[0].first, 0);
-    assert_int_equal(l.scene.textures[0].has_holes, 1);
-    assert_int_equal(l.scene.texel_count, 2);
-    assert_int_equal(l.scene.texels[0], 0xff0080ffu);
-    assert_int_equal(l.scene.texels[1] & 0xff000000u, 0);
+    assert_int_equal(l.world.textures[0].width, 2);
+    assert_int_equal(l.world.textures[0].height, 1);
+    assert_int_equal(l.world.textures[0].first, 0);
+    assert_int_equal(l.world.textures[0].has_holes, 1);
+    assert_int_equal(l.world.texel_count, 2);
+    assert_int_equal(l.world.texels[0], 0xff0080ffu);
+    assert_int_equal(l.world.texels[1] & 0xff000000u, 0);
     for (uint32_t i = 1; i < 6; i++) {
-        const struct material *m = &l.scene.materials[i];
+        const struct material *m = &l.world.materials[i];
 
         check_close((double)m->color.y, (double)colors[i], 0);
         check_close((double)m->emission.y, (double)emissions[i], 0);
@@ -288,7 +291,7 @@ static void test_textures(void **state)
     assert_int_equal(l.report.entry_count, 1);
     assert_int_equal(l.report.entries[0].count, 1);
     assert_non_null(strstr(l.report.entries[0].text, "lost.png"));
-    assert_true(l.scene.has_emitters);
+    assert_true(world_has_emitters(&l.world));
     unload(&l);
 }
 
@@ -309,12 +312,12 @@ static void test_libraries(void **state)
     unlink("c.mtl");
     assert_int_equal(l.report.entry_count, 0);
     assert_int_equal(l.scene.material_count, 3);
-    check_close(l.scene.materials[l.scene.tris[0].material].color.y, 1, 0);
-    check_close(l.scene.materials[l.scene.tris[1].material].color.x, 1, 0);
-    assert_true(l.scene.has_emitters);
-    assert_int_equal(l.scene.lights.light_count, 1);
-    assert_int_equal(l.scene.lights.tri_lights[0], 0);
-    assert_int_equal(l.scene.lights.tri_lights[1], NO_INDEX);
+    check_close(l.world.materials[l.scene.tris[0].material].color.y, 1, 0);
+    check_close(l.world.materials[l.scene.tris[1].material].color.x, 1, 0);
+    assert_true(world_has_emitters(&l.world));
+    assert_int_equal(l.world.lights.light_count, 1);
+    assert_int_equal(l.world.lights.tri_lights[0], 0);
+    assert_int_equal(l.world.lights.tri_lights[1], NO_INDEX);
     unload(&l);
     l = load("mtllib no such.mtl\nmtllib other\nv 0 0 0\n"
              "mtllib no such.mtl\n");
@@ -368,7 +371,7 @@ static void test_frame_shows_everything(void **state)
         view.width_px = sizes[i / 5][0];
         view.height_px = sizes[i / 5][1];
         scene_frame(&l.scene, &view);
-        assert_true(scene_world(&l.scene, &view, 0, &world, &l.err));
+        assert_true(world_lend(&l.world, &l.scene, &view, 0, &world, &l.err));
         for (int corner = 0; corner < 8; corner++) {
             double p[3], x, y, z;
 
@@ -408,7 +411,7 @@ static void test_camera(void **state)
     view.pose.fovy_deg = 90;
     view.width_px = 200;
     view.height_px = 100;
-    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 7, &w, &l.err));
     /* the centre is 2 1 0 and the extent 4: a scale of 1/4 */
     check_vec(w.settings.camera.eye, 0, 0, 2);
     check_vec(w.settings.camera.forward, 0, 0, -1);
@@ -420,15 +423,15 @@ static void test_camera(void **state)
     assert_int_equal(w.settings.features, 0);
     assert_true(w.settings.camera.lens_radius == 0);
     view.pose.aperture = 0.8; /* a radius of .4, and the distance to at: 8 */
-    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 7, &w, &l.err));
     check_close((double)w.settings.camera.lens_radius, 0.1, 1e-7);
     check_close((double)w.settings.camera.focus, 2, 1e-6);
     view.pose.focus = 12;
-    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 7, &w, &l.err));
     check_close((double)w.settings.camera.focus, 3, 1e-6);
     view.max_bounces = 0;
     memcpy(view.pose.up, (double[]){1e300, 1e300, 0}, sizeof view.pose.up);
-    assert_true(scene_world(&l.scene, &view, 7, &w, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 7, &w, &l.err));
     check_vec(w.settings.camera.up, sqrt(.5), sqrt(.5), 0);
     assert_int_equal(w.settings.max_vertices, 1);
     view_free(&view);
@@ -454,7 +457,7 @@ static void test_up_along_the_view(void **state)
         memcpy(view.pose.eye, (double[]){.5, 9, 0}, sizeof view.pose.eye);
         memcpy(view.pose.at, (double[]){.5, 0, 0}, sizeof view.pose.at);
         memcpy(view.pose.up, ups[i], sizeof view.pose.up);
-        if (scene_world(&l.scene, &view, 0, &w, &l.err)) {
+        if (world_lend(&l.world, &l.scene, &view, 0, &w, &l.err)) {
             struct vec3 r = w.settings.camera.right;
             struct vec3 u = w.settings.camera.up;
 
@@ -481,11 +484,11 @@ static void test_impossible_cameras(void **state)
     view_init(&view);
     memcpy(view.pose.eye, (double[]){1, 2, 3}, sizeof view.pose.eye);
     memcpy(view.pose.at, (double[]){1, 2, 3}, sizeof view.pose.at);
-    assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_false(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
     view.pose.eye[0] = NAN;
-    assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_false(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
     view.pose.eye[0] = 1e300;
-    assert_false(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_false(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
     view_free(&view);
     unload(&l);
 }
@@ -501,7 +504,7 @@ static void test_sky(void **state)
     memcpy(view.pose.eye, (double[]){0, 0, 3}, sizeof view.pose.eye);
     memcpy(view.lighting.background, (double[]){.25, .5, 8},
            sizeof view.lighting.background);
-    assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
     check_vec(w.settings.sky.color, .25, .5, 8);
     assert_int_equal(w.settings.sky.width, 0);
     assert_true(w.settings.sky_share == 1 && w.settings.light_share == 0);
@@ -510,9 +513,9 @@ static void test_sky(void **state)
     view.lighting.sky_path = strdup("two.png");
     view.lighting.sky_strength = 3;
     view.lighting.sky_rotation_deg = 90;
-    assert_true(scene_load_sky(&l.scene, &view, &l.report, &l.err));
+    assert_true(world_load_sky(&l.world, &view, &l.report, &l.err));
     unlink("two.png");
-    assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
     check_vec(w.settings.sky.color, 3, 3, 3);
     assert_int_equal(w.settings.sky.width, 2);
     assert_int_equal(w.settings.sky.height, 1);
@@ -522,14 +525,14 @@ static void test_sky(void **state)
     assert_true(w.sky_cdf != NULL && w.settings.sky_share == 1 &&
                 w.settings.light_share == 0);
     view.lighting.sky_strength = 0;
-    assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+    assert_true(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
     assert_true(w.settings.sky_share == 0);
 
-    assert_false(scene_load_sky(&l.scene, &view, &l.report, &l.err));
+    assert_false(world_load_sky(&l.world, &view, &l.report, &l.err));
     free(view.lighting.sky_path);
     view.lighting.sky_path = NULL;
-    assert_true(scene_load_sky(&l.scene, &view, &l.report, &l.err));
-    assert_null(l.scene.sky_texels);
+    assert_true(world_load_sky(&l.world, &view, &l.report, &l.err));
+    assert_null(l.world.sky_texels);
     view_free(&view);
     unload(&l);
 }
@@ -552,7 +555,7 @@ static void test_coverage(void **state)
                  "f 1 2 3\n");
         view_init(&view);
         scene_frame(&l.scene, &view);
-        assert_true(scene_world(&l.scene, &view, 0, &w, &l.err));
+        assert_true(world_lend(&l.world, &l.scene, &view, 0, &w, &l.err));
         assert_int_equal(w.settings.features & FEATURE_COVERAGE,
                          i == 1 || i == 2 ? FEATURE_COVERAGE : 0);
         view_free(&view);
@@ -568,12 +571,12 @@ static void test_srgb_table(void **state)
     struct loaded l = load("v 0 0 0\n");
 
     (void)state;
-    check_close((double)l.scene.linear_of_srgb[0], 0, 0);
-    check_close((double)l.scene.linear_of_srgb[255], 1, 0);
-    check_close((double)l.scene.linear_of_srgb[10], 0.0030352698, 1e-9);
-    check_close((double)l.scene.linear_of_srgb[11], 0.0033465358, 1e-9);
-    check_close((double)l.scene.linear_of_srgb[128], 0.2158605, 1e-7);
-    check_close((double)l.scene.linear_of_srgb[188], 0.50288646, 1e-7);
+    check_close((double)l.world.linear_of_srgb[0], 0, 0);
+    check_close((double)l.world.linear_of_srgb[255], 1, 0);
+    check_close((double)l.world.linear_of_srgb[10], 0.0030352698, 1e-9);
+    check_close((double)l.world.linear_of_srgb[11], 0.0033465358, 1e-9);
+    check_close((double)l.world.linear_of_srgb[128], 0.2158605, 1e-7);
+    check_close((double)l.world.linear_of_srgb[188], 0.50288646, 1e-7);
     unload(&l);
 }
 

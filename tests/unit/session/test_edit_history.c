@@ -77,13 +77,17 @@ static void save(struct session *s)
 }
 
 /* The arrays that samples read. */
-static void check_same_scene(const struct scene *a, const struct scene *b)
+static void check_same_world(const struct session *s, const struct session *t)
 {
-    assert_int_equal(a->tri_count, b->tri_count);
-    for (uint32_t i = 0; i < a->tri_count; i++) {
-        uint32_t m = a->tris[i].material, n = b->tris[i].material;
+    const struct host_world *a = &s->world, *b = &t->world;
+    const struct tri *a_tris = world_tris(a, &s->scene);
+    const struct tri *b_tris = world_tris(b, &t->scene);
 
-        assert_string_equal(a->material_names[m], b->material_names[n]);
+    assert_int_equal(s->scene.tri_count, t->scene.tri_count);
+    for (uint32_t i = 0; i < s->scene.tri_count; i++) {
+        uint32_t m = a_tris[i].material, n = b_tris[i].material;
+
+        assert_string_equal(s->edit.names[m], t->edit.names[n]);
         assert_memory_equal(&a->materials[m], &b->materials[n],
                             sizeof a->materials[m]);
     }
@@ -94,7 +98,7 @@ static void check_same_scene(const struct scene *a, const struct scene *b)
         assert_memory_equal(a->lights.lights, b->lights.lights,
                             a->lights.light_count * sizeof *a->lights.lights);
         assert_memory_equal(a->lights.tri_lights, b->lights.tri_lights,
-                            a->tri_count * sizeof *a->lights.tri_lights);
+                            s->scene.tri_count * sizeof *a->lights.tri_lights);
     }
     if (a->lights.node_count > 0)
         assert_memory_equal(a->lights.nodes, b->lights.nodes,
@@ -104,8 +108,8 @@ static void check_same_scene(const struct scene *a, const struct scene *b)
         assert_memory_equal(a->guide.sums, b->guide.sums,
                             a->guide.grid.table_count * sizeof(float) *
                                 GUIDE_BINS);
-    assert_int_equal(scene_features(a), scene_features(b));
-    assert_int_equal(a->has_emitters, b->has_emitters);
+    assert_int_equal(world_features(a), world_features(b));
+    assert_int_equal(world_has_emitters(a), world_has_emitters(b));
 }
 
 static uint64_t seed = 7;
@@ -293,14 +297,14 @@ static void test_restyle(void **state)
         restart(&s);
         s.edit.is_comparing = true;
         restart(&s);
-        check_same_scene(&s.scene, &first.scene);
+        check_same_world(&s, &first);
         s.edit.is_comparing = false;
         restart(&s);
         save(&s);
         assert_false(edit_has_unsaved_materials(&s.edit));
         assert_false(edit_has_unsaved_view(&s.edit));
         open_session(&again);
-        check_same_scene(&s.scene, &again.scene);
+        check_same_world(&s, &again);
         assert_true(again.view.lighting.exposure == s.view.lighting.exposure);
         assert_memory_equal(again.view.lighting.background,
                             s.view.lighting.background,
@@ -310,7 +314,7 @@ static void test_restyle(void **state)
         while (edit_undo(&s.edit))
             continue;
         restart(&s);
-        check_same_scene(&s.scene, &first.scene);
+        check_same_world(&s, &first);
         session_close(&s);
     }
     session_close(&first);
@@ -329,30 +333,30 @@ static void test_swaps(void **state)
     put_scene();
     open_session(&s);
     restart(&s);
-    materials = s.scene.materials;
-    lights = s.scene.lights.lights;
-    tris = s.scene.tris;
+    materials = s.world.materials;
+    lights = s.world.lights.lights;
+    tris = world_tris(&s.world, &s.scene);
     restart(&s);
-    assert_ptr_equal(s.scene.materials, materials);
+    assert_ptr_equal(s.world.materials, materials);
     source = s.edit.now.sources[2];
     source.kd.rgb[0] = 1;
     edit_material(&s.edit, 2, &source);
     assert_true(session_take_edit(&s));
     restart(&s);
     assert_false(session_take_edit(&s));
-    assert_ptr_not_equal(s.scene.materials, materials);
-    assert_ptr_equal(s.scene.lights.lights, lights);
-    assert_ptr_equal(s.scene.tris, tris);
+    assert_ptr_not_equal(s.world.materials, materials);
+    assert_ptr_equal(s.world.lights.lights, lights);
+    assert_ptr_equal(world_tris(&s.world, &s.scene), tris);
     source = s.edit.now.sources[1];
     source.ke.rgb[0] = 1;
     edit_material(&s.edit, 1, &source);
     restart(&s);
-    assert_ptr_not_equal(s.scene.lights.lights, lights);
-    lights = s.scene.lights.lights;
+    assert_ptr_not_equal(s.world.lights.lights, lights);
+    lights = s.world.lights.lights;
     edit_assign(&s.edit, 2, 2);
     restart(&s);
-    assert_ptr_not_equal(s.scene.tris, tris);
-    assert_ptr_not_equal(s.scene.lights.lights, lights);
+    assert_ptr_not_equal(world_tris(&s.world, &s.scene), tris);
+    assert_ptr_not_equal(s.world.lights.lights, lights);
     assert_false(s.geometry_changed);
     session_close(&s);
 }
@@ -468,6 +472,7 @@ static void test_kinds_leave_nothing(void **state)
 /* Lines that name what is not there do nothing, and are kept. */
 static void test_lost_assignments(void **state)
 {
+    const struct tri *tris;
     struct session s;
     struct mood mood;
     struct error err;
@@ -482,9 +487,9 @@ static void test_lost_assignments(void **state)
     assert_int_equal(s.report.entry_count, 3); /* the first: Ps */
     check_has(s.report.entries[1].text, "found no object 'nobody' to assign");
     check_has(s.report.entries[2].text, "found no material 'no such'");
-    assert_int_equal(s.scene.tris[1].material, s.scene.tris[2].material);
-    assert_string_equal(s.scene.material_names[s.scene.tris[1].material],
-                        "wall");
+    tris = world_tris(&s.world, &s.scene);
+    assert_int_equal(tris[1].material, tris[2].material);
+    assert_string_equal(s.scene.material_names[tris[1].material], "wall");
     mood = s.edit.now.mood;
     mood.exposure = 2;
     edit_mood(&s.edit, &mood);
@@ -543,38 +548,38 @@ static void test_textures_come_into_use(void **state)
     put("a.mtl", text);
     open_session(&s);
     restart(&s);
-    before = s.scene.materials[2];
-    textures = s.scene.textures;
+    before = s.world.materials[2];
+    textures = s.world.textures;
     assert_int_equal(s.scene.texture_count, 1);
     assert_int_equal(textures[0].width, 0);
     source = s.edit.now.sources[2];
     source.illum.value = 2;
     edit_material(&s.edit, 2, &source);
     restart(&s);
-    assert_ptr_not_equal(s.scene.textures, textures);
-    assert_true(s.scene.textures[0].width > 0);
-    assert_int_equal(s.scene.materials[2].kind, MATERIAL_PLASTIC);
-    assert_int_equal(s.scene.materials[2].coat_texture, 0);
+    assert_ptr_not_equal(s.world.textures, textures);
+    assert_true(s.world.textures[0].width > 0);
+    assert_int_equal(s.world.materials[2].kind, MATERIAL_PLASTIC);
+    assert_int_equal(s.world.materials[2].coat_texture, 0);
     save(&s);
     open_session(&again);
-    check_same_scene(&s.scene, &again.scene);
+    check_same_world(&s, &again);
     session_close(&again);
     /* off: the colour alone; the next step copies no textures */
-    textures = s.scene.textures;
+    textures = s.world.textures;
     source.maps_off = 1u << MTL_MAP_KS;
     edit_break(&s.edit);
     edit_material(&s.edit, 2, &source);
     restart(&s);
-    assert_ptr_equal(s.scene.textures, textures);
-    assert_int_equal(s.scene.materials[2].kind, MATERIAL_DIFFUSE);
+    assert_ptr_equal(s.world.textures, textures);
+    assert_int_equal(s.world.materials[2].kind, MATERIAL_DIFFUSE);
     save(&s);
     open_session(&again);
-    check_same_scene(&s.scene, &again.scene);
+    check_same_world(&s, &again);
     session_close(&again);
     while (edit_undo(&s.edit))
         continue;
     restart(&s);
-    assert_memory_equal(&s.scene.materials[2], &before, sizeof before);
+    assert_memory_equal(&s.world.materials[2], &before, sizeof before);
     session_close(&s);
     free(text);
 }

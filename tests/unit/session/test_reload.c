@@ -104,7 +104,7 @@ static void trees_stay(void **state)
     put("s.mtl", "newmtl m\nKe 1 2 3\n");
     put("s.view", "eye 0 0 5\nat 0 0 0\nres 24 16\nbackground 0 0 0\n");
     check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
-    assert_null(s.scene.tree.nodes);
+    assert_null(world_tree(&s.world));
     takes(&s, "s.mtl", "newmtl m\nKe 3 2 1\n", true);
 }
 
@@ -230,7 +230,7 @@ static void broken_files_leave_the_scene(void **state)
     end_reload(&w);
     assert_true(w.message.is_error);
     assert_non_null(strstr(w.message.text, "s.mtl:2: "));
-    check_close(s.scene.materials[1].color.x, .7f, 0);
+    check_close(s.world.materials[1].color.x, .7f, 0);
     render_control_look_at_files(&w);
     assert_false(w.has_changed_files); /* it was said once */
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
@@ -240,7 +240,7 @@ static void broken_files_leave_the_scene(void **state)
     end_reload(&w);
     assert_false(w.message.is_error);
     assert_string_equal(w.message.text, "loaded s.obj");
-    check_close(s.scene.materials[1].color.x, .25, 0);
+    check_close(s.world.materials[1].color.x, .25, 0);
     assert_int_equal(w.progress.state, RENDER_RUNNING);
     close_work(&w, &s);
 }
@@ -269,7 +269,7 @@ static void watched_files_are_loaded_at_once(void **state)
     open_work(&w, &s);
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
     end_reload(&w);
-    check_close(s.scene.materials[1].color.x, .25, 0);
+    check_close(s.world.materials[1].color.x, .25, 0);
     /* not while a render of normal mode would be lost */
     render_control_set_live(&w, false);
     render_control_start_or_halt(&w);
@@ -283,7 +283,7 @@ static void watched_files_are_loaded_at_once(void **state)
     assert_false(w.reload.is_busy);
     render_control_set_live(&w, true);
     end_reload(&w);
-    check_close(s.scene.materials[1].color.x, .5, 0);
+    check_close(s.world.materials[1].color.x, .5, 0);
     close_work(&w, &s);
     options.watch = false;
 }

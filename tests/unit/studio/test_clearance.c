@@ -62,6 +62,8 @@ static void box(struct obj *o, const double lo[3], const double hi[3],
     }
 }
 
+static struct host_world host; /* of the scene that was loaded last */
+
 static void load(struct obj *o, struct scene *scene)
 {
     struct warnings report = {0};
@@ -70,10 +72,18 @@ static void load(struct obj *o, struct scene *scene)
 
     assert_int_equal(fclose(o->to), 0);
     *scene = (struct scene){0};
-    check_or_say(scene_load(scene, "a.obj", false, &report, &err), err.text);
-    world = scene_arrays(scene);
-    check_or_say(bvh8_build(&scene->tree, &world, NULL, &err), err.text);
+    check_or_say(scene_load(scene, "a.obj", false, &report, &err) &&
+                     world_init(&host, scene, &report, &err),
+                 err.text);
+    world = world_arrays(&host, scene);
+    check_or_say(world_need_tree(&host, &world, NULL, &err), err.text);
     warnings_free(&report);
+}
+
+static void unload(struct scene *scene)
+{
+    world_free(&host);
+    scene_free(scene);
 }
 
 static struct pose pose_from(double x, double y, double z)
@@ -93,7 +103,7 @@ static enum clearance_place go(struct clearance *c, const struct scene *scene,
 {
     struct pose v = pose_from(x, 1, z);
 
-    clearance_follow(c, scene, &v, ASPECT);
+    clearance_follow(c, scene, &host, &v, ASPECT);
     return c->place;
 }
 
@@ -115,13 +125,13 @@ static void a_floor_is_as_near_as_its_height(void **state)
             struct pose v = pose_from(0, (0.001 + h) * scale, 0);
             struct clearance c = {0};
 
-            clearance_follow(&c, &scene, &v, ASPECT);
+            clearance_follow(&c, &scene, &host, &v, ASPECT);
             assert_true(c.near > h * scale / (1 - 2 * 0.09));
             assert_true(c.near < h * scale / (1 - 2 * 0.12));
             check_close(c.closed, 0.5, 0.04);
             check_close(c.away / scale, h, 1e-6 * h);
         }
-        scene_free(&scene);
+        unload(&scene);
     }
 }
 
@@ -165,7 +175,7 @@ static void walls_that_are_passed_are_noticed(void **state)
     assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG);
     assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_AMONG); /* next room */
     assert_int_equal(go(&c, &scene, 0, -7), CLEARANCE_OUTSIDE);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 static void solids_that_are_entered_are_noticed(void **state)
@@ -180,7 +190,7 @@ static void solids_that_are_entered_are_noticed(void **state)
     assert_string_equal(scene.object_names[c.passed], "cupboard");
     assert_int_equal(go(&c, &scene, 1.5, 1.2), CLEARANCE_INSIDE);
     assert_int_equal(go(&c, &scene, 1.5, 0.5), CLEARANCE_AMONG);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 /* Nobody is told anything who goes through a door, stands in the open under the
@@ -215,7 +225,7 @@ static void open_places_are_no_loss(void **state)
     assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_AMONG);
     assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_OUTSIDE);
     assert_true(c.away <= 0);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 static void an_empty_picture_is_noticed(void **state)
@@ -230,19 +240,19 @@ static void an_empty_picture_is_noticed(void **state)
     begin(&o, 1);
     box(&o, lo, hi, -1);
     load(&o, &scene);
-    clearance_follow(&c, &scene, &v, ASPECT);
+    clearance_follow(&c, &scene, &host, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AMONG);
     v.at[2] = 10; /* turned round */
-    clearance_follow(&c, &scene, &v, ASPECT);
+    clearance_follow(&c, &scene, &host, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AWAY);
     v.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
     v.at[2] = 9 - 9 / tan((31 + 5) * M_PI / 180);
-    clearance_follow(&c, &scene, &v, ASPECT);
+    clearance_follow(&c, &scene, &host, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AMONG); /* the box is 7 wide there */
     v.at[2] = 9 - 9 / tan((33 + 9) * M_PI / 180);
-    clearance_follow(&c, &scene, &v, ASPECT);
+    clearance_follow(&c, &scene, &host, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AWAY);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 /* As the pilot does: a look around before each step. */
@@ -253,7 +263,7 @@ static void press(struct camera_input *s, struct clearance *c,
 
     held_keys_press(&s->motion, HELD_KEYS_FORWARD, -1, at_ns);
     while ((next = held_keys_next_ns(&s->motion)) != UINT64_MAX) {
-        clearance_follow(c, scene, v, ASPECT);
+        clearance_follow(c, scene, &host, v, ASPECT);
         camera_input_adapt(s, c->near, c->away);
         camera_input_step(s, v, next);
     }
@@ -279,7 +289,7 @@ static double taps(double scale, const double room[2][3], double z, int count)
         press(&s, &c, &scene, &v, at_ns);
     }
     assert_int_equal(c.place, CLEARANCE_AMONG);
-    scene_free(&scene);
+    unload(&scene);
     return v.eye[2] / scale - z;
 }
 
@@ -323,7 +333,7 @@ static void walls_give_way_at_last(void **state)
     assert_true(ns > 1500 * MS && ns < 8000 * MS);
     press(&s, &c, &scene, &v, ns);
     assert_int_equal(c.place, CLEARANCE_OUTSIDE);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 int main(void)

@@ -15,6 +15,8 @@
 #include "kernels/camera_sample.h"
 #include "kernels/traverse.h"
 
+static struct host_world host; /* of the scene that was loaded last */
+
 static void load(struct scene *scene, const char *obj)
 {
     struct warnings report = {0};
@@ -22,8 +24,16 @@ static void load(struct scene *scene, const char *obj)
 
     *scene = (struct scene){0};
     put("a.obj", obj);
-    check_or_say(scene_load(scene, "a.obj", false, &report, &err), err.text);
+    check_or_say(scene_load(scene, "a.obj", false, &report, &err) &&
+                     world_init(&host, scene, &report, &err),
+                 err.text);
     warnings_free(&report);
+}
+
+static void unload(struct scene *scene)
+{
+    world_free(&host);
+    scene_free(scene);
 }
 
 static struct view view_from(double x, double y, double z)
@@ -79,7 +89,7 @@ static void finds_what_the_render_finds(void **state)
     for (int k = 0; k < 3; k++)
         view.pose.at[k] = 72;
     view.pose.aperture = 1; /* a pick goes through the middle of the lens */
-    assert_true(scene_world(&scene, &view, 0, &w, &err));
+    assert_true(world_lend(&host, &scene, &view, 0, &w, &err));
     w.settings.camera.lens_radius = 0;
     assert_true(bvh_build(&bvh, &w, NULL, &err));
     w.nodes = bvh.nodes;
@@ -92,7 +102,7 @@ static void finds_what_the_render_finds(void **state)
         struct hit hit;
         bool is_hit = hit_closest(&w, start.ray, &hit);
 
-        assert_int_equal(pick_at(&scene, &view, x + (double)at.x,
+        assert_int_equal(pick_at(&scene, &host, &view, x + (double)at.x,
                                  y + (double)at.y, &pick),
                          is_hit);
         if (!is_hit)
@@ -103,7 +113,7 @@ static void finds_what_the_render_finds(void **state)
     }
     assert_in_range(hit_count, 200, 800);
     bvh_free(&bvh);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 /* A floor far from the origin, in parts with names. */
@@ -123,7 +133,7 @@ static void says_what_it_is_in_units_of_the_file(void **state)
     view.pose.at[0] = 1010; /* 10 to the right and 30 down: onto the floor */
     view.pose.at[1] = 2000;
     view.pose.at[2] = -500;
-    assert_true(pick_at(&scene, &view, 512, 288, &pick));
+    assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
     assert_string_equal(scene.object_names[pick.object], "right");
     assert_string_equal(scene.material_names[pick.material], "blue");
     assert_int_equal(pick.face, 1);
@@ -134,10 +144,10 @@ static void says_what_it_is_in_units_of_the_file(void **state)
     /* at the left edge the ray leaves the look, which is down the slope of 3
      * in x and y, by half the field of view across it: along z */
     double side = tan(20 * M_PI / 180) * 1024 / 576;
-    assert_true(pick_at(&scene, &view, 0, 288, &pick));
+    assert_true(pick_at(&scene, &host, &view, 0, 288, &pick));
     check_close(pick.distance, sqrt(1000) * hypot(1, side), 1e-3);
     check_close(pick.position[2], -500 - sqrt(1000) * side, 1e-3);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 static void knows_the_box_of_an_object(void **state)
@@ -153,7 +163,7 @@ static void knows_the_box_of_an_object(void **state)
         check_close(lo[k], ((double[]){1, 1, 3})[k], 1e-5);
         check_close(hi[k], ((double[]){4, 5, 9})[k], 1e-5);
     }
-    scene_free(&scene);
+    unload(&scene);
 }
 
 static void misses_the_sky_and_what_is_outside(void **state)
@@ -164,16 +174,16 @@ static void misses_the_sky_and_what_is_outside(void **state)
 
     (void)state;
     load(&scene, "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
-    assert_false(pick_at(&scene, &view, 5, 5, &pick));
-    assert_false(pick_at(&scene, &view, -512, 288, &pick));
-    assert_false(pick_at(&scene, &view, 1024, 288, &pick));
-    assert_false(pick_at(&scene, &view, 512, 576, &pick));
-    assert_false(pick_at(&scene, &view, 512, NAN, &pick));
+    assert_false(pick_at(&scene, &host, &view, 5, 5, &pick));
+    assert_false(pick_at(&scene, &host, &view, -512, 288, &pick));
+    assert_false(pick_at(&scene, &host, &view, 1024, 288, &pick));
+    assert_false(pick_at(&scene, &host, &view, 512, 576, &pick));
+    assert_false(pick_at(&scene, &host, &view, 512, NAN, &pick));
     assert_int_equal(pick.tri, 77);
-    assert_true(pick_at(&scene, &view, 512, 288, &pick));
+    assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
     view.pose.at[2] = 5; /* no direction */
-    assert_false(pick_at(&scene, &view, 512, 288, &pick));
-    scene_free(&scene);
+    assert_false(pick_at(&scene, &host, &view, 512, 288, &pick));
+    unload(&scene);
 }
 
 /* Two sheets and a wall behind: a pick takes the first that is half solid. */
@@ -189,9 +199,9 @@ static void goes_through_what_is_rather_clear(void **state)
                  "v -1 -1 2\nv 1 -1 2\nv 0 1 2\nusemtl clear\nf 1 2 3\n"
                  "v -1 -1 1\nv 1 -1 1\nv 0 1 1\nusemtl dense\nf 4 5 6\n"
                  "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 7 8 9\n");
-    assert_true(pick_at(&scene, &view, 512, 288, &pick));
+    assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
     check_close(pick.distance, 4, 1e-6);
-    scene_free(&scene);
+    unload(&scene);
 }
 
 /* The corners of all cells together are the picture. */

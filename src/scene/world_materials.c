@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "scene/world_materials.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/textures.h"
+
+/* Arrays to be swapped in; NULL: the world's stays. */
+struct next {
+    struct tri *tris;
+    uint32_t *assigned;
+    struct material *materials;
+    struct mtl_source *sources;
+    bool *material_is_used;
+    struct texture *textures;
+    struct lights lights;
+    bool has_lights;
+};
+
+/* A world on its way to a style. */
+struct change {
+    struct host_world *host;
+    const struct scene *scene;
+    const struct style *style;
+    struct next next;
+};
+
+static bool out_of_memory(const struct change *c, struct error *err)
+{
+    return fail(err, "%s: out of memory for the changed materials",
+                c->scene->path);
+}
+
+static void *copy_array(const void *from, size_t count, size_t size_bytes)
+{
+    void *to = alloc_array(count, size_bytes);
+
+    if (to != NULL && count > 0)
+        memcpy(to, from, count * size_bytes);
+    return to;
+}
+
+/* ---- triangles ---- */
+
+static bool needs_tris(const struct host_world *host, const struct scene *scene,
+                       const struct style *style)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        uint32_t assigned =
+            host->assigned != NULL ? host->assigned[i] : NO_INDEX;
+
+        if (assigned != style->assigned[i])
+            return true;
+    }
+    return false;
+}
+
+static bool make_tris(struct change *c)
+{
+    const struct scene *scene = c->scene;
+    struct next *next = &c->next;
+
+    if (!needs_tris(c->host, scene, c->style))
+        return true;
+    next->tris = copy_array(scene->tris, scene->tri_count, sizeof *next->tris);
+    next->assigned = copy_array(c->style->assigned, scene->object_count,
+                                sizeof *next->assigned);
+    if (next->tris == NULL || next->assigned == NULL)
+        return false;
+    for (uint32_t i = 0; i < scene->tri_count; i++) {
+        uint32_t assigned = next->assigned[scene->tri_objects[i]];
+
+        if (assigned != NO_INDEX)
+            next->tris[i].material = assigned;
+    }
+    return true;
+}
+
+/* ---- materials ---- */
+
+static bool *find_used(const struct change *c)
+{
+    bool *is_used = alloc_array(c->style->material_count, sizeof *is_used);
+
+    if (is_used != NULL && c->next.tris == NULL)
+        memcpy(is_used, c->host->material_is_used,
+               c->host->material_count * sizeof *is_used);
+    else if (is_used != NULL)
+        for (uint32_t i = 0; i < c->scene->tri_count; i++)
+            is_used[c->next.tris[i].material] = true;
+    return is_used;
+}
+
+static bool is_as_before(const struct change *c, uint32_t i)
+{
+    const struct host_world *host = c->host;
+
+    return i < host->material_count &&
+           (host->material_is_used[i] || !c->next.material_is_used[i]) &&
+           mtl_source_equal(&host->sources[i], &c->style->sources[i]);
+}
+
+static struct material make_material(const struct change *c, uint32_t i)
+{
+    /* What is odd in the file was said when it was read. */
+    struct warnings report = {0};
+    struct material m =
+        material_from_source(&c->style->sources[i], c->scene->path, &report);
+
+    warnings_free(&report);
+    return m;
+}
+
+/* Images that come into use are read into a copy of the textures. */
+static bool load_textures(struct change *c, struct material *m,
+                          struct error *err)
+{
+    struct host_world *host = c->host;
+    struct texture *lent = host->textures;
+    struct warnings report = {0};
+    bool ok;
+
+    if (c->next.textures == NULL && !textures_are_tried(host, m)) {
+        c->next.textures =
+            copy_array(lent, c->scene->texture_count, sizeof *lent);
+        if (c->next.textures == NULL)
+            return out_of_memory(c, err);
+    }
+    if (c->next.textures != NULL)
+        host->textures = c->next.textures;
+    ok = textures_load_for(host, c->scene, m, &report, err);
+    host->textures = lent;
+    warnings_free(&report);
+    return ok;
+}
+
+static bool make_materials(struct change *c, struct error *err)
+{
+    const struct style *style = c->style;
+    struct next *next = &c->next;
+    bool ok = true;
+
+    next->material_is_used = find_used(c);
+    next->materials =
+        alloc_array(style->material_count, sizeof *next->materials);
+    next->sources = copy_array(style->sources, style->material_count,
+                               sizeof *next->sources);
+    if (next->material_is_used == NULL || next->materials == NULL ||
+        next->sources == NULL)
+        return out_of_memory(c, err);
+    for (uint32_t i = 0; ok && i < style->material_count; i++) {
+        if (is_as_before(c, i)) {
+            next->materials[i] = c->host->materials[i];
+            continue;
+        }
+        next->materials[i] = make_material(c, i);
+        if (next->material_is_used[i])
+            ok = load_textures(c, &next->materials[i], err);
+    }
+    return ok;
+}
+
+/* ---- lights, directions ---- */
+
+/* Is there a material in use, or a triangle, whose material is another in what
+ * `differ` looks at? */
+static bool any_differs(const struct change *c,
+                        bool (*differ)(const struct material *,
+                                       const struct material *))
+{
+    const struct host_world *host = c->host;
+    const struct next *next = &c->next;
+    const struct tri *tris = world_tris(host, c->scene);
+
+    for (uint32_t i = 0; i < host->material_count; i++)
+        if (host->material_is_used[i] &&
+            differ(&host->materials[i], &next->materials[i]))
+            return true;
+    for (uint32_t i = 0; next->tris != NULL && i < c->scene->tri_count; i++)
+        if (differ(&host->materials[tris[i].material],
+                   &next->materials[next->tris[i].material]))
+            return true;
+    return false;
+}
+
+static struct world next_arrays(const struct change *c)
+{
+    struct world arrays = world_arrays(c->host, c->scene);
+
+    arrays.materials = c->next.materials;
+    arrays.settings.material_count = c->style->material_count;
+    if (c->next.tris != NULL)
+        arrays.tris = c->next.tris;
+    if (c->next.textures != NULL)
+        arrays.textures = c->next.textures;
+    return arrays;
+}
+
+static bool make_lights(struct change *c, struct error *err)
+{
+    struct world arrays = next_arrays(c);
+
+    if (!any_differs(c, lights_differ))
+        return true;
+    c->next.has_lights = lights_build(&c->next.lights, &arrays, err);
+    return c->next.has_lights;
+}
+
+static bool needs_guide(const struct change *c)
+{
+    return c->next.has_lights || c->next.textures != NULL ||
+           any_differs(c, path_guides_differ);
+}
+
+/* ---- all ---- */
+
+static void swap_in(struct change *c)
+{
+    struct host_world *host = c->host;
+    struct next *next = &c->next;
+
+    free(host->materials);
+    host->materials = next->materials;
+    free(host->sources);
+    host->sources = next->sources;
+    free(host->material_is_used);
+    host->material_is_used = next->material_is_used;
+    host->material_count = c->style->material_count;
+    if (next->tris != NULL) {
+        free(host->tris);
+        host->tris = next->tris;
+        free(host->assigned);
+        host->assigned = next->assigned;
+    }
+    if (next->textures != NULL) {
+        free(host->textures);
+        host->textures = next->textures;
+    }
+    if (next->has_lights) {
+        lights_free(&host->lights);
+        host->lights = next->lights;
+    }
+}
+
+static void drop(struct next *next)
+{
+    free(next->materials);
+    free(next->sources);
+    free(next->material_is_used);
+    free(next->tris);
+    free(next->assigned);
+    free(next->textures);
+    lights_free(&next->lights);
+}
+
+bool world_is_styled(const struct host_world *host, const struct scene *scene,
+                     const struct style *style)
+{
+    if (host->material_count != style->material_count ||
+        needs_tris(host, scene, style))
+        return false;
+    for (uint32_t i = 0; i < style->material_count; i++)
+        if (!mtl_source_equal(&host->sources[i], &style->sources[i]))
+            return false;
+    return true;
+}
+
+bool world_restyle(struct host_world *host, const struct scene *scene,
+                   const struct style *style, struct error *err)
+{
+    struct change c = {.host = host, .scene = scene, .style = style};
+    bool ok;
+
+    if (world_is_styled(host, scene, style))
+        return true;
+    ok = make_tris(&c) || out_of_memory(&c, err);
+    ok = ok && make_materials(&c, err) && make_lights(&c, err);
+    if (!ok) {
+        drop(&c.next);
+        return false;
+    }
+    if (needs_guide(&c))
+        path_guide_outdate(&host->guide);
+    path_guide_recolor(&host->guide);
+    swap_in(&c);
+    return true;
+}
