@@ -136,7 +136,7 @@ void pick_cursor_move(struct pick_cursor *cursor, int right, int down)
         within(screen->cursor_col + cells * right, screen->fit.cols);
     screen->cursor_row =
         within(screen->cursor_row + cells * down, screen->fit.rows);
-    pick_cursor_show(cursor);
+    set_shown(cursor, true);
 }
 
 /* ---- picking ---- */

@@ -90,5 +90,10 @@ start --crop 0,0,50,50 --cell-aspect 2 lamps.obj
 wait_for "▀"
 keys v
 wait_for "left, red, "
+# the cursor stays in the corner
+keys -N 60 Left
+keys -N 30 Up
+keys Left Up
+wait_until eval 'screen | head -1 | grep -q "^ *+\]"'
 keys q
 expect_end 0
