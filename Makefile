@@ -12,16 +12,16 @@ V ?= 0
 Q = $(if $(filter 1,$(V)),,@)
 SAY = $(if $(filter 1,$(V)),@:,@printf '  %-5s %s\n')
 
-# What `make bench-error` renders with, and how often.
+# Threads and seeds of `make bench-error`.
 THREADS ?= 1
 ROUNDS ?= 5
 
-# What `make fuzz` compiles with, as only clang has libFuzzer, and the seconds
-# that it gives to each target.
+# Compiler of `make fuzz`, since only clang has libFuzzer, and seconds for each
+# target.
 FUZZ_CC ?= clang
 TIME ?= 60
 
-# What `make run` opens.
+# Scene of `make run`.
 SCENE ?= scenes/cornell.obj
 
 comma := ,
@@ -34,8 +34,8 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
 	-Wmissing-prototypes -Wpointer-arith -Wcast-qual -Wwrite-strings \
 	-Wvla -Wundef -Wformat=2 -Werror=format-security
 X86_64 := $(findstring x86_64,$(shell $(CC) -dumpmachine))
-# For whoever finds a way to write where he should not. The checks of the C
-# library need the optimiser, and a sanitizer has its own.
+# Protection against writes out of bounds. The checks of the C library need the
+# optimiser; sanitizers have their own.
 HARDENING := -fPIE -fstack-protector-strong -fstack-clash-protection \
 	$(if $(X86_64),-fcf-protection)
 FORTIFY = $(if $(SAN),,$(if $(filter-out -O0,$(filter -O%,$(CFLAGS))), \
@@ -50,10 +50,9 @@ LIBS = -lncursesw -ltinfo -lm -ldl
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
-# src/render/cpu_kernel.c is built for each set of instructions and, as the
-# scene lacks what the others need, for each set of features, of which
-# cpu_dispatch.c takes the first that will do: walls and lamps, images on them,
-# most materials.
+# src/render/cpu_kernel.c is built for each instruction set and each set of
+# features. cpu_dispatch.c uses the first set that covers the scene: walls and
+# lamps, images on them, most materials, or all features.
 ISAS := $(if $(X86_64),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
@@ -79,7 +78,7 @@ STRESSES := $(patsubst tests/stress/%.c,$(B)/stress/%,$(wildcard \
 	tests/stress/*.c))
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard \
 	tests/fuzz/fuzz_*.c))
-# A fuzzer brings its own main(); without one, files are read.
+# libFuzzer has its own main(); without it, replay.c reads inputs from files.
 FUZZ_MAIN := $(if $(findstring fuzzer,$(SAN)),-fsanitize=fuzzer,$(B)/fuzz/replay.o)
 TOOLS := $(patsubst tests/tools/%.c,$(B)/tools/%,$(wildcard tests/tools/*.c))
 ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
@@ -88,7 +87,7 @@ ERROR_BENCH := $(patsubst tests/bench/error/%.c,$(B)/error/%.o,$(filter-out \
 RAYS_BENCH := $(patsubst tests/bench/rays/%.c,$(B)/rays/%.o,$(wildcard \
 	tests/bench/rays/*.c)) $(ISAS:%=$(B)/rays/glim_racer_%.o)
 GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
-# On all cores, unless the caller has said how many.
+# Uses all cores unless the caller gives -j.
 MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
@@ -109,7 +108,7 @@ $(B)/%.o: src/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-# $* is the instructions' name and, behind a _, that of the features.
+# $* is the instruction set and, after a _, the set of features.
 ISA = $(firstword $(subst _, ,$*))
 SET = $(word 2,$(subst _, ,$*))
 
@@ -119,7 +118,7 @@ $(PATHS): $(B)/paths_%.o: src/render/cpu_kernel.c $(B)/flags
 		-DPATHS_NAME='"$(ISA)"' $(if $(SET),-DFEATURES='($(FEATURES_$(SET)))') \
 		-MMD -MP -c -o $@ $<
 
-# The folder's own time changes when a file comes or goes.
+# The time of the folder changes when a file is added or removed.
 $(B)/kernels.c: kernels $(KERNELS) kernels/embed.sh $(B)/flags
 	$(SAY) EMBED $@
 	$(Q)kernels/embed.sh $(KERNELS) > $@.new && mv $@.new $@
@@ -147,7 +146,7 @@ endef
 $(eval $(call program,unit,-lcmocka))
 $(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i): \
 	private ALL_CFLAGS += $(FLAGS_$(i))))
-# It looks at what the loop of the screen believes, each time before it waits.
+# test_tty inspects the event loop each time before it waits.
 $(B)/unit/terminal/test_tty: private ALL_LDFLAGS += \
 	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
 $(eval $(call program,bench))
@@ -166,8 +165,8 @@ $(B)/error/%.o: tests/bench/error/%.c $(B)/flags
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-# The CPU's samples with a function of the kernels replaced, and as they are,
-# all for the processor that measures.
+# The CPU kernel with one function replaced, and unchanged, compiled for the
+# processor that measures.
 $(B)/error/paths_%.o: src/render/cpu_kernel.c tests/bench/error/%.h $(B)/flags
 	@mkdir -p $(@D)
 	$(SAY) CC '$< ($*)'
@@ -200,15 +199,15 @@ $(B)/rays/rays: $(RAYS_BENCH) $(LIBRARY)
 	$(SAY) LINK $@
 	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ -lembree3 $(LIBS)
 
-# Changed flags or another compiler rebuild everything of this variant.
+# A change of flags or compiler rebuilds this variant.
 $(B)/flags: FORCE
 	@mkdir -p $(@D)
 	@command -v $(firstword $(CC)) >/dev/null || \
 		{ echo "no compiler '$(firstword $(CC))': try 'make deps'"; exit 1; }
 	@echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' > $@
 
-## run: installs what is missing, builds, opens SCENE (the Cornell box);
-##      without a terminal it renders a picture instead
+## run: installs missing packages, builds, opens SCENE (the Cornell box);
+##      without a terminal it renders to a file
 run:
 	@CC='$(CC)' tests/tools/deps.sh build
 	@+$(MAKE_ALL) $(B)/glim $(B)/tools/show
@@ -219,8 +218,8 @@ run:
 		$(B)/tools/show build/run.png && echo 'picture: build/run.png'; \
 	fi
 
-## test: installs what is missing, builds, runs all tests;
-##       SAN=address,undefined or SAN=thread for a build that watches itself
+## test: installs missing packages, builds, runs all tests; FILTER=PART of
+##       their names; SAN=address,undefined or SAN=thread for sanitizers
 test:
 	@CC='$(CC)' tests/tools/deps.sh build test
 	@+$(MAKE_ALL) tests
@@ -229,7 +228,7 @@ test:
 tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
 	$(FUZZERS)
 
-## fuzz: invents inputs that break what reads files, options and keys;
+## fuzz: tests parsers of files, options and keys with random inputs;
 ##       TIME=60 seconds for each target, FILTER=PART of a target's name
 fuzz:
 	@CC='$(FUZZ_CC)' tests/tools/deps.sh build fuzz
@@ -239,21 +238,21 @@ fuzz:
 search: $(FUZZERS)
 	@BUILD=$(B) TIME='$(TIME)' FILTER='$(FILTER)' tests/fuzz/search.sh
 
-## bench: measures speed, halting and threads; FILTER=NAME for one of them
+## bench: measures speed, halting and threads; FILTER=NAME selects one
 bench: $(B)/glim $(BENCHES)
 	@BUILD=$(B) FILTER='$(FILTER)' tests/bench/run.sh
 
-## bench-error: error against time, each technique on and off; text, CSV and
-##              diagrams in build/bench-error/; FILTER=PART of scenes' names,
-##              THREADS=1 ROUNDS=5 (seeds)
+## bench-error: measures error against time, each technique on and off; text,
+##              CSV and diagrams in build/bench-error/; FILTER=PART of the
+##              scenes' names, THREADS=1 ROUNDS=5 (seeds)
 bench-error: $(B)/error/error build/bench-error/scenes
 	@mkdir -p build/bench-error/reference
 	@{ $< build/bench-error '$(THREADS)' '$(ROUNDS)' '$(FILTER)'; \
 		echo $$? > build/bench-error/status; } | \
 		tee build/bench-error/report.txt; exit $$(cat build/bench-error/status)
 
-## bench-rays: rays a second beside Embree 3 (Debian's libembree-dev);
-##             FILTER=PART of the meshes' names or of scaling, ISA=avx2
+## bench-rays: compares rays per second with Embree 3 (libembree-dev);
+##             FILTER=PART of the meshes' names or of "scaling", ISA=avx2
 bench-rays:
 	@echo '#include <embree3/rtcore.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 		{ echo 'bench-rays: needs Embree 3: install libembree-dev'; exit 1; }
@@ -264,23 +263,23 @@ build/bench-error/scenes: $(B)/error/scenes
 	@mkdir -p $@
 	$(Q)$< $@ && touch $@
 
-## bench-cycles: paths a second beside those of Blender's Cycles, if Debian's
+## bench-cycles: compares paths per second with Blender's Cycles, if Debian's
 ##               blender is installed; FILTER=SCENE, ROUNDS=3
 bench-cycles: $(B)/glim
 	@BUILD=$(B) FILTER='$(FILTER)' ROUNDS=$(if $(filter file,$(origin \
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
-## stress: rows of what breaks path tracers, and other checks that take minutes;
-##         FILTER=NAME for one of them: samples geometry light extremes
-##         sizes keys rays oclgrind valgrind
+## stress: runs checks at numerical limits, and others that take minutes;
+##         FILTER=NAME selects one: samples geometry light extremes sizes
+##         keys rays oclgrind valgrind
 stress: $(B)/glim $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 
-## scenes: writes the scenes in scenes/ anew from their generator
+## scenes: generates the scenes in scenes/
 scenes: $(B)/scenes/generate
 	$(Q)$(B)/scenes/generate scenes
 
-## tables: computes kernels/energy_tables.h anew
+## tables: computes kernels/energy_tables.h
 tables: $(B)/tools/energy
 	$(Q)$(B)/tools/energy > $(B)/energy_tables.h
 	$(Q)mv $(B)/energy_tables.h kernels/energy_tables.h
@@ -289,7 +288,8 @@ tables: $(B)/tools/energy
 gallery: $(B)/glim
 	@BUILD=$(B) scenes/gallery/render.sh
 
-## install: program, man page and scenes; DESTDIR PREFIX BINDIR MANDIR DATADIR
+## install: installs program, man page and scenes; DESTDIR PREFIX BINDIR MANDIR
+##          DATADIR
 install: $(B)/glim
 	$(INSTALL) -d '$(DESTDIR)$(BINDIR)' '$(DESTDIR)$(MANDIR)/man1' \
 		'$(DESTDIR)$(DATADIR)/scenes'
@@ -297,22 +297,22 @@ install: $(B)/glim
 	$(INSTALL) -m 644 man/glim.1 '$(DESTDIR)$(MANDIR)/man1/glim.1'
 	$(INSTALL) -m 644 $(SCENE_FILES) '$(DESTDIR)$(DATADIR)/scenes'
 
-## uninstall: removes what install has put there
+## uninstall: removes installed files
 uninstall:
 	rm -f '$(DESTDIR)$(BINDIR)/glim' '$(DESTDIR)$(MANDIR)/man1/glim.1'
 	rm -f $(patsubst %,'$(DESTDIR)$(DATADIR)/%',$(SCENE_FILES))
 	-rmdir '$(DESTDIR)$(DATADIR)/scenes' '$(DESTDIR)$(DATADIR)'
 
-## deps: says what is missing to build and to test, and installs only that
+## deps: lists packages missing for build and tests, and installs them
 deps:
 	@CC='$(CC)' tests/tools/deps.sh -v build test
 
-## format: lays the code out as .clang-format says
+## format: formats the code with clang-format
 format:
 	@tests/tools/deps.sh lint
 	clang-format -i $(C_FILES)
 
-## lint: layers, layout, cppcheck, clang-tidy, kernels as OpenCL, man page
+## lint: checks layers, layout, cppcheck, clang-tidy, kernels as OpenCL, manual
 lint:
 	@tests/tools/deps.sh build test lint
 	tests/layers.sh
@@ -325,15 +325,15 @@ lint:
 		clang $(CL_FLAGS) $(filter %.cl,$(KERNELS)))
 	mandoc -T lint -W warning man/glim.1
 
-# Kernels as any driver's compiler would see them.
+# Compiles the kernels for a generic OpenCL device.
 CL_FLAGS := -target spir64 -x cl -cl-std=CL1.2 \
 	-Xclang -finclude-default-header -fsyntax-only -I. \
 	-Wall -Wextra -Wdouble-promotion -Werror
-# What it cannot follow: errors that are written before they are read, stacks.
+# False reports: errors that are set before they are read, and stacks.
 CPPCHECK_OFF := --suppress=missingIncludeSystem --suppress=uninitvar \
 	--suppress=ctuuninitvar --suppress=duplicateAssignExpression
-# The analyzer's core does not know that fail() of another file returns false;
-# OpenCL's handles are pointers, and arrays of them have sizeof *array.
+# Checks with false reports: the analyzer's core does not know that fail()
+# returns false, and OpenCL handles are pointers, so sizeof *array is right.
 TIDY := -*,clang-analyzer-*,-clang-analyzer-core.*,$\
 	-clang-analyzer-valist.Uninitialized,$\
 	-clang-analyzer-security.insecureAPI.Deprecated*,$\
@@ -348,7 +348,7 @@ TIDY := -*,clang-analyzer-*,-clang-analyzer-core.*,$\
 clean:
 	rm -rf build
 
-## help: this list
+## help: prints this list
 help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
