@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# embed.sh - writes C source that holds the named files, as cl_source.h says
+# embed.sh - writes C source that contains the named files, see cl_source.h
 set -eu
 
 echo "#include <stddef.h>"
 echo
 echo '#include "opencl/cl_source.h"'
-# numbers, for compilers need not take strings of more than 4095 characters
+# arrays of numbers, since compilers may limit strings to 4095 characters
 i=0
 for file; do
     i=$((i + 1))

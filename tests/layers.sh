@@ -1,20 +1,20 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# layers.sh - says which file breaks the layers or the look of files
+# layers.sh - checks the order of folders and the form of files
 #
-# The order of the folders comes from the table in CONTRIBUTING.md
-# ("| `src/bvh/` | ..."): a file includes from its own folder and from those
-# above it. The files of src/ itself come last. Prints a line for each fault,
-# then "layers: N passed, N failed" counted in files.
+# The order of the folders is that of the table in CONTRIBUTING.md ("|
+# `src/bvh/` | ..."): a file includes from its own folder and from those above
+# it. The files of src/ itself come last. Prints a line for each violation, then
+# "layers: N passed, N failed" counted in files.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
-# The C files that have no header of their own name: the program's entry, the
-# bodies of stb's headers, and what backend.h declares.
+# C files without a header of their own name: the program's entry, the bodies of
+# stb's headers, and the CPU backend, which backend.h declares.
 HEADERLESS='main stb backend_cpu'
 
-# The files that may use the C library's output: what they write are files'
-# texts. People read what goes through print.c.
+# Files that may use the C library's output, because they write files. Output
+# for people goes through print.c.
 WRITERS='print assign mtl_save view_file cl_source stats_json curses_windows'
 
 {
@@ -39,7 +39,7 @@ function folder_of(name)
     return name ~ /\// ? substr(name, 1, match(name, /\/[^\/]*$/) - 1) : "."
 }
 
-# The place of a folder in the table, from 1; 0: it is not there.
+# Returns the position of a folder in the table, from 1; 0 if it is not there.
 function place_of(folder)
 {
     return folder == "src" ? folder_count + 1 : places[folder] + 0

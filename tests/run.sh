@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: MIT
 # run.sh - runs every test and ends with "N passed, N failed"
 #
-# BUILD names the folder with the programs (build/release). FILTER=WORD runs
-# only the parts whose name has it: layers, man, scenes, hardening, a test_x,
+# BUILD is the folder of the programs (build/release). FILTER=WORD runs only the
+# parts whose names contain it: layers, tour, man, scenes, hardening, a test_x,
 # fuzz, cli, screen.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build/release}
-# what PoCL has compiled, apart from the person's own
+# PoCL's cache, apart from the user's
 POCL_CACHE_DIR=$(realpath "$BUILD")/pocl
 export POCL_CACHE_DIR
 export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
@@ -26,7 +26,7 @@ wanted()
     [[ $1 == *"$FILTER"* ]]
 }
 
-# name, passed, failed: adds to the sums; shows the log if something failed
+# name, passed, failed: adds to the totals; shows the log if something failed
 report()
 {
     local time=$((SECONDS - begin))s
@@ -44,8 +44,8 @@ report()
     fi
 }
 
-# A cmocka program says how many tests it starts before it runs them, so tests
-# that a crash has swallowed are found missing.
+# Runs a cmocka program. It prints the number of tests before it runs them, so
+# tests that a crash has swallowed are noticed.
 run_unit()
 {
     local started ok skipped status bad
@@ -64,7 +64,7 @@ run_unit()
     report "${1##*/}" "$ok" "$bad"
 }
 
-# A script that ends with "NAME: N passed, N failed".
+# Runs a script that ends with "NAME: N passed, N failed".
 run_script()
 {
     local name=$1 counts status
@@ -83,7 +83,7 @@ run_script()
     report "$name" $counts
 }
 
-# One check: a command that must end with status 0.
+# Runs a command that must end with status 0.
 run_check()
 {
     local name=$1
@@ -96,7 +96,7 @@ run_check()
     fi
 }
 
-# The scenes in the repository are what their generator writes.
+# Compares the scenes in the repository with the output of their generator.
 scenes_are_generated()
 {
     local folder status=0 file
@@ -110,13 +110,13 @@ scenes_are_generated()
     return $status
 }
 
-# What the compiler and the linker can do against a bug that writes where it
-# should not is in the program.
+# Checks that the program has the compiler's and linker's protection against
+# writes out of bounds.
 program_is_hardened()
 {
     local status=0
 
-    has() # what to see, in which table
+    has() # pattern, readelf option
     {
         readelf -W "$2" "$BUILD/glim" | grep -Eq "$1" && return
         echo "$BUILD/glim: readelf $2 does not show '$1'"
@@ -127,7 +127,7 @@ program_is_hardened()
     has 'GNU_STACK.* RW ' --program-headers
     has 'BIND_NOW|Flags:.* NOW' --dynamic
     has __stack_chk_fail --dyn-syms
-    # a sanitizer has its own, and without the optimiser there is none
+    # sanitizers have their own checks, and these need the optimiser
     if [ -z "$SAN" ] && grep -Eq -e ' -O[1-3s]' "$BUILD/flags"; then
         has __snprintf_chk --dyn-syms
     fi

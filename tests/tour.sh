@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# tour.sh - says which file or function of docs/tour.md does not exist
+# tour.sh - finds files and functions of docs/tour.md that do not exist
 set -u
 cd "$(dirname "$0")/.." || exit 1
 status=0

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# render.sh - renders the pictures that the README shows (`make gallery`)
+# render.sh - renders the README's pictures (`make gallery`)
 #
-# Small and clean rather than large and noisy; takes some minutes. screen.png,
-# panel.png, boxes.png and progress.png are pictures of a real terminal and are
+# Pictures are small and have little noise; this takes some minutes. screen.png,
+# panel.png, boxes.png and progress.png were taken from a real terminal and are
 # not made here.
 set -eu
 cd "$(dirname "$0")/../.."

@@ -1,7 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# What `make bench` runs. BUILD: the folder of the program; FILTER: the name of
-# one measurement. Times are of this machine at this hour: compare ratios.
+# run.sh - measures speed (`make bench`)
+#
+# BUILD is the folder of the program; FILTER selects one measurement. Times
+# depend on the machine and its load: compare ratios.
 set -eu
 build=${BUILD:-build/release}
 filter=${FILTER:-}
@@ -12,7 +14,8 @@ wanted() {
     [ -z "$filter" ] || [ "$filter" = "$1" ]
 }
 
-# render THREADS NAME SCENE ARGUMENTS...: seconds of rendering, into NAME.json
+# render THREADS NAME SCENE ARGUMENTS...: prints seconds of rendering and writes
+# NAME.json
 render() {
     threads=$1 name=$2 scene=$3
     shift 3
@@ -33,7 +36,7 @@ machine() {
     echo "cores: $(nproc), load: $(cut -d ' ' -f 1-3 /proc/loadavg)"
 }
 
-# One process of 1 .. all threads, 960x544, 32 spp.
+# Measures one process with 1 to all threads, 960x544, 32 spp.
 bench_threads() {
     echo
     echo 'threads: scenes/cornell.obj, 960x544, 32 spp'
@@ -50,8 +53,8 @@ bench_threads() {
     done
 }
 
-# All threads in one process against as many processes of one thread that run
-# side by side, each half (or less) of the picture: what sharing costs.
+# Measures the cost of sharing: all threads in one process against as many
+# processes of one thread, each of which renders its part of the picture.
 bench_sharing() {
     n=$(nproc)
     echo
@@ -87,7 +90,7 @@ scenes() {
     done
 }
 
-# Whole renders, and what leaving out what a scene lacks brings.
+# Measures whole renders, and the gain of kernels without unused features.
 bench_builds() {
     echo
     echo 'builds: 480x270, 4 spp, a core, medians of 5'
@@ -95,7 +98,8 @@ bench_builds() {
     "$build/bench/builds" $(scenes)
 }
 
-# instructions BUILD SCENE: of a sample, by valgrind, which knows AVX2 at most
+# instructions BUILD SCENE: prints instructions per sample by valgrind, which
+# supports AVX2 at most
 instructions() {
     n=$(valgrind --tool=callgrind --toggle-collect=samples \
         --callgrind-out-file=/dev/null --log-file="$work/valgrind.log" \
@@ -104,7 +108,7 @@ instructions() {
     echo $((all / n))
 }
 
-# What specialised builds save, without a clock.
+# Counts the instructions that specialised builds save.
 bench_instructions() {
     echo
     if ! command -v valgrind >/dev/null; then
@@ -118,7 +122,7 @@ bench_instructions() {
     done
 }
 
-# What can be had at 60 pictures a second.
+# Measures samples per pixel at 60 pictures per second.
 bench_frames() {
     echo
     echo "frames: samples a pixel that fit into 16.7 ms, $(nproc) threads"
@@ -138,7 +142,7 @@ bench_halts() {
     halts 1000
 }
 
-# OpenCL against the CPU: speed, halting, the first and a later start.
+# Compares OpenCL with the CPU: speed, halting, the first and a later start.
 bench_device() {
     echo
     echo 'device: OpenCL against the CPU, 480x270, 4 spp, medians of 5'
@@ -159,7 +163,7 @@ bench_device() {
     done
 }
 
-# Frames of the preview while the camera moves.
+# Measures frames of the preview while the camera moves.
 bench_previews() {
     echo
     echo 'previews: 200x60 cells, all threads'
@@ -170,14 +174,14 @@ bench_previews() {
     done
 }
 
-# A film on its way to the screen's pixels.
+# Measures the conversion of a film to the screen's pixels.
 bench_screens() {
     echo
     echo 'screens: a film of 1920x1080 pixels in 200x60 cells, one thread'
     "$build/bench/screens"
 }
 
-# Loading: a million triangles of text.
+# Measures loading: a million triangles of text.
 bench_load() {
     echo
     echo 'load: a grid of 1,000,000 triangles'

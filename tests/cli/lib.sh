@@ -1,38 +1,38 @@
 # SPDX-License-Identifier: MIT
-# lib.sh - what the cases have in common
+# lib.sh - functions for the cases
 #
 # A case runs in an empty folder with glim in its path.
 
-# Runs glim, prints what it says and its exit status.
+# Runs glim and prints its output and exit status.
 run()
 {
     glim "$@" </dev/null 2>&1
     echo "exit $?"
 }
 
-# The same without the seconds in the closing line.
+# Runs glim like run, without the seconds in the closing line.
 run_untimed()
 {
     run "$@" | sed 's/, [0-9.]* s$/, T s/'
 }
 
-# Says why the case cannot run here.
+# Skips the case for this reason.
 skip()
 {
     echo "$*"
     exit 77
 }
 
-# Limits the memory to so many KB from now on. False for a program with
-# sanitizers, whose own memory is beyond any limit.
+# Limits the memory to $1 KB from now on. Returns false for a program with
+# sanitizers, which needs more than any limit.
 limit_memory()
 {
-    # the inner shell tells of the abort, to nobody
+    # the inner shell reports the abort, which is discarded
     (ulimit -v "$1"; glim --version || exit 1) >/dev/null 2>&1 &&
         ulimit -v "$1"
 }
 
-# Puts the named scene with its files into the current folder.
+# Copies the named scene with its files into the current folder.
 take()
 {
     for scene in "$@"; do
@@ -40,7 +40,7 @@ take()
     done
 }
 
-# Compares two files byte by byte: says only whether they are equal.
+# Compares two files byte by byte and prints whether they are equal.
 same()
 {
     if cmp -s "$1" "$2"; then
@@ -50,14 +50,14 @@ same()
     fi
 }
 
-# The four bytes at `offset` as an unsigned number, big end first.
+# Prints the four bytes at `offset` as an unsigned big-endian number.
 be32()
 {
     od -A n -t u1 -j "$2" -N 4 "$1" |
         awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
 }
 
-# Says what kind of picture a file is, and its size.
+# Prints the format and the size of a picture.
 kind()
 {
     case $(head -c 8 "$1" | od -A n -t x1 | tr -d ' \n') in
@@ -68,7 +68,8 @@ kind()
     esac
 }
 
-# The floats of a PFM file, three a line: its last width * height * 12 bytes.
+# Prints the floats of a PFM file, three a line: its last width * height * 12
+# bytes.
 floats()
 {
     tail -c $(($2 * $3 * 12)) "$1" | od -A n -v -w12 -t f4

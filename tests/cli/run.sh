@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# run.sh - the command line: scripts with the exact output beside them
+# run.sh - command line tests: scripts with the expected output beside them
 #
-# Runs cases/NAME.sh in an empty folder and compares what it prints (standard
-# output and error together) with cases/NAME.out. A script that ends with
-# status 77 is skipped; its last line says why. BUILD names the folder with the
-# program (build/release); arguments name the cases (all).
+# Runs cases/NAME.sh in an empty folder and compares its output (standard output
+# and error together) with cases/NAME.out. A script that ends with status 77 is
+# skipped; its last line is the reason. BUILD is the folder of the program
+# (build/release); arguments name the cases (default: all).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 root=$PWD
@@ -17,7 +17,7 @@ esac
 PATH=$build:$PATH
 CLI=$root/tests/cli
 export PATH CLI root
-# an allocation that fails is a message of ours, also under the sanitizers
+# a failed allocation causes a message, also with sanitizers
 ASAN_OPTIONS=allocator_may_return_null=1:${ASAN_OPTIONS-}
 TSAN_OPTIONS=allocator_may_return_null=1:${TSAN_OPTIONS-}
 LSAN_OPTIONS=suppressions=$root/tests/tools/lsan.supp:print_suppressions=0
@@ -25,7 +25,7 @@ LC_ALL=C
 POCL_CACHE_DIR=$build/pocl
 export ASAN_OPTIONS LSAN_OPTIONS TSAN_OPTIONS LC_ALL POCL_CACHE_DIR
 unset NO_COLOR GLIM_COLOR COLORTERM
-# the person's own taste is not tested
+# the user's configuration is not tested
 XDG_CONFIG_HOME=$root/tests/cli/none
 export XDG_CONFIG_HOME
 

@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# run.sh - gives the corpus to the fuzz targets, one input after another
+# run.sh - runs the fuzz targets on the corpus
 #
-# BUILD names the folder with the programs (build/release), SAN says that they
-# watch themselves, arguments name the targets (all). An input has some seconds
-# of the processor, some memory and a stack of 1 MiB.
+# BUILD is the folder of the programs (build/release), SAN names their
+# sanitizers, arguments name the targets (default: all). Each input has limits
+# on processor time and memory and a stack of 1 MiB.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build/release}
@@ -24,8 +24,8 @@ ulimit -c 0
 passed=0
 failed=0
 
-# Inputs that are too large to be kept. Each of them once took minutes, or all
-# of the memory.
+# Generates inputs that are too large for the repository. Each of them once took
+# minutes, or all of the memory.
 generate()
 {
     mkdir -p "$work/"{mtl,obj,scene}
@@ -58,7 +58,7 @@ replay() # NAME FILE...
 
     shift
     for file; do
-        # the subshell says into the log which signal there was
+        # the subshell writes the signal into the log
         (timeout --kill-after=5 120 "$build/fuzz/fuzz_$name" $seconds \
             $mebibytes "$file"; exit $?) >"$work/log" 2>&1 </dev/null
         status=$?

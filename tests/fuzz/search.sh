@@ -1,12 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# search.sh - what `make fuzz` runs: each target with inputs that it invents
+# search.sh - runs each fuzz target with random inputs (`make fuzz`)
 #
-# BUILD names the folder with the targets. TIME is in seconds, for each of them;
-# FILTER=PART of a name picks some. Inputs that reach new code are kept in
-# build/fuzz/NAME for the next time, those that break something in
-# build/fuzz/found. An input has a minute and 2 GiB. The last line is
-# "N passed, N failed".
+# BUILD is the folder of the targets, TIME the seconds for each of them;
+# FILTER=PART selects some by name. Inputs that reach new code are kept in
+# build/fuzz/NAME for the next time, failing ones in build/fuzz/found. Each
+# input has a minute and 2 GiB. The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 shared=${GLIM_SHARED:-../shared}/suites
@@ -18,7 +17,7 @@ export LSAN_OPTIONS=suppressions=$PWD/tests/tools/lsan.supp:print_suppressions=0
 passed=0
 failed=0
 
-# Files of others that end so, for the target to begin with.
+# Copies files with these endings as first inputs of the target.
 seeds() # NAME ENDING...
 {
     local ending

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: MIT
-# lib.sh - what the cases have in common
+# lib.sh - functions for the cases
 #
-# A case runs in an empty folder; `start` opens a window of tmux in which the
-# program runs, the other functions press keys and look. What does not come
-# within half a minute fails. Nothing is awaited by the clock: after
-# `wait_until rests` nothing happens by itself any more.
+# A case runs in an empty folder. `start` opens a tmux window in which the
+# program runs; the other functions press keys and inspect the screen. A wait
+# fails after half a minute. No case waits for a fixed time: after `wait_until
+# rests` nothing changes without input.
 
 mux()
 {
     tmux -u -S "$SOCKET" -f /dev/null "$@"
 }
 
-# Says what went wrong and ends the case.
+# Prints the reason and ends the case.
 die()
 {
     echo "$*"
     exit 1
 }
 
-# Opens a window of $size cells with a shell that runs the given line. Before
-# and after it the settings of the terminal are kept in files.
+# Opens a window of $size cells with a shell that runs the given line. The
+# terminal's settings before and after it are kept in files.
 size=60x21
 start_line()
 {
@@ -44,7 +44,7 @@ start()
     start_line "TERM=tmux-256color glim $*"
 }
 
-# Ends the window, for another one.
+# Closes the window, so that another can be opened.
 fresh()
 {
     mux kill-server
@@ -59,7 +59,7 @@ keys()
     mux send-keys "$@"
 }
 
-# Bytes as they are.
+# Sends bytes unchanged.
 raw_keys()
 {
     mux send-keys -l -- "$1"
@@ -70,14 +70,14 @@ screen()
     mux capture-pane -p
 }
 
-# With the colours as sequences, and blanks to the end of the rows.
+# Prints the screen with colour sequences and trailing blanks.
 screen_colors()
 {
     mux capture-pane -p -e -N
 }
 
-# Rows that have this colour. The sequence stands only where colours change, so
-# the colour is followed from cell to cell.
+# Counts the rows that contain this colour. Sequences occur only where colours
+# change, so the colour is tracked from cell to cell.
 rows_with()
 {
     screen_colors | awk -v want="$1" '{
@@ -97,7 +97,7 @@ rows_with()
     } END { print n + 0 }'
 }
 
-# Waits until the screen has a line that matches.
+# Waits until a line of the screen matches.
 wait_for()
 {
     tries=0
@@ -108,7 +108,7 @@ wait_for()
     done
 }
 
-# Waits until so many rows have the colour.
+# Waits until this number of rows contain the colour.
 wait_for_rows()
 {
     tries=0
@@ -130,7 +130,7 @@ wait_until_gone()
     done
 }
 
-# Waits until the command says yes.
+# Waits until the command succeeds.
 wait_until()
 {
     tries=0
@@ -141,7 +141,8 @@ wait_until()
     done
 }
 
-# A look may fall into the middle of a frame: for a second it is taken again.
+# Repeats a check for a second, since a single one may happen in the middle of a
+# frame.
 expect()
 {
     for _ in $(seq 20); do
@@ -160,8 +161,8 @@ reject()
     die "on the screen: $1"
 }
 
-# Waits for the end with this status, and that everything is as before; with
-# "cleared", what was on the screen may be gone.
+# Waits for the end with this status and checks that the terminal is restored.
+# With "cleared" the earlier contents of the screen may be gone.
 expect_end()
 {
     wait_for "^exit $1\$"
@@ -171,8 +172,8 @@ expect_end()
     [ "$flags" = 00001 ] || die "modes were left on: $flags, expected 00001"
 }
 
-# What each of the program's threads waits for, and how often it has slept. A
-# sanitizer has a thread of its own that sleeps by the clock.
+# Prints what each thread of the program waits for and how often it has slept. A
+# sanitizer's own thread, which wakes by the clock, is left out.
 waits()
 {
     for task in "/proc/$1/task"/*; do
@@ -181,9 +182,9 @@ waits()
     done | awk -v sleeps="$sleeps" 'index(sleeps, " " $1 " ") == 0'
 }
 
-# True if every thread waits without a time limit: only a key, a signal or a
-# changed file wakes the program, until then it neither computes nor writes. Two
-# equal looks at all threads mean that none has run between them.
+# Succeeds if every thread waits without a time limit, so that only a key, a
+# signal or a changed file wakes the program. Two equal states of all threads
+# mean that none has run in between.
 case $(uname -m) in
 x86_64) ppoll=271 futex=202 sleeps=" 35 230 " ;;
 aarch64) ppoll=73 futex=98 sleeps=" 101 115 " ;;
@@ -208,16 +209,17 @@ program_pid()
     pgrep -P "$(mux display-message -p '#{pane_pid}')" glim
 }
 
-# Its only face is behind the camera: the picture is the background in every
-# pixel, so the cells are known. 100x50 pixels; .5 .2 0 is 188 124 0 in sRGB.
+# Writes a scene whose only face is behind the camera: every pixel is the
+# background, so all cells are known. 100x50 pixels; .5 .2 0 is 188 124 0 in
+# sRGB.
 flat_scene()
 {
     printf 'v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n' >flat.obj
     printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground .5 .2 0\n' >flat.view
 }
 
-# A triangle that shines, seen from the front: moving changes the picture. The
-# seen colours are its own, exactly, and black.
+# Writes an emitting triangle seen from the front: moving changes the picture.
+# The only colours are the triangle's and black.
 lamp_scene()
 {
     printf 'newmtl l\nKd 0 0 0\nKe 1 1 1\n' >lamp.mtl

@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# run.sh - the screen: scripts that press keys in tmux and look at the cells
+# run.sh - screen tests: scripts that press keys in tmux and inspect the cells
 #
 # Runs cases/NAME.sh in an empty folder, each with a tmux server of its own. A
-# script fails where a command of it fails; status 77 skips it, its last line
-# says why. BUILD names the folder with the program (build/release), JOBS says how
-# many cases run at once: they wait most of the time. Arguments name the cases
-# (all).
+# script fails when one of its commands fails; status 77 skips it, and its last
+# line is the reason. BUILD is the folder of the program (build/release). JOBS
+# is the number of cases that run at once, since they mostly wait. Arguments
+# name the cases (default: all).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 root=$PWD
@@ -21,7 +21,7 @@ LC_ALL=C.UTF-8
 POCL_CACHE_DIR=$build/pocl
 export PATH SCREEN LC_ALL POCL_CACHE_DIR root
 unset NO_COLOR GLIM_COLOR COLORTERM TMUX STY TERM
-# the person's own taste is not tested
+# the user's configuration is not tested
 XDG_CONFIG_HOME=$root/tests/screen/none
 export XDG_CONFIG_HOME
 
@@ -43,7 +43,7 @@ if ! command -v tmux >/dev/null; then
 fi
 work=$(mktemp -d) || exit 1
 
-# Also where the run is broken off: programs in tmux would go on.
+# Stops the programs in tmux when the run is interrupted.
 end_all()
 {
     for socket in "$work"/*.tmux; do
@@ -55,7 +55,8 @@ trap end_all EXIT
 trap 'exit 143' TERM
 mkdir "$work/failed" "$work/passed"
 
-# Runs a case and prints what came of it at once, so that cases do not mix.
+# Runs a case and prints its result in one piece, so that parallel cases do not
+# mix.
 run_case()
 {
     local name=$1 out=$work/$1.out status

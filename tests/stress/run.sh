@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# What `make stress` runs: checks that take minutes. BUILD: the folder of the
-# program; FILTER: the name of one check. The last line is "N passed, N failed";
-# what cannot run here says why.
+# run.sh - runs checks that take minutes (`make stress`)
+#
+# BUILD is the folder of the program; FILTER selects one check by name. The last
+# line is "N passed, N failed"; a skipped check prints the reason.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build/release}
@@ -13,7 +14,7 @@ scenes='cornell materials glass_mirror interior skylit lights200'
 passed=0
 failed=0
 
-# check NAME COMMAND...: counts one check; its output is shown if it fails
+# check NAME COMMAND...: counts one check and shows its output if it fails
 check() {
     name=$1
     shift
@@ -36,9 +37,10 @@ missing() { # COMMAND FOR
     echo "skip $2 (no $1)"
 }
 
-# The kernels in a simulator that watches every access, for races too; and its
-# picture has the CPU's bytes. It hooks into programs that are linked with
-# OpenCL, which glim is not: so it is the only driver there is.
+# Runs the kernels in a simulator that checks every memory access and data
+# races, and compares the picture with the CPU's. The simulator hooks into
+# programs that are linked with OpenCL, which glim is not, so it is installed as
+# the only driver.
 simulate() { # SCENE
     OCL_ICD_VENDORS=$work/vendors oclgrind --build-options -cl-opt-disable \
         --data-races "$build/glim" -b --backend opencl --device oclgrind \
@@ -60,7 +62,7 @@ stress_oclgrind() {
     done
 }
 
-# Nothing of the host's is lost or read beyond its end, device and all.
+# Checks the host's memory accesses and leaks with valgrind, with a device too.
 stress_valgrind() {
     missing valgrind valgrind && return
     for backend in cpu opencl; do
@@ -73,8 +75,8 @@ stress_valgrind() {
     done
 }
 
-# A program of rows says how each of them went; one that ends otherwise than
-# with 0, or 1 for failed rows, is a failure more.
+# Runs a program of rows and counts them. An exit status other than 0, or 1 for
+# failed rows, counts as one more failure.
 rows() { # PROGRAM [ARGUMENT]
     echo "-- $*"
     program=$1
@@ -100,8 +102,9 @@ stress_samples() {
     rows samples opencl
 }
 
-# C5: the picture is there, or one line says what is wrong with the size; in
-# 2 GiB, so that no machine's memory decides.
+# Checks that a picture of this size is written, or that one line reports what
+# is wrong with the size. A limit of 2 GiB makes the result independent of the
+# machine.
 is_right_size() { # WIDTH HEIGHT STATUS [WORDS OF THE LINE]
     rm -f "$work/size.png"
     # shellcheck disable=SC3045 # dash and bash have it
@@ -119,7 +122,7 @@ is_right_size() { # WIDTH HEIGHT STATUS [WORDS OF THE LINE]
     fi
 }
 
-# The same pictures by OpenCL's device, and by the CPU where there is none.
+# Checks the same sizes on an OpenCL device; without one the CPU renders.
 is_right_device_size() { # WIDTH HEIGHT
     for backend in cpu opencl; do
         "$build/glim" -b --backend "$backend" -w "$1" -h "$2" -s 1 \
@@ -157,7 +160,7 @@ stress_light() {
     rows light opencl
 }
 
-# More random keys than `make test` presses, each time others.
+# Presses more random keys than `make test`, different ones each time.
 stress_keys() {
     for seed in 101 102 103; do
         check "keys, seed $seed" env TERM_KEYS=10000 TERM_SEED=$seed \

@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# deps.sh - finds what is missing and installs only that from Debian
+# deps.sh - installs missing packages from Debian
 #
 # usage: deps.sh [-v] build|test|fuzz|lint...
 # Looks for the headers and the programs themselves, so that a library from
-# elsewhere counts. -v says what was found, too. When nothing is missing, a
-# stamp in build/ makes the next call cheap; `make clean` forgets it.
+# elsewhere counts. -v also lists what was found. When nothing is missing, a
+# stamp in build/ makes the next call fast; `make clean` removes it.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 
@@ -49,7 +49,7 @@ need_header() # header, package
 #include <setjmp.h>' "$1" |
             $compiler -E -x c - >/dev/null 2>&1
         note "$2" $?
-    else # no compiler to ask
+    else # without a compiler
         test -e "/usr/include/$1"
         note "$2" $?
     fi
@@ -98,7 +98,7 @@ look()
             ;;
         fuzz)
             need_program "${compiler%% *}" "$compiler_package"
-            # Debian has libFuzzer beside the other runtimes of its clang
+            # Debian packages libFuzzer with the other runtimes of its clang
             need_library "libclang_rt.fuzzer-$(uname -m).a" \
                 "libclang-rt-$($compiler -dumpversion | cut -d. -f1)-dev"
             ;;
@@ -133,7 +133,7 @@ install_missing()
         as_root=sudo
     fi
     echo "deps: installing$missing"
-    # The first try works when the package lists are there and fresh enough.
+    # The first try succeeds if the package lists exist and are recent.
     # shellcheck disable=SC2086 # words are meant to be split
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
         --no-install-recommends $missing >"$log" 2>&1 </dev/null && return

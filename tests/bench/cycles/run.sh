@@ -1,9 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# What `make bench-cycles` runs: camera paths a second of Blender's Cycles and of
-# glim, which take turns, on the scenes of ../shared/scenes-bench, and how many
-# times less noise (variance) glim's picture has at equal time. BUILD: the folder
-# of the program; FILTER: a scene; ROUNDS: medians of so many.
+# run.sh - compares glim with Blender's Cycles (`make bench-cycles`)
+#
+# Measures camera paths per second of both, in turns, on the scenes of
+# ../shared/scenes-bench, and the ratio of the variances at equal time. BUILD is
+# the folder of the program, FILTER a scene, ROUNDS the number of runs for
+# medians.
 set -eu
 build=${BUILD:-build/release}
 shared=${GLIM_SHARED:-../shared}/scenes-bench
@@ -21,14 +23,14 @@ median() { # COLUMN FILE
         END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
 }
 
-# Both print millions of paths a second, by the clock and by what the processor
-# did for one thread: what runs beside hardly counts there.
+# cycles and glim print millions of paths per second, by the clock and by
+# processor time of one thread, which other programs hardly disturb.
 
-noise() { # OF: of its two pictures
+noise() { # prefix of its two pictures
     python3 tests/bench/cycles/noise.py "$work/$1"0.pfm "$work/$1"1.pfm
 }
 
-# Between 4 and 36 samples a pixel: what it takes to begin does not count.
+# Measures between 4 and 36 samples per pixel, which excludes the start.
 cycles() { # OBJ THREADS
     blender -b --factory-startup -P tests/bench/cycles/cycles.py -- "$1" "$2" \
         "$work/cycles" 4 36 2>"$work/log" | awk '$1 == "cycles" { s[$2] = $3; busy[$2] = $4 }
@@ -36,7 +38,7 @@ cycles() { # OBJ THREADS
             print n / (s[36] - s[4]), n / (busy[36] - busy[4]) }'
 }
 
-# Loading counts, but takes milliseconds.
+# Includes loading, which takes milliseconds.
 glim() { # OBJ THREADS SEED
     (
         "$build/glim" -b -c "$work/view" -d 64 -s 128 -t "$2" --seed "$3" \

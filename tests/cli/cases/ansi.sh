@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# --ansi: the picture as text, to standard output or to a file.
+# --ansi writes the picture as text, to standard output or to a file.
 printf 'v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n' >flat.obj
 printf 'eye 0 0 5\nat 0 0 0\nres 20 10\nbackground .5 .2 0\n' >flat.view
 text()
@@ -13,7 +13,7 @@ text --ansi 8x8 | cat -v
 text --ansi 8x8 --cell-aspect 1 --color 16 --glyph upper | cat -v
 NO_COLOR=1 text --ansi=4x4 -o - | cat -v
 NO_COLOR=1 text --ansi 4x4 --color 24bit | cat -v
-# letters are for any locale, dots for those that have them
+# ASCII works in every locale, braille only in UTF-8
 LC_ALL=C NO_COLOR=1 text --ansi=4x4 | cat -v
 LC_ALL=C.UTF-8 NO_COLOR=1 text --ansi=4x4
 NO_COLOR= GLIM_COLOR=mono text --ansi 4x4 --glyph braille | cat -v

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The bar is one line that is rewritten, on a terminal only, and goes away.
+# The progress bar is one line on a terminal, is rewritten, and is removed.
 command -v script >/dev/null || skip "no script(1) to make a terminal"
 take box
 glim -b -w 40 -h 30 -s 1 -o quiet.png box.obj 2>err

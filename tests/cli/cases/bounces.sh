@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# -d N: at most N + 1 surfaces a path. 0 shows only the lamp, which has a
-# radiance of 8; the option wins over the view file.
+# -d N limits a path to N + 1 surfaces. 0 shows only the lamp, whose radiance is
+# 8. The option overrides the view file.
 take box
 b="-b -w 24 -h 16 -s 20"
 glim $b -d 0 -o d0.pfm box.obj 2>/dev/null

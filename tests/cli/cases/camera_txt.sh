@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Which view file counts: -c, then SCENE.view, then camera.txt in the folder.
+# Order of view files: -c, then SCENE.view, then camera.txt in the folder.
 mkdir d
 cp "$CLI"/scenes/box.* d
 rm d/box.view

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Standard files that are closed at the start do no harm.
+# Standard streams that are closed at the start cause no failure.
 take box
 glim -b -w 8 -h 4 -s 1 -o a.png box.obj 2>/dev/null
 glim -b -w 8 -h 4 -s 1 -o b.png box.obj <&- >&- 2>&-

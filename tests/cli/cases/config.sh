@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The configuration file: what is wrong in it, and who wins.
+# Errors in the configuration file, and what overrides it.
 take box
 XDG_CONFIG_HOME=$PWD
 export XDG_CONFIG_HOME
@@ -28,21 +28,21 @@ try 'key orbit xy\n'
 try 'key orbit a b c d\n'
 try '\nkey orbit a b c d e\n'
 try 'keys orbit a\n'
-# help is help, even so
+# --help works in spite of an error in the file
 glim --help | head -n 1
 glim --version | sed -n 's/[0-9.]*$/N/; 1p'
-# a relative name of the folder counts as none; then the one at home
+# a relative XDG_CONFIG_HOME is ignored; the folder at home is used
 mkdir -p home/.config/glim
 echo wrong >home/.config/glim/config
 echo fine >glim/config
 HOME=$PWD/home XDG_CONFIG_HOME=. glim -b box.obj 2>&1 | sed "s|$PWD|.|"
 HOME= XDG_CONFIG_HOME= run -b -w 8 -s 1 -o box.png box.obj |
     sed 's/, [0-9.]* s$/, T s/'
-# a folder is no file
+# a folder in place of the file
 rm glim/config
 mkdir glim/config
 run -b box.obj | sed "s|$PWD|.|"
-# the command line wins: the device that is not there is not looked for
+# the command line overrides it: the missing device is not looked for
 rmdir glim/config
 echo 'option backend opencl' >glim/config
 run_untimed -b --backend cpu -w 8 -s 1 -o box.png box.obj

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# --crop renders the same pixels as the whole picture has there.
+# --crop renders the same pixels as the whole picture.
 take box
 glim -b -w 24 -h 16 -s 60 -o whole.pfm box.obj 2>/dev/null
 run_untimed -b -w 24 -h 16 -s 60 --crop 5,2,13,9 -o part.pfm box.obj

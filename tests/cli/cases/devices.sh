@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# The list of devices of PoCL alone, and what is said where there is none.
+# The list of PoCL's devices, and the messages without a device.
 mkdir vendors
 cp /etc/OpenCL/vendors/pocl.icd vendors 2>/dev/null || skip "no PoCL here"
 export OCL_ICD_VENDORS=$PWD/vendors
 unset POCL_DEVICES POCL_MAX_PTHREAD_COUNT POCL_CPU_MAX_CU_COUNT XDG_CACHE_HOME
 
-# without what depends on the machine: memory, versions, the processor's name
+# Removes what depends on the machine: memory, versions, the processor's name.
 plain()
 {
     sed 's/  */ /g; s/ [0-9.]* GiB/ M GiB/; s/OpenCL [0-9.]* .* \(Port\)/V \1/'

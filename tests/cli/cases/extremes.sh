@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Beside an edge of 5e38 one of 1 has no reciprocal: its normal was none, and
-# what left the face was a ray that never ended.
+# An edge of 5e38 beside one of 1: the face had no finite normal, and a ray that
+# left it never ended.
 printf 'v %s\n' '-5e38 0 0' '0 0 0' '0 0 1' '0 1 0' >needle.obj
 printf 'f 1 2 3\nf 1 4 3\n' >>needle.obj
 printf 'v %s\n' '0 0 0' '0 0 1' '0 .79 1' '0 1 0' '-1e38 0 0' '0 0 -1e38' \

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Scenes that cannot be read: one line with the place, status 1.
+# Scenes that cannot be read cause one line with the place, and status 1.
 b="-b -w 8 -h 4 -s 1 -o out.png"
 run $b missing.obj
 mkdir folder.obj

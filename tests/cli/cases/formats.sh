@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Each ending gives its format; -o replaces; without -o names are numbered.
+# The ending selects the format; -o replaces; without -o files are numbered.
 take box
 b="-b -w 9 -h 5 -s 1"
 for name in out.png out.hdr out.pfm; do

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# A disk that is full: the old file stays, one message says so, and nothing is
-# left behind.
+# On a full disk the old file stays, one message says so, and no other file is
+# left.
 take box
 mkdir disk
 cat >fill.sh <<'SH'
-# a disk of its own, where that is allowed; else files of 8 KB at most
+# uses a disk of its own if that is allowed, otherwise a limit of 8 KB for files
 if ! mount -t tmpfs -o size=16k none disk 2>/dev/null; then
     trap '' XFSZ
     ulimit -f 16

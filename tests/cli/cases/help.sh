@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# --help and --version go to standard output, whatever else is on the line.
+# --help and --version print to standard output in spite of other arguments.
 glim --help | sed -n '1,2p'
 glim --help 2>/dev/null | wc -l | awk '{ print ($1 > 20 ? "long" : "short") }'
 run --version | sed 's/ [0-9][0-9.]*$/ N/; s/isa: .*plain$/isa: all/'
@@ -10,6 +10,6 @@ if [ -e /dev/full ]; then
     glim --help 2>&1 >/dev/full
     echo "exit $?"
 fi
-# a set of instructions that no processor has
+# an instruction set that no processor has
 take box
 run -b --isa sse9 -o x.png box.obj | sed "s/: [a-z0-9, ]*plain$/: all/"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Images that promise more pixels than they have: refused with the line that
-# names them.
+# Images with fewer pixels than their header says are refused, with the line
+# that names them.
 b="-b -w 8 -h 8 -s 1 -t 1 -o out.png"
 textured 3
 # 19 bytes for 32767x8191 pixels, 161 for 16136x6656 of them

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Killed at any time, the old picture or the new one is there, complete, and
-# beside it nothing, or what the next save removes.
+# After a kill at any time there is the complete old or new picture, and no
+# other file, or one that the next save removes.
 take box
 b="-b -w 96 -h 72 -s 1 -t 1"
 glim $b --seed 1 -o old.pfm box.obj 2>/dev/null
@@ -8,7 +8,8 @@ begin=$(date +%s%N)
 glim $b --seed 2 -o new.pfm box.obj 2>/dev/null
 took_us=$((($(date +%s%N) - begin) / 1000))
 
-# files without a name are known here; elsewhere some stay until the next save
+# unnamed files are supported here; elsewhere some files stay until the next
+# save
 mkdir out
 case $(stat -f -c %T out) in
 ext* | xfs | btrfs | tmpfs) all='out/* out/.glim-*' ;;
@@ -20,7 +21,7 @@ whole()
     cmp -s "$1" old.pfm || cmp -s "$1" new.pfm || echo "$1 is torn"
 }
 
-# 200 moments, spread over a run and a bit; fewer of a slow program
+# 200 moments over the time of a run; fewer for a slow program
 kills=$((80000000 / took_us))
 [ $kills -le 200 ] || kills=200
 for i in $(seq $kills); do

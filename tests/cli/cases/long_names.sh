@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Names that no file can have cost neither memory nor stack, and one line each.
+# Names too long for a file cause one line each and use little memory and stack.
 b="-b -w 8 -h 8 -s 1 -t 1 -o out.png"
 ulimit -s 1024
 limit_memory 400000 || true
@@ -21,7 +21,7 @@ run $b -o "${folders}b.png" map.obj
 run $b --stats "${folders}b" map.obj
 run $b -c "${folders}b" map.obj
 XDG_CONFIG_HOME="/$folders" run_untimed $b map.obj
-# names in other letters, as deep as they may be
+# names in another letter case, as deep as possible
 mkdir -p Deep/deep
 printf 'newmtl m\nKe 1 1 1\n' >Deep/deep/A.mtl
 printf "mtllib dEEP//DEEP/./../deep/a.MTL\n$triangle" >case.obj

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-# Images that the memory has no room for beside the others are refused in the
-# order of the file, before they are decoded.
+# Images beyond the available memory are refused in the order of the file,
+# before they are decoded.
 b="-b -w 8 -h 8 -s 1 -t 1 -o out.png"
-# threads take little of what is limited
+# one thread, since threads use part of the limited memory
 export MALLOC_ARENA_MAX=1
 ulimit -s 1024
 
-# a megabyte for 32 million pixels: runs of 128, as long as they may be
+# a megabyte for 32 million pixels, in runs of 128, the longest
 {
     printf '\0\0\012\0\0\0\0\0\0\0\0\0\100\037\240\017\030\0'
     printf '%250000s' '' | sed 's/ /\xffabc/g'
@@ -27,7 +27,7 @@ printf 'sky small.tga\n' >textured.view
     printf '%125000s' '' | sed 's/ /\xffabc/g'
 } >small.tga
 run_untimed $b textured.obj
-# four textures and that sky are too much
+# four textures and the sky are too large together
 textured 4
 echo 'sky small.tga' >textured.view
 run $b textured.obj

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Hostile names of files, materials, objects and keys: nothing of them reaches a
-# terminal that it would obey, and JSON has them as escapes.
+# Control characters in names of files, materials, objects and keys do not reach
+# the terminal; JSON has escapes for them.
 esc=$(printf '\033]0;X\007')
 c1=$(printf '\23331m')
 odd="q$esc$c1$(printf '\302\2331m \342\200\256 \377 \177 \nx')"
@@ -8,8 +8,7 @@ face='v -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n'
 mkdir hostile
 cd hostile
 
-# Says whether there is a byte that is no character in ASCII or UTF-8 and no
-# line end.
+# Tells whether a byte is neither a character of ASCII or UTF-8 nor a line end.
 clean()
 {
     if LC_ALL=C grep -aq '[^ -~]' "$1"; then

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What a person should know about a scene is said, and the picture is made.
+# Notes about a scene are printed, and the picture is made.
 take plain box
 b="-b -w 8 -h 4 -s 1 -o out.png"
 run_untimed $b plain.obj

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# Batch mode on an OpenCL device: the CPU's bytes; and what is said when there
-# is none, or when it fails, while the CPU renders.
+# Batch mode on an OpenCL device gives the CPU's bytes. If there is none or it
+# fails, a message says so, and the CPU renders.
 cp /etc/OpenCL/vendors/pocl.icd . 2>/dev/null || skip "no PoCL here"
 export OCL_ICD_VENDORS=$PWD
 take box
 
-# Without the device's name, which is that of the processor.
+# Removes the device's name, which is that of the processor.
 device()
 {
     run_untimed -b --backend opencl "$@" |

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Output that cannot be written is said, before the render begins if it can be
-# known then.
+# Output that cannot be written is reported, before the render if possible.
 take box
 b="-b -w 8 -h 4 -s 1000000000"
 mkdir folder.png

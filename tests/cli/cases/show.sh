@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# --show: what is no light, without a render. A wall faces the eye; its normal
-# is blue and half of red and green.
+# --show writes properties without a render. A wall faces the camera: its normal
+# is blue with half of red and green.
 printf 'v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n' >wall.obj
 printf 'eye 0 0 5\nat 0 0 0\nres 20 10\n' >wall.view
 run_untimed -b --show normals -o normals.png wall.obj

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-# SIGINT, SIGTERM and SIGHUP save the picture so far and say how far it is.
+# SIGINT, SIGTERM and SIGHUP save the picture so far and print its samples.
 take box
-# True when the process has computed for 20 ticks: it is rendering.
+# Succeeds when the process has used 20 ticks of processor time: it renders.
 renders()
 {
     [ "$(awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$1/stat")" -ge 20 ]
 }
-# Runs glim as process $(cat pid): in the foreground, as SIGINT is ignored by
-# programs in the background.
+# Runs glim as process $(cat pid), in the foreground, since programs in the
+# background ignore SIGINT.
 glim_with_pid()
 {
     sh -c 'echo $$ >pid.new; mv pid.new pid; exec glim "$@"' glim "$@" 2>err
 }
-# Waits until that process renders, and sends it the signals.
+# Waits until that process renders and sends it the signals.
 send_when_it_renders()
 {
     until [ -e pid ]; do
@@ -44,14 +44,14 @@ stop()
 stop INT
 stop TERM
 stop HUP
-# more signals do not disturb the saving
+# more signals do not disturb saving
 send_when_it_renders TERM TERM TERM &
 glim_with_pid -b -w 900 -h 600 -s 1000000000 -o more.png box.obj
 echo "exit $?"
 wait
 sed 's/ at [0-9]* of/ at N of/' err
 kind more.png
-# a job that was told to ignore the signal goes on
+# a program started with the signal ignored continues
 (
     trap '' HUP
     send_when_it_renders HUP &

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# A sky's texels that are no radiance: NaN is refused, what is negative or
-# infinite is clamped and counted.
+# Values of a sky image that are not radiances: NaN is refused, negative and
+# infinite values are clamped and counted.
 take plain
 b="-b -w 8 -h 4 -s 1 -o out.png"
 one='\000\000\200\077'

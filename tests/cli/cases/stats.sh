@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# --stats: one JSON object; counts follow from the size, times are ordered.
+# --stats writes one JSON object; counts follow from the size, times are
+# ordered.
 take box
 glim -b -w 20 -h 10 -s 3 -t 2 --seed 7 -o out.png --stats run.json box.obj \
     2>/dev/null
@@ -16,8 +17,8 @@ awk -F '[:,]' '/(load|build|picture|render|total|span)_s"/ { t[$1] = $2 + 0; if 
             rays >= 600) ? "times and rays are plausible" : "implausible"
     }' run.json
 grep -E '"(percent|left_s)"' run.json
-# rates and the speeds of all spans follow from samples and times; a share of
-# each of two threads
+# rates and the speeds of all spans follow from samples and times; each of the
+# two threads has a load
 awk -F '[][,:]' '{ value[$1] = $2 + 0 }
     /"speeds"/ { for (i = 3; i < NF; i++) speed[n++] = $i }
     /"load"/ { loads = NF - 4; for (i = 3; i < NF - 1; i++) bad += $i < 0 || $i > 1 }

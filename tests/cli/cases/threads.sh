@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Any number of threads gives the same bytes; another seed does not.
+# The bytes do not depend on the number of threads; they depend on the seed.
 take box
 b="-b -w 40 -h 30 -s 11 --seed 3"
 for threads in 1 2 5 64; do

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A folder without permission is said before the render begins.
+# A folder without write permission is reported before the render.
 [ "$(id -u)" != 0 ] || skip "the superuser may write everywhere"
 mkdir shut
 chmod a-w shut

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Mistakes on the command line: one line that names them, status 2.
+# Errors on the command line cause one line that names them, and status 2.
 take box
 run
 run -b

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Cameras that cannot be are refused with the line, odd ones that can are not.
+# Impossible cameras are refused with the line; unusual ones are accepted.
 take box
 try()
 {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# b brings an OpenCL device up while the CPU draws, and goes back to the CPU;
-# without one the CPU goes on, and says why.
+# b starts an OpenCL device while the CPU renders, and returns to the CPU;
+# without a device the CPU continues, and a message gives the reason.
 cp /etc/OpenCL/vendors/pocl.icd . 2>/dev/null || {
     echo "no PoCL here"
     exit 77

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Keys that come together, as over a slow line, do what they do one by one.
+# Keys that arrive together, as over a slow line, act as they do one by one.
 size=100x21
 wall() # the picture is 188 188 0 in every pixel
 {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Keys and mouse move the camera; c writes where it is, r goes back.
+# Keys and mouse move the camera; c writes the view, r returns.
 lamp_scene
 view_of() # key, number of the eye or at value: presses it, prints the value
 {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Keys and options of one's own, from the configuration file.
+# Keys and options from the configuration file.
 flat_scene
 size=80x24
 mkdir glim
@@ -21,7 +21,7 @@ wait_for "^ mono" # what is next after 16
 keys x
 expect_end 0
 fresh
-# the command line and the environment win
+# the command line and the environment override it
 start_line "TERM=tmux-256color XDG_CONFIG_HOME=$PWD glim --color 256 flat.obj"
 wait_for "LIVE"
 keys C

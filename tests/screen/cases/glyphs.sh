@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Half blocks, blanks, characters or dots, as asked, by option and by key.
+# Half blocks, blanks, characters or dots, by option and by key.
 lamp_scene
 start lamp.obj
 wait_for "[▀▄]"
@@ -31,7 +31,7 @@ for case in "upper:▀" "lower:▄" "sextant:[🬕🬂🬎🬁🬓]" "ascii:@@@"
     keys q
     expect_end 0
 done
-# Pixels that are asked for and not there are missed in a word.
+# A message tells that requested pixels are not supported.
 for case in "sixel:sixels" "kitty:kitty pixels"; do
     fresh
     start --glyph ${case%%:*} lamp.obj
@@ -51,7 +51,7 @@ start --glyph sixel --color mono lamp.obj
 wait_for "braille: sixels need colours"
 keys q
 expect_end 0
-# Without colours dots are the first choice, and letters come next.
+# Without colours dots come first, then letters.
 fresh
 start_line "TERM=tmux-256color glim --color mono lamp.obj"
 wait_for "⣿⣿"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The line is lost: the program ends by itself and keeps a picture that took a
-# while, in one file in the state folder; the next start tells of it. So does
-# SIGTERM with what q would ask about.
+# When the terminal is lost, the program ends and saves a picture of some work
+# to one file in the state folder; the next start tells of it. SIGTERM saves if
+# q would ask.
 XDG_STATE_HOME=$PWD/state
 export XDG_STATE_HOME
 lost=state/glim/lost.png

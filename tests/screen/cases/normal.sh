@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Normal mode: starts, halts, goes on, ends, and does not lose a picture
-# unasked. The program sleeps when nothing changes.
+# Normal mode starts, halts, continues and ends, and asks before a picture is
+# lost. The program sleeps when nothing changes.
 lamp_scene
 size=100x21
 start -s 5 lamp.obj

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Without an argument glim shows the scenes that were opened last.
+# Without an argument glim lists the scenes that were opened last.
 flat_scene
 lamp_scene
 start_line "TERM=tmux-256color glim"

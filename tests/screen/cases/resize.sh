@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Any size at any moment; what is too small says what is needed.
+# The window may have any size at any time; if it is too small, a message says
+# so.
 flat_scene
 start --cell-aspect 2 flat.obj
 wait_for_rows 15 "48;2;188;124;0"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# p never replaces a file and says where; a failure stays until a key.
+# p never replaces a file and shows the name; an error stays until a key.
 flat_scene
 mkdir sub
 mv flat.obj flat.view sub

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Every way to go gives the terminal back and has its exit status.
+# Every exit restores the terminal and has its exit status.
 flat_scene
 first=yes
 for case in TERM:143 HUP:129 INT:130 QUIT:131 SEGV:139 ABRT:134; do

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# All of it works in 40x12 cells; what is smaller says so.
+# Everything works in 40x12 cells; a smaller window shows a message.
 flat_scene
 size=40x12
 start --cell-aspect 2 flat.obj

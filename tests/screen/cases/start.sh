@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What can be wrong before there is a screen; keys that come too early; notes.
+# Errors before the screen opens; keys that come too early; notes.
 flat_scene
 start nosuch.obj
 wait_for "^glim: nosuch.obj: "

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# x writes the cells of the screen as text, as batch mode does, and cat shows
-# them; never over a file.
+# x writes the screen's cells as text, as batch mode does, and cat shows it. It
+# never replaces a file.
 flat_scene
 start --cell-aspect 2 flat.obj
 wait_for_rows 15 "48;2;188;124;0"

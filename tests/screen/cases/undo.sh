@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Moves are undone one by one; numbered views are gone to, kept and written.
+# Moves are undone one by one; numbered views are visited, kept and written.
 lamp_scene
 line() # of the view file that is written now; c ends a move
 {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # In the shipped room the camera stands with its back at a wall. A tap stays in
-# the room; who goes through the wall is told so, and how to come back.
+# the room; a message tells when the camera goes through the wall, and how to
+# return.
 cp "$root"/scenes/interior.* "$root"/scenes/*.png .
 eye_z() # of the view that is written now; c ends a move
 {
