@@ -19,11 +19,13 @@ struct next {
     bool has_lights;
 };
 
-/* A world on its way to a style. */
+/* A world on its way to other materials. */
 struct change {
     struct host_world *host;
     const struct scene *scene;
-    const struct style *style;
+    uint32_t count; /* as in world_set_materials() */
+    const struct mtl_source *sources;
+    const uint32_t *assigned;
     struct next next;
 };
 
@@ -45,13 +47,12 @@ static void *copy_array(const void *from, size_t count, size_t size_bytes)
 /* ---- triangles ---- */
 
 static bool needs_tris(const struct host_world *host, const struct scene *scene,
-                       const struct style *style)
+                       const uint32_t *assigned)
 {
     for (uint32_t i = 0; i < scene->object_count; i++) {
-        uint32_t assigned =
-            host->assigned != NULL ? host->assigned[i] : NO_INDEX;
+        uint32_t before = host->assigned != NULL ? host->assigned[i] : NO_INDEX;
 
-        if (assigned != style->assigned[i])
+        if (before != assigned[i])
             return true;
     }
     return false;
@@ -62,11 +63,11 @@ static bool make_tris(struct change *c)
     const struct scene *scene = c->scene;
     struct next *next = &c->next;
 
-    if (!needs_tris(c->host, scene, c->style))
+    if (!needs_tris(c->host, scene, c->assigned))
         return true;
     next->tris = copy_array(scene->tris, scene->tri_count, sizeof *next->tris);
-    next->assigned = copy_array(c->style->assigned, scene->object_count,
-                                sizeof *next->assigned);
+    next->assigned =
+        copy_array(c->assigned, scene->object_count, sizeof *next->assigned);
     if (next->tris == NULL || next->assigned == NULL)
         return false;
     for (uint32_t i = 0; i < scene->tri_count; i++) {
@@ -82,7 +83,7 @@ static bool make_tris(struct change *c)
 
 static bool *find_used(const struct change *c)
 {
-    bool *is_used = alloc_array(c->style->material_count, sizeof *is_used);
+    bool *is_used = alloc_array(c->count, sizeof *is_used);
 
     if (is_used != NULL && c->next.tris == NULL)
         memcpy(is_used, c->host->material_is_used,
@@ -99,7 +100,7 @@ static bool is_as_before(const struct change *c, uint32_t i)
 
     return i < host->material_count &&
            (host->material_is_used[i] || !c->next.material_is_used[i]) &&
-           mtl_source_equal(&host->sources[i], &c->style->sources[i]);
+           mtl_source_equal(&host->sources[i], &c->sources[i]);
 }
 
 static struct material make_material(const struct change *c, uint32_t i)
@@ -107,7 +108,7 @@ static struct material make_material(const struct change *c, uint32_t i)
     /* What is odd in the file was said when it was read. */
     struct warnings report = {0};
     struct material m =
-        material_from_source(&c->style->sources[i], c->scene->path, &report);
+        material_from_source(&c->sources[i], c->scene->path, &report);
 
     warnings_free(&report);
     return m;
@@ -138,19 +139,16 @@ static bool load_textures(struct change *c, struct material *m,
 
 static bool make_materials(struct change *c, struct error *err)
 {
-    const struct style *style = c->style;
     struct next *next = &c->next;
     bool ok = true;
 
     next->material_is_used = find_used(c);
-    next->materials =
-        alloc_array(style->material_count, sizeof *next->materials);
-    next->sources = copy_array(style->sources, style->material_count,
-                               sizeof *next->sources);
+    next->materials = alloc_array(c->count, sizeof *next->materials);
+    next->sources = copy_array(c->sources, c->count, sizeof *next->sources);
     if (next->material_is_used == NULL || next->materials == NULL ||
         next->sources == NULL)
         return out_of_memory(c, err);
-    for (uint32_t i = 0; ok && i < style->material_count; i++) {
+    for (uint32_t i = 0; ok && i < c->count; i++) {
         if (is_as_before(c, i)) {
             next->materials[i] = c->host->materials[i];
             continue;
@@ -190,7 +188,7 @@ static struct world next_arrays(const struct change *c)
     struct world arrays = world_arrays(c->host, c->scene);
 
     arrays.materials = c->next.materials;
-    arrays.settings.material_count = c->style->material_count;
+    arrays.settings.material_count = c->count;
     if (c->next.tris != NULL)
         arrays.tris = c->next.tris;
     if (c->next.textures != NULL)
@@ -227,7 +225,7 @@ static void swap_in(struct change *c)
     host->sources = next->sources;
     free(host->material_is_used);
     host->material_is_used = next->material_is_used;
-    host->material_count = c->style->material_count;
+    host->material_count = c->count;
     if (next->tris != NULL) {
         free(host->tris);
         host->tris = next->tris;
@@ -255,25 +253,31 @@ static void drop(struct next *next)
     lights_free(&next->lights);
 }
 
-bool world_is_styled(const struct host_world *host, const struct scene *scene,
-                     const struct style *style)
+bool world_has_materials(const struct host_world *host,
+                         const struct scene *scene, uint32_t count,
+                         const struct mtl_source *sources,
+                         const uint32_t *assigned)
 {
-    if (host->material_count != style->material_count ||
-        needs_tris(host, scene, style))
+    if (host->material_count != count || needs_tris(host, scene, assigned))
         return false;
-    for (uint32_t i = 0; i < style->material_count; i++)
-        if (!mtl_source_equal(&host->sources[i], &style->sources[i]))
+    for (uint32_t i = 0; i < count; i++)
+        if (!mtl_source_equal(&host->sources[i], &sources[i]))
             return false;
     return true;
 }
 
-bool world_restyle(struct host_world *host, const struct scene *scene,
-                   const struct style *style, struct error *err)
+bool world_set_materials(struct host_world *host, const struct scene *scene,
+                         uint32_t count, const struct mtl_source *sources,
+                         const uint32_t *assigned, struct error *err)
 {
-    struct change c = {.host = host, .scene = scene, .style = style};
+    struct change c = {.host = host,
+                       .scene = scene,
+                       .count = count,
+                       .sources = sources,
+                       .assigned = assigned};
     bool ok;
 
-    if (world_is_styled(host, scene, style))
+    if (world_has_materials(host, scene, count, sources, assigned))
         return true;
     ok = make_tris(&c) || out_of_memory(&c, err);
     ok = ok && make_materials(&c, err) && make_lights(&c, err);

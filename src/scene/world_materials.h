@@ -16,18 +16,17 @@
 
 #include "scene/world.h"
 
-struct style {
-    uint32_t material_count; /* at least the scene's: the others are new */
-    const struct mtl_source *sources;
-    const uint32_t *assigned; /* a material for each object; NO_INDEX: as in the
-                                 file */
-};
+/* Gives each material these statements, and each object the material that is
+ * assigned to it, or with NO_INDEX that of the file. There are `count`
+ * materials: the scene's, and new ones after them. */
+bool world_set_materials(struct host_world *host, const struct scene *scene,
+                         uint32_t count, const struct mtl_source *sources,
+                         const uint32_t *assigned, struct error *err);
 
-/* True if the world has this style. */
-bool world_is_styled(const struct host_world *host, const struct scene *scene,
-                     const struct style *style);
-
-bool world_restyle(struct host_world *host, const struct scene *scene,
-                   const struct style *style, struct error *err);
+/* True if the world has these materials. */
+bool world_has_materials(const struct host_world *host,
+                         const struct scene *scene, uint32_t count,
+                         const struct mtl_source *sources,
+                         const uint32_t *assigned);
 
 #endif

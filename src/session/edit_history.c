@@ -304,13 +304,6 @@ const struct edit_state *edit_shown(const struct edit *e)
     return e->is_comparing ? &e->saved : &e->now;
 }
 
-struct style edit_style(const struct edit *e)
-{
-    const struct edit_state *s = edit_shown(e);
-
-    return (struct style){e->material_count, s->sources, s->assigned};
-}
-
 bool edit_is_saved(const struct edit *e, uint32_t i)
 {
     /* a duplicate that was saved and then undone stays in its file */

@@ -35,7 +35,7 @@ struct mood {
 struct edit_state {
     struct mtl_source *sources; /* one a material */
     bool *is_there;     /* one a material; false: a duplicate that was undone */
-    uint32_t *assigned; /* one an object, as in struct style */
+    uint32_t *assigned; /* one an object; NO_INDEX: as in the file */
     struct mood mood;
 };
 
@@ -82,7 +82,6 @@ bool edit_redo(struct edit *edit);
 
 /* What is to be shown: now, or while comparing what is saved. */
 const struct edit_state *edit_shown(const struct edit *edit);
-struct style edit_style(const struct edit *edit);
 
 /* True if the files have this material as it is now. */
 bool edit_is_saved(const struct edit *edit, uint32_t material);

@@ -56,14 +56,15 @@ static bool find_crop(struct session *s, struct error *err)
  * that cannot be read leaves the one before, and a notice. */
 static bool apply_edit(struct session *s, struct error *err)
 {
-    struct style style = edit_style(&s->edit);
+    const struct edit_state *shown = edit_shown(&s->edit);
     struct error why;
 
-    if (!world_restyle(&s->world, &s->scene, &style, err))
+    if (!world_set_materials(&s->world, &s->scene, s->edit.material_count,
+                             shown->sources, shown->assigned, err))
         return false;
-    edit_to_view(&s->edit, edit_shown(&s->edit), &s->scene, &s->view);
-    if (s->sky != edit_shown(&s->edit)->mood.sky) {
-        s->sky = edit_shown(&s->edit)->mood.sky;
+    edit_to_view(&s->edit, shown, &s->scene, &s->view);
+    if (s->sky != shown->mood.sky) {
+        s->sky = shown->mood.sky;
         if (!world_load_sky(&s->world, &s->view, &s->report, &why))
             snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     }
@@ -239,13 +240,15 @@ bool session_step(struct session *s, uint64_t spp, struct error *err)
 
 bool session_take_edit(struct session *s)
 {
-    const struct mood *m = &edit_shown(&s->edit)->mood;
-    struct style style = edit_style(&s->edit);
+    const struct edit_state *shown = edit_shown(&s->edit);
+    const struct mood *m = &shown->mood;
     const struct view *v = &s->view;
 
     s->view.lighting.exposure = m->exposure;
     s->view.lighting.tone = m->tone;
-    return !world_is_styled(&s->world, &s->scene, &style) || s->sky != m->sky ||
+    return !world_has_materials(&s->world, &s->scene, s->edit.material_count,
+                                shown->sources, shown->assigned) ||
+           s->sky != m->sky ||
            memcmp(v->lighting.background, m->background,
                   sizeof v->lighting.background) != 0 ||
            v->lighting.sky_strength != m->sky_strength ||

@@ -332,7 +332,6 @@ static void edits(void **state)
         uint32_t count = p.scene.material_count - 1;
         uint32_t m = 1 + (uint32_t)(check_random(&seed) * count);
         uint32_t o = (uint32_t)(check_random(&seed) * p.scene.object_count);
-        struct style style = {count + 1, sources, assigned};
         struct error err;
 
         sources[m].kd = (struct mtl_color){{check_random(&seed), 0.5, 0.5}, 1};
@@ -341,7 +340,9 @@ static void edits(void **state)
                 (struct mtl_color){{3 * check_random(&seed), 1, 1}, 1};
         if (round % 3 == 2)
             assigned[o] = m;
-        check_or_say(world_restyle(&p.world, &p.scene, &style, &err), err.text);
+        check_or_say(world_set_materials(&p.world, &p.scene, count + 1, sources,
+                                         assigned, &err),
+                     err.text);
         render_both(&p, (struct rect){0, 0, 48, 48}, 2, round);
     }
     close_pair(&p);

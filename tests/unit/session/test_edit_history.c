@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Edits: undone and done again they are what they were; a scene that was
- * restyled has the arrays of one that was loaded from the files that the edit
+ * Edits that are undone and done again give what they gave. A world that was
+ * edited has the arrays of one that is loaded from the files that the edit
  * wrote.
  */
 #include <stdlib.h>
@@ -276,7 +276,7 @@ static void test_groups(void **state)
 
 /* What is rendered after an edit is what a fresh start renders after saving;
  * comparing and undoing bring back what was loaded. */
-static void test_restyle(void **state)
+static void test_saved_is_loaded(void **state)
 {
     struct session first;
 
@@ -594,7 +594,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_undo_redo),
         cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_restyle),
+        cmocka_unit_test(test_saved_is_loaded),
         cmocka_unit_test(test_swaps),
         cmocka_unit_test(test_textures_come_into_use),
         cmocka_unit_test(test_saved_files),
