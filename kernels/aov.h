@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * aov.h - samples that end at the camera ray's first hit: the preview, and
- * normals, texture coordinates, depths and materials for false colours
+ * aov.h - arbitrary output variables: samples that end at the camera ray's
+ * first hit, for the preview and for false colours
  *
- * Values are stored in place of radiance, so none is negative. The sky's value
- * is 0 in all but the preview.
+ * Values take the place of radiance, so none is negative. Where the ray meets
+ * nothing the value is 0, but in the preview it is the sky.
  *
  * Units: normalised scene units, and those that enum sample_kind states
  */
@@ -15,12 +15,11 @@
 #include "kernels/path_types.h"
 #include "kernels/surface_point.h"
 
-/* Of the preview's light the part that comes from everywhere; the rest comes
- * from the eye. */
+/* Ambient part of the preview's light. The rest comes from the eye. */
 #define PREVIEW_AMBIENT 0.25f
 
-/* Colours as they are, brighter the more they face the eye. Lamps have their
- * hue as bright as a screen can show it. */
+/* The material's colour, brighter the more the surface faces the eye. Emission
+ * is scaled down to 1 at most, so that lamps keep their hue. */
 static inline struct vec3 preview_color(const struct world *w,
                                         const struct material *m,
                                         const struct bsdf *b,
@@ -35,13 +34,13 @@ static inline struct vec3 preview_color(const struct world *w,
                   v3_scale(glow, 1.0f / f_max(top, 1.0f)));
 }
 
-/* Components in [-1, 1] as numbers in [0, 1]. */
+/* Maps components from [-1, 1] to [0, 1]. */
 static inline struct vec3 direction_numbers(struct vec3 d)
 {
     return v3(0.5f + 0.5f * d.x, 0.5f + 0.5f * d.y, 0.5f + 0.5f * d.z);
 }
 
-/* The quantity that settings.sample names, at a surface point. */
+/* Returns the quantity that settings.sample names, at a surface point. */
 static inline struct vec3 aov_value(const struct world *w,
                                     const struct material *m,
                                     const struct surface_point *v, struct ray r,
@@ -65,7 +64,7 @@ static inline struct vec3 aov_value(const struct world *w,
     }
 }
 
-/* The sample of a pixel whose camera ray r has met h. */
+/* Returns the sample of a pixel whose camera ray r has hit h. */
 static inline struct path_sample aov_sample(const struct world *w, struct ray r,
                                             struct hit h)
 {

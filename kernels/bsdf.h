@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * bsdf.h - how surfaces scatter, by kind of material
+ * bsdf.h - BSDFs of all materials, by kind
  *
- * One argument order for all: the material, wo, then wi or random numbers.
- * bsdf_terms() is f |cosine| and the density together, of all lobes that have
- * one; delta lobes are only met by bsdf_sample(). Reflection lies above the
- * surface, transmission below.
+ * Functions take the BSDF, wo, then wi or random numbers. bsdf_terms() has
+ * f |cosine| and the density together, for all lobes that are not deltas. Delta
+ * lobes are sampled by bsdf_sample() only. Reflected directions lie above the
+ * surface, transmitted ones below.
  *
  * Units:     local frame of bsdf_types.h; densities per solid angle
- * Errors:    a sample without light is refused by the result; impossible
+ * Errors:    bsdf_sample() returns false if no light is scattered; impossible
  *            directions are black
  */
 #ifndef KERNELS_BSDF_H
@@ -18,7 +18,7 @@
 #include "kernels/metal.h"
 #include "kernels/plastic.h"
 
-/* Lambert's law; in builds that have no other nothing is asked. */
+/* True if the BSDF is Lambert's. Builds without other kinds need no test. */
 static inline bool bsdf_is_lambert(const struct bsdf *m)
 {
     return !HAS(FEATURE_ROUGH_DIFFUSE | FEATURE_METAL | FEATURE_GLASS |
@@ -26,14 +26,14 @@ static inline bool bsdf_is_lambert(const struct bsdf *m)
            m->kind == MATERIAL_DIFFUSE;
 }
 
-/* Nothing scatters: a lamp, for one. */
+/* True if the BSDF scatters nothing, like that of most lamps. */
 static inline bool bsdf_is_black(const struct bsdf *m)
 {
     return v3_is_zero(m->color) &&
            (bsdf_is_lambert(m) || m->kind == MATERIAL_ROUGH_DIFFUSE);
 }
 
-/* All lobes are deltas: f is zero wherever a light could be sampled. */
+/* True if all lobes are deltas: f is zero for any light sample. */
 static inline bool bsdf_is_delta(const struct bsdf *m)
 {
     if (HAS(FEATURE_METAL) && m->kind == MATERIAL_METAL)
@@ -45,20 +45,21 @@ static inline bool bsdf_is_delta(const struct bsdf *m)
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_THIN_GLASS;
 }
 
-/* Light goes through. */
+/* True for solid and thin glass. */
 static inline bool bsdf_is_glass(const struct bsdf *m)
 {
     return HAS(FEATURE_GLASS) &&
            (m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS);
 }
 
-/* f is not zero below the surface. */
+/* True if f is not zero for directions below the surface. */
 static inline bool bsdf_transmits(const struct bsdf *m)
 {
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS && !bsdf_is_delta(m);
 }
 
-/* f |cosine| without bsdf_eta_scale(), and the density of bsdf_sample(). */
+/* Returns f |cosine| without bsdf_eta_scale(); *pdf is the density of
+ * bsdf_sample(). */
 static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
                                      struct vec3 wi, float *pdf)
 {
@@ -95,7 +96,8 @@ static inline float bsdf_pdf(const struct bsdf *m, struct vec3 wo,
     return pdf;
 }
 
-/* What radiance from wi is multiplied by beside f: 1/eta^2 below glass. */
+/* Factor of radiance from wi beside f: 1/eta^2 for transmission into glass
+ * (Veach 1997, 5.2). */
 static inline float bsdf_eta_scale(const struct bsdf *m, struct vec3 wi)
 {
     return HAS(FEATURE_GLASS) && m->kind == MATERIAL_GLASS
@@ -103,7 +105,8 @@ static inline float bsdf_eta_scale(const struct bsdf *m, struct vec3 wi)
                : 1.0f;
 }
 
-/* Draws wi; false if the light ends here. `choice` is for the lobe. */
+/* Samples a direction. Returns false if the light is absorbed. `choice` is the
+ * random number that chooses the lobe. */
 static inline bool bsdf_sample(const struct bsdf *m, struct vec3 wo,
                                struct vec2 u, float choice,
                                struct bsdf_sample *s)

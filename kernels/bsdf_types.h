@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * bsdf_types.h - a material where it was hit, and a direction drawn from it
+ * bsdf_types.h - a BSDF at a surface point, and a sample of it
  *
  * Units:     local frame, z along the shading normal on the eye's side; wo to
  *            the eye, wi to the light, both unit vectors
@@ -10,33 +10,33 @@
 
 #include "kernels/vec.h"
 
-/* Directions closer to the surface than this have no digits left: nothing
- * scatters from or to them, and no square or quotient of cosines vanishes. */
+/* Least cosine of a direction to the normal. Directions closer to the surface
+ * do not scatter, so that no square or quotient of cosines underflows. */
 #define COSINE_MIN 1e-15f
 
 struct bsdf {
     struct vec3 color; /* albedo; reflectance of a metal; tint of glass */
     struct vec3 coat;  /* plastic: the coat's reflectance at normal incidence */
-    float alpha;       /* GGX; of rough diffuse the roughness */
-    float eta; /* index on the far side over the one on the eye's side */
-    uint32_t kind;
+    float alpha;       /* GGX roughness; EON roughness for rough diffuse */
+    float eta;     /* refractive index of the far side over that of wo's side */
+    uint32_t kind; /* enum material_kind */
 };
 
 struct bsdf_sample {
     struct vec3 wi;
     struct vec3 weight; /* f |cosine| / pdf, without eta_scale */
     float pdf;          /* per solid angle; 0 where is_delta */
-    float eta_scale;    /* radiance scaling 1/eta^2 of a crossing, else 1 */
-    bool is_delta;      /* no other way to sample would find this direction */
+    float eta_scale;    /* 1/eta^2 for a transmission into glass, else 1 */
+    bool is_delta;      /* a delta lobe was sampled */
 };
 
-/* The surface has no microfacets. */
+/* True if the surface is smooth, so that its specular lobes are deltas. */
 static inline bool is_smooth(const struct bsdf *m)
 {
     return !HAS(FEATURE_ROUGH) || m->alpha < ALPHA_SMOOTH;
 }
 
-/* A direction without a density. True for the callers' last line. */
+/* Fills the sample of a delta lobe. Always returns true. */
 static inline bool sample_delta(struct bsdf_sample *s, struct vec3 wi,
                                 struct vec3 weight)
 {
@@ -48,7 +48,8 @@ static inline bool sample_delta(struct bsdf_sample *s, struct vec3 wi,
     return true;
 }
 
-/* A direction with f |cosine| and its density; false if it has none. */
+/* Fills a sample from f |cosine| and the density. Returns false if the density
+ * is 0. */
 static inline bool sample_density(struct bsdf_sample *s, struct vec3 wi,
                                   struct vec3 f, float pdf)
 {

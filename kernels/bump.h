@@ -2,19 +2,21 @@
 /*
  * bump.h - shading normals from bump and normal maps
  *
- * The tangents are the directions in which u and v grow. A mirror image must
- * not point below the true face, where it would be black: such normals are
- * bent until it grazes the face (the trap: Estevez, Lecocq and Stein 2019).
+ * The tangents are the directions in which u and v grow. A bent shading normal
+ * may reflect the eye's direction to below the face, where surfaces are black.
+ * Such normals are turned back until the reflection is just above the face (the
+ * problem: Estevez, Lecocq and Stein 2019, "A microfacet-based shadowing
+ * function to solve the bump terminator problem").
  *
  * Units:     unit vectors; heights of a bump map in texels
- * Errors:    where texture coordinates span no area the normal stays
+ * Errors:    where texture coordinates span no area the normal is not changed
  */
 #ifndef KERNELS_BUMP_H
 #define KERNELS_BUMP_H
 
 #include "kernels/texture.h"
 
-/* How far above the face a bent mirror image points. */
+/* Cosine to the face normal of a reflection that was turned back. */
 #define BUMP_GRAZING 1e-3f
 
 static inline bool has_bumps(const struct material *m)
@@ -22,7 +24,8 @@ static inline bool has_bumps(const struct material *m)
     return m->normal_texture != NO_INDEX || m->bump_texture != NO_INDEX;
 }
 
-/* Where u and v of the texture grow along the face, unit length. */
+/* Unit tangents of the face, along which u and v grow. Returns false where
+ * texture coordinates span no area. */
 static inline bool uv_tangents(const struct world *w, struct tri t,
                                struct vec3 *along_u, struct vec3 *along_v)
 {
@@ -34,7 +37,8 @@ static inline bool uv_tangents(const struct world *w, struct tri t,
     struct vec2 c = w->uvs[t.vt[2]];
     float du1 = b.x - a.x, dv1 = b.y - a.y;
     float du2 = c.x - a.x, dv2 = c.y - a.y;
-    /* of the area's sign alone, so that no small number is divided by */
+    /* only the sign of the area in uv is used, as the area itself may be too
+     * small to divide by */
     float sign = du1 * dv2 - du2 * dv1 < 0.0f ? -1.0f : 1.0f;
     float length_u, length_v;
 
@@ -49,8 +53,8 @@ static inline bool uv_tangents(const struct world *w, struct tri t,
     return true;
 }
 
-/* The slopes of the surface along u and v by a map of heights: differences
- * over one texel. */
+/* Slopes of the height map along u and v: central differences over one texel.
+ */
 static inline struct vec2
 height_slopes(const struct world *w, const struct material *m, struct vec2 uv)
 {
@@ -65,7 +69,7 @@ height_slopes(const struct world *w, const struct material *m, struct vec2 uv)
     return v2(m->bump_scale * (right - left), m->bump_scale * (above - below));
 }
 
-/* Bends n, if need be, until the mirror image of wo is above the face. */
+/* Turns n towards ng if the reflection of wo about n is below the face. */
 static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
                                       struct vec3 wo)
 {
@@ -81,15 +85,15 @@ static inline struct vec3 bent_normal(struct vec3 n, struct vec3 ng,
     return length > 1e-6f ? v3_scale(middle, 1.0f / length) : ng;
 }
 
-/* The shading normal n as the maps of the material turn it; wo.n > 0 before
- * and after. uv: of the hit; the triangle has texture coordinates. */
+/* Returns the shading normal n, bent by the bump and normal maps. wo.n > 0
+ * before and after. uv: at the hit; the triangle has texture coordinates. */
 static inline struct vec3 bumped_normal(const struct world *w,
                                         const struct material *m, struct tri t,
                                         struct vec2 uv, struct vec3 n,
                                         struct vec3 ng, struct vec3 wo)
 {
     struct vec3 along_u, along_v, turned;
-    struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in the tangents */
+    struct vec3 slope = v3(0.0f, 0.0f, 1.0f); /* the normal in tangent space */
     float length;
 
     if (!uv_tangents(w, t, &along_u, &along_v))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * camera.h - pinhole and thin lens
+ * camera.h - camera rays of a pinhole and of a thin lens
  *
  * Units:     pixels; (0, 0) is the top left corner of the picture
  */
@@ -9,8 +9,8 @@
 
 #include "kernels/sample.h"
 
-/* The ray through point (offset.x, offset.y) of pixel (x, y), offsets in
- * [0, 1): a box filter of one pixel when they are uniform. */
+/* The pinhole ray through point (offset.x, offset.y) of pixel (x, y). Offsets
+ * are in [0, 1); uniform ones are a box filter of one pixel. */
 static inline struct ray camera_ray(struct camera c, uint32_t x, uint32_t y,
                                     struct vec2 offset)
 {
@@ -23,8 +23,8 @@ static inline struct ray camera_ray(struct camera c, uint32_t x, uint32_t y,
     return r;
 }
 
-/* The ray from another point of the lens to where the ray through its middle
- * is sharp; u is uniform in the square. */
+/* Moves the origin of the pinhole ray r to a point of the lens and aims it at
+ * the same point of the focal plane. u is uniform in the square. */
 static inline struct ray camera_through_lens(struct camera c, struct ray r,
                                              struct vec2 u)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * camera_sample.h - how a sample begins: its random numbers and its camera ray
+ * camera_sample.h - the beginning of a sample: its sampler and its camera ray
  *
  * Units:     pixels; normalised scene units
  */
@@ -15,7 +15,7 @@ struct camera_sample {
     struct sampler sampler;
 };
 
-/* Of sample `index` of pixel (x, y) of the whole picture. */
+/* The sampler of sample `index` of pixel (x, y) of the whole picture. */
 static inline struct sampler
 camera_sampler(const struct settings *s, uint32_t x, uint32_t y, uint64_t index)
 {
@@ -24,7 +24,8 @@ camera_sampler(const struct settings *s, uint32_t x, uint32_t y, uint64_t index)
                : sampler_start(x, y, index, s->seed);
 }
 
-/* The camera's ray of a sample through a point of pixel (x, y). */
+/* The camera ray of a sample, through `point` of pixel (x, y). For AOVs it goes
+ * through the middle of the pixel. */
 static inline struct ray camera_sample_ray(const struct settings *s, uint32_t x,
                                            uint32_t y, struct vec2 point,
                                            struct sampler sampler)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * cl_task.h - a part of a pass, as a device gets it
+ * cl_task.h - the part of a pass that is given to a device at once
  *
- * A pass visits the points of a grid, row by row; a task is some of them in
- * a row. It has `samples` paths for each point, some of which may be empty.
+ * A pass visits the points of a grid of pixels, row by row. A task is a range
+ * of these points. It has `samples` paths for each point, some of which may be
+ * unused.
  *
  * Units:     pixels
  */
@@ -13,18 +14,18 @@
 #include "kernels/dialect.h"
 
 struct task {
-    uint64_t target;  /* samples that each pixel is to have */
+    uint64_t target;  /* samples that each pixel has after the pass */
     uint32_t samples; /* paths for a point */
-    uint32_t first;   /* its first point */
-    uint32_t count;   /* its points */
+    uint32_t first;   /* first point */
+    uint32_t count;   /* number of points */
     uint32_t columns; /* points in a row of the grid */
-    uint32_t stride;  /* pixels from point to point, both ways */
-    uint32_t width;   /* of the film */
-    uint32_t x0;      /* where the film's corner is in the picture */
+    uint32_t stride;  /* distance of neighbouring points, along x and y */
+    uint32_t width;   /* width of the film */
+    uint32_t x0;      /* the film's corner in the picture */
     uint32_t y0;
 };
 
-/* The film's pixel of the task's point i. */
+/* Coordinates and index in the film of the task's point i. */
 static inline uint32_t task_x(struct task t, uint32_t i)
 {
     return (t.first + i) % t.columns * t.stride;

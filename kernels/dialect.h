@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * dialect.h - one language for a C11 compiler and an OpenCL C 1.2 compiler
+ * dialect.h - maps the C names of kernel code to OpenCL C 1.2
  *
- * The only file with #ifdef about compilers. Kernel code is written in C
- * names; here they are mapped for the device.
+ * Kernel code is compiled as C11 for the CPU and as OpenCL C for a device. This
+ * is the only file with #ifdef about compilers.
  */
 #ifndef KERNELS_DIALECT_H
 #define KERNELS_DIALECT_H
@@ -35,13 +35,14 @@ typedef ulong uint64_t;
 #include <stdint.h>
 #include <string.h>
 
-/* What such a function calls becomes part of it: walks through trees would not
- * keep their vectors in registers. */
+/* Inlines all calls in such a function. Traversals of trees would not keep
+ * their vectors in registers across calls. */
 #define FLATTENED  __attribute__((flatten))
 
-/* Functions with loops over lanes, which would not become vector code with
- * calls in them; where they become part of others, it is chance whether a loop
- * is unrolled first. Not `inline`. */
+/* Marks functions with a loop over lanes that is to become vector code. Calls
+ * in the loop would prevent that, so they are inlined. The function itself is
+ * not, as the compiler may unroll the loop in the caller before it vectorises.
+ * Such a function is `static`, not `static inline`. */
 #define VECTORISED __attribute__((noinline, flatten, unused))
 #define GLOBAL
 #define CONSTANT static const

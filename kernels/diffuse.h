@@ -14,7 +14,7 @@
 #include "kernels/bsdf_types.h"
 #include "kernels/sample.h"
 
-/* Of EON: 1/2 - 2/(3 pi) and 2/3 - 28/(15 pi). */
+/* Constants of EON: 1/2 - 2/(3 pi) and 2/3 - 28/(15 pi). */
 #define EON_C1 0.287793409f
 #define EON_C2 0.0724882125f
 
@@ -34,15 +34,16 @@ static inline bool lambert_sample(const struct bsdf *m, struct vec2 u,
                                   struct bsdf_sample *s)
 {
     s->wi = cosine_hemisphere(u);
-    s->weight = m->color; /* by construction, not by division */
+    s->weight = m->color; /* f |cosine| / pdf without the division */
     s->pdf = cosine_pdf(s->wi);
     s->eta_scale = 1.0f;
     s->is_delta = false;
     return s->wi.z > COSINE_MIN;
 }
 
-/* c1 - g(mu): what the single-scattering albedo (1 + r g) / (1 + c1 r) lacks
- * of 1, over r / (1 + c1 r). The fit of g is within 1e-3, and at most c1. */
+/* c1 - g(mu), clamped at 0. The single-scattering albedo of EON is (1 + r
+ * g(mu)) / (1 + c1 r), and 1 minus that is eon_gap() r / (1 + c1 r). The fit of
+ * g is within 1e-3. */
 static inline float eon_gap(float mu)
 {
     float m = 1.0f - mu;
@@ -61,7 +62,7 @@ static inline struct vec3 eon_terms(const struct bsdf *m, struct vec3 wo,
     float s = v3_dot(wo, wi) - wo.z * wi.z;
     float t = s > 0.0f ? f_max(wi.z, wo.z) : 1.0f;
     float single = a * (1.0f + r * s / t);
-    /* (1 - E_o) (1 - E_i) / (1 - E_mean), the differences taken by hand */
+    /* (1 - E_o) (1 - E_i) / (1 - E_mean), without the subtractions */
     float multiple = a * r * eon_gap(wo.z) * eon_gap(wi.z) / (EON_C1 - EON_C2);
     float mean = a * (1.0f + EON_C2 * r);
     struct vec3 rho = m->color;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * energy.h - the light that one bounce between microfacets keeps or loses
+ * energy.h - directional albedos of GGX surfaces for single scattering
  *
- * Directional albedos of GGX, interpolated in tables (`make tables`). The
- * interpolation is cubic: linear tables of 16^3 miss the albedo of rough glass
- * by 2 %, of 24^2 x 31 by 1 %. These stay within 0.3 % (within 1 % seen from
- * inside glass of an index below 1.1, where most is lost).
+ * Multiple scattering between microfacets is computed from what they lack of 1.
+ * The tables (`make tables`) are interpolated with cubics: linear tables of
+ * 16^3 miss the albedo of rough glass by 2 %, of 24^2 x 31 by 1 %. These are
+ * within 0.3 % (within 1 % seen from inside glass of an index below 1.1, where
+ * most light is lost).
  *
  * Units:     mu: cosine to the normal, in [0, 1]; alpha from ALPHA_SMOOTH on
  */
@@ -18,13 +19,14 @@
 /* sqrt(ALPHA_SMOOTH) */
 #define ROOT_SMOOTH 0.0223606798f
 
-/* Four neighbouring nodes of a table and their weights. */
+/* Four neighbouring nodes along an axis of a table, with their weights. */
 struct cubic_nodes {
     uint32_t first;
     float w[4];
 };
 
-/* Lagrange's cubic through the nodes around t, which runs from 0 to 1. */
+/* Weights of Lagrange's cubic through the nodes around t, in [0, 1] along the
+ * axis. */
 static inline struct cubic_nodes cubic_nodes_around(float t, uint32_t count)
 {
     float x = f_min(f_max(t, 0.0f), 1.0f) * (float)(count - 1u);
@@ -43,8 +45,8 @@ static inline struct cubic_nodes cubic_nodes_around(float t, uint32_t count)
     return n;
 }
 
-/* Albedos change within mu ~ alpha, and for glass around the critical angle:
- * this axis has nodes for both. */
+/* Axis of mu. Albedos change fast for mu below about alpha, and for glass
+ * around the critical angle: the axis is dense in both. */
 static inline float energy_axis_mu(float mu, float alpha)
 {
     float near = sqrtf(mu * (1.0f + alpha) / (mu + alpha));
@@ -57,7 +59,8 @@ static inline float energy_axis_alpha(float alpha)
     return (sqrtf(alpha) - ROOT_SMOOTH) / (1.0f - ROOT_SMOOTH);
 }
 
-/* All indices, dense around 1: from 0 over 1/2 at eta 1 to 1. */
+/* Axis of all refractive indices: 0 and 1 at the ends, 1/2 at eta 1, and dense
+ * around that. */
 static inline float energy_axis_eta(float eta)
 {
     float g = (eta - 1.0f) / (eta + 1.0f);
@@ -66,8 +69,8 @@ static inline float energy_axis_eta(float eta)
     return 0.5f + 0.5f * (g < 0.0f ? -s : s);
 }
 
-/* The loss's own scale: it falls by powers of ten where alpha is small, and
- * what the table holds is the ratio. */
+/* Scale of the loss, which falls by powers of ten where alpha is small. The
+ * table holds the ratio to it. */
 static inline float ggx_loss_scale(float mu, float alpha)
 {
     float s = mu + alpha;
@@ -75,8 +78,8 @@ static inline float ggx_loss_scale(float mu, float alpha)
     return mu * alpha * alpha / (s * s * s);
 }
 
-/* Of a reflecting surface: 1 - E is what is lost when every facet reflects
- * all, schlick is the albedo when a facet reflects (1 - cosine)^5. */
+/* Albedos of a reflecting surface. loss: 1 - albedo when every facet reflects
+ * all light; schlick: albedo when a facet reflects (1 - cosine)^5. */
 struct ggx_albedo {
     float loss;
     float schlick;
@@ -101,13 +104,13 @@ static inline struct ggx_albedo ggx_albedo(float mu, float alpha)
             shift += w * ggx_shifts[k];
         }
     e.loss *= ggx_loss_scale(mu, alpha);
-    /* the facets that are seen stand as if at a cosine of mu + shift */
+    /* visible facets have a mean cosine of about mu + shift */
     c = f_max(1.0f - mu - shift, 0.0f);
     e.schlick = (1.0f - e.loss) * c * c * c * c * c;
     return e;
 }
 
-/* 2 int albedo mu dmu. */
+/* Hemispherical means: 2 int x(mu) mu dmu of both members. */
 static inline struct ggx_albedo ggx_albedo_mean(float alpha)
 {
     struct cubic_nodes a =
@@ -122,7 +125,7 @@ static inline struct ggx_albedo ggx_albedo_mean(float alpha)
     return e;
 }
 
-/* The albedo of rough glass, reflection and transmission together. */
+/* Albedo of rough glass, reflection and transmission together. */
 static inline float glass_albedo(float mu, float alpha, float eta)
 {
     struct cubic_nodes e =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * fresnel.h - how much a smooth face reflects
+ * fresnel.h - Fresnel reflectance of a smooth face
  *
  * Exact for dielectrics, Schlick's approximation (1994) for metals and coats.
  *
@@ -24,14 +24,14 @@ static inline struct vec3 fresnel_schlick(struct vec3 f0, float cosine)
     return v3_lerp(f0, v3(1.0f, 1.0f, 1.0f), schlick_weight(cosine));
 }
 
-/* 2 int F(mu) mu dmu. */
+/* Hemispherical mean 2 int F(mu) mu dmu. */
 static inline struct vec3 fresnel_schlick_mean(struct vec3 f0)
 {
     return v3_lerp(f0, v3(1.0f, 1.0f, 1.0f), 1.0f / 21.0f);
 }
 
-/* Unpolarised reflectance of a dielectric face from the cosines on both its
- * sides. */
+/* Reflectance of a dielectric face for unpolarised light, from the cosines on
+ * both sides. */
 static inline float fresnel_cosines(float c, float cos_t, float eta)
 {
     float rs = (c - eta * cos_t) / (c + eta * cos_t);
@@ -40,8 +40,8 @@ static inline float fresnel_cosines(float c, float cos_t, float eta)
     return f_min(0.5f * (rs * rs + rp * rp), 1.0f);
 }
 
-/* The same from one side; *cos_t is the cosine of the refracted ray, 0 when
- * all is reflected. */
+/* The same from the cosine on one side. *cos_t is the cosine of the refracted
+ * ray, or 0 for total reflection. */
 static inline float fresnel_dielectric(float c, float eta, float *cos_t)
 {
     float s2 = f_max((1.0f - c) * (1.0f + c), 0.0f) / (eta * eta);

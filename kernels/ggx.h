@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * ggx.h - the GGX distribution of microfacets: drawing, density, masking
+ * ggx.h - the GGX distribution of microfacets: sampling, density, masking
  *
- * Height-correlated masking after Smith (Heitz 2014, JCGT 3:2); visible
- * normals by spherical caps (Dupuy and Benyoub 2023), bounded for reflection
- * (Eto and Tokuyoshi 2023). No expression cancels or divides by a cosine, so
- * that all hold at grazing angles and down to ALPHA_SMOOTH.
+ * Height-correlated masking after Smith (Heitz 2014, JCGT 3:2); visible normals
+ * by spherical caps (Dupuy and Benyoub 2023), bounded for reflection (Eto and
+ * Tokuyoshi 2023). No expression suffers cancellation or divides by a cosine,
+ * so that all hold at grazing angles and down to ALPHA_SMOOTH.
  *
  * Units:     local frame, z along the normal; densities per solid angle
  */
@@ -19,7 +19,7 @@ static inline struct vec3 reflect_at(struct vec3 wo, struct vec3 h)
     return v3_sub(v3_scale(h, 2.0f * v3_dot(wo, h)), wo);
 }
 
-/* Between wo and wi; +z for directions along one line in the surface. */
+/* Unit half vector of wo and wi. If they are opposite it is +z. */
 static inline struct vec3 half_vector(struct vec3 wo, struct vec3 wi)
 {
     struct vec3 h = v3_add(wo, wi);
@@ -30,7 +30,7 @@ static inline struct vec3 half_vector(struct vec3 wo, struct vec3 wi)
     return v3_scale(h, 1.0f / length);
 }
 
-/* D(h). */
+/* Distribution of normals D(h). */
 static inline float ggx_density(struct vec3 h, float alpha)
 {
     float a2 = alpha * alpha;
@@ -39,7 +39,8 @@ static inline float ggx_density(struct vec3 h, float alpha)
     return a2 / (PI * d * d);
 }
 
-/* sqrt(alpha^2 + (1 - alpha^2) mu^2), of Smith's Lambda without division. */
+/* sqrt(alpha^2 + (1 - alpha^2) mu^2), of which Smith's Lambda is made, without
+ * its division. */
 static inline float ggx_root(float alpha, float mu)
 {
     float a2 = alpha * alpha;
@@ -47,8 +48,8 @@ static inline float ggx_root(float alpha, float mu)
     return sqrtf(a2 + (1.0f - a2) * mu * mu);
 }
 
-/* A microfacet normal seen from wo. bound is 1 for all that wo sees; less
- * keeps reflections above the surface. */
+/* Samples a microfacet normal visible from wo. A bound of 1 has all visible
+ * normals; ggx_bound() leaves out some that reflect to below the surface. */
 static inline struct vec3 ggx_visible_normal(struct vec3 wo, float alpha,
                                              float bound, struct vec2 u)
 {
@@ -66,7 +67,7 @@ static inline struct vec3 ggx_visible_normal(struct vec3 wo, float alpha,
     return v3_scale(h, 1.0f / length);
 }
 
-/* The bound for reflection: k of Eto and Tokuyoshi 2023. */
+/* The bound for reflection, k of Eto and Tokuyoshi 2023. */
 static inline float ggx_bound(struct vec3 wo, float alpha)
 {
     float a2 = alpha * alpha;
@@ -76,7 +77,8 @@ static inline float ggx_bound(struct vec3 wo, float alpha)
     return (1.0f - a2) * r2 / (r2 + a2 * wo.z * wo.z);
 }
 
-/* A reflected direction with ggx_reflection_pdf(); wi.z <= 0 is a rejection. */
+/* Samples a reflected direction with density ggx_reflection_pdf(). A direction
+ * with z <= 0 is a rejected sample. */
 static inline struct vec3 ggx_reflect(struct vec3 wo, float alpha,
                                       struct vec2 u)
 {
@@ -91,7 +93,7 @@ static inline float ggx_reflection_pdf(struct vec3 wo, struct vec3 h,
            (2.0f * (ggx_bound(wo, alpha) * wo.z + ggx_root(alpha, wo.z)));
 }
 
-/* f |cos| of a reflection without its Fresnel factor: D G2 / (4 mu_o). */
+/* f |cosine| of a reflection without its Fresnel factor: D G2 / (4 mu_o). */
 static inline float ggx_reflection(struct vec3 wo, struct vec3 wi,
                                    struct vec3 h, float alpha)
 {

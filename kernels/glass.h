@@ -3,11 +3,12 @@
  * glass.h - solid glass, smooth and rough, and thin sheets
  *
  * Exact Fresnel; rough faces after Walter et al. 2007 with visible normals,
- * scaled so that one bounce keeps all light (Turquin 2019, on both sides of
- * the face): energy is right, reciprocity is not.
+ * scaled so that single scattering keeps all light (Turquin 2019, for
+ * reflection and transmission together). That conserves energy, but is not
+ * reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine| and without
- *            the 1/eta^2 of a crossing
+ *            the 1/eta^2 of a transmission
  */
 #ifndef KERNELS_GLASS_H
 #define KERNELS_GLASS_H
@@ -17,11 +18,13 @@
 #include "kernels/fresnel.h"
 #include "kernels/ggx.h"
 
-/* Closer to 1 an index is none: wo + eta wi would cancel. */
+/* An index closer to 1 counts as matched: the half vector wo + eta wi would
+ * cancel. */
 #define ETA_MATCHED 1e-3f
 
-/* Where E falls below, inside a medium hardly denser than its surroundings,
- * light stays lost rather than that single samples grow without bound. */
+/* Least albedo by which samples are scaled. Below, seen from inside glass
+ * hardly denser than its surroundings, light stays lost, as single samples
+ * would grow without bound. */
 #define GLASS_ALBEDO_MIN 0.05f
 
 static inline bool glass_is_index_matched(const struct bsdf *m)
@@ -29,7 +32,7 @@ static inline bool glass_is_index_matched(const struct bsdf *m)
     return fabsf(m->eta - 1.0f) < ETA_MATCHED;
 }
 
-/* Rough faces only. */
+/* f |cosine| and the density of rough faces. */
 static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
                                       struct vec3 wi, float *pdf)
 {
@@ -58,20 +61,20 @@ static inline struct vec3 glass_terms(const struct bsdf *m, struct vec3 wo,
     }
     *pdf = part * jacobian * 2.0f * o_dot_h * ggx_density(h, m->alpha) /
            (wo.z + t_o);
-    /* G2 / G1, with both Lambdas over a common denominator */
+    /* G2 / G1, over a common denominator */
     gain = mu_i * (wo.z + t_o) / (wo.z * t_i + mu_i * t_o);
     gain /= f_max(glass_albedo(wo.z, m->alpha, m->eta), GLASS_ALBEDO_MIN);
     return v3_scale(is_crossing ? m->color : v3(1.0f, 1.0f, 1.0f), *pdf * gain);
 }
 
-/* Radiance scales by this towards wi. */
+/* Factor of radiance that comes from wi: 1/eta^2 for transmission. */
 static inline float glass_eta_scale(const struct bsdf *m, struct vec3 wi)
 {
     return wi.z < 0.0f && !glass_is_index_matched(m) ? 1.0f / (m->eta * m->eta)
                                                      : 1.0f;
 }
 
-/* Reflection or refraction at a face with normal h, chosen by `choice`. */
+/* Chooses reflection or refraction at a face with normal h. */
 static inline struct vec3 glass_reflect_or_refract(const struct bsdf *m,
                                                    struct vec3 wo,
                                                    struct vec3 h, float choice)
@@ -81,7 +84,7 @@ static inline struct vec3 glass_reflect_or_refract(const struct bsdf *m,
 
     if (choice < fresnel_dielectric(c, m->eta, &cos_t))
         return reflect_at(wo, h);
-    /* unit length by construction, but for the drift at extreme indices */
+    /* unit length up to rounding, which is large at extreme indices */
     return v3_unit(v3_sub(v3_scale(v3_sub(v3_scale(h, c), wo), 1.0f / m->eta),
                           v3_scale(h, cos_t)));
 }
@@ -111,7 +114,7 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
     if (!(v3_dot(wo, h) > 0.0f))
         return false;
     wi = glass_reflect_or_refract(m, wo, h, choice);
-    /* a reflection must end above the surface, a refraction below */
+    /* reflections end above the surface, refractions below */
     if ((v3_dot(wi, h) > 0.0f) != (wi.z > 0.0f) || !(fabsf(wi.z) > COSINE_MIN))
         return false;
     f = glass_terms(m, wo, wi, &pdf);
@@ -121,7 +124,8 @@ static inline bool glass_sample(const struct bsdf *m, struct vec3 wo,
     return true;
 }
 
-/* A sheet of no thickness: all reflections between its faces added up. */
+/* A sheet without thickness. All reflections between its two faces are summed:
+ * R = 2 F / (1 + F). */
 static inline bool thin_glass_sample(const struct bsdf *m, struct vec3 wo,
                                      float choice, struct bsdf_sample *s)
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * metal.h - mirrors and rough metals that lose no light
+ * metal.h - mirrors and rough metals that conserve energy
  *
- * GGX reflection with Schlick's Fresnel, plus the light of several bounces
- * between facets after Kulla and Conty 2017, with Hill's factor for colour
- * (2018): reciprocal, and white metal reflects everything.
+ * GGX reflection with Schlick's Fresnel, and a lobe for multiple scattering
+ * between facets after Kulla and Conty 2017, with the colour of Hill 2018.
+ * Reciprocal; white metal reflects all light.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -16,16 +16,18 @@
 #include "kernels/fresnel.h"
 #include "kernels/ggx.h"
 
-/* What remains, by colour, of the light that one bounce loses. */
+/* Share of the light lost by single scattering that multiple scattering
+ * returns, for a channel. */
 static inline float multiscatter_color(float f0_mean, float loss_mean)
 {
     return f0_mean * f0_mean * (1.0f - loss_mean) /
            (1.0f - f0_mean * loss_mean);
 }
 
-/* The echo shines by (1 - E_i) mu_i, which is about 1 / mu_i down to alpha:
- * drawn by its cosine with the density b (1 + b) / (mu_i + b)^2, whose
- * weights stay below 1 / b; those of cosine_hemisphere() reach 1 / alpha^2. */
+/* Width of the multiscatter lobe. The lobe is (1 - E_i) mu_i, about 1 / mu_i
+ * down to alpha. It is sampled by its cosine with density b (1 + b) / (mu_i +
+ * b)^2, whose weights stay below 1 / b; those of cosine_hemisphere() reach 1 /
+ * alpha^2. */
 static inline float multiscatter_width(float alpha)
 {
     return sqrtf(alpha);
@@ -48,8 +50,8 @@ static inline float multiscatter_pdf(struct vec3 wi, float alpha)
     return b * (1.0f + b) / ((wi.z + b) * (wi.z + b)) * (0.5f / PI);
 }
 
-/* loss_o: of ggx_albedo() at wo, and the share of the samples that follow the
- * echo instead of the highlight. */
+/* loss_o: ggx_albedo().loss at wo, which is also the probability to sample the
+ * multiscatter lobe. */
 static inline struct vec3 metal_terms(const struct bsdf *m, struct vec3 wo,
                                       struct vec3 wi, float loss_o, float *pdf)
 {

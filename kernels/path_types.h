@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * path_types.h - what a sample returns
+ * path_types.h - a sample of a pixel: which one it is, and its result
  *
  * Units:     radiance
  */
@@ -9,10 +9,10 @@
 
 #include "kernels/types.h"
 
-/* Samples that are computed together, at most. */
+/* Most samples that are computed together. */
 #define SAMPLE_BLOCK 8
 
-/* Sample `index` of pixel (x, y) of the whole picture. */
+/* Identifies a sample: its pixel in the whole picture, and its number there. */
 struct sample_id {
     uint32_t x, y;
     uint64_t index;
@@ -21,7 +21,7 @@ struct sample_id {
 struct path_sample {
     struct vec3 radiance;
     uint32_t rays; /* closest-hit and any-hit queries */
-    uint32_t cut;  /* 1: ended at the hard stop of vertices */
+    uint32_t cut;  /* 1: the path ended at PATH_HARD_STOP */
 };
 
 #endif

@@ -2,10 +2,10 @@
 /*
  * plastic.h - a clear GGX coat over a diffuse base
  *
- * The base gets what the coat does not reflect on the way in and out:
- * (1 - E(mu_o)) (1 - E(mu_i)) / (1 - E_mean), with E the albedo of the very
- * coat that is evaluated. So a white base reflects everything under any coat,
- * and light may be followed both ways (Kelemen and Szirmay-Kalos 2001).
+ * The base is scaled by what the coat does not reflect on the way in and out,
+ * (1 - E(mu_o)) (1 - E(mu_i)) / (1 - E_mean), with E the albedo of the coat
+ * itself (Kelemen and Szirmay-Kalos 2001). So a white base reflects all light
+ * under any coat, and the BSDF is reciprocal.
  *
  * Units:     local frame of bsdf_types.h; f comes times |cosine|
  */
@@ -17,7 +17,8 @@
 #include "kernels/fresnel.h"
 #include "kernels/ggx.h"
 
-/* Schlick's albedo from that of its two parts: F0 (E - S) + S. */
+/* Albedo of a coat with Schlick's Fresnel, from the two parts of it: F0 (E - S)
+ * + S. */
 static inline struct vec3 coat_albedo_of(struct vec3 f0, struct ggx_albedo e)
 {
     float part = 1.0f - e.loss - e.schlick;
@@ -40,14 +41,14 @@ static inline struct vec3 coat_albedo_mean(const struct bsdf *m)
     return coat_albedo_of(m->coat, ggx_albedo_mean(m->alpha));
 }
 
-/* (1 - o) (1 - i) / (1 - mean), nothing under a coat that reflects all. */
+/* (1 - o) (1 - i) / (1 - mean), or 0 under a coat that reflects all light. */
 static inline float base_scale(float o, float i, float mean)
 {
     return mean < 1.0f ? (1.0f - o) * (1.0f - i) / (1.0f - mean) : 0.0f;
 }
 
-/* The probability to follow the coat: its part of the light, by the sums of
- * the channels. coat_o: coat_albedo() at wo. */
+/* Probability to sample the coat: its share of the light, summed over the
+ * channels. coat_o: coat_albedo() at wo. */
 static inline float coat_probability(const struct bsdf *m, struct vec3 coat_o)
 {
     float coat = coat_o.x + coat_o.y + coat_o.z;

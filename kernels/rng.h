@@ -2,21 +2,21 @@
 /*
  * rng.h - random numbers as a function of (pixel, sample, dimension, seed)
  *
- * Each dimension of each pixel is an Owen-scrambled Sobol sequence of its own
- * over the samples (sobol.h), so that a pixel's samples avoid each other and
- * pixels are independent. Keys are hashed one after the other from a non-zero
- * start: adding or xor-ing them first would make neighbouring pixels share
- * streams. After 2^32 samples a pixel starts other sequences.
+ * Each dimension of each pixel has an Owen-scrambled Sobol sequence of its own
+ * over the samples (sobol.h): samples of a pixel are stratified, and pixels are
+ * independent. Keys are hashed one after the other from a non-zero start;
+ * adding or xor-ing them first would make neighbouring pixels share sequences.
+ * After 2^32 samples a pixel starts new sequences.
  *
- * In a draft all pixels share the sequences, and take from them in the order of
- * a Morton curve. The shuffle of the indices is then a nested scramble of the
- * curve: the samples of a square of pixels avoid each other as those of one
- * pixel do. What neighbours have too much of and too little cancels, and to the
- * eye, which blurs, the error is smaller (Ahmed and Wonka 2020, "Screen-space
- * blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering
- * of pixels"). That needs the number of samples in advance: sample 0 is a set
- * by itself, the next four are another. (Alone, one of a set of four has no
- * pattern at all; a set for each would let a pixel's samples clump.)
+ * In a draft all pixels share the sequences. Pixels take samples from them in
+ * the order of a Morton curve, whose indices the shuffle of sobol.h scrambles
+ * as a tree: the samples of a square of pixels are stratified like those of one
+ * pixel. So errors of neighbouring pixels cancel, and the picture has less
+ * visible error (Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of
+ * Monte Carlo sampling error via hierarchical ordering of pixels"). This needs
+ * the number of samples in advance. Sample 0 is a set by itself, and samples 1
+ * to 4 are a second set. (One sample of a set of four would have no pattern
+ * alone, and a set for each sample would let a pixel's samples clump.)
  *
  * Units:     numbers in [0, 1)
  */
@@ -26,31 +26,33 @@
 #include "kernels/sobol.h"
 #include "kernels/vec.h"
 
-/* Fixed dimensions: adding a feature does not shift the others. */
+/* Dimensions have fixed numbers, so that a new feature does not shift the
+ * others. Those of a vertex begin at DIMENSION_STRIDE times its number, which
+ * counts from 1. */
 enum dimension {
     DIMENSION_PIXEL = 0,
     DIMENSION_LENS = 1,
-    /* times a vertex's number, the first of which is 1, and one of the last */
+    /* at a vertex: */
     DIMENSION_STRIDE = 8,
     DIMENSION_BOUNCE = DIMENSION_STRIDE,
     DIMENSION_LIGHT_POSITION = 0,
     DIMENSION_LIGHT_CHOICE = 1,
     DIMENSION_BSDF_DIRECTION = 2,
-    DIMENSION_BSDF_LOBE = 3, /* and roulette */
-    DIMENSION_KINDS = 4      /* of those at a vertex */
+    DIMENSION_BSDF_LOBE = 3, /* and Russian roulette */
+    DIMENSION_KINDS = 4      /* number of dimensions at a vertex */
 };
 
-/* Samples of a pixel in a draft, and its longest side: a pixel and one of four
- * samples are 32 bits. */
+/* Samples of a pixel in a draft, and the longest side of a draft in pixels: the
+ * index of a sample on the Morton curve has 32 bits. */
 #define DRAFT_SPP      5u
 #define DRAFT_SIDE_MAX 0x8000
 
 struct sampler {
-    uint32_t key;            /* of the pixel, the seed and the index's top */
-    uint32_t reversed_index; /* the low 32 bits, the lowest first */
+    uint32_t key; /* hash of the pixel, the seed and the upper 32 bits */
+    uint32_t reversed_index; /* lower 32 bits of the sample index, reversed */
 };
 
-/* The top 24 bits: never 1. */
+/* A number in [0, 1) from the top 24 bits. It is never 1. */
 static inline float unit_float(uint32_t bits)
 {
     return (float)(bits >> 8) * 0x1p-24f;
@@ -69,7 +71,7 @@ static inline struct sampler sampler_start(uint32_t x, uint32_t y,
     return s;
 }
 
-/* The bits of a 16-bit number with zeros between them. */
+/* Inserts a zero between any two bits of a 16-bit number. */
 static inline uint32_t spread_bits(uint32_t x)
 {
     x = (x | x << 8) & 0x00ff00ffu;
@@ -78,7 +80,7 @@ static inline uint32_t spread_bits(uint32_t x)
     return (x | x << 1) & 0x55555555u;
 }
 
-/* Sample `index`, below DRAFT_SPP, of a pixel in a draft. */
+/* Sampler of sample `index`, below DRAFT_SPP, of a pixel in a draft. */
 static inline struct sampler sampler_start_draft(uint32_t x, uint32_t y,
                                                  uint32_t index, uint32_t seed)
 {
@@ -106,7 +108,8 @@ static inline struct vec2 random_2d(struct sampler s, uint32_t dimension)
     return v2(unit_float(p.x), unit_float(p.y));
 }
 
-/* For decisions at holes on the ray that leaves the camera or a vertex. */
+/* Random key of a ray, for partial coverage (traverse_leaf.h). vertex: where
+ * the ray arrives, counted from 1. */
 static inline uint32_t ray_key(struct sampler s, uint32_t vertex)
 {
     uint32_t key = dimension_key(s, 0x40000000u + vertex);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * roulette.h - how long paths live, and which shadow rays are worth their time
+ * roulette.h - Russian roulette of paths and of shadow rays
  *
- * Survival by the square root of the throughput, from the second vertex on:
- * the throughput itself ends paths too early where light comes from walls.
- * A shadow ray for much less light than the path has gathered already is traced
- * so rarely that it then brings a good part of that: the noise it adds is lost
- * beside that of the path, and 2 to 10 % of the time are won.
+ * A path survives with the square root of its throughput, from the second
+ * vertex on; the throughput itself would end paths too early where walls give
+ * most of the light. A shadow ray that would add much less light than the path
+ * has gathered is traced with a small probability. The noise that this adds is
+ * lost in that of the path, and it saves 2 to 10 % of the time.
  *
  * Units:     probabilities
  */
@@ -15,9 +15,9 @@
 
 #include "kernels/vec.h"
 
-/* With which probability a path goes on that counts beta after this vertex, the
- * first of which is 1. 0: never, also where beta is no number. Without
- * branches, as vertices come in no order that could be foreseen. */
+/* Probability that a path with throughput beta goes on after a vertex, the
+ * first of which is 1. It is 0 if beta is 0 or NaN. Without branches, which
+ * could not be predicted. */
 static inline float roulette_survival(struct vec3 beta, uint32_t vertex)
 {
     float q = sqrtf(v3_max_component(beta));
@@ -26,8 +26,8 @@ static inline float roulette_survival(struct vec3 beta, uint32_t vertex)
     return f_max(f_min(1.0f, q), is_first);
 }
 
-/* With which probability a shadow ray is traced that would add `light` to a
- * path that has gathered `sum`. 1 or more: surely. */
+/* Probability that a shadow ray is traced that would add `light` to a path that
+ * has gathered `sum`. From 1 on it is always traced. */
 static inline float roulette_shadow_survival(struct vec3 light, struct vec3 sum)
 {
     return v3_max_component(light) / (0.25f * v3_max_component(sum));

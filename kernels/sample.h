@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * sample.h - warps of the unit square
+ * sample.h - warps of the unit square to disk and hemisphere
  *
  * Units:     unit vectors around +z; densities per solid angle
  */
@@ -9,7 +9,8 @@
 
 #include "kernels/vec.h"
 
-/* Concentric map of the square to the unit disk (Shirley and Chiu 1997). */
+/* Maps the square to the unit disk concentrically (Shirley and Chiu 1997, "A
+ * low distortion map between disk and square"). */
 static inline struct vec2 disk_from_square(struct vec2 u)
 {
     struct vec2 p = v2(2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f);
@@ -25,7 +26,7 @@ static inline struct vec2 disk_from_square(struct vec2 u)
                       v2(radius * cos_small(angle), radius * sin_small(angle)));
 }
 
-/* Density cosine / pi. */
+/* A direction of the hemisphere around +z with density cosine / pi. */
 static inline struct vec3 cosine_hemisphere(struct vec2 u)
 {
     struct vec2 p = disk_from_square(u);
@@ -33,7 +34,8 @@ static inline struct vec3 cosine_hemisphere(struct vec2 u)
     return v3(p.x, p.y, sqrtf(f_max(1.0f - p.x * p.x - p.y * p.y, 0.0f)));
 }
 
-/* The same around the unit vector n. */
+/* A direction of the hemisphere around the unit vector n, with the same
+ * density. */
 static inline struct vec3 cosine_around(struct vec3 n, struct vec2 u)
 {
     struct vec3 d = cosine_hemisphere(u), t, b;

@@ -2,11 +2,11 @@
 /*
  * sobol.h - Owen-scrambled Sobol points in two dimensions
  *
- * One (0, 2)-sequence, shuffled and scrambled anew for each key (Burley 2020,
- * "Practical hash-based Owen scrambling", JCGT 9:4; hash by Vegdahl 2021,
- * psychopath.io). Every prefix of 2^m points is a (0, m, 2)-net: each box of
- * area 2^-m with sides that are powers of two holds one of them. Points of two
- * keys are independent.
+ * The first two Sobol dimensions, shuffled and scrambled anew for each key
+ * (Burley 2020, "Practical hash-based Owen scrambling", JCGT 9:4; hash by
+ * Vegdahl 2021, psychopath.io, "Building a better LK hash"). Every prefix of
+ * 2^m points is a (0, m, 2)-net: each box of area 2^-m whose sides are powers
+ * of two has one point. Points of two keys are independent.
  *
  * Units:     32-bit fractions of the unit square
  */
@@ -19,8 +19,8 @@ struct bits2 {
     uint32_t x, y;
 };
 
-/* xor-shift-multiply in two rounds with low bias (constants by Ettinger for
- * Wellons' hash prospector). */
+/* Integer hash: xor-shift-multiply in two rounds with low bias (constants by
+ * Ettinger for Wellons' hash prospector). */
 static inline uint32_t hash_u32(uint32_t h)
 {
     h ^= h >> 16;
@@ -31,8 +31,8 @@ static inline uint32_t hash_u32(uint32_t h)
     return h;
 }
 
-/* a's bits where the mask's are 1, b's elsewhere; one instruction of AVX-512.
- */
+/* Takes bits of a where the mask has 1, of b elsewhere. One instruction of
+ * AVX-512. */
 static inline uint32_t merge_bits(uint32_t mask, uint32_t a, uint32_t b)
 {
     return ((a ^ b) & mask) ^ b;
@@ -46,8 +46,8 @@ static inline uint32_t reverse_bits(uint32_t x)
     return x >> 24 | (x >> 8 & 0xff00u) | (x & 0xff00u) << 8 | x << 24;
 }
 
-/* A permutation in which each bit is flipped or not as the lower ones say:
- * Owen's scrambling of the number whose bits these are in reverse. */
+/* Laine-Karras permutation: each bit is flipped depending on the lower bits. It
+ * is an Owen scramble of the number whose bits are reversed. */
 static inline uint32_t laine_karras_permutation(uint32_t x, uint32_t key)
 {
     x ^= x * 0x3d20adeau;
@@ -58,8 +58,8 @@ static inline uint32_t laine_karras_permutation(uint32_t x, uint32_t key)
     return x;
 }
 
-/* Pascal's triangle modulo 2 as a matrix: Sobol's second dimension, lowest bit
- * first. */
+/* The second Sobol dimension of a point, lowest bit first: p times Pascal's
+ * triangle modulo 2 as a matrix. */
 static inline uint32_t pascal_bits(uint32_t p)
 {
     p ^= p >> 1 & 0x55555555u;
@@ -69,7 +69,7 @@ static inline uint32_t pascal_bits(uint32_t p)
     return p ^ p >> 16;
 }
 
-/* The point of this index, given with its bits reversed. */
+/* The scrambled point of an index, which is given with its bits reversed. */
 static inline struct bits2 sobol_point(uint32_t reversed_index, uint32_t key)
 {
     uint32_t i = reverse_bits(laine_karras_permutation(reversed_index, key));

@@ -2,10 +2,10 @@
 /*
  * sum.h - exact sums of floats as 128-bit fixed point
  *
- * 64 fraction bits and 64 integer bits: the order in which samples are added
- * never matters, so threads, devices and restarts give the same bits.
+ * 64 integer bits and 64 fraction bits. Addition is exact, so that threads,
+ * devices and restarts may add samples in any order and get the same bits.
  *
- * Units:     whatever is added
+ * Units:     those of the numbers added
  * Threads:   one owner for each sum
  * Errors:    none; the caller counts what sum_accepts() refuses
  */
@@ -19,16 +19,16 @@ struct sum {
     uint64_t hi; /* units of 1 */
 };
 
-/* False for NaN, infinities and negative numbers (-0 is 0). */
+/* Returns false for NaN, infinities and negative numbers. -0 is 0. */
 static inline bool sum_accepts(float x)
 {
     return x >= 0.0f && x <= FLOAT_MAX;
 }
 
-/* Adds one sum to another; sums stop at 2^63. */
+/* Adds one sum to another. Sums saturate at 2^63. */
 static inline void sum_join(GLOBAL struct sum *s, struct sum x)
 {
-    uint64_t large = s->hi | x.hi; /* two that have stopped are 0 again */
+    uint64_t large = s->hi | x.hi; /* two saturated sums wrap to 0 */
 
     s->lo += x.lo;
     s->hi += x.hi + (s->lo < x.lo ? 1 : 0);
@@ -38,15 +38,15 @@ static inline void sum_join(GLOBAL struct sum *s, struct sum x)
     }
 }
 
-/* Adds x, which sum_accepts(). Bits below 2^-64 are cut off; values above
- * 2^62 count as 2^62. */
+/* Adds x, which sum_accepts() has accepted. Bits below 2^-64 are cut off.
+ * Values above 2^62 count as 2^62. */
 static inline void sum_add(GLOBAL struct sum *s, float x)
 {
     uint32_t exponent = float_bits(x) >> 23 & 255u;
     uint64_t mantissa = (float_bits(x) & 0x7fffffu) | 0x800000u;
     struct sum value = {0, 0};
 
-    if (exponent < 127 - 64) /* 0 and denormal numbers, too */
+    if (exponent < 127 - 64) /* 0 and denormal numbers as well */
         return;
     if (exponent < 127) { /* below 1 */
         value.lo = mantissa << 40 >> (126 - exponent);
@@ -61,9 +61,9 @@ static inline void sum_add(GLOBAL struct sum *s, float x)
     sum_join(s, value);
 }
 
-/* The sum as a float. The fraction is converted as a signed number, halved and
- * rounded to odd if it is too large for one: the same float, without a branch
- * that is as likely as not. */
+/* Converts the sum to a float. The fraction is converted as a signed number; if
+ * it is too large for that it is halved first and rounded to odd, which gives
+ * the same float without an unpredictable branch. */
 static inline float sum_float(struct sum s)
 {
     uint64_t top = s.lo >> 63;
@@ -73,7 +73,7 @@ static inline float sum_float(struct sum s)
     return (float)s.hi + (float)fraction * unit;
 }
 
-/* sum / count, within two units in the last place. count is not 0. */
+/* Returns sum / count, within two units in the last place. count is not 0. */
 static inline float sum_mean(struct sum s, uint64_t count)
 {
     return sum_float(s) / (float)count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * types.h - the plain data that a sample reads, the same bytes on every machine
+ * types.h - structs shared by host and device, of the same layout on both
  *
  * Units:     normalised scene units: the loader moves the centre of the scene
  *            to the origin and scales by a power of two until its extent is in
@@ -24,8 +24,8 @@ struct vec3 {
     float x, y, z;
 };
 
-/* Indices into positions, normals and uvs; NO_INDEX where the file has none.
- * All three of vn, or none; the same for vt. */
+/* Indices into positions, normals and uvs. vn and vt are NO_INDEX, all three
+ * of them, where the file has no normals or no texture coordinates. */
 struct tri {
     uint32_t v[3];
     uint32_t vn[3];
@@ -45,31 +45,31 @@ enum material_kind {
 
 struct material {
     struct vec3 color;
-    float alpha;          /* GGX; below ALPHA_SMOOTH a perfect mirror */
-    struct vec3 emission; /* radiance, both sides; 0 for most */
+    float alpha;          /* GGX roughness; below ALPHA_SMOOTH: a delta lobe */
+    struct vec3 emission; /* radiance to both sides; 0: no light */
     float ior;
     uint32_t kind;             /* enum material_kind */
     uint32_t color_texture;    /* multiplies color; NO_INDEX: none */
     uint32_t emission_texture; /* multiplies emission; NO_INDEX: none */
-    float
-        opacity; /* 1: opaque; less: a ray passes with probability 1-opacity */
-    struct vec3 coat;         /* reflectance of the coat at normal incidence */
-    uint32_t coat_texture;    /* multiplies coat; NO_INDEX: none */
-    uint32_t alpha_texture;   /* its square multiplies alpha; NO_INDEX: none */
-    uint32_t metal_texture;   /* times metalness at least 1/2: metal there */
-    uint32_t opacity_texture; /* below 1/2: a hole; NO_INDEX: none */
-    float metalness;          /* used with metal_texture only */
-    uint32_t normal_texture;  /* shading normal in the tangents' frame */
-    uint32_t bump_texture;    /* heights; NO_INDEX: none */
-    float bump_scale;         /* texels that a height of 1 rises */
+    float opacity;             /* probability that a ray is stopped */
+    struct vec3 coat;          /* reflectance of the coat at normal incidence */
+    uint32_t coat_texture;     /* multiplies coat; NO_INDEX: none */
+    uint32_t alpha_texture;    /* its square multiplies alpha; NO_INDEX: none */
+    uint32_t metal_texture;    /* metal where it times metalness is >= 1/2 */
+    uint32_t opacity_texture;  /* a hole where its alpha is below 1/2 */
+    float metalness;           /* used with metal_texture only */
+    uint32_t normal_texture;   /* shading normals in tangent space */
+    uint32_t bump_texture;     /* heights in alpha */
+    float bump_scale;          /* height of an alpha of 1, in texels */
     uint32_t pad;
 };
 
+/* Roughness below which a microfacet lobe is a delta lobe. */
 #define ALPHA_SMOOTH 5e-4f
 
-/* width * height texels from texels[first] on, row 0 at the top of the image;
- * a texel is 8-bit sRGB with linear alpha, r in the lowest byte. Looked up at
- * uv * scale + offset. */
+/* An image of width * height texels, which begin at texels[first] with the top
+ * row. A texel is 8-bit sRGB with linear alpha, red in the lowest byte. It is
+ * looked up at uv * scale + offset. */
 struct texture {
     uint32_t first;
     uint32_t width;
@@ -77,8 +77,8 @@ struct texture {
     uint32_t has_holes; /* 1 if any alpha is below one half */
     struct vec2 scale;
     struct vec2 offset;
-    uint32_t is_clamped; /* 1: the border goes on outside; 0: it repeats */
-    uint32_t is_data;    /* 1: linear numbers, alpha holds their mean */
+    uint32_t is_clamped; /* 1: clamped to the border; 0: repeated */
+    uint32_t is_data;    /* 1: linear channels, and alpha is their mean */
 };
 
 /* Constant radiance (width 0) or a lat-long image times `color`. */
@@ -86,13 +86,14 @@ struct sky {
     struct vec3 color;
     uint32_t width;
     uint32_t height;
-    float rotation_sin; /* of the angle that turns the dome about +y, */
+    float rotation_sin; /* rotation of the sky about +y, */
     float rotation_cos; /* counter-clockwise seen from above */
     uint32_t pad;
 };
 
-/* direction = forward + sx * right + sy * up, with sx and sy in [-1, 1]:
- * right and up carry the field of view and the aspect. */
+/* The camera. A ray has the direction forward + sx * right + sy * up, with sx
+ * and sy in [-1, 1]; the lengths of right and up are tangents of half the
+ * fields of view. */
 struct camera {
     struct vec3 eye;
     float width; /* of the whole picture in pixels, not of a crop */
@@ -101,37 +102,51 @@ struct camera {
     struct vec3 right;
     float lens_radius; /* 0: a pinhole */
     struct vec3 up;
-    float focus; /* from the eye to the sharp plane, along forward */
-    float left;  /* where pixel (0, 0) begins in the picture, in pixels: the */
-    float top;   /* corner of a crop, which in a draft is no whole number */
+    float focus; /* distance of the focal plane along forward */
+    float left;  /* position of pixel (0, 0) in the whole picture, in pixels: */
+    float top;   /* the corner of a crop, which may be fractional in a draft */
 };
 
-/* Depth-first: the left child of node i is node i + 1. */
+/* A node of the binary tree. Nodes are stored depth-first: the left child of
+ * node i is node i + 1. */
 struct node {
     struct vec3 lo;
-    uint32_t next; /* inner: right child; leaf: first of its leaf_tris */
+    uint32_t next; /* inner node: right child; leaf: its first leaf_tri */
     struct vec3 hi;
     uint32_t count; /* triangles of a leaf; 0 for an inner node */
 };
 
-/* A triangle where the traversal wants it: raw vertices, in leaf order. */
+/* A triangle with its corners, stored in the order of the leaves. */
 struct leaf_tri {
     struct vec3 p0, p1, p2;
     uint32_t tri;
 };
 
-/* What shines, with what a sample of it needs: a triangle, or two that share a
- * side, each sampled half the time; and the way to it from the root of the
- * light tree: three bits a level, ten levels a word, the first lowest. Of the
- * corners of the two around both, those of the first triangle are 0, 1 and 3,
- * of the second 2, 3 and 1. */
+/*
+ * An area light: one emissive triangle, or two that share a side, of which each
+ * is sampled half the time.
+ *
+ *     corners[3] +----------+ corners[2]      tris[0] has corners 0, 1, 3,
+ *                | \ tris[1]|                tris[1] has corners 2, 3, 1.
+ *                |   \      |
+ *                |     \    |                 A light of one triangle has
+ *                |tris[0]\  |                 corners 0, 1, 3; corners[2] is
+ *                |         \|                 a copy of corners[3].
+ *     corners[0] +----------+ corners[1]
+ *
+ * `path` leads to the light from the root of the light tree. It has the index
+ * of the child at each level: three bits a level from the lowest on,
+ * LIGHT_LEVELS / 2 levels a word.
+ */
 struct light {
-    uint32_t tris[2]; /* the second NO_INDEX: one triangle */
+    uint32_t tris[2]; /* tris[1] is NO_INDEX for one triangle */
     uint32_t path[2];
     uint32_t texture;     /* multiplies emission; NO_INDEX: none */
-    uint32_t rotation[2]; /* of these corners, where the mesh's begin */
+    uint32_t rotation[2]; /* which of a triangle's corners above is its
+                             first in the mesh */
     struct vec3 corners[4];
-    struct vec3 scaled_normals[2]; /* normals, 2 / density of a point long */
+    struct vec3
+        scaled_normals[2]; /* of length 2 / density of a point by area */
     struct vec3 emission;
 };
 
@@ -139,72 +154,76 @@ struct light {
 #define LIGHT_WIDTH  8
 #define LIGHT_LEAF   0x80000000u
 
-/* Eight clusters of lights, side by side for vector units. Lights shine from
- * both sides: their normals are lines, all within an angle of the axis. */
+/* A node of the light tree: eight clusters of lights, as arrays for vector
+ * units. Lights emit to both sides, so that normals have no sign: the cone
+ * around the axis bounds the lines along them. */
 struct light_node {
-    float x[LIGHT_WIDTH], y[LIGHT_WIDTH], z[LIGHT_WIDTH]; /* centre of a box */
-    float radius[LIGHT_WIDTH]; /* of the ball around the box; above 0 */
-    float axis_x[LIGHT_WIDTH]; /* unit */
+    float x[LIGHT_WIDTH], y[LIGHT_WIDTH], z[LIGHT_WIDTH]; /* box centres */
+    float radius[LIGHT_WIDTH]; /* of the sphere around the box; above 0 */
+    float axis_x[LIGHT_WIDTH]; /* unit vectors */
     float axis_y[LIGHT_WIDTH];
     float axis_z[LIGHT_WIDTH];
-    float spread[LIGHT_WIDTH];   /* sine of that angle */
-    float power[LIGHT_WIDTH];    /* the sum over all lights is 1; 0: no child */
-    uint32_t child[LIGHT_WIDTH]; /* a node, or a light and LIGHT_LEAF */
+    float spread[LIGHT_WIDTH];   /* sine of the cone's half angle */
+    float power[LIGHT_WIDTH];    /* share of all lights' power; 0: no child */
+    uint32_t child[LIGHT_WIDTH]; /* a node; or a light, or-ed with LIGHT_LEAF */
 };
 
-/* Directions on a side of the octahedral map in guide.h: a power of two. */
+/* Bins along a side of the octahedral map of directions in guide.h. A power of
+ * two. */
 #define GUIDE_SIDE 16
 #define GUIDE_BINS (GUIDE_SIDE * GUIDE_SIDE)
 
-/* Ways that surfaces face: along either side of an axis, most of all. */
+/* Classes of normals: by the axis of the largest component, and its sign. */
 #define GUIDE_FACINGS 6
 
-/* Cubes in the box around the scene, of GUIDE_FACINGS cells each, x next to
- * fastest, z slowest. */
+/* The grid of the path guide: the box around the scene divided into cubes, each
+ * with GUIDE_FACINGS cells. Cells are ordered by z, y, x, then facing. */
 struct guide_grid {
-    struct vec3 lo; /* the box's corner */
+    struct vec3 lo; /* low corner of the box */
     float cells_per_unit;
-    uint32_t width, height, depth; /* cells; 0: there is no grid */
-    uint32_t table_count;          /* of directions that cells have */
+    uint32_t width, height, depth; /* in cubes; 0: there is no grid */
+    uint32_t table_count;          /* tables of directions in guide_cdf */
 };
 
-/* Where in guide_cdf a cell's directions begin; NO_INDEX: it has none. */
+/* A cell of the path guide: where its tables begin in guide_cdf. NO_INDEX: it
+ * has no such table. */
 struct guide_cell {
-    uint32_t scatter; /* for a path to go on, */
-    uint32_t sky;     /* and for light samples of the sky */
+    uint32_t scatter; /* directions for the next ray of a path */
+    uint32_t sky;     /* directions for light samples of the sky */
 };
 
-/* How light is gathered where a path could meet it by chance as well. The
- * others are for comparing with. */
+/* Estimators of direct light. Pictures use DIRECT_MIS, the others are for
+ * comparison. */
 enum direct {
-    DIRECT_MIS,    /* both ways, weighed */
-    DIRECT_LIGHTS, /* only from lights that are chosen */
-    DIRECT_BSDF    /* only where paths meet them */
+    DIRECT_MIS,    /* light samples and BSDF samples, weighted */
+    DIRECT_LIGHTS, /* light samples only */
+    DIRECT_BSDF    /* BSDF samples only: paths meet the lights */
 };
 
-/* What a sample is: light, or what the ray through a pixel's middle meets. */
+/* The quantity of a sample: radiance, or an AOV at the first hit of the ray
+ * through the middle of the pixel. */
 enum sample_kind {
     SAMPLE_LIGHT,
-    SAMPLE_PREVIEW, /* its colours, simply lit */
-    /* numbers, in x y z; 0 for the sky */
-    SAMPLE_NORMAL,  /* (1 + the shading normal on the eye's side) / 2 */
-    SAMPLE_FACE,    /* (1 + the face's normal as it is wound) / 2 */
-    SAMPLE_UV,      /* within the image, and 1 where there are any */
+    SAMPLE_PREVIEW, /* colours of surfaces, lit from the eye */
+    /* numbers in x, y and z; 0 for the sky */
+    SAMPLE_NORMAL,  /* (1 + shading normal on the eye's side) / 2 */
+    SAMPLE_FACE,    /* (1 + face normal by the winding) / 2 */
+    SAMPLE_UV,      /* x, y: fractions of uv; z: 1 where there are uvs */
     SAMPLE_DEPTH,   /* x: distance from the eye */
-    SAMPLE_MATERIAL /* x: 1 + its number */
+    SAMPLE_MATERIAL /* x: 1 + index of the material */
 };
 
-/* Which random numbers a sample has; see rng.h. */
+/* How random numbers are given to samples; see rng.h. */
 enum order {
-    ORDER_PROGRESSIVE, /* pixels are independent, any number of samples */
-    ORDER_DRAFT        /* pixels spread their error; DRAFT_SPP samples */
+    ORDER_PROGRESSIVE, /* independent pixels, any number of samples */
+    ORDER_DRAFT        /* blue-noise error over pixels, DRAFT_SPP samples */
 };
 
-/* Paths without a limit of their own end here, counted; roulette ends them long
- * before. */
+/* Vertices after which every path ends. Russian roulette ends nearly all paths
+ * long before; those that come so far are counted. */
 #define PATH_HARD_STOP 1000u
 
-/* What a sample reads beside arrays. */
+/* The part of struct world that is not arrays. */
 struct settings {
     struct camera camera;
     struct sky sky;
@@ -214,8 +233,8 @@ struct settings {
     uint32_t direct;   /* enum direct */
     uint32_t order;    /* enum order */
     uint32_t sample;   /* enum sample_kind */
-    float sky_share;   /* probability that a light sample is one of the sky, */
-    float light_share; /* of the lights; what is left is none at all */
+    float sky_share;   /* probability that a light sample is of the sky */
+    float light_share; /* of an area light; otherwise there is none */
 
     /* lengths of the world's arrays */
     uint32_t tri_count;
@@ -232,8 +251,8 @@ struct settings {
     struct guide_grid guide;
 };
 
-/* What a sample reads, nothing more. nodes and leaf_tris belong to the
- * backend, the rest to the scene. */
+/* The data that a sample reads, and nothing more. nodes and leaf_tris belong to
+ * the backend, all other arrays to the scene. */
 struct world {
     struct settings settings;
     GLOBAL const struct vec3 *positions;
@@ -243,28 +262,27 @@ struct world {
     GLOBAL const struct material *materials;
     GLOBAL const struct texture *textures;
     GLOBAL const uint32_t *texels;
-    GLOBAL const float *linear_of_srgb;   /* 256: the sRGB curve */
-    GLOBAL const struct vec3 *sky_texels; /* row 0 is +y */
+    GLOBAL const float *linear_of_srgb;   /* 256 entries: the sRGB curve */
+    GLOBAL const struct vec3 *sky_texels; /* top row: +y */
     GLOBAL const struct node *nodes;
     GLOBAL const struct leaf_tri *leaf_tris;
     GLOBAL const struct light *lights;
-    GLOBAL const uint32_t *tri_lights;           /* NO_INDEX where it is dark */
-    GLOBAL const struct light_node *light_nodes; /* none for one light */
-    GLOBAL const float *sky_cdf; /* see kernels/sky.h; none: no table */
+    GLOBAL const uint32_t *tri_lights;           /* NO_INDEX: no light */
+    GLOBAL const struct light_node *light_nodes; /* NULL for one light */
+    GLOBAL const float *sky_cdf; /* see kernels/sky.h; NULL: no table */
     GLOBAL const struct guide_cell *guide_cells; /* see kernels/guide.h */
-    GLOBAL const float *guide_cdf; /* GUIDE_BINS of each table there */
+    GLOBAL const float *guide_cdf;               /* GUIDE_BINS of each table */
 };
 
 struct ray {
     struct vec3 o;
-    struct vec3 d; /* unit length; of shadow rays to surfaces any */
+    struct vec3 d; /* unit vector; any length for shadow rays to area lights */
     float t_max;
-    uint32_t key;  /* of the sample, for decisions at holes */
-    uint32_t from; /* 1 + the triangle it leaves, which is flat: it cannot
-                      meet it again; 0: none */
+    uint32_t key;  /* random key for partial coverage */
+    uint32_t from; /* 1 + triangle that it leaves; 0: none */
 };
 
-/* Where a ray meets a triangle: p = b0 p0 + b1 p1 + b2 p2. */
+/* The intersection of a ray and a triangle, at b0 p0 + b1 p1 + b2 p2. */
 struct hit {
     float t;
     float b0, b1, b2;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * vec.h - three-vectors and the few functions that both compilers compute
+ * vec.h - vectors of three floats, and functions that both compilers compute
  * with the same bits
  *
- * Polynomials are those of the Cephes library (Moshier 1989), errors below
- * 2e-7 on their ranges.
+ * Polynomials are those of the Cephes library (Moshier 1989), errors below 2e-7
+ * on their ranges.
  *
  * Units:     radians, or turns where a name says so
  */
@@ -16,10 +16,11 @@
 #define PI        3.14159265358979f
 #define FLOAT_MAX 3.402823466e38f
 
-/* The greatest random number: see unit_float(). */
+/* The largest random number that unit_float() returns. */
 #define UNIT_FLOAT_MAX (1.0f - 0x1p-24f)
 
-/* If one is NaN the result is b: put the suspect first. */
+/* Minimum and maximum. The result is b if either is NaN, so the value that may
+ * be NaN comes first. */
 static inline float f_min(float a, float b)
 {
     return a < b ? a : b;
@@ -78,14 +79,14 @@ static inline float v3_length(struct vec3 a)
     return sqrtf(v3_dot(a, a));
 }
 
-/* Undefined for a vector without length. */
+/* The unit vector along a, which is not 0. */
 static inline struct vec3 v3_unit(struct vec3 a)
 {
     return v3_scale(a, 1.0f / v3_length(a));
 }
 
-/* v3_unit() of a vector whose length is 1 but for rounding: a step of Newton's
- * in place of a root and a division. */
+/* v3_unit() of a vector that has unit length up to rounding: one Newton step
+ * instead of a root and a division. */
 static inline struct vec3 v3_unit_again(struct vec3 a)
 {
     return v3_scale(a, 1.5f - 0.5f * v3_dot(a, a));
@@ -96,13 +97,14 @@ static inline float v3_max_component(struct vec3 a)
     return f_max(a.x, f_max(a.y, a.z));
 }
 
-/* Of either sign: in one comparison, by all bits but the signs. */
+/* True if all components are +0 or -0. One comparison, of all bits but the
+ * signs. */
 static inline bool v3_is_zero(struct vec3 a)
 {
     return (float_bits(a.x) | float_bits(a.y) | float_bits(a.z)) << 1 == 0;
 }
 
-/* The corners of the box around a and b. */
+/* Componentwise minimum and maximum. */
 static inline struct vec3 v3_min(struct vec3 a, struct vec3 b)
 {
     return v3(f_min(a.x, b.x), f_min(a.y, b.y), f_min(a.z, b.z));
@@ -113,7 +115,7 @@ static inline struct vec3 v3_max(struct vec3 a, struct vec3 b)
     return v3(f_max(a.x, b.x), f_max(a.y, b.y), f_max(a.z, b.z));
 }
 
-/* a + s (b - a), componentwise. */
+/* Linear interpolation, componentwise. */
 static inline struct vec3 v3_lerp(struct vec3 a, struct vec3 b, float s)
 {
     return v3_add(a, v3_scale(v3_sub(b, a), s));
@@ -146,7 +148,7 @@ static inline float cos_small(float x)
            0.5f * z + 1.0f;
 }
 
-/* (cosine, sine) of u turns, u in [0, 1]. */
+/* (cosine, sine) of an angle of u turns, u in [0, 1]. */
 static inline struct vec2 cos_sin_turns(float u)
 {
     float quarter = floorf(u * 4.0f + 0.5f);
@@ -164,7 +166,7 @@ static inline struct vec2 cos_sin_turns(float u)
     return v2(s, -c);
 }
 
-/* Arc tangent of y/x for 0 <= y <= x, x > 0. */
+/* Arc tangent of y/x for 0 <= y <= x and x > 0. */
 static inline float atan_octant(float y, float x)
 {
     float base = 0.0f;
@@ -184,7 +186,7 @@ static inline float atan_octant(float y, float x)
                    r);
 }
 
-/* The angle of (x, y) in (-pi, pi]; 0 for (0, 0). */
+/* Angle of the point (x, y), in (-pi, pi]; 0 for (0, 0). */
 static inline float atan2_rad(float y, float x)
 {
     float ay = fabsf(y);
@@ -199,14 +201,14 @@ static inline float atan2_rad(float y, float x)
     return y < 0.0f ? -a : a;
 }
 
-/* -1 or 1, without a branch: processors cannot predict the sides of surfaces,
- * and each that they get wrong costs as much as a square root. */
+/* -1 if is_minus, else 1. Without a branch: processors cannot predict the sides
+ * of surfaces, and a misprediction costs as much as a square root. */
 static inline float minus_if(bool is_minus)
 {
     return bits_float(0x3f800000u | (uint32_t)is_minus << 31);
 }
 
-/* x and y exchanged if so, in the same way. */
+/* Exchanges x and y if is_swapped, without a branch for the same reason. */
 static inline struct vec2 v2_swap_if(bool is_swapped, struct vec2 v)
 {
     uint32_t x = float_bits(v.x), y = float_bits(v.y);
@@ -215,7 +217,8 @@ static inline struct vec2 v2_swap_if(bool is_swapped, struct vec2 v)
     return v2(bits_float(x ^ changes), bits_float(y ^ changes));
 }
 
-/* A right-handed frame around the unit vector n (Duff et al. 2017). */
+/* Completes the unit vector n to a right-handed orthonormal frame t, b, n (Duff
+ * et al. 2017, "Building an orthonormal basis, revisited", JCGT 6:1). */
 static inline void frame_around(struct vec3 n, struct vec3 *t, struct vec3 *b)
 {
     float sign = minus_if(n.z < 0.0f);
