@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * clear_buffers.cl - makes the film empty, a work-item a pixel
+ * clear_buffers.cl - empties the film, one work-item a pixel
  */
 #include "kernels/sum.h"
 

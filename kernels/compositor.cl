@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * compositor.cl - adds the samples of a task to the film, a work-item a point
+ * compositor.cl - adds the samples of a task to the film, one work-item a point
  */
 #include "kernels/pixel.h"
 #include "kernels/cl_task.h"
 
-/* The samples of a pixel are consecutive: behind one that was cancelled none
- * is taken. */
+/* Samples of a pixel are consecutive. After the first that was cancelled none
+ * is added. */
 __kernel void add_samples(struct task task,
                           __global const struct path_sample *samples,
                           __global struct sum *sums, __global ulong *counts,

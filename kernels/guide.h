@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
 /*
- * guide.h - directions that light comes from which is hard to find
+ * guide.h - path guiding: directions of light that is hard to find
  *
- * What chance finds rarely: caustics, and the sky through windows.
- * src/light/path_guide.c has traced some rays, and a grid over the scene says
- * for each way that surfaces face in each of its cubes how much came from which
- * of GUIDE_BINS directions (Jensen 1995, "Importance driven path tracing using
- * the photon map"). At what is diffuse a direction is drawn from the cell's
- * table with the probability that is the table's share, else as elsewhere; its
+ * src/light/path_guide.c has traced rays for light that BSDF and light samples
+ * rarely find: caustics, and the sky through windows. Each cell of a grid over
+ * the scene has tables of how much arrives from each of GUIDE_BINS directions
+ * (Jensen 1995, "Importance driven path tracing using the photon map"). At a
+ * diffuse surface a direction is sampled from the cell's table with a fixed
+ * probability, the table's share, and otherwise from the BSDF or the light. Its
  * density is that of the mixture (Vorba et al. 2014, "On-line learning of
  * parametric mixture models for light transport simulation", 5.2), so that any
- * table is right, and a good one fast.
+ * table is unbiased, and a good one has less variance.
  *
- * What light samples can find they are led to, and paths only to the rest:
- * caustics, and the sky behind panes. A path that is led to a window has left
- * the room, and one that stays counts 1 / (1 - share) times as much at each
- * vertex, which in a white room is many times more after the many it has there.
+ * There are two tables. Light samples are guided to the sky that they can
+ * reach; paths are guided to the rest only, caustics and the sky behind panes
+ * of glass. A path that is guided to a window has left the room, and one that
+ * is not counts 1 / (1 - share) times as much at each vertex, which adds up in
+ * a white room.
  *
- * Bins are the squares of an octahedral map, whose Jacobian needs no
- * trigonometry: on |x| + |y| + |z| = 1, seen along y, dw = (|x| + |y| + |z|)^3
- * dA for a unit vector.
+ * Bins are squares of an octahedral map, whose Jacobian needs no trigonometry:
+ * the octahedron |x| + |y| + |z| = 1 projected along y, with the solid angle dw
+ * = (|x| + |y| + |z|)^3 dA for a unit vector.
  *
  * Units:     normalised scene units, densities per solid angle
  */
@@ -28,18 +29,17 @@
 
 #include "kernels/surface_point.h"
 
-/* A mirror, or as good as one: what it throws on other things is for guiding.
- */
+/* Roughness below which metal and glass count as casters of caustics. */
 #define GUIDE_ALPHA_MAX 0.3f
 
-/* Where guiding helps: the BSDF hardly knows where to look. */
+/* True if the BSDF is diffuse enough for guiding. */
 static inline bool guide_helps(const struct bsdf *b)
 {
     return b->kind == MATERIAL_DIFFUSE || b->kind == MATERIAL_ROUGH_DIFFUSE ||
            (b->kind == MATERIAL_PLASTIC && !v3_is_zero(b->color));
 }
 
-/* Of GUIDE_FACINGS, for a unit normal. */
+/* The class of a unit normal, below GUIDE_FACINGS. */
 static inline uint32_t guide_facing(struct vec3 n)
 {
     struct vec3 m = v3(fabsf(n.x), fabsf(n.y), fabsf(n.z));
@@ -51,8 +51,8 @@ static inline uint32_t guide_facing(struct vec3 n)
     return n.z < 0.0f ? 5u : 4u;
 }
 
-/* The cell of a surface with this normal: in the cube that p is in or, outside
- * the grid, nearest to. */
+/* Index of a surface's cell, by its position p and unit normal n. Positions
+ * outside the grid are clamped to it. */
 static inline uint32_t guide_cell_index(const struct guide_grid *g,
                                         struct vec3 p, struct vec3 n)
 {
@@ -65,7 +65,7 @@ static inline uint32_t guide_cell_index(const struct guide_grid *g,
            guide_facing(n);
 }
 
-/* A cell without directions. */
+/* A cell without tables. */
 static inline struct guide_cell guide_cell_none(void)
 {
     struct guide_cell none = {NO_INDEX, NO_INDEX};
@@ -73,7 +73,7 @@ static inline struct guide_cell guide_cell_none(void)
     return none;
 }
 
-/* What the surface's cell has. */
+/* The cell of a surface, without tables if the world has no guide. */
 static inline struct guide_cell guide_at(const struct world *w, struct vec3 p,
                                          struct vec3 n)
 {
@@ -87,7 +87,8 @@ static inline float guide_sign(float x)
     return x < 0.0f ? -1.0f : 1.0f;
 }
 
-/* Turns the square's corners over its edges: the half below y = 0, and back. */
+/* Maps between a point of the outer half of the square, which has the
+ * directions with y < 0, and its mirror image in the inner half. */
 static inline struct vec2 guide_fold(struct vec2 p)
 {
     return v2((1.0f - fabsf(p.y)) * guide_sign(p.x),
@@ -99,7 +100,7 @@ static inline float guide_norm(struct vec3 d)
     return fabsf(d.x) + fabsf(d.y) + fabsf(d.z);
 }
 
-/* The bin that unit vector d is in. */
+/* The bin of the unit vector d. */
 static inline uint32_t guide_bin(struct vec3 d)
 {
     float scale = 1.0f / guide_norm(d);
@@ -114,7 +115,7 @@ static inline uint32_t guide_bin(struct vec3 d)
            (uint32_t)f_min(f_max((p.x + 1.0f) * middle, 0.0f), last);
 }
 
-/* The direction at (x, y) of the whole map, both in [0, GUIDE_SIDE]. */
+/* The direction at point (x, y) of the map, both in [0, GUIDE_SIDE]. */
 static inline struct vec3 guide_direction(float x, float y)
 {
     float step = 2.0f / (float)GUIDE_SIDE;
@@ -126,8 +127,8 @@ static inline struct vec3 guide_direction(float x, float y)
     return v3_unit(v3(p.x, height, p.y));
 }
 
-/* How often, of one, the table that begins at `first` is asked: its last sum.
- */
+/* Share of the table that begins at `first`: the probability to sample it. It
+ * is the last number of its cdf. */
 static inline float guide_share(const struct world *w, uint32_t first)
 {
     return w->guide_cdf[first + GUIDE_BINS - 1];
@@ -150,29 +151,30 @@ static inline float guide_pdf(const struct world *w, uint32_t first,
            (0.25f * (float)GUIDE_BINS) / (norm * norm * norm);
 }
 
-/* Density at the unit vector d of the mixture of the table and of what is asked
- * in the other cases, where that has density pdf. */
+/* Density of the mixture at the unit vector d, where the other technique has
+ * density pdf. */
 static inline float guide_mixed_pdf(const struct world *w, uint32_t first,
                                     struct vec3 d, float pdf)
 {
     return (1.0f - guide_share(w, first)) * pdf + guide_pdf(w, first, d);
 }
 
-/* What is left of u.x, no less than the table's share, for the other cases. */
+/* Remaps u.x, which is not below the table's share, for use by the other
+ * technique. */
 static inline struct vec2 guide_remap(struct vec2 u, float share)
 {
     u.x = f_min((u.x - share) / (1.0f - share), UNIT_FLOAT_MAX);
     return u;
 }
 
-/* A direction for u.x below the table's share. */
+/* Samples the table. u.x is below its share. */
 static inline struct vec3 guide_sample(const struct world *w, uint32_t first,
                                        struct vec2 u)
 {
     uint32_t bin = 0;
     float before, part;
 
-    /* the first bin whose sum is above u.x */
+    /* the first bin whose cdf is above u.x */
     for (uint32_t jump = GUIDE_BINS / 2; jump > 0; jump /= 2)
         if (w->guide_cdf[first + bin + jump - 1] <= u.x)
             bin += jump;
@@ -182,11 +184,12 @@ static inline struct vec3 guide_sample(const struct world *w, uint32_t first,
                            (float)(bin / GUIDE_SIDE) + u.y);
 }
 
-/* Draws a direction from the mixture; false if there is none, or the face is in
- * its way. The sample's weight and density are as if the BSDF had drawn it, and
- * *scale is multiplied by the BSDF's density over the mixture's: roulette would
- * end the paths that were worth finding, and weights of light samples need no
- * look-up, for those of any two densities sum to 1. */
+/* Samples the mixture of table and BSDF. Returns false if the direction is
+ * absorbed or blocked by the face. The sample has the BSDF's weight and
+ * density, and *scale is multiplied by the BSDF's density over the mixture's.
+ * Kept apart like this, the weight does not make roulette end the paths that
+ * were worth finding, and MIS weights need no look-up in the table: those of
+ * any two densities sum to 1. */
 static inline bool guide_scatter(const struct world *w, uint32_t first,
                                  const struct surface_point *v,
                                  const struct bsdf *b, struct vec3 wo,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * hit.h - the one triangle test, and how rays leave surfaces
+ * hit.h - intersection of a ray and a triangle, and origins of secondary rays
  *
- * Watertight (Woop, Benthin and Wald 2013, JCGT 2:1): a ray through an edge
- * or a vertex hits at least one neighbour. Distances that rounding could have
- * put on the wrong side of the origin, or far off on a needle, are computed
- * again with pairs of floats (bound of the edge functions: Pharr et al., PBR
+ * Watertight (Woop, Benthin and Wald 2013, JCGT 2:1): a ray through an edge or
+ * a vertex hits at least one neighbour. Where rounding could have moved a
+ * distance to the wrong side of the origin, or far along a needle, it is
+ * computed again with pairs of floats (bounds of the errors: Pharr et al., PBR
  * 4th ed., 6.8).
  *
  * Units:     normalised scene units
@@ -18,11 +18,11 @@
 #define FLOAT_EPSILON 0x1p-24f
 #define GAMMA(n)      ((n)*FLOAT_EPSILON / (1.0f - (n)*FLOAT_EPSILON))
 
-/* The ray sheared so that it runs along +z. */
+/* Shear of space in which the ray starts at 0 and runs along +z. */
 struct shear {
     struct vec3 o;
     float sx, sy, sz;
-    uint32_t axis; /* of the largest component of the direction */
+    uint32_t axis; /* axis of the largest component of the direction */
 };
 
 static inline float v3_axis(struct vec3 v, uint32_t axis)
@@ -30,8 +30,7 @@ static inline float v3_axis(struct vec3 v, uint32_t axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* Without branches: no processor can predict them for rays in all directions.
- */
+/* Without branches, which could not be predicted for rays in all directions. */
 static inline struct shear shear_of(struct ray r)
 {
     const float d[5] = {r.d.x, r.d.y, r.d.z, r.d.x, r.d.y};
@@ -57,12 +56,12 @@ static inline struct vec3 shear_apply(struct shear s, struct vec3 p)
     return v3(x - s.sx * z, y - s.sy * z, s.sz * z);
 }
 
-/* A number as the sum of two floats that do not overlap. */
+/* A number with twice the digits: the sum of two floats that do not overlap. */
 struct pair {
     float hi, lo;
 };
 
-/* Exact (Knuth). */
+/* The exact sum (Knuth). */
 static inline struct pair two_sum(float a, float b)
 {
     struct pair s;
@@ -74,7 +73,7 @@ static inline struct pair two_sum(float a, float b)
     return s;
 }
 
-/* Exact (Dekker), unless the low part underflows. */
+/* The exact product (Dekker 1971), unless the low part underflows. */
 static inline struct pair two_product(float a, float b)
 {
     struct pair p;
@@ -90,7 +89,8 @@ static inline struct pair two_product(float a, float b)
     return p;
 }
 
-/* Both halves by two-sums: the shorter sum fails where the highs cancel. */
+/* Adds both halves with two_sum(). The shorter sum is wrong where the high
+ * halves cancel. */
 static inline struct pair pair_add(struct pair a, struct pair b)
 {
     struct pair s = two_sum(a.hi, b.hi);
@@ -121,8 +121,8 @@ static inline struct pair pair_minor(struct pair a, struct pair b,
     return pair_add(pair_mul(a, d), pair_neg(pair_mul(b, c)));
 }
 
-/* The distance to the plane of the triangle, with twice the digits; 0 if the
- * ray runs in the plane. */
+/* Distance along the ray to the triangle's plane, computed with pairs. 0 if the
+ * ray is parallel to it. */
 static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
                                    struct vec3 p2)
 {
@@ -144,16 +144,16 @@ static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
     return above.hi / slope.hi;
 }
 
-/* All the same. Processors cannot predict which of a lamp's triangles it is:
- * no branch between the two comparisons. */
+/* True if all are equal. Processors cannot predict which triangle of a lamp is
+ * tested, so there is no branch between the comparisons. */
 static inline bool are_same(float a, float b, float c)
 {
     return ((uint32_t)(a == b) & (uint32_t)(a == c)) != 0;
 }
 
-/* The distance to a triangle that lies across an axis: one division, the same
- * for all triangles in that plane, so that those which share a place tie. False
- * if it lies otherwise. */
+/* Distance to a triangle that is perpendicular to an axis. One division, the
+ * same for all triangles in that plane, so that coincident ones tie. Returns
+ * false for other triangles. */
 static inline bool axis_distance(struct ray r, struct vec3 p0, struct vec3 p1,
                                  struct vec3 p2, float *t)
 {
@@ -168,8 +168,9 @@ static inline bool axis_distance(struct ray r, struct vec3 p0, struct vec3 p1,
     return true;
 }
 
-/* a b - c d with the sign of the exact value. Rounding is monotonic, so only
- * a result of 0 can hide one: then the products' lost digits decide. */
+/* Returns a b - c d with the sign of the exact value. Rounding is monotonic, so
+ * only a result of 0 can hide a sign; then the low parts of the products
+ * decide. */
 static inline float edge_function(float a, float b, float c, float d)
 {
     float e = a * b - c * d;
@@ -179,9 +180,9 @@ static inline float edge_function(float a, float b, float c, float d)
     return e;
 }
 
-/* A bound of the error of the mean of the corners' distances by computed
- * weights with the sum det; corners sheared. Wrong weights put it anywhere
- * between them. */
+/* Bound of the error of the distance that is interpolated from the sheared
+ * corners by the edge functions, whose sum is det. Errors of the weights move
+ * it anywhere between the corners' distances. */
 static inline float distance_error(struct vec3 a, struct vec3 b, struct vec3 c,
                                    float det)
 {
@@ -197,13 +198,13 @@ static inline float distance_error(struct vec3 a, struct vec3 b, struct vec3 c,
     return 3.0f * weight * spread / fabsf(det) + GAMMA(12) * reach_z;
 }
 
-/* A distance that may be further off than this part of it is computed anew:
- * that of needles, and where a face begins close to the origin. */
+/* Relative error from which a distance is computed again: that of needles, and
+ * of faces near the origin. */
 #define T_PRECISION 0x1p-14f
 
-/* True if the ray meets the triangle at a distance above 0 and not beyond
- * t_max; fills all of *h but tri. The other winding, p1 and p2 exchanged, has
- * the same distance to the bit: sums are grouped for it. */
+/* Intersects a ray and a triangle. Returns true for a hit at a distance above 0
+ * and up to t_max, and fills *h except tri. The other winding, p1 and p2
+ * exchanged, gives the same distance to the bit: sums are grouped for that. */
 static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
                                 struct vec3 p1, struct vec3 p2, float t_max,
                                 struct hit *h)
@@ -239,8 +240,8 @@ static inline bool triangle_hit(struct ray r, struct shear s, struct vec3 p0,
     return true;
 }
 
-/* The distance that triangle_hit() finds, for a ray that is aimed at a point of
- * the triangle; no more than 0 if it cannot meet it. */
+/* The distance that triangle_hit() finds for a ray that is aimed at a point of
+ * the triangle. 0 or less if there is no hit. */
 static inline float aimed_distance(struct ray r, struct vec3 p0, struct vec3 p1,
                                    struct vec3 p2)
 {
@@ -251,9 +252,10 @@ static inline float aimed_distance(struct ray r, struct vec3 p0, struct vec3 p1,
     return h.t <= FLOAT_MAX ? h.t : 0.0f;
 }
 
-/* Where a hit is, with a bound of its rounding error on each axis: from the
- * barycentrics, so that the distance travelled does not matter. It has seven
- * roundings, and offset_ray_origin() has less than two more. */
+/* Position of a hit, and a bound of its rounding error on each axis. It is
+ * computed from the barycentrics, so that the error does not depend on the
+ * distance of the origin. Seven roundings, and less than two more in
+ * offset_ray_origin(). */
 static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
                                     struct vec3 p1, struct vec3 p2,
                                     struct vec3 *error)
@@ -268,13 +270,14 @@ static inline struct vec3 hit_point(struct hit h, struct vec3 p0,
     return v3_add(v3_add(a, b), c);
 }
 
-/* Only hits whose least weight is below this are looked at closely. */
+/* Least barycentric below which hit_point_inset() looks at the distance to the
+ * edge. */
 #define EDGE_NEAR 0x1p-7f
 
-/* hit_point() for rays that go on from there. A point on an edge is on the
- * neighbour as well, or by its error behind it, and what left it could leave a
- * closed mesh: it is drawn towards the middle of its triangle until it is as
- * far from each edge as all its errors. */
+/* hit_point() for rays that start there. A point on an edge may by its error
+ * lie behind the neighbour, and a ray from it could leave a closed mesh. So it
+ * is moved towards the middle of its triangle until it is as far from each edge
+ * as its error. */
 static inline struct vec3 hit_point_inset(struct hit h, struct vec3 p0,
                                           struct vec3 p1, struct vec3 p2,
                                           struct vec3 *error)
@@ -300,12 +303,13 @@ static inline struct vec3 hit_point_inset(struct hit h, struct vec3 p0,
     return hit_point(h, p0, p1, p2, error);
 }
 
-/* How far in front of its face a ray begins at least: where a plane's
- * coordinate is 0 there is no error. Lost in rounding elsewhere. */
+/* Least offset of an origin, for planes through 0, where the error bound is 0.
+ * Elsewhere it is lost in rounding. */
 #define ORIGIN_OFFSET_MIN 0x1p-100f
 
-/* The origin of a ray that leaves p on the side of the unit normal ng: out of
- * reach of p's error, which has room for the rounding here. */
+/* Origin of a ray that leaves p on the side of the unit normal ng: offset by
+ * the error bound of p, which includes the rounding here (Pharr et al., PBR 4th
+ * ed., 6.8). */
 static inline struct vec3 offset_ray_origin(struct vec3 p, struct vec3 error,
                                             struct vec3 ng)
 {
@@ -315,9 +319,9 @@ static inline struct vec3 offset_ray_origin(struct vec3 p, struct vec3 error,
     return v3_add(p, v3_scale(ng, distance + ORIGIN_OFFSET_MIN));
 }
 
-/* Scales v until its largest component is 1. False if that is 0. Of numbers
- * below 2^-128 the reciprocal is infinite: those grow by a power of two first.
- */
+/* Scales v so that its largest component is 1. Returns false if v is 0. Vectors
+ * below 2^-64 are scaled by a power of two first, as the reciprocal of a number
+ * below 2^-128 is infinite. */
 static inline bool v3_enlarge(struct vec3 *v)
 {
     float most = f_max(fabsf(v->x), f_max(fabsf(v->y), fabsf(v->z)));
@@ -330,8 +334,9 @@ static inline bool v3_enlarge(struct vec3 *v)
     return most > 0.0f;
 }
 
-/* The unit normal by the winding of the file. Edges are scaled first, so that
- * small triangles do not underflow. False if rounding leaves none. */
+/* Computes the unit normal by the winding of the file. Edges are scaled first,
+ * so that those of small triangles do not underflow. Returns false if there is
+ * none after rounding. */
 static inline bool triangle_normal(struct vec3 p0, struct vec3 p1,
                                    struct vec3 p2, struct vec3 *ng)
 {
@@ -345,7 +350,7 @@ static inline bool triangle_normal(struct vec3 p0, struct vec3 p1,
     if (!v3_enlarge(&n))
         return false;
     n = v3_unit(n);
-    if (!(v3_dot(n, n) < 2.0f)) /* no number, for corners at infinity */
+    if (!(v3_dot(n, n) < 2.0f)) /* NaN, for infinite corners */
         return false;
     *ng = n;
     return true;

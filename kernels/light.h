@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * light.h - what shines: emissive surfaces and the sky, and directions to them
+ * light.h - area lights and the sky: light samples and their densities
  *
- * light_sample() draws a direction from a receiver to a light, for next-event
- * estimation; light_pdf_at() and sky_light_terms() have its density at what a
- * ray has met by chance, to weigh both (Veach 1997, 9.2). Densities of a sample
- * and of the same point met by chance are the same bits.
+ * light_sample() samples a direction from a receiver to a light, for next-event
+ * estimation. light_pdf_at() and sky_light_terms() have its density at a point
+ * that a BSDF sample has hit, for MIS weights (Veach 1997, 9.2). Densities of a
+ * light sample and of the same point hit by a ray are the same bits.
  *
  * Units:     normalised scene units, radiance, densities per solid angle
  */
@@ -21,13 +21,13 @@
 
 struct light_sample {
     struct vec3 wi;       /* unit, from the receiver */
-    struct vec3 radiance; /* that comes along it if nothing is in the way */
+    struct vec3 radiance; /* along wi, if nothing occludes it */
     float pdf;            /* of wi per solid angle; above 0 and finite */
     uint32_t tri;         /* NO_INDEX: the sky */
-    struct vec3 p;        /* on the triangle */
+    struct vec3 p;        /* the point on the triangle */
 };
 
-/* True if a material emits light. One that is invisible emits none. */
+/* True if a material emits light and is not invisible. */
 static inline bool material_shines(const struct material *m)
 {
     return (m->emission.x > 0.0f || m->emission.y > 0.0f ||
@@ -45,10 +45,10 @@ static inline struct vec3 emission_at(const struct world *w,
     return v3_mul(m->emission, texture_at(w, m->emission_texture, uv).color);
 }
 
-/* Density per solid angle, seen from the receiver, of a point of a light:
- * distance^2 / cosine times its density per area; to_point leads there, and
- * `part` is the triangle that it is on. 0 where it is not finite: such points
- * are not sampled. */
+/* Density per solid angle at the receiver of a point of a light: density by
+ * area times distance^2 / cosine. to_point leads to it from the receiver;
+ * `part` is its triangle in the light. 0 where the density is not finite; such
+ * points are not sampled. */
 static inline float light_point_pdf(const struct world *w, uint32_t light,
                                     uint32_t part, struct vec3 to_point)
 {
@@ -59,7 +59,7 @@ static inline float light_point_pdf(const struct world *w, uint32_t light,
     return pdf <= FLOAT_MAX ? pdf : 0.0f;
 }
 
-/* Uniform barycentrics that keep stratified numbers stratified (Heitz 2019,
+/* Maps the square to uniform barycentrics and keeps stratification (Heitz 2019,
  * "A low-distortion map between triangle and square"). */
 static inline struct hit triangle_point(struct vec2 u)
 {
@@ -72,15 +72,15 @@ static inline struct hit triangle_point(struct vec2 u)
     return h;
 }
 
-/* The same of two triangles that share a side: those of a parallelogram on
- * either side of a diagonal. Both keep u.x and u.y for their second and third
- * corners, the other one turned by half a turn. */
+/* The same for two triangles that share a side, the halves of a parallelogram:
+ * u.x and u.y are the barycentrics of corners 1 and 2 in the first half, and 1
+ * minus these in the second. */
 static inline struct hit pair_point(struct vec2 u, uint32_t *part)
 {
     struct hit h = {0.0f, 0.0f, 0.0f, 0.0f, NO_INDEX};
     float turn;
 
-    /* without a branch, which would be wrong every other time */
+    /* without a branch, as half of the predictions would be wrong */
     *part = (uint32_t)(u.x + u.y > 1.0f);
     turn = (float)*part;
     h.b1 = fabsf(turn - u.x);
@@ -89,7 +89,7 @@ static inline struct hit pair_point(struct vec2 u, uint32_t *part)
     return h;
 }
 
-/* The same place by the mesh's order of the corners. */
+/* The hit with the mesh's order of corners. */
 static inline struct hit hit_rotated(struct hit h, uint32_t turn)
 {
     const float b[5] = {h.b0, h.b1, h.b2, h.b0, h.b1};
@@ -145,14 +145,14 @@ static inline bool sample_surface(const struct world *w,
     return true;
 }
 
-/* The light that a triangle is, or is a part of; NO_INDEX: none. */
+/* The light that a triangle belongs to, or NO_INDEX. */
 static inline uint32_t light_of(const struct world *w, uint32_t tri)
 {
     return w->settings.light_count > 0 ? w->tri_lights[tri] : NO_INDEX;
 }
 
-/* Density of light_sample() at point p of a triangle that a ray from the
- * receiver has met. */
+/* Density of light_sample() at point p of a triangle, which a ray from the
+ * receiver has hit. */
 static inline float light_pdf_at(const struct world *w,
                                  const struct receiver *r, uint32_t tri,
                                  struct vec3 p)
@@ -173,9 +173,9 @@ static inline float sky_cosine_pdf(const struct receiver *r, struct vec3 wi)
 }
 
 /* Radiance of the sky in direction wi, a unit vector, and the density of
- * light_sample() there. Without a table the sky is drawn by the cosine at the
- * receiver: another look at what is open beside the path's own. `first` is the
- * receiver's table of the guide, which is asked as well, or NO_INDEX. */
+ * light_sample() there. Without a table the sky is sampled by the cosine at the
+ * receiver. `first` is the receiver's table in the guide, with which it is
+ * mixed, or NO_INDEX. */
 static inline struct vec3 sky_light_terms(const struct world *w,
                                           const struct receiver *r,
                                           uint32_t first, struct vec3 wi,
@@ -195,7 +195,7 @@ static inline struct vec3 sky_light_terms(const struct world *w,
     return radiance;
 }
 
-/* A direction to the sky. */
+/* Samples a direction to the sky. */
 static inline struct vec3 sky_direction(const struct world *w,
                                         const struct receiver *r,
                                         uint32_t first, struct vec2 u)
@@ -210,10 +210,10 @@ static inline struct vec3 sky_direction(const struct world *w,
     return sky_has_table(w) ? sky_sample(w, u) : cosine_around(r->n, u);
 }
 
-/* A direction towards a light; false if there is none to sample here, or by
- * choice.x not this time. `first` is the receiver's table of the guide, or
- * NO_INDEX. Whether it is above the surface and free is for the caller to find.
- */
+/* Samples a light and a point on it, or a direction to the sky. Returns false
+ * if choice.x chooses no light sample, or if there is no light. `first` is the
+ * receiver's table in the guide, or NO_INDEX. The caller tests the side of the
+ * surface and the occlusion. */
 static inline bool light_sample(const struct world *w, const struct receiver *r,
                                 uint32_t first, struct vec2 point,
                                 struct vec2 choice, struct light_sample *s)
@@ -225,7 +225,7 @@ static inline bool light_sample(const struct world *w, const struct receiver *r,
         s->p = r->p;
         return s->pdf > 0.0f;
     }
-    /* a division that most scenes do without */
+    /* most scenes do without this division */
     if (w->settings.light_share != 1.0f)
         choice.x = (choice.x - w->settings.sky_share) / w->settings.light_share;
     if (!(choice.x < 1.0f))

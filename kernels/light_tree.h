@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * light_tree.h - which light: a walk from the root of a tree of clusters
+ * light_tree.h - samples a light by a walk from the root of the light tree
  *
  * Conty Estevez and Kulla 2018, "Importance sampling of many lights with
- * adaptive tree splitting", eight children wide, with cosines that need no
- * trigonometry. What a cluster is thought to shine is never 0.
+ * adaptive tree splitting", without the splitting, with eight children a node
+ * and cosines without trigonometry. The importance of a cluster is never 0.
  *
  * Units:     normalised scene units
  */
@@ -13,32 +13,37 @@
 
 #include "kernels/vec.h"
 
-/* What is lit. */
+/* The surface point that is lit. */
 struct receiver {
     struct vec3 p;
     struct vec3 n;  /* unit */
-    bool transmits; /* light from behind matters as well */
+    bool transmits; /* true if light from behind matters as well */
 };
 
-/* Cosines' bounds are above 0 by this: more than their rounding. */
+/* Added to bounds of cosines, so that they are above 0 by more than their
+ * rounding error. */
 #define LIGHT_COSINE_SLACK 1e-4f
 
-/* Levels that one random number of 24 bits decides: 9 bits of it. */
+/* Levels that are decided by one random number of 24 bits. Three bits a level
+ * leave 15 bits after three levels. */
 #define LIGHT_LEVELS_PER_NUMBER 3u
 
-/* How much the eight children shine at the receiver, about, summed up: before
- * each of them, and at the end.
+/*
+ * Importances of the eight children for the receiver, as a cdf: sums[i] is the
+ * sum over the children before i.
  *
- * The ball around a child's box, seen under the angle of its radius, lifts both
- * cosines: cos(a - b) <= cos a + sin b where it is not negative. That is about
- * the ball's rim, where few lamps are: less lift, 3/4 of sin b at the receiver
- * and 1/4 at the lamps, though never a cosine below a quarter of its bound, and
- * half the radius as a leg of the distance leave 1.3 to 1.8 times less variance
- * of 200 lamps, and 2 to 5 % less elsewhere.
+ * The sphere around a child's box is seen under an angle b, with sin b = radius
+ * / distance, by which both cosines are raised: cos(a - b) <= cos a + sin b
+ * where that is not negative. This is the value at the sphere's rim, where few
+ * lamps are. Smaller terms leave 1.3 to 1.8 times less variance for 200 lamps
+ * and 2 to 5 % less elsewhere: 3/4 of sin b at the receiver and 1/4 at the
+ * lamps, but never a cosine below a quarter of its bound; and half the radius
+ * added to the distance as a leg of a right triangle.
  *
- * Cosines are times the distance: the root and the division need not wait for
- * each other. Sums by pairs are half as long a chain. Together they save 5 % of
- * the time of 200 lamps. */
+ * Cosines are kept multiplied by the distance, so that the root and the
+ * division need not wait for each other. Sums by pairs have half the latency.
+ * Together they save 5 % of the time with 200 lamps.
+ */
 static inline void light_node_cdf(const struct world *w, uint32_t node,
                                   const struct receiver *r,
                                   float sums[LIGHT_WIDTH + 1])
@@ -73,15 +78,15 @@ static inline void light_node_cdf(const struct world *w, uint32_t node,
     }
 }
 
-/* The probability of child i: of the interval that a number can fall in. */
+/* Probability of child i: the interval of the cdf in which a number falls. */
 static inline float light_child_pmf(const float sums[LIGHT_WIDTH + 1],
                                     uint32_t i)
 {
     return (sums[i + 1] - sums[i]) / sums[LIGHT_WIDTH];
 }
 
-/* A light and, as result, its probability; 0: none. `choice` is two random
- * numbers. */
+/* Samples a light and returns its probability, or 0 if there is none. `choice`
+ * is two random numbers. */
 static inline float light_tree_sample(const struct world *w,
                                       const struct receiver *r,
                                       struct vec2 choice, uint32_t *light)
@@ -115,8 +120,8 @@ static inline float light_tree_sample(const struct world *w,
     }
 }
 
-/* The probability that light_tree_sample() finds this light: the same
- * products in the same order, so the same bits. */
+/* Probability that light_tree_sample() returns this light: the same products in
+ * the same order, so the same bits. */
 static inline float light_tree_pmf(const struct world *w,
                                    const struct receiver *r, uint32_t light)
 {

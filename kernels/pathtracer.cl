@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * pathtracer.cl - the paths of a task, a work-item a path
+ * pathtracer.cl - traces the paths of a task, one work-item a path
  */
 #include "kernels/traverse.h"
 
 #include "kernels/path.h"
 #include "kernels/cl_task.h"
 
-/* A path that is not traced, or cancelled, has no rays. */
+/* The result of a path that was not traced has 0 rays. */
 __kernel void trace_paths(
     struct task task, volatile __global const uint *cancel,
     __global const struct camera_sample *starts,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * pixel.h - how a sample enters the sums of its pixel
+ * pixel.h - adds samples to the sums of their pixel
  *
  * Units:     radiance
  * Threads:   one owner for each pixel
- * Errors:    none: what is no number, infinite or negative counts as 0
+ * Errors:    NaN, infinite and negative channels count as 0 and are counted
  */
 #ifndef KERNELS_PIXEL_H
 #define KERNELS_PIXEL_H
@@ -12,24 +12,25 @@
 #include "kernels/path_types.h"
 #include "kernels/sum.h"
 
-/* What some samples, fewer than 2^20, add to the counters of a film. */
+/* Counters of some samples, fewer than 2^20, which the film adds up. */
 struct tally {
     uint32_t samples;
     uint32_t rays;
-    uint32_t non_finite; /* NaN, Inf or negative: count as 0 */
-    uint32_t saturated;  /* above 2^62: count as 2^62 */
-    uint32_t cut_paths;  /* ended at the hard stop */
+    uint32_t non_finite; /* samples with a NaN, infinite or negative channel */
+    uint32_t
+        saturated; /* samples with a channel above 2^62, which counts as 2^62 */
+    uint32_t cut_paths; /* paths that ended at PATH_HARD_STOP */
 };
 
-/* The bits of 2^62. Above are those of larger numbers, of infinity and NaN, and
- * of all that is negative. */
+/* The bits of 2^62. Larger numbers, infinity, NaN and all negative numbers have
+ * higher bits. */
 #define SUM_LARGE 0x5e800000u
 
-/* Adds one channel of a sample; what sum_accepts() refuses counts as 0. */
+/* Adds one channel of a sample. What sum_accepts() refuses counts as 0. */
 static inline void channel_add(GLOBAL struct sum *sum, float x, uint32_t *bad,
                                uint32_t *full)
 {
-    if (float_bits(x) > SUM_LARGE) { /* rare: one comparison for all */
+    if (float_bits(x) > SUM_LARGE) { /* rare, and found with one comparison */
         if (!sum_accepts(x)) {
             *bad = 1;
             return;

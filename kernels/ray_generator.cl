@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * ray_generator.cl - the camera rays of a task, a work-item a path
+ * ray_generator.cl - camera rays of a task, one work-item a path
  */
 #include "kernels/camera_sample.h"
 #include "kernels/cl_task.h"

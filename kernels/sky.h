@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * sky.h - the dome around the scene: what it shines, and where most of it
+ * sky.h - radiance of the sky, and sampling of its image
  *
- * Directions are drawn from a table over the texels of the image
- * (light/sky_table.h) by inversion, which keeps stratified numbers stratified;
- * inside a texel uniformly by solid angle.
+ * Directions are sampled from a table over the texels of the image
+ * (light/sky_table.h) by inversion of its cdf, which keeps stratification. They
+ * are uniform by solid angle within a texel.
  *
  * Units:     radiance; densities per solid angle
  */
@@ -13,8 +13,8 @@
 
 #include "kernels/texture.h"
 
-/* Where direction d is in the image, both in [0, 1]: the middle column looks
- * along -z, u grows towards +x, v from +y down. */
+/* Position of direction d in the image, both in [0, 1]. The middle column is
+ * -z, u grows towards +x, v from +y down. */
 static inline struct vec2 sky_uv(struct sky s, struct vec3 d)
 {
     float x = s.rotation_cos * d.x - s.rotation_sin * d.z;
@@ -24,8 +24,8 @@ static inline struct vec2 sky_uv(struct sky s, struct vec3 d)
               atan2_rad(sqrtf(x * x + z * z), d.y) * (1.0f / PI));
 }
 
-/* Radiance of the image at uv, finite. Columns repeat, rows end at the poles.
- */
+/* Radiance of the image at uv, bilinear and finite. Columns repeat, rows are
+ * clamped at the poles. */
 static inline struct vec3 sky_image_at(const struct world *w, struct vec2 uv)
 {
     struct sky s = w->settings.sky;
@@ -51,7 +51,7 @@ static inline struct vec3 sky_image_at(const struct world *w, struct vec2 uv)
                   v3_mul(v3_lerp(top, bottom, f.fy), s.color));
 }
 
-/* Radiance that comes from direction d when nothing is in the way. */
+/* Radiance from direction d if nothing occludes it. */
 static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
 {
     struct sky s = w->settings.sky;
@@ -61,8 +61,8 @@ static inline struct vec3 sky_radiance(const struct world *w, struct vec3 d)
     return sky_image_at(w, sky_uv(s, d));
 }
 
-/* Solid angle of a texel of this row: the difference of its edges' cosines as
- * a product, which cancels nothing at the poles. */
+/* Solid angle of a texel of this row. The difference of its edges' cosines is
+ * written as a product, so that nothing cancels at the poles. */
 static inline float sky_texel_angle(struct sky s, uint32_t row)
 {
     float height = 1.0f / (float)s.height;
@@ -71,9 +71,9 @@ static inline float sky_texel_angle(struct sky s, uint32_t row)
     return 4.0f * PI / (float)s.width * sine * cos_sin_turns(0.25f * height).y;
 }
 
-/* The last of n intervals that begins at or below u, and how far into it u is;
- * intervals without width are never found. Their ends are n + 1 numbers from 0
- * to 1 from sky_cdf[first] on. */
+/* Inverts a cdf of n intervals, whose n + 1 ends from 0 to 1 begin at
+ * sky_cdf[first]. Returns the last interval that begins at or below u, and in
+ * *rest how far u is into it, in [0, 1]. Empty intervals are never found. */
 static inline uint32_t sky_cdf_find(const struct world *w, uint32_t first,
                                     uint32_t n, float u, float *rest)
 {
@@ -92,14 +92,15 @@ static inline uint32_t sky_cdf_find(const struct world *w, uint32_t first,
     return low - first;
 }
 
-/* Where the sums of a row's columns begin: after those of the rows. For the row
- * behind the last one it is how many there are. */
+/* Index in sky_cdf of a row's cdf over its columns. These follow the cdf over
+ * the rows. For the row behind the last it is the length of sky_cdf. */
 static inline uint32_t sky_row_cdf(struct sky s, uint32_t row)
 {
     return s.height + 1u + row * (s.width + 1u);
 }
 
-/* A direction with density sky_table_pdf(). Only if the world has a table. */
+/* Samples a direction with density sky_table_pdf(). The world must have a
+ * table. */
 static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
 {
     struct sky s = w->settings.sky;
@@ -111,8 +112,8 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
     struct vec2 turn = cos_sin_turns(((float)column + right) / (float)s.width);
     struct vec3 d;
 
-    /* from the nearer pole, by the square of the sine of half the angle: near
-     * a pole the cosine has no digits left */
+    /* the height is computed as the squared sine of half the angle to the
+     * nearer pole, as the cosine has no digits left there */
     if (is_below) {
         row = s.height - 1u - row;
         down = 1.0f - down;
@@ -129,13 +130,14 @@ static inline struct vec3 sky_sample(const struct world *w, struct vec2 u)
               s.rotation_cos * d.z - s.rotation_sin * d.x);
 }
 
-/* Whether sky_sample() may be called. */
+/* True if the world has a table for sky_sample(). */
 static inline bool sky_has_table(const struct world *w)
 {
     return HAS(FEATURE_SKY_IMAGE) && w->settings.sky_cdf_count > 0;
 }
 
-/* Density of sky_sample() at a direction whose place in the image is uv. */
+/* Density of sky_sample() at a direction, given its position uv in the image.
+ */
 static inline float sky_table_pdf(const struct world *w, struct vec2 uv)
 {
     struct sky s = w->settings.sky;
@@ -151,8 +153,8 @@ static inline float sky_table_pdf(const struct world *w, struct vec2 uv)
            sky_texel_angle(s, row);
 }
 
-/* sky_radiance(), and the density of sky_sample(), at the unit vector d. Only
- * if the world has a table. */
+/* sky_radiance() and the density of sky_sample() at the unit vector d. The
+ * world must have a table. */
 static inline struct vec3 sky_terms(const struct world *w, struct vec3 d,
                                     float *pdf)
 {

@@ -15,15 +15,15 @@
 struct surface_point {
     struct vec3 p;
     struct vec3 p_error;
-    struct vec3 above; /* where a ray begins that leaves upwards */
+    struct vec3 above; /* origin of rays that leave on the side of ng */
     struct vec3 ng;    /* unit, on the eye's side */
     struct vec3 n;     /* unit shading normal, wo.n > 0 */
     struct vec2 uv;
     bool has_uv;
-    bool is_outside;  /* the eye is on the side of the file's normal */
-    bool is_lifted;   /* p is above its face: surface_lift() */
-    uint32_t face;    /* what a ray that leaves is from: see struct ray */
-    struct vec3 t, b; /* with n the frame in which BSDFs are given */
+    bool is_outside;  /* the eye is on the side of the normal by the winding */
+    bool is_lifted;   /* moved off its face by surface_lift() */
+    uint32_t face;    /* value of ray.from for rays that leave */
+    struct vec3 t, b; /* with n: the local frame of BSDFs */
 };
 
 static inline struct vec3 shading_normal(const struct world *w, struct tri t,
@@ -42,7 +42,7 @@ static inline struct vec3 shading_normal(const struct world *w, struct tri t,
     if (!(length > 1e-6f))
         return ng;
     n = v3_scale(n, 1.0f / length);
-    /* exporters write normals and winding that disagree: go by the face */
+    /* by the side of the face, as normals and winding of a file may disagree */
     n = v3_scale(n, minus_if(v3_dot(n, ng) < 0.0f));
     return v3_dot(n, wo) > 0.0f ? n : ng;
 }
@@ -117,10 +117,10 @@ static inline struct vec3 surface_to_world(const struct surface_point *v,
     return v3_add(x, v3_scale(v->n, d.z));
 }
 
-/* Moves the vertex out to the smooth surface that the normals at the corners
- * describe, or faces of a coarse mesh would lie in each other's shade (Hanika
- * 2021, "Hacking the shadow terminator", Ray Tracing Gems II, 4). For what
- * does not transmit. */
+/* Moves the point from the face to the smooth surface that the vertex normals
+ * describe, so that faces of a coarse mesh do not shadow each other (Hanika
+ * 2021, "Hacking the shadow terminator", Ray Tracing Gems II, 4). For surfaces
+ * that do not transmit. */
 static inline void surface_lift(const struct world *w, uint32_t tri,
                                 struct hit h, struct surface_point *v)
 {
@@ -139,7 +139,7 @@ static inline void surface_lift(const struct world *w, uint32_t tri,
         height = v3_dot(v3_sub(v->p, w->positions[t.v[i]]), n);
         up = v3_add(up, v3_scale(n, -b[i] * f_min(height, 0.0f)));
     }
-    /* on a flat face it is nothing but rounding */
+    /* on a flat face the offset is rounding only */
     v->is_lifted =
         v3_length(up) > 4.0f * (v->p_error.x + v->p_error.y + v->p_error.z);
     if (v->is_lifted) {
@@ -150,9 +150,10 @@ static inline void surface_lift(const struct world *w, uint32_t tri,
     }
 }
 
-/* A shading normal must not let light through the face, nor keep it in: is a
- * direction on the same side of both? `z` is its cosine to n. Where the vertex
- * is lifted the face itself is in the way of what must not pass. */
+/* True if direction d is on the same side of shading normal and face, so that
+ * the shading normal leaks no light through the face. z is the cosine of d to
+ * n. After surface_lift() the face itself blocks the directions that it has to.
+ */
 static inline bool surface_sides_agree(const struct surface_point *v,
                                        struct vec3 d, float z)
 {
@@ -161,7 +162,7 @@ static inline bool surface_sides_agree(const struct surface_point *v,
     return z > 0.0f ? v->is_lifted || side > 0.0f : side < 0.0f;
 }
 
-/* The vertex as if its face were flat. */
+/* The surface point with the face normal as its shading normal. */
 static inline struct surface_point surface_of_face(struct surface_point v)
 {
     v.n = v.ng;
@@ -169,7 +170,8 @@ static inline struct surface_point surface_of_face(struct surface_point v)
     return v;
 }
 
-/* Where a ray begins that leaves upwards, by its cosine to n, or downwards. */
+/* Origin of a ray that leaves above or below the surface, by its cosine z to n.
+ */
 static inline struct vec3 surface_ray_origin(const struct surface_point *v,
                                              float z)
 {
@@ -177,8 +179,8 @@ static inline struct vec3 surface_ray_origin(const struct surface_point *v,
                     : offset_ray_origin(v->p, v->p_error, v3_neg(v->ng));
 }
 
-/* A ray that leaves the surface in direction d, whose cosine to n is z. Its
- * range and key are the caller's to set. */
+/* Sets origin, direction and `from` of a ray that leaves in direction d, whose
+ * cosine to n is z. The caller sets its range and key. */
 static inline void surface_spawn_ray(const struct surface_point *v,
                                      struct vec3 d, float z, struct ray *r)
 {
@@ -187,8 +189,8 @@ static inline void surface_spawn_ray(const struct surface_point *v,
     r->from = v->face;
 }
 
-/* Samples the BSDF: *wi is the direction in world space. Returns false if the
- * BSDF absorbs, or if the face is in the direction's way. */
+/* Samples the BSDF; *wi is the direction in world space. Returns false if the
+ * light is absorbed, or if the face blocks the direction. */
 static inline bool surface_scatter(const struct surface_point *v,
                                    const struct bsdf *b, struct vec3 wo,
                                    struct vec2 direction, float choice,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * texture.h - look-ups in textures
+ * texture.h - texture look-ups
  *
- * Units:     u to the right, v up with 0 at the bottom, both repeating;
- *            colours come out linear
+ * Units:     u to the right, v up with 0 at the bottom; colours are returned
+ *            linear
  */
 #ifndef KERNELS_TEXTURE_H
 #define KERNELS_TEXTURE_H
@@ -15,14 +15,16 @@ struct rgba {
     float alpha;
 };
 
-/* Four texels around a point and how much of the right and lower ones. */
+/* The footprint of a bilinear look-up: four texels, and the weights of the
+ * right and the lower ones. */
 struct footprint {
     uint32_t x0, x1, y0, y1;
     float fx, fy;
 };
 
-/* The column of u in a repeating row of n texels, and its right neighbour. An
- * infinite or undefined u, of coordinates beyond what floats hold, is 1. */
+/* The column at u in a row of n texels that repeats, its right neighbour, and
+ * the neighbour's weight. u is taken as 1 if it is infinite or NaN, as
+ * coordinates beyond the range of float may be. */
 static inline void wrap_pair(float u, uint32_t n, uint32_t *a, uint32_t *b,
                              float *fraction)
 {
@@ -53,7 +55,8 @@ static inline struct rgba texel(const struct world *w, struct texture t,
     return c;
 }
 
-/* Where the texture is looked up, clamped to the centres of its border. */
+/* Transformed texture coordinates, clamped to the centres of the border texels
+ * if the texture is. */
 static inline struct vec2 texture_uv(struct texture t, struct vec2 uv)
 {
     float x = 0.5f / (float)t.width;
@@ -68,7 +71,8 @@ static inline struct vec2 texture_uv(struct texture t, struct vec2 uv)
     return uv;
 }
 
-/* Bilinear, decoded before mixing. */
+/* Bilinear look-up. Texels are decoded to linear before they are interpolated.
+ */
 static inline struct rgba texture_at(const struct world *w, uint32_t index,
                                      struct vec2 uv)
 {
@@ -91,7 +95,7 @@ static inline struct rgba texture_at(const struct world *w, uint32_t index,
     return mix;
 }
 
-/* Where a hit is in the textures of its triangle, which has coordinates. */
+/* Interpolated texture coordinates of a hit. Its triangle has some. */
 static inline struct vec2 uv_at(const struct world *w, struct tri t,
                                 struct hit h)
 {
@@ -110,15 +114,15 @@ static inline bool is_hole(const struct world *w, uint32_t texture,
            texture_at(w, texture, uv).alpha < 0.5f;
 }
 
-/* Does any surface let rays pass? */
+/* True if any surface of the scene has coverage below 1. */
 static inline bool has_coverage(const struct world *w)
 {
     return HAS(FEATURE_COVERAGE) &&
            (w->settings.features & FEATURE_COVERAGE) != 0;
 }
 
-/* The share of rays that a hit stops: none in holes of the colour texture's
- * alpha and of the opacity texture, elsewhere the opacity. */
+/* The probability with which a hit stops a ray: 0 in holes of the alpha of the
+ * colour texture and of the opacity texture, elsewhere the opacity. */
 static inline float coverage_at(const struct world *w, struct hit h)
 {
     struct tri t = w->tris[h.tri];

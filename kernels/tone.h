@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * tone.h - from linear radiance to the byte that is shown
+ * tone.h - tone mapping and encoding: from linear radiance to displayed bytes
  *
- * First a curve for what is brighter than white, or none; then
- * the sRGB curve (IEC 61966-2-1), rounded to nearest, as 255 thresholds:
- * the same byte on every machine, without a power.
+ * A tone curve for values brighter than white, or none, then the sRGB curve
+ * (IEC 61966-2-1) rounded to nearest. The latter is a table of 255 thresholds,
+ * so that every machine gives the same byte without a power function.
  *
  * Units:     linear Rec.709 in, 8-bit sRGB out
  * Errors:    NaN gives 0
@@ -14,8 +14,8 @@
 
 #include "kernels/dialect.h"
 
-/* srgb_thresholds[i] is where byte i ends and i + 1 begins: the curve's
- * inverse at (i + 1/2) / 255. */
+/* srgb_thresholds[i] is the linear value at which byte i ends and i + 1 begins:
+ * the inverse of the curve at (i + 1/2) / 255. */
 CONSTANT float srgb_thresholds[255] = {
     0x1.3e4568p-13f, 0x1.dd681cp-12f, 0x1.8dd6c2p-11f, 0x1.167cbap-10f,
     0x1.660e14p-10f, 0x1.b59f6ep-10f, 0x1.029864p-9f,  0x1.2a6112p-9f,
@@ -83,9 +83,9 @@ CONSTANT float srgb_thresholds[255] = {
     0x1.f4a7bap-1f,  0x1.f92ce2p-1f,  0x1.fdb81cp-1f,
 };
 
-/* How light brighter than white is shown. */
+/* Tone curves. */
 enum tone {
-    TONE_LINEAR,   /* as white */
+    TONE_LINEAR,   /* values above 1 are white */
     TONE_REINHARD, /* Reinhard et al. 2002, "Photographic Tone Reproduction for
                       Digital Images", equation 3: never white */
     TONE_ACES,     /* Narkowicz 2015, "ACES Filmic Tone Mapping Curve": darker
@@ -93,7 +93,8 @@ enum tone {
     TONES
 };
 
-/* Beyond it every curve has reached its end, and products stay finite. */
+/* Values are clamped to this, where every curve has reached its limit and
+ * products are finite. */
 #define TONE_MAX 1e6f
 
 static inline float aces(float x)
@@ -101,7 +102,7 @@ static inline float aces(float x)
     return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
 }
 
-/* rgb: three channels from 0 on. */
+/* Applies a tone curve to three channels, which are not negative. */
 static inline void tone_curve(uint32_t tone, float *rgb)
 {
     float luminance;
@@ -117,7 +118,8 @@ static inline void tone_curve(uint32_t tone, float *rgb)
 
 static inline uint32_t srgb_byte(float linear)
 {
-    uint32_t byte = 0; /* thresholds at or below `linear`, found by halving */
+    uint32_t byte =
+        0; /* number of thresholds at or below `linear`, by bisection */
 
     for (uint32_t step = 128; step > 0; step >>= 1)
         if (linear >= srgb_thresholds[byte + step - 1])

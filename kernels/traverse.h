@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * traverse.h - plain ray queries through the binary tree
+ * traverse.h - ray queries through the binary tree
  *
- * These are the queries of the CPU's reference and of OpenCL. Which hit wins
- * does not depend on the tree: the nearest t, at equal t the lowest triangle.
+ * Queries of OpenCL devices, and the reference for those of the CPU. The
+ * winning hit does not depend on the tree: the nearest t, at equal t the lowest
+ * triangle.
  *
  * Units:     normalised scene units
  */
@@ -12,8 +13,8 @@
 
 #include "kernels/traverse_leaf.h"
 
-/* Tests that queries make, for a picture of what rays cost: who counts them
- * says so before this file. */
+/* Hooks that count the tests of a query, for pictures of traversal cost. A file
+ * that counts defines them before it includes this one. */
 #ifndef COUNT_BOX
 #define COUNT_BOX()
 #define COUNT_TRIANGLE()
@@ -33,8 +34,8 @@ static inline struct slabs slabs_of(struct ray r)
     return s;
 }
 
-/* Distances at which one pair of planes is entered and left. 0 * inf is NaN
- * where the origin lies in a plane: f_min and f_max then keep the others. */
+/* Intersects the slab between two planes. Where the origin lies in a plane 0 *
+ * inf is NaN, and f_min and f_max keep the other value. */
 static inline void slab_axis(float lo, float hi, float o, float inverse,
                              float *enter, float *leave)
 {
@@ -47,7 +48,8 @@ static inline void slab_axis(float lo, float hi, float o, float inverse,
     *leave = f_min(out, *leave);
 }
 
-/* Where the ray enters the box, or above t_max if it misses it. */
+/* Distance at which the ray enters the box, or infinity if it misses the box or
+ * enters it beyond t_max. */
 static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
                               float t_max)
 {
@@ -63,7 +65,7 @@ static inline float box_entry(struct slabs s, struct vec3 lo, struct vec3 hi,
     return enter <= leave && enter <= t_max ? enter : bits_float(0x7f800000u);
 }
 
-/* Tests the triangles of a leaf; true if a nearer hit was found. */
+/* Tests the triangles of a leaf. Returns true if one is a nearer hit. */
 static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
                             struct node leaf, struct hit *best)
 {
@@ -77,7 +79,7 @@ static inline bool leaf_hit(const struct world *w, struct ray r, struct shear s,
     return found;
 }
 
-/* Nearest hit up to r.t_max. */
+/* Finds the nearest hit up to r.t_max. Returns false if there is none. */
 static inline bool hit_closest(const struct world *w, struct ray r,
                                struct hit *best)
 {
@@ -135,7 +137,7 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     }
 }
 
-/* Nearest hits of `count` rays. */
+/* Finds the nearest hits of `count` rays. */
 static inline void hits_closest(const struct world *w, const struct ray *rays,
                                 uint32_t count, struct hit *hits)
 {
@@ -143,9 +145,10 @@ static inline void hits_closest(const struct world *w, const struct ray *rays,
         hit_closest(w, rays[i], &hits[i]);
 }
 
-/* True if anything is hit before r.t_max, or at r.t_max with a number below
- * `tri`: hit_closest() would not find the triangle `tri`, which the ray meets
- * there. No order, the first find ends it. */
+/* Returns true if the ray is occluded before r.t_max, or at r.t_max by a
+ * triangle with a number below `tri`. The ray is aimed at the triangle `tri` at
+ * distance r.t_max, so that this is true where hit_closest() would find another
+ * hit. Children are visited in any order. */
 static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     struct slabs slabs = slabs_of(r);

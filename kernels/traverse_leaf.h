@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * traverse_leaf.h - what all walks through trees share: which hit wins, and how
- * wide boxes are
+ * traverse_leaf.h - rules that all traversals share: which hit wins, and the
+ * padding of boxes
  *
- * The nearest t wins, at equal t the lowest triangle: no tree decides.
+ * The nearest t wins, at equal t the lowest triangle, whatever the tree.
  *
  * Units:     normalised scene units
  */
@@ -14,23 +14,24 @@
 #include "kernels/rng.h"
 #include "kernels/texture.h"
 
-/* bvh.h promises trees that fit: at most one entry a level. */
+/* Entries of the stack: at most one a level of the binary tree, whose depth
+ * bvh.h limits. */
 #define TRAVERSE_STACK 96
 
-/* Boxes are padded by this much when they are built, and entry and exit
- * distances are widened: together more than the rounding of a hit's t, and
- * of the edge tests, for any ray that starts within 1e3 scene sizes. */
+/* Padding of boxes when they are built, and widening of the distances of entry
+ * and exit. Together these exceed the rounding error of a hit's t and of the
+ * edge tests for every ray that starts within 1e3 scene sizes. */
 #define BOX_PAD   0x1p-20f
 #define BOX_WIDEN (16.0f * FLOAT_EPSILON)
 
-/* Rays with a number that is NaN or infinite meet nothing: all such numbers end
- * up in this sum. */
+/* False if a number of the ray is NaN or infinite, as the sum then is. Such
+ * rays hit nothing. */
 static inline bool ray_is_finite(struct ray r)
 {
     return fabsf(v3_dot(r.o, r.d)) <= FLOAT_MAX;
 }
 
-/* False where the surface lets this ray pass. */
+/* Decides by the random key of the ray whether partial coverage stops it. */
 static inline bool hit_is_solid(const struct world *w, struct ray r,
                                 struct hit h)
 {
@@ -40,7 +41,7 @@ static inline bool hit_is_solid(const struct world *w, struct ray r,
            unit_float(hash_u32(r.key ^ hash_u32(h.tri + 1u))) < coverage;
 }
 
-/* Is what the ray meets nearer than the best, and there? */
+/* True if hit h wins over the best so far and its surface stops the ray. */
 static inline bool hit_wins(const struct world *w, struct ray r, struct hit h,
                             const struct hit *best)
 {
@@ -49,13 +50,13 @@ static inline bool hit_wins(const struct world *w, struct ray r, struct hit h,
     return !has_coverage(w) || hit_is_solid(w, r, h);
 }
 
-/* Tests one triangle; true if it is a nearer hit. */
+/* Tests one triangle. Returns true if it is a nearer hit. */
 static inline bool tri_hit(const struct world *w, struct ray r, struct shear s,
                            struct leaf_tri t, struct hit *best)
 {
     struct hit h;
 
-    /* the test would say so as well, but slowly */
+    /* triangle_hit() would say the same, but slowly */
     if (t.tri + 1u == r.from)
         return false;
     if (!triangle_hit(r, s, t.p0, t.p1, t.p2, best->t, &h))
