@@ -4,7 +4,7 @@ flat_scene
 lamp_scene
 start_line "TERM=tmux-256color glim"
 wait_for "^exit 2" # there are none yet
-expect "no scene given"
+expect "found no scene"
 for scene in flat lamp; do
     fresh
     start $scene.obj
@@ -40,5 +40,5 @@ expect_end 0
 # What is wrong with them is said before anybody has to choose.
 fresh
 start_line "TERM=tmux-256color glim --device x --backend cpu"
-wait_for "^glim: --device: is for OpenCL"
+wait_for "^glim: --device: found --backend cpu"
 expect_end 2
