@@ -378,13 +378,16 @@ static void show_messages(struct workspace *workspace, uint64_t now_ns)
     workspace->status_ns = now_ns + STATUS_NS;
 }
 
-/* Shows a new frame and text that has changed, or only the text. */
+/* Writes text that has changed, then makes and writes a frame if `has_frame`.
+ */
 static enum screen_result send(struct workspace *workspace, bool has_frame)
 {
     struct screen *screen = &workspace->screen;
     struct view_mode *view_mode = &workspace->inspector.view_mode;
     enum screen_result result;
 
+    if (!screen_draw_text(screen))
+        return SCREEN_GONE;
     if (!has_frame || screen->is_too_small)
         return screen_draw(screen, NULL, 0);
     inspector_preview(&workspace->inspector, &workspace->frame);

@@ -338,38 +338,43 @@ static bool add_picture(struct screen *screen, struct frame *frame, int step)
     return ansi_diff_picture(&screen->ansi, &screen->cells, &draw);
 }
 
-/* A frame is one write(). Text that has changed is written before it. */
+bool screen_draw_text(struct screen *screen)
+{
+    if (!screen->must_update)
+        return true;
+    screen->must_update = false;
+    if (screen->is_too_small) {
+        windows_update();
+        return true;
+    }
+    if (tty_has_sync())
+        tty_write(TTY_SYNC_BEGIN, sizeof TTY_SYNC_BEGIN - 1);
+    windows_update();
+    screen->has_drawn_text = true;
+    return write_swatches(screen);
+}
+
+/* One write() a frame. */
 enum screen_result screen_draw(struct screen *screen, struct frame *frame,
                                int step)
 {
     struct ansi_diff *a = &screen->ansi;
     bool has_sync = tty_has_sync();
-    bool has_updated = screen->must_update;
+    bool has_text = screen->has_drawn_text;
     bool is_complete = true;
     bool asks;
     size_t before;
 
-    if (screen->is_too_small) {
-        if (has_updated)
-            windows_update();
-        screen->must_update = false;
+    screen->has_drawn_text = false;
+    if (screen->is_too_small)
         return SCREEN_DONE;
-    }
-    if (has_updated) {
-        if (has_sync)
-            tty_write(TTY_SYNC_BEGIN, sizeof TTY_SYNC_BEGIN - 1);
-        windows_update();
-        if (!write_swatches(screen))
-            return SCREEN_GONE;
-        screen->must_update = false;
-    }
     ansi_diff_begin(a);
-    if (has_sync && !has_updated)
+    if (has_sync && !has_text)
         ansi_diff_text(a, TTY_SYNC_BEGIN);
     before = a->length;
     if (frame)
         is_complete = add_picture(screen, frame, step);
-    if (a->length == before && !has_updated)
+    if (a->length == before && !has_text)
         return is_complete ? SCREEN_DONE : SCREEN_MORE;
     asks = a->length > before && frame_pacing_wants_request(&screen->pace);
     if (a->length > before)

@@ -41,7 +41,8 @@ struct screen {
     char status[STATUS_BYTES];
     bool has_status;
     struct ansi_diff_rect window; /* in the picture's cells; 0 cols: closed */
-    bool must_update;             /* text has changed since the last update */
+    bool must_update;         /* text has changed since screen_draw_text() */
+    bool has_drawn_text;      /* screen_draw() has to end its update */
     bool has_panel;           /* the next layout leaves room for the panel */
     int panel_cols;           /* columns at the right edge; 0: none */
     struct swatches swatches; /* colours beside the panel's lines */
@@ -97,10 +98,15 @@ enum screen_result {
     SCREEN_GONE  /* the terminal is gone, or a signal ends the program */
 };
 
-/* Writes text that has changed and the frame, or only the text if that is NULL.
+/* Writes text that has changed, so that the terminal has it while the frame is
+ * made. Returns false if the terminal is gone. Call it only if
+ * frame_pacing_may_send(); screen_draw() must follow. */
+bool screen_draw_text(struct screen *screen);
+
+/* Writes the frame, if it is not NULL, and ends what screen_draw_text() began.
  * The frame has frame_width x frame_height pixels; a cursor is drawn into it
  * where pixels are shown. Cells whose colours changed by no more than `step` of
- * 255 may stay as they are. Call it only if frame_pacing_may_send(). */
+ * 255 may stay as they are. */
 enum screen_result screen_draw(struct screen *screen, struct frame *frame,
                                int step);
 
