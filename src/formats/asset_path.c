@@ -12,14 +12,14 @@
 
 #include "base/file.h"
 
-/* What the search has found so far. */
+/* State of the search. */
 struct search {
     const char *beside;
-    char *path; /* NULL: nothing */
+    char *path; /* NULL if nothing is found yet */
     bool has_memory;
 };
 
-/* Takes the name if nothing was found before, and there is such a file. */
+/* Takes the name if nothing was found before and the file exists. */
 static void try_name(struct search *s, const char *name,
                      bool (*is_there)(char *path))
 {
@@ -121,7 +121,7 @@ static bool correct_letters(char *path)
     return ok;
 }
 
-/* The names that other systems may mean by a name that is not there. */
+/* Tries the names that a missing file may have on this system. */
 static void try_others(struct search *s, char *name)
 {
     const char *last;

@@ -11,7 +11,7 @@
 #include "formats/obj.h"
 #include "formats/view_file.h"
 
-/* An overcast noon: bright enough for exposure 0, a little blue. */
+/* Radiance of the soft sky: an overcast noon, bright enough for exposure 0. */
 static const double soft_sky[3] = {0.7, 0.8, 0.9};
 
 static void turn_z_up(struct scene *scene)
@@ -44,8 +44,8 @@ bool scene_load(struct scene *scene, const char *path, bool up_is_z,
 
 /* ---- the view ---- */
 
-/* Reads the file at path if it is there: *is_there. One that is there but
- * cannot be read is an error. */
+/* Reads a view file if it exists and sets *is_there. It is an error if it
+ * exists but cannot be read. */
 static bool read_if_there(struct view *view, const char *path, bool *is_there,
                           struct warnings *report, struct error *err)
 {
@@ -111,7 +111,7 @@ bool view_has_soft_sky(const struct view *view)
            memcmp(l->background, soft_sky, sizeof soft_sky) == 0;
 }
 
-/* A scene without camera or light still shows something. */
+/* Adds a camera and light to scenes without them. */
 static void complete_view(const struct scene *scene,
                           const struct host_world *host, struct view *view,
                           struct warnings *report)

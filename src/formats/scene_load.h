@@ -17,23 +17,23 @@
 bool scene_load(struct scene *scene, const char *path, bool up_is_z,
                 struct warnings *report, struct error *err);
 
-/* Reads the view file of a scene: `view_path`, or if that is NULL STEM.view, or
- * camera.txt beside the scene; none of them need be there. *path is where the
- * view is kept, for free(), also after an error. */
+/* Reads the view file of a scene: `view_path`, or if that is NULL, STEM.view or
+ * else camera.txt beside the scene. It need not exist. *path is the file to
+ * write the view to, for free(), also after an error. */
 bool view_find(struct view *view, const char *scene_path, const char *view_path,
                char **path, struct warnings *report, struct error *err);
 
-/* Loads the scene, makes its world with the sky of the view, and completes the
- * view: a camera that sees the whole scene in a picture of its size, and a soft
- * sky where there is no light. */
+/* Loads the scene and makes its world with the sky of the view. Completes the
+ * view with a camera that sees the whole scene, the size of the picture, and a
+ * soft sky if there is no light. */
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
                 const char *path, bool up_is_z, struct warnings *report,
                 struct error *err);
 
-/* True if scene_open() has added the sky. */
+/* Returns true if scene_open() has added the soft sky. */
 bool view_has_soft_sky(const struct view *view);
 
-/* Finds the material of each object that the view gives one, else NO_INDEX. */
+/* Finds the material that the view assigns to each object; NO_INDEX if none. */
 void scene_find_assigned(const struct scene *scene,
                          const struct assigns *assigns, uint32_t *assigned,
                          struct warnings *report);

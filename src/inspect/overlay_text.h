@@ -24,7 +24,7 @@ struct overlay_text {
     int count;
 };
 
-/* Where a triangle's material has its name. */
+/* Names of the materials, and the material of each triangle. */
 struct overlay_names {
     const struct tri *tris;
     char *const *materials;

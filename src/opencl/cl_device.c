@@ -27,7 +27,7 @@ static char *trimmed(char *text)
     return text;
 }
 
-/* For free(), or NULL when memory is out. */
+/* Returns the name of a platform, for free(), or NULL when memory is out. */
 static char *platform_name(const struct cl_api *cl, cl_platform_id platform)
 {
     size_t size_bytes = 0;
@@ -91,7 +91,7 @@ static bool has_texts(const struct cl_device *d)
     return d->platform_name && d->name && d->version && d->driver_version;
 }
 
-/* Adds so many devices to the list, which has room for them. */
+/* Adds `count` devices to the list, which has room for them. */
 static bool add_devices(struct cl_devices *list, const struct cl_api *cl,
                         cl_platform_id platform, const cl_device_id *ids,
                         cl_uint count)

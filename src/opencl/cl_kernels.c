@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 
-/* For free(), or NULL when memory is out. */
+/* Returns the compiler's log, for free(), or NULL when memory is out. */
 static char *build_log(const struct cl_kernels *k, const struct cl_machine *m)
 {
     size_t size_bytes = 0;

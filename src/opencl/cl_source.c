@@ -27,7 +27,7 @@ struct splice {
     struct name_table seen;
 };
 
-/* For free(), or NULL. */
+/* Returns a copy of the text, for free(), or NULL. */
 static char *copied(const char *text, struct error *err)
 {
     char *copy = strdup(text);
@@ -180,7 +180,7 @@ char *cl_source_text(const char *folder, struct error *err)
     return NULL;
 }
 
-/* 64-bit FNV-1a; collisions made on purpose need not be feared. */
+/* Computes the 64-bit FNV-1a hash. Nobody gains from collisions here. */
 uint64_t cl_source_hash(const char *text)
 {
     uint64_t h = 0xcbf29ce484222325u;

@@ -9,14 +9,14 @@
 
 #include "terminal/xmalloc.h"
 
-/* A file is complete, or has this name now; `touch` and chmod too, for a file
- * may become readable. */
+/* Events of complete or renamed files, and of attributes, since `chmod` may
+ * make a file readable and `touch` counts as a change. */
 #define EVENTS (IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_ATTRIB)
 
 struct watched {
     char *path;
     struct file_identity known;
-    bool is_listed; /* since file_watch_begin() */
+    bool is_listed; /* named since file_watch_begin() */
 };
 
 void file_watch_init(struct file_watch *w)
@@ -59,12 +59,13 @@ static void watch_folder_of(int fd, const char *path)
 {
     char *folder = xchecked(path_beside(path, "."));
 
-    /* a folder that is not there has no files that change */
+    /* a missing folder has no files that change */
     inotify_add_watch(fd, folder, EVENTS);
     free(folder);
 }
 
-/* A link's own folder and that of the file: either may get another one. */
+/* Watches the folder of a link and that of its target, since either may
+ * change. */
 static void watch_folders(int fd, const char *path)
 {
     char target[PATH_MAX];

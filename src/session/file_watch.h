@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * file_watch.h - notices that files have changed
+ * file_watch.h - detects changes of files
  *
- * Editors write a new file and rename it, so the folders are watched; what has
- * changed is what the files themselves say then (stat). A file that is gone is
- * about to come back: until it is there again nothing counts as changed.
+ * Folders are watched instead of files, because editors write a new file and
+ * rename it. An event only causes a look at the files (stat). While a file is
+ * missing nothing counts as changed, since a program is probably replacing it.
+ * If folders cannot be watched, fd is -1 and the caller has to poll.
  *
  * Ownership: paths are copied; file_watch_free() frees
  * Threads:   one at a time
- * Errors:    none: where folders cannot be watched fd is -1, and the caller
- *            looks from time to time
  */
 #ifndef GLIM_FILE_WATCH_H
 #define GLIM_FILE_WATCH_H
@@ -22,40 +21,42 @@
 struct watched;
 
 struct file_watch {
-    int fd; /* readable when something happens in one of the folders */
+    int fd; /* readable after an event in one of the folders */
     struct watched *files;
     size_t file_count, capacity;
 };
 
 void file_watch_init(struct file_watch *w);
 
-/* Begins a new list of files. What was known of files stays known; those that
- * are gone stay on the list. */
+/* Begins a new list of files. The known states of files are kept; missing files
+ * stay on the list. */
 void file_watch_begin(struct file_watch *w);
 
-/* Adds a file, which need not exist, as it is now. */
+/* Adds a file, which need not exist, in its present state. */
 void file_watch_add(struct file_watch *w, const char *path);
 
-/* Ends the list: watches the folders. */
+/* Ends the list and watches the folders. */
 void file_watch_end(struct file_watch *w);
 
-/* Makes fd wait for what comes next. */
+/* Removes pending events from fd. */
 void file_watch_drain(struct file_watch *w);
 
-/* True if a file is not as it was known, and none is gone. */
+/* Returns true if a file differs from its known state and no file is
+ * missing. */
 bool file_watch_has_changed(const struct file_watch *w);
 
-/* Whether one of the files is this one, by whatever name. */
+/* Returns true if one of the files is this one, by whatever name. */
 bool file_watch_has(const struct file_watch *w, const char *path);
 
-/* Each file is known as it is now. */
+/* Takes the present state of all files as known. */
 void file_watch_settle(struct file_watch *w);
 
-/* This program has written the whole file. */
+/* Tells that this program has written the whole file. */
 void file_watch_wrote(struct file_watch *w, const char *path,
                       const struct file_identity *identity);
 
-/* It has changed a part of it: if the rest was known before, all is known. */
+/* Tells that this program has changed a part of the file. If the state before
+ * was known, the new state is known. */
 void file_watch_replaced(struct file_watch *w, const char *path,
                          const struct file_change *change);
 

@@ -11,7 +11,8 @@
 /* set before the threads start */
 static void (*restore_terminal)(void);
 
-/* Whatever else runs, this ends the program: no atexit functions, no stdio. */
+/* Ends the program without atexit functions or stdio, since other threads may
+ * be running. */
 static _Noreturn void out_of_memory(void)
 {
     static const char text[] = "glim: out of memory\n";
@@ -19,7 +20,7 @@ static _Noreturn void out_of_memory(void)
     if (restore_terminal)
         restore_terminal();
     ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
-    (void)written; /* nobody is left to tell */
+    (void)written; /* errors cannot be reported here */
     _exit(1);
 }
 

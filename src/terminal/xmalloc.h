@@ -2,14 +2,14 @@
 /*
  * xmalloc.h - allocation that ends the program when memory is out
  *
- * For small things of the interactive program. What a file or a picture sizes
- * comes from base/memory.h, which returns an error.
+ * These functions are for small objects of the interactive program. Memory for
+ * files and pictures comes from base/memory.h, which returns errors.
  *
  * Units:     bytes
- * Ownership: what the functions return is for free()
+ * Ownership: results are for free()
  * Threads:   any; the hook is set before they start
- * Errors:    never NULL: the program ends with a message, after the hook has
- *            given the terminal back
+ * Errors:    the program ends with a message, after the hook has restored the
+ *            terminal; results are never NULL
  */
 #ifndef GLIM_XMALLOC_H
 #define GLIM_XMALLOC_H
@@ -23,10 +23,10 @@ void *xrealloc(void *p, size_t size_bytes);
 char *xstrdup(const char *s);
 char *xformat(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Returns the pointer of another function, which is NULL when memory is out. */
+/* Returns p; ends the program if p is NULL. */
 void *xchecked(void *p);
 
-/* The same for a function that returns false when memory is out. */
+/* Ends the program if has_memory is false. */
 void xcheck(bool has_memory);
 
 void xmalloc_set_hook(void (*restore_terminal)(void));
