@@ -19,26 +19,30 @@ trap 'rm -f "$log"' EXIT
 
 passed=0
 failed=0
-begin=$SECONDS
+begin=${EPOCHREALTIME/,/.}
+times='' # of each part, a line each
 
 wanted()
 {
     [[ $1 == *"$FILTER"* ]]
 }
 
-# name, passed, failed: adds to the totals; shows the log if something failed
+# name, passed, failed: adds to the totals; shows the part's seconds, and the
+# log if something failed
 report()
 {
-    local time=$((SECONDS - begin))s
+    local time
 
-    begin=$SECONDS
+    time=$(awk "BEGIN { printf \"%.1f s\", ${EPOCHREALTIME/,/.} - $begin }")
+    begin=${EPOCHREALTIME/,/.}
+    times+="$time $1"$'\n'
     passed=$((passed + $2))
     failed=$((failed + $3))
     if [ "$3" -gt 0 ]; then
         tail -c 20000 "$log"
-        printf '%-20s %4s %4d passed, %d failed\n' "$1" "$time" "$2" "$3"
+        printf '%-26s %7s %4d passed, %d failed\n' "$1" "$time" "$2" "$3"
     else
-        printf '%-20s %4s %4d passed\n' "$1" "$time" "$2"
+        printf '%-26s %7s %4d passed\n' "$1" "$time" "$2"
         grep -ai skip "$log" | grep -av '^\[  SKIPPED \] [0-9]* test' |
             grep -av 'SKIPPED TEST(S)$' | awk '!seen[$0]++ { print "    " $0 }'
     fi
@@ -148,5 +152,6 @@ wanted fuzz && run_script fuzz tests/fuzz/run.sh
 wanted cli && run_script cli tests/cli/run.sh
 wanted screen && run_script screen tests/screen/run.sh
 
+echo "slowest: $(printf '%s' "$times" | sort -rn | head -5 | paste -sd ,)"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ] && [ "$passed" -gt 0 ]

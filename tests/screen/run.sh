@@ -59,7 +59,7 @@ mkdir "$work/failed" "$work/passed"
 # mix.
 run_case()
 {
-    local name=$1 out=$work/$1.out status
+    local name=$1 out=$work/$1.out status begin=$SECONDS
 
     mkdir "$work/$name"
     XDG_STATE_HOME=$work/$name.state
@@ -72,7 +72,7 @@ run_case()
     if [ $status = 77 ]; then
         echo "skip $name ($(tail -n 1 "$out"))"
     elif [ $status = 0 ]; then
-        echo "ok $name"
+        echo "ok $name $((SECONDS - begin)) s"
         : >"$work/passed/$name"
     else
         printf '%s\n%s\n%s\n' "FAIL $name (exit $status)" "$(cat "$out")" \

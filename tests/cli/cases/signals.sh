@@ -22,8 +22,10 @@ send_when_it_renders()
         [ -d "/proc/$(cat pid)" ] || break
         sleep 0.02
     done
-    for signal in "$@"; do
-        kill -s "$signal" "$(cat pid)" || echo "SIG$signal came too late"
+    kill -s "$1" "$(cat pid)" || echo "SIG$1 came too late"
+    shift
+    for signal in "$@"; do # it may have ended by then
+        kill -s "$signal" "$(cat pid)"
     done
     rm pid
 } 2>/dev/null

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/decimal.h"
 #include "tests/unit/check.h"
 #include "tests/unit/locales.h"
@@ -282,30 +281,6 @@ static void test_format(void **state)
     }
 }
 
-/* A parser of 100 MB/s of OBJ text must not wait for its numbers. */
-static void test_speed(void **state)
-{
-    size_t size = 4u << 20, used = 0;
-    char *text = malloc(size + 64);
-    double sum = 0;
-
-    (void)state;
-    assert_non_null(text);
-    while (used < size) {
-        double value = (double)(int64_t)next_random() * 0x1p-62;
-        used += (size_t)snprintf(text + used, 64, "%.6f ", value);
-    }
-    uint64_t begin_ns = clock_ns();
-    for (const char *p = text; p < text + used; p++) {
-        double value;
-        assert_true(decimal_parse(&p, text + used, &value));
-        sum += value;
-    }
-    double seconds = seconds_between(begin_ns, clock_ns());
-    print_message("%.0f MB/s (sum %g)\n", (double)used / seconds * 1e-6, sum);
-    free(text);
-}
-
 /* No shorter text gives the same float, and that of a double none of it. */
 static void test_shortest(void **state)
 {
@@ -364,7 +339,6 @@ int main(void)
         cmocka_unit_test(test_decimal_comma),
         cmocka_unit_test(test_turkish_letters),
         cmocka_unit_test(test_format),
-        cmocka_unit_test(test_speed),
     };
 
     return cmocka_run_group_tests_name("number", tests, make_folder,

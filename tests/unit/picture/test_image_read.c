@@ -7,7 +7,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "picture/image_read.h"
 #include "picture/stb.h"
@@ -332,13 +331,11 @@ static void test_bomb(void **state)
     fwrite("\0\0\0\1\0\0\0\1", 1, 8, f);
     fclose(f);
     getrusage(RUSAGE_SELF, &before);
-    uint64_t begin_ns = clock_ns();
     struct error err;
     struct image image;
     if (image_read_8bit(&image, "bomb.png", &err))
         image_free(&image);
     getrusage(RUSAGE_SELF, &after);
-    check_at_most(seconds_between(begin_ns, clock_ns()), 5);
     check_at_most((double)(after.ru_maxrss - before.ru_maxrss), 64 << 10);
 }
 

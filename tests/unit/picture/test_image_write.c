@@ -11,7 +11,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.h"
 #include "base/file.h"
 #include "picture/image_read.h"
 #include "picture/image_write.h"
@@ -536,20 +535,6 @@ static void test_disk_full(void **state)
     film_free(&film);
 }
 
-static void test_speed(void **state)
-{
-    struct film film;
-    struct error err;
-
-    (void)state;
-    make_film(&film, 1024, 576, noise);
-    uint64_t begin_ns = clock_ns();
-    assert_true(image_write(&film, develop_linear(0), "speed.png", &err));
-    print_message("PNG of 1024x576: %.3f s\n",
-                  seconds_between(begin_ns, clock_ns()));
-    film_free(&film);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -566,7 +551,6 @@ int main(void)
         cmocka_unit_test(test_numbered_race),
         cmocka_unit_test(test_killed),
         cmocka_unit_test(test_disk_full),
-        cmocka_unit_test(test_speed),
     };
 
     return cmocka_run_group_tests_name("picture", tests, enter, remove_folder);

@@ -190,14 +190,18 @@ static void framed_cameras_stay(void **state)
 
 /* ---- through the work ---- */
 
-/* Looks until what was begun is loaded. */
+/* The time to look at files comes now. */
+static void look_now(struct render_control *w)
+{
+    w->files_ns = clock_ns();
+    render_control_look(w);
+}
+
+/* Looks at the files, and waits for what is loaded then. */
 static void end_reload(struct render_control *w)
 {
-    for (int i = 0; i < 5000 && !w->reload.is_busy; i++) {
-        usleep(1000);
-        render_control_look_at_files(w);
-        render_control_look(w);
-    }
+    if (!w->reload.is_busy)
+        look_now(w);
     assert_true(w->reload.is_busy);
     render_control_end_reload(w);
 }
@@ -276,8 +280,7 @@ static void watched_files_are_loaded_at_once(void **state)
     put("s.mtl", "newmtl m\nKd .5 0 0\n");
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
-    usleep(300000);
-    render_control_look(&w);
+    look_now(&w);
     assert_false(w.reload.is_busy);
     render_control_reload(&w); /* only says so */
     assert_false(w.reload.is_busy);
@@ -298,15 +301,11 @@ static void unwatched_files_are_looked_at(void **state)
     open_work(&w, &s);
     close(w.watch.fd);
     w.watch.fd = -1;
-    w.files_ns = clock_ns();
-    render_control_look(&w);
+    look_now(&w);
     assert_false(w.has_changed_files);
     assert_true(w.files_ns < clock_ns() + UINT64_C(2000000000));
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
-    for (int i = 0; i < 3000 && !w.has_changed_files; i++) {
-        usleep(1000);
-        render_control_look(&w);
-    }
+    look_now(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
 }

@@ -264,7 +264,7 @@ static void steps_after_a_halt_make_the_same_picture(void **state)
         render_control_start_or_halt(w); /* halts the step */
         if (w->progress.state == RENDER_IDLE)
             render_control_start_or_halt(w);
-        usleep(100); /* some of a pass */
+        render_wait(w->session->render, 1); /* some of a pass */
         render_control_look(w);
     }
     run_to_end(w);
@@ -324,7 +324,7 @@ static void what_is_made_anew_at_once_is_not_kept(void **state)
     w->session->edit.now.mood.exposure -= 1;
     render_control_restart(w);
     while (w->progress.render_ns < 5200000000u) {
-        usleep(100000);
+        render_wait(w->session->render, 100);
         render_control_look(w);
     }
     save_lost_picture(w);
