@@ -516,7 +516,8 @@ static void test_wrong_lines(void **state)
         view_init(&v);
         put("w.view", wrong[i]);
         assert_false(view_read(&v, "w.view", &report, &err));
-        check_has(err.text, "w.view:1: found another line than assign");
+        check_has(err.text, "w.view:1: found a malformed line, expected "
+                            "assign OBJECT MATERIAL");
         view_free(&v);
     }
     view_init(&v);
