@@ -348,7 +348,7 @@ static void add_action(struct keymap_help *help, const struct keymap *k,
     }
 }
 
-bool keys_help(const struct keymap *k, int line, struct keymap_help *help)
+bool keymap_help(const struct keymap *k, int line, struct keymap_help *help)
 {
     const struct line *l;
     bool is_chosen = false;

@@ -151,7 +151,7 @@ struct keymap_help {
 };
 
 /* Fills line `line` of the help, from 0. Returns false after the last line. */
-bool keys_help(const struct keymap *k, int line, struct keymap_help *help);
+bool keymap_help(const struct keymap *k, int line, struct keymap_help *help);
 
 /* Returns the panel's action of a key. */
 enum panel_action keymap_panel_action(int key);

@@ -14,7 +14,7 @@ static bool find_entry(const struct keymap *keys, bool in_panel, int i,
     while (in_panel && keymap_panel_help(count, help))
         count++;
     return i < count ? keymap_panel_help(i, help)
-                     : keys_help(keys, i - count, help);
+                     : keymap_help(keys, i - count, help);
 }
 
 static int count_lines(const struct keymap *keys, bool in_panel)

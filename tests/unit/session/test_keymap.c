@@ -159,7 +159,7 @@ static void help_names_every_key(void **state)
         struct keymap_help help;
         char all[1024] = " ";
 
-        for (int i = 0; keys_help(&k, i, &help); i++) {
+        for (int i = 0; keymap_help(&k, i, &help); i++) {
             assert_in_range(strlen(help.keys), 1, 7);
             assert_in_range(strlen(help.text), 1, HELP_ENTRY_COLS - 8);
             strcat(strcat(all, help.keys), " ");
@@ -188,11 +188,11 @@ static void help_shows_chosen_keys(void **state)
     choose(&k, ACTION_BACK, 'x', 0);
     choose(&k, ACTION_LOOK_UP, 'i', 0);
     keymap_settle(&k, false);
-    assert_true(keys_help(&k, 0, &help));
+    assert_true(keymap_help(&k, 0, &help));
     assert_string_equal(help.keys, "w x");
-    assert_true(keys_help(&k, 3, &help));
+    assert_true(keymap_help(&k, 3, &help));
     assert_string_equal(help.keys, "Left Right i Down");
-    assert_false(keys_help(&k, -1, &help));
+    assert_false(keymap_help(&k, -1, &help));
 }
 
 /* From the first line after `begin` up to `end`, for free(). */
@@ -261,7 +261,7 @@ static bool table_help(int line, struct keymap_help *help)
 {
     struct keymap k = table_keys(false);
 
-    return keys_help(&k, line, help);
+    return keymap_help(&k, line, help);
 }
 
 static void manual_lists_the_same_keys(void **state)
@@ -309,10 +309,10 @@ static void readme_lists_the_same_keys(void **state)
                 keys[length++] = *row;
         }
         keys[length - 1] = '\0'; /* the blank before the bar */
-        assert_true(keys_help(&k, line, &help));
+        assert_true(keymap_help(&k, line, &help));
         assert_string_equal(keys, help.keys);
     }
-    assert_false(keys_help(&k, line, &help));
+    assert_false(keymap_help(&k, line, &help));
     free(text);
 }
 
@@ -358,7 +358,7 @@ static void help_has_pages(void **state)
         int total = 1; /* the note */
         int found = 0;
 
-        for (int line = 0; keys_help(&k, line, &help); line++)
+        for (int line = 0; keymap_help(&k, line, &help); line++)
             total++;
         for (int line = 0; in_panel && keymap_panel_help(line, &help); line++)
             total++;
@@ -369,7 +369,7 @@ static void help_has_pages(void **state)
             for (int row = 0; row < page.line_count; row++) {
                 if (cols >= HELP_ENTRY_COLS)
                     check_at_most((double)strlen(page.lines[row]), cols);
-                for (int line = 0; keys_help(&k, line, &help); line++)
+                for (int line = 0; keymap_help(&k, line, &help); line++)
                     found += strstr(page.lines[row], help.text) != NULL;
                 for (int line = 0; keymap_panel_help(line, &help); line++)
                     found += strstr(page.lines[row], help.text) != NULL;
