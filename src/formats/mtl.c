@@ -352,53 +352,34 @@ static void skip_statement(struct parser *p, struct word key)
 static bool read_property(struct parser *p, struct word key)
 {
     struct mtl_source *s = &p->source;
-    const struct {
+    static const struct {
         const char *key;
-        struct mtl_color *color;
-        struct mtl_number *number;
-        uint32_t *texture;
-        double *bump_scale;
+        enum mtl_map map;
         bool is_data;
-    } properties[] = {
-        {"Kd", .color = &s->kd},
-        {"Ks", .color = &s->ks},
-        {"Tf", .color = &s->tf},
-        {"Ns", .number = &s->ns},
-        {"Ni", .number = &s->ni},
-        {"d", .number = &s->d},
-        {"Tr", .number = &s->tr},
-        {"illum", .number = &s->illum},
-        {"Pr", .number = &s->pr},
-        {"Pm", .number = &s->pm},
-        {"Kd_roughness", .number = &s->kd_roughness},
-        {"map_Kd", .texture = &s->maps[MTL_MAP_KD]},
-        {"map_Ks", .texture = &s->maps[MTL_MAP_KS]},
-        {"map_Ke", .texture = &s->maps[MTL_MAP_KE]},
-        {"map_Pr", .texture = &s->maps[MTL_MAP_PR], .is_data = true},
-        {"map_Pm", .texture = &s->maps[MTL_MAP_PM], .is_data = true},
-        {"map_d", .texture = &s->maps[MTL_MAP_D], .is_data = true},
-        {"norm", .texture = &s->maps[MTL_MAP_NORM], .is_data = true},
-        {"bump", .texture = &s->maps[MTL_MAP_BUMP],
-         .bump_scale = &s->bump_scale, .is_data = true},
-        {"map_bump", .texture = &s->maps[MTL_MAP_BUMP],
-         .bump_scale = &s->bump_scale, .is_data = true},
-        {"map_Bump", .texture = &s->maps[MTL_MAP_BUMP],
-         .bump_scale = &s->bump_scale, .is_data = true},
+    } maps[] = {
+        {"map_Kd", MTL_MAP_KD, false},    {"map_Ks", MTL_MAP_KS, false},
+        {"map_Ke", MTL_MAP_KE, false},    {"map_Pr", MTL_MAP_PR, true},
+        {"map_Pm", MTL_MAP_PM, true},     {"map_d", MTL_MAP_D, true},
+        {"norm", MTL_MAP_NORM, true},     {"bump", MTL_MAP_BUMP, true},
+        {"map_bump", MTL_MAP_BUMP, true}, {"map_Bump", MTL_MAP_BUMP, true},
     };
 
     if (word_is(key, "Ke"))
         return read_light(p, key);
     if (word_is(key, "Ke_blackbody"))
         return read_blackbody(p, key);
-    for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
-        if (!word_is(key, properties[i].key))
-            continue;
-        if (properties[i].color != NULL)
-            return read_color(p, key, properties[i].color);
-        if (properties[i].number != NULL)
-            return read_number(p, key, properties[i].number);
-        return read_map(p, key, properties[i].is_data, properties[i].texture,
-                        properties[i].bump_scale);
+    for (int i = 0; i < MTL_PROPERTIES; i++) {
+        void *member = (char *)s + mtl_properties[i].member;
+
+        if (word_is(key, mtl_properties[i].key))
+            return mtl_properties[i].is_color ? read_color(p, key, member)
+                                              : read_number(p, key, member);
+    }
+    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++) {
+        if (word_is(key, maps[i].key))
+            return read_map(p, key, maps[i].is_data, &s->maps[maps[i].map],
+                            maps[i].map == MTL_MAP_BUMP ? &s->bump_scale
+                                                        : NULL);
     }
     skip_statement(p, key);
     return true;

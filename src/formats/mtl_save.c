@@ -191,23 +191,26 @@ static bool write_map(struct writer *w, const struct mtl_change *c,
     return ok;
 }
 
+static bool write_properties(struct writer *w, const struct mtl_change *c,
+                             bool is_color)
+{
+    bool ok = true;
+
+    for (int i = 0; ok && i < MTL_PROPERTIES; i++) {
+        const struct mtl_property *p = &mtl_properties[i];
+        const void *before = (const char *)c->before + p->member;
+        const void *after = (const char *)c->after + p->member;
+        mtl_aliases keys = {p->key};
+
+        if (p->is_color == is_color)
+            ok = is_color ? write_color(w, c, keys, before, after)
+                          : write_number(w, c, keys, before, after);
+    }
+    return ok;
+}
+
 static bool write_change(struct writer *w, const struct mtl_change *c)
 {
-    const struct mtl_source *a = c->before, *b = c->after;
-    const struct {
-        mtl_aliases keys;
-        const struct mtl_number *before, *after;
-    } numbers[] = {
-        {{"illum"}, &a->illum, &b->illum},
-        {{"Ns"}, &a->ns, &b->ns},
-        {{"Ni"}, &a->ni, &b->ni},
-        {{"d"}, &a->d, &b->d},
-        {{"Tr"}, &a->tr, &b->tr},
-        {{"Pr"}, &a->pr, &b->pr},
-        {{"Pm"}, &a->pm, &b->pm},
-        {{"Kd_roughness"}, &a->kd_roughness, &b->kd_roughness},
-    };
-    static mtl_aliases kd = {"Kd"}, ks = {"Ks"}, tf = {"Tf"};
     struct mtl_block block;
     bool ok = true;
 
@@ -220,12 +223,8 @@ static bool write_change(struct writer *w, const struct mtl_change *c)
 
         return write_change(w, &whole);
     }
-    ok = ok && write_color(w, c, kd, &a->kd, &b->kd) &&
-         write_color(w, c, ks, &a->ks, &b->ks) &&
-         write_color(w, c, tf, &a->tf, &b->tf) && write_light(w, c);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        ok = ok && write_number(w, c, numbers[i].keys, numbers[i].before,
-                                numbers[i].after);
+    ok = ok && write_properties(w, c, true) && write_light(w, c) &&
+         write_properties(w, c, false);
     for (int i = 0; i < MTL_MAPS; i++)
         ok = ok && write_map(w, c, (enum mtl_map)i);
     return ok;

@@ -4,7 +4,6 @@
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 #include "picture/blackbody.h"
@@ -18,6 +17,22 @@
 
 #define IOR_DEFAULT 1.5
 #define IOR_MAX     1e6
+
+#define MEMBER(name) offsetof(struct mtl_source, name)
+
+const struct mtl_property mtl_properties[MTL_PROPERTIES] = {
+    {"Kd", MEMBER(kd), true},
+    {"Ks", MEMBER(ks), true},
+    {"Tf", MEMBER(tf), true},
+    {"illum", MEMBER(illum), false},
+    {"Ns", MEMBER(ns), false},
+    {"Ni", MEMBER(ni), false},
+    {"d", MEMBER(d), false},
+    {"Tr", MEMBER(tr), false},
+    {"Pr", MEMBER(pr), false},
+    {"Pm", MEMBER(pm), false},
+    {"Kd_roughness", MEMBER(kd_roughness), false},
+};
 
 const char *const mtl_map_keys[MTL_MAPS] = {
     [MTL_MAP_KD] = "map_Kd", [MTL_MAP_KS] = "map_Ks",
@@ -60,23 +75,29 @@ bool mtl_color_equal(const struct mtl_color *a, const struct mtl_color *b)
                              values_equal(a->rgb[2], b->rgb[2])));
 }
 
+static bool property_equal(const struct mtl_property *p,
+                           const struct mtl_source *a,
+                           const struct mtl_source *b)
+{
+    const void *in_a = (const char *)a + p->member;
+    const void *in_b = (const char *)b + p->member;
+
+    return p->is_color ? mtl_color_equal(in_a, in_b)
+                       : mtl_number_equal(in_a, in_b);
+}
+
 bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b)
 {
     for (int i = 0; i < MTL_MAPS; i++)
         if (a->maps[i] != b->maps[i])
             return false;
+    for (int i = 0; i < MTL_PROPERTIES; i++)
+        if (!property_equal(&mtl_properties[i], a, b))
+            return false;
     return a->maps_off == b->maps_off && a->bump_scale == b->bump_scale &&
-           mtl_color_equal(&a->kd, &b->kd) && mtl_color_equal(&a->ks, &b->ks) &&
-           mtl_color_equal(&a->ke, &b->ke) && mtl_color_equal(&a->tf, &b->tf) &&
+           mtl_color_equal(&a->ke, &b->ke) &&
            mtl_number_equal(&a->kelvin, &b->kelvin) &&
-           mtl_number_equal(&a->luminance, &b->luminance) &&
-           mtl_number_equal(&a->illum, &b->illum) &&
-           mtl_number_equal(&a->ns, &b->ns) &&
-           mtl_number_equal(&a->ni, &b->ni) && mtl_number_equal(&a->d, &b->d) &&
-           mtl_number_equal(&a->tr, &b->tr) &&
-           mtl_number_equal(&a->pr, &b->pr) &&
-           mtl_number_equal(&a->pm, &b->pm) &&
-           mtl_number_equal(&a->kd_roughness, &b->kd_roughness);
+           mtl_number_equal(&a->luminance, &b->luminance);
 }
 
 uint32_t mtl_source_map(const struct mtl_source *s, enum mtl_map map)
@@ -369,31 +390,16 @@ static void take_if_same(struct mtl_source *s,
 struct mtl_source mtl_source_needed(const struct mtl_source *file,
                                     const struct mtl_source *wanted)
 {
-    static const size_t numbers[] = {offsetof(struct mtl_source, illum),
-                                     offsetof(struct mtl_source, ns),
-                                     offsetof(struct mtl_source, ni),
-                                     offsetof(struct mtl_source, d),
-                                     offsetof(struct mtl_source, tr),
-                                     offsetof(struct mtl_source, pr),
-                                     offsetof(struct mtl_source, pm),
-                                     offsetof(struct mtl_source, kd_roughness)};
-    static const size_t colors[] = {offsetof(struct mtl_source, kd),
-                                    offsetof(struct mtl_source, ks),
-                                    offsetof(struct mtl_source, tf)};
     struct mtl_source s = *wanted;
     struct mtl_source candidate;
 
-    /* first, so that Pm makes the metal and not the Ks of a coat */
-    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
+    /* colours first, so that Pm makes the metal and not the Ks of a coat */
+    for (int i = 0; i < MTL_PROPERTIES; i++) {
+        const struct mtl_property *p = &mtl_properties[i];
+
         candidate = s;
-        memcpy((char *)&candidate + colors[i], (const char *)file + colors[i],
-               sizeof file->kd);
-        take_if_same(&s, &candidate);
-    }
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        candidate = s;
-        memcpy((char *)&candidate + numbers[i], (const char *)file + numbers[i],
-               sizeof file->illum);
+        memcpy((char *)&candidate + p->member, (const char *)file + p->member,
+               p->is_color ? sizeof file->kd : sizeof file->illum);
         take_if_same(&s, &candidate);
     }
     candidate = s;

@@ -20,6 +20,7 @@
 #define GLIM_MATERIAL_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/warnings.h"
 #include "kernels/types.h"
@@ -66,6 +67,19 @@ struct mtl_source {
     uint32_t maps_off;       /* 1 << enum mtl_map: as if it were not there */
     double bump_scale;       /* of MTL_MAP_BUMP */
 };
+
+/* A statement of one colour or one number. The file is read, compared and saved
+ * by this table; Ke, Ke_blackbody and the maps stand beside it. */
+struct mtl_property {
+    const char *key;
+    size_t member; /* offset in mtl_source of an mtl_color or mtl_number */
+    bool is_color;
+};
+
+#define MTL_PROPERTIES 11
+
+/* Colours come first. */
+extern const struct mtl_property mtl_properties[MTL_PROPERTIES];
 
 /* A material of which the file says nothing. */
 struct mtl_source mtl_source_empty(void);
