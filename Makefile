@@ -3,6 +3,9 @@
 
 PREFIX ?= /usr/local
 BINDIR ?= $(PREFIX)/bin
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+PKGCONFIGDIR ?= $(LIBDIR)/pkgconfig
 MANDIR ?= $(PREFIX)/share/man
 DATADIR ?= $(PREFIX)/share/glim
 CC ?= cc
@@ -35,18 +38,21 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes \
 	-Wvla -Wundef -Wformat=2 -Werror=format-security
 X86_64 := $(findstring x86_64,$(shell $(CC) -dumpmachine))
 # Protection against writes out of bounds. The checks of the C library need the
-# optimiser; sanitizers have their own.
-HARDENING := -fPIE -fstack-protector-strong -fstack-clash-protection \
+# optimiser; sanitizers have their own. The program and the library share their
+# objects: -fPIC costs no measurable time if only GLIM_API is visible.
+HARDENING := -fPIC -fvisibility=hidden -fstack-protector-strong \
+	-fstack-clash-protection \
 	$(if $(X86_64),-fcf-protection)
 FORTIFY = $(if $(SAN),,$(if $(filter-out -O0,$(filter -O%,$(CFLAGS))), \
 	-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2))
 ALL_CFLAGS = -std=c11 -D_GNU_SOURCE -ffp-contract=off -fno-math-errno \
-	-fno-trapping-math -I. -Isrc -pthread $(WARNINGS) $(HARDENING) \
+	-fno-trapping-math -I. -Isrc -Iinclude -pthread $(WARNINGS) $(HARDENING) \
 	$(FORTIFY) $(CFLAGS) $(if $(SAN), \
 	-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 ALL_LDFLAGS = -pthread -pie -Wl,-z,relro,-z,now $(LDFLAGS) \
 	$(if $(SAN),-fsanitize=$(SAN))
-LIBS = -lncursesw -ltinfo -lm -ldl
+LIB_LIBS = -lm -ldl
+LIBS = -lncursesw -ltinfo $(LIB_LIBS)
 FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
@@ -71,6 +77,14 @@ SOURCES := $(wildcard src/*.c src/*/*.c)
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
 	$(PATHS)
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
+# libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
+LIB_FOLDERS := base picture bvh light scene formats render opencl api
+LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(foreach d,$(LIB_FOLDERS), \
+	$(wildcard src/$(d)/*.c))) $(B)/kernels.o $(PATHS)
+VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)
+SONAME := libglim.so.$(firstword $(subst ., ,$(VERSION)))
+LIB_FILES := $(B)/libglim.a $(B)/libglim.so.$(VERSION) $(B)/glim.pc
+PUBLIC_HEADERS := $(wildcard include/glim/*.h)
 UNITS := $(patsubst tests/unit/%.c,$(B)/unit/%,$(wildcard \
 	tests/unit/*/test_*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
@@ -91,9 +105,9 @@ GENERATOR := $(patsubst scenes/%.c,$(B)/scenes/%.o,$(wildcard scenes/*.c))
 MAKE_ALL = $(MAKE) --no-print-directory \
 	$(if $(findstring jobserver,$(MAKEFLAGS)),,-j$$(nproc))
 SCENE_FILES = $(foreach e,obj mtl view png hdr,$(wildcard scenes/*.$(e)))
-C_FILES = $(foreach d,src src/* kernels scenes tests/unit tests/unit/* \
+C_FILES = $(foreach d,include/glim src src/* kernels scenes tests/unit tests/unit/* \
 	tests/bench \
-	tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \
+	tests/api tests/bench/error tests/bench/rays tests/fuzz tests/stress tests/tools, \
 	$(wildcard $(d)/*.[ch])) $(wildcard kernels/*.cl)
 
 ## all: the program, build/release/glim (the default)
@@ -107,6 +121,10 @@ $(B)/%.o: src/%.c $(B)/flags
 	@mkdir -p $(@D)
 	$(SAY) CC $<
 	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+# The program that tries OpenCL devices for the library.
+$(B)/api/glim_render.o: private ALL_CFLAGS += -DGLIM_PROGRAM='"$(BINDIR)/glim"'
+$(B)/api/glim_render.o $(B)/glim.pc: $(B)/places
 
 # $* is the instruction set and, after a _, the set of features.
 ISA = $(firstword $(subst _, ,$*))
@@ -206,6 +224,41 @@ $(B)/flags: FORCE
 		{ echo "no compiler '$(firstword $(CC))': try 'make deps'"; exit 1; }
 	@echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' > $@
 
+## lib: libglim, the renderer for other programs, build/release/libglim.a and
+##      libglim.so
+lib: $(LIB_FILES) $(B)/libglim.so
+
+# One object, in which only the functions of glim.h are visible.
+$(B)/libglim.o: $(LIB_OBJECTS) $(B)/flags
+	$(SAY) LINK $@
+	$(Q)$(CC) -r -nostdlib -o $@ $(LIB_OBJECTS)
+	$(Q)objcopy --localize-hidden $@
+
+$(B)/libglim.a: $(B)/libglim.o
+	$(SAY) AR $@
+	$(Q)rm -f $@ && $(AR) rcs $@ $<
+
+$(B)/libglim.so.$(VERSION): $(LIB_OBJECTS) $(B)/flags
+	$(SAY) LINK $@
+	$(Q)$(CC) -shared -Wl,-soname,$(SONAME) -Wl,-z,defs \
+		$(filter-out -pie,$(ALL_LDFLAGS)) -o $@ $(LIB_OBJECTS) $(LIB_LIBS)
+
+$(B)/libglim.so: $(B)/libglim.so.$(VERSION)
+	$(Q)ln -sf $(<F) $(B)/$(SONAME) && ln -sf $(<F) $@
+
+$(B)/glim.pc: include/glim/version.h Makefile
+	$(Q)printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$(LIBDIR)' \
+		'includedir=$(INCLUDEDIR)' '' 'Name: glim' \
+		'Description: path tracer for OBJ scenes' 'Version: $(VERSION)' \
+		'Libs: -L$${libdir} -lglim' 'Libs.private: -pthread $(LIB_LIBS)' \
+		'Cflags: -I$${includedir}' > $@
+
+# Other places to install to rebuild what knows them.
+$(B)/places: FORCE
+	@mkdir -p $(@D)
+	@echo '$(PREFIX) $(BINDIR) $(LIBDIR) $(INCLUDEDIR)' | cmp -s - $@ || \
+		echo '$(PREFIX) $(BINDIR) $(LIBDIR) $(INCLUDEDIR)' > $@
+
 ## run: installs missing packages, builds, opens SCENE (the Cornell box);
 ##      without a terminal it renders to a file
 run:
@@ -225,7 +278,7 @@ test:
 	@+$(MAKE_ALL) tests
 	@BUILD=$(B) SAN='$(SAN)' tests/run.sh
 
-tests: $(B)/glim $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
+tests: $(B)/glim lib $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
 	$(FUZZERS)
 
 ## fuzz: tests parsers of files, options and keys with random inputs;
@@ -288,18 +341,32 @@ tables: $(B)/tools/energy
 gallery: $(B)/glim
 	@BUILD=$(B) scenes/gallery/render.sh
 
-## install: installs program, man page and scenes; DESTDIR PREFIX BINDIR MANDIR
-##          DATADIR
-install: $(B)/glim
-	$(INSTALL) -d '$(DESTDIR)$(BINDIR)' '$(DESTDIR)$(MANDIR)/man1' \
+## install: installs program, library, man pages and scenes; DESTDIR PREFIX
+##          BINDIR LIBDIR INCLUDEDIR PKGCONFIGDIR MANDIR DATADIR
+install: $(B)/glim lib
+	$(INSTALL) -d '$(DESTDIR)$(BINDIR)' '$(DESTDIR)$(LIBDIR)' \
+		'$(DESTDIR)$(INCLUDEDIR)/glim' '$(DESTDIR)$(PKGCONFIGDIR)' \
+		'$(DESTDIR)$(MANDIR)/man1' '$(DESTDIR)$(MANDIR)/man3' \
 		'$(DESTDIR)$(DATADIR)/scenes'
+	$(INSTALL) -m 644 $(B)/libglim.a '$(DESTDIR)$(LIBDIR)'
+	$(INSTALL) -m 755 $(B)/libglim.so.$(VERSION) '$(DESTDIR)$(LIBDIR)'
+	ln -sf libglim.so.$(VERSION) '$(DESTDIR)$(LIBDIR)/$(SONAME)'
+	ln -sf $(SONAME) '$(DESTDIR)$(LIBDIR)/libglim.so'
+	$(INSTALL) -m 644 $(PUBLIC_HEADERS) '$(DESTDIR)$(INCLUDEDIR)/glim'
+	$(INSTALL) -m 644 $(B)/glim.pc '$(DESTDIR)$(PKGCONFIGDIR)'
+	$(INSTALL) -m 644 man/libglim.3 '$(DESTDIR)$(MANDIR)/man3'
 	$(INSTALL) -m 755 $(B)/glim '$(DESTDIR)$(BINDIR)/glim'
 	$(INSTALL) -m 644 man/glim.1 '$(DESTDIR)$(MANDIR)/man1/glim.1'
 	$(INSTALL) -m 644 $(SCENE_FILES) '$(DESTDIR)$(DATADIR)/scenes'
 
 ## uninstall: removes installed files
 uninstall:
-	rm -f '$(DESTDIR)$(BINDIR)/glim' '$(DESTDIR)$(MANDIR)/man1/glim.1'
+	rm -f '$(DESTDIR)$(BINDIR)/glim' '$(DESTDIR)$(MANDIR)/man1/glim.1' \
+		'$(DESTDIR)$(MANDIR)/man3/libglim.3' '$(DESTDIR)$(PKGCONFIGDIR)/glim.pc' \
+		$(patsubst %,'$(DESTDIR)$(LIBDIR)/%',libglim.a libglim.so $(SONAME) \
+		libglim.so.$(VERSION)) \
+		$(patsubst include/%,'$(DESTDIR)$(INCLUDEDIR)/%',$(PUBLIC_HEADERS))
+	-rmdir '$(DESTDIR)$(INCLUDEDIR)/glim'
 	rm -f $(patsubst %,'$(DESTDIR)$(DATADIR)/%',$(SCENE_FILES))
 	-rmdir '$(DESTDIR)$(DATADIR)/scenes' '$(DESTDIR)$(DATADIR)'
 
@@ -323,7 +390,7 @@ lint:
 		$(SOURCES) -- $(ALL_CFLAGS)
 	$(if $(filter %.cl,$(KERNELS)),! command -v clang >/dev/null || \
 		clang $(CL_FLAGS) $(filter %.cl,$(KERNELS)))
-	mandoc -T lint -W warning man/glim.1
+	mandoc -T lint -W warning man/glim.1 man/libglim.3
 
 # Compiles the kernels for a generic OpenCL device.
 CL_FLAGS := -target spir64 -x cl -cl-std=CL1.2 \
@@ -353,7 +420,7 @@ help:
 	@sed -n 's/^## //p' Makefile
 	@echo 'variables: CC CFLAGS LDFLAGS SAN=address,undefined V=1 SCENE=FILE'
 
-.PHONY: all run test tests fuzz search bench bench-error bench-rays \
+.PHONY: all lib run test tests fuzz search bench bench-error bench-rays \
 	bench-cycles stress scenes tables gallery install uninstall deps format \
 	lint clean help FORCE
 -include $(OBJECTS:.o=.d) $(GENERATOR:.o=.d) $(UNITS:=.d) $(BENCHES:=.d) \

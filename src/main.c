@@ -19,7 +19,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/print.h"
-#include "base/version.h"
+#include "glim/version.h"
 #include "render/cpu_dispatch.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"

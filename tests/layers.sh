@@ -10,15 +10,15 @@ set -u
 cd "$(dirname "$0")/.." || exit 1
 
 # C files without a header of their own name: the program's entry, the bodies of
-# stb's headers, and the CPU backend, which backend.h declares.
-HEADERLESS='main stb backend_cpu'
+# stb's headers, and what backend.h and glim.h declare.
+HEADERLESS='main stb backend_cpu glim_scene glim_render glim_picture'
 
 # Files that may use the C library's output, because they write files. Output
 # for people goes through print.c.
 WRITERS='print assign mtl_save view_file cl_source stats_json curses_windows'
 
 {
-    find src kernels scenes tests -name '*.[ch]' -o -name '*.cl'
+    find include src kernels scenes tests -name '*.[ch]' -o -name '*.cl'
     find kernels scenes tests .ci -name '*.sh' -o -path .ci/run
 } | sort | awk -v headerless="$HEADERLESS" -v writers="$WRITERS" '
 function fault(text)
@@ -48,7 +48,7 @@ function place_of(folder)
 function read_table(    line, cell)
 {
     while ((getline line < "CONTRIBUTING.md") > 0) {
-        if (line !~ /^\| `(kernels|src\/[a-z]+)\/` \|/)
+        if (line !~ /^\| `(include\/glim|kernels|src\/[a-z]+)\/` \|/)
             continue
         split(line, cell, "`")
         sub(/\/$/, "", cell[2])
@@ -64,6 +64,8 @@ function check_include(name, is_system,    kernel, other)
 {
     kernel = path ~ /^kernels\//
     if (is_system) {
+        if (folder == "include/glim" && name !~ /^std(bool|def|int)\.h$/)
+            fault("the public header includes only stdbool, stddef and stdint")
         if (kernel && stem != "dialect")
             fault("kernels include libc only in dialect.h: <" name ">")
         if (name ~ /curses|^term(info|cap)?\.h$/ && path !~ /^src\/terminal\/(tty|curses_windows)\.c$/)
@@ -78,7 +80,8 @@ function check_include(name, is_system,    kernel, other)
         stem !~ /^(cpu_kernel|path_record|aov_picture)$/)
         fault("only cpu_kernel.c, path_record.c and aov_picture.c include it: " \
               name)
-    other = name ~ /^kernels\// ? "kernels" : "src/" folder_of(name)
+    other = name ~ /^kernels\// ? "kernels" : \
+            name ~ /^glim\// ? "include/glim" : "src/" folder_of(name)
     if (other == "src/.")
         other = folder
     if (place_of(other) == 0)
@@ -117,7 +120,7 @@ function check_file(    line, number, head, is_ours, is_licensed)
 {
     stem = stem_of(path)
     folder = folder_of(path)
-    is_ours = path ~ /^(src|kernels)\//
+    is_ours = path ~ /^(include|src|kernels)\//
     if (is_ours)
         check_folder()
     while ((getline line < path) > 0) {

@@ -4,7 +4,7 @@
 #
 # BUILD is the folder of the programs (build/release). FILTER=WORD runs only the
 # parts whose names contain it: layers, tour, man, scenes, hardening, a test_x,
-# fuzz, cli, screen.
+# fuzz, api, cli, screen.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build/release}
@@ -140,7 +140,7 @@ program_is_hardened()
 
 wanted layers && run_check layers tests/layers.sh
 wanted tour && run_check tour tests/tour.sh
-wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1
+wanted man && run_check man-lint mandoc -T lint -W warning man/glim.1 man/libglim.3
 wanted scenes && run_check scenes scenes_are_generated
 wanted hardening && run_check hardening program_is_hardened
 for program in tests/unit/*/test_*.c; do
@@ -149,6 +149,7 @@ for program in tests/unit/*/test_*.c; do
     wanted "$name" && run_unit "$BUILD/unit/$name"
 done
 wanted fuzz && run_script fuzz tests/fuzz/run.sh
+wanted api && run_script api tests/api/run.sh
 wanted cli && run_script cli tests/cli/run.sh
 wanted screen && run_script screen tests/screen/run.sh
 

@@ -88,16 +88,22 @@ void warnings_add_named(struct warnings *r, const char *kind, const char *name,
     free(named);
 }
 
+char *warnings_line(const struct warnings_entry *entry)
+{
+    if (entry->count == 1)
+        return strdup(entry->text);
+    return format_text("%s (and %" PRIu64 " more %s)", entry->text,
+                       entry->count - 1, entry->kind);
+}
+
 void warnings_print(const struct warnings *r, FILE *to)
 {
     for (int i = 0; i < r->entry_count; i++) {
-        const struct warnings_entry *entry = &r->entries[i];
+        char *line = warnings_line(&r->entries[i]);
 
-        if (entry->count > 1)
-            print_line(to, "glim: warning: %s (and %" PRIu64 " more %s)",
-                       entry->text, entry->count - 1, entry->kind);
-        else
-            print_line(to, "glim: warning: %s", entry->text);
+        print_line(to, "glim: warning: %s",
+                   line != NULL ? line : r->entries[i].text);
+        free(line);
     }
 }
 

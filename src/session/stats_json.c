@@ -10,7 +10,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/print.h"
-#include "base/version.h"
+#include "glim/version.h"
 
 /* Returns the length of the UTF-8 character at p, or 0 if it is invalid. */
 static size_t utf8_length(const unsigned char *p)

@@ -5,7 +5,7 @@
 #include <time.h>
 
 #include "base/clock.h"
-#include "base/version.h"
+#include "glim/version.h"
 #include "studio/help.h"
 #include "studio/panel_draw.h"
 #include "studio/status_line.h"

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+/* The picture of a handle: read and saved. */
+#include "api/handle.h"
+
+#include "picture/film.h"
+#include "picture/image_write.h"
+
+static struct develop develop_of(const struct glim *g)
+{
+    return (struct develop){(float)g->view.lighting.exposure,
+                            g->view.lighting.tone};
+}
+
+/* The film, or NULL and the error. */
+static struct film *film_of(const struct glim *g, struct glim_error *err)
+{
+    struct error why;
+
+    if (g->has_picture)
+        return render_film(g->render);
+    fail(&why, "picture: found none, expected glim_render() before");
+    handle_fail(err, &why);
+    return NULL;
+}
+
+void glim_get_picture_size(const struct glim *g, int *width, int *height)
+{
+    const struct film *film = g->has_picture ? render_film(g->render) : NULL;
+
+    *width = film != NULL ? film->width : 0;
+    *height = film != NULL ? film->height : 0;
+}
+
+static bool check_count(const struct film *film, size_t count,
+                        struct glim_error *err)
+{
+    size_t expected = 3 * (size_t)film->width * (size_t)film->height;
+    struct error why;
+
+    if (count == expected)
+        return true;
+    fail(&why, "picture: found room for %zu numbers, expected %zu", count,
+         expected);
+    return handle_fail(err, &why);
+}
+
+bool glim_read_floats(struct glim *g, float *rgb, size_t count,
+                      struct glim_error *err)
+{
+    struct film *film = film_of(g, err);
+
+    if (film == NULL || !check_count(film, count, err))
+        return false;
+    film_linear(film, rgb);
+    return true;
+}
+
+bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
+                     struct glim_error *err)
+{
+    struct film *film = film_of(g, err);
+    struct frame frame;
+
+    if (film == NULL || !check_count(film, count, err))
+        return false;
+    frame = (struct frame){film->width, film->height, rgb};
+    film_resolve(film, develop_of(g), &frame);
+    return true;
+}
+
+bool glim_save(struct glim *g, const char *path, struct glim_error *err)
+{
+    struct film *film = film_of(g, err);
+    struct error why;
+
+    return film != NULL && (image_write(film, develop_of(g), path, &why) ||
+                            handle_fail(err, &why));
+}

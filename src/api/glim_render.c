@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+/* The backends of a handle, and the loop that waits for the render thread. */
+#include "api/handle.h"
+
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/event_fd.h"
+#include "base/memory.h"
+#include "base/thread.h"
+#include "opencl/cl_start.h"
+#include "render/cpu_dispatch.h"
+
+#ifndef GLIM_PROGRAM
+#define GLIM_PROGRAM "glim"
+#endif
+
+/* More threads than any machine has processors. */
+#define THREADS_MAX 4096
+
+/* Between two calls of the progress function. */
+#define PROGRESS_MS 100
+
+/* ---- backends ---- */
+
+void handle_drop_render(struct glim *g)
+{
+    render_destroy(g->render);
+    g->render = NULL;
+    if (g->cpu != NULL)
+        g->cpu->destroy(g->cpu);
+    g->cpu = NULL;
+    g->has_picture = false;
+}
+
+static int threads_of(const struct glim *g)
+{
+    return g->thread_count > 0 ? g->thread_count : usable_threads();
+}
+
+/* Makes the renderer if there is none. */
+static bool need_render(struct glim *g, struct error *err)
+{
+    if (g->render != NULL)
+        return true;
+    if (g->device == NULL)
+        g->cpu = backend_cpu_create(threads_of(g), cpu_kernel_best(), err);
+    if (g->device == NULL && g->cpu == NULL)
+        return false;
+    g->render = render_create(g->device != NULL ? g->device : g->cpu, err);
+    if (g->render == NULL)
+        handle_drop_render(g);
+    return g->render != NULL;
+}
+
+bool glim_set_threads(struct glim *g, int count, struct glim_error *err)
+{
+    struct error why;
+
+    if (count < 0 || count > THREADS_MAX) {
+        fail(&why, "threads: found %d, expected 0 to %d", count, THREADS_MAX);
+        return handle_fail(err, &why);
+    }
+    handle_drop_render(g);
+    g->thread_count = count;
+    return true;
+}
+
+bool glim_set_program(struct glim *g, const char *path, struct glim_error *err)
+{
+    char *copy = path != NULL ? strdup(path) : NULL;
+    struct error why;
+
+    if (path != NULL && copy == NULL) {
+        fail(&why, "%s: out of memory for the name", path);
+        return handle_fail(err, &why);
+    }
+    free(g->program);
+    g->program = copy;
+    return true;
+}
+
+static bool start_device(struct glim *g, const struct cl_request *request,
+                         struct error *err)
+{
+    struct cl_start *start = cl_start_begin(request, NULL, err);
+    char *verdict = NULL;
+
+    if (start == NULL)
+        return false;
+    g->device = cl_start_end(start, &verdict, &g->backend_log, err);
+    free(verdict);
+    return g->device != NULL;
+}
+
+bool glim_set_backend(struct glim *g, enum glim_backend backend,
+                      const char *device, struct glim_error *err)
+{
+    struct cl_request request = {
+        .program = g->program != NULL ? g->program : GLIM_PROGRAM,
+        .device = device,
+        .needs_gpu = backend == GLIM_BACKEND_GPU,
+        .features = world_features(&g->world),
+    };
+    struct error why;
+
+    handle_drop_render(g);
+    if (g->device != NULL)
+        g->device->destroy(g->device);
+    g->device = NULL;
+    free(g->backend_log);
+    g->backend_log = NULL;
+    return backend == GLIM_BACKEND_CPU || start_device(g, &request, &why) ||
+           handle_fail(err, &why);
+}
+
+const char *glim_backend_log(const struct glim *g)
+{
+    return g->backend_log;
+}
+
+/* ---- rendering ---- */
+
+static struct glim_progress progress_of(const struct render_progress *p)
+{
+    return (struct glim_progress){
+        .spp = p->spp_done,
+        .spp_limit = p->spp_limit,
+        .samples = p->samples,
+        .samples_limit = p->samples_limit,
+        .non_finite = p->non_finite,
+        .seconds = seconds_between(0, p->render_ns),
+        .build_seconds = seconds_between(0, p->build_ns),
+    };
+}
+
+struct glim_progress glim_get_progress(struct glim *g)
+{
+    struct render_progress p;
+
+    if (!g->has_picture)
+        return (struct glim_progress){0};
+    p = render_progress(g->render);
+    return progress_of(&p);
+}
+
+/* A new picture, with the settings as they are. */
+static bool begin(struct glim *g, uint64_t spp, struct error *err)
+{
+    struct render_job job = {.host = &g->world,
+                             .geometry_changed = true,
+                             .crop = g->crop,
+                             .spp = spp};
+
+    if (!g->view.has_camera) /* all is seen in a picture of this shape */
+        scene_frame(&g->scene, &g->view);
+    if (!need_render(g, err) ||
+        !world_guide(&g->world, &g->scene, &g->view, threads_of(g), err) ||
+        !world_lend(&g->world, &g->scene, &g->view, g->seed, &job.world, err))
+        return false;
+    if (g->device != NULL) /* it has a tree of its own */
+        world_drop_tree(&g->world);
+    g->has_picture = render_start(g->render, &job, err);
+    return g->has_picture;
+}
+
+/* Milliseconds until the next look; -1: until something happens. */
+static int pause_ms(uint64_t now_ns, uint64_t end_ns, bool has_progress)
+{
+    uint64_t left_ms = end_ns > now_ns ? (end_ns - now_ns) / 1000000 + 1 : 0;
+
+    if (!has_progress && end_ns == UINT64_MAX)
+        return -1;
+    return left_ms < PROGRESS_MS ? (int)left_ms : PROGRESS_MS;
+}
+
+/* Waits until the picture is done, the time is up or somebody wants a stop. */
+static enum glim_result wait_for_end(struct glim *g, uint64_t end_ns,
+                                     glim_progress_fn *progress, void *context)
+{
+    struct pollfd fds[2] = {{.fd = render_event_fd(g->render),
+                             .events = POLLIN},
+                            {.fd = g->cancel_fd, .events = POLLIN}};
+
+    for (;;) {
+        struct render_progress p = render_progress(g->render);
+        struct glim_progress shown = progress_of(&p);
+
+        if (p.state != RENDER_RUNNING || clock_ns() >= end_ns)
+            return GLIM_DONE;
+        if (progress != NULL && !progress(context, &shown))
+            return GLIM_STOPPED;
+        if (poll(fds, 2, pause_ms(clock_ns(), end_ns, progress != NULL)) <= 0)
+            continue;
+        if (fds[0].revents & POLLIN)
+            event_fd_clear(fds[0].fd);
+        if (fds[1].revents & POLLIN) {
+            event_fd_clear(fds[1].fd);
+            return GLIM_STOPPED;
+        }
+    }
+}
+
+static uint64_t end_of(double seconds)
+{
+    double ns = seconds * 1e9;
+
+    return seconds > 0 && ns < 9e18 ? clock_ns() + (uint64_t)ns : UINT64_MAX;
+}
+
+enum glim_result glim_render(struct glim *g, uint64_t spp, double seconds,
+                             glim_progress_fn *progress, void *context,
+                             struct glim_error *err)
+{
+    uint64_t end_ns = end_of(seconds);
+    struct render_progress p;
+    enum glim_result result;
+    struct error why;
+
+    if (g->has_picture) {
+        render_resume(g->render, spp);
+    } else if (!begin(g, spp, &why)) {
+        handle_fail(err, &why);
+        return GLIM_FAILED;
+    }
+    result = wait_for_end(g, end_ns, progress, context);
+    render_halt(g->render);
+    p = render_progress(g->render);
+    if (p.state != RENDER_FAILED)
+        return result;
+    g->has_picture = false;
+    handle_fail(err, &p.error);
+    return GLIM_FAILED;
+}
+
+void glim_cancel(struct glim *g)
+{
+    event_fd_set(g->cancel_fd);
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+/* The handle, its scene and its view. */
+#include "api/handle.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/event_fd.h"
+#include "base/memory.h"
+#include "scene/world_materials.h"
+#include "formats/scene_load.h"
+
+bool handle_fail(struct glim_error *to, const struct error *err)
+{
+    _Static_assert(sizeof to->text == sizeof err->text, "one length of texts");
+
+    if (to != NULL)
+        memcpy(to->text, err->text, sizeof to->text);
+    return false;
+}
+
+const char *glim_version(void)
+{
+    return GLIM_VERSION;
+}
+
+static void take_whole_picture(struct glim *g)
+{
+    g->crop = (struct rect){0, 0, g->view.width_px, g->view.height_px};
+    g->has_picture = false;
+}
+
+static bool make_warnings(struct glim *g, struct error *err)
+{
+    size_t count = (size_t)g->report.entry_count;
+
+    g->warnings = alloc_array(count + 1, sizeof *g->warnings);
+    for (size_t i = 0; g->warnings != NULL && i < count; i++) {
+        g->warnings[i] = warnings_line(&g->report.entries[i]);
+        if (g->warnings[i] == NULL)
+            return fail(err, "%s: out of memory for warnings", g->scene.path);
+    }
+    return g->warnings != NULL ||
+           fail(err, "%s: out of memory for warnings", g->scene.path);
+}
+
+/* Gives objects the materials that the view says. */
+static bool assign(struct glim *g, struct error *err)
+{
+    const struct scene *scene = &g->scene;
+    uint32_t *assigned = alloc_array(scene->object_count, sizeof *assigned);
+    struct mtl_source *sources =
+        alloc_array(scene->material_count, sizeof *sources);
+    bool ok = (assigned != NULL && sources != NULL) ||
+              fail(err, "%s: out of memory for the materials", scene->path);
+
+    if (ok) {
+        scene_find_assigned(scene, &g->view.assigns, assigned, &g->report);
+        for (uint32_t i = 0; i < scene->material_count; i++)
+            sources[i] = scene->material_origins[i].source;
+        ok = world_set_materials(&g->world, scene, scene->material_count,
+                                 sources, assigned, err);
+    }
+    free(sources);
+    free(assigned);
+    return ok;
+}
+
+static bool open_all(struct glim *g, const char *path, const char *view_path,
+                     enum glim_up up, struct error *err)
+{
+    g->cancel_fd = event_fd_open("glim", err);
+    return g->cancel_fd >= 0 &&
+           view_find(&g->view, path, view_path, &g->view_path, &g->report,
+                     err) &&
+           scene_open(&g->scene, &g->world, &g->view, path, up == GLIM_UP_Z,
+                      &g->report, err) &&
+           assign(g, err) && make_warnings(g, err);
+}
+
+struct glim *glim_open(const char *path, const char *view_path, enum glim_up up,
+                       struct glim_error *err)
+{
+    struct glim *g = alloc_array(1, sizeof *g);
+    struct error why;
+
+    if (g == NULL) {
+        fail(&why, "%s: out of memory", path);
+        handle_fail(err, &why);
+        return NULL;
+    }
+    view_init(&g->view);
+    if (!open_all(g, path, view_path, up, &why)) {
+        glim_close(g);
+        handle_fail(err, &why);
+        return NULL;
+    }
+    take_whole_picture(g);
+    return g;
+}
+
+void glim_close(struct glim *g)
+{
+    if (g == NULL)
+        return;
+    handle_drop_render(g);
+    if (g->device != NULL)
+        g->device->destroy(g->device);
+    world_free(&g->world);
+    scene_free(&g->scene);
+    view_free(&g->view);
+    for (int i = 0; g->warnings != NULL && i < g->report.entry_count; i++)
+        free(g->warnings[i]);
+    free(g->warnings);
+    warnings_free(&g->report);
+    free(g->view_path);
+    free(g->program);
+    free(g->backend_log);
+    if (g->cancel_fd >= 0)
+        close(g->cancel_fd);
+    free(g);
+}
+
+const char *glim_warning(const struct glim *g, int number)
+{
+    return number >= 0 && number < g->report.entry_count ? g->warnings[number]
+                                                         : NULL;
+}
+
+struct glim_camera glim_get_camera(const struct glim *g)
+{
+    const struct pose *p = &g->view.pose;
+    struct glim_camera camera = {.fovy_deg = p->fovy_deg,
+                                 .aperture = p->aperture,
+                                 .focus = p->focus};
+
+    memcpy(camera.eye, p->eye, sizeof camera.eye);
+    memcpy(camera.at, p->at, sizeof camera.at);
+    memcpy(camera.up, p->up, sizeof camera.up);
+    return camera;
+}
+
+bool glim_set_camera(struct glim *g, const struct glim_camera *camera,
+                     struct glim_error *err)
+{
+    struct view view = g->view;
+    struct pose *p = &view.pose;
+    struct error why;
+
+    memcpy(p->eye, camera->eye, sizeof p->eye);
+    memcpy(p->at, camera->at, sizeof p->at);
+    memcpy(p->up, camera->up, sizeof p->up);
+    p->fovy_deg = camera->fovy_deg;
+    p->aperture = camera->aperture;
+    p->focus = camera->focus;
+    if (!pose_check(p, "camera", &why))
+        return handle_fail(err, &why);
+    if (!(p->aperture >= 0 && p->focus >= 0)) {
+        fail(&why,
+             "camera: found an aperture of %g and a focus of %g, expected "
+             "numbers from 0 on",
+             p->aperture, p->focus);
+        return handle_fail(err, &why);
+    }
+    g->view.pose = *p;
+    g->view.has_camera = true;
+    g->has_picture = false;
+    return true;
+}
+
+void glim_get_size(const struct glim *g, int *width, int *height)
+{
+    *width = g->view.width_px;
+    *height = g->view.height_px;
+}
+
+bool glim_set_size(struct glim *g, int width, int height,
+                   struct glim_error *err)
+{
+    struct error why;
+
+    if (width < 0 || width > VIEW_SIDE_MAX || height < 0 ||
+        height > VIEW_SIDE_MAX || (width == 0 && height == 0)) {
+        fail(&why, "size: found %dx%d, expected 1 to %d pixels each way", width,
+             height, VIEW_SIDE_MAX);
+        return handle_fail(err, &why);
+    }
+    view_set_size(&g->view, width, height);
+    take_whole_picture(g);
+    return true;
+}
+
+bool glim_set_crop(struct glim *g, int x, int y, int width, int height,
+                   struct glim_error *err)
+{
+    struct rect crop = {x, y, width, height};
+    struct error why;
+
+    if (!view_has_part(&g->view, x, y, width, height)) {
+        fail(&why,
+             "crop: found %d,%d,%d,%d, expected a part of the picture, which "
+             "has %dx%d pixels",
+             x, y, width, height, g->view.width_px, g->view.height_px);
+        return handle_fail(err, &why);
+    }
+    g->crop = crop;
+    g->has_picture = false;
+    return true;
+}
+
+bool glim_set_max_bounces(struct glim *g, int count, struct glim_error *err)
+{
+    struct error why;
+
+    if (count < -1) {
+        fail(&why, "bounces: found %d, expected a number from 0 on, or -1",
+             count);
+        return handle_fail(err, &why);
+    }
+    g->view.max_bounces = count;
+    g->has_picture = false;
+    return true;
+}
+
+void glim_set_seed(struct glim *g, uint32_t seed)
+{
+    g->seed = seed;
+    g->has_picture = false;
+}

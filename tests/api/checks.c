@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+/*
+ * checks.c - tests of what glim.h promises, in a program that has only that
+ *
+ * usage: checks SCENE: prints a line for each failure, then
+ * "api: N passed, N failed"
+ */
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <glim/glim.h>
+
+#define WIDTH  32
+#define HEIGHT 24
+#define BYTES  (3 * WIDTH * HEIGHT)
+
+static int passed, failed;
+static const char *scene_path;
+
+static void check(bool is_good, const char *what)
+{
+    if (is_good)
+        passed++;
+    else
+        failed++;
+    if (!is_good)
+        printf("FAILED: %s\n", what);
+}
+
+/* The call has failed with a text that contains `part`. */
+static void check_error(bool ok, const struct glim_error *err, const char *part)
+{
+    bool is_good = !ok && strstr(err->text, part) != NULL;
+
+    check(is_good, part);
+    if (!is_good)
+        printf("    found: %s\n", ok ? "no error" : err->text);
+}
+
+static struct glim *open_small(void)
+{
+    struct glim_error err;
+    struct glim *g = glim_open(scene_path, NULL, GLIM_UP_Y, &err);
+
+    if (g == NULL || !glim_set_size(g, WIDTH, HEIGHT, &err)) {
+        printf("%s\n", err.text);
+        exit(1);
+    }
+    return g;
+}
+
+static void check_wrong_values(void)
+{
+    struct glim_error err;
+    struct glim *g = open_small();
+
+    check_error(glim_open("nowhere/none.obj", NULL, GLIM_UP_Y, &err) != NULL,
+                &err, "none.obj: no such file");
+    check(glim_open("nowhere/none.obj", NULL, GLIM_UP_Y, NULL) == NULL,
+          "an error without a place for its text");
+    check_error(glim_set_size(g, 0, 0, &err), &err, "found 0x0");
+    check_error(glim_set_size(g, 65537, 5, &err), &err, "found 65537x5");
+    check_error(glim_set_crop(g, 30, 0, 3, 1, &err), &err, "30,0,3,1");
+    check_error(glim_set_crop(g, 0, 0, 2147483647, 1, &err), &err, "crop");
+    check_error(glim_set_threads(g, -1, &err), &err, "found -1");
+    check_error(glim_set_max_bounces(g, -2, &err), &err, "found -2");
+    glim_close(g);
+    glim_close(NULL);
+}
+
+static void check_wrong_cameras(void)
+{
+    struct glim_error err;
+    struct glim *g = open_small();
+    struct glim_camera camera = glim_get_camera(g);
+
+    camera.fovy_deg = 180;
+    check_error(glim_set_camera(g, &camera, &err), &err, "fovy");
+    camera = glim_get_camera(g);
+    memcpy(camera.at, camera.eye, sizeof camera.at);
+    check_error(glim_set_camera(g, &camera, &err), &err, "one point");
+    camera.eye[0] = NAN;
+    check_error(glim_set_camera(g, &camera, &err), &err, "infinity");
+    camera = glim_get_camera(g);
+    camera.aperture = -1;
+    check_error(glim_set_camera(g, &camera, &err), &err, "aperture");
+    glim_close(g);
+}
+
+static void check_wrong_reads(void)
+{
+    struct glim_error err;
+    struct glim *g = open_small();
+    float rgb[3];
+
+    check_error(glim_read_floats(g, rgb, 3, &err), &err, "glim_render()");
+    check_error(glim_save(g, "none.png", &err), &err, "glim_render()");
+    check(glim_render(g, 1, 0, NULL, NULL, NULL) == GLIM_DONE, "a sample");
+    check_error(glim_read_floats(g, rgb, 3, &err), &err, "expected 2304");
+    check_error(glim_save(g, "picture.gif", &err), &err, ".png");
+    check_error(glim_save(g, "nowhere/x.png", &err), &err, "no such");
+    glim_close(g);
+}
+
+/* A picture that is rendered in parts equals the one that is rendered at once.
+ */
+static void check_parts(void)
+{
+    struct glim *a = open_small(), *b = open_small();
+    uint8_t of_a[BYTES], of_b[BYTES];
+
+    check(glim_render(a, 4, 0, NULL, NULL, NULL) == GLIM_DONE, "all");
+    check(glim_render(b, 1, 0, NULL, NULL, NULL) == GLIM_DONE, "a part");
+    check(glim_render(b, 4, 0, NULL, NULL, NULL) == GLIM_DONE, "the rest");
+    check(glim_get_progress(b).spp == 4, "4 samples a pixel");
+    check(glim_read_bytes(a, of_a, BYTES, NULL), "bytes");
+    check(glim_read_bytes(b, of_b, BYTES, NULL), "bytes");
+    check(memcmp(of_a, of_b, BYTES) == 0, "the same picture in parts");
+    glim_set_seed(b, 1);
+    check(glim_get_progress(b).samples == 0, "no picture after a setting");
+    check(glim_render(b, 4, 0, NULL, NULL, NULL) == GLIM_DONE, "another seed");
+    check(glim_read_bytes(b, of_b, BYTES, NULL), "bytes");
+    check(memcmp(of_a, of_b, BYTES) != 0, "another seed has other noise");
+    glim_close(a);
+    glim_close(b);
+}
+
+static bool stop_at_once(void *context, const struct glim_progress *p)
+{
+    (void)p;
+    ++*(int *)context;
+    return false;
+}
+
+static void check_stops(void)
+{
+    struct glim *g = open_small();
+    int calls = 0;
+
+    check(glim_render(g, 0, 0, stop_at_once, &calls, NULL) == GLIM_STOPPED,
+          "stopped by the function");
+    check(calls == 1, "one call");
+    glim_cancel(g);
+    check(glim_render(g, 0, 0, NULL, NULL, NULL) == GLIM_STOPPED,
+          "cancelled before it began");
+    check(glim_render(g, 0, 0.05, NULL, NULL, NULL) == GLIM_DONE,
+          "a limit of time");
+    check(glim_get_progress(g).samples > 0, "samples within that time");
+    glim_close(g);
+}
+
+static void *render_in_thread(void *rgb)
+{
+    struct glim *g = open_small();
+
+    glim_render(g, 4, 0, NULL, NULL, NULL);
+    glim_read_bytes(g, rgb, BYTES, NULL);
+    glim_close(g);
+    return NULL;
+}
+
+static void check_threads(void)
+{
+    static uint8_t rgb[4][BYTES];
+    pthread_t threads[4];
+
+    for (int i = 0; i < 4; i++)
+        pthread_create(&threads[i], NULL, render_in_thread, rgb[i]);
+    for (int i = 0; i < 4; i++)
+        pthread_join(threads[i], NULL);
+    for (int i = 1; i < 4; i++)
+        check(memcmp(rgb[0], rgb[i], BYTES) == 0,
+              "the same picture in four threads");
+}
+
+/* Without the program that tries devices, the CPU renders. */
+static void check_device(void)
+{
+    struct glim *g = open_small();
+    struct glim_error err;
+
+    check(glim_set_program(g, "/nowhere/glim", &err), "a program");
+    check_error(glim_set_backend(g, GLIM_BACKEND_OPENCL, NULL, &err), &err,
+                "/nowhere/glim");
+    check(glim_render(g, 1, 0, NULL, NULL, NULL) == GLIM_DONE,
+          "the CPU instead");
+    glim_close(g);
+}
+
+static void on_signal(int number)
+{
+    (void)number;
+}
+
+/* The handlers of signals stay the program's. */
+static void check_signals(void)
+{
+    static const int numbers[] = {SIGINT, SIGPIPE, SIGFPE, SIGCHLD};
+    struct glim *g;
+
+    for (int i = 0; i < 4; i++)
+        signal(numbers[i], on_signal);
+    g = open_small();
+    check(glim_render(g, 1, 0, NULL, NULL, NULL) == GLIM_DONE, "a sample");
+    glim_close(g);
+    for (int i = 0; i < 4; i++)
+        check(signal(numbers[i], SIG_DFL) == on_signal, "a handler stays");
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 2)
+        return 2;
+    scene_path = argv[1];
+    check(strcmp(glim_version(), GLIM_VERSION) == 0, "one version");
+    check_wrong_values();
+    check_wrong_cameras();
+    check_wrong_reads();
+    check_parts();
+    check_stops();
+    check_threads();
+    check_device();
+    check_signals();
+    printf("api: %d passed, %d failed\n", passed, failed);
+    return failed > 0;
+}
