@@ -48,12 +48,12 @@ struct path {
     struct ray ray;
     struct sampler sampler;
     struct vec2 numbers[VERTICES_AHEAD * DIMENSION_KINDS];
-    struct vec3 beta; /* throughput that roulette goes by */
-    float scale;      /* factor of the throughput that roulette ignores */
+    struct vec3 beta; /* throughput for Russian roulette */
+    float scale;      /* factor of the throughput that roulette does not see */
     float pdf;        /* density of the ray's direction; 0: a delta lobe or the
                          camera, which light samples do not compete with */
     struct receiver from; /* the vertex that the ray left, if pdf is above 0 */
-    struct guide_cell cell; /* path guide at that vertex */
+    struct guide_cell cell; /* tables of the path guide at that vertex */
     struct path_sample out;
 };
 

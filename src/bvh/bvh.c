@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * Large ranges of triangles are split by all threads together. What is left are
- * parts, each of which one thread makes a tree of. Where a part ends depends on
- * its size alone.
+ * All threads together split the large ranges of triangles at the top. What
+ * remains are parts, and one thread builds the tree of each. The size of a
+ * range alone decides whether it is a part.
  *
- * No triangle is in two leaves. Measured: in the tree that bvh_reinsert.h
- * makes, spatial splits (Stich, Friedrich and Dietrich 2009) make rooms slower:
- * rays through them take 0 to 30 % longer.
+ * No triangle is in two leaves. Measured: after reinsertion, spatial splits
+ * (Stich, Friedrich and Dietrich 2009) make rooms slower: rays take 0 to 30 %
+ * longer.
  */
 #include "bvh/bvh.h"
 
@@ -19,24 +19,25 @@
 #include "bvh/sah_splitter.h"
 #include "kernels/traverse_leaf.h"
 
-/* Triangles of a part: what stays in a core's cache. */
+/* Most triangles of a part: they stay in the cache of a core. */
 #define PART_MAX 16384
 
-/* Cost of a triangle's test in visits of a node. Measured: flat from 1 to 2. */
+/* Cost of a triangle's test in visits of a node. Measured: the same from 1 to
+ * 2. */
 #define TRIANGLE_COST 1.5f
 
-/* A node at the top, or a whole tree. */
+/* A node at the top, or a part with its whole tree. */
 struct part {
     struct range range;
-    uint32_t right; /* the part that is the node's right child; 0: a tree */
+    uint32_t right; /* index of the node's right child; 0: this is a part */
     uint32_t node_count, depth;
-    uint32_t first_node; /* in the whole */
+    uint32_t first_node; /* index of its first node in the bvh */
 };
 
 struct builder {
     struct splitter splitter;
     struct bvh *bvh;
-    struct node *nodes; /* room for two a triangle, see nodes_of() */
+    struct node *nodes; /* two for each triangle, see nodes_of() */
     struct part *parts; /* depth-first */
     uint32_t part_count;
     size_t part_capacity;
@@ -66,13 +67,14 @@ static struct node node_of(const struct range *r)
     return n;
 }
 
-/* Where the tree of a part is made: it has less than two nodes a triangle. */
+/* Memory for the tree of a part, which has less than two nodes a triangle. */
 static struct node *nodes_of(const struct builder *b, const struct part *part)
 {
     return b->nodes + 2 * (size_t)part->range.first;
 }
 
-/* Recursion is as deep as the tree: below TRAVERSE_STACK. */
+/* Builds the tree of a range. Recursion is as deep as the tree, below
+ * TRAVERSE_STACK. */
 static void build_tree(struct builder *b, struct part *part, int worker,
                        const struct range *r)
 {
@@ -103,7 +105,7 @@ static void build_part(void *context, uint32_t item, int worker)
 
 /* ---- the top ---- */
 
-/* Not by grow_array(): boxes are aligned. */
+/* Adds a part. Without grow_array(), as boxes are aligned. */
 static bool add_part(struct builder *b, const struct range *r)
 {
     if (b->part_count == b->part_capacity) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * bvh.h - bounding volume hierarchy: binned SAH, flattened depth-first
+ * bvh.h - the binary bounding volume hierarchy: binned SAH, stored depth-first
  *
- * Wald, Boulos and Shirley 2007; Wald 2007 (binning); Pharr et al., PBR 4th
- * ed., 7.3; then as bvh_reinsert.h says. Far down, nodes are split in halves by
- * count, so that no tree is deeper than the traversal's stack.
+ * Wald, Boulos and Shirley 2007, "Ray tracing deformable scenes using dynamic
+ * bounding volume hierarchies"; Wald 2007 (binning); Pharr et al., PBR 4th
+ * ed., 7.3; then reinsertion (bvh_reinsert.h). From some depth on nodes are
+ * split in halves by count, so that no tree is deeper than the traversal's
+ * stack.
  *
- * The same triangles give the same tree, whatever the number of threads.
+ * The tree does not depend on the number of threads.
  *
  * Units:     normalised scene units
  * Ownership: bvh_free() frees; a zeroed struct is a tree without triangles
@@ -23,32 +25,33 @@
 struct bvh {
     struct node *nodes;
     uint32_t node_count;
-    uint32_t *tris;             /* numbers, as the leaves have them */
+    uint32_t *tris; /* indices of triangles, in the order of the leaves */
     struct leaf_tri *leaf_tris; /* the same with corners, or NULL */
     uint32_t leaf_tri_count;
-    uint32_t depth; /* no leaf is deeper */
+    uint32_t depth; /* greatest depth of a leaf */
 };
 
-/* What the leaves are to be: 1 << block_bits triangles are tested at once, and
- * are never parted. */
+/* Parameters of leaves. A block is 1 << block_bits triangles that are tested at
+ * once; they are never split. */
 struct bvh_leaves {
     uint32_t block_bits;
-    uint32_t large_bits; /* in nodes that many rays meet, as if so many were */
-    float block_cost;    /* in visits of a node */
-    uint32_t most;       /* triangles; more are split whatever it costs */
+    uint32_t large_bits; /* block_bits for large nodes, which many rays meet */
+    float block_cost;    /* test of a block, in visits of a node */
+    uint32_t most;       /* most triangles of a leaf */
 };
 
-/* The tree for queries that test one triangle after the other, with leaf_tris.
- * Without a pool the caller's thread builds. */
+/* Builds the tree for queries that test one triangle after the other, with
+ * leaf_tris. Without a pool the calling thread builds. */
 bool bvh_build(struct bvh *bvh, const struct world *world, struct pool *pool,
                struct error *err);
 
-/* The tree by splits from the top down, for such leaves. */
+/* Builds a tree by splits from the top down, with such leaves and without
+ * leaf_tris. */
 bool bvh_split(struct bvh *bvh, const struct world *world,
                const struct bvh_leaves *leaves, struct pool *pool,
                struct error *err);
 
-/* The tree alone: splits, and then as bvh_reinsert.h says. */
+/* bvh_split(), then reinsertion. */
 bool bvh_build_nodes(struct bvh *bvh, const struct world *world,
                      const struct bvh_leaves *leaves, struct pool *pool,
                      struct error *err);

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: MIT
 /*
- * bvh8.h - the binary tree made eight children wide, for vector units
+ * bvh8.h - the tree of eight children a node, for vector units
  *
- * A node's boxes are arrays of eight, so that one step tests all; up to four
- * triangles lie side by side in a block (Wald, Benthin and Boulos 2008,
- * "Getting rid of packets"). Which nodes of the binary tree become children
- * says bvh8_collapse.h.
+ * It is made from the binary tree. The boxes of a node's children are arrays of
+ * eight, so that one step tests all. Up to four triangles lie side by side in a
+ * block (Wald, Benthin and Boulos 2008, "Getting rid of packets").
+ * bvh8_collapse.h chooses which nodes of the binary tree become children.
+ *
+ *     root                     nodes                blocks
+ *     +------------------+     +------+------+... +-------+-------+...+-------+
+ *     | planes[axis]     |     |  1   |  2   |      |   0   |   1   |   | empty
+ * | |   [low, high][8] |     +------+------+...   +-------+-------+...+-------+
+ *     | child[8] --------+----> byte offset from the root, in units of 32,
+ * times 8
+ *     +------------------+      (BVH8_LEAF: blocks follow, BVH8_MORE: how many)
+ *
+ * Nodes and blocks are in one allocation, first all nodes and then all blocks.
  *
  * Units:     normalised scene units
  * Ownership: bvh8_free() frees; a zeroed struct is a tree without triangles
@@ -23,25 +33,27 @@
 #define BVH8_CHILDREN 8
 #define BLOCK_TRIS    4
 
-/* A child is how far it is from the root in units of 32 bytes, times 8: so many
- * bytes are one shift of it away. With BVH8_LEAF it is a block, and the
- * lowest two bits say how many more follow it. */
+/* A child is its distance from the root in units of 32 bytes, times 8, so that
+ * one shift makes it a byte offset. With BVH8_LEAF it is a block, and the
+ * lowest two bits are the number of further blocks of the leaf, which follow
+ * it. */
 #define BVH8_UNIT 32
 #define BVH8_LEAF 4u
 #define BVH8_MORE 3u
 
-/* So many triangles can be below a leaf. */
+/* Most triangles of a leaf. */
 #define BVH8_LEAF_TRIS ((BVH8_MORE + 1) * BLOCK_TRIS)
 
 struct bvh8_node {
-    /* near and far planes are picked by the ray's signs: [axis][low or high] */
-    float planes[3][2][BVH8_CHILDREN]; /* no child: a box that nothing meets */
-    uint32_t child[BVH8_CHILDREN]; /* no child: the last block, if it does */
+    /* the signs of a ray choose near and far planes; [axis][low or high] */
+    float planes[3][2][BVH8_CHILDREN]; /* no child: infinite */
+    uint32_t child[BVH8_CHILDREN];     /* no child: the empty block */
 };
 
 _Static_assert(sizeof(struct bvh8_node) % BVH8_UNIT == 0, "see BVH8_UNIT");
 
-/* Corners as [corner][axis][triangle]; NaN and NO_INDEX where there is none. */
+/* Triangles of a leaf, with their corners as [corner][axis][triangle]. NaN and
+ * NO_INDEX fill the places of missing triangles. */
 struct tri_block {
     float corners[3][3][BLOCK_TRIS];
     uint32_t tri[BLOCK_TRIS];
@@ -50,29 +62,29 @@ struct tri_block {
 _Static_assert(sizeof(struct tri_block) % BVH8_UNIT == 0, "see BVH8_UNIT");
 
 struct bvh8 {
-    struct bvh8_node *nodes; /* 0 is the root */
+    struct bvh8_node *nodes; /* nodes[0] is the root */
     uint32_t node_count;
     struct tri_block
-        *blocks;          /* behind the nodes in the same memory; the last */
-    uint32_t block_count; /* has no triangles */
+        *blocks;          /* behind the nodes in their allocation; the last */
+    uint32_t block_count; /* is empty */
 };
 
-/* What the CPU's samples read. Ray queries get the world, and find the tree
- * behind it. */
+/* The world of the CPU's ray queries, which get a pointer to its first member.
+ */
 struct bvh8_world {
-    struct world world; /* first */
+    struct world world; /* first member */
     const struct bvh8 *tree;
 };
 
-/* The binary tree that it is made from. */
+/* Parameters of the binary tree. */
 extern const struct bvh_leaves bvh8_leaves;
 
-/* Tests of a block in visits of a node. Measured: flat from 0.7 to 1, where
- * memory grows. */
+/* Cost of a block in visits of a node. Measured: the same from 0.7 to 1, where
+ * trees take more memory. */
 #define BVH8_BLOCK_COST 0.7f
 
-/* The tree for which nodes and blocks cost a ray the least, of all that have
- * the binary one's boxes. Without a pool the caller's thread builds. */
+/* Builds the tree of least expected cost among those with the boxes of the
+ * binary tree. Without a pool the calling thread builds. */
 bool bvh8_build(struct bvh8 *wide, const struct world *world, struct pool *pool,
                 struct error *err);
 uint64_t bvh8_bytes(const struct bvh8 *wide);

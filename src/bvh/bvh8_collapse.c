@@ -7,10 +7,10 @@
 #include "base/memory.h"
 #include "bvh/sah_bins.h"
 
-/* Nodes below what one thread takes. */
+/* Nodes of a span, whose costs one thread computes. */
 #define SPAN_NODES 4096
 
-/* Nodes that are all that is below the first, and that. */
+/* A node and all nodes below it. */
 struct span {
     uint32_t first, end;
 };
@@ -41,7 +41,7 @@ static float leaf_cost(const struct bvh8_collapse *f, uint32_t node)
            (float)bvh8_blocks(tri_count);
 }
 
-/* The least costs of two nodes as k + 1 children together. */
+/* The least costs of two nodes that share k + 1 places. */
 static void share_places(const struct bvh8_cost *left,
                          const struct bvh8_cost *right,
                          float costs[BVH8_CHILDREN])
@@ -74,7 +74,7 @@ static void cost_node(const struct bvh8_collapse *f, uint32_t node)
         cost->costs[k] = f_min(cost->costs[k - 1], shared[k]);
 }
 
-/* Children lie behind their parents. */
+/* Children are stored behind their parents, so the span is done backwards. */
 static void cost_span(void *context, uint32_t item, int worker)
 {
     const struct cost_job *f = context;
@@ -90,7 +90,7 @@ static uint32_t right_of(const struct bvh8_collapse *f, uint32_t node)
     return f->bvh->nodes[node].next;
 }
 
-/* Recursion is as deep as the tree, at most. */
+/* Divides the tree into spans. Recursion is as deep as the tree, at most. */
 static bool find_spans(struct cost_job *f, struct span s)
 {
     uint32_t right = right_of(f->collapse, s.first);
@@ -149,7 +149,7 @@ bool bvh8_collapse_leaf(const struct bvh8_collapse *f, uint32_t node)
     return leaf_cost(f, node) <= f->costs[node].costs[0];
 }
 
-/* How many of so many places go to the left of two nodes. */
+/* Finds how many of the places go to the left of two nodes. */
 static uint32_t left_places(const struct bvh8_cost *left,
                             const struct bvh8_cost *right, uint32_t places)
 {
@@ -167,8 +167,8 @@ static uint32_t left_places(const struct bvh8_cost *left,
     return lefts;
 }
 
-/* Shares the places below a node, behind so many children. Returns how many
- * there are then. */
+/* Adds the nodes that fill so many places, from those below a node. Returns the
+ * count of children. */
 static uint32_t open_node(const struct bvh8_collapse *f, uint32_t node,
                           uint32_t places, uint32_t *children, uint32_t count)
 {
@@ -190,9 +190,9 @@ static uint32_t open_node(const struct bvh8_collapse *f, uint32_t node,
     return count;
 }
 
-/* Rays that look for any hit take the last child first: leaves, for they may
- * end it, and what is large. Measured: up to twice as many a second. Of areas,
- * which are not negative, the bits are in the same order. */
+/* Order of children. hit_any() visits the last one first: leaves, as they may
+ * end the query, and large boxes. Measured: up to twice as many rays a second.
+ * Areas are not negative, so that their bits have the same order. */
 static uint32_t rank_of(const struct bvh8_collapse *f, uint32_t node)
 {
     return float_bits(area_of(&f->bvh->nodes[node])) |
@@ -217,7 +217,7 @@ static void sort_children(const struct bvh8_collapse *f, uint32_t *children,
     }
 }
 
-/* A leaf is only asked for at the root. */
+/* Called for a leaf only if that is the root. */
 uint32_t bvh8_collapse_children(const struct bvh8_collapse *f, uint32_t node,
                                 uint32_t children[BVH8_CHILDREN])
 {

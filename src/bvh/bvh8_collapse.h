@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 /*
- * bvh8_collapse.h - which nodes of the binary tree become children of a wide
- * one
+ * bvh8_collapse.h - chooses which nodes of the binary tree become children of a
+ * node of eight
  *
- * The cheapest choice by the surface area heuristic (Ylitie, Karras and Laine
- * 2017, "Efficient incoherent ray traversal on GPUs through compressed wide
- * BVHs", 3.1): from the leaves up, what it costs to have a node, and what is
- * below it, as so many children.
+ * The choice of least cost by the surface area heuristic (Ylitie, Karras and
+ * Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed
+ * wide BVHs", 3.1): from the leaves up, the least cost of everything below a
+ * node when it takes n places in its parent.
  *
  * Units:     normalised scene units; costs are visits of a node, times its area
- * Ownership: bvh8_collapse_free() frees; a zeroed struct is none; the binary
- * tree stays the caller's, who keeps it Threads:   bvh8_collapse_init() uses
- * those of the pool; read only after Errors:    memory
+ * Ownership: bvh8_collapse_free() frees; the binary tree stays the caller's and
+ *            must outlive the struct
+ * Threads:   bvh8_collapse_init() uses those of the pool; read only after
+ * Errors:    memory
  */
 #ifndef GLIM_BVH8_COLLAPSE_H
 #define GLIM_BVH8_COLLAPSE_H
@@ -23,12 +24,12 @@
 
 struct bvh8_cost {
     uint32_t tri_count;
-    float costs[BVH8_CHILDREN]; /* [n - 1]: as n children, or fewer */
+    float costs[BVH8_CHILDREN]; /* [n - 1]: with at most n places */
 };
 
 struct bvh8_collapse {
     const struct bvh *bvh;
-    struct bvh8_cost *costs; /* of each of its nodes */
+    struct bvh8_cost *costs; /* of each node */
 };
 
 static inline uint32_t bvh8_blocks(uint32_t tri_count)
@@ -36,15 +37,15 @@ static inline uint32_t bvh8_blocks(uint32_t tri_count)
     return (tri_count + BLOCK_TRIS - 1) / BLOCK_TRIS;
 }
 
-/* For a tree that has nodes. False if memory is out. */
+/* Computes the costs for a tree with at least one node. Returns false if memory
+ * is out. */
 bool bvh8_collapse_init(struct bvh8_collapse *f, const struct bvh *bvh,
                         struct pool *pool);
 
-/* Whether it is best as blocks of triangles. */
+/* True if the node is to be a leaf. */
 bool bvh8_collapse_leaf(const struct bvh8_collapse *f, uint32_t node);
 
-/* The children of what becomes a wide node, in the order in which they are to
- * be; their count. */
+/* Finds the children of a node, in their order. Returns their count. */
 uint32_t bvh8_collapse_children(const struct bvh8_collapse *f, uint32_t node,
                                 uint32_t children[BVH8_CHILDREN]);
 

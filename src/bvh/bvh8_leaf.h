@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * bvh8_leaf.h - a ray against the triangles of a block, four at once
+ * bvh8_leaf.h - intersects a ray with the triangles of a leaf, four at once
  *
  * Units:     normalised scene units
  * Threads:   any
@@ -12,7 +12,8 @@
 #include "bvh/bvh8.h"
 #include "kernels/traverse_leaf.h"
 
-/* Each lane has a triangle. */
+/* Operands of simd_triangle_template.h: each lane has a triangle, all have one
+ * ray. */
 static inline f4 f4_corner(const float *place)
 {
     return f4_load(place);
@@ -27,15 +28,16 @@ static inline f4 f4_ray(const float *place)
 #define LANES_RAYS 1
 #include "bvh/simd_triangle.h"
 
-/* A ray as tests of blocks want it. */
+/* A ray, prepared for tests of blocks. */
 struct block_ray {
     struct ray ray;
     struct shear shear;
     struct f4_rays lanes;
-    uint32_t passed[2]; /* triangles that it cannot meet */
+    uint32_t passed[2]; /* triangles that do not count as hits */
 };
 
-/* A ray that may end at triangle `tri`, which then is no hit. */
+/* Prepares a ray. It does not hit triangle `tri`, at which a shadow ray ends.
+ */
 static inline struct block_ray block_ray_of(struct ray r, uint32_t tri)
 {
     struct shear s = shear_of(r);
@@ -52,8 +54,9 @@ static inline struct block_ray block_ray_of(struct ray r, uint32_t tri)
     return b;
 }
 
-/* As leaf_hit() of kernels/traverse.h, for `more` + 1 blocks. A call would make
- * the walk put its vectors aside: 4 % of all. */
+/* leaf_hit() of kernels/traverse.h for `more` + 1 blocks. Inlined, as across a
+ * call the traversal would not keep its vectors in registers: 4 % of all time.
+ */
 static inline __attribute__((always_inline)) bool
 blocks_hit(const struct world *w, const struct block_ray *r,
            const struct tri_block *block, uint32_t more, struct hit *best)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * bvh8_traverse.h - ray queries through the wide tree, for kernels/path.h
+ * bvh8_traverse.h - ray queries through the tree of eight, for kernels/path.h
  *
- * They find the hits of kernels/traverse.h, to the bit. Children are visited by
- * the distance at which the ray enters them.
+ * They find the hits of kernels/traverse.h, to the bit. Children are visited in
+ * the order of the distances at which the ray enters them.
  *
  * Units:     normalised scene units
  * Threads:   any, on one world
@@ -18,17 +18,17 @@
 #include "base/simd8.h"
 #include "bvh/ray_packet.h"
 
-/* Entries that wait: all but one child of a node a level. */
+/* Entries of the stack: all but one child of a node for each level. */
 #define BVH8_STACK (TRAVERSE_STACK * (BVH8_CHILDREN - 1) + 1)
 
-/* Less of a direction counts as this much: the box test then multiplies no
- * infinity by 0. Over all of a scene such a ray drifts by less than boxes are
- * padded. */
+/* Least magnitude of a component of a direction. With it the box test
+ * multiplies no infinity by 0. Across the scene such a ray drifts by less than
+ * the padding of boxes. */
 #define DIRECTION_MIN 0x1p-60f
 
-/* Both ends of a box are this much further apart for a ray; see BOX_WIDEN. A
- * step from one float to the next is at least FLOAT_EPSILON of it; one more,
- * for f8_distance_mask_lt() leaves the end out. */
+/* Widening of the distances at which a ray leaves a box, see BOX_WIDEN, as a
+ * factor and in ulps. An ulp is at least FLOAT_EPSILON of the number; one more,
+ * as f8_distance_mask_lt() excludes equality. */
 #define WIDEN       (1.0f + 2.0f * BOX_WIDEN)
 #define WIDEN_STEPS 33
 
@@ -44,16 +44,17 @@ static inline const struct bvh8 *bvh8_of(const struct world *w)
     return ((const struct bvh8_world *)w)->tree;
 }
 
-/* A ray as box tests want it: a plane at p is at p * inverse - start. Where the
- * origin is further from the scene than its size, rounding is in proportion to
- * the distance, which WIDEN is for; nearer, it is a small part of BOX_PAD. */
+/* A ray, prepared for box tests: a plane at p is at distance p * inverse -
+ * start. If the origin is further from the scene than its size, the error is in
+ * proportion to the distance, which WIDEN covers; nearer, it is a small part of
+ * BOX_PAD. */
 struct bvh8_ray {
     f8 inverse[3], start[3];
-    size_t near[3], far[3]; /* of a node's planes, in bytes */
+    size_t near[3], far[3]; /* offsets in a node's planes, in bytes */
 };
 
-/* Without branches: no processor can predict them for rays in all directions.
- */
+/* Sets an axis of the ray. Without branches, which could not be predicted for
+ * rays in all directions. */
 static inline void bvh8_ray_axis(struct bvh8_ray *r, int axis, float o, float d)
 {
     float inverse = 1.0f / copysignf(f_max(fabsf(d), DIRECTION_MIN), d);
@@ -84,9 +85,9 @@ static inline f8 bvh8_planes(const struct bvh8_node *n, size_t offset,
     return f8_mul_sub(f8_load(planes), inverse, start);
 }
 
-/* Which children a ray enters before t_far, and where; as box_entry(). Of
- * rays, `first` is the one that is before all others along each axis, `last`
- * the one behind. */
+/* Returns the mask of children that the ray enters before t_far, and the
+ * distances; see box_entry(). For a packet, `first` enters before all rays
+ * along each axis and `last` leaves after them. */
 static inline __attribute__((always_inline)) uint32_t
 bvh8_enter(const struct bvh8_node *n, const struct bvh8_ray *first,
            const struct bvh8_ray *last, float t_far, f8 *entries)
@@ -106,8 +107,8 @@ bvh8_enter(const struct bvh8_node *n, const struct bvh8_ray *first,
                                f8_distance_min(leave, f8_set1(t_far)));
 }
 
-/* Beyond this nothing is entered for a hit at t; finite, as the boxes that
- * stand for no child are at infinity. */
+/* Distance beyond which no child is entered, for a hit at t. Finite, as the
+ * boxes of missing children are at infinity. */
 static inline float bvh8_far(float t)
 {
     return f_min(t * WIDEN, FLOAT_MAX);
@@ -125,7 +126,7 @@ bvh8_block_at(const struct bvh8_node *root, uint32_t child)
     return (const void *)bvh8_node_at(root, child & ~(BVH8_LEAF | BVH8_MORE));
 }
 
-/* A node's lines, or those of a block and something behind it. */
+/* Prefetches a node, or a block and what follows it. */
 static inline void bvh8_prefetch(const struct bvh8_node *root, uint32_t child)
 {
     const char *p = (const char *)bvh8_node_at(root, child);
@@ -134,9 +135,9 @@ static inline void bvh8_prefetch(const struct bvh8_node *root, uint32_t child)
         __builtin_prefetch(p + i);
 }
 
-/* A child that waits: the bits of the distance at which it is entered, which
- * sort as the distance does, above its code. Takes the lowest of the mask.
- */
+/* Stack entry of the lowest child in the mask, which it removes: the bits of
+ * the entry distance, which have the order of the distance, above the code of
+ * the child. */
 static inline uint64_t bvh8_child_key(const struct bvh8_node *nodes,
                                       const struct bvh8_node *n,
                                       const float entries[BVH8_CHILDREN],
@@ -149,7 +150,8 @@ static inline uint64_t bvh8_child_key(const struct bvh8_node *nodes,
     return (uint64_t)float_bits(entries[i]) << 32 | n->child[i];
 }
 
-/* Without a branch, which would be wrong every other time. */
+/* Sorts two entries without a branch, as half of the predictions would be
+ * wrong. */
 static inline void sort_two(uint64_t *a, uint64_t *b)
 {
     uint64_t less = *a < *b ? *a : *b;
@@ -158,8 +160,8 @@ static inline void sort_two(uint64_t *a, uint64_t *b)
     *a = less;
 }
 
-/* The nearest of two or more children. The others wait on the stack, nearer
- * ones above: most are two to four, which a network sorts. */
+/* Returns the nearest of two or more children and pushes the others, nearer
+ * ones on top. Most are two to four, which a sorting network sorts. */
 static inline uint32_t bvh8_push_children(const struct bvh8_node *nodes,
                                           const struct bvh8_node *n,
                                           uint32_t mask, f8 enter,
@@ -201,15 +203,15 @@ static inline uint32_t bvh8_push_children(const struct bvh8_node *nodes,
     return (uint32_t)a;
 }
 
-/* What a walk does where it meets blocks, of which `more` follow the first.
- * Says how far hits are still of interest. */
+/* Callback of a traversal for the blocks of a leaf, of which `more` follow the
+ * first. Returns the distance beyond which hits no longer count. */
 typedef float bvh8_leaf(void *query, const struct tri_block *block,
                         uint32_t more);
 
-/* Meets the leaves that are entered before t_max, nearest first; see
- * bvh8_enter(). Whatever the ray, every node is met once at most: children that
- * are none name a leaf of no triangles. So BVH8_STACK is enough for trees as
- * deep as bvh.h promises. */
+/* Visits the leaves that are entered before t_max, nearest first; see
+ * bvh8_enter(). Every node is visited at most once, also for invalid rays, as
+ * missing children name the empty block. So BVH8_STACK is enough for trees
+ * within the depth that bvh.h promises. */
 static inline __attribute__((always_inline)) void
 bvh8_walk(const struct bvh8_node *nodes, const struct bvh8_ray *first,
           const struct bvh8_ray *last, float t_max, bvh8_leaf *leaf,
@@ -260,7 +262,7 @@ intersect_blocks(void *query, const struct tri_block *block, uint32_t more)
     return q->hit->t;
 }
 
-/* Nearest hit up to r.t_max. */
+/* Finds the nearest hit up to r.t_max. Returns false if there is none. */
 static inline bool hit_closest(const struct world *w, struct ray r,
                                struct hit *hit)
 {
@@ -274,14 +276,14 @@ static inline bool hit_closest(const struct world *w, struct ray r,
     return hit->tri != NO_INDEX;
 }
 
-/* So many rays are worth a group, if at a distance of 1 they are no further
- * apart than this. Measured with lenses: at a third of it 10 % less time for a
- * picture without bounces, at twice as much 20 % more. */
+/* Least number of rays in a packet, and the largest distance between them at
+ * distance 1. Measured with lenses: a third of it takes 10 % less time for a
+ * picture without bounces, twice as much 20 % more. */
 #define PACKET_MIN    2
 #define PACKET_SPREAD 0x1p-5f
 
-/* The rays that are before and behind all of a group along an axis. False if
- * some go up it, some down, or too far apart. */
+/* Sets an axis of the two rays that bound all rays of a packet. Returns false
+ * if the directions differ in sign or the rays are too far apart. */
 static inline bool bvh8_bound(struct bvh8_ray *first, struct bvh8_ray *last,
                               int axis, const struct ray_packet *g)
 {
@@ -348,7 +350,7 @@ static inline void hits_closest(const struct world *w, const struct ray *rays,
         hit_closest(w, rays[i], &hits[i]);
 }
 
-/* As hit_any() of kernels/traverse.h. */
+/* hit_any() of kernels/traverse.h. */
 static inline bool hit_any(const struct world *w, struct ray r, uint32_t tri)
 {
     const struct bvh8_node *nodes = bvh8_of(w)->nodes;

@@ -8,42 +8,42 @@
 #include "bvh/sah_bins.h"
 #include "kernels/traverse_leaf.h"
 
-/* Nodes of these parts of the root's area and above are moved, the larger ones
- * first: thrice. Measured: smaller ones make trees cheaper by less than 1 %,
- * and take longer than all of these. */
+/* Least areas of nodes that are moved, relative to the root's, for three
+ * rounds. Measured: smaller nodes make trees cheaper by less than 1 %, and take
+ * longer than all of these. */
 static const float parts[] = {1e-2f, 2e-3f, 4e-4f};
 
-/* Nodes that searches look at, for each node of the tree. Measured: real meshes
- * need up to 20; among triangles that all overlap there would be no end. */
+/* Most visits of all searches, for each node of the tree. Measured: real meshes
+ * need up to 20. Without a limit, triangles that all overlap would take very
+ * long. */
 #define VISITS_EACH 32
 
-/* A node, or a small one with all that is below. Children are neighbours, at an
- * even place and behind it: searches mostly look at who is beside. */
+/* A node, or a small node with its whole subtree. Children are neighbours, the
+ * first at an even index: searches mostly look at siblings. */
 struct branch {
     struct box bounds;
     float area;
-    uint32_t parent, children; /* the first of two; 0: not to be opened */
-    uint32_t first, count;     /* what that is in the tree that is read */
+    uint32_t parent, children; /* index of the first; 0: a closed subtree */
+    uint32_t first, count;     /* its range of nodes in the tree that is read */
     uint32_t height;           /* levels below, or more */
 };
 
 struct tree {
-    struct branch *nodes; /* 0 is the root, and stays it; nothing is at 1 */
+    struct branch *nodes; /* nodes[0] is the root, nodes[1] is unused */
     uint32_t count;
     int64_t visits_left;
 };
 
-/* A place beside a node and its parent's, with what is saved by all that
- * happens above. */
+/* A node whose children are to be looked at, and the area saved above it. */
 struct visit {
     uint32_t at;
     float saved;
 };
 
-/* Of the best place beside all nodes seen so far. */
+/* A search for the best place beside any node visited so far. */
 struct search {
     struct tree *tree;
-    const struct branch *node; /* what is to be moved */
+    const struct branch *node; /* the node to be moved */
     uint32_t at;
     float gain;
 };
@@ -68,7 +68,7 @@ static void refit(struct tree *t, struct branch *n)
 struct reader {
     const struct bvh *from;
     struct tree *tree;
-    float least_area; /* of what is opened */
+    float least_area; /* least area of nodes that are not closed */
 };
 
 static struct box box_of(const struct node *n)
@@ -76,8 +76,8 @@ static struct box box_of(const struct node *n)
     return box_of_corners(n->lo, n->hi);
 }
 
-/* What is at `first` and below are so many nodes. Recursion is as deep as the
- * tree: below TRAVERSE_STACK. */
+/* Reads the subtree of `count` nodes at `first`. Recursion is as deep as the
+ * tree, below TRAVERSE_STACK. */
 static void read_node(const struct reader *r, struct branch *n, uint32_t first,
                       uint32_t count, uint32_t depth)
 {
@@ -116,7 +116,7 @@ static const struct node *first_leaf(const struct node *n)
     return n;
 }
 
-/* What is not opened stays as it is, but for where it is. */
+/* Copies the nodes of a closed subtree, with their indices adjusted. */
 static void copy_nodes(const struct writer *w, const struct branch *n)
 {
     const struct node *from = &w->from->nodes[n->first];
@@ -137,7 +137,7 @@ static void copy_nodes(const struct writer *w, const struct branch *n)
     w->to->leaf_tri_count += tri_count;
 }
 
-/* Recursion is as deep as the tree: below TRAVERSE_STACK. */
+/* Writes a subtree. Recursion is as deep as the tree, below TRAVERSE_STACK. */
 static void write_node(const struct writer *w, const struct branch *from)
 {
     const struct branch *children = &w->tree->nodes[from->children];
@@ -159,9 +159,9 @@ static void write_node(const struct writer *w, const struct branch *from)
 
 /* ---- places ---- */
 
-/* Looks at the place beside a node, where `saved` is for what is above. True if
- * there may be a better one below, where *saved is for what is above that: the
- * node grows to hold ours, and the new node is no smaller than ours. */
+/* Visits the place beside a node, where *saved is the area saved above it.
+ * Returns true if a place below may be better, with *saved for its children:
+ * the node grows to hold ours, and the new node is no smaller than ours. */
 static inline bool look_at(struct search *s, uint32_t at, float *saved)
 {
     const struct branch *b = &s->tree->nodes[at];
@@ -176,7 +176,7 @@ static inline bool look_at(struct search *s, uint32_t at, float *saved)
     return !is_closed(b) && *saved - s->node->area > s->gain;
 }
 
-/* Of children the one that grows less comes first. */
+/* Visits the places below a node. The child that grows less comes first. */
 static void look_below(struct search *s, struct visit v)
 {
     struct visit stack[TRAVERSE_STACK + 1];
@@ -206,9 +206,9 @@ static inline void look_from(struct search *s, uint32_t at, float saved)
         look_below(s, (struct visit){at, saved});
 }
 
-/* The best place for a node, by itself where there is none that is better.
- * Without the node its parent is gone, and the nodes above that shrink to what
- * hangs on the way up. */
+/* Returns the best place for a node, or the node itself if none is better. When
+ * it is removed its parent goes as well, and the nodes above shrink to the
+ * siblings on the way up. */
 static uint32_t find_place(struct tree *t, uint32_t node)
 {
     const struct branch *n = &t->nodes[node];
@@ -243,7 +243,7 @@ static void refit_above(struct tree *t, uint32_t node)
     }
 }
 
-/* With what is below. */
+/* Moves a node with its subtree to another index. */
 static void put(struct tree *t, uint32_t place, uint32_t node)
 {
     uint32_t parent = t->nodes[place].parent;
@@ -255,8 +255,8 @@ static void put(struct tree *t, uint32_t place, uint32_t node)
         t->nodes[n->children].parent = t->nodes[n->children + 1].parent = place;
 }
 
-/* The sibling takes the parent's place and leaves its own to what is at the
- * node's new one. */
+/* Moves a node beside the one at `at`. The sibling takes the parent's index,
+ * and its own goes to the node that was at `at`. */
 static void move(struct tree *t, uint32_t node, uint32_t at)
 {
     uint32_t parent = t->nodes[node].parent, sibling = node ^ 1;
@@ -269,7 +269,8 @@ static void move(struct tree *t, uint32_t node, uint32_t at)
     refit_above(t, node);
 }
 
-/* The root's children have no other place. */
+/* Moves all nodes of at least this area. The children of the root have no other
+ * place. */
 static void move_all(struct tree *t, float least_area)
 {
     for (uint32_t i = 2; i < t->count && t->visits_left > 0; i++) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * ray_packet.h - rays that go much the same way against a triangle, all at once
+ * ray_packet.h - packets of coherent rays, intersected with a triangle all at
+ * once
  *
  * Units:     normalised scene units
  * Threads:   any
@@ -16,7 +17,8 @@
 
 #define PACKET_RAYS 8
 
-/* Each lane has a ray. */
+/* Operands of simd_triangle_template.h: each lane has a ray, all have one
+ * triangle. */
 static inline f8 f8_corner(const float *place)
 {
     return f8_set1(*place);
@@ -31,15 +33,15 @@ static inline f8 f8_ray(const float *place)
 #define LANES_RAYS PACKET_RAYS
 #include "bvh/simd_triangle.h"
 
-/* Rays, and what they have met. */
+/* A packet of rays, and their nearest hits so far. */
 struct ray_packet {
     const struct world *world;
     const struct ray *rays;
     struct hit *hits;
     uint32_t count;
     struct f8_rays lanes;
-    _Alignas(32) float t[PACKET_RAYS]; /* of the hits */
-    float t_max;                       /* the largest of these */
+    _Alignas(32) float t[PACKET_RAYS]; /* distances of the hits */
+    float t_max;                       /* largest of t */
 };
 
 static inline void packet_set_ray(struct ray_packet *g, uint32_t lane,
@@ -54,8 +56,8 @@ static inline void packet_set_ray(struct ray_packet *g, uint32_t lane,
     g->t[lane] = r->t_max;
 }
 
-/* As shear_of(). False if the rays differ in the axis: then they cannot be
- * tested together. */
+/* shear_of() for all rays. Returns false if their axes differ, so that they
+ * cannot be tested together. */
 static inline bool packet_shear(struct f8_rays *r)
 {
     f8 x = f8_abs(f8_load(r->d[0]));
@@ -75,7 +77,7 @@ static inline bool packet_shear(struct f8_rays *r)
     return axis != 2 || (is_x | is_y) == 0;
 }
 
-/* ray_is_finite() of all of them; lanes without a ray are NaN. */
+/* ray_is_finite() for all rays. Lanes without a ray are NaN. */
 static inline bool packet_is_finite(const struct ray_packet *g)
 {
     f8 sum = f8_set1(0.0f);
@@ -95,12 +97,12 @@ static inline float packet_t_max(const struct ray_packet *g)
     return far;
 }
 
-/* For 1 to PACKET_RAYS rays; packet_shear() has to follow. */
+/* Fills a packet with 1 to PACKET_RAYS rays. Call packet_shear() next. */
 static inline void packet_begin(struct ray_packet *g, const struct world *w,
                                 const struct ray *rays, uint32_t count,
                                 struct hit *hits)
 {
-    struct ray none = rays[0]; /* meets nothing */
+    struct ray none = rays[0]; /* hits nothing */
 
     none.o = v3(NAN, NAN, NAN);
     none.t_max = 0.0f;

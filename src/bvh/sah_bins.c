@@ -6,7 +6,7 @@
 
 /* ---- extents ---- */
 
-/* An extent, but for the sign of `last`. */
+/* An extent in vectors, with `last` not negated. */
 struct reach {
     f4 lo, hi, first, last;
 };
@@ -29,8 +29,8 @@ static inline void reach_add(struct reach *r, const struct box *box)
     r->last = f4_max(r->last, center);
 }
 
-/* Two at once: a minimum takes four times as long as until the next can begin.
- */
+/* Adds two boxes at once, as the latency of a minimum is four times its
+ * throughput. */
 struct extent extent_of(const struct box *boxes, uint32_t count)
 {
     struct reach a = reach_none(), b = a;
@@ -52,15 +52,15 @@ struct extent extent_of(const struct box *boxes, uint32_t count)
 
 /* ---- bins ---- */
 
-/* Fewer for fewer boxes. Measured, by nodes and blocks that rays meet: 32 at
- * the top save 5 %; twice as many below save no more than 0.2 %, and take a
- * tenth of the time that trees take. */
+/* Number of bins. Measured, by nodes and blocks that rays visit: 32 at the top
+ * save 5 %; twice as many below save no more than 0.2 % and take a tenth of the
+ * time of a build. */
 static uint32_t bin_count_for(uint32_t count)
 {
     return count > 256 ? SPLIT_BINS : count > 128 ? 16 : count > 16 ? 8 : 4;
 }
 
-/* Centres too close to each other for bins count as one. */
+/* Centres that are too close to each other for bins count as one. */
 void bins_clear(struct bins *bins, uint32_t count, const struct box *centers)
 {
     struct binning *b = &bins->binning;
@@ -83,7 +83,7 @@ void bins_clear(struct bins *bins, uint32_t count, const struct box *centers)
     }
 }
 
-/* The bins in which a box is, as goes_right() says for one axis. */
+/* The bins of a box on each axis, as goes_right() decides for one axis. */
 static f4 bins_of(const struct binning *b, const struct box *box)
 {
     f4 center = f4_sub(f4_load(box->planes), f4_load(box->planes + 4));
@@ -114,7 +114,7 @@ void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
 
 /* ---- the plane ---- */
 
-/* Of the boxes of three axes, which are joined by those of a bin. */
+/* The unions of boxes on one side of a plane, one for each axis. */
 struct front {
     f4 lo[3], hi[3];
 };
@@ -133,7 +133,7 @@ static void front_join(struct front *f, const struct box boxes[3])
     }
 }
 
-/* As box_area(), a lane for each axis, but infinite where nothing is. */
+/* box_area() with a lane for each axis; infinite for empty unions. */
 static f4 front_areas(const struct front *f)
 {
     f4 sides[3], to[3];
@@ -145,7 +145,7 @@ static f4 front_areas(const struct front *f)
                   f4_mul(to[2], to[0]));
 }
 
-/* For each plane the areas of what is right of it. */
+/* Computes the areas of the right side of each plane. */
 static void sweep_right(const struct bins *bins, f4 areas[SPLIT_BINS])
 {
     struct front f;
@@ -157,7 +157,7 @@ static void sweep_right(const struct bins *bins, f4 areas[SPLIT_BINS])
     }
 }
 
-/* As blocks_of(). */
+/* blocks_of() in lanes. */
 static f4 blocks(f4 counts, uint32_t block_bits)
 {
     float most = (float)(1u << block_bits);
@@ -166,9 +166,8 @@ static f4 blocks(f4 counts, uint32_t block_bits)
         f4_mul(f4_add(counts, f4_set1(most - 1.0f)), f4_set1(1.0f / most)));
 }
 
-/* The costs of each plane, and the least of them, lane by lane. A plane with
- * nothing at one side costs infinity times zero: what is no number is never
- * less. */
+/* Computes the cost of each plane. Returns the least, lane by lane. A plane
+ * with an empty side costs infinity times zero, which is NaN and never less. */
 static f4 sweep_costs(const struct bins *bins, uint32_t block_bits,
                       f4 costs[SPLIT_BINS])
 {
@@ -228,7 +227,7 @@ uint32_t split_count(const struct split *s, const struct box *boxes,
     return right;
 }
 
-/* Without a branch, which would be foretold wrongly for every other box. */
+/* Without a branch, as half of the predictions would be wrong. */
 uint32_t split_part(const struct split *s, const struct box *boxes,
                     uint32_t count, struct box *left, struct box *right)
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * sah_bins.h - where to split a set of boxes: binned surface area heuristic
+ * sah_bins.h - binned surface area heuristic: where to split a set of boxes
  *
  * Wald 2007, "On fast construction of SAH-based bounding volume hierarchies".
- * Boxes are put into bins by their centres, on all three axes at once; of the
- * planes between bins the one with the least expected cost is taken; some of
- * the boxes are enough to find it. Nothing depends on the order in which boxes
- * come, but for that.
+ * Boxes are put into bins by their centres, on all three axes at once. Of the
+ * planes between bins the one of least expected cost is chosen. A subset of the
+ * boxes is enough to find it. Apart from that choice, the order of boxes does
+ * not matter.
  *
  * Units:     normalised scene units
  * Threads:   any, on bins of their own
@@ -22,8 +22,8 @@
 
 #define SPLIT_BINS 32
 
-/* The low corner, then the high one negated: a minimum joins boxes. The fourth
- * number of the first half holds the bits of a triangle's number. */
+/* A box: the low corner, then the negated high one, so that a componentwise
+ * minimum joins boxes. planes[3] holds the bits of a triangle's index. */
 struct box {
     _Alignas(16) float planes[8];
 };
@@ -58,7 +58,7 @@ static inline struct box box_of_point(struct vec3 p)
     return box_of_corners(p, p);
 }
 
-/* Half of the surface of the box that two join, neither empty. */
+/* Half of the surface area of the union of two boxes that are not empty. */
 static inline float box_joined_area(const struct box *a, const struct box *b)
 {
     f4 lo = f4_min(f4_load(a->planes), f4_load(b->planes));
@@ -67,7 +67,7 @@ static inline float box_joined_area(const struct box *a, const struct box *b)
     return f4_pairs3(f4_sub(f4_sub(f4_set1(0.0f), hi), lo));
 }
 
-/* Half of its surface. */
+/* Half of the surface area of a box. */
 static inline float box_area(const struct box *b)
 {
     return box_joined_area(b, b);
@@ -86,7 +86,7 @@ static inline void box_set_tri(struct box *b, uint32_t tri)
     memcpy(&b->planes[3], &tri, sizeof tri);
 }
 
-/* Joined boxes, and twice their centres. */
+/* The union of boxes, and the bounds of their doubled centres. */
 struct extent {
     struct box bounds, centers;
 };
@@ -102,17 +102,17 @@ static inline void extent_join(struct extent *a, const struct extent *b)
     box_join(&a->centers, &b->centers);
 }
 
-/* How centres fall into bins: of each axis the first centre and bins a unit, 0
- * where all centres agree. */
+/* Maps doubled centres to bins: of each axis the first centre, and bins a unit,
+ * which is 0 where all centres agree. */
 struct binning {
     _Alignas(16) float first[4], scale[4];
     uint32_t count;
 };
 
-/* The bins at one place of each axis, in two lines of memory. */
+/* Bin i of each axis, in two cache lines. */
 struct bin {
     _Alignas(128) struct box boxes[3];
-    _Alignas(16) uint32_t counts[4]; /* the last is of no axis */
+    _Alignas(16) uint32_t counts[4]; /* the last is unused */
 };
 
 struct bins {
@@ -123,36 +123,36 @@ struct bins {
 
 struct split {
     struct binning binning;
-    float cost;   /* blocks of both sides, each times its area */
-    int axis;     /* -1: no plane parts the centres */
-    uint32_t bin; /* the first that goes right */
+    float cost;   /* blocks of both sides, times their areas */
+    int axis;     /* -1: no plane separates the centres */
+    uint32_t bin; /* first bin of the right side */
 };
 
-/* So many triangles are tested at once: 1 << block_bits. */
+/* Number of blocks, of 1 << block_bits triangles each. */
 static inline float blocks_of(uint32_t count, uint32_t block_bits)
 {
     return (float)((count + (1u << block_bits) - 1) >> block_bits);
 }
 
-/* The extent of all boxes. */
+/* Returns the extent of all boxes. */
 struct extent extent_of(const struct box *boxes, uint32_t count);
 
-/* Empty bins for so many boxes with such centres. */
+/* Empties the bins, for `count` boxes with these bounds of centres. */
 void bins_clear(struct bins *bins, uint32_t count, const struct box *centers);
 
-/* Every box at such a distance from the one before. */
+/* Adds every stride-th box. */
 void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
               uint32_t stride);
 
-/* The cheapest plane. */
+/* Finds the cheapest plane. */
 struct split bins_split(const struct bins *bins, uint32_t block_bits);
 
-/* How many boxes go right. */
+/* Returns how many boxes go right. */
 uint32_t split_count(const struct split *s, const struct box *boxes,
                      uint32_t count);
 
-/* Copies boxes: those that go left to `left` and what follows, the others to
- * what is before `right`, backwards. Returns how many went left. */
+/* Copies boxes: those of the left side to `left` and on, the others to before
+ * `right` and backwards. Returns the count of the left side. */
 uint32_t split_part(const struct split *s, const struct box *boxes,
                     uint32_t count, struct box *left, struct box *right);
 

@@ -8,26 +8,26 @@
 
 #include "kernels/traverse_leaf.h"
 
-/* Where splits by cost end and halving by count begins: 32 more levels hold
- * any number of triangles, and all of them fit TRAVERSE_STACK. */
+/* Depth from which nodes are split by count: 32 more levels hold any number of
+ * triangles, and all of them fit TRAVERSE_STACK. */
 #define SAH_DEPTH 60
 
 _Static_assert(SAH_DEPTH + 32 < TRAVERSE_STACK, "trees are as deep");
 
-/* Of the area of all. Measured: the same from 1e-4 to 1e-3, but 1 % of memory
- * instead of 7. */
+/* Area of a large node, relative to that of all. Measured: the same from 1e-4
+ * to 1e-3, with 1 % more memory instead of 7. */
 #define LARGE_PART 1e-3f
 
-/* Of ranges of so many boxes every second one chooses the plane, of larger ones
- * every fourth, and no more than the most. Measured, by nodes and blocks that
- * rays meet, as the mean of several counts of bins: bunny and sponza_part 1 %
- * worse, veach_ajar the same; that is 6 % worse if a thousand are all that
- * choose, and 9 % if it is every eighth. */
+/* Sizes of ranges from which every second and every fourth box chooses the
+ * plane, and the most boxes that do. Measured, by nodes and blocks that rays
+ * visit, over several counts of bins: bunny and sponza_part 1 % worse,
+ * veach_ajar the same; 6 % worse if a thousand boxes choose, 9 % if every
+ * eighth does. */
 #define SAMPLED_HALF    512
 #define SAMPLED_QUARTER 4096
 #define SAMPLE_MOST     16384
 
-/* Boxes that a thread takes at once from a large range. */
+/* Boxes of a large range that a thread takes at once. */
 #define CHUNK 4096
 
 static uint32_t chunks_of(uint32_t count)
@@ -109,7 +109,7 @@ struct range splitter_all(struct splitter *s)
 
 /* ---- by one thread ---- */
 
-/* For blocks that are tested at once. */
+/* Size of blocks for a range. */
 static uint32_t bits_for(const struct splitter *s, const struct range *r)
 {
     return box_area(&r->extent.bounds) >= s->large_area ? s->leaves->large_bits
@@ -135,7 +135,8 @@ static uint32_t stride_for(uint32_t count)
     return count / least > SAMPLE_MOST ? count / SAMPLE_MOST : least;
 }
 
-/* Some boxes stand for all, unless those are all at one place. */
+/* Finds the plane from a subset of the boxes, or from all if those of the
+ * subset have one centre. */
 static struct split find_split(const struct splitter *s, struct bins *bins,
                                const struct range *r)
 {
@@ -155,7 +156,7 @@ static struct split find_split(const struct splitter *s, struct bins *bins,
     return split;
 }
 
-/* So many go left. */
+/* Sets the ranges of both sides. */
 static void begin_sides(const struct range *r, uint32_t left,
                         struct range sides[2])
 {
@@ -166,14 +167,14 @@ static void begin_sides(const struct range *r, uint32_t left,
                                   .buffer = r->buffer ^ 1};
 }
 
-/* Nothing tells the boxes apart: the first half goes left. */
+/* Copies boxes that no plane separates. The first half goes left. */
 static uint32_t halve(const struct box *boxes, uint32_t count, struct box *to)
 {
     memcpy(to, boxes, count * sizeof *to);
     return count / 2;
 }
 
-/* By the caller's thread alone. */
+/* Splits by the caller's thread alone. */
 static void part(const struct splitter *s, const struct range *r,
                  const struct split *split, struct range sides[2])
 {
@@ -221,8 +222,8 @@ static void count_chunk(void *context, uint32_t chunk, int worker)
     s->chunk_sides[chunk][1] = right;
 }
 
-/* Where the chunks' boxes go: those at the left from there on, those at the
- * right before. */
+/* Computes where the boxes of each chunk go: those of the left side from there
+ * on, those of the right side before. */
 static void place_chunks(struct splitter *s)
 {
     const struct range *r = s->range;

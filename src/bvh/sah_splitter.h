@@ -2,12 +2,12 @@
 /*
  * sah_splitter.h - splits sets of boxes in two, by one thread or by all
  *
- * Boxes of a set lie side by side in one of two buffers; a split copies them to
- * the other. Some of a large set choose the plane for all. What threads join
- * does not depend on who came first.
+ * The boxes of a set lie side by side in one of two buffers. A split copies
+ * them to the other. For large sets a subset chooses the plane. Results do not
+ * depend on the order of threads.
  *
  * Units:     normalised scene units
- * Ownership: splitter_free() frees; a zeroed struct is none
+ * Ownership: splitter_free() frees; a zeroed struct is empty
  * Threads:   splitter_split() from all workers of the pool, on ranges of their
  *            own; the others from one thread, and use those of the pool
  * Errors:    memory
@@ -21,17 +21,17 @@
 #include "bvh/bvh.h"
 #include "bvh/sah_bins.h"
 
-/* Boxes that lie side by side. */
+/* A set of consecutive boxes in a buffer. */
 struct range {
     uint32_t first, count, depth;
-    uint32_t buffer; /* which of the two they are in */
+    uint32_t buffer; /* index of the buffer */
     struct extent extent;
 };
 
-/* What a thread needs for itself. */
+/* Scratch memory of a thread. */
 struct splitter_worker {
     struct bins bins;
-    struct extent extents[2]; /* of sides */
+    struct extent extents[2]; /* of both sides */
 };
 
 struct splitter {
@@ -40,27 +40,27 @@ struct splitter {
     struct box *buffers[2];
     struct splitter_worker *workers;
     uint32_t worker_count;
-    float large_area; /* of what is a large node */
-    /* what all threads work on */
+    float large_area; /* least area of a large node */
+    /* shared by all threads in a split together */
     const struct world *world;
     const struct range *range;
     struct split split;
     struct range *sides;
-    uint32_t (*chunk_sides)[2]; /* how many go to each side, then where */
+    uint32_t (*chunk_sides)[2]; /* counts of both sides, then destinations */
 };
 
-/* For the world's triangles. False if memory is out. */
+/* Prepares for the triangles of a world. Returns false if memory is out. */
 bool splitter_init(struct splitter *s, const struct world *world,
                    const struct bvh_leaves *leaves, struct pool *pool);
 
-/* The range of all triangles. */
+/* Returns the range of all triangles. */
 struct range splitter_all(struct splitter *s);
 
-/* False if the range is to be a leaf. */
+/* Splits a range. Returns false if it is to be a leaf. */
 bool splitter_split(struct splitter *s, int worker, const struct range *range,
                     struct range sides[2]);
 
-/* By all threads, a range that is too large for a leaf. */
+/* Splits a range that is too large for a leaf, by all threads. */
 void splitter_split_together(struct splitter *s, const struct range *range,
                              struct range sides[2]);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * simd_hits.h - what becomes of a triangle test in lanes
+ * simd_hits.h - results of the triangle test in lanes
  *
  * Units:     normalised scene units
  * Threads:   any
@@ -18,15 +18,16 @@ static inline uint32_t lowest_bit(uint32_t mask)
     return (uint32_t)__builtin_ctz(mask);
 }
 
-/* Bits of lanes, and what triangle_hit() computes in them. */
+/* Masks with a bit for each lane, and the values that triangle_hit() computes.
+ */
 struct simd_hits {
-    uint32_t sure;   /* met at a distance above 0 and not beyond t_max */
-    uint32_t unsure; /* triangle_hit() has to say */
+    uint32_t sure; /* lanes with a hit at a distance above 0 and up to t_max */
+    uint32_t unsure; /* lanes for which triangle_hit() has to decide */
     _Alignas(32) float t[LANES_MAX];
     _Alignas(32) float edges[3][LANES_MAX];
 };
 
-/* The rule of tri_hit() for a lane that is sure; true if it is a nearer hit. */
+/* tri_hit() for a lane with a sure hit. Returns true if it is nearer. */
 static inline bool lane_accept(const struct world *w, const struct simd_hits *h,
                                uint32_t lane, const struct ray *r, uint32_t tri,
                                struct hit *best)
@@ -42,7 +43,7 @@ static inline bool lane_accept(const struct world *w, const struct simd_hits *h,
     return true;
 }
 
-/* tri_hit() for triangle i of a block; rarely needed. */
+/* tri_hit() for triangle i of a block, where the lane is unsure. Rare. */
 static __attribute__((noinline, flatten)) bool
 lane_retest(const struct world *w, const struct ray *r, const struct shear *s,
             const struct tri_block *b, uint32_t i, struct hit *best)

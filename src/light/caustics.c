@@ -10,31 +10,32 @@
 #include "kernels/light.h"
 #include "kernels/rng.h"
 
-/* Tried; about half of them arrive. On two balls four times as many leave 8 %
- * less error, and the first picture would wait for them. */
+/* Number of photons, of which about half arrive. On two balls four times as
+ * many leave 8 % less error, but the first picture has to wait for them. */
 #define PHOTONS 16384u
 
-/* Of their random numbers, which no sample of a pixel has. */
+/* Dimensions and key of photons, so that their random numbers are not shared
+ * with pixel samples. */
 #define PHOTON_DIMENSION 0x10000u
 #define PHOTON_STRIDE    2u
 #define PHOTON_KEY       0x6a09e667u
 
-/* Where a photon ends that is still in glass. */
+/* Most vertices of a photon. It ends there if it is still within glass. */
 #define PHOTON_VERTICES 12u
 
-/* What caustics bring where they are as much as the rest, as a part of what
- * all lights would shed on the box around the scene. Tried on two balls: twice
- * as much leaves 4 % more error. */
+/* Light of other kinds, as a part of the mean irradiance by all lights on the
+ * box around the scene. Caustics of this size get half of their share. On two
+ * balls twice as much leaves 4 % more error. */
 #define REST 0.25
 
-/* Square of the distance below which a light and what casts are one place: the
- * sum of all photons' flux, which is in inverse proportion, stays finite. */
+/* Least squared distance of a point on a light and one on a caster. The flux,
+ * which is inversely proportional to it, stays finite. */
 #define DISTANCE2_LEAST 1e-30f
 
-/* Diffuse surfaces on which a photon is counted. */
+/* Diffuse surfaces on which a photon is stored. */
 #define LANDINGS 2u
 
-/* Where a photon has landed: in which of the table's bins, with what flux. */
+/* Flux of a photon at a diffuse surface, and its bin in the tables. */
 struct landing {
     size_t bin;
     float flux;
@@ -51,10 +52,10 @@ struct search {
 struct photon {
     struct ray ray;
     float flux;
-    uint32_t aim; /* the triangle that it has to meet first */
+    uint32_t aim; /* triangle of the caster, which it has to hit first */
 };
 
-/* Does light that falls on it leave in a few directions? */
+/* True if the material reflects or refracts light into few directions. */
 static bool casts(const struct material *m)
 {
     return m->alpha < GUIDE_ALPHA_MAX &&
@@ -71,8 +72,7 @@ struct material caustics_material(struct material m)
     return m;
 }
 
-/* Triangles are many: whether one of them has a material that casts is asked
- * only if there is such a material. */
+/* Looks through the triangles only if there is a material that casts. */
 bool caustics_possible(const struct world *w)
 {
     bool may = false, found = false;
@@ -109,9 +109,10 @@ static struct vec2 photon_2d(uint32_t photon, uint32_t vertex, uint32_t kind)
     return random_2d(s, PHOTON_DIMENSION + PHOTON_STRIDE * vertex + kind);
 }
 
-/* From a light to something that casts: uniform points on both make a flux per
- * photon of radiance, cosines and areas over distance^2. False if the face is
- * turned away. */
+/* Samples uniform points on a light and on a caster. The flux of the photon is
+ * radiance, cosines and areas over distance^2, of which those factors are left
+ * out that are the same for all photons. Returns false if the caster is not
+ * visible from there: solid glass has to be hit from outside. */
 static bool photon_open(const struct search *s, uint32_t i, struct photon *p)
 {
     const struct world *w = &s->w->world;
@@ -212,8 +213,9 @@ static void photon_send(void *context, uint32_t i, int worker)
         photon_follow(s, p, i);
 }
 
-/* Photons have no unit of their own: each stands for the lights' power times
- * the casters' area over their number. */
+/* Sets the light of other kinds in the unit of the photons' flux, in which each
+ * stands for the power of the lights times the area of the casters over their
+ * number. */
 static void fill_rest(const struct search *s, double box,
                       struct guide_flux *part)
 {
@@ -237,7 +239,7 @@ bool caustics_find(const struct bvh8_world *w, const struct lights *lights,
     if (ok && triangle_cdf_total(&s.lights) > 0 &&
         triangle_cdf_total(&s.casters) > 0) {
         pool_each(pool, PHOTONS, photon_send, &s);
-        /* in order, whoever sent them */
+        /* in the order of photons, so that threads do not matter */
         for (uint32_t i = 0; i < PHOTONS * LANDINGS; i++)
             part->flux[s.landings[i].bin] += s.landings[i].flux;
         fill_rest(&s, box, part);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * caustics.h - where light comes from through glass and off mirrors
+ * caustics.h - photons of caustics, for the path guide
  *
- * Photons leave the lights for the glass and the mirrors alone (the projection
- * maps of Jensen 1996, "Global illumination using photon maps"), go through,
- * and are counted on the two next diffuse surfaces: the caustic, and what it
- * lights. Measured for a glass ball and a gold one: 20 ms of one thread and .66
- * times the error.
+ * Photons leave the lights for casters only, which are glass and metal
+ * (projection maps of Jensen 1996, "Global illumination using photon maps").
+ * Their flux is added up on the next two diffuse surfaces: those that have the
+ * caustic, and those that it lights. Measured for a glass ball and a gold one:
+ * 20 ms of one thread, and .66 times the error.
  *
  * Units:     normalised scene units
- * Ownership: the caller's, also if it fails
+ * Ownership: the caller frees the flux, also after a failure
  * Threads:   those of the pool, or without one the caller's
  * Errors:    memory, by false
  */
@@ -23,14 +23,14 @@
 #include "light/guide_grid.h"
 #include "light/lights.h"
 
-/* The material as photons see it, without colours: what they come from is
- * white, the rest grey. */
+/* The material for photons, without colours: casters are white, others grey. */
 struct material caustics_material(struct material m);
 
-/* Do any lights of the world have something to shine through, or on? */
+/* True if the world has lights and casters. */
 bool caustics_possible(const struct world *w);
 
-/* `box` is the surface of the box around the scene. */
+/* Traces photons and adds their flux to `part`. `box` is the surface area of
+ * the box around the scene. */
 bool caustics_find(const struct bvh8_world *w, const struct lights *lights,
                    const struct guide_grid *grid, double box, struct pool *pool,
                    struct guide_flux *part);

@@ -11,12 +11,13 @@
 
 #define BIN_COUNT 12
 
-/* Where splits by cost end: 11 levels of halves hold 2^33 lights. */
+/* Depth from which nodes are split by count: 11 levels of halves hold 2^33
+ * lights. */
 #define LIGHT_SAH_DEPTH (LIGHT_LEVELS - 11)
 
-/* A quarter of its square, squared, is a normal float that can be divided by;
- * below any distance between points that float coordinates near 1 can tell
- * apart. */
+/* Least radius of a node. A quarter of its square, squared, is a normal float;
+ * it is below any distance of points that float coordinates near 1 can
+ * represent. */
 #define RADIUS_LEAST 1e-9f
 
 struct builder {
@@ -25,22 +26,22 @@ struct builder {
     size_t node_capacity;
 };
 
-/* Some emitters taken together. */
+/* Bounds of a set of emitters. */
 struct cluster {
     double power;
     struct vec3 lo, hi;
-    struct vec3 axis; /* sum of the normals, all turned to one side */
+    struct vec3 axis; /* sum of the normals, turned to one side */
     uint32_t count;
 };
 
 struct split {
     double cost;
     uint32_t axis; /* NO_INDEX: none found */
-    int bin;       /* the first that goes right */
+    int bin;       /* the first bin of the right side */
     float lo, scale;
 };
 
-/* Emitters first .. first + count - 1. */
+/* A range of emitters, first .. first + count - 1. */
 struct part {
     uint32_t first, count;
     double cost;
@@ -63,7 +64,7 @@ static void cluster_add(struct cluster *a, const struct cluster *b)
     a->count += b->count;
 }
 
-/* An emitter's own cluster, its normal on the side of `front`. */
+/* The cluster of one emitter, with its normal on the side of `front`. */
 static struct cluster cluster_of(const struct emitter *e, struct vec3 front)
 {
     struct cluster c = {e->power, e->lo, e->hi, e->normal, 1};
@@ -85,11 +86,11 @@ static struct cluster cluster_all(const struct emitter *e, uint32_t count)
     return all;
 }
 
-/* What the cluster costs: its power, times the square of the size that blurs
- * its distance, times the solid angle M that its normals may shine into. For
- * normals spread evenly over a cap the mean normal is as long as 1 - l, where
- * 2 l = 1 - cos(theta_o); M is pi for one direction, 2 pi + pi^2 / 2 for all,
- * and a straight line between the two in l is within a fifth. */
+/* Cost of a cluster: its power times the square of its size, which blurs its
+ * distance, times the solid angle M into which its normals may emit. For
+ * normals spread evenly over a cap the mean normal has length 1 - l, where 2 l
+ * = 1 - cos(theta_o). M is pi for one direction and 2 pi + pi^2 / 2 for all; a
+ * straight line between these in l is within a fifth. */
 static double cluster_cost(const struct cluster *c)
 {
     struct vec3 d = v3_sub(c->hi, c->lo);
@@ -98,7 +99,7 @@ static double cluster_cost(const struct cluster *c)
     return c->power * (double)v3_dot(d, d) * (1 + (2 + M_PI) * fmax(lost, 0));
 }
 
-/* Twice the centre. */
+/* Twice the centre of an emitter on an axis. */
 static float center_of(const struct emitter *e, uint32_t axis)
 {
     return v3_axis(e->lo, axis) + v3_axis(e->hi, axis);
@@ -111,7 +112,8 @@ static int bin_of(const struct split *s, const struct emitter *e)
     return bin < 0 ? 0 : bin >= BIN_COUNT ? BIN_COUNT - 1 : bin;
 }
 
-/* The cheapest of BIN_COUNT - 1 planes on one axis, into *best if cheaper. */
+/* Finds the cheapest of BIN_COUNT - 1 planes on one axis, and sets *best if it
+ * is cheaper. */
 static void split_axis(const struct emitter *e, uint32_t count, uint32_t axis,
                        struct split *best)
 {
@@ -151,7 +153,7 @@ static void split_axis(const struct emitter *e, uint32_t count, uint32_t axis,
     }
 }
 
-/* Puts those of the left side first; returns how many. */
+/* Moves the emitters of the left side to the front. Returns their count. */
 static uint32_t partition(struct emitter *e, uint32_t count,
                           const struct split *s)
 {
@@ -169,7 +171,7 @@ static uint32_t partition(struct emitter *e, uint32_t count,
     return left;
 }
 
-/* Two or more emitters in two; returns how many go left. */
+/* Splits two or more emitters. Returns the count of the left side. */
 static uint32_t split(struct emitter *e, uint32_t count, uint32_t depth)
 {
     struct split best = {.axis = NO_INDEX};
@@ -189,7 +191,7 @@ static struct part part_of(const struct builder *b, uint32_t first,
     return p;
 }
 
-/* Whether `a` is to be split before `b`. */
+/* True if `a` is to be split before `b`. */
 static bool is_worse(const struct part *a, const struct part *b, uint32_t depth)
 {
     if (depth >= LIGHT_SAH_DEPTH || a->cost == b->cost)
@@ -197,7 +199,8 @@ static bool is_worse(const struct part *a, const struct part *b, uint32_t depth)
     return a->cost > b->cost;
 }
 
-/* Splits the worst part until there are enough; returns how many there are. */
+/* Splits the most expensive part until there are LIGHT_WIDTH. Returns the
+ * number of parts. */
 static uint32_t divide(const struct builder *b, uint32_t first, uint32_t count,
                        uint32_t depth, struct part parts[LIGHT_WIDTH])
 {
@@ -221,7 +224,7 @@ static uint32_t divide(const struct builder *b, uint32_t first, uint32_t count,
     return n;
 }
 
-/* Bounds of the emitters, as child i of the node. */
+/* Sets child i of the node to the bounds of the emitters. */
 static void fill_child(struct light_node *node, uint32_t i,
                        const struct emitter *e, uint32_t count)
 {
@@ -261,7 +264,7 @@ static bool add_node(struct builder *b, uint32_t *index, struct error *err)
     return true;
 }
 
-/* Recursion is at most LIGHT_LEVELS deep. */
+/* Builds the node of a range. Recursion is at most LIGHT_LEVELS deep. */
 static bool build(struct builder *b, uint32_t first, uint32_t count,
                   uint32_t depth, uint32_t *index, struct error *err)
 {

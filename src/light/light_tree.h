@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * light_tree.h - builds the tree that finds lights
+ * light_tree.h - builds the light tree, which kernels/light_tree.h samples
  *
- * Like a bounding volume hierarchy, by the surface area orientation heuristic
- * of Conty Estevez and Kulla 2018, 4.3. O(n log n); below LIGHT_SAH_DEPTH nodes
- * are split in halves by count, so that the way to every light fits
- * LIGHT_LEVELS. kernels/light_tree.h walks it.
+ * A bounding volume hierarchy of lights by the surface area orientation
+ * heuristic (Conty Estevez and Kulla 2018, 4.3). O(n log n). Below
+ * LIGHT_SAH_DEPTH levels nodes are split in halves by count, so that no light
+ * is deeper than LIGHT_LEVELS.
  *
  * Units:     normalised scene units
- * Ownership: the nodes become the lights'
+ * Ownership: the nodes belong to the lights
  * Threads:   one
  * Errors:    memory
  */
@@ -22,13 +22,13 @@
 
 struct emitter {
     struct vec3 lo, hi;
-    struct vec3 normal; /* unit; its sign means nothing */
+    struct vec3 normal; /* unit vector; the sign means nothing */
     double power;
     uint32_t light;
 };
 
-/* Makes the nodes for the lights, one emitter each, and fills in the ways to
- * them. Leaves the emitters in another order. */
+/* Makes the nodes for the lights, one emitter each, and sets the lights'
+ * `path`. The order of the emitters changes. */
 bool light_tree_build(struct lights *lights, struct emitter *emitters,
                       struct error *err);
 

@@ -12,25 +12,25 @@
 #include "kernels/light.h"
 #include "kernels/texture.h"
 
-/* Of all lights together: no light is without any. */
+/* Least share of a light in the power of all. No light has none. */
 #define POWER_LEAST 1e-30
 
-/* Twice the area of the smallest triangle whose density is computed in float
- * without underflow. Smaller ones are left to rays that find them by chance. */
+/* Twice the area of the smallest light. The density of a smaller one would
+ * overflow in float; only BSDF samples find it. */
 #define AREA_LEAST 1e-30
 
-/* Lights that, found by chance, would have this part of the square of what a
- * constant sky sheds on a plane as variance are sampled each time; weaker ones
- * in proportion, but never less often than SHARE_LEAST. Measured: the lamps of
- * five scenes (6 times the square and more) leave 3 to 80 times the error
- * without sampling, a large paper lamp in a room with a window (.01) 1.2 times,
- * where its shadow rays double the time. */
+/* Without light samples, lights would cause this much variance, relative to the
+ * square of the irradiance of a constant sky on a plane: from VARIANCE_FULL on
+ * they are sampled each time, below in proportion, but never less often than
+ * SHARE_LEAST. Measured: without sampling, the lamps of five scenes (6 and
+ * more) leave 3 to 80 times the error. A large paper lamp in a room with a
+ * window (.01) leaves 1.2 times, and its shadow rays would double the time. */
 #define VARIANCE_FULL 0.1
 #define SHARE_LEAST   0.1
 
-/* Two triangles that are sampled half the time each: their normals' angle, as a
- * cosine, which the tree knows of one only, and how much more one may shine.
- * The density is of the triangle itself, whatever they are. */
+/* Limits for two triangles to become one light: the cosine between their
+ * normals, of which the tree knows one, and the ratio of their powers, as each
+ * is sampled half the time. Densities are exact for any pair. */
 #define FLAT_COSINE 0.999999f
 #define PAIR_RATIO  1.5
 
@@ -56,8 +56,8 @@ static double mean_radiance(const struct world *w, const struct tri *t,
 
         for (int i = 0; i < 3; i++)
             uv[i] = texture_uv(texture, w->uvs[t->vt[i]]);
-        /* outside a clamped image a triangle shows its border, who knows how
-         * much of it */
+        /* a triangle outside a clamped image shows the border, of unknown
+         * extent */
         mean = texture.is_clamped != 0 ? texture_power_whole(f)
                                        : texture_power_mean(f, uv);
     }
@@ -69,7 +69,7 @@ static struct vec3 corner(const struct world *w, uint32_t tri, uint32_t k)
     return w->positions[w->tris[tri].v[k % 3]];
 }
 
-/* Twice as long as the triangle is large. */
+/* A normal of twice the triangle's area. */
 static struct vec3 long_normal(const struct world *w, uint32_t tri)
 {
     struct vec3 p = corner(w, tri, 0);
@@ -77,8 +77,8 @@ static struct vec3 long_normal(const struct world *w, uint32_t tri)
     return v3_cross(v3_sub(corner(w, tri, 1), p), v3_sub(corner(w, tri, 2), p));
 }
 
-/* False if the triangle is not worth sampling. *unsampled_variance grows by its
- * own. */
+/* Fills an emitter. Returns false if the triangle is not worth sampling. Adds
+ * its term to *unsampled_variance. */
 static bool make_emitter(const struct world *w, uint32_t tri,
                          const struct texture_power_sums *footprints,
                          struct emitter *e, double *unsampled_variance)
@@ -122,8 +122,8 @@ static bool is_same_place(struct vec3 a, struct vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Whether the triangles share a side, run through in opposite directions; *i
- * and *k are their corners off it. */
+/* True if the triangles share a side and have the same winding. *i and *k are
+ * the corners that are not on it. */
 static bool share_side(const struct world *w, uint32_t a, uint32_t b,
                        uint32_t *i, uint32_t *k)
 {
@@ -135,8 +135,9 @@ static bool share_side(const struct world *w, uint32_t a, uint32_t b,
     return false;
 }
 
-/* Makes one light of the last and the triangle of `other`, which made `e`, if
- * they are alike enough to be sampled equally often, as one face. */
+/* Makes one light of the last one and the triangle of `other`, which has the
+ * emitter `e`. Returns false if they are not alike enough to be sampled equally
+ * often, as one face. */
 static bool join_light(const struct world *w, struct light *l,
                        struct emitter *last, const struct light *other,
                        const struct emitter *e)
@@ -168,7 +169,7 @@ static bool join_light(const struct world *w, struct light *l,
     return true;
 }
 
-/* Unless it becomes a part of the last one. */
+/* Adds the light of a triangle, or joins it to the last light. */
 static void add_light(const struct world *w, struct lights *l,
                       struct emitter *emitters, uint32_t tri,
                       const struct emitter *e)
@@ -188,7 +189,8 @@ static void add_light(const struct world *w, struct lights *l,
     l->light_count++;
 }
 
-/* Finds the emitters among `candidate_count` triangles of shining materials. */
+/* Finds the emitters among `candidate_count` triangles of emissive materials.
+ */
 static bool find_emitters(struct lights *l, struct emitter **emitters,
                           const struct world *w, uint32_t candidate_count,
                           const struct texture_power_sums *footprints,
@@ -219,7 +221,7 @@ static bool find_emitters(struct lights *l, struct emitter **emitters,
     return true;
 }
 
-/* One for each material with an emission texture. */
+/* Makes the sums of emission textures, of one material each. */
 static bool make_footprints(const struct world *w, const bool *is_used,
                             uint32_t material_count,
                             struct texture_power_sums *footprints,
@@ -293,8 +295,9 @@ double lights_power(const struct lights *lights)
     return power;
 }
 
-/* Light found by chance that falls on a plane has a variance of about pi times
- * power times radiance at distance 1. */
+/* Share of light samples for the lights. Light from them that only BSDF samples
+ * find has on a plane a variance of about pi times power times radiance at
+ * distance 1. */
 static float light_share(const struct lights *lights, const struct sky *sky)
 {
     double radiance = color_mean(sky->color);

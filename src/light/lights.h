@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * lights.h - the triangles that shine, and the tree that finds them
+ * lights.h - finds the area lights of a world and builds their tree
  *
- * A triangle is a light if it sheds enough to be worth sampling; with the next
- * one it is a single light if both are much the same and make one flat face, as
- * the halves of a quad do. light_tree.h builds the tree.
+ * An emissive triangle is a light if it has enough power to be sampled. With
+ * the next triangle it is one light if both are much alike and form a flat
+ * face, like the halves of a quad. light_tree.h builds the tree.
  *
  * Units:     normalised scene units
- * Ownership: lights_free() frees; a zeroed struct is a scene without lights
+ * Ownership: lights_free() frees; a zeroed struct has no lights
  * Threads:   one thread builds; read only after
  * Errors:    memory
  */
@@ -20,15 +20,14 @@
 struct lights {
     struct light *lights; /* in the order of their first triangles */
     uint32_t light_count;
-    double (
-        *powers)[2]; /* of each light: of its triangles, see lights_power() */
+    double (*powers)[2]; /* of the triangles of each light */
     uint32_t *tri_lights;
     struct light_node *nodes;
     uint32_t node_count;
-    double unsampled_variance; /* sum of area times radiance squared */
+    double unsampled_variance; /* sum of area times squared radiance */
 };
 
-/* Reads the world's triangles, materials and textures. */
+/* Finds the lights from the world's triangles, materials and textures. */
 bool lights_build(struct lights *lights, const struct world *world,
                   struct error *err);
 
@@ -37,11 +36,11 @@ bool lights_build(struct lights *lights, const struct world *world,
  * channels, times its opacity. */
 double lights_power(const struct lights *lights);
 
-/* True if a triangle that gets the other material becomes another light. */
+/* True if a change from one material to the other changes the lights. */
 bool lights_differ(const struct material *a, const struct material *b);
 
-/* Lends the arrays to the world, which has its sky. Where a constant sky
- * outshines the lights they are sampled less often. */
+/* Lends the arrays to the world, which must have its sky. The lights get a
+ * smaller share of the light samples where a constant sky outshines them. */
 void lights_lend(const struct lights *lights, struct world *world);
 
 void lights_free(struct lights *lights);

@@ -10,24 +10,26 @@
 #include "light/triangle_cdf.h"
 #include "kernels/light.h"
 
-/* How often a path is led to caustics at most; where they are as much as the
- * rest it is led there half as often. */
+/* Share of the table for caustics, at most; half of it where caustics are as
+ * bright as other light. */
 #define SHARE_CAUSTICS 0.5
 
-/* The same of windows with panes. As often leaves up to a third more error in
- * rooms of albedo .8 and more, and as much in darker ones. */
+/* The same for the sky behind panes of glass. A share of 1/2 leaves up to a
+ * third more error in rooms of albedo .8 and more, and as much error in darker
+ * ones. */
 #define SHARE_GLAZED 0.25
 
-/* How often light samples of the sky are led to where it is seen. .75 leaves 4
- * to 8 % less variance in rooms, and as much more in an arcade and where a
- * window is smaller than a bin. */
+/* Share of the table for light samples of the sky. .75 leaves 4 to 8 % less
+ * variance in rooms, and as much more in an arcade and where a window is
+ * smaller than a bin. */
 #define SHARE_SKY 0.5
 
-/* What brings less of the light is not worth its time: of caustics that is half
- * of the cells on two balls, for 3 % more error and 7 % less time. */
+/* Least part of a cell's light for which it gets a table. For caustics on two
+ * balls this leaves out half of the cells, for 3 % more error and 7 % less
+ * time. */
 #define PART_LEAST 0.1
 
-/* The table while it is made. */
+/* The tables while they are made. */
 struct table {
     struct guide_cell *cells;
     float *sums;
@@ -66,13 +68,13 @@ static bool find_parts(struct path_guide *g, const struct bvh8_world *w,
 
 /* ---- the table ---- */
 
-/* Light that comes from nowhere the table knows, in units of the sky. */
+/* Light that no table has, relative to the radiance of the sky. */
 struct other {
     double lights;
-    double bounces; /* what walls return, as sky_portals_bounces() */
+    double bounces; /* sky_portals_bounces() */
 };
 
-/* Room for the sums of one more table, all 0. */
+/* Space for the cdf of one more table, all 0. */
 static float *next_sums(struct table *t)
 {
     float *sums = t->sums + (size_t)t->count * GUIDE_BINS;
@@ -91,7 +93,8 @@ static double other_light(const struct path_guide *g, uint32_t cell,
     return o->bounces * (double)g->portals.bounced[cell] + o->lights;
 }
 
-/* For paths to go on, if that is worth its time in this cell. */
+/* Adds a table for the next ray of paths. Returns where it begins, or NO_INDEX
+ * if it is not worth its time in this cell. */
 static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
                                   uint32_t cell, const struct other *o)
 {
@@ -111,7 +114,7 @@ static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
         }
     if (shares[0] + shares[1] == 0)
         return NO_INDEX;
-    /* as if one were asked after the other */
+    /* the shares as if one table were asked after the other */
     scale = 1 - shares[0] * shares[1] / (shares[0] + shares[1]);
     sums = next_sums(t);
     for (int i = 0; i < 2; i++)
@@ -119,7 +122,7 @@ static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
     return take_sums(t);
 }
 
-/* For light samples of the sky, the same. */
+/* Adds a table for light samples of the sky, in the same way. */
 static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
                               uint32_t cell, const struct other *o)
 {
@@ -133,9 +136,9 @@ static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
     return take_sums(t);
 }
 
-/* Is the sky enough of the light, over all cells that it comes to? In white
- * rooms it is not: few of a path's many vertices would gain, and all take more
- * time. */
+/* True if direct light of the sky is enough of the light in the cells that it
+ * reaches. In white rooms it is not: few of a path's many vertices would gain,
+ * and all would take more time. */
 static bool is_sky_worth_it(const struct path_guide *g, const struct other *o)
 {
     const struct guide_flux *open = &g->portals.open;

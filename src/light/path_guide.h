@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 /*
- * path_guide.h - the table of directions that light comes from which is hard to
+ * path_guide.h - the path guide: tables of directions of light that is hard to
  * find
  *
- * Caustics (caustics.h), and the sky where it is seen through openings
- * (sky_portals.h). The table only says where to look, kernels/guide.h weighs
- * what is found: that it is made of few rays costs time and no truth. A
- * function of the scene and its sky, not of the eye.
+ * Caustics (caustics.h), and the sky that is seen through portals
+ * (sky_portals.h). kernels/guide.h samples the tables and weights the samples,
+ * so that errors of the tables cost time but add no bias. The guide depends on
+ * the scene and its sky, not on the camera.
  *
  * Units:     normalised scene units, radiance
- * Ownership: path_guide_free() frees; a zeroed struct is a scene without a
- * table Threads:   one thread updates, with those of a pool, if it has one,
- * while nobody renders; read only otherwise Errors:    memory
+ * Ownership: path_guide_free() frees; a zeroed struct has no tables
+ * Threads:   one thread updates, with the threads of a pool if there is one,
+ *            while nothing renders; read only otherwise
+ * Errors:    memory
  */
 #ifndef GLIM_PATH_GUIDE_H
 #define GLIM_PATH_GUIDE_H
@@ -23,41 +24,41 @@
 #include "light/sky_portals.h"
 
 struct path_guide {
-    struct guide_cell
-        *cells; /* as kernels/guide.h reads them; NULL: there are none */
+    struct guide_cell *cells; /* see kernels/guide.h; NULL: no tables */
     float *sums;
     struct guide_grid grid;
-    /* what they are made of */
-    struct guide_flux caustics; /* NULL: not searched for */
+    /* flux of which the tables are made */
+    struct guide_flux caustics; /* flux NULL: not searched for */
     struct sky_portals portals;
-    double lights; /* mean radiance that all lights would shed on a box */
-    double sky;    /* that the cells suit */
+    double lights; /* mean irradiance by all lights on the box / pi */
+    double sky;    /* mean radiance of the sky for which cells are */
     bool is_current;
 };
 
-/* Would path_guide_update() trace rays? Else it needs no tree. */
+/* True if path_guide_update() has to trace rays, for which it needs the tree.
+ */
 bool path_guide_needs_rays(const struct path_guide *guide,
                            const struct world *world, double sky);
 
-/* Brings the table to what suits the world, its lights, which it has been lent,
- * and a sky of this mean radiance. Searches only for what the scene has not
- * been searched for since path_guide_outdate(). Arrays that were lent live
- * until the new ones do.
+/* Updates the tables for a world, its lights, which it has been lent, and a sky
+ * of this mean radiance. Searches only what has not been searched since
+ * path_guide_outdate(). The old arrays are freed when the new ones are ready.
  */
 bool path_guide_update(struct path_guide *guide, const struct bvh8_world *world,
                        const struct lights *lights, double sky,
                        struct pool *pool, struct error *err);
 
-/* The world is another. */
+/* Call this when the world has changed in geometry or in how rays scatter. */
 void path_guide_outdate(struct path_guide *guide);
 
-/* Only colours are. */
+/* Call this when only colours have changed. */
 void path_guide_recolor(struct path_guide *guide);
 
-/* Of two materials: would the rays meet or do anything else? */
+/* True if a change from one material to the other changes the rays of the
+ * search. */
 bool path_guides_differ(const struct material *a, const struct material *b);
 
-/* Lends the table to the world. */
+/* Lends the tables to the world. */
 void path_guide_lend(const struct path_guide *guide, struct world *world);
 
 void path_guide_free(struct path_guide *guide);

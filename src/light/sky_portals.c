@@ -14,32 +14,35 @@
 #include "kernels/sample.h"
 #include "kernels/texture.h"
 
-/* On surfaces, by area, on either side; and looks from each. */
+/* Probes, on either side of surfaces by area, and rays of a probe. */
 #define PROBES     4096u
 #define PROBE_RAYS 16u
 
-/* A place from which more of them see the sky is in the open. With 4 an arcade
- * has 5 % less error, and what stands under the sky 8 % more. */
+/* A probe is enclosed if no more of its rays see the sky. With 4 an arcade has
+ * 5 % less error, and objects under the sky 8 % more. */
 #define OPEN_RAYS 2u
 
-/* One look in so many goes on from what it meets. */
+/* One probe ray in so many is continued from the surface that it hits. */
 #define BOUNCE_EVERY 4u
 
-/* Rays from each place that is not in the open. On a room four times as many
- * places and aims leave 4 % less error. */
+/* Portal rays of each enclosed probe. In a room four times as many probes and
+ * portal rays leave 4 % less error. */
 #define PORTAL_RAYS 32u
 
-/* Panes of glass that are looked through, as if they did not bend. */
+/* Panes of glass that rays pass, without refraction, and the result where the
+ * sky is not seen. */
 #define PANES  4
 #define HIDDEN (-1)
 
-/* All bounces as a multiple of the first, in a white room without a way out. */
+/* Most light of all bounces as a multiple of the first, in a white room without
+ * portals. */
 #define BOUNCES_MOST 1000.0
 
-/* So many of the mean of all cells are added to a cell's, which may be few. */
+/* Weight, in rays, of the mean over all cells in a cell's estimate. */
 #define MEAN_BOUNCES 16.0
 
-/* Of their random numbers, which no sample of a pixel has. */
+/* Dimensions and key of the search, so that its random numbers are not shared
+ * with pixel samples. */
 #define PORTALS_KEY       0x3c6ef372u
 #define PORTALS_DIMENSION 0x20000u
 
@@ -52,33 +55,36 @@ enum decision {
     DECISION_PORTAL
 };
 
-/* On a side of a surface, not in the open. */
+/* The position of a probe, on one side of a surface. */
 struct probe_point {
     struct hit at;
-    struct ray ray; /* from there, anywhere */
+    struct ray ray; /* with its origin there */
     struct vec3 n;
     uint32_t cell;
 };
 
-/* Where a look has left the box around the scene, through which side. */
+/* The point where a probe ray leaves the box around the scene, and the axis of
+ * that side. */
 struct portal_point {
     struct vec3 at;
     uint32_t axis;
 };
 
-/* What the looks around a place have found. */
+/* A probe and the results of its rays. */
 struct visibility_probe {
     struct probe_point point;
-    struct portal_point portals[OPEN_RAYS]; /* of the first that saw the sky */
-    uint32_t seen;                          /* looks that did */
-    uint32_t bounces, lit; /* looks that bounced, and saw it then */
+    struct portal_point
+        portals[OPEN_RAYS]; /* of the first rays that see the sky */
+    uint32_t seen;          /* rays that see the sky */
+    uint32_t bounces, lit;  /* rays continued; those of them that then see it */
 };
 
-/* Of an aim: how much of the sky, from which bin of directions. */
+/* Sky radiance found along one ray from a probe to a portal, and the bin of its
+ * direction. */
 struct portal_ray {
     uint32_t bin;
     float flux;
-    bool is_glazed; /* came through panes */
+    bool is_glazed; /* it passes panes of glass */
 };
 
 struct search {
@@ -86,14 +92,14 @@ struct search {
     const struct guide_grid *grid;
     struct sky_portals *found;
     struct triangle_cdf surfaces;
-    struct visibility_probe *probes; /* of all places */
-    struct probe_point *points;      /* those that are not in the open */
+    struct visibility_probe *probes; /* all */
+    struct probe_point *points;      /* of enclosed probes */
     uint32_t point_count;
     struct portal_point *portals;
     uint32_t portal_count;
-    struct portal_ray *portal_rays; /* of their aims */
-    /* of each cell: places, those of them that are not in the open, their looks
-     * that bounced, and those of these that saw the sky then */
+    struct portal_ray *portal_rays; /* PORTAL_RAYS of each point */
+    /* of each cell: probes, enclosed probes, their rays that were continued,
+     * and those of them that see the sky */
     float *probe_counts, *enclosed, *bounces, *lit;
 };
 
@@ -125,8 +131,8 @@ static bool is_glass(const struct material *m)
     return m->kind == MATERIAL_GLASS || m->kind == MATERIAL_THIN_GLASS;
 }
 
-/* Panes before the sky, or HIDDEN: *h is what is in the way, and h->tri
- * NO_INDEX for too many panes. */
+/* Returns the number of panes between the ray and the sky, or HIDDEN. *h is the
+ * hit that hides it; h->tri is NO_INDEX where there are too many panes. */
 static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
 {
     r.t_max = FLOAT_MAX;
@@ -141,7 +147,8 @@ static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
     return HIDDEN;
 }
 
-/* Does what the look has met see the sky, in a direction by chance? */
+/* True if the surface that a probe ray has hit sees the sky in a random
+ * direction. */
 static bool is_lit(const struct world *w, struct ray probe_ray, struct hit h,
                    uint32_t i)
 {
@@ -213,7 +220,8 @@ static void trace_probe(void *context, uint32_t i, int worker)
         trace_probe_ray(s, l, k);
 }
 
-/* Keeps a place and what it has found if it is not in the open. */
+/* Adds a probe to the sums of its cell and, if it is enclosed, to the points of
+ * the search. */
 static void keep_probe(struct search *s, const struct visibility_probe *l)
 {
     uint32_t cell = l->point.cell;
@@ -229,8 +237,8 @@ static void keep_probe(struct search *s, const struct visibility_probe *l)
         s->portals[s->portal_count++] = l->portals[i];
 }
 
-/* What a mark that is in sight brings, as a part of the sky's opening around
- * it. */
+/* Traces a ray to a portal point. Its flux stands for the part of the portal
+ * around the point. */
 static struct portal_ray trace_portal_ray(const struct search *s,
                                           const struct probe_point *p,
                                           const struct portal_point *m)
@@ -294,9 +302,9 @@ static double sum_of(const float *numbers, size_t count)
     return sum;
 }
 
-/* From sums to means of the cell's enclosed places; `scale` is for the flux.
- * Other light is what bounces, and all of it at the cell's places in the open,
- * which are not to be led there. */
+/* Turns a cell's sums into means over its enclosed probes; the flux is scaled
+ * by `scale`. Light of other kinds is what bounces, and all light at probes of
+ * the cell that are in the open, which are not to be guided. */
 static void finish_cell(struct search *s, uint32_t cell, double scale)
 {
     struct sky_portals *o = s->found;
@@ -319,7 +327,8 @@ static void finish_cell(struct search *s, uint32_t cell, double scale)
                 ((double)s->bounces[cell] + MEAN_BOUNCES));
 }
 
-/* All aims have found as much of the sky as all looks. */
+/* Scales the flux so that all portal rays together see as much of the sky as
+ * all probe rays. */
 static void finish(struct search *s)
 {
     struct sky_portals *o = s->found;
@@ -382,7 +391,7 @@ static bool search_init(struct search *s)
     return true;
 }
 
-/* What is found in parallel is added in order. */
+/* Traces in parallel, and adds the results in the order of probes. */
 static void find(struct search *s, struct pool *pool)
 {
     pool_each(pool, PROBES, trace_probe, s);
@@ -426,8 +435,8 @@ static double color_at(const struct world *w, struct hit h)
     return color_mean(c);
 }
 
-/* As between walls that all see each other alike: of what leaves them some
- * escapes, and of the rest they return their colour's part. */
+/* The series of bounces between walls that all see each other alike: a part of
+ * the light escapes, and the walls reflect their albedo of the rest. */
 double sky_portals_bounces(const struct sky_portals *o, const struct world *w)
 {
     double color = 0;

@@ -8,11 +8,12 @@
 #include "picture/color.h"
 #include "kernels/sky.h"
 
-/* What is left of a constant sky after subtraction is rounding. */
+/* Relative size of what rounding leaves of a constant sky after subtraction. */
 #define ROUNDING 1e-6
 
-/* A sky and lights share the samples: which of them is in sight of a point
- * nobody knows, so that half is never worse than twice the best. */
+/* Share of the sky in light samples beside area lights. Which of both a point
+ * sees is not known, and with one half the variance is never more than twice
+ * the least. */
 #define SHARE_BESIDE_LIGHTS 0.5f
 
 struct image {
@@ -25,8 +26,8 @@ static double radiance(const struct image *im, uint32_t x, uint32_t y)
     return color_mean(im->texels[(size_t)y * im->width + x]);
 }
 
-/* The mean of a linear interpolation over a texel is 3/4 of its own value and
- * 1/8 of either neighbour's. */
+/* The mean of linear interpolation over a texel: 3/4 of its own value and 1/8
+ * of either neighbour. */
 static double row_mean(const struct image *im, uint32_t x, uint32_t y)
 {
     uint32_t left = x > 0 ? x - 1 : im->width - 1;
@@ -45,7 +46,7 @@ static double bilinear_mean(const struct image *im, uint32_t x, uint32_t y)
            0.125 * (row_mean(im, x, above) + row_mean(im, x, below));
 }
 
-/* Solid angle of a row; 4 pi for all. */
+/* Solid angle of a row of texels. All rows add up to 4 pi. */
 static double row_angle(const struct image *im, uint32_t y)
 {
     double half = M_PI / (2 * (double)im->height);
@@ -67,8 +68,8 @@ static double mean_radiance(const struct image *im)
     return sum / (4 * M_PI);
 }
 
-/* The sums of a row's columns, from 0 to 1. The result is the row's mean of
- * what exceeds the floor. */
+/* Fills the cdf of a row over its columns. Returns the row's mean of what
+ * exceeds the floor. */
 static double fill_row(const struct image *im, uint32_t y, double floor,
                        float *sums)
 {
@@ -84,7 +85,7 @@ static double fill_row(const struct image *im, uint32_t y, double floor,
     return total / im->width;
 }
 
-/* The sums of the rows; `rows` has their shares. */
+/* Fills the cdf over the rows, whose weights are in `rows`. */
 static void fill_rows(const double *rows, uint32_t height, double total,
                       float *sums)
 {
@@ -142,7 +143,7 @@ bool sky_table_build(struct sky_table *table, const struct vec3 *texels,
     return true;
 }
 
-/* What the lights leave, or half. */
+/* The sky's share of light samples. */
 static float share_of(const struct sky_table *table, const struct settings *s)
 {
     bool is_black =

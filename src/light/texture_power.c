@@ -8,13 +8,13 @@
 #include "picture/color.h"
 #include "kernels/texture.h"
 
-/* Bands of a triangle, at most. */
+/* Most bands of a triangle. */
 #define BANDS 64
 
-/* Beyond these coordinates a triangle shows the whole image often enough. */
+/* Beyond these coordinates a triangle counts as showing the whole image. */
 #define UV_MAX 1e6
 
-/* A texel reaches this far into its neighbours. */
+/* Reach of a texel into its neighbours by bilinear interpolation. */
 #define REACH 0.5
 
 bool texture_power_init(struct texture_power_sums *f, const struct world *w,
@@ -43,7 +43,7 @@ bool texture_power_init(struct texture_power_sums *f, const struct world *w,
     return true;
 }
 
-/* The sum over the texels from 0 to x and 0 to y of the repeating image. */
+/* The sum over texels 0 to x and 0 to y of the repeating image. */
 static double sum_to(const struct texture_power_sums *f, double x, double y)
 {
     double columns = floor(x / f->width);
@@ -64,8 +64,8 @@ static double sum_within(const struct texture_power_sums *f, double x0,
            sum_to(f, x0, y0);
 }
 
-/* The least and the greatest x of the triangle between two rows; false if it
- * is not there. */
+/* Finds the least and the greatest x of the triangle between two rows. Returns
+ * false if it has no part there. */
 static bool extent(const double p[3][2], double y0, double y1, double *x0,
                    double *x1)
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * triangle_cdf.h - some triangles of a world, to choose from by weight
+ * triangle_cdf.h - a list of triangles that are sampled by weight
  *
  * Units:     normalised scene units
- * Ownership: triangle_cdf_free() frees; a zeroed struct is an empty list
- * without room Threads:   one thread fills; read only after Errors:    memory,
- * by false
+ * Ownership: triangle_cdf_free() frees; a zeroed struct is empty, without room
+ * Threads:   one thread fills; read only after
+ * Errors:    memory, by false
  */
 #ifndef GLIM_TRIANGLE_CDF_H
 #define GLIM_TRIANGLE_CDF_H
@@ -14,18 +14,18 @@
 
 struct triangle_cdf {
     uint32_t *tris;
-    double *sums; /* of the weights up to and with each */
+    double *sums; /* sum of the weights up to and with each */
     uint32_t count;
 };
 
-/* Room for so many. */
+/* Makes an empty list with room for `capacity` triangles. */
 bool triangle_cdf_init(struct triangle_cdf *list, uint32_t capacity);
 
 void triangle_cdf_add(struct triangle_cdf *list, uint32_t tri, double weight);
 
 double triangle_cdf_total(const struct triangle_cdf *list);
 
-/* For u in [0, 1); the list is not empty. */
+/* Samples a triangle by u in [0, 1). The list is not empty. */
 uint32_t triangle_cdf_choose(const struct triangle_cdf *list, float u);
 
 void triangle_cdf_free(struct triangle_cdf *list);
