@@ -126,13 +126,13 @@ struct leaf_tri {
  * An area light: one emissive triangle, or two that share a side, of which each
  * is sampled half the time.
  *
- *     corners[3] +----------+ corners[2]      tris[0] has corners 0, 1, 3,
- *                | \ tris[1]|                tris[1] has corners 2, 3, 1.
- *                |   \      |
- *                |     \    |                 A light of one triangle has
- *                |tris[0]\  |                 corners 0, 1, 3; corners[2] is
- *                |         \|                 a copy of corners[3].
- *     corners[0] +----------+ corners[1]
+ *     corners[3] +-----------+ corners[2]
+ *                | \         |           tris[0] has corners 0, 1 and 3,
+ *                |   \  t[1] |           tris[1] has corners 2, 3 and 1.
+ *                |     \     |
+ *                | t[0]  \   |           A light of one triangle has corners
+ *                |         \ |           0, 1 and 3.
+ *     corners[0] +-----------+ corners[1]
  *
  * `path` leads to the light from the root of the light tree. It has the index
  * of the child at each level: three bits a level from the lowest on,
@@ -142,11 +142,9 @@ struct light {
     uint32_t tris[2]; /* tris[1] is NO_INDEX for one triangle */
     uint32_t path[2];
     uint32_t texture;     /* multiplies emission; NO_INDEX: none */
-    uint32_t rotation[2]; /* which of a triangle's corners above is its
-                             first in the mesh */
+    uint32_t rotation[2]; /* place above of the mesh triangle's first corner */
     struct vec3 corners[4];
-    struct vec3
-        scaled_normals[2]; /* of length 2 / density of a point by area */
+    struct vec3 scaled_normals[2]; /* length: 2 / density of points by area */
     struct vec3 emission;
 };
 

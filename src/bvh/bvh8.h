@@ -7,15 +7,16 @@
  * block (Wald, Benthin and Boulos 2008, "Getting rid of packets").
  * bvh8_collapse.h chooses which nodes of the binary tree become children.
  *
- *     root                     nodes                blocks
- *     +------------------+     +------+------+... +-------+-------+...+-------+
- *     | planes[axis]     |     |  1   |  2   |      |   0   |   1   |   | empty
- * | |   [low, high][8] |     +------+------+...   +-------+-------+...+-------+
- *     | child[8] --------+----> byte offset from the root, in units of 32,
- * times 8
- *     +------------------+      (BVH8_LEAF: blocks follow, BVH8_MORE: how many)
- *
- * Nodes and blocks are in one allocation, first all nodes and then all blocks.
+ *     one allocation, in units of 32 bytes
+ *     +--------+--------+-----+---------+---------+-----+-------------+
+ *     | node 0 | node 1 | ... | block 0 | block 1 | ... | empty block |
+ *     +--------+--------+-----+---------+---------+-----+-------------+
+ *     |
+ *     +- planes[axis][low, high][8 children]
+ *     +- child[8], each of them 32 bits:
+ *            bits 3 to 31  distance from node 0 in units
+ *            bit 2         BVH8_LEAF: it is a block, else a node
+ *            bits 0 and 1  BVH8_MORE: further blocks of the leaf
  *
  * Units:     normalised scene units
  * Ownership: bvh8_free() frees; a zeroed struct is a tree without triangles
@@ -33,10 +34,8 @@
 #define BVH8_CHILDREN 8
 #define BLOCK_TRIS    4
 
-/* A child is its distance from the root in units of 32 bytes, times 8, so that
- * one shift makes it a byte offset. With BVH8_LEAF it is a block, and the
- * lowest two bits are the number of further blocks of the leaf, which follow
- * it. */
+/* The parts of a child, see above. One shift makes its distance a byte offset.
+ */
 #define BVH8_UNIT 32
 #define BVH8_LEAF 4u
 #define BVH8_MORE 3u
@@ -64,9 +63,8 @@ _Static_assert(sizeof(struct tri_block) % BVH8_UNIT == 0, "see BVH8_UNIT");
 struct bvh8 {
     struct bvh8_node *nodes; /* nodes[0] is the root */
     uint32_t node_count;
-    struct tri_block
-        *blocks;          /* behind the nodes in their allocation; the last */
-    uint32_t block_count; /* is empty */
+    struct tri_block *blocks; /* in the same allocation */
+    uint32_t block_count;     /* with the empty one */
 };
 
 /* The world of the CPU's ray queries, which get a pointer to its first member.

@@ -26,7 +26,7 @@ static inline f4 f4_ray(const float *place)
 
 #define LANES      f4
 #define LANES_RAYS 1
-#include "bvh/simd_triangle.h"
+#include "bvh/simd_triangle_template.h"
 
 /* A ray, prepared for tests of blocks. */
 struct block_ray {

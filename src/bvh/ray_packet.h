@@ -31,7 +31,7 @@ static inline f8 f8_ray(const float *place)
 
 #define LANES      f8
 #define LANES_RAYS PACKET_RAYS
-#include "bvh/simd_triangle.h"
+#include "bvh/simd_triangle_template.h"
 
 /* A packet of rays, and their nearest hits so far. */
 struct ray_packet {

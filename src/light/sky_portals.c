@@ -73,10 +73,9 @@ struct portal_point {
 /* A probe and the results of its rays. */
 struct visibility_probe {
     struct probe_point point;
-    struct portal_point
-        portals[OPEN_RAYS]; /* of the first rays that see the sky */
-    uint32_t seen;          /* rays that see the sky */
-    uint32_t bounces, lit;  /* rays continued; those of them that then see it */
+    uint32_t seen;                          /* rays that see the sky */
+    struct portal_point portals[OPEN_RAYS]; /* of the first of them */
+    uint32_t bounces, lit; /* rays continued; those of them that then see it */
 };
 
 /* Sky radiance found along one ray from a probe to a portal, and the bin of its
