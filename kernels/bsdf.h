@@ -79,23 +79,6 @@ static inline struct vec3 bsdf_terms(const struct bsdf *m, struct vec3 wo,
     return plastic_terms(m, wo, wi, coat_albedo(m, wo.z), pdf);
 }
 
-static inline struct vec3 bsdf_eval(const struct bsdf *m, struct vec3 wo,
-                                    struct vec3 wi)
-{
-    float pdf;
-
-    return bsdf_terms(m, wo, wi, &pdf);
-}
-
-static inline float bsdf_pdf(const struct bsdf *m, struct vec3 wo,
-                             struct vec3 wi)
-{
-    float pdf;
-
-    bsdf_terms(m, wo, wi, &pdf);
-    return pdf;
-}
-
 /* Factor of radiance from wi beside f: 1/eta^2 for transmission into glass
  * (Veach 1997, 5.2). */
 static inline float bsdf_eta_scale(const struct bsdf *m, struct vec3 wi)

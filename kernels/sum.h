@@ -73,10 +73,4 @@ static inline float sum_float(struct sum s)
     return (float)s.hi + (float)fraction * unit;
 }
 
-/* Returns sum / count, within two units in the last place. count is not 0. */
-static inline float sum_mean(struct sum s, uint64_t count)
-{
-    return sum_float(s) / (float)count;
-}
-
 #endif

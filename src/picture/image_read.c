@@ -247,27 +247,6 @@ bool image_decode(struct image_file *f, struct image *image,
     return false;
 }
 
-bool image_read_8bit(struct image *image, const char *path, struct error *err)
-{
-    struct image_file f;
-    uint64_t ignored;
-
-    *image = (struct image){0};
-    return image_open(&f, path, IMAGE_8BIT, 0, err) &&
-           image_decode(&f, image, &ignored, err);
-}
-
-bool image_read_linear(struct image *image, const char *path,
-                       uint64_t *clamped_count, struct error *err)
-{
-    struct image_file f;
-
-    *image = (struct image){0};
-    *clamped_count = 0;
-    return image_open(&f, path, IMAGE_LINEAR, 0, err) &&
-           image_decode(&f, image, clamped_count, err);
-}
-
 void image_free(struct image *image)
 {
     free(image->rgba);

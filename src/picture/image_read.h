@@ -82,11 +82,6 @@ bool image_decode(struct image_file *file, struct image *image,
 
 void image_close(struct image_file *file);
 
-/* Both steps for one image alone. */
-bool image_read_8bit(struct image *image, const char *path, struct error *err);
-bool image_read_linear(struct image *image, const char *path,
-                       uint64_t *clamped_count, struct error *err);
-
 void image_free(struct image *image);
 
 #endif

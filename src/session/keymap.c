@@ -265,15 +265,6 @@ enum action keymap_find_action(const char *name, size_t length)
     return ACTION_NONE;
 }
 
-const char *keymap_action_name(enum action action)
-{
-    for (size_t i = 0; i < COUNT(bindings); i++) {
-        if (bindings[i].action == action)
-            return bindings[i].name;
-    }
-    return NULL;
-}
-
 int keymap_find_key(const char *name, size_t length)
 {
     if (length == 1 && name[0] > ' ' && name[0] < 127)

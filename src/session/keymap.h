@@ -129,7 +129,6 @@ enum action keymap_action(const struct keymap *k, int key);
 
 /* Returns the action of this name, or ACTION_NONE. */
 enum action keymap_find_action(const char *name, size_t length);
-const char *keymap_action_name(enum action action);
 
 /* Returns the key of this name: a visible character, ^A to ^_ for Ctrl, or a
  * word such as PgUp. Returns 0 for unknown names. */

@@ -5,8 +5,8 @@
  */
 #include <math.h>
 
-#include "picture/image_read.h"
 #include "fuzz.h"
+#include "tests/unit/whole_image.h"
 
 static void check_size(const struct image *image)
 {

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "picture/image_read.h"
 #include "terminal/ansi_diff.h"
+#include "tests/unit/whole_image.h"
 
 #define COLS        64
 #define ROWS_MAX    48

@@ -23,6 +23,25 @@ static const struct vec3 gold = {1.0f, 0.78f, 0.34f};
 static const struct vec3 brick = {0.6f, 0.3f, 0.1f};
 static const struct vec3 strong = {0.08f, 0.05f, 0.02f};
 
+/* f |cosine| of bsdf_terms(). */
+static inline struct vec3 surface_f(const struct bsdf *m, struct vec3 wo,
+                                    struct vec3 wi)
+{
+    float pdf;
+
+    return bsdf_terms(m, wo, wi, &pdf);
+}
+
+/* The density of bsdf_terms(). */
+static inline float surface_pdf(const struct bsdf *m, struct vec3 wo,
+                                struct vec3 wi)
+{
+    float pdf;
+
+    bsdf_terms(m, wo, wi, &pdf);
+    return pdf;
+}
+
 /* Called for each kind of surface that has a density, alpha and cosine. */
 typedef void (*visit)(const struct bsdf *m, float mu);
 

@@ -8,10 +8,10 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "picture/image_read.h"
 #include "picture/image_write.h"
 #include "scene/world.h"
 #include "terminal/xmalloc.h"
+#include "tests/unit/whole_image.h"
 
 #define HALF_SPP 1024
 

@@ -127,15 +127,15 @@ static void check_reciprocity(const struct bsdf *m, float mu)
 
         if (fabsf(wi.z) < 1e-3f)
             continue;
-        there = (double)bsdf_eval(m, wo, wi).x / fabs((double)wi.z);
+        there = (double)surface_f(m, wo, wi).x / fabs((double)wi.z);
         if (wi.z < 0) {
             back.eta = 1 / m->eta;
             scale = (double)(m->eta * m->eta);
-            again = (double)bsdf_eval(&back, v3(wi.x, wi.y, -wi.z),
+            again = (double)surface_f(&back, v3(wi.x, wi.y, -wi.z),
                                       v3(wo.x, wo.y, -wo.z))
                         .x;
         } else {
-            again = (double)bsdf_eval(&back, wi, wo).x;
+            again = (double)surface_f(&back, wi, wo).x;
         }
         again *= scale / (double)mu;
         if (m->kind == MATERIAL_GLASS) {
@@ -171,7 +171,7 @@ static void mirrors_and_sheets_have_no_density(void **state)
         struct bsdf_sample s;
 
         assert_true(bsdf_is_delta(&m));
-        assert_true(bsdf_pdf(&m, direction(0.7f), direction(0.7f)) == 0);
+        assert_true(surface_pdf(&m, direction(0.7f), direction(0.7f)) == 0);
         assert_true(bsdf_sample(&m, direction(0.7f), v2(0, 0), 0, &s));
         assert_true(s.is_delta && s.pdf == 0);
     }
@@ -210,7 +210,7 @@ static double integral_of_eval(const struct bsdf *m, float mu)
         struct vec3 wi =
             v3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)(t * t));
 
-        sum += (double)bsdf_eval(m, direction(mu), wi).z * 4 * M_PI * t;
+        sum += (double)surface_f(m, direction(mu), wi).z * 4 * M_PI * t;
     }
     return sum / side / side;
 }

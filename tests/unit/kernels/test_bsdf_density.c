@@ -128,7 +128,7 @@ static double expected_shares(const struct chart *c, const struct bsdf *m,
             double area = chart_point(c, m, wo, side == 1, row, column, &wi);
 
             if (area > 0)
-                shares[k] += area * (double)bsdf_pdf(m, wo, wi);
+                shares[k] += area * (double)surface_pdf(m, wo, wi);
         }
         shares[k] /= POINTS * ROWS * COLUMNS;
         total += shares[k];
@@ -157,7 +157,8 @@ static void check_density(const struct bsdf *m, float mu)
 
         if (draw(m, wo, &seed, &s) && !s.is_delta) {
             k = cell_of(&c, m, wo, s.wi);
-            check_close((double)s.pdf / (double)bsdf_pdf(m, wo, s.wi), 1, 1e-6);
+            check_close((double)s.pdf / (double)surface_pdf(m, wo, s.wi), 1,
+                        1e-6);
         }
         counts[k]++;
     }

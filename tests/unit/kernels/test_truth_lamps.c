@@ -232,7 +232,8 @@ static struct vec3 reflected(const struct bsdf *b, struct vec3 wo,
          * its index squared times that outside */
         double g = fabs((double)wi.y) / d2 * area / (side * side) *
                    (wi.y < 0 ? pow((double)b->eta, -2) : 1);
-        struct vec3 f = bsdf_eval(b, wo, v3(wi.x, wi.z, wi.y));
+        float pdf;
+        struct vec3 f = bsdf_terms(b, wo, v3(wi.x, wi.z, wi.y), &pdf);
 
         sums[0] += (double)f.x * g;
         sums[1] += (double)f.y * g;

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/cgroup_quota.h"
-#include "picture/image_read.h"
+#include "tests/unit/whole_image.h"
 
 /* What a file that promises gigabytes may make the process grow by. */
 #define GROWTH_KIB 8192

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "picture/image_read.h"
 #include "picture/stb.h"
+#include "tests/unit/whole_image.h"
 
 static char png_suite[500];
 

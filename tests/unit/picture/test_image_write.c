@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "picture/image_read.h"
 #include "picture/image_write.h"
 #include "picture/stb.h"
+#include "tests/unit/whole_image.h"
 
 #define WIDTH  37
 #define HEIGHT 23

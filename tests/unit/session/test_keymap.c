@@ -115,13 +115,6 @@ static void names_come_back(void **state)
     struct keymap_name name;
 
     (void)state;
-    for (int action = 1; action < ACTIONS; action++) {
-        const char *text = keymap_action_name((enum action)action);
-
-        assert_non_null(text);
-        assert_int_equal(keymap_find_action(text, strlen(text)), action);
-    }
-    assert_null(keymap_action_name(ACTION_NONE));
     assert_int_equal(keymap_find_action("forwar", 6), ACTION_NONE);
     assert_int_equal(keymap_find_action("", 0), ACTION_NONE);
     for (int key = 1; key < TTY_KEY_OTHER; key++) {
@@ -320,19 +313,21 @@ static void manual_lists_the_actions(void **state)
 {
     char *text = section("man/glim.1", "The actions are\n", "\nAn error");
     char *rest = text;
-    int action = 1;
+    int action;
+    bool is_listed[ACTIONS] = {false};
 
     (void)state;
     for (char *word; (word = strsep(&rest, " \n"));) {
         if (*word == '\0' || *word == '.' || strcmp(word, "and") == 0)
             continue;
-        assert_in_range(action, 1, ACTIONS - 1);
-        if (keymap_find_action(word, strlen(word)) == ACTION_NONE)
-            print_error("no action '%s'\n", word);
-        assert_true(keymap_find_action(word, strlen(word)) != ACTION_NONE);
-        action++;
+        action = keymap_find_action(word, strlen(word));
+        if (action == ACTION_NONE || is_listed[action])
+            print_error("no action '%s', or twice\n", word);
+        assert_true(action != ACTION_NONE && !is_listed[action]);
+        is_listed[action] = true;
     }
-    assert_int_equal(action, ACTIONS);
+    for (action = 1; action < ACTIONS; action++)
+        assert_true(is_listed[action]);
     free(text);
 }
 
