@@ -248,7 +248,7 @@ static bool save_text(struct view_mode *show, char **name, struct error *err)
 {
     const struct session *s = show->session;
     const struct options *o = s->options;
-    struct fit fit =
+    struct cells_rect fit =
         cells_fit(s->crop.width, s->crop.height, o->text_cols, o->text_rows,
                   o->display.cell_aspect > 0 ? o->display.cell_aspect : 2);
     enum palette palette = text_palette(o);

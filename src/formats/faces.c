@@ -73,8 +73,9 @@ static bool report_index(const struct faces *f, const struct lexer *lex,
 /* Reports an index into a list (normals or texture vertices) that the file does
  * not contain at all. Exporters that strip such a list may leave its indices in
  * the faces, so the face is used without them. */
-static bool was_taken_out(const struct faces *f, const struct lexer *lex, int k,
-                          int64_t index, struct word word, uint32_t count)
+static bool is_missing_list(const struct faces *f, const struct lexer *lex,
+                            int k, int64_t index, struct word word,
+                            uint32_t count)
 {
     if (k == 0 || count > 0 || index < 1)
         return false;
@@ -117,7 +118,7 @@ static bool parse_corner(const struct faces *f, const struct lexer *lex,
             struct word text = {start, (size_t)(p - start)};
 
             if (!resolve(index, counts[k], &indices[k]) &&
-                !was_taken_out(f, lex, k, index, text, counts[k]))
+                !is_missing_list(f, lex, k, index, text, counts[k]))
                 return report_index(f, lex, corner_names[k], text, counts[k]);
         } else if (k == 0 || p != start) {
             return report_malformed(f, lex, word);

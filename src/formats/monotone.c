@@ -146,7 +146,7 @@ static void detach(struct sweep *s, uint32_t e)
 
 /* Adds an edge to the list of its left site, to be inserted when the sweep line
  * gets there. */
-static void put_off(struct sweep *s, uint32_t e, uint32_t site)
+static void defer_edge(struct sweep *s, uint32_t e, uint32_t site)
 {
     s->edges[e].left = site;
     s->edges[e].next = s->sites[site].edges;
@@ -160,13 +160,13 @@ static bool split(struct sweep *s, uint32_t e, uint32_t site)
     if (s->splits_left == 0)
         return false;
     s->splits_left--;
-    put_off(s, e, site);
+    defer_edge(s, e, site);
     return true;
 }
 
 /* Merges two edges that leave a site in the same direction. They become one
  * edge up to the nearer end; the rest of the longer edge begins there. */
-static bool unite(struct sweep *s, uint32_t e, uint32_t with)
+static bool merge_edges(struct sweep *s, uint32_t e, uint32_t with)
 {
     struct edge *rest = &s->edges[e];
     struct edge *edge = &s->edges[with];
@@ -196,7 +196,7 @@ static bool insert(struct sweep *s, uint32_t e, uint32_t site)
                        : side_of(s, at, site);
 
         if (where == 0)
-            return is_sibling && unite(s, e, at);
+            return is_sibling && merge_edges(s, e, at);
         parent = at;
         side = where > 0;
     }
@@ -319,7 +319,8 @@ static void extend_above(struct sweep *s, struct region *r, uint32_t site)
 
 /* Splits a region at a site inside it where edges begin, with a diagonal from
  * the last site of the region. Returns the part above the diagonal. */
-static struct region part(struct sweep *s, struct region *r, uint32_t site)
+static struct region split_region(struct sweep *s, struct region *r,
+                                  uint32_t site)
 {
     struct region above = {.low = r->high};
 
@@ -405,14 +406,14 @@ static bool begin_regions(struct sweep *s, uint32_t site, uint32_t below,
     return winding == is_inside;
 }
 
-static bool pass(struct sweep *s, uint32_t site)
+static bool sweep_site(struct sweep *s, uint32_t site)
 {
     uint32_t below, end;
     uint32_t first = find(s, site, &below);
     struct region above;
 
     if (first == NONE)
-        above = part(s, &s->edges[below].region, site);
+        above = split_region(s, &s->edges[below].region, site);
     else if (!end_edges(s, site, first, below, &above))
         return false;
     end = s->edges[below].next;
@@ -481,7 +482,7 @@ static void make_edges(struct sweep *s, uint32_t n)
             continue;
         edge->winding = from < to ? 1 : -1;
         edge->right = from < to ? to : from;
-        put_off(s, e, from < to ? from : to);
+        defer_edge(s, e, from < to ? from : to);
     }
 }
 
@@ -515,7 +516,7 @@ static bool sweep_over(struct sweep *s, const struct point2 *points, uint32_t n)
     make_sites(s, points, n);
     make_edges(s, n);
     for (uint32_t site = 0; site < s->site_count; site++) {
-        if (!pass(s, site))
+        if (!sweep_site(s, site))
             return false;
     }
     return s->edges[NONE].child[0] == NONE && s->triangle_count > 0 &&

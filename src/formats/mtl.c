@@ -409,7 +409,7 @@ static bool parse_lines(struct parser *p)
 
 /* Registers the materials and textures of earlier files, so that they keep
  * their numbers. */
-static bool add_known(struct parser *p)
+static bool register_existing(struct parser *p)
 {
     const struct scene *scene = p->scene;
 
@@ -457,7 +457,7 @@ bool mtl_parse(struct scene *scene, const char *text, size_t size_bytes,
         lexer_init(&p.lex, text, size_bytes);
         p.material_capacity = scene->material_count;
         p.texture_capacity = scene->texture_count;
-        ok = add_file(&p) && add_known(&p);
+        ok = add_file(&p) && register_existing(&p);
         ok = ok ? parse_lines(&p) : out_of_memory(&p);
     }
     free(p.name);

@@ -95,7 +95,7 @@ static bool next_statement(const struct mtl_document *t, struct lexer *lex,
         word = lexer_word(lex);
         s->key = (size_t)(word.start - t->bytes);
         s->key_end = s->key + word.length;
-        s->is_open = !lexer_next_line(lex);
+        s->is_unterminated = !lexer_next_line(lex);
         s->end = (size_t)(lex->p - t->bytes);
         find_value(t, s);
         return true;
@@ -173,7 +173,7 @@ static bool find_statement(const struct mtl_document *t,
  * NULL if memory is out. A line that ends in a backslash needs two, for the
  * backslash joins the next line. The same holds for a backslash and a carriage
  * return, to which the first line feed belongs. */
-static char *closing_of(const struct mtl_document *t)
+static char *final_line_end(const struct mtl_document *t)
 {
     char last = t->size > 0 ? t->bytes[t->size - 1] : '\n';
     bool joins = last == '\\' || last == '\r';
@@ -187,12 +187,12 @@ bool mtl_document_insert(struct mtl_document *t, const struct mtl_block *b,
     const struct mtl_statement *last = &b->last;
     int indent = (int)(last->key - last->line);
     const char *margin = t->bytes + last->line;
-    char *closing = last->is_open ? closing_of(t) : strdup("");
+    char *closing = last->is_unterminated ? final_line_end(t) : strdup("");
     char *line = closing == NULL
                      ? NULL
                      : format_text("%s%.*s%s %s%s%s", closing, indent, margin,
                                    key, value, lexer_rest_guard(value),
-                                   last->is_open ? "" : t->line_end);
+                                   last->is_unterminated ? "" : t->line_end);
     bool ok = line != NULL && mtl_document_splice(t, last->end, 0, line);
 
     free(line);
@@ -272,7 +272,7 @@ bool mtl_document_comment(struct mtl_document *t, const char *name,
 }
 
 /* Returns true if the last line of the text has no line end. */
-static bool is_open(const struct mtl_document *t)
+static bool is_unterminated(const struct mtl_document *t)
 {
     struct lexer lex = mtl_document_lex(t, 0);
     bool has_end = true;
@@ -285,7 +285,7 @@ static bool is_open(const struct mtl_document *t)
 bool mtl_document_append_block(struct mtl_document *t, const char *name,
                                const char *copied_from)
 {
-    char *closing = is_open(t) ? closing_of(t) : strdup("");
+    char *closing = is_unterminated(t) ? final_line_end(t) : strdup("");
     char *head = closing == NULL
                      ? NULL
                      : format_text("%s%snewmtl %s%s%s", closing, t->line_end,

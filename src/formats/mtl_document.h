@@ -36,7 +36,7 @@ struct mtl_statement {
     size_t value, value_end; /* the words after it */
     size_t end;              /* start of the next line */
     bool has_comment;
-    bool is_open; /* the text ends without a line end */
+    bool is_unterminated; /* the text ends without a line end */
 };
 
 /* Block of a material: its newmtl statement and its last statement, which may

@@ -9,17 +9,17 @@
 
 /* Polygons with more corners are triangulated by the sweep: a large fan has
  * long thin triangles, which are slow to trace. */
-#define EARS_MOST 100
+#define EAR_CORNERS_MAX 100
 
 /* Limits on the corner tests of ear clipping, after which ears are no longer
  * tested. They bound the time by the size of the file. */
-#define WORK_AT_LEAST   20000
-#define WORK_PER_CORNER 1000
-#define MANY_CORNERS    1024
+#define WORK_MIN         20000
+#define WORK_PER_CORNER  1000
+#define WORK_CORNERS_MAX 1024
 
 /* Most triangles made of an outline that crosses itself. They overlap, so a ray
  * may meet most of them; larger outlines lose corners instead. */
-#define REST_MOST 1000
+#define CROSSING_TRIANGLES_MAX 1000
 
 /* Relative rounding error of coordinates: a few units in the last place of a
  * double. */
@@ -97,7 +97,7 @@ static void emit(struct polygon *g, uint32_t a, uint32_t b, uint32_t c)
 
 static bool emit_fan(struct polygon *g, uint32_t n)
 {
-    uint32_t step = 1 + n / REST_MOST;
+    uint32_t step = 1 + n / CROSSING_TRIANGLES_MAX;
 
     for (uint32_t i = 1; i < n - 1; i += step)
         emit(g, 0, i, i + step < n ? i + step : n - 1);
@@ -354,7 +354,7 @@ static bool is_ear(struct polygon *g, enum ear_rule rule, uint32_t b)
                                   is_empty_ear(g, rule, ear));
 }
 
-static void take_out(struct polygon *g, uint32_t b)
+static void unlink_corner(struct polygon *g, uint32_t b)
 {
     uint32_t a = g->prev[b];
     uint32_t c = g->next[b];
@@ -373,8 +373,8 @@ static void take_out(struct polygon *g, uint32_t b)
 static void cut_ring(struct polygon *g, uint32_t count)
 {
     uint64_t work_max =
-        WORK_AT_LEAST +
-        WORK_PER_CORNER * (count < MANY_CORNERS ? count : MANY_CORNERS);
+        WORK_MIN +
+        WORK_PER_CORNER * (count < WORK_CORNERS_MAX ? count : WORK_CORNERS_MAX);
     enum ear_rule rule = EAR_CLEAR;
     uint32_t misses = 0;
     uint32_t b = 0;
@@ -394,9 +394,9 @@ static void cut_ring(struct polygon *g, uint32_t count)
             continue;
         }
         g->crosses_itself |= turn(g, a, b, c) < 0 || rule == EAR_CONVEX;
-        if (rule < EAR_CONVEX || count <= REST_MOST)
+        if (rule < EAR_CONVEX || count <= CROSSING_TRIANGLES_MAX)
             emit(g, a, b, c);
-        take_out(g, b);
+        unlink_corner(g, b);
         count--;
         if (misses > 1) /* the ear was at neither end of the last cut */
             is_scarce = misses > SCARCE_MISSES;
@@ -435,7 +435,7 @@ bool polygon_triangulate(struct polygon *g, const double *corners, uint32_t n)
     if (n == 3 || !find_plane(&plane, corners, n))
         return emit_fan(g, n);
     project(g, &plane, corners, n);
-    if (n <= EARS_MOST) {
+    if (n <= EAR_CORNERS_MAX) {
         if (is_convex(g, n))
             return emit_fan(g, n);
         cut_ears(g, corners, n);

@@ -139,17 +139,17 @@ uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
 
 /* ---- paths ---- */
 
-void overlay_trail(struct frame *frame, const struct camera *camera,
-                   const struct path_record *trail, int count)
+void overlay_path(struct frame *frame, const struct camera *camera,
+                  const struct path_record *path, int count)
 {
     struct projected p;
 
     for (int i = 0; i < count; i++)
-        line(frame, camera, trail->steps[i].from, trail->steps[i].to,
+        line(frame, camera, path->steps[i].from, path->steps[i].to,
              i == count - 1 ? STEP_COLOR : TRAIL_COLOR);
     for (int i = 0; i < count; i++) {
-        if (trail->steps[i].way != PATH_RECORD_SKY &&
-            projection_point(camera, trail->steps[i].to, &p))
+        if (path->steps[i].way != PATH_RECORD_SKY &&
+            projection_point(camera, path->steps[i].to, &p))
             frame_dot(frame, p.x, p.y, VERTEX_COLOR);
     }
 }

@@ -25,8 +25,8 @@ uint32_t overlay_boxes(struct frame *frame, const struct camera *camera,
                        const struct bvh *bvh, uint32_t level);
 
 /* Draws the first `count` steps of a path, the last of them bright. */
-void overlay_trail(struct frame *frame, const struct camera *camera,
-                   const struct path_record *trail, int count);
+void overlay_path(struct frame *frame, const struct camera *camera,
+                  const struct path_record *path, int count);
 
 /* Draws the frame of a surface (normal green, tangents red and blue), the ray
  * to the eye in orange, and directions of scattering. The colour of a direction

@@ -96,9 +96,9 @@ static void add_step(struct overlay_text *l, const struct scene *scene,
              (double)s->light.y, (double)s->light.z);
 }
 
-void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
-                        const struct overlay_names *names,
-                        const struct path_record *trail, int count)
+void overlay_text_path(struct overlay_text *l, const struct scene *scene,
+                       const struct overlay_names *names,
+                       const struct path_record *path, int count)
 {
     int first = count > OVERLAY_TEXT_STEPS ? count - OVERLAY_TEXT_STEPS : 0;
 
@@ -107,11 +107,11 @@ void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
              "%2s %-10s %-17s %-8s %-14s %-6s %s", "#", "material", "position",
              "way", "throughput", "pdf", "light");
     for (int i = first; i < count; i++)
-        add_step(l, scene, names, &trail->steps[i], i + 1);
+        add_step(l, scene, names, &path->steps[i], i + 1);
     snprintf(next_line(l), OVERLAY_TEXT_BYTES,
              "step %d of %d; radiance of the whole path %.4g %.4g %.4g", count,
-             trail->vertices, (double)trail->radiance.x,
-             (double)trail->radiance.y, (double)trail->radiance.z);
+             path->vertices, (double)path->radiance.x, (double)path->radiance.y,
+             (double)path->radiance.z);
 }
 
 static void add_direction(struct overlay_text *l, const char *name,

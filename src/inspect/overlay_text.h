@@ -32,9 +32,9 @@ struct overlay_names {
 
 /* Lists the first `count` steps, or the last ones of them that fit, and the
  * light that the whole path has gathered. */
-void overlay_text_trail(struct overlay_text *l, const struct scene *scene,
-                        const struct overlay_names *names,
-                        const struct path_record *trail, int count);
+void overlay_text_path(struct overlay_text *l, const struct scene *scene,
+                       const struct overlay_names *names,
+                       const struct path_record *path, int count);
 
 void overlay_text_lobes(struct overlay_text *l,
                         const struct overlay_names *names,

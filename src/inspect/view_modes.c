@@ -99,7 +99,7 @@ static bool need_pool(struct view_mode *s, struct error *err)
 
 /* Sets the legend, the line below the picture, if it has changed. */
 static void __attribute__((format(printf, 2, 3)))
-say(struct view_mode *s, const char *format, ...)
+set_legend(struct view_mode *s, const char *format, ...)
 {
     char text[sizeof s->legend];
     va_list values;
@@ -107,7 +107,7 @@ say(struct view_mode *s, const char *format, ...)
     va_start(values, format);
     vsnprintf(text, sizeof text, format, values);
     va_end(values);
-    s->has_news |= strcmp(text, s->legend) != 0;
+    s->legend_is_new |= strcmp(text, s->legend) != 0;
     memcpy(s->legend, text, strlen(text) + 1);
 }
 
@@ -117,7 +117,7 @@ bool view_mode_set(struct view_mode *s, enum show_kind kind, struct error *err)
         kind != SHOW_COST || (view_mode_need_tree(s, err) && need_pool(s, err));
 
     s->kind = ok ? kind : SHOW_LIGHT;
-    say(s, "%s", kinds[s->kind].legend);
+    set_legend(s, "%s", kinds[s->kind].legend);
     return ok;
 }
 
@@ -195,8 +195,8 @@ static void say_depth(struct view_mode *s, struct number_range r)
 {
     double scale = s->session->scene.scale;
 
-    say(s, "DEPTH  from %.4g, white, to %.4g, dark", r.lo / scale,
-        r.hi / scale);
+    set_legend(s, "DEPTH  from %.4g, white, to %.4g, dark", r.lo / scale,
+               r.hi / scale);
 }
 
 /* Paints the frame in false colours of the numbers at this size. */
@@ -236,8 +236,8 @@ static bool paint_samples(struct view_mode *s, struct film *film,
     fill_heat(s, frame, film->width, film->height, range.hi);
     for (size_t i = 0; i < pixels; i++)
         sum += s->numbers[i];
-    say(s, "SAMPLES  of a pixel, black 0, white %.0f; mean %.2f",
-        (double)range.hi, sum / (double)pixels);
+    set_legend(s, "SAMPLES  of a pixel, black 0, white %.0f; mean %.2f",
+               (double)range.hi, sum / (double)pixels);
     return true;
 }
 
@@ -283,10 +283,11 @@ static bool paint_costs(struct view_mode *s, struct frame *frame)
     }
     range = number_range_of(s->numbers, pixels, 1);
     fill_heat(s, frame, frame->width, frame->height, range.hi);
-    say(s,
-        "COST  tests of a camera ray, black 0, white %.0f; mean %.1f "
-        "boxes, %.1f triangles",
-        (double)range.hi, boxes / (double)pixels, triangles / (double)pixels);
+    set_legend(s,
+               "COST  tests of a camera ray, black 0, white %.0f; mean %.1f "
+               "boxes, %.1f triangles",
+               (double)range.hi, boxes / (double)pixels,
+               triangles / (double)pixels);
     return true;
 }
 
@@ -360,7 +361,7 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
     return true;
 }
 
-void view_mode_renew(struct view_mode *s)
+void view_mode_reset(struct view_mode *s)
 {
     bvh_free(&s->bvh);
     s->has_bvh = false;

@@ -26,8 +26,8 @@
 struct view_mode {
     struct session *session;
     enum show_kind kind;
-    char legend[256]; /* "" for light, which has none */
-    bool has_news;    /* the legend is new; the screen clears this */
+    char legend[256];   /* "" for light, which has none */
+    bool legend_is_new; /* cleared by the screen */
 
     struct bvh bvh; /* built on first use */
     bool has_bvh;
@@ -70,7 +70,7 @@ struct camera view_mode_camera(const struct view_mode *s,
                                const struct frame *frame);
 
 /* Drops everything computed for the previous scene. */
-void view_mode_renew(struct view_mode *s);
+void view_mode_reset(struct view_mode *s);
 
 void view_mode_free(struct view_mode *s);
 

@@ -36,7 +36,7 @@ struct slot {
     uint32_t capacity; /* paths */
     struct task task;
     struct tally result;
-    struct cl_reading reading;
+    struct cl_readback reading;
     uint64_t begin_ns;
     cl_event done; /* NULL: the slot is free */
 };
@@ -114,7 +114,7 @@ static void free_slot(struct backend_cl *b, struct slot *s)
     cl_machine_drop(&b->machine, &s->starts);
     cl_machine_drop(&b->machine, &s->samples);
     cl_machine_drop(&b->machine, &s->tally);
-    cl_reading_free(&s->reading);
+    cl_readback_free(&s->reading);
     *s = (struct slot){0};
 }
 
@@ -160,8 +160,8 @@ static bool cl_begin(struct backend *base, const struct world *world,
     b->y0 = (uint32_t)y0;
     return cl_world_update(&b->world, &b->machine, world, &b->bvh, err) &&
            cl_film_begin(&b->film, &b->machine, film, err) &&
-           cl_reading_begin(&b->slots[0].reading, &b->film, err) &&
-           cl_reading_begin(&b->slots[1].reading, &b->film, err) &&
+           cl_readback_begin(&b->slots[0].reading, &b->film, err) &&
+           cl_readback_begin(&b->slots[1].reading, &b->film, err) &&
            clear_film(b, pixel_count, err);
 }
 
@@ -235,16 +235,16 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
 /* Puts the reading of what the queued tasks compute behind them, by whole
  * rows: the last one may be read again. */
 static bool enqueue_reading(struct backend_cl *b, struct progress *p,
-                            struct cl_reading *r, struct error *err)
+                            struct cl_readback *r, struct error *err)
 {
     uint32_t stride = (uint32_t)p->pass->stride;
     uint32_t end = (p->next + p->columns - 1) / p->columns;
 
     r->first = p->read / p->columns;
-    r->count = (uint32_t)smaller(end - r->first, b->film.reading_rows);
+    r->count = (uint32_t)smaller(end - r->first, b->film.readback_rows);
     p->read = (uint32_t)smaller(p->next, (r->first + r->count) * p->columns);
     b->read_ns = clock_ns();
-    return cl_reading_enqueue(r, &b->film, &b->machine, stride, err);
+    return cl_readback_enqueue(r, &b->film, &b->machine, stride, err);
 }
 
 static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
@@ -312,7 +312,7 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
     if (cl_film_is_shared(&b->film))
         cl_film_store_points(&b->film, &s->task);
     else
-        cl_reading_store(&s->reading, &b->film, s->task.stride);
+        cl_readback_store(&s->reading, &b->film, s->task.stride);
     if (!cancel_requested(cancel))
         adapt(b, s);
     return true;
@@ -322,14 +322,14 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
 static bool read_rest(struct backend_cl *b, struct progress *p,
                       struct error *err)
 {
-    struct cl_reading *r = &b->slots[0].reading;
+    struct cl_readback *r = &b->slots[0].reading;
 
     while (!cl_film_is_shared(&b->film) && p->read < p->next) {
         if (!enqueue_reading(b, p, r, err) ||
             !call_done(b, b->machine.api->Finish(b->machine.queue), "clFinish",
                        err))
             return false;
-        cl_reading_store(r, &b->film, (uint32_t)p->pass->stride);
+        cl_readback_store(r, &b->film, (uint32_t)p->pass->stride);
     }
     return true;
 }

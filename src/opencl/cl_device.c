@@ -218,7 +218,8 @@ void cl_devices_free(struct cl_devices *list)
 
 /* Returns true if the word selects the device. Digits only are a number: 4 does
  * not select a device with 4090 in its name. */
-static bool is_meant(const struct cl_devices *list, int index, const char *word)
+static bool is_selected(const struct cl_devices *list, int index,
+                        const char *word)
 {
     const struct cl_device *d = &list->items[index];
     char number[16];
@@ -238,7 +239,7 @@ static void format_names(struct error *names, const struct cl_devices *list,
 
     names->text[0] = '\0';
     for (int i = 0; i < list->count; i++) {
-        if (word && !is_meant(list, i, word))
+        if (word && !is_selected(list, i, word))
             continue;
         snprintf(names->text + length, sizeof names->text - length, "%s%d '%s'",
                  length > 0 ? ", " : "", i + 1, list->items[i].name);
@@ -264,7 +265,7 @@ const struct cl_device *cl_device_find(const struct cl_devices *list,
     if (!word)
         return find_best(list);
     for (int i = 0; i < list->count; i++) {
-        if (is_meant(list, i, word)) {
+        if (is_selected(list, i, word)) {
             found = &list->items[i];
             count++;
         }

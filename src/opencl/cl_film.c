@@ -57,7 +57,7 @@ bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
     if (pixel_count > f->pixel_capacity && !make_film(f, m, pixel_count, err))
         return false;
     f->film = film;
-    f->reading_rows = (uint32_t)(READ_BYTES / row_bytes) + 1;
+    f->readback_rows = (uint32_t)(READ_BYTES / row_bytes) + 1;
     return true;
 }
 
@@ -81,31 +81,31 @@ void cl_film_store_points(struct cl_film *f, const struct task *t)
 
 /* ---- transfers ---- */
 
-bool cl_reading_begin(struct cl_reading *r, const struct cl_film *f,
-                      struct error *err)
+bool cl_readback_begin(struct cl_readback *r, const struct cl_film *f,
+                       struct error *err)
 {
-    size_t pixels = (size_t)f->film->width * f->reading_rows;
+    size_t pixels = (size_t)f->film->width * f->readback_rows;
 
     if (cl_film_is_shared(f))
         return true;
-    cl_reading_free(r);
+    cl_readback_free(r);
     r->sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
     r->counts = alloc_array(pixels, sizeof *r->counts);
     if (r->sums == NULL || r->counts == NULL)
         return fail(err, "out of memory for %u rows of the picture",
-                    f->reading_rows);
+                    f->readback_rows);
     return true;
 }
 
-void cl_reading_free(struct cl_reading *r)
+void cl_readback_free(struct cl_readback *r)
 {
     free(r->sums);
     free(r->counts);
-    *r = (struct cl_reading){0};
+    *r = (struct cl_readback){0};
 }
 
 /* Enqueues a read of every stride-th row of a device buffer. */
-static bool read_rows(const struct cl_reading *r, const struct cl_film *f,
+static bool read_rows(const struct cl_readback *r, const struct cl_film *f,
                       const struct cl_machine *m, cl_mem buffer, void *to,
                       size_t pixel_bytes, uint32_t stride, struct error *err)
 {
@@ -122,9 +122,9 @@ static bool read_rows(const struct cl_reading *r, const struct cl_film *f,
         "clEnqueueReadBufferRect", err);
 }
 
-bool cl_reading_enqueue(struct cl_reading *r, const struct cl_film *f,
-                        const struct cl_machine *m, uint32_t stride,
-                        struct error *err)
+bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
+                         const struct cl_machine *m, uint32_t stride,
+                         struct error *err)
 {
     return read_rows(r, f, m, f->sums, r->sums, PIXEL_SUMS_BYTES, stride,
                      err) &&
@@ -132,7 +132,8 @@ bool cl_reading_enqueue(struct cl_reading *r, const struct cl_film *f,
                      err);
 }
 
-void cl_reading_store(struct cl_reading *r, struct cl_film *f, uint32_t stride)
+void cl_readback_store(struct cl_readback *r, struct cl_film *f,
+                       uint32_t stride)
 {
     size_t width = (size_t)f->film->width;
 

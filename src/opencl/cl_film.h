@@ -4,10 +4,10 @@
  * film
  *
  * A CPU device shares the host's memory, and pixels are stored from there
- * directly. For other devices rows are read into a struct cl_reading first.
+ * directly. For other devices rows are read into a struct cl_readback first.
  *
  * Units:     pixels, bytes
- * Ownership: cl_film_free() and cl_reading_free() release; zeroed structs are
+ * Ownership: cl_film_free() and cl_readback_free() release; zeroed structs are
  *            empty. The host's film is borrowed
  * Threads:   one at a time
  * Errors:    too little memory, on the host or the device
@@ -25,11 +25,11 @@ struct cl_film {
     struct sum *host_sums; /* buffer memory on a CPU device, else NULL */
     uint64_t *host_counts; /* likewise */
     size_t pixel_capacity;
-    uint32_t reading_rows; /* rows that a reading can hold */
+    uint32_t readback_rows; /* rows that a reading can hold */
 };
 
 /* Transfer of rows of a pass's grid to the host. */
-struct cl_reading {
+struct cl_readback {
     uint32_t first, count;
     struct sum *sums; /* whole rows of the film */
     uint64_t *counts;
@@ -50,18 +50,19 @@ static inline bool cl_film_is_shared(const struct cl_film *f)
  * write to them before the next pass. */
 void cl_film_store_points(struct cl_film *f, const struct task *t);
 
-/* Allocates room for f->reading_rows rows unless memory is shared. */
-bool cl_reading_begin(struct cl_reading *r, const struct cl_film *f,
-                      struct error *err);
-void cl_reading_free(struct cl_reading *r);
+/* Allocates room for f->readback_rows rows unless memory is shared. */
+bool cl_readback_begin(struct cl_readback *r, const struct cl_film *f,
+                       struct error *err);
+void cl_readback_free(struct cl_readback *r);
 
 /* Enqueues the transfer of r->count rows of a grid from r->first on; `stride`
  * is the distance of grid rows in rows of the film. */
-bool cl_reading_enqueue(struct cl_reading *r, const struct cl_film *f,
-                        const struct cl_machine *m, uint32_t stride,
-                        struct error *err);
+bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
+                         const struct cl_machine *m, uint32_t stride,
+                         struct error *err);
 
 /* Stores the rows that were read and empties the reading. */
-void cl_reading_store(struct cl_reading *r, struct cl_film *f, uint32_t stride);
+void cl_readback_store(struct cl_readback *r, struct cl_film *f,
+                       uint32_t stride);
 
 #endif

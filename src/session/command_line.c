@@ -264,20 +264,21 @@ void options_init(struct options *o)
 
 /* Returns true for options that suit a person or a machine and do not change
  * pictures. Only these are allowed in the configuration file. */
-static bool is_taste(enum option_id id)
+static bool is_configurable(enum option_id id)
 {
     return id == OPTION_THREADS || id == OPTION_BACKEND || id == OPTION_COLOR ||
            id == OPTION_GLYPH || id == OPTION_CELL_ASPECT ||
            id == OPTION_PHOE_KEYS;
 }
 
-bool options_set_taste(struct options *o, const char *name, const char *value,
-                       const char *place, struct error *err)
+bool options_set_configured(struct options *o, const char *name,
+                            const char *value, const char *place,
+                            struct error *err)
 {
     struct option_given g = {.rule = option_rule_named(name, strlen(name)),
                              .value = value};
 
-    if (!g.rule || !is_taste(g.rule->id))
+    if (!g.rule || !is_configurable(g.rule->id))
         return fail(err,
                     "%s: found '%s', expected an option of the configuration "
                     "file (man glim lists them)",

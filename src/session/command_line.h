@@ -79,8 +79,9 @@ void options_init(struct options *o);
 
 /* Sets an option from the configuration file; `value` is NULL if it has none.
  * `place` is used for messages. */
-bool options_set_taste(struct options *o, const char *name, const char *value,
-                       const char *place, struct error *err);
+bool options_set_configured(struct options *o, const char *name,
+                            const char *value, const char *place,
+                            struct error *err);
 
 /* Parses argv over the values in *o, takes GLIM_COLOR for the screen and
  * completes the keys. */

@@ -93,8 +93,9 @@ static bool read_option(struct reader *r, struct error *err)
         return fail_at(r, value, "a shorter value", err);
     snprintf(texts[0], WORD_BYTES, "%.*s", (int)name.length, name.start);
     snprintf(texts[1], WORD_BYTES, "%.*s", (int)value.length, value.start);
-    return options_set_taste(r->options, texts[0],
-                             value.length > 0 ? texts[1] : NULL, r->place, err);
+    return options_set_configured(r->options, texts[0],
+                                  value.length > 0 ? texts[1] : NULL, r->place,
+                                  err);
 }
 
 static bool read_line(void *context, struct lexer *lex, struct error *err)

@@ -138,7 +138,8 @@ bool camera_input_step(struct camera_input *s, struct pose *pose,
  * a thing in the middle turns with the pointer, half around for the picture's
  * height. */
 static bool drag(struct camera_input *s, struct pose *pose,
-                 const struct event *e, const struct fit *fit, double shape)
+                 const struct event *e, const struct cells_rect *fit,
+                 double shape)
 {
     double right = (e->x - s->drag_x) * shape / fit->cols;
     double down = (double)(e->y - s->drag_y) / fit->rows;
@@ -163,7 +164,7 @@ bool camera_input_orbits(const struct camera_input *s,
 }
 
 bool camera_input_mouse(struct camera_input *s, struct pose *pose,
-                        const struct event *event, const struct fit *fit,
+                        const struct event *event, const struct cells_rect *fit,
                         int width_px, int height_px)
 {
     switch (event->mouse) {

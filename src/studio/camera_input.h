@@ -67,7 +67,7 @@ bool camera_input_orbits(const struct camera_input *s,
 /* Follows the pointer while a button is down; the picture of width_px x
  * height_px pixels lies at `fit`. True if the pose has changed. */
 bool camera_input_mouse(struct camera_input *s, struct pose *pose,
-                        const struct event *event, const struct fit *fit,
+                        const struct event *event, const struct cells_rect *fit,
                         int width_px, int height_px);
 
 /* Faster or slower by some steps. */

@@ -305,7 +305,7 @@ static void keep_picture(struct studio *studio)
 static void close_screen(struct studio *studio)
 {
     if (studio->status == 128 + SIGHUP || studio->status == 128 + SIGTERM)
-        tty_ignore_ends(); /* shells send SIGHUP again */
+        tty_ignore_termination(); /* shells send SIGHUP again */
     if (!studio->is_gone)
         screen_drain(&studio->workspace.screen, &studio->input);
     /* before tty_close(): its end puts back the signal handlers of its start */

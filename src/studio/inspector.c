@@ -34,7 +34,7 @@ static void draw_over(struct inspector *inspector, struct frame *frame)
     else if (inspector->drawing == INSPECTOR_LOBES && inspector->is_surface)
         overlay_lobes(frame, &camera, &inspector->lobes);
     else if (inspector->drawing == INSPECTOR_PATH)
-        overlay_trail(frame, &camera, &inspector->trail, inspector->step);
+        overlay_path(frame, &camera, &inspector->trail, inspector->step);
 }
 
 void inspector_preview(struct inspector *inspector, struct frame *frame)
@@ -71,8 +71,8 @@ void inspector_open_table(struct inspector *inspector)
         snprintf(title, sizeof title, " directions from pixel %u %u ",
                  inspector->x, inspector->y);
     } else if (inspector->drawing == INSPECTOR_PATH) {
-        overlay_text_trail(&legend, &s->scene, &names, &inspector->trail,
-                           inspector->step);
+        overlay_text_path(&legend, &s->scene, &names, &inspector->trail,
+                          inspector->step);
         snprintf(title, sizeof title, " sample %llu of pixel %u %u - %s %s ",
                  (unsigned long long)inspector->sample, inspector->x,
                  inspector->y,
@@ -393,7 +393,7 @@ void inspector_stop_drawing(struct inspector *inspector)
 void inspector_renew(struct inspector *inspector)
 {
     inspector_stop_drawing(inspector);
-    view_mode_renew(&inspector->view_mode);
+    view_mode_reset(&inspector->view_mode);
 }
 
 void inspector_init(struct inspector *inspector, struct render_control *control,

@@ -95,8 +95,9 @@ void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],
     }
 }
 
-bool pick_point_of_cell(const struct fit *fit, int width_px, int height_px,
-                        int col, int row, double *x_px, double *y_px)
+bool pick_point_of_cell(const struct cells_rect *fit, int width_px,
+                        int height_px, int col, int row, double *x_px,
+                        double *y_px)
 {
     if (col < fit->col || col >= fit->col + fit->cols || row < fit->row ||
         row >= fit->row + fit->rows)

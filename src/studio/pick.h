@@ -39,7 +39,8 @@ void pick_bounds(const struct scene *scene, uint32_t object, double lo[3],
 /* Finds the point of the picture in the middle of a cell. The picture has
  * width_px x height_px pixels and is shown at `fit`. Returns false outside of
  * it. */
-bool pick_point_of_cell(const struct fit *fit, int width_px, int height_px,
-                        int col, int row, double *x_px, double *y_px);
+bool pick_point_of_cell(const struct cells_rect *fit, int width_px,
+                        int height_px, int col, int row, double *x_px,
+                        double *y_px);
 
 #endif

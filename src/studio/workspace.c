@@ -61,7 +61,7 @@ void workspace_refresh(struct workspace *workspace)
 
 /* Sets the draft's size from the next restart on: a cell shows two pixels, one
  * above the other. */
-static void set_draft(struct session *s, const struct fit *fit)
+static void set_draft(struct session *s, const struct cells_rect *fit)
 {
     s->draft_width = fit->cols;
     s->draft_height = 2 * fit->rows;
@@ -69,7 +69,7 @@ static void set_draft(struct session *s, const struct fit *fit)
 
 void workspace_expect(struct session *s)
 {
-    struct fit fit =
+    struct cells_rect fit =
         screen_expect(&s->options->display, s->crop.width, s->crop.height);
 
     set_draft(s, &fit);
@@ -392,9 +392,9 @@ static enum screen_result send(struct workspace *workspace, bool has_frame)
         return screen_draw(screen, NULL, 0);
     inspector_preview(&workspace->inspector, &workspace->frame);
     result = screen_draw(screen, &workspace->frame, frame_step(workspace));
-    if (view_mode->has_news)
+    if (view_mode->legend_is_new)
         workspace->status_ns = 0;
-    view_mode->has_news = false;
+    view_mode->legend_is_new = false;
     return result;
 }
 

@@ -35,7 +35,7 @@ void ansi_diff_free(struct ansi_diff *a)
     *a = (struct ansi_diff){0};
 }
 
-void ansi_diff_forget(struct ansi_diff *a, struct ansi_diff_rect rect)
+void ansi_diff_invalidate(struct ansi_diff *a, struct ansi_diff_rect rect)
 {
     for (int y = rect.row; y < rect.row + rect.rows; y++) {
         for (int x = rect.col; x < rect.col + rect.cols; x++) {
@@ -45,9 +45,9 @@ void ansi_diff_forget(struct ansi_diff *a, struct ansi_diff_rect rect)
     }
 }
 
-void ansi_diff_forget_all(struct ansi_diff *a)
+void ansi_diff_invalidate_all(struct ansi_diff *a)
 {
-    ansi_diff_forget(a, (struct ansi_diff_rect){0, 0, a->cols, a->rows});
+    ansi_diff_invalidate(a, (struct ansi_diff_rect){0, 0, a->cols, a->rows});
 }
 
 void ansi_diff_begin(struct ansi_diff *a)
@@ -302,7 +302,7 @@ bool ansi_diff_picture(struct ansi_diff *a, const struct cells *cells,
     assert(cells->cols == a->cols && cells->rows == a->rows);
     /* colour numbers and glyphs have another meaning now */
     if (cells->palette != a->palette || cells->glyphs != a->glyphs)
-        ansi_diff_forget_all(a);
+        ansi_diff_invalidate_all(a);
     a->palette = cells->palette;
     a->glyphs = cells->glyphs;
     /* The first row comes twice: its right part first, its left part last. */

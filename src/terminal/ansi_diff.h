@@ -52,8 +52,8 @@ void ansi_diff_free(struct ansi_diff *a);
 
 /* Marks cells as unknown, for example because something else was drawn
  * there. */
-void ansi_diff_forget(struct ansi_diff *a, struct ansi_diff_rect rect);
-void ansi_diff_forget_all(struct ansi_diff *a);
+void ansi_diff_invalidate(struct ansi_diff *a, struct ansi_diff_rect rect);
+void ansi_diff_invalidate_all(struct ansi_diff *a);
 
 /* Empties the buffer. The terminal's default colours must be set at this
  * point. */

@@ -319,11 +319,11 @@ void cells_mark(struct cells *cells, int col, int row)
     }
 }
 
-struct fit cells_fit(int width_px, int height_px, int cols, int rows,
-                     double cell_aspect)
+struct cells_rect cells_fit(int width_px, int height_px, int cols, int rows,
+                            double cell_aspect)
 {
     double shape = (double)width_px / height_px * cell_aspect;
-    struct fit fit;
+    struct cells_rect fit;
 
     assert(width_px > 0 && height_px > 0 && cols > 0 && rows > 0);
     if (cols <= rows * shape) {

@@ -46,7 +46,7 @@ void cells_from_frame(struct cells *cells, const struct frame *frame,
 void cells_mark(struct cells *cells, int col, int row);
 
 /* Rectangle of the picture in a window, in cells. */
-struct fit {
+struct cells_rect {
     int col, row; /* the upper left cell, from 0 */
     int cols, rows;
 };
@@ -54,7 +54,7 @@ struct fit {
 /* Returns the largest centred rectangle with the picture's aspect ratio in a
  * window of cols x rows cells, at least 1x1. cell_aspect is the height of a
  * cell divided by its width. */
-struct fit cells_fit(int width_px, int height_px, int cols, int rows,
-                     double cell_aspect);
+struct cells_rect cells_fit(int width_px, int height_px, int cols, int rows,
+                            double cell_aspect);
 
 #endif

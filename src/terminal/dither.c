@@ -17,10 +17,10 @@
 
 /* The 6 channel levels of the colour cube 16..231. The greys follow it. */
 static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
-#define CUBE_FIRST 16
-#define GREY_FIRST 232
-#define COLORS     256
-#define INKS       (COLORS - CUBE_FIRST)
+#define CUBE_FIRST     16
+#define GREY_FIRST     232
+#define COLORS         256
+#define PALETTE_COLORS (COLORS - CUBE_FIRST)
 
 /* Resolution of the cache of mixes: 6 bits a channel, finer than the steps of
  * the greys. */
@@ -99,29 +99,30 @@ static struct vec3 oklab(struct vec3 c)
               0.0259040371f * l + 0.7827717662f * m - 0.8086757660f * s);
 }
 
-static struct ink ink_of(struct rgb c)
+static struct palette_color palette_color_of(struct rgb c)
 {
     struct vec3 light = v3(light_of(c.r), light_of(c.g), light_of(c.b));
 
-    return (struct ink){light, oklab(light)};
+    return (struct palette_color){light, oklab(light)};
 }
 
 bool dither_init(struct dither *d, struct error *err)
 {
-    d->inks = alloc_array(INKS, sizeof d->inks[0]);
+    d->colors = alloc_array(PALETTE_COLORS, sizeof d->colors[0]);
     d->mixes = alloc_array((size_t)1 << 3 * KEY_BITS, sizeof d->mixes[0]);
-    if (!d->inks || !d->mixes) {
+    if (!d->colors || !d->mixes) {
         dither_free(d);
         return fail(err, "out of memory for dithering in 256 colours");
     }
-    for (uint32_t i = 0; i < INKS; i++)
-        d->inks[i] = ink_of(dither_value(CUBE_FIRST + i, PALETTE_256));
+    for (uint32_t i = 0; i < PALETTE_COLORS; i++)
+        d->colors[i] =
+            palette_color_of(dither_value(CUBE_FIRST + i, PALETTE_256));
     return true;
 }
 
 void dither_free(struct dither *d)
 {
-    free(d->inks);
+    free(d->colors);
     free(d->mixes);
     *d = (struct dither){0};
 }
@@ -147,8 +148,8 @@ static void find_candidates(const struct dither *d, struct vec3 lab,
 {
     for (int i = 0; i < CANDIDATES; i++)
         found[i] = (struct candidate){0, FLOAT_MAX};
-    for (int i = 0; i < INKS; i++) {
-        float distance = distance_of(d->inks[i].lab, lab);
+    for (int i = 0; i < PALETTE_COLORS; i++) {
+        float distance = distance_of(d->colors[i].lab, lab);
         int at = CANDIDATES - 1;
 
         if (distance >= found[at].distance)
@@ -168,7 +169,7 @@ static int next_of_mix(const struct dither *d, struct vec3 lab, int length,
     int best = 0;
 
     for (int i = 0; i < CANDIDATES; i++) {
-        struct vec3 more = v3_add(sum, d->inks[candidates[i].index].light);
+        struct vec3 more = v3_add(sum, d->colors[candidates[i].index].light);
         struct vec3 mean = v3_scale(more, 1.0f / (float)(length + 1));
         float miss =
             (float)(length + 1) * distance_of(oklab(mean), lab) +
@@ -188,7 +189,8 @@ static void insert_sorted(const struct dither *d, int *mix, int length,
 {
     int at = length;
 
-    for (; at > 0 && d->inks[mix[at - 1]].lab.x > d->inks[index].lab.x; at--)
+    for (; at > 0 && d->colors[mix[at - 1]].lab.x > d->colors[index].lab.x;
+         at--)
         mix[at] = mix[at - 1];
     mix[at] = index;
 }
@@ -198,7 +200,7 @@ static void insert_sorted(const struct dither *d, int *mix, int length,
  * US 6606166. */
 static uint64_t find_mix(const struct dither *d, struct rgb c)
 {
-    struct vec3 lab = ink_of(c).lab;
+    struct vec3 lab = palette_color_of(c).lab;
     struct candidate candidates[CANDIDATES];
     struct vec3 sum = v3(0.0f, 0.0f, 0.0f);
     int mix[MIX_LENGTH];
@@ -208,7 +210,7 @@ static uint64_t find_mix(const struct dither *d, struct rgb c)
     for (int i = 0; i < MIX_LENGTH; i++) {
         int index = next_of_mix(d, lab, i, sum, candidates);
 
-        sum = v3_add(sum, d->inks[index].light);
+        sum = v3_add(sum, d->colors[index].light);
         insert_sorted(d, mix, i, index);
     }
     for (int i = 0; i < MIX_LENGTH; i++)

@@ -31,14 +31,14 @@ struct rgb {
 };
 
 /* Colour of the 256-colour palette. */
-struct ink {
+struct palette_color {
     struct vec3 light; /* linear RGB */
     struct vec3 lab;   /* OKLab */
 };
 
 struct dither {
-    struct ink *inks; /* 16..255, from index 0 on */
-    uint64_t *mixes;  /* cache: each mix is computed when it is first needed */
+    struct palette_color *colors; /* 16..255, from index 0 on */
+    uint64_t *mixes; /* cache: each mix is computed when it is first needed */
 };
 
 bool dither_init(struct dither *d, struct error *err);

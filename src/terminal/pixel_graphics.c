@@ -57,7 +57,8 @@ void pixel_graphics_free(struct pixel_graphics *g)
     *g = (struct pixel_graphics){0};
 }
 
-void pixel_graphics_forget(struct pixel_graphics *g, struct ansi_diff_rect rect)
+void pixel_graphics_invalidate(struct pixel_graphics *g,
+                               struct ansi_diff_rect rect)
 {
     int count = g->tiles_across * g->shape.rows;
 

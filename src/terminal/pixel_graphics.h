@@ -58,8 +58,8 @@ void pixel_graphics_free(struct pixel_graphics *g);
 
 /* Marks cells of the picture as unknown, because something else was drawn
  * there. */
-void pixel_graphics_forget(struct pixel_graphics *g,
-                           struct ansi_diff_rect rect);
+void pixel_graphics_invalidate(struct pixel_graphics *g,
+                               struct ansi_diff_rect rect);
 
 /* Appends the changes from the shown picture to the frame, whose pixels are
  * repeated to match the terminal's. Returns true if the picture is complete,

@@ -76,9 +76,9 @@ static bool is_too_small(const struct tty_size *size)
     return size->cols < COLS_MIN || size->rows < ROWS_MIN;
 }
 
-static struct fit fit_to(const struct screen *screen,
-                         const struct tty_size *size, int width_px,
-                         int height_px)
+static struct cells_rect fit_to(const struct screen *screen,
+                                const struct tty_size *size, int width_px,
+                                int height_px)
 {
     /* Sixels in the last row scroll the screen; on some terminals a character
      * in its last cell does. */
@@ -90,15 +90,15 @@ static struct fit fit_to(const struct screen *screen,
                      term_caps_cell_aspect(&screen->display, size));
 }
 
-struct fit screen_expect(const struct term_caps_choice *choice, int width_px,
-                         int height_px)
+struct cells_rect screen_expect(const struct term_caps_choice *choice,
+                                int width_px, int height_px)
 {
     struct screen screen = {.display.cell_aspect = choice->cell_aspect,
                             .has_status_row = true};
     struct tty_size size = term_size();
 
     if (is_too_small(&size))
-        return (struct fit){0};
+        return (struct cells_rect){0};
     return fit_to(&screen, &size, width_px, height_px);
 }
 
@@ -198,8 +198,8 @@ const char *screen_glyphs_name(const struct screen *screen)
 /* The picture has to be drawn again where text was. */
 static void give_to_picture(struct screen *screen, struct ansi_diff_rect rect)
 {
-    ansi_diff_forget(&screen->ansi, rect);
-    pixel_graphics_forget(&screen->graphics, rect);
+    ansi_diff_invalidate(&screen->ansi, rect);
+    pixel_graphics_invalidate(&screen->graphics, rect);
 }
 
 /* The last row of the screen, in cells of the picture. */
@@ -425,7 +425,7 @@ void screen_drain(struct screen *screen, struct tty_input *input)
             screen_answer(screen, &event);
     }
     if (awaits_answers(screen))
-        tty_forget_input();
+        tty_flush_input();
     frame_pacing_forget(&screen->pace);
     screen->has_all_answers = true;
 }

@@ -33,7 +33,7 @@ struct screen {
     bool is_too_small;
     bool has_all_answers; /* to the questions of tty_open() */
     /* These have the size of the present layout. */
-    struct fit fit;
+    struct cells_rect fit;
     int frame_width, frame_height; /* pixels of the frames it wants */
     struct cells cells;
     struct pixel_graphics graphics; /* used instead of cells unless NONE */
@@ -53,8 +53,8 @@ struct screen {
 
 /* Returns where a picture of this size will be shown, as far as that is known
  * before tty_open(); no columns if the window is too small. */
-struct fit screen_expect(const struct term_caps_choice *choice, int width_px,
-                         int height_px);
+struct cells_rect screen_expect(const struct term_caps_choice *choice,
+                                int width_px, int height_px);
 
 /* Call it after tty_open(). */
 void screen_init(struct screen *screen, const struct term_caps_choice *choice);

@@ -77,7 +77,7 @@ void swatches_draw(struct swatches *s, enum palette palette, int col, int row,
         (struct ansi_diff_rect){window->col - col, window->row - row,
                                 window->cols, window->rows};
     ansi_diff_begin(&s->ansi);
-    ansi_diff_forget_all(&s->ansi);
+    ansi_diff_invalidate_all(&s->ansi);
     cells_from_frame(&s->cells, &s->frame, palette, GLYPHS_SPACE);
     ansi_diff_picture(&s->ansi, &s->cells, &how);
     ansi_diff_end(&s->ansi, end_row);

@@ -114,7 +114,7 @@ static void take_signals(void)
         sigaction(fault_signals[i], &fault, &term.old_fault[i]);
 }
 
-void tty_ignore_ends(void)
+void tty_ignore_termination(void)
 {
     for (size_t i = 0; i < COUNT(stop_signals); i++) {
         if (stop_signals[i] == SIGHUP || stop_signals[i] == SIGTERM)
@@ -445,7 +445,7 @@ void tty_resume(void)
     tty_set_mouse(term.has_mouse);
 }
 
-void tty_forget_input(void)
+void tty_flush_input(void)
 {
     tcflush(STDIN_FILENO, TCIFLUSH);
 }

@@ -37,7 +37,7 @@ void tty_close(bool is_gone);
 
 /* Ignores SIGHUP and SIGTERM from now on, after tty_close() too. Called when
  * one of them has arrived, so that the shutdown can complete. */
-void tty_ignore_ends(void);
+void tty_ignore_termination(void);
 
 /* Returns the palette that the environment suggests. */
 enum palette tty_palette(bool *is_final);
@@ -77,7 +77,7 @@ void tty_suspend(void);
 void tty_resume(void);
 
 /* Discards input that was not read. */
-void tty_forget_input(void);
+void tty_flush_input(void);
 
 /* Applies a new size and clears the screen at the next windows_update(). */
 void tty_relayout(void);

@@ -60,7 +60,7 @@ static bool show(const char *path, struct error *err)
     struct image image = {0};
     struct frame frame = {0};
     struct cells cells = {0};
-    struct fit fit;
+    struct cells_rect fit;
     bool is_shown = false;
 
     if (!image_read_8bit(&image, path, err))

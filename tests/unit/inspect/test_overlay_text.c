@@ -33,7 +33,7 @@ static void paths_show_their_last_steps(void **state)
                                       .way = PATH_RECORD_REFLECTED,
                                       .pdf = i == 7 ? 0.0f : 0.125f};
     trail.steps[8].way = PATH_RECORD_SKY;
-    overlay_text_trail(&l, &scene, &names, &trail, 2);
+    overlay_text_path(&l, &scene, &names, &trail, 2);
     assert_int_equal(l.count, 4);
     check_has(l.lines[0], "throughput");
     /* 1 / 0.25 + 1, -0.5 / 0.25 + 2, 1 / 0.25 + 3 */
@@ -41,7 +41,7 @@ static void paths_show_their_last_steps(void **state)
     check_has(l.lines[2], "reflect  1.00 0.50 0.25 0.125  0 4 0");
     check_has(l.lines[1], " 1 no materia ");
     check_has(l.lines[3], "step 2 of 9; radiance of the whole path 1 2 3");
-    overlay_text_trail(&l, &scene, &names, &trail, 9);
+    overlay_text_path(&l, &scene, &names, &trail, 9);
     assert_int_equal(l.count, OVERLAY_TEXT_LINES);
     check_has(l.lines[1], " 4 red paint ");
     check_has(l.lines[5], " delta ");
@@ -63,11 +63,11 @@ static void numbers_are_not_cut(void **state)
     trail.steps[0] = (struct path_record_step){.to = {1, 0, 0},
                                                .way = PATH_RECORD_REFLECTED,
                                                .pdf = 1230};
-    overlay_text_trail(&l, &far, &names, &trail, 1);
+    overlay_text_path(&l, &far, &names, &trail, 1);
     check_has(l.lines[1], " -1e+04 0.007 -0.1 reflect ");
     check_has(l.lines[1], " 1e+03  0 0 0");
     far.center[0] = -4;
-    overlay_text_trail(&l, &far, &names, &trail, 1);
+    overlay_text_path(&l, &far, &names, &trail, 1);
     check_has(l.lines[1], " 0 0.00702 -0.124  reflect ");
 }
 

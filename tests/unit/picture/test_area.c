@@ -113,8 +113,8 @@ static void check_terminals(struct film *film, struct develop how)
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
             struct glyph_grid grid = glyphs_grid(kinds[k]);
-            struct fit fit = cells_fit(film->width, film->height, sizes[i].cols,
-                                       sizes[i].rows, 2);
+            struct cells_rect fit = cells_fit(film->width, film->height,
+                                              sizes[i].cols, sizes[i].rows, 2);
 
             check_frame(film, &picture, how, fit.cols * grid.across,
                         fit.rows * grid.down);

@@ -122,7 +122,7 @@ static void drag_turns_by_what_is_seen(void **state)
 {
     struct camera_input s;
     struct pose v = make_pose();
-    struct fit fit = {0, 0, 80, 20};
+    struct cells_rect fit = {0, 0, 80, 20};
     struct event e = {.kind = EVENT_MOUSE,
                       .mouse = MOUSE_DRAG,
                       .x = 10,
@@ -257,7 +257,7 @@ static void a_modified_drag_orbits(void **state)
 {
     struct camera_input s;
     struct pose v = make_pose();
-    struct fit fit = {0, 0, 80, 20};
+    struct cells_rect fit = {0, 0, 80, 20};
     struct event e = {.kind = EVENT_MOUSE,
                       .mouse = MOUSE_PRESS,
                       .button = 2,

@@ -207,7 +207,7 @@ static void goes_through_what_is_rather_clear(void **state)
 /* The corners of all cells together are the picture. */
 static void cells_share_the_picture(void **state)
 {
-    struct fit fit = {.col = 3, .row = 2, .cols = 40, .rows = 10};
+    struct cells_rect fit = {.col = 3, .row = 2, .cols = 40, .rows = 10};
     double x, y;
 
     (void)state;

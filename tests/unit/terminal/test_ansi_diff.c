@@ -170,7 +170,7 @@ static void budget_is_kept(void **state)
 
     /* a picture that never rests: all cells are drawn sooner or later */
     vt_open(&vt, COLS, ROWS);
-    ansi_diff_forget_all(&a);
+    ansi_diff_invalidate_all(&a);
     for (int i = 0; i < 4 * frames; i++) {
         scramble(&c, PALETTE_24BIT, 1.0, &seed);
         ansi_diff_begin(&a);
@@ -244,7 +244,7 @@ static void covered_cells_stay(void **state)
     how.covered_count = 0; /* the windows close: curses has cleared there */
     for (int y = 2; y < 8; y++)
         memset(vt.cell[y], 0, sizeof vt.cell[y]);
-    ansi_diff_forget(&a, (struct ansi_diff_rect){-3, 2, COLS + 9, 6});
+    ansi_diff_invalidate(&a, (struct ansi_diff_rect){-3, 2, COLS + 9, 6});
     ansi_diff_begin(&a);
     assert_true(ansi_diff_picture(&a, &c, &how));
     forget_colors();

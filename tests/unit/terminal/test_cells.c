@@ -275,7 +275,7 @@ static void pictures_fit(void **state)
         int cols = 1 + (int)(300 * check_random(&seed));
         int rows = 1 + (int)(100 * check_random(&seed));
         double aspect = 0.5 + 3 * check_random(&seed);
-        struct fit fit = cells_fit(width, height, cols, rows, aspect);
+        struct cells_rect fit = cells_fit(width, height, cols, rows, aspect);
         double shape = (double)width / height;
 
         assert_true(fit.cols >= 1 && fit.cols <= cols);

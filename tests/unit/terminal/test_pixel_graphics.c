@@ -241,8 +241,8 @@ static void budget_is_kept(void **state)
         for (int k = 0; k < 2 * frames; k++) {
             for (int x = 0; x < WIDTH; x++)
                 set_pixel(&st, x, (k * 7) % HEIGHT, k);
-            pixel_graphics_forget(&st.g,
-                                  (struct ansi_diff_rect){0, 0, COLS, ROWS});
+            pixel_graphics_invalidate(&st.g, (struct ansi_diff_rect){0, 0, COLS,
+                                                                     ROWS});
             draw(&st, &how, &is_done);
         }
         for (int y = 0; y < HEIGHT; y++)
@@ -274,7 +274,8 @@ static void windows_are_left_free(void **state)
             for (int row = 1; row < 4; row++)
                 blank(&st.screen, 10, row, 25);
         }
-        pixel_graphics_forget(&st.g, (struct ansi_diff_rect){0, 1, COLS, 3});
+        pixel_graphics_invalidate(&st.g,
+                                  (struct ansi_diff_rect){0, 1, COLS, 3});
         draw(&st, &how, &is_done);
         check_shown(&st, window);
         assert_int_equal(draw(&st, &how, &is_done), 0);
