@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * clock.h - the time, for measuring
+ * clock.h - monotonic time, for measuring
  *
  * Units:     nanoseconds
  * Threads:   any
@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-/* Monotonic. */
+/* Reads the monotonic clock. */
 uint64_t clock_ns(void);
 
 /* Seconds between two readings of clock_ns(). */

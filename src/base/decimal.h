@@ -15,16 +15,16 @@
  * no number there, *p unmoved. */
 bool decimal_parse(const char **p, const char *end, double *value);
 
-/* Enough for every decimal_format(). */
+/* Size of the text of any number. */
 #define DECIMAL_TEXT_BYTES 32
 
-/* The shortest of the usual forms that decimal_parse() reads back exactly; that
- * of a float if rounding gives the same float. */
+/* Writes the shortest usual form that decimal_parse() reads back exactly. It is
+ * the form of a float if the number is one. */
 void decimal_format(char text[DECIMAL_TEXT_BYTES], double value);
 void decimal_format_float(char text[DECIMAL_TEXT_BYTES], float value);
 
-/* The number that the shortest text of its float stands for. Beyond the range
- * of normal floats the number itself. */
+/* Returns the number of the shortest text of the value as a float. Beyond the
+ * range of normal floats it returns the value. */
 double decimal_shortened(double value);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * error.h - the text of what went wrong
+ * error.h - the message of a failure
  *
  * Threads:   any
  */

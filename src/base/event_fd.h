@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * event_fd.h - a descriptor by which a thread or a signal's handler tells a
- * poll() that something is done
+ * event_fd.h - a descriptor with which a thread or a signal handler wakes a
+ * poll()
  *
  * Ownership: the descriptor is the caller's to close()
  * Threads:   any
@@ -12,11 +12,11 @@
 
 #include "base/error.h"
 
-/* -1: none; the text begins with `whose`. */
+/* Returns the descriptor, or -1 and a message that begins with `whose`. */
 int event_fd_open(const char *whose, struct error *err);
 
-/* Makes it readable until event_fd_clear(). Handlers may, if they put errno
- * back. */
+/* Makes the descriptor readable until event_fd_clear(). Signal handlers may
+ * call it if they restore errno. */
 void event_fd_set(int fd);
 void event_fd_clear(int fd);
 

@@ -15,13 +15,13 @@
 #include "base/memory.h"
 #include "base/temp_file.h"
 
-/* As many links in a row as the kernel follows. */
+/* Most links in a row, as in the kernel. */
 #define LINKS_MAX 40
 
-/* Names tried before a folder counts as full. */
+/* Most numbered names that are tried. */
 #define NUMBER_MAX 100000
 
-/* The system's words for errno, in ours where they are not plain. */
+/* The system's message for errno, or a plainer one. */
 static bool fail_errno(struct error *err, const char *path)
 {
     switch (errno) {
@@ -79,7 +79,8 @@ static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
                 (double)memory.size_bytes / (1 << 30), memory.place);
 }
 
-/* -1 and errno, or what there was before the end. */
+/* Reads to the end of the file. Returns the number of bytes, or -1 and errno.
+ */
 static int64_t read_all(int fd, char *to, int64_t size_bytes)
 {
     int64_t done = 0;
@@ -170,8 +171,7 @@ static char *folder_of(const char *path)
     return slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
 }
 
-/* Where writing to path ends: what its links point to, even if that does not
- * exist yet. */
+/* Follows the links of a path. The result need not exist. */
 static char *target_of(const char *path)
 {
     char *target = strdup(path);
@@ -238,7 +238,8 @@ static bool write_all(int fd, const char *data, size_t size_bytes)
     return true;
 }
 
-/* Makes the name last as well. Some file systems cannot: no harm then. */
+/* Syncs the folder, so that the new name is durable. Some file systems cannot,
+ * which does no harm. */
 static void sync_folder(const char *folder)
 {
     int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -249,7 +250,7 @@ static void sync_folder(const char *folder)
     }
 }
 
-/* ESTALE: it is not. */
+/* Fails with ESTALE if the file has changed. */
 static bool is_as_before(const char *target, const struct file_change *change)
 {
     struct file_identity now = file_identify(target);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * file.h - whole files in, whole files out
+ * file.h - reads and writes whole files, and takes paths apart
  *
  * Units:     bytes
- * Ownership: what file_read() and the path functions return is for free()
+ * Ownership: file_read() and the path functions return memory for free()
  * Threads:   any
  * Errors:    the system's words, with the path; the path functions return NULL
  *            when memory is out
@@ -19,7 +19,7 @@
 
 #include "base/error.h"
 
-/* No greater file is read. */
+/* Size limit of file_read(). */
 #define FILE_BYTES_MAX ((int64_t)8 << 30)
 
 /* Reads a regular file (a folder or a device is an error). text[size_bytes]
@@ -27,7 +27,7 @@
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err);
 
-/* What tells a file from the same one later. */
+/* Identifies a version of a file, to find out later if it has changed. */
 struct file_identity {
     bool exists;
     dev_t device;
@@ -42,11 +42,11 @@ bool file_is_same(const struct file_identity *a, const struct file_identity *b);
 /* A file that was read, changed and written again. */
 struct file_change {
     struct file_identity before, after;
-    bool is_kept; /* what was before is in a file of the same name with a ~ */
+    bool is_kept; /* the old version is kept in NAME~ */
 };
 
-/* Fails, early, for what file_write() could not write: a folder, a device, no
- * such folder, no permission. Changes nothing. */
+/* Fails early where file_write() would: for a folder, a device, a missing
+ * folder, without permission. Changes nothing. */
 bool file_check(const char *path, struct error *err);
 
 /* Replaces the file atomically: temporary file in its folder, fsync, and the
@@ -56,9 +56,8 @@ bool file_check(const char *path, struct error *err);
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
 
-/* As file_write(), but fails if the file is no longer what change->before says:
- * what someone else has written meanwhile is not lost. change->after is the
- * new one then. */
+/* file_write() that fails if the file is not as change->before has it, so that
+ * no change by others is lost. Sets change->after to the new file. */
 bool file_replace(const char *path, const void *data, size_t size_bytes,
                   struct file_change *change, struct error *err);
 
@@ -75,14 +74,15 @@ bool file_write_stdout(const void *data, size_t size_bytes, struct error *err);
  * changed meanwhile. False and errno if that fails. */
 bool folder_make(char *path);
 
-/* `name` seen from the folder of `beside`; absolute names stay. */
+/* Returns the path of `name` relative to the folder of `beside`. An absolute
+ * name is not changed. */
 char *path_beside(const char *beside, const char *name);
 
-/* How the file `beside` names the file at `path`: from its own folder on if the
- * file lies below it, else absolutely. */
+/* Returns the name of `path` for use in the file `beside`: relative to the
+ * folder of that if it lies below, else absolute. */
 char *path_seen_from(const char *beside, const char *path);
 
-/* Would writing to either path write the same file, which may not exist yet? */
+/* True if both paths name the same file, which may not exist yet. */
 bool path_is_same(const char *a, const char *b);
 
 /* The last part of the path, which it points into. */

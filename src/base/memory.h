@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * memory.h - allocation that says when memory is out
+ * memory.h - memory allocation with a result when memory is out
  *
  * Units:     bytes
- * Ownership: what the functions return is for free()
+ * Ownership: the functions return memory for free()
  * Threads:   any
  * Errors:    NULL or false when memory is out
  */
@@ -24,11 +24,11 @@ char *format_list(const char *format, va_list values)
  * allocation: large arrays go back to the system when they are freed. */
 void memory_init(void);
 
-/* For what a file or a picture sizes: zeroed memory, or NULL when it is out or
- * count * size_bytes overflows. Never NULL for count 0. */
+/* Returns zeroed memory, or NULL if memory is out or count * size_bytes
+ * overflows. A count of 0 does not give NULL. */
 void *alloc_array(size_t count, size_t size_bytes);
 
-/* The same at the start of a line of memory, not zeroed. */
+/* The same aligned to a cache line, and not zeroed. */
 void *alloc_aligned(size_t count, size_t size_bytes);
 
 /* Grows *array so that it holds `needed` items, at least doubling. False, with

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * name_table.h - numbers names from 0 in the order they come, each once
- *
- * A hash table, so that a file with a million names loads as fast as its size
- * lets one expect.
+ * name_table.h - a hash table that numbers names from 0 in the order of arrival
  *
  * Ownership: names are copied; name_table_free() frees; a zeroed struct is
  * empty Threads:   one thread at a time Errors:    NO_NAME when memory is out
@@ -24,10 +21,10 @@ struct name_table {
     uint32_t slot_count; /* a power of two */
 };
 
-/* The number of the name, which is added if it is new. */
+/* Returns the number of the name, which is added if it is new. */
 uint32_t name_table_add(struct name_table *names, const char *name);
 
-/* The number of the name, or NO_NAME. */
+/* Returns the number of the name, or NO_NAME. */
 uint32_t name_table_find(const struct name_table *names, const char *name);
 
 void name_table_free(struct name_table *names);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * simd4.h - four floats at once: SSE2, or plain loops
+ * simd4.h - vectors of four floats: SSE2, or plain loops
  *
- * The arithmetic of floats, lane by lane, without contraction. Masks have a bit
- * a lane, lane 0 the lowest.
+ * Arithmetic is that of floats, lane by lane, without contraction. Masks have a
+ * bit for each lane, lane 0 the lowest. simd8.h has the same functions for
+ * eight floats, but not as a second use of one template: their bodies are
+ * different intrinsics, and the halves without AVX2 are made of these four.
  */
 #ifndef GLIM_SIMD4_H
 #define GLIM_SIMD4_H
@@ -72,19 +74,19 @@ static inline f4 f4_max(f4 a, f4 b)
     return _mm_max_ps(a, b);
 }
 
-/* 0 where it is above the most. */
+/* a, but 0 where it is above `most`. */
 static inline f4 f4_zero_above(f4 a, f4 most)
 {
     return _mm_and_ps(a, _mm_cmple_ps(a, most));
 }
 
-/* Of whole numbers below 2^31. */
+/* Converts integers below 2^31. */
 static inline f4 f4_from_u32(const uint32_t *p)
 {
     return _mm_cvtepi32_ps(_mm_load_si128((const void *)p));
 }
 
-/* Without what is behind the point, as f4_truncate(). */
+/* Truncates to integers, as f4_truncate(). */
 static inline void f4_store_u32(uint32_t *p, f4 a)
 {
     _mm_store_si128((void *)p, _mm_cvttps_epi32(a));
@@ -95,7 +97,7 @@ static inline f4 f4_truncate(f4 a)
     return _mm_cvtepi32_ps(_mm_cvttps_epi32(a));
 }
 
-/* The sum of the products of two of the first three numbers. */
+/* a0 a1 + a1 a2 + a2 a0: half the surface area of a box with these sides. */
 static inline float f4_pairs3(f4 a)
 {
     f4 b = _mm_mul_ps(a, _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1)));
@@ -105,8 +107,8 @@ static inline float f4_pairs3(f4 a)
         _mm_add_ss(_mm_add_ss(b, second), _mm_movehl_ps(b, b)));
 }
 
-/* Of three vectors all first numbers, all second and all third ones; the last
- * lane is as the one before. */
+/* Transposes the first three lanes of three vectors. The last lane copies the
+ * one before. */
 static inline void f4_transpose3(f4 a, f4 b, f4 c, f4 to[3])
 {
     f4 low = _mm_unpacklo_ps(a, b), high = _mm_unpackhi_ps(a, b);
@@ -126,14 +128,14 @@ static inline uint32_t f4_mask_lt(f4 a, f4 b)
     return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
 }
 
-/* Where a, b and c are the same. */
+/* Mask of the lanes in which a, b and c are equal. */
 static inline uint32_t f4_mask_equal3(f4 a, f4 b, f4 c)
 {
     return (uint32_t)_mm_movemask_ps(
         _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
 }
 
-/* Where one of four numbers is n. */
+/* Mask of the integers that are n. */
 static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
 {
     __m128i same = _mm_cmpeq_epi32(_mm_load_si128((const void *)p),
@@ -142,7 +144,7 @@ static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
     return (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(same));
 }
 
-/* There x, y elsewhere. */
+/* x in the lanes in which a, b and c are equal, else y. */
 static inline f4 f4_select_equal3(f4 a, f4 b, f4 c, f4 x, f4 y)
 {
     f4 same = _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * simd8.h - eight floats at once: AVX2, or two halves of four (simd4.h)
+ * simd8.h - vectors of eight floats: AVX2, or two halves of four (simd4.h)
  *
- * What simd4.h has by the same name is the same here: the arithmetic of floats,
- * lane by lane, without contraction, and masks with a bit a lane, lane 0 the
- * lowest. The rest is about distances, which need not have the same bits
- * everywhere: f8_mul_sub rounds once or twice; of two negative numbers
- * f8_distance_max and f8_distance_min return any, and f8_distance_mask_lt is
- * for a first number that is not negative; f8_distance_add_ulps goes on by so
- * many floats, or a little more.
+ * Functions that simd4.h has as well do the same here, without contraction.
+ *
+ * The functions of distances may give other bits on other processors.
+ * f8_mul_sub rounds once or twice. f8_distance_max and f8_distance_min return
+ * any of two negative numbers. f8_distance_mask_lt needs a first number that is
+ * not negative. f8_distance_add_ulps adds so many units in the last place, or a
+ * few more.
  */
 #ifndef GLIM_SIMD8_H
 #define GLIM_SIMD8_H
@@ -106,8 +106,8 @@ static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
 #endif
 }
 
-/* The bits of positive floats sort as these do, and integers are compared in a
- * quarter of the time. */
+/* Integer comparison of the bits, which have the order of positive floats,
+ * takes a quarter of the time. */
 static inline f8 f8_distance_max(f8 a, f8 b)
 {
     return _mm256_castsi256_ps(

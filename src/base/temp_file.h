@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * temp_file.h - a file that gets its name when it is whole
+ * temp_file.h - temporary files that get their final name when they are
+ * complete
  *
- * Where the file system can (O_TMPFILE), the file has no name while it is
- * written, so that a process that is killed leaves nothing. Elsewhere, and for
- * the moment before it replaces another file, it is called
+ * Where the file system supports O_TMPFILE a file has no name while it is
+ * written, so that a killed process leaves nothing behind. Elsewhere, and for
+ * the moment before it replaces another file, its name is
  * .glim-HOST-PID-NUMBER.
  *
  * Ownership: temp_file_close() closes and frees what temp_file_open() opened;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * text_width.h - text that must fit into columns of the terminal
+ * text_width.h - text measured and cut to columns of the terminal
  *
- * Names in files are foreign text: characters of none, one or two columns, in
- * the encoding of LC_CTYPE, of which print.h says what is shown.
+ * A character of the encoding of LC_CTYPE takes none, one or two columns.
+ * print.h says which characters are replaced.
  *
  * Units:     columns of the terminal; bytes where the name says so
  * Threads:   any
@@ -14,14 +14,14 @@
 
 #include <stddef.h>
 
-/* How many the whole text takes. */
+/* Returns the columns of the whole text. */
 int text_width_of(const char *text);
 
-/* The beginning of the text that fits into so many columns and bytes, with its
- * '\0'. Returns the columns that it takes. */
+/* Copies the beginning of the text that fits into so many columns and bytes,
+ * with a '\0'. Returns its columns. */
 int text_width_cut(char *to, size_t size_bytes, const char *text, int cols);
 
-/* The same, filled up with blanks to that many columns. */
+/* The same, padded with blanks to that many columns. */
 void text_width_fit(char *to, size_t size_bytes, const char *text, int cols);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * thread.h - threads that leave signals to the main one, and how many to start
+ * thread.h - starts threads with signals blocked, and finds how many to start
  *
  * Ownership: the thread is the caller's to join
  * Threads:   any
@@ -11,14 +11,14 @@
 
 #include <pthread.h>
 
-/* Starts run(argument) with all signals blocked: a worker that took SIGWINCH
- * would leave the main thread waiting for the next key. Only those of a fault
- * of its own reach it, for the handler that gives the terminal back. 0, or what
- * is wrong as errno has it. */
+/* Starts run(argument) with signals blocked, as a worker that took SIGWINCH
+ * would leave the main thread waiting for a key. Only signals of a fault of its
+ * own reach the thread, for the handler that restores the terminal. Returns 0
+ * or an error number. */
 int thread_start(pthread_t *thread, void *(*run)(void *), void *argument);
 
-/* Threads that this process may use: its affinity mask and its cgroup's quota,
- * at least 1. */
+/* Returns the number of threads that this process may run at once, by its
+ * affinity mask and the quota of its cgroup: at least 1. */
 int usable_threads(void);
 
 #endif

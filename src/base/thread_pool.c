@@ -10,9 +10,9 @@
 #include "base/memory.h"
 #include "base/thread.h"
 
-/* Items first..end-1 that a worker still has, as first << 32 | end: one word,
- * so that owner and thieves take from it with one exchange. A line of memory
- * each: workers must not slow each other by neighbourhood. */
+/* A worker's items, first to end-1, as first << 32 | end: one word, so that
+ * owner and thieves take items by an atomic exchange. Each has a cache line of
+ * its own to avoid false sharing. */
 struct share {
     _Alignas(64) _Atomic uint64_t items;
 };

@@ -20,7 +20,7 @@
 
 #include "base/error.h"
 
-/* An OpenCL kernel looks at it as one 32-bit word. */
+/* A request to stop. OpenCL kernels read it as one 32-bit word. */
 struct cancel {
     atomic_uint requested;
 };
@@ -48,7 +48,7 @@ struct pool;
 struct pool *pool_create(int thread_count, struct error *err);
 int pool_thread_count(const struct pool *pool);
 
-/* Processor time that a worker has used so far, in nanoseconds. */
+/* Returns the processor time that a worker has used so far, in nanoseconds. */
 uint64_t pool_cpu_ns(const struct pool *pool, int worker);
 
 /* Runs job(context, i, worker) for all i below count; blocks until every
@@ -57,8 +57,8 @@ uint64_t pool_cpu_ns(const struct pool *pool, int worker);
 bool pool_run(struct pool *pool, uint32_t count, pool_job *job, void *context,
               const struct cancel *cancel);
 
-/* The same without an end but the last item's. Without a pool, or for a single
- * item, on the caller's thread, as worker 0. */
+/* pool_run() that cannot be cancelled. Without a pool, or for a single item, it
+ * runs in the caller's thread as worker 0. */
 void pool_each(struct pool *pool, uint32_t count, pool_job *job, void *context);
 
 void pool_destroy(struct pool *pool);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * xdg.h - where files of this person belong: the XDG base directories
+ * xdg.h - folders for files of the user, by the XDG base directory
+ * specification
  *
- * Ownership: what is returned is for free()
+ * Ownership: memory for free() is returned
  * Threads:   main only, as getenv()
- * Errors:    NULL where there is no such place
+ * Errors:    NULL where there is no such folder
  */
 #ifndef GLIM_XDG_H
 #define GLIM_XDG_H

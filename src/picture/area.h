@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * area.h - how much of each cell of one grid lies in each cell of another
+ * area.h - overlaps of the cells of two grids, for scaling pictures by area
  *
- * Along one axis, both grids from end to end: the walk goes over the pieces
- * that the borders of both cut. Lengths are whole numbers, so that none is
- * rounded: a cell of `from` is as long as there are cells of `to`.
+ * Along one axis, both grids have the same ends. The walk visits the pieces
+ * into which the borders of both cut the axis. Lengths are integers, so that
+ * none is rounded: a cell of `from` is as long as `to` has cells, and the other
+ * way round.
  *
  * Units:     cells, and lengths as above
  * Threads:   any
@@ -16,13 +17,13 @@
 #include <stdint.h>
 
 struct area_walk {
-    int from, to; /* cells that the next piece is of */
+    int from, to; /* cells of the next piece */
     int64_t at, last;
     int64_t from_end, to_end;
     int64_t from_step, to_step;
 };
 
-/* Of cells [first, first + count) of `to` cells. */
+/* Begins a walk over cells [first, first + count) of `to` cells. */
 static inline struct area_walk area_walk(int from, int to, int first, int count)
 {
     int64_t at = (int64_t)first * from;
@@ -43,7 +44,7 @@ static inline bool area_walks(const struct area_walk *w)
     return w->at < w->last;
 }
 
-/* Goes on to the next piece; how long this one is. */
+/* Moves to the next piece. Returns the length of this one. */
 static inline float area_step(struct area_walk *w)
 {
     int64_t end = w->from_end < w->to_end ? w->from_end : w->to_end;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * color.h - colours as people write them: hex, HSV, kelvins
+ * color.h - colours as people write them (hex, HSV, kelvins), and their mean
  *
- * Hex and HSV are of the encoded colour, as in every colour picker; kelvins
- * give a black body's colour whose largest channel is 1.
+ * Hex and HSV are of the encoded colour, as in every colour picker. A
+ * temperature in kelvins is the colour of a black body, with a largest channel
+ * of 1.
  *
  * Units:     linear Rec.709; encoded sRGB, hue 0 to 360, the rest 0 to 1
  * Threads:   any

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * film.h - the picture as exact integer sums, and what is read from it
+ * film.h - the film: exact integer sums of samples, and pictures made of them
  *
- * A film covers a rectangle (the crop) of the whole picture. Coordinates here
- * are the film's own: (0, 0) is the crop's corner, row 0 is the top.
- * A pixel without samples shows its neighbour on the next coarser grid that
- * has some: (x & -2, y & -2), (x & -4, y & -4), ...
+ * A film covers a rectangle (the crop) of the whole picture. Coordinates are
+ * relative to the film: (0, 0) is the corner of the crop, row 0 is the top. A
+ * pixel without samples shows its neighbour on the next coarser grid that has
+ * some: (x & -2, y & -2), (x & -4, y & -4), ...
  *
  * Units:     radiance sums; 8-bit sRGB in frames
  * Ownership: film_free() frees; a zeroed struct is an empty film
@@ -45,7 +45,7 @@ struct film {
     atomic_uint_least64_t cut_paths;  /* ended at the hard stop */
 };
 
-/* How linear light becomes a picture: times 2^exposure, through the curve. */
+/* Development of linear light: scaled by 2^exposure, then the tone curve. */
 struct develop {
     float exposure;
     uint32_t tone; /* enum tone */
@@ -60,12 +60,12 @@ bool film_init(struct film *film, int width, int height, struct error *err);
 void film_clear(struct film *film);
 void film_free(struct film *film);
 
-/* Samples of this pixel so far: the index of its next one. For the thread
- * that adds to it. */
+/* Returns the samples of a pixel so far, which is the index of its next one.
+ * For the thread that adds to it. */
 uint64_t film_count(const struct film *film, int x, int y);
 
-/* Adds samples to pixels x, x + stride, ... of row y, counts[i] to pixel i: the
- * samples of each follow those of the one before. */
+/* Adds samples to pixels x, x + stride, ... of row y, counts[i] of them to
+ * pixel i. The samples of a pixel follow those of the one before. */
 void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
                   const struct path_sample *samples, const int *counts);
 
@@ -76,7 +76,7 @@ void film_store_row(struct film *film, int x, int y, int stride,
                     int pixel_count, const struct sum *sums,
                     const uint64_t *counts);
 
-/* Counts samples of which the sums are stored elsewhere or later. */
+/* Adds to the counters for samples whose sums are stored elsewhere or later. */
 void film_count_more(struct film *film, const struct tally *tally);
 
 /* Linear means, 3 floats a pixel, row 0 at the top. */

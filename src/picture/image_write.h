@@ -21,7 +21,7 @@ enum image_write_format {
     IMAGE_WRITE_UNKNOWN
 };
 
-/* By the end of the name; "-" is PNG. */
+/* Returns the format by the ending of the name. "-" is PNG. */
 enum image_write_format image_write_format_of(const char *path);
 
 /* Fails early, before rendering, if the file could not be written: unknown

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * stb.h - stb_image and stb_image_write as this program uses them
+ * stb.h - stb_image and stb_image_write with limits on memory
  *
- * Reads PNG, JPEG, BMP and TGA; writes PNG and Radiance HDR. Debian 12 has
- * version 2.27, which in GIF, PSD, PIC and PNM files reads and writes out of
- * bounds, and never comes back from a truncated HDR file.
+ * Reads PNG, JPEG, BMP and TGA; writes PNG and Radiance HDR. Other formats are
+ * left out: version 2.27 of Debian 12 reads and writes out of bounds in GIF,
+ * PSD, PIC and PNM files, and does not return from a truncated HDR file.
  *
  * Units:     bytes, pixels
- * Ownership: what the decoders return is for free()
+ * Ownership: the decoders return memory for free()
  * Threads:   any; the limit is the calling thread's own
  * Errors:    NULL; stb_failure() has the calling thread's reason
  */
@@ -22,8 +22,8 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
-/* The decoders in this thread may have no more memory at any time from now on:
- * a small file can ask for gigabytes. Also forgets the last failure. */
+/* Limits the memory that decoders in this thread may have at any time from now
+ * on, as a small file can ask for gigabytes. Also forgets the last failure. */
 void stb_limit(size_t size_bytes);
 
 /* Why the last decoder since then has failed; NULL: for want of memory. */
