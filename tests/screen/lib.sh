@@ -97,39 +97,6 @@ rows_with()
     } END { print n + 0 }'
 }
 
-# Waits until a line of the screen matches.
-wait_for()
-{
-    tries=0
-    until screen | grep -q -e "$1"; do
-        tries=$((tries + 1))
-        [ $tries -lt 600 ] || die "waited for: $1"
-        sleep 0.05
-    done
-}
-
-# Waits until this number of rows contain the colour.
-wait_for_rows()
-{
-    tries=0
-    until [ "$(rows_with "$2")" = "$1" ]; do
-        tries=$((tries + 1))
-        [ $tries -lt 600 ] ||
-            die "waited for $1 rows of $2, found $(rows_with "$2")"
-        sleep 0.05
-    done
-}
-
-wait_until_gone()
-{
-    tries=0
-    while screen | grep -q -e "$1"; do
-        tries=$((tries + 1))
-        [ $tries -lt 600 ] || die "waited for the end of: $1"
-        sleep 0.05
-    done
-}
-
 # Waits until the command succeeds.
 wait_until()
 {
@@ -139,6 +106,38 @@ wait_until()
         [ $tries -lt 600 ] || die "waited for: $*"
         sleep 0.05
     done
+}
+
+# True if a line of the screen matches.
+has_line()
+{
+    screen | grep -q -e "$1"
+}
+
+lacks_line()
+{
+    ! has_line "$1"
+}
+
+has_rows()
+{
+    [ "$(rows_with "$2")" = "$1" ]
+}
+
+wait_for()
+{
+    wait_until has_line "$1"
+}
+
+wait_until_gone()
+{
+    wait_until lacks_line "$1"
+}
+
+# Waits until this number of rows contain the colour.
+wait_for_rows()
+{
+    wait_until has_rows "$1" "$2"
 }
 
 # Repeats a check for a second, since a single one may happen in the middle of a
