@@ -2,13 +2,10 @@
 #include "batch.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <poll.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -16,67 +13,13 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "picture/image_write.h"
+#include "api/handle.h"
 #include "terminal/ansi_text.h"
 #include "terminal/tty.h"
 #include "terminal/xmalloc.h"
 #include "session/stats_json.h"
 #include "inspect/view_modes.h"
-
-/* The bar is drawn this often, which also bounds what a slow link gets. */
-#define DRAW_MS 100
-
-static const struct {
-    int number;
-    const char *name;
-} stop_signals[] = {{SIGINT, "SIGINT"},
-                    {SIGTERM, "SIGTERM"},
-                    {SIGHUP, "SIGHUP"}};
-
-#define STOP_SIGNAL_COUNT (int)(sizeof stop_signals / sizeof stop_signals[0])
-
-/* What a handler may touch: the first signal, and what wakes poll().
- * Later signals change nothing, so the picture is saved in peace. */
-static volatile sig_atomic_t stop_signal;
-static int wake_fd;
-
-static void on_stop_signal(int number)
-{
-    int saved_errno = errno;
-
-    if (stop_signal == 0)
-        stop_signal = number;
-    event_fd_set(wake_fd);
-    errno = saved_errno;
-}
-
-static bool catch_signals(struct error *err)
-{
-    struct sigaction action = {.sa_handler = on_stop_signal,
-                               .sa_flags = SA_RESTART};
-
-    wake_fd = event_fd_open("signals", err);
-    if (wake_fd < 0)
-        return false;
-    sigemptyset(&action.sa_mask);
-    for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
-        struct sigaction old;
-
-        /* nohup and background jobs ignore some of them on purpose */
-        if (sigaction(stop_signals[i].number, NULL, &old) == 0 &&
-            old.sa_handler != SIG_IGN)
-            sigaction(stop_signals[i].number, &action, NULL);
-    }
-    return true;
-}
-
-static const char *signal_name(int number)
-{
-    for (int i = 0; i < STOP_SIGNAL_COUNT; i++) {
-        if (stop_signals[i].number == number)
-            return stop_signals[i].name;
-    }
-    return "a signal";
-}
+#include "batch_progress.h"
 
 static bool is_standard_output(const char *path)
 {
@@ -113,97 +56,10 @@ static bool check_outputs(const struct session *s, struct error *err)
     return true;
 }
 
-struct bar {
-    bool is_wanted;
-    int shown_cols;
-};
-
-static void format_time(char text[16], double seconds)
-{
-    /* beyond 999 hours the answer is "long" anyway */
-    unsigned s = seconds < 3599999.0 ? (unsigned)seconds : 3599999u;
-
-    if (s < 3600)
-        snprintf(text, 16, "%u:%02u", s / 60, s % 60);
-    else
-        snprintf(text, 16, "%u:%02u:%02u", s / 3600, s / 60 % 60, s % 60);
-}
-
-static int terminal_cols(void)
-{
-    struct winsize size;
-
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
-        return 80;
-    return size.ws_col;
-}
-
-/* One line without its end. Samples per second are those of the tracing
- * alone: the time left follows from them. */
-static void format_bar(char *text, size_t size_bytes,
-                       const struct render_progress *p)
-{
-    static const char full[] = "####################";
-    static const char empty[] = "--------------------";
-    double done = p->samples_limit == 0
-                      ? 0.0
-                      : (double)p->samples / (double)p->samples_limit;
-    double elapsed = seconds_between(0, p->render_ns);
-    double tracing = elapsed - seconds_between(0, p->build_ns);
-    double rate = tracing > 0.0 ? (double)p->samples / tracing : 0.0;
-    int filled = (int)(done * 20.0);
-    char elapsed_text[16], left_text[16] = "-";
-
-    format_time(elapsed_text, elapsed);
-    if (rate > 0.0)
-        format_time(left_text, (double)(p->samples_limit - p->samples) / rate);
-    snprintf(text, size_bytes,
-             "%3d %% [%.*s%.*s] %" PRIu64 " of %" PRIu64
-             " spp, %.2f Msamples/s, %s, left %s",
-             (int)(done * 100.0), filled, full, 20 - filled, empty, p->spp_done,
-             p->spp_limit, rate * 1e-6, elapsed_text, left_text);
-}
-
-/* Writes `text` over what is shown; a line that filled the last column would
- * wrap. */
-static void bar_show(struct bar *bar, const char *text)
-{
-    int cols = (int)strlen(text);
-    int limit = terminal_cols() - 1;
-
-    if (cols > limit)
-        cols = limit;
-    fputc('\r', stderr);
-    print_text(stderr, "%.*s", cols, text);
-    if (bar->shown_cols > cols)
-        print_text(stderr, "%*s", bar->shown_cols - cols, "");
-    bar->shown_cols = cols;
-    fflush(stderr);
-}
-
-static void bar_draw(struct bar *bar, const struct render_progress *p)
-{
-    char text[160];
-
-    if (!bar->is_wanted)
-        return;
-    format_bar(text, sizeof text, p);
-    bar_show(bar, text);
-}
-
-static void bar_erase(struct bar *bar)
-{
-    if (bar->shown_cols == 0)
-        return;
-    bar_show(bar, "");
-    fputc('\r', stderr);
-    bar->shown_cols = 0;
-}
-
 /* Until all samples are done or a signal comes; halted then. */
-static void wait_for_end(struct session *s)
+static void wait_for_end(struct session *s, int wake_fd)
 {
-    struct bar bar = {.is_wanted = isatty(STDERR_FILENO) == 1};
+    struct batch_bar bar = batch_bar_begin();
     bool looks = bar.is_wanted || s->options->stats_path;
     struct pollfd fds[2] = {{.fd = render_event_fd(s->render),
                              .events = POLLIN},
@@ -211,15 +67,16 @@ static void wait_for_end(struct session *s)
 
     for (;;) {
         struct render_progress p = session_look(s);
+        struct glim_progress shown = handle_progress(&p);
 
-        if (p.state != RENDER_RUNNING || stop_signal != 0)
+        if (p.state != RENDER_RUNNING || batch_stop_signal() != 0)
             break;
-        bar_draw(&bar, &p);
-        poll(fds, 2, looks ? DRAW_MS : -1);
+        batch_bar_draw(&bar, &shown);
+        poll(fds, 2, looks ? BATCH_DRAW_MS : -1);
         if (fds[0].revents & POLLIN)
             event_fd_clear(fds[0].fd);
     }
-    bar_erase(&bar);
+    batch_bar_erase(&bar);
     render_halt(s->render);
     session_look(s);
 }
@@ -336,27 +193,6 @@ static bool save_picture(struct view_mode *show, char **name, struct error *err)
     return save_pixels(show->session, NULL, name, err);
 }
 
-static void say_result(const struct session *s, const char *name,
-                       const struct render_progress *p)
-{
-    const struct film *film = render_film(s->render);
-
-    if (stop_signal != 0)
-        print_line(stderr,
-                   "stopped by %s at %" PRIu64 " of %" PRIu64 " spp: wrote %s",
-                   signal_name(stop_signal), p->spp_done, p->spp_limit, name);
-    else
-        print_line(stderr, "%s: %dx%d, %" PRIu64 " spp, %.1f s", name,
-                   film->width, film->height, p->spp_done,
-                   seconds_between(s->start_ns, clock_ns()));
-    if (p->non_finite > 0)
-        print_line(stderr,
-                   "glim: warning: %" PRIu64
-                   " samples were not finite and count "
-                   "as black",
-                   p->non_finite);
-}
-
 /* A picture that was given a free name may have taken that of the statistics.
  */
 static bool save_stats(const struct session *s, const char *picture,
@@ -372,6 +208,15 @@ static bool save_stats(const struct session *s, const char *picture,
     return stats_json_write(s, path, err);
 }
 
+static void say_result(const struct session *s, const char *name,
+                       const struct render_progress *p)
+{
+    const struct film *film = render_film(s->render);
+    struct glim_progress done = handle_progress(p);
+
+    batch_say_result(name, film->width, film->height, &done, s->start_ns);
+}
+
 static bool save_all(struct view_mode *show, struct error *err)
 {
     struct session *s = show->session;
@@ -381,10 +226,7 @@ static bool save_all(struct view_mode *show, struct error *err)
 
     if (p.samples == 0) {
         /* an old picture is worth more than a black one */
-        print_line(stderr,
-                   "stopped by %s before the first sample: nothing "
-                   "written",
-                   signal_name(stop_signal));
+        batch_say_empty();
         return true;
     }
     ok = save_picture(show, &name, err);
@@ -394,11 +236,6 @@ static bool save_all(struct view_mode *show, struct error *err)
         ok = save_stats(s, name, err);
     free(name);
     return ok;
-}
-
-static void warn_of_device(const struct error *err)
-{
-    print_line(stderr, "glim: warning: %s; the CPU renders", err->text);
 }
 
 /* The device that the options want, if it comes up. Who names one wants no
@@ -418,27 +255,27 @@ static bool use_device(struct session *s, struct error *err)
         print_lines(stderr, log);
     free(log);
     if (!is_up && !o->device && o->backend != BACKEND_AUTO)
-        warn_of_device(err);
+        batch_warn_of_device(err->text);
     return is_up || !o->device;
 }
 
 /* Renders; a device that fails is replaced by the CPU, which starts anew. */
-static bool render_all(struct session *s, struct error *err)
+static bool render_all(struct session *s, int wake_fd, struct error *err)
 {
     struct render_progress p;
 
     if (!session_restart(s, s->options->spp, err))
         return false;
-    wait_for_end(s);
+    wait_for_end(s, wake_fd);
     p = render_progress(s->render);
     if (p.state != RENDER_FAILED)
         return true;
     *err = p.error;
     if (!session_uses_device(s))
         return false;
-    warn_of_device(err);
+    batch_warn_of_device(err->text);
     render_use(s->render, s->machines.cpu);
-    return render_all(s, err);
+    return render_all(s, wake_fd, err);
 }
 
 /* Renders nothing: a ray for each pixel tells all. */
@@ -460,13 +297,15 @@ static bool run_show(struct view_mode *show, struct error *err)
 static bool run_light(struct view_mode *show, int *status, struct error *err)
 {
     struct session *s = show->session;
+    int wake_fd;
 
     /* before our signals are set: drivers put theirs over them */
     if (s->options->backend != BACKEND_CPU && !use_device(s, err))
         return false;
-    if (!catch_signals(err) || !render_all(s, err) || !save_all(show, err))
+    if (!batch_catch_signals(NULL, &wake_fd, err) ||
+        !render_all(s, wake_fd, err) || !save_all(show, err))
         return false;
-    *status = stop_signal != 0 ? 128 + stop_signal : 0;
+    *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;
     return true;
 }
 

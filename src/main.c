@@ -31,6 +31,7 @@
 #include "session/session.h"
 #include "studio/event_loop.h"
 #include "batch.h"
+#include "batch_picture.h"
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
 
@@ -122,9 +123,12 @@ static bool check_terminal(const struct options *o, struct error *err)
 static bool run(struct session *s, const struct options *o, uint64_t start_ns,
                 int *status, struct error *err)
 {
-    bool ok = session_open(s, o, start_ns, err);
+    bool ok;
     char *lost;
 
+    if (batch_picture_is_wanted(o))
+        return batch_picture_run(o, start_ns, status, err);
+    ok = session_open(s, o, start_ns, err);
     /* what was odd in a file counts only if there is something to render */
     if (!ok)
         return false;
@@ -211,7 +215,7 @@ static int print_version(void)
 int main(int argc, char **argv)
 {
     struct options options;
-    struct session session;
+    struct session session = {0};
     struct error err, config_err;
     char *chosen = NULL;
     int status = EXIT_DONE;

@@ -103,6 +103,10 @@ GLIM_API void glim_close(struct glim *g);
  * line for each number from 0; NULL behind the last. */
 GLIM_API const char *glim_warning(const struct glim *g, int number);
 
+/* The files that the scene was read from, and the view file, which need not be
+ * there: one for each number from 0; NULL behind the last. */
+GLIM_API const char *glim_file(const struct glim *g, int number);
+
 /* ---- settings, each of which ends the picture: the next glim_render() begins
  * a new one ---- */
 
@@ -191,6 +195,11 @@ GLIM_API bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
  * new one is there, never a part of it. */
 GLIM_API bool glim_save(struct glim *g, const char *path,
                         struct glim_error *err);
+
+/* Writes STEM.png, or STEM-2.png, STEM-3.png, ...: the first name that is free,
+ * which it returns until the next call. NULL: failed. */
+GLIM_API const char *glim_save_new(struct glim *g, const char *stem,
+                                   struct glim_error *err);
 
 #ifdef __cplusplus
 }

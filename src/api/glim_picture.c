@@ -2,6 +2,8 @@
 /* The picture of a handle: read and saved. */
 #include "api/handle.h"
 
+#include <stdlib.h>
+
 #include "picture/film.h"
 #include "picture/image_write.h"
 
@@ -75,4 +77,23 @@ bool glim_save(struct glim *g, const char *path, struct glim_error *err)
 
     return film != NULL && (image_write(film, develop_of(g), path, &why) ||
                             handle_fail(err, &why));
+}
+
+const char *glim_save_new(struct glim *g, const char *stem,
+                          struct glim_error *err)
+{
+    struct film *film = film_of(g, err);
+    struct error why;
+    char *name;
+
+    if (film == NULL)
+        return NULL;
+    name = image_write_numbered(film, develop_of(g), stem, "png", &why);
+    if (name == NULL) {
+        handle_fail(err, &why);
+        return NULL;
+    }
+    free(g->saved_name);
+    g->saved_name = name;
+    return name;
 }

@@ -102,7 +102,6 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
         .program = g->program != NULL ? g->program : GLIM_PROGRAM,
         .device = device,
         .needs_gpu = backend == GLIM_BACKEND_GPU,
-        .features = world_features(&g->world),
     };
     struct error why;
 
@@ -112,8 +111,13 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
     g->device = NULL;
     free(g->backend_log);
     g->backend_log = NULL;
-    return backend == GLIM_BACKEND_CPU || start_device(g, &request, &why) ||
-           handle_fail(err, &why);
+    if (backend == GLIM_BACKEND_CPU)
+        return true;
+    /* the path guide is one of the features that kernels are built for */
+    if (!world_guide(&g->world, &g->scene, &g->view, threads_of(g), &why))
+        return handle_fail(err, &why);
+    request.features = world_features(&g->world);
+    return start_device(g, &request, &why) || handle_fail(err, &why);
 }
 
 const char *glim_backend_log(const struct glim *g)
@@ -123,7 +127,7 @@ const char *glim_backend_log(const struct glim *g)
 
 /* ---- rendering ---- */
 
-static struct glim_progress progress_of(const struct render_progress *p)
+struct glim_progress handle_progress(const struct render_progress *p)
 {
     return (struct glim_progress){
         .spp = p->spp_done,
@@ -143,7 +147,7 @@ struct glim_progress glim_get_progress(struct glim *g)
     if (!g->has_picture)
         return (struct glim_progress){0};
     p = render_progress(g->render);
-    return progress_of(&p);
+    return handle_progress(&p);
 }
 
 /* A new picture, with the settings as they are. */
@@ -186,7 +190,7 @@ static enum glim_result wait_for_end(struct glim *g, uint64_t end_ns,
 
     for (;;) {
         struct render_progress p = render_progress(g->render);
-        struct glim_progress shown = progress_of(&p);
+        struct glim_progress shown = handle_progress(&p);
 
         if (p.state != RENDER_RUNNING || clock_ns() >= end_ns)
             return GLIM_DONE;

@@ -117,6 +117,7 @@ void glim_close(struct glim *g)
     free(g->view_path);
     free(g->program);
     free(g->backend_log);
+    free(g->saved_name);
     if (g->cancel_fd >= 0)
         close(g->cancel_fd);
     free(g);
@@ -126,6 +127,13 @@ const char *glim_warning(const struct glim *g, int number)
 {
     return number >= 0 && number < g->report.entry_count ? g->warnings[number]
                                                          : NULL;
+}
+
+const char *glim_file(const struct glim *g, int number)
+{
+    return number >= 0
+               ? scene_file(&g->scene, &g->view, g->view_path, (uint32_t)number)
+               : NULL;
 }
 
 struct glim_camera glim_get_camera(const struct glim *g)

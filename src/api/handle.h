@@ -33,12 +33,15 @@ struct glim {
     struct backend *device; /* renders if it is there */
     char *backend_log;
     struct render *render; /* NULL: not needed yet */
+    char *saved_name;      /* of glim_save_new() */
     bool has_picture;      /* as the settings are */
     int cancel_fd;         /* readable: somebody has asked for a stop */
 };
 
 /* Copies the text to the caller's error, if there is one, and returns false. */
 bool handle_fail(struct glim_error *to, const struct error *err);
+
+struct glim_progress handle_progress(const struct render_progress *p);
 
 /* Frees the renderer and the threads of the CPU, which the next glim_render()
  * makes anew. */

@@ -145,6 +145,21 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
             fail(err, "%s: out of memory for the warnings", path));
 }
 
+const char *scene_file(const struct scene *scene, const struct view *view,
+                       const char *view_path, uint32_t number)
+{
+    const char *own[] = {scene->path, view_path, view->lighting.sky_path};
+    uint32_t own_count = own[2] != NULL ? 3 : 2;
+
+    if (number < own_count)
+        return own[number];
+    number -= own_count;
+    if (number < scene->mtl_path_count)
+        return scene->mtl_paths[number];
+    number -= scene->mtl_path_count;
+    return number < scene->texture_count ? scene->texture_paths[number] : NULL;
+}
+
 /* ---- materials that the view gives to objects ---- */
 
 void scene_find_assigned(const struct scene *scene,

@@ -33,6 +33,11 @@ bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
 /* Returns true if scene_open() has added the soft sky. */
 bool view_has_soft_sky(const struct view *view);
 
+/* Returns the name of a file that the scene or its view comes from, for each
+ * number from 0; NULL after the last. view_path need not exist. */
+const char *scene_file(const struct scene *scene, const struct view *view,
+                       const char *view_path, uint32_t number);
+
 /* Finds the material that the view assigns to each object; NO_INDEX if none. */
 void scene_find_assigned(const struct scene *scene,
                          const struct assigns *assigns, uint32_t *assigned,

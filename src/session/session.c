@@ -156,19 +156,14 @@ void session_take(struct session *s, struct session *fresh)
 
 void session_watch(const struct session *s, struct file_watch *watch)
 {
-    const struct scene *scene = &s->scene;
     char *camera = xchecked(path_beside(s->options->scene_path, "camera.txt"));
+    const char *path;
 
-    file_watch_add(watch, s->options->scene_path);
-    for (uint32_t i = 0; i < scene->mtl_path_count; i++)
-        file_watch_add(watch, scene->mtl_paths[i]);
-    for (uint32_t i = 0; i < scene->texture_count; i++)
-        file_watch_add(watch, scene->texture_paths[i]);
-    file_watch_add(watch, s->view_path);
+    for (uint32_t i = 0;
+         (path = scene_file(&s->scene, &s->view, s->view_path, i)) != NULL; i++)
+        file_watch_add(watch, path);
     if (!s->options->view_path)
         file_watch_add(watch, camera);
-    if (s->view.lighting.sky_path)
-        file_watch_add(watch, s->view.lighting.sky_path);
     free(camera);
 }
 

@@ -55,6 +55,9 @@ soname=$(readelf -d "$lib/libglim.so" |
 check SONAME test "$soname" = libglim.so.0 -a -e "$lib/$soname"
 check version test "glim $(of_pc Version)" = "$("$build/glim" --version |
     head -1)"
+for name in $(cat "$folder/declared"); do
+    check "manual: $name" grep -q "^\.Fn $name " man/libglim.3
+done
 if command -v pkg-config >/dev/null; then
     check pkg-config env "PKG_CONFIG_PATH=${pc%/*}" \
         pkg-config --exists --print-errors glim

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+/*
+ * batch_progress.h - the signals that stop a batch render, its progress bar and
+ * its last line
+ *
+ * Threads:   main only
+ * Errors:    no event descriptor for the signals
+ */
+#ifndef GLIM_BATCH_PROGRESS_H
+#define GLIM_BATCH_PROGRESS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "glim/glim.h"
+
+#include "base/error.h"
+
+/* The bar is drawn this often, which also bounds what a slow link gets. */
+#define BATCH_DRAW_MS 100
+
+/* Lets SIGINT, SIGTERM and SIGHUP stop the render, unless they are ignored:
+ * they cancel the handle, if there is one, and make *wake_fd readable. */
+bool batch_catch_signals(struct glim *g, int *wake_fd, struct error *err);
+
+/* The first of these signals; 0: none has come. */
+int batch_stop_signal(void);
+
+struct batch_bar {
+    bool is_wanted; /* standard error is a terminal */
+    int shown_cols;
+};
+
+struct batch_bar batch_bar_begin(void);
+void batch_bar_draw(struct batch_bar *bar, const struct glim_progress *p);
+void batch_bar_erase(struct batch_bar *bar);
+
+/* Says that nothing was written, as there is no sample. */
+void batch_say_empty(void);
+
+/* Says what was written to `name`. start_ns is that of the program. */
+void batch_say_result(const char *name, int width, int height,
+                      const struct glim_progress *p, uint64_t start_ns);
+
+/* Says that the CPU renders because of the error. */
+void batch_warn_of_device(const char *text);
+
+#endif
