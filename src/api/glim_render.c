@@ -153,10 +153,7 @@ struct glim_progress glim_get_progress(struct glim *g)
 /* A new picture, with the settings as they are. */
 static bool begin(struct glim *g, uint64_t spp, struct error *err)
 {
-    struct render_job job = {.host = &g->world,
-                             .geometry_changed = true,
-                             .crop = g->crop,
-                             .spp = spp};
+    struct render_job job = {.host = &g->world, .crop = g->crop, .spp = spp};
 
     if (!g->view.has_camera) /* all is seen in a picture of this shape */
         scene_frame(&g->scene, &g->view);

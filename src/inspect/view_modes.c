@@ -82,12 +82,16 @@ struct camera view_mode_camera(const struct view_mode *s,
 
 bool view_mode_need_tree(struct view_mode *s, struct error *err)
 {
+    uint64_t shape = s->session->world.versions[WORLD_SHAPE];
     struct world w;
 
-    if (!s->has_bvh)
-        s->has_bvh =
-            find_world(s, &w, err) && bvh_build(&s->bvh, &w, NULL, err);
-    return s->has_bvh;
+    if (s->bvh_shape == shape)
+        return true;
+    s->bvh_shape = 0;
+    if (!find_world(s, &w, err) || !bvh_build(&s->bvh, &w, NULL, err))
+        return false;
+    s->bvh_shape = shape;
+    return true;
 }
 
 static bool need_pool(struct view_mode *s, struct error *err)
@@ -244,6 +248,7 @@ static bool paint_samples(struct view_mode *s, struct film *film,
 /* Counts costs again if the camera or the frame's size has changed. */
 static bool count_costs(struct view_mode *s, const struct frame *frame)
 {
+    uint64_t generation = s->session->world.generation;
     struct error ignored;
     struct world w;
 
@@ -251,7 +256,8 @@ static bool count_costs(struct view_mode *s, const struct frame *frame)
     if (!view_mode_need_tree(s, &ignored) || !view_mode_world(s, &w))
         return false;
     w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
-    if (s->cost_width == frame->width && s->cost_height == frame->height &&
+    if (s->cost_generation == generation && s->cost_width == frame->width &&
+        s->cost_height == frame->height &&
         memcmp(&s->cost_camera, &w.settings.camera, sizeof s->cost_camera) == 0)
         return true;
     free(s->costs);
@@ -262,6 +268,7 @@ static bool count_costs(struct view_mode *s, const struct frame *frame)
         return false;
     traversal_cost_of_pixels(s->pool, &w, frame->width, frame->height,
                              s->costs);
+    s->cost_generation = generation;
     s->cost_camera = w.settings.camera;
     s->cost_width = frame->width;
     s->cost_height = frame->height;
@@ -359,13 +366,6 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
         break;
     }
     return true;
-}
-
-void view_mode_reset(struct view_mode *s)
-{
-    bvh_free(&s->bvh);
-    s->has_bvh = false;
-    s->cost_width = 0;
 }
 
 void view_mode_free(struct view_mode *s)

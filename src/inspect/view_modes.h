@@ -29,13 +29,14 @@ struct view_mode {
     char legend[256];   /* "" for light, which has none */
     bool legend_is_new; /* cleared by the screen */
 
-    struct bvh bvh; /* built on first use */
-    bool has_bvh;
-    struct pool *pool; /* started on first use */
+    struct bvh bvh;     /* built on first use */
+    uint64_t bvh_shape; /* version that it was built for; 0: none */
+    struct pool *pool;  /* started on first use */
 
     float *numbers; /* of the frame that was painted last, or of its film */
     size_t number_capacity;
     struct traversal_cost *costs; /* for cost_camera, one for each pixel */
+    uint64_t cost_generation;
     struct camera cost_camera;
     int cost_width, cost_height;
 };
@@ -68,9 +69,6 @@ bool view_mode_world(const struct view_mode *s, struct world *w);
 struct camera view_mode_camera(const struct view_mode *s,
                                const struct camera *camera,
                                const struct frame *frame);
-
-/* Drops everything computed for the previous scene. */
-void view_mode_reset(struct view_mode *s);
 
 void view_mode_free(struct view_mode *s);
 

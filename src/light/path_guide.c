@@ -210,7 +210,7 @@ static bool update(struct path_guide *g, const struct bvh8_world *w,
     return true;
 }
 
-static bool is_done(const struct path_guide *g, double sky)
+bool path_guide_is_current(const struct path_guide *g, double sky)
 {
     return g->is_current && g->sky == sky;
 }
@@ -218,7 +218,7 @@ static bool is_done(const struct path_guide *g, double sky)
 bool path_guide_needs_rays(const struct path_guide *g, const struct world *w,
                            double sky)
 {
-    return !is_done(g, sky) && w->settings.tri_count > 0 &&
+    return !path_guide_is_current(g, sky) && w->settings.tri_count > 0 &&
            (wants_caustics(g, w) || wants_portals(g, sky));
 }
 
@@ -226,7 +226,7 @@ bool path_guide_update(struct path_guide *g, const struct bvh8_world *w,
                        const struct lights *lights, double sky,
                        struct pool *pool, struct error *err)
 {
-    if (is_done(g, sky))
+    if (path_guide_is_current(g, sky))
         return true;
     if (!update(g, w, lights, sky, pool)) {
         path_guide_outdate(g);

@@ -35,6 +35,10 @@ struct path_guide {
     bool is_current;
 };
 
+/* True if the table suits a sky of this mean radiance, and nothing has changed
+ * since it was made. */
+bool path_guide_is_current(const struct path_guide *guide, double sky);
+
 /* True if path_guide_update() has to trace rays, for which it needs the tree.
  */
 bool path_guide_needs_rays(const struct path_guide *guide,

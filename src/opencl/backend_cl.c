@@ -149,8 +149,9 @@ static void choose_kernels(struct backend_cl *b, uint32_t features)
             : &b->full;
 }
 
-static bool cl_begin(struct backend *base, const struct world *world,
-                     struct film *film, int x0, int y0, struct error *err)
+static bool cl_begin(struct backend *base, const struct host_world *host,
+                     const struct world *world, struct film *film, int x0,
+                     int y0, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
     size_t pixel_count = (size_t)film->width * (size_t)film->height;
@@ -158,7 +159,8 @@ static bool cl_begin(struct backend *base, const struct world *world,
     choose_kernels(b, world->settings.features);
     b->x0 = (uint32_t)x0;
     b->y0 = (uint32_t)y0;
-    return cl_world_update(&b->world, &b->machine, world, &b->bvh, err) &&
+    return cl_world_update(&b->world, &b->machine, host, world, &b->bvh,
+                           &base->upload_count, err) &&
            cl_film_begin(&b->film, &b->machine, film, err) &&
            cl_readback_begin(&b->slots[0].reading, &b->film, err) &&
            cl_readback_begin(&b->slots[1].reading, &b->film, err) &&

@@ -2,11 +2,33 @@
 #include "opencl/cl_world.h"
 
 #include "light/guide_grid.h"
+#include "kernels/sky.h"
 
-/* What an array of the world is on the host. */
+/* An array of the world, on the host. */
 struct source {
     const void *data;
     size_t size_bytes;
+};
+
+/* The part of the world whose version an array has; settings have none. */
+static const enum world_part parts[CL_ARRAY_COUNT] = {
+    [CL_ARRAY_POSITIONS] = WORLD_FIXED,
+    [CL_ARRAY_NORMALS] = WORLD_FIXED,
+    [CL_ARRAY_UVS] = WORLD_FIXED,
+    [CL_ARRAY_TRIS] = WORLD_TRIS,
+    [CL_ARRAY_MATERIALS] = WORLD_MATERIALS,
+    [CL_ARRAY_TEXTURES] = WORLD_TEXTURES,
+    [CL_ARRAY_TEXELS] = WORLD_TEXELS,
+    [CL_ARRAY_LINEAR_OF_SRGB] = WORLD_FIXED,
+    [CL_ARRAY_SKY_TEXELS] = WORLD_SKY,
+    [CL_ARRAY_NODES] = WORLD_SHAPE,
+    [CL_ARRAY_LEAF_TRIS] = WORLD_SHAPE,
+    [CL_ARRAY_LIGHTS] = WORLD_LIGHTS,
+    [CL_ARRAY_TRI_LIGHTS] = WORLD_LIGHTS,
+    [CL_ARRAY_LIGHT_NODES] = WORLD_LIGHTS,
+    [CL_ARRAY_SKY_SUMS] = WORLD_SKY,
+    [CL_ARRAY_GUIDE_CELLS] = WORLD_GUIDE,
+    [CL_ARRAY_GUIDE_SUMS] = WORLD_GUIDE,
 };
 
 #define SOURCE(array, count)                       \
@@ -22,14 +44,21 @@ static bool upload(struct cl_world *c, const struct cl_machine *m,
     cl_machine_drop(m, &c->buffers[which]);
     c->buffers[which] =
         cl_machine_buffer(m, source.data, source.size_bytes, shared, err);
-    c->sources[which] = source.data;
-    c->sizes_bytes[which] = source.size_bytes;
-    c->upload_count++;
     return c->buffers[which] != NULL;
 }
 
+/* The whole table, also where a view needs none of it: its length is not to
+ * depend on the view. */
+static size_t sky_cdf_length(const struct world *w)
+{
+    const struct sky sky = w->settings.sky;
+
+    return w->sky_cdf != NULL ? sky_row_cdf(sky, sky.height) : 0;
+}
+
 bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
-                     const struct world *w, const struct bvh *bvh,
+                     const struct host_world *host, const struct world *w,
+                     const struct bvh *bvh, uint64_t *upload_count,
                      struct error *err)
 {
     const struct settings *s = &w->settings;
@@ -52,7 +81,7 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
         [CL_ARRAY_TRI_LIGHTS] =
             SOURCE(w->tri_lights, s->light_count > 0 ? s->tri_count : 0),
         [CL_ARRAY_LIGHT_NODES] = SOURCE(w->light_nodes, s->light_node_count),
-        [CL_ARRAY_SKY_SUMS] = SOURCE(w->sky_cdf, s->sky_cdf_count),
+        [CL_ARRAY_SKY_SUMS] = SOURCE(w->sky_cdf, sky_cdf_length(w)),
         [CL_ARRAY_GUIDE_CELLS] =
             SOURCE(w->guide_cells, guide_cell_count(&s->guide)),
         [CL_ARRAY_GUIDE_SUMS] =
@@ -60,12 +89,15 @@ bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
     };
 
     for (int i = 0; i < CL_ARRAY_COUNT; i++) {
-        bool is_there = c->buffers[i] != NULL && i != CL_ARRAY_SETTINGS &&
-                        c->sources[i] == sources[i].data &&
-                        c->sizes_bytes[i] == sources[i].size_bytes;
+        uint64_t version = host->versions[parts[i]];
 
-        if (!is_there && !upload(c, m, (enum cl_array)i, sources[i], err))
+        if (c->buffers[i] != NULL && i != CL_ARRAY_SETTINGS &&
+            c->versions[i] == version)
+            continue;
+        if (!upload(c, m, (enum cl_array)i, sources[i], err))
             return false;
+        c->versions[i] = version;
+        (*upload_count)++;
     }
     return true;
 }

@@ -15,6 +15,7 @@
 #include <stdint.h>
 
 #include "bvh/bvh.h"
+#include "scene/world.h"
 #include "opencl/cl_machine.h"
 
 /* In the order of trace_paths()'s arguments. */
@@ -42,14 +43,15 @@ enum cl_array {
 
 struct cl_world {
     cl_mem buffers[CL_ARRAY_COUNT];
-    const void *sources[CL_ARRAY_COUNT]; /* where the contents came from */
-    size_t sizes_bytes[CL_ARRAY_COUNT];
-    uint32_t upload_count; /* since the beginning */
+    uint64_t versions[CL_ARRAY_COUNT]; /* of the contents */
 };
 
-/* Uploads the settings and what has another address or size than before. */
+/* Uploads the settings, and arrays whose version is another than that of the
+ * buffer; counts them. `world` is lent from the host, with the nodes of `bvh`,
+ * which was built for the host's shape. */
 bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
-                     const struct world *world, const struct bvh *bvh,
+                     const struct host_world *host, const struct world *world,
+                     const struct bvh *bvh, uint64_t *upload_count,
                      struct error *err);
 
 void cl_world_free(struct cl_world *c, const struct cl_machine *m);

@@ -82,7 +82,6 @@ static bool make_job(const struct scene *scene, struct host_world *host,
     bool ok;
 
     *job = (struct render_job){.host = host,
-                               .geometry_changed = true,
                                .crop = {0, 0, SIDE, SIDE},
                                .spp = SPP};
     view_init(&view);

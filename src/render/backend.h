@@ -31,23 +31,25 @@ struct backend {
     const char *device; /* its name and that of its driver's version, */
     const char *driver; /* or NULL */
     int thread_count;
-    uint64_t tree_bytes; /* of what load() built, or found */
+    uint64_t tree_bytes;   /* of what load() built, or found */
+    uint64_t shape;        /* version of the one that is loaded; 0: none */
+    uint64_t upload_count; /* of arrays, so far; 0 for the CPU */
 
-    /* New geometry: builds what the ray queries need. For backends that have
-     * no tree of their own this is the host's, which others may have built
-     * before. The host and the arrays of the world, which it has lent, must
-     * stay until the next load() or destroy(). */
+    /* A new shape: builds what the ray queries need. For backends that have no
+     * tree of their own this is the host's, which others may have built before.
+     * `world` is lent from the host, as in begin(). */
     bool (*load)(struct backend *b, struct host_world *host,
                  const struct world *world, struct error *err);
 
-    /* Frees what load() built but the tree: another backend renders now. */
+    /* Frees what load() built but the host's tree: another backend renders. */
     void (*unload)(struct backend *b);
 
     /* A new picture: the film is empty, its corner is pixel (x0, y0) of the
-     * whole. The world may differ from load()'s in all but its triangles; its
-     * arrays and the film must stay until the last pass(). */
-    bool (*begin)(struct backend *b, const struct world *world,
-                  struct film *film, int x0, int y0, struct error *err);
+     * whole. The world may differ from load()'s in all but its shape; host,
+     * arrays and film must stay until the last pass(). */
+    bool (*begin)(struct backend *b, const struct host_world *host,
+                  const struct world *world, struct film *film, int x0, int y0,
+                  struct error *err);
 
     /* Renders into the film of begin(), which has it all at the end. */
     enum pass_result (*pass)(struct backend *b, const struct pass *pass,

@@ -15,7 +15,6 @@ struct backend_cpu {
     struct backend base;
     const struct cpu_kernel *paths; /* that can do every world */
     struct pool *pool;
-    const struct bvh8 *tree; /* from load() */
     /* from begin() */
     const struct cpu_kernel *fit; /* that can do this one */
     struct bvh8_world world;
@@ -141,26 +140,25 @@ static bool cpu_load(struct backend *base, struct host_world *host,
 
     if (!world_need_tree(host, world, b->pool, err))
         return false;
-    b->tree = world_tree(host);
-    base->tree_bytes = bvh8_bytes(b->tree);
+    base->tree_bytes = bvh8_bytes(world_tree(host));
     return true;
 }
 
 static void cpu_unload(struct backend *base)
 {
-    ((struct backend_cpu *)base)->tree = NULL;
     base->tree_bytes = 0;
 }
 
-static bool cpu_begin(struct backend *base, const struct world *world,
-                      struct film *film, int x0, int y0, struct error *err)
+static bool cpu_begin(struct backend *base, const struct host_world *host,
+                      const struct world *world, struct film *film, int x0,
+                      int y0, struct error *err)
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     (void)err;
     b->fit = cpu_kernel_fit(b->paths, world->settings.features);
     b->world.world = *world;
-    b->world.tree = b->tree;
+    b->world.tree = world_tree(host);
     b->film = film;
     b->x0 = x0;
     b->y0 = y0;

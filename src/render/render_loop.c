@@ -104,16 +104,21 @@ static enum pass_result run_to(struct render *r, uint64_t target,
     return result;
 }
 
+/* A backend keeps what it has built for the same shape. */
 static enum pass_result load(struct render *r)
 {
+    struct backend *b = r->backend;
+    uint64_t shape = r->job.host->versions[WORLD_SHAPE];
     uint64_t begin_ns = clock_ns();
     bool ok =
-        r->backend->load(r->backend, r->job.host, &r->job.world, &r->error);
+        b->shape == shape || b->load(b, r->job.host, &r->job.world, &r->error);
 
-    pthread_mutex_lock(&r->lock);
-    r->build_ns = clock_ns() - begin_ns;
-    pthread_mutex_unlock(&r->lock);
-    r->job.geometry_changed = !ok;
+    if (b->shape != shape) {
+        pthread_mutex_lock(&r->lock);
+        r->build_ns = clock_ns() - begin_ns;
+        pthread_mutex_unlock(&r->lock);
+    }
+    b->shape = ok ? shape : 0;
     return ok ? PASS_DONE : PASS_FAILED;
 }
 
@@ -124,7 +129,8 @@ static enum pass_result begin(struct render *r, const struct world *world,
     if (r->begun == film)
         return PASS_DONE;
     r->begun = NULL;
-    if (!r->backend->begin(r->backend, world, film, x0, y0, &r->error))
+    if (!r->backend->begin(r->backend, r->job.host, world, film, x0, y0,
+                           &r->error))
         return PASS_FAILED;
     r->begun = film;
     return PASS_DONE;
@@ -210,10 +216,8 @@ static enum pass_result run_film(struct render *r)
 
 static enum pass_result run(struct render *r)
 {
-    enum pass_result result = PASS_DONE;
+    enum pass_result result = load(r);
 
-    if (r->job.geometry_changed)
-        result = load(r);
     if (result == PASS_DONE && r->draft.width > 0 &&
         r->draft_spp_done < draft_spp(&r->job))
         result = run_draft(r);
@@ -323,15 +327,11 @@ static bool renew_draft(struct render *r, const struct render_job *job,
 bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
-    bool geometry_changed;
-
     render_halt(r);
-    geometry_changed = r->job.geometry_changed || job->geometry_changed;
     if (!renew(&r->film, job->crop.width, job->crop.height, err) ||
         !renew_draft(r, job, err))
         return false;
     r->job = *job;
-    r->job.geometry_changed = geometry_changed;
     r->begun = NULL;
     pthread_mutex_lock(&r->lock);
     r->spp = job->spp;
@@ -454,10 +454,11 @@ struct film *render_draft(struct render *r)
 void render_use(struct render *r, struct backend *backend)
 {
     render_halt(r);
-    if (r->backend != backend)
+    if (r->backend != backend) {
         r->backend->unload(r->backend);
+        r->backend->shape = 0;
+    }
     r->backend = backend;
-    r->job.geometry_changed = true;
 }
 
 struct backend *render_backend(const struct render *r)

@@ -33,11 +33,10 @@ struct rect {
 
 struct render_job {
     struct host_world *host;
-    struct world world;    /* lent from the host */
-    bool geometry_changed; /* since the last start: the backend loads anew */
-    struct rect crop;      /* in the picture that world.settings.camera has */
-    uint64_t spp;          /* 0: no limit */
-    uint64_t steps;        /* as of render_step(): halts then; 0: does not */
+    struct world world; /* lent from the host */
+    struct rect crop;   /* in the picture that world.settings.camera has */
+    uint64_t spp;       /* 0: no limit */
+    uint64_t steps;     /* as of render_step(): halts then; 0: does not */
     /* pixels of the draft, as many as are shown; it has no more than the film,
      * and there is none without columns or rows */
     int draft_width, draft_height;

@@ -62,6 +62,7 @@ static bool append(struct host_world *host, const struct image *image,
         texture->has_holes |= alpha < 128;
     }
     host->texel_count = total;
+    world_renew(host, WORLD_TEXELS);
     return true;
 }
 

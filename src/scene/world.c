@@ -89,6 +89,14 @@ static bool make_camera(const struct scene *scene, const struct view *view,
 
 /* ---- arrays ---- */
 
+void world_renew(struct host_world *host, enum world_part part)
+{
+    static atomic_uint_fast64_t last; /* of any world: loads have threads */
+
+    host->generation = atomic_fetch_add(&last, 1) + 1;
+    host->versions[part] = host->generation;
+}
+
 static bool find_used_materials(struct host_world *host,
                                 const struct scene *scene, struct error *err)
 {
@@ -124,6 +132,8 @@ bool world_init(struct host_world *host, const struct scene *scene,
     struct world arrays;
 
     *host = (struct host_world){.tris = NULL};
+    for (int i = 0; i < WORLD_PARTS; i++)
+        world_renew(host, (enum world_part)i);
     for (int i = 0; i < 256; i++)
         host->linear_of_srgb[i] = (float)color_decoded(i / 255.0);
     if (!find_used_materials(host, scene, err) ||
@@ -158,7 +168,6 @@ bool world_load_sky(struct host_world *host, const struct view *view,
         image_free(&image);
         return false;
     }
-    /* not before: what has another address is known to be another array */
     free(host->sky_texels);
     sky_table_free(&host->sky_table);
     host->sky_table = table;
@@ -168,6 +177,7 @@ bool world_load_sky(struct host_world *host, const struct view *view,
     host->sky_height = (uint32_t)image.height;
     image.rgb = NULL;
     image_free(&image);
+    world_renew(host, WORLD_SKY);
     return true;
 }
 
@@ -247,8 +257,9 @@ void world_drop_tree(struct host_world *host)
     bvh8_free(&host->tree);
 }
 
-void world_take_tree(struct host_world *host, struct host_world *from)
+void world_take_shape(struct host_world *host, struct host_world *from)
 {
+    host->versions[WORLD_SHAPE] = from->versions[WORLD_SHAPE];
     if (world_tree(from) == NULL)
         return;
     world_drop_tree(host);
@@ -284,22 +295,26 @@ bool world_guide(struct host_world *host, const struct scene *scene,
 {
     struct bvh8_world w = {.world = world_arrays(host, scene),
                            .tree = &host->tree};
-    struct vec3 color = make_sky(host, view).color;
-    double sky = color_mean(color);
-    struct pool *pool;
-    bool ok;
+    struct path_guide *guide = &host->guide;
+    double sky = color_mean(make_sky(host, view).color);
+    bool had_table = guide->cells != NULL;
+    struct pool *pool = NULL;
+    bool ok = true;
 
     lights_lend(&host->lights, &w.world);
     if (host->sky_texels != NULL)
         sky *= host->sky_table.mean;
-    if (!path_guide_needs_rays(&host->guide, &w.world, sky))
-        return path_guide_update(&host->guide, &w, &host->lights, sky, NULL,
-                                 err);
-    /* without threads this one works */
-    pool = thread_count > 1 ? pool_create(thread_count, err) : NULL;
-    ok = world_need_tree(host, &w.world, pool, err) &&
-         path_guide_update(&host->guide, &w, &host->lights, sky, pool, err);
+    if (path_guide_is_current(guide, sky))
+        return true;
+    if (path_guide_needs_rays(guide, &w.world, sky)) {
+        /* without threads this one works */
+        pool = thread_count > 1 ? pool_create(thread_count, err) : NULL;
+        ok = world_need_tree(host, &w.world, pool, err);
+    }
+    ok = ok && path_guide_update(guide, &w, &host->lights, sky, pool, err);
     pool_destroy(pool);
+    if (ok && (had_table || guide->cells != NULL))
+        world_renew(host, WORLD_GUIDE);
     return ok;
 }
 

@@ -26,7 +26,26 @@
 #include "scene/scene.h"
 #include "scene/view.h"
 
+/* Arrays that are made together, and have a version together. */
+enum world_part {
+    WORLD_FIXED,     /* vertices and the sRGB curve: no edit changes them */
+    WORLD_SHAPE,     /* corners of all triangles, of which trees are made */
+    WORLD_TRIS,      /* triangles with their materials */
+    WORLD_MATERIALS, /* and what they were made from */
+    WORLD_TEXTURES,
+    WORLD_TEXELS,
+    WORLD_SKY, /* its image and table */
+    WORLD_LIGHTS,
+    WORLD_GUIDE,
+    WORLD_PARTS
+};
+
 struct host_world {
+    /* Equal versions are equal contents, in any world of the process: no number
+     * comes twice, and 0 is none. */
+    uint64_t versions[WORLD_PARTS];
+    uint64_t generation; /* the last of them: another after any change */
+
     /* NULL: the scene's triangles, no object has another material */
     struct tri *tris;
     uint32_t *assigned; /* its material for each object, or NO_INDEX: the
@@ -81,8 +100,12 @@ const struct bvh8 *world_tree(const struct host_world *host);
 
 void world_drop_tree(struct host_world *host);
 
-/* Takes the tree of another world with the same shape. */
-void world_take_tree(struct host_world *host, struct host_world *from);
+/* For a world with the shape of another: takes the version of that and the
+ * tree, if it has one. */
+void world_take_shape(struct host_world *host, struct host_world *from);
+
+/* The arrays of this part are others now. */
+void world_renew(struct host_world *host, enum world_part part);
 
 const struct tri *world_tris(const struct host_world *host,
                              const struct scene *scene);

@@ -226,19 +226,23 @@ static void swap_in(struct change *c)
     free(host->material_is_used);
     host->material_is_used = next->material_is_used;
     host->material_count = c->count;
+    world_renew(host, WORLD_MATERIALS);
     if (next->tris != NULL) {
         free(host->tris);
         host->tris = next->tris;
         free(host->assigned);
         host->assigned = next->assigned;
+        world_renew(host, WORLD_TRIS);
     }
     if (next->textures != NULL) {
         free(host->textures);
         host->textures = next->textures;
+        world_renew(host, WORLD_TEXTURES);
     }
     if (next->has_lights) {
         lights_free(&host->lights);
         host->lights = next->lights;
+        world_renew(host, WORLD_LIGHTS);
     }
 }
 

@@ -99,7 +99,6 @@ bool session_load(struct session *s, const struct options *options,
     if (!apply_edit(s, err))
         return false;
     s->load_ns = clock_ns() - begin_ns;
-    s->geometry_changed = true;
     return true;
 }
 
@@ -137,21 +136,18 @@ static void swap_loaded(struct session *a, struct session *b)
     memcpy(a->notice, b->notice, sizeof a->notice);
 }
 
-/* The same triangles need no new tree. But a device knows arrays by their
- * addresses, and has seen those of the scene that goes only if it has begun to
- * render it: before that their addresses might come again. */
 void session_take(struct session *s, struct session *fresh)
 {
+    bool has_same_shape = scene_has_same_shape(&s->scene, &fresh->scene);
+
     render_halt(s->render);
-    s->geometry_changed |= render_progress(s->render).samples == 0 ||
-                           !scene_has_same_shape(&s->scene, &fresh->scene);
     xcheck(view_merge(&s->view, &s->filed, &fresh->filed));
     /* these are the edit's, of which there is another one now */
     xcheck(assigns_copy(&s->view.assigns, &fresh->filed.assigns));
     apply_options(s);
     swap_loaded(s, fresh);
-    if (!s->geometry_changed)
-        world_take_tree(&s->world, &fresh->world);
+    if (has_same_shape) /* trees stay */
+        world_take_shape(&s->world, &fresh->world);
 }
 
 void session_watch(const struct session *s, struct file_watch *watch)
@@ -187,7 +183,6 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
                   struct error *err)
 {
     struct render_job job = {.host = &s->world,
-                             .geometry_changed = s->geometry_changed,
                              .crop = s->crop,
                              .spp = spp,
                              .steps = steps};
@@ -198,9 +193,6 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
         job.draft_height = s->draft_height;
     }
     render_halt(s->render);
-    /* until a device has seen these arrays: it must not know the next ones by
-     * their addresses */
-    s->geometry_changed = true;
     if (!apply_edit(s, err) || !world_lend(&s->world, &s->scene, &s->view,
                                            s->options->seed, &job.world, err))
         return false;
@@ -217,7 +209,6 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     thread_load_begin(&s->load, render_backend(s->render));
     if (!render_start(s->render, &job, err))
         return false;
-    s->geometry_changed = false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
         backends_specialise(&s->machines, features);
     return true;

@@ -39,7 +39,6 @@ struct session {
     uint64_t start_ns; /* of the program */
     uint64_t load_ns;
     uint64_t restart_ns; /* when session_restart() last started the render */
-    bool geometry_changed;
     int draft_width, draft_height; /* of what will be seen live; 0: nothing */
     enum sample_kind sample;       /* what will be seen live */
     /* of the render since then */

@@ -390,12 +390,6 @@ void inspector_stop_drawing(struct inspector *inspector)
     inspector->drawing = INSPECTOR_NOTHING;
 }
 
-void inspector_renew(struct inspector *inspector)
-{
-    inspector_stop_drawing(inspector);
-    view_mode_reset(&inspector->view_mode);
-}
-
 void inspector_init(struct inspector *inspector, struct render_control *control,
                     struct screen *screen, struct pick_cursor *cursor)
 {

@@ -77,10 +77,6 @@ void inspector_save_text(struct inspector *inspector);
 /* Removes drawings and their table. */
 void inspector_stop_drawing(struct inspector *inspector);
 
-/* Takes a scene that was loaded anew: drops all that was made of the old one.
- */
-void inspector_renew(struct inspector *inspector);
-
 /* Draws from a new pick, if there is one. */
 void inspector_step(struct inspector *inspector);
 

@@ -128,7 +128,7 @@ void workspace_open(struct workspace *workspace)
 void workspace_renew(struct workspace *workspace,
                      const struct selection_names *names)
 {
-    inspector_renew(&workspace->inspector);
+    inspector_stop_drawing(&workspace->inspector);
     editor_panel_renew(&workspace->panel, names);
     panel_draw(&workspace->panel);
 }

@@ -293,7 +293,6 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
                                    int which, uint32_t number, float *first)
 {
     struct render_job job = {.host = &s->world,
-                             .geometry_changed = true,
                              .crop = s->crop,
                              .spp = EXTREMES_SPP};
     struct render *render = x->renders[which];

@@ -212,7 +212,6 @@ static inline void render_seed(struct stage *s, const struct scene *scene,
                                struct outcome *o)
 {
     struct render_job job = {.host = host,
-                             .geometry_changed = seed == shot->seed,
                              .crop = {0, 0, view->width_px, view->height_px},
                              .spp = shot->spp > 0 ? shot->spp : 64};
     struct error err;

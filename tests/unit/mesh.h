@@ -144,6 +144,7 @@ static inline void mesh_finish(struct mesh *m)
     assert_true(bvh8_build(&m->wide, w, NULL, &err));
     m->wide_world.tree = &m->wide;
     m->host = (struct host_world){.tree = m->wide, .has_tree = true};
+    world_renew(&m->host, WORLD_SHAPE);
 }
 
 static inline void mesh_free(struct mesh *m)

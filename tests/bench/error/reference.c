@@ -138,7 +138,6 @@ static bool render_half(struct session *s, enum direct direct, int half,
                         const char *path, struct error *err)
 {
     struct render_job job = {.host = &s->world,
-                             .geometry_changed = true,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
                              .spp = HALF_SPP};

@@ -58,7 +58,6 @@ static void fill_sky_table(struct host_world *host)
 static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
 {
     struct render_job job = {.host = &s->world,
-                             .geometry_changed = mode == 0 && seed == 1,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = SPP};
     struct error err;

@@ -54,7 +54,6 @@ static void start(struct host_world *host, const struct world *world,
 {
     struct render_job job = {.world = *world,
                              .host = host,
-                             .geometry_changed = true,
                              .crop = {0, 0, SIDE, SIDE},
                              .spp = spp,
                              .draft_width = draft_width,
@@ -144,13 +143,14 @@ static bool note_load(struct backend *b, struct host_world *host,
     return true;
 }
 
-static bool note_begin(struct backend *b, const struct world *world,
-                       struct film *film, int x0, int y0, struct error *err)
+static bool note_begin(struct backend *b, const struct host_world *host,
+                       const struct world *world, struct film *film, int x0,
+                       int y0, struct error *err)
 {
     struct notes *n = (struct notes *)b;
     int i = n->begin_count++;
 
-    (void)film, (void)err;
+    (void)host, (void)film, (void)err;
     assert_in_range(i, 0, 1);
     n->worlds[i] = *world;
     n->x0[i] = x0;
@@ -187,7 +187,9 @@ static void drafts_look_where_films_do(void **state)
                             .lens_radius = 0.1f,
                             .up = {0, 0.62f, 0},
                             .focus = 4};
-    struct render_job job = {.world.settings.camera = camera,
+    struct host_world host = {.versions = {0}};
+    struct render_job job = {.host = &host,
+                             .world.settings.camera = camera,
                              .crop = {201, 33, 290, 130},
                              .spp = 1,
                              .draft_width = 77,

@@ -54,9 +54,7 @@ static void render_means(const char *scene, const char *view, double *means,
                         .max_bounces = -1,
                         .batch = true};
     struct session s;
-    struct render_job job = {.host = &s.world,
-                             .geometry_changed = true,
-                             .spp = SPP};
+    struct render_job job = {.host = &s.world, .spp = SPP};
     struct error err;
     float *rgb;
     int count;
@@ -80,7 +78,6 @@ static void render_means(const char *scene, const char *view, double *means,
         assert_true(render_wait(s.render, 300000));
         assert_int_equal(render_progress(s.render).non_finite, 0);
         film_linear(render_film(s.render), rgb);
-        job.geometry_changed = false;
         for (int i = 0; i < count; i++) {
             double x = (double)rgb[3 * i];
 

@@ -23,6 +23,7 @@
 #include "opencl/cl_api.h"
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
+#include "opencl/cl_world.h"
 #include "opencl/selftest.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/check.h"
@@ -40,8 +41,7 @@ struct pair {
     struct view view;
     struct render *renders[2];
     int draft_width, draft_height;
-    uint32_t sample;     /* enum sample_kind */
-    bool keeps_geometry; /* what the backends have loaded counts */
+    uint32_t sample; /* enum sample_kind */
 };
 
 static struct backend *device; /* NULL: there is none here */
@@ -119,7 +119,6 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
                   uint32_t seed)
 {
     struct render_job job = {.host = &p->world,
-                             .geometry_changed = !p->keeps_geometry,
                              .crop = crop,
                              .spp = spp,
                              .draft_width = p->draft_width,
@@ -327,7 +326,6 @@ static void edits(void **state)
     for (uint32_t i = 0; i < p.scene.object_count; i++)
         assigned[i] = NO_INDEX;
     render_both(&p, (struct rect){0, 0, 48, 48}, 2, 0);
-    p.keeps_geometry = true;
     for (uint32_t round = 1; round < 20; round++) {
         uint32_t count = p.scene.material_count - 1;
         uint32_t m = 1 + (uint32_t)(check_random(&seed) * count);
@@ -482,8 +480,59 @@ static void losses(void **state)
     close_pair(&p);
 }
 
-/* Only what has changed is uploaded before a restart. */
-static void buffers(void **state)
+/* Renders on both; returns how many arrays the device was given for it. */
+static uint64_t uploads(struct pair *p)
+{
+    uint64_t before = device->upload_count;
+
+    render_both(p, (struct rect){0, 0, 32, 32}, 2, 0);
+    return device->upload_count - before;
+}
+
+static void paint(struct pair *p, uint32_t material, double red, double light)
+{
+    struct mtl_source sources[32];
+    uint32_t assigned[64];
+    struct error err;
+
+    assert_in_range(p->world.material_count, 2, 32);
+    assert_in_range(p->scene.object_count, 2, 64);
+    memcpy(sources, p->world.sources,
+           p->world.material_count * sizeof *sources);
+    for (uint32_t i = 0; i < p->scene.object_count; i++)
+        assigned[i] = NO_INDEX;
+    sources[material].kd = (struct mtl_color){{red, .5, .5}, 1};
+    if (light > 0)
+        sources[material].ke = (struct mtl_color){{light, 1, 1}, 1};
+    check_or_say(world_set_materials(&p->world, &p->scene,
+                                     p->world.material_count, sources, assigned,
+                                     &err),
+                 err.text);
+}
+
+/* As a session takes the same files when they are loaded anew. */
+static void load_again(struct pair *p, const char *path)
+{
+    struct warnings report = {0};
+    struct scene scene = {.path = NULL};
+    struct host_world world;
+    struct error err;
+
+    check_or_say(scene_load(&scene, path, false, &report, &err) &&
+                     world_init(&world, &scene, &report, &err),
+                 err.text);
+    assert_true(scene_has_same_shape(&scene, &p->scene));
+    world_take_shape(&world, &p->world);
+    world_free(&p->world);
+    scene_free(&p->scene);
+    p->world = world;
+    p->scene = scene;
+    warnings_free(&report);
+}
+
+/* The settings and the arrays that have changed are uploaded before a restart,
+ * and nothing else. */
+static void only_changes_are_uploaded(void **state)
 {
     struct pair p;
 
@@ -491,30 +540,34 @@ static void buffers(void **state)
     if (!device)
         return;
     open_pair(&p, "scenes/cornell.obj", 32, 32);
-    render_both(&p, (struct rect){0, 0, 32, 32}, 2, 0);
-    for (int i = 0; i < 3; i++) { /* the camera moves, materials change */
-        struct material *before = p.world.materials;
-
-        p.view.pose.eye[0] += 5;
-        p.world.materials = alloc_array(p.scene.material_count, sizeof *before);
-        assert_non_null(p.world.materials);
-        memcpy(p.world.materials, before,
-               p.scene.material_count * sizeof *before);
-        p.world.materials[1].color.x = 0.1f * (float)i;
-        render_both(&p, (struct rect){0, 0, 32, 32}, 2, 0);
-        free(before);
+    assert_int_equal(uploads(&p), CL_ARRAY_COUNT);
+    assert_int_equal(uploads(&p), 1);
+    p.view.pose.eye[0] += 5;
+    assert_int_equal(uploads(&p), 1);
+    for (int i = 0; i < 3; i++) {
+        paint(&p, 1, 0.1 * i, 0);
+        assert_int_equal(uploads(&p), 2);
     }
+    paint(&p, 1, 0.5, 2);
+    assert_int_equal(uploads(&p), 2 + 3); /* lights, which are whose, tree */
+    load_again(&p, "scenes/cornell.obj");
+    assert_int_equal(uploads(&p), CL_ARRAY_COUNT - 2); /* nodes, leaves */
     close_pair(&p);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shipped_scenes), cmocka_unit_test(options),
-        cmocka_unit_test(drafts),         cmocka_unit_test(first_hits),
-        cmocka_unit_test(edits),          cmocka_unit_test(special_builds),
-        cmocka_unit_test(self_tests),     cmocka_unit_test(halts),
-        cmocka_unit_test(losses),         cmocka_unit_test(buffers),
+        cmocka_unit_test(shipped_scenes),
+        cmocka_unit_test(options),
+        cmocka_unit_test(drafts),
+        cmocka_unit_test(first_hits),
+        cmocka_unit_test(edits),
+        cmocka_unit_test(special_builds),
+        cmocka_unit_test(self_tests),
+        cmocka_unit_test(halts),
+        cmocka_unit_test(losses),
+        cmocka_unit_test(only_changes_are_uploaded),
     };
 
     return cmocka_run_group_tests(tests, open_device, close_device);

@@ -44,7 +44,6 @@ static void a_build_fits(void **state)
 static void render(struct session *s, uint32_t more_features, float *rgb)
 {
     struct render_job job = {.host = &s->world,
-                             .geometry_changed = true,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = SPP};
     struct error err;

@@ -69,7 +69,6 @@ static struct render_job job_of(struct mesh *m, uint64_t spp)
 {
     struct render_job job = {.world = m->world,
                              .host = &m->host,
-                             .geometry_changed = true,
                              .crop = {0, 0, WIDTH, HEIGHT},
                              .spp = spp};
 
@@ -189,14 +188,12 @@ static void restarts_begin_anew(void **state)
     job = job_of(&m, 0);
     assert_true(render_start(r, &job, &err));
     for (int i = 0; i < 30; i++) {
-        job.geometry_changed = false;
         job.world.settings.camera.eye.x = 0.01f * (float)i;
         job.spp = i == 29 ? 5 : 0;
         while (i % 2 == 0 && render_progress(r).samples == 0)
             sched_yield();
         assert_true(render_start(r, &job, &err));
     }
-    job.geometry_changed = true;
     assert_true(render_start(fresh, &job, &err));
     assert_true(render_wait(r, 60000));
     assert_true(render_wait(fresh, 60000));
@@ -220,7 +217,6 @@ static void a_crop_is_part_of_the_whole(void **state)
     assert_true(render_start(r, &job, &err));
     render_wait(r, -1);
     film_linear(render_film(r), all);
-    job.geometry_changed = false;
     job.crop = (struct rect){33, 21, 20, 10};
     assert_true(render_start(r, &job, &err));
     render_wait(r, -1);
