@@ -26,7 +26,7 @@ static bool is_standard_output(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-/* Where the text goes; NULL: to standard output. */
+/* Returns the file for the text; NULL for standard output. */
 static const char *text_path(const struct options *o)
 {
     const char *path = o->output_path;
@@ -34,8 +34,8 @@ static const char *text_path(const struct options *o)
     return path && !is_standard_output(path) ? path : NULL;
 }
 
-/* Whole minutes may lie between this and the writing: mistakes are worth
- * finding now. */
+/* Checks before the render, which may take minutes, that the output files can
+ * be written. */
 static bool check_outputs(const struct session *s, struct error *err)
 {
     const struct options *o = s->options;
@@ -56,7 +56,8 @@ static bool check_outputs(const struct session *s, struct error *err)
     return true;
 }
 
-/* Until all samples are done or a signal comes; halted then. */
+/* Waits until all samples are done or a signal arrives, which halts the
+ * render. */
 static void wait_for_end(struct session *s, int wake_fd)
 {
     struct batch_bar bar = batch_bar_begin();
@@ -81,9 +82,9 @@ static void wait_for_end(struct session *s, int wake_fd)
     session_look(s);
 }
 
-/* No terminal is asked: the reader of a file may be another one, and is taken
- * for one with Unicode. But letters alone are for anything: the locale says
- * whether dots may replace them. */
+/* Returns the glyphs of the text. The terminal is not asked, since the text may
+ * be read on another one; it is assumed to show Unicode. Without colours the
+ * locale decides between braille and ASCII. */
 static enum glyphs text_glyphs(const struct options *o, enum palette palette)
 {
     bool may_learn;
@@ -129,7 +130,7 @@ static bool save_text(struct view_mode *show, char **name, struct error *err)
     return ok;
 }
 
-/* Of the file that the options name. */
+/* Writes to the file that the options name. */
 static bool write_picture(struct session *s, const struct frame *frame,
                           struct error *err)
 {
@@ -140,7 +141,7 @@ static bool write_picture(struct session *s, const struct frame *frame,
                                err);
 }
 
-/* Under a name that is free, which comes back for free(). */
+/* Writes to a file with a free name and returns the name, for free(). */
 static char *write_numbered(struct session *s, const struct frame *frame,
                             struct error *err)
 {
@@ -156,7 +157,7 @@ static char *write_numbered(struct session *s, const struct frame *frame,
     return name;
 }
 
-/* The frame, or without one the film; *name is what it is called now, for
+/* Saves the frame, or the film if frame is NULL. *name is the file's name, for
  * free(). */
 static bool save_pixels(struct session *s, const struct frame *frame,
                         char **name, struct error *err)
@@ -171,7 +172,7 @@ static bool save_pixels(struct session *s, const struct frame *frame,
     return *name != NULL;
 }
 
-/* What is not light, computed at once. */
+/* Saves the picture of --show. */
 static bool save_shown(struct view_mode *show, char **name, struct error *err)
 {
     struct session *s = show->session;
@@ -193,8 +194,8 @@ static bool save_picture(struct view_mode *show, char **name, struct error *err)
     return save_pixels(show->session, NULL, name, err);
 }
 
-/* A picture that was given a free name may have taken that of the statistics.
- */
+/* Writes the statistics, unless the free name of the picture is that of their
+ * file. */
 static bool save_stats(const struct session *s, const char *picture,
                        struct error *err)
 {
@@ -225,7 +226,7 @@ static bool save_all(struct view_mode *show, struct error *err)
     bool ok;
 
     if (p.samples == 0) {
-        /* an old picture is worth more than a black one */
+        /* an old picture is better than a black one */
         batch_say_empty();
         return true;
     }
@@ -238,9 +239,8 @@ static bool save_all(struct view_mode *show, struct error *err)
     return ok;
 }
 
-/* The device that the options want, if it comes up. Who names one wants no
- * other machine. That there is no GPU is no news to those who let glim choose.
- */
+/* Starts the device that the options select. A device that was named must work.
+ * If auto finds no GPU, that is not reported. */
 static bool use_device(struct session *s, struct error *err)
 {
     const struct options *o = s->options;
@@ -259,7 +259,7 @@ static bool use_device(struct session *s, struct error *err)
     return is_up || !o->device;
 }
 
-/* Renders; a device that fails is replaced by the CPU, which starts anew. */
+/* Renders. If a device fails, the CPU renders from the start. */
 static bool render_all(struct session *s, int wake_fd, struct error *err)
 {
     struct render_progress p;
@@ -278,7 +278,7 @@ static bool render_all(struct session *s, int wake_fd, struct error *err)
     return render_all(s, wake_fd, err);
 }
 
-/* Renders nothing: a ray for each pixel tells all. */
+/* Makes the picture of --show with one ray for each pixel. */
 static bool run_show(struct view_mode *show, struct error *err)
 {
     const struct session *s = show->session;
@@ -299,7 +299,7 @@ static bool run_light(struct view_mode *show, int *status, struct error *err)
     struct session *s = show->session;
     int wake_fd;
 
-    /* before our signals are set: drivers put theirs over them */
+    /* before the signal handlers are set, since drivers replace them */
     if (s->options->backend != BACKEND_CPU && !use_device(s, err))
         return false;
     if (!batch_catch_signals(NULL, &wake_fd, err) ||

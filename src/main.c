@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * main.c - the only place that prints errors and ends the program
+ * main.c - parses options, starts batch mode or the screen, prints errors
+ *
+ * No other file prints errors or ends the program.
  *
  * Ownership: owns the options and the session
  * Threads:   main only
@@ -35,15 +37,16 @@
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
 
-/* A descriptor that is closed at the start would be given to the next file
- * that is opened, and messages would end in it. */
+/* Opens standard descriptors that are closed at the start. Otherwise the next
+ * file that is opened would get their number, and messages would be written
+ * into it. */
 static void fill_standard_files(void)
 {
     for (int fd = 0; fd <= 2; fd++) {
         if (fcntl(fd, F_GETFD) != -1 || errno != EBADF)
             continue;
-        /* read only for standard output, so that a picture that cannot get
-         * there is an error */
+        /* read-only for standard output, so that writing a picture to it
+         * fails */
         if (open("/dev/null", fd == 1 ? O_RDONLY : O_RDWR) != fd)
             return;
     }
@@ -55,7 +58,7 @@ static int complain(enum exit_status status, const struct error *err)
     return status;
 }
 
-/* For --help and its like: what cannot be written is an error. */
+/* Prints a text such as --help. A failed write is an error. */
 static int print_out(const char *text)
 {
     struct error err;
@@ -79,7 +82,7 @@ static int list_devices(void)
     return print_out("");
 }
 
-/* This program as the copy that another one has started: cl_probe.h. */
+/* Runs this program as the copy that tests a device: cl_probe.h. */
 static int probe(const struct options *o)
 {
     struct cl_request request = {
@@ -102,7 +105,8 @@ static int probe(const struct options *o)
     return ok ? print_out("") : complain(EXIT_FAILED, &err);
 }
 
-/* Is there a screen for the live mode, or a place for the picture? */
+/* Checks that there is a screen for live mode, or a file or pipe for the
+ * picture. */
 static bool check_terminal(const struct options *o, struct error *err)
 {
     if (o->batch) {
@@ -129,7 +133,7 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     if (batch_picture_is_wanted(o))
         return batch_picture_run(o, start_ns, status, err);
     ok = session_open(s, o, start_ns, err);
-    /* what was odd in a file counts only if there is something to render */
+    /* warnings about a file matter only if it is rendered */
     if (!ok)
         return false;
     warnings_print(&s->report, stderr);
@@ -142,8 +146,9 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     return ok;
 }
 
-/* One of the scenes that were opened last, for free(). False if the person
- * wants none; *path stays NULL where there is none, or no terminal. */
+/* Lets the user choose one of the scenes that were opened last, for free().
+ * Returns false if the user quits; *path stays NULL without a list or a
+ * terminal. */
 static bool choose_scene(char **path)
 {
     struct recent recent;
@@ -160,7 +165,7 @@ static bool choose_scene(char **path)
     return wants_one;
 }
 
-/* The command line with a scene before all else. */
+/* Parses the command line with the scene as its first argument. */
 static bool parse_with_scene(struct options *o, char *scene, int argc,
                              char **argv, struct error *err)
 {
@@ -178,8 +183,8 @@ static bool parse_with_scene(struct options *o, char *scene, int argc,
     return ok;
 }
 
-/* Asks for a scene where there is none: *scene, for free(). The error is empty
- * if the person wants none. */
+/* Parses the command line and asks for a scene if none is given: *scene, for
+ * free(). The error is empty if the user quits. */
 static bool parse(struct options *o, int argc, char **argv, char **scene,
                   struct error *err)
 {
@@ -197,8 +202,8 @@ static bool parse(struct options *o, int argc, char **argv, char **scene,
     return parse_with_scene(o, *scene, argc, argv, err);
 }
 
-/* With the sets of instructions that this processor has, the first of which it
- * uses. */
+/* Prints the version and the instruction sets of the processor, the one in use
+ * first. */
 static int print_version(void)
 {
     char text[128];
@@ -222,10 +227,10 @@ int main(int argc, char **argv)
 
     memory_init();
     fill_standard_files();
-    /* the characters of the terminal; numbers keep their point */
+    /* character encoding only: numbers keep the decimal point */
     setlocale(LC_CTYPE, "");
     options_init(&options);
-    /* what is wrong there must not hide the help */
+    /* an error there must not prevent --help */
     bool has_config = config_read(&options, &config_err);
     if (!parse(&options, argc, argv, &chosen, &err))
         return err.text[0] == '\0' ? EXIT_DONE : complain(EXIT_USAGE, &err);
@@ -243,7 +248,7 @@ int main(int argc, char **argv)
         return probe(&options);
     if (!check_terminal(&options, &err))
         return complain(EXIT_USAGE, &err);
-    /* a failing write says what is wrong */
+    /* the failing write returns the error */
     signal(SIGXFSZ, SIG_IGN);
     if (options.batch)
         signal(SIGPIPE, SIG_IGN);

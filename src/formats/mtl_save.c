@@ -217,7 +217,7 @@ static bool write_change(struct writer *w, const struct mtl_change *c)
     if (c->copied_from != NULL) {
         ok = mtl_document_append_block(&w->text, c->name, c->copied_from);
     } else if (!mtl_document_find_block(&w->text, c->name, &block)) {
-        /* the block was removed from the file meanwhile: write it anew */
+        /* the block was removed from the file meanwhile: write it again */
         struct mtl_source none = mtl_source_empty();
         struct mtl_change whole = {c->name, c->name, &none, c->after};
 

@@ -60,7 +60,7 @@ static bool read_key(struct reader *r, struct error *err)
     if (word_is(word, NO_KEY)) {
         word = next_word(r);
         if (word.length > 0)
-            return fail_at(r, word, "nothing behind " NO_KEY, err);
+            return fail_at(r, word, "nothing after " NO_KEY, err);
     } else if (word.length == 0) {
         return fail_at(r, word, "a key, or " NO_KEY, err);
     }
