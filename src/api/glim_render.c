@@ -65,6 +65,7 @@ bool glim_set_threads(struct glim *g, int count, struct glim_error *err)
     }
     handle_drop_render(g);
     g->thread_count = count;
+    g->world.thread_count = threads_of(g);
     return true;
 }
 
@@ -114,7 +115,7 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
     if (backend == GLIM_BACKEND_CPU)
         return true;
     /* the path guide is one of the features that kernels are built for */
-    if (!world_guide(&g->world, &g->scene, &g->view, threads_of(g), &why))
+    if (!world_guide(&g->world, &g->scene, &g->view, &why))
         return handle_fail(err, &why);
     request.features = world_features(&g->world);
     return start_device(g, &request, &why) || handle_fail(err, &why);
@@ -158,7 +159,7 @@ static bool begin(struct glim *g, uint64_t spp, struct error *err)
     if (!g->view.has_camera) /* all is seen in a picture of this shape */
         scene_frame(&g->scene, &g->view);
     if (!need_render(g, err) ||
-        !world_guide(&g->world, &g->scene, &g->view, threads_of(g), err) ||
+        !world_guide(&g->world, &g->scene, &g->view, err) ||
         !world_lend(&g->world, &g->scene, &g->view, g->seed, &job.world, err))
         return false;
     if (g->device != NULL) /* it has a tree of its own */

@@ -8,6 +8,7 @@
 
 #include "base/event_fd.h"
 #include "base/memory.h"
+#include "base/thread.h"
 #include "scene/world_materials.h"
 #include "formats/scene_load.h"
 
@@ -75,7 +76,7 @@ static bool open_all(struct glim *g, const char *path, const char *view_path,
            view_find(&g->view, path, view_path, &g->view_path, &g->report,
                      err) &&
            scene_open(&g->scene, &g->world, &g->view, path, up == GLIM_UP_Z,
-                      &g->report, err) &&
+                      usable_threads(), &g->report, err) &&
            assign(g, err) && make_warnings(g, err);
 }
 

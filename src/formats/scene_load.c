@@ -132,11 +132,11 @@ static void complete_view(const struct scene *scene,
 }
 
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, bool up_is_z, struct warnings *report,
-                struct error *err)
+                const char *path, bool up_is_z, int thread_count,
+                struct warnings *report, struct error *err)
 {
     if (!scene_load(scene, path, up_is_z, report, err) ||
-        !world_init(host, scene, report, err) ||
+        !world_init(host, scene, thread_count, report, err) ||
         !world_load_sky(host, view, report, err))
         return false;
     complete_view(scene, host, view, report);

@@ -27,8 +27,8 @@ bool view_find(struct view *view, const char *scene_path, const char *view_path,
  * view with a camera that sees the whole scene, the size of the picture, and a
  * soft sky if there is no light. */
 bool scene_open(struct scene *scene, struct host_world *host, struct view *view,
-                const char *path, bool up_is_z, struct warnings *report,
-                struct error *err);
+                const char *path, bool up_is_z, int thread_count,
+                struct warnings *report, struct error *err);
 
 /* Returns true if scene_open() has added the soft sky. */
 bool view_has_soft_sky(const struct view *view);

@@ -12,7 +12,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/thread.h"
 #include "bvh/bvh.h"
 #include "opencl/cl_film.h"
 #include "opencl/cl_kernels.h"
@@ -88,12 +87,10 @@ static bool cl_load(struct backend *base, struct host_world *host,
                     const struct world *world, struct error *err)
 {
     struct backend_cl *b = (struct backend_cl *)base;
-    struct pool *pool = pool_create(usable_threads(), err);
+    struct pool *pool = world_pool(host);
     bool ok;
 
-    (void)host;
     cl_world_free(&b->world, &b->machine);
-    /* without threads this one builds */
     ok = bvh_build(&b->bvh, world, pool, err);
     pool_destroy(pool);
     base->tree_bytes = bvh_bytes(&b->bvh);

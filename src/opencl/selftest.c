@@ -69,7 +69,7 @@ static bool make_world(struct scene *scene, struct host_world *host,
         if ((material_features(m, scene->textures) & ~features) != 0)
             *m = material_default();
     }
-    ok = ok && world_init(host, scene, &report, err);
+    ok = ok && world_init(host, scene, 1, &report, err);
     warnings_free(&report);
     return ok;
 }
@@ -95,7 +95,7 @@ static bool make_job(const struct scene *scene, struct host_world *host,
     view.lighting.background[0] = view.lighting.background[1] =
         view.lighting.background[2] = 0.5;
     ok = ((features & FEATURE_GUIDE) == 0 ||
-          world_guide(host, scene, &view, 1, err)) &&
+          world_guide(host, scene, &view, err)) &&
          world_lend(host, scene, &view, 1, &job->world, err);
     view_free(&view);
     return ok;

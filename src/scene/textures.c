@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/thread.h"
 #include "base/thread_pool.h"
 #include "picture/image_read.h"
 #include "scene/material.h"
@@ -225,8 +224,7 @@ static bool load_all(struct host_world *host, const struct scene *scene,
                      const uint32_t *textures, uint32_t count,
                      struct warnings *report, struct error *err)
 {
-    /* without threads this one reads */
-    struct pool *pool = count > 1 ? pool_create(usable_threads(), err) : NULL;
+    struct pool *pool = count > 1 ? world_pool(host) : NULL;
     uint32_t at_once =
         pool ? IMAGES_EACH * (uint32_t)pool_thread_count(pool) : 1;
     struct reading *readings = alloc_array(at_once, sizeof *readings);

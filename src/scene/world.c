@@ -127,11 +127,11 @@ static bool copy_materials(struct host_world *host, const struct scene *scene,
 }
 
 bool world_init(struct host_world *host, const struct scene *scene,
-                struct warnings *report, struct error *err)
+                int thread_count, struct warnings *report, struct error *err)
 {
     struct world arrays;
 
-    *host = (struct host_world){.tris = NULL};
+    *host = (struct host_world){.thread_count = thread_count};
     for (int i = 0; i < WORLD_PARTS; i++)
         world_renew(host, (enum world_part)i);
     for (int i = 0; i < 256; i++)
@@ -235,6 +235,14 @@ bool world_has_emitters(const struct host_world *host)
 
 /* ---- tree ---- */
 
+struct pool *world_pool(const struct host_world *host)
+{
+    struct error ignored;
+
+    return host->thread_count > 1 ? pool_create(host->thread_count, &ignored)
+                                  : NULL;
+}
+
 bool world_need_tree(struct host_world *host, const struct world *world,
                      struct pool *pool, struct error *err)
 {
@@ -291,7 +299,7 @@ static struct sky make_sky(const struct host_world *host,
 }
 
 bool world_guide(struct host_world *host, const struct scene *scene,
-                 const struct view *view, int thread_count, struct error *err)
+                 const struct view *view, struct error *err)
 {
     struct bvh8_world w = {.world = world_arrays(host, scene),
                            .tree = &host->tree};
@@ -307,8 +315,7 @@ bool world_guide(struct host_world *host, const struct scene *scene,
     if (path_guide_is_current(guide, sky))
         return true;
     if (path_guide_needs_rays(guide, &w.world, sky)) {
-        /* without threads this one works */
-        pool = thread_count > 1 ? pool_create(thread_count, err) : NULL;
+        pool = world_pool(host);
         ok = world_need_tree(host, &w.world, pool, err);
     }
     ok = ok && path_guide_update(guide, &w, &host->lights, sky, pool, err);

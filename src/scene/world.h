@@ -41,6 +41,8 @@ enum world_part {
 };
 
 struct host_world {
+    int thread_count; /* of pools that work on it; 1: the caller's thread */
+
     /* Equal versions are equal contents, in any world of the process: no number
      * comes twice, and 0 is none. */
     uint64_t versions[WORLD_PARTS];
@@ -77,7 +79,7 @@ struct host_world {
 /* Makes the world as the files have it, without a sky: reads textures, finds
  * lights. What is missing is in the report. */
 bool world_init(struct host_world *host, const struct scene *scene,
-                struct warnings *report, struct error *err);
+                int thread_count, struct warnings *report, struct error *err);
 
 /* Loads view->sky_path, or removes the image if that is NULL. */
 bool world_load_sky(struct host_world *host, const struct view *view,
@@ -85,10 +87,15 @@ bool world_load_sky(struct host_world *host, const struct view *view,
 
 /* Makes the table that leads paths to light that is hard to find, if there is
  * none yet for the world as it is and the view's sky. Without it pictures are
- * as bright, and noisier. So many threads make it, and the tree for it if there
- * is none yet. */
+ * as bright, and noisier. Builds the tree for it if there is none yet. */
 bool world_guide(struct host_world *host, const struct scene *scene,
-                 const struct view *view, int thread_count, struct error *err);
+                 const struct view *view, struct error *err);
+
+/* Starts the threads for some work on the world: a reload may go on while the
+ * world before it renders, so each world has its own. Returns NULL, for which
+ * pool_each() and the builders of trees take the caller's thread, if it is to
+ * have one thread or no other can start. The caller destroys it. */
+struct pool *world_pool(const struct host_world *host);
 
 /* Builds the tree of the triangles of `world`, which was lent from this one, if
  * there is none yet. Without a pool the caller's thread builds. */

@@ -68,8 +68,7 @@ static bool apply_edit(struct session *s, struct error *err)
         if (!world_load_sky(&s->world, &s->view, &s->report, &why))
             snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     }
-    return world_guide(&s->world, &s->scene, &s->view,
-                       options_threads(s->options), err);
+    return world_guide(&s->world, &s->scene, &s->view, err);
 }
 
 bool session_load(struct session *s, const struct options *options,
@@ -88,7 +87,8 @@ bool session_load(struct session *s, const struct options *options,
     apply_options(s);
     if (!find_crop(s, err) ||
         !scene_open(&s->scene, &s->world, &s->view, options->scene_path,
-                    options->up_is_z, &s->report, err))
+                    options->up_is_z, options_threads(options), &s->report,
+                    err))
         return false;
     note_additions(s);
     xcheck(view_copy(&s->opened, &s->view));

@@ -58,7 +58,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct error err = {""};
 
     if (scene_load(&scene, path, false, &report, &err) &&
-        world_init(&host, &scene, &report, &err)) {
+        world_init(&host, &scene, 1, &report, &err)) {
         check_tris(&scene);
         check_textures(&host, &scene);
     } else {

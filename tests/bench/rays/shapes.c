@@ -129,7 +129,7 @@ static bool finish(struct shape *shape, struct view *view, bool is_loaded,
 
     view->width_px = WIDTH_PX;
     view->height_px = HEIGHT_PX;
-    ok = is_loaded && world_init(&shape->host, &shape->scene, report, err) &&
+    ok = is_loaded && world_init(&shape->host, &shape->scene, 1, report, err) &&
          world_lend(&shape->host, &shape->scene, view, 0, &shape->world, err);
     warnings_free(report);
     /* no holes: Embree's rays would not pass them */

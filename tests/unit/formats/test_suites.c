@@ -30,7 +30,7 @@ static struct loaded load(const char *path)
     struct loaded l = {.ok = false};
 
     l.ok = scene_load(&l.scene, path, false, &l.report, &l.err) &&
-           world_init(&l.world, &l.scene, &l.report, &l.err);
+           world_init(&l.world, &l.scene, 1, &l.report, &l.err);
     return l;
 }
 
@@ -382,7 +382,7 @@ static void load_broken(const char *text, size_t size_bytes, bool is_mtl)
         return;
     }
     assert_true(scene_finish(&l.scene, &l.report, &l.err));
-    assert_true(world_init(&l.world, &l.scene, &l.report, &l.err));
+    assert_true(world_init(&l.world, &l.scene, 1, &l.report, &l.err));
     check_scene(&l.scene);
     view_init(&view);
     scene_frame(&l.scene, &view);

@@ -63,7 +63,7 @@ static void load(struct loaded *l, const char *statements)
     view_init(&l->view);
     l->view.pose.eye[2] = 5;
     if (!scene_load(&l->scene, "a.obj", false, &l->report, &err) ||
-        !world_init(&l->host, &l->scene, &l->report, &err) ||
+        !world_init(&l->host, &l->scene, 2, &l->report, &err) ||
         !world_lend(&l->host, &l->scene, &l->view, 0, &l->world, &err))
         print_error("%s\n", err.text);
     assert_string_equal(err.text, "");
@@ -225,7 +225,7 @@ static void many_images_are_read(void **state)
     assert_int_equal(fclose(obj), 0);
     assert_int_equal(fclose(mtl), 0);
     assert_true(scene_load(&scene, "many.obj", false, &report, &err));
-    assert_true(world_init(&host, &scene, &report, &err));
+    assert_true(world_init(&host, &scene, 2, &report, &err));
     assert_int_equal(report.entry_count, 1);
     for (int i = 0; i < MANY; i++) {
         uint32_t map = host.materials[1 + i].color_texture;

@@ -89,9 +89,9 @@ static void open_pair(struct pair *p, const char *path, int width, int height)
     assert_non_null(cpu);
     check_or_say(view_read(&p->view, view_path, &report, &err) &&
                      scene_load(&p->scene, path, false, &report, &err) &&
-                     world_init(&p->world, &p->scene, &report, &err) &&
+                     world_init(&p->world, &p->scene, 1, &report, &err) &&
                      world_load_sky(&p->world, &p->view, &report, &err) &&
-                     world_guide(&p->world, &p->scene, &p->view, 1, &err),
+                     world_guide(&p->world, &p->scene, &p->view, &err),
                  err.text);
     p->view.width_px = width;
     p->view.height_px = height;
@@ -519,7 +519,7 @@ static void load_again(struct pair *p, const char *path)
     struct error err;
 
     check_or_say(scene_load(&scene, path, false, &report, &err) &&
-                     world_init(&world, &scene, &report, &err),
+                     world_init(&world, &scene, 1, &report, &err),
                  err.text);
     assert_true(scene_has_same_shape(&scene, &p->scene));
     world_take_shape(&world, &p->world);

@@ -32,7 +32,7 @@ static struct loaded load_turned(const char *text, bool up_is_z)
 
     put_bytes("a.obj", text, strlen(text));
     if (!scene_load(&l.scene, "a.obj", up_is_z, &l.report, &l.err) ||
-        !world_init(&l.world, &l.scene, &l.report, &l.err)) {
+        !world_init(&l.world, &l.scene, 2, &l.report, &l.err)) {
         print_error("%s\n", l.err.text);
         _fail(__FILE__, __LINE__);
     }

@@ -25,7 +25,7 @@ static void load(struct scene *scene, const char *obj)
     *scene = (struct scene){0};
     put("a.obj", obj);
     check_or_say(scene_load(scene, "a.obj", false, &report, &err) &&
-                     world_init(&host, scene, &report, &err),
+                     world_init(&host, scene, 1, &report, &err),
                  err.text);
     warnings_free(&report);
 }
