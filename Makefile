@@ -167,6 +167,11 @@ $(foreach i,$(ISAS),$(eval $(B)/unit/bvh/test_bvh8_$(i): \
 # test_tty inspects the event loop each time before it waits.
 $(B)/unit/terminal/test_tty: private ALL_LDFLAGS += \
 	-Wl,--wrap=workspace_next_ns,--wrap=tty_read
+# It lets allocations fail, and counts what is freed.
+WRAPPED := malloc calloc realloc aligned_alloc strdup strndup vasprintf \
+	__vasprintf_chk open_memstream getline __getdelim free
+$(B)/unit/api/test_out_of_memory: private ALL_LDFLAGS += \
+	$(WRAPPED:%=-Wl,--wrap=%)
 $(eval $(call program,bench))
 $(eval $(call program,fuzz,$(FUZZ_MAIN)))
 $(eval $(call program,stress,-lcmocka))

@@ -103,12 +103,9 @@ uint32_t mtl_find(const struct scene *scene, const char *name)
  * free(); NULL when memory is out. */
 static char *texture_key(const char *path, const struct texture *t)
 {
-    char *key = NULL;
-    int length = asprintf(&key, "%a %a %a %a %u %u %s", (double)t->scale.x,
-                          (double)t->scale.y, (double)t->offset.x,
-                          (double)t->offset.y, t->is_clamped, t->is_data, path);
-
-    return length < 0 ? NULL : key;
+    return format_text("%a %a %a %a %u %u %s", (double)t->scale.x,
+                       (double)t->scale.y, (double)t->offset.x,
+                       (double)t->offset.y, t->is_clamped, t->is_data, path);
 }
 
 static uint32_t name_texture(struct name_table *names, const char *path,

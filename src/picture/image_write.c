@@ -102,23 +102,12 @@ static bool expect_size(int width, int height, size_t pixel_bytes,
                 path, width, height, most);
 }
 
-/* stb stops the program when its buffers cannot grow, so they are tried here
- * first: the filtered rows and a compressed copy that doubles. */
-static bool has_memory(size_t size_bytes)
-{
-    void *trial = malloc(4 * size_bytes);
-
-    free(trial);
-    return trial != NULL;
-}
-
 static bool encode_frame(const struct frame *frame, const char *path,
                          struct buffer *b, struct error *err)
 {
-    size_t size_bytes = 3 * (size_t)frame->width * (size_t)frame->height;
-    bool ok = has_memory(size_bytes) &&
-              stbi_write_png_to_func(append, b, frame->width, frame->height, 3,
-                                     frame->rgb, 3 * frame->width);
+    struct stb_picture picture = {frame->width, frame->height, frame->rgb,
+                                  NULL};
+    bool ok = stb_encode(&picture, append, b);
 
     return (ok && !b->is_cut) ||
            out_of_memory(frame->width, frame->height, path, err);
@@ -179,8 +168,8 @@ static bool encode_hdr(struct film *film, const char *path, struct buffer *b,
         return false;
     for (size_t i = 0; i < pixels; i++)
         round_to_rgbe(rgb + 3 * i);
-    bool ok =
-        stbi_write_hdr_to_func(append, b, film->width, film->height, 3, rgb);
+    struct stb_picture picture = {film->width, film->height, NULL, rgb};
+    bool ok = stb_encode(&picture, append, b);
     free(rgb);
     return (ok && !b->is_cut) ||
            out_of_memory(film->width, film->height, path, err);

@@ -7,6 +7,7 @@
 #include "picture/stb.h"
 
 #include <malloc.h>
+#include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,6 +102,66 @@ bool stb_is_safe(const unsigned char *data, size_t size_bytes)
     return true;
 }
 
+/* The encoders do not check their allocations. One that fails leaves the
+ * encoder by a jump, after which the blocks of this list are freed. */
+struct block {
+    _Alignas(max_align_t) struct block *prev;
+    struct block *next;
+};
+
+static _Thread_local struct block
+    blocks;                           /* head of the list, no block itself */
+static _Thread_local jmp_buf *failed; /* NULL: nobody waits for a jump */
+
+static void list_block(struct block *b)
+{
+    b->prev = &blocks;
+    b->next = blocks.next;
+    if (b->next)
+        b->next->prev = b;
+    blocks.next = b;
+}
+
+static void unlist_block(struct block *b)
+{
+    b->prev->next = b->next;
+    if (b->next)
+        b->next->prev = b->prev;
+}
+
+static void encoder_free(void *p)
+{
+    struct block *b = p ? (struct block *)p - 1 : NULL;
+
+    if (b)
+        unlist_block(b);
+    free(b);
+}
+
+static void *encoder_realloc(void *p, size_t size_bytes)
+{
+    struct block *old = p ? (struct block *)p - 1 : NULL;
+    struct block *b;
+
+    if (old)
+        unlist_block(old);
+    b = realloc(old, sizeof *b + size_bytes);
+    if (b) {
+        list_block(b);
+        return b + 1;
+    }
+    if (old)
+        list_block(old);
+    if (failed)
+        longjmp(*failed, 1);
+    return NULL;
+}
+
+static void *encoder_alloc(size_t size_bytes)
+{
+    return encoder_realloc(NULL, size_bytes);
+}
+
 /* stb copies nothing from or to NULL where a chunk is empty; memcpy() must not
  * be asked to. */
 static void *copy_bytes(void *to, const void *from, size_t size_bytes)
@@ -108,11 +169,14 @@ static void *copy_bytes(void *to, const void *from, size_t size_bytes)
     return size_bytes > 0 ? memcpy(to, from, size_bytes) : to;
 }
 
-#define memcpy                copy_bytes
-#define STBI_MALLOC(size)     limited_alloc(size)
-#define STBI_REALLOC(p, size) limited_realloc(p, size)
-#define STBI_FREE(p)          limited_free(p)
-#define STBI_MAX_DIMENSIONS   IMAGE_SIDE_MAX
+#define memcpy                 copy_bytes
+#define STBI_MALLOC(size)      limited_alloc(size)
+#define STBI_REALLOC(p, size)  limited_realloc(p, size)
+#define STBI_FREE(p)           limited_free(p)
+#define STBIW_MALLOC(size)     encoder_alloc(size)
+#define STBIW_REALLOC(p, size) encoder_realloc(p, size)
+#define STBIW_FREE(p)          encoder_free(p)
+#define STBI_MAX_DIMENSIONS    IMAGE_SIDE_MAX
 #define STBI_FAILURE_USERMSG
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
@@ -131,6 +195,40 @@ static void *copy_bytes(void *to, const void *from, size_t size_bytes)
 #if defined(__clang__)
 #pragma clang attribute pop
 #endif
+
+/* Calls the encoder of one of the formats. */
+static bool encode(const struct stb_picture *picture, stbi_write_func *write,
+                   void *context)
+{
+    const struct stb_picture *p = picture;
+
+    return p->bytes
+               ? stbi_write_png_to_func(write, context, p->width, p->height, 3,
+                                        p->bytes, 3 * p->width) != 0
+               : stbi_write_hdr_to_func(write, context, p->width, p->height, 3,
+                                        p->floats) != 0;
+}
+
+/* The same, but returns false if an allocation has failed. */
+static bool try_encode(const struct stb_picture *picture,
+                       stbi_write_func *write, void *context)
+{
+    jmp_buf here;
+
+    failed = &here;
+    return setjmp(here) == 0 && encode(picture, write, context);
+}
+
+bool stb_encode(const struct stb_picture *picture, stbi_write_func *write,
+                void *context)
+{
+    bool ok = try_encode(picture, write, context);
+
+    failed = NULL;
+    while (blocks.next)
+        encoder_free(blocks.next + 1);
+    return ok;
+}
 
 void stb_limit(size_t size_bytes)
 {

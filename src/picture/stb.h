@@ -16,6 +16,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #define STBI_NO_STDIO
 #define STBI_NO_LINEAR
@@ -28,6 +29,18 @@ void stb_limit(size_t size_bytes);
 
 /* Why the last decoder since then has failed; NULL: for want of memory. */
 const char *stb_failure(void);
+
+/* Three channels a pixel: bytes for PNG, or floats for HDR. */
+struct stb_picture {
+    int width, height;
+    const uint8_t *bytes; /* NULL: floats */
+    const float *floats;
+};
+
+/* Encodes the picture in the format of its numbers. False when memory is out.
+ */
+bool stb_encode(const struct stb_picture *picture, stbi_write_func *write,
+                void *context);
 
 /* False for a JPEG file with a Huffman table of more than 256 codes, which
  * stb_image 2.27 and before write behind its end: such files must not reach
