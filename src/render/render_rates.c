@@ -5,6 +5,60 @@
 
 #include "base/memory.h"
 
+/* As often as the screen looks. */
+#define SPAN_FIRST_NS UINT64_C(250000000)
+
+/* ---- speeds ---- */
+
+static void halve(struct speeds *s)
+{
+    s->count /= 2;
+    for (int i = 0; i < s->count; i++)
+        s->samples[i] = s->samples[2 * i] + s->samples[2 * i + 1];
+    s->span_ns *= 2;
+}
+
+/* The end of the span that the time lies in or ends. */
+static uint64_t span_end_ns(struct speeds *s, uint64_t time_ns)
+{
+    while (time_ns / s->span_ns >= SPEEDS_MAX)
+        halve(s);
+    while ((uint64_t)s->count <= time_ns / s->span_ns)
+        s->samples[s->count++] = 0;
+    return (time_ns / s->span_ns + 1) * s->span_ns;
+}
+
+void speeds_look(struct speeds *s, uint64_t time_ns, uint64_t sample_count)
+{
+    if (time_ns < s->time_ns || sample_count < s->sample_count)
+        *s = (struct speeds){0};
+    if (s->span_ns == 0)
+        s->span_ns = SPAN_FIRST_NS;
+    if (time_ns == s->time_ns)
+        return; /* what comes without time belongs to what comes next */
+    double samples = (double)(sample_count - s->sample_count) /
+                     (double)(time_ns - s->time_ns);
+    while (s->time_ns < time_ns) {
+        uint64_t end_ns = span_end_ns(s, s->time_ns);
+
+        end_ns = end_ns < time_ns ? end_ns : time_ns;
+        s->samples[s->count - 1] += samples * (double)(end_ns - s->time_ns);
+        s->time_ns = end_ns;
+    }
+    s->sample_count = sample_count;
+}
+
+double speeds_at(const struct speeds *s, int i)
+{
+    uint64_t begin_ns = (uint64_t)i * s->span_ns;
+    uint64_t seen_ns = s->time_ns - begin_ns;
+
+    seen_ns = seen_ns < s->span_ns ? seen_ns : s->span_ns;
+    return seen_ns > 0 ? s->samples[i] * 1e9 / (double)seen_ns : 0;
+}
+
+/* ---- threads ---- */
+
 void thread_load_begin(struct thread_load *l, const struct backend *b)
 {
     int count = b->cpu_ns ? b->thread_count : 0;

@@ -14,7 +14,6 @@
 #include "scene/world.h"
 #include "render/render_loop.h"
 #include "render/render_rates.h"
-#include "render/speeds.h"
 #include "session/backends.h"
 #include "session/command_line.h"
 #include "session/edit_history.h"

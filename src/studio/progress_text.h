@@ -17,7 +17,7 @@
 #include <stddef.h>
 
 #include "render/render_loop.h"
-#include "render/speeds.h"
+#include "render/render_rates.h"
 
 #define PROGRESS_TEXT_COLS 36
 #define PROGRESS_TEXT_ROWS 11
