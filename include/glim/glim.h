@@ -43,7 +43,7 @@ extern "C" {
 #define GLIM_API
 #endif
 
-/* The handle. */
+/* Handle. */
 struct glim;
 
 struct glim_error {
@@ -83,7 +83,8 @@ struct glim_progress {
     double build_seconds;   /* those of them that the tree of triangles took */
 };
 
-/* GLIM_VERSION of the library that runs, which may be newer than the header. */
+/* Returns GLIM_VERSION of the library that runs, which may differ from the
+ * header's. */
 GLIM_API const char *glim_version(void);
 
 /* ---- scenes ---- */
@@ -99,12 +100,12 @@ GLIM_API struct glim *glim_open(const char *path, const char *view_path,
 /* Frees the handle; NULL is none. */
 GLIM_API void glim_close(struct glim *g);
 
-/* What was odd in the files but does not keep them from being rendered: one
- * line for each number from 0; NULL behind the last. */
+/* Returns a warning about the files, one line for each number from 0; NULL
+ * after the last. The scene is rendered without the part that it is about. */
 GLIM_API const char *glim_warning(const struct glim *g, int number);
 
-/* The files that the scene was read from, and the view file, which need not be
- * there: one for each number from 0; NULL behind the last. */
+/* Returns the name of a file that the scene was read from, for each number from
+ * 0; NULL after the last. The view file is among them and need not exist. */
 GLIM_API const char *glim_file(const struct glim *g, int number);
 
 /* ---- settings, each of which ends the picture: the next glim_render() begins
@@ -123,42 +124,45 @@ GLIM_API void glim_get_size(const struct glim *g, int *width, int *height);
 GLIM_API bool glim_set_size(struct glim *g, int width, int height,
                             struct glim_error *err);
 
-/* Renders only this part of the picture, which must lie in it. What is read and
- * saved has the size of the part. */
+/* Restricts the picture to a part, which must lie in it. The picture that is
+ * read and saved has the size of the part. */
 GLIM_API bool glim_set_crop(struct glim *g, int x, int y, int width, int height,
                             struct glim_error *err);
 
-/* Light that was reflected more often is lost. -1: no limit. */
+/* Sets the number of reflections after which a path ends; -1, the default: no
+ * limit. */
 GLIM_API bool glim_set_max_bounces(struct glim *g, int count,
                                    struct glim_error *err);
 
-/* Other random numbers: pictures of different seeds have independent noise. */
+/* Sets the seed of the random numbers. Pictures of different seeds have
+ * independent noise. */
 GLIM_API void glim_set_seed(struct glim *g, uint32_t seed);
 
-/* Threads of the CPU, which change no bit of a picture; 0: all that the process
- * may use. */
+/* Sets the number of CPU threads; 0, the default: all that the process may use.
+ * It changes no bit of a picture. */
 GLIM_API bool glim_set_threads(struct glim *g, int count,
                                struct glim_error *err);
 
-/* What renders: at first the CPU. A device of OpenCL is tried by a copy of the
- * glim program before it is used here, which takes seconds: drivers crash.
- * `device` is its number or a part of its name, NULL: the best one. If this
- * fails, the CPU renders. */
+/* Selects the backend; the default is the CPU. A copy of the glim program tests
+ * an OpenCL device before it is used here, which takes seconds, because drivers
+ * crash. `device` is the number of a device or a part of its name, NULL: the
+ * best one. After a failure the CPU renders. */
 GLIM_API bool glim_set_backend(struct glim *g, enum glim_backend backend,
                                const char *device, struct glim_error *err);
 
-/* The glim program that tries devices; NULL: the installed one. */
+/* Sets the path of the glim program that tests devices; NULL: the installed
+ * one. */
 GLIM_API bool glim_set_program(struct glim *g, const char *path,
                                struct glim_error *err);
 
-/* What the driver or its compiler said at the last glim_set_backend(), in
- * lines; NULL: nothing. */
+/* Returns the output of the driver and its compiler at the last
+ * glim_set_backend(), in lines; NULL if there is none. */
 GLIM_API const char *glim_backend_log(const struct glim *g);
 
 /* ---- the picture ---- */
 
-/* Is called by glim_render() from its thread, ten times a second and at the
- * end. False: stop. It may read the picture. */
+/* Progress function. glim_render() calls it in the thread of its caller, ten
+ * times a second. It may read and save the picture; false stops the render. */
 typedef bool glim_progress_fn(void *context, const struct glim_progress *p);
 
 /* Renders until every pixel has `spp` samples, or so many seconds have passed;
@@ -169,35 +173,35 @@ GLIM_API enum glim_result glim_render(struct glim *g, uint64_t spp,
                                       glim_progress_fn *progress, void *context,
                                       struct glim_error *err);
 
-/* Stops glim_render(), or the next one if none runs. From any thread, and from
- * a handler of a signal. */
+/* Stops glim_render(), or the next call of it if none runs. From any thread,
+ * and from a signal handler. */
 GLIM_API void glim_cancel(struct glim *g);
 
-/* How far the picture is. */
+/* Returns the progress of the picture; zeros if there is none. */
 GLIM_API struct glim_progress glim_get_progress(struct glim *g);
 
-/* Size of the picture that glim_render() has made, 0 before. */
+/* Size of the picture that glim_render() has made; 0 if there is none. */
 GLIM_API void glim_get_picture_size(const struct glim *g, int *width,
                                     int *height);
 
-/* Linear radiance: 3 floats a pixel, red first; so many as the size says.
- * False: nothing was rendered yet, or `count` is another number. */
+/* Reads linear radiance: red, green and blue of each pixel. `count` is the
+ * number of floats, 3 times the pixels of the picture's size. */
 GLIM_API bool glim_read_floats(struct glim *g, float *rgb, size_t count,
                                struct glim_error *err);
 
-/* The same as sRGB with the exposure and the tone curve of the view: 3 bytes a
- * pixel. */
+/* Reads 8-bit sRGB with the exposure and the tone curve of the view, likewise.
+ */
 GLIM_API bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
                               struct glim_error *err);
 
 /* Writes the picture: .png as glim_read_bytes(), .hdr and .pfm as
- * glim_read_floats(), "-" a PNG file to standard output. The old file or the
- * new one is there, never a part of it. */
+ * glim_read_floats(), "-" a PNG file to standard output. A file is replaced as
+ * a whole or not at all. */
 GLIM_API bool glim_save(struct glim *g, const char *path,
                         struct glim_error *err);
 
-/* Writes STEM.png, or STEM-2.png, STEM-3.png, ...: the first name that is free,
- * which it returns until the next call. NULL: failed. */
+/* Writes STEM.png, or STEM-2.png, STEM-3.png, ...: the first name that is free.
+ * Returns the name, valid until the next call, or NULL. */
 GLIM_API const char *glim_save_new(struct glim *g, const char *stem,
                                    struct glim_error *err);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* The handle, its scene and its view. */
+/* The handle with its scene and its view. */
 #include "api/handle.h"
 
 #include <stdlib.h>
@@ -42,7 +42,7 @@ static bool make_warnings(struct glim *g, struct error *err)
         if (g->warnings[i] == NULL)
             return fail(err, "%s: out of memory for warnings", g->scene.path);
     }
-    return g->warnings != NULL ||
+    return (g->warnings != NULL && !g->report.has_lost) ||
            fail(err, "%s: out of memory for warnings", g->scene.path);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * handle.h - inside of struct glim
+ * handle.h - members of struct glim
  *
  * Threads:   as in glim.h
  */
