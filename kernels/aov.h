@@ -78,8 +78,8 @@ static inline struct path_sample aov_sample(const struct world *w, struct ray r,
         return out;
     }
     m = w->materials[w->tris[h.tri].material];
-    surface_at(w, &m, r, h, &v);
-    out.radiance = aov_value(w, &m, &v, r, h);
+    if (surface_at(w, &m, r, h, &v))
+        out.radiance = aov_value(w, &m, &v, r, h);
     return out;
 }
 

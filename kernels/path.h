@@ -362,7 +362,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
     /* early, as it takes long and depends on nothing that follows */
     path_prepare_2d(p, vertex);
     m = w->materials[w->tris[h->tri].material];
-    surface_at(w, &m, p->ray, *h, &v);
+    if (!surface_at(w, &m, p->ray, *h, &v))
+        return false;
     path_add_emission(w, p, &m, h->tri, &v);
     if (vertex >= w->settings.max_vertices) {
         p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;

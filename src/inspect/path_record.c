@@ -111,7 +111,8 @@ bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
     if (!hit_closest(w, r, &h))
         return false;
     m = w->materials[w->tris[h.tri].material];
-    surface_at(w, &m, r, h, &v);
+    if (!surface_at(w, &m, r, h, &v))
+        return false;
     b = bsdf_at(w, &m, &v);
     l->p = v.p;
     l->n = v.n;

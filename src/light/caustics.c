@@ -191,7 +191,8 @@ static void photon_follow(const struct search *s, struct photon p, uint32_t i)
         if (!hit_closest(w, p.ray, &h) || (vertex == 1 && h.tri != p.aim))
             return;
         m = caustics_material(w->materials[w->tris[h.tri].material]);
-        surface_at(w, &m, p.ray, h, &v);
+        if (!surface_at(w, &m, p.ray, h, &v))
+            return;
         b = bsdf_at(w, &m, &v);
         if (guide_helps(&b)) {
             landings[landed++] = landing_of(s, &p, &v);

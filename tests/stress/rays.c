@@ -117,9 +117,9 @@ static void leave_edges(void *context, uint32_t item, int worker)
         struct surface_point v;
         struct hit h;
 
-        if (!hit_closest(s->world, r, &h))
+        if (!hit_closest(s->world, r, &h) ||
+            !surface_at(s->world, &m, r, h, &v))
             continue;
-        surface_at(s->world, &m, r, h, &v);
         r.d = direction(&seed);
         if (v3_dot(r.d, v.ng) < 0)
             r.d = v3_neg(r.d);

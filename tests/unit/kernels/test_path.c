@@ -265,7 +265,7 @@ static void coarse_balls_have_smooth_shade(void **state)
         double cosine, truth, got = 0;
 
         assert_true(hit_closest(&m.world, r, &h));
-        surface_at(&m.world, &m.materials[0], r, h, &v);
+        assert_true(surface_at(&m.world, &m.materials[0], r, h, &v));
         to_lamp = v3_sub(lamp, v.p);
         cosine = (double)v3_dot(v.n, v3_unit(to_lamp));
         if (cosine < 0.1)
