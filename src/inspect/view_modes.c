@@ -54,8 +54,8 @@ static bool find_world(const struct view_mode *s, struct world *w,
 {
     struct session *of = s->session;
 
-    if (!world_lend(&of->world, &of->scene, &of->view, of->options->seed, w,
-                    err))
+    if (!world_lend(&of->world, &of->scene, &of->edit.now.view,
+                    of->options->seed, w, err))
         return false;
     w->nodes = s->bvh.nodes;
     w->leaf_tris = s->bvh.leaf_tris;

@@ -56,104 +56,70 @@ bool view_has_part(const struct view *view, int x, int y, int width, int height)
            x <= view->width_px - width && y <= view->height_px - height;
 }
 
-/* False when memory is out. */
-static bool copy_path(char **to, const char *from)
+bool lighting_copy(struct lighting *to, const struct lighting *from)
 {
-    *to = from ? strdup(from) : NULL;
-    return *to || !from;
+    char *sky_path = from->sky_path ? strdup(from->sky_path) : NULL;
+
+    if (!sky_path && from->sky_path)
+        return false;
+    free(to->sky_path);
+    *to = *from;
+    to->sky_path = sky_path; /* a copy of its own */
+    return true;
+}
+
+static bool is_same_path(const char *a, const char *b)
+{
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+bool lighting_is_same_light(const struct lighting *a, const struct lighting *b)
+{
+    return memcmp(a->background, b->background, sizeof a->background) == 0 &&
+           a->has_background == b->has_background &&
+           is_same_path(a->sky_path, b->sky_path) &&
+           a->sky_strength == b->sky_strength &&
+           a->sky_rotation_deg == b->sky_rotation_deg;
+}
+
+bool lighting_equal(const struct lighting *a, const struct lighting *b)
+{
+    return lighting_is_same_light(a, b) && a->exposure == b->exposure &&
+           a->tone == b->tone;
 }
 
 bool view_copy(struct view *to, const struct view *from)
 {
-    char *sky_path;
-    struct assigns assigns = {0};
+    struct view copy = *from;
 
-    if (!copy_path(&sky_path, from->lighting.sky_path) ||
-        !assigns_copy(&assigns, &from->assigns)) {
-        free(sky_path);
+    copy.lighting.sky_path = NULL;
+    copy.assigns = (struct assigns){0};
+    if (!lighting_copy(&copy.lighting, &from->lighting) ||
+        !assigns_copy(&copy.assigns, &from->assigns)) {
+        view_free(&copy);
         return false;
     }
     view_free(to);
-    *to = *from;
-    to->lighting.sky_path = sky_path; /* copies of its own */
-    to->assigns = assigns;
+    *to = copy;
     return true;
 }
 
-static void take_shots(struct view *view, const struct view *before,
-                       const struct view *after)
+void view_keep_camera(struct view *view, const struct view *now,
+                      const struct view *before, const struct view *after)
 {
-    for (int i = 0; i < VIEW_SHOTS; i++) {
-        if (before->has_shot[i] == after->has_shot[i] &&
-            memcmp(&before->shots[i], &after->shots[i],
-                   sizeof after->shots[i]) == 0)
-            continue;
-        view->shots[i] = after->shots[i];
-        view->has_shot[i] = after->has_shot[i];
-    }
-}
-
-static bool has_other_sky(const struct lighting *a, const struct lighting *b)
-{
-    return !a->sky_path != !b->sky_path ||
-           (a->sky_path && strcmp(a->sky_path, b->sky_path) != 0);
-}
-
-static bool take_sky(struct lighting *to, const struct lighting *before,
-                     const struct lighting *after)
-{
-    char *sky_path;
-
-    if (!has_other_sky(before, after))
-        return true;
-    if (!copy_path(&sky_path, after->sky_path))
-        return false;
-    free(to->sky_path);
-    to->sky_path = sky_path;
-    return true;
-}
-
-static void take_lighting(struct lighting *to, const struct lighting *before,
-                          const struct lighting *after)
-{
-    if (memcmp(before->background, after->background,
-               sizeof after->background) != 0) {
-        memcpy(to->background, after->background, sizeof to->background);
-        to->has_background = after->has_background;
-    }
-    if (before->sky_strength != after->sky_strength)
-        to->sky_strength = after->sky_strength;
-    if (before->sky_rotation_deg != after->sky_rotation_deg)
-        to->sky_rotation_deg = after->sky_rotation_deg;
-    if (before->exposure != after->exposure)
-        to->exposure = after->exposure;
-    if (before->tone != after->tone)
-        to->tone = after->tone;
-}
-
-bool view_merge(struct view *view, const struct view *before,
-                const struct view *after)
-{
-    if (!take_sky(&view->lighting, &before->lighting, &after->lighting))
-        return false;
     /* one that was placed by the program follows the scene, not the file */
-    if (after->has_camera &&
-        (!before->has_camera ||
-         memcmp(&before->pose, &after->pose, sizeof after->pose) != 0)) {
-        view->pose = after->pose;
-        view->has_camera = true;
+    if (!after->has_camera ||
+        (before->has_camera &&
+         memcmp(&before->pose, &after->pose, sizeof after->pose) == 0))
+        view->pose = now->pose;
+    for (int i = 0; i < VIEW_SHOTS; i++) {
+        if (before->has_shot[i] != after->has_shot[i] ||
+            memcmp(&before->shots[i], &after->shots[i],
+                   sizeof after->shots[i]) != 0)
+            continue;
+        view->shots[i] = now->shots[i];
+        view->has_shot[i] = now->has_shot[i];
     }
-    take_shots(view, before, after);
-    if (before->width_px != after->width_px ||
-        before->height_px != after->height_px) {
-        view->width_px = after->width_px;
-        view->height_px = after->height_px;
-        view->has_size = after->has_size;
-    }
-    take_lighting(&view->lighting, &before->lighting, &after->lighting);
-    if (before->max_bounces != after->max_bounces)
-        view->max_bounces = after->max_bounces;
-    return true;
 }
 
 void view_free(struct view *view)

@@ -5,8 +5,6 @@
  * Units:     as pose.h; pixels, radiance, degrees, stops
  * Ownership: view_free() frees what is in it
  * Threads:   one thread at a time
- * Errors:    view_copy() and view_merge() return false, and change nothing,
- *            when memory is out
  */
 #ifndef GLIM_VIEW_H
 #define GLIM_VIEW_H
@@ -62,15 +60,25 @@ void view_set_size(struct view *view, int width_px, int height_px);
 bool view_has_part(const struct view *view, int x, int y, int width,
                    int height);
 
-/* Takes over what the file has changed from `before` to `after`; the rest of
- * `view` stays. The camera is one thing. */
-bool view_merge(struct view *view, const struct view *before,
-                const struct view *after);
+/* `to` is zeroed or a lighting, which is freed. Returns false, and changes
+ * nothing, when memory is out. */
+bool lighting_copy(struct lighting *to, const struct lighting *from);
+bool lighting_equal(const struct lighting *a, const struct lighting *b);
+
+/* Returns true if the picture of one is that of the other, developed in another
+ * way: all but exposure and tone is equal. */
+bool lighting_is_same_light(const struct lighting *a, const struct lighting *b);
+
+/* Takes over the camera of `now`, and its numbered views, but for what the file
+ * has changed from `before` to `after`. */
+void view_keep_camera(struct view *view, const struct view *now,
+                      const struct view *before, const struct view *after);
 
 /* Takes over size and bounces: what the command line may say for one run. */
 void view_take_frame(struct view *view, const struct view *from);
 
-/* `to` has been through view_init(). */
+/* `to` has been through view_init(). Returns false, and changes nothing, when
+ * memory is out. */
 bool view_copy(struct view *to, const struct view *from);
 void view_free(struct view *view);
 

@@ -144,6 +144,13 @@ bool world_init(struct host_world *host, const struct scene *scene,
     return lights_build(&host->lights, &arrays, err);
 }
 
+bool world_has_sky(const struct host_world *host, const struct view *view)
+{
+    const char *a = host->sky_path, *b = view->lighting.sky_path;
+
+    return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
+}
+
 bool world_load_sky(struct host_world *host, const struct view *view,
                     struct warnings *report, struct error *err)
 {
@@ -152,6 +159,13 @@ bool world_load_sky(struct host_world *host, const struct view *view,
     struct sky_table table = {0};
     uint64_t clamped_count = 0;
 
+    free(host->sky_path);
+    host->sky_path = NULL;
+    if (view->lighting.sky_path != NULL) {
+        host->sky_path = strdup(view->lighting.sky_path);
+        if (host->sky_path == NULL)
+            return fail(err, "%s: out of memory", view->lighting.sky_path);
+    }
     if (view->lighting.sky_path != NULL &&
         (!image_open(&file, view->lighting.sky_path, IMAGE_LINEAR,
                      textures_bytes(host), err) ||
@@ -349,6 +363,7 @@ bool world_lend(const struct host_world *host, const struct scene *scene,
 
 void world_free(struct host_world *host)
 {
+    free(host->sky_path);
     free(host->tris);
     free(host->assigned);
     free(host->materials);

@@ -63,6 +63,7 @@ struct host_world {
     uint32_t *texels;
     size_t texel_count;
 
+    char *sky_path; /* of the image that was looked for last; NULL: none */
     struct vec3 *sky_texels; /* NULL: no image */
     uint32_t sky_width, sky_height;
     struct sky_table sky_table;
@@ -81,9 +82,13 @@ struct host_world {
 bool world_init(struct host_world *host, const struct scene *scene,
                 int thread_count, struct warnings *report, struct error *err);
 
-/* Loads view->sky_path, or removes the image if that is NULL. */
+/* Loads the image of the view's sky, or removes it if there is none. After an
+ * error the image before stays; world_has_sky() is true nevertheless. */
 bool world_load_sky(struct host_world *host, const struct view *view,
                     struct warnings *report, struct error *err);
+
+/* Returns true if the image of the view's sky was the last to be looked for. */
+bool world_has_sky(const struct host_world *host, const struct view *view);
 
 /* Makes the table that leads paths to light that is hard to find, if there is
  * none yet for the world as it is and the view's sky. Without it pictures are

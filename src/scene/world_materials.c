@@ -257,10 +257,11 @@ static void drop(struct next *next)
     lights_free(&next->lights);
 }
 
-bool world_has_materials(const struct host_world *host,
-                         const struct scene *scene, uint32_t count,
-                         const struct mtl_source *sources,
-                         const uint32_t *assigned)
+/* Returns true if the world has these already. */
+static bool has_materials(const struct host_world *host,
+                          const struct scene *scene, uint32_t count,
+                          const struct mtl_source *sources,
+                          const uint32_t *assigned)
 {
     if (host->material_count != count || needs_tris(host, scene, assigned))
         return false;
@@ -281,7 +282,7 @@ bool world_set_materials(struct host_world *host, const struct scene *scene,
                        .assigned = assigned};
     bool ok;
 
-    if (world_has_materials(host, scene, count, sources, assigned))
+    if (has_materials(host, scene, count, sources, assigned))
         return true;
     ok = make_tris(&c) || out_of_memory(&c, err);
     ok = ok && make_materials(&c, err) && make_lights(&c, err);

@@ -23,10 +23,4 @@ bool world_set_materials(struct host_world *host, const struct scene *scene,
                          uint32_t count, const struct mtl_source *sources,
                          const uint32_t *assigned, struct error *err);
 
-/* True if the world has these materials. */
-bool world_has_materials(const struct host_world *host,
-                         const struct scene *scene, uint32_t count,
-                         const struct mtl_source *sources,
-                         const uint32_t *assigned);
-
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/edit_history.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,19 +9,35 @@
 #include "formats/scene_load.h"
 #include "terminal/xmalloc.h"
 
-enum step_kind { STEP_MATERIAL, STEP_ASSIGN, STEP_DUPLICATE, STEP_MOOD };
+/* The same gesture again within this time goes on with its step: longer than
+ * keyboards wait before they repeat. */
+#define GESTURE_NS UINT64_C(700000000)
+
+enum step_kind {
+    STEP_MATERIAL,
+    STEP_ASSIGN,
+    STEP_DUPLICATE,
+    STEP_LIGHTING,
+    STEP_POSE,
+    STEP_SHOT
+};
 
 union value {
     struct mtl_source source;
     uint32_t material;
     bool is_there;
-    struct mood mood;
+    struct lighting lighting; /* its sky_path is one of the edit's skies */
+    struct pose pose;
+    struct {
+        struct pose pose;
+        bool is_there;
+    } shot;
 };
 
 /* One thing that changed; all of a group are a step for people. */
 struct edit_step {
     enum step_kind kind;
-    uint32_t index; /* of the material or object */
+    uint32_t index; /* of the material, object or numbered view */
     uint32_t group;
     union value before, after;
 };
@@ -44,7 +61,7 @@ static void copy_state(const struct edit *e, struct edit_state *to,
         copy_array(from->is_there, e->material_count, sizeof *to->is_there);
     to->assigned =
         copy_array(from->assigned, e->object_count, sizeof *to->assigned);
-    to->mood = from->mood;
+    xcheck(view_copy(&to->view, &from->view));
 }
 
 static void free_state(struct edit_state *s)
@@ -52,6 +69,7 @@ static void free_state(struct edit_state *s)
     free(s->sources);
     free(s->is_there);
     free(s->assigned);
+    view_free(&s->view);
     *s = (struct edit_state){.sources = NULL};
 }
 
@@ -87,18 +105,9 @@ void edit_init(struct edit *e, const struct scene *scene,
     e->now.assigned = xcalloc(e->object_count + 1, sizeof *e->now.assigned);
     scene_find_assigned(scene, &view->assigns, e->now.assigned, report);
     edit_sky(e, "");
-    e->now.mood = (struct mood){
-        .has_background = view->lighting.has_background,
-        .sky = edit_sky(e, view->lighting.sky_path != NULL
-                               ? view->lighting.sky_path
-                               : ""),
-        .sky_strength = view->lighting.sky_strength,
-        .sky_rotation_deg = view->lighting.sky_rotation_deg,
-        .exposure = view->lighting.exposure,
-        .tone = view->lighting.tone,
-    };
-    memcpy(e->now.mood.background, view->lighting.background,
-           sizeof view->lighting.background);
+    if (view->lighting.sky_path != NULL)
+        edit_sky(e, view->lighting.sky_path);
+    xcheck(view_copy(&e->now.view, view));
     free_state(&e->saved);
     copy_state(e, &e->saved, &e->now);
 }
@@ -128,12 +137,33 @@ uint32_t edit_sky(struct edit *e, const char *path)
 static void set(struct edit *e, const struct edit_step *s,
                 const union value *value)
 {
+    struct view *view = &e->now.view;
+    bool is_same_light = false;
+
     switch (s->kind) {
     case STEP_MATERIAL: e->now.sources[s->index] = value->source; break;
     case STEP_ASSIGN: e->now.assigned[s->index] = value->material; break;
     case STEP_DUPLICATE: e->now.is_there[s->index] = value->is_there; break;
-    case STEP_MOOD: e->now.mood = value->mood; break;
+    case STEP_LIGHTING:
+        is_same_light =
+            lighting_is_same_light(&view->lighting, &value->lighting);
+        xcheck(lighting_copy(&view->lighting, &value->lighting));
+        break;
+    case STEP_POSE: view->pose = value->pose; break;
+    case STEP_SHOT:
+        view->shots[s->index] = value->shot.pose;
+        view->has_shot[s->index] = value->shot.is_there;
+        break;
     }
+    if (s->kind != STEP_SHOT && !is_same_light)
+        e->version++;
+    if (s->kind < STEP_POSE) /* the person wants to see that */
+        edit_compare(e, false);
+}
+
+static bool joins(const struct edit_step *last, const struct edit_step *step)
+{
+    return last->kind == step->kind && last->index == step->index;
 }
 
 /* Does it, and takes what was undone out of the history. A later change of the
@@ -144,10 +174,11 @@ static void change(struct edit *e, const struct edit_step *step)
     void *steps = e->steps;
 
     e->step_count = e->done_count;
-    if (e->done_count > 0)
+    if (e->done_count > 0 && e->steps[e->done_count - 1].group == e->group)
         last = &e->steps[e->done_count - 1];
-    if (last != NULL && last->group == e->group && last->kind == step->kind &&
-        last->index == step->index) {
+    if (last != NULL && !joins(last, step) && e->gesture != 0)
+        e->group++; /* another thing was changed during the gesture */
+    if (last != NULL && joins(last, step)) {
         last->after = step->after;
     } else {
         if (!grow_array(&steps, &e->step_capacity, e->step_count + 1,
@@ -164,6 +195,18 @@ static void change(struct edit *e, const struct edit_step *step)
 void edit_break(struct edit *e)
 {
     e->group++;
+    e->gesture = 0;
+}
+
+bool edit_begin(struct edit *e, uint32_t gesture, uint64_t now_ns)
+{
+    bool is_new = gesture != e->gesture || now_ns - e->gesture_ns > GESTURE_NS;
+
+    if (is_new)
+        e->group++;
+    e->gesture = gesture;
+    e->gesture_ns = now_ns;
+    return is_new;
 }
 
 void edit_material(struct edit *e, uint32_t material,
@@ -193,25 +236,53 @@ void edit_assign(struct edit *e, uint32_t object, uint32_t material)
         change(e, &step);
 }
 
-static bool moods_equal(const struct mood *a, const struct mood *b)
+/* Lends the path from the edit's skies, which stay. */
+static struct lighting lend_sky(struct edit *e, const struct lighting *lighting)
 {
-    return memcmp(a->background, b->background, sizeof a->background) == 0 &&
-           a->has_background == b->has_background && a->sky == b->sky &&
-           a->sky_strength == b->sky_strength &&
-           a->sky_rotation_deg == b->sky_rotation_deg &&
-           a->exposure == b->exposure && a->tone == b->tone;
+    struct lighting lent = *lighting;
+    uint32_t sky = lent.sky_path != NULL ? edit_sky(e, lent.sky_path) : 0;
+
+    lent.sky_path = sky != 0 ? e->skies.items[sky] : NULL;
+    return lent;
 }
 
-void edit_mood(struct edit *e, const struct mood *mood)
+void edit_lighting(struct edit *e, const struct lighting *lighting)
 {
     struct edit_step step = {
-        .kind = STEP_MOOD,
-        .before = {.mood = e->now.mood},
-        .after = {.mood = *mood},
+        .kind = STEP_LIGHTING,
+        .before = {.lighting = lend_sky(e, &e->now.view.lighting)},
+        .after = {.lighting = lend_sky(e, lighting)},
     };
 
-    if (!moods_equal(&step.before.mood, mood))
+    if (!lighting_equal(&step.before.lighting, lighting))
         change(e, &step);
+}
+
+void edit_pose(struct edit *e, const struct pose *pose)
+{
+    struct edit_step step = {
+        .kind = STEP_POSE,
+        .before = {.pose = e->now.view.pose},
+        .after = {.pose = *pose},
+    };
+
+    if (memcmp(&step.before.pose, pose, sizeof *pose) != 0)
+        change(e, &step);
+}
+
+void edit_shot(struct edit *e, int number)
+{
+    const struct view *view = &e->now.view;
+    struct edit_step step = {
+        .kind = STEP_SHOT,
+        .index = (uint32_t)number,
+        .before = {.shot = {view->shots[number], view->has_shot[number]}},
+        .after = {.shot = {view->pose, true}},
+    };
+
+    edit_break(e);
+    change(e, &step);
+    edit_break(e);
 }
 
 static bool has_name(const struct edit *e, const char *name)
@@ -264,44 +335,94 @@ uint32_t edit_duplicate(struct edit *e, uint32_t material)
     return step.index;
 }
 
-bool edit_undo(struct edit *e)
+/* Names the step for people, by its first change. */
+static const char *name_step(struct edit *e, const struct edit_step *s)
 {
+    char *text = e->step_text;
+    size_t size = sizeof e->step_text;
+
+    switch (s->kind) {
+    case STEP_MATERIAL:
+        snprintf(text, size, "material %.60s", e->names[s->index]);
+        break;
+    case STEP_ASSIGN: snprintf(text, size, "material of an object"); break;
+    case STEP_DUPLICATE:
+        snprintf(text, size, "copy %.60s", e->names[s->index]);
+        break;
+    case STEP_LIGHTING: snprintf(text, size, "light"); break;
+    case STEP_POSE: snprintf(text, size, "camera"); break;
+    case STEP_SHOT: snprintf(text, size, "view %d", (int)s->index + 1); break;
+    }
+    return text;
+}
+
+const char *edit_undo(struct edit *e)
+{
+    const struct edit_step *s = NULL;
     uint32_t group;
 
     if (e->done_count == 0)
-        return false;
+        return NULL;
     group = e->steps[e->done_count - 1].group;
     while (e->done_count > 0 && e->steps[e->done_count - 1].group == group) {
-        const struct edit_step *s = &e->steps[--e->done_count];
-
+        s = &e->steps[--e->done_count];
         set(e, s, &s->before);
     }
     edit_break(e);
-    return true;
+    return name_step(e, s);
 }
 
-bool edit_redo(struct edit *e)
+const char *edit_redo(struct edit *e)
 {
-    uint32_t group;
+    const struct edit_step *first;
 
     if (e->done_count == e->step_count)
-        return false;
-    group = e->steps[e->done_count].group;
+        return NULL;
+    first = &e->steps[e->done_count];
     while (e->done_count < e->step_count &&
-           e->steps[e->done_count].group == group) {
+           e->steps[e->done_count].group == first->group) {
         const struct edit_step *s = &e->steps[e->done_count++];
 
         set(e, s, &s->after);
     }
     edit_break(e);
-    return true;
+    return name_step(e, first);
 }
 
 /* ---- what is shown and saved ---- */
 
+static bool has_other_assigned(const struct edit *e)
+{
+    return memcmp(e->now.assigned, e->saved.assigned,
+                  e->object_count * sizeof *e->now.assigned) != 0;
+}
+
+/* True if what is saved looks as what is now, but for its development. */
+static bool looks_saved(const struct edit *e)
+{
+    return !edit_has_unsaved_materials(e) && !has_other_assigned(e) &&
+           lighting_is_same_light(&e->now.view.lighting,
+                                  &e->saved.view.lighting);
+}
+
+void edit_compare(struct edit *e, bool is_comparing)
+{
+    if (is_comparing != e->is_comparing && !looks_saved(e))
+        e->version++;
+    e->is_comparing = is_comparing;
+}
+
 const struct edit_state *edit_shown(const struct edit *e)
 {
     return e->is_comparing ? &e->saved : &e->now;
+}
+
+struct view edit_view(const struct edit *e)
+{
+    struct view view = e->now.view;
+
+    view.lighting = edit_shown(e)->view.lighting;
+    return view;
 }
 
 bool edit_is_saved(const struct edit *e, uint32_t i)
@@ -322,9 +443,8 @@ bool edit_has_unsaved_materials(const struct edit *e)
 
 bool edit_has_unsaved_view(const struct edit *e)
 {
-    return !moods_equal(&e->now.mood, &e->saved.mood) ||
-           memcmp(e->now.assigned, e->saved.assigned,
-                  e->object_count * sizeof *e->now.assigned) != 0;
+    return !lighting_equal(&e->now.view.lighting, &e->saved.view.lighting) ||
+           has_other_assigned(e);
 }
 
 bool edit_tidy_material(struct edit *e, uint32_t material, uint32_t pattern)
@@ -342,43 +462,58 @@ void edit_saved_material(struct edit *e, uint32_t material)
     e->saved.is_there[material] = e->now.is_there[material];
 }
 
-void edit_saved_view(struct edit *e)
-{
-    memcpy(e->saved.assigned, e->now.assigned,
-           e->object_count * sizeof *e->now.assigned);
-    e->saved.mood = e->now.mood;
-}
-
 /* An object that never had an effect keeps its line. */
-static void write_assigns(const struct edit *e, const struct edit_state *s,
-                          const struct scene *scene, struct assigns *assigns)
+static void write_assigns(const struct edit *e, const struct scene *scene,
+                          struct assigns *assigns)
 {
     for (uint32_t i = 0; i < e->object_count; i++) {
-        uint32_t material = s->assigned[i];
+        uint32_t material = e->now.assigned[i];
 
         if (material != NO_INDEX)
             xcheck(assigns_set(assigns, scene->object_names[i],
                                e->names[material]));
-        else if (e->saved.assigned[i] != NO_INDEX ||
-                 e->now.assigned[i] != NO_INDEX)
+        else if (e->saved.assigned[i] != NO_INDEX)
             xcheck(assigns_set(assigns, scene->object_names[i], NULL));
     }
 }
 
-void edit_to_view(const struct edit *e, const struct edit_state *s,
-                  const struct scene *scene, struct view *view)
+void edit_to_view(const struct edit *e, const struct scene *scene,
+                  struct view *view)
 {
-    const struct mood *m = &s->mood;
+    xcheck(lighting_copy(&view->lighting, &e->now.view.lighting));
+    write_assigns(e, scene, &view->assigns);
+}
 
-    memcpy(view->lighting.background, m->background,
-           sizeof view->lighting.background);
-    view->lighting.has_background = m->has_background;
-    view->lighting.sky_strength = m->sky_strength;
-    view->lighting.sky_rotation_deg = m->sky_rotation_deg;
-    view->lighting.exposure = m->exposure;
-    view->lighting.tone = m->tone;
-    free(view->lighting.sky_path);
-    view->lighting.sky_path =
-        m->sky != 0 ? xstrdup(e->skies.items[m->sky]) : NULL;
-    write_assigns(e, s, scene, &view->assigns);
+void edit_saved_lighting(struct edit *e, const struct view *written)
+{
+    xcheck(lighting_copy(&e->saved.view.lighting, &written->lighting) &&
+           assigns_copy(&e->saved.view.assigns, &written->assigns));
+    memcpy(e->saved.assigned, e->now.assigned,
+           e->object_count * sizeof *e->now.assigned);
+}
+
+void edit_saved_view(struct edit *e, const struct view *written)
+{
+    xcheck(view_copy(&e->saved.view, written));
+    edit_saved_lighting(e, written);
+}
+
+/* ---- the files loaded anew ---- */
+
+void edit_keep_camera(struct edit *e, const struct edit *before)
+{
+    view_keep_camera(&e->now.view, &before->now.view, &before->saved.view,
+                     &e->saved.view);
+    free(e->steps);
+    e->steps = xcalloc(before->step_count + 1, sizeof *e->steps);
+    e->step_count = e->done_count = 0;
+    e->step_capacity = before->step_count + 1;
+    for (size_t i = 0; i < before->step_count; i++) {
+        if (before->steps[i].kind != STEP_POSE)
+            continue;
+        e->steps[e->step_count++] = before->steps[i];
+        e->done_count += i < before->done_count;
+    }
+    e->group = before->group + 1;
+    e->version = before->version + 1;
 }

@@ -99,8 +99,6 @@ enum panel_action {
     PANEL_HSV,
     PANEL_NEXT_PAGE,
     PANEL_COPY,
-    PANEL_UNDO,
-    PANEL_REDO,
     PANEL_COMPARE,
     PANEL_SAVE,
     PANEL_LEAVE

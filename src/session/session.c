@@ -12,14 +12,12 @@
 #include "terminal/xmalloc.h"
 
 /* The command line wins over the view file. */
-static void apply_options(struct session *s)
+static void apply_options(const struct options *o, struct view *view)
 {
-    const struct options *o = s->options;
-
     if (o->width_px != 0 || o->height_px != 0)
-        view_set_size(&s->view, o->width_px, o->height_px);
+        view_set_size(view, o->width_px, o->height_px);
     if (o->has_max_bounces)
-        s->view.max_bounces = o->max_bounces;
+        view->max_bounces = o->max_bounces;
 }
 
 /* Says on the status line what scene_open() has added. */
@@ -28,22 +26,23 @@ static void note_additions(struct session *s)
     if (s->scene.tri_count == 0)
         snprintf(s->notice, sizeof s->notice,
                  "no faces: only the background is rendered");
-    else if (view_has_soft_sky(&s->view))
+    else if (view_has_soft_sky(&s->edit.now.view))
         snprintf(s->notice, sizeof s->notice,
                  "no light in the scene: lit by a soft sky");
 }
 
 /* The rectangle to render, which must lie in the picture. */
-static bool find_crop(struct session *s, struct error *err)
+static bool find_crop(struct session *s, const struct view *view,
+                      struct error *err)
 {
     const struct rect *c = &s->options->crop;
-    int width = s->view.width_px;
-    int height = s->view.height_px;
+    int width = view->width_px;
+    int height = view->height_px;
 
     s->crop = (struct rect){0, 0, width, height};
     if (!s->options->has_crop)
         return true;
-    if (!view_has_part(&s->view, c->x, c->y, c->width, c->height))
+    if (!view_has_part(view, c->x, c->y, c->width, c->height))
         return fail(err,
                     "--crop: found %d,%d,%d,%d, expected a part of the "
                     "picture, which has %dx%d pixels",
@@ -52,9 +51,10 @@ static bool find_crop(struct session *s, struct error *err)
     return true;
 }
 
-/* Brings the world and the view to what the edit shows. An image of the sky
+/* Brings the world to what the edit shows, which is *view. An image of the sky
  * that cannot be read leaves the one before, and a notice. */
-static bool apply_edit(struct session *s, struct error *err)
+static bool apply_edit(struct session *s, const struct view *view,
+                       struct error *err)
 {
     const struct edit_state *shown = edit_shown(&s->edit);
     struct error why;
@@ -62,44 +62,50 @@ static bool apply_edit(struct session *s, struct error *err)
     if (!world_set_materials(&s->world, &s->scene, s->edit.material_count,
                              shown->sources, shown->assigned, err))
         return false;
-    edit_to_view(&s->edit, shown, &s->scene, &s->view);
-    if (s->sky != shown->mood.sky) {
-        s->sky = shown->mood.sky;
-        if (!world_load_sky(&s->world, &s->view, &s->report, &why))
+    if (!world_has_sky(&s->world, view)) {
+        s->files_version++;
+        if (!world_load_sky(&s->world, view, &s->report, &why))
             snprintf(s->notice, sizeof s->notice, "%.255s", why.text);
     }
-    return world_guide(&s->world, &s->scene, &s->view, err);
+    return world_guide(&s->world, &s->scene, view, err);
+}
+
+/* Reads the scene and its view, the size and bounces of which are the file's
+ * but for the options. */
+static bool open_scene(struct session *s, struct view *view, struct error *err)
+{
+    const struct options *o = s->options;
+    struct view file;
+
+    if (!view_find(view, o->scene_path, o->view_path, &s->view_path, &s->report,
+                   err))
+        return false;
+    file = *view;
+    apply_options(o, view);
+    if (!find_crop(s, view, err) ||
+        !scene_open(&s->scene, &s->world, view, o->scene_path, o->up_is_z,
+                    options_threads(o), &s->report, err))
+        return false;
+    edit_init(&s->edit, &s->scene, view, &s->report);
+    view_take_frame(&s->edit.saved.view, &file);
+    s->opened = view->pose;
+    note_additions(s);
+    return true;
 }
 
 bool session_load(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err)
 {
     uint64_t begin_ns = clock_ns();
+    struct view view;
+    bool ok;
 
     *s = (struct session){.options = options, .start_ns = start_ns};
-    view_init(&s->view);
-    view_init(&s->opened);
-    view_init(&s->filed);
-    if (!view_find(&s->view, options->scene_path, options->view_path,
-                   &s->view_path, &s->report, err))
-        return false;
-    xcheck(view_copy(&s->filed, &s->view));
-    apply_options(s);
-    if (!find_crop(s, err) ||
-        !scene_open(&s->scene, &s->world, &s->view, options->scene_path,
-                    options->up_is_z, options_threads(options), &s->report,
-                    err))
-        return false;
-    note_additions(s);
-    xcheck(view_copy(&s->opened, &s->view));
-    view_take_frame(&s->opened, &s->filed);
-    xcheck(view_copy(&s->filed, &s->opened));
-    edit_init(&s->edit, &s->scene, &s->view, &s->report);
-    s->sky = s->edit.now.mood.sky;
-    if (!apply_edit(s, err))
-        return false;
+    view_init(&view);
+    ok = open_scene(s, &view, err) && apply_edit(s, &view, err);
+    view_free(&view);
     s->load_ns = clock_ns() - begin_ns;
-    return true;
+    return ok;
 }
 
 bool session_open(struct session *s, const struct options *options,
@@ -120,18 +126,14 @@ static void swap_loaded(struct session *a, struct session *b)
     a->scene = b->scene;
     a->world = b->world;
     a->edit = b->edit;
-    a->sky = b->sky;
     a->crop = b->crop;
     a->opened = b->opened;
-    a->filed = b->filed;
     a->report = b->report;
     b->scene = old.scene;
     b->world = old.world;
     b->edit = old.edit;
-    b->sky = old.sky;
     b->crop = old.crop;
     b->opened = old.opened;
-    b->filed = old.filed;
     b->report = old.report;
     memcpy(a->notice, b->notice, sizeof a->notice);
 }
@@ -141,10 +143,7 @@ void session_take(struct session *s, struct session *fresh)
     bool has_same_shape = scene_has_same_shape(&s->scene, &fresh->scene);
 
     render_halt(s->render);
-    xcheck(view_merge(&s->view, &s->filed, &fresh->filed));
-    /* these are the edit's, of which there is another one now */
-    xcheck(assigns_copy(&s->view.assigns, &fresh->filed.assigns));
-    apply_options(s);
+    edit_keep_camera(&fresh->edit, &s->edit);
     swap_loaded(s, fresh);
     if (has_same_shape) /* trees stay */
         world_take_shape(&s->world, &fresh->world);
@@ -153,10 +152,11 @@ void session_take(struct session *s, struct session *fresh)
 void session_watch(const struct session *s, struct file_watch *watch)
 {
     char *camera = xchecked(path_beside(s->options->scene_path, "camera.txt"));
+    struct view view = edit_view(&s->edit);
     const char *path;
 
     for (uint32_t i = 0;
-         (path = scene_file(&s->scene, &s->view, s->view_path, i)) != NULL; i++)
+         (path = scene_file(&s->scene, &view, s->view_path, i)) != NULL; i++)
         file_watch_add(watch, path);
     if (!s->options->view_path)
         file_watch_add(watch, camera);
@@ -186,6 +186,7 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
                              .crop = s->crop,
                              .spp = spp,
                              .steps = steps};
+    struct view view = edit_view(&s->edit);
     uint32_t features;
 
     if (spp == 0) {
@@ -193,8 +194,10 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
         job.draft_height = s->draft_height;
     }
     render_halt(s->render);
-    if (!apply_edit(s, err) || !world_lend(&s->world, &s->scene, &s->view,
-                                           s->options->seed, &job.world, err))
+    s->rendered_version = s->edit.version;
+    if (!apply_edit(s, &view, err) ||
+        !world_lend(&s->world, &s->scene, &view, s->options->seed, &job.world,
+                    err))
         return false;
     /* a device has another; moves on the screen ask this one for distances */
     if (session_uses_device(s) && s->options->batch)
@@ -224,27 +227,16 @@ bool session_step(struct session *s, uint64_t spp, struct error *err)
     return begin(s, spp, 1, err);
 }
 
-bool session_take_edit(struct session *s)
+bool session_is_outdated(const struct session *s)
 {
-    const struct edit_state *shown = edit_shown(&s->edit);
-    const struct mood *m = &shown->mood;
-    const struct view *v = &s->view;
-
-    s->view.lighting.exposure = m->exposure;
-    s->view.lighting.tone = m->tone;
-    return !world_has_materials(&s->world, &s->scene, s->edit.material_count,
-                                shown->sources, shown->assigned) ||
-           s->sky != m->sky ||
-           memcmp(v->lighting.background, m->background,
-                  sizeof v->lighting.background) != 0 ||
-           v->lighting.sky_strength != m->sky_strength ||
-           v->lighting.sky_rotation_deg != m->sky_rotation_deg;
+    return s->rendered_version != s->edit.version;
 }
 
 struct develop session_develop(const struct session *s)
 {
-    return (struct develop){(float)s->view.lighting.exposure,
-                            s->view.lighting.tone};
+    const struct lighting *l = &edit_shown(&s->edit)->view.lighting;
+
+    return (struct develop){(float)l->exposure, l->tone};
 }
 
 struct render_progress session_look(struct session *s)
@@ -267,10 +259,7 @@ void session_close(struct session *s)
     backends_close(&s->machines);
     world_free(&s->world);
     scene_free(&s->scene);
-    view_free(&s->view);
-    view_free(&s->opened);
     edit_free(&s->edit);
-    view_free(&s->filed);
     warnings_free(&s->report);
     thread_load_free(&s->load);
     free(s->view_path);

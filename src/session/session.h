@@ -22,17 +22,15 @@
 struct session {
     const struct options *options;
     struct scene scene;
-    struct host_world world; /* made of the scene, the view's sky, the edit */
-    struct view view;        /* what is rendered now */
-    struct view opened;      /* as loaded, to go back to */
-    struct rect crop;        /* of the view's picture, that is rendered */
-    struct edit edit;  /* of materials and light; session_restart() applies */
-    uint32_t sky;      /* of the edit's skies, that was looked for last */
-    struct view filed; /* as the view file has it, or would: without what
-                          the command line says of this run */
-    char *view_path;   /* where the view is kept: STEM.view or -c FILE */
-    char notice[256];  /* one line for the person, or "" */
+    struct host_world world; /* made of the scene and the edit */
+    struct edit edit; /* materials, light, camera, as they are to be rendered */
+    uint32_t rendered_version; /* of the edit */
+    struct pose opened;        /* the camera as loaded, to go back to */
+    struct rect crop;          /* of the picture, that is rendered */
+    char *view_path;  /* where the view is kept: STEM.view or -c FILE */
+    char notice[256]; /* one line for the person, or "" */
     struct warnings report;
+    uint32_t files_version; /* counts changes of what session_watch() adds */
     struct backends machines;
     struct render *render;
     uint64_t start_ns; /* of the program */
@@ -55,9 +53,9 @@ bool session_open(struct session *s, const struct options *options,
 bool session_load(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
 
-/* Halts, and takes what `fresh` has loaded of the same files: scene, report,
- * notice, and of the view what its file has changed; the camera stays else.
- * What was loaded before is in `fresh` then. session_restart() is due. */
+/* Halts, and takes what `fresh` has loaded of the same files. The camera and
+ * its steps of undo stay, but for what the view file has changed. What was
+ * loaded before is in `fresh` then. session_restart() is due. */
 void session_take(struct session *s, struct session *fresh);
 
 /* Adds all files that the session was loaded from, and those that would be
@@ -69,18 +67,18 @@ void session_watch(const struct session *s, struct file_watch *watch);
 bool session_spares(const struct session *s, const char *option,
                     const char *path, struct error *err);
 
-/* Halts and starts from sample 0 with the current view and edit. spp 0: no
+/* Halts and starts from sample 0 with what the edit shows. spp 0: no
  * limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
 
 /* The same, but it halts after the first sample of every pixel. */
 bool session_step(struct session *s, uint64_t spp, struct error *err);
 
-/* True if the scene or its light are to be others than what is rendered; takes
- * over what needs no new picture. */
-bool session_take_edit(struct session *s);
+/* Returns true if what is to be shown has changed since session_restart(): more
+ * than its development. */
+bool session_is_outdated(const struct session *s);
 
-/* As view and edit say. */
+/* As the light says that is shown. */
 struct develop session_develop(const struct session *s);
 
 /* How far the render is. To be called some times a second, for the speeds. */

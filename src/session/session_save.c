@@ -91,9 +91,10 @@ static bool save_file(struct session *s, uint32_t file,
     return ok;
 }
 
-/* Into the file as it is now: the camera in there is not this one's. */
-static bool save_light(struct session *s, struct file_watch *watch,
-                       struct error *err)
+/* Writes light and assignments into the file as it is now: the camera in there
+ * is not this one's. */
+static bool save_lighting(struct session *s, struct file_watch *watch,
+                          struct error *err)
 {
     struct file_change change;
     struct warnings report = {0};
@@ -103,11 +104,11 @@ static bool save_light(struct session *s, struct file_watch *watch,
     view_init(&view);
     ok = access(s->view_path, F_OK) == 0
              ? view_read(&view, s->view_path, &report, err)
-             : (xcheck(view_copy(&view, &s->opened)), true);
-    edit_to_view(&s->edit, &s->edit.now, &s->scene, &view);
+             : (xcheck(view_copy(&view, &s->edit.saved.view)), true);
+    edit_to_view(&s->edit, &s->scene, &view);
     ok = ok && view_write(&view, s->view_path, &change, err);
     if (ok) {
-        edit_saved_view(&s->edit);
+        edit_saved_lighting(&s->edit, &view);
         file_watch_replaced(watch, s->view_path, &change);
     }
     view_free(&view);
@@ -121,16 +122,15 @@ bool session_save_view(struct session *s, struct file_change *change,
     struct view view;
     bool ok;
 
-    s->view.has_camera = true; /* also one that was placed by the program */
-    edit_to_view(&s->edit, &s->edit.now, &s->scene, &s->view);
     view_init(&view);
-    xcheck(view_copy(&view, &s->view));
-    view_take_frame(&view, &s->filed);
+    xcheck(view_copy(&view, &s->edit.now.view) &&
+           assigns_copy(&view.assigns, &s->edit.saved.view.assigns));
+    view.has_camera = true; /* also one that was placed by the program */
+    view_take_frame(&view, &s->edit.saved.view);
+    edit_to_view(&s->edit, &s->scene, &view);
     ok = view_write(&view, s->view_path, change, err);
-    if (ok) {
-        edit_saved_view(&s->edit);
-        xcheck(view_copy(&s->filed, &view));
-    }
+    if (ok)
+        edit_saved_view(&s->edit, &view);
     view_free(&view);
     return ok;
 }
@@ -151,7 +151,7 @@ static char *say_written(const struct written *w, const char *view_path)
 bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                        struct error *err)
 {
-    bool has_light = edit_has_unsaved_view(&s->edit);
+    bool has_lighting = edit_has_unsaved_view(&s->edit);
     struct written written = {0};
     bool ok = true;
 
@@ -162,9 +162,9 @@ bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                     s->scene.path);
     for (uint32_t i = 0; ok && i < s->scene.mtl_path_count; i++)
         ok = save_file(s, i, watch, &written, err);
-    ok = ok && (!has_light || save_light(s, watch, err));
+    ok = ok && (!has_lighting || save_lighting(s, watch, err));
     if (ok)
-        *what = say_written(&written, has_light ? s->view_path : NULL);
+        *what = say_written(&written, has_lighting ? s->view_path : NULL);
     free(written.files);
     return ok;
 }

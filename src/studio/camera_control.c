@@ -6,16 +6,17 @@
 #include "base/clock.h"
 #include "studio/camera_moves.h"
 
-/* The same key again within this time goes on with its step of undo: longer
- * than keyboards wait before they repeat. */
-#define HELD_NS UINT64_C(700000000)
-
-static struct view *view_of(const struct camera_control *camera)
+static struct edit *edit_of(const struct camera_control *camera)
 {
-    return &camera->control->session->view;
+    return &camera->control->session->edit;
 }
 
-static struct pose *pose_of(const struct camera_control *camera)
+static const struct view *view_of(const struct camera_control *camera)
+{
+    return &edit_of(camera)->now.view;
+}
+
+static const struct pose *pose_of(const struct camera_control *camera)
 {
     return &view_of(camera)->pose;
 }
@@ -48,7 +49,7 @@ void camera_control_stop(struct camera_control *camera)
 {
     held_keys_stop(&camera->input.motion);
     camera->input.is_dragging = false;
-    camera->held_sign = 0;
+    edit_break(edit_of(camera));
 }
 
 /* The eye is somewhere else, without a way there. */
@@ -120,11 +121,6 @@ static void judge(struct camera_control *camera)
 
 /* ---- moves ---- */
 
-static void add_step(struct camera_control *camera)
-{
-    camera_history_add(&camera->history, pose_of(camera));
-}
-
 static void say_lens(struct camera_control *camera)
 {
     const struct pose *pose = pose_of(camera);
@@ -143,6 +139,7 @@ static void say_lens(struct camera_control *camera)
 
 static void steer_held(struct camera_control *camera, uint64_t now_ns)
 {
+    struct pose pose = *pose_of(camera);
     uint64_t next_ns;
     bool has_moved = false;
 
@@ -151,12 +148,11 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
     while ((next_ns = held_keys_next_ns(&camera->input.motion)) <= now_ns &&
            next_ns != UINT64_MAX) {
         look_around(camera);
-        has_moved |=
-            camera_input_step(&camera->input, pose_of(camera), next_ns);
+        has_moved |= camera_input_step(&camera->input, &pose, next_ns);
+        edit_pose(edit_of(camera), &pose);
     }
     if (!has_moved)
         return;
-    camera->control->must_restart = true;
     camera->cursor.must_look = camera->screen->has_cursor;
     say_lens(camera);
     judge(camera);
@@ -176,14 +172,10 @@ void camera_control_move(struct camera_control *camera,
     if (!render_control_may_move(camera->control))
         return;
     steer_held(camera, now_ns);
-    if (axis != camera->held || sign != camera->held_sign ||
-        now_ns - camera->held_ns > HELD_NS) {
-        add_step(camera);
+    if (edit_begin(edit_of(camera), 1 + 2 * (uint32_t)axis + (sign > 0),
+                   now_ns))
         camera_input_begin(&camera->input, now_ns);
-    }
     camera->held = axis;
-    camera->held_sign = sign;
-    camera->held_ns = now_ns;
     held_keys_press(&camera->input.motion, axis, sign, now_ns);
     steer_held(camera, now_ns);
 }
@@ -199,10 +191,10 @@ static bool may_jump(struct camera_control *camera)
 
 static void jump(struct camera_control *camera, const struct pose *pose)
 {
-    add_step(camera);
-    *pose_of(camera) = *pose;
+    edit_break(edit_of(camera));
+    edit_pose(edit_of(camera), pose);
+    edit_break(edit_of(camera));
     forget_place(camera);
-    camera->control->must_restart = true;
 }
 
 static void change_speed(struct camera_control *camera, int steps)
@@ -227,26 +219,42 @@ void camera_control_reset(struct camera_control *camera)
 {
     if (!may_jump(camera))
         return;
-    jump(camera, &camera->control->session->opened.pose);
+    jump(camera, &camera->control->session->opened);
     render_control_say(camera->control, "the view as it was opened");
+}
+
+/* What is loaded anew would take an undone change of materials back. */
+static bool may_travel(struct camera_control *camera)
+{
+    struct render_control *control = camera->control;
+
+    if (!control->is_live)
+        render_control_say(control,
+                           "changes are undone in live mode: %s goes there",
+                           render_control_key(control, ACTION_MODE).text);
+    else if (control->reload.is_busy)
+        render_control_say(
+            control, "the scene is being loaded: changes are undone then");
+    return control->is_live && !control->reload.is_busy;
 }
 
 static void travel(struct camera_control *camera, bool is_back)
 {
-    struct pose pose = *pose_of(camera);
+    struct pose before = *pose_of(camera);
+    const char *step;
 
-    if (!may_jump(camera))
+    if (!may_travel(camera))
         return;
-    if (is_back ? !camera_history_undo(&camera->history, &pose)
-                : !camera_history_redo(&camera->history, &pose)) {
+    camera_control_stop(camera);
+    step = is_back ? edit_undo(edit_of(camera)) : edit_redo(edit_of(camera));
+    if (step == NULL)
         render_control_say(camera->control,
                            is_back ? "nothing to undo" : "nothing to do again");
-        return;
-    }
-    *pose_of(camera) = pose;
-    forget_place(camera);
-    camera->control->must_restart = true;
-    render_control_say(camera->control, is_back ? "undone" : "done again");
+    else
+        render_control_say(camera->control, "%s: %s",
+                           is_back ? "undone" : "done again", step);
+    if (memcmp(&before, pose_of(camera), sizeof before) != 0)
+        forget_place(camera);
 }
 
 void camera_control_undo(struct camera_control *camera)
@@ -362,10 +370,7 @@ void camera_control_focus(struct camera_control *camera)
 
 void camera_control_keep_view(struct camera_control *camera, int number)
 {
-    struct view *v = view_of(camera);
-
-    v->shots[number - 1] = v->pose;
-    v->has_shot[number - 1] = true;
+    edit_shot(edit_of(camera), number - 1);
     render_control_say(
         camera->control, "this is view %d: %s writes it to the view file",
         number, render_control_key(camera->control, ACTION_SAVE_VIEW).text);
@@ -396,27 +401,24 @@ static void wheel(struct camera_control *camera, bool is_up, bool is_modified)
 static bool steer_by(struct camera_control *camera, const struct event *event)
 {
     struct rect r = pick_cursor_shown_rect(&camera->cursor);
+    struct pose pose = *pose_of(camera);
 
-    return camera_input_mouse(&camera->input, pose_of(camera), event,
-                              &camera->screen->fit, r.width, r.height);
+    if (!camera_input_mouse(&camera->input, &pose, event, &camera->screen->fit,
+                            r.width, r.height))
+        return false;
+    if (camera->drag_is_new)
+        edit_break(edit_of(camera));
+    camera->drag_is_new = false;
+    edit_pose(edit_of(camera), &pose);
+    return true;
 }
 
 static void drag(struct camera_control *camera, const struct event *event)
 {
-    struct pose before = *pose_of(camera);
-
-    if (!render_control_may_move(camera->control)) {
+    if (!render_control_may_move(camera->control))
         camera->input.is_dragging = false; /* nor is it a click */
-        return;
-    }
-    if (!steer_by(camera, event))
-        return;
-    if (camera->drag_is_new)
-        camera_history_add(&camera->history, &before);
-    camera->drag_is_new = false;
-    camera->held_sign = 0;
-    camera->control->must_restart = true;
-    judge(camera);
+    else if (steer_by(camera, event))
+        judge(camera);
 }
 
 void camera_control_mouse(struct camera_control *camera,
@@ -453,9 +455,4 @@ void camera_control_step(struct camera_control *camera, uint64_t now_ns)
 uint64_t camera_control_next_ns(const struct camera_control *camera)
 {
     return held_keys_next_ns(&camera->input.motion);
-}
-
-void camera_control_free(struct camera_control *camera)
-{
-    camera_history_free(&camera->history);
 }

@@ -8,8 +8,7 @@
  * more is told how to come back.
  *
  * Units:     nanoseconds of clock_ns(), terminal cells
- * Ownership: control and screen stay the caller's and outlive the camera;
- *            camera_control_free() frees the rest
+ * Ownership: control and screen stay the caller's and outlive the camera
  * Threads:   main only
  * Errors:    become messages
  */
@@ -19,7 +18,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "studio/camera_history.h"
 #include "studio/camera_input.h"
 #include "studio/clearance.h"
 #include "studio/pick_cursor.h"
@@ -28,11 +26,8 @@ struct camera_control {
     struct render_control *control;
     struct screen *screen;
     struct camera_input input;
-    struct camera_history history;
-    enum held_keys_axis held; /* the last step of undo was made by this key, */
-    int held_sign;            /* 0: by none, */
-    uint64_t held_ns;         /* then */
-    bool drag_is_new;         /* no step of undo yet */
+    enum held_keys_axis held; /* the last key was for this axis */
+    bool drag_is_new;         /* nothing has moved yet */
     struct pick_cursor cursor;
     struct clearance clearance; /* of the eye, where it was last */
     enum clearance_place said;
@@ -66,6 +61,7 @@ void camera_control_frame_object(struct camera_control *camera);
 void camera_control_frame_all(struct camera_control *camera);
 
 void camera_control_focus(struct camera_control *camera);
+/* Undoes or redoes the last change, whatever it was. */
 void camera_control_undo(struct camera_control *camera);
 void camera_control_redo(struct camera_control *camera);
 
@@ -91,7 +87,5 @@ void camera_control_renew(struct camera_control *camera);
 
 /* Lets go of all keys and buttons. */
 void camera_control_stop(struct camera_control *camera);
-
-void camera_control_free(struct camera_control *camera);
 
 #endif

@@ -11,9 +11,9 @@
 #define ESCAPE    27
 #define BACKSPACE 127
 
-/* A parameter that is changed again within this time is the same step of undo.
- * The time is longer than keyboards wait before they repeat. */
-#define REPEAT_NS UINT64_C(700000000)
+/* The gestures of edit_begin() that are the panel's; the camera has those
+ * below. */
+#define GESTURES 1000u
 
 /* Steps of the keys for a large change. */
 #define MANY_STEPS 10
@@ -61,8 +61,6 @@ void editor_panel_select(struct editor_panel *p, const struct pick *pick)
 /* Makes the picture and the panel show a change. */
 static void take_change(struct editor_panel *p)
 {
-    if (session_take_edit(p->control->session))
-        p->control->must_restart = true;
     p->control->has_changed = true;
 }
 
@@ -79,7 +77,6 @@ static bool may_change(struct editor_panel *p)
                            "the scene is being loaded: materials change then");
         return false;
     }
-    edit_of(p)->is_comparing = false;
     return true;
 }
 
@@ -96,15 +93,11 @@ static int changeable_id(struct editor_panel *p)
 static void change_by(struct editor_panel *p, int steps)
 {
     struct parameter_target target = selection_target(&p->selection);
-    uint64_t now_ns = clock_ns();
     int id = changeable_id(p);
 
     if (id < 0)
         return;
-    if (id != p->stepped_id || now_ns - p->stepped_ns > REPEAT_NS)
-        edit_break(edit_of(p));
-    p->stepped_id = id;
-    p->stepped_ns = now_ns;
+    edit_begin(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
     parameter_step(&target, id, steps);
     take_change(p);
 }
@@ -127,21 +120,11 @@ static void take_typed(struct editor_panel *p)
     }
 }
 
-static void travel(struct editor_panel *p, bool is_back)
+static void compare(struct editor_panel *p)
 {
     if (!may_change(p))
         return;
-    if (!(is_back ? edit_undo(edit_of(p)) : edit_redo(edit_of(p))))
-        render_control_say(p->control,
-                           is_back ? "nothing to undo" : "nothing to do again");
-    take_change(p);
-}
-
-static void compare(struct editor_panel *p)
-{
-    bool *is_comparing = &edit_of(p)->is_comparing;
-
-    *is_comparing = !*is_comparing;
+    edit_compare(edit_of(p), !edit_of(p)->is_comparing);
     take_change(p);
 }
 
@@ -341,8 +324,6 @@ bool editor_panel_key(struct editor_panel *p, int key)
                                            (PARAMETER_LIGHT + 1)));
         break;
     case PANEL_COPY: duplicate(p); break;
-    case PANEL_UNDO: travel(p, true); break;
-    case PANEL_REDO: travel(p, false); break;
     case PANEL_COMPARE: compare(p); break;
     case PANEL_SAVE: save_edit(p->control); break;
     case PANEL_LEAVE: leave(p); break;

@@ -37,8 +37,6 @@ struct editor_panel {
     int list_rows, parameter_rows; /* number of rows in the last drawing */
     bool is_typing;
     char typed[EDITOR_PANEL_TEXT];
-    int stepped_id;      /* parameter of the last step */
-    uint64_t stepped_ns; /* time of the last step */
 };
 
 void editor_panel_init(struct editor_panel *p, struct render_control *control,

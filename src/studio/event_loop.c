@@ -97,6 +97,8 @@ static void take_key(struct studio *studio, int key)
     else if (!panel_takes(studio, key) &&
              !command_run_at_cursor(studio, action))
         command_run(studio, action);
+    if (action == ACTION_UNDO || action == ACTION_REDO)
+        panel_draw(&workspace->panel);
     follow_pick(studio);
 }
 
@@ -364,7 +366,6 @@ bool event_loop_run(struct session *s, const char *lost, int *status,
         ok = !stats_path || stats_json_write(s, stats_path, err);
     }
     workspace_free(&studio.workspace);
-    camera_control_free(&studio.camera);
     render_control_free(&studio.control);
     return ok;
 }

@@ -236,7 +236,7 @@ static void take_change(struct owner *o, const struct value *v)
         edit_material(t->edit, t->index, &o->source);
         break;
     case PARAMETER_OBJECT: edit_assign(t->edit, t->index, o->assigned); break;
-    case PARAMETER_LIGHT: edit_mood(t->edit, &o->mood); break;
+    case PARAMETER_LIGHT: edit_lighting(t->edit, &o->lighting); break;
     }
 }
 

@@ -81,24 +81,39 @@ static const char *sky_name(const struct owner *o, uint32_t i)
     return i < skies->count ? path_name(skies->items[i]) : NULL;
 }
 
+static bool get_sky(const struct owner *o, struct value *v)
+{
+    const char *path = o->lighting.sky_path;
+
+    v->number = path ? name_table_find(&o->target->edit->skies, path) : 0;
+    return true;
+}
+
+static void set_sky(struct owner *o, const struct value *v)
+{
+    uint32_t i = (uint32_t)v->number;
+
+    o->lighting.sky_path = i > 0 ? o->target->edit->skies.items[i] : NULL;
+}
+
 static uint32_t find_sky(const struct owner *o, const char *path)
 {
     return edit_sky(o->target->edit, path);
 }
 
-/* A member of struct mood: a double, or a uint32_t that is a choice. */
-static bool get_mood(const struct owner *o, struct value *v)
+/* A member of struct lighting: a double, or a uint32_t that is a choice. */
+static bool get_lighting(const struct owner *o, struct value *v)
 {
-    const void *at = (const char *)&o->mood + o->row->member;
+    const void *at = (const char *)&o->lighting + o->row->member;
 
     v->number = o->row->type == VALUE_CHOICE ? *(const uint32_t *)at
                                              : *(const double *)at;
     return true;
 }
 
-static void set_mood(struct owner *o, const struct value *v)
+static void set_lighting(struct owner *o, const struct value *v)
 {
-    void *at = (char *)&o->mood + o->row->member;
+    void *at = (char *)&o->lighting + o->row->member;
 
     if (o->row->type == VALUE_CHOICE)
         *(uint32_t *)at = (uint32_t)v->number;
@@ -108,21 +123,22 @@ static void set_mood(struct owner *o, const struct value *v)
 
 static bool get_background(const struct owner *o, struct value *v)
 {
-    memcpy(v->rgb, o->mood.background, sizeof v->rgb);
+    memcpy(v->rgb, o->lighting.background, sizeof v->rgb);
     return true;
 }
 
 static void set_background(struct owner *o, const struct value *v)
 {
     for (int i = 0; i < 3; i++)
-        o->mood.background[i] = decimal_shortened(v->rgb[i]);
-    o->mood.has_background = true;
+        o->lighting.background[i] = decimal_shortened(v->rgb[i]);
+    o->lighting.has_background = true;
 }
 
 /* ---- table ---- */
 
-#define MOOD(name) \
-    .get = get_mood, .set = set_mood, .member = offsetof(struct mood, name)
+#define LIGHTING(name)                        \
+    .get = get_lighting, .set = set_lighting, \
+    .member = offsetof(struct lighting, name)
 
 static const struct parameter_row object_rows[] = {
     {"material", ALL, VALUE_CHOICE, NULL, .get = get_assigned,
@@ -131,15 +147,15 @@ static const struct parameter_row object_rows[] = {
 };
 
 static const struct parameter_row light_rows[] = {
-    {"sky image", ALL, VALUE_CHOICE, NULL, MOOD(sky), .name = sky_name,
-     .find = find_sky, .expected = "the path of an image"},
-    {"strength", HAS_SKY, VALUE_NUMBER, &scale_sky, MOOD(sky_strength)},
+    {"sky image", ALL, VALUE_CHOICE, NULL, .get = get_sky, .set = set_sky,
+     .name = sky_name, .find = find_sky, .expected = "the path of an image"},
+    {"strength", HAS_SKY, VALUE_NUMBER, &scale_sky, LIGHTING(sky_strength)},
     {"rotation", HAS_SKY, VALUE_NUMBER, &scale_rotation,
-     MOOD(sky_rotation_deg)},
+     LIGHTING(sky_rotation_deg)},
     {"constant", NO_SKY, VALUE_COLOR, &scale_radiance, .get = get_background,
      .set = set_background},
-    {"exposure", ALL, VALUE_NUMBER, &scale_exposure, MOOD(exposure)},
-    {"tone", ALL, VALUE_CHOICE, NULL, MOOD(tone), CHOICES(view_tones),
+    {"exposure", ALL, VALUE_NUMBER, &scale_exposure, LIGHTING(exposure)},
+    {"tone", ALL, VALUE_CHOICE, NULL, LIGHTING(tone), CHOICES(view_tones),
      .expected = "linear, reinhard or aces"},
 };
 
@@ -172,8 +188,8 @@ struct owner parameter_owner(const struct parameter_target *t,
         break;
     case PARAMETER_OBJECT: o.assigned = state->assigned[t->index]; break;
     case PARAMETER_LIGHT:
-        o.mood = state->mood;
-        o.kind = o.mood.sky != 0;
+        o.lighting = state->view.lighting;
+        o.kind = o.lighting.sky_path != NULL;
         break;
     }
     return o;

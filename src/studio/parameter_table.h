@@ -49,7 +49,7 @@ struct owner {
     struct mtl_source source; /* of a material, */
     struct material material; /* and what glim makes of it */
     uint32_t assigned;        /* of an object: its material, or NO_INDEX */
-    struct mood mood;         /* of the light */
+    struct lighting lighting; /* of the light; its sky_path is lent */
     uint32_t kind; /* enum material_kind; of the light: 1 if there is a sky */
 };
 
@@ -78,7 +78,7 @@ struct parameter_row {
     /* False if the owner has no such parameter now. */
     bool (*get)(const struct owner *owner, struct value *value);
     void (*set)(struct owner *owner, const struct value *value);
-    size_t member; /* offset in mtl_source or mood, for get and set */
+    size_t member; /* offset in mtl_source or lighting, for get and set */
     size_t result; /* offset of a float in struct material, for get */
     enum mtl_map map;
 

@@ -16,9 +16,9 @@ struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor)
 {
     const struct session *s = cursor->control->session;
 
-    return s->options->has_crop
-               ? s->options->crop
-               : (struct rect){0, 0, s->view.width_px, s->view.height_px};
+    return s->options->has_crop ? s->options->crop
+                                : (struct rect){0, 0, s->edit.now.view.width_px,
+                                                s->edit.now.view.height_px};
 }
 
 const char *pick_cursor_object_name(const struct pick_cursor *cursor,
@@ -52,8 +52,8 @@ static bool look_at_cell(const struct pick_cursor *cursor, int col, int row,
 
     return pick_point_of_cell(&cursor->screen->fit, r.width, r.height, col, row,
                               &x_px, &y_px) &&
-           pick_at(&s->scene, &s->world, &s->view, r.x + x_px, r.y + y_px,
-                   pick);
+           pick_at(&s->scene, &s->world, &s->edit.now.view, r.x + x_px,
+                   r.y + y_px, pick);
 }
 
 static bool look_under(const struct pick_cursor *cursor, struct pick *pick)
@@ -69,7 +69,7 @@ bool pick_cursor_look_ahead(const struct pick_cursor *cursor, struct pick *pick)
     const struct session *s = cursor->control->session;
     struct rect r = pick_cursor_shown_rect(cursor);
 
-    return pick_at(&s->scene, &s->world, &s->view, r.x + r.width / 2.0,
+    return pick_at(&s->scene, &s->world, &s->edit.now.view, r.x + r.width / 2.0,
                    r.y + r.height / 2.0, pick);
 }
 

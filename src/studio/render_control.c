@@ -114,7 +114,7 @@ static void watch_files(struct render_control *control)
     file_watch_begin(&control->watch);
     session_watch(control->session, &control->watch);
     file_watch_end(&control->watch);
-    control->watched_sky = control->session->sky;
+    control->watched_version = control->session->files_version;
     control->files_ns =
         control->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
 }
@@ -131,15 +131,19 @@ static void begin(struct render_control *control, bool is_step)
     if (control->session->notice[0] != '\0')
         render_control_say_error(control, control->session->notice);
     control->session->notice[0] = '\0';
-    control->must_restart = false;
     control->is_halted = is_step;
     control->saved_samples = 0;
     control->saving_samples = 0; /* these are of the picture before */
-    if (control->session->sky != control->watched_sky)
+    if (control->session->files_version != control->watched_version)
         watch_files(control); /* of another image from now on */
     control->restarted_ns = clock_ns();
     control->progress = render_progress(control->session->render);
     control->progress.first_picture_ns = 0; /* for the next look to find */
+}
+
+bool render_control_is_outdated(const struct render_control *control)
+{
+    return control->is_live && session_is_outdated(control->session);
 }
 
 static void restart(struct render_control *control)
@@ -222,13 +226,13 @@ void render_control_look(struct render_control *control)
     /* A picture of the old place that has been begun is shown first, between
      * this look and the next, or a scene that is slow to begin would never show
      * anything on the way. */
-    if (control->must_restart && !was_awaited)
+    if (render_control_is_outdated(control) && !was_awaited)
         restart(control);
 }
 
 void render_control_settle(struct render_control *control)
 {
-    if (control->must_restart)
+    if (render_control_is_outdated(control))
         restart(control);
 }
 
@@ -259,7 +263,6 @@ void render_control_set_live(struct render_control *control, bool is_live)
 {
     control->is_live = is_live;
     control->is_started = false;
-    control->must_restart = false;
     if (is_live) {
         render_control_say(control, "live mode: every change starts anew");
         control->files_ns = clock_ns(); /* what has changed may be loaded now */

@@ -38,14 +38,13 @@ struct render_control {
     struct message message;
 
     bool is_live;
-    bool is_started;   /* normal mode: a render was begun */
-    bool is_halted;    /* by the person */
-    bool must_restart; /* the view has changed */
+    bool is_started;  /* normal mode: a render was begun */
+    bool is_halted;   /* by the person */
     bool has_changed; /* there is something new to show; the screen clears it */
     bool has_changed_files; /* since they were loaded */
     uint64_t files_ns;      /* when to look at them, or load them with --watch;
                                UINT64_MAX: when the watch says so */
-    uint32_t watched_sky;   /* its number in the edit */
+    uint32_t watched_version; /* of the session's files */
     uint64_t restarted_ns;
 
     uint64_t saved_samples;  /* of this picture, in a file */
@@ -83,12 +82,15 @@ struct keymap_name render_control_key(const struct render_control *control,
 void render_control_add_result(struct render_control *control,
                                const char *text);
 
-/* Looks how far the render is, and restarts it if the view has changed and the
- * look before has found a picture. */
+/* Returns true if the picture is of an older version of the edit, and will be
+ * rendered anew: in live mode. */
+bool render_control_is_outdated(const struct render_control *control);
+
+/* Looks how far the render is, and restarts it if it is outdated and the look
+ * before has found a picture. */
 void render_control_look(struct render_control *control);
 
-/* Restarts now if the view has changed, for what is to be done with the film.
- */
+/* Restarts now if it is outdated, for what is to be done with the film. */
 void render_control_settle(struct render_control *control);
 
 /* True until there is a picture to show after a restart: a rough one, and where

@@ -471,7 +471,7 @@ uint64_t workspace_next_ns(const struct workspace *workspace, uint64_t now_ns)
 
     if (render_control_awaits_picture(control))
         next = earlier(next, next_look_ns(workspace, now_ns));
-    else if (control->must_restart)
+    else if (render_control_is_outdated(control))
         next = now_ns;
     else if (!workspace->is_settled &&
              frame_pacing_may_send(&workspace->screen.pace))

@@ -55,7 +55,8 @@ static double rate(struct session *s, uint32_t more_features, struct rect crop,
     uint64_t begin_ns = cpu_ns(s);
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->view, 0, &job.world, &err))
+    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, 0, &job.world,
+                    &err))
         stop(&err);
     job.world.settings.features |= more_features;
     if (!render_start(s->render, &job, &err))

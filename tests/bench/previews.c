@@ -37,8 +37,9 @@ static uint64_t cpu_ns(void)
 static bool draw(struct session *s, struct frame *frame, struct cells *cells,
                  struct error *err)
 {
-    s->view.pose.eye[0] +=
-        1e-3 * (s->view.pose.at[0] - s->view.pose.eye[0]) + 1e-4;
+    s->edit.now.view.pose.eye[0] +=
+        1e-3 * (s->edit.now.view.pose.at[0] - s->edit.now.view.pose.eye[0]) +
+        1e-4;
     if (!session_restart(s, 0, err))
         return false;
     render_wait(s->render, -1);

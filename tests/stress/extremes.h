@@ -300,7 +300,8 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
     struct render_progress p;
     struct error err;
 
-    if (!world_lend(&s->world, &s->scene, &s->view, number, &job.world, &err))
+    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, number, &job.world,
+                    &err))
         return true; /* a camera that is out of the world */
     if (!render_start(render, &job, &err) || !render_wait(render, 60000)) {
         printf("scene %u: does not end\n", number);

@@ -51,6 +51,11 @@ keys Left Left Left
 wait_for "│>    light      0.751"
 keys u
 wait_for "│>    light      1   "
+wait_for "undone: material l"
+# the camera's move, the colour before it
+keys u
+wait_for "undone: camera"
+expect "of colour  #ff0000"
 keys u
 shows '255;255;255'
 keys u

@@ -18,13 +18,13 @@ forward=$(line eye)
 raw_keys "$(printf '\033[<0;20;10M\033[<32;30;10M\033[<32;40;10M\033[<0;40;10m')"
 [ "$(line at)" != "at 0 0 0" ] || die "the drag turned nothing"
 keys u
-wait_for "undone"
+wait_for "undone: camera"
 [ "$(line eye)" = "$forward" ] || die "the drag was not undone: $(line eye), expected $forward"
 keys u
 [ "$(line eye)" = "eye 0 0 5" ] || die "not back: $(line eye)"
 [ "$(line at)" = "at 0 0 0" ] || die "not back: $(line at)"
 keys U
-wait_for "done again"
+wait_for "done again: camera"
 [ "$(line eye)" = "$forward" ] || die "not forth: $(line eye)"
 keys u
 # a field of view, with the wheel too

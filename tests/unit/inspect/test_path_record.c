@@ -94,7 +94,8 @@ static void trails_are_paths(void **state)
         int bright = 0;
 
         check_or_say(session_open(&s, &options, clock_ns(), &err) &&
-                         world_lend(&s.world, &s.scene, &s.view, 3, &w, &err) &&
+                         world_lend(&s.world, &s.scene, &s.edit.now.view, 3, &w,
+                                    &err) &&
                          bvh_build(&bvh, &w, NULL, &err),
                      err.text);
         w.nodes = bvh.nodes;

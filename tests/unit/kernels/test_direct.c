@@ -62,8 +62,8 @@ static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
                              .spp = SPP};
     struct error err;
 
-    check_or_say(world_lend(&s->world, &s->scene, &s->view, seed, &job.world,
-                            &err),
+    check_or_say(world_lend(&s->world, &s->scene, &s->edit.now.view, seed,
+                            &job.world, &err),
                  err.text);
     if (mode == UNGUIDED)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &job.world);
@@ -121,8 +121,8 @@ static void same_mean(void **state)
         struct error err;
 
         check_or_say(session_open(&s, &o, clock_ns(), &err), err.text);
-        s.view.width_px = WIDTH;
-        s.view.height_px = HEIGHT;
+        s.edit.now.view.width_px = WIDTH;
+        s.edit.now.view.height_px = HEIGHT;
         measure(&s, DIRECT_MIS, &outcomes[DIRECT_MIS]);
         measure(&s, DIRECT_BSDF, &outcomes[DIRECT_BSDF]);
         measure(&s, UNGUIDED, &outcomes[UNGUIDED]);

@@ -34,8 +34,8 @@ static int open_scene(void **state)
 
     (void)state;
     if (session_open(&session, &options, clock_ns(), &err) &&
-        world_lend(&session.world, &session.scene, &session.view, 0, &box,
-                   &err))
+        world_lend(&session.world, &session.scene, &session.edit.now.view, 0,
+                   &box, &err))
         return 0;
     print_error("%s\n", err.text);
     return -1;

@@ -63,16 +63,16 @@ static void render_means(const char *scene, const char *view, double *means,
     for (int i = 0; i < s.report.entry_count; i++)
         print_error("%s\n", s.report.entries[i].text);
     assert_int_equal(s.report.entry_count, 0);
-    job.crop.width = s.view.width_px;
-    job.crop.height = s.view.height_px;
-    count = s.view.width_px * s.view.height_px;
+    job.crop.width = s.edit.now.view.width_px;
+    job.crop.height = s.edit.now.view.height_px;
+    count = s.edit.now.view.width_px * s.edit.now.view.height_px;
     rgb = calloc((size_t)count * 3, sizeof *rgb);
     assert_non_null(rgb);
     memset(means, 0, (size_t)count * sizeof *means);
     memset(errors, 0, (size_t)count * sizeof *errors);
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
-        check_or_say(world_lend(&s.world, &s.scene, &s.view, seed, &job.world,
-                                &err),
+        check_or_say(world_lend(&s.world, &s.scene, &s.edit.now.view, seed,
+                                &job.world, &err),
                      err.text);
         check_or_say(render_start(s.render, &job, &err), err.text);
         assert_true(render_wait(s.render, 300000));

@@ -48,8 +48,8 @@ static void render(struct session *s, uint32_t more_features, float *rgb)
                              .spp = SPP};
     struct error err;
 
-    check_or_say(world_lend(&s->world, &s->scene, &s->view, 1, &job.world,
-                            &err),
+    check_or_say(world_lend(&s->world, &s->scene, &s->edit.now.view, 1,
+                            &job.world, &err),
                  err.text);
     job.world.settings.features |= more_features;
     check_or_say(render_start(s->render, &job, &err), err.text);

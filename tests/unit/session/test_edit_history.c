@@ -123,7 +123,7 @@ static void edit_anything(struct edit *e)
 {
     uint32_t material = 1 + any(e->material_count - 1);
     struct mtl_source source = e->now.sources[material];
-    struct mood mood = e->now.mood;
+    struct lighting light = e->now.view.lighting;
 
     while (!e->now.is_there[material])
         material--;
@@ -158,10 +158,10 @@ static void edit_anything(struct edit *e)
         edit_material(e, material, &source);
         break;
     case 7:
-        mood.exposure = check_random(&seed);
-        mood.background[1] = check_random(&seed);
-        mood.has_background = true;
-        edit_mood(e, &mood);
+        light.exposure = check_random(&seed);
+        light.background[1] = check_random(&seed);
+        light.has_background = true;
+        edit_lighting(e, &light);
         break;
     }
 }
@@ -185,8 +185,8 @@ static uint64_t hash_state(const struct edit *e)
         MIX(&s->sources[i].pr.value, sizeof(double));
     }
     MIX(s->assigned, e->object_count * sizeof *s->assigned);
-    MIX(&s->mood.exposure, sizeof s->mood.exposure);
-    MIX(s->mood.background, sizeof s->mood.background);
+    MIX(&s->view.lighting.exposure, sizeof s->view.lighting.exposure);
+    MIX(s->view.lighting.background, sizeof s->view.lighting.background);
     return h;
 #undef MIX
 }
@@ -305,11 +305,12 @@ static void test_saved_is_loaded(void **state)
         assert_false(edit_has_unsaved_view(&s.edit));
         open_session(&again);
         check_same_world(&s, &again);
-        assert_true(again.view.lighting.exposure == s.view.lighting.exposure);
-        assert_memory_equal(again.view.lighting.background,
-                            s.view.lighting.background,
-                            sizeof s.view.lighting.background);
-        assert_true(again.view.pose.eye[2] == 5);
+        assert_true(again.edit.now.view.lighting.exposure ==
+                    s.edit.now.view.lighting.exposure);
+        assert_memory_equal(again.edit.now.view.lighting.background,
+                            s.edit.now.view.lighting.background,
+                            sizeof s.edit.now.view.lighting.background);
+        assert_true(again.edit.now.view.pose.eye[2] == 5);
         session_close(&again);
         while (edit_undo(&s.edit))
             continue;
@@ -352,15 +353,15 @@ static void test_versions(void **state)
     restart(&s);
     assert_int_equal(new_parts(&s, &before), (1u << WORLD_PARTS) - 1);
     restart(&s);
-    s.view.pose.eye[0] += 1;
+    s.edit.now.view.pose.eye[0] += 1;
     restart(&s);
     assert_int_equal(new_parts(&s, &before), 0);
     source = s.edit.now.sources[2];
     source.kd.rgb[0] = 1;
     edit_material(&s.edit, 2, &source);
-    assert_true(session_take_edit(&s));
+    assert_true(session_is_outdated(&s));
     restart(&s);
-    assert_false(session_take_edit(&s));
+    assert_false(session_is_outdated(&s));
     assert_int_equal(new_parts(&s, &before), materials);
     source = s.edit.now.sources[1];
     source.ke.rgb[0] = 1;
@@ -487,7 +488,7 @@ static void test_lost_assignments(void **state)
 {
     const struct tri *tris;
     struct session s;
-    struct mood mood;
+    struct lighting light;
     struct error err;
     char *text;
     size_t size_bytes;
@@ -503,11 +504,12 @@ static void test_lost_assignments(void **state)
     tris = world_tris(&s.world, &s.scene);
     assert_int_equal(tris[1].material, tris[2].material);
     assert_string_equal(s.scene.material_names[tris[1].material], "wall");
-    mood = s.edit.now.mood;
-    mood.exposure = 2;
-    edit_mood(&s.edit, &mood);
-    assert_false(session_take_edit(&s)); /* no new picture */
-    assert_true(s.view.lighting.exposure == 2);
+    restart(&s);
+    light = s.edit.now.view.lighting;
+    light.exposure = 2;
+    edit_lighting(&s.edit, &light);
+    assert_false(session_is_outdated(&s)); /* no new picture */
+    assert_true(session_develop(&s).exposure == 2);
     save(&s);
     assert_true(file_read("s.view", &text, &size_bytes, &err));
     check_has(text, "assign nobody lamp\nassign plain \"no such\"\n"

@@ -119,17 +119,17 @@ static void cameras_stay(void **state)
     (void)state;
     for (int moves = 0; moves < 2; moves++) {
         open_scene(&s);
-        s.view.pose.eye[0] = 1.5;
+        s.edit.now.view.pose.eye[0] = 1.5;
         put("s.view", moves ? "eye 0 9 5\nat 0 0 0\nexposure 2\n"
                             : "eye 0 0 5\nat 0 0 0\nexposure 2\n");
         assert_true(session_load(&fresh, &options, clock_ns(), &err));
         session_take(&s, &fresh);
         session_close(&fresh);
-        check_close(s.view.pose.eye[0], moves ? 0 : 1.5, 0);
-        check_close(s.view.pose.eye[1], moves ? 9 : 0, 0);
-        check_close(s.view.lighting.exposure, 2, 0);
-        assert_int_equal(s.view.width_px, 1024); /* no res any more */
-        check_close(s.opened.pose.eye[0], 0, 0);
+        check_close(s.edit.now.view.pose.eye[0], moves ? 0 : 1.5, 0);
+        check_close(s.edit.now.view.pose.eye[1], moves ? 9 : 0, 0);
+        check_close(s.edit.now.view.lighting.exposure, 2, 0);
+        assert_int_equal(s.edit.now.view.width_px, 1024); /* no res any more */
+        check_close(s.opened.eye[0], 0, 0);
         session_close(&s);
     }
 }
@@ -144,27 +144,33 @@ static void numbered_views_are_taken(void **state)
     (void)state;
     open_scene(&s);
     for (int i = 0; i < 2; i++) {
-        s.view.shots[i] = s.view.pose;
-        s.view.has_shot[i] = true;
+        s.edit.now.view.shots[i] = s.edit.now.view.pose;
+        s.edit.now.view.has_shot[i] = true;
     }
-    s.view.pose.eye[0] = 7;
-    s.view.shots[2] = s.view.pose;
-    s.view.has_shot[2] = true;
-    check_or_say(view_write(&s.view, "s.view", &change, &err), err.text);
+    s.edit.now.view.pose.eye[0] = 7;
+    s.edit.now.view.shots[2] = s.edit.now.view.pose;
+    s.edit.now.view.has_shot[2] = true;
+    check_or_say(view_write(&s.edit.now.view, "s.view", &change, &err),
+                 err.text);
     session_close(&s);
     check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
-    s.view.shots[3].eye[0] = 5; /* by the person, in no file */
-    s.view.has_shot[3] = true;
+    s.edit.now.view.shots[3].eye[0] = 5; /* by the person, in no file */
+    s.edit.now.view.has_shot[3] = true;
     check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
-    fresh.filed.has_shot[0] = false;
-    fresh.filed.shots[1].eye[0] = 2;
+    for (int i = 0; i < 2; i++) {
+        struct edit *e = &fresh.edit;
+        struct view *view = i == 0 ? &e->now.view : &e->saved.view;
+
+        view->has_shot[0] = false;
+        view->shots[1].eye[0] = 2;
+    }
     session_take(&s, &fresh);
     session_close(&fresh);
-    assert_false(s.view.has_shot[0]);
-    check_close(s.view.shots[1].eye[0], 2, 0);
-    check_close(s.view.shots[2].eye[0], 7, 0);
-    assert_true(s.view.has_shot[3]);
-    check_close(s.view.shots[3].eye[0], 5, 0);
+    assert_false(s.edit.now.view.has_shot[0]);
+    check_close(s.edit.now.view.shots[1].eye[0], 2, 0);
+    check_close(s.edit.now.view.shots[2].eye[0], 7, 0);
+    assert_true(s.edit.now.view.has_shot[3]);
+    check_close(s.edit.now.view.shots[3].eye[0], 5, 0);
     session_close(&s);
 }
 
@@ -180,13 +186,13 @@ static void framed_cameras_stay(void **state)
     session_close(&s);
     unlink("s.view");
     assert_true(session_open(&s, &options, clock_ns(), &err));
-    eye = s.view.pose.eye[2];
+    eye = s.edit.now.view.pose.eye[2];
     put("s.obj", OBJ "v 9 9 9\nf 1 3 5\n");
     assert_true(session_load(&fresh, &options, clock_ns(), &err));
+    assert_true(fresh.edit.now.view.pose.eye[2] != eye);
     session_take(&s, &fresh);
-    assert_true(fresh.view.pose.eye[2] != eye);
     session_close(&fresh);
-    check_close(s.view.pose.eye[2], eye, 0);
+    check_close(s.edit.now.view.pose.eye[2], eye, 0);
     session_close(&s);
 }
 
@@ -319,12 +325,12 @@ static void own_views_are_no_change(void **state)
 
     (void)state;
     open_work(&w, &s);
-    s.view.lighting.exposure = 3;
+    s.edit.now.view.lighting.exposure = 3;
     save_view(&w);
     render_control_look_at_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
-    s.view.lighting.exposure = 4;
+    s.edit.now.view.lighting.exposure = 4;
     save_view(&w);
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files); /* the other file */
@@ -364,17 +370,17 @@ static void chosen_skies_are_watched(void **state)
 {
     struct session s;
     struct render_control w;
-    struct mood mood;
+    struct lighting light;
+    char path[] = "sky.png";
 
     (void)state;
     open_work(&w, &s);
-    mood = s.edit.now.mood;
-    mood.sky = edit_sky(&s.edit, "sky.png");
-    edit_mood(&s.edit, &mood);
+    light = s.edit.now.view.lighting;
+    light.sky_path = path;
+    edit_lighting(&s.edit, &light);
     put("sky.png", "no image");
-    w.must_restart = session_take_edit(&s);
-    assert_true(w.must_restart);
-    while (w.must_restart)
+    assert_true(render_control_is_outdated(&w));
+    while (render_control_is_outdated(&w))
         render_control_look(&w);
     render_control_look_at_files(&w);
     assert_false(w.has_changed_files);

@@ -64,20 +64,20 @@ static void test_view_files(void **state)
     put("s.obj", TRIANGLE);
     put("camera.txt", CAMERA "fovy 11\n");
     open_session(&s, &o);
-    assert_true(s.view.pose.fovy_deg == 11.0);
+    assert_true(s.edit.now.view.pose.fovy_deg == 11.0);
     assert_string_equal(s.view_path, "s.view"); /* camera.txt is not ours */
     session_close(&s);
 
     put("s.view", CAMERA "fovy 22\n");
     open_session(&s, &o);
-    assert_true(s.view.pose.fovy_deg == 22.0);
-    assert_true(s.opened.pose.fovy_deg == 22.0);
+    assert_true(s.edit.now.view.pose.fovy_deg == 22.0);
+    assert_true(s.opened.fovy_deg == 22.0);
     session_close(&s);
 
     put("o.view", CAMERA "fovy 33\n");
     o.view_path = "o.view";
     open_session(&s, &o);
-    assert_true(s.view.pose.fovy_deg == 33.0);
+    assert_true(s.edit.now.view.pose.fovy_deg == 33.0);
     assert_string_equal(s.view_path, "o.view");
     session_close(&s);
 }
@@ -91,31 +91,31 @@ static void test_options_win(void **state)
     put("s.obj", TRIANGLE);
     put("s.view", CAMERA "res 300 200\nmax_bounces 4\n");
     open_session(&s, &o);
-    assert_int_equal(s.view.width_px, 300);
-    assert_int_equal(s.view.height_px, 200);
-    assert_int_equal(s.view.max_bounces, 4);
+    assert_int_equal(s.edit.now.view.width_px, 300);
+    assert_int_equal(s.edit.now.view.height_px, 200);
+    assert_int_equal(s.edit.now.view.max_bounces, 4);
     session_close(&s);
 
     o.width_px = 150;
     o.has_max_bounces = true;
     o.max_bounces = 0;
     open_session(&s, &o);
-    assert_int_equal(s.view.width_px, 150);
-    assert_int_equal(s.view.height_px, 100);
-    assert_int_equal(s.view.max_bounces, 0);
+    assert_int_equal(s.edit.now.view.width_px, 150);
+    assert_int_equal(s.edit.now.view.height_px, 100);
+    assert_int_equal(s.edit.now.view.max_bounces, 0);
     session_close(&s);
 
     o.width_px = 0;
     o.height_px = 1;
     open_session(&s, &o);
-    assert_int_equal(s.view.width_px, 2); /* 1.5 to the nearest */
+    assert_int_equal(s.edit.now.view.width_px, 2); /* 1.5 to the nearest */
     session_close(&s);
 
     o.width_px = 65536;
     o.height_px = 7;
     open_session(&s, &o);
-    assert_int_equal(s.view.width_px, 65536);
-    assert_int_equal(s.view.height_px, 7);
+    assert_int_equal(s.edit.now.view.width_px, 65536);
+    assert_int_equal(s.edit.now.view.height_px, 7);
     session_close(&s);
 
     /* without a size in the view file the shape is 1024x576 */
@@ -123,7 +123,7 @@ static void test_options_win(void **state)
     o.width_px = 512;
     o.height_px = 0;
     open_session(&s, &o);
-    assert_int_equal(s.view.height_px, 288);
+    assert_int_equal(s.edit.now.view.height_px, 288);
     session_close(&s);
 }
 
@@ -163,15 +163,16 @@ static void test_options_are_not_written(void **state)
     open_session(&s, &o);
     save_view(&s);
     is_text("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 200\nmax_bounces 4\n");
-    assert_int_equal(s.view.width_px, 150);
+    assert_int_equal(s.edit.now.view.width_px, 150);
 
     put("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 100\nmax_bounces 5\n");
     check_or_say(session_load(&fresh, &o, clock_ns(), &err), err.text);
     session_take(&s, &fresh);
     session_close(&fresh);
-    assert_int_equal(s.view.width_px, 150); /* the option wins as before */
-    assert_int_equal(s.view.height_px, 50);
-    assert_int_equal(s.view.max_bounces, 0);
+    assert_int_equal(s.edit.now.view.width_px,
+                     150); /* the option wins as before */
+    assert_int_equal(s.edit.now.view.height_px, 50);
+    assert_int_equal(s.edit.now.view.max_bounces, 0);
     save_view(&s);
     is_text("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 100\nmax_bounces 5\n");
     session_close(&s);
@@ -183,9 +184,9 @@ static void test_options_are_not_written(void **state)
     session_close(&s);
     o = options_for("s.obj");
     open_session(&s, &o);
-    assert_false(s.view.has_size);
-    assert_int_equal(s.view.width_px, 1024);
-    assert_int_equal(s.view.max_bounces, -1);
+    assert_false(s.edit.now.view.has_size);
+    assert_int_equal(s.edit.now.view.width_px, 1024);
+    assert_int_equal(s.edit.now.view.max_bounces, -1);
     session_close(&s);
 }
 
@@ -206,13 +207,13 @@ static void test_view_before_is_kept(void **state)
     open_session(&s, &o);
     save_view(&s); /* nothing has changed: nothing is to be kept */
     assert_int_equal(access("s.view~", F_OK), -1);
-    s.view.pose.eye[0] = 1;
+    s.edit.now.view.pose.eye[0] = 1;
     for (int i = 0; i < 2; i++) {
         save_view(&s);
         is_text("s.view", second);
         is_text("s.view~", first);
     }
-    s.view.pose.eye[0] = 2;
+    s.edit.now.view.pose.eye[0] = 2;
     save_view(&s);
     is_text("s.view", third);
     is_text("s.view~", second);
@@ -220,7 +221,7 @@ static void test_view_before_is_kept(void **state)
     /* what cannot be kept is not replaced */
     unlink("s.view~");
     assert_int_equal(mkdir("s.view~", 0777), 0);
-    s.view.pose.eye[0] = 3;
+    s.edit.now.view.pose.eye[0] = 3;
     assert_false(session_save_view(&s, &change, &err));
     assert_non_null(strstr(err.text, "s.view~: "));
     is_text("s.view", third);
@@ -237,14 +238,14 @@ static void test_light(void **state)
     put("s.obj", TRIANGLE);
     open_session(&s, &o);
     assert_non_null(strstr(s.notice, "no light"));
-    assert_true(s.view.lighting.background[1] > 0.0);
+    assert_true(s.edit.now.view.lighting.background[1] > 0.0);
     session_close(&s);
 
     /* a person who wants it dark gets it dark */
     put("s.view", CAMERA "background 0 0 0\n");
     open_session(&s, &o);
     assert_string_equal(s.notice, "");
-    assert_true(s.view.lighting.background[1] == 0.0);
+    assert_true(s.edit.now.view.lighting.background[1] == 0.0);
     session_close(&s);
 
     put("s.view", CAMERA);
@@ -252,13 +253,13 @@ static void test_light(void **state)
     put("s.mtl", "newmtl lamp\nKe 1 1 1\n");
     open_session(&s, &o);
     assert_string_equal(s.notice, "");
-    assert_true(s.view.lighting.background[1] == 0.0);
+    assert_true(s.edit.now.view.lighting.background[1] == 0.0);
     session_close(&s);
 
     put("s.obj", "v 0 0 0\n");
     open_session(&s, &o);
     assert_non_null(strstr(s.notice, "no faces"));
-    assert_true(s.view.lighting.background[1] == 0.0);
+    assert_true(s.edit.now.view.lighting.background[1] == 0.0);
     session_close(&s);
 }
 
@@ -272,8 +273,9 @@ static void test_framing(void **state)
     (void)state;
     put("s.obj", "v 100 0 0\nv 101 0 0\nv 100 3 0\nf 1 2 3\n");
     open_session(&s, &o);
-    check_or_say(pose_check(&s.view.pose, "framed", &err), err.text);
-    assert_true(s.view.pose.at[0] > 99.0 && s.view.pose.at[0] < 102.0);
+    check_or_say(pose_check(&s.edit.now.view.pose, "framed", &err), err.text);
+    assert_true(s.edit.now.view.pose.at[0] > 99.0 &&
+                s.edit.now.view.pose.at[0] < 102.0);
     session_close(&s);
 }
 
