@@ -281,7 +281,7 @@ run:
 test:
 	@CC='$(CC)' tests/tools/deps.sh build test
 	@+$(MAKE_ALL) tests
-	@BUILD=$(B) SAN='$(SAN)' tests/run.sh
+	@BUILD=$(B) SAN='$(SAN)' CC='$(CC)' tests/run.sh
 
 tests: $(B)/glim lib $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
 	$(FUZZERS)
@@ -390,7 +390,7 @@ lint:
 	tests/layers.sh
 	clang-format --dry-run -Werror $(C_FILES)
 	cppcheck --quiet --std=c11 --error-exitcode=1 --inline-suppr \
-		--enable=warning,portability $(CPPCHECK_OFF) -I. -Isrc src
+		--enable=warning,portability $(CPPCHECK_OFF) -I. -Isrc -Iinclude src
 	clang-tidy --quiet --warnings-as-errors='*' --checks='$(TIDY)' \
 		$(SOURCES) -- $(ALL_CFLAGS)
 	$(if $(filter %.cl,$(KERNELS)),! command -v clang >/dev/null || \
