@@ -94,11 +94,11 @@ bool view_mode_need_tree(struct view_mode *s, struct error *err)
     return true;
 }
 
-static bool need_pool(struct view_mode *s, struct error *err)
+/* Starts the threads on first use. */
+static void need_pool(struct view_mode *s)
 {
     if (!s->pool)
-        s->pool = pool_create(options_threads(s->session->options), err);
-    return s->pool != NULL;
+        s->pool = world_pool(&s->session->world);
 }
 
 /* Sets the legend, the line below the picture, if it has changed. */
@@ -117,8 +117,7 @@ set_legend(struct view_mode *s, const char *format, ...)
 
 bool view_mode_set(struct view_mode *s, enum show_kind kind, struct error *err)
 {
-    bool ok =
-        kind != SHOW_COST || (view_mode_need_tree(s, err) && need_pool(s, err));
+    bool ok = kind != SHOW_COST || view_mode_need_tree(s, err);
 
     s->kind = ok ? kind : SHOW_LIGHT;
     set_legend(s, "%s", kinds[s->kind].legend);
@@ -260,6 +259,7 @@ static bool count_costs(struct view_mode *s, const struct frame *frame)
         s->cost_height == frame->height &&
         memcmp(&s->cost_camera, &w.settings.camera, sizeof s->cost_camera) == 0)
         return true;
+    need_pool(s);
     free(s->costs);
     s->cost_width = 0;
     s->costs = alloc_array((size_t)frame->width * (size_t)frame->height,
@@ -336,9 +336,9 @@ static bool find_numbers(struct view_mode *s, const struct frame *frame,
 {
     struct world w;
 
-    if (!view_mode_need_tree(s, err) || !need_pool(s, err) ||
-        !find_world(s, &w, err))
+    if (!view_mode_need_tree(s, err) || !find_world(s, &w, err))
         return false;
+    need_pool(s);
     if (!need_numbers(s, 3 * (size_t)frame->width * (size_t)frame->height))
         return fail_memory(frame, err);
     w.settings.camera = view_mode_camera(s, &w.settings.camera, frame);
@@ -370,8 +370,7 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
 
 void view_mode_free(struct view_mode *s)
 {
-    if (s->pool)
-        pool_destroy(s->pool);
+    pool_destroy(s->pool);
     bvh_free(&s->bvh);
     free(s->numbers);
     free(s->costs);

@@ -31,7 +31,7 @@ struct view_mode {
 
     struct bvh bvh;     /* built on first use */
     uint64_t bvh_shape; /* version that it was built for; 0: none */
-    struct pool *pool;  /* started on first use */
+    struct pool *pool;  /* of world_pool(), started on first use */
 
     float *numbers; /* of the frame that was painted last, or of its film */
     size_t number_capacity;
