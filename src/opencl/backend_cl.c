@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * A pass is cut into tasks: some points of its grid, for each of which the
- * device makes the camera rays, traces the paths and adds them to its own
- * film. Two tasks are in its queue, so that it never waits for the host. Rows
- * that are complete are read back now and then, and all at the end of a pass.
+ * A pass is divided into tasks, each of some points of the grid. The device
+ * makes the camera rays of a task, traces the paths and adds them to a film of
+ * its own. Two tasks are in the queue, so that the device never waits for the
+ * host. Complete rows are read back every READ_NS, and the rest at the end of a
+ * pass.
  */
 #include "opencl/backend_cl.h"
 
@@ -21,18 +22,18 @@
 
 #define TASK_PATHS_FIRST 8192
 #define TASK_PATHS_MIN   512
-#define TASK_PATHS_MAX   (1u << 20) /* what a tally can count */
-#define TASK_NS          6000000    /* to be aimed at */
+#define TASK_PATHS_MAX   (1u << 20) /* limit of the counters in struct tally */
+#define TASK_NS          6000000    /* time that one task should take */
 
-/* Between readings of finished rows. */
+/* Time between readbacks of finished rows. */
 #define READ_NS 25000000
 
-/* A task in the queue. */
+/* A task in the queue, with its buffers. */
 struct slot {
     cl_mem starts;
     cl_mem samples;
     cl_mem tally;
-    uint32_t capacity; /* paths */
+    uint32_t capacity; /* of starts and samples, in paths */
     struct task task;
     struct tally result;
     struct cl_readback reading;
@@ -43,31 +44,32 @@ struct slot {
 struct backend_cl {
     struct backend base;
     struct cl_machine machine;
-    char *text;             /* of the kernels */
-    struct cl_kernels full; /* for the features of the request */
+    char *text;             /* source text of the kernels */
+    struct cl_kernels full; /* with the features of the request */
     struct cl_kernels special;
-    const struct cl_kernels *kernels; /* that the picture is made with */
+    const struct cl_kernels *kernels; /* those of this picture */
     pthread_mutex_t lock;
-    struct cl_kernels next; /* guarded by lock: to be the special ones */
+    /* guarded by lock; replaces `special` at the next begin() */
+    struct cl_kernels next;
     struct bvh bvh;
     struct cl_world world;
     cl_mem cancel;
     const struct cancel *cancel_source;
 
     struct cl_film film;
-    uint32_t x0, y0; /* of the film in the picture */
+    uint32_t x0, y0; /* corner of the film in the picture */
     struct slot slots[2];
     uint32_t task_paths;
-    uint64_t done_ns; /* when the last task ended */
-    uint64_t read_ns; /* when the last reading began */
+    uint64_t done_ns; /* time when the last task ended */
+    uint64_t read_ns; /* time when the last readback began */
 };
 
-/* What has been done of a pass. */
+/* Progress of a pass. */
 struct progress {
     const struct pass *pass;
-    uint32_t columns, rows; /* of its grid */
-    uint32_t next;          /* point that no task has yet */
-    uint32_t read;          /* point that no reading has yet */
+    uint32_t columns, rows; /* size of the grid */
+    uint32_t next;          /* first point that is in no task yet */
+    uint32_t read;          /* first point that is in no readback yet */
 };
 
 static bool call_done(struct backend_cl *b, cl_int code, const char *call,
@@ -130,7 +132,8 @@ static bool clear_film(struct backend_cl *b, size_t pixel_count,
            cl_machine_enqueue(&b->machine, clear, pixel_count, err);
 }
 
-/* The special kernels if they can do all that the world needs. */
+/* Chooses the special kernels if they have all features that the world needs,
+ * else the full ones. */
 static void choose_kernels(struct backend_cl *b, uint32_t features)
 {
     pthread_mutex_lock(&b->lock);
@@ -192,7 +195,7 @@ static bool make_room(struct backend_cl *b, struct slot *s, uint32_t paths,
     return true;
 }
 
-/* The three kernels of a task. */
+/* Enqueues the three kernels of a task. */
 static bool enqueue_task(struct backend_cl *b, struct slot *s,
                          struct error *err)
 {
@@ -231,8 +234,8 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
            cl_machine_enqueue(&b->machine, k->add, s->task.count, err);
 }
 
-/* Puts the reading of what the queued tasks compute behind them, by whole
- * rows: the last one may be read again. */
+/* Enqueues a readback of the points of all queued tasks, behind them. Readbacks
+ * have whole rows, so an incomplete last row is read again later. */
 static bool enqueue_reading(struct backend_cl *b, struct progress *p,
                             struct cl_readback *r, struct error *err)
 {
@@ -251,7 +254,8 @@ static bool is_reading_due(const struct backend_cl *b, uint64_t now_ns)
     return !cl_film_is_shared(&b->film) && now_ns >= b->read_ns + READ_NS;
 }
 
-/* Gives the device the next points of the pass. */
+/* Enqueues a task of the next points of the pass, with a readback if one is
+ * due. */
 static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
                        struct error *err)
 {
@@ -284,7 +288,7 @@ static bool start_task(struct backend_cl *b, struct progress *p, struct slot *s,
            call_done(b, api->Flush(b->machine.queue), "clFlush", err);
 }
 
-/* The next tasks take about TASK_NS. */
+/* Adapts the size of the next tasks to TASK_NS by the time of this one. */
 static void adapt(struct backend_cl *b, const struct slot *s)
 {
     uint32_t paths = s->task.count * s->task.samples;
@@ -294,7 +298,7 @@ static void adapt(struct backend_cl *b, const struct slot *s)
 
     b->done_ns = now_ns;
     if (paths < b->task_paths / 2)
-        return; /* the end of a pass says little */
+        return; /* the short last task of a pass is not representative */
     wanted = wanted < 0.5 ? 0.5 : wanted > 2 ? 2 : wanted;
     wanted *= b->task_paths;
     b->task_paths = wanted < TASK_PATHS_MIN   ? TASK_PATHS_MIN
@@ -317,7 +321,8 @@ static bool finish_task(struct backend_cl *b, struct slot *s,
     return true;
 }
 
-/* Reads what no task had room or reason for. */
+/* Reads back the points that no earlier readback contains, at the end of a
+ * pass. */
 static bool read_rest(struct backend_cl *b, struct progress *p,
                       struct error *err)
 {
@@ -333,8 +338,9 @@ static bool read_rest(struct backend_cl *b, struct progress *p,
     return true;
 }
 
-/* On a CPU the kernels look at the host's own word. Elsewhere they would not
- * see it change in time, or worse, see it late: there it stays 0. */
+/* Gives the kernels the word to test for cancellation. A device that is a CPU
+ * reads the host's own word. Other devices might see a change too late, when
+ * the next pass has begun, so their word stays 0. */
 static bool share_cancel(struct backend_cl *b, const struct cancel *cancel,
                          struct error *err)
 {
@@ -351,7 +357,7 @@ static bool share_cancel(struct backend_cl *b, const struct cancel *cancel,
     return b->cancel != NULL;
 }
 
-/* Nothing of a failed pass may write to our memory later. */
+/* Waits until a failed pass can no longer write to the host's memory. */
 static void drain(struct backend_cl *b)
 {
     b->machine.api->Finish(b->machine.queue);

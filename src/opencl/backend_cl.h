@@ -2,11 +2,10 @@
 /*
  * backend_cl.h - renders on an OpenCL device
  *
- * Ownership: see backend.h; *log is the caller's to free
+ * Ownership: see backend.h; the caller frees *log
  * Threads:   see backend.h
- * Errors:    no such device, kernels that do not compile: *log is what the
- *            compiler said then, else NULL; a device that fails in the middle
- *            makes pass() fail
+ * Errors:    no such device; kernels that do not compile: *log is the output of
+ *            the compiler then, otherwise NULL; pass() fails if the device does
  */
 #ifndef GLIM_BACKEND_CL_H
 #define GLIM_BACKEND_CL_H
@@ -17,20 +16,23 @@
 #include "render/backend.h"
 
 struct cl_request {
-    const char *program;      /* the copy to try first: cl_probe_run() */
-    const char *device;       /* as cl_device_find() has it; NULL: the best */
-    const char *kernels_path; /* folder, or NULL for those in the program */
-    bool needs_gpu;           /* else any kind of device will do */
-    uint32_t features;        /* what the kernels are built for */
+    const char *program; /* path of the program that cl_probe_run() starts */
+    /* name or number for cl_device_find(); NULL chooses the best */
+    const char *device;
+    /* folder of the kernels, or NULL for those built into the program */
+    const char *kernels_path;
+    bool needs_gpu;    /* fail if the device is not a GPU */
+    uint32_t features; /* features that the kernels are built with */
 };
 
-/* Drivers have been seen to crash here: cl_probe() first. */
+/* Creates the backend. Returns NULL on errors. Some drivers crash here, so call
+ * cl_probe() first. */
 struct backend *backend_cl_create(const struct cl_request *request, char **log,
                                   struct error *err);
 
-/* Builds kernels that leave out what a world without other features does not
- * need; the next begin() takes them, with the same bits. From any thread, also
- * while the backend renders, but not beside destroy(). */
+/* Builds kernels with only these features, for the next begin() to use; the
+ * bits are the same. Callable from any thread, also while the backend renders,
+ * but not during destroy(). */
 bool backend_cl_specialise(struct backend *backend, uint32_t features,
                            char **log, struct error *err);
 

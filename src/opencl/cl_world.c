@@ -47,8 +47,8 @@ static bool upload(struct cl_world *c, const struct cl_machine *m,
     return c->buffers[which] != NULL;
 }
 
-/* The whole table, also where a view needs none of it: its length is not to
- * depend on the view. */
+/* Returns the length of the whole table, even if the view does not use it,
+ * since the buffer outlives the view. */
 static size_t sky_cdf_length(const struct world *w)
 {
     const struct sky sky = w->settings.sky;

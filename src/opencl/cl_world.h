@@ -2,10 +2,10 @@
 /*
  * cl_world.h - the arrays of a world on an OpenCL device
  *
- * Ownership: cl_world_free() releases; a zeroed struct has nothing uploaded.
- *            A device that is a CPU reads the host's arrays themselves
+ * Ownership: cl_world_free() releases; a zeroed struct has no arrays. A device
+ *            that is a CPU reads the host's arrays in place
  * Threads:   one at a time
- * Errors:    an array that is larger than the device takes
+ * Errors:    an array that is larger than the device allows
  */
 #ifndef GLIM_CL_WORLD_H
 #define GLIM_CL_WORLD_H
@@ -18,7 +18,7 @@
 #include "scene/world.h"
 #include "opencl/cl_machine.h"
 
-/* In the order of trace_paths()'s arguments. */
+/* Arrays in the order of the arguments of trace_paths(). */
 enum cl_array {
     CL_ARRAY_SETTINGS,
     CL_ARRAY_POSITIONS,
@@ -43,12 +43,12 @@ enum cl_array {
 
 struct cl_world {
     cl_mem buffers[CL_ARRAY_COUNT];
-    uint64_t versions[CL_ARRAY_COUNT]; /* of the contents */
+    uint64_t versions[CL_ARRAY_COUNT]; /* versions of the contents */
 };
 
-/* Uploads the settings, and arrays whose version is another than that of the
- * buffer; counts them. `world` is lent from the host, with the nodes of `bvh`,
- * which was built for the host's shape. */
+/* Uploads the settings, and the arrays whose version differs from the buffer's.
+ * Adds their number to *upload_count. `world` is lent from the host; `bvh` is
+ * the tree of the host's shape. */
 bool cl_world_update(struct cl_world *c, const struct cl_machine *m,
                      const struct host_world *host, const struct world *world,
                      const struct bvh *bvh, uint64_t *upload_count,

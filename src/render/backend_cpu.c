@@ -8,31 +8,32 @@
 #include "render/cpu_dispatch.h"
 #include "kernels/sobol.h"
 
-/* Points of a pass's grid in a block, each way. */
+/* Width and height of a block, in points of the pass's grid. */
 #define BLOCK_SIDE 8
 
 struct backend_cpu {
     struct backend base;
-    const struct cpu_kernel *paths; /* that can do every world */
+    const struct cpu_kernel *paths; /* with all features */
     struct pool *pool;
     /* from begin() */
-    const struct cpu_kernel *fit; /* that can do this one */
+    const struct cpu_kernel *fit; /* smallest build for the world */
     struct bvh8_world world;
     struct film *film;
     int x0, y0;
 };
 
-/* What the workers of one pass read. */
+/* Parameters of one pass, read by the workers. */
 struct job {
     const struct backend_cpu *backend;
     const struct cancel *cancel;
     struct pass pass;
     uint32_t columns; /* blocks in a row */
     uint32_t count;   /* blocks in all */
-    uint32_t bits;    /* of the smallest power of two that is not below count */
+    /* number of bits such that 2^bits is at least count */
+    uint32_t bits;
 };
 
-/* One step of a bijection of the numbers of `bits` bits. */
+/* Applies a bijection of the integers of `bits` bits. */
 static uint32_t scramble(uint32_t i, uint32_t bits, uint32_t key)
 {
     uint32_t mask = bits >= 32 ? 0xffffffffu : (1u << bits) - 1u;
@@ -46,7 +47,8 @@ static uint32_t scramble(uint32_t i, uint32_t bits, uint32_t key)
     return i;
 }
 
-/* A permutation of the blocks: steps until the number is one of theirs. */
+/* Returns a permuted block index: repeats the bijection until the number is
+ * below the count ("cycle walking"). */
 static uint32_t shuffled(const struct job *j, uint32_t item)
 {
     uint32_t key = hash_u32(j->pass.order + 1u);
@@ -57,16 +59,16 @@ static uint32_t shuffled(const struct job *j, uint32_t item)
     return item;
 }
 
-/* Samples of some pixels of a row: those of each follow those of the one
- * before. */
+/* Samples of consecutive grid pixels in a row, in the order of the pixels. */
 struct row {
     int counts[BLOCK_SIDE];
-    uint32_t count; /* in all */
+    uint32_t count; /* total of the counts */
     struct sample_id places[BLOCK_SIDE * SAMPLE_BLOCK];
     struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
 };
 
-/* What pixels x, x + stride, ... of row y lack. */
+/* Lists the samples that pixels x, x + stride, ... of row y need to reach the
+ * target. */
 static void row_begin(struct row *r, const struct job *j, int x, int y,
                       int pixel_count)
 {
@@ -85,7 +87,8 @@ static void row_begin(struct row *r, const struct job *j, int x, int y,
     }
 }
 
-/* The pixels of which all is among the first `done` samples. */
+/* Returns the number of pixels all of whose samples are among the first
+ * `done`. */
 static int row_pixels(const struct row *r, uint32_t done, int pixel_count)
 {
     int whole = 0;
@@ -95,8 +98,8 @@ static int row_pixels(const struct row *r, uint32_t done, int pixel_count)
     return whole;
 }
 
-/* Brings the pixels x, x + stride, ... of row y up to the target. False if
- * cancelled on the way; the pixels that were done are in the film. */
+/* Renders the pixels x, x + stride, ... of row y up to the target. Returns
+ * false if cancelled; pixels that were complete by then are in the film. */
 static bool render_row(const struct job *j, int x, int y, int pixel_count)
 {
     const struct backend_cpu *b = j->backend;
@@ -179,7 +182,7 @@ static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
     while (j.bits < 32 && (1u << j.bits) < j.count)
         j.bits++;
     pool_run(b->pool, j.count, render_block, &j, cancel);
-    /* the last blocks may have been left half way */
+    /* blocks in progress may be incomplete after a cancel */
     return cancel_requested(cancel) ? PASS_CANCELLED : PASS_DONE;
 }
 

@@ -27,7 +27,8 @@ static bool always(void)
     return true;
 }
 
-/* What the Makefile builds for a set of instructions, the smallest first. */
+/* Builds of the kernel that the Makefile makes for each instruction set, from
+ * the fewest features to all. */
 enum { BUILDS = 4, WHOLE = BUILDS - 1 };
 
 #define DECLARE(isa)                                                          \
@@ -43,7 +44,7 @@ DECLARE(plain);
 DECLARE(avx2);
 DECLARE(avx512);
 
-/* The fastest first. */
+/* Instruction sets with their builds, fastest first. */
 static const struct {
     const struct cpu_kernel *builds[BUILDS];
     bool (*is_here)(void);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * cpu_dispatch.h - which of the CPU's samples run: those for the best
- * instructions that the processor has, or those that the person names, without
- * what the scene does not need
+ * cpu_dispatch.h - chooses the build of the CPU kernel: the best instruction
+ * set of the processor, or the one named with --isa, with only the features
+ * that the scene needs
  *
  * Ownership: static
  * Threads:   any
- * Errors:    cpu_kernel_named() says which there are
+ * Errors:    cpu_kernel_named() lists the names of this processor
  */
 #ifndef GLIM_CPU_DISPATCH_H
 #define GLIM_CPU_DISPATCH_H
@@ -15,17 +15,19 @@
 
 #include "render/cpu_kernel.h"
 
-/* For the i-th set of instructions of this processor, the fastest first, with
- * all features; NULL behind the last. */
+/* Returns the kernel with all features for the i-th instruction set that this
+ * processor has, fastest first, or NULL after the last. */
 const struct cpu_kernel *cpu_kernel_at(int i);
 
+/* Returns the kernel with all features for the fastest instruction set. */
 const struct cpu_kernel *cpu_kernel_best(void);
 
-/* NULL if there is none of this name, or the processor cannot run it. */
+/* Returns the kernel with all features for the named instruction set, or NULL
+ * if the name is unknown or the processor cannot run it. */
 const struct cpu_kernel *cpu_kernel_named(const char *name, struct error *err);
 
-/* The smallest build for the instructions of `paths` that does all features of
- * a world; paths itself if there is none. */
+/* Returns the smallest build for the instruction set of `paths` that has all of
+ * `features`, or `paths` itself if there is none. */
 const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths,
                                         uint32_t features);
 

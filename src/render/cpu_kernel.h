@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * cpu_kernel.h - the CPU's samples, compiled for sets of instructions and of
- * features
+ * cpu_kernel.h - path_samples() compiled for the CPU, for several instruction
+ * sets and sets of features
  *
- * src/render/cpu_kernel.c is built several times, as the Makefile says; all
- * give the same bits. cpu_dispatch.h chooses.
+ * The Makefile compiles src/render/cpu_kernel.c several times (SETS). All
+ * builds give the same bits. cpu_dispatch.h chooses one.
  *
  * Units:     as kernels/path.h
  * Ownership: static
@@ -17,10 +17,11 @@
 #include "kernels/path_types.h"
 
 struct cpu_kernel {
-    const char *name;  /* of the instructions */
-    uint32_t features; /* enum feature: those of worlds that it can do */
+    const char *name;  /* name of the instruction set */
+    uint32_t features; /* features it has, a set of enum feature */
 
-    /* path_samples() of kernels/path.h; w is within a struct bvh8_world. */
+    /* path_samples() of kernels/path.h. w must be the member of a struct
+     * bvh8_world. */
     void (*samples)(const struct world *w, const struct sample_id *places,
                     uint32_t count, struct path_sample *out);
 };

@@ -3,8 +3,7 @@
 
 #include "kernels/vec.h"
 
-/* Of the scene, whose extent is about 1: nearer to the eye's plane nothing is
- * drawn. */
+/* Distance of the near plane. The extent of a normalised scene is about 1. */
 #define NEAREST 1e-4f
 
 struct camera projection_camera(const struct camera *camera,
@@ -34,7 +33,7 @@ bool projection_point(const struct camera *c, struct vec3 p,
     double right = v3_dot(d, c->right) / v3_dot(c->right, c->right);
     double up = v3_dot(d, c->up) / v3_dot(c->up, c->up);
 
-    /* what lies at NEAREST may be rounded below it */
+    /* rounding may put a point of the near plane in front of it */
     if (!(depth >= 0.5 * NEAREST))
         return false;
     to->x = 0.5 * (1 + right / depth) * c->width - c->left;

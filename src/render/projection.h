@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * projection.h - from points of the scene to pixels: the camera's rays
- * backwards
+ * projection.h - projects points of the scene to pixels
  *
  * Units:     normalised scene units; pixels, (0, 0) is the top left corner
  * Threads:   any
- * Errors:    none; what is not before the eye has no place
  */
 #ifndef GLIM_PROJECTION_H
 #define GLIM_PROJECTION_H
@@ -14,27 +12,28 @@
 
 #include "kernels/types.h"
 
-/* A part of a picture, in its pixels, that is shown with other pixels. */
+/* A rectangle of a picture, in pixels, that is shown at another resolution. */
 struct projection_part {
     int x, y, width, height;
     int shown_width, shown_height;
 };
 
-/* The camera that sees the same part in the shown pixels, of which (0, 0) is
- * the part's corner. */
+/* Returns the camera of the shown pixels: same view, and pixel (0, 0) is the
+ * corner of the part. */
 struct camera projection_camera(const struct camera *camera,
                                 const struct projection_part *part);
 
 struct projected {
     double x, y;  /* pixels */
-    double depth; /* along the camera's forward */
+    double depth; /* distance along the camera's forward axis */
 };
 
-/* False for what is not before the eye. */
+/* Projects a point. Returns false if it is not in front of the eye. */
 bool projection_point(const struct camera *camera, struct vec3 p,
                       struct projected *to);
 
-/* The part of the line from a to b that is before the eye; false: none. */
+/* Projects the ends of the part of a line segment that is in front of the eye.
+ * Returns false if there is no such part. */
 bool projection_line(const struct camera *camera, struct vec3 a, struct vec3 b,
                      struct projected to[2]);
 

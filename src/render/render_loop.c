@@ -16,47 +16,48 @@
 #include "kernels/path_types.h"
 #include "kernels/rng.h"
 
-/* Where the first pass of a draft begins, whose pixels are some ten times as
+/* Stride of the coarsest grid in a draft, whose pixels are about ten times as
  * large as the film's. */
 #define DRAFT_STRIDE_MAX 8
 
 struct render {
     struct backend *backend;
     struct film film;
-    struct film draft; /* no width: there is none */
+    struct film draft; /* width 0: there is no draft */
     pthread_t thread;
     int event_fd;
     struct cancel cancel;
 
     pthread_mutex_t lock;
-    pthread_cond_t begin; /* wanted, or ending */
-    pthread_cond_t end;   /* the state is no longer RENDER_RUNNING */
+    pthread_cond_t begin; /* signals has_job or ending */
+    pthread_cond_t end;   /* signals that the state left RENDER_RUNNING */
     /* guarded by lock */
     bool wanted; /* a job waits for the render thread */
     bool ending;
     enum render_state state;
-    uint64_t steps;    /* samples a pixel until it halts; 0: it goes on */
+    uint64_t steps;    /* steps left before it halts; 0: no steps */
     uint64_t spp;      /* limit, 0: none */
-    uint64_t spp_done; /* all passes up to this are complete */
+    uint64_t spp_done; /* samples that every pixel has */
     uint64_t draft_spp_done;
     uint64_t run_begin_ns;
-    uint64_t run_before_ns; /* of earlier runs of the same picture */
+    uint64_t run_before_ns; /* total of earlier runs of the picture */
     uint64_t build_ns;
     uint64_t first_picture_ns;
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
-    const struct film *begun; /* by the backend; NULL: a new picture */
+    /* film of the backend's last begin(); NULL: a new picture */
+    const struct film *begun;
 };
 
-/* Samples that every pixel has after the pass that follows spp_done. */
+/* Returns the target of the next pass after spp_done samples per pixel. */
 static uint64_t next_target(uint64_t spp_done, uint64_t spp)
 {
     uint64_t more = spp_done == 0 ? 1 : spp_done;
     uint64_t target;
 
-    /* 1, 2, 4, 8, then one block a pass: early pictures soon, later passes
-     * long enough that their ends do not count */
+    /* doubles up to one block per pass: short passes give early pictures, and
+     * in long ones the wait at the end is a small share */
     if (more > SAMPLE_BLOCK)
         more = SAMPLE_BLOCK;
     target = spp_done + more;
@@ -72,7 +73,8 @@ static enum pass_result run_pass(struct render *r, int stride, uint64_t done,
     return r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
 }
 
-/* The first sample of all pixels, from a coarse grid to the finest. */
+/* Renders the first sample of all pixels, from the coarsest grid to the
+ * finest. */
 static enum pass_result run_first_pass(struct render *r, int stride)
 {
     enum pass_result result = PASS_DONE;
@@ -88,7 +90,7 @@ static enum pass_result run_first_pass(struct render *r, int stride)
     return result;
 }
 
-/* Brings every pixel to so many samples; all have *spp_done. */
+/* Renders every pixel from *spp_done up to `target` samples. */
 static enum pass_result run_to(struct render *r, uint64_t target,
                                int stride_max, uint64_t *spp_done)
 {
@@ -104,7 +106,7 @@ static enum pass_result run_to(struct render *r, uint64_t target,
     return result;
 }
 
-/* A backend keeps what it has built for the same shape. */
+/* Loads the shape into the backend, unless it has it already. */
 static enum pass_result load(struct render *r)
 {
     struct backend *b = r->backend;
@@ -122,7 +124,7 @@ static enum pass_result load(struct render *r)
     return ok ? PASS_DONE : PASS_FAILED;
 }
 
-/* After a halt the backend goes on with the film that it has begun. */
+/* Begins the film in the backend, unless it continues with it after a halt. */
 static enum pass_result begin(struct render *r, const struct world *world,
                               struct film *film, int x0, int y0)
 {
@@ -136,7 +138,7 @@ static enum pass_result begin(struct render *r, const struct world *world,
     return PASS_DONE;
 }
 
-/* The same crop in larger pixels, which are counted from its corner. */
+/* Returns the world of the draft: the crop at the draft's resolution. */
 static struct world draft_world(const struct render_job *job,
                                 const struct film *draft)
 {
@@ -155,13 +157,14 @@ static bool is_light(const struct render_job *job)
     return job->world.settings.sample == SAMPLE_LIGHT;
 }
 
-/* What is not light is the same in every sample. */
+/* Returns the samples per pixel of a draft. Those that are not light are all
+ * equal, so one suffices. */
 static uint64_t draft_spp(const struct render_job *job)
 {
     return is_light(job) ? DRAFT_SPP : 1;
 }
 
-/* One pass for each of the two sets of samples that its order has. */
+/* Renders the draft in two passes, one for each sample set of ORDER_DRAFT. */
 static enum pass_result run_draft(struct render *r)
 {
     struct world world = draft_world(&r->job, &r->draft);
@@ -185,7 +188,7 @@ static bool is_stepping(struct render *r)
     return has_steps;
 }
 
-/* After a pass that was one of the steps: was it the last? */
+/* Counts a step after its pass. Returns true if it was the last. */
 static bool was_last_step(struct render *r)
 {
     bool is_last;
@@ -196,7 +199,7 @@ static bool was_last_step(struct render *r)
     return is_last;
 }
 
-/* Until the limit, a cancellation or a failure, or for some steps. */
+/* Renders the film until the limit, the last step, a cancel or an error. */
 static enum pass_result run_film(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
@@ -283,7 +286,7 @@ struct render *render_create(struct backend *backend, struct error *err)
     return r;
 }
 
-/* Under the lock: lets the render thread go. */
+/* Hands the job to the render thread. The caller holds the lock. */
 static void go(struct render *r, uint64_t steps)
 {
     cancel_reset(&r->cancel);
@@ -294,7 +297,7 @@ static void go(struct render *r, uint64_t steps)
     pthread_cond_signal(&r->begin);
 }
 
-/* An empty film of this size. */
+/* Makes *film an empty film of this size. */
 static bool renew(struct film *film, int width, int height, struct error *err)
 {
     if (film->width == width && film->height == height) {

@@ -2,21 +2,23 @@
 /*
  * render_loop.h - the render thread: passes over the film, halt and restart
  *
- * The first pass goes from coarse to fine, so that there is a whole picture
- * after a few milliseconds; later ones visit blocks in random order. Pass
- * sizes follow sample counts, never the clock.
+ * The first pass goes from a coarse grid to every pixel, so that there is a
+ * whole picture after a few milliseconds; later passes visit blocks in random
+ * order. Pass sizes depend on sample counts, never on the clock.
  *
- * For a screen a draft may come first: a small film of the same picture, with
- * a few samples a pixel in an order that is calm to look at. It is added to
- * what is shown, never to the film. What is not light, but a preview or numbers
- * (enum sample_kind), is a draft only, and the film stays empty.
+ * For a screen a draft may come first: a small film of the same picture, with a
+ * few samples per pixel whose errors are distributed as blue noise. The screen
+ * shows the sum of draft and film; the film never contains the draft. Samples
+ * that are not light (previews and numbers, enum sample_kind) fill only a
+ * draft, and the film stays empty.
  *
- * Units:     samples a pixel (spp), pixels, nanoseconds
+ * Units:     samples per pixel (spp), pixels, nanoseconds
  * Ownership: the backend, the host and the world's arrays stay the caller's
  *            and must live until render_use(), render_halt() or
  *            render_destroy()
  * Threads:   all functions from one thread (the main one)
- * Errors:    render_start() for memory; a failing backend shows in the progress
+ * Errors:    render_create(); render_start() for memory; errors of the backend
+ *            are in the progress
  */
 #ifndef GLIM_RENDER_LOOP_H
 #define GLIM_RENDER_LOOP_H
@@ -34,80 +36,85 @@ struct rect {
 struct render_job {
     struct host_world *host;
     struct world world; /* lent from the host */
-    struct rect crop;   /* in the picture that world.settings.camera has */
-    uint64_t spp;       /* 0: no limit */
-    uint64_t steps;     /* as of render_step(): halts then; 0: does not */
-    /* pixels of the draft, as many as are shown; it has no more than the film,
-     * and there is none without columns or rows */
+    struct rect crop;   /* rectangle of the camera's picture to render */
+    uint64_t spp;       /* limit of samples per pixel; 0: none */
+    uint64_t steps;     /* halts after this many steps; 0: does not halt */
+    /* size of the draft in pixels: that of the shown picture, reduced to that
+     * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;
 };
 
 enum render_state {
-    RENDER_IDLE, /* nothing started, or halted */
+    RENDER_IDLE, /* not started, or halted */
     RENDER_RUNNING,
-    RENDER_DONE,  /* spp reached */
-    RENDER_FAILED /* see error */
+    RENDER_DONE,  /* spp reached the limit */
+    RENDER_FAILED /* member `error` has the reason */
 };
 
 struct render_progress {
     enum render_state state;
     uint64_t spp_limit;     /* 0: none */
-    uint64_t spp_done;      /* that every pixel has */
-    uint64_t samples;       /* of all pixels together */
+    uint64_t spp_done;      /* samples that every pixel has */
+    uint64_t samples;       /* samples of all pixels together */
     uint64_t samples_limit; /* 0: none */
-    uint64_t draft_samples; /* of the draft, not among the others */
-    bool draft_is_coarse;   /* it has pixels without a sample */
+    uint64_t draft_samples; /* samples of the draft; not in `samples` */
+    bool draft_is_coarse;   /* true while draft pixels lack a sample */
     uint64_t rays;
     uint64_t non_finite;
     uint64_t saturated;
     uint64_t cut_paths;
-    uint64_t render_ns;        /* from start to now, or to the end */
-    uint64_t build_ns;         /* the backend's load() */
-    uint64_t first_picture_ns; /* from start until every pixel, of the draft if
-                                  there is one, has a sample on the coarsest
-                                  grid; 0: not yet */
+    uint64_t render_ns; /* time rendered so far, without halts */
+    uint64_t build_ns;  /* time of the backend's load() */
+    /* time until every point of the coarsest grid had a sample, in the draft if
+     * there is one; 0: not yet */
+    uint64_t first_picture_ns;
     struct error error;
 };
 
 struct render;
 
+/* Starts the render thread, idle. Returns NULL on errors. */
 struct render *render_create(struct backend *backend, struct error *err);
 
-/* Halts what runs, clears the film and starts. Returns at once when the old
- * workers are parked; building and rendering go on in the render thread. */
+/* Halts the current render, clears the film and starts a new one. Returns as
+ * soon as the old workers are parked; the render thread builds and renders. */
 bool render_start(struct render *r, const struct render_job *job,
                   struct error *err);
 
-/* Halts what runs; from the next start on, which loads the geometry anew, this
- * backend renders. */
+/* Halts the current render and changes the backend. The next start loads the
+ * geometry into it. */
 void render_use(struct render *r, struct backend *backend);
 
-/* Returns when every worker is parked; the film keeps what it has. */
+/* Halts. Returns when every worker is parked; the film keeps its samples. */
 void render_halt(struct render *r);
 
-/* Goes on after render_halt() where it stopped. `spp` is the new limit. */
+/* Continues after render_halt() or the end. `spp` is the new limit, 0 for
+ * none. */
 void render_resume(struct render *r, uint64_t spp);
 
-/* One more sample of every pixel, and one more still if it is under way; then
- * halts by itself. False if the render is done or has failed. */
+/* Adds one sample to every pixel, then halts by itself. Steps accumulate: a
+ * call during a step adds another one. Returns false if the render is done or
+ * failed. */
 bool render_step(struct render *r);
 
-/* Blocks until the state is not RENDER_RUNNING or timeout_ms has passed (-1:
- * no limit). True if it is not running. */
+/* Blocks until the state is not RENDER_RUNNING, or for timeout_ms (-1: no
+ * limit). Returns true if the render is not running. */
 bool render_wait(struct render *r, int timeout_ms);
 
-/* A file descriptor that becomes readable when the state changes from
- * RENDER_RUNNING; read it empty. */
+/* Returns a file descriptor that becomes readable when the state leaves
+ * RENDER_RUNNING. The caller reads it empty; it belongs to the render. */
 int render_event_fd(const struct render *r);
 
 struct render_progress render_progress(struct render *r);
 
-/* For reading: film_preview(), film_resolve(), film_linear(), image_write().
- * Valid until the next render_start() with another size. */
+/* Returns the film, for reading: film_preview(), film_resolve(), film_linear(),
+ * image_write(). It is valid until the next render_start() with another
+ * size. */
 struct film *render_film(struct render *r);
 
-/* The draft, to be shown with the film by film_preview() as long as that is
- * young; NULL: none. Valid until the next render_start(). */
+/* Returns the draft, which film_preview() adds to the film, or NULL if there is
+ * none or the film has FILM_YOUNG_SPP samples. It is valid until the next
+ * render_start(). */
 struct film *render_draft(struct render *r);
 struct backend *render_backend(const struct render *r);
 

@@ -5,7 +5,8 @@
 
 #include "base/memory.h"
 
-/* As often as the screen looks. */
+/* Length of the first spans: the period at which the screen updates the
+ * diagram. */
 #define SPAN_FIRST_NS UINT64_C(250000000)
 
 /* ---- speeds ---- */
@@ -18,7 +19,8 @@ static void halve(struct speeds *s)
     s->span_ns *= 2;
 }
 
-/* The end of the span that the time lies in or ends. */
+/* Returns the end of the span that contains the time. Merges spans if
+ * necessary. */
 static uint64_t span_end_ns(struct speeds *s, uint64_t time_ns)
 {
     while (time_ns / s->span_ns >= SPEEDS_MAX)
@@ -35,7 +37,7 @@ void speeds_look(struct speeds *s, uint64_t time_ns, uint64_t sample_count)
     if (s->span_ns == 0)
         s->span_ns = SPAN_FIRST_NS;
     if (time_ns == s->time_ns)
-        return; /* what comes without time belongs to what comes next */
+        return; /* samples without time are added to the next measurement */
     double samples = (double)(sample_count - s->sample_count) /
                      (double)(time_ns - s->time_ns);
     while (s->time_ns < time_ns) {
@@ -81,7 +83,8 @@ double thread_load_share(const struct thread_load *l, const struct backend *b,
         return 0;
     share =
         (double)(b->cpu_ns(b, thread) - l->cpu_ns[thread]) / (double)time_ns;
-    return share < 1 ? share : 1; /* the two clocks are not read at once */
+    return share < 1 ? share
+                     : 1; /* the two clocks are read one after the other */
 }
 
 void thread_load_free(struct thread_load *l)

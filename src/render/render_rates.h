@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * render_rates.h - samples a second over the time of a render, and how busy the
- * threads of its backend are
+ * render_rates.h - samples per second over the time of a render, and the load
+ * of the backend's threads
  *
- * A few spans of equal length cover the whole time: when they are used up, each
- * two become one of double length.
+ * A fixed number of spans of equal length covers the whole time. When they are
+ * used up, pairs are merged into spans of double length.
  *
- * Units:     nanoseconds of rendering, samples of all pixels together; a share
- *            of 1 is a processor all the time
- * Ownership: thread_load_free() frees; zeroed structs have seen nothing yet
+ * Units:     nanoseconds of rendering, samples of all pixels together; a load
+ *            of 1 is one processor all the time
+ * Ownership: thread_load_free() frees; zeroed structs are empty
  * Threads:   one at a time; the backend may render
- * Errors:    threads of a device are not known, nor any when memory is out
+ * Errors:    loads are 0 for the threads of a device, and when memory is out
  */
 #ifndef GLIM_RENDER_RATES_H
 #define GLIM_RENDER_RATES_H
@@ -21,36 +21,38 @@
 
 /* ---- speeds ---- */
 
-/* Two a column of a small diagram. Even. */
+/* Greatest number of spans: two per column of the diagram. Must be even. */
 #define SPEEDS_MAX 72
 
 struct speeds {
-    double samples[SPEEDS_MAX]; /* of each span */
-    int count;                  /* the last one may have just begun */
+    double samples[SPEEDS_MAX]; /* samples of each span */
+    int count;                  /* spans so far; the last one is incomplete */
     uint64_t span_ns;
-    uint64_t time_ns; /* of the last look */
+    uint64_t time_ns; /* time of the last update */
     uint64_t sample_count;
 };
 
-/* So many samples are there after so much time: what has come since the last
- * look belongs to the time since then, evenly. Begins anew where either is less
- * than before. */
+/* Adds a measurement: the number of samples after `time_ns`. The samples since
+ * the last measurement are distributed evenly over the time since then. Begins
+ * anew if the time or the number is less than before. */
 void speeds_look(struct speeds *s, uint64_t time_ns, uint64_t sample_count);
 
-/* Samples a second in span i below count. */
+/* Returns the samples per second in span i, which is below count. */
 double speeds_at(const struct speeds *s, int i);
 
 /* ---- threads ---- */
 
 struct thread_load {
-    uint64_t *cpu_ns; /* of each thread at the last thread_load_begin() */
-    int count;        /* 0: a device renders */
+    /* processor time of each thread at the last thread_load_begin() */
+    uint64_t *cpu_ns;
+    int count; /* 0 if a device renders */
 };
 
-/* Begins to measure this backend's threads. */
+/* Begins a measurement of the backend's threads. */
 void thread_load_begin(struct thread_load *l, const struct backend *b);
 
-/* What a thread has used since thread_load_begin() of `time_ns`; 0 to 1. */
+/* Returns the load of a thread, 0 to 1, since thread_load_begin(), which was
+ * `time_ns` ago. */
 double thread_load_share(const struct thread_load *l, const struct backend *b,
                          int thread, uint64_t time_ns);
 

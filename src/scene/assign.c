@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 
-/* Copies what stands in quotes to `name`, which has room for the rest of the
- * text. False if the quotes have no end. */
+/* Copies the text inside the quotes to `name`, which has room for the rest of
+ * the file. Returns false if the closing quote is missing. */
 static bool read_quoted(struct lexer *lex, char *name)
 {
     for (lex->p++; lex->p < lex->end; lex->p++) {
@@ -25,8 +25,8 @@ static bool read_quoted(struct lexer *lex, char *name)
     return false;
 }
 
-/* The next name of the line, for free(): NULL if there is none, or no end of
- * its quotes. False when memory is out. */
+/* Reads the next name of the line. *name is for free(), or NULL if there is
+ * none or its closing quote is missing. Returns false when memory is out. */
 static bool read_name(struct lexer *lex, char **name)
 {
     struct word word;
@@ -98,7 +98,7 @@ static void remove_at(struct assigns *a, size_t i)
             (a->count - i) * sizeof a->items[0]);
 }
 
-/* Behind the others. */
+/* Adds an assignment at the end. Returns false when memory is out. */
 static bool append(struct assigns *a, const char *object, const char *material)
 {
     struct assign item = {strdup(object), strdup(material)};

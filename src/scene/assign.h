@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * assign.h - which objects have another material than their file says: the
- * `assign OBJECT MATERIAL` lines of a view file
+ * assign.h - materials that replace those of the OBJ file, object by object:
+ * the `assign OBJECT MATERIAL` lines of a view file
  *
- * A name with blanks, quotes, # or \ in it, or an empty one, stands in double
- * quotes; a quote in there is doubled.
+ * A name that is empty or contains blanks, quotes, # or \ is written in double
+ * quotes; a quote inside them is doubled.
  *
  * Ownership: names are copied; assigns_free() frees; a zeroed struct is empty
  * Threads:   one thread at a time
@@ -27,16 +27,19 @@ struct assigns {
     size_t count;
 };
 
-/* Reads what follows the key `assign`. *has_names: those two, and no more. */
+/* Reads the rest of a line after the key `assign`. *has_names becomes true if
+ * the line has exactly two names; only then the assignment is added. */
 bool assigns_read(struct assigns *assigns, struct lexer *lex, bool *has_names);
 
-/* A line each, in order. */
+/* Writes one `assign` line for each assignment, in order. */
 void assigns_write(const struct assigns *assigns, FILE *to);
 
-/* The later of two for one object counts; NULL: what its file says. */
+/* Assigns a material to an object and removes its earlier assignment. With
+ * material NULL the object has the material of its file again. */
 bool assigns_set(struct assigns *assigns, const char *object,
                  const char *material);
 
+/* Replaces the contents of `to`; leaves them unchanged when memory is out. */
 bool assigns_copy(struct assigns *to, const struct assigns *from);
 void assigns_free(struct assigns *assigns);
 

@@ -9,10 +9,11 @@
 #include "picture/blackbody.h"
 #include "kernels/light.h"
 
-/* From here on a highlight is a mirror image: exporters write 1000 for it. */
+/* Least Ns that gives a perfect mirror: exporters write 1000 for mirrors. */
 #define NS_SMOOTH 1000
 
-/* Less rough than this nothing can be told from Lambert's law. */
+/* Roughness below which a surface cannot be distinguished from a Lambertian
+ * one. */
 #define ROUGH_LEAST 1e-3
 
 #define IOR_DEFAULT 1.5
@@ -55,7 +56,7 @@ struct mtl_source mtl_source_empty(void)
     return s;
 }
 
-/* What is no number is equal to itself. */
+/* Compares two numbers. NaN equals NaN. */
 static bool values_equal(double a, double b)
 {
     return a == b || (isnan(a) && isnan(b));
@@ -149,7 +150,8 @@ static double unit_clamped(double x)
     return x < 1 ? x : 1;
 }
 
-/* A colour that reflects: each channel in [0, 1], or `missing`. */
+/* Returns a reflectance with each channel clamped to [0, 1], with a warning, or
+ * `missing` in all channels if the file does not give it. */
 static struct vec3 reflecting(const struct mtl_color *c, const char *key,
                               float missing, const struct place *at)
 {
@@ -190,8 +192,8 @@ static struct vec3 emission(const struct mtl_color *c, const struct place *at)
     return (struct vec3){rgb[0], rgb[1], rgb[2]};
 }
 
-/* The number if it is in [lo, hi], else `missing`, with a warning if the file
- * says something else. */
+/* Returns the number if it is in [lo, hi], else `missing`; a number out of
+ * range is reported. */
 static double within(const struct mtl_number *n, const char *key, double lo,
                      double hi, double missing, const struct place *at)
 {
@@ -228,7 +230,7 @@ static void roughen(struct material *m, const struct mtl_source *s,
     m->alpha_texture = mtl_source_map(s, MTL_MAP_PR);
 }
 
-/* d wins over Tr. */
+/* Returns the opacity of d, or without d that of Tr. */
 static double opacity(const struct mtl_source *s, const struct place *at)
 {
     if (s->d.line != 0)
@@ -255,8 +257,8 @@ static void make_glass(struct material *m, uint32_t kind,
     m->ior = (float)within(&s->ni, "Ni", 1 / IOR_MAX, IOR_MAX, IOR_DEFAULT, at);
 }
 
-/* Maya writes illum 4 with these for whatever is opaque: a sheet without
- * refraction or tint would be nothing at all. */
+/* Recognises opaque materials that Maya writes as illum 4, with Ni 1 and Tf 1 1
+ * 1. As thin glass, without refraction or tint, they would be invisible. */
 static bool is_no_sheet(const struct mtl_source *s)
 {
     const double *tf = s->tf.rgb;
@@ -333,7 +335,7 @@ static void make_opaque(struct material *m, int illum,
     }
 }
 
-/* Of the maps that only some materials have a use for. */
+/* Reports a map that this kind of material does not use. */
 static void check_map(const struct mtl_source *s, enum mtl_map which,
                       const struct material *m, const struct place *at)
 {
@@ -374,7 +376,7 @@ struct material material_from_source(const struct mtl_source *s,
     return m;
 }
 
-/* Where both give the same material the candidate is taken. */
+/* Replaces *s by the candidate if both give the same material. */
 static void take_if_same(struct mtl_source *s,
                          const struct mtl_source *candidate)
 {

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
 /*
- * material.h - what an MTL file says about a material, and what glim makes of
- * it
+ * material.h - the statements of an MTL file about one material, and the
+ * material that the kernels render, made from them
  *
- * illum 6, 7: glass; 4, 9: thin glass; tinted by Tf times map_Kd. Else Pm of
- * one half and more: metal of colour Kd. Else illum 3, 5 with Ks that is not
- * black, or with map_Ks: metal of colour Ks. Else diffuse, colour Kd, under a
- * clear coat that reflects MATERIAL_COAT Ks if Ks is not black or there is
- * map_Ks. A map multiplies its colour. Roughness alpha is Pr squared, or
- * sqrt(2 / (Ns + 2)), or 0 where Ns is absent, 0 or 1000 and more; the
- * roughness of diffuse without a coat is Kd_roughness, 0 if absent. With
- * map_Pr, Pr is 1 if absent; with map_Pm, Pm too, and the map chooses between
- * metal of colour Kd and the rest.
+ * The kind of a material is the first of these that applies:
+ *   glass        illum 6 or 7; colour Tf times map_Kd
+ *   thin glass   illum 4 or 9; colour Tf times map_Kd
+ *   metal        Pm of at least one half; colour Kd
+ *   metal        illum 3 or 5 with map_Ks or with Ks that is not black;
+ *                colour Ks
+ *   plastic      map_Ks, or Ks that is not black: diffuse of colour Kd under a
+ *                clear coat of reflectance MATERIAL_COAT times Ks
+ *   diffuse      all others; colour Kd, roughness Kd_roughness (default 0)
+ * A map multiplies its colour. Roughness alpha is Pr squared; without Pr it is
+ * sqrt(2 / (Ns + 2)), or 0 if Ns is absent, 0, or at least 1000. Pr defaults
+ * to 1 if there is map_Pr. A material with map_Pm is plastic or diffuse, but
+ * metal of colour Kd where map_Pm times Pm (default 1) is at least one half.
  *
  * Threads:   any
- * Errors:    none: impossible values are replaced, with a warning
+ * Errors:    impossible values are replaced, with a warning
  */
 #ifndef GLIM_MATERIAL_H
 #define GLIM_MATERIAL_H
@@ -25,14 +29,15 @@
 #include "base/warnings.h"
 #include "kernels/types.h"
 
-/* The reflectance of a coat whose Ks is 1. Exporters write Ks .5 for what is
- * ordinary, which gives the 4 % of glass and varnish. */
+/* Reflectance of a coat whose Ks is 1. Exporters write Ks 0.5 for ordinary
+ * surfaces, which then reflect 4 %, like glass and varnish. */
 #define MATERIAL_COAT 0.08f
 
-/* The colour of what has none. */
+/* Colour of a material whose file gives none. */
 #define MATERIAL_GREY 0.8f
 
-/* line 0: the file does not say, and the numbers are 0. */
+/* One number of a statement. Line 0 means that the file does not have the
+ * statement; the number is 0 then. Likewise for mtl_color. */
 struct mtl_number {
     double value;
     uint64_t line;
@@ -55,21 +60,23 @@ enum mtl_map {
     MTL_MAPS
 };
 
-/* As a statement of the file; heights have three names, this is one. */
+/* Keys of the map statements. Height maps have three keys, of which this is
+ * one. */
 extern const char *const mtl_map_keys[MTL_MAPS];
 
 struct mtl_source {
     struct mtl_color kd, ks, ke, tf;
-    /* of Ke_blackbody; if kelvin is there it stands for ke */
+    /* the two numbers of Ke_blackbody, which replaces Ke */
     struct mtl_number kelvin, luminance;
     struct mtl_number illum, ns, ni, d, tr, pr, pm, kd_roughness;
     uint32_t maps[MTL_MAPS]; /* numbers of textures, or NO_INDEX */
-    uint32_t maps_off;       /* 1 << enum mtl_map: as if it were not there */
-    double bump_scale;       /* of MTL_MAP_BUMP */
+    uint32_t maps_off; /* bit set of 1 << enum mtl_map: maps to be ignored */
+    double bump_scale; /* factor for the heights of MTL_MAP_BUMP */
 };
 
-/* A statement of one colour or one number. The file is read, compared and saved
- * by this table; Ke, Ke_blackbody and the maps stand beside it. */
+/* A statement of one colour or one number. Statements of this table are read,
+ * compared and saved by the same code. Ke, Ke_blackbody and the maps have code
+ * of their own. */
 struct mtl_property {
     const char *key;
     size_t member; /* offset in mtl_source of an mtl_color or mtl_number */
@@ -78,35 +85,39 @@ struct mtl_property {
 
 #define MTL_PROPERTIES 11
 
-/* Colours come first. */
+/* All statements of one colour or number, colours first. */
 extern const struct mtl_property mtl_properties[MTL_PROPERTIES];
 
-/* A material of which the file says nothing. */
+/* Returns the source of a material without statements. */
 struct mtl_source mtl_source_empty(void);
 
-/* True if both say the same, wherever they say it. */
+/* Compare values; line numbers do not matter. NaN equals NaN. */
 bool mtl_number_equal(const struct mtl_number *a, const struct mtl_number *b);
 bool mtl_color_equal(const struct mtl_color *a, const struct mtl_color *b);
 bool mtl_source_equal(const struct mtl_source *a, const struct mtl_source *b);
 
-/* The texture of a map that is there and not off, or NO_INDEX. */
+/* Returns the texture of a map, or NO_INDEX if it is absent or switched off. */
 uint32_t mtl_source_map(const struct mtl_source *source, enum mtl_map map);
 
-/* The radiance that ke or kelvin and luminance say; line 0: neither. */
+/* Returns the emitted radiance given by Ke_blackbody, else by Ke; its line is 0
+ * if there is neither. */
 struct mtl_color mtl_source_light(const struct mtl_source *source);
 
 struct material material_default(void);
 
-/* A black colour beside a map stays black here: textures_load() decides. */
+/* Makes the material that the statements describe. `path` is the MTL file, for
+ * warnings. A black colour that has a map stays black; textures_load() replaces
+ * it if the image can be read. */
 struct material material_from_source(const struct mtl_source *source,
                                      const char *path, struct warnings *report);
 
-/* Enum feature, or-ed: what samples of the material need. */
+/* Returns the kernel features that the material needs, a set of enum
+ * feature. */
 uint32_t material_features(const struct material *material,
                            const struct texture *textures);
 
-/* The statements that a file must have to give the wanted material: where those
- * that it has already give the same, they stay. */
+/* Returns `wanted` with as many statements as possible replaced by those of
+ * `file`, such that the material stays the same. Used to save only changes. */
 struct mtl_source mtl_source_needed(const struct mtl_source *file,
                                     const struct mtl_source *wanted);
 

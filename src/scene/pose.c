@@ -6,7 +6,7 @@
 
 #include "base/geometry.h"
 
-/* The sine of the angle below which `up` is parallel to the look. */
+/* Sine of the angle below which `up` counts as parallel to the direction. */
 #define PARALLEL 1e-6
 
 static bool is_finite(const double v[3])
@@ -49,7 +49,8 @@ static void set_axis(double v[3], int axis, double sign)
     v[axis] = sign;
 }
 
-/* Returns false if the pole runs along the look. */
+/* Computes the right axis. Returns false if the pole is parallel to the forward
+ * axis, so that a coordinate axis replaces it. */
 static bool find_right(struct axes *axes)
 {
     const double *forward = axes->forward;
@@ -69,7 +70,7 @@ static bool find_right(struct axes *axes)
     return false;
 }
 
-/* Returns false if another axis was taken for up. */
+/* Computes all axes. Returns false if a coordinate axis replaces up. */
 static bool find_axes(const struct pose *pose, struct axes *axes)
 {
     bool has_right;
@@ -77,7 +78,7 @@ static bool find_axes(const struct pose *pose, struct axes *axes)
     memcpy(axes->pole, pose->up, sizeof axes->pole);
     if (!vec3d_normalize(axes->pole))
         set_axis(axes->pole, 1, 1);
-    /* halves do not overflow */
+    /* differences of halves do not overflow */
     for (int k = 0; k < 3; k++)
         axes->forward[k] = pose->at[k] / 2 - pose->eye[k] / 2;
     if (!vec3d_normalize(axes->forward))

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * pose.h - the camera: where it stands, where it looks, its lens
+ * pose.h - the camera's position, direction and lens
  *
  * Units:     file units of the scene, degrees
  * Threads:   any
- * Errors:    an impossible camera
+ * Errors:    pose_check() for an impossible camera
  */
 #ifndef GLIM_POSE_H
 #define GLIM_POSE_H
@@ -15,31 +15,33 @@
 
 struct pose {
     double eye[3], at[3], up[3];
-    double fovy_deg; /* vertical; above 0, below 180 */
-    double aperture; /* diameter of the lens; 0: a pinhole */
-    double focus;    /* from eye to the sharp plane; 0: as far as at */
+    double fovy_deg; /* vertical field of view; above 0, below 180 */
+    double aperture; /* diameter of the lens; 0 for a pinhole */
+    double
+        focus; /* distance of the sharp plane from the eye; 0: that of `at` */
 };
 
-/* Unit vectors of the picture: to its right, to its top, into it. The pole is
- * the pose's up with length 1. */
+/* Unit vectors of the picture: to its right, to its top, and into it. The pole
+ * is the normalised up vector of the pose. */
 struct axes {
     double right[3], up[3], forward[3];
     double pole[3];
 };
 
-/* Checks that eye, at, up and fovy make a camera. The place is for messages. */
+/* Returns false if eye, at, up and fovy do not define a camera. The error
+ * begins with `place`. */
 bool pose_check(const struct pose *pose, const char *place, struct error *err);
 
-/* Finds the axes, for any pose: where up says nothing, the axis that is least
- * along the look stands in for it; without a look it is -z. */
+/* Computes the axes for any pose. If up is zero or parallel to the viewing
+ * direction, the coordinate axis most perpendicular to that replaces it. If eye
+ * and at coincide, the direction is -z. */
 void pose_axes(const struct pose *pose, struct axes *axes);
 
-/* Returns true if pose_axes() takes another axis for up, which runs along the
- * look. */
+/* Returns true if up is parallel to the viewing direction, so that pose_axes()
+ * replaces it. */
 bool pose_up_is_parallel(const struct pose *pose);
 
-/* Returns the distance from eye to at; 1 if they are in one point or too far
- * apart for a number. */
+/* Returns the distance from eye to at, or 1 if it is 0 or not finite. */
 double pose_reach(const struct pose *pose);
 
 #endif

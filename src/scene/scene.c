@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "kernels/hit.h"
 
-/* Whether the triangle's edges span an area, computed in double. */
+/* Returns true if the triangle has an area, computed in double. */
 static bool has_area(const double a[3], const double b[3], const double c[3])
 {
     double most = 0;
@@ -19,7 +19,7 @@ static bool has_area(const double a[3], const double b[3], const double c[3])
 
     for (int k = 0; k < 3; k++)
         most = fmax(most, fmax(fabs(a[k]), fmax(fabs(b[k]), fabs(c[k]))));
-    /* A power of two, so that nothing is rounded and no product overflows. */
+    /* Scaling by a power of two is exact, and keeps the products finite. */
     if (!(most > 1e-50 && most < 1e50)) {
         frexp(most, &exponent);
         scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
@@ -49,7 +49,8 @@ static bool file_tri_is_usable(const struct scene *scene, struct tri *t)
     return has_area(p[0], p[1], p[2]);
 }
 
-/* Whether the triangle has a unit normal, which it is given. */
+/* Sets the geometric normal. Returns false if the normalised triangle has no
+ * area or no unit normal. */
 static bool tri_gets_normal(const struct scene *scene, struct tri *t)
 {
     const struct vec3 *v[3];
@@ -87,7 +88,7 @@ static void drop_tris(struct scene *scene, struct warnings *report,
     scene->tri_count = kept;
 }
 
-/* Bounds of the vertices that triangles use. */
+/* Computes the bounds of the vertices that triangles use. */
 static void find_bounds(struct scene *scene)
 {
     double lo[3] = {INFINITY, INFINITY, INFINITY};
@@ -111,8 +112,8 @@ static void find_bounds(struct scene *scene)
     }
 }
 
-/* The centre, and the scale that brings the largest extent into [1, 2).
- * Halves first: no overflow. */
+/* Computes the centre, and the scale that brings the largest extent into [1,
+ * 2). Halves are subtracted because full extents may overflow. */
 static void find_scale(struct scene *scene)
 {
     double half = 0;
@@ -169,9 +170,9 @@ static bool is_before(struct vec3 a, struct vec3 b)
     return a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
-/* Every triangle begins with the corner that is first by its place: copies of a
- * face, wherever theirs begin and however they are wound, are met at the same
- * distance, and the first in the file is seen. */
+/* Rotates each triangle to begin with the corner that is first by coordinates.
+ * Copies of a face then have the same distance from a ray, whatever their first
+ * corner and winding, and the first in the file is the hit. */
 static void turn_tris(struct scene *scene)
 {
     for (uint32_t i = 0; i < scene->tri_count; i++) {

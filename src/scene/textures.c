@@ -10,7 +10,7 @@
 #include "picture/image_read.h"
 #include "scene/material.h"
 
-/* texture.first is 32 bits wide. */
+/* Limit of all texels together, since texture.first has 32 bits. */
 #define TEXELS_MAX UINT64_C(0xffffffff)
 
 static bool has_alpha(const struct image *image)
@@ -24,8 +24,9 @@ static bool has_alpha(const struct image *image)
     return false;
 }
 
-/* The number that a texel of data holds: grey, not decoded. What is cut out is
- * often an alpha channel behind a white or coloured picture. */
+/* Returns the number of a texel of data (roughness, opacity, height), linear:
+ * alpha or the mean of the channels. Opacity is often stored in the alpha
+ * channel of a white or coloured picture. */
 static uint32_t number_of(const uint8_t *texel, bool by_alpha)
 {
     if (by_alpha)
@@ -65,7 +66,8 @@ static bool append(struct host_world *host, const struct image *image,
     return true;
 }
 
-/* The same image with other options is read once. */
+/* Uses the texels of an earlier texture of the same file, which differs only in
+ * options. Returns false if there is none. */
 static bool shares_texels(struct host_world *host, const struct scene *scene,
                           uint32_t index)
 {
@@ -86,15 +88,15 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
     return false;
 }
 
-/* The image of a texture. */
+/* State of reading the image of one texture. */
 struct reading {
     uint32_t texture;
     const char *path;
-    const struct reading *twin; /* an earlier one that reads the same texels */
+    const struct reading *twin; /* an earlier reading of the same texels */
     struct image_file file;
     bool is_open, is_there;
     struct image image;
-    struct error why; /* if it is not there */
+    struct error why; /* reason if the image could not be read */
 };
 
 static struct reading reading_of(const struct scene *scene, uint32_t texture)
@@ -127,7 +129,7 @@ static void decode_image(void *context, uint32_t item, int worker)
         r->is_there = image_decode(&r->file, &r->image, &ignored, &r->why);
 }
 
-/* Says where the texture is named first, and why it is not there. */
+/* Warns that an image is missing, with the place of its first statement. */
 static void report_lost(const struct scene *scene, const struct reading *r,
                         struct warnings *report, const char *why)
 {
@@ -138,8 +140,8 @@ static void report_lost(const struct scene *scene, const struct reading *r,
                        scene->mtl_paths[o.file], o.line, why);
 }
 
-/* Takes the image that was read. An unreadable one leaves the texture without
- * texels. */
+/* Copies the decoded image into the world. A texture whose image could not be
+ * read stays without texels. */
 static bool take(struct host_world *host, const struct scene *scene,
                  const struct reading *r, struct warnings *report,
                  struct error *err)
@@ -161,9 +163,10 @@ static bool take(struct host_world *host, const struct scene *scene,
     return true;
 }
 
-/* ---- many at once ---- */
+/* ---- loading with several threads ---- */
 
-/* Images that wait to be taken, for each thread: some take longer. */
+/* Images decoded at once per thread. Two keep the threads busy although images
+ * differ in size. */
 #define IMAGES_EACH 2
 
 static const struct reading *find_twin(const struct scene *scene,
@@ -180,10 +183,10 @@ static const struct reading *find_twin(const struct scene *scene,
     return NULL;
 }
 
-/* Opens the images of the first textures, as many as there is memory for at the
- * same time, but at least one; returns their number. One that has no room
- * beside the others comes first the next time, so that only what the scene
- * holds by then decides whether it is refused, not the number of threads. */
+/* Opens the images of the first textures: at least one, and as many as fit into
+ * memory together. Returns their number. An image that does not fit beside the
+ * others comes first the next time, so that its refusal depends only on what
+ * the scene holds by then, not on the number of threads. */
 static uint32_t open_some(struct host_world *host, const struct scene *scene,
                           const uint32_t *textures, uint32_t count,
                           struct reading *readings)
@@ -206,7 +209,7 @@ static uint32_t open_some(struct host_world *host, const struct scene *scene,
     return count;
 }
 
-/* Takes images that were read by all threads, in order. */
+/* Copies the decoded images into the world, in order, and frees them. */
 static bool take_some(struct host_world *host, const struct scene *scene,
                       struct reading *readings, uint32_t count,
                       struct warnings *report, struct error *err)
@@ -250,8 +253,9 @@ static bool is_black(const struct vec3 *c)
     return c->x == 0 && c->y == 0 && c->z == 0;
 }
 
-/* A map multiplies its colour, but beside a black or absent one it stands
- * alone, times `alone`. Without its image the map is gone. */
+/* Combines a colour with its map. The colour is a factor of the map; a black or
+ * absent one becomes `alone`. If the image is missing, the map is removed and a
+ * black colour becomes `lost`. */
 static void settle(const struct host_world *host, uint32_t *texture,
                    struct vec3 *color, float alone, float lost)
 {
@@ -264,7 +268,7 @@ static void settle(const struct host_world *host, uint32_t *texture,
         *texture = NO_INDEX;
 }
 
-/* A map of numbers without its image is gone. */
+/* Removes a map of numbers whose image is missing. */
 static void settle_data(const struct host_world *host, uint32_t *texture)
 {
     if (*texture != NO_INDEX && host->textures[*texture].width == 0)
@@ -330,7 +334,8 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
     return true;
 }
 
-/* Those that used materials name, in their order; their number. */
+/* Lists the textures of the used materials that were not tried yet, in the
+ * order of the materials. Returns their number. */
 static uint32_t list_textures(struct host_world *host, uint32_t *textures)
 {
     uint32_t count = 0;
@@ -371,7 +376,7 @@ bool textures_load(struct host_world *host, const struct scene *scene,
     ok = ok && load_all(host, scene, textures, list_textures(host, textures),
                         report, err);
     for (uint32_t i = 0; ok && i < host->material_count; i++)
-        if (host->material_is_used[i]) /* what is lost is known by now */
+        if (host->material_is_used[i]) /* missing images are known by now */
             ok = textures_load_for(host, scene, &host->materials[i], report,
                                    err);
     free(textures);

@@ -4,9 +4,9 @@
  *
  * Units:     texels, row 0 at the top
  * Ownership: the world owns the texels
- * Threads:   one calls, all that the process may use read
- * Errors:    memory; an image that cannot be read, or that has no room beside
- *            the others (image_open()), is a warning
+ * Threads:   one thread calls; the world's threads (world_pool()) decode
+ * Errors:    memory; an image that cannot be read, or that does not fit into
+ *            memory beside the others (image_open()), is a warning
  */
 #ifndef GLIM_TEXTURES_H
 #define GLIM_TEXTURES_H
@@ -14,20 +14,22 @@
 #include "scene/world.h"
 
 /* Copies the scene's textures and reads the images of those that used materials
- * have. Where an image is lost, the material's own colour is used, or grey if
- * it has none. */
+ * name. A material whose image cannot be read has its own colour instead, or
+ * grey if it has none. */
 bool textures_load(struct host_world *host, const struct scene *scene,
                    struct warnings *report, struct error *err);
 
-/* The same for one material that has come into use, after textures_load(). */
+/* Loads the images of one material that came into use after textures_load(), in
+ * the same way. */
 bool textures_load_for(struct host_world *host, const struct scene *scene,
                        struct material *material, struct warnings *report,
                        struct error *err);
 
-/* Bytes of the world's images: texels, and the sky with its table. */
+/* Returns the memory of the world's images in bytes: texels, and the sky image
+ * with its table. */
 uint64_t textures_bytes(const struct host_world *host);
 
-/* True if all images of the material were looked for. */
+/* Returns true if loading was tried for all images of the material. */
 bool textures_are_tried(const struct host_world *host,
                         const struct material *material);
 

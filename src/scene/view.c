@@ -30,7 +30,8 @@ void view_take_frame(struct view *view, const struct view *from)
     view->max_bounces = from->max_bounces;
 }
 
-/* The other side of a picture whose shape is kept. */
+/* Scales `side` by to / from and clamps it to the sides of a picture: with the
+ * aspect ratio from : to, the other side. */
 static int other_side(int side, int from, int to)
 {
     double other = round((double)side * to / from);
@@ -64,7 +65,7 @@ bool lighting_copy(struct lighting *to, const struct lighting *from)
         return false;
     free(to->sky_path);
     *to = *from;
-    to->sky_path = sky_path; /* a copy of its own */
+    to->sky_path = sky_path; /* replaces the pointer of `from` */
     return true;
 }
 
@@ -107,7 +108,8 @@ bool view_copy(struct view *to, const struct view *from)
 void view_keep_camera(struct view *view, const struct view *now,
                       const struct view *before, const struct view *after)
 {
-    /* one that was placed by the program follows the scene, not the file */
+    /* a camera that the program placed (without has_camera) follows the
+     * scene */
     if (!after->has_camera ||
         (before->has_camera &&
          memcmp(&before->pose, &after->pose, sizeof after->pose) == 0))

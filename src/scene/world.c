@@ -13,14 +13,15 @@
 #include "scene/textures.h"
 #include "kernels/light.h"
 
-/* A framed scene is seen from this far above, with this much air around. */
+/* Elevation of the camera that frames a scene, and the factor of its distance
+ * that leaves a margin. */
 #define FRAME_ELEVATION_DEG 20
 #define FRAME_MARGIN        1.05
 
-/* Float coordinates whose squares do not overflow. */
+/* Limit for coordinates in float, whose squares do not overflow. */
 #define EYE_MAX 1e18
 
-/* Half the field of view along the narrower side of the picture. */
+/* Returns half the field of view along the narrower side of the picture. */
 static double narrow_angle_rad(const struct view *view)
 {
     double half = angle_rad(view->pose.fovy_deg) / 2;
@@ -91,7 +92,8 @@ static bool make_camera(const struct scene *scene, const struct view *view,
 
 void world_renew(struct host_world *host, enum world_part part)
 {
-    static atomic_uint_fast64_t last; /* of any world: loads have threads */
+    static atomic_uint_fast64_t
+        last; /* shared by all worlds; atomic since reloads have a thread */
 
     host->generation = atomic_fetch_add(&last, 1) + 1;
     host->versions[part] = host->generation;
@@ -185,7 +187,7 @@ bool world_load_sky(struct host_world *host, const struct view *view,
     free(host->sky_texels);
     sky_table_free(&host->sky_table);
     host->sky_table = table;
-    /* the world owns the floats now, three of which are a vec3 */
+    /* the world owns the floats now; three of them are a vec3 */
     host->sky_texels = (struct vec3 *)(void *)image.rgb;
     host->sky_width = (uint32_t)image.width;
     host->sky_height = (uint32_t)image.height;

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "scene/textures.h"
 
-/* Arrays to be swapped in; NULL: the world's stays. */
+/* New arrays to be swapped in. NULL keeps the world's array. */
 struct next {
     struct tri *tris;
     uint32_t *assigned;
@@ -19,7 +19,7 @@ struct next {
     bool has_lights;
 };
 
-/* A world on its way to other materials. */
+/* A change of materials in progress. */
 struct change {
     struct host_world *host;
     const struct scene *scene;
@@ -105,7 +105,7 @@ static bool is_as_before(const struct change *c, uint32_t i)
 
 static struct material make_material(const struct change *c, uint32_t i)
 {
-    /* What is odd in the file was said when it was read. */
+    /* Warnings were reported when the file was read. */
     struct warnings report = {0};
     struct material m =
         material_from_source(&c->sources[i], c->scene->path, &report);
@@ -114,7 +114,8 @@ static struct material make_material(const struct change *c, uint32_t i)
     return m;
 }
 
-/* Images that come into use are read into a copy of the textures. */
+/* Loads the images of a material that comes into use, into a copy of the
+ * textures, since the old array is lent. */
 static bool load_textures(struct change *c, struct material *m,
                           struct error *err)
 {
@@ -160,10 +161,10 @@ static bool make_materials(struct change *c, struct error *err)
     return ok;
 }
 
-/* ---- lights, directions ---- */
+/* ---- lights, path guide ---- */
 
-/* Is there a material in use, or a triangle, whose material is another in what
- * `differ` looks at? */
+/* Returns true if `differ` is true for a used material before and after the
+ * change, or for the material of a triangle. */
 static bool any_differs(const struct change *c,
                         bool (*differ)(const struct material *,
                                        const struct material *))
@@ -212,7 +213,7 @@ static bool needs_guide(const struct change *c)
            any_differs(c, path_guides_differ);
 }
 
-/* ---- all ---- */
+/* ---- swap ---- */
 
 static void swap_in(struct change *c)
 {

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
 /*
- * world_materials.h - gives a world other materials, and its objects
+ * world_materials.h - changes the materials of a world, and which object has
+ * which
  *
- * Builds the arrays that change beside those that are there and swaps once, so
- * that no array that was lent changes in its place. Only what depends on a
- * change is built: the lights if one of them changes, the triangles if an
- * object gets another material.
+ * The changed arrays are built beside the current ones and swapped at the end,
+ * so that lent arrays never change in place. Only arrays that depend on a
+ * change are built: the lights if an emission changes, the triangles if an
+ * object is assigned another material.
  *
- * Ownership: the world owns all; sources are copied
+ * Ownership: the world owns its arrays; sources are copied
  * Threads:   one, while nobody renders the world
- * Errors:    memory: the world is as before, but for textures that were read
+ * Errors:    memory: the world stays as before, except for textures that were
+ *            read
  */
 #ifndef GLIM_WORLD_MATERIALS_H
 #define GLIM_WORLD_MATERIALS_H
 
 #include "scene/world.h"
 
-/* Gives each material these statements, and each object the material that is
- * assigned to it, or with NO_INDEX that of the file. There are `count`
- * materials: the scene's, and new ones after them. */
+/* Sets the sources of all materials, and for each object the assigned material
+ * or NO_INDEX for that of the file. `count` is the number of sources: the
+ * scene's materials, then those of edits. */
 bool world_set_materials(struct host_world *host, const struct scene *scene,
                          uint32_t count, const struct mtl_source *sources,
                          const uint32_t *assigned, struct error *err);
