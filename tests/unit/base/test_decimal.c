@@ -26,7 +26,7 @@ static uint64_t bits_of(double value)
     return bits;
 }
 
-/* The C library's strtod() in the C locale is the truth. */
+/* Compares with strtod() of the C library in the C locale. */
 static void agrees_with_strtod(const char *text)
 {
     const char *p = text;
@@ -44,7 +44,7 @@ static void agrees_with_strtod(const char *text)
     assert_true(same);
 }
 
-static void test_forms(void **state)
+static void all_forms_are_read_as_by_strtod(void **state)
 {
     static const char *const texts[] = {
         "0",
@@ -103,7 +103,7 @@ static void test_forms(void **state)
         agrees_with_strtod(texts[i]);
 }
 
-static void test_nan(void **state)
+static void nan_is_read_in_any_case(void **state)
 {
     static const char *const texts[] = {"nan", "NaN", "-nan", "+NAN"};
 
@@ -117,7 +117,7 @@ static void test_nan(void **state)
     }
 }
 
-static void test_no_number(void **state)
+static void what_is_no_number_is_refused(void **state)
 {
     static const char *const texts[] = {"",   "+",  "-",   ".",   "+.",
                                         "e5", "x1", "--1", "+-1", " 1",
@@ -134,15 +134,16 @@ static void test_no_number(void **state)
     }
 }
 
-/* Nothing at or behind end is looked at. */
-static void test_end(void **state)
+/* The parser reads no byte at or behind the end. */
+static void parser_stops_at_the_end(void **state)
 {
     static const char text[] = "12.5e12nan";
 
     (void)state;
     for (int length = 1; length <= 7; length++) {
         static const double expected[] = {1, 12, 12, 12.5, 12.5, 125, 12.5e12};
-        char *copy = malloc((size_t)length); /* a sanitizer watches its end */
+        /* Exact size, so that a sanitizer finds reads behind it. */
+        char *copy = malloc((size_t)length);
         double value = 0;
 
         assert_non_null(copy);
@@ -154,7 +155,7 @@ static void test_end(void **state)
     }
 }
 
-static void test_random(void **state)
+static void random_numbers_are_read_as_by_strtod(void **state)
 {
     (void)state;
     for (int i = 0; i < 200000; i++) {
@@ -178,8 +179,8 @@ static void test_random(void **state)
     }
 }
 
-/* Exact half-way points and their neighbours, as long as they get. */
-static void test_halfway(void **state)
+/* Tests exact half-way points and their neighbours, at full length. */
+static void halfway_points_round_as_by_strtod(void **state)
 {
     char text[2000];
 
@@ -187,7 +188,8 @@ static void test_halfway(void **state)
     for (int i = 0; i < 300; i++) {
         uint64_t mantissa = (next_random() >> 11) | UINT64_C(1) << 52;
         int exponent = -1070 + i * 7 % 1000;
-        /* a 54-bit number in long double is exact; so is its decimal form */
+        /* A 54-bit number is exact in long double, and so is its decimal
+         * form. */
         long double half = ldexpl((long double)mantissa * 2 + 1, exponent);
         int length = snprintf(text, sizeof text - 2, "%.1100Lf", half);
         assert_in_range(length, 1, (int)sizeof text - 3);
@@ -197,7 +199,7 @@ static void test_halfway(void **state)
     }
 }
 
-static void test_long(void **state)
+static void a_million_digits_are_read_as_by_strtod(void **state)
 {
     size_t length = 1000000;
     char *text = malloc(length + 32);
@@ -214,7 +216,7 @@ static void test_long(void **state)
     free(text);
 }
 
-static void test_decimal_comma(void **state)
+static void locale_with_decimal_comma_changes_nothing(void **state)
 {
     const char *p = "0.12345678901234567890123";
     double value = 0;
@@ -231,8 +233,8 @@ static void test_decimal_comma(void **state)
     assert_string_equal(text, "2.5");
 }
 
-/* In Turkish the small letter of I is another one. */
-static void test_turkish_letters(void **state)
+/* In Turkish the small letter of I is not i. */
+static void turkish_locale_changes_nothing(void **state)
 {
     static const char text[] = "INFINITY";
     const char *p = text;
@@ -247,7 +249,7 @@ static void test_turkish_letters(void **state)
     assert_true(ok && value == INFINITY && *p == '\0');
 }
 
-static void test_format(void **state)
+static void formatted_doubles_are_read_back_exactly(void **state)
 {
     static const struct {
         double value;
@@ -281,8 +283,9 @@ static void test_format(void **state)
     }
 }
 
-/* No shorter text gives the same float, and that of a double none of it. */
-static void test_shortest(void **state)
+/* No shorter text gives the same float. The text of a double gives the same
+ * double. */
+static void shortest_text_gives_the_same_number(void **state)
 {
     static const struct {
         double value;
@@ -328,17 +331,17 @@ static void test_shortest(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_forms),
-        cmocka_unit_test(test_nan),
-        cmocka_unit_test(test_no_number),
-        cmocka_unit_test(test_end),
-        cmocka_unit_test(test_shortest),
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_halfway),
-        cmocka_unit_test(test_long),
-        cmocka_unit_test(test_decimal_comma),
-        cmocka_unit_test(test_turkish_letters),
-        cmocka_unit_test(test_format),
+        cmocka_unit_test(all_forms_are_read_as_by_strtod),
+        cmocka_unit_test(nan_is_read_in_any_case),
+        cmocka_unit_test(what_is_no_number_is_refused),
+        cmocka_unit_test(parser_stops_at_the_end),
+        cmocka_unit_test(shortest_text_gives_the_same_number),
+        cmocka_unit_test(random_numbers_are_read_as_by_strtod),
+        cmocka_unit_test(halfway_points_round_as_by_strtod),
+        cmocka_unit_test(a_million_digits_are_read_as_by_strtod),
+        cmocka_unit_test(locale_with_decimal_comma_changes_nothing),
+        cmocka_unit_test(turkish_locale_changes_nothing),
+        cmocka_unit_test(formatted_doubles_are_read_back_exactly),
     };
 
     return cmocka_run_group_tests_name("number", tests, make_folder,

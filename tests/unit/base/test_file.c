@@ -35,7 +35,7 @@ static void write_fails(const char *path, const char *expected)
     assert_string_equal(err.text, expected);
 }
 
-static void test_read(void **state)
+static void contents_are_read_whole(void **state)
 {
     struct error err;
     char *text = NULL;
@@ -54,7 +54,7 @@ static void test_read(void **state)
     free(text);
 }
 
-static void test_read_errors(void **state)
+static void unreadable_files_have_their_message(void **state)
 {
     (void)state;
     put("plain", "");
@@ -68,7 +68,7 @@ static void test_read_errors(void **state)
     read_fails("sub", "sub: found a folder, expected a file");
     read_fails("plain/x",
                "plain/x: no such file: a part of the path is not a folder");
-    alarm(5); /* a pipe without a writer must not be waited for */
+    alarm(5); /* opening a pipe without a writer must not block */
     read_fails("pipe", "pipe: found a pipe, expected a file");
     alarm(0);
     read_fails("/dev/zero", "/dev/zero: found a device, expected a file");
@@ -81,7 +81,7 @@ static void test_read_errors(void **state)
     unlink("huge");
 }
 
-static void test_write(void **state)
+static void files_are_written_and_replaced(void **state)
 {
     struct error err;
     struct stat st;
@@ -104,9 +104,9 @@ static void test_write(void **state)
     assert_int_equal(count_files("w"), 1);
 }
 
-/* What someone else has written since it was read is left alone, whether in
- * place, by a new file of the same length, or where there was none. */
-static void test_replace(void **state)
+/* A file that someone else has written since it was read is left alone, whether
+ * it was written in place, replaced by one of the same length, or is new. */
+static void files_changed_by_others_are_not_replaced(void **state)
 {
     struct file_change change = {.before = file_identify("r/a")};
     struct file_identity first;
@@ -134,7 +134,7 @@ static void test_replace(void **state)
     assert_int_equal(count_files("r"), 1);
 }
 
-static void test_must_be_new(void **state)
+static void new_files_do_not_replace_others(void **state)
 {
     struct error err;
     bool exists = false;
@@ -156,8 +156,8 @@ static void test_must_be_new(void **state)
     assert_int_equal(count_files("n"), 2);
 }
 
-/* The first free name, and nothing of the others changes. */
-static void test_numbered(void **state)
+/* The first free name is taken, and the other files do not change. */
+static void numbered_files_take_the_first_free_name(void **state)
 {
     static const char *const names[] = {"m/a.txt", "m/a-2.txt", "m/a-4.txt"};
     struct error err;
@@ -183,7 +183,7 @@ static void test_numbered(void **state)
     assert_string_equal(err.text, "m/none/a.txt: no such file or folder");
 }
 
-static void test_links(void **state)
+static void links_are_followed_when_writing(void **state)
 {
     struct error err;
     struct stat st;
@@ -205,7 +205,7 @@ static void test_links(void **state)
     write_fails("l/loop", "l/loop: Too many levels of symbolic links");
 }
 
-static void test_write_errors(void **state)
+static void unwritable_places_have_their_message(void **state)
 {
     (void)state;
     mkdir("sub", 0777);
@@ -224,7 +224,8 @@ static void test_write_errors(void **state)
     assert_non_null(strstr(err.text, ": File name too long"));
 }
 
-/* Runs the function as a user without rights; true if it returned true. */
+/* Runs the function as a user without rights. Returns true if it returned
+ * true. */
 static bool as_nobody(bool (*check)(void))
 {
     int status;
@@ -264,7 +265,7 @@ static bool permissions_are_respected(void)
            strcmp(err.text, "open/secret: Permission denied") == 0;
 }
 
-static void test_permissions(void **state)
+static void permissions_are_respected_without_root(void **state)
 {
     (void)state;
     chmod(folder, 0755);
@@ -292,7 +293,7 @@ static bool full_disk_leaves_old(void)
            strcmp(err.text, "full/a: File too large") == 0;
 }
 
-static void test_disk_full(void **state)
+static void full_disk_keeps_the_old_file(void **state)
 {
     (void)state;
     mkdir("full", 0777);
@@ -310,7 +311,7 @@ static void path_is(char *path, const char *expected)
     free(path);
 }
 
-static void test_same_path(void **state)
+static void same_file_is_known_by_any_path(void **state)
 {
     (void)state;
     mkdir("same", 0777);
@@ -331,7 +332,7 @@ static void test_same_path(void **state)
     assert_true(path_is_same("none/a", "none/a"));
 }
 
-static void test_paths(void **state)
+static void paths_are_joined_and_cut(void **state)
 {
     (void)state;
     path_is(path_beside("a/b.obj", "c.mtl"), "a/c.mtl");
@@ -349,12 +350,18 @@ static void test_paths(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_read),        cmocka_unit_test(test_read_errors),
-        cmocka_unit_test(test_write),       cmocka_unit_test(test_replace),
-        cmocka_unit_test(test_must_be_new), cmocka_unit_test(test_numbered),
-        cmocka_unit_test(test_links),       cmocka_unit_test(test_write_errors),
-        cmocka_unit_test(test_permissions), cmocka_unit_test(test_disk_full),
-        cmocka_unit_test(test_same_path),   cmocka_unit_test(test_paths),
+        cmocka_unit_test(contents_are_read_whole),
+        cmocka_unit_test(unreadable_files_have_their_message),
+        cmocka_unit_test(files_are_written_and_replaced),
+        cmocka_unit_test(files_changed_by_others_are_not_replaced),
+        cmocka_unit_test(new_files_do_not_replace_others),
+        cmocka_unit_test(numbered_files_take_the_first_free_name),
+        cmocka_unit_test(links_are_followed_when_writing),
+        cmocka_unit_test(unwritable_places_have_their_message),
+        cmocka_unit_test(permissions_are_respected_without_root),
+        cmocka_unit_test(full_disk_keeps_the_old_file),
+        cmocka_unit_test(same_file_is_known_by_any_path),
+        cmocka_unit_test(paths_are_joined_and_cut),
     };
 
     return cmocka_run_group_tests_name("file", tests, enter_folder,

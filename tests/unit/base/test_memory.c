@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "terminal/xmalloc.h"
 
-static void test_strings(void **state)
+static void strings_are_copied_and_formatted(void **state)
 {
     char *a = xstrdup("abc"), *b = xformat("%s-%d", a, 12);
 
@@ -22,7 +22,7 @@ static void test_strings(void **state)
     free(xmalloc(0));
 }
 
-static void test_alloc_array(void **state)
+static void arrays_beyond_memory_are_refused(void **state)
 {
     (void)state;
     unsigned char *p = alloc_array(1000, 7);
@@ -38,7 +38,7 @@ static void test_alloc_array(void **state)
     assert_null(alloc_array(SIZE_MAX, 1));
 }
 
-static void test_grow_array(void **state)
+static void arrays_keep_their_contents_as_they_grow(void **state)
 {
     uint32_t *items = NULL;
     void *array = NULL;
@@ -65,7 +65,7 @@ static void test_grow_array(void **state)
     free(array);
 }
 
-static void hook(void)
+static void print_hook(void)
 {
     static const char text[] = "restored\n";
 
@@ -73,8 +73,9 @@ static void hook(void)
         _exit(9);
 }
 
-/* Out of memory: the hook, one line, exit status 1. */
-static void test_out_of_memory(void **state)
+/* When memory is out, the hook is called, one line is printed, and the exit
+ * status is 1. */
+static void out_of_memory_calls_the_hook_and_exits(void **state)
 {
     int ends[2], status;
     char text[200] = "";
@@ -86,7 +87,7 @@ static void test_out_of_memory(void **state)
     pid_t child = fork();
     if (child == 0) {
         dup2(ends[1], STDERR_FILENO);
-        xmalloc_set_hook(hook);
+        xmalloc_set_hook(print_hook);
         xcalloc(SIZE_MAX / 2, 4);
         _exit(0);
     }
@@ -103,10 +104,10 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_strings),
-        cmocka_unit_test(test_alloc_array),
-        cmocka_unit_test(test_grow_array),
-        cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(strings_are_copied_and_formatted),
+        cmocka_unit_test(arrays_beyond_memory_are_refused),
+        cmocka_unit_test(arrays_keep_their_contents_as_they_grow),
+        cmocka_unit_test(out_of_memory_calls_the_hook_and_exits),
     };
 
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);

@@ -16,7 +16,7 @@ static void check_shown(const char *text, const char *expected)
     free(shown);
 }
 
-static void test_what_is_shown(void **state)
+static void control_characters_are_replaced(void **state)
 {
     static const struct {
         const char *text, *shown;
@@ -28,27 +28,27 @@ static void test_what_is_shown(void **state)
         {"a\rb\nc\td\177", "a?b?c?d?"},
         {"\x9b"
          "31m",
-         "?31m"}, /* a C1 control as a byte */
+         "?31m"}, /* C1 control in Latin-1 */
         {"\xc2\x9b"
          "31m",
-         "?31m"}, /* and in UTF-8 */
+         "?31m"}, /* the same in UTF-8 */
         {"\xc2\x80\xc2\x9f\xc2\xa1", "??\xc2\xa1"},
         {"a\xff\xfe"
          "b",
          "a??b"},
-        {"\xe6\x97", "??"},      /* cut */
+        {"\xe6\x97", "??"},      /* cut short */
         {"\xc0\x80", "??"},      /* overlong */
-        {"\xed\xa0\x80", "???"}, /* a surrogate */
+        {"\xed\xa0\x80", "???"}, /* surrogate */
         {"a\xe2\x80\xae"
          "jbo",
-         "a?jbo"}, /* U+202E turns what follows */
+         "a?jbo"}, /* U+202E reverses the direction of the text */
         {"a\xe2\x81\xa9"
          "b",
-         "a?b"}, /* U+2069 */
+         "a?b"}, /* U+2069 isolates a direction */
         {"a\xe2\x80\xa8"
          "b",
-         "a?b"},                          /* U+2028 ends a line */
-        {"\xee\x82\xa0", "\xee\x82\xa0"}, /* a private character */
+         "a?b"},                          /* U+2028 ends the line */
+        {"\xee\x82\xa0", "\xee\x82\xa0"}, /* private-use character */
     };
 
     (void)state;
@@ -57,8 +57,8 @@ static void test_what_is_shown(void **state)
         check_shown(cases[i].text, cases[i].shown);
 }
 
-/* A terminal of 8 bits would obey parts of characters in UTF-8. */
-static void test_other_encodings(void **state)
+/* A terminal of 8 bits would obey single bytes of UTF-8 characters. */
+static void no_utf8_goes_to_terminals_without_it(void **state)
 {
     (void)state;
     setlocale(LC_CTYPE, "C");
@@ -68,8 +68,8 @@ static void test_other_encodings(void **state)
     setlocale(LC_CTYPE, "C.UTF-8");
 }
 
-/* No byte of any text of two bytes gets out that a terminal obeys. */
-static void test_all_pairs(void **state)
+/* No text of two bytes sends a control character to the terminal. */
+static void no_pair_of_bytes_controls_the_terminal(void **state)
 {
     (void)state;
     for (int a = 1; a < 256; a++) {
@@ -86,7 +86,7 @@ static void test_all_pairs(void **state)
     }
 }
 
-static void test_lines(void **state)
+static void only_line_ends_of_print_lines_are_kept(void **state)
 {
     char *text = NULL;
     size_t size_bytes;
@@ -105,10 +105,10 @@ static void test_lines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_is_shown),
-        cmocka_unit_test(test_other_encodings),
-        cmocka_unit_test(test_all_pairs),
-        cmocka_unit_test(test_lines),
+        cmocka_unit_test(control_characters_are_replaced),
+        cmocka_unit_test(no_utf8_goes_to_terminals_without_it),
+        cmocka_unit_test(no_pair_of_bytes_controls_the_terminal),
+        cmocka_unit_test(only_line_ends_of_print_lines_are_kept),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,8 +19,8 @@
 
 #include "base/file.h"
 
-/* Makes a system call fail in this process, where all bits of one of its
- * arguments are set: as file systems and sandboxes do it. */
+/* Makes a system call fail in this process if all these bits are set in the
+ * argument, as some file systems and sandboxes do. */
 static bool forbid(int call, int argument, unsigned bits, int reason)
 {
     unsigned at =
@@ -52,9 +52,9 @@ static bool take_way(enum way way)
     }
 }
 
-/* Runs the function in a process of its own, where files are written in this
- * way; returns its wait status. */
-static int in_way(enum way way, bool (*check)(void))
+/* Runs the function in a child process in which files are written in this way.
+ * Returns its wait status. */
+static int run_in_way(enum way way, bool (*check)(void))
 {
     int status;
     pid_t child = fork();
@@ -87,13 +87,13 @@ static bool files_are_written(void)
            !file_replace("ways/c", "six", 3, &change, &err);
 }
 
-/* The same files come out whatever the file system can, and nothing else. */
-static void test_ways(void **state)
+/* Every way of writing gives the same files and leaves no others. */
+static void every_way_of_writing_gives_the_same_files(void **state)
 {
     (void)state;
     for (enum way way = UNNAMED; way < WAYS; way++) {
         mkdir("ways", 0777);
-        int status = in_way(way, files_are_written);
+        int status = run_in_way(way, files_are_written);
         if (WIFEXITED(status) && WEXITSTATUS(status) == 77)
             skip();
         assert_int_equal(status, 0);
@@ -106,8 +106,9 @@ static void test_ways(void **state)
     }
 }
 
-/* Ends in the middle: the limit's signal is not caught. */
-static bool dies_while_it_writes(void)
+/* Dies in the middle of a write: the signal of the file size limit is not
+ * caught. */
+static bool die_while_writing(void)
 {
     static char data[65536];
     struct rlimit limit = {4096, 4096};
@@ -118,9 +119,9 @@ static bool dies_while_it_writes(void)
            file_write("dead/a", data, sizeof data, false, NULL, &err);
 }
 
-/* A process that dies leaves nothing where files need no names, and elsewhere
- * nothing behind the next save. */
-static void test_killed(void **state)
+/* A process that dies leaves no file if unnamed files exist. Elsewhere the next
+ * save removes what it left. */
+static void files_of_killed_processes_are_removed(void **state)
 {
     struct error err;
 
@@ -130,11 +131,11 @@ static void test_killed(void **state)
     int fd = open("dead", O_TMPFILE | O_WRONLY, 0666);
     if (fd >= 0) {
         close(fd);
-        assert_true(WIFSIGNALED(in_way(UNNAMED, dies_while_it_writes)));
+        assert_true(WIFSIGNALED(run_in_way(UNNAMED, die_while_writing)));
         has("dead/a", "old");
         assert_int_equal(count_files("dead"), 1);
     }
-    int status = in_way(NO_UNNAMED_FILES, dies_while_it_writes);
+    int status = run_in_way(NO_UNNAMED_FILES, die_while_writing);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 77)
         skip();
     assert_true(WIFSIGNALED(status));
@@ -146,11 +147,13 @@ static void test_killed(void **state)
     has("dead/b", "new");
 }
 
-/* What others may still be writing, or have called nearly so, stays. */
-static void test_left_over(void **state)
+/* Files that other processes may still be writing, and files with similar
+ * names, stay. */
+static void files_of_other_processes_stay(void **state)
 {
     static const char *const kept[] = {
-        ".glim-12345678-1-00000000", /* another host: it may be alive */
+        ".glim-12345678-1-00000000", /* another host: its process may be running
+                                      */
         ".glim-12345678-01-00000000", ".glim-12345678-1-0000000",
         ".glim-12345678-1-00000000x", ".glim-12345678--1-00000000",
         ".glim-1234567g-1-00000000",  "glim-12345678-1-00000000"};
@@ -191,9 +194,9 @@ static void test_left_over(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_killed),
-        cmocka_unit_test(test_left_over),
+        cmocka_unit_test(every_way_of_writing_gives_the_same_files),
+        cmocka_unit_test(files_of_killed_processes_are_removed),
+        cmocka_unit_test(files_of_other_processes_stay),
     };
 
     return cmocka_run_group_tests_name("temp_file", tests, enter_folder,

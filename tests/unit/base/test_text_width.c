@@ -5,8 +5,8 @@
 #include "base/text_width.h"
 #include "tests/unit/check.h"
 
-/* Greek and Latin letters take one column, CJK and emoji two, what combines
- * with the letter before none: Unicode Standard Annex 11. */
+/* Greek and Latin letters take one column, CJK and emoji two. Combining marks
+ * take none. See Unicode Standard Annex 11. */
 #define UMLAUTS   "\xc3\xbc\xc3\xa4"         /* 2 columns, 4 bytes */
 #define NIHON     "\xe6\x97\xa5\xe6\x9c\xac" /* 4 columns, 6 bytes */
 #define ACUTE     "e\xcc\x81"                /* 1 column, 3 bytes */
@@ -20,7 +20,7 @@ static void check_fit(const char *text, int cols, const char *expected)
     assert_string_equal(to, expected);
 }
 
-static void test_widths(void **state)
+static void widths_are_those_of_annex_11(void **state)
 {
     (void)state;
     assert_int_equal(text_width_of(""), 0);
@@ -30,7 +30,7 @@ static void test_widths(void **state)
     assert_int_equal(text_width_of(ACUTE), 1);
 }
 
-static void test_blanks_fill_up(void **state)
+static void blanks_fill_up_to_the_width(void **state)
 {
     (void)state;
     check_fit("abc", 5, "abc  ");
@@ -41,8 +41,8 @@ static void test_blanks_fill_up(void **state)
     check_fit("abc", 0, "");
 }
 
-/* Half of a wide character has no place: a blank takes it. */
-static void test_cuts_between_characters(void **state)
+/* A wide character that would be cut in half is replaced by a blank. */
+static void texts_are_cut_between_characters(void **state)
 {
     (void)state;
     check_fit("abcdef", 3, "abc");
@@ -51,20 +51,20 @@ static void test_cuts_between_characters(void **state)
     check_fit(ACUTE "x", 1, ACUTE);
 }
 
-static void test_what_cannot_be_shown(void **state)
+static void controls_and_invalid_bytes_are_replaced(void **state)
 {
     (void)state;
     check_fit("a\tb\033c\nd\177", 8, "a?b?c?d?");
     check_fit("\xc2\x9b"
               "1m",
-              3, "?1m"); /* a C1 control character */
+              3, "?1m"); /* C1 control character */
     check_fit("a\xff\xfe"
               "b",
               4, "a??b");
     check_fit(HALF_CHAR, 2, "??");
 }
 
-static void test_few_bytes(void **state)
+static void short_buffers_hold_whole_characters(void **state)
 {
     char to[6];
 
@@ -80,11 +80,11 @@ static void test_few_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_widths),
-        cmocka_unit_test(test_blanks_fill_up),
-        cmocka_unit_test(test_cuts_between_characters),
-        cmocka_unit_test(test_what_cannot_be_shown),
-        cmocka_unit_test(test_few_bytes),
+        cmocka_unit_test(widths_are_those_of_annex_11),
+        cmocka_unit_test(blanks_fill_up_to_the_width),
+        cmocka_unit_test(texts_are_cut_between_characters),
+        cmocka_unit_test(controls_and_invalid_bytes_are_replaced),
+        cmocka_unit_test(short_buffers_hold_whole_characters),
     };
 
     setlocale(LC_CTYPE, "C.UTF-8");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* test_thread.c - which signals reach a thread, and which only the main one */
+/* test_thread.c - signals that reach a thread, and those that only the main
+ * thread gets */
 #include <sched.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -23,7 +24,7 @@ static void *raise_fault(void *number)
     return NULL;
 }
 
-/* The status of a process in which a thread has this fault. */
+/* Returns the wait status of a process in which a thread raises this fault. */
 static int status_after(int number)
 {
     pid_t child = fork();
@@ -41,7 +42,7 @@ static int status_after(int number)
     return status;
 }
 
-static void faults_reach_their_handler(void **state)
+static void faults_of_threads_reach_their_handler(void **state)
 {
     static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
@@ -59,7 +60,7 @@ static void *read_mask(void *mask)
     return NULL;
 }
 
-static void others_are_the_main_thread_s(void **state)
+static void other_signals_reach_only_the_main_thread(void **state)
 {
     static const int others[] = {SIGINT,  SIGTERM, SIGHUP,
                                  SIGTSTP, SIGCONT, SIGWINCH};
@@ -78,7 +79,7 @@ static void others_are_the_main_thread_s(void **state)
     }
 }
 
-static void test_threads(void **state)
+static void usable_threads_follow_the_affinity_mask(void **state)
 {
     cpu_set_t mask, one;
 
@@ -100,9 +101,9 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faults_reach_their_handler),
-        cmocka_unit_test(others_are_the_main_thread_s),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(faults_of_threads_reach_their_handler),
+        cmocka_unit_test(other_signals_reach_only_the_main_thread),
+        cmocka_unit_test(usable_threads_follow_the_affinity_mask),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,7 +14,7 @@ struct tally {
     atomic_int total;
     struct cancel *cancel;
     int cancel_at;
-    int last_at; /* the first item ends when so many have begun; 0: at once */
+    int last_at; /* the first item ends when this many have begun; 0: at once */
 };
 
 static void count_item(void *context, uint32_t item, int worker)
@@ -29,7 +29,8 @@ static void count_item(void *context, uint32_t item, int worker)
         sched_yield();
 }
 
-/* While the first item lasts, the others steal all that its worker has. */
+/* While the first item lasts, other workers steal the rest of its worker's
+ * items. */
 static void each_item_runs_once(void **state)
 {
     static struct tally t;
@@ -69,7 +70,7 @@ static void cancelling_starts_no_more(void **state)
         t.cancel_at = 50;
         cancel_reset(&cancel);
         assert_false(pool_run(pool, ITEMS, count_item, &t, &cancel));
-        /* each of the others may have one in hand */
+        /* Each of the other workers may have one item in progress. */
         assert_in_range(atomic_load(&t.total), 50, 53);
     }
     cancel_reset(&cancel);
@@ -106,9 +107,9 @@ static uint64_t used_ns(const struct pool *pool)
     return pool_cpu_ns(pool, 0) + pool_cpu_ns(pool, 1);
 }
 
-/* The workers' time has what their items have burnt, and is a part of the
- * process's. It stands still while they are parked and another thread burns
- * time: at the first try, or when they have come to park. */
+/* The processor time of the workers is that of their items, and a part of the
+ * process's. It stands still while the workers are parked and another thread
+ * uses time. The test tries again if the workers have not parked yet. */
 static void processor_time_is_that_of_the_items(void **state)
 {
     struct cancel cancel = {0};

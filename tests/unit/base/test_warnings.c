@@ -11,7 +11,7 @@
 
 #include "base/warnings.h"
 
-/* What warnings_print() writes, in memory for free(). */
+/* Returns the output of warnings_print(), for free(). */
 static char *printed(const struct warnings *r)
 {
     char *text = NULL;
@@ -24,7 +24,7 @@ static char *printed(const struct warnings *r)
     return text;
 }
 
-static void test_empty_prints_nothing(void **state)
+static void no_warnings_print_nothing(void **state)
 {
     struct warnings r = {0};
     char *text = printed(&r);
@@ -35,7 +35,7 @@ static void test_empty_prints_nothing(void **state)
     warnings_free(&r);
 }
 
-static void test_first_of_each_kind_then_counts(void **state)
+static void first_of_each_kind_is_printed_then_counts(void **state)
 {
     struct warnings r = {0};
     char *text;
@@ -53,7 +53,7 @@ static void test_first_of_each_kind_then_counts(void **state)
     warnings_free(&r);
 }
 
-static void test_many_kinds(void **state)
+static void a_hundred_kinds_are_counted(void **state)
 {
     struct warnings r = {0};
 
@@ -74,7 +74,7 @@ static void test_many_kinds(void **state)
     assert_int_equal(r.entry_count, 0);
 }
 
-static void test_controls_do_not_reach_the_terminal(void **state)
+static void control_characters_are_replaced(void **state)
 {
     struct warnings r = {0};
     char *text = NULL;
@@ -95,7 +95,7 @@ static void test_controls_do_not_reach_the_terminal(void **state)
     warnings_free(&r);
 }
 
-static void test_long_text_is_cut(void **state)
+static void long_texts_are_cut(void **state)
 {
     struct warnings r = {0};
     char *word = malloc(100001);
@@ -109,7 +109,7 @@ static void test_long_text_is_cut(void **state)
     warnings_free(&r);
 }
 
-static void test_names_of_a_kind(void **state)
+static void names_of_a_kind_are_counted_up_to_a_limit(void **state)
 {
     struct warnings r = {0};
     const struct warnings_entry *last;
@@ -136,12 +136,12 @@ static void test_names_of_a_kind(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_empty_prints_nothing),
-        cmocka_unit_test(test_first_of_each_kind_then_counts),
-        cmocka_unit_test(test_many_kinds),
-        cmocka_unit_test(test_controls_do_not_reach_the_terminal),
-        cmocka_unit_test(test_long_text_is_cut),
-        cmocka_unit_test(test_names_of_a_kind),
+        cmocka_unit_test(no_warnings_print_nothing),
+        cmocka_unit_test(first_of_each_kind_is_printed_then_counts),
+        cmocka_unit_test(a_hundred_kinds_are_counted),
+        cmocka_unit_test(control_characters_are_replaced),
+        cmocka_unit_test(long_texts_are_cut),
+        cmocka_unit_test(names_of_a_kind_are_counted_up_to_a_limit),
     };
 
     setlocale(LC_CTYPE, "C.UTF-8");

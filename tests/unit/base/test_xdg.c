@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The rules of the XDG base directory specification: an absolute folder in the
- * variable, else below the home.
+ * Tests the rules of the XDG base directory specification: the variable counts
+ * if it names an absolute folder, otherwise a folder in the home.
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -34,7 +34,7 @@ static void is_folder(const char *variable, const char *home,
     free(found);
 }
 
-static void folders_are_where_they_belong(void **state)
+static void folders_follow_the_specification(void **state)
 {
     (void)state;
     is_folder("/a/b", "/home/c", "/a/b/glim");
@@ -69,7 +69,7 @@ static void state_folders_are_made(void **state)
     }
 }
 
-static void no_folder_is_no_path(void **state)
+static void folder_that_cannot_be_made_gives_no_path(void **state)
 {
     char file[256];
     FILE *to;
@@ -86,9 +86,9 @@ static void no_folder_is_no_path(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(folders_are_where_they_belong),
+        cmocka_unit_test(folders_follow_the_specification),
         cmocka_unit_test(state_folders_are_made),
-        cmocka_unit_test(no_folder_is_no_path),
+        cmocka_unit_test(folder_that_cannot_be_made_gives_no_path),
     };
 
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

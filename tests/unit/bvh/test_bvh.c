@@ -40,13 +40,13 @@ static void threads_build_the_same_tree(void **state)
     mesh_free(&m);
 }
 
-struct seen {
+struct tree_check {
     const struct mesh *mesh;
     bool *tris;
     uint32_t nodes, depth;
 };
 
-static void look_at_leaf(struct seen *s, const struct node *n)
+static void visit_leaf(struct tree_check *s, const struct node *n)
 {
     for (uint32_t i = n->next; i < n->next + n->count; i++) {
         const struct leaf_tri *t = &s->mesh->bvh.leaf_tris[i];
@@ -59,7 +59,7 @@ static void look_at_leaf(struct seen *s, const struct node *n)
     }
 }
 
-static void look_at_node(struct seen *s, uint32_t index, uint32_t depth)
+static void visit_node(struct tree_check *s, uint32_t index, uint32_t depth)
 {
     const struct node *n = &s->mesh->bvh.nodes[index];
     uint32_t children[2] = {index + 1, n->next};
@@ -67,7 +67,7 @@ static void look_at_node(struct seen *s, uint32_t index, uint32_t depth)
     s->nodes++;
     s->depth = depth > s->depth ? depth : s->depth;
     if (n->count != 0) {
-        look_at_leaf(s, n);
+        visit_leaf(s, n);
         return;
     }
     for (int i = 0; i < 2; i++) {
@@ -75,19 +75,19 @@ static void look_at_node(struct seen *s, uint32_t index, uint32_t depth)
 
         assert_true(v3_is_between(child->lo, n->lo, n->hi) &&
                     v3_is_between(child->hi, n->lo, n->hi));
-        look_at_node(s, children[i], depth + 1);
+        visit_node(s, children[i], depth + 1);
     }
 }
 
-static void boxes_hold_what_is_below(void **state)
+static void boxes_enclose_their_subtrees(void **state)
 {
     struct mesh m = {0};
-    struct seen s = {&m, calloc(MANY, sizeof *s.tris), 0, 0};
+    struct tree_check s = {&m, calloc(MANY, sizeof *s.tris), 0, 0};
 
     (void)state;
     mesh_add_many(&m, MANY, 4);
     mesh_finish(&m);
-    look_at_node(&s, 0, 0);
+    visit_node(&s, 0, 0);
     assert_int_equal(s.nodes, m.bvh.node_count);
     assert_in_range(m.bvh.depth, s.depth, TRAVERSE_STACK - 1);
     for (uint32_t i = 0; i < MANY; i++)
@@ -96,7 +96,7 @@ static void boxes_hold_what_is_below(void **state)
     mesh_free(&m);
 }
 
-/* Two squares of two triangles side by side. */
+/* Adds two squares of two triangles each, side by side. */
 static void add_domino(struct mesh *m, float x, float size)
 {
     for (int i = 0; i < 2; i++) {
@@ -107,9 +107,9 @@ static void add_domino(struct mesh *m, float x, float size)
     }
 }
 
-/* Parted, a domino costs as much as one block of four, and half of what two
- * blocks of two would cost. */
-static void large_triangles_lie_apart(void **state)
+/* Two separate leaves for a domino cost as much as one leaf block of four, and
+ * half of two blocks of two. */
+static void large_triangles_are_in_separate_leaves(void **state)
 {
     const struct bvh_leaves leaves = {2, 1, 4.0f, 16};
     uint32_t of_two = 0, of_four = 0;
@@ -137,8 +137,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_build_the_same_tree),
-        cmocka_unit_test(boxes_hold_what_is_below),
-        cmocka_unit_test(large_triangles_lie_apart),
+        cmocka_unit_test(boxes_enclose_their_subtrees),
+        cmocka_unit_test(large_triangles_are_in_separate_leaves),
     };
 
     return run_trees() + cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* Built for other sets of instructions as well; ISA is the name of the set. */
+/* This file is built for several instruction sets; ISA is the name of the
+ * set. */
 #include "bvh/bvh8_traverse.h"
 #include "render/cpu_dispatch.h"
 
@@ -9,13 +10,13 @@
 #define ISA "plain"
 #endif
 
-static void instructions_are_missing(void **state)
+static void machine_without_the_instructions_skips(void **state)
 {
     (void)state;
     skip();
 }
 
-/* From one point through a row of others. */
+/* Says whether rays from one point through a row of points are a group. */
 static bool is_group(uint32_t count, float left, float width)
 {
     struct mesh m = {0};
@@ -38,7 +39,7 @@ static bool is_group(uint32_t count, float left, float width)
     return taken;
 }
 
-static void neighbours_are_a_group(void **state)
+static void only_similar_rays_are_a_group(void **state)
 {
     (void)state;
     assert_true(is_group(GROUP, 0.2f, 0.01f));
@@ -53,10 +54,10 @@ static void neighbours_are_a_group(void **state)
 int main(void)
 {
     const struct CMUnitTest groups[] = {
-        cmocka_unit_test(neighbours_are_a_group),
+        cmocka_unit_test(only_similar_rays_are_a_group),
     };
     const struct CMUnitTest none[] = {
-        cmocka_unit_test(instructions_are_missing),
+        cmocka_unit_test(machine_without_the_instructions_skips),
     };
     struct error err;
 

@@ -28,10 +28,10 @@ static void threads_build_the_same_tree(void **state)
     mesh_free(&m);
 }
 
-struct seen {
+struct tree_check {
     const struct mesh *mesh;
     bool *tris;
-    double cost; /* times the area of the root */
+    double cost; /* in units of the root's area */
 };
 
 static struct vec3 plane(const struct bvh8_node *n, int side, uint32_t i)
@@ -47,9 +47,9 @@ static double area(struct vec3 lo, struct vec3 hi)
     return x * y + y * z + z * x;
 }
 
-/* Each triangle is in its box, and in those above. */
-static void look_at_leaf(struct seen *s, uint32_t child, struct vec3 lo,
-                         struct vec3 hi)
+/* Each triangle is in its own box and in those of all ancestors. */
+static void visit_leaf(struct tree_check *s, uint32_t child, struct vec3 lo,
+                       struct vec3 hi)
 {
     const struct tri_block *block = bvh8_block_at(s->mesh->wide.nodes, child);
     uint32_t count = (child & BVH8_MORE) + 1;
@@ -66,8 +66,8 @@ static void look_at_leaf(struct seen *s, uint32_t child, struct vec3 lo,
     }
 }
 
-static void look_at_node(struct seen *s, const struct bvh8_node *n,
-                         struct vec3 lo, struct vec3 hi)
+static void visit_node(struct tree_check *s, const struct bvh8_node *n,
+                       struct vec3 lo, struct vec3 hi)
 {
     s->cost += area(lo, hi);
     for (uint32_t i = 0; i < BVH8_CHILDREN; i++) {
@@ -77,26 +77,26 @@ static void look_at_node(struct seen *s, const struct bvh8_node *n,
             continue;
         assert_true(v3_is_between(low, lo, hi) && v3_is_between(high, lo, hi));
         if ((n->child[i] & BVH8_LEAF) != 0)
-            look_at_leaf(s, n->child[i], low, high);
+            visit_leaf(s, n->child[i], low, high);
         else
-            look_at_node(s, bvh8_node_at(s->mesh->wide.nodes, n->child[i]), low,
-                         high);
+            visit_node(s, bvh8_node_at(s->mesh->wide.nodes, n->child[i]), low,
+                       high);
     }
 }
 
-/* Cost of the tree; looks at all of it. */
+/* Visits the whole tree and returns its cost. */
 static double cost_of(const struct mesh *m, const struct node *root)
 {
-    struct seen s = {m, calloc(m->tri_count, sizeof *s.tris), 0};
+    struct tree_check s = {m, calloc(m->tri_count, sizeof *s.tris), 0};
 
-    look_at_node(&s, m->wide.nodes, root->lo, root->hi);
+    visit_node(&s, m->wide.nodes, root->lo, root->hi);
     for (uint32_t i = 0; i < m->tri_count; i++)
         assert_true(s.tris[i]);
     free(s.tris);
     return s.cost;
 }
 
-/* What the wide tree is made from. */
+/* Builds the binary tree from which the wide tree is made. */
 static struct bvh binary_of(const struct mesh *m)
 {
     struct bvh bvh = {0};
@@ -106,7 +106,7 @@ static struct bvh binary_of(const struct mesh *m)
     return bvh;
 }
 
-static void boxes_hold_what_is_below(void **state)
+static void boxes_enclose_their_subtrees(void **state)
 {
     struct mesh m = {0};
     struct bvh bvh;
@@ -131,8 +131,8 @@ static uint32_t tris_below(const struct bvh *bvh, uint32_t node)
 static double least_cost(const struct bvh *bvh, uint32_t node, bool is_root,
                          double *known);
 
-/* The least of all sets of at most eight children: some of `cut`, from `at` on,
- * are opened. */
+/* Returns the least cost of all sets of at most eight children: some nodes of
+ * `cut`, from `at` on, are replaced by their children. */
 static double least_of_cuts(const struct bvh *bvh, uint32_t *cut,
                             uint32_t count, uint32_t at, double *known)
 {
@@ -154,7 +154,7 @@ static double least_of_cuts(const struct bvh *bvh, uint32_t *cut,
     return least;
 }
 
-/* As a leaf, or as a node with any set of children. */
+/* Returns the least cost of the node as a leaf, or with any set of children. */
 static double least_cost(const struct bvh *bvh, uint32_t node, bool is_root,
                          double *known)
 {
@@ -175,7 +175,7 @@ static double least_cost(const struct bvh *bvh, uint32_t node, bool is_root,
     return least;
 }
 
-/* Against all ways to make some small trees wide. */
+/* Compares with all ways to make some small trees wide. */
 static void no_other_children_cost_less(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_build_the_same_tree),
-        cmocka_unit_test(boxes_hold_what_is_below),
+        cmocka_unit_test(boxes_enclose_their_subtrees),
         cmocka_unit_test(no_other_children_cost_less),
     };
 

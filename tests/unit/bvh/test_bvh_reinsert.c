@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Leaves of one triangle each, and a tree of them. */
-struct grove {
+/* A tree whose leaves have one triangle each. */
+struct tree {
     struct vec3 lo[TRAVERSE_STACK * 2], hi[TRAVERSE_STACK * 2];
     uint32_t count;
     struct bvh bvh;
@@ -27,7 +27,7 @@ static void join(struct node *n, const struct node *m)
     n->hi = v3_max(n->hi, m->hi);
 }
 
-static void grove_init(struct grove *g)
+static void tree_init(struct tree *g)
 {
     g->count = 0;
     g->bvh = (struct bvh){
@@ -36,15 +36,15 @@ static void grove_init(struct grove *g)
     };
 }
 
-/* A box with its low corner at x, and so much high, wide and deep. */
-static uint32_t add_cube(struct grove *g, float x, float size)
+/* Adds a cube of this size with its low corner at x. */
+static uint32_t add_cube(struct tree *g, float x, float size)
 {
     g->lo[g->count] = v3(x, 0, 0);
     g->hi[g->count] = v3(x + size, size, size);
     return g->count++;
 }
 
-static uint32_t add_leaf(struct grove *g, uint32_t leaf)
+static uint32_t add_leaf(struct tree *g, uint32_t leaf)
 {
     struct bvh *b = &g->bvh;
 
@@ -54,13 +54,13 @@ static uint32_t add_leaf(struct grove *g, uint32_t leaf)
     return b->node_count++;
 }
 
-/* Before its children. */
-static uint32_t begin_node(struct grove *g)
+/* Adds a node, before its children. */
+static uint32_t begin_node(struct tree *g)
 {
     return g->bvh.node_count++;
 }
 
-static void end_node(struct grove *g, uint32_t node, uint32_t right)
+static void end_node(struct tree *g, uint32_t node, uint32_t right)
 {
     struct node *n = &g->bvh.nodes[node];
 
@@ -70,9 +70,9 @@ static void end_node(struct grove *g, uint32_t node, uint32_t right)
     n->count = 0;
 }
 
-/* Looks at all of a tree: the sum of the inner nodes' areas. */
-static double look_at(const struct grove *g, uint32_t index, uint32_t depth,
-                      uint32_t *leaves, uint32_t *deepest)
+/* Visits the whole tree and returns the sum of the inner nodes' areas. */
+static double visit(const struct tree *g, uint32_t index, uint32_t depth,
+                    uint32_t *leaves, uint32_t *deepest)
 {
     const struct node *n = &g->bvh.nodes[index];
     struct node both;
@@ -82,7 +82,7 @@ static double look_at(const struct grove *g, uint32_t index, uint32_t depth,
     if (n->count != 0) {
         uint32_t leaf = g->bvh.tris[n->next];
 
-        assert_int_equal(n->next, *leaves); /* side by side */
+        assert_int_equal(n->next, *leaves); /* in the order of the leaves */
         (*leaves)++;
         assert_memory_equal(&n->lo, &g->lo[leaf], sizeof n->lo);
         assert_memory_equal(&n->hi, &g->hi[leaf], sizeof n->hi);
@@ -93,15 +93,15 @@ static double look_at(const struct grove *g, uint32_t index, uint32_t depth,
     assert_memory_equal(&n->lo, &both.lo, sizeof n->lo);
     assert_memory_equal(&n->hi, &both.hi, sizeof n->hi);
     return area(n->lo, n->hi) +
-           look_at(g, index + 1, depth + 1, leaves, deepest) +
-           look_at(g, n->next, depth + 1, leaves, deepest);
+           visit(g, index + 1, depth + 1, leaves, deepest) +
+           visit(g, n->next, depth + 1, leaves, deepest);
 }
 
-static double cost_of(const struct grove *g)
+static double cost_of(const struct tree *g)
 {
     bool seen[2 * TRAVERSE_STACK] = {false};
     uint32_t leaves = 0, deepest = 0;
-    double cost = look_at(g, 0, 0, &leaves, &deepest);
+    double cost = visit(g, 0, 0, &leaves, &deepest);
 
     assert_int_equal(leaves, g->count);
     assert_int_equal(g->bvh.node_count, 2 * g->count - 1);
@@ -115,13 +115,13 @@ static double cost_of(const struct grove *g)
     return cost;
 }
 
-static void cubes_at_two_places_are_parted(void **state)
+static void cubes_at_two_places_are_separated(void **state)
 {
-    struct grove g;
+    struct tree g;
     uint32_t root, near, far;
 
     (void)state;
-    grove_init(&g);
+    tree_init(&g);
     for (int i = 0; i < 4; i++)
         add_cube(&g, i % 2 == 0 ? 0.0f : 8.0f, 1);
     root = begin_node(&g);
@@ -133,16 +133,16 @@ static void cubes_at_two_places_are_parted(void **state)
     end_node(&g, far, add_leaf(&g, 3));
     end_node(&g, root, far);
     assert_true(bvh_reinsert(&g.bvh));
-    /* 9 x 1 x 1, and a cube at either end */
+    /* A box of 9 x 1 x 1, and a cube at either end. */
     check_close(cost_of(&g), 19 + 3 + 3, 1e-6);
     bvh_free(&g.bvh);
 }
 
 #define FEW 9
 
-/* Any tree of the leaves first .. first + count - 1. */
-static uint32_t grow(struct grove *g, uint32_t first, uint32_t count,
-                     uint64_t *seed)
+/* Makes a random tree of the leaves first .. first + count - 1. */
+static uint32_t random_tree(struct tree *g, uint32_t first, uint32_t count,
+                            uint64_t *seed)
 {
     uint32_t node, left;
 
@@ -150,13 +150,14 @@ static uint32_t grow(struct grove *g, uint32_t first, uint32_t count,
         return add_leaf(g, first);
     node = begin_node(g);
     left = 1 + (uint32_t)(check_random(seed) * (count - 1));
-    grow(g, first, left, seed);
-    end_node(g, node, grow(g, first + left, count - left, seed));
+    random_tree(g, first, left, seed);
+    end_node(g, node, random_tree(g, first + left, count - left, seed));
     return node;
 }
 
-/* The least cost of all trees: of each set of leaves by all ways to part it. */
-static double least_cost(const struct grove *g)
+/* Returns the least cost of all trees: for each set of leaves the cheapest of
+ * all partitions. */
+static double least_cost(const struct tree *g)
 {
     static double least[1 << FEW];
 
@@ -178,8 +179,8 @@ static double least_cost(const struct grove *g)
     return least[(1u << g->count) - 1];
 }
 
-/* Trees that ignore where leaves are. What is left of what they cost too much
- * has been measured: 2 % of it. */
+/* Random trees ignore where leaves are. The remaining part of their excess cost
+ * was measured: 2 %. */
 static void random_trees_come_close_to_the_best(void **state)
 {
     double before = 0, after = 0, least = 0;
@@ -187,10 +188,10 @@ static void random_trees_come_close_to_the_best(void **state)
 
     (void)state;
     for (int trial = 0; trial < 200; trial++) {
-        struct grove g;
+        struct tree g;
         double was, is, best;
 
-        grove_init(&g);
+        tree_init(&g);
         for (int i = 0; i < FEW; i++) {
             struct vec3 p = {(float)check_random(&seed),
                              (float)check_random(&seed),
@@ -200,9 +201,9 @@ static void random_trees_come_close_to_the_best(void **state)
             g.lo[g.count] = p;
             g.hi[g.count++] = v3_add(p, v3(size, size, size));
         }
-        grow(&g, 0, FEW, &seed);
-        g.bvh.depth = TRAVERSE_STACK; /* it is not said */
-        was = look_at(&g, 0, 0, &(uint32_t){0}, &(uint32_t){0});
+        random_tree(&g, 0, FEW, &seed);
+        g.bvh.depth = TRAVERSE_STACK; /* the depth is unknown here */
+        was = visit(&g, 0, 0, &(uint32_t){0}, &(uint32_t){0});
         assert_true(bvh_reinsert(&g.bvh));
         is = cost_of(&g);
         best = least_cost(&g);
@@ -215,13 +216,13 @@ static void random_trees_come_close_to_the_best(void **state)
     assert_true(after - least < 0.1 * (before - least));
 }
 
-/* A chain of cubes in cubes, and beside it two cubes far from each other, of
- * which one is at home where the chain ends. */
-static void grow_chain(struct grove *g, uint32_t depth)
+/* Makes a chain of nested cubes, and beside it two cubes far from each other.
+ * One of these belongs to the end of the chain. */
+static void make_chain(struct tree *g, uint32_t depth)
 {
     uint32_t root, pair, chain[TRAVERSE_STACK];
 
-    grove_init(g);
+    tree_init(g);
     root = begin_node(g);
     pair = begin_node(g);
     add_leaf(g, add_cube(g, 0, 2));
@@ -238,16 +239,16 @@ static void grow_chain(struct grove *g, uint32_t depth)
 
 static void trees_stay_as_deep_as_the_stack(void **state)
 {
-    struct grove g;
+    struct tree g;
     double was, is;
 
     (void)state;
     for (uint32_t depth = TRAVERSE_STACK - 2; depth < TRAVERSE_STACK; depth++) {
-        grow_chain(&g, depth);
-        was = look_at(&g, 0, 0, &(uint32_t){0}, &(uint32_t){0});
+        make_chain(&g, depth);
+        was = visit(&g, 0, 0, &(uint32_t){0}, &(uint32_t){0});
         assert_true(bvh_reinsert(&g.bvh));
         is = cost_of(&g);
-        if (depth == TRAVERSE_STACK - 2) /* 52 x 2 x 2 is now a cube */
+        if (depth == TRAVERSE_STACK - 2) /* 52 x 2 x 2 became a cube */
             check_close(was - is, 212 - 12, 1e-2);
         else
             assert_true(is <= was);
@@ -255,15 +256,15 @@ static void trees_stay_as_deep_as_the_stack(void **state)
     }
 }
 
-static void single_leaves_and_none_stay(void **state)
+static void trees_of_one_leaf_or_none_stay(void **state)
 {
     struct bvh none = {0};
-    struct grove g;
+    struct tree g;
 
     (void)state;
     assert_true(bvh_reinsert(&none));
     assert_int_equal(none.node_count, 0);
-    grove_init(&g);
+    tree_init(&g);
     add_leaf(&g, add_cube(&g, 0, 1));
     assert_true(bvh_reinsert(&g.bvh));
     assert_true(cost_of(&g) == 0);
@@ -273,10 +274,10 @@ static void single_leaves_and_none_stay(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cubes_at_two_places_are_parted),
+        cmocka_unit_test(cubes_at_two_places_are_separated),
         cmocka_unit_test(random_trees_come_close_to_the_best),
         cmocka_unit_test(trees_stay_as_deep_as_the_stack),
-        cmocka_unit_test(single_leaves_and_none_stay),
+        cmocka_unit_test(trees_of_one_leaf_or_none_stay),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,7 +8,7 @@
 
 #define BOXES 3000
 
-/* Every third is large, every fifth has the place of the one before. */
+/* Every third box is large; every fifth has the place of the previous one. */
 static void random_boxes(struct box *boxes, uint32_t count, uint64_t seed)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -34,7 +34,7 @@ static void fill(struct bins *bins, const struct box *boxes, uint32_t count)
     bins_add(bins, boxes, count, 1);
 }
 
-/* The bin of an axis, of so many. */
+/* Returns the bin of the box on an axis of this many bins. */
 static uint32_t bin_of(const struct box *box, const struct box *centers,
                        int axis, uint32_t bin_count)
 {
@@ -46,8 +46,8 @@ static uint32_t bin_of(const struct box *box, const struct box *centers,
     return bin >= bin_count ? bin_count - 1 : bin;
 }
 
-/* Half the surface of what lies in [lo, hi) of the bins of an axis, times its
- * blocks; from the corners in double. */
+/* Returns half the surface of the boxes in bins [lo, hi) of an axis times their
+ * blocks, computed from the corners in double. */
 static double cost_of(const struct box *boxes, uint32_t count,
                       const struct box *centers, int axis, uint32_t bin_count,
                       uint32_t lo, uint32_t hi, uint32_t block)
@@ -72,7 +72,7 @@ static double cost_of(const struct box *boxes, uint32_t count,
                   : (x * y + y * z + z * x) * ((n + block - 1) / block);
 }
 
-/* Each box is on its side, once. */
+/* Checks that each box is on its side of the split, once. */
 static void check_sides(const struct split *s, const struct box *boxes,
                         uint32_t count, const struct box *centers)
 {
@@ -180,7 +180,8 @@ static void strides_leave_out_boxes(void **state)
         }
 }
 
-/* Also where bins would be smaller than any float. */
+/* Boxes with equal centres have no plane, even where bins would be smaller than
+ * any float. */
 static void equal_centres_have_no_plane(void **state)
 {
     struct box boxes[8];

@@ -6,13 +6,13 @@
 
 #include <stdlib.h>
 
-/* Never leaves, but of one triangle. */
+/* Options that make leaves of one triangle only. */
 static const struct bvh_leaves single = {0, 0, 1.0f, 1};
 
-/* What the splits of a mesh have come to, and what the ranges' extents are. */
+/* The splits of a mesh, and a check of the ranges' extents. */
 struct splits {
     struct splitter splitter;
-    uint32_t together; /* ranges above that are split by all threads */
+    uint32_t together; /* ranges larger than this are split by all threads */
     uint32_t *tris;    /* numbers in the order of the leaves */
     uint32_t tri_count;
 };
@@ -54,7 +54,7 @@ static void split_all(struct splits *p, const struct range *r)
     }
 }
 
-/* The caller frees the numbers. */
+/* Returns the order of triangles, for free(). */
 static uint32_t *order_by(const struct world *w, int threads, uint32_t together)
 {
     struct error err;
@@ -97,22 +97,22 @@ static void threads_make_the_same_splits(void **state)
     mesh_free(&m);
 }
 
-#define CROWD 20000
+#define CLUSTER_SIZE 20000
 
 static void add_small(struct mesh *m, float x)
 {
     mesh_add(m, v3(x, 0, 0), v3(x + 0.25f, 0, 0), v3(x, 0.25f, 0), 0);
 }
 
-/* What most of a large range agrees on is not all. */
-static void one_that_is_apart_is_found(void **state)
+/* A single outlier among many equal triangles is separated from them. */
+static void outliers_are_separated(void **state)
 {
     struct mesh m = {0};
     struct splitter s;
 
     (void)state;
-    for (uint32_t i = 0; i < CROWD; i++)
-        add_small(&m, i == CROWD / 3 ? 5.0f : 0.0f);
+    for (uint32_t i = 0; i < CLUSTER_SIZE; i++)
+        add_small(&m, i == CLUSTER_SIZE / 3 ? 5.0f : 0.0f);
     mesh_finish(&m);
     assert_true(splitter_init(&s, &m.world, &single, NULL));
     for (int together = 0; together < 2; together++) {
@@ -123,7 +123,8 @@ static void one_that_is_apart_is_found(void **state)
         else
             assert_true(splitter_split(&s, 0, &all, sides));
         assert_int_equal(sides[1].count, 1);
-        assert_int_equal(box_tri(&s.buffers[1][sides[1].first]), CROWD / 3);
+        assert_int_equal(box_tri(&s.buffers[1][sides[1].first]),
+                         CLUSTER_SIZE / 3);
     }
     splitter_free(&s);
     mesh_free(&m);
@@ -133,7 +134,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_make_the_same_splits),
-        cmocka_unit_test(one_that_is_apart_is_found),
+        cmocka_unit_test(outliers_are_separated),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* Lights of two triangles. */
+/* test_light_quads.c - lights of two triangles */
 #include <math.h>
 
 #include "tests/unit/check.h"
@@ -7,8 +7,9 @@
 #include "tests/unit/lambert.h"
 #include "tests/unit/lamps.h"
 
-/* One light each: a rectangle, a parallelogram, and one with a side that is a
- * fifth shorter than the other, whose halves differ in density. */
+/* Each ring is one light: a rectangle, a parallelogram, and a quadrilateral
+ * with opposite sides that differ by a fifth, whose halves differ in density.
+ */
 static const struct vec3 rings[3][4] = {{{-0.4f, 0.7f, -0.3f},
                                          {0.4f, 0.7f, -0.3f},
                                          {0.4f, 0.7f, 0.3f},
@@ -46,8 +47,8 @@ static void quads_obey_lambert(void **state)
     }
 }
 
-/* Chi-square over 16 x 16 pieces of a parallelogram, with the cube root of
- * Wilson and Hilferty. The pieces are those of p0 + s (p1 - p0) + t (p3 - p0).
+/* Chi-square test over 16 x 16 parts of a parallelogram, with the cube root of
+ * Wilson and Hilferty. The parts are those of p0 + s (p1 - p0) + t (p3 - p0).
  */
 static void points_are_uniform_on_parallelograms(void **state)
 {
@@ -82,7 +83,8 @@ static void points_are_uniform_on_parallelograms(void **state)
             db = (double)v3_dot(d, b);
             s = (da * bb - db * ab) / (aa * bb - ab * ab);
             t = (db * aa - da * ab) / (aa * bb - ab * ab);
-            /* which half is said to have it: the cut runs where s is t */
+            /* The diagonal, where s is t, decides which half the sample belongs
+             * to. */
             if (fabs(s - t) > 1e-5)
                 assert_int_equal(sample.tri, s > t ? 0 : 1);
             counts[(int)fmin(fmax(s * side, 0), side - 1) * side +
@@ -95,8 +97,9 @@ static void points_are_uniform_on_parallelograms(void **state)
     }
 }
 
-/* As likely as both its halves on the other side, which something keeps apart;
- * 2 % are for the nearer places. The tree's ball is around all of it. */
+/* A parallelogram is as likely as its two halves on the other side, which stay
+ * separate lights; the tolerance of 2 % covers the difference in distance. Its
+ * ball in the tree encloses both halves. */
 static void both_halves_count(void **state)
 {
     const struct vec3 p = {0.5f, 1, 0}, x = {0.01f, 0, 0}, z = {0, 0, 0.01f};
@@ -141,8 +144,8 @@ static uint32_t count_lights(struct mesh *m)
     return count;
 }
 
-/* What shares no side, bends, shines unevenly or is of two minds about its
- * front is two lights. */
+/* Triangles without a common side, in different planes, with different
+ * emission, or with opposite fronts are two lights. */
 static void unlike_triangles_are_two_lights(void **state)
 {
     const struct vec3 *p = rings[0];
@@ -163,7 +166,7 @@ static void unlike_triangles_are_two_lights(void **state)
         assert_int_equal(count_lights(&m), 2);
     }
     mesh_add(&m, p[0], p[1], p[2], LAMP);
-    mesh_add(&m, p[0], p[3], p[2], LAMP); /* wound the other way */
+    mesh_add(&m, p[0], p[3], p[2], LAMP); /* opposite winding */
     assert_int_equal(count_lights(&m), 2);
     mesh_add(&m, p[0], p[1], p[2], LAMP);
     mesh_add(&m, p[0], v3_add(p[2], v3(0, 0, 1e-6f)), p[3], LAMP);
@@ -173,11 +176,11 @@ static void unlike_triangles_are_two_lights(void **state)
     m.materials[LAMP + 1] = mesh_material(MATERIAL_DIFFUSE, 0);
     m.materials[LAMP + 1].emission = v3(1, 2, 3.1f);
     assert_int_equal(count_lights(&m), 2);
-    mesh_add(&m, p[0], p[1], p[2], LAMP); /* something between them */
+    mesh_add(&m, p[0], p[1], p[2], LAMP); /* apart in file order */
     mesh_add(&m, p[0], v3(0, 5, 0), v3(1, 5, 0), 0);
     mesh_add(&m, p[0], p[2], p[3], LAMP);
     assert_int_equal(count_lights(&m), 2);
-    mesh_add_quad(&m, p[0], p[1], p[2], p[3], LAMP); /* and one more */
+    mesh_add_quad(&m, p[0], p[1], p[2], p[3], LAMP); /* a pair and a triangle */
     mesh_add(&m, p[2], p[3], p[0], LAMP);
     assert_int_equal(count_lights(&m), 2);
 }

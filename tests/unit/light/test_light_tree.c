@@ -12,7 +12,7 @@
 #include "tests/unit/lamps.h"
 #include "tests/unit/mesh.h"
 
-static void probabilities_add_up(void **state)
+static void probabilities_of_lights_sum_to_one(void **state)
 {
     const int counts[] = {1, 2, 8, 9, 100, 3000};
 
@@ -34,7 +34,7 @@ static void probabilities_add_up(void **state)
     }
 }
 
-/* Chi-square over the lights; 20 are tried. */
+/* Chi-square test over the lights, from 20 receivers. */
 static void choices_follow_probabilities(void **state)
 {
     const int n = 200000;
@@ -67,8 +67,8 @@ static void choices_follow_probabilities(void **state)
     discard(&m, &lights);
 }
 
-/* Whether some of the triangle is above the receiver's plane, and it is not
- * seen exactly edge-on. */
+/* Returns whether a part of the triangle is above the receiver's plane and the
+ * triangle is not seen exactly edge-on. */
 static bool contributes(const struct world *w, const struct receiver *r,
                         uint32_t tri)
 {
@@ -112,11 +112,11 @@ static void no_contributing_light_is_left_out(void **state)
     }
 }
 
-/* What a child of a node is thought to shine is no less than 1 / 72 of what the
- * lamps below it do, seen from more than two of its radii away: cosines are no
- * less than a quarter of their bounds, the distance to none of the lamps is
- * less than half of that to the middle, and a quarter of the radius squared
- * counts for 1 / 16 of the middle's squared. */
+/* The estimated power of a child node is at least 1/72 of that of the lamps
+ * below it, seen from more than two of its radii away: cosines are at least a
+ * quarter of their bounds, no lamp is nearer than half the distance to the
+ * middle, and a quarter of the radius squared adds 1/16 of the middle's
+ * distance squared. */
 static void clusters_are_not_underrated(void **state)
 {
     uint64_t seed = 90;
@@ -174,9 +174,9 @@ static void clusters_are_not_underrated(void **state)
     discard(&m, &lights);
 }
 
-/* Lamps of one size and distance: the one that is seen edge-on is left to
- * chance, whichever way round the others are wound. */
-static void facing_counts_and_sides_do_not(void **state)
+/* All lamps have the same size and distance. The lamp seen edge-on is chosen
+ * only by chance, whatever the winding of the others. */
+static void orientation_counts_and_winding_does_not(void **state)
 {
     struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
     struct mesh m = {0};
@@ -195,9 +195,9 @@ static void facing_counts_and_sides_do_not(void **state)
     discard(&m, &lights);
 }
 
-/* The second number decides the lower levels of a deep tree: one number alone
- * would run out of digits. */
-static void both_numbers_choose(void **state)
+/* The second random number chooses the lower levels of a deep tree, where the
+ * first one has no digits left. */
+static void both_random_numbers_choose(void **state)
 {
     uint64_t seed = 70;
     struct mesh m = {0};
@@ -221,10 +221,9 @@ static void both_numbers_choose(void **state)
     discard(&m, &lights);
 }
 
-/* What the tree is for: the spread of single estimates, relative to the truth,
- * on a floor under a ceiling of 2500 lamps, against a choice among all alike.
- */
-static void tree_finds_the_near_lights(void **state)
+/* On a floor under a ceiling of 2500 lamps the variance of single estimates is
+ * much less than with a uniform choice. */
+static void tree_prefers_the_near_lights(void **state)
 {
     uint64_t seed = 8;
     struct mesh m = {0};
@@ -260,8 +259,8 @@ static void tree_finds_the_near_lights(void **state)
     discard(&m, &lights);
 }
 
-/* STRESS G7 to G9: no shape of the scene makes the way to a light too long. */
-static void deep_trees_fit(void **state)
+/* STRESS G7 to G9: no scene makes the path to a light too long. */
+static void deep_trees_fit_into_the_path_s_bits(void **state)
 {
     struct receiver r = {{0.3f, 0.2f, 0.1f}, {1, 0, 0}, true};
     struct mesh m = {0};
@@ -292,14 +291,14 @@ static void deep_trees_fit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(probabilities_add_up),
+        cmocka_unit_test(probabilities_of_lights_sum_to_one),
         cmocka_unit_test(choices_follow_probabilities),
         cmocka_unit_test(no_contributing_light_is_left_out),
         cmocka_unit_test(clusters_are_not_underrated),
-        cmocka_unit_test(facing_counts_and_sides_do_not),
-        cmocka_unit_test(both_numbers_choose),
-        cmocka_unit_test(tree_finds_the_near_lights),
-        cmocka_unit_test(deep_trees_fit),
+        cmocka_unit_test(orientation_counts_and_winding_does_not),
+        cmocka_unit_test(both_random_numbers_choose),
+        cmocka_unit_test(tree_prefers_the_near_lights),
+        cmocka_unit_test(deep_trees_fit_into_the_path_s_bits),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

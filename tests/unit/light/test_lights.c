@@ -12,8 +12,8 @@
 #include "tests/unit/mesh.h"
 #include "tests/unit/sky_pdf.h"
 
-/* The density of everything that lies along a direction, found by testing all
- * triangles. */
+/* Returns the sum of the densities of all triangles along a direction, found by
+ * testing every triangle. */
 static double density_along(const struct world *w, const struct receiver *r,
                             struct vec3 d)
 {
@@ -35,8 +35,8 @@ static double density_along(const struct world *w, const struct receiver *r,
     return sum;
 }
 
-/* Over the whole sphere, by midpoints of 1000 x 2000: the rim of a triangle
- * makes errors of its length times the spacing. */
+/* Integrates over the sphere by midpoints of 1000 x 2000. The error at the rim
+ * of a triangle is its length times the spacing. */
 static void density_integrates_to_one(void **state)
 {
     const int rows = 1000;
@@ -102,7 +102,7 @@ static void sample_and_density_agree(void **state)
     assert_true(found > 118000 && seconds > 20000);
 }
 
-/* Of all lamps together, from few to many. */
+/* Tests the irradiance from few to many lamps together. */
 static void many_lamps_obey_lambert(void **state)
 {
     const int counts[] = {1, 7, 60, 1000};
@@ -141,7 +141,8 @@ static double solid_angle(const struct vec3 *p, struct vec3 from)
 }
 
 /* The mean of 1 / pdf is the solid angle of what is sampled, whatever the
- * shares: of the whole sky, and of a lamp before it. */
+ * shares of sky and lamps are. This tests the whole sky and a lamp before it.
+ */
 static void sky_and_lamps_share(void **state)
 {
     const float shares[][2] = {{0.5f, 0.5f}, {0.25f, 0.5f}, {0.125f, 0.25f}};
@@ -196,8 +197,9 @@ static void sky_and_lamps_share(void **state)
     discard(&m, &lights);
 }
 
-/* A lamp of area 1/2 and radiance 2 before skies of ever more light. */
-static void weak_lamps_are_sampled_less(void **state)
+/* Tests a lamp of area 1/2 and radiance 2 under skies of increasing
+ * radiance. */
+static void weak_lamps_are_sampled_less_often(void **state)
 {
     struct mesh m = {0};
     struct lights lights;
@@ -213,7 +215,7 @@ static void weak_lamps_are_sampled_less(void **state)
         assert_true(m.world.settings.light_share <= share &&
                     m.world.settings.light_share > 0);
         share = m.world.settings.light_share;
-        /* the lamp's 2 pi against the square of pi times the sky */
+        /* The lamp's 2 pi is compared with the square of pi times the sky. */
         assert_true(sky > 2 || share == 1);
         assert_true(sky < 3 || share < 1);
     }
@@ -221,8 +223,8 @@ static void weak_lamps_are_sampled_less(void **state)
     discard(&m, &lights);
 }
 
-/* STRESS M8, M9: what no light may bring down. */
-static void odd_lights_are_borne(void **state)
+/* STRESS M8, M9: degenerate lights do no harm. */
+static void degenerate_lights_give_finite_densities(void **state)
 {
     const struct vec3 o = {0, 0, 0}, x = {1, 0, 0}, z = {0, 0, 1};
     struct receiver r = {{0.2f, -0.5f, 0.2f}, {0, 1, 0}, false};
@@ -237,9 +239,10 @@ static void odd_lights_are_borne(void **state)
     discard(&m, &lights);
 
     m = (struct mesh){0};
-    mesh_add(&m, o, x, z, 0);                 /* dark */
+    mesh_add(&m, o, x, z, 0);                 /* black */
     mesh_add(&m, o, x, v3(0.5f, 0, 0), LAMP); /* without area */
-    mesh_add(&m, o, v3(1e-30f, 0, 0), v3(0, 0, 1e-30f), LAMP); /* nearly so */
+    /* Almost without area. */
+    mesh_add(&m, o, v3(1e-30f, 0, 0), v3(0, 0, 1e-30f), LAMP);
     mesh_add(&m, o, x, z, LAMP);
     mesh_add(&m, o, x, z, 2);
     mesh_add(&m, o, x, z, 3);
@@ -256,7 +259,7 @@ static void odd_lights_are_borne(void **state)
     check_close(sum_of_probabilities(&m.world, &r), 1, 1e-6);
     assert_true(
         light_sample(&m.world, &r, NO_INDEX, v2(0.3f, 0.6f), v2(0, 0), &s));
-    /* at the lamp itself, and in its plane: no density that is not a number */
+    /* At the lamp itself and in its plane the density is a number. */
     r.p = s.p;
     for (int i = 0; i < 2; i++) {
         if (light_sample(&m.world, &r, NO_INDEX, v2(0.3f, 0.6f), v2(0, 0), &s))
@@ -273,8 +276,8 @@ int main(void)
         cmocka_unit_test(sample_and_density_agree),
         cmocka_unit_test(many_lamps_obey_lambert),
         cmocka_unit_test(sky_and_lamps_share),
-        cmocka_unit_test(weak_lamps_are_sampled_less),
-        cmocka_unit_test(odd_lights_are_borne),
+        cmocka_unit_test(weak_lamps_are_sampled_less_often),
+        cmocka_unit_test(degenerate_lights_give_finite_densities),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,15 +8,15 @@
 #include "light/triangle_cdf.h"
 #include "tests/unit/truth.h"
 
-/* Parts of the sphere: rows of equal cos(theta), columns of phi. */
+/* The sphere is divided into rows of equal cos(theta) and columns of phi. */
 #define ROWS    12
 #define COLUMNS 24
 
-/* A table of 2 x 2 x 2 cubes on [-1, 1]^3, of which the last has no sums, nor
- * have surfaces that face down. Half of the bins are empty, the others differ
- * by up to 100 times. */
+/* A grid of 2 x 2 x 2 cells on [-1, 1]^3. The last cell has no table, and
+ * neither have surfaces that face down. Half of the bins are empty; the others
+ * differ by up to 100 times. */
 struct table {
-    struct guide_cell cells[8 * GUIDE_FACINGS];
+    struct guide_cell each_cell_has_its_own_table[8 * GUIDE_FACINGS];
     float sums[7 * GUIDE_BINS];
     struct path_guide guide;
 };
@@ -42,12 +42,12 @@ static void table_init(struct table *t, double share, uint64_t seed)
         bool has_none = i / GUIDE_FACINGS == 7 || i % GUIDE_FACINGS == 3;
         uint32_t first = i / GUIDE_FACINGS * GUIDE_BINS;
 
-        t->cells[i] =
+        t->each_cell_has_its_own_table[i] =
             has_none ? guide_cell_none() : (struct guide_cell){first, first};
     }
     t->guide = (struct path_guide){
         .grid = {.lo = {-1, -1, -1}, .cells_per_unit = 1, 2, 2, 2, 7},
-        .cells = t->cells,
+        .each_cell_has_its_own_table = t->each_cell_has_its_own_table,
         .sums = t->sums};
 }
 
@@ -68,7 +68,7 @@ static int part_of(struct vec3 d)
     return row * COLUMNS + (column < COLUMNS ? column : COLUMNS - 1);
 }
 
-/* The integral of the density over each part, by midpoints. */
+/* Integrates the density over each part by midpoints. */
 static double integrate(const struct world *w, double parts[ROWS * COLUMNS])
 {
     enum { N = 100 };
@@ -90,7 +90,7 @@ static double integrate(const struct world *w, double parts[ROWS * COLUMNS])
     return sum;
 }
 
-static void density_and_samples(void **state)
+static void samples_follow_the_density(void **state)
 {
     enum { SAMPLES = 400000 };
     static double parts[ROWS * COLUMNS];
@@ -126,8 +126,9 @@ static void density_and_samples(void **state)
         degrees++;
     }
     assert_true(degrees > 200);
-    /* beyond 5 standard deviations: 1 choice of seeds in a million, twice that
-     * for the skew; the quadrature is off by less than a tenth of that */
+    /* The limit of 5 standard deviations is exceeded by one choice of seeds in
+     * a million, twice that for the skewness. The quadrature's error is below a
+     * tenth of one. */
     check_at_most(chi2, degrees + 5 * sqrt(2.0 * degrees));
 }
 
@@ -142,8 +143,9 @@ static uint32_t sky_at(const struct world *w, struct vec3 p, struct vec3 n)
     return guide_at(w, p, n).sky;
 }
 
-/* Every cell's own sums; beside the grid those of the nearest. */
-static void cells(void **state)
+/* Every cell has its own table. A point outside the grid uses the nearest
+ * cell. */
+static void each_cell_has_its_own_table(void **state)
 {
     struct vec3 up = v3_unit(v3(.3f, .5f, -.4f));
     struct world w = {.settings = {.seed = 0}};
@@ -166,10 +168,10 @@ static void cells(void **state)
                      GUIDE_BINS);
 }
 
-/* Light samples of a sky that shines 1 everywhere, by the cosine or by a table
- * of its image, and by the guide's table of nonsense: moments of the upper half
- * of the sphere. */
-static void light_samples_of_a_flat_sky(void **state)
+/* Draws light samples of a sky of radiance 1, by the cosine or by the table of
+ * its image, with and without a random guide. Compares moments over the upper
+ * hemisphere. */
+static void light_samples_of_a_flat_sky_are_unbiased(void **state)
 {
     enum { SAMPLES = 400000 };
     const struct receiver r = {{-.5f, -.5f, -.5f}, {.6f, .8f, 0}, false};
@@ -218,7 +220,8 @@ static void light_samples_of_a_flat_sky(void **state)
                 squares[k] += x[k] * x[k];
             }
         }
-        /* beyond 5 standard deviations: once in 300,000 choices of seeds */
+        /* The limit of 5 standard deviations is exceeded once in 300,000
+         * choices of seeds. */
         for (int k = 0; k < 3; k++) {
             double mean = sums[k] / SAMPLES;
             double variance = fmax(squares[k] / SAMPLES - mean * mean, 0);
@@ -229,16 +232,16 @@ static void light_samples_of_a_flat_sky(void **state)
     sky_table_free(&tables[1]);
 }
 
-/* In a closed box that emits 1 and has albedo a there is 1 / (1 - a) of light:
- * a table of nonsense finds that much. */
-static void any_table_is_right(void **state)
+/* In a closed box with emission 1 and albedo a the radiance is 1 / (1 - a) for
+ * any guide, so a random one finds it too. */
+static void random_tables_keep_the_mean(void **state)
 {
     struct stage s = {.mesh = {.positions = NULL}};
     struct claim c = {.eye = {.2f, .1f, .4f},
                       .at = {-.3f, -1, .1f},
                       .truth = GREY(2),
                       .paths = 2000,
-                      /* corners: the square of what they see is infinite */
+                      /* near corners light samples have infinite variance */
                       .without = 1 << DIRECT_LIGHTS};
     struct table t;
 
@@ -254,8 +257,8 @@ static void any_table_is_right(void **state)
     stage_free(&s);
 }
 
-/* A small lamp beside a wall, which hangs above a floor; kind is the wall's. */
-static void lamp_and_wall(struct stage *s, enum material_kind kind)
+/* Makes a small lamp beside a wall of this kind, above a floor. */
+static void make_lamp_and_wall(struct stage *s, enum material_kind kind)
 {
     *s = (struct stage){.mesh = {.positions = NULL}};
     s->mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
@@ -272,7 +275,7 @@ static void lamp_and_wall(struct stage *s, enum material_kind kind)
     lights_lend(&s->lights, &s->mesh.world);
 }
 
-/* The lights that the world has been lent. */
+/* Returns the lights that the world uses. */
 static const struct lights *lent_lights(const struct stage *s)
 {
     static const struct lights none = {.light_count = 0};
@@ -280,7 +283,7 @@ static const struct lights *lent_lights(const struct stage *s)
     return s->mesh.world.settings.light_count > 0 ? &s->lights : &none;
 }
 
-static void built(struct stage *s, float sky, struct path_guide *g)
+static void build_guide(struct stage *s, float sky, struct path_guide *g)
 {
     struct error err;
 
@@ -290,18 +293,18 @@ static void built(struct stage *s, float sky, struct path_guide *g)
                  err.text);
 }
 
-/* On the floor the light that the mirror throws comes from the lamp's image. */
-static void mirrors_point_to_images(void **state)
+/* On the floor, light reflected by the mirror comes from the lamp's image. */
+static void mirrors_guide_to_the_lamp_s_image(void **state)
 {
     struct vec3 image = {-.62f, .41f, 0};
-    struct path_guide g = {.cells = NULL};
+    struct path_guide g = {.each_cell_has_its_own_table = NULL};
     struct stage s;
     int found = 0;
 
     (void)state;
-    lamp_and_wall(&s, MATERIAL_METAL);
+    make_lamp_and_wall(&s, MATERIAL_METAL);
     s.mesh.materials[1].alpha = 0;
-    built(&s, 0, &g);
+    build_guide(&s, 0, &g);
     path_guide_lend(&g, &s.mesh.world);
     for (float x = -.4f; x < .45f; x += .1f) {
         struct vec3 p = v3(x, 0, 0);
@@ -318,7 +321,7 @@ static void mirrors_point_to_images(void **state)
             struct vec3 way = guide_sample(&s.mesh.world, cell,
                                            v2(u, (float)check_random(&random)));
 
-            /* a bin is .25 wide, a cell of .1 is seen under less */
+            /* A bin is .25 wide, and a cell of .1 subtends less. */
             sure += v3_dot(way, d) > cosf(.35f) ? .001 : 0;
         }
         check_at_most(.9, sure);
@@ -329,38 +332,37 @@ static void mirrors_point_to_images(void **state)
     stage_free(&s);
 }
 
-static void only_where_it_helps(void **state)
+static void tables_exist_only_with_caustics(void **state)
 {
-    struct path_guide g = {.cells = NULL}, again = {.cells = NULL};
+    struct path_guide g = {.each_cell_has_its_own_table = NULL},
+                      again = {.each_cell_has_its_own_table = NULL};
     struct stage s;
     size_t count;
 
     (void)state;
-    lamp_and_wall(&s, MATERIAL_DIFFUSE);
-    built(&s, 0, &g);
-    assert_true(g.cells == NULL && g.sums == NULL);
+    make_lamp_and_wall(&s, MATERIAL_DIFFUSE);
+    build_guide(&s, 0, &g);
+    assert_true(g.each_cell_has_its_own_table == NULL && g.sums == NULL);
     s.mesh.materials[1] = mesh_material(MATERIAL_METAL, .9f);
     s.mesh.materials[1].alpha = 1;
-    built(&s, 0, &g);
-    assert_null(g.cells);
+    build_guide(&s, 0, &g);
+    assert_null(g.each_cell_has_its_own_table);
     s.mesh.materials[1].alpha = 0;
-    built(&s, 0, &g);
-    built(&s, 0, &again);
+    build_guide(&s, 0, &g);
+    build_guide(&s, 0, &again);
     count = (size_t)g.grid.table_count * GUIDE_BINS;
     assert_true(count > 0);
     assert_memory_equal(&g.grid, &again.grid, sizeof g.grid);
     assert_memory_equal(g.sums, again.sums, count * sizeof *g.sums);
     s.mesh.world.settings.light_count = 0;
-    built(&s, 0, &g);
-    assert_null(g.cells);
+    build_guide(&s, 0, &g);
+    assert_null(g.each_cell_has_its_own_table);
     path_guide_free(&again);
     stage_free(&s);
 }
 
-/* ---- openings ---- */
-
-/* Of the room [-1, 1]^3 the wall at x = -1 has a window: y and z of its sides.
- */
+/* The room is [-1, 1]^3. Its wall at x = -1 has a window with these ranges of y
+ * and z. */
 static const float window[2][2] = {{-.2f, .5f}, {-.4f, .4f}};
 
 static void add_wall(struct mesh *m, float y0, float y1, float z0, float z1,
@@ -370,8 +372,8 @@ static void add_wall(struct mesh *m, float y0, float y1, float z0, float z1,
                   v3(-1, y1, z0), material);
 }
 
-/* Material 0 is the walls', 1 the pane's, 2 the lamp's. */
-static void room(struct stage *s, bool has_pane)
+/* Makes the room: material 0 is that of walls, 1 of the pane, 2 of the lamp. */
+static void make_room(struct stage *s, bool has_pane)
 {
     struct mesh *m = &s->mesh;
     const float *y = window[0], *z = window[1];
@@ -400,8 +402,9 @@ static void room(struct stage *s, bool has_pane)
                   v3(.1f, .9f, 0), 2);
 }
 
-/* Does a ray from p go through the window, or a bin and a cell beside it? */
-static bool goes_out(struct vec3 p, struct vec3 d)
+/* Returns whether a ray from p leaves through the window, with a tolerance of a
+ * bin and a cell. */
+static bool leaves_by_window(struct vec3 p, struct vec3 d)
 {
     float t = (-1 - p.x) / d.x, y = p.y + t * d.y, z = p.z + t * d.z;
     float near = (.2f + .13f * t) / -d.x;
@@ -410,9 +413,10 @@ static bool goes_out(struct vec3 p, struct vec3 d)
            z > window[1][0] - near && z < window[1][1] + near;
 }
 
-/* The part of the table's directions for p that lead to the window; -1: p has
- * none. */
-static double part_out(const struct world *w, uint32_t cell, struct vec3 p)
+/* Returns the share of guided directions for p that lead to the window, or -1
+ * if p has no table. */
+static double share_to_window(const struct world *w, uint32_t cell,
+                              struct vec3 p)
 {
     uint64_t random = 1;
     double part = 0;
@@ -422,17 +426,20 @@ static double part_out(const struct world *w, uint32_t cell, struct vec3 p)
     for (int i = 0; i < 1000; i++) {
         float u = (float)check_random(&random) * .999f * guide_share(w, cell);
 
-        part += goes_out(p, guide_sample(w, cell,
-                                         v2(u, (float)check_random(&random))))
-                    ? .001
-                    : 0;
+        part +=
+            leaves_by_window(p,
+                             guide_sample(w, cell,
+                                          v2(u, (float)check_random(&random))))
+                ? .001
+                : 0;
     }
     return part;
 }
 
-/* From all over the floor and the wall opposite: by light samples, or by paths
- * if these would end at a pane. */
-static void windows_are_found(void **state)
+/* All over the floor and the opposite wall, directions lead to the window:
+ * those of light samples, or with a pane, at which shadow rays end, those of
+ * paths. */
+static void guided_directions_lead_to_the_window(void **state)
 {
     (void)state;
     for (int has_pane = 0; has_pane < 2; has_pane++) {
@@ -440,14 +447,14 @@ static void windows_are_found(void **state)
             has_pane ? scatter_table_at : sky_at;
         uint32_t (*not_at)(const struct world *, struct vec3, struct vec3) =
             has_pane ? sky_at : scatter_table_at;
-        struct path_guide g = {.cells = NULL};
+        struct path_guide g = {.each_cell_has_its_own_table = NULL};
         struct stage s;
         struct world *w = &s.mesh.world;
         int found = 0;
 
-        room(&s, has_pane);
+        make_room(&s, has_pane);
         stage_finish(&s);
-        built(&s, 1, &g);
+        build_guide(&s, 1, &g);
         path_guide_lend(&g, w);
         for (float x = -.7f; x < .95f; x += .2f)
             for (float z = -.9f; z < .95f; z += .2f) {
@@ -455,7 +462,7 @@ static void windows_are_found(void **state)
                 const struct vec3 n[2] = {v3(0, 1, 0), v3(-1, 0, 0)};
 
                 for (int i = 0; i < 2; i++) {
-                    double part = part_out(w, at(w, p[i], n[i]), p[i]);
+                    double part = share_to_window(w, at(w, p[i], n[i]), p[i]);
 
                     assert_int_equal(not_at(w, p[i], n[i]), NO_INDEX);
                     if (part >= 0) {
@@ -465,14 +472,14 @@ static void windows_are_found(void **state)
                 }
             }
         assert_true(found > 140);
-        /* what faces outwards is in the open */
+        /* Surfaces that face outwards see the sky. */
         assert_int_equal(at(w, v3(1, 0, 0), v3(1, 0, 0)), NO_INDEX);
         path_guide_free(&g);
         stage_free(&s);
     }
 }
 
-/* Standard error of the floor's radiance under a sky of 1. */
+/* Returns the standard error of the floor's radiance under a sky of 1. */
 static double noise(struct stage *s, const struct path_guide *g)
 {
     const struct claim c = {.eye = {.6f, .1f, .4f},
@@ -484,11 +491,11 @@ static double noise(struct stage *s, const struct path_guide *g)
     return claim_estimate(&s->mesh.world, &c).error[0];
 }
 
-/* The whiter the walls, the more light comes by way of them: windows are looked
- * for less, and where that is all but in vain, not at all. */
-static void white_rooms_are_left_alone(void **state)
+/* The whiter the walls, the more light arrives by reflection. Then the share of
+ * guided samples is smaller, and zero where it would gain little. */
+static void white_rooms_are_guided_less(void **state)
 {
-    const struct path_guide none = {.cells = NULL};
+    const struct path_guide none = {.each_cell_has_its_own_table = NULL};
 
     (void)state;
     for (int has_pane = 0; has_pane < 2; has_pane++) {
@@ -496,15 +503,15 @@ static void white_rooms_are_left_alone(void **state)
 
         for (int is_white = 0; is_white < 2; is_white++) {
             struct vec3 p = {.1f, -1, .1f}, up = {0, 1, 0};
-            struct path_guide g = {.cells = NULL};
+            struct path_guide g = {.each_cell_has_its_own_table = NULL};
             uint32_t first;
             struct stage s;
 
-            room(&s, has_pane);
+            make_room(&s, has_pane);
             s.mesh.materials[2].emission = v3(0, 0, 0);
             s.mesh.world.settings.sky.color = v3(1, 1, 1);
             stage_finish(&s);
-            built(&s, 1, &g); /* of grey walls */
+            build_guide(&s, 1, &g); /* of grey walls */
             s.mesh.materials[0] =
                 mesh_material(MATERIAL_DIFFUSE, is_white ? .98f : .3f);
             path_guide_recolor(&g);
@@ -516,7 +523,8 @@ static void white_rooms_are_left_alone(void **state)
                 (has_pane ? scatter_table_at : sky_at)(&s.mesh.world, p, up);
             if (first != NO_INDEX)
                 shares[is_white] = (double)guide_share(&s.mesh.world, first);
-            /* the errors of errors of 32 means are an eighth each */
+            /* The standard error of a standard error of 32 means is an
+             * eighth. */
             check_at_most(noise(&s, &g),
                           (is_white ? 1.5 : .9) * noise(&s, &none));
             path_guide_free(&g);
@@ -527,26 +535,26 @@ static void white_rooms_are_left_alone(void **state)
     }
 }
 
-/* Walls of albedo .7 that emit .3 under a sky of 1: all is 1. */
-static void rooms_in_balance(void **state)
+/* Walls of albedo .7 that emit .3 under a sky of 1 have radiance 1. */
+static void guided_rooms_keep_the_mean(void **state)
 {
     (void)state;
     for (int has_pane = 0; has_pane < 2; has_pane++) {
-        struct path_guide g = {.cells = NULL};
+        struct path_guide g = {.each_cell_has_its_own_table = NULL};
         struct claim c = {.eye = {.6f, .1f, .4f},
                           .at = {.1f, -1, .1f},
                           .truth = GREY(1),
                           .paths = 2000,
-                          /* behind panes there are none */
+                          /* behind panes light samples see no sky */
                           .without = 1 << DIRECT_LIGHTS};
         struct stage s;
 
-        room(&s, has_pane);
+        make_room(&s, has_pane);
         s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .7f);
         s.mesh.materials[0].emission = v3(.3f, .3f, .3f);
         s.mesh.world.settings.sky.color = v3(1, 1, 1);
         stage_finish(&s);
-        built(&s, 1, &g); /* as if nothing else shone */
+        build_guide(&s, 1, &g); /* as if only the sky emitted light */
         assert_true(g.grid.table_count > 0);
         path_guide_lend(&g, &s.mesh.world);
         check_claim(&s, c);
@@ -555,37 +563,37 @@ static void rooms_in_balance(void **state)
     }
 }
 
-static void only_where_the_sky_is_hidden(void **state)
+static void tables_exist_only_where_the_sky_is_hidden(void **state)
 {
-    struct path_guide g = {.cells = NULL};
+    struct path_guide g = {.each_cell_has_its_own_table = NULL};
     struct error err;
     struct stage s;
 
     (void)state;
-    room(&s, false);
+    make_room(&s, false);
     stage_finish(&s);
-    built(&s, 0, &g);
-    assert_null(g.cells);
+    build_guide(&s, 0, &g);
+    assert_null(g.each_cell_has_its_own_table);
     check_or_say(path_guide_update(&g, &s.mesh.wide_world, lent_lights(&s), 1,
                                    NULL, &err),
                  err.text);
-    assert_non_null(g.cells);
+    assert_non_null(g.each_cell_has_its_own_table);
     check_or_say(path_guide_update(&g, &s.mesh.wide_world, lent_lights(&s), 0,
                                    NULL, &err),
                  err.text);
-    assert_null(g.cells);
+    assert_null(g.each_cell_has_its_own_table);
     lights_lend(&s.lights, &s.mesh.world);
-    built(&s, 1, &g);
-    assert_non_null(g.cells);
-    built(&s, 1e-4f, &g); /* which the lamp outshines */
-    assert_null(g.cells);
+    build_guide(&s, 1, &g);
+    assert_non_null(g.each_cell_has_its_own_table);
+    build_guide(&s, 1e-4f, &g); /* the lamp is much brighter */
+    assert_null(g.each_cell_has_its_own_table);
     stage_free(&s);
 
-    room(&s, true);
+    make_room(&s, true);
     s.mesh.materials[1] = mesh_material(MATERIAL_DIFFUSE, .5f);
     stage_finish(&s);
-    built(&s, 1, &g); /* behind a shutter */
-    assert_null(g.cells);
+    build_guide(&s, 1, &g); /* an opaque pane */
+    assert_null(g.each_cell_has_its_own_table);
     stage_free(&s);
 
     s = (struct stage){.mesh = {.positions = NULL}};
@@ -594,7 +602,7 @@ static void only_where_the_sky_is_hidden(void **state)
     mesh_add_quad(&s.mesh, v3(-9, -1, -9), v3(-9, -1, 9), v3(9, -1, 9),
                   v3(9, -1, -9), 0);
     stage_finish(&s);
-    built(&s, 1, &g);
+    build_guide(&s, 1, &g);
     for (uint32_t i = 0; i < s.mesh.world.settings.tri_count; i++) {
         struct vec3 p[3];
 
@@ -606,8 +614,8 @@ static void only_where_the_sky_is_hidden(void **state)
     stage_free(&s);
 }
 
-/* Caustics and openings: bit for bit. */
-static void threads_change_nothing(void **state)
+/* Tables for caustics and for windows have the same bits. */
+static void thread_counts_give_the_same_tables(void **state)
 {
     struct error err;
     struct pool *pool = pool_create(3, &err);
@@ -615,24 +623,26 @@ static void threads_change_nothing(void **state)
     (void)state;
     assert_non_null(pool);
     for (int sky = 0; sky < 2; sky++) {
-        struct path_guide alone = {.cells = NULL}, together = {.cells = NULL};
+        struct path_guide alone = {.each_cell_has_its_own_table = NULL},
+                          together = {.each_cell_has_its_own_table = NULL};
         struct stage s;
 
         if (sky == 1) {
-            room(&s, false);
+            make_room(&s, false);
             stage_finish(&s);
         } else {
-            lamp_and_wall(&s, MATERIAL_METAL);
+            make_lamp_and_wall(&s, MATERIAL_METAL);
         }
-        built(&s, (float)sky, &alone);
+        build_guide(&s, (float)sky, &alone);
         check_or_say(path_guide_update(&together, &s.mesh.wide_world,
                                        lent_lights(&s), sky, pool, &err),
                      err.text);
-        assert_non_null(alone.cells);
+        assert_non_null(alone.each_cell_has_its_own_table);
         assert_int_equal(alone.grid.table_count, together.grid.table_count);
-        assert_memory_equal(alone.cells, together.cells,
+        assert_memory_equal(alone.each_cell_has_its_own_table,
+                            together.each_cell_has_its_own_table,
                             guide_cell_count(&alone.grid) *
-                                sizeof *alone.cells);
+                                sizeof *alone.each_cell_has_its_own_table);
         assert_memory_equal(alone.sums, together.sums,
                             alone.grid.table_count * GUIDE_BINS *
                                 sizeof *alone.sums);
@@ -646,17 +656,17 @@ static void threads_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(density_and_samples),
-        cmocka_unit_test(light_samples_of_a_flat_sky),
-        cmocka_unit_test(cells),
-        cmocka_unit_test(any_table_is_right),
-        cmocka_unit_test(mirrors_point_to_images),
-        cmocka_unit_test(only_where_it_helps),
-        cmocka_unit_test(windows_are_found),
-        cmocka_unit_test(white_rooms_are_left_alone),
-        cmocka_unit_test(rooms_in_balance),
-        cmocka_unit_test(only_where_the_sky_is_hidden),
+        cmocka_unit_test(thread_counts_give_the_same_tables),
+        cmocka_unit_test(samples_follow_the_density),
+        cmocka_unit_test(light_samples_of_a_flat_sky_are_unbiased),
+        cmocka_unit_test(each_cell_has_its_own_table),
+        cmocka_unit_test(random_tables_keep_the_mean),
+        cmocka_unit_test(mirrors_guide_to_the_lamp_s_image),
+        cmocka_unit_test(tables_exist_only_with_caustics),
+        cmocka_unit_test(guided_directions_lead_to_the_window),
+        cmocka_unit_test(white_rooms_are_guided_less),
+        cmocka_unit_test(guided_rooms_keep_the_mean),
+        cmocka_unit_test(tables_exist_only_where_the_sky_is_hidden),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

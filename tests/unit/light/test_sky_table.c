@@ -11,8 +11,8 @@
 #include "tests/unit/chi_square.h"
 #include "tests/unit/sky_pdf.h"
 
-/* Means are compared with the truth within 4.9 standard errors: once in a
- * million by chance; seeds are fixed. */
+/* Means are compared with the truth within 4.9 standard errors, which chance
+ * exceeds once in a million. Seeds are fixed. */
 #define Z_LIMIT 4.9
 
 struct dome {
@@ -28,11 +28,11 @@ static struct vec2 any_point(uint64_t *seed)
     return v2(x, unit_float((uint32_t)(check_random(seed) * 4294967296.0)));
 }
 
-/* Radiance of a texel with its middle in direction d. */
+/* Returns the radiance of a texel whose middle is in direction d. */
 typedef double radiance_function(struct vec3 d, void *context);
 
-/* The direction of a point of the image by the convention: +y up, the top row
- * is +y, the middle column looks along -z, columns grow towards +x. */
+/* Returns the direction of a point of the image: +y is up, the top row is +y,
+ * the middle column looks along -z, and columns grow towards +x. */
 static struct vec3 direction_of(double column, double row)
 {
     double theta = M_PI * row;
@@ -92,7 +92,8 @@ static double constant(struct vec3 d, void *context)
     return *(double *)context;
 }
 
-/* A radiance that is linear in the direction: above 0, brightest along s. */
+/* The radiance is linear in the direction, positive, and greatest along
+ * `slope`. */
 static const double slope[3] = {0.3, 0.5, -0.2};
 
 static double linear(struct vec3 d, void *context)
@@ -107,7 +108,7 @@ static float table_pdf(const struct world *w, struct vec3 d)
     return sky_table_pdf(w, sky_uv(w->settings.sky, d));
 }
 
-/* Midpoints that know nothing of the texels. */
+/* Integrates by midpoints that are independent of the texels. */
 static void density_integrates_to_one(void **state)
 {
     const uint32_t sizes[][2] = {{32, 16}, {7, 5}, {3, 200}, {512, 1}, {2, 2}};
@@ -141,12 +142,12 @@ static void density_integrates_to_one(void **state)
 
 #define CELLS_Z 16
 #define CELLS   (CELLS_Z * CELLS_Z)
-#define FINE    64 /* midpoints of a cell, each way */
+#define FINE    64 /* midpoints of a cell along each axis */
 
-/* Chi-square over boxes of equal solid angle that are not the texels; those
- * with fewer than 5 expected are taken together. Expected counts come from
- * midpoints, whose error at the rims of texels is below 1 part in 64: so few
- * samples that it stays below their noise. */
+/* Chi-square test over boxes of equal solid angle that are not the texels.
+ * Boxes with fewer than 5 expected samples are merged. Expected counts come
+ * from midpoints, whose relative error at the edges of texels is below 1/64;
+ * the number of samples is small enough for the noise to exceed that. */
 static void samples_follow_the_density(void **state)
 {
     const int n = 20000;
@@ -189,8 +190,9 @@ static void samples_follow_the_density(void **state)
     }
 }
 
-/* Irradiance on a plane with normal n by the table and by chance, with the
- * balance heuristic; `most` is the largest single estimate. */
+/* Returns the irradiance on a plane with normal n, by samples of the table and
+ * of the cosine with the balance heuristic. `most` becomes the largest single
+ * estimate. */
 static double irradiance(const struct world *w, struct vec3 n, int count,
                          double *error, double *most)
 {
@@ -231,9 +233,9 @@ static double irradiance(const struct world *w, struct vec3 n, int count,
     return sum / count;
 }
 
-/* E = pi a + 2 pi / 3 b.n for L = a + b.d; a bilinear image of 512 x 256 is
- * off by 1e-4 at most: (pi / 256)^2 / 8 of the amplitude in the middle of four
- * texels, twice. */
+/* E = pi a + 2 pi / 3 b.n for L = a + b.d. A bilinear image of 512 x 256
+ * differs by at most 1e-4: (pi / 256)^2 / 8 of the amplitude in the middle of
+ * four texels, twice. */
 static void linear_sky_has_its_irradiance(void **state)
 {
     (void)state;
@@ -248,7 +250,8 @@ static void linear_sky_has_its_irradiance(void **state)
             struct vec3 n = v3_unit(v3((float)check_random(&seed) - 0.5f,
                                        (float)check_random(&seed) - 0.5f,
                                        (float)check_random(&seed) - 0.5f));
-            /* the dome turned about +y, counter-clockwise seen from above */
+            /* The dome is rotated about +y, counter-clockwise seen from
+             * above. */
             double along = (c * slope[0] + s * slope[2]) * (double)n.x +
                            slope[1] * (double)n.y +
                            (c * slope[2] - s * slope[0]) * (double)n.z;
@@ -276,10 +279,10 @@ static double spot_radiance(struct vec3 d, void *context)
     return v3_length(v3_sub(d, middle)) < 1e-6f ? s->hot : s->rest;
 }
 
-/* One texel among a million holds most of the light: no single estimate is far
- * above the whole, and the mean is the closed form of the bilinear image's
- * tent, which at the equator is one texel's solid angle, to 1e-4. */
-static void hot_texel_makes_no_firefly(void **state)
+/* One texel among a million has most of the light. No single estimate is far
+ * above the whole. The mean is the integral of the bilinear tent in closed
+ * form, which at the equator is one texel's solid angle, to 1e-4. */
+static void hot_texels_make_no_fireflies(void **state)
 {
     struct spot s = {2048, 512, 300, 200, 1e6, 0.1};
     double theta = M_PI * (s.row + 0.5) / s.height;
@@ -296,16 +299,17 @@ static void hot_texel_makes_no_firefly(void **state)
     dome_init(&d, s.width, s.height, SKY_WITH_MIS, spot_radiance, &s);
     e = irradiance(&d.world, n, 200000, &error, &most);
     check_close(e, truth, Z_LIMIT * error + 1e-4 * truth);
-    /* the tent is 16/9 times its mean over the texel at its peak, and the
-     * corners of its neighbours hold 16 times theirs */
+    /* At its peak the tent is 16/9 times its mean over the texel, and at the
+     * corners of the neighbours 16 times the mean over those. */
     check_at_most(most, 20 * truth);
-    /* over three texels the tent squared over its means is 13/9, each way */
+    /* Over three texels the mean of the squared tent over its means is 13/9
+     * along each axis. */
     check_at_most(error * sqrt(200000) / truth, sqrt(169.0 / 81 - 1) + 0.02);
     dome_free(&d);
 }
 
-/* Hot texels anywhere, poles and the seam included, are looked for where they
- * are: the mean of the sampled directions is the texel's. */
+/* Samples are directed at hot texels anywhere, including the poles and the
+ * seam: the mean of their directions is the texel's direction. */
 static void samples_go_where_the_image_says(void **state)
 {
     const uint32_t places[][2] = {{32, 16}, {48, 16}, {0, 16}, {63, 10},
@@ -322,21 +326,22 @@ static void samples_go_where_the_image_says(void **state)
         dome_init(&d, s.width, s.height, SKY_ALONE, spot_radiance, &s);
         for (int i = 0; i < 10000; i++)
             mean = v3_add(mean, sky_sample(&d.world, any_point(&seed)));
-        /* two texels away at most */
+        /* at most two texels away */
         check_at_most(v3_length(v3_sub(v3_unit(mean), middle)), 2 * M_PI / 32);
         assert_true(table_pdf(&d.world, middle) > 10);
         dome_free(&d);
     }
 }
 
-/* Texels at the poles of a large image: their solid angle is 1e-8, where 1 -
+/* Texels at the poles of a large image have a solid angle of 1e-8, where 1 -
  * cos has no digits in float. */
 static void poles_keep_their_digits(void **state)
 {
     (void)state;
     for (uint32_t row = 0; row < 2048; row += 2047) {
         struct spot s = {8, 2048, 3, row, 1e6, 0};
-        double top = 2 * pow(sin(M_PI / 4096), 2); /* of a cap of one row */
+        /* Solid angle of a cap of one row. */
+        double top = 2 * pow(sin(M_PI / 4096), 2);
         uint64_t seed = 4;
         double first = 0;
         struct dome d;
@@ -353,14 +358,14 @@ static void poles_keep_their_digits(void **state)
             assert_true((w.y > 0) == (row == 0));
             first += radius < sin(M_PI / 2048) ? 1 : 0;
         }
-        /* row 0: 7/8 of the radiance (its own 3/4 and the clamped 1/8) times
-         * the solid angle of a cap; row 1: 1/8 times three caps */
+        /* Row 0: 7/8 of the radiance (its own 3/4 and the clamped 1/8) times
+         * the solid angle of a cap. Row 1: 1/8 times three caps. */
         check_close(first / 20000, 7.0 / (7 + 3), Z_LIMIT * 0.5 / sqrt(20000));
         dome_free(&d);
     }
 }
 
-/* Without a table the cosine draws them: one sample alone is exact. */
+/* Without a table, samples follow the cosine, and a single one is exact. */
 static void flat_skies_have_no_table(void **state)
 {
     const double levels[] = {0, 1, 1e30, 1e-30};
@@ -408,7 +413,7 @@ int main(void)
         cmocka_unit_test(density_integrates_to_one),
         cmocka_unit_test(samples_follow_the_density),
         cmocka_unit_test(linear_sky_has_its_irradiance),
-        cmocka_unit_test(hot_texel_makes_no_firefly),
+        cmocka_unit_test(hot_texels_make_no_fireflies),
         cmocka_unit_test(samples_go_where_the_image_says),
         cmocka_unit_test(poles_keep_their_digits),
         cmocka_unit_test(flat_skies_have_no_table),

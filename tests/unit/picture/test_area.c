@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_area.c - what the screen shows is the box average, in light, of the
- * pixels that a file has
+ * test_area.c - the screen shows box averages, in linear light, of the pixels
+ * that a file has
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 #define WIDTH  150
 #define HEIGHT 86
 
-/* The overlap of [i, i + 1) / n with [k, k + 1) / m. */
+/* Returns the overlap of [i, i + 1) / n with [k, k + 1) / m. */
 static double shared(int i, int n, int k, int m)
 {
     double begin = fmax((double)i / n, (double)k / m);
@@ -26,8 +26,8 @@ static double shared(int i, int n, int k, int m)
     return fmax(end - begin, 0);
 }
 
-/* Any two grids: the walk meets each pair of cells that overlap once, in order,
- * with the length that they share, and no other. */
+/* For any two grids the walk meets each pair of overlapping cells once and in
+ * order, with the length that they share, and no other pair. */
 static void walks_cover_the_axis(void **state)
 {
     uint64_t seed = 5;
@@ -55,8 +55,8 @@ static void walks_cover_the_axis(void **state)
     }
 }
 
-/* The byte for the mean, in light, of a channel of the picture's pixels under
- * pixel (x, y) of a frame, each by its area there. */
+/* Returns the byte for a channel's mean, in linear light, over the pixels of
+ * the picture under pixel (x, y) of a frame, weighted by area. */
 static double box_average(const struct frame *picture,
                           const struct frame *frame, int x, int y, int c)
 {
@@ -96,7 +96,8 @@ static void check_frame(struct film *film, const struct frame *picture,
     frame_free(&frame);
 }
 
-/* In cells of each kind, in terminals smaller and larger than the picture. */
+/* Tests cells of each kind, in terminals smaller and larger than the
+ * picture. */
 static void check_terminals(struct film *film, struct develop how)
 {
     static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_QUADRANT,
@@ -150,7 +151,7 @@ static void screens_are_the_average_of_files(void **state)
     }
 }
 
-/* Black and white pixels by turns, with a few far beyond white. */
+/* Black and white pixels alternate; a few are far brighter than white. */
 static void sums_of_noise(void **state)
 {
     struct film film;

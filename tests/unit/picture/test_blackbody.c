@@ -14,7 +14,7 @@ static const double locus[][3] = {
 
 #define LOCUS_COUNT (sizeof locus / sizeof *locus)
 
-/* Of linear Rec.709, by the matrix of IEC 61966-2-1. */
+/* Chromaticity of linear Rec.709, by the matrix of IEC 61966-2-1. */
 static void chromaticity(const double rgb[3], double *x, double *y)
 {
     static const double matrix[3][3] = {{0.4124, 0.3576, 0.1805},
@@ -40,7 +40,7 @@ static void colours_are_on_the_locus(void **state)
         check_close(xyz[0] / sum, locus[i][1], 0.0005);
         check_close(xyz[1] / sum, locus[i][2], 0.0005);
         if (locus[i][0] < 1900)
-            continue; /* outside the gamut */
+            continue; /* outside the Rec.709 gamut */
         blackbody_rgb(locus[i][0], rgb);
         chromaticity(rgb, &x, &y);
         check_close(x, locus[i][1], 0.002);
@@ -48,9 +48,9 @@ static void colours_are_on_the_locus(void **state)
     }
 }
 
-/* White: the straight line from it through the black body's colour meets the
- * edge of the gamut where blue is 0. */
-static void what_is_too_red_moves_towards_white(void **state)
+/* A black body outside the gamut moves towards white: the line from white
+ * through its colour meets the edge of the gamut where blue is 0. */
+static void colours_outside_the_gamut_move_towards_white(void **state)
 {
     const double white[2] = {0.3127, 0.3290};
     double rgb[3], x, y;
@@ -64,7 +64,7 @@ static void what_is_too_red_moves_towards_white(void **state)
     assert_true(x > 0.5267 && x < 0.5857);
 }
 
-/* STRESS M15: from nothing that glows to more than any star. */
+/* STRESS M15: temperatures reach from below any glow to above any star. */
 static void all_temperatures_have_luminance_one(void **state)
 {
     (void)state;
@@ -85,7 +85,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_are_on_the_locus),
-        cmocka_unit_test(what_is_too_red_moves_towards_white),
+        cmocka_unit_test(colours_outside_the_gamut_move_towards_white),
         cmocka_unit_test(all_temperatures_have_luminance_one),
     };
 

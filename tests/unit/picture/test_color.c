@@ -4,8 +4,8 @@
 #include "picture/color.h"
 #include "tests/unit/check.h"
 
-/* Colours whose HSV anybody can look up, and greys. */
-static void known_colours(void **state)
+/* Tests colours with well-known HSV values, and greys. */
+static void hsv_of_known_colours_is_right(void **state)
 {
     static const struct {
         const char *hex;
@@ -40,7 +40,7 @@ static void known_colours(void **state)
     }
 }
 
-static void there_and_back(void **state)
+static void hsv_and_srgb_are_inverted_exactly(void **state)
 {
     uint64_t seed = 3;
 
@@ -62,7 +62,7 @@ static void there_and_back(void **state)
     }
 }
 
-static void typed_colours(void **state)
+static void typed_colours_are_read_or_refused(void **state)
 {
     static const char *const wrong[] = {
         "",       "#",    "#12", "#12345", "#gggggg", "red", "1 2",   "1 2 3 4",
@@ -82,7 +82,7 @@ static void typed_colours(void **state)
     check_close(rgb[2], 0, 0);
     assert_true(color_parse(".5  .25 3", rgb, &kelvin));
     assert_true(rgb[0] == 0.5 && rgb[1] == 0.25 && rgb[2] == 3);
-    /* white is near 6500 K, by the definition of D65 */
+    /* White is near 6500 K, by the definition of D65. */
     assert_true(color_parse("6504K", rgb, &kelvin));
     assert_true(kelvin == 6504);
     for (int k = 0; k < 3; k++)
@@ -95,9 +95,9 @@ static void typed_colours(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_colours),
-        cmocka_unit_test(there_and_back),
-        cmocka_unit_test(typed_colours),
+        cmocka_unit_test(hsv_of_known_colours_is_right),
+        cmocka_unit_test(hsv_and_srgb_are_inverted_exactly),
+        cmocka_unit_test(typed_colours_are_read_or_refused),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

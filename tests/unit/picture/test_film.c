@@ -7,7 +7,8 @@
 #include "picture/film.h"
 #include "kernels/tone.h"
 
-/* STRESS C6: the mean keeps moving where float sums stand still. */
+/* STRESS C6: the mean still changes at counts where sums of floats would
+ * stall. */
 static void sums_do_not_stall(void **state)
 {
     struct sum s = {0, 0};
@@ -23,7 +24,7 @@ static void sums_are_exact_in_any_order(void **state)
 {
     struct sum forward = {0, 0}, backward = {0, 0};
     float values[1000];
-    long double truth = 0; /* 64 bits of mantissa: 1e-17 of the largest */
+    long double truth = 0; /* 64 bits of mantissa: 1e-17 of the largest value */
     uint64_t seed = 3;
 
     (void)state;
@@ -43,7 +44,7 @@ static void sums_are_exact_in_any_order(void **state)
     check_at_most((double)(fabsl(sum - truth) / truth), 1e-15);
 }
 
-/* Every power of two alone: against ldexp. */
+/* Tests every power of two alone, compared with ldexp(). */
 static void single_values_come_back(void **state)
 {
     (void)state;
@@ -76,7 +77,7 @@ static void odd_values_are_refused_or_saturate(void **state)
     assert_true(s.hi == (uint64_t)1 << 63);
 }
 
-/* The byte against the formula of IEC 61966-2-1 in double. */
+/* Compares bytes with the formula of IEC 61966-2-1 in double. */
 static void bytes_follow_the_srgb_curve(void **state)
 {
     (void)state;
@@ -87,7 +88,8 @@ static void bytes_follow_the_srgb_curve(void **state)
                        : 1.055 * pow((double)x, 1 / 2.4) - 0.055;
         double exact = fmin(fmax(v * 255, 0), 255);
 
-        /* half a step, and the rounding of a threshold to float */
+        /* The bound is half a step, and the rounding of a threshold to
+         * float. */
         check_close(srgb_byte(x), exact, 0.5 + 2e-5);
     }
     assert_int_equal(srgb_byte(NAN), 0);
@@ -102,7 +104,8 @@ static struct path_sample grey(float x)
     return s;
 }
 
-/* Means, and the neighbour on the coarser grid where nothing is yet. */
+/* Pixels with samples show their means. Others show the neighbour on the
+ * coarser grid. */
 static void film_shows_means_and_fills_gaps(void **state)
 {
     struct film film;
@@ -153,7 +156,7 @@ static void film_shows_means_and_fills_gaps(void **state)
     check_close(rgb[0], 0, 0);
     film_add_row(&film, 0, 0, 1, 1, samples, counts);
     film_linear(&film, rgb);
-    check_close(rgb[0], 5, 0); /* nothing of before the clear is left */
+    check_close(rgb[0], 5, 0); /* no sample from before the clear is left */
     film_free(&film);
 }
 
@@ -178,7 +181,7 @@ static void bad_samples_count_as_zero(void **state)
     film_free(&film);
 }
 
-/* A box filter: the preview's mean is the picture's mean. */
+/* The preview averages with a box filter, so its mean is the picture's mean. */
 static void preview_averages(void **state)
 {
     struct film film;
@@ -199,7 +202,8 @@ static void preview_averages(void **state)
     assert_true(frame_init(&frame, 10, 7, &err));
     film_preview(&film, NULL, develop_linear(0.0f), &frame);
     for (int i = 0; i < 70; i++)
-        check_close(frame.rgb[3 * i], 188, 4); /* odd widths shift a little */
+        /* Odd widths shift the boxes a little. */
+        check_close(frame.rgb[3 * i], 188, 4);
     frame_free(&frame);
     assert_true(frame_init(&frame, 128, 96, &err));
     film_preview(&film, NULL, develop_linear(0.0f), &frame);
@@ -223,9 +227,9 @@ static void fill(struct film *film, float value)
             film_add_row(film, x, y, 1, 8, samples, counts);
 }
 
-/* Each sample counts alike: 12 of the film's 0.2 and 3 of the draft's 0.7 in a
- * pixel of the frame have the mean 0.3. A frame of another size than the
- * draft's shows the same. */
+/* All samples have equal weight: 12 of the film's 0.2 and 3 of the draft's 0.7
+ * in a pixel of the frame have the mean 0.3. A frame of another size than the
+ * draft's shows the same mean. */
 static void previews_add_the_draft(void **state)
 {
     struct film film, draft;
@@ -239,7 +243,7 @@ static void previews_add_the_draft(void **state)
         fill(&draft, 0.7f);
     assert_true(frame_init(&frame, 16, 16, &err));
     film_preview(&film, &draft, develop_linear(0.0f),
-                 &frame); /* of the draft alone */
+                 &frame); /* the draft alone */
     for (int i = 0; i < 16 * 16; i++)
         assert_int_equal(frame.rgb[3 * i], srgb_byte(0.7f));
     fill(&film, 0.2f);
@@ -255,7 +259,7 @@ static void previews_add_the_draft(void **state)
     for (int i = 0; i < 32 * 16; i++)
         assert_int_equal(frame.rgb[3 * i], srgb_byte(0.7f));
     film_clear(&draft);
-    draft.counts[0] = 3; /* all that its coarsest grid has */
+    draft.counts[0] = 3; /* all samples of its coarsest grid */
     film_preview(&film, &draft, develop_linear(0.0f), &frame);
     assert_int_equal(frame.rgb[3 * (15 * 32 + 31)], srgb_byte(0.7f));
     frame_free(&frame);
@@ -263,9 +267,10 @@ static void previews_add_the_draft(void **state)
     film_free(&draft);
 }
 
-/* Pixels of light 8 and 0 by turns are white and black in a file: half the
- * light of white. One sample a pixel shows their mean instead, FILM_YOUNG_SPP
- * the file, with the draft or without, and what lies between no jump. */
+/* Pixels of light 8 and 0 alternate. In a file they are white and black, which
+ * has half the light of white. With one sample per pixel the preview shows
+ * their mean instead, and with FILM_YOUNG_SPP the file, with and without the
+ * draft. The transition is continuous. */
 static void young_films_turn_into_files(void **state)
 {
     struct path_sample samples[8];
@@ -302,8 +307,8 @@ static void young_films_turn_into_files(void **state)
     film_free(&draft);
 }
 
-/* More light than a sum holds, in some pixels of the film or in each of them,
- * is white. */
+/* Sums that saturate, in some pixels of the film or in all of them, show as
+ * white. */
 static void previews_of_too_much_light_are_white(void **state)
 {
     struct film film;
@@ -313,7 +318,7 @@ static void previews_of_too_much_light_are_white(void **state)
     (void)state;
     assert_true(film_init(&film, 64, 48, &err));
     assert_true(frame_init(&frame, 32, 24, &err));
-    for (int i = 0; i < 3; i++) { /* a sum stops with the third */
+    for (int i = 0; i < 3; i++) { /* a sum saturates with the third */
         fill(&film, 3e38f);
         film_preview(&film, NULL, develop_linear(0.0f), &frame);
         for (int k = 0; k < 3 * 32 * 24; k++)
@@ -333,11 +338,11 @@ static void films_too_large_are_refused(void **state)
     assert_non_null(strstr(err.text, "2000000x2000000"));
 }
 
-/* The curves by other means than theirs: Reinhard's keeps ratios of channels
- * and turns luminance into L / (1 + L); that of Narkowicz meets values of his
- * formula, computed exactly. Both grow, and neither is dark where there is
- * infinitely much light. */
-static void test_tone_curves(void **state)
+/* Tests the curves by independent properties. Reinhard's keeps the ratios of
+ * channels and turns luminance L into L / (1 + L). Narkowicz's meets values of
+ * his formula, computed exactly. Both are monotonic, and infinite light is not
+ * dark. */
+static void tone_curves_follow_their_formulas(void **state)
 {
     static const struct {
         float x;
@@ -390,7 +395,7 @@ static void test_tone_curves(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tone_curves),
+        cmocka_unit_test(tone_curves_follow_their_formulas),
         cmocka_unit_test(sums_do_not_stall),
         cmocka_unit_test(sums_are_exact_in_any_order),
         cmocka_unit_test(single_values_come_back),

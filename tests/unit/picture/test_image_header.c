@@ -10,7 +10,7 @@
 #include "base/cgroup_quota.h"
 #include "tests/unit/whole_image.h"
 
-/* What a file that promises gigabytes may make the process grow by. */
+/* Most memory that the process may gain from a file that promises gigabytes. */
 #define GROWTH_KIB 8192
 
 static long resident_kib(void)
@@ -21,7 +21,7 @@ static long resident_kib(void)
     return usage.ru_maxrss;
 }
 
-/* Neither form of the image is read, and no memory is taken for it. */
+/* Checks that the image is refused in either form and takes no memory. */
 static void fails(const char *path, const char *expected)
 {
     long before = resident_kib();
@@ -50,7 +50,8 @@ static void reads(const char *path, int width, int height)
     image_free(&image);
 }
 
-/* The whole file is read; without its last byte it is too short. */
+/* Checks that the whole file can be read, and that it is too short without its
+ * last byte. */
 static void is_just_enough(const char *path, const void *data,
                            size_t size_bytes, int width, int height)
 {
@@ -65,14 +66,14 @@ static void is_just_enough(const char *path, const void *data,
     fails(path, expected);
 }
 
-static void test_tga(void **state)
+static void tga_files_too_short_for_their_size_are_refused(void **state)
 {
     static const char short_raw[] = "\0\0\2\0\0\0\0\0\0\0\0\0\xff\x7f\xff\x1f"
                                     "\x20\0x";
     static const char raw[] = "\2\0\2\0\0\0\0\0\0\0\0\0\3\0\2\0\x18\0"
                               "idabcdefghijklmnopqr";
-    /* three equal pixels, then two and two that differ, of which one is beyond
-     * the picture */
+    /* Three equal pixels, then two runs of two different ones, of which the
+     * last is beyond the picture. */
     static const char runs[] = "\0\0\12\0\0\0\0\0\0\0\0\0\3\0\2\0\x10\0"
                                "\x82"
                                "ab\1cdef\1ghij";
@@ -91,8 +92,8 @@ static void test_tga(void **state)
     is_just_enough("a.tga", palette_runs, sizeof palette_runs - 1, 256, 2);
 }
 
-/* The first row is padded to 12 bytes, the last one need not be. */
-static void test_bmp(void **state)
+/* The first row is padded to 12 bytes; the last one need not be. */
+static void bmp_files_too_short_for_their_size_are_refused(void **state)
 {
     static const char head[54] = "BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0"
                                  "\3\0\0\0\2\0\0\0\1\0\x18";
@@ -101,21 +102,22 @@ static void test_bmp(void **state)
     (void)state;
     memcpy(bmp, head, sizeof head);
     is_just_enough("a.bmp", bmp, sizeof bmp, 3, 2);
-    memcpy(bmp + 22, "\xfe\xff\xff\xff", 4); /* rows from the top down */
+    /* A negative height: rows from the top down. */
+    memcpy(bmp + 22, "\xfe\xff\xff\xff", 4);
     is_just_enough("a.bmp", bmp, sizeof bmp, 3, 2);
     memcpy(bmp + 18, "\0\x40\0\0\0\x40\0\0", 8);
     put_bytes("a.bmp", bmp, sizeof bmp);
     fails("a.bmp",
           "a.bmp: found 75 bytes, expected more for 16384x16384 pixels");
-    memcpy(bmp + 10, "\xff\xff\xff\x7f", 4); /* where the pixels begin */
+    memcpy(bmp + 10, "\xff\xff\xff\x7f", 4); /* offset of the pixels */
     memcpy(bmp + 18, "\1\0\0\0\1\0\0\0", 8);
     put_bytes("a.bmp", bmp, sizeof bmp);
     fails("a.bmp", "a.bmp: found 75 bytes, expected more for 1x1 pixels");
 }
 
-/* A grey JPEG of blocks that have two bits each, the fewest there can be: the
- * only code of either table says that the mean stays, and that the block ends.
- * `blocks` are in the file. */
+/* Writes a grey JPEG of `blocks` blocks with two bits each, the fewest
+ * possible: the only codes of the two tables mean that the average stays the
+ * same and that the block ends. */
 static void put_jpeg(const char *path, int side, int blocks)
 {
     static const char tables[] = "\xff\xdb\0\x43\0";
@@ -139,7 +141,7 @@ static void put_jpeg(const char *path, int side, int blocks)
     put_bytes(path, jpeg, (size_t)(p - jpeg));
 }
 
-static void test_jpeg(void **state)
+static void jpeg_files_too_short_for_their_size_are_refused(void **state)
 {
     (void)state;
     put_jpeg("a.jpg", 256, 32 * 32);
@@ -152,7 +154,7 @@ static void test_jpeg(void **state)
                    "frame that is known)");
 }
 
-/* Signature, header, and a chunk of that many zeros. */
+/* Writes a signature, a header, and a chunk of this many zeros. */
 static void put_png(const char *path, uint32_t side, char depth, char color,
                     size_t zeros)
 {
@@ -168,13 +170,13 @@ static void put_png(const char *path, uint32_t side, char depth, char color,
     free(data);
 }
 
-static void test_png(void **state)
+static void png_files_too_short_for_their_size_are_refused(void **state)
 {
     (void)state;
     put_png("a.png", 16384, 8, 0, 1000);
     fails("a.png", "a.png: found 1033 bytes, expected more for 16384x16384 "
                    "pixels");
-    /* the reason is that of a PNG, though other kinds are tried, too */
+    /* The message is about PNG, although other formats are tried too. */
     put_png("a.png", 16384, 16, 2, 2 << 20);
     fails("a.png", "a.png: found 16384x16384 pixels of 16 bits a channel, "
                    "expected less than 2 GiB of them");
@@ -188,7 +190,7 @@ static void test_png(void **state)
                    "header)");
 }
 
-static void test_hdr(void **state)
+static void hdr_files_too_short_for_their_size_are_refused(void **state)
 {
     static const char head[] =
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 16384\n123456789";
@@ -199,8 +201,8 @@ static void test_hdr(void **state)
     put_bytes("a.hdr", head, sizeof head - 1);
     fails("a.hdr", "a.hdr: found 9 bytes of pixels, expected more for "
                    "16384x16384");
-    /* the fewest bytes of the longest row: a pixel, 255 more, 127 * 256 more,
-     * which makes 32768 */
+    /* The fewest bytes of the longest row: a pixel, and runs of 255 and of 127
+     * * 256 pixels, 32768 in all. */
     memcpy(whole + length, "abcd\1\1\1\xff\1\1\1\x7f", 12);
     put_bytes("a.hdr", whole, length + 12);
     reads("a.hdr", 32768, 1);
@@ -209,9 +211,9 @@ static void test_hdr(void **state)
                    "32768x1");
 }
 
-/* A picture that its bytes can hold is refused before it is decoded, where
- * there is no room for it. */
-static void test_budget(void **state)
+/* An image that does not fit into the budget is refused before it is
+ * decoded. */
+static void images_beyond_the_budget_are_not_decoded(void **state)
 {
     struct memory_quota quota = cgroup_quota_memory("");
     uint64_t budget = quota.size_bytes / 4 * 3, room = 100 << 20;
@@ -223,7 +225,7 @@ static void test_budget(void **state)
     (void)state;
     put_png("a.png", 4096, 8, 0, 20000);
     assert_true(image_open(&file, "a.png", IMAGE_8BIT, 0, &err));
-    /* grey as it is packed and unpacked, then 4 channels */
+    /* Packed and unpacked grey pixels, then 4 channels. */
     assert_true(file.memory_bytes >= (UINT64_C(5) << 24) + 20000 &&
                 file.memory_bytes <= UINT64_C(10) << 24);
     uint64_t needed = file.memory_bytes;
@@ -239,7 +241,7 @@ static void test_budget(void **state)
              "MiB at most (all images: three quarters of the %.0f MiB %s)",
              (double)quota.size_bytes / (1 << 20), quota.place);
     assert_string_equal(err.text, expected);
-    /* the file alone is beyond it: it is not read */
+    /* The file alone exceeds the budget, so it is not read. */
     assert_false(image_open(&file, "a.png", IMAGE_8BIT, budget - 1000, &err));
     assert_true(file.is_beyond);
     assert_false(image_open(&file, "a.png", IMAGE_8BIT, UINT64_MAX, &err));
@@ -249,9 +251,12 @@ static void test_budget(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tga),  cmocka_unit_test(test_bmp),
-        cmocka_unit_test(test_jpeg), cmocka_unit_test(test_png),
-        cmocka_unit_test(test_hdr),  cmocka_unit_test(test_budget),
+        cmocka_unit_test(tga_files_too_short_for_their_size_are_refused),
+        cmocka_unit_test(bmp_files_too_short_for_their_size_are_refused),
+        cmocka_unit_test(jpeg_files_too_short_for_their_size_are_refused),
+        cmocka_unit_test(png_files_too_short_for_their_size_are_refused),
+        cmocka_unit_test(hdr_files_too_short_for_their_size_are_refused),
+        cmocka_unit_test(images_beyond_the_budget_are_not_decoded),
     };
 
     return cmocka_run_group_tests_name("image_header", tests, enter_folder,

@@ -13,7 +13,7 @@
 
 static char png_suite[500];
 
-/* Finds the suite before the current folder is another one. */
+/* Finds the suite before the current folder changes. */
 static int enter(void **state)
 {
     const char *shared = getenv("GLIM_SHARED");
@@ -52,13 +52,13 @@ static void both_fail(const char *path, const char *expected)
     assert_null(image.rgb);
 }
 
-/* The sRGB curve as the standard writes it. */
+/* The sRGB curve in the form of the standard. */
 static double srgb_decode(double v)
 {
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
-static void test_png(void **state)
+static void png_gives_its_bytes_and_linear_light(void **state)
 {
     uint8_t pixels[16 * 16 * 4];
     struct error err;
@@ -94,8 +94,8 @@ static void test_png(void **state)
     image_free(&image);
 }
 
-/* 2x1 pixels by hand: (m, e) means m * 2^(e - 136). */
-static void test_hdr(void **state)
+/* Pixels of a 2x1 picture, written by hand: (m, e) means m * 2^(e - 136). */
+static void hdr_values_are_exact(void **state)
 {
     static const char text[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n"
                                "-Y 2 +X 1\n"
@@ -124,9 +124,9 @@ static void test_hdr(void **state)
 
 #define HDR_HEAD "#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n\n"
 
-/* Rows of 8 pixels: channels apart in runs and copies; whole pixels with the
- * old repeats. */
-static void test_hdr_packed(void **state)
+/* Rows of 8 pixels: one with separate channels in runs and copies, one of whole
+ * pixels with the old repeats. */
+static void packed_hdr_rows_are_unpacked(void **state)
 {
     static const char text[] = HDR_HEAD "-Y 2 +X 8\n"
                                         "\x02\x02\x00\x08"
@@ -150,7 +150,7 @@ static void test_hdr_packed(void **state)
         static const float green[] = {0, 0.25f, 0.125f, 0, 0, 0, 0, 0};
         const float *low = image.rgb + 3 * x, *high = low + 24;
         float blue = x == 7 ? 2.0f / 128 : 1.0f / 128;
-        /* exponent 0 is black, whatever the mantissas */
+        /* Exponent 0 is black for all mantissas. */
         assert_true(low[0] == (x == 0 ? 0.0f : 1.0f));
         assert_true(low[1] == green[x]);
         assert_true(low[2] == (x == 0 ? 0.0f : blue));
@@ -166,7 +166,7 @@ static void test_hdr_packed(void **state)
     assert_string_equal(err.text, "cut.hdr: found no end of row 2 of 2");
 }
 
-static void test_hdr_errors(void **state)
+static void broken_hdr_files_have_their_message(void **state)
 {
     static const char no_end[] = HDR_HEAD "-Y 1 +X 8\n\2\2\0\x08\0\0\0\0";
     static const char repeat[] = HDR_HEAD "-Y 1 +X 2\n\1\1\1\1\0\0\0\0";
@@ -194,9 +194,9 @@ static void test_hdr_errors(void **state)
     both_fail("e.hdr", "e.hdr: found no end of row 1 of 1");
 }
 
-/* stb_image 2.27 writes out of bounds for these, in the header as well as
+/* stb_image 2.27 writes out of bounds for these files, in the header and
  * between two scans. */
-static void test_jpeg_tables(void **state)
+static void jpeg_tables_too_large_are_refused(void **state)
 {
     unsigned char jpeg[600] = "\xff\xd8\xff\xe0\0\x06\xff\xc4\xff\xff"
                               "\xff\xc4\x02\0\x10";
@@ -210,12 +210,12 @@ static void test_jpeg_tables(void **state)
     both_fail("tables.jpg", "tables.jpg: found a Huffman table of more than");
     memcpy(jpeg + 2, "\xff\xda\0\x04zz", 6); /* a scan comes first */
     assert_false(stb_is_safe(jpeg, sizeof jpeg));
-    jpeg[0] = 0; /* no JPEG at all */
+    jpeg[0] = 0; /* not a JPEG */
     assert_true(stb_is_safe(jpeg, sizeof jpeg));
 }
 
-/* The greatest RGBE values are beyond what is kept. */
-static void test_hdr_greatest(void **state)
+/* The greatest RGBE values exceed the limit of what is kept. */
+static void hdr_values_are_clamped(void **state)
 {
     static const char text[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n"
                                "-Y 1 +X 1\n\xff\x01\x00\xff";
@@ -243,7 +243,7 @@ static void put_pfm(const char *path, const char *header, const float *values,
     fclose(f);
 }
 
-static void test_pfm(void **state)
+static void pfm_values_are_exact(void **state)
 {
     static const float values[] = {1,  2,        3,      4, 5, 6,
                                    -1, INFINITY, 1e-40f, 7, 8, 9};
@@ -282,7 +282,7 @@ static void test_pfm(void **state)
     both_fail("wide.pfm", "expected sides of 1 to 32768");
 }
 
-/* Signature and IHDR with a CRC that stb does not look at. */
+/* Writes a signature and an IHDR whose CRC stb ignores. */
 static void put_png_header(const char *path, uint32_t width, uint32_t height)
 {
     unsigned char png[33] = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR";
@@ -296,7 +296,7 @@ static void put_png_header(const char *path, uint32_t width, uint32_t height)
     put_bytes(path, png, sizeof png);
 }
 
-static void test_errors(void **state)
+static void unreadable_files_have_their_message(void **state)
 {
     (void)state;
     both_fail("nothing.png", "nothing.png: no such file");
@@ -313,9 +313,9 @@ static void test_errors(void **state)
     both_fail("cut.png", "cut.png: found an image that cannot be read (PNG");
 }
 
-/* A scanline of zeros compresses a thousandfold: a file of some megabytes for
+/* A scanline of zeros compresses a thousandfold. A file of some megabytes for
  * one pixel that would inflate to gigabytes takes little memory. */
-static void test_bomb(void **state)
+static void compression_bombs_take_little_memory(void **state)
 {
     int side = 5000;
     char *zeros = calloc((size_t)side, (size_t)side * 3);
@@ -339,9 +339,9 @@ static void test_bomb(void **state)
     check_at_most((double)(after.ru_maxrss - before.ru_maxrss), 64 << 10);
 }
 
-/* Any part of a file, and any file with some bytes changed, gives an image or
+/* Each part of a file, and each file with some bytes changed, gives an image or
  * an error. */
-static void test_mutations(void **state)
+static void broken_files_give_an_image_or_an_error(void **state)
 {
     static const char *const paths[] = {"a.png", "a.hdr", "packed.hdr",
                                         "a.pfm"};
@@ -374,7 +374,7 @@ static void test_mutations(void **state)
     }
 }
 
-/* What the system's sha256sum says of a file. */
+/* Runs the system's sha256sum on a file. */
 static void sha256_of(const char *path, char sum[65])
 {
     char command[256];
@@ -387,7 +387,7 @@ static void sha256_of(const char *path, char sum[65])
     pclose(f);
 }
 
-/* The value of a line `"key": value,` without quotes, or NULL. */
+/* Returns the value of a line `"key": value,` without quotes, or NULL. */
 static char *value_of(char *line, const char *key)
 {
     size_t length = strlen(key);
@@ -401,8 +401,8 @@ static char *value_of(char *line, const char *key)
     return value;
 }
 
-/* One file of the suite; sum is "" for one that is broken on purpose, which
- * may be read or refused. */
+/* Reads one file of the suite. `sum` is "" for a file that is broken on
+ * purpose, which may be read or refused. */
 static int read_one(const char *suites, const char *name, const char *sum)
 {
     char path[1000], found[65];
@@ -433,8 +433,9 @@ static int read_one(const char *suites, const char *name, const char *sum)
     return strcmp(found, sum) != 0;
 }
 
-/* PNG files of many makers, with the pixels that a strict decoder finds. */
-static void test_suite(void **state)
+/* Reads PNG files of many programs and compares the pixels with those of a
+ * strict decoder. */
+static void png_suite_has_the_right_pixels(void **state)
 {
     char line[1000], name[300] = "", sum[65] = "", path[700];
     int files = 0, whole = 0, wrong = 0;
@@ -469,12 +470,17 @@ static void test_suite(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),         cmocka_unit_test(test_hdr),
-        cmocka_unit_test(test_hdr_packed),  cmocka_unit_test(test_hdr_errors),
-        cmocka_unit_test(test_jpeg_tables), cmocka_unit_test(test_hdr_greatest),
-        cmocka_unit_test(test_pfm),         cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_bomb),        cmocka_unit_test(test_mutations),
-        cmocka_unit_test(test_suite),
+        cmocka_unit_test(png_gives_its_bytes_and_linear_light),
+        cmocka_unit_test(hdr_values_are_exact),
+        cmocka_unit_test(packed_hdr_rows_are_unpacked),
+        cmocka_unit_test(broken_hdr_files_have_their_message),
+        cmocka_unit_test(jpeg_tables_too_large_are_refused),
+        cmocka_unit_test(hdr_values_are_clamped),
+        cmocka_unit_test(pfm_values_are_exact),
+        cmocka_unit_test(unreadable_files_have_their_message),
+        cmocka_unit_test(compression_bombs_take_little_memory),
+        cmocka_unit_test(broken_files_give_an_image_or_an_error),
+        cmocka_unit_test(png_suite_has_the_right_pixels),
     };
 
     return cmocka_run_group_tests_name("image", tests, enter, remove_folder);

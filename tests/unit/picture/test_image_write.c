@@ -19,7 +19,8 @@
 #define WIDTH  37
 #define HEIGHT 23
 
-/* Everybody may write into it: a test gives up the rights of root. */
+/* Everybody may write into the folder, since a test gives up the rights of
+ * root. */
 static int enter(void **state)
 {
     return enter_folder(state) == 0 ? chmod(folder, 0777) : -1;
@@ -30,7 +31,8 @@ static bool exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
-/* A film of one sample a pixel; `value` tells the pixel's channels. */
+/* Makes a film of one sample per pixel; `value` returns the channels of a
+ * pixel. */
 static void make_film(struct film *film, int width, int height,
                       float (*value)(int x, int y, int c))
 {
@@ -53,7 +55,7 @@ static void make_film(struct film *film, int width, int height,
     free(counts);
 }
 
-/* Five decades of light, and black. */
+/* Values over five decades, and black. */
 static float wide_range(int x, int y, int c)
 {
     if (x == 5 && y == 5)
@@ -99,7 +101,7 @@ static void has_bytes(const char *path, const struct frame *expected)
     free(rgb);
 }
 
-static void test_format_of(void **state)
+static void format_follows_the_ending(void **state)
 {
     (void)state;
     assert_int_equal(image_write_format_of("a.png"), IMAGE_WRITE_PNG);
@@ -112,7 +114,7 @@ static void test_format_of(void **state)
     assert_int_equal(image_write_format_of("a.jpg"), IMAGE_WRITE_UNKNOWN);
 }
 
-static void test_png(void **state)
+static void png_has_the_frame_s_bytes(void **state)
 {
     struct film film;
     struct frame frame;
@@ -131,7 +133,7 @@ static void test_png(void **state)
     film_free(&film);
 }
 
-static void test_hdr(void **state)
+static void hdr_has_the_film_s_means(void **state)
 {
     struct film film;
     struct image image;
@@ -153,7 +155,7 @@ static void test_hdr(void **state)
             expected[c] = wide_range(i % WIDTH, i / WIDTH, c);
             greatest = fmaxf(greatest, expected[c]);
         }
-        /* half a step of 8 bits, at the worst mantissa */
+        /* The bound is half a step of 8 bits, at the worst mantissa. */
         for (int c = 0; c < 3; c++) {
             check_close(rgb[3 * i + c], expected[c], greatest / 256);
             if (greatest > 0)
@@ -161,7 +163,7 @@ static void test_hdr(void **state)
                     (double)(rgb[3 * i + c] - expected[c]) / (double)greatest;
         }
     }
-    /* and no darker on the whole */
+    /* The mean is no darker. */
     check_close(excess / (3 * WIDTH * HEIGHT), 0, 3e-4);
     image_free(&image);
 }
@@ -172,8 +174,8 @@ static float near_powers(int x, int y, int c)
     return ldexpf(1 - ldexpf(1, -24 + y), x - 18);
 }
 
-/* The greatest mantissas round up into the next exponent. */
-static void test_hdr_powers(void **state)
+/* The greatest mantissas round up to the next exponent. */
+static void hdr_is_right_beside_powers_of_two(void **state)
 {
     struct film film;
     struct error err;
@@ -192,7 +194,7 @@ static void test_hdr_powers(void **state)
     image_free(&image);
 }
 
-static void test_pfm(void **state)
+static void pfm_has_the_film_s_exact_means(void **state)
 {
     static const char header[] = "PF\n37 23\n-1.0\n";
     struct film film;
@@ -224,7 +226,7 @@ static void test_pfm(void **state)
     free(linear);
 }
 
-static void test_small(void **state)
+static void small_pictures_are_written(void **state)
 {
     static const char *const paths[] = {"s.png", "s.hdr", "s.pfm"};
     static const int sizes[][2] = {{1, 1}, {1, 300}, {300, 1}, {8, 8}};
@@ -245,7 +247,7 @@ static void test_small(void **state)
     }
 }
 
-static void test_check(void **state)
+static void paths_that_cannot_be_written_are_refused(void **state)
 {
     static const struct {
         const char *path, *expected;
@@ -270,7 +272,7 @@ static void test_check(void **state)
     assert_false(exists("new.png"));
 }
 
-static void test_check_terminal(void **state)
+static void pictures_are_not_written_to_terminals(void **state)
 {
     int saved = dup(STDOUT_FILENO);
     int terminal = posix_openpt(O_RDWR | O_NOCTTY);
@@ -300,8 +302,8 @@ static void test_check_terminal(void **state)
     assert_true(on_pipe);
 }
 
-/* Writes the film to standard output, which is a pipe; the reader takes all of
- * it, or goes away at once. */
+/* Writes the film to standard output, which is a pipe. The reader takes all of
+ * it, or closes the pipe at once. */
 static bool write_to_pipe(struct film *film, bool reads, struct error *err)
 {
     int ends[2], saved = dup(STDOUT_FILENO), status;
@@ -343,7 +345,7 @@ static float noise(int x, int y, int c)
     return (float)(h >> 8) * 0x1p-24f;
 }
 
-static void test_stdout(void **state)
+static void standard_output_has_the_picture(void **state)
 {
     struct film film;
     struct frame frame;
@@ -351,7 +353,7 @@ static void test_stdout(void **state)
 
     (void)state;
     signal(SIGPIPE, SIG_IGN);
-    make_film(&film, 300, 200, noise); /* more than a pipe holds */
+    make_film(&film, 300, 200, noise); /* more than a pipe buffers */
     assert_true(write_to_pipe(&film, true, &err));
     assert_true(frame_init(&frame, 300, 200, &err));
     film_resolve(&film, develop_linear(0), &frame);
@@ -362,7 +364,7 @@ static void test_stdout(void **state)
     film_free(&film);
 }
 
-static void test_numbered(void **state)
+static void numbered_pictures_take_the_first_free_name(void **state)
 {
     static const char *const expected[] = {"n.png", "n-2.png", "n-4.png",
                                            "n-6.png"};
@@ -392,8 +394,8 @@ static void test_numbered(void **state)
     film_free(&film);
 }
 
-/* Two at once never take the same name. */
-static void test_numbered_race(void **state)
+/* Processes that write at the same time never take the same name. */
+static void numbered_names_are_never_taken_twice(void **state)
 {
     struct film film;
     pid_t children[4];
@@ -440,8 +442,9 @@ static void write_forever(struct film *a, struct film *b)
     }
 }
 
-/* Killed at any moment, the file is one of the two pictures. */
-static void test_killed(void **state)
+/* When the writer is killed at any moment, the file is one of the two
+ * pictures. */
+static void killed_writers_leave_a_whole_picture(void **state)
 {
     struct film films[2];
     size_t sizes[2], size;
@@ -482,7 +485,7 @@ static void test_killed(void **state)
     }
 }
 
-/* In a child, as the limit stays. */
+/* Runs in a child process, since the limit cannot be removed. */
 static bool fails_on_full_disk(struct film *film)
 {
     static const char *const paths[] = {"f.png", "f.hdr", "f.pfm"};
@@ -500,7 +503,7 @@ static bool fails_on_full_disk(struct film *film)
            !image_write_numbered(film, develop_linear(0), "full", "png", &err);
 }
 
-static void test_disk_full(void **state)
+static void full_disk_keeps_the_old_picture(void **state)
 {
     struct film film;
     struct error err;
@@ -538,19 +541,19 @@ static void test_disk_full(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_format_of),
-        cmocka_unit_test(test_png),
-        cmocka_unit_test(test_hdr),
-        cmocka_unit_test(test_hdr_powers),
-        cmocka_unit_test(test_pfm),
-        cmocka_unit_test(test_small),
-        cmocka_unit_test(test_check),
-        cmocka_unit_test(test_check_terminal),
-        cmocka_unit_test(test_stdout),
-        cmocka_unit_test(test_numbered),
-        cmocka_unit_test(test_numbered_race),
-        cmocka_unit_test(test_killed),
-        cmocka_unit_test(test_disk_full),
+        cmocka_unit_test(format_follows_the_ending),
+        cmocka_unit_test(png_has_the_frame_s_bytes),
+        cmocka_unit_test(hdr_has_the_film_s_means),
+        cmocka_unit_test(hdr_is_right_beside_powers_of_two),
+        cmocka_unit_test(pfm_has_the_film_s_exact_means),
+        cmocka_unit_test(small_pictures_are_written),
+        cmocka_unit_test(paths_that_cannot_be_written_are_refused),
+        cmocka_unit_test(pictures_are_not_written_to_terminals),
+        cmocka_unit_test(standard_output_has_the_picture),
+        cmocka_unit_test(numbered_pictures_take_the_first_free_name),
+        cmocka_unit_test(numbered_names_are_never_taken_twice),
+        cmocka_unit_test(killed_writers_leave_a_whole_picture),
+        cmocka_unit_test(full_disk_keeps_the_old_picture),
     };
 
     return cmocka_run_group_tests_name("picture", tests, enter, remove_folder);
