@@ -35,8 +35,9 @@ static void unload(struct loaded *l)
     warnings_free(&l->report);
 }
 
-/* The material "m" of these statements, and how many kinds of warnings. */
-static struct material one(const char *statements, int warnings)
+/* Returns the material "m" of these statements, which give this many kinds of
+ * warnings. */
+static struct material only_material(const char *statements, int warnings)
 {
     struct material m;
     char text[1024];
@@ -65,7 +66,7 @@ static void check_color(struct vec3 c, double r, double g, double b)
     check_close((double)c.z, b, 1e-7);
 }
 
-static void test_kinds(void **state)
+static void statements_choose_the_kind(void **state)
 {
     static const struct {
         const char *text;
@@ -99,7 +100,7 @@ static void test_kinds(void **state)
         {"Tf .25\nNi .75\nillum 4", MATERIAL_THIN_GLASS, .25, 0, .75},
         {"Tf .25\nNi 1\nillum 4", MATERIAL_THIN_GLASS, .25, 0, 1},
         {"Ni 1\nillum 4", MATERIAL_THIN_GLASS, 1, 0, 1},
-        /* as Maya writes what is opaque */
+        /* Maya writes this for an opaque material. */
         {"illum 4\nKd .25\nTf 1 1 1\nNi 1.00", MATERIAL_DIFFUSE, .25, 0, 1.5},
         {"illum 4\nKd .5\nTf 1 1 1\nNi 1\nKs .5\nNs 6", MATERIAL_PLASTIC, .5,
          .5, 1.5},
@@ -108,7 +109,7 @@ static void test_kinds(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct material m = one(cases[i].text, 0);
+        struct material m = only_material(cases[i].text, 0);
 
         if (m.kind != cases[i].kind)
             print_error("%s\n", cases[i].text);
@@ -123,23 +124,23 @@ static void test_kinds(void **state)
     }
 }
 
-static void test_coats(void **state)
+static void ks_is_the_coat(void **state)
 {
     (void)state;
-    check_color(one("Kd .5\nKs .5 1 0", 0).coat, .04, .08, 0);
-    check_color(one("Kd .5\nKs 2 -1 .25", 1).coat, .08, 0, .02);
-    check_color(one("Kd .5\nKs 1\nillum 3", 0).coat, 0, 0, 0);
+    check_color(only_material("Kd .5\nKs .5 1 0", 0).coat, .04, .08, 0);
+    check_color(only_material("Kd .5\nKs 2 -1 .25", 1).coat, .08, 0, .02);
+    check_color(only_material("Kd .5\nKs 1\nillum 3", 0).coat, 0, 0, 0);
 }
 
-static void test_emission(void **state)
+static void ke_is_the_emission(void **state)
 {
     (void)state;
-    check_color(one("Kd 0 0 0\nKe 17 12 4", 0).emission, 17, 12, 4);
-    check_color(one("Ke 2", 0).emission, 2, 2, 2);
-    assert_true(one("Ke 1e38 1e-10 0", 0).emission.x == 1e38f);
-    check_color(one("Ke -1 3 -0", 1).emission, 0, 3, 0);
-    check_color(one("Ke inf nan 1e39", 1).emission, 0, 0, 0);
-    check_color(one("Ke 1 1e400 2", 1).emission, 1, 0, 2);
+    check_color(only_material("Kd 0 0 0\nKe 17 12 4", 0).emission, 17, 12, 4);
+    check_color(only_material("Ke 2", 0).emission, 2, 2, 2);
+    assert_true(only_material("Ke 1e38 1e-10 0", 0).emission.x == 1e38f);
+    check_color(only_material("Ke -1 3 -0", 1).emission, 0, 3, 0);
+    check_color(only_material("Ke inf nan 1e39", 1).emission, 0, 0, 0);
+    check_color(only_material("Ke 1 1e400 2", 1).emission, 1, 0, 2);
 }
 
 static double luminance(struct vec3 c)
@@ -147,37 +148,40 @@ static double luminance(struct vec3 c)
     return 0.2126 * (double)c.x + 0.7152 * (double)c.y + 0.0722 * (double)c.z;
 }
 
-/* Colours are test_blackbody's business. */
-static void test_black_bodies(void **state)
+/* The colours themselves are tested by test_blackbody. */
+static void black_bodies_have_their_luminance(void **state)
 {
-    struct vec3 c = one("Kd 0 0 0\nKe_blackbody 2000", 0).emission;
+    struct vec3 c = only_material("Kd 0 0 0\nKe_blackbody 2000", 0).emission;
 
     (void)state;
     check_close(luminance(c), 1, 1e-3);
     assert_true(c.x > c.y && c.y > c.z);
-    check_close(luminance(one("Ke_blackbody 6500 25", 0).emission), 25, 0.02);
-    check_close(luminance(one("Ke 3 3 3\nKe_blackbody 5e3 2", 0).emission), 2,
-                2e-3);
-    check_color(one("Ke_blackbody 5000 2\nKe 3", 0).emission, 3, 3, 3);
-    check_color(one("Ke_blackbody 0", 0).emission, 0, 0, 0);
-    check_color(one("Ke_blackbody 5000 0", 0).emission, 0, 0, 0);
-    check_color(one("Ke_blackbody -5", 1).emission, 0, 0, 0);
-    check_color(one("Ke_blackbody nan", 1).emission, 0, 0, 0);
-    check_color(one("Ke_blackbody 1e30 4", 1).emission, 0, 0, 0);
-    check_color(one("Ke_blackbody 5000 -1", 1).emission, 0, 0, 0);
+    check_close(luminance(only_material("Ke_blackbody 6500 25", 0).emission),
+                25, 0.02);
+    check_close(luminance(
+                    only_material("Ke 3 3 3\nKe_blackbody 5e3 2", 0).emission),
+                2, 2e-3);
+    check_color(only_material("Ke_blackbody 5000 2\nKe 3", 0).emission, 3, 3,
+                3);
+    check_color(only_material("Ke_blackbody 0", 0).emission, 0, 0, 0);
+    check_color(only_material("Ke_blackbody 5000 0", 0).emission, 0, 0, 0);
+    check_color(only_material("Ke_blackbody -5", 1).emission, 0, 0, 0);
+    check_color(only_material("Ke_blackbody nan", 1).emission, 0, 0, 0);
+    check_color(only_material("Ke_blackbody 1e30 4", 1).emission, 0, 0, 0);
+    check_color(only_material("Ke_blackbody 5000 -1", 1).emission, 0, 0, 0);
 }
 
-static void test_colors_are_clamped(void **state)
+static void colors_are_clamped(void **state)
 {
     (void)state;
-    check_color(one("Kd 2 -1 .5", 1).color, 1, 0, .5);
-    check_color(one("Kd nan inf -inf", 1).color, 0, 1, 0);
-    check_color(one("Ks 1.5 1 1\nillum 3", 1).color, 1, 1, 1);
-    check_color(one("Tf 1 2 3\nillum 7", 1).color, 1, 1, 1);
-    check_color(one("Kd 1 0 1", 0).color, 1, 0, 1);
+    check_color(only_material("Kd 2 -1 .5", 1).color, 1, 0, .5);
+    check_color(only_material("Kd nan inf -inf", 1).color, 0, 1, 0);
+    check_color(only_material("Ks 1.5 1 1\nillum 3", 1).color, 1, 1, 1);
+    check_color(only_material("Tf 1 2 3\nillum 7", 1).color, 1, 1, 1);
+    check_color(only_material("Kd 1 0 1", 0).color, 1, 0, 1);
 }
 
-static void test_impossible_values(void **state)
+static void impossible_values_are_replaced(void **state)
 {
     static const char *const iors[] = {"0", "-1", "nan", "inf", "1e7", "1e-7"};
 
@@ -186,30 +190,34 @@ static void test_impossible_values(void **state)
         char text[64];
 
         snprintf(text, sizeof text, "Ni %s\nillum 7", iors[i]);
-        check_close((double)one(text, 1).ior, 1.5, 0);
+        check_close((double)only_material(text, 1).ior, 1.5, 0);
     }
-    check_close((double)one("Ks 1\nillum 3\nPr 2", 1).alpha, 1, 0);
-    check_close((double)one("Ks 1\nillum 3\nPr -1", 1).alpha, 0, 0);
-    check_close((double)one("Ks 1\nillum 3\nPr nan", 1).alpha, 0, 0);
-    check_close((double)one("Ks 1\nillum 3\nNs -5", 1).alpha, 0, 0);
-    check_close((double)one("Ks 1\nillum 3\nNs 1e300", 0).alpha, 0, 0);
-    assert_int_equal(one("illum 99\nKd .5", 1).kind, MATERIAL_DIFFUSE);
-    assert_int_equal(one("illum nan\nKd .5", 1).kind, MATERIAL_DIFFUSE);
-    assert_int_equal(one("illum -1e300\nKd .5", 1).kind, MATERIAL_DIFFUSE);
-    assert_int_equal(one("Pm nan", 1).kind, MATERIAL_DIFFUSE);
+    check_close((double)only_material("Ks 1\nillum 3\nPr 2", 1).alpha, 1, 0);
+    check_close((double)only_material("Ks 1\nillum 3\nPr -1", 1).alpha, 0, 0);
+    check_close((double)only_material("Ks 1\nillum 3\nPr nan", 1).alpha, 0, 0);
+    check_close((double)only_material("Ks 1\nillum 3\nNs -5", 1).alpha, 0, 0);
+    check_close((double)only_material("Ks 1\nillum 3\nNs 1e300", 0).alpha, 0,
+                0);
+    assert_int_equal(only_material("illum 99\nKd .5", 1).kind,
+                     MATERIAL_DIFFUSE);
+    assert_int_equal(only_material("illum nan\nKd .5", 1).kind,
+                     MATERIAL_DIFFUSE);
+    assert_int_equal(only_material("illum -1e300\nKd .5", 1).kind,
+                     MATERIAL_DIFFUSE);
+    assert_int_equal(only_material("Pm nan", 1).kind, MATERIAL_DIFFUSE);
 }
 
-static void test_opacity(void **state)
+static void d_and_tr_are_the_opacity(void **state)
 {
     (void)state;
-    check_close((double)one("d .25", 0).opacity, .25, 0);
-    check_close((double)one("d -halo .25", 0).opacity, .25, 0);
-    check_close((double)one("Tr .25", 0).opacity, .75, 0);
-    check_close((double)one("Tr 1\nd 1", 0).opacity, 1, 0);
-    check_close((double)one("d .5\nTr 0", 0).opacity, .5, 0);
-    check_close((double)one("d 7", 1).opacity, 1, 0);
-    check_close((double)one("d nan", 1).opacity, 1, 0);
-    check_close((double)one("d .25\nillum 7", 0).opacity, 1, 0);
+    check_close((double)only_material("d .25", 0).opacity, .25, 0);
+    check_close((double)only_material("d -halo .25", 0).opacity, .25, 0);
+    check_close((double)only_material("Tr .25", 0).opacity, .75, 0);
+    check_close((double)only_material("Tr 1\nd 1", 0).opacity, 1, 0);
+    check_close((double)only_material("d .5\nTr 0", 0).opacity, .5, 0);
+    check_close((double)only_material("d 7", 1).opacity, 1, 0);
+    check_close((double)only_material("d nan", 1).opacity, 1, 0);
+    check_close((double)only_material("d .25\nillum 7", 0).opacity, 1, 0);
 }
 
 static void check_refused(const char *text, const char *message)
@@ -221,7 +229,7 @@ static void check_refused(const char *text, const char *message)
     unload(&l);
 }
 
-static void test_malformed_numbers(void **state)
+static void malformed_numbers_are_refused(void **state)
 {
     (void)state;
     check_refused("newmtl m\nKd 1 x 0\n",
@@ -236,7 +244,7 @@ static void test_malformed_numbers(void **state)
                   "a.mtl:2: found '1,5' after Ni, expected a number");
 }
 
-static void test_names(void **state)
+static void names_are_whole_lines(void **state)
 {
     struct loaded l = load("# c\r\nnewmtl two  words \r\nKd 1 0 0\r\n"
                            "newmtl b\r\nnewmtl two  words\r\nKd 0 1 0\r\n"
@@ -258,7 +266,7 @@ static void test_names(void **state)
     unload(&l);
 }
 
-static void test_what_is_not_used(void **state)
+static void unused_statements_are_warned_of(void **state)
 {
     struct loaded l = load("Kd 1 1 1\nnewmtl m\nKa x\nKd spectral a.rfl\n"
                            "disp -bm 1 a.png\ndisp b.png\nsharpness 1\n"
@@ -281,8 +289,8 @@ static void test_what_is_not_used(void **state)
     unload(&l);
 }
 
-/* The name that remains of a map statement. */
-static void test_map_options(void **state)
+/* Compares the file name that remains after the options of a map statement. */
+static void map_options_are_not_part_of_the_name(void **state)
 {
     static const struct {
         const char *text, *path;
@@ -343,8 +351,8 @@ static void test_map_options(void **state)
     }
 }
 
-/* The last bit of a number makes it another texture. */
-static void test_maps_of_other_scales_are_not_shared(void **state)
+/* Maps whose scales differ in the last bit are different textures. */
+static void maps_of_other_scales_are_not_shared(void **state)
 {
     struct loaded l = load("newmtl a\nmap_Kd -s 1.0000001 1 t.png\n"
                            "newmtl b\nmap_Kd t.png\n");
@@ -355,7 +363,7 @@ static void test_maps_of_other_scales_are_not_shared(void **state)
     unload(&l);
 }
 
-static void test_maps_are_shared(void **state)
+static void equal_maps_are_shared(void **state)
 {
     struct loaded l =
         load("newmtl a\nmap_Kd t.png\nmap_Ke t.png\nnewmtl b\nmap_Kd u.png\n"
@@ -385,7 +393,7 @@ static void test_maps_are_shared(void **state)
     unload(&l);
 }
 
-static void test_maps_of_numbers(void **state)
+static void maps_of_numbers_are_data(void **state)
 {
     struct loaded l =
         load("newmtl a\nmap_Pr r.png\nKs 1\nmap_d r.png\nmap_Kd r.png\n"
@@ -413,7 +421,7 @@ static void test_maps_of_numbers(void **state)
     assert_int_equal(m[4].kind, MATERIAL_PLASTIC);
     check_close((double)m[4].metalness, .75, 0);
     assert_int_equal(m[1].bump_texture, NO_INDEX);
-    /* a lambertian has no roughness, glass no coverage */
+    /* A diffuse material has no roughness, glass no coverage. */
     assert_int_equal(m[5].alpha_texture, NO_INDEX);
     assert_int_equal(m[6].opacity_texture, NO_INDEX);
     assert_int_equal(l.report.entry_count, 1);
@@ -421,7 +429,7 @@ static void test_maps_of_numbers(void **state)
     unload(&l);
 }
 
-static void test_bumps(void **state)
+static void bump_maps_have_their_scale(void **state)
 {
     static const char *const keys[] = {"bump", "map_bump", "map_Bump"};
     struct material m;
@@ -431,20 +439,22 @@ static void test_bumps(void **state)
         char text[64];
 
         snprintf(text, sizeof text, "%s -bm .5 h.png", keys[i]);
-        m = one(text, 0);
+        m = only_material(text, 0);
         assert_int_equal(m.bump_texture, 0);
         check_close((double)m.bump_scale, .5, 0);
     }
-    check_close((double)one("bump h.png", 0).bump_scale, 1, 0);
-    check_close((double)one("bump h.png -bm -2", 0).bump_scale, -2, 0);
-    check_close((double)one("bump -bm inf h.png", 0).bump_scale, 1, 0);
-    m = one("norm n.png\nillum 7", 0);
+    check_close((double)only_material("bump h.png", 0).bump_scale, 1, 0);
+    check_close((double)only_material("bump h.png -bm -2", 0).bump_scale, -2,
+                0);
+    check_close((double)only_material("bump -bm inf h.png", 0).bump_scale, 1,
+                0);
+    m = only_material("norm n.png\nillum 7", 0);
     assert_int_equal(m.normal_texture, 0);
     assert_int_equal(m.bump_texture, NO_INDEX);
 }
 
-/* Every name of another machine that can be meant finds the file here. */
-static void test_paths_of_other_machines(void **state)
+/* Every path of another machine that can mean a file here finds it. */
+static void paths_of_other_machines_find_the_file(void **state)
 {
     static const char *const names[] = {"sub/wood a.png", "sub\\wood a.png",
                                         "sub/wood\\ a.png",
@@ -469,22 +479,22 @@ static void test_paths_of_other_machines(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kinds),
-        cmocka_unit_test(test_coats),
-        cmocka_unit_test(test_emission),
-        cmocka_unit_test(test_black_bodies),
-        cmocka_unit_test(test_colors_are_clamped),
-        cmocka_unit_test(test_impossible_values),
-        cmocka_unit_test(test_opacity),
-        cmocka_unit_test(test_malformed_numbers),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_what_is_not_used),
-        cmocka_unit_test(test_map_options),
-        cmocka_unit_test(test_maps_are_shared),
-        cmocka_unit_test(test_maps_of_other_scales_are_not_shared),
-        cmocka_unit_test(test_maps_of_numbers),
-        cmocka_unit_test(test_bumps),
-        cmocka_unit_test_setup_teardown(test_paths_of_other_machines,
+        cmocka_unit_test(statements_choose_the_kind),
+        cmocka_unit_test(ks_is_the_coat),
+        cmocka_unit_test(ke_is_the_emission),
+        cmocka_unit_test(black_bodies_have_their_luminance),
+        cmocka_unit_test(colors_are_clamped),
+        cmocka_unit_test(impossible_values_are_replaced),
+        cmocka_unit_test(d_and_tr_are_the_opacity),
+        cmocka_unit_test(malformed_numbers_are_refused),
+        cmocka_unit_test(names_are_whole_lines),
+        cmocka_unit_test(unused_statements_are_warned_of),
+        cmocka_unit_test(map_options_are_not_part_of_the_name),
+        cmocka_unit_test(equal_maps_are_shared),
+        cmocka_unit_test(maps_of_other_scales_are_not_shared),
+        cmocka_unit_test(maps_of_numbers_are_data),
+        cmocka_unit_test(bump_maps_have_their_scale),
+        cmocka_unit_test_setup_teardown(paths_of_other_machines_find_the_file,
                                         enter_folder, remove_folder),
     };
 

@@ -1,75 +1,18 @@
 // SPDX-License-Identifier: MIT
 /*
- * What is written into MTL files: exactly the statements that were changed, and
- * so that reading gives what was wanted, for hand-made odd files and for all
- * that are at hand.
+ * test_mtl_save.c - the exact texts after changes of materials: only statements
+ * that were changed differ
  */
-#include <dirent.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/file.h"
-#include "base/memory.h"
-#include "formats/mtl.h"
-#include "formats/mtl_save.h"
 #include "terminal/xmalloc.h"
-#include "tests/unit/check.h"
 #include "tests/unit/folder.h"
+#include "tests/unit/formats/mtl_texts.h"
 #include "tests/unit/kinds.h"
-
-struct loaded {
-    struct scene scene;
-    struct warnings report;
-};
-
-static void load(struct loaded *l, const char *path, const char *text,
-                 size_t size_bytes)
-{
-    struct error err;
-
-    *l = (struct loaded){.scene = {.path = NULL}};
-    check_or_say(mtl_parse(&l->scene, text, size_bytes, path, &l->report, &err),
-                 err.text);
-}
-
-static void unload(struct loaded *l)
-{
-    scene_free(&l->scene);
-    warnings_free(&l->report);
-}
-
-/* The new text, as a string. */
-static char *rewrite(const struct scene *scene, const char *path,
-                     const char *text, size_t size_bytes,
-                     const struct mtl_change *changes, size_t count,
-                     size_t *new_size_bytes)
-{
-    struct error err;
-    char *new_text;
-
-    check_or_say(mtl_rewrite(scene, path, text, size_bytes, changes, count,
-                             &new_text, new_size_bytes, &err),
-                 err.text);
-    new_text = realloc(new_text, *new_size_bytes + 1);
-    assert_non_null(new_text);
-    new_text[*new_size_bytes] = '\0';
-    return new_text;
-}
-
-static struct mtl_number number(double value)
-{
-    return (struct mtl_number){value, 1};
-}
-
-static struct mtl_color color(double r, double g, double b)
-{
-    return (struct mtl_color){{r, g, b}, 1};
-}
-
-/* ---- exact texts ---- */
 
 static void redden(struct mtl_source *s)
 {
@@ -113,12 +56,12 @@ static void switch_bumps(struct mtl_source *s)
     s->maps_off ^= 1u << MTL_MAP_BUMP;
 }
 
-static void leave(struct mtl_source *s)
+static void keep(struct mtl_source *s)
 {
     (void)s;
 }
 
-static void test_statements(void **state)
+static void only_changed_statements_are_written(void **state)
 {
     static const struct {
         const char *text;
@@ -137,7 +80,7 @@ static void test_statements(void **state)
          "newmtl m\rKd 1 0.5 0.25\rnewmtl n\rKd 0\r"},
         {"newmtl m\nKd 0 \\\n 0 \\\n 0 # x\nNi 1\n", redden,
          "newmtl m\nKd 1 0.5 0.25 # x\nNi 1\n"},
-        /* what counts is changed, and nothing else */
+        /* Only the statement that counts is changed. */
         {"newmtl m\nKd 0\nKd .1\n", redden, "newmtl m\nKd 0\nKd 1 0.5 0.25\n"},
         {"newmtl m\nKd 0\nnewmtl n\nKd 0\nnewmtl m\nKd .1\nKa 1\n", redden,
          "newmtl m\nKd 0\nnewmtl n\nKd 0\nnewmtl m\nKd 1 0.5 0.25\nKa 1\n"},
@@ -150,7 +93,7 @@ static void test_statements(void **state)
         {"newmtl m\nNs 30\n", roughen, "newmtl m\nNs 30\nPr 0.5\n"},
         {"newmtl m\nd -halo 0.5\n", fade, "newmtl m\nd -halo 0.25\n"},
         {"newmtl m\nTr 0.5\n", fade, "newmtl m\nTr 0.5\nd 0.25\n"},
-        /* light by either statement */
+        /* Either statement gives light. */
         {"newmtl m\nKe_blackbody 2000 # warm\n", shine,
          "newmtl m\nKe 1 2 3 # warm\n"},
         {"newmtl m\nKe 1 1 1\n", glow, "newmtl m\nKe_blackbody 3000 5\n"},
@@ -158,14 +101,14 @@ static void test_statements(void **state)
          "newmtl m\nKe 9\nKe_blackbody 3000 5\n"},
         {"newmtl m\nKe 9 # was\nNi 1\nKe_blackbody 2000\n", darken,
          "newmtl m\n # was\nNi 1\n"},
-        /* maps become comments; a name may hold '#' */
+        /* Maps become comments. A name may contain '#'. */
         {"newmtl m\n map_Kd -s 2 2 2 a b#.png \r\nNi 1\n", switch_map,
          "newmtl m\n #map_Kd -s 2 2 2 a b#.png\r\nNi 1\n"},
         {"newmtl m\nmap_Kd \\\n a.png\nNi 1\n", switch_map,
          "newmtl m\n#map_Kd a.png\nNi 1\n"},
         {"newmtl m\nbump a.png\nmap_Bump -bm 2 a.png\n", switch_bumps,
          "newmtl m\n#bump a.png\n#map_Bump -bm 2 a.png\n"},
-        {"newmtl m\nKd 0 0 0\n", leave, "newmtl m\nKd 0 0 0\n"},
+        {"newmtl m\nKd 0 0 0\n", keep, "newmtl m\nKd 0 0 0\n"},
     };
 
     (void)state;
@@ -194,9 +137,9 @@ static void test_statements(void **state)
     }
 }
 
-/* Off and on again: the comment becomes the statement that it was, and not the
- * comment beside it, which means another file. */
-static void test_maps_come_back(void **state)
+/* When a map is switched off and on again, its comment becomes the statement
+ * that it was. The comment beside it, which names another file, stays. */
+static void maps_switched_on_again_are_as_before(void **state)
 {
     static const char text[] = "newmtl m\nmap_Kd -s 2 2 2 a.png\nNi 1\n"
                                "#map_Kd old.png\n# map_Kd a.png\n";
@@ -227,7 +170,8 @@ static void test_maps_come_back(void **state)
     assert_memory_equal(back, text, back_bytes);
     free(back);
     free(got);
-    /* without the comment it is written anew, with its options */
+    /* Without its comment the map is written as a new statement, with its
+     * options. */
     got = rewrite(&l.scene, path, "newmtl m\nNi 1\n", 14, &change, 1,
                   &size_bytes);
     assert_string_equal(got, "newmtl m\nNi 1\nmap_Kd -s 2 2 1 a.png\n");
@@ -238,8 +182,8 @@ static void test_maps_come_back(void **state)
     free(old);
 }
 
-/* A backslash that ends a name never joins the next line to it. */
-static void test_backslashes(void **state)
+/* A backslash at the end of a file name does not join the next line. */
+static void file_names_may_end_in_backslashes(void **state)
 {
     static const char on[] = "newmtl m\nmap_Kd a.png\\ \nNi 1\n";
     static const char off[] = "newmtl m\n#map_Kd a.png\\ \nNi 1\n";
@@ -276,7 +220,7 @@ static void test_backslashes(void **state)
     free(image);
 }
 
-/* Into a file that does not have it. */
+/* Checks what is written into a file that lacks the material. */
 static void check_written_whole(const struct loaded *l, const char *name,
                                 const struct mtl_source *after,
                                 const char *expected)
@@ -290,8 +234,8 @@ static void check_written_whole(const struct loaded *l, const char *name,
     free(got);
 }
 
-/* A duplicate has its pattern's unknown statements and comes last. */
-static void test_duplicates(void **state)
+/* A duplicate has the unknown statements of its original and comes last. */
+static void duplicates_come_last(void **state)
 {
     static const char text[] =
         "newmtl m\nKd 0 0 0\naniso .3 # x\n\n# end\nnewmtl n\nKd 1 1 1";
@@ -313,13 +257,13 @@ static void test_duplicates(void **state)
                              "newmtl n\nKd 1 1 1\n\n"
                              "newmtl m copy\nKd 1 0.5 0.25\naniso .3 # x\n");
     free(got);
-    /* somebody else has removed the block */
+    /* Another program has removed the block. */
     check_written_whole(&l, "m", &after, "\nnewmtl m\nKd 1 0.5 0.25\n");
     unload(&l);
 }
 
-/* A backslash at the end of a line would join the next one to the name. */
-static void test_names_end_in_backslashes(void **state)
+/* A backslash at the end of a name does not join the next line. */
+static void material_names_may_end_in_backslashes(void **state)
 {
     static const char text[] = "newmtl m\\ \nKd 0 0 0\n";
     struct mtl_source after;
@@ -334,8 +278,8 @@ static void test_names_end_in_backslashes(void **state)
     unload(&l);
 }
 
-/* Kinds that a person only steps through leave nothing in the file. */
-static void test_what_is_needed(void **state)
+/* Kinds that were chosen only in passing leave nothing in the file. */
+static void kinds_write_only_the_needed_statements(void **state)
 {
     static const struct {
         const char *text;
@@ -378,224 +322,8 @@ static void test_what_is_needed(void **state)
     }
 }
 
-/* ---- all files at hand ---- */
-
-#define ROUNDS 40
-
-static uint64_t seed = 1;
-
-static double random_unit(void)
-{
-    /* now and then a number with few digits, as people type them */
-    double x = check_random(&seed);
-
-    return check_random(&seed) < .3 ? floor(x * 10) / 10 : x;
-}
-
-static void change_color(struct mtl_color *c)
-{
-    if (check_random(&seed) < .7)
-        return;
-    *c = color(random_unit(), random_unit(), random_unit());
-    if (check_random(&seed) < .2)
-        *c = (struct mtl_color){.line = 0};
-}
-
-static void change_number(struct mtl_number *n, double most)
-{
-    if (check_random(&seed) < .8)
-        return;
-    *n = number(most == 10 ? floor(random_unit() * 10) : random_unit() * most);
-    if (check_random(&seed) < .2)
-        *n = (struct mtl_number){.line = 0};
-}
-
-static struct mtl_source changed(const struct mtl_source *from)
-{
-    struct mtl_source s = *from;
-
-    change_color(&s.kd);
-    change_color(&s.ks);
-    change_color(&s.ke);
-    change_color(&s.tf);
-    change_number(&s.illum, 10);
-    change_number(&s.ns, 900);
-    change_number(&s.ni, 3);
-    change_number(&s.d, 1);
-    change_number(&s.tr, 1);
-    change_number(&s.pr, 1);
-    change_number(&s.pm, 1);
-    change_number(&s.kd_roughness, 1);
-    change_number(&s.kelvin, 9000);
-    s.luminance = s.kelvin.line != 0 ? number(random_unit() * 50)
-                                     : (struct mtl_number){.line = 0};
-    if (s.kelvin.line != 0)
-        s.ke = (struct mtl_color){.line = 0}; /* only one can be told */
-    for (int i = 0; i < MTL_MAPS; i++)
-        if (s.maps[i] != NO_INDEX && check_random(&seed) < .3)
-            s.maps_off ^= 1u << i;
-    return s;
-}
-
-/* Statements that glim neither knows nor writes, and comments, in order. */
-static char *rest_of(const char *text, size_t size_bytes)
-{
-    char *rest = calloc(size_bytes + 1, 1);
-    size_t length = 0;
-
-    assert_non_null(rest);
-    for (const char *p = text, *end = text + size_bytes; p < end;) {
-        const char *line_end = p + strcspn(p, "\r\n");
-        const char *word = p + strspn(p, " \t");
-        const char *hash = memchr(p, '#', (size_t)(line_end - p));
-        bool is_foreign =
-            strncmp(word, "Ka", 2) == 0 || strncmp(word, "Ps", 2) == 0 ||
-            strncmp(word, "refl", 4) == 0 || strncmp(word, "disp", 4) == 0;
-
-        if (is_foreign)
-            hash = p;
-        if (hash && strncmp(hash, "#map", 4) != 0 &&
-            strncmp(hash, "#bump", 5) != 0 && strncmp(hash, "#norm", 5) != 0) {
-            memcpy(rest + length, hash, (size_t)(line_end - hash));
-            length += (size_t)(line_end - hash);
-        }
-        p = line_end + (line_end < end);
-    }
-    return rest;
-}
-
-/* The same but for textures that are off: reading does not know of them. */
-static void check_same(const struct scene *got, uint32_t g,
-                       const struct mtl_source *want, const char *path)
-{
-    struct warnings none = {.entries = NULL};
-    struct mtl_source there = *want;
-    struct material a, b;
-
-    for (int i = 0; i < MTL_MAPS; i++)
-        there.maps[i] = mtl_source_map(want, (enum mtl_map)i);
-    there.maps_off = 0;
-    if (there.maps[MTL_MAP_BUMP] == NO_INDEX)
-        there.bump_scale = 1;
-    a = material_from_source(&got->material_origins[g].source, path, &none);
-    b = material_from_source(&there, path, &none);
-    /* textures are numbered anew: it is enough that they are there */
-    for (int i = 0; i < MTL_MAPS; i++)
-        assert_int_equal(got->material_origins[g].source.maps[i] == NO_INDEX,
-                         there.maps[i] == NO_INDEX);
-    b.color_texture = a.color_texture;
-    b.emission_texture = a.emission_texture;
-    b.coat_texture = a.coat_texture;
-    b.alpha_texture = a.alpha_texture;
-    b.metal_texture = a.metal_texture;
-    b.opacity_texture = a.opacity_texture;
-    b.normal_texture = a.normal_texture;
-    b.bump_texture = a.bump_texture;
-    if (memcmp(&a, &b, sizeof a) != 0)
-        print_error("%s: material %s\n", path, got->material_names[g]);
-    assert_memory_equal(&a, &b, sizeof a);
-    warnings_free(&none);
-}
-
-static void check_file(const char *path)
-{
-    struct error err;
-    struct loaded l;
-    char *text;
-    size_t size_bytes;
-
-    check_or_say(file_read(path, &text, &size_bytes, &err), err.text);
-    load(&l, path, text, size_bytes);
-    for (int round = 0; round < ROUNDS; round++) {
-        uint32_t count = l.scene.material_count - 1;
-        struct mtl_source *after = alloc_array(count, sizeof *after);
-        struct mtl_change *changes = alloc_array(count, sizeof *changes);
-        char *before_rest = rest_of(text, size_bytes);
-        size_t new_bytes;
-        struct loaded again;
-        char *got, *got_rest;
-
-        for (uint32_t i = 0; i < count; i++) {
-            const struct mtl_source *s =
-                &l.scene.material_origins[i + 1].source;
-
-            after[i] = round == 0 ? *s : changed(s);
-            changes[i] = (struct mtl_change){l.scene.material_names[i + 1],
-                                             NULL, s, &after[i]};
-        }
-        got = rewrite(&l.scene, path, text, size_bytes, changes, count,
-                      &new_bytes);
-        if (round == 0) {
-            assert_int_equal(new_bytes, size_bytes);
-            assert_memory_equal(got, text, size_bytes);
-        }
-        load(&again, path, got, new_bytes);
-        assert_int_equal(again.scene.material_count, l.scene.material_count);
-        for (uint32_t i = 0; i < count; i++) {
-            assert_string_equal(again.scene.material_names[i + 1],
-                                l.scene.material_names[i + 1]);
-            check_same(&again.scene, i + 1, &after[i], path);
-        }
-        got_rest = rest_of(got, new_bytes);
-        assert_string_equal(got_rest, before_rest);
-        unload(&again);
-        free(got_rest);
-        free(got);
-        free(before_rest);
-        free(changes);
-        free(after);
-    }
-    unload(&l);
-    free(text);
-}
-
-static int check_folder(const char *path)
-{
-    DIR *dir = opendir(path);
-    struct dirent *entry;
-    int count = 0;
-
-    while (dir && (entry = readdir(dir))) {
-        char *name = xformat("%s/%s", path, entry->d_name);
-        size_t length = strlen(name);
-        struct stat st;
-
-        if (entry->d_name[0] == '.' || stat(name, &st) != 0) {
-            free(name);
-            continue;
-        }
-        if (S_ISDIR(st.st_mode)) {
-            count += check_folder(name);
-        } else if (length > 4 && strcmp(name + length - 4, ".mtl") == 0) {
-            check_file(name);
-            count++;
-        }
-        free(name);
-    }
-    if (dir)
-        closedir(dir);
-    return count;
-}
-
-static void test_our_files(void **state)
-{
-    (void)state;
-    assert_true(check_folder("scenes") >= 6);
-}
-
-static void test_shared_files(void **state)
-{
-    const char *shared = getenv("GLIM_SHARED");
-    char *path = xformat("%s", shared ? shared : "../shared");
-
-    (void)state;
-    if (check_folder(path) == 0)
-        skip();
-    free(path);
-}
-
-/* The file keeps its permissions and is whole. */
-static void test_save(void **state)
+/* The file keeps its permissions and has the whole text. */
+static void saved_files_keep_their_permissions(void **state)
 {
     char *path = xformat("%s/s.mtl", folder);
     struct mtl_source after;
@@ -632,15 +360,13 @@ static void test_save(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_statements),
-        cmocka_unit_test(test_maps_come_back),
-        cmocka_unit_test(test_backslashes),
-        cmocka_unit_test(test_duplicates),
-        cmocka_unit_test(test_names_end_in_backslashes),
-        cmocka_unit_test(test_what_is_needed),
-        cmocka_unit_test(test_our_files),
-        cmocka_unit_test(test_shared_files),
-        cmocka_unit_test(test_save),
+        cmocka_unit_test(only_changed_statements_are_written),
+        cmocka_unit_test(maps_switched_on_again_are_as_before),
+        cmocka_unit_test(file_names_may_end_in_backslashes),
+        cmocka_unit_test(duplicates_come_last),
+        cmocka_unit_test(material_names_may_end_in_backslashes),
+        cmocka_unit_test(kinds_write_only_the_needed_statements),
+        cmocka_unit_test(saved_files_keep_their_permissions),
     };
 
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

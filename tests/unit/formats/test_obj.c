@@ -1,88 +1,9 @@
 // SPDX-License-Identifier: MIT
+/* test_obj.c - faces of OBJ files: indices, objects, materials, numbers */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "formats/obj.h"
-#include "tests/unit/check.h"
-#include "tests/unit/locales.h"
-
-/* A unit square of four vertices, to which tests add faces. */
-#define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-
-struct loaded {
-    struct scene scene;
-    struct warnings report;
-    struct error err;
-    bool ok;
-};
-
-static struct loaded load_bytes(const char *text, size_t size_bytes)
-{
-    struct loaded l = {.ok = false};
-    char *copy = malloc(size_bytes == 0 ? 1 : size_bytes);
-
-    /* exactly as long as it is, so that a sanitizer sees any step beyond */
-    assert_non_null(copy);
-    memcpy(copy, text, size_bytes);
-    l.ok = obj_parse(&l.scene, copy, size_bytes, "a.obj", &l.report, &l.err);
-    free(copy);
-    return l;
-}
-
-static struct loaded load(const char *text)
-{
-    return load_bytes(text, strlen(text));
-}
-
-static void unload(struct loaded *l)
-{
-    scene_free(&l->scene);
-    warnings_free(&l->report);
-}
-
-static struct loaded load_good(const char *text, uint32_t tri_count)
-{
-    struct loaded l = load(text);
-
-    if (!l.ok)
-        print_error("%s\n", l.err.text);
-    assert_true(l.ok);
-    assert_int_equal(l.scene.tri_count, tri_count);
-    return l;
-}
-
-/* Loads without any warning. */
-static void check_clean(const char *text, uint32_t tri_count)
-{
-    struct loaded l = load_good(text, tri_count);
-
-    if (l.report.entry_count > 0)
-        print_error("%s\n", l.report.entries[0].text);
-    assert_int_equal(l.report.entry_count, 0);
-    unload(&l);
-}
-
-static void check_refused(const char *text, const char *message)
-{
-    struct loaded l = load(text);
-
-    assert_false(l.ok);
-    assert_string_equal(l.err.text, message);
-    unload(&l);
-}
-
-/* One kind of warning with this text, so often. */
-static void check_warned(const char *text, uint32_t tri_count,
-                         const char *message, uint64_t count)
-{
-    struct loaded l = load_good(text, tri_count);
-
-    assert_int_equal(l.report.entry_count, 1);
-    assert_string_equal(l.report.entries[0].text, message);
-    assert_int_equal(l.report.entries[0].count, count);
-    unload(&l);
-}
+#include "tests/unit/formats/obj_texts.h"
 
 static void check_tri(const struct scene *scene, uint32_t t, uint32_t a,
                       uint32_t b, uint32_t c)
@@ -92,7 +13,7 @@ static void check_tri(const struct scene *scene, uint32_t t, uint32_t a,
     assert_int_equal(scene->tris[t].v[2], c);
 }
 
-static void test_index_forms(void **state)
+static void all_forms_of_indices_are_read(void **state)
 {
     static const char *const faces[] = {
         "f 1 2 3\n",          "f 1/1 2/2 3/1\n",
@@ -124,8 +45,9 @@ static void test_index_forms(void **state)
     }
 }
 
-/* Where only some corners have one, the triangle has none. */
-static void test_all_three_or_none(void **state)
+/* A triangle has normals only if all three corners have one; texture
+ * coordinates likewise. */
+static void all_three_corners_have_normals_or_none(void **state)
 {
     struct loaded l =
         load_good(SQUARE "vt 0 0\nvn 0 0 1\nvn 0 0 0\nvn nan 0 1\nvn inf 0 1\n"
@@ -143,7 +65,7 @@ static void test_all_three_or_none(void **state)
     unload(&l);
 }
 
-static void test_negative_indices_count_so_far(void **state)
+static void negative_indices_count_back_from_the_face(void **state)
 {
     struct loaded l = load_good("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"
                                 "v 0 0 1\nv 1 0 1\nv 0 1 1\nf -3 -2 -1\n"
@@ -157,7 +79,7 @@ static void test_negative_indices_count_so_far(void **state)
     unload(&l);
 }
 
-static void test_bad_indices_drop_the_face(void **state)
+static void faces_with_bad_indices_are_dropped(void **state)
 {
     (void)state;
     check_warned(SQUARE "f 1 2 0\nf 1 2 3\nf 1 2 0\n", 1,
@@ -191,7 +113,7 @@ static void test_bad_indices_drop_the_face(void **state)
                  3);
 }
 
-static void test_malformed_faces(void **state)
+static void malformed_faces_are_refused(void **state)
 {
     static const char *const corners[] = {"x",  "1x", "1/x", "1/1/x", "1/1/1/1",
                                           "/1", "-",  "+1",  "1.5",   "//"};
@@ -211,8 +133,8 @@ static void test_malformed_faces(void **state)
     }
 }
 
-/* Normals that somebody took out of the file do not cost its faces. */
-static void test_absent_normals(void **state)
+/* A file whose normals were removed keeps its faces. */
+static void faces_with_absent_normals_are_kept(void **state)
 {
     (void)state;
     check_warned(SQUARE "f 1//1 2//1 3//1\n", 1,
@@ -221,63 +143,7 @@ static void test_absent_normals(void **state)
                  3);
 }
 
-static void test_number_values(void **state)
-{
-    static const double expected[] = {.5,   5,   1,      -5,    1e5,
-                                      1e-2, 0,   0,      0.1,   123456789,
-                                      1e22, -0., 5e-324, 1e300, 0.3};
-    struct loaded l;
-
-    (void)state;
-    l = load_good("v .5 5. +1\nv -.5e1 1e+05 1E-2\nv 1e-400 -1e-400 .1\n"
-                  "v 123456789 1e22 -0\n"
-                  "v 5e-324 1e300 0.299999999999999988897769753748\n"
-                  "l 1 2\n",
-                  0);
-    for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++)
-        assert_true(l.scene.file_positions[i] == expected[i]);
-    unload(&l);
-}
-
-/* The decimal comma of a locale must not matter, either way. */
-static void test_locale_does_not_matter(void **state)
-{
-    char *old = strdup(setlocale(LC_ALL, NULL));
-
-    (void)state;
-    if (!set_language(LC_ALL, "de_DE"))
-        skip();
-    check_refused("v 1,5 0 0\n",
-                  "a.obj:1: found '1,5' after v, expected a number");
-    test_number_values(state);
-    setlocale(LC_ALL, old);
-    free(old);
-}
-
-static void test_malformed_numbers(void **state)
-{
-    (void)state;
-    check_refused(SQUARE "v 1 2 x\n",
-                  "a.obj:5: found 'x' after v, expected a number");
-    check_refused("v 1 2\n",
-                  "a.obj:1: found the end of the line after v, expected a "
-                  "number");
-    check_refused("v 1 2",
-                  "a.obj:1: found the end of the line after v, expected a "
-                  "number");
-    check_refused("v 0x10 0 0\n",
-                  "a.obj:1: found '0x10' after v, expected a number");
-    check_refused("#\r\n\rv 1 2 3.1+e2\r\n",
-                  "a.obj:3: found '3.1+e2' after v, expected a number");
-    check_refused("vn 0 1 --1\n",
-                  "a.obj:1: found '--1' after vn, expected a number");
-    check_refused("vt\n", "a.obj:1: found the end of the line after vt, "
-                          "expected a number");
-    check_refused("v 1 2 \033[31m\n",
-                  "a.obj:1: found '?[31m' after v, expected a number");
-}
-
-static void test_vertices_that_are_not_finite(void **state)
+static void faces_of_infinite_vertices_are_dropped(void **state)
 {
     (void)state;
     check_warned(
@@ -291,119 +157,7 @@ static void test_vertices_that_are_not_finite(void **state)
         6);
 }
 
-static void test_lines_and_blanks(void **state)
-{
-    (void)state;
-    check_clean("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", 1);
-    check_clean("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", 1);
-    check_clean("v 0 0 0\rv 1 0 0\nv 0 1 0\r\n\n\rf 1 2 3", 1);
-    check_clean("\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", 1);
-    check_clean("  v\t0   0\t\t0  \n\tv 1 0 0\nv  0 1 0 # a\n#f 1\n f 1 2 3 ",
-                1);
-    check_clean("v 0 0 0\nv 1 \\\n 0 \\\r\n 0\nv 0 1\\\r 0\nf 1 2 \\\n3\n", 1);
-    /* comments end with paths of folders */
-    check_clean("# c:\\models\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 1);
-    check_clean("v 0 0 0 1\nv 1 0 0 0.5\nv 0 1 0\nvt 0 0 0\nvt 1\n"
-                "s off\nl 1 2\np 1\nf 1 2 3 # x\n",
-                1);
-    check_clean("v 0 0 0\\", 0);
-}
-
-static void test_joined_lines_count(void **state)
-{
-    (void)state;
-    check_refused("v 0 \\\n0 \\\n0\nv x\n",
-                  "a.obj:4: found 'x' after v, expected a number");
-}
-
-/* A polygon of 100,000 corners on one line of 1 MB. */
-static void test_long_line(void **state)
-{
-    uint32_t n = 100000;
-    char *text = malloc(80 * (size_t)n);
-    size_t used = 0;
-    struct loaded l;
-
-    (void)state;
-    assert_non_null(text);
-    for (uint32_t i = 0; i < n; i++) {
-        double angle = 2 * 3.14159265358979323846 * i / n;
-
-        used += (size_t)sprintf(text + used, "v %.17g %.17g 0\n", cos(angle),
-                                sin(angle));
-    }
-    text[used++] = 'f';
-    for (uint32_t i = 0; i < n; i++)
-        used += (size_t)sprintf(text + used, "       %u", i + 1);
-    l = load_good(text, n - 2);
-    assert_int_equal(l.report.entry_count, 0);
-    unload(&l);
-    free(text);
-}
-
-static void test_not_an_obj_file(void **state)
-{
-    static const char utf16[] = "\xff\xfev\0 \0"
-                                "0\0";
-    struct loaded l;
-
-    (void)state;
-    check_refused("", "a.obj: not an OBJ file: found no OBJ statement");
-    check_refused("\n\n# v 1 2 3\n",
-                  "a.obj: not an OBJ file: found no OBJ statement");
-    check_refused("Hello, world\n",
-                  "a.obj: not an OBJ file: found no OBJ statement");
-    l = load_bytes(utf16, sizeof utf16 - 1);
-    assert_false(l.ok);
-    assert_string_equal(l.err.text, "a.obj: not an OBJ file: found binary data "
-                                    "or UTF-16, expected text");
-    unload(&l);
-    l = load_bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
-    assert_false(l.ok);
-    unload(&l);
-    assert_false(obj_read(&l.scene, "/", &l.report, &l.err));
-    assert_false(obj_read(&l.scene, "no/such.obj", &l.report, &l.err));
-    unload(&l);
-}
-
-static void test_unknown_statements(void **state)
-{
-    struct loaded l = load_good(SQUARE "vw 1\nlod 1\nvw 2\nvw\nf 1 2 3\n", 1);
-
-    (void)state;
-    assert_int_equal(l.report.entry_count, 2);
-    assert_string_equal(l.report.entries[0].text,
-                        "a.obj:5: found 'vw', which glim does not use");
-    assert_int_equal(l.report.entries[0].count, 3);
-    assert_string_equal(l.report.entries[1].text,
-                        "a.obj:6: found 'lod', which glim does not use");
-    unload(&l);
-}
-
-/* Behind a place: a weight is nothing to say, a colour is. */
-static void test_colors_of_vertices(void **state)
-{
-    static const char said[] =
-        "a.obj:1: found the colour of a vertex, which glim does not use";
-
-    (void)state;
-    check_clean("v 0 0 0 1\nv 1 0 0 1 # a b c\nv 0 1 0 1\nf 1 2 3\n", 1);
-    check_warned("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", 1,
-                 said, 1);
-    check_warned("v 0 0 0 1 .5 .5 .5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 1, said, 1);
-}
-
-static void test_free_forms(void **state)
-{
-    (void)state;
-    check_warned(SQUARE "cstype bspline\ndeg 3\ncurv 0 1 1 2\nend\nf 1 2 3\n",
-                 1,
-                 "a.obj:5: found 'cstype', a free-form curve or surface, which "
-                 "glim does not draw",
-                 4);
-}
-
-static void test_objects(void **state)
+static void faces_have_their_object(void **state)
 {
     struct loaded l = load_good(SQUARE "f 1 2 3\ng wall left\nf 1 2 3\n"
                                        "o two  words \nf 1 2 3\ng inner\n"
@@ -421,8 +175,8 @@ static void test_objects(void **state)
     unload(&l);
 }
 
-/* Faces keep their number in the file, also behind dropped ones. */
-static void test_face_numbers(void **state)
+/* Faces keep their numbers in the file after dropped faces. */
+static void faces_keep_their_numbers(void **state)
 {
     struct loaded l =
         load_good(SQUARE "f 1 2 3\nf 1 2 9\nf 1 2 3 4\nf 4 3 2\n", 4);
@@ -436,7 +190,7 @@ static void test_face_numbers(void **state)
     unload(&l);
 }
 
-static void test_unknown_materials(void **state)
+static void unknown_materials_are_warned_of(void **state)
 {
     struct loaded l =
         load_good(SQUARE "usemtl red\nf 1 2 3\nusemtl two words \nf 1 2 3\n"
@@ -457,7 +211,7 @@ static void test_unknown_materials(void **state)
     unload(&l);
 }
 
-static void test_texture_coordinates_are_tame(void **state)
+static void texture_coordinates_are_finite(void **state)
 {
     struct loaded l = load_good("vt nan inf\nvt 1e9 -1e300\nvt 1e400 0.25\n"
                                 "vt -3.5 1000000\nvt 12345678.75 -0.25\n",
@@ -474,8 +228,8 @@ static void test_texture_coordinates_are_tame(void **state)
     unload(&l);
 }
 
-/* So many names that time which grows with their square would be minutes. */
-static void test_many_names(void **state)
+/* With this many names, quadratic time would be minutes. */
+static void many_names_take_linear_time(void **state)
 {
     uint32_t n = 200000;
     char *text = malloc(64 * (size_t)n);
@@ -499,29 +253,19 @@ static void test_many_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_index_forms),
-        cmocka_unit_test(test_all_three_or_none),
-        cmocka_unit_test(test_negative_indices_count_so_far),
-        cmocka_unit_test(test_bad_indices_drop_the_face),
-        cmocka_unit_test(test_malformed_faces),
-        cmocka_unit_test(test_absent_normals),
-        cmocka_unit_test(test_number_values),
-        cmocka_unit_test(test_locale_does_not_matter),
-        cmocka_unit_test(test_malformed_numbers),
-        cmocka_unit_test(test_vertices_that_are_not_finite),
-        cmocka_unit_test(test_lines_and_blanks),
-        cmocka_unit_test(test_joined_lines_count),
-        cmocka_unit_test(test_long_line),
-        cmocka_unit_test(test_not_an_obj_file),
-        cmocka_unit_test(test_unknown_statements),
-        cmocka_unit_test(test_colors_of_vertices),
-        cmocka_unit_test(test_free_forms),
-        cmocka_unit_test(test_objects),
-        cmocka_unit_test(test_face_numbers),
-        cmocka_unit_test(test_unknown_materials),
-        cmocka_unit_test(test_texture_coordinates_are_tame),
-        cmocka_unit_test(test_many_names),
+        cmocka_unit_test(all_forms_of_indices_are_read),
+        cmocka_unit_test(all_three_corners_have_normals_or_none),
+        cmocka_unit_test(negative_indices_count_back_from_the_face),
+        cmocka_unit_test(faces_with_bad_indices_are_dropped),
+        cmocka_unit_test(malformed_faces_are_refused),
+        cmocka_unit_test(faces_with_absent_normals_are_kept),
+        cmocka_unit_test(faces_of_infinite_vertices_are_dropped),
+        cmocka_unit_test(faces_have_their_object),
+        cmocka_unit_test(faces_keep_their_numbers),
+        cmocka_unit_test(unknown_materials_are_warned_of),
+        cmocka_unit_test(texture_coordinates_are_finite),
+        cmocka_unit_test(many_names_take_linear_time),
     };
 
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

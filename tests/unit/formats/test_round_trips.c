@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Texts that are read, written and read again say the same: views and
- * materials, of files that were made to break this and of random ones.
+ * test_round_trips.c - views and materials that are read, written and read
+ * again are equal; the texts are random or made to break this
  */
 #include <glob.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@ struct text {
     size_t size;
 };
 
-/* NULs belong to the text. */
+/* The literal may contain NULs. */
 #define TEXT(literal)                   \
     {                                   \
         literal, sizeof(literal "") - 1 \
@@ -36,7 +36,8 @@ static size_t random_below(size_t count)
     return (size_t)(check_random(&seed) * (double)count);
 }
 
-/* Words in any order, some of which end lines, join them or are no words. */
+/* Makes a text of random words. Some of them end lines, join lines or are not
+ * words. */
 static size_t random_text(char bytes[TEXT_BYTES], const struct text *words,
                           size_t count)
 {
@@ -55,7 +56,7 @@ static size_t random_text(char bytes[TEXT_BYTES], const struct text *words,
     return size;
 }
 
-static void say_text(const char *bytes, size_t size)
+static void print_text_bytes(const char *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++) {
         unsigned char c = (unsigned char)bytes[i];
@@ -65,9 +66,7 @@ static void say_text(const char *bytes, size_t size)
     print_error("\n");
 }
 
-/* ---- views ---- */
-
-/* Paths may be written otherwise. */
+/* Compares skies, which may have different paths to one file. */
 static bool skies_are_equal(const char *a, const char *b)
 {
     char *x = a == NULL ? NULL : path_seen_from("t.view", a);
@@ -92,11 +91,11 @@ static bool views_are_equal(const struct view *a, const struct view *b)
                     b->assigns.items[i].material) == 0;
     x.lighting.sky_path = y.lighting.sky_path = NULL;
     x.assigns = y.assigns = (struct assigns){0};
-    /* the numbers of what is not there are those of view_init() */
+    /* Values of absent keys are those of view_init(). */
     return ok && memcmp(&x, &y, sizeof x) == 0;
 }
 
-/* Whether the text is a view file at all. */
+/* Returns whether the text is a view file, and checks it if it is. */
 static bool check_view(const char *bytes, size_t size)
 {
     struct warnings none = {0};
@@ -118,8 +117,8 @@ static bool check_view(const char *bytes, size_t size)
                  err.text);
     ok = view_parse(&again, text, text_bytes, "t.view", &none, &err);
     if (!ok || !views_are_equal(&view, &again)) {
-        say_text(bytes, size);
-        say_text(text, text_bytes);
+        print_text_bytes(bytes, size);
+        print_text_bytes(text, text_bytes);
     }
     check_or_say(ok, err.text);
     assert_true(views_are_equal(&view, &again));
@@ -135,7 +134,7 @@ static bool check_view(const char *bytes, size_t size)
     return true;
 }
 
-static void test_broken_views(void **state)
+static void broken_views_survive_the_round_trip(void **state)
 {
     static const struct text texts[] = {
         TEXT("# x\nsky s\\\\"),
@@ -160,7 +159,7 @@ static void test_broken_views(void **state)
         assert_true(check_view(texts[i].bytes, texts[i].size));
 }
 
-static void test_random_views(void **state)
+static void random_views_survive_the_round_trip(void **state)
 {
     static const struct text words[] = {
         TEXT("\neye 1 2 3\nat 4 5 6\n"),
@@ -199,8 +198,6 @@ static void test_random_views(void **state)
     }
     assert_in_range(count, ROUNDS / 20, ROUNDS);
 }
-
-/* ---- materials ---- */
 
 struct loaded {
     struct scene scene;
@@ -244,7 +241,7 @@ static bool maps_are_equal(const struct scene *a, uint32_t map,
                   sizeof a->textures[map].scale) == 0;
 }
 
-/* Whether the file has this material as it was wanted. */
+/* Returns whether the file has the material with the wanted values. */
 static bool is_written(const struct scene *got, const char *name,
                        const struct scene *from, const struct mtl_source *want)
 {
@@ -266,8 +263,8 @@ static bool is_written(const struct scene *got, const char *name,
     return ok && mtl_source_equal(&a, &b);
 }
 
-/* Changes every material, and copies each of them. False if the text is no MTL
- * text with a material. */
+/* Changes and copies every material. Returns false if the text is not MTL text
+ * with a material. */
 static bool check_mtl(const char *bytes, size_t size)
 {
     struct loaded l, again;
@@ -303,15 +300,15 @@ static bool check_mtl(const char *bytes, size_t size)
     ok = mtl_rewrite(&l.scene, "t.mtl", bytes, size, changes, 2 * count, &text,
                      &text_bytes, &err);
     if (!ok)
-        say_text(bytes, size);
+        print_text_bytes(bytes, size);
     check_or_say(ok, err.text);
     ok = load(&again, text, text_bytes) &&
          again.scene.material_count == 2 * count + 1;
     for (uint32_t i = 0; ok && i < 2 * count; i++)
         ok = is_written(&again.scene, changes[i].name, &l.scene, &after[i]);
     if (!ok) {
-        say_text(bytes, size);
-        say_text(text, text_bytes);
+        print_text_bytes(bytes, size);
+        print_text_bytes(text, text_bytes);
     }
     assert_true(ok);
     for (uint32_t i = 0; i < count; i++)
@@ -325,7 +322,7 @@ static bool check_mtl(const char *bytes, size_t size)
     return true;
 }
 
-static void test_broken_mtl(void **state)
+static void broken_mtl_survives_the_round_trip(void **state)
 {
     static const struct text texts[] = {
         TEXT("newmtl der MTL Fi\\\n"),
@@ -346,8 +343,8 @@ static void test_broken_mtl(void **state)
         assert_true(check_mtl(texts[i].bytes, texts[i].size));
 }
 
-/* What stands in a block behind a NUL is in its copy. */
-static void test_copy_with_nul(void **state)
+/* A statement behind a NUL is part of its block's copy. */
+static void copies_keep_what_follows_a_nul(void **state)
 {
     static const char bytes[] = "newmtl a\nKa 0 0\0\0\nfoo\nNi 3\n";
     struct loaded l;
@@ -370,9 +367,9 @@ static void test_copy_with_nul(void **state)
     unload(&l);
 }
 
-/* The material of what has none is copied from no block, also where one has no
- * name. */
-static void test_copy_of_default(void **state)
+/* A copy of the default material is made from no block, even if a block has an
+ * empty name. */
+static void copies_of_the_default_are_of_no_block(void **state)
 {
     static const char bytes[] = "newmtl\nKd 1 0 0\nnewmtl a\nNi 3\n";
     struct mtl_source none = mtl_source_empty();
@@ -394,7 +391,7 @@ static void test_copy_of_default(void **state)
     unload(&l);
 }
 
-static void test_random_mtl(void **state)
+static void random_mtl_survives_the_round_trip(void **state)
 {
     static const struct text words[] = {
         TEXT("\nnewmtl"), TEXT("\nnewmtl"),  TEXT("\nnewmtl a\n"),
@@ -419,9 +416,8 @@ static void test_random_mtl(void **state)
     assert_in_range(count, ROUNDS / 20, ROUNDS);
 }
 
-/* ---- files at hand ---- */
-
-/* How many files of this pattern are what they are called. */
+/* Returns how many files that match the pattern are of the type that their name
+ * says. */
 static int check_files(const char *shared, const char *pattern,
                        bool (*check)(const char *, size_t))
 {
@@ -446,7 +442,7 @@ static int check_files(const char *shared, const char *pattern,
     return count;
 }
 
-static void test_shared_files(void **state)
+static void shared_files_survive_the_round_trip(void **state)
 {
     const char *given = getenv("GLIM_SHARED");
     const char *shared = given ? given : "../shared";
@@ -462,13 +458,13 @@ static void test_shared_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_broken_views),
-        cmocka_unit_test(test_random_views),
-        cmocka_unit_test(test_broken_mtl),
-        cmocka_unit_test(test_copy_with_nul),
-        cmocka_unit_test(test_copy_of_default),
-        cmocka_unit_test(test_random_mtl),
-        cmocka_unit_test(test_shared_files),
+        cmocka_unit_test(broken_views_survive_the_round_trip),
+        cmocka_unit_test(random_views_survive_the_round_trip),
+        cmocka_unit_test(broken_mtl_survives_the_round_trip),
+        cmocka_unit_test(copies_keep_what_follows_a_nul),
+        cmocka_unit_test(copies_of_the_default_are_of_no_block),
+        cmocka_unit_test(random_mtl_survives_the_round_trip),
+        cmocka_unit_test(shared_files_survive_the_round_trip),
     };
 
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * OBJ and MTL files made by others, and files broken on purpose. Files of the
- * shared folder are looked for in ../shared or $GLIM_SHARED.
+ * test_suites.c - OBJ and MTL files of other programs, and broken ones
+ *
+ * Files of the shared folder are looked for in ../shared or $GLIM_SHARED.
  */
 #include <glob.h>
 #include <math.h>
@@ -41,7 +42,7 @@ static void unload(struct loaded *l)
     warnings_free(&l->report);
 }
 
-/* For free(). Skips the test if there is no such file. */
+/* Returns the path for free(), or skips the test if there is no such file. */
 static char *shared_path(const char *name)
 {
     const char *root = getenv("GLIM_SHARED");
@@ -90,7 +91,7 @@ static void check_indices(const uint32_t i[3], uint32_t count, bool may_lack)
         assert_true(lacks ? i[k] == NO_INDEX : i[k] < count);
 }
 
-/* What a renderer takes for granted. */
+/* Checks the invariants that a renderer relies on. */
 static void check_scene(const struct scene *s)
 {
     for (uint32_t t = 0; t < s->tri_count; t++) {
@@ -127,7 +128,7 @@ static void check_scene(const struct scene *s)
     }
 }
 
-/* The text of a member of one of the objects in expected.json, or NULL. */
+/* Returns the text of a member of an object in expected.json, or NULL. */
 static const char *member(const char *object, const char *key)
 {
     char *quoted = xformat("\"%s\":", key);
@@ -139,7 +140,7 @@ static const char *member(const char *object, const char *key)
     return found != NULL && found < end ? found + length : NULL;
 }
 
-/* False if a bound is no number. */
+/* Returns false if a bound is not a number. */
 static bool read_bounds(const char *object, double bounds[6])
 {
     const char *p = member(object, "bbox_of_faces");
@@ -156,7 +157,7 @@ static bool read_bounds(const char *object, double bounds[6])
     return p != NULL;
 }
 
-/* Numbers in expected.json have five digits. */
+/* The numbers in expected.json have five digits. */
 static void check_bounds(const struct scene *s, const double bounds[6])
 {
     for (int k = 0; k < 3; k++) {
@@ -167,15 +168,15 @@ static void check_bounds(const struct scene *s, const double bounds[6])
     }
 }
 
-/* What is known about a file that differs from what Blender makes of it. */
+/* These files are known to differ from what Blender makes of them. */
 static const struct {
     const char *name;
-    const char *error; /* how the message ends */
-    int lost;          /* triangles */
+    const char *error; /* end of the message */
+    int lost;          /* number of triangles */
 } exceptions[] = {
     {"number_formats.obj", ":11: found '3.1+e2' after v, expected a number", 0},
     {"invalid-face-definition.obj", NULL, 0},
-    {"test-nan.obj", NULL, 2}, /* the floor, of vertices nan and inf */
+    {"test-nan.obj", NULL, 2}, /* the floor: its vertices are nan and inf */
 };
 
 static void check_suite_file(const char *path, const char *object)
@@ -208,7 +209,7 @@ static void check_suite_file(const char *path, const char *object)
     unload(&l);
 }
 
-static void test_suite_obj(void **state)
+static void obj_suite_has_the_expected_scenes(void **state)
 {
     char *folder = shared_path("suites/obj");
     char *expected_path = xformat("%s/expected.json", folder);
@@ -234,7 +235,7 @@ static void test_suite_obj(void **state)
     free(folder);
 }
 
-static void test_suite_mtl(void **state)
+static void mtl_suite_is_read(void **state)
 {
     char *folder = shared_path("suites/obj");
     char *pattern = xformat("%s/*/*.mtl", folder);
@@ -258,8 +259,8 @@ static void test_suite_mtl(void **state)
     free(folder);
 }
 
-/* The table in the README has the triangles of each scene. */
-static void test_real_scenes(void **state)
+/* Compares with the table of triangles in the README. */
+static void real_scenes_have_the_expected_triangles(void **state)
 {
     char *readme_path = shared_path("scenes-real/README.md");
     char *readme = read_text(readme_path);
@@ -294,13 +295,13 @@ static void test_real_scenes(void **state)
     free(readme_path);
 }
 
-/* As the README and the SOURCE.txt files say. */
-static void test_real_materials(void **state)
+/* Compares with the README and the SOURCE.txt files. */
+static void real_materials_have_the_expected_values(void **state)
 {
     static const struct {
         const char *scene, *material;
         uint32_t kind;
-        double color, alpha, ior, emission; /* first channels */
+        double color, alpha, ior, emission; /* red channels */
     } cases[] = {
         {"CornellBox-Original", "light", MATERIAL_DIFFUSE, .78, 0, 1.5, 17},
         {"CornellBox-Original", "leftWall", MATERIAL_DIFFUSE, .63, 0, 1.5, 0},
@@ -343,7 +344,7 @@ static void test_real_materials(void **state)
     }
 }
 
-/* Something of everything. */
+/* This text has a statement of each kind. */
 static const char good_obj[] =
     "# a comment\nmtllib no.mtl other.mtl\no first\nv -0.5 -.5 0.5e0\n"
     "v 0.5 -0.5 0.5 1.0\nv 0.5 0.5 5e-1\nv -0.5 0.5 0.5\nv 0 0.25 0.5\n"
@@ -359,7 +360,7 @@ static const char good_mtl[] =
     "newmtl b\nKe 17 12 4\nPr 0.3\nPm 1.0\nmap_Ke no.png\nillum 2\nKa 1 1 1\n"
     "map_Bump -bm 0.5 n.png\nnewmtl b\nKd 1\nd -halo 1\n";
 
-/* Loads text from memory that is exactly as long, through to a world. */
+/* Loads text from memory of the exact size and builds its world. */
 static void load_broken(const char *text, size_t size_bytes, bool is_mtl)
 {
     struct loaded l = {.ok = false};
@@ -408,7 +409,7 @@ static void break_in_many_ways(const char *good, size_t size_bytes, bool is_mtl)
                 (char)(unsigned char)(256 * check_random(&random));
         load_broken(text, size_bytes, is_mtl);
     }
-    /* with bytes that mean something */
+    /* Changes bytes to ones that have a meaning. */
     for (int i = 0; i < 2000; i++) {
         static const char some[] = "-/.e0919 \n\r\\#vfn\t";
 
@@ -421,13 +422,13 @@ static void break_in_many_ways(const char *good, size_t size_bytes, bool is_mtl)
     free(text);
 }
 
-static void test_broken_obj(void **state)
+static void broken_obj_files_do_no_harm(void **state)
 {
     (void)state;
     break_in_many_ways(good_obj, sizeof good_obj - 1, false);
 }
 
-static void test_broken_mtl(void **state)
+static void broken_mtl_files_do_no_harm(void **state)
 {
     (void)state;
     break_in_many_ways(good_mtl, sizeof good_mtl - 1, true);
@@ -436,12 +437,12 @@ static void test_broken_mtl(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_suite_obj),
-        cmocka_unit_test(test_suite_mtl),
-        cmocka_unit_test(test_real_scenes),
-        cmocka_unit_test(test_real_materials),
-        cmocka_unit_test(test_broken_obj),
-        cmocka_unit_test(test_broken_mtl),
+        cmocka_unit_test(obj_suite_has_the_expected_scenes),
+        cmocka_unit_test(mtl_suite_is_read),
+        cmocka_unit_test(real_scenes_have_the_expected_triangles),
+        cmocka_unit_test(real_materials_have_the_expected_values),
+        cmocka_unit_test(broken_obj_files_do_no_harm),
+        cmocka_unit_test(broken_mtl_files_do_no_harm),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

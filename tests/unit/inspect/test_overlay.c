@@ -39,9 +39,9 @@ static int count(const struct frame *f, uint32_t rgb)
     return n;
 }
 
-/* Pixels of a random line that also leaves the frame: all are within one of the
- * true line, none is missing in its longer direction. */
-static void lines_are_lines(void **state)
+/* Draws random lines that also leave the frame. All pixels are within one of
+ * the true line, and none is missing along its longer direction. */
+static void lines_are_drawn_without_gaps(void **state)
 {
     uint64_t seed = 4;
 
@@ -70,7 +70,8 @@ static void lines_are_lines(void **state)
             }
         }
         for (int i = 0; i < SIDE; i++) {
-            /* where the line is in the middle of column (or row) i */
+            /* This is where the line crosses the middle of column (or row)
+             * i. */
             int steep = fabs(dy) > fabs(dx);
             double t = (i + 0.5 - p[steep]) / (steep ? dy : dx);
             double at = p[!steep] + t * (steep ? dx : dy);
@@ -82,7 +83,7 @@ static void lines_are_lines(void **state)
     }
 }
 
-static void far_lines_end_soon(void **state)
+static void far_lines_take_little_time(void **state)
 {
     struct frame f;
 
@@ -119,8 +120,9 @@ static struct camera some_camera(uint64_t *seed)
     return c;
 }
 
-/* camera_ray() is the way forth: what it comes by is found in its pixel. */
-static void projection_is_the_ray_backwards(void **state)
+/* camera_ray() gives the rays. Points along a ray are projected into its
+ * pixel. */
+static void projection_inverts_the_camera_ray(void **state)
 {
     uint64_t seed = 1;
 
@@ -143,8 +145,8 @@ static void projection_is_the_ray_backwards(void **state)
     }
 }
 
-/* A line through the eye's plane: its part before the eye is on the line of the
- * two pixels that it would have. */
+/* A line crosses the plane of the eye. Its visible part is on the projected
+ * line. */
 static void lines_end_before_the_eye(void **state)
 {
     struct camera c = {.width = 2,
@@ -160,13 +162,13 @@ static void lines_end_before_the_eye(void **state)
     check_close(p[0].x, 2, 1e-6);
     check_close(p[0].y, 0, 1e-6);
     assert_true(p[1].depth > 0);
-    /* x = y all along: the pixels too, far outside */
+    /* x = y all along, also for the pixels, which are far outside. */
     assert_true(p[1].x > 1000);
     check_close(p[1].x - 1, 1 - p[1].y, 1e-3 * p[1].x);
 }
 
-/* The part of a picture in other pixels: the same rays. */
-static void parts_show_the_same(void **state)
+/* A crop with other pixels shows the same rays. */
+static void crops_show_the_same(void **state)
 {
     uint64_t seed = 8;
     struct camera c = some_camera(&seed);
@@ -183,8 +185,8 @@ static void parts_show_the_same(void **state)
     }
 }
 
-/* Two walls far apart are the two boxes of level 1; on level 0 all is one. */
-static void boxes_of_levels(void **state)
+/* Two walls far apart are the two boxes of level 1. Level 0 is one box. */
+static void levels_of_a_tree_have_their_boxes(void **state)
 {
     struct camera c = {.eye = {0, 0, 4},
                        .width = SIDE,
@@ -205,14 +207,15 @@ static void boxes_of_levels(void **state)
     mesh_finish(&m);
     open_frame(&f);
     assert_int_equal(overlay_boxes(&f, &c, &m.bvh, 0), 1);
-    /* the root's edge runs on between them: x = 0 is pixel 20, y = 1 is 15 */
+    /* The root's edge continues between them: x = 0 is pixel 20, y = 1 is
+     * 15. */
     assert_true(pixel(&f, 20, 15) != 0 || pixel(&f, 20, 14) != 0);
     assert_int_equal(pixel(&f, 20, 20), 0);
     memset(f.rgb, 0, 3 * SIDE * SIDE);
     assert_int_equal(overlay_boxes(&f, &c, &m.bvh, 1), 2);
     for (int y = 0; y < SIDE; y++)
         assert_int_equal(pixel(&f, 20, y), 0);
-    /* x = -1 is pixel 15, x = 1 pixel 25 */
+    /* x = -1 is pixel 15, x = 1 is pixel 25. */
     assert_true(pixel(&f, 14, 20) != 0 || pixel(&f, 15, 20) != 0);
     assert_true(pixel(&f, 25, 20) != 0 || pixel(&f, 24, 20) != 0);
     assert_int_equal(overlay_boxes(&f, &c, &m.bvh, m.bvh.depth + 1), 0);
@@ -238,7 +241,7 @@ static double brightness(uint32_t rgb)
            0.0722 * (rgb & 255);
 }
 
-static void colors_tell_numbers_apart(void **state)
+static void colours_distinguish_numbers(void **state)
 {
     struct number_range r = number_range_of((float[]){0, 4, 9, 2, 0}, 5, 1);
     double before = -1;
@@ -275,13 +278,13 @@ static void colors_tell_numbers_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_are_lines),
-        cmocka_unit_test(far_lines_end_soon),
-        cmocka_unit_test(projection_is_the_ray_backwards),
+        cmocka_unit_test(lines_are_drawn_without_gaps),
+        cmocka_unit_test(far_lines_take_little_time),
+        cmocka_unit_test(projection_inverts_the_camera_ray),
         cmocka_unit_test(lines_end_before_the_eye),
-        cmocka_unit_test(parts_show_the_same),
-        cmocka_unit_test(boxes_of_levels),
-        cmocka_unit_test(colors_tell_numbers_apart),
+        cmocka_unit_test(crops_show_the_same),
+        cmocka_unit_test(levels_of_a_tree_have_their_boxes),
+        cmocka_unit_test(colours_distinguish_numbers),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

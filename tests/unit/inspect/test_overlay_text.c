@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_overlay_text.c - tables of paths and surfaces: the last steps, in file
- * units
+ * test_overlay_text.c - tables of paths and surfaces, in units of the file
  */
 #include "tests/unit/check.h"
 
@@ -36,7 +35,7 @@ static void paths_show_their_last_steps(void **state)
     overlay_text_path(&l, &scene, &names, &trail, 2);
     assert_int_equal(l.count, 4);
     check_has(l.lines[0], "throughput");
-    /* 1 / 0.25 + 1, -0.5 / 0.25 + 2, 1 / 0.25 + 3 */
+    /* The numbers are 1 / 0.25 + 1, -0.5 / 0.25 + 2 and 1 / 0.25 + 3. */
     check_has(l.lines[2], " 2 red paint  5 0 7 ");
     check_has(l.lines[2], "reflect  1.00 0.50 0.25 0.125  0 4 0");
     check_has(l.lines[1], " 1 no materia ");
@@ -49,7 +48,7 @@ static void paths_show_their_last_steps(void **state)
     check_has(l.lines[6], " sky ");
 }
 
-/* Numbers lose digits where there is no room, never their ends. */
+/* Numbers lose digits where space is short, but are never cut off. */
 static void numbers_are_not_cut(void **state)
 {
     struct scene far = scene;
@@ -57,7 +56,7 @@ static void numbers_are_not_cut(void **state)
     struct overlay_text l;
 
     (void)state;
-    far.center[0] = -12400; /* to (-12396, 0.00702, -0.124) with the scale */
+    far.center[0] = -12400; /* (-12396, 0.00702, -0.124) with the scale */
     far.center[1] = 0.00702;
     far.center[2] = -0.124;
     trail.steps[0] = (struct path_record_step){.to = {1, 0, 0},
@@ -90,10 +89,11 @@ static void surfaces_show_their_frame(void **state)
     check_has(l.lines[0], "red paint, seen 36.9 degrees off n"); /* acos 0.8 */
     check_has(l.lines[1], "0.000  0.000  1.000");
     check_has(l.lines[4], "32 of 64 samples go on, 1 as deltas; pdf 0 to 8");
-    check_has(l.lines[5], "0.500  0.000  0.000"); /* what ends weighs nothing */
+    /* The last vertex has no weight. */
+    check_has(l.lines[5], "0.500  0.000  0.000");
 }
 
-/* A name is cut between characters: 40 columns are 20 of these. */
+/* A name is cut between characters: 20 of these take 40 columns. */
 static void names_are_cut_whole(void **state)
 {
     char wide[21 * 3 + 1] = "";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_path_record.c - a path step by step is the path; scattered directions
- * against closed forms; what rays cost against counting by hand
+ * test_path_record.c - a recorded path is the path of the render; scattered
+ * directions against closed forms; costs of rays counted by hand
  */
 #include "tests/unit/check.h"
 #include "tests/unit/mesh.h"
@@ -43,7 +43,8 @@ static void check_steps(const struct path_record *t)
         sums[2] += (double)s->light.z;
         assert_true(goes_on || i == t->vertices - 1);
         assert_int_equal(s->way == PATH_RECORD_SKY, s->hit.tri == NO_INDEX);
-        /* the next ray begins there, but for rounding and the terminator */
+        /* The next ray begins here, except for rounding and the shadow
+         * terminator. */
         if (i + 1 < t->count)
             check_at_most((double)v3_length(
                               v3_sub(t->steps[i + 1].from, s->to)),
@@ -56,8 +57,9 @@ static void check_steps(const struct path_record *t)
     check_close(sums[2], (double)t->radiance.z, 1e-4 * (1 + sums[2]));
 }
 
-/* Samples of several pixels at once. */
-static void check_trails(const struct world *w, uint32_t first, int *bright)
+/* Compares recorded paths of samples in several pixels. */
+static void check_recorded_paths(const struct world *w, uint32_t first,
+                                 int *bright)
 {
     struct sample_id places[SAMPLE_BLOCK];
     struct path_sample want[SAMPLE_BLOCK];
@@ -77,8 +79,9 @@ static void check_trails(const struct world *w, uint32_t first, int *bright)
     }
 }
 
-/* Of each shipped kind of scene: the bits of path_samples(). */
-static void trails_are_paths(void **state)
+/* Recorded paths of shipped scenes of each kind have the bits of
+ * path_samples(). */
+static void recorded_paths_are_the_render_s(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
@@ -101,14 +104,14 @@ static void trails_are_paths(void **state)
         w.nodes = bvh.nodes;
         w.leaf_tris = bvh.leaf_tris;
         for (uint32_t k = 0; k < SIDE * SIDE; k += SAMPLE_BLOCK)
-            check_trails(&w, k, &bright);
+            check_recorded_paths(&w, k, &bright);
         assert_true(bright > SIDE);
         bvh_free(&bvh);
         session_close(&s);
     }
 }
 
-/* A wall across the view of a camera at the origin's +z. */
+/* Makes a wall across the view of a camera at +z. */
 static void open_wall(struct mesh *m, struct material material)
 {
     *m = (struct mesh){0};
@@ -187,10 +190,10 @@ static void count(const struct world *w, struct traversal_cost *costs)
     pool_destroy(pool);
 }
 
-/* One leaf: its box, and both triangles where that is entered. Two walls, one
- * behind the other: the root and its two children, and of the farther one only
- * what the first hit does not hide. */
-static void costs_are_counted(void **state)
+/* A leaf costs its box, and its two triangles if the box is entered. With two
+ * walls, one behind the other, the root and its two children are visited, and
+ * of the farther wall only what the first hit does not hide. */
+static void costs_are_those_counted_by_hand(void **state)
 {
     struct traversal_cost costs[SIDE * SIDE];
     struct mesh m;
@@ -227,7 +230,8 @@ static void costs_are_counted(void **state)
     mesh_finish(&m);
     count(&m.world, costs);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        /* all 18 at z = 1, none at -9; two boxes for each pair of children */
+        /* All 18 triangles at z = 1 and none at -9; two boxes for each pair of
+         * children. */
         assert_int_equal(costs[i].triangles, 18);
         assert_int_equal(costs[i].boxes % 2, 1);
         assert_in_range(costs[i].boxes, 3, m.bvh.node_count);
@@ -238,10 +242,10 @@ static void costs_are_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(trails_are_paths),
+        cmocka_unit_test(recorded_paths_are_the_render_s),
         cmocka_unit_test(lambert_scatters_by_the_cosine),
         cmocka_unit_test(mirrors_scatter_one_way),
-        cmocka_unit_test(costs_are_counted),
+        cmocka_unit_test(costs_are_those_counted_by_hand),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

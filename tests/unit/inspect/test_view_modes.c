@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-/* What is shown instead of light. The pictures that files get are traced in
- * another tree and by another query than the drafts of the screen: both must
- * show the same. Depths and colours of a wall are known. */
+/*
+ * test_view_modes.c - pictures other than of light
+ *
+ * Pictures for files are traced through another tree and by another query than
+ * drafts on the screen, and both must be equal. Depths and colours of a wall
+ * are known.
+ */
 #include "tests/unit/check.h"
 
 #include <limits.h>
@@ -17,7 +21,7 @@
 #define HEIGHT 32
 
 static struct options options;
-static char root[PATH_MAX]; /* of the repository */
+static char root[PATH_MAX]; /* the repository */
 
 static void open_scene(struct session *s, const char *path)
 {
@@ -31,7 +35,7 @@ static void open_scene(struct session *s, const char *path)
     check_or_say(session_open(s, &options, clock_ns(), &err), err.text);
 }
 
-/* As the screen has it: the draft of a render in live mode. */
+/* Draws a draft of a render in live mode, as the screen does. */
 static void draw_draft(struct session *s, struct view_mode *show,
                        struct frame *frame)
 {
@@ -80,9 +84,10 @@ static void files_show_what_the_screen_shows(void **state)
     session_close(&s);
 }
 
-/* A wall at z = 0 seen from (0, 0, 5) with half a view of tan 20 degrees: the
- * ray through the middle of pixel (x, y) is 5 sqrt(1 + u^2 + v^2) long. */
-static void depths_of_a_wall(void **state)
+/* A wall at z = 0 is seen from (0, 0, 5) with half a field of view of 20
+ * degrees. The ray through the middle of pixel (x, y) is 5 sqrt(1 + u^2 + v^2)
+ * long. */
+static void depths_are_distances_along_the_ray(void **state)
 {
     double top = tan(20 * 0.017453292519943295);
     double near = 5 * sqrt(1 + 2 * pow(top / HEIGHT, 2));
@@ -125,7 +130,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_show_what_the_screen_shows),
-        cmocka_unit_test(depths_of_a_wall),
+        cmocka_unit_test(depths_are_distances_along_the_ray),
     };
 
     return cmocka_run_group_tests(tests, enter, remove_folder);

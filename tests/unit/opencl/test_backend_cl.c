@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_backend_cl.c - the OpenCL device against the CPU: on PoCL the same bits
- * in every pixel of every scene that glim ships, whatever the options
+ * test_backend_cl.c - the OpenCL device against the CPU: on PoCL every pixel of
+ * every shipped scene has the same bits, with all options
  *
- * GLIM_TEST_DEVICE names another device. Others may round differently: there
- * the pixels' differences must have the mean 0 by a t-test, and how many pixels
- * differ is printed.
+ * GLIM_TEST_DEVICE names another device. Others may round differently: the
+ * differences of pixels must have the mean 0 by a t-test, and the number of
+ * different pixels is printed.
  */
 #include <math.h>
 #include <stdatomic.h>
@@ -34,7 +34,7 @@ static const char *const scenes[] = {
     "scenes/interior.obj", "scenes/skylit.obj",    "scenes/lights200.obj",
 };
 
-/* An opened scene, and a render of it on the CPU and on the device. */
+/* A scene, and its renders on the CPU and on the device. */
 struct pair {
     struct scene scene;
     struct host_world world;
@@ -44,11 +44,11 @@ struct pair {
     uint32_t sample; /* enum sample_kind */
 };
 
-static struct backend *device; /* NULL: there is none here */
+static struct backend *device; /* NULL: not available */
 static bool is_exact;
 
-/* Two-sided, chance 1e-6: a false alarm in 10,000 runs of some 100 pictures
- * and channels. The number of pixels makes it a normal distribution. */
+/* A two-sided chance of 1e-6 is a false alarm in 10,000 runs of some 100
+ * pictures and channels. With this many pixels the distribution is normal. */
 #define T_MAX 4.9
 
 static int open_device(void **state)
@@ -143,7 +143,8 @@ static void finish(struct pair *p, int which)
     check_or_say(progress.state == RENDER_DONE, progress.error.text);
 }
 
-/* The t of the differences of one channel's pixels, and how many differ. */
+/* Returns the t value of the differences in one channel, and the number of
+ * different pixels. */
 static double t_of(const float *a, const float *b, size_t pixels,
                    size_t *different)
 {
@@ -215,7 +216,7 @@ static void render_both(struct pair *p, struct rect crop, uint64_t spp,
     assert_same(p, spp);
 }
 
-static void shipped_scenes(void **state)
+static void shipped_scenes_are_equal(void **state)
 {
     (void)state;
     for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
@@ -227,9 +228,9 @@ static void shipped_scenes(void **state)
     }
 }
 
-/* One backend after another scene, sizes that fit no group, crops, seeds,
- * depths, pictures of one pixel. */
-static void options(void **state)
+/* Tests one backend after another scene, sizes that are not multiples of a
+ * group, crops, seeds, depths, and pictures of one pixel. */
+static void pictures_of_all_options_are_equal(void **state)
 {
     static const int depths[] = {-1, 0, 1, 3};
     struct pair p;
@@ -250,8 +251,8 @@ static void options(void **state)
     close_pair(&p);
 }
 
-/* A small film before the film, of which that does not know. */
-static void drafts(void **state)
+/* A small film is rendered before the film, which it does not affect. */
+static void drafts_are_equal(void **state)
 {
     struct pair p;
 
@@ -277,8 +278,8 @@ static void drafts(void **state)
     close_pair(&p);
 }
 
-/* Previews and numbers have no film, and the same draft on both. */
-static void first_hits(void **state)
+/* Previews and feature pictures have no film, and their drafts are equal. */
+static void feature_pictures_are_equal(void **state)
 {
     struct pair p;
 
@@ -306,9 +307,9 @@ static void first_hits(void **state)
     close_pair(&p);
 }
 
-/* Materials, lights and triangles are swapped between pictures, and freed: the
- * device sees each change. */
-static void edits(void **state)
+/* Materials, lights and triangles are swapped and freed between pictures, and
+ * the device sees each change. */
+static void edited_worlds_are_equal(void **state)
 {
     struct mtl_source sources[32];
     uint32_t assigned[64];
@@ -346,9 +347,9 @@ static void edits(void **state)
     close_pair(&p);
 }
 
-/* A build for the scene's features alone computes the same, and one that lacks
- * a feature that a scene needs is not used for it. */
-static void special_builds(void **state)
+/* A build for the scene's features gives the same bits. A build that lacks a
+ * needed feature is not used. */
+static void special_builds_give_the_same_bits(void **state)
 {
     (void)state;
     for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
@@ -368,8 +369,8 @@ static void special_builds(void **state)
     }
 }
 
-/* The self-test passes for every build that a scene may ask for. */
-static void self_tests(void **state)
+/* The self-test passes for every build that a scene may need. */
+static void self_tests_pass(void **state)
 {
     (void)state;
     for (size_t i = 0; device && i < sizeof scenes / sizeof scenes[0]; i++) {
@@ -396,8 +397,8 @@ static void self_tests(void **state)
     }
 }
 
-/* Halted again and again, at any moment: nothing is lost or counted twice. */
-static void halts(void **state)
+/* Halts at arbitrary moments lose no sample and count none twice. */
+static void halts_lose_no_samples(void **state)
 {
     struct pair p;
     struct timespec pause = {0, 0};
@@ -423,16 +424,14 @@ static void halts(void **state)
     close_pair(&p);
 }
 
-/* The driver's own functions, and how many calls of them succeed. */
+/* The driver's own functions, and the number of calls that will succeed. */
 static struct cl_api driver;
 static atomic_int calls_left;
 
-static cl_int CL_API_CALL dying_enqueue(cl_command_queue queue,
-                                        cl_kernel kernel, cl_uint dimensions,
-                                        const size_t *offset,
-                                        const size_t *global,
-                                        const size_t *local, cl_uint wait_count,
-                                        const cl_event *waits, cl_event *done)
+static cl_int CL_API_CALL
+failing_enqueue(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
+                const size_t *offset, const size_t *global, const size_t *local,
+                cl_uint wait_count, const cl_event *waits, cl_event *done)
 {
     if (atomic_fetch_sub(&calls_left, 1) <= 0)
         return CL_DEVICE_NOT_AVAILABLE;
@@ -440,17 +439,17 @@ static cl_int CL_API_CALL dying_enqueue(cl_command_queue queue,
                                        global, local, wait_count, waits, done);
 }
 
-static cl_int CL_API_CALL dying_wait(cl_uint count, const cl_event *events)
+static cl_int CL_API_CALL failing_wait(cl_uint count, const cl_event *events)
 {
     if (atomic_fetch_sub(&calls_left, 1) <= 0)
         return CL_DEVICE_NOT_AVAILABLE;
     return driver.WaitForEvents(count, events);
 }
 
-/* A device that is lost in the midst of a picture, at one call or the next: the
- * render fails with its name, nothing writes later, and should it come back, it
- * is as good as before. */
-static void losses(void **state)
+/* A device is lost during a picture, at one call after the other. The render
+ * fails with its name, and nothing is written later. A device that returns can
+ * be used again. */
+static void lost_devices_are_reported(void **state)
 {
     struct cl_api *api;
     struct error err;
@@ -466,8 +465,8 @@ static void losses(void **state)
         struct render_progress progress;
 
         atomic_store(&calls_left, calls);
-        api->EnqueueNDRangeKernel = dying_enqueue;
-        api->WaitForEvents = dying_wait;
+        api->EnqueueNDRangeKernel = failing_enqueue;
+        api->WaitForEvents = failing_wait;
         start(&p, 1, (struct rect){0, 0, 240, 160}, 100, 3);
         assert_true(render_wait(p.renders[1], 300000));
         progress = render_progress(p.renders[1]);
@@ -480,7 +479,7 @@ static void losses(void **state)
     close_pair(&p);
 }
 
-/* Renders on both; returns how many arrays the device was given for it. */
+/* Renders on both. Returns the number of arrays that were uploaded for it. */
 static uint64_t uploads(struct pair *p)
 {
     uint64_t before = device->upload_count;
@@ -510,7 +509,7 @@ static void paint(struct pair *p, uint32_t material, double red, double light)
                  err.text);
 }
 
-/* As a session takes the same files when they are loaded anew. */
+/* Loads the same files again, as a session does. */
 static void load_again(struct pair *p, const char *path)
 {
     struct warnings report = {0};
@@ -530,8 +529,7 @@ static void load_again(struct pair *p, const char *path)
     warnings_free(&report);
 }
 
-/* The settings and the arrays that have changed are uploaded before a restart,
- * and nothing else. */
+/* Before a restart only the settings and the changed arrays are uploaded. */
 static void only_changes_are_uploaded(void **state)
 {
     struct pair p;
@@ -549,24 +547,26 @@ static void only_changes_are_uploaded(void **state)
         assert_int_equal(uploads(&p), 2);
     }
     paint(&p, 1, 0.5, 2);
-    assert_int_equal(uploads(&p), 2 + 3); /* lights, which are whose, tree */
+    /* Lights, their owners and their tree. */
+    assert_int_equal(uploads(&p), 2 + 3);
     load_again(&p, "scenes/cornell.obj");
-    assert_int_equal(uploads(&p), CL_ARRAY_COUNT - 2); /* nodes, leaves */
+    /* All but nodes and leaves. */
+    assert_int_equal(uploads(&p), CL_ARRAY_COUNT - 2);
     close_pair(&p);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shipped_scenes),
-        cmocka_unit_test(options),
-        cmocka_unit_test(drafts),
-        cmocka_unit_test(first_hits),
-        cmocka_unit_test(edits),
-        cmocka_unit_test(special_builds),
-        cmocka_unit_test(self_tests),
-        cmocka_unit_test(halts),
-        cmocka_unit_test(losses),
+        cmocka_unit_test(shipped_scenes_are_equal),
+        cmocka_unit_test(pictures_of_all_options_are_equal),
+        cmocka_unit_test(drafts_are_equal),
+        cmocka_unit_test(feature_pictures_are_equal),
+        cmocka_unit_test(edited_worlds_are_equal),
+        cmocka_unit_test(special_builds_give_the_same_bits),
+        cmocka_unit_test(self_tests_pass),
+        cmocka_unit_test(halts_lose_no_samples),
+        cmocka_unit_test(lost_devices_are_reported),
         cmocka_unit_test(only_changes_are_uploaded),
     };
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * The table of functions: whole, loaded once, and its words for codes.
+ * test_cl_api.c - the table of functions is complete and loaded once; codes
+ * have names
  */
 #include "tests/unit/check.h"
 
 #include "opencl/cl_api.h"
 
-static void test_open(void **state)
+static void all_functions_are_loaded_once(void **state)
 {
     struct error err;
     const struct cl_api *cl = cl_api_open(&err);
@@ -23,8 +24,8 @@ static void test_open(void **state)
 #undef CHECK_MEMBER
 }
 
-/* The values are those of the specification's appendix. */
-static void test_names(void **state)
+/* The values are from the appendix of the specification. */
+static void codes_have_the_specification_s_names(void **state)
 {
     (void)state;
     assert_string_equal(cl_error_name(0), "CL_SUCCESS");
@@ -37,9 +38,9 @@ static void test_names(void **state)
     assert_string_equal(cl_error_name(1), "an unknown OpenCL error");
 }
 
-/* OpenCL 1.2 has the codes 0 to -19 and -30 to -68, and no other has a name
- * but the loader's. */
-static void test_all_codes_have_names(void **state)
+/* OpenCL 1.2 has the codes 0 to -19 and -30 to -68. Only the loader's code has
+ * a name besides these. */
+static void all_codes_have_names(void **state)
 {
     (void)state;
     for (int code = 5; code >= -1100; code--) {
@@ -56,9 +57,9 @@ static void test_all_codes_have_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_open),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_all_codes_have_names),
+        cmocka_unit_test(all_functions_are_loaded_once),
+        cmocka_unit_test(codes_have_the_specification_s_names),
+        cmocka_unit_test(all_codes_have_names),
     };
 
     return cmocka_run_group_tests_name("cl_api", tests, NULL, NULL);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The list of devices: which one a word means, how the list looks, and what
- * the real driver says about itself.
+ * test_cl_device.c - the list of devices: which device a word selects, how the
+ * list is printed, and the real driver's devices
  */
 #include "tests/unit/check.h"
 
@@ -47,7 +47,7 @@ static struct cl_device made_up[] = {
 static const struct cl_devices all = {made_up, 3};
 static const struct cl_devices cpu_only = {made_up, 1};
 
-static void means(const char *word, int number)
+static void selects(const char *word, int number)
 {
     struct error err = {""};
     const struct cl_device *d = cl_device_find(&all, word, &err);
@@ -56,7 +56,7 @@ static void means(const char *word, int number)
     assert_int_equal(d - made_up + 1, number);
 }
 
-static void means_none(const char *word, const char *expected)
+static void selects_none(const char *word, const char *expected)
 {
     struct error err;
 
@@ -64,44 +64,45 @@ static void means_none(const char *word, const char *expected)
     assert_string_equal(err.text, expected);
 }
 
-static void test_find(void **state)
+static void words_select_devices(void **state)
 {
     struct error err;
 
     (void)state;
-    means("1", 1);
-    means("2", 2);
-    means("3", 3); /* although it is in a name */
-    means("4090 ", 3);
-    means("big", 3);
-    means("ALPHA 3", 2);
-    means("portable", 1);
-    means("(r)", 1);
-    means(NULL, 2);
+    selects("1", 1);
+    selects("2", 2);
+    selects("3", 3); /* although the digit is in a name */
+    selects("4090 ", 3);
+    selects("big", 3);
+    selects("ALPHA 3", 2);
+    selects("portable", 1);
+    selects("(r)", 1);
+    selects(NULL, 2);
     assert_ptr_equal(cl_device_find(&cpu_only, NULL, &err), made_up);
 }
 
-static void test_find_errors(void **state)
+static void words_without_a_device_have_their_message(void **state)
 {
     (void)state;
-    means_none("alpha",
-               "--device: found 'alpha' in the names of 2 devices, expected "
-               "one of 2 'Alpha 3 Small', 3 'Alpha 4090 Big'");
-    means_none("4", "--device: found no device '4', expected one of 1 "
-                    "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha 4090 "
-                    "Big'"); /* although it is in a name */
-    means_none("0", "--device: found no device '0', expected one of 1 "
-                    "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha 4090 "
-                    "Big'");
-    means_none("beta", "--device: found no device 'beta', expected one of 1 "
-                       "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha "
-                       "4090 Big'");
-    means_none("01", "--device: found no device '01', expected one of 1 "
-                     "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha 4090 "
-                     "Big'");
+    selects_none("alpha",
+                 "--device: found 'alpha' in the names of 2 devices, expected "
+                 "one of 2 'Alpha 3 Small', 3 'Alpha 4090 Big'");
+    selects_none("4", "--device: found no device '4', expected one of 1 "
+                      "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha 4090 "
+                      "Big'"); /* although the digit is in a name */
+    selects_none("0", "--device: found no device '0', expected one of 1 "
+                      "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha 4090 "
+                      "Big'");
+    selects_none("beta", "--device: found no device 'beta', expected one of 1 "
+                         "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha "
+                         "4090 Big'");
+    selects_none("01",
+                 "--device: found no device '01', expected one of 1 "
+                 "'pthread-Some(R) CPU', 2 'Alpha 3 Small', 3 'Alpha 4090 "
+                 "Big'");
 }
 
-static void test_print(void **state)
+static void lists_are_printed_in_columns(void **state)
 {
     char text[1024];
     FILE *out = fmemopen(text, sizeof text, "w");
@@ -120,7 +121,7 @@ static void test_print(void **state)
               "Alpha 4090 Big       Alpha Graphics\n");
 }
 
-static void test_real(void **state)
+static void real_devices_are_listed(void **state)
 {
     struct cl_devices list;
     struct error err;
@@ -157,10 +158,10 @@ static void test_real(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_find),
-        cmocka_unit_test(test_find_errors),
-        cmocka_unit_test(test_print),
-        cmocka_unit_test(test_real),
+        cmocka_unit_test(words_select_devices),
+        cmocka_unit_test(words_without_a_device_have_their_message),
+        cmocka_unit_test(lists_are_printed_in_columns),
+        cmocka_unit_test(real_devices_are_listed),
     };
 
     cl_environment_prepare(0);

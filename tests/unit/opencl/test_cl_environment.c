@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * What surrounds a driver: the environment, the cache folder, the signals.
- * What PoCL does to a process is looked at in children, which are started anew
- * (posix_spawn), for a driver does not survive a fork.
+ * test_cl_environment.c - what drivers depend on: the environment, the cache
+ * folder, the signals
+ *
+ * PoCL's effects on a process are tested in child processes, which are started
+ * with posix_spawn because a driver does not survive a fork.
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -17,7 +19,7 @@
 #include "opencl/cl_device.h"
 #include "opencl/cl_environment.h"
 
-/* Exit status of a child that finds no PoCL. */
+/* Exit status of a child process that finds no PoCL. */
 #define NO_POCL 77
 
 #define SIGNAL_MAX 64
@@ -49,7 +51,7 @@ static void forget_environment(void)
         unsetenv(names[i]);
 }
 
-static void test_threads_and_sigfpe(void **state)
+static void environment_has_threads_and_no_sigfpe(void **state)
 {
     char count[16];
 
@@ -68,13 +70,13 @@ static void test_threads_and_sigfpe(void **state)
     setenv("POCL_MAX_PTHREAD_COUNT", "2", 1);
     setenv("POCL_SIGFPE_HANDLER", "1", 1);
     cl_environment_prepare(7);
-    is_set("POCL_MAX_PTHREAD_COUNT", "2"); /* the person's */
-    is_set("POCL_SIGFPE_HANDLER", "0");    /* never */
+    is_set("POCL_MAX_PTHREAD_COUNT", "2"); /* set by the user */
+    is_set("POCL_SIGFPE_HANDLER", "0");    /* never set */
 }
 
-/* The folder of PoCL for these values; NULL: not set. */
-static void chooses(const char *cache_home, const char *home, const char *own,
-                    const char *expected)
+/* Checks PoCL's folder for these values; NULL is an unset variable. */
+static void check_cache_choice(const char *cache_home, const char *home,
+                               const char *own, const char *expected)
 {
     forget_environment();
     if (cache_home)
@@ -87,16 +89,16 @@ static void chooses(const char *cache_home, const char *home, const char *own,
     is_set("POCL_CACHE_DIR", expected);
 }
 
-static void test_cache_choice(void **state)
+static void cache_is_in_the_first_usable_folder(void **state)
 {
     (void)state;
-    chooses("/c", "/h", NULL, "/c/glim/pocl");
-    chooses(NULL, "/h", NULL, "/h/.cache/glim/pocl");
-    chooses("", "/h", NULL, "/h/.cache/glim/pocl");
-    chooses("relative", "/h", NULL, "/h/.cache/glim/pocl");
-    chooses("relative", NULL, NULL, NULL);
-    chooses(NULL, NULL, NULL, NULL);
-    chooses("/c", "/h", "/own", "/own");
+    check_cache_choice("/c", "/h", NULL, "/c/glim/pocl");
+    check_cache_choice(NULL, "/h", NULL, "/h/.cache/glim/pocl");
+    check_cache_choice("", "/h", NULL, "/h/.cache/glim/pocl");
+    check_cache_choice("relative", "/h", NULL, "/h/.cache/glim/pocl");
+    check_cache_choice("relative", NULL, NULL, NULL);
+    check_cache_choice(NULL, NULL, NULL, NULL);
+    check_cache_choice("/c", "/h", "/own", "/own");
 }
 
 static bool cache_is_made(const char *within, struct error *err)
@@ -127,7 +129,7 @@ static void cache_fails(const char *within, const char *why)
     assert_string_equal(err.text, expected);
 }
 
-static void test_cache_is_made(void **state)
+static void cache_folders_are_made(void **state)
 {
     struct error err;
     char path[256];
@@ -143,7 +145,7 @@ static void test_cache_is_made(void **state)
     cache_fails("file", "Not a directory");
     cache_fails("file/below", "Not a directory");
     unsetenv("POCL_CACHE_DIR");
-    assert_true(cl_cache_open(&err)); /* PoCL finds its own */
+    assert_true(cl_cache_open(&err)); /* PoCL finds its own folder */
 }
 
 static void mark(int number)
@@ -151,8 +153,9 @@ static void mark(int number)
     (void)number;
 }
 
-/* Those that LLVM's handlers lie over, by its sources, and PoCL's. */
-static void test_signals_come_back(void **state)
+/* These are the signals that handlers of LLVM (by its sources) and PoCL
+ * take. */
+static void signal_actions_are_restored(void **state)
 {
     static const int numbers[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGILL,  SIGTRAP,
                                   SIGABRT, SIGBUS,  SIGSEGV, SIGUSR1, SIGUSR2,
@@ -179,8 +182,8 @@ static void test_signals_come_back(void **state)
     }
 }
 
-/* In a child: starts the driver, gives PoCL's device and its units. Ends it if
- * there is none. */
+/* Starts the driver in a child process and returns PoCL's device and its number
+ * of units. Ends the process if there is none. */
 static cl_device_id start_pocl(int thread_count, int *unit_count)
 {
     struct cl_devices list;
@@ -205,7 +208,7 @@ __attribute__((no_sanitize("undefined"))) static int child_divides(void)
     int unit_count;
 
     start_pocl(1, &unit_count);
-    return 7 / zero; /* the end, if all is well */
+    return 7 / zero; /* normally ends the process */
 }
 
 static int child_counts(void)
@@ -216,7 +219,8 @@ static int child_counts(void)
     return unit_count;
 }
 
-/* Builds a kernel and runs it once: 42, or what it has written. */
+/* Builds a kernel and runs it once. Returns the number it has written, 42 if
+ * all is well. */
 static int run_kernel(cl_device_id id)
 {
     static const char *const source =
@@ -255,7 +259,8 @@ static void on_signal(int number)
     caught = caught + 1;
 }
 
-/* The kernel adds a flag of its own to what has once been set. */
+/* Compares actions except for a flag that the Linux kernel adds to actions once
+ * set. */
 static bool is_same_action(const struct sigaction *a, const struct sigaction *b)
 {
     int flags =
@@ -265,8 +270,8 @@ static bool is_same_action(const struct sigaction *a, const struct sigaction *b)
            (a->sa_flags & flags) == (b->sa_flags & flags);
 }
 
-/* All signals, not only those that we know of: 0, or the first that is not as
- * it was. */
+/* Returns 0 if all signals, including unknown ones, are as before, or the first
+ * that is not. */
 static int child_keeps_signals(void)
 {
     struct sigaction before[SIGNAL_MAX + 1] = {0};
@@ -303,7 +308,8 @@ static const struct {
                 {"counts", child_counts},
                 {"keeps-signals", child_keeps_signals}};
 
-/* The child's status as of waitpid(); skips where there is no PoCL. */
+/* Returns the child's status as of waitpid(), or skips the test without
+ * PoCL. */
 static int status_of(const char *name)
 {
     char program[] = "/proc/self/exe";
@@ -328,7 +334,7 @@ static int status_of(const char *name)
     return status;
 }
 
-static void test_division_by_zero_is_caught(void **state)
+static void division_by_zero_ends_the_process(void **state)
 {
     (void)state;
 #if defined(__x86_64__) || defined(__i386__)
@@ -341,7 +347,7 @@ static void test_division_by_zero_is_caught(void **state)
 #endif
 }
 
-static void test_threads_are_obeyed(void **state)
+static void driver_has_the_given_number_of_threads(void **state)
 {
     (void)state;
     int status = status_of("counts");
@@ -349,7 +355,7 @@ static void test_threads_are_obeyed(void **state)
     assert_int_equal(WEXITSTATUS(status), 3);
 }
 
-static void test_driver_leaves_signals(void **state)
+static void driver_leaves_signals_alone(void **state)
 {
     (void)state;
     int status = status_of("keeps-signals");
@@ -369,13 +375,13 @@ static int run_child(const char *name)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads_and_sigfpe),
-        cmocka_unit_test(test_cache_choice),
-        cmocka_unit_test(test_cache_is_made),
-        cmocka_unit_test(test_signals_come_back),
-        cmocka_unit_test(test_division_by_zero_is_caught),
-        cmocka_unit_test(test_threads_are_obeyed),
-        cmocka_unit_test(test_driver_leaves_signals),
+        cmocka_unit_test(environment_has_threads_and_no_sigfpe),
+        cmocka_unit_test(cache_is_in_the_first_usable_folder),
+        cmocka_unit_test(cache_folders_are_made),
+        cmocka_unit_test(signal_actions_are_restored),
+        cmocka_unit_test(division_by_zero_ends_the_process),
+        cmocka_unit_test(driver_has_the_given_number_of_threads),
+        cmocka_unit_test(driver_leaves_signals_alone),
     };
 
     if (argc == 2)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The kernels as one text: what is put where, what the marks say to a C
- * preprocessor and to a driver, and what is wrong with files that lack.
+ * test_cl_source.c - the kernels as one text: the order of files, the line
+ * marks for a C preprocessor and for a driver, and errors about missing files
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -15,7 +15,7 @@
 #include "opencl/cl_source.h"
 #include "terminal/xmalloc.h"
 
-/* By the C library alone. */
+/* Writes a file by the C library alone. */
 static void put(const char *name, const char *text)
 {
     char path[256];
@@ -27,7 +27,7 @@ static void put(const char *name, const char *text)
     assert_int_equal(fclose(f), 0);
 }
 
-/* The four entries, of which only the second one has anything to say. */
+/* Writes the four entry files; only the second one is not empty. */
 static void put_entries(const char *pathtracer)
 {
     put("ray_generator.cl", "");
@@ -61,7 +61,7 @@ static void fails(const char *expected)
     assert_string_equal(err.text, expected);
 }
 
-static void test_order(void **state)
+static void entries_are_in_order(void **state)
 {
     (void)state;
     put("ray_generator.cl", "a\n");
@@ -74,11 +74,12 @@ static void test_order(void **state)
             "#line 1 \"kernels/clear_buffers.cl\"\nd\n");
 }
 
-static void test_nesting(void **state)
+static void included_files_replace_their_lines(void **state)
 {
     (void)state;
     put("a.h", "a1\n  #  include\t\"kernels/b.h\" // why\na3\n");
-    put("b.h", "b1\n#include \"kernels/a.h\"\nb3"); /* no end of line */
+    /* No line feed at the end. */
+    put("b.h", "b1\n#include \"kernels/a.h\"\nb3");
     put_entries("#include \"kernels/a.h\"\n#include \"kernels/b.h\"\np3\n");
     text_is("#line 1 \"kernels/ray_generator.cl\"\n"
             "#line 1 \"kernels/pathtracer.cl\"\n"
@@ -90,7 +91,7 @@ static void test_nesting(void **state)
             "#line 1 \"kernels/clear_buffers.cl\"\n");
 }
 
-static void test_once_for_all_entries(void **state)
+static void files_are_included_once(void **state)
 {
     (void)state;
     put("a.h", "only here\n");
@@ -103,7 +104,7 @@ static void test_once_for_all_entries(void **state)
     free(text);
 }
 
-static void test_other_lines_stay(void **state)
+static void other_lines_stay(void **state)
 {
     static const char *const lines[] = {
         "#include <math.h>",
@@ -123,7 +124,7 @@ static void test_other_lines_stay(void **state)
     }
 }
 
-static void test_missing(void **state)
+static void missing_files_have_their_message(void **state)
 {
     char expected[256];
     struct error err;
@@ -145,8 +146,8 @@ static void test_missing(void **state)
                         "/nowhere/ray_generator.cl: no such file or folder");
 }
 
-/* What is within the program is what is in the repository. */
-static void test_embedded(void **state)
+/* The embedded files are those of the repository. */
+static void embedded_files_are_those_of_the_repository(void **state)
 {
     size_t count = 0;
     struct error err;
@@ -170,7 +171,7 @@ static void test_embedded(void **state)
     assert_int_equal(count, file_count);
 }
 
-static void test_embedded_text(void **state)
+static void embedded_text_is_that_of_the_folder(void **state)
 {
     struct error err;
     char *within = cl_source_text(NULL, &err);
@@ -184,8 +185,9 @@ static void test_embedded_text(void **state)
     free(outside);
 }
 
-/* Vectors of the authors, http://www.isthe.com/chongo/src/fnv/test_fnv.c */
-static void test_hash(void **state)
+/* Test vectors of the authors:
+ * http://www.isthe.com/chongo/src/fnv/test_fnv.c */
+static void hash_is_fnv(void **state)
 {
     (void)state;
     assert_true(cl_source_hash("") == 0xcbf29ce484222325u);
@@ -193,8 +195,8 @@ static void test_hash(void **state)
     assert_true(cl_source_hash("foobar") == 0x85944171f73967e8u);
 }
 
-/* The driver's log of building the text, for free(); skips where there is no
- * driver. */
+/* Returns the driver's log of building the text, for free(). Skips the test
+ * without a driver. */
 static char *log_of(const char *text, cl_int *status)
 {
     struct error err;
@@ -226,7 +228,7 @@ static char *log_of(const char *text, cl_int *status)
     return log;
 }
 
-static void test_driver_names_our_line(void **state)
+static void driver_names_the_line_of_the_file(void **state)
 {
     cl_int status;
 
@@ -244,7 +246,7 @@ static void test_driver_names_our_line(void **state)
     free(text);
 }
 
-static void test_driver_takes_kernels(void **state)
+static void driver_builds_the_kernels(void **state)
 {
     struct error err;
     cl_int status;
@@ -261,16 +263,16 @@ static void test_driver_takes_kernels(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_nesting),
-        cmocka_unit_test(test_once_for_all_entries),
-        cmocka_unit_test(test_other_lines_stay),
-        cmocka_unit_test(test_missing),
-        cmocka_unit_test(test_embedded),
-        cmocka_unit_test(test_embedded_text),
-        cmocka_unit_test(test_hash),
-        cmocka_unit_test(test_driver_names_our_line),
-        cmocka_unit_test(test_driver_takes_kernels),
+        cmocka_unit_test(entries_are_in_order),
+        cmocka_unit_test(included_files_replace_their_lines),
+        cmocka_unit_test(files_are_included_once),
+        cmocka_unit_test(other_lines_stay),
+        cmocka_unit_test(missing_files_have_their_message),
+        cmocka_unit_test(embedded_files_are_those_of_the_repository),
+        cmocka_unit_test(embedded_text_is_that_of_the_folder),
+        cmocka_unit_test(hash_is_fnv),
+        cmocka_unit_test(driver_names_the_line_of_the_file),
+        cmocka_unit_test(driver_builds_the_kernels),
     };
 
     return cmocka_run_group_tests_name("cl_source", tests, make_folder,

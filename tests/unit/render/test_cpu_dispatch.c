@@ -17,11 +17,11 @@ static const char *const scenes[] = {
 #define HEIGHT 36
 #define SPP    3
 
-#define BUILDS_MAX 8 /* for a set of instructions */
+#define BUILDS_MAX 8 /* for one instruction set */
 
-/* The one that is taken can do what is asked, and is itself what is taken for
- * just what it can do: none is there in vain. */
-static void a_build_fits(void **state)
+/* The chosen build can do what is asked. Each build is the one chosen for
+ * exactly its own features, so none is unused. */
+static void chosen_builds_have_the_needed_features(void **state)
 {
     const struct cpu_kernel *whole;
 
@@ -57,7 +57,8 @@ static void render(struct session *s, uint32_t more_features, float *rgb)
     film_linear(render_film(s->render), rgb);
 }
 
-/* Adds it to the builds, unless it is there. */
+/* Adds the kernel to the builds and returns true, unless it is already
+ * there. */
 static bool is_new(const struct cpu_kernel *p, const struct cpu_kernel **builds,
                    int *count)
 {
@@ -69,8 +70,8 @@ static bool is_new(const struct cpu_kernel *p, const struct cpu_kernel **builds,
     return true;
 }
 
-/* The scene with the build of all features, then with each other that will do;
- * returns how many those are. */
+/* Renders the scene with the build of all features and with each other possible
+ * build. Returns the number of those. */
 static int compare_builds(const char *scene, const struct cpu_kernel *whole)
 {
     static float want[3 * WIDTH * HEIGHT], got[3 * WIDTH * HEIGHT];
@@ -112,7 +113,7 @@ static void builds_give_the_same_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_build_fits),
+        cmocka_unit_test(chosen_builds_have_the_needed_features),
         cmocka_unit_test(builds_give_the_same_bits),
     };
 

@@ -15,10 +15,10 @@
 #include "render/cpu_dispatch.h"
 #include "render/render_loop.h"
 
-#define WIDTH  70 /* no multiple of a block */
+#define WIDTH  70 /* not a multiple of a block */
 #define HEIGHT 43
 
-/* A room with a lamp and a ball of glass. */
+/* Makes a room with a lamp and a glass ball. */
 static void make_room(struct mesh *m)
 {
     memset(m, 0, sizeof *m);
@@ -116,7 +116,7 @@ static void thread_counts_give_the_same_bits(void **state)
     mesh_free(&m);
 }
 
-/* 3 of the 11 samples come in a block that is not full. */
+/* The last 3 of the 11 samples are in a block that is not full. */
 static void instruction_sets_give_the_same_bits(void **state)
 {
     struct render *plain = open_render_with(cpu_kernel_named("plain", NULL), 2);
@@ -143,8 +143,8 @@ static void instruction_sets_give_the_same_bits(void **state)
     mesh_free(&m);
 }
 
-/* Halting at any moment and going on loses and repeats no sample. */
-static void halts_do_not_show(void **state)
+/* Halting at any moment and resuming loses no sample and repeats none. */
+static void halts_lose_and_repeat_no_samples(void **state)
 {
     struct render *whole = open_render(2), *halted = open_render(2);
     struct mesh m;
@@ -167,7 +167,7 @@ static void halts_do_not_show(void **state)
     assert_true(halts > 3);
     assert_int_equal(render_progress(halted).state, RENDER_DONE);
     assert_same_film(render_film(whole), render_film(halted));
-    render_resume(whole, 41); /* one more sample each */
+    render_resume(whole, 41); /* one more sample per pixel */
     assert_true(render_wait(whole, 60000));
     assert_int_equal(render_progress(whole).samples, 41 * WIDTH * HEIGHT);
     close_render(whole);
@@ -175,8 +175,8 @@ static void halts_do_not_show(void **state)
     mesh_free(&m);
 }
 
-/* A restart shows nothing of the picture before. */
-static void restarts_begin_anew(void **state)
+/* After a restart nothing of the previous picture is shown. */
+static void restarts_show_nothing_old(void **state)
 {
     struct render *r = open_render(2), *fresh = open_render(2);
     struct mesh m;
@@ -229,8 +229,8 @@ static void a_crop_is_part_of_the_whole(void **state)
     mesh_free(&m);
 }
 
-/* STRESS G5: faces that are there twice look like one, to the bit. */
-static void doubled_faces_do_not_show(void **state)
+/* STRESS G5: duplicate faces look like single ones, bit for bit. */
+static void duplicate_faces_change_nothing(void **state)
 {
     struct render *once = open_render(2), *twice = open_render(2);
     struct mesh m, doubled;
@@ -260,8 +260,8 @@ static void doubled_faces_do_not_show(void **state)
     mesh_free(&doubled);
 }
 
-/* The tree goes with the backend, and comes back with it. */
-static void backends_that_wait_hold_no_tree(void **state)
+/* The tree is freed with the backend and built again with it. */
+static void waiting_backends_hold_no_tree(void **state)
 {
     struct render *r = open_render(1);
     struct backend *first = render_backend(r);
@@ -287,7 +287,7 @@ static void backends_that_wait_hold_no_tree(void **state)
     mesh_free(&m);
 }
 
-static void the_end_is_an_event(void **state)
+static void end_of_a_render_is_an_event(void **state)
 {
     struct render *r = open_render(1);
     struct pollfd fd = {.fd = render_event_fd(r), .events = POLLIN};
@@ -302,7 +302,8 @@ static void the_end_is_an_event(void **state)
     assert_int_equal(read(render_event_fd(r), &events, sizeof events), -1);
     assert_true(render_start(r, &job, &err));
     render_wait(r, -1);
-    assert_int_equal(poll(&fd, 1, 60000), 1); /* right after the state */
+    /* Immediately after the state changes. */
+    assert_int_equal(poll(&fd, 1, 60000), 1);
     assert_int_equal(read(fd.fd, &events, sizeof events), sizeof events);
     assert_int_equal(events, 1);
     close_render(r);
@@ -310,9 +311,9 @@ static void the_end_is_an_event(void **state)
     mesh_free(&m);
 }
 
-/* STRESS C16: a library has switched denormals off or the rounding over before
- * the threads start: another last bit here and there, the same picture. The t
- * of the pixels' differences is beyond 4.9 once in a million. */
+/* STRESS C16: a library has switched denormals off or changed the rounding mode
+ * before the threads start. Some last bits differ, but the picture is the same.
+ * The t value of the pixels' differences exceeds 4.9 once in a million. */
 static void foreign_float_modes_change_nothing(void **state)
 {
     static float rgb[3][3 * WIDTH * HEIGHT];
@@ -364,12 +365,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thread_counts_give_the_same_bits),
         cmocka_unit_test(instruction_sets_give_the_same_bits),
-        cmocka_unit_test(halts_do_not_show),
-        cmocka_unit_test(restarts_begin_anew),
+        cmocka_unit_test(halts_lose_and_repeat_no_samples),
+        cmocka_unit_test(restarts_show_nothing_old),
         cmocka_unit_test(a_crop_is_part_of_the_whole),
-        cmocka_unit_test(doubled_faces_do_not_show),
-        cmocka_unit_test(backends_that_wait_hold_no_tree),
-        cmocka_unit_test(the_end_is_an_event),
+        cmocka_unit_test(duplicate_faces_change_nothing),
+        cmocka_unit_test(waiting_backends_hold_no_tree),
+        cmocka_unit_test(end_of_a_render_is_an_event),
         cmocka_unit_test(foreign_float_modes_change_nothing),
     };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Whenever somebody looks, the spans together have all samples, and those of a
- * steady render all have its speed.
+ * test_speeds.c - at any time the spans together have all samples, and those of
+ * a steady render all have its speed
  */
 #include "tests/unit/check.h"
 
@@ -31,7 +31,7 @@ static void steady_renders_have_one_speed(void **state)
     uint32_t random = 1;
 
     (void)state;
-    /* a thousand samples a second, looked at now and then, for hours */
+    /* A thousand samples per second, queried at random times, for hours. */
     for (int i = 0; i < 20000; i++) {
         time_ns += 1000000 * (uint64_t)(1 + next_random(&random) % 2000);
         speeds_look(&s, time_ns, time_ns / 1000000);
@@ -43,31 +43,31 @@ static void steady_renders_have_one_speed(void **state)
             check_close(speeds_at(&s, k), 1000, 1e-6);
     }
     assert_true(time_ns > 4 * 3600 * S_NS);
-    /* the spans cover the time, and no more than they need */
+    /* The spans cover the time, and no more than necessary. */
     assert_true((uint64_t)s.count * s.span_ns >= time_ns);
     assert_true((uint64_t)(s.count - 1) * s.span_ns <= time_ns);
     assert_true(s.count > SPEEDS_MAX / 2 - 1);
 }
 
-static void spans_have_what_came_in_them(void **state)
+static void spans_have_the_samples_of_their_time(void **state)
 {
     struct speeds s = {0};
 
     (void)state;
-    speeds_look(&s, S_NS / 2, 100); /* 200 a second in two spans */
-    speeds_look(&s, S_NS, 1100);    /* 2000 in the next two */
+    speeds_look(&s, S_NS / 2, 100); /* 200 per second in two spans */
+    speeds_look(&s, S_NS, 1100);    /* 2000 per second in the next two */
     assert_int_equal(s.span_ns, S_NS / 4);
     assert_int_equal(s.count, 4);
     check_close(speeds_at(&s, 0), 200, 1e-9);
     check_close(speeds_at(&s, 1), 200, 1e-9);
     check_close(speeds_at(&s, 2), 2000, 1e-9);
     check_close(speeds_at(&s, 3), 2000, 1e-9);
-    speeds_look(&s, S_NS + S_NS / 8, 1100); /* half a span of nothing */
+    speeds_look(&s, S_NS + S_NS / 8, 1100); /* half a span without samples */
     assert_int_equal(s.count, 5);
     check_close(speeds_at(&s, 4), 0, 0);
 }
 
-static void two_spans_become_one(void **state)
+static void two_spans_are_merged(void **state)
 {
     struct speeds s = {0};
     uint64_t samples = 0;
@@ -86,8 +86,8 @@ static void two_spans_become_one(void **state)
         check_close(speeds_at(&s, i), 800, 1e-9);
 }
 
-/* Looking twice at one time loses nothing; a restart forgets. */
-static void looks_without_time_and_restarts(void **state)
+/* Two queries at one time lose nothing; a restart forgets everything. */
+static void queries_at_one_time_lose_nothing(void **state)
 {
     struct speeds s = {0};
 
@@ -108,9 +108,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steady_renders_have_one_speed),
-        cmocka_unit_test(spans_have_what_came_in_them),
-        cmocka_unit_test(two_spans_become_one),
-        cmocka_unit_test(looks_without_time_and_restarts),
+        cmocka_unit_test(spans_have_the_samples_of_their_time),
+        cmocka_unit_test(two_spans_are_merged),
+        cmocka_unit_test(queries_at_one_time_lose_nothing),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

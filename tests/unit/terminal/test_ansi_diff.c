@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The bytes go to a terminal of the tests (vt.h); what it shows must be the
- * cells.
+ * test_ansi_diff.c - the bytes go to a terminal for tests (vt.h), which must
+ * show the cells
  */
 #include "tests/unit/check.h"
 
@@ -26,7 +26,7 @@ static void show(const struct ansi_diff *a)
     vt_write(&vt, a->bytes, a->length);
 }
 
-/* Jumps, steps to the right and colours are all that is sent. */
+/* Checks that only jumps, steps to the right and colours are sent. */
 static void check_sequences(void)
 {
     for (int c = 0; c < 128; c++)
@@ -58,7 +58,7 @@ static uint32_t random_color(enum palette palette, uint64_t *seed)
     return CELL_DEFAULT;
 }
 
-/* Of which some dots are set and others not. */
+/* Returns a glyph of which some dots are set and others are not. */
 static uint32_t random_glyph(enum glyphs glyphs, uint64_t *seed)
 {
     struct glyph_grid grid = glyphs_grid(glyphs);
@@ -67,7 +67,8 @@ static uint32_t random_glyph(enum glyphs glyphs, uint64_t *seed)
     return glyphs_of_mask(glyphs, 1 + (unsigned)(masks * check_random(seed)));
 }
 
-/* Changes some cells; few colours, so that neighbours often share them. */
+/* Changes some cells. There are few colours, so that neighbours often share
+ * them. */
 static void scramble(struct cells *c, enum palette palette, double part,
                      uint64_t *seed)
 {
@@ -109,7 +110,7 @@ static struct ansi_diff make_ansi(int cols, int rows)
     return a;
 }
 
-/* Every palette and kind of glyphs, changes of some and of all cells. */
+/* Tests every palette and kind of glyphs, with some and all cells changed. */
 static void screen_shows_the_cells(void **state)
 {
     struct cells c = make_cells(30, 9);
@@ -138,13 +139,13 @@ static void screen_shows_the_cells(void **state)
     }
     ansi_diff_begin(&a);
     assert_true(ansi_diff_picture(&a, &c, &how));
-    assert_int_equal(a.length, 0); /* nothing changed, nothing said */
+    assert_int_equal(a.length, 0); /* no change sends nothing */
     ansi_diff_free(&a);
     cells_free(&c);
 }
 
-/* However small the budget, every cell has its turn, and no frame is much
- * larger than allowed. */
+/* However small the budget is, every cell is drawn some time, and no frame is
+ * much larger than the budget. */
 static void budget_is_kept(void **state)
 {
     struct cells c = make_cells(COLS, ROWS);
@@ -168,7 +169,8 @@ static void budget_is_kept(void **state)
     assert_true(frames > 10);
     check_shown(&c, 0, 0);
 
-    /* a picture that never rests: all cells are drawn sooner or later */
+    /* If the picture never stops changing, all cells are still drawn some
+     * time. */
     vt_open(&vt, COLS, ROWS);
     ansi_diff_invalidate_all(&a);
     for (int i = 0; i < 4 * frames; i++) {
@@ -184,7 +186,7 @@ static void budget_is_kept(void **state)
     cells_free(&c);
 }
 
-static void small_steps_may_stay(void **state)
+static void small_differences_may_stay(void **state)
 {
     struct cells c = make_cells(3, 1);
     struct ansi_diff a = make_ansi(3, 1);
@@ -197,16 +199,16 @@ static void small_steps_may_stay(void **state)
     c.cell[2] = (struct cell){0x404040, 0x505050, CELL_UPPER};
     ansi_diff_begin(&a);
     ansi_diff_picture(&a, &c, &how);
-    c.cell[0].fg = 0x12100e; /* by two */
+    c.cell[0].fg = 0x12100e; /* a difference of two */
     c.cell[1] = (struct cell){0x313030, 0x302f30, CELL_UPPER};
-    c.cell[2].bg = 0x505350; /* by three */
+    c.cell[2].bg = 0x505350; /* a difference of three */
     ansi_diff_begin(&a);
     ansi_diff_picture(&a, &c, &how);
     ansi_diff_text(&a, "");
     a.bytes[a.length] = '\0';
     assert_string_equal(
         a.bytes, "\033[1;3H\033[38;2;64;64;64;48;2;80;83;80m\xe2\x96\x80");
-    how.step = 0; /* exact at the end */
+    how.step = 0; /* exact in the end */
     ansi_diff_begin(&a);
     ansi_diff_picture(&a, &c, &how);
     a.bytes[a.length] = '\0';
@@ -241,7 +243,8 @@ static void covered_cells_stay(void **state)
             assert_true((vt.cell[y][x].glyph == 0) == inside);
         }
     }
-    how.covered_count = 0; /* the windows close: curses has cleared there */
+    /* The windows are closed, and curses has cleared them. */
+    how.covered_count = 0;
     for (int y = 2; y < 8; y++)
         memset(vt.cell[y], 0, sizeof vt.cell[y]);
     ansi_diff_invalidate(&a, (struct ansi_diff_rect){-3, 2, COLS + 9, 6});
@@ -254,8 +257,8 @@ static void covered_cells_stay(void **state)
     cells_free(&c);
 }
 
-/* The bytes for changes that are known by heart. */
-static void bytes_are_few(void **state)
+/* Compares with byte sequences that were written by hand. */
+static void changes_take_few_bytes(void **state)
 {
     struct cells c = make_cells(4, 1);
     struct ansi_diff a = make_ansi(4, 1);
@@ -271,7 +274,7 @@ static void bytes_are_few(void **state)
     assert_string_equal(a.bytes, "\033[1;1H\033[94;41m\xe2\x96\x80\xe2\x96\x80"
                                  "\xe2\x96\x80\xe2\x96\x80");
     c.cell[0].fg = 2;
-    c.cell[2] = (struct cell){1, 1, ' '}; /* behind one that stays */
+    c.cell[2] = (struct cell){1, 1, ' '}; /* after one that stays */
     ansi_diff_begin(&a);
     ansi_diff_picture(&a, &c, &how);
     a.bytes[a.length] = '\0';
@@ -280,9 +283,9 @@ static void bytes_are_few(void **state)
     cells_free(&c);
 }
 
-/* A pattern of two colours needs them once: the glyphs alternate. Half blocks
- * of which only the upper may be used cannot do that. */
-static void two_colors_stay_set(void **state)
+/* A pattern of two colours sets them once, and the glyphs alternate. Half
+ * blocks of which only the upper one is allowed cannot do that. */
+static void patterns_set_two_colors_once(void **state)
 {
     struct cells c = make_cells(6, 1);
     struct ansi_diff a = make_ansi(6, 1);
@@ -304,7 +307,7 @@ static void two_colors_stay_set(void **state)
                                  "\xe2\x96\x80\xe2\x96\x84 \033[48;5;30m ");
     ansi_diff_begin(&a);
     ansi_diff_picture(&a, &c, &how);
-    assert_int_equal(a.length, 0); /* it is shown, inverse or not */
+    assert_int_equal(a.length, 0); /* both forms show the same colours */
     c.glyphs = GLYPHS_UPPER;
     ansi_diff_begin(&a);
     ansi_diff_picture(&a, &c, &how);
@@ -315,7 +318,7 @@ static void two_colors_stay_set(void **state)
     cells_free(&c);
 }
 
-/* As the system hands lines to a terminal. */
+/* Prints as the system does for a terminal: a line feed returns the cursor. */
 static void print_lines(const char *text, size_t size_bytes)
 {
     for (size_t i = 0; i < size_bytes; i++) {
@@ -325,9 +328,9 @@ static void print_lines(const char *text, size_t size_bytes)
     }
 }
 
-/* Text for a file shows the same cells as the screen, on a screen without any
- * positions, and ends each line with the reader's own colours. */
-static void lines_show_the_cells(void **state)
+/* Text for a file shows the same cells as the screen without moving the cursor,
+ * and ends each line with the default colours. */
+static void text_lines_show_the_cells(void **state)
 {
     static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_UPPER,
                                         GLYPHS_SEXTANT, GLYPHS_BRAILLE};
@@ -350,7 +353,7 @@ static void lines_show_the_cells(void **state)
                 assert_memory_equal(text + i - 3, "\033[m", 3);
             if (text[i] != '\033')
                 continue;
-            /* colours, and nothing that moves */
+            /* colours, without any movement */
             assert_true(c.palette != PALETTE_MONO);
             assert_int_equal(text[i + 2 + strspn(text + i + 2, "0123456789;")],
                              'm');
@@ -368,11 +371,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(screen_shows_the_cells),
         cmocka_unit_test(budget_is_kept),
-        cmocka_unit_test(small_steps_may_stay),
+        cmocka_unit_test(small_differences_may_stay),
         cmocka_unit_test(covered_cells_stay),
-        cmocka_unit_test(bytes_are_few),
-        cmocka_unit_test(two_colors_stay_set),
-        cmocka_unit_test(lines_show_the_cells),
+        cmocka_unit_test(changes_take_few_bytes),
+        cmocka_unit_test(patterns_set_two_colors_once),
+        cmocka_unit_test(text_lines_show_the_cells),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,8 +6,8 @@
 #include "picture/film.h"
 #include "terminal/ansi_text.h"
 
-/* 4x4 pixels: red above, of light 1; below it green of a half, which is 188 in
- * sRGB (IEC 61966-2-1), at exposure 0. */
+/* Makes a film of 4x4 pixels: the upper half is red of radiance 1, the lower
+ * half green of 0.5, which is 188 in sRGB (IEC 61966-2-1) at exposure 0. */
 static struct film make_film(void)
 {
     struct film film;
@@ -45,7 +45,7 @@ static void check_text(const struct ansi_text_style *style,
     film_free(&film);
 }
 
-static void text_is_the_film(void **state)
+static void text_shows_the_film(void **state)
 {
     (void)state;
     check_text(&(struct ansi_text_style){2, 2, PALETTE_24BIT, GLYPHS_HALF},
@@ -53,11 +53,12 @@ static void text_is_the_film(void **state)
     check_text(&(struct ansi_text_style){2, 1, PALETTE_24BIT, GLYPHS_UPPER},
                "\033[38;2;255;0;0;48;2;0;188;0m\xe2\x96\x80\xe2\x96\x80"
                "\033[m\n");
-    /* of three rows the middle one is half red, half green: light (.5, .25, 0),
-     * which is (188, 137, 0); with the green one it makes the second colour */
+    /* The middle one of three rows is half red and half green: light (.5, .25,
+     * 0), which is (188, 137, 0). With the green row it makes the second
+     * colour. */
     check_text(&(struct ansi_text_style){1, 1, PALETTE_24BIT, GLYPHS_SEXTANT},
                "\033[38;2;255;0;0;48;2;94;163;0m\xf0\x9f\xac\x82\033[m\n");
-    /* (128, 94, 0) is as bright as 90: fourth of ten characters */
+    /* (128, 94, 0) is as bright as 90, the fourth of ten characters. */
     check_text(&(struct ansi_text_style){2, 1, PALETTE_MONO, GLYPHS_HALF},
                ";;\n");
 }
@@ -65,7 +66,7 @@ static void text_is_the_film(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_is_the_film),
+        cmocka_unit_test(text_shows_the_film),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

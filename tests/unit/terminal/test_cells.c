@@ -73,9 +73,9 @@ static void one_pixel_is_a_blank(void **state)
     frame_free(&f);
 }
 
-/* A flat area of 16 colours has, on average and as light (squared), the colour
- * it stands for; the four by four thresholds round to a sixteenth. */
-static void sixteen_keep_the_average(void **state)
+/* A flat area in 16 colours has on average, in linear light (squared), its own
+ * colour. The four by four thresholds round to a sixteenth. */
+static void sixteen_colours_keep_the_average(void **state)
 {
     static const int colors[][3] = {{60, 100, 20},   {128, 128, 128},
                                     {170, 0, 0},     {0, 0, 0},
@@ -115,9 +115,9 @@ static void sixteen_keep_the_average(void **state)
     frame_free(&f);
 }
 
-/* Squares to the means of the two groups, weighted as the program does, for
- * the dots of which bits are set. */
-static double squares(const struct frame *f, unsigned mask)
+/* Returns the sum of squared distances to the means of the two groups of dots,
+ * those of set and of clear bits, weighted as in the program. */
+static double squared_error(const struct frame *f, unsigned mask)
 {
     static const double weight[3] = {2, 4, 3};
     int count = f->width * f->height;
@@ -143,7 +143,8 @@ static double squares(const struct frame *f, unsigned mask)
     return total;
 }
 
-/* The mean of a channel over the dots of one kind, rounded. */
+/* Returns the rounded mean of a channel over the dots whose bit has this
+ * value. */
 static uint32_t mean(const struct frame *f, unsigned mask, unsigned bit)
 {
     uint32_t color = 0;
@@ -162,8 +163,9 @@ static uint32_t mean(const struct frame *f, unsigned mask, unsigned bit)
     return color;
 }
 
-/* Every partition is tried: none is better, and the colours are its means. */
-static void two_groups_are_the_best(void **state)
+/* Every partition is tried: none is better, and the colours are the means of
+ * the groups. */
+static void dots_are_divided_into_the_best_groups(void **state)
 {
     static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_SEXTANT,
                                         GLYPHS_BRAILLE};
@@ -182,9 +184,9 @@ static void two_groups_are_the_best(void **state)
             f.rgb[i] = (uint8_t)(256 * check_random(&seed));
         cells_from_frame(&c, &f, PALETTE_24BIT, glyphs);
         for (unsigned m = 0; m < 1u << dots; m++)
-            least = fmin(least, squares(&f, m));
+            least = fmin(least, squared_error(&f, m));
         assert_true(glyphs_mask(glyphs, c.cell[0].glyph, &mask));
-        check_close(squares(&f, mask), least, 1e-5 * least);
+        check_close(squared_error(&f, mask), least, 1e-5 * least);
         assert_int_equal(c.cell[0].fg, mean(&f, mask, 1));
         assert_int_equal(c.cell[0].bg, mean(&f, mask, 0));
         cells_free(&c);
@@ -192,7 +194,7 @@ static void two_groups_are_the_best(void **state)
     }
 }
 
-/* Without colours a grey is so many dots as its light, squared, asks for. */
+/* Without colours, the share of dots is the grey's light (squared). */
 static void mono_dots_keep_the_average(void **state)
 {
     static const enum glyphs kinds[] = {GLYPHS_QUADRANT, GLYPHS_BRAILLE};
@@ -222,7 +224,7 @@ static void mono_dots_keep_the_average(void **state)
     }
 }
 
-static void mono_is_characters_that_grow(void **state)
+static void mono_characters_grow_with_brightness(void **state)
 {
     struct frame f;
     struct cells c = make_cells(&f, 256, 1);
@@ -263,8 +265,8 @@ static void ascii_keeps_the_hue(void **state)
     frame_free(&f);
 }
 
-/* The shape is kept to half a cell, and the picture lies inside, centred. */
-static void pictures_fit(void **state)
+/* The shape is kept to half a cell, and the picture is centred inside. */
+static void pictures_keep_their_shape(void **state)
 {
     uint64_t seed = 2;
 
@@ -290,15 +292,15 @@ static void pictures_fit(void **state)
     }
 }
 
-/* A cursor of three cells that the borders cut. */
-static void a_mark_is_seen_in_every_palette(void **state)
+/* The cursor has three cells, and the borders cut it. */
+static void marks_are_visible_in_every_palette(void **state)
 {
     static const struct {
         enum palette palette;
         uint32_t fg, bg;
     } cases[] = {
         {PALETTE_MONO, CELL_DEFAULT, CELL_DEFAULT},
-        {PALETTE_16, 0, 15}, /* black, bright white */
+        {PALETTE_16, 0, 15}, /* black and bright white */
         {PALETTE_256, 16, 231},
         {PALETTE_24BIT, 0x000000, 0xffffff},
     };
@@ -330,15 +332,15 @@ static void a_mark_is_seen_in_every_palette(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mark_is_seen_in_every_palette),
+        cmocka_unit_test(marks_are_visible_in_every_palette),
         cmocka_unit_test(two_pixels_make_a_half_block),
         cmocka_unit_test(one_pixel_is_a_blank),
-        cmocka_unit_test(two_groups_are_the_best),
+        cmocka_unit_test(dots_are_divided_into_the_best_groups),
         cmocka_unit_test(mono_dots_keep_the_average),
-        cmocka_unit_test(sixteen_keep_the_average),
-        cmocka_unit_test(mono_is_characters_that_grow),
+        cmocka_unit_test(sixteen_colours_keep_the_average),
+        cmocka_unit_test(mono_characters_grow_with_brightness),
         cmocka_unit_test(ascii_keeps_the_hue),
-        cmocka_unit_test(pictures_fit),
+        cmocka_unit_test(pictures_keep_their_shape),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

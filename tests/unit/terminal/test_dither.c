@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * 256 colours against the nearest of them, which a search finds: what the eye
- * sees of both is their light, blurred.
+ * test_dither.c - 256 colours compared with the nearest ones, found by search:
+ * both are compared as blurred light, as the eye sees them
  */
 #include "tests/unit/check.h"
 
@@ -14,8 +14,8 @@
 #define WIDTH  128
 #define HEIGHT 8
 
-/* xterm's own numbers: 16 + 36 r + 6 g + b of levels 0 95 135 175 215 255, and
- * 232.. = 8 + 10 i. */
+/* xterm's numbers are 16 + 36 r + 6 g + b for levels 0 95 135 175 215 255, and
+ * 232 + i for greys of 8 + 10 i. */
 static void value_256(int n, int rgb[3])
 {
     static const int level[6] = {0, 95, 135, 175, 215, 255};
@@ -67,7 +67,7 @@ static struct dither make_dither(void)
     return d;
 }
 
-static void numbers_are_xterms(void **state)
+static void numbers_are_those_of_xterm(void **state)
 {
     (void)state;
     for (int n = 16; n < 256; n++) {
@@ -79,7 +79,7 @@ static void numbers_are_xterms(void **state)
     }
 }
 
-/* From one colour to another, along x. */
+/* Returns the colour at x of a ramp from one colour to the other. */
 static struct rgb ramp_color(const int ends[2][3], int x)
 {
     int v[3];
@@ -89,18 +89,18 @@ static struct rgb ramp_color(const int ends[2][3], int x)
     return (struct rgb){v[0], v[1], v[2]};
 }
 
-/* How a ramp looks when 4x4 pixels become one: its mean distance to the ramp,
- * and the longest stretch that looks the same throughout. */
-struct look {
+/* Measures of a ramp after 4x4 pixels become one: its mean distance to the true
+ * ramp, and the longest stretch of one colour. */
+struct ramp_error {
     double miss;
     int plateau;
 };
 
-static struct look look_at(const int ends[2][3], struct dither *d)
+static struct ramp_error measure_ramp(const int ends[2][3], struct dither *d)
 {
     static const double same = 1e-6;
     double before[3] = {-1, -1, -1};
-    struct look look = {0, 0};
+    struct ramp_error error = {0, 0};
     int run = 0;
 
     for (int x = 0; x + 4 <= WIDTH; x++) {
@@ -119,15 +119,16 @@ static struct look look_at(const int ends[2][3], struct dither *d)
                 wanted[k] += light_of_srgb(v[k]) / 16;
             }
         }
-        look.miss += oklab_distance(seen, wanted) / (WIDTH - 3);
+        error.miss += oklab_distance(seen, wanted) / (WIDTH - 3);
         run = oklab_distance(seen, before) < same ? run + 1 : 1;
-        look.plateau = run > look.plateau ? run : look.plateau;
+        error.plateau = run > error.plateau ? run : error.plateau;
         memcpy(before, seen, sizeof before);
     }
-    return look;
+    return error;
 }
 
-/* Greys, a hue from dark to full, two hues, and colours between the levels. */
+/* Tests greys, a hue from dark to full, two hues, and colours between the
+ * levels. */
 static void ramps_have_no_bands(void **state)
 {
     static const int ramps[][2][3] = {
@@ -139,8 +140,8 @@ static void ramps_have_no_bands(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof ramps / sizeof ramps[0]; i++) {
-        struct look nearest = look_at(ramps[i], NULL);
-        struct look mixed = look_at(ramps[i], &d);
+        struct ramp_error nearest = measure_ramp(ramps[i], NULL);
+        struct ramp_error mixed = measure_ramp(ramps[i], &d);
 
         check_at_most(mixed.miss, 0.5 * nearest.miss);
         check_at_most(mixed.plateau, nearest.plateau / 2);
@@ -148,8 +149,8 @@ static void ramps_have_no_bands(void **state)
     dither_free(&d);
 }
 
-/* Any colour, as a flat area: nearer than the nearest of the palette. */
-static void flat_areas_come_nearer(void **state)
+/* A flat area of any colour is closer to it than the nearest palette colour. */
+static void flat_areas_come_closer(void **state)
 {
     struct dither d = make_dither();
     uint64_t seed = 1;
@@ -180,7 +181,7 @@ static void flat_areas_come_nearer(void **state)
     dither_free(&d);
 }
 
-/* The corners of the cube are what they are: black has no speckles. */
+/* The corners of the colour cube are exact, so black has no speckles. */
 static void corners_stay_pure(void **state)
 {
     struct dither d = make_dither();
@@ -197,9 +198,9 @@ static void corners_stay_pure(void **state)
     dither_free(&d);
 }
 
-/* The same picture gives the same cells, whatever was asked before; and noise
- * of one step in each channel moves few of them: less than twice as many as
- * with the nearest colours, whose borders are fewer. */
+/* The same picture gives the same cells, whatever was converted before. Noise
+ * of one step in each channel changes few of them: less than twice as many as
+ * with nearest colours, which have fewer borders. */
 static void small_changes_change_little(void **state)
 {
     struct dither d = make_dither();
@@ -246,9 +247,9 @@ static void thresholds_are_spread(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_are_xterms),
+        cmocka_unit_test(numbers_are_those_of_xterm),
         cmocka_unit_test(ramps_have_no_bands),
-        cmocka_unit_test(flat_areas_come_nearer),
+        cmocka_unit_test(flat_areas_come_closer),
         cmocka_unit_test(corners_stay_pure),
         cmocka_unit_test(small_changes_change_little),
         cmocka_unit_test(thresholds_are_spread),

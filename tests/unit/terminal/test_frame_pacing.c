@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * The pace against a line that is simulated: it carries so many bytes a second
- * and takes a time for the way. What a key would wait is what the pace is for.
+ * test_frame_pacing.c - pacing over a simulated line with a bandwidth and a
+ * latency
+ *
+ * The measure is the backlog, for which a key would wait.
  */
 #include "tests/unit/check.h"
 
@@ -12,11 +14,11 @@
 
 struct line {
     double bytes_per_s;
-    uint64_t way_ns;  /* there and back together */
-    uint64_t free_ns; /* when all that was written has been carried */
+    uint64_t way_ns;  /* round trip time */
+    uint64_t free_ns; /* time when all bytes written so far have been sent */
 };
 
-/* When the answer to a request at the end of these bytes is back. */
+/* Returns the time when the answer to a request behind these bytes arrives. */
 static uint64_t line_send(struct line *l, uint64_t now_ns, size_t bytes)
 {
     if (l->free_ns < now_ns)
@@ -25,8 +27,8 @@ static uint64_t line_send(struct line *l, uint64_t now_ns, size_t bytes)
     return l->free_ns + l->way_ns;
 }
 
-/* Draws for ten seconds a picture that wants `want` bytes a frame, as often as
- * the pace lets it. The longest backlog of the line after the first frame. */
+/* Draws frames of `want` bytes for ten seconds, as often as the pacing allows.
+ * Returns the longest backlog of the line after the first frame. */
 static uint64_t longest_backlog(struct line *l, size_t want,
                                 double *bytes_per_s)
 {
@@ -62,7 +64,7 @@ static uint64_t longest_backlog(struct line *l, size_t want,
     return worst_ns;
 }
 
-/* 256 kbit/s, 200 ms: a key waits for 0.3 s of output at most. */
+/* Over 256 kbit/s and 200 ms a key waits for at most 0.3 s of output. */
 static void slow_line_has_no_backlog(void **state)
 {
     struct line l = {.bytes_per_s = 32000, .way_ns = 200 * MS};
@@ -70,12 +72,12 @@ static void slow_line_has_no_backlog(void **state)
 
     (void)state;
     check_at_most((double)longest_backlog(&l, 400000, &rate) * 1e-9, 0.3);
-    assert_true(rate > 8000); /* a quarter of what the line could carry */
+    assert_true(rate > 8000); /* a quarter of the bandwidth */
 }
 
-/* The first answers are late, for the terminal is busy, and all come some
- * milliseconds sooner or later; small frames, then a large picture. */
-static void lucky_answers_make_no_fast_line(void **state)
+/* The first answers are late, since the terminal is busy. All answers vary by
+ * some milliseconds. Small frames come first, then a large picture. */
+static void early_answers_make_no_fast_line(void **state)
 {
     struct line l = {.bytes_per_s = 32000, .way_ns = 200 * MS};
     struct frame_pacing p;
@@ -104,8 +106,8 @@ static void lucky_answers_make_no_fast_line(void **state)
     check_at_most((double)worst_ns * 1e-9, 0.3);
 }
 
-/* Frames of this size over the line, whose answers come up to 40 ms late by
- * chance, the first one by 16 ms; the bytes of the last of 200. */
+/* Sends 200 frames of this size, whose answers are up to 40 ms late at random,
+ * the first one 16 ms. Returns the bytes of the last frame. */
 static size_t last_of_late(struct line *l, size_t want)
 {
     struct frame_pacing p;
@@ -129,7 +131,7 @@ static size_t last_of_late(struct line *l, size_t want)
     return size;
 }
 
-/* On a busy machine: the line next to the program carries whole frames. */
+/* On a busy machine a local line still carries whole frames. */
 static void late_answers_make_no_slow_line(void **state)
 {
     struct line fast = {.bytes_per_s = 50e6, .way_ns = MS / 5};
@@ -147,7 +149,7 @@ static void fast_line_is_not_held_back(void **state)
 
     (void)state;
     longest_backlog(&l, 400000, &rate);
-    assert_true(rate > 10e6); /* 25 full frames a second */
+    assert_true(rate > 10e6); /* 25 full frames per second */
 }
 
 static void first_frame_does_not_wait(void **state)
@@ -160,14 +162,14 @@ static void first_frame_does_not_wait(void **state)
     assert_true(frame_pacing_wants_request(&p));
     frame_pacing_sent(&p, 10000, true, SEC, SEC);
     assert_false(frame_pacing_may_send(&p));
-    frame_pacing_answer(&p, SEC + 3 * MS); /* to the first request */
+    frame_pacing_answer(&p, SEC + 3 * MS); /* for the first request */
     assert_false(frame_pacing_may_send(&p));
     frame_pacing_answer(&p, SEC + 4 * MS);
     assert_true(frame_pacing_may_send(&p));
     assert_int_equal(p.rtt_min_ns, 3 * MS);
 }
 
-static void mute_terminal_is_not_waited_for(void **state)
+static void silent_terminal_is_not_waited_for(void **state)
 {
     struct frame_pacing p;
 
@@ -185,16 +187,16 @@ static void mute_terminal_is_not_waited_for(void **state)
         frame_pacing_sent(&p, 10000, false, SEC, SEC + 1000);
         assert_true(frame_pacing_may_send(&p));
     }
-    /* a write() that blocks says how slow it is: 0.08 s of 100 kB/s */
+    /* A blocking write() shows how slow the line is: 0.08 s of 100 kB/s. */
     for (int i = 0; i < 30; i++)
         frame_pacing_sent(&p, 10000, false, SEC, SEC + 100 * MS);
     check_close((double)p.budget_bytes, 8000, 200);
-    frame_pacing_answer(&p, 3 * SEC); /* it speaks after all */
+    frame_pacing_answer(&p, 3 * SEC); /* it answers after all */
     assert_true(frame_pacing_wants_request(&p));
     assert_true(frame_pacing_may_send(&p));
 }
 
-static void lost_answer_is_given_up(void **state)
+static void lost_answers_are_given_up(void **state)
 {
     struct frame_pacing p;
 
@@ -209,12 +211,12 @@ static void lost_answer_is_given_up(void **state)
     frame_pacing_sent(&p, 5000, false, 7 * SEC, 7 * SEC);
     frame_pacing_answer(&p, 8 * SEC); /* late */
     assert_true(frame_pacing_may_send(&p));
-    frame_pacing_answer(&p, 8 * SEC); /* later: nothing was asked */
+    frame_pacing_answer(&p, 8 * SEC); /* later, without a request */
     assert_true(frame_pacing_may_send(&p));
     assert_int_equal(p.outstanding, 0);
 }
 
-static void slowness_is_known(void **state)
+static void slow_lines_are_recognised(void **state)
 {
     struct frame_pacing p;
 
@@ -231,13 +233,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slow_line_has_no_backlog),
-        cmocka_unit_test(lucky_answers_make_no_fast_line),
+        cmocka_unit_test(early_answers_make_no_fast_line),
         cmocka_unit_test(late_answers_make_no_slow_line),
         cmocka_unit_test(fast_line_is_not_held_back),
         cmocka_unit_test(first_frame_does_not_wait),
-        cmocka_unit_test(mute_terminal_is_not_waited_for),
-        cmocka_unit_test(lost_answer_is_given_up),
-        cmocka_unit_test(slowness_is_known),
+        cmocka_unit_test(silent_terminal_is_not_waited_for),
+        cmocka_unit_test(lost_answers_are_given_up),
+        cmocka_unit_test(slow_lines_are_recognised),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,9 +3,10 @@
 
 #include "terminal/glyphs.h"
 
-/* From the charts of the Unicode standard, where the dots are in the names:
- * "BLOCK SEXTANT-135", "QUADRANT UPPER LEFT AND ...", "BRAILLE PATTERN DOTS-".
- * Dots here count along the rows, so braille's 1234 are ours 0, 2, 4, 1. */
+/* Compares with the charts of the Unicode standard, whose names contain the
+ * dots: "BLOCK SEXTANT-135", "QUADRANT UPPER LEFT AND ...", "BRAILLE PATTERN
+ * DOTS-". Dots here are counted along the rows, so braille's 1234 are 0, 2, 4,
+ * 1. */
 static void glyphs_are_those_of_the_charts(void **state)
 {
     static const struct {
@@ -56,8 +57,8 @@ static void glyphs_are_those_of_the_charts(void **state)
                          cases[i].glyph);
 }
 
-/* Each mask has its own glyph, and the glyph says which. */
-static void masks_come_back(void **state)
+/* Each mask has its own glyph, from which the mask is found again. */
+static void masks_are_found_from_glyphs(void **state)
 {
     static const enum glyphs kinds[] = {GLYPHS_HALF, GLYPHS_QUADRANT,
                                         GLYPHS_SEXTANT, GLYPHS_BRAILLE};
@@ -79,7 +80,7 @@ static void masks_come_back(void **state)
     }
 }
 
-static void utf8(void **state)
+static void glyphs_are_written_in_utf8(void **state)
 {
     static const struct {
         uint32_t glyph;
@@ -104,8 +105,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(glyphs_are_those_of_the_charts),
-        cmocka_unit_test(masks_come_back),
-        cmocka_unit_test(utf8),
+        cmocka_unit_test(masks_are_found_from_glyphs),
+        cmocka_unit_test(glyphs_are_written_in_utf8),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,8 +5,8 @@
 
 static struct kitty_pixels seen;
 
-/* A part of a wider picture, in one piece and in many. */
-static void pixels_come_back(void **state)
+/* Encodes a part of a wider picture, in one and in many pieces. */
+static void encoded_pixels_are_decoded(void **state)
 {
     static uint8_t picture[3 * 300 * 80];
     uint64_t seed = 1;
@@ -41,7 +41,7 @@ static void pixels_come_back(void **state)
     }
 }
 
-static void one_is_erased(void **state)
+static void one_image_is_erased(void **state)
 {
     char bytes[128] = "";
     size_t length = kitty_erase(12345, bytes);
@@ -54,8 +54,8 @@ static void one_is_erased(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pixels_come_back),
-        cmocka_unit_test(one_is_erased),
+        cmocka_unit_test(encoded_pixels_are_decoded),
+        cmocka_unit_test(one_image_is_erased),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,7 +3,7 @@
 
 #include "terminal/palette.h"
 
-static void guesses(void **state)
+static void palette_follows_the_environment(void **state)
 {
     static const struct {
         struct palette_facts facts;
@@ -26,7 +26,7 @@ static void guesses(void **state)
         {{.term = "linux", .colors = 8, .colorterm = "truecolor"},
          PALETTE_16,
          true},
-        /* screen mangles 24 bit, whatever COLORTERM says */
+        /* The program screen cannot pass 24 bits, whatever COLORTERM says. */
         {{.term = "screen", .colors = 8, .colorterm = "truecolor"},
          PALETTE_256,
          true},
@@ -36,7 +36,7 @@ static void guesses(void **state)
           .colorterm = "truecolor"},
          PALETTE_256,
          true},
-        /* tmux names itself screen, too, and understands 24 bit */
+        /* tmux also calls itself screen, but it passes 24 bits. */
         {{.term = "screen-256color", .colors = 256, .tmux = "/tmp/x"},
          PALETTE_24BIT,
          false},
@@ -65,7 +65,7 @@ static void guesses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(guesses),
+        cmocka_unit_test(palette_follows_the_environment),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

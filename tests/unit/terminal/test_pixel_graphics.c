@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
 /*
- * The bytes go to a little terminal that puts images at its cursor; what it
- * shows must be the picture.
+ * test_pixel_graphics.c - the bytes go to a small terminal that shows images at
+ * its cursor; it must show the picture
  */
 #include "tests/unit/pixels.h"
 
 #include "terminal/kitty.h"
 #include "terminal/pixel_graphics.h"
 
-#define COLS   40 /* no multiple of a tile's */
+#define COLS   40 /* not a multiple of a tile's */
 #define ROWS   5
 #define CELL_W 7
 #define CELL_H 10
 #define WIDTH  (COLS * CELL_W)
 #define HEIGHT (ROWS * CELL_H)
 
-/* What a window leaves blank. */
+/* Pixels of a window without text. */
 #define BLANK (-1)
 
 struct screen {
-    int pixel[HEIGHT][WIDTH]; /* 0xRRGGBB, a number, or BLANK */
+    int pixel[HEIGHT][WIDTH]; /* 0xRRGGBB, a colour number, or BLANK */
     int col, row;
-    int image_col[256], image_row[256], image_cols[256]; /* of kitty's, by id */
+    int image_col[256], image_row[256],
+        image_cols[256]; /* images of kitty by id */
     int images;
 };
 
@@ -141,7 +142,7 @@ static void stage_free(struct stage *st)
     dither_free(&st->dither);
 }
 
-/* One frame; how many images it had. */
+/* Draws a frame and returns the number of its images. */
 static int draw(struct stage *st, const struct ansi_diff_draw *how,
                 bool *is_done)
 {
@@ -162,7 +163,8 @@ static int wanted(struct stage *st, int x, int y)
     return c.r << 16 | c.g << 8 | c.b;
 }
 
-/* The picture, and BLANK in this rectangle of cells. */
+/* Checks that the terminal shows the picture, and BLANK in this rectangle of
+ * cells. */
 static void check_shown(struct stage *st, struct ansi_diff_rect hole)
 {
     for (int y = 0; y < HEIGHT; y++) {
@@ -182,8 +184,8 @@ static void set_pixel(struct stage *st, int x, int y, int value)
     memset(st->frame.rgb + 3 * (y * WIDTH + x), value, 3);
 }
 
-/* To the pixel, and after a change only the tile that has changed. */
-static void shows_the_picture(void **state)
+/* The picture is exact, and a change sends only the tile that has changed. */
+static void terminal_shows_the_picture(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
@@ -202,7 +204,7 @@ static void shows_the_picture(void **state)
         set_pixel(&st, 200, 33, 255);
         assert_int_equal(draw(&st, &how, &is_done), 1);
         check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-        set_pixel(&st, 200, 33, 253); /* a step of two may stay */
+        set_pixel(&st, 200, 33, 253); /* a difference of two may stay */
         how.step = 2;
         assert_int_equal(draw(&st, &how, &is_done), 0);
         how.step = 1;
@@ -212,8 +214,8 @@ static void shows_the_picture(void **state)
     }
 }
 
-/* A frame is at most one tile larger than allowed, and a picture that never
- * rests is drawn everywhere. */
+/* A frame exceeds the budget by at most one tile, and a picture that never
+ * stops changing is drawn everywhere. */
 static void budget_is_kept(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
@@ -252,8 +254,8 @@ static void budget_is_kept(void **state)
     }
 }
 
-/* Pixels end where a window begins, and come back when it closes. */
-static void windows_are_left_free(void **state)
+/* Images end at a window's borders, and return when it closes. */
+static void windows_stay_free(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
@@ -269,7 +271,7 @@ static void windows_are_left_free(void **state)
 
         stage_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
-        how.covered_count = 1; /* curses writes over sixels */
+        how.covered_count = 1; /* curses overwrites sixels */
         if (kinds[i] == PIXEL_GRAPHICS_SIXEL) {
             for (int row = 1; row < 4; row++)
                 blank(&st.screen, 10, row, 25);
@@ -286,7 +288,8 @@ static void windows_are_left_free(void **state)
     }
 }
 
-/* A frame with fewer pixels than the terminal: each is a rectangle of them. */
+/* Each pixel of a frame with fewer pixels than the terminal becomes a
+ * rectangle. */
 static void small_frames_are_enlarged(void **state)
 {
     static struct stage st;
@@ -319,9 +322,9 @@ static void small_frames_are_enlarged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shows_the_picture),
+        cmocka_unit_test(terminal_shows_the_picture),
         cmocka_unit_test(budget_is_kept),
-        cmocka_unit_test(windows_are_left_free),
+        cmocka_unit_test(windows_stay_free),
         cmocka_unit_test(small_frames_are_enlarged),
     };
 

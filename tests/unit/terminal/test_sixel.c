@@ -6,7 +6,7 @@
 static struct sixels seen;
 static uint8_t numbers[PIXELS_MAX];
 
-/* Encodes, decodes and compares; the number of bytes. */
+/* Encodes, decodes and compares an image. Returns the number of bytes. */
 static size_t check_image(int width, int height, enum palette palette)
 {
     struct sixel_image image = {width, height, palette, numbers};
@@ -32,9 +32,9 @@ static size_t check_image(int width, int height, enum palette palette)
     return length;
 }
 
-/* Sizes that are no multiples of a band, few colours in runs and many in
- * noise: every pixel is set once, to its colour. */
-static void pixels_come_back(void **state)
+/* Tests sizes that are not multiples of a band, with few colours in runs and
+ * many in noise. Every pixel is set once, to its colour. */
+static void encoded_pixels_are_decoded(void **state)
 {
     uint64_t seed = 1;
 
@@ -57,7 +57,7 @@ static void pixels_come_back(void **state)
     }
 }
 
-/* One colour is a run a band: 6 rows of 256 pixels in a few bytes. */
+/* A flat image has one run per band: 6 rows of 256 pixels in a few bytes. */
 static void flat_images_are_short(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void flat_images_are_short(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pixels_come_back),
+        cmocka_unit_test(encoded_pixels_are_decoded),
         cmocka_unit_test(flat_images_are_short),
     };
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * The whole screen on a terminal of ours (vt.h). glim runs in a child process,
- * and each time before it waits, it says what it believes is on the screen:
- * the text, the picture, the swatches (belief.h). After every key the terminal
- * must show just that, and nothing that was sent may have moved cells.
+ * test_tty.c - the whole screen on a terminal for tests (vt.h)
  *
- * TERM_KEYS and TERM_SEED in the environment: how many random keys, and which.
+ * glim runs in a child process. Each time before it waits, it reports the
+ * expected screen: text, picture, swatches (belief.h). After every key the
+ * terminal must show this screen, and no sequence may have moved cells.
+ *
+ * TERM_KEYS and TERM_SEED in the environment set the number of random keys and
+ * their seed.
  */
 #include "tests/unit/check.h"
 
@@ -29,23 +31,20 @@
 #include "tests/unit/belief.h"
 #include "tests/unit/folder.h"
 
-#include <term.h> /* last: it takes short names for itself */
+#include <term.h> /* last: it defines macros with short names */
 
-/* Silence of a program that has something to do, on a machine that is busy with
- * other things. */
+/* Time that a busy program may be silent on a loaded machine. */
 #define PATIENCE_MS 30000
 
-/* With a key behind it that does nothing: alone it would be one only after a
- * while. */
+/* Escape with a key behind it that does nothing; alone, Escape is recognised
+ * only after a timeout. */
 #define ESCAPE "\033\xc3\xa9"
 
-/* Keys between two looks at whole pictures. */
+/* Number of keys between two comparisons of the whole picture. */
 #define WHOLE_EVERY 20
 
 #define KEYS      2000
-#define KEYS_LAST 12 /* printed when one fails */
-
-/* ---- the program ---- */
+#define KEYS_LAST 12 /* printed after a failure */
 
 static int run_glim(char **arguments)
 {
@@ -72,7 +71,7 @@ static void become_glim(const char *slave, const char *name, char **arguments)
     int fd;
 
     is_child = true;
-    signal(SIGSEGV, SIG_DFL); /* cmocka has taken it */
+    signal(SIGSEGV, SIG_DFL); /* cmocka has a handler for it */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     setsid();
     fd = open(slave, O_RDWR);
@@ -87,17 +86,15 @@ static void become_glim(const char *slave, const char *name, char **arguments)
     _exit(run_glim(arguments));
 }
 
-/* ---- the terminal ---- */
-
 static struct vt vt;
 
 static struct {
     const char *term;
     int pty;
     pid_t pid;
-    unsigned strings; /* that have been looked at */
+    unsigned strings; /* already seen */
     unsigned long sent_bytes;
-    char last[KEYS_LAST][128]; /* keys */
+    char last[KEYS_LAST][128]; /* most recent keys */
     unsigned key_count;
 } line;
 
@@ -107,7 +104,7 @@ static void print_readable(const char *text)
         print_error((unsigned char)*text < ' ' ? "\\%03o" : "%c", *text);
 }
 
-/* Prints the keys that came last, and ends the test. */
+/* Prints the most recent keys and ends the test. */
 static void fail_at(const char *what)
 {
     unsigned first =
@@ -176,8 +173,8 @@ static void send(const char *bytes, size_t length)
     line.sent_bytes += length;
 }
 
-/* What glim sends until it says what it believes, or nothing for a while.
- * False when it has ended. */
+/* Reads the output of glim until it reports its screen, or until it is silent
+ * for PATIENCE_MS. Returns false when it has ended. */
 static bool listen(void)
 {
     struct pollfd in = {.fd = line.pty, .events = POLLIN};
@@ -263,7 +260,8 @@ static void check_screen(void)
     }
 }
 
-/* What was sent has been read, and curses has written all. */
+/* Returns whether everything sent has been read and curses has written
+ * everything. */
 static bool is_quiet(void)
 {
     return shared->taken_bytes == line.sent_bytes && shared->is_whole &&
@@ -281,8 +279,8 @@ static bool is_complete(void)
     return true;
 }
 
-/* Until the screen can be compared; all: until no cell is left to be drawn. It
- * is compared whenever it can be. */
+/* Waits until the screen can be compared; with `all`, until every cell is
+ * drawn. Compares it whenever that is possible. */
 static void settle(bool all)
 {
     uint64_t begin_ns = clock_ns();
@@ -349,8 +347,6 @@ static void close_line(void)
     assert_int_equal(WEXITSTATUS(status), 128 + SIGINT);
 }
 
-/* ---- tests ---- */
-
 static bool has_terminal(const char *name)
 {
     int found;
@@ -379,8 +375,8 @@ static char program[] = "glim", size_w[] = "-w", width[] = "96",
             size_h[] = "-h", height[] = "54", threads[] = "-t", one[] = "1",
             interior[] = "interior.obj", wide[] = "box.obj";
 
-/* Copies, which may be written over. Names in the box are wide, combine, or are
- * longer than there is room for. */
+/* Copies the scenes so that they may be overwritten. The box has names that are
+ * wide, that combine, or that are longer than the space for them. */
 static void copy_scenes(void)
 {
     char command[512];
@@ -411,24 +407,24 @@ static int prepare(void **state)
     return 0;
 }
 
-/* Every panel, drawing, view and question, some of them where there is little
- * room. */
-static void walk(void)
+/* Opens every panel, drawing, view and question, some of them in little
+ * space. */
+static void press_all_keys(void)
 {
     static const char *const keys[] = {
-        /* a path, whose table has another length at every sample */
+        /* The table of a path has another length at every sample. */
         "t", "t", "t", ">", ">", ">", ">", ">", ">", ">", "<", "<", "<",
-        /* costs of a scene that is loaded anew */
+        /* Costs are shown for a newly loaded scene. */
         "N", "N", "l", "n", "n",
-        /* pick, follow */
+        /* Picks a point and follows its path. */
         "v", "\033[A", "\r", ESCAPE, "t", "t", "n", "n", "N", "t", "t", "g",
         "g", "?", "x", "x", "x", "x", "x", "?", ESCAPE,
-        /* the panel with a table under it */
+        /* Opens the panel above a table. */
         "\t", "\033[B", "\033[B", "\r", "\033[B", "]", "[", "u", "?", ESCAPE,
         ESCAPE, "\t", "\t", ">", ">", ">", ESCAPE, ESCAPE,
-        /* what the last line asks and says */
+        /* Shows questions and messages in the last line. */
         "k", "3", "3", "k", ESCAPE, "i", ">", "k", ESCAPE, "i", "\014",
-        /* colours and glyphs */
+        /* Changes colours and glyphs. */
         "C", ">", "C", ">", "C", ">", "C", "G", ">", "G", ">", "G", ">", "G",
         ">", "G", " ", "\r", ".", "0", ESCAPE, " ", "y", "m", "m"};
 
@@ -444,7 +440,7 @@ static void walk(void)
     }
 }
 
-static void walks_move_no_cells(void **state)
+static void no_key_moves_cells(void **state)
 {
     char *arguments[] = {program, size_w, width,    size_h, height,
                          threads, one,    interior, NULL};
@@ -457,7 +453,7 @@ static void walks_move_no_cells(void **state)
         copy_scenes();
         open_line(terminals[i], 120, 40, arguments);
         settle(true);
-        walk();
+        press_all_keys();
         close_line();
     }
 }
@@ -467,8 +463,8 @@ static int below(uint64_t *seed, int n)
     return (int)(check_random(seed) * n);
 }
 
-/* All that does something but q, ^Z, ^C, ^\ and b; those that open or close
- * something more often. */
+/* Sends a random key that does something, except q, ^Z, ^C, ^\\ and b. Keys
+ * that open or close something are more frequent. */
 static void random_key(uint64_t *seed)
 {
     static const char *const rare[] = {
@@ -511,7 +507,8 @@ static unsigned long number_from(const char *name, unsigned long otherwise)
     return text && text[0] != '\0' ? strtoul(text, NULL, 10) : otherwise;
 }
 
-static void play(const char *term, unsigned long keys, uint64_t seed)
+static void play_random_keys(const char *term, unsigned long keys,
+                             uint64_t seed)
 {
     char *arguments[] = {program, size_w, width, size_h, height,
                          threads, one,    wide,  NULL};
@@ -531,22 +528,22 @@ static void play(const char *term, unsigned long keys, uint64_t seed)
     close_line();
 }
 
-static void random_keys_leave_no_tears(void **state)
+static void random_keys_leave_the_expected_screen(void **state)
 {
     unsigned long keys = number_from("TERM_KEYS", KEYS);
     uint64_t seed = number_from("TERM_SEED", 1);
 
     (void)state;
-    play(terminals[0], keys / 2, seed);
+    play_random_keys(terminals[0], keys / 2, seed);
     for (int i = 1; i < COUNT(terminals); i++)
-        play(terminals[i], keys / 10, seed + (unsigned)i);
+        play_random_keys(terminals[i], keys / 10, seed + (unsigned)i);
 }
 
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(walks_move_no_cells),
-        cmocka_unit_test(random_keys_leave_no_tears),
+        cmocka_unit_test(no_key_moves_cells),
+        cmocka_unit_test(random_keys_leave_the_expected_screen),
     };
 
     (void)argv;

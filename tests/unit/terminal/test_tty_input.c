@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Keys, mouse reports and answers as terminals send them (xterm's control
- * sequences, the Linux console's keys), whole and in pieces.
+ * test_tty_input.c - keys, mouse reports and answers of terminals (control
+ * sequences of xterm, keys of the Linux console), whole and in pieces
  */
 #include "tests/unit/check.h"
 
@@ -13,7 +13,7 @@
 
 static struct event events[EVENTS_MAX];
 
-/* Feeds the bytes in pieces of so many; how many events came. */
+/* Feeds the bytes in pieces of this size. Returns the number of events. */
 static int parse(const char *bytes, size_t length, size_t piece)
 {
     static struct tty_input in;
@@ -33,7 +33,7 @@ static int parse(const char *bytes, size_t length, size_t piece)
     return count;
 }
 
-static struct event only(const char *bytes, size_t piece)
+static struct event only_event(const char *bytes, size_t piece)
 {
     int count = parse(bytes, strlen(bytes), piece);
 
@@ -43,7 +43,7 @@ static struct event only(const char *bytes, size_t piece)
     return events[0];
 }
 
-static void keys_are_keys(void **state)
+static void sequences_become_keys(void **state)
 {
     static const struct {
         const char *bytes;
@@ -70,26 +70,27 @@ static void keys_are_keys(void **state)
         {"\033[1~", TTY_KEY_HOME},
         {"\033OM", '\r'}, /* Enter of the keypad */
         {"\033[15~", TTY_KEY_OTHER},
-        {"\xc3\xa4", TTY_KEY_OTHER}, /* characters beyond ASCII are one key */
+        {"\xc3\xa4", TTY_KEY_OTHER}, /* a character beyond ASCII is one key */
         {"\xe2\x82\xac", TTY_KEY_OTHER},
         {"\xf0\x9f\x98\x80", TTY_KEY_OTHER},
-        {"\xe4", TTY_KEY_OTHER}, /* in Latin-1 */
+        {"\xe4", TTY_KEY_OTHER}, /* Latin-1 */
     };
 
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         for (size_t piece = 1; piece < 4; piece++) {
-            struct event e = only(cases[i].bytes, piece);
+            struct event e = only_event(cases[i].bytes, piece);
 
             assert_int_equal(e.kind, EVENT_KEY);
             assert_int_equal(e.key, cases[i].key);
         }
     }
-    assert_int_equal(only("\xc3\xa9", 2).key, TTY_KEY_OTHER); /* e acute */
+    assert_int_equal(only_event("\xc3\xa9", 2).key,
+                     TTY_KEY_OTHER); /* e acute */
 }
 
-/* Bytes that come together are the keys that they are one by one; Alt and a key
- * are such bytes. */
+/* Bytes that arrive together are the same keys as bytes that arrive one by one.
+ * Alt with a key sends such bytes. */
 static void escape_and_a_key_are_two(void **state)
 {
     struct tty_input in = {.length = 0};
@@ -104,7 +105,7 @@ static void escape_and_a_key_are_two(void **state)
     assert_false(tty_input_next(&in, false, &e));
 }
 
-static void answers_are_answers(void **state)
+static void answers_become_events(void **state)
 {
     static const struct {
         const char *bytes;
@@ -113,8 +114,8 @@ static void answers_are_answers(void **state)
     } cases[] = {
         {"\033[0n", EVENT_READY, 0, 0},
         {"\033[?64;1;2;6;22c", EVENT_ATTRIBUTES, 0, 0},
-        {"\033[?4;6c", EVENT_ATTRIBUTES, 0, 0}, /* a VT132, without sixels */
-        /* xterm as a VT340; foot */
+        {"\033[?4;6c", EVENT_ATTRIBUTES, 0, 0}, /* a VT132 without sixels */
+        /* These are an xterm as a VT340, and foot. */
         {"\033[?63;1;2;4;6;9;15;16;22;28;29c", EVENT_ATTRIBUTES, 1, 0},
         {"\033[?62;4;22;28c", EVENT_ATTRIBUTES, 1, 0},
         {"\033[?1;0;1024S", EVENT_SIXEL_COLORS, 1024, 0},
@@ -123,7 +124,7 @@ static void answers_are_answers(void **state)
         {"\033[?2026;1$y", EVENT_SYNC, 0, 0},
         {"\033[6;17;8t", EVENT_CELL_SIZE, 8, 17},
         {"\033[1;2R", EVENT_CURSOR, 2, 1},
-        /* xterm, kitty, foot; a terminal with semicolons */
+        /* These are xterm, kitty and foot, and a terminal with semicolons. */
         {"\033P1$r0;48:2::1:2:3m\033\\", EVENT_TRUE_COLOR, 0, 0},
         {"\033P1$r0;48:2:1:2:3m\033\\", EVENT_TRUE_COLOR, 0, 0},
         {"\033P1$r48;2;1;2;3m\033\\", EVENT_TRUE_COLOR, 0, 0},
@@ -132,7 +133,7 @@ static void answers_are_answers(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         for (size_t piece = 1; piece < 40; piece += 3) {
-            struct event e = only(cases[i].bytes, piece);
+            struct event e = only_event(cases[i].bytes, piece);
 
             assert_int_equal(e.kind, cases[i].kind);
             assert_int_equal(e.x, cases[i].x);
@@ -141,22 +142,22 @@ static void answers_are_answers(void **state)
     }
 }
 
-/* Answers that say no, or that nobody asked for, are no keys either. */
-static void the_rest_is_dropped(void **state)
+/* Answers that say no, and answers without a question, are not keys. */
+static void other_sequences_are_dropped(void **state)
 {
     static const char *const cases[] = {
-        "\033[?2026;0$y",           /* not known */
+        "\033[?2026;0$y",           /* unknown mode */
         "\033[?2026;4$y",           /* known, but always off */
         "\033[?1;2$y",              /* another mode */
-        "\033P1$r0;48:5:16m\033\\", /* rounds to 256 colours */
-        "\033P0$r\033\\",           /* does not know the question */
+        "\033P1$r0;48:5:16m\033\\", /* rounded to 256 colours */
+        "\033P0$r\033\\",           /* the question is unknown */
         "\033P>|XTerm(379)\033\\",
         "\033]11;rgb:0000/0000/0000\033\\",
         "\033]11;rgb:0000/0000/0000\007",
         "\033[>41;379;0c",
         "\033_Gi=1;ENOTSUPPORTED:no\033\\",
         "\033_G\033\\",
-        "\033[?1;3;0S", /* does not tell its colours */
+        "\033[?1;3;0S", /* no answer about colours */
         "\033[?2;0;1000;1000S",
         "\033[3n",
         "\033[8;24;80t",
@@ -171,31 +172,31 @@ static void the_rest_is_dropped(void **state)
             assert_int_equal(parse(cases[i], strlen(cases[i]), piece), 0);
 }
 
-static void mouse_reports(void **state)
+static void mouse_reports_become_events(void **state)
 {
     struct event e;
 
     (void)state;
-    e = only("\033[<0;12;34M", 3);
+    e = only_event("\033[<0;12;34M", 3);
     assert_true(e.kind == EVENT_MOUSE && e.mouse == MOUSE_PRESS);
     assert_true(e.button == 0 && e.x == 12 && e.y == 34);
-    assert_int_equal(only("\033[<0;12;34m", 3).mouse, MOUSE_RELEASE);
-    e = only("\033[<34;250;3M", 3);
+    assert_int_equal(only_event("\033[<0;12;34m", 3).mouse, MOUSE_RELEASE);
+    e = only_event("\033[<34;250;3M", 3);
     assert_true(e.mouse == MOUSE_DRAG && e.button == 2 && e.x == 250);
-    assert_int_equal(only("\033[<35;1;1M", 3).mouse,
+    assert_int_equal(only_event("\033[<35;1;1M", 3).mouse,
                      MOUSE_OTHER); /* no button */
     assert_false(e.is_modified);
-    assert_false(only("\033[<4;1;1M", 3).is_modified); /* Shift */
-    assert_true(only("\033[<8;1;1M", 3).is_modified);
-    assert_true(only("\033[<16;1;1M", 3).is_modified);
-    e = only("\033[<80;1;1M", 3);
+    assert_false(only_event("\033[<4;1;1M", 3).is_modified); /* Shift */
+    assert_true(only_event("\033[<8;1;1M", 3).is_modified);
+    assert_true(only_event("\033[<16;1;1M", 3).is_modified);
+    e = only_event("\033[<80;1;1M", 3);
     assert_true(e.mouse == MOUSE_WHEEL_UP && e.is_modified);
-    assert_int_equal(only("\033[<64;1;1M", 3).mouse, MOUSE_WHEEL_UP);
-    assert_int_equal(only("\033[<65;1;1M", 3).mouse, MOUSE_WHEEL_DOWN);
-    assert_int_equal(only("\033[<66;1;1M", 3).mouse, MOUSE_OTHER);
+    assert_int_equal(only_event("\033[<64;1;1M", 3).mouse, MOUSE_WHEEL_UP);
+    assert_int_equal(only_event("\033[<65;1;1M", 3).mouse, MOUSE_WHEEL_DOWN);
+    assert_int_equal(only_event("\033[<66;1;1M", 3).mouse, MOUSE_OTHER);
 }
 
-/* What a terminal sends at the start, with keys typed meanwhile. */
+/* Feeds the answers at the start, with keys typed in between. */
 static void keys_between_answers_are_not_lost(void **state)
 {
     static const char bytes[] =
@@ -221,8 +222,8 @@ static void keys_between_answers_are_not_lost(void **state)
     }
 }
 
-/* Any bytes: no hang, no key that is out of range, never more than fits. */
-static void rubbish_is_survived(void **state)
+/* For any bytes the parser ends, keys are in range, and the events fit. */
+static void random_bytes_do_no_harm(void **state)
 {
     static struct tty_input in;
     static const char alphabet[] =
@@ -250,13 +251,13 @@ static void rubbish_is_survived(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keys_are_keys),
+        cmocka_unit_test(sequences_become_keys),
         cmocka_unit_test(escape_and_a_key_are_two),
-        cmocka_unit_test(answers_are_answers),
-        cmocka_unit_test(the_rest_is_dropped),
-        cmocka_unit_test(mouse_reports),
+        cmocka_unit_test(answers_become_events),
+        cmocka_unit_test(other_sequences_are_dropped),
+        cmocka_unit_test(mouse_reports_become_events),
         cmocka_unit_test(keys_between_answers_are_not_lost),
-        cmocka_unit_test(rubbish_is_survived),
+        cmocka_unit_test(random_bytes_do_no_harm),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
