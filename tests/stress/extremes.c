@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* The first argument is how many scenes, the second the number of the first;
- * every EACH_DEVICE-th is rendered on the device too. */
+/* extremes.c - random scenes of extreme numbers|usage: extremes [COUNT
+ * [FIRST]]|Every EACH_DEVICE-th scene is also rendered on the device. */
 #include "extremes.h"
 #include "rows.h"
 #include "tests/unit/folder.h"

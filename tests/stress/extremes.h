@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * extremes.h - random scenes of extreme numbers, rendered by everything here
+ * extremes.h - random scenes of extreme numbers, rendered by all backends
  *
  * Scene n is a function of n. It is written as text into the current folder,
- * loaded as a person's would be, and rendered on the CPU with each set of
- * instructions, and perhaps on a device. What nothing finite in a file may do:
- * crash, make a sample that is not finite, or give two of them different bits.
+ * loaded like any file, and rendered on the CPU with each instruction set, and
+ * perhaps on a device. No finite numbers in a file may cause a crash, a sample
+ * that is not finite, or pictures with different bits.
  *
  * Units:     file units, radiance
  * Ownership: extremes_close() frees all and removes the files
  * Threads:   one
- * Errors:    what the machine lacks ends the program
+ * Errors:    a failure of the machine ends the program
  */
 #ifndef TESTS_EXTREMES_H
 #define TESTS_EXTREMES_H
@@ -36,19 +36,17 @@ struct extremes {
     struct render *renders[EXTREMES_RENDERERS];
     int count;
     bool has_device;
-    /* so far */
+    /* counts so far */
     uint32_t scenes, refused, on_device;
     uint64_t samples, saturated;
 };
-
-/* ---- numbers and words ---- */
 
 static inline uint32_t one_of(uint64_t *seed, uint32_t count)
 {
     return (uint32_t)(check_random(seed) * count);
 }
 
-/* Of all exponents that a float has, and some beyond. */
+/* Returns a number with any exponent of a float, or beyond. */
 static inline double any_size(uint64_t *seed)
 {
     return pow(10, -50 + 100 * check_random(seed));
@@ -69,7 +67,7 @@ static inline double coordinate(uint64_t *seed)
     }
 }
 
-/* From 0 on, mostly in 0 to 1. */
+/* Returns a number from 0 on, mostly below 1. */
 static inline double amount(uint64_t *seed)
 {
     static const double odd[] = {0,      1,    1e-45, 1e-38, 1e-10,  0.999999,
@@ -83,8 +81,6 @@ static inline double amount(uint64_t *seed)
     }
 }
 
-/* ---- files ---- */
-
 static inline FILE *extremes_file(const char *name)
 {
     FILE *f = fopen(name, "wb");
@@ -94,7 +90,8 @@ static inline FILE *extremes_file(const char *name)
     return f;
 }
 
-/* Four texels, one of them a hole; and a sky with all that floats have. */
+/* Writes four texels, one of them transparent, and a sky with all kinds of
+ * floats. */
 static inline void put_images(void)
 {
     static const unsigned char tga[] = {0, 0, 2,   0,   0,   0, 0,  0,   0,
@@ -193,7 +190,7 @@ static inline void put_scene(uint64_t *seed)
     fclose(f);
 }
 
-/* A number that the view's key takes. */
+/* Returns a number in the range of the view's key. */
 static inline double up_to_1e30(uint64_t *seed)
 {
     return fmin(amount(seed), 1e30);
@@ -232,8 +229,6 @@ static inline void put_view(uint64_t *seed)
     fclose(f);
 }
 
-/* ---- pictures ---- */
-
 static inline void extremes_add(struct extremes *x, struct backend *backend,
                                 struct error *err)
 {
@@ -247,7 +242,8 @@ static inline void extremes_add(struct extremes *x, struct backend *backend,
     x->renders[x->count++] = render;
 }
 
-/* In an empty folder; the device is left out, with a word, if there is none. */
+/* Call this in an empty folder. Without a device it prints a line and goes
+ * on. */
 static inline void extremes_open(struct extremes *x, bool on_device)
 {
     struct cl_request request = {.features = FEATURES_ALL};
@@ -287,8 +283,8 @@ static inline void extremes_close(struct extremes *x)
 
 #define EXTREMES_NUMBERS ((size_t)3 * EXTREMES_SIDE * EXTREMES_SIDE)
 
-/* False, with a line, if it is not as it must be; `first` is the first one's
- * picture. */
+/* Returns false, with a line, if the picture is wrong. `first` is the picture
+ * of the first renderer. */
 static inline bool extremes_render(struct extremes *x, struct session *s,
                                    int which, uint32_t number, float *first)
 {
@@ -302,7 +298,7 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
 
     if (!world_lend(&s->world, &s->scene, &s->edit.now.view, number, &job.world,
                     &err))
-        return true; /* a camera that is out of the world */
+        return true; /* the camera is out of the world's range */
     if (!render_start(render, &job, &err) || !render_wait(render, 60000)) {
         printf("scene %u: does not end\n", number);
         exit(2);
@@ -326,8 +322,8 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
     return false;
 }
 
-/* Scene `number`, on the device as well if so. False, with a line, if it is not
- * as it must be. */
+/* Checks scene `number`, with on_device also on the device. Returns false, with
+ * a line, if something is wrong. */
 static inline bool extremes_check(struct extremes *x, uint32_t number,
                                   bool on_device)
 {

@@ -2,9 +2,9 @@
 /*
  * geometry - pictures of geometry that is known to break ray tracers
  *
- * Most rows stand in a closed room of albedo 1/2 that shines 1/2 everywhere,
- * where radiance is 1 / 2 / (1 - 1 / 2) = 1 whatever the shapes: a leak, a face
- * that shades itself or a light that is lost makes it darker.
+ * Most rows are in a closed room of albedo 1/2 and emission 1/2, where radiance
+ * is 1 / 2 / (1 - 1 / 2) = 1 for all shapes. A leak, self-shadowing or lost
+ * light makes it darker.
  *
  * usage: geometry [opencl]
  */
@@ -13,7 +13,7 @@
 
 #define ROOM "Kd .5 .5 .5\nKe .5 .5 .5"
 
-/* The room's faces, from (-1, -1, -1) to (1, 1, 1). */
+/* Adds the room's faces, from (-1, -1, -1) to (1, 1, 1). */
 static void put_room(struct stage *s)
 {
     put_material(s, "room", ROOM);
@@ -24,7 +24,8 @@ static const struct shot inside = {.eye = {0.1, 0.2, 0.9},
                                    .at = {0.1, 0, 0},
                                    .fovy_deg = 90};
 
-/* G1: three equal corners, two equal, all on a line; black if seen. */
+/* G1: faces with three equal corners, two equal ones, or all on a line; black
+ * if visible. */
 static void degenerate_room(struct stage *s, double number)
 {
     (void)number;
@@ -45,7 +46,7 @@ static void degenerate_room(struct stage *s, double number)
     }
 }
 
-/* G2 */
+/* G2: vertices with NaN. */
 static void room_with_nan(struct stage *s, double number)
 {
     static const char *const bad[] = {"nan", "inf", "-inf", "1e999"};
@@ -62,8 +63,8 @@ static void put_hill(struct stage *s, int i, int j)
     put_vertex(s, i / 6.0 - 1, sin(i * 1.3) * cos(j * 0.9) / 4, j / 6.0 - 1);
 }
 
-/* G3: hills of faces with four vertices each (1), or with shared ones that have
- * strangers between them (0). */
+/* G3: hills whose faces have four separate vertices each (1), or shared
+ * vertices with unrelated ones between them (0). */
 static void hills(struct stage *s, double is_split)
 {
     const int side = 13;
@@ -90,7 +91,7 @@ static void hills(struct stage *s, double is_split)
         }
 }
 
-/* G4, G19 */
+/* G4, G19: needles. */
 static void needle_room(struct stage *s, double width)
 {
     uint64_t seed = 1;
@@ -108,7 +109,7 @@ static void needle_room(struct stage *s, double width)
     }
 }
 
-/* G5: so many white faces at one place, in an open sky. */
+/* G5: this many white faces at one place, under an open sky. */
 static void coincident(struct stage *s, double count)
 {
     put_material(s, "white", "Kd .9 .9 .9");
@@ -117,7 +118,8 @@ static void coincident(struct stage *s, double count)
     put_box(s, (double[]){-0.3, 0.2, -0.3}, (double[]){0.3, 0.8, 0.3});
 }
 
-/* G6: a bright face (number 0) or a black one first, at the same place. */
+/* G6: a bright face (number 0) or a black one comes first, at the same
+ * place. */
 static void two_materials(struct stage *s, double first)
 {
     for (int i = 0; i < 2; i++) {
@@ -129,9 +131,9 @@ static void two_materials(struct stage *s, double first)
     }
 }
 
-/* G6: triangles in slanted planes, bright (0) or black (1), and behind each in
- * the file, unless 2 is added, a copy that is the other, begins elsewhere or is
- * wound the other way. */
+/* G6: triangles in slanted planes, bright (0) or black (1). Unless 2 is added,
+ * each is followed in the file by a copy of the other colour, which begins at
+ * another corner or has the opposite winding. */
 static void slanted(struct stage *s, double number)
 {
     static const char *const orders[] = {"-3 -2 -1", "-2 -1 -3", "-1 -3 -2",
@@ -166,7 +168,7 @@ static void nested_room(struct stage *s, double count)
     }
 }
 
-/* A floor and, as often as said, a lamp above it. */
+/* Adds a floor and this many lamps above it. */
 static void lamps_over_floor(struct stage *s, double count)
 {
     put_floor(s);
@@ -175,7 +177,7 @@ static void lamps_over_floor(struct stage *s, double count)
         put_quad(s, 1, 0.7, lamp_lo, lamp_hi);
 }
 
-/* G9: each half as large as the one before. */
+/* G9: each box is half as large as the one before. */
 static void chain_room(struct stage *s, double count)
 {
     put_room(s);
@@ -186,7 +188,7 @@ static void chain_room(struct stage *s, double count)
     }
 }
 
-/* G10: 0: no statement that is seen; 1: one triangle. */
+/* G10: no visible face (0) or one triangle (1). */
 static void one_or_none(struct stage *s, double count)
 {
     put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
@@ -196,8 +198,8 @@ static void one_or_none(struct stage *s, double count)
     fprintf(s->obj, count > 0 ? "f 1 2 3\n" : "p 1\nl 1 2 3\n");
 }
 
-/* G12: a long corridor of perfect mirrors; whatever comes to its end has met
- * walls and edges 10 to 150 times. */
+/* G12: a long corridor of perfect mirrors. A path to its end meets walls and
+ * edges 10 to 150 times. */
 static void mirror_corridor(struct stage *s, double length)
 {
     put_material(s, "mirror", "illum 3\nKs 1 1 1");
@@ -206,14 +208,15 @@ static void mirror_corridor(struct stage *s, double length)
     put_quad(s, 2, 0.01 - length, (double[]){-1, -1}, (double[]){1, 1});
 }
 
-/* G14: everything in one plane across this axis. */
+/* G14: all faces are in one plane across this axis. */
 static void flat_scene(struct stage *s, double axis)
 {
     put_material(s, "lamp", "Kd .5 .5 .5\nKe 1 1 1");
     put_quad(s, (int)axis, 0, (double[]){-9, -9}, (double[]){9, 9});
 }
 
-/* G15, G18: the room beside something so far off that it keeps few digits. */
+/* G15, G18: the room is beside something so far away that its coordinates have
+ * few digits. */
 static void room_far_off(struct stage *s, double distance)
 {
     const double x = distance, y = distance / 3;
@@ -222,7 +225,7 @@ static void room_far_off(struct stage *s, double distance)
     put_tri(s, (const double[3][3]){{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 1}});
 }
 
-/* G18: the lamp over a floor of this size, of two triangles. */
+/* G18: a lamp over a floor of this size, of two triangles. */
 static void huge_floor(struct stage *s, double size)
 {
     lamps_over_floor(s, 1);
@@ -230,14 +233,14 @@ static void huge_floor(struct stage *s, double size)
     put_quad(s, 1, -1, (double[]){-size, -size}, (double[]){size, size});
 }
 
-/* G18: a closed slab that is so much wider than it is high. */
+/* G18: a closed slab that is this much wider than high. */
 static void wide_slab(struct stage *s, double width)
 {
     put_material(s, "room", ROOM);
     put_box(s, (double[]){-width, -1, -width}, (double[]){width, 1, width});
 }
 
-/* G17: so many clear sheets of thickness 1e-5 before a lamp. */
+/* G17: this many clear sheets at distances of 1e-5 before a lamp. */
 static void thin_sheets(struct stage *s, double count)
 {
     put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
@@ -267,7 +270,7 @@ static void plain_room(struct stage *s, double number)
     put_room(s);
 }
 
-/* The same picture elsewhere and in other sizes: closed forms stay. */
+/* Closed forms hold for moved and scaled scenes. */
 static void moved_and_scaled(struct stage *s)
 {
     static const double moves[] = {1e4, 1e5, 1e6};
@@ -309,7 +312,7 @@ static void check_truths(struct stage *s)
                                 .at = {0, 0.5, 0},
                                 .fovy_deg = 40,
                                 .background = 0.25};
-    /* the picture is so high and wide where the triangle is */
+    /* This is the height and width of the picture at the triangle. */
     const double height = 2 * 5 * tan(20 * M_PI / 180);
     const double share = 1 / (height * height);
     const struct shot face_on = {.eye = {0.1, 0.2, 1},
@@ -327,7 +330,7 @@ static void check_truths(struct stage *s)
     const struct shot across = {.eye = {0.1, 0.2, 0},
                                 .at = {1.1, 1, -0.6},
                                 .fovy_deg = 25};
-    /* a ray tests all that is at one place: fewer of them */
+    /* A ray tests all faces at one place, so there are fewer rays. */
     const struct shot few = {.eye = {0.5, 0.4, 1.2},
                              .at = {0.5, 0, 0.2},
                              .fovy_deg = 0.01,

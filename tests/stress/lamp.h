@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * lamp.h - a rectangle that shines over a floor, with its closed form
+ * lamp.h - an emitting rectangle above a floor, with its closed form
  *
  * Units:     file units, radiance
  * Threads:   one
@@ -11,7 +11,7 @@
 #include "tests/unit/lambert.h"
 #include "stage.h"
 
-/* The lamp's corners in the plane y = 0.7, as put_quad() has them: z, x. */
+/* Corners of the lamp in the plane y = 0.7, in put_quad()'s order: z, x. */
 static const double lamp_lo[2] = {-0.3, -0.4}, lamp_hi[2] = {0.3, 0.4};
 
 static inline void put_floor(struct stage *s)
@@ -30,7 +30,7 @@ static inline void put_shining(struct stage *s, const char *name,
     put_material(s, name, lines);
 }
 
-/* What the floor shows at (0.5, 0, 0.2) for a radiance of 1. */
+/* Radiance of the floor at (0.5, 0, 0.2) for a lamp of radiance 1. */
 static inline double lit_floor(void)
 {
     const struct receiver r = {.p = {0.5f, 0, 0.2f}, .n = {0, 1, 0}};

@@ -6,16 +6,17 @@
  */
 #include "lamp.h"
 
-/* Of clear glass with normals that lean from its faces, by up to 7 degrees on
- * these balls: total reflection keeps as many paths inside until they are cut,
- * which is counted. */
+/* Bound for clear glass with shading normals that differ from those of the
+ * faces, by up to 7 degrees on these balls. Total reflection keeps this part of
+ * the paths inside until they are cut. */
 #define LEANING 1.3e-3
 
-/* The BSDFs' tables are this near to white: test_path, test_energy. */
+/* The BSDFs' tables differ from white by less than this; see test_path and
+ * test_energy. */
 #define TABLES 3e-3
 
-/* A ball of radius 0.5 with its own normals, times so much each, or wrong ones:
- * see enum. */
+/* Adds a ball of radius 0.5 with its own normals, scaled, or wrong; see the
+ * enum. */
 enum normals {
     NORMALS_NONE,
     NORMALS_UNIT,
@@ -46,7 +47,7 @@ static void put_ball(struct stage *s, double radius, enum normals normals)
         }
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < columns; j++) {
-            /* triangles at the poles */
+            /* Quads at the poles are triangles. */
             const int first = i == 0 ? 1 : 0, last = i == rows - 1 ? 2 : 3;
             const int of_all = (rows + 1) * columns;
             int k[4] = {i * columns + (j + 1) % columns, i * columns + j,
@@ -63,14 +64,14 @@ static void put_ball(struct stage *s, double radius, enum normals normals)
         }
 }
 
-/* M1, M2 */
+/* M1, M2: normals of all kinds. */
 static void ball_with_normals(struct stage *s, double normals)
 {
     put_material(s, "white", "Kd 1 1 1");
     put_ball(s, 0.5, (enum normals)normals);
 }
 
-/* M1 */
+/* M1: a mirror. */
 static void mirror_ball(struct stage *s, double alpha)
 {
     put_material(s, "white",
@@ -86,7 +87,7 @@ static void glass_ball(struct stage *s, double number)
     put_ball(s, 0.5, NORMALS_UNIT);
 }
 
-/* White things before a white sky, which must vanish. */
+/* White objects in a white sky are invisible. */
 static const struct {
     const char *name, *what, *lines;
     double bias;
@@ -135,7 +136,7 @@ static void check_white_things(struct stage *s)
     }
 }
 
-/* M5: black where the albedo is negative; all that is seen. */
+/* M5: a negative albedo is black. */
 static void negative_albedo(struct stage *s, double number)
 {
     (void)number;
@@ -143,8 +144,8 @@ static void negative_albedo(struct stage *s, double number)
     put_quad(s, 1, 0, (double[]){-9, -9}, (double[]){9, 9});
 }
 
-/* M6: from within glass straight out: the sky times ior squared, less what is
- * reflected, which comes out elsewhere. */
+/* M6: a view from inside glass straight out shows the sky times ior squared,
+ * less the reflected part, which leaves elsewhere. */
 static void glass_cube(struct stage *s, double number)
 {
     (void)number;
@@ -152,9 +153,9 @@ static void glass_cube(struct stage *s, double number)
     put_box(s, (double[]){-1, -1, -1}, (double[]){1, 1, 1});
 }
 
-/* M6: a prism that turns a view down the z axis by 90 degrees to a lamp on the
- * right: two faces let 96 % through, the third reflects all. What they reflect
- * leaves the way it came, to the black sky. */
+/* M6: a prism turns a view along the z axis by 90 degrees to a lamp on the
+ * right. Two faces transmit 96 %, the third reflects everything. Reflected
+ * light leaves the way it came, to the black sky. */
 static void prism(struct stage *s, double number)
 {
     const double p[6][3] = {{-1, -1, 1}, {1, -1, 1}, {1, -1, -1},
@@ -170,8 +171,8 @@ static void prism(struct stage *s, double number)
     put_quad(s, 0, 2, (double[]){-1, -1}, (double[]){1, 1});
 }
 
-/* M7: two balls into each other (0), two cubes that touch (1), a sheet that is
- * open (2). */
+/* M7: two balls that intersect (0), two cubes that touch (1), an open sheet
+ * (2). */
 static void odd_glass(struct stage *s, double kind)
 {
     put_material(s, "glass", "illum 7\nNi 1.5");
@@ -194,7 +195,7 @@ static void lamp_over_floor(struct stage *s, double radiance)
     put_quad(s, 1, 0.7, lamp_lo, lamp_hi);
 }
 
-/* M9: beside one that shines 0. */
+/* M9: a lamp beside one of radiance 0. */
 static void lamp_and_dark(struct stage *s, double number)
 {
     (void)number;
@@ -203,7 +204,7 @@ static void lamp_and_dark(struct stage *s, double number)
     put_quad(s, 1, 0.8, lamp_lo, lamp_hi);
 }
 
-/* M9: the lamp as 2 side^2 triangles, and so many without area. */
+/* M9: the lamp as 2 side^2 triangles, and as many without area. */
 static void many_lamps(struct stage *s, double side)
 {
     const int n = (int)side;
@@ -215,7 +216,7 @@ static void many_lamps(struct stage *s, double side)
             put_vertex(s, i * 0.8 / n - 0.4, 0.7, j * 0.6 / n - 0.3);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            int k = 5 + i * (n + 1) + j; /* after the floor's */
+            int k = 5 + i * (n + 1) + j; /* the floor has the first ones */
 
             fprintf(s->obj, "f %d %d %d %d\n", k, k + 1, k + n + 2, k + n + 1);
             if (j == 0)
@@ -230,7 +231,7 @@ static void no_lamp(struct stage *s, double number)
     put_quad(s, 1, 0, (double[]){-9, -9}, (double[]){9, 9});
 }
 
-/* M11: a wall that shines, 1 high and 2 wide, stands on the floor. */
+/* M11: an emitting wall, 1 high and 2 wide, on the floor. */
 static void wall_lamp(struct stage *s, double number)
 {
     (void)number;
@@ -258,8 +259,8 @@ static void flush_floor(struct stage *s, double number)
     put_quad(s, 1, 0, (double[]){-2, -2}, (double[]){2, 0});
 }
 
-/* M12: a lamp in a ceiling: in the file before it (0), after it (1), or below
- * it by as much as the number says. */
+/* M12: a lamp in the plane of a ceiling, before it in the file (0), after it
+ * (1), or lower by this number. */
 static void flush_lamp(struct stage *s, double number)
 {
     put_floor(s);
@@ -273,7 +274,7 @@ static void flush_lamp(struct stage *s, double number)
         }
 }
 
-/* M13: a closed room of this albedo that shines what is left of 1. */
+/* M13: a closed room of this albedo whose emission makes the radiance 1. */
 static void furnace(struct stage *s, double albedo)
 {
     char lines[128];
@@ -295,15 +296,15 @@ static void black_body(struct stage *s, double kelvin)
     put_quad(s, 1, 0, (double[]){-9, -9}, (double[]){9, 9});
 }
 
-/* M16: a bright speck of a ten thousandth of a square. */
+/* M16: a bright face of a ten thousandth of a square. */
 static void speck(struct stage *s, double radiance)
 {
     put_shining(s, "speck", radiance);
     put_quad(s, 1, 0, (double[]){-0.01, -0.01}, (double[]){0.01, 0.01});
 }
 
-/* A sky of `width` x `height` texels of radiance `rest`, but one of `hot`: in
- * Radiance HDR, or in PFM, which has numbers that are no radiance. */
+/* A sky of `width` x `height` texels of radiance `rest`, except one of `hot`,
+ * in Radiance HDR or in PFM, which may have invalid radiance. */
 struct sky_file {
     int width, height, hot_row;
     double rest, hot;
@@ -336,7 +337,7 @@ static void put_hdr(FILE *f, const struct sky_file *sky)
             put_hdr_texel(f, sky_texel(sky, x, y));
 }
 
-/* Rows from the bottom up. */
+/* PFM rows begin at the bottom. */
 static void put_pfm(FILE *f, const struct sky_file *sky)
 {
     fprintf(f, "PF\n%d %d\n-1\n", sky->width, sky->height);
@@ -363,8 +364,8 @@ static void write_sky(const struct sky_file *sky)
         stage_stop("cannot write the sky");
 }
 
-/* Irradiance of level ground: between centres of texels radiance is bilinear,
- * so the hot one is a tent over two columns and two rows. */
+/* Returns the irradiance of level ground. Radiance is bilinear between centres
+ * of texels, so the hot one is a tent over two columns and two rows. */
 static double hot_irradiance(const struct sky_file *sky)
 {
     const int steps = 20000;
@@ -410,7 +411,7 @@ static void check_skies(struct stage *s)
                           ground,
                           0,
                           0.5 / M_PI * hot_irradiance(&skies[i].file),
-                          1e-4, /* of the texels' solid angles in float */
+                          1e-4, /* solid angles of texels in float */
                           {.eye = {0.3, 2, 0.2},
                            .at = {0, 0, 0.1},
                            .fovy_deg = 40,
@@ -440,10 +441,11 @@ static void check_sky_of_nan(struct stage *s)
     free(o.rgb);
 }
 
-/* M8: nothing overflows; what is too bright for the sum is counted. */
+/* M8: nothing overflows, and samples that are too bright for the sum are
+ * counted. */
 static void check_brightest(struct stage *s)
 {
-    const double want = 0x1p63 / 64; /* sums of 64 samples stop at 2^63 */
+    const double want = 0x1p63 / 64; /* sums of 64 samples saturate at 2^63 */
     struct outcome o;
 
     stage_begin(s);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * rays - what no ray may do, in numbers that unit tests have no time for
+ * rays - properties of rays, for more rays than unit tests have time for
  *
- * A ray that leaks, hits its own face or finds another triangle than brute
- * force is one too many: these rows have no false alarms. The seeds are fixed.
+ * No ray may leak, hit the face it leaves, or find another triangle than brute
+ * force. These rows have no false alarms. The seeds are fixed.
  *
  * usage: rays
  */
@@ -19,20 +19,20 @@
 #include "bvh/bvh8_traverse.h"
 #include "kernels/surface_point.h"
 
-/* One item of work: so many rays from a seed of its own. */
+/* An item of work is this many rays with a seed of its own. */
 #define CHUNK 100000
 
 struct shots {
     const struct world *world;
     struct vec3 center;
-    float size; /* of what is shot at, around the centre */
+    float size; /* size of the target, around the centre */
     atomic_uint_least64_t shot;
     atomic_uint_least64_t bad;
 };
 
 static struct pool *pool;
 
-/* Counts rays that were shot and rays that did wrong, over `chunks` items. */
+/* Counts rays, and rays that fail, over `chunks` items. */
 static void shoot(struct shots *s, pool_job *job, uint32_t chunks)
 {
     struct cancel none = {0};
@@ -47,7 +47,7 @@ static unsigned long long count_of(atomic_uint_least64_t *n)
     return (unsigned long long)atomic_load(n);
 }
 
-/* A unit vector that is uniform on the sphere. */
+/* Returns a unit vector that is uniform on the sphere. */
 static struct vec3 direction(uint64_t *seed)
 {
     double z = 2 * check_random(seed) - 1;
@@ -58,7 +58,7 @@ static struct vec3 direction(uint64_t *seed)
         v3((float)(rest * cos(angle)), (float)(rest * sin(angle)), (float)z));
 }
 
-/* True if the tree finds what brute force finds. */
+/* Returns whether the tree finds the hit of brute force. */
 static bool agrees(const struct world *w, struct ray r)
 {
     struct hit a, b;
@@ -69,7 +69,8 @@ static bool agrees(const struct world *w, struct ray r)
     return !found || (a.tri == b.tri && a.t == b.t && a.b0 == b.b0);
 }
 
-/* From within to a vertex, along an edge, or to a point of an edge. */
+/* Returns a ray from inside to a vertex, along an edge, or to a point of an
+ * edge. */
 static struct ray ray_to_edge(const struct shots *s, int i, uint64_t *seed)
 {
     const struct world *w = s->world;
@@ -86,7 +87,7 @@ static struct ray ray_to_edge(const struct shots *s, int i, uint64_t *seed)
     return r;
 }
 
-/* G12 */
+/* G12: rays at edges and vertices hit something. */
 static void aim_at_edges(void *context, uint32_t item, int worker)
 {
     struct shots *s = context;
@@ -103,7 +104,7 @@ static void aim_at_edges(void *context, uint32_t item, int worker)
     atomic_fetch_add(&s->bad, bad);
 }
 
-/* G12: what has met an edge or a vertex goes on within, anywhere. */
+/* G12: a ray that leaves an edge or a vertex inwards hits something. */
 static void leave_edges(void *context, uint32_t item, int worker)
 {
     struct shots *s = context;
@@ -131,7 +132,8 @@ static void leave_edges(void *context, uint32_t item, int worker)
     atomic_fetch_add(&s->bad, bad);
 }
 
-/* Octahedron-like, with spikes 100 times as long as they are wide. */
+/* Adds a star like an octahedron, whose spikes are 100 times as long as
+ * wide. */
 static void add_star(struct mesh *m)
 {
     const int rows = 40, columns = 60;
@@ -143,7 +145,7 @@ static void add_star(struct mesh *m)
 
         for (int k = 0; k < 3; k++) {
             struct vec3 unit = ball.positions[ball.tris[i].v[k]];
-            /* a function of the vertex, so that neighbours agree */
+            /* This is a function of the vertex, so that neighbours agree. */
             uint32_t hash = hash_u32(
                 float_bits(unit.x) ^
                 hash_u32(float_bits(unit.y) ^ hash_u32(float_bits(unit.z))));
@@ -155,8 +157,8 @@ static void add_star(struct mesh *m)
     mesh_free(&ball);
 }
 
-/* Points on an edge of less than some degrees, as the star's are, may be
- * outside by rounding whatever is done: nothing leaves those. */
+/* Points on edges with a dihedral angle of a few degrees, like the star's, may
+ * be outside by rounding. Rays from those are left out. */
 static void closed_mesh(const char *name, struct mesh *m, struct vec3 center,
                         float inside, bool has_knife_edges)
 {
@@ -176,7 +178,7 @@ static void closed_mesh(const char *name, struct mesh *m, struct vec3 center,
     mesh_free(m);
 }
 
-/* A box that lies across no axis, around the origin. */
+/* Adds a box around the origin that is parallel to no axis. */
 static void add_turned_box(struct mesh *m, float half)
 {
     struct vec3 t, b, n = v3_unit(v3(0.3f, 0.5f, 0.9f));
@@ -214,7 +216,7 @@ static void closed_meshes(void)
     closed_mesh("G12 G15 box of 1e-5", &speck, aside, 0.9e-5f, false);
 }
 
-/* A triangle, a point of it that a ray has met, and its error. */
+/* A triangle, a hit point on it, and the point's error. */
 struct place {
     struct vec3 p[3];
     struct vec3 ng, at, error;
@@ -247,7 +249,7 @@ static bool land(uint64_t *seed, float size, struct place *x)
     return true;
 }
 
-/* Half of the angles are within a thousandth of the face. */
+/* Half of the directions are within a thousandth of the face's plane. */
 static void leave_faces(void *context, uint32_t item, int worker)
 {
     struct shots *s = context;
@@ -290,7 +292,7 @@ static void self_hits(void)
     }
 }
 
-/* How far p is outside of the box around the triangle. */
+/* Returns the distance of p from the box around the triangle. */
 static double outside(struct vec3 p, const struct vec3 t[3])
 {
     double worst = 0;
@@ -305,7 +307,8 @@ static double outside(struct vec3 p, const struct vec3 t[3])
     return worst;
 }
 
-/* G4: aspects of 1e4 to 1e7, a third of the rays nearly along the needle. */
+/* G4: aspect ratios of 1e4 to 1e7; a third of the rays are nearly along the
+ * needle. */
 static void hit_needles(void *context, uint32_t item, int worker)
 {
     struct shots *s = context;
@@ -345,7 +348,7 @@ static void needles(void)
         count_of(&s.shot), count_of(&s.bad));
 }
 
-/* G17: from one sheet to another that lies 1e-5 above. */
+/* G17: rays go from one sheet to another 1e-5 above it. */
 static void cross_gaps(void *context, uint32_t item, int worker)
 {
     struct shots *s = context;
@@ -371,7 +374,7 @@ static void cross_gaps(void *context, uint32_t item, int worker)
         at = hit_point_inset(h, p[0], p[1], p[2], &error);
         r.o = offset_ray_origin(at, error, ng);
         r.d = direction(&seed);
-        if (v3_dot(r.d, ng) < 0.05f) /* shallower ones may miss its border */
+        if (v3_dot(r.d, ng) < 0.05f) /* shallower ones may miss the border */
             continue;
         lift = v3_scale(ng, 1e-5f);
         shot++;
@@ -393,7 +396,7 @@ static void near_sheets(void)
         count_of(&s.bad));
 }
 
-/* Random rays, every fourth from a vertex. */
+/* Compares random rays, of which every fourth begins at a vertex. */
 static void compare(const char *name, const char *what, struct mesh *m,
                     int rays)
 {
@@ -418,7 +421,8 @@ static void compare(const char *name, const char *what, struct mesh *m,
     mesh_free(m);
 }
 
-/* G13: along an axis, zeros of both signs, from the planes of boxes. */
+/* G13: rays along an axis, with zeros of both signs, begin in the planes of
+ * boxes. */
 static void axis_rays(void)
 {
     struct mesh m = {0};
@@ -488,10 +492,10 @@ static void hard_trees(void)
     compare("G9 chain", "140 triangles, each half as large", &chain, 100000);
 }
 
-/* G11: more than 2^24 triangles in a plane, found by where they are. */
+/* G11: more than 2^24 triangles are in a plane and are found by their place. */
 static void many_triangles(void)
 {
-    const uint32_t side = 2900; /* squares; twice its square is 16.8 million */
+    const uint32_t side = 2900; /* twice its square is 16.8 million triangles */
     struct mesh m = {.tri_count = 2 * side * side};
     uint64_t seed = 5;
     int bad = 0;

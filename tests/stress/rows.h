@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * rows.h - one line of output for each row of a list of checks
+ * rows.h - prints a line for each check of a list
  *
- * "ok NAME: ..." or "FAIL NAME: ..." or "todo NAME: needs ...": run.sh counts
- * the first two.
+ * The lines are "ok NAME: ...", "FAIL NAME: ..." or "todo NAME: needs ...";
+ * run.sh counts the first two.
  *
  * Threads:   one
- * Errors:    rows_status() is what the program ends with
+ * Errors:    rows_status() is the program's exit status
  */
 #ifndef TESTS_ROWS_H
 #define TESTS_ROWS_H

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * samples - what sums, random numbers and weights must hold over long renders
+ * samples - sums, random numbers and weights over long renders
  *
  * usage: samples [opencl]
  */
@@ -14,8 +14,8 @@
 #include "kernels/roulette.h"
 #include "kernels/traverse.h"
 
-/* Which roulette the paths of this program play: glim's, a plain one from the
- * first vertex on, or none. */
+/* Roulette of the paths in this program: glim's, a plain one from the first
+ * vertex on, or none. */
 static enum { ROULETTE_OURS, ROULETTE_PLAIN, ROULETTE_NONE, ROULETTES } played;
 
 static float played_survival(struct vec3 beta, uint32_t vertex)
@@ -30,7 +30,7 @@ static float played_survival(struct vec3 beta, uint32_t vertex)
 #define roulette_survival played_survival
 #include "kernels/path.h"
 
-/* The closed room of geometry.c: every pixel's truth is 1. */
+/* Adds the closed room of geometry.c, where every pixel's radiance is 1. */
 static void put_room(struct stage *s)
 {
     stage_begin(s);
@@ -49,7 +49,7 @@ static struct shot room_shot(int side_px, uint64_t spp, uint32_t seed)
                          .seed = seed};
 }
 
-/* Correlation of one picture's errors with another's, shifted. */
+/* Returns the correlation of one picture's errors with another's, shifted. */
 static double correlation(const float *one, const float *other, int side, int x,
                           int y)
 {
@@ -67,8 +67,8 @@ static double correlation(const float *one, const float *other, int side, int x,
     return sum / sqrt(ones * others);
 }
 
-/* C7: of 256 x 256 pixels without correlation, 0.02 is 5 standard errors:
- * once in 2e6 (two-sided), of 14 numbers on each backend. */
+/* C7: for 256 x 256 uncorrelated pixels 0.02 is 5 standard errors, once in 2e6
+ * (two-sided). There are 14 numbers per backend. */
 #define CORRELATION 0.02
 
 static void check_streams(struct stage *s)
@@ -117,8 +117,9 @@ static double squared_error(struct stage *s, int side_px, uint64_t spp)
     return sum;
 }
 
-/* C7: at least as fast as 1 / n. The mean of 64 squares of normal numbers has
- * a standard error of sqrt(2 / 64); 4.9 of it come by chance once in 1e6. */
+/* C7: the error falls at least as fast as 1 / n. The mean of 64 squares of
+ * normal numbers has a standard error of sqrt(2 / 64), and chance exceeds 4.9
+ * of these once in 1e6. */
 static void check_slope(struct stage *s)
 {
     const double slack = 1 + 4.9 * sqrt(2 / 64.0);
@@ -145,7 +146,7 @@ static void check_seeds(struct stage *s)
     free(o.rgb);
 }
 
-/* The room again, for paths one at a time. */
+/* Makes the same room for single paths. */
 static void make_furnace(struct mesh *m)
 {
     *m = (struct mesh){0};
@@ -164,8 +165,8 @@ static double path_error(const struct world *w, uint64_t index)
            1;
 }
 
-/* C8: samples around and beyond number 2^32 have the right mean, and are not
- * those from 0 on again. */
+/* C8: samples around and beyond number 2^32 have the right mean, and differ
+ * from those that begin at 0. */
 static void check_late_samples(void)
 {
     const int count = 200000;
@@ -196,14 +197,14 @@ static void check_late_samples(void)
     mesh_free(&m);
 }
 
-/* C6 */
+/* C6: sums of many samples are exact. */
 static void check_sums(void)
 {
     const int more = 1 << 25;
 
     for (int power = 0; power <= 40; power += power == 0 ? 24 : 8) {
         uint64_t count = power == 0 ? 0 : (uint64_t)1 << power;
-        struct sum s = {0, count}; /* so many samples of 1 */
+        struct sum s = {0, count}; /* this many samples of 1 */
         double mean, want;
 
         for (int i = 0; i < more; i++)
@@ -216,7 +217,7 @@ static void check_sums(void)
     }
 }
 
-/* C6: a film that has 2^40 samples a pixel takes more. */
+/* C6: a film with 2^40 samples per pixel can add more. */
 static void check_film(void)
 {
     const uint64_t count = (uint64_t)1 << 40;
@@ -239,7 +240,7 @@ static void check_film(void)
     film_free(&film);
 }
 
-/* C9: of all 2^32 words. */
+/* C9: floats of all 2^32 words are in [0, 1). */
 static void check_unit_floats(void)
 {
     uint64_t outside = 0;
@@ -265,10 +266,10 @@ static bool is_fine(struct bsdf_sample s)
            (s.is_delta || (isfinite(s.pdf) && s.pdf > 0.0f));
 }
 
-/* Of random numbers. */
+/* Ends of the range of random numbers. */
 static const float ends[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
 
-/* C9: BSDFs at the ends of random numbers, grazing and upright. */
+/* C9: BSDFs at the ends of random numbers, at grazing and normal incidence. */
 static void check_extremes(void)
 {
     static const uint32_t kinds[] = {MATERIAL_DIFFUSE, MATERIAL_ROUGH_DIFFUSE,
@@ -300,7 +301,8 @@ static void check_extremes(void)
         drawn, bad);
 }
 
-/* Lamps from 1 to 1e-8 in size, and a sky of few texels, one of them black. */
+/* Makes lamps of sizes from 1 to 1e-8, and a sky of few texels, one of them
+ * black. */
 static void make_lights(struct mesh *m, struct lights *lights,
                         struct sky_table *table)
 {
@@ -340,8 +342,8 @@ static bool is_light(const struct world *w, const struct receiver *r,
            s->pdf == again && fabsf(v3_length(s->wi) - 1) < 1e-5f;
 }
 
-/* C9: lights at the ends of random numbers, seen from afar, from near by and
- * from within their corners, in front, behind and grazing. */
+/* C9: lights at the ends of random numbers, seen from far, from near and from
+ * their corners, from the front, the back and grazing. */
 static void check_light_extremes(void)
 {
     static const float distances[] = {0,     1e-30f, 1e-15f, 1e-6f,
@@ -381,7 +383,7 @@ static void check_light_extremes(void)
     mesh_free(&m);
 }
 
-/* M14: densities of 0 and over the whole range of floats. */
+/* M14: MIS weights for densities of 0 and over the whole range of floats. */
 static void check_weights(void)
 {
     struct world w = {.settings = {.direct = DIRECT_MIS}};
@@ -407,7 +409,7 @@ static void check_weights(void)
         (double)light_mis_weight(&w, 5, 0));
 }
 
-/* M13: what roulette does with weights that are none. */
+/* M13: roulette with invalid weights. */
 static void check_roulette(void)
 {
     struct path dead = {.beta = {0, 0, 0}}, bad = {.beta = {NAN, NAN, NAN}};
@@ -419,8 +421,8 @@ static void check_roulette(void)
         (double)bright.beta.x);
 }
 
-/* A room that shines as the furnace does, around clear glass, which must
- * vanish: the factor of refraction is not roulette's. */
+/* Makes the furnace around clear glass, which is invisible in it: roulette
+ * ignores the factor of refraction. */
 static void make_glass_furnace(struct mesh *m)
 {
     *m = (struct mesh){0};
@@ -432,7 +434,8 @@ static void make_glass_furnace(struct mesh *m)
     mesh_finish(m);
 }
 
-/* A coloured room with a lamp in a corner: throughputs of all kinds. */
+/* Makes a coloured room with a lamp in a corner, for throughputs of all
+ * kinds. */
 static void make_lit_room(struct mesh *m)
 {
     *m = (struct mesh){0};
@@ -449,7 +452,7 @@ struct mean {
     double value, error;
 };
 
-/* Each from a pixel of its own, so that they are independent. */
+/* Each path has its own pixel, so that they are independent. */
 static struct mean mean_of_paths(const struct world *w, uint32_t row)
 {
     const uint32_t count = 100000;
@@ -470,8 +473,8 @@ static struct mean mean_of_paths(const struct world *w, uint32_t row)
     return m;
 }
 
-/* M13: every roulette has the same mean. 4.9 standard errors come by chance
- * once in 1e6 (two-sided), of 6 numbers. */
+/* M13: every roulette has the same mean. Chance exceeds 4.9 standard errors
+ * once in 1e6 (two-sided), for each of 6 numbers. */
 static void check_roulettes(void)
 {
     static const char *const names[] = {"glim's", "a plain one", "none"};
@@ -480,7 +483,7 @@ static void check_roulettes(void)
 
     make_glass_furnace(&furnace);
     make_lit_room(&room);
-    /* without roulette a path ends here, where at most 2e-6 is left of it */
+    /* Without roulette a path ends here, with at most 2e-6 of its weight. */
     furnace.world.settings.max_vertices = 128;
     room.world.settings.max_vertices = 128;
     for (int i = 0; i < ROULETTES; i++) {
@@ -509,7 +512,7 @@ static void check_roulettes(void)
     mesh_free(&room);
 }
 
-/* M15: luminance 1 by the weights of Rec.709, nothing negative. */
+/* M15: luminance is 1 by the weights of Rec.709, and no channel is negative. */
 static void check_black_bodies(void)
 {
     static const double kelvins[] = {BLACKBODY_LEAST, 100, 500, 1e6,

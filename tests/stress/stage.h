@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 /*
- * stage.h - scenes that rows write as text, rendered and held to a number
+ * stage.h - rows whose scenes are written as text, rendered, and compared with
+ * a number
  *
- * A row's scene is written into OBJ and MTL files, loaded as a person's would
- * be, and rendered with SEEDS seeds; the mean of all pixels has to agree with
- * the truth by Student's t-test. With 11 degrees of freedom it is beyond
- * T_LIMIT once in 1e6 (two-sided); there are some 120 such rows, so one false
- * alarm in 8,000 choices of seeds. The seeds are fixed.
+ * A row's scene is written into OBJ and MTL files, loaded like any file, and
+ * rendered with SEEDS seeds. The mean of all pixels must agree with the truth
+ * by Student's t-test. With 11 degrees of freedom t exceeds T_LIMIT once in 1e6
+ * (two-sided). There are some 120 such rows, so there is one false alarm in
+ * 8,000 choices of seeds. The seeds are fixed.
  *
  * Units:     file units in scenes, degrees, radiance
  * Ownership: stage_close() frees all and removes the files
  * Threads:   one
- * Errors:    what glim refuses is in the outcome; what the machine lacks ends
- *            the program
+ * Errors:    the outcome has errors of glim; failures of the machine end the
+ *            program
  */
 #ifndef TESTS_STAGE_H
 #define TESTS_STAGE_H
@@ -38,12 +39,12 @@
 
 struct stage {
     FILE *obj, *mtl;
-    double scale, move[3]; /* of what is written, in this order */
+    double scale, move[3]; /* applied to what is written, in this order */
     struct backend *backend;
     struct render *render;
 };
 
-/* How a scene is looked at. */
+/* A view of the scene. */
 struct shot {
     double eye[3], at[3];
     double fovy_deg;
@@ -52,16 +53,16 @@ struct shot {
     uint64_t spp;    /* 0: 64 */
     int side_px;     /* 0: SIDE_PX */
     enum direct direct;
-    uint32_t seed; /* the first of them */
+    uint32_t seed; /* first seed */
 };
 
 struct outcome {
     bool is_refused;
     struct error err;
-    double mean, error; /* the error is the standard one, of the mean */
+    double mean, error; /* mean of all pixels, and its standard error */
     struct render_progress last;
     uint64_t warning_count;
-    float *rgb; /* of the last seed; the caller's to free */
+    float *rgb; /* picture of the last seed, for free() */
     size_t number_count;
 };
 
@@ -71,7 +72,7 @@ static inline void stage_stop(const char *text)
     exit(2);
 }
 
-/* False, with a word to standard output, where there is no such device. */
+/* Returns false, with a line on standard output, if there is no such device. */
 static inline bool stage_open(struct stage *s, bool on_device)
 {
     struct cl_request request = {.features = FEATURES_ALL};
@@ -145,7 +146,7 @@ static inline void put_tri(struct stage *s, const double p[3][3])
     fprintf(s->obj, "f -3 -2 -1\n");
 }
 
-/* From lo to hi in the plane where axis has the value `at`. */
+/* Adds the rectangle from lo to hi in the plane where the axis is `at`. */
 static inline void put_quad(struct stage *s, int axis, double at,
                             const double lo[2], const double hi[2])
 {
@@ -160,7 +161,7 @@ static inline void put_quad(struct stage *s, int axis, double at,
     fprintf(s->obj, "f -4 -3 -2 -1\n");
 }
 
-/* With its normals outwards, its vertices shared. */
+/* Adds a box with shared vertices that is wound outwards. */
 static inline void put_box(struct stage *s, const double lo[3],
                            const double hi[3])
 {
@@ -229,7 +230,7 @@ static inline void render_seed(struct stage *s, const struct scene *scene,
     film_linear(render_film(s->render), o->rgb);
 }
 
-/* Renders what stage_end() has finished, with `seeds` seeds. */
+/* Renders the scene that stage_end() has completed, with `seeds` seeds. */
 static inline struct outcome stage_render(struct stage *s,
                                           const struct shot *shot, int seeds)
 {
@@ -262,7 +263,7 @@ static inline struct outcome stage_render(struct stage *s,
     return o;
 }
 
-/* A scene, by a number that its maker understands. */
+/* Writes a scene; the meaning of the number is the function's. */
 typedef void scene_maker(struct stage *s, double number);
 
 struct truth {
@@ -270,12 +271,12 @@ struct truth {
     scene_maker *make;
     double number;
     double want;
-    double bias; /* what is known to be off, as a part of it; 0: rounding */
+    double bias; /* known relative bias; 0: rounding */
     struct shot shot;
     bool warns;
 };
 
-/* The rounding of a sum of some float operations. */
+/* Rounding of a sum of a few float operations. */
 #define ROUNDING 1e-5
 
 static inline void check_truth(struct stage *s, const struct truth *t)

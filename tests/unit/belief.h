@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /*
- * belief.h - what a child process that runs glim believes is on its screen
+ * belief.h - a child process that runs glim reports the screen it expects
  *
  * Each time before it waits, the child describes its screen in shared memory,
- * writes the string "told" to the terminal, and goes on when the parent has
- * looked. The linker puts __wrap_workspace_next_ns() and __wrap_tty_read() in
- * place of glim's (see the Makefile).
+ * writes the string "told" to the terminal, and continues when the parent has
+ * compared it. The linker replaces glim's functions by
+ * __wrap_workspace_next_ns() and __wrap_tty_read() (see the Makefile).
  *
  * Units:     cells, row 0 at the top
  * Ownership: the test maps `shared`
- * Threads:   the child's main
+ * Threads:   the child's main thread
  */
 #ifndef TESTS_BELIEF_H
 #define TESTS_BELIEF_H
@@ -22,8 +22,7 @@
 #include "studio/workspace.h"
 #include "tests/unit/vt.h"
 
-/* The child's longest pause: the parent need not wait for something to
- * happen. */
+/* Longest pause of the child, so that the parent always gets an answer. */
 #define WAKE_NS UINT64_C(20000000)
 
 enum belief { BELIEF_TEXT, BELIEF_PICTURE, BELIEF_UNKNOWN };
@@ -36,10 +35,10 @@ struct belief_cell {
 };
 
 static struct shared {
-    sem_t go; /* the parent has looked */
+    sem_t go; /* the parent has compared the screen */
     unsigned told;
-    unsigned long taken_bytes; /* of keys */
-    bool is_whole;             /* curses has nothing more to write */
+    unsigned long taken_bytes; /* bytes of keys */
+    bool is_whole;             /* curses has written everything */
     int cols, rows;
     struct belief_cell cell[VT_ROWS_MAX][VT_COLS_MAX];
 } * shared;
@@ -125,7 +124,8 @@ static bool covers(const struct ansi_diff_rect *r, int col, int row)
            col < r->col + r->cols;
 }
 
-/* Blanks of curses, where there is none or a window covers it. */
+/* Reports blanks of curses where there is no swatch, or where a window covers
+ * it. */
 static void tell_swatches(const struct screen *screen)
 {
     const struct swatches *s = &screen->swatches;
@@ -161,7 +161,7 @@ static void tell(const struct screen *screen)
     shared->told++;
     tty_write("\033]told\033\\", 8);
     while (sem_wait(&shared->go) != 0) {
-        /* a signal */
+        /* interrupted by a signal */
     }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * brute.h - the plainest ray query, which others have to agree with
+ * brute.h - the ray query by brute force, with which all others must agree
  *
  * Units:     normalised scene units
- * Threads:   any; the caller's state of random numbers
+ * Threads:   any; the state of random numbers is the caller's
  */
 #ifndef TESTS_BRUTE_H
 #define TESTS_BRUTE_H
@@ -11,7 +11,7 @@
 #include "tests/unit/check.h"
 #include "kernels/hit.h"
 
-/* Every triangle, by the same test and the same rule for ties. */
+/* Tests every triangle, with the same test and the same rule for ties. */
 static inline bool brute_force(const struct world *w, struct ray r,
                                struct hit *best)
 {
@@ -33,7 +33,7 @@ static inline bool brute_force(const struct world *w, struct ray r,
     return best->tri != NO_INDEX;
 }
 
-/* Uniform from -half to half. */
+/* Uniform in [-half, half]. */
 static inline float random_span(uint64_t *seed, float half)
 {
     return (float)(2 * check_random(seed) - 1) * half;

@@ -18,7 +18,7 @@
 
 #include <cmocka.h>
 
-#undef fail /* ours is a function, of error.h */
+#undef fail /* error.h has a function of this name */
 
 static inline void check_close_at(double got, double want, double bound,
                                   const char *what, const char *file, int line)
@@ -32,7 +32,7 @@ static inline void check_close_at(double got, double want, double bound,
     _fail(file, line);
 }
 
-/* |got - want| <= bound; NaN fails. */
+/* Checks that |got - want| <= bound; NaN fails. */
 #define check_close(got, want, bound) \
     check_close_at(got, want, bound, #got, __FILE__, __LINE__)
 
@@ -48,7 +48,7 @@ static inline void check_at_most_at(double got, double bound, const char *what,
 #define check_at_most(got, bound) \
     check_at_most_at(got, bound, #got, __FILE__, __LINE__)
 
-/* Prints the text, which says why, if the check fails. */
+/* Prints the text, which gives the reason, if the check fails. */
 #define check_or_say(ok, text)         \
     do {                               \
         if (!(ok)) {                   \
@@ -68,7 +68,8 @@ static inline void check_has_at(const char *text, const char *part,
 
 #define check_has(text, part) check_has_at(text, part, __FILE__, __LINE__)
 
-/* Numbers in [0, 1) for tests: not those of the program. (splitmix64) */
+/* Random numbers in [0, 1) for tests, by splitmix64, which glim does not
+ * use. */
 static inline double check_random(uint64_t *state)
 {
     uint64_t z = (*state += 0x9e3779b97f4a7c15u);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * chi_square.h - do counts follow what is expected of them?
+ * chi_square.h - whether counts follow their expected values
  *
- * Pearson's test. Cells with fewer than 5 expected are taken together.
+ * Pearson's test. Cells with fewer than 5 expected counts are merged.
  *
  * Units:     counts; standard deviations
  * Threads:   one
@@ -14,10 +14,10 @@
 
 #define CHI_EXPECTED_MIN 5
 
-/* Of cells whose expected counts sum up to what is counted. */
+/* Sums over cells. The expected counts sum to the number of counts. */
 struct chi_square {
     double sum, degrees;
-    double rest, rest_count; /* expected and counted in the small cells */
+    double rest, rest_count; /* expected and counted numbers in small cells */
 };
 
 static inline struct chi_square chi_begin(void)
@@ -36,7 +36,8 @@ static inline void chi_add(struct chi_square *c, double expected, double count)
     c->degrees++;
 }
 
-/* After the last cell: the small ones count as one, if they are enough. */
+/* Ends the test after the last cell. The small cells are one cell, if they have
+ * enough counts. */
 static inline void chi_end(struct chi_square *c)
 {
     double expected = c->rest, count = c->rest_count;
@@ -47,7 +48,7 @@ static inline void chi_end(struct chi_square *c)
     chi_add(c, expected, count);
 }
 
-/* The upper tail as a normal deviate (Wilson and Hilferty 1931). */
+/* Returns the upper tail as a normal deviate (Wilson and Hilferty 1931). */
 static inline double chi_deviate(const struct chi_square *c)
 {
     double v = 2 / (9 * c->degrees);

@@ -35,11 +35,11 @@ static inline double smith_lambda(double alpha, double cosine)
     return (sqrt(1 + alpha * alpha * tan2) - 1) / 2;
 }
 
-/* What the facets of a surface reflect. */
+/* Reflectance of the facets of a surface. */
 enum facets {
     FACETS_WHITE,   /* all */
     FACETS_SCHLICK, /* (1 - cosine)^5 */
-    FACETS_GLASS    /* and transmit the rest */
+    FACETS_GLASS    /* Fresnel; the rest is transmitted */
 };
 
 /* Directional albedo by quadrature over all microfacet normals drawn with
@@ -48,13 +48,14 @@ enum facets {
 static inline double albedo_by_quadrature(enum facets facets, double alpha,
                                           double mu, double eta)
 {
-    const int side = facets == FACETS_GLASS ? 500 : 1000; /* it is costly */
+    const int side = facets == FACETS_GLASS ? 500 : 1000; /* it takes long */
     double sine = sqrt(1 - mu * mu);
     double lo = smith_lambda(alpha, mu);
     double sum = 0;
 
     for (int i = 0; i < side; i++) {
-        /* the tail of normals far from upright is drawn out by a square */
+        /* A square samples more of the tail, where normals are far from
+         * upright. */
         double s = (i + 0.5) / side;
         double tan2 = alpha * alpha * (1 / ((1 - s) * (1 - s)) - 1);
         double hz = 1 / sqrt(1 + tan2);

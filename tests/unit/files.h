@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * files.h - small files in a folder of their own, by the C library alone
+ * files.h - small files for tests, written and read by the C library alone
  *
  * Threads:   one
  * Errors:    a failed check ends the test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * folder.h - a folder of its own for a test program, in $TMPDIR or /tmp
+ * folder.h - a temporary folder for each test program, in $TMPDIR or /tmp
  *
  * The functions can be the setup and teardown of cmocka_run_group_tests().
  *
@@ -27,13 +27,13 @@ static inline int make_folder(void **state)
     return length < (int)sizeof folder && mkdtemp(folder) != NULL ? 0 : -1;
 }
 
-/* The same, and makes it the current folder. */
+/* Makes the folder and makes it the current one. */
 static inline int enter_folder(void **state)
 {
     return make_folder(state) == 0 && chdir(folder) == 0 ? 0 : -1;
 }
 
-/* Removes the folder with all that is in it. */
+/* Removes the folder with everything in it. */
 static inline int remove_folder(void **state)
 {
     char command[2 * sizeof folder + 64];

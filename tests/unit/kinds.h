@@ -9,7 +9,7 @@
 
 #include "studio/material_parameters.h"
 
-/* Goes on by some kinds, one after the other, or back. */
+/* Steps forward by this many kinds, or back. */
 static inline void step_kind(struct mtl_source *source, int steps)
 {
     struct owner o = {.row = &material_parameters[0]};

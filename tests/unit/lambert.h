@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * lambert.h - irradiance from a polygon that shines, in closed form
+ * lambert.h - irradiance from an emitting polygon, in closed form
  *
  * Units:     irradiance for a radiance of 1
  * Threads:   one

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * lamps.h - worlds of lamps made by tests, and what shines at anybody in them
+ * lamps.h - worlds of lamps for tests, and random receivers in them
  *
  * Units:     normalised scene units
  * Ownership: discard() frees mesh and lights
@@ -18,8 +18,8 @@
 #include "kernels/light.h"
 #include "kernels/rng.h"
 
-/* Means of n numbers are compared with the truth within 4.9 standard errors:
- * once in a million by chance; seeds are fixed. */
+/* Means of n numbers are compared with the truth within 4.9 standard errors,
+ * which chance exceeds once in a million. Seeds are fixed. */
 #define Z_LIMIT 4.9
 
 #define LAMP 1
@@ -61,7 +61,7 @@ static inline struct vec2 any_choice(uint64_t *seed)
     return v2(x, unit_float((uint32_t)(check_random(seed) * 4294967296.0)));
 }
 
-/* Triangles of about this size somewhere in the unit cube. */
+/* Adds triangles of about this size at random places in the unit cube. */
 static inline void add_lamps(struct mesh *m, int count, double size,
                              uint64_t *seed)
 {
@@ -74,14 +74,15 @@ static inline void add_lamps(struct mesh *m, int count, double size,
     }
 }
 
-/* The triangle turned: each may begin with any of its corners. */
+/* Adds the triangle beginning with another of its corners. */
 static inline void add_turned(struct mesh *m, const struct vec3 p[3],
                               uint32_t turn)
 {
     mesh_add(m, p[turn % 3], p[(turn + 1) % 3], p[(turn + 2) % 3], LAMP);
 }
 
-/* Both triangles of a ring of four corners, cut from the first to the third. */
+/* Adds both triangles of a ring of four corners, divided from the first to the
+ * third. */
 static inline void add_ring(struct mesh *m, const struct vec3 p[4],
                             uint32_t turns)
 {
@@ -91,7 +92,7 @@ static inline void add_ring(struct mesh *m, const struct vec3 p[4],
     add_turned(m, second, turns / 3);
 }
 
-/* Parallelograms of about this size somewhere in the unit cube. */
+/* Adds parallelograms of about this size at random places in the unit cube. */
 static inline void add_quads(struct mesh *m, int count, double size,
                              uint64_t *seed)
 {
@@ -130,7 +131,7 @@ static inline void discard(struct mesh *m, struct lights *lights)
     mesh_free(m);
 }
 
-/* Of all lights that a receiver may choose. */
+/* Sums the probabilities of all lights for a receiver. */
 static inline double sum_of_probabilities(const struct world *w,
                                           const struct receiver *r)
 {
@@ -141,7 +142,8 @@ static inline double sum_of_probabilities(const struct world *w,
     return sum;
 }
 
-/* Irradiance by n independent light samples, and its standard error. */
+/* Returns the irradiance by n independent light samples, and its standard
+ * error. */
 static inline double irradiance(const struct world *w, const struct receiver *r,
                                 int n, uint64_t *seed, double *error)
 {

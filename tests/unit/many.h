@@ -17,10 +17,11 @@
 
 #include <math.h>
 
-/* Enough for several parts that threads share. */
+/* Enough triangles for several parts that threads share. */
 #define MANY 70000
 
-/* Triangles of many sizes; every tenth is where the one before is. */
+/* Adds triangles of many sizes; every tenth has the place of the previous
+ * one. */
 static inline void mesh_add_many(struct mesh *m, uint32_t count, uint64_t seed)
 {
     struct vec3 a = {0, 0, 0};
@@ -41,7 +42,7 @@ static inline bool v3_is_between(struct vec3 p, struct vec3 lo, struct vec3 hi)
            p.y <= hi.y && p.z <= hi.z;
 }
 
-/* With room for what rounding does to rays. */
+/* Has a tolerance for the rounding of rays. */
 static inline bool box_holds(struct vec3 lo, struct vec3 hi,
                              const struct vec3 p[3])
 {

@@ -25,7 +25,7 @@ struct mesh {
     struct material materials[MESH_MATERIALS];
     struct bvh bvh;
     struct bvh8 wide;
-    struct host_world host; /* for backends: it has this tree */
+    struct host_world host; /* for backends; it owns this tree */
     union {
         struct world world;
         struct bvh8_world wide_world; /* for the queries of bvh8_traverse.h */
@@ -60,7 +60,7 @@ static inline void mesh_add_quad(struct mesh *m, struct vec3 a, struct vec3 b,
     mesh_add(m, a, c, d, material);
 }
 
-/* An axis-aligned box, winding outwards. */
+/* Adds an axis-aligned box that is wound outwards. */
 static inline void mesh_add_box(struct mesh *m, struct vec3 lo, struct vec3 hi,
                                 uint32_t material)
 {
@@ -77,7 +77,7 @@ static inline void mesh_add_box(struct mesh *m, struct vec3 lo, struct vec3 hi,
     mesh_add_quad(m, p[1], p[3], p[7], p[5], material);
 }
 
-/* A sphere of latitude and longitude, closed, winding outwards. */
+/* Adds a closed sphere of latitudes and longitudes that is wound outwards. */
 static inline void mesh_add_sphere(struct mesh *m, struct vec3 center,
                                    float radius, int rows, int columns,
                                    uint32_t material)
@@ -91,7 +91,7 @@ static inline void mesh_add_sphere(struct mesh *m, struct vec3 center,
                 int column = (j + k % 2) % columns;
                 double theta = 3.141592653589793 * row / rows;
                 double phi = 6.283185307179586 * column / columns;
-                /* the poles are one vertex, to the bit */
+                /* all vertices at a pole have the same bits */
                 double s = row == 0 || row == rows ? 0.0 : sin(theta);
 
                 p[k] = v3((float)(center.x + radius * s * cos(phi)),
@@ -115,7 +115,7 @@ static inline struct material mesh_material(uint32_t kind, float color)
     return m;
 }
 
-/* Once the corners stay where they are. */
+/* Computes normals; call it after the last change of corners. */
 static inline void mesh_set_normals(struct mesh *m)
 {
     for (struct tri *t = m->tris; t < m->tris + m->tri_count; t++)

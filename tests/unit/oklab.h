@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * oklab.h - how different colours look, for tests: by CIE XYZ, in double
+ * oklab.h - perceived differences of colours by CIE XYZ, in double
  *
  * Units:     8-bit sRGB, light from 0 to 1, OKLab
  * Threads:   any
@@ -25,7 +25,7 @@ static inline void matrix_times(const double m[3][3], const double in[3],
         out[i] = m[i][0] * in[0] + m[i][1] * in[1] + m[i][2] * in[2];
 }
 
-/* Rec.709 to XYZ, then as Ottosson's definition has it. */
+/* Converts Rec.709 to XYZ, then by Ottosson's definition. */
 static inline void oklab_of_light(const double light[3], double lab[3])
 {
     static const double xyz_of_rgb[3][3] = {{0.4123908, 0.3575843, 0.1804808},
@@ -47,7 +47,7 @@ static inline void oklab_of_light(const double light[3], double lab[3])
     matrix_times(m2, lms, lab);
 }
 
-/* The distance of two colours given as light. */
+/* Returns the distance of two colours given as light. */
 static inline double oklab_distance(const double a[3], const double b[3])
 {
     double p[3], q[3];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * pixels.h - what terminals make of sixels and of kitty's graphics, after the
- * VT340's manual, chapter 14, and kitty's graphics protocol
+ * pixels.h - decoders of sixels and of kitty's graphics, after the VT340's
+ * manual, chapter 14, and kitty's graphics protocol
  *
  * Units:     pixels
  * Threads:   one
@@ -18,8 +18,8 @@
 
 struct sixels {
     int width, height;
-    int number[PIXELS_MAX]; /* -1: none was set */
-    int percent[256][3];    /* of the colours; -1: not said */
+    int number[PIXELS_MAX]; /* -1: not set */
+    int percent[256][3];    /* of the colours; -1: not defined */
 };
 
 static inline const char *read_int(const char *p, int *n)
@@ -37,7 +37,7 @@ static inline const char *expect_text(const char *p, const char *text)
     return p + strlen(text);
 }
 
-/* #n chooses a colour, #n;2;r;g;b says first what it is. */
+/* #n chooses a colour; #n;2;r;g;b also defines it. */
 static inline const char *sixel_color(const char *p, struct sixels *s, int *n)
 {
     p = read_int(p, n);
@@ -60,12 +60,12 @@ static inline void sixel_set(struct sixels *s, int x, int band, int bits, int n)
         if (!(bits >> i & 1))
             continue;
         assert_true(x < s->width && y < s->height && s->percent[n][0] >= 0);
-        assert_int_equal(s->number[y * s->width + x], -1); /* never twice */
+        assert_int_equal(s->number[y * s->width + x], -1); /* not twice */
         s->number[y * s->width + x] = n;
     }
 }
 
-/* One image, from ESC P on; what is behind it. */
+/* Reads an image that begins with ESC P. Returns a pointer behind it. */
 static inline const char *sixels_read(const char *p, struct sixels *s)
 {
     int band = 0, x = 0, n = -1;
@@ -113,7 +113,8 @@ static inline int base64_digit(char c)
     return (int)(at - digits);
 }
 
-/* One image in pieces, from ESC _ on; what is behind it. */
+/* Reads an image in pieces that begin with ESC _. Returns a pointer behind
+ * it. */
 static inline const char *kitty_read(const char *p, struct kitty_pixels *k)
 {
     size_t length = 0;
@@ -124,7 +125,7 @@ static inline const char *kitty_read(const char *p, struct kitty_pixels *k)
     p = read_int(expect_text(p, ",i="), &k->id);
     p = read_int(expect_text(p, ",p=1,q=2,C=1,m="), &has_more);
     for (;;) {
-        const char *begin = ++p; /* behind ; */
+        const char *begin = ++p; /* behind the semicolon */
 
         for (; *p != '\033'; p += 4) {
             int bits = base64_digit(p[0]) << 18 | base64_digit(p[1]) << 12 |

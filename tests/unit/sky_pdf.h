@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * sky_pdf.h - the density of light samples at a direction to the sky
+ * sky_pdf.h - the density of light samples towards the sky
  *
  * Units:     per solid angle
  * Threads:   any

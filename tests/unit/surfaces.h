@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * surfaces.h - one of each surface, for tests of all kinds
+ * surfaces.h - a surface of each kind
  *
  * Units:     cosines to the normal
  * Threads:   one
@@ -23,7 +23,7 @@ static const struct vec3 gold = {1.0f, 0.78f, 0.34f};
 static const struct vec3 brick = {0.6f, 0.3f, 0.1f};
 static const struct vec3 strong = {0.08f, 0.05f, 0.02f};
 
-/* f |cosine| of bsdf_terms(). */
+/* Returns f |cosine| of bsdf_terms(). */
 static inline struct vec3 surface_f(const struct bsdf *m, struct vec3 wo,
                                     struct vec3 wi)
 {
@@ -32,7 +32,7 @@ static inline struct vec3 surface_f(const struct bsdf *m, struct vec3 wo,
     return bsdf_terms(m, wo, wi, &pdf);
 }
 
-/* The density of bsdf_terms(). */
+/* Returns the density of bsdf_terms(). */
 static inline float surface_pdf(const struct bsdf *m, struct vec3 wo,
                                 struct vec3 wi)
 {
@@ -42,7 +42,7 @@ static inline float surface_pdf(const struct bsdf *m, struct vec3 wo,
     return pdf;
 }
 
-/* Called for each kind of surface that has a density, alpha and cosine. */
+/* Called for each surface that has a density, alpha and cosine. */
 typedef void (*visit)(const struct bsdf *m, float mu);
 
 static inline void at_all_cosines(visit f, const struct bsdf *m)
@@ -63,7 +63,7 @@ static inline void at_all_reflections(visit f)
                       .coat = strong,
                       .eta = 1,
                       .kind = MATERIAL_PLASTIC};
-    at_all_cosines(f, &m); /* smooth */
+    at_all_cosines(f, &m); /* perfectly smooth */
     for (size_t a = 0; a < COUNT(alphas); a++) {
         m = (struct bsdf){.color = gold,
                           .alpha = alphas[a],

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * trees.h - what any tree's ray queries must find: what brute force finds
+ * trees.h - ray queries through a tree must find the hits of brute force
  *
- * hit_closest(), hits_closest() and hit_any() are those of the header that is
- * included before this one.
+ * The header included before this one declares hit_closest(), hits_closest()
+ * and hit_any().
  *
  * Units:     normalised scene units
  * Threads:   one
- * Errors:    the test that finds one ends
+ * Errors:    a wrong hit ends the test
  */
 #ifndef TESTS_TREES_H
 #define TESTS_TREES_H
@@ -21,8 +21,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Random rays; every fourth from far outside, every eighth along an axis with
- * zero components, every sixteenth from a vertex. */
+/* Returns a random ray. Every fourth begins far outside, every eighth is along
+ * an axis with zero components, every sixteenth begins at a vertex. */
 static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
 {
     struct ray r = {random_point(seed, i % 4 == 0 ? 50.0f : 1.2f),
@@ -45,8 +45,9 @@ static struct ray random_ray(const struct mesh *m, uint64_t *seed, int i)
 
 #define GROUP 8
 
-/* Neighbours of a random ray, or all the same one; some from one point, some
- * within a plane across an axis, some that end, some that leave a triangle. */
+/* Makes a group of rays close to a random ray, or all equal. Some begin at one
+ * point, some are in a plane across an axis, some end, some begin on a
+ * triangle. */
 static uint32_t random_group(const struct mesh *m, uint64_t *seed, int i,
                              struct ray rays[GROUP])
 {
@@ -74,8 +75,8 @@ static uint32_t random_group(const struct mesh *m, uint64_t *seed, int i,
     return count;
 }
 
-/* tri_hit() of every triangle. */
-static void meet_all(const struct mesh *m, struct ray r, struct hit *best)
+/* Calls tri_hit() for every triangle. */
+static void test_all_tris(const struct mesh *m, struct ray r, struct hit *best)
 {
     struct shear s = shear_of(r);
 
@@ -87,7 +88,7 @@ static void meet_all(const struct mesh *m, struct ray r, struct hit *best)
     }
 }
 
-/* Rays in packets, and what is traced one by one. */
+/* Compares rays in groups with single rays. */
 static void compare_groups(const struct mesh *m, int groups, uint64_t seed)
 {
     for (int i = 0; i < groups; i++) {
@@ -99,7 +100,7 @@ static void compare_groups(const struct mesh *m, int groups, uint64_t seed)
         for (uint32_t k = 0; k < count; k++) {
             struct hit want;
 
-            meet_all(m, rays[k], &want);
+            test_all_tris(m, rays[k], &want);
             assert_memory_equal(&got[k], &want, sizeof want);
         }
     }
@@ -163,7 +164,7 @@ static void sphere_in_box_agrees(void **state)
     compare(&m, RAYS, 2);
 }
 
-/* Ties: the same quads three times over, and boxes that share faces. */
+/* The same quads occur three times, and boxes share faces, so hits tie. */
 static void ties_agree(void **state)
 {
     struct mesh m = {0};
@@ -184,8 +185,8 @@ static void ties_agree(void **state)
     compare(&m, RAYS, 3);
 }
 
-/* Half of the rays pass each triangle. */
-static void holes_agree(void **state)
+/* Each triangle lets half of the rays pass. */
+static void tris_with_holes_agree(void **state)
 {
     struct mesh m = {0};
     uint64_t seed = 7;
@@ -219,13 +220,15 @@ static void needles_agree(void **state)
 
         mesh_add(&m, a, b, v3_add(a, random_point(&seed, width)), 0);
     }
-    for (int i = 0; i < 6; i++) /* something to hit */
+    /* Larger triangles, so that rays hit something. */
+    for (int i = 0; i < 6; i++)
         mesh_add(&m, random_point(&seed, 1.0f), random_point(&seed, 1.0f),
                  random_point(&seed, 1.0f), 0);
     compare(&m, RAYS, 4);
 }
 
-/* STRESS G7, G9: sizes 2^-k around one point, the teapot in the stadium. */
+/* STRESS G7, G9: sizes of 2^-k around one point, as of a teapot in a
+ * stadium. */
 static void nested_sizes_agree(void **state)
 {
     struct mesh m = {0};
@@ -240,7 +243,7 @@ static void nested_sizes_agree(void **state)
     compare(&m, RAYS, 6);
 }
 
-/* STRESS G7, G8: nothing to split by. */
+/* STRESS G7, G8: no plane divides the triangles. */
 static void identical_triangles_build(void **state)
 {
     struct mesh m = {0};
@@ -256,13 +259,13 @@ static void identical_triangles_build(void **state)
     mesh_free(&m);
 }
 
-/* Numbers that a ray must not have. */
+/* Values that are invalid in a ray. */
 static const float wrong[] = {NAN, -NAN, INFINITY, -INFINITY};
 
 #define WRONG (sizeof wrong / sizeof *wrong)
 
-/* A ray that meets the mesh, if it were not for some of its numbers: of which
- * there is one way for each count below WRONGS. */
+/* Makes a ray that would hit the mesh but for invalid numbers in it. There are
+ * WRONGS combinations. */
 #define WRONGS 15625 /* (1 + WRONG)^6 */
 
 static struct ray wrong_ray(struct ray r, uint32_t way)
@@ -296,7 +299,8 @@ static void check_misses(const struct mesh *m, uint32_t way)
     assert_false(hit_any(&m->world, rays[at], NO_INDEX));
 }
 
-/* Trees of one node to many, most with nodes that lack children. */
+/* Tests trees of one node to many, most of them with nodes that lack
+ * children. */
 static void rays_that_are_no_numbers_miss(void **state)
 {
     (void)state;
@@ -315,8 +319,8 @@ static void rays_that_are_no_numbers_miss(void **state)
     }
 }
 
-/* STRESS G9: a chain that halves 209 times, from the largest scale to the
- * smallest float, cannot outgrow the stack. */
+/* STRESS G9: a chain of 209 halvings, from the largest scale to the smallest
+ * float, does not overflow the stack. */
 static void deep_chains_stay_bounded(void **state)
 {
     struct mesh m = {0};
@@ -359,7 +363,7 @@ static int run_trees(void)
         cmocka_unit_test(soup_agrees),
         cmocka_unit_test(sphere_in_box_agrees),
         cmocka_unit_test(ties_agree),
-        cmocka_unit_test(holes_agree),
+        cmocka_unit_test(tris_with_holes_agree),
         cmocka_unit_test(needles_agree),
         cmocka_unit_test(nested_sizes_agree),
         cmocka_unit_test(identical_triangles_build),

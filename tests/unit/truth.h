@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * truth.h - what paths show on the average, against truth from outside
+ * truth.h - means of paths against independent truth
  *
- * A stage is a small world with all that light is sampled from. Each claim
- * about it is tried in every way of gathering light, over independent seeds.
+ * A stage is a small world with all data for light sampling. Each claim about
+ * it is tested with every technique for direct light, over independent seeds.
  *
  * Units:     normalised scene units, radiance
  * Ownership: stage_free() frees the arrays
  * Threads:   one
- * Errors:    a claim that does not hold ends the test
+ * Errors:    a wrong claim ends the test
  */
 #ifndef TESTS_TRUTH_H
 #define TESTS_TRUTH_H
@@ -25,26 +25,26 @@
 
 #define SEEDS 32
 
-/* Student's t with 31 degrees is beyond this once in 1e6 (two-sided); the
- * tests that include this make some 1,800 comparisons: one false alarm in 550
- * choices of seeds. They are fixed. */
+/* Student's t with 31 degrees of freedom exceeds this once in 1e6 (two-sided).
+ * The tests that include this make some 1,800 comparisons: one false alarm in
+ * 550 choices of seeds. The seeds are fixed. */
 #define T_LIMIT 6.07
 
-/* Claims are about means known to this, or they would hold of anything. */
+/* Standard errors must be below this, or any claim would hold. */
 #define PRECISION 0.01
 
 struct stage {
     struct mesh mesh;
     struct lights lights;
-    struct sky_table skies[2]; /* by enum sky_use */
+    struct sky_table skies[2]; /* index: enum sky_use */
 };
 
 struct claim {
-    struct vec3 eye, at; /* a ray from eye through at */
-    double truth[3];     /* the radiance that comes along it */
-    double systematic;   /* relative error that is no noise: of tables */
+    struct vec3 eye, at; /* the ray goes from eye through at */
+    double truth[3];     /* the radiance along the ray */
+    double systematic;   /* relative error of tables */
     int paths;           /* for each seed */
-    int without;         /* 1 << enum direct: a way that is hopeless */
+    int without; /* 1 << enum direct: a technique that cannot converge here */
 };
 
 #define GREY(x) \
@@ -76,7 +76,7 @@ static inline void stage_free(struct stage *s)
     mesh_free(&s->mesh);
 }
 
-/* Lends the tables that this way of gathering light needs. */
+/* Lends the tables that this technique for direct light needs. */
 static inline void stage_gather(struct stage *s, enum direct direct)
 {
     enum sky_use use = direct == DIRECT_LIGHTS ? SKY_ALONE : SKY_WITH_MIS;
@@ -86,7 +86,7 @@ static inline void stage_gather(struct stage *s, enum direct direct)
     sky_table_lend(&s->skies[use], &s->mesh.world);
 }
 
-/* Means of n paths along the claim's ray. */
+/* Returns means of n paths along the claim's ray. */
 static inline void claim_means(const struct world *w, const struct claim *c,
                                uint32_t seed, double means[3])
 {
@@ -130,15 +130,14 @@ static inline struct estimate claim_estimate(const struct world *w,
     return e;
 }
 
-static inline void check_claim_this_way(const struct world *w,
-                                        const struct claim *c, const char *file,
-                                        int line)
+static inline void check_claim_by(const struct world *w, const struct claim *c,
+                                  const char *file, int line)
 {
     struct estimate e = claim_estimate(w, c);
 
     for (int k = 0; k < 3; k++) {
         double miss = fabs(e.mean[k] - c->truth[k]);
-        /* 1e-5: some tens of roundings of floats */
+        /* 1e-5 is some tens of roundings of floats. */
         double allowed =
             T_LIMIT * e.error[k] + (1e-5 + c->systematic) * c->truth[k];
 
@@ -159,7 +158,7 @@ static inline void check_claim_at(struct stage *s, struct claim c,
         if ((c.without >> direct & 1) != 0)
             continue;
         stage_gather(s, (enum direct)direct);
-        check_claim_this_way(&s->mesh.world, &c, file, line);
+        check_claim_by(&s->mesh.world, &c, file, line);
     }
 }
 

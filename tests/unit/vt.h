@@ -2,14 +2,14 @@
 /*
  * vt.h - a terminal for tests: bytes become a grid of cells
  *
- * Knows what ECMA-48, DEC and xterm say about the sequences that glim and
- * curses send, and answers questions. What would move or remove cells that are
- * on the screen is done and noted in `moved`.
+ * It implements the sequences of ECMA-48, DEC and xterm that glim and curses
+ * send, and answers questions. Sequences that would move or remove cells on the
+ * screen are executed and noted in `moved`.
  *
  * Units:     cells, row 0 at the top
- * Ownership: the grid is the struct's
- * Threads:   one a terminal
- * Errors:    a sequence that it does not know is noted in `unknown`
+ * Ownership: the grid is part of the struct
+ * Threads:   one per terminal
+ * Errors:    an unknown sequence is noted in `unknown`
  */
 #ifndef TESTS_VT_H
 #define TESTS_VT_H
@@ -25,7 +25,7 @@
 #define VT_COLS_MAX 200
 #define VT_ROWS_MAX 80
 
-/* Glyph of the right half of a wide character. */
+/* Glyph in the right half of a wide character. */
 #define VT_TAIL 0x110000u
 
 #define VT_PARAMS_MAX   16
@@ -40,8 +40,8 @@
 #define VT_REVERSE (1u << 7)
 
 struct vt_cell {
-    uint32_t fg, bg; /* as of struct cell */
-    uint32_t glyph;  /* 0: nothing was written since the start */
+    uint32_t fg, bg; /* as in struct cell */
+    uint32_t glyph;  /* 0: nothing was written here yet */
     uint32_t combined[VT_COMBINED_MAX];
     unsigned attributes;
 };
@@ -52,27 +52,29 @@ struct vt {
     int cols, rows;
     struct vt_cell cell[VT_ROWS_MAX][VT_COLS_MAX];
     int row, col;
-    bool is_pending;    /* the last column was written, the next wraps */
-    bool wraps_at_once; /* or wraps without waiting for the next */
-    int top, bottom;    /* of the scroll region */
+    bool is_pending; /* the last column is written, and the next character wraps
+                      */
+    bool wraps_at_once; /* the terminal wraps without waiting for the next
+                           character */
+    int top, bottom;    /* scroll region */
     struct vt_cell pen;
-    struct vt_cell *last; /* that was printed */
+    struct vt_cell *last; /* last printed cell */
     bool inserts;
-    bool is_line[2]; /* G0, G1: line drawing */
-    int shift;       /* which of them is used */
-    /* what is being read */
+    bool is_line[2]; /* G0 and G1 are line drawing */
+    int shift;       /* the set in use */
+    /* state of the parser */
     enum vt_state state;
     char text[VT_TEXT_MAX];
     size_t length;
-    uint32_t point; /* of UTF-8 */
+    uint32_t point; /* UTF-8 character so far */
     int more;
-    char last_string[VT_TEXT_MAX]; /* OSC, DCS or APC, with its kind first */
+    char last_string[VT_TEXT_MAX]; /* OSC, DCS or APC; begins with its kind */
     unsigned string_count;
     char answers[VT_ANSWERS_MAX]; /* for the program; the reader empties it */
     size_t answer_length;
-    char moved[VT_SEQUENCE_MAX];   /* the first that moved cells, or "" */
-    char unknown[VT_SEQUENCE_MAX]; /* the first that is not known, or "" */
-    bool seen[128];                /* last bytes of control sequences */
+    char moved[VT_SEQUENCE_MAX];   /* first sequence that moved cells, or "" */
+    char unknown[VT_SEQUENCE_MAX]; /* first unknown sequence, or "" */
+    bool seen[128];                /* final bytes of control sequences */
 };
 
 static inline void vt_open(struct vt *t, int cols, int rows)
@@ -93,7 +95,7 @@ static inline void vt_note(const struct vt *t, char note[VT_SEQUENCE_MAX])
         snprintf(note, VT_SEQUENCE_MAX, "%.*s", (int)t->length, t->text);
 }
 
-/* As the background is set (bce); the attributes are not. */
+/* The background is the current one (bce); attributes are not kept. */
 static inline void vt_erase(struct vt *t, int y, int x, int end)
 {
     for (; x < end; x++)
@@ -107,7 +109,7 @@ static inline void vt_erase_rows(struct vt *t, int y, int end)
         vt_erase(t, y, 0, t->cols);
 }
 
-/* The cells of the window stay where they were from its upper left corner. */
+/* Cells of the window keep their distance from the upper left corner. */
 static inline void vt_resize(struct vt *t, int cols, int rows)
 {
     struct vt_cell pen = t->pen;
@@ -128,7 +130,7 @@ static inline void vt_resize(struct vt *t, int cols, int rows)
     t->is_pending = false;
 }
 
-/* Rows [top, bottom] up by n, or down by -n. */
+/* Moves rows [top, bottom] up by n, or down by -n. */
 static inline void vt_scroll(struct vt *t, int top, int bottom, int n)
 {
     vt_note(t, t->moved);
@@ -143,7 +145,8 @@ static inline void vt_scroll(struct vt *t, int top, int bottom, int n)
     }
 }
 
-/* Columns from the cursor on to the left by n, or to the right by -n. */
+/* Moves the cells from the cursor on to the left by n, or to the right by
+ * -n. */
 static inline void vt_shift(struct vt *t, int n)
 {
     struct vt_cell *row = t->cell[t->row];
@@ -188,7 +191,7 @@ static inline uint32_t vt_line_drawing(uint32_t c)
     }
 }
 
-/* Half of a wide character that is written over takes the other with it. */
+/* Overwriting half of a wide character erases the other half. */
 static inline void vt_break_wide(struct vt *t, int x)
 {
     struct vt_cell *row = t->cell[t->row];
@@ -375,7 +378,7 @@ static inline void vt_control(struct vt *t, char last)
     if (is_private) {
         if (last == 'h' && params[0] == 1049)
             vt_erase_rows(t, 0, t->rows);
-        return; /* modes, and questions that a terminal need not answer */
+        return; /* modes, and questions that need no answer */
     }
     switch (last) {
     case 'm': vt_sgr(t, params, count); break;
@@ -408,7 +411,7 @@ static inline void vt_control(struct vt *t, char last)
         break;
     case 'n': vt_report(t, params[0]); break;
     case 'c': vt_answer(t, "\033[?62;22c"); break;
-    case 'p': /* a mode, a size: no answer */
+    case 'p': /* a mode or a size: no answer */
     case 't': break;
     default: vt_note(t, t->unknown);
     }
@@ -519,8 +522,8 @@ static inline void vt_write(struct vt *t, const char *bytes, size_t length)
         vt_take(t, (unsigned char)bytes[i]);
 }
 
-/* Colours of the dots of a cell, whatever of its two is the foreground; false
- * if its glyph is none of these. */
+/* Returns the colours of the cell's dots, of both colours whichever is the
+ * foreground. Returns false if the glyph is not of this kind. */
 static inline bool vt_dots(const struct cell *cell, enum glyphs glyphs,
                            uint32_t dots[GLYPH_DOTS_MAX])
 {
@@ -535,7 +538,7 @@ static inline bool vt_dots(const struct cell *cell, enum glyphs glyphs,
     return true;
 }
 
-/* Whether the terminal's cell looks as that of the picture should. */
+/* Returns whether the terminal's cell looks like the cell of the picture. */
 static inline bool vt_shows(const struct vt_cell *got, const struct cell *want,
                             enum glyphs glyphs)
 {
@@ -544,7 +547,7 @@ static inline bool vt_shows(const struct vt_cell *got, const struct cell *want,
 
     if (got->attributes != 0 || got->combined[0] != 0)
         return false;
-    /* the terminal's own colours, or a mark */
+    /* The terminal's default colours, or a mark. */
     if (want->bg == CELL_DEFAULT || !vt_dots(want, glyphs, dots[1]))
         return is.glyph == want->glyph && is.bg == want->bg &&
                (is.fg == want->fg || want->glyph == ' ');
