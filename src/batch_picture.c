@@ -41,7 +41,7 @@ static bool set_up(struct glim *g, const struct options *o, struct error *err)
     if (o->has_max_bounces && !glim_set_max_bounces(g, o->max_bounces, &why))
         return fail_as(err, &why);
     glim_set_seed(g, o->seed);
-    return glim_set_threads(g, options_threads(o), &why) || fail_as(err, &why);
+    return true;
 }
 
 static bool is_read_from(const struct glim *g, const char *path)
@@ -70,7 +70,8 @@ static bool check_output(const struct glim *g, const char *path,
     if (path)
         return image_write_check(path, err);
     if (access(".", W_OK | X_OK) != 0)
-        return fail(err, "the current folder: %s, expected -o FILE elsewhere",
+        return fail(err,
+                    "current folder: %s, expected a writable one or -o FILE",
                     strerror(errno));
     return true;
 }
@@ -195,9 +196,13 @@ static bool run(struct glim *g, const struct options *o, uint64_t start_ns,
 bool batch_picture_run(const struct options *o, uint64_t start_ns, int *status,
                        struct error *err)
 {
+    struct glim_open_options how = {
+        .view_path = o->view_path,
+        .up = o->up_is_z ? GLIM_UP_Z : GLIM_UP_Y,
+        .threads = options_threads(o),
+    };
     struct glim_error why;
-    struct glim *g = glim_open(o->scene_path, o->view_path,
-                               o->up_is_z ? GLIM_UP_Z : GLIM_UP_Y, &why);
+    struct glim *g = glim_open(o->scene_path, &how, &why);
     bool ok = g != NULL ? run(g, o, start_ns, err) : fail_as(err, &why);
 
     *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;

@@ -3,7 +3,7 @@
  * glim.h - renders OBJ scenes: the public interface of libglim
  *
  *     struct glim_error err;
- *     struct glim *g = glim_open("scene.obj", NULL, GLIM_UP_Y, &err);
+ *     struct glim *g = glim_open("scene.obj", NULL, &err);
  *
  *     if (g == NULL || glim_render(g, 64, 0, NULL, NULL, &err) != GLIM_DONE ||
  *         !glim_save(g, "scene.png", &err))
@@ -89,13 +89,22 @@ GLIM_API const char *glim_version(void);
 
 /* ---- scenes ---- */
 
-/* Opens the scene of an OBJ file with its materials and images, and the view
- * file with camera, size and sky: `view_path`, or if that is NULL the file
- * beside the scene that has its name and ends with .view, if there is one. A
- * scene without a camera is seen as a whole, a dark one gets a soft sky. NULL:
- * failed. */
-GLIM_API struct glim *glim_open(const char *path, const char *view_path,
-                                enum glim_up up, struct glim_error *err);
+/* Options of glim_open(); a zeroed struct has the defaults. */
+struct glim_open_options {
+    const char *view_path; /* the view file; NULL: the file beside the scene
+                              that has its name and ends with .view, if there
+                              is one */
+    enum glim_up up;
+    int threads; /* as in glim_set_threads(), also for reading images */
+};
+
+/* Opens the scene of an OBJ file with its materials and images, and its view
+ * file with camera, size and sky. A scene without a camera is seen as a whole,
+ * a dark one gets a soft sky. `options` may be NULL. Returns NULL if it
+ * fails. */
+GLIM_API struct glim *glim_open(const char *path,
+                                const struct glim_open_options *options,
+                                struct glim_error *err);
 
 /* Frees the handle; NULL is none. */
 GLIM_API void glim_close(struct glim *g);
@@ -138,8 +147,8 @@ GLIM_API bool glim_set_max_bounces(struct glim *g, int count,
  * independent noise. */
 GLIM_API void glim_set_seed(struct glim *g, uint32_t seed);
 
-/* Sets the number of CPU threads; 0, the default: all that the process may use.
- * It changes no bit of a picture. */
+/* Sets the number of CPU threads; 0: all that the process may use. It changes
+ * no bit of a picture. */
 GLIM_API bool glim_set_threads(struct glim *g, int count,
                                struct glim_error *err);
 

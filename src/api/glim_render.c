@@ -35,7 +35,7 @@ void handle_drop_render(struct glim *g)
     g->has_picture = false;
 }
 
-static int threads_of(const struct glim *g)
+int handle_threads(const struct glim *g)
 {
     return g->thread_count > 0 ? g->thread_count : usable_threads();
 }
@@ -46,7 +46,7 @@ static bool need_render(struct glim *g, struct error *err)
     if (g->render != NULL)
         return true;
     if (g->device == NULL)
-        g->cpu = backend_cpu_create(threads_of(g), cpu_kernel_best(), err);
+        g->cpu = backend_cpu_create(handle_threads(g), cpu_kernel_best(), err);
     if (g->device == NULL && g->cpu == NULL)
         return false;
     g->render = render_create(g->device != NULL ? g->device : g->cpu, err);
@@ -55,17 +55,23 @@ static bool need_render(struct glim *g, struct error *err)
     return g->render != NULL;
 }
 
+bool handle_set_threads(struct glim *g, int count, struct error *err)
+{
+    if (count < 0 || count > THREADS_MAX)
+        return fail(err, "threads: found %d, expected 0 to %d", count,
+                    THREADS_MAX);
+    g->thread_count = count;
+    return true;
+}
+
 bool glim_set_threads(struct glim *g, int count, struct glim_error *err)
 {
     struct error why;
 
-    if (count < 0 || count > THREADS_MAX) {
-        fail(&why, "threads: found %d, expected 0 to %d", count, THREADS_MAX);
+    if (!handle_set_threads(g, count, &why))
         return handle_fail(err, &why);
-    }
     handle_drop_render(g);
-    g->thread_count = count;
-    g->world.thread_count = threads_of(g);
+    g->world.thread_count = handle_threads(g);
     return true;
 }
 

@@ -8,7 +8,6 @@
 
 #include "base/event_fd.h"
 #include "base/memory.h"
-#include "base/thread.h"
 #include "scene/world_materials.h"
 #include "formats/scene_load.h"
 
@@ -68,21 +67,23 @@ static bool assign(struct glim *g, struct error *err)
     return ok;
 }
 
-static bool open_all(struct glim *g, const char *path, const char *view_path,
-                     enum glim_up up, struct error *err)
+static bool open_all(struct glim *g, const char *path,
+                     const struct glim_open_options *o, struct error *err)
 {
     g->cancel_fd = event_fd_open("glim", err);
-    return g->cancel_fd >= 0 &&
-           view_find(&g->view, path, view_path, &g->view_path, &g->report,
+    return g->cancel_fd >= 0 && handle_set_threads(g, o->threads, err) &&
+           view_find(&g->view, path, o->view_path, &g->view_path, &g->report,
                      err) &&
-           scene_open(&g->scene, &g->world, &g->view, path, up == GLIM_UP_Z,
-                      usable_threads(), &g->report, err) &&
+           scene_open(&g->scene, &g->world, &g->view, path, o->up == GLIM_UP_Z,
+                      handle_threads(g), &g->report, err) &&
            assign(g, err) && make_warnings(g, err);
 }
 
-struct glim *glim_open(const char *path, const char *view_path, enum glim_up up,
+struct glim *glim_open(const char *path,
+                       const struct glim_open_options *options,
                        struct glim_error *err)
 {
+    const struct glim_open_options defaults = {.view_path = NULL};
     struct glim *g = alloc_array(1, sizeof *g);
     struct error why;
 
@@ -92,7 +93,7 @@ struct glim *glim_open(const char *path, const char *view_path, enum glim_up up,
         return NULL;
     }
     view_init(&g->view);
-    if (!open_all(g, path, view_path, up, &why)) {
+    if (!open_all(g, path, options ? options : &defaults, &why)) {
         glim_close(g);
         handle_fail(err, &why);
         return NULL;

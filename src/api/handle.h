@@ -41,6 +41,13 @@ struct glim {
 /* Copies the text to the caller's error, if there is one, and returns false. */
 bool handle_fail(struct glim_error *to, const struct error *err);
 
+/* Sets the number of threads of loading and rendering, as glim_set_threads()
+ * takes it, without an effect on those that run. */
+bool handle_set_threads(struct glim *g, int count, struct error *err);
+
+/* Returns the number of threads, at least 1. */
+int handle_threads(const struct glim *g);
+
 struct glim_progress handle_progress(const struct render_progress *p);
 
 /* Frees the renderer and the threads of the CPU, which the next glim_render()

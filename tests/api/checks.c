@@ -44,7 +44,7 @@ static void check_error(bool ok, const struct glim_error *err, const char *part)
 static struct glim *open_small(void)
 {
     struct glim_error err;
-    struct glim *g = glim_open(scene_path, NULL, GLIM_UP_Y, &err);
+    struct glim *g = glim_open(scene_path, NULL, &err);
 
     if (g == NULL || !glim_set_size(g, WIDTH, HEIGHT, &err)) {
         printf("%s\n", err.text);
@@ -58,10 +58,14 @@ static void check_wrong_values(void)
     struct glim_error err;
     struct glim *g = open_small();
 
-    check_error(glim_open("nowhere/none.obj", NULL, GLIM_UP_Y, &err) != NULL,
-                &err, "none.obj: no such file");
-    check(glim_open("nowhere/none.obj", NULL, GLIM_UP_Y, NULL) == NULL,
+    check_error(glim_open("nowhere/none.obj", NULL, &err) != NULL, &err,
+                "none.obj: no such file");
+    check(glim_open("nowhere/none.obj", NULL, NULL) == NULL,
           "an error without a place for its text");
+    check_error(glim_open(scene_path,
+                          &(struct glim_open_options){.threads = -1},
+                          &err) != NULL,
+                &err, "found -1");
     check_error(glim_set_size(g, 0, 0, &err), &err, "found 0x0");
     check_error(glim_set_size(g, 65537, 5, &err), &err, "found 65537x5");
     check_error(glim_set_crop(g, 30, 0, 3, 1, &err), &err, "30,0,3,1");

@@ -55,8 +55,7 @@ static bool render(struct glim *g, const char *picture, int calls_left,
 int main(int argc, char **argv)
 {
     struct glim_error err = {"usage: example SCENE PICTURE [STOP_AFTER]"};
-    struct glim *g =
-        argc < 3 ? NULL : glim_open(argv[1], NULL, GLIM_UP_Y, &err);
+    struct glim *g = argc < 3 ? NULL : glim_open(argv[1], NULL, &err);
     bool ok =
         g != NULL && render(g, argv[2], argc > 3 ? atoi(argv[3]) : -1, &err);
 

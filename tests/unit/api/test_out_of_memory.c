@@ -172,7 +172,7 @@ static void run(struct outcome *o, const char *scene, long n)
     call_count = 0;
     live_count = 0;
     failing = n;
-    g = glim_open(scene, NULL, GLIM_UP_Y, &o->err);
+    g = glim_open(scene, NULL, &o->err);
     o->has_warning = g != NULL && glim_warning(g, 0) != NULL;
     o->is_done = g != NULL && render(g, o, picture_path);
     glim_close(g);
