@@ -11,7 +11,7 @@
 
 #define PATH_BYTES 4096
 
-/* Reads the first line; false if there is none. */
+/* Reads the first line of a file. Returns false if there is none. */
 static bool first_line(const char *path, char *line, int line_bytes)
 {
     FILE *f = fopen(path, "re");
@@ -22,20 +22,22 @@ static bool first_line(const char *path, char *line, int line_bytes)
     return ok;
 }
 
-/* The smaller limit; 0 is none. */
+/* Returns the smaller of two limits, where 0 means no limit. */
 static uint64_t tighter(uint64_t a, uint64_t b)
 {
     return a == 0 || (b != 0 && b < a) ? b : a;
 }
 
-/* What a control group limits: its controller's name in version 1, and the
- * limit that the files of one folder set, 0 for none. */
+/* Resource that control groups limit: the name of its controller in version 1,
+ * and a function that reads the limit from the files of a group's folder (0 if
+ * there is none). */
 struct resource {
     const char *controller;
     uint64_t (*limit)(const char *folder, bool is_v2);
 };
 
-/* The first line of a file in the folder; false if there is none. */
+/* Reads the first line of a file in the folder. Returns false if there is none.
+ */
 static bool line_in(const char *folder, const char *name, char *line,
                     int line_bytes)
 {
@@ -53,8 +55,8 @@ static uint64_t processors(long long quota_us, long long period_us)
     return n < 1000000 ? (uint64_t)n : 0;
 }
 
-/* Version 2 has "max 100000" or "150000 100000", version 1 two files, with -1
- * for no quota. */
+/* Reads the processor quota. Version 2 has one file with "max 100000" or
+ * "150000 100000"; version 1 has two files, with -1 for no quota. */
 static uint64_t processor_limit(const char *folder, bool is_v2)
 {
     char line[128];
@@ -73,7 +75,7 @@ static uint64_t processor_limit(const char *folder, bool is_v2)
     return processors(quota_us, period_us);
 }
 
-/* A number of bytes, or "max". */
+/* Reads the memory limit: a number of bytes, or "max". */
 static uint64_t memory_limit(const char *folder, bool is_v2)
 {
     const char *name = is_v2 ? "memory.max" : "memory.limit_in_bytes";
@@ -89,8 +91,9 @@ static uint64_t memory_limit(const char *folder, bool is_v2)
 static const struct resource processor_time = {"cpu", processor_limit};
 static const struct resource memory = {"memory", memory_limit};
 
-/* From the group up to the mount. A container may see the host's path here but
- * only its own group at the mount: folders that are missing limit nothing. */
+/* Returns the smallest limit of the group and of its parents up to the mount. A
+ * container may see the host's path here but only its own group at the mount,
+ * so missing folders count as no limit. */
 static uint64_t limit_of_parents(const struct resource *r, const char *mount,
                                  const char *group, bool is_v2)
 {
@@ -119,7 +122,8 @@ static bool has_controller(const char *controllers, const char *name)
     return strstr(list, wanted) != NULL;
 }
 
-/* A line is "7:cpu,cpuacct:/group", or "0::/group" for version 2. */
+/* Returns the limit for a line of proc/self/cgroup: "7:cpu,cpuacct:/group", or
+ * "0::/group" in version 2. */
 static uint64_t limit_of_line(const struct resource *r, const char *root,
                               char *line)
 {

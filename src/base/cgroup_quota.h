@@ -7,25 +7,25 @@
  *
  * Units:     processors, bytes
  * Threads:   any
- * Errors:    none: a file that cannot be read is no limit
+ * Errors:    a file that cannot be read counts as no limit
  */
 #ifndef GLIM_CGROUP_QUOTA_H
 #define GLIM_CGROUP_QUOTA_H
 
 #include <stdint.h>
 
-/* Processors that the quotas of this process's control group and of its
- * parents grant, rounded up; 0 if there is no quota. */
+/* Returns the number of processors that the quotas of this process's control
+ * group and of its parents grant, rounded up; 0 if there is no quota. */
 int cgroup_quota_processors(const char *root);
 
-/* The tightest limit on memory, including memory in use. */
+/* Tightest limit on memory, including memory in use. */
 struct memory_quota {
     uint64_t size_bytes;
     const char *place; /* for messages after "3.9 GiB": "under ulimit -v" */
 };
 
-/* Finds the limits by the machine's memory, the control group with its parents,
- * and the limits of the process. */
+/* Returns the smallest of three limits: the machine's memory, the control group
+ * with its parents, and the limits of the process. */
 struct memory_quota cgroup_quota_memory(const char *root);
 
 #endif

@@ -10,21 +10,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A uint64_t holds any 19 digits. */
+/* Decimal digits that always fit in a uint64_t. */
 #define DIGITS_MAX 19
 
-/* Half-way points between doubles have at most 768 significant digits: what
- * comes after only says whether the number is above one. */
+/* Digits passed to strtod(). Half-way points between doubles have at most 768
+ * significant digits; later digits only tell whether the number lies above one.
+ */
 #define DIGITS_THAT_COUNT 800
 
-/* Beyond any double, and far from overflow when added up. */
+/* Limit for exponents: beyond any double, and far from overflow in sums. */
 #define EXPONENT_MAX 1000000000000LL
 
 __extension__ typedef unsigned __int128 wide_uint;
 
-/* The parts of a number; the value is digits * 10^exponent. */
+/* Parts of a parsed number. Its value is digits * 10^exponent. */
 struct decimal {
-    const char *digits; /* from the first that is not 0; may hold a '.' */
+    const char *digits; /* from the first nonzero digit; may contain a '.' */
     const char *digits_end;
     uint64_t mantissa; /* valid if digit_count <= DIGITS_MAX */
     int64_t digit_count;
@@ -64,8 +65,8 @@ static bool is_digit(const char *p, const char *end)
     return p < end && (unsigned char)(*p - '0') <= 9;
 }
 
-/* Whether the text begins so, in any case. The word has small letters of ASCII,
- * which tolower() does not find in every locale. */
+/* Returns true if the text begins with the word in any letter case. The word is
+ * in lower-case ASCII; tolower() would depend on the locale. */
 static bool begins_with(const char *p, const char *end, const char *word)
 {
     for (; *word != '\0'; p++, word++)
@@ -74,7 +75,7 @@ static bool begins_with(const char *p, const char *end, const char *word)
     return true;
 }
 
-/* "nan", "inf" and "infinity" in any case. */
+/* Reads "nan", "inf" or "infinity" in any letter case. */
 static bool parse_word(const char **p, const char *end, double *value)
 {
     static const struct {
@@ -92,7 +93,8 @@ static bool parse_word(const char **p, const char *end, double *value)
     return false;
 }
 
-/* Moves *p over "e-12", or not at all if no digit comes. */
+/* Reads an exponent such as "e-12" and moves *p behind it. Without digits it
+ * returns 0 and leaves *p. */
 static int64_t parse_exponent(const char **p, const char *end)
 {
     const char *q = *p;
@@ -114,8 +116,8 @@ static int64_t parse_exponent(const char **p, const char *end)
     return is_negative ? -exponent : exponent;
 }
 
-/* Zeros before the first digit that counts; the mantissa overflows harmlessly
- * beyond DIGITS_MAX. */
+/* Reads the digits and the decimal point. Leading zeros are not counted. The
+ * mantissa wraps around beyond DIGITS_MAX digits and is not used then. */
 static bool parse_digits(const char **p, const char *end, struct decimal *d)
 {
     const char *q = *p;
@@ -153,10 +155,10 @@ static bool parse_digits(const char **p, const char *end, struct decimal *d)
     return true;
 }
 
-/* Correctly rounded, by one exact step and one rounding. Up to 2^53 and
- * 10^22 both are doubles (Clinger 1990). Above, integers of 128 bits hold the
- * product, or a quotient of at least 63 bits whose last bit also stands for
- * the remainder. */
+/* Converts with one exact operation and one rounding, so the result is
+ * correctly rounded. Up to 2^53 and 10^22 both operands are doubles (Clinger
+ * 1990). Above that, 128-bit integers hold the product, or a quotient of at
+ * least 63 bits whose last bit also stands for the remainder. */
 static bool convert_fast(const struct decimal *d, double *value)
 {
     int64_t e = d->exponent;
@@ -185,8 +187,8 @@ static bool convert_fast(const struct decimal *d, double *value)
     return true;
 }
 
-/* Through strtod() on a text without a decimal point, which every locale reads
- * alike. */
+/* Converts with strtod(). The text has no decimal point, so every locale reads
+ * it alike. */
 static double convert_slow(const struct decimal *d)
 {
     char text[DIGITS_THAT_COUNT + 32];
@@ -236,7 +238,8 @@ bool decimal_parse(const char **p, const char *end, double *value)
     return true;
 }
 
-/* Writes so many digits, and reads them. */
+/* Writes the value with this number of digits, and returns the value that
+ * reading the text back gives. */
 static double format_digits(char text[DECIMAL_TEXT_BYTES], double value,
                             int digits)
 {
@@ -244,14 +247,15 @@ static double format_digits(char text[DECIMAL_TEXT_BYTES], double value,
     double back = 0;
 
     snprintf(text, DECIMAL_TEXT_BYTES, "%.*g", digits, value);
-    char *comma = strchr(text, ','); /* the locale's decimal point */
+    char *comma = strchr(text, ','); /* decimal point of some locales */
     if (comma)
         *comma = '.';
     decimal_parse(&p, text + strlen(text), &back);
     return back;
 }
 
-/* Six digits, trailing zeros left out, and more only where they are needed. */
+/* Tries six digits first, and more until the text reads back exactly. Trailing
+ * zeros are left out. */
 void decimal_format(char text[DECIMAL_TEXT_BYTES], double value)
 {
     for (int digits = 6; digits <= 17; digits++) {

@@ -10,21 +10,21 @@
 
 #include <stdbool.h>
 
-/* Reads a decimal number at *p, before end; moves *p behind it. Accepts nan,
- * inf, +1, .5, 5., 1e400 (gives inf). The value is the nearest double. False:
- * no number there, *p unmoved. */
+/* Reads a decimal number at *p, before end, and moves *p behind it. Accepts
+ * nan, inf, +1, .5, 5., 1e400 (gives inf). The value is the nearest double.
+ * Returns false, with *p unmoved, if there is no number. */
 bool decimal_parse(const char **p, const char *end, double *value);
 
-/* Size of the text of any number. */
+/* Size of a buffer for the text of any number. */
 #define DECIMAL_TEXT_BYTES 32
 
-/* Writes the shortest usual form that decimal_parse() reads back exactly. It is
- * the form of a float if the number is one. */
+/* Writes the shortest usual form that decimal_parse() reads back exactly; for a
+ * value that is exactly a float, the form of the float. */
 void decimal_format(char text[DECIMAL_TEXT_BYTES], double value);
 void decimal_format_float(char text[DECIMAL_TEXT_BYTES], float value);
 
-/* Returns the number of the shortest text of the value as a float. Beyond the
- * range of normal floats it returns the value. */
+/* Returns the double nearest to the shortest text of the value as a float. A
+ * value beyond the range of normal floats is returned unchanged. */
 double decimal_shortened(double value);
 
 #endif

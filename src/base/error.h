@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-/* One finished line: place, what was found, what was expected. */
+/* One finished line: the place, the text found there, and the expected one. */
 struct error {
     char text[1024];
 };

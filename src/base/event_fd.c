@@ -21,7 +21,7 @@ void event_fd_set(int fd)
     const uint64_t one = 1;
 
     if (write(fd, &one, sizeof one) < 0) {
-        /* the counter is full: it is readable anyway */
+        /* the counter is full, so the descriptor is readable anyway */
     }
 }
 
@@ -30,6 +30,6 @@ void event_fd_clear(int fd)
     uint64_t count;
 
     if (read(fd, &count, sizeof count) < 0) {
-        /* nothing there */
+        /* the counter was zero already */
     }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * event_fd.h - a descriptor with which a thread or a signal handler wakes a
- * poll()
+ * event_fd.h - descriptor with which a thread or a signal handler wakes poll()
  *
  * Ownership: the descriptor is the caller's to close()
  * Threads:   any
@@ -15,8 +14,8 @@
 /* Returns the descriptor, or -1 and a message that begins with `whose`. */
 int event_fd_open(const char *whose, struct error *err);
 
-/* Makes the descriptor readable until event_fd_clear(). Signal handlers may
- * call it if they restore errno. */
+/* Makes the descriptor readable until event_fd_clear(). Signal handlers that
+ * restore errno may call it. */
 void event_fd_set(int fd);
 void event_fd_clear(int fd);
 

@@ -15,13 +15,13 @@
 #include "base/memory.h"
 #include "base/temp_file.h"
 
-/* Most links in a row, as in the kernel. */
+/* Limit for a chain of symbolic links, as in the kernel. */
 #define LINKS_MAX 40
 
-/* Most numbered names that are tried. */
+/* Limit for the numbers in file names that are tried. */
 #define NUMBER_MAX 100000
 
-/* The system's message for errno, or a plainer one. */
+/* Fails with the system's message for errno, or with a plainer one. */
 static bool fail_errno(struct error *err, const char *path)
 {
     switch (errno) {
@@ -62,7 +62,8 @@ static bool expect_regular(const char *path, const struct stat *st,
                                         path, kind_of(st->st_mode));
 }
 
-/* More than the machine has would end in its out-of-memory killer. */
+/* Fails for a file larger than the memory limit, before the kernel's
+ * out-of-memory killer ends the process. */
 static bool expect_size(const char *path, int64_t size_bytes, struct error *err)
 {
     struct memory_quota memory = cgroup_quota_memory("");
@@ -127,7 +128,7 @@ static bool read_open_file(int fd, const char *path, char **text,
 bool file_read(const char *path, char **text, size_t *size_bytes,
                struct error *err)
 {
-    /* without O_NONBLOCK, opening a pipe waits for its writer */
+    /* without O_NONBLOCK, opening a named pipe would wait for a writer */
     int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
 
     if (fd < 0)
@@ -160,8 +161,7 @@ bool file_is_same(const struct file_identity *a, const struct file_identity *b)
            a->modified.tv_nsec == b->modified.tv_nsec;
 }
 
-/* For free(), as all that the functions on paths return; NULL when memory is
- * out. */
+/* Returns the folder of a path for free(), or NULL if memory is out. */
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -171,7 +171,8 @@ static char *folder_of(const char *path)
     return slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
 }
 
-/* Follows the links of a path. The result need not exist. */
+/* Follows the symbolic links of a path. The result need not exist. It is for
+ * free(), or NULL if memory is out. */
 static char *target_of(const char *path)
 {
     char *target = strdup(path);
@@ -194,7 +195,8 @@ static bool fail_memory(struct error *err, const char *path)
     return fail(err, "%s: out of memory for its name", path);
 }
 
-/* A target, its folder, and how messages name it. */
+/* Fails unless the target is a regular file or missing, and can be written.
+ * Messages call it `path`. */
 static bool check_target(const char *target, const char *folder,
                          const char *path, struct error *err)
 {
@@ -238,8 +240,8 @@ static bool write_all(int fd, const char *data, size_t size_bytes)
     return true;
 }
 
-/* Syncs the folder, so that the new name is durable. Some file systems cannot,
- * which does no harm. */
+/* Syncs the folder, so that the new name is durable. File systems that cannot
+ * do this are left alone. */
 static void sync_folder(const char *folder)
 {
     int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -250,7 +252,7 @@ static void sync_folder(const char *folder)
     }
 }
 
-/* Fails with ESTALE if the file has changed. */
+/* Returns false, with errno ESTALE, if the file has changed. */
 static bool is_as_before(const char *target, const struct file_change *change)
 {
     struct file_identity now = file_identify(target);
@@ -271,13 +273,14 @@ static bool fill_after(int fd, struct file_change *change)
     return true;
 }
 
-/* What is written where, and what must be there before. */
+/* Replacement of a file: the data, the target, and the version that must be
+ * there before. */
 struct replacement {
     const char *folder, *target;
     const void *data;
     size_t size_bytes;
     bool must_be_new;
-    struct file_change *change; /* NULL: whatever it is now */
+    struct file_change *change; /* NULL replaces any version */
 };
 
 static bool expects_none(const struct replacement *r)
@@ -295,7 +298,8 @@ static bool fill(const struct replacement *r, int fd)
            (!r->change || fill_after(fd, r->change));
 }
 
-/* All steps until the file has its name; errno says what failed. */
+/* Writes, syncs and publishes a temporary file. Returns false and errno if a
+ * step fails. */
 static bool replace_by(const struct replacement *r, bool has_name)
 {
     struct temp_file t;
@@ -306,7 +310,8 @@ static bool replace_by(const struct replacement *r, bool has_name)
     return temp_file_close(&t) && ok;
 }
 
-/* The file has no name while it is written if that is possible here. */
+/* Writes the data to a file without a name if the file system supports it, and
+ * otherwise to one with a temporary name. */
 static bool replace(const struct replacement *r)
 {
     bool ok = replace_by(r, false) ||
@@ -365,7 +370,7 @@ bool file_write_stdout(const void *data, size_t size_bytes, struct error *err)
             p += n;
             left -= (size_t)n;
         } else if (errno == EAGAIN) {
-            /* whoever gave us the pipe made it non-blocking */
+            /* the pipe's creator may have made it non-blocking */
             poll(&(struct pollfd){.fd = STDOUT_FILENO, .events = POLLOUT}, 1,
                  -1);
         } else if (errno != EINTR) {
@@ -383,7 +388,7 @@ char *file_write_numbered(const char *stem, const char *ending,
 
     for (int i = 2; path && i <= NUMBER_MAX; i++) {
         struct stat st;
-        /* looking first saves writing the file for each name that is taken */
+        /* lstat() first: saves writing the file for each name that is taken */
         bool exists = lstat(path, &st) == 0;
 
         if (!exists && file_write(path, data, size_bytes, true, &exists, err))
@@ -433,8 +438,8 @@ char *path_beside(const char *beside, const char *name)
     return format_text("%.*s%s", (int)(slash + 1 - beside), beside, name);
 }
 
-/* The path with its folder as the system knows it; NULL if there is no such
- * folder or memory is out. */
+/* Returns the path with symbolic links of its folder resolved, for free(); NULL
+ * if the folder does not exist or memory is out. */
 static char *real_path(const char *path)
 {
     char *folder = folder_of(path);

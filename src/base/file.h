@@ -42,53 +42,56 @@ bool file_is_same(const struct file_identity *a, const struct file_identity *b);
 /* A file that was read, changed and written again. */
 struct file_change {
     struct file_identity before, after;
-    bool is_kept; /* the old version is kept in NAME~ */
+    bool is_kept; /* the old version is kept as NAME~ */
 };
 
-/* Fails early where file_write() would: for a folder, a device, a missing
- * folder, without permission. Changes nothing. */
+/* Fails where file_write() would, without changing anything: for a folder, a
+ * device, a missing folder, without permission. */
 bool file_check(const char *path, struct error *err);
 
-/* Replaces the file atomically: temporary file in its folder, fsync, and the
- * name at last (temp_file.h). Keeps the permissions of a file that was there;
- * replaces what a link points to. If must_be_new, an existing file is left
- * alone and *exists (may be NULL) is set. */
+/* Replaces the file atomically: a temporary file in its folder is written,
+ * synced and given the name at last (temp_file.h). Keeps the permissions of an
+ * existing file. Writes through symbolic links. If must_be_new, an existing
+ * file is left alone and *exists (may be NULL) is set. */
 bool file_write(const char *path, const void *data, size_t size_bytes,
                 bool must_be_new, bool *exists, struct error *err);
 
-/* file_write() that fails if the file is not as change->before has it, so that
- * no change by others is lost. Sets change->after to the new file. */
+/* Writes as file_write() does, but fails if the file differs from
+ * change->before, so that no change by others is lost. Sets change->after to
+ * the new file. */
 bool file_replace(const char *path, const void *data, size_t size_bytes,
                   struct file_change *change, struct error *err);
 
-/* Writes STEM.ENDING, or STEM-2.ENDING, STEM-3.ENDING, ... : the first name
- * that is free; never replaces a file. The name is for free(); NULL: failed. */
+/* Writes the file under the first free name of STEM.ENDING, STEM-2.ENDING,
+ * STEM-3.ENDING and so on. Never replaces a file. Returns the name for free(),
+ * or NULL on failure. */
 char *file_write_numbered(const char *stem, const char *ending,
                           const void *data, size_t size_bytes,
                           struct error *err);
 
-/* Writes all, also where standard output does not block. */
+/* Writes all bytes, even if standard output is non-blocking. */
 bool file_write_stdout(const void *data, size_t size_bytes, struct error *err);
 
-/* Makes the folder, and those that it lies in, for this person only. `path` is
- * changed meanwhile. False and errno if that fails. */
+/* Makes the folder and its missing parents, with access for this user only.
+ * Writes to `path` while it runs and restores it. Returns false and errno on
+ * failure. */
 bool folder_make(char *path);
 
 /* Returns the path of `name` relative to the folder of `beside`. An absolute
  * name is not changed. */
 char *path_beside(const char *beside, const char *name);
 
-/* Returns the name of `path` for use in the file `beside`: relative to the
- * folder of that if it lies below, else absolute. */
+/* Returns the name of `path` for use in the file `beside`: relative if it lies
+ * in the folder of `beside` or below, else absolute. */
 char *path_seen_from(const char *beside, const char *path);
 
-/* True if both paths name the same file, which may not exist yet. */
+/* Returns true if both paths name the same file, which may not exist yet. */
 bool path_is_same(const char *a, const char *b);
 
-/* The last part of the path, which it points into. */
+/* Returns a pointer to the last part of the path. */
 const char *path_name(const char *path);
 
-/* The path without the ending of its last part: a/b.obj gives a/b. */
+/* Returns the path without the ending of its last part: a/b.obj gives a/b. */
 char *path_stem(const char *path);
 
 #endif

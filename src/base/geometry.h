@@ -5,7 +5,6 @@
  * Cameras and files are computed in double; kernels/vec.h has the floats of
  * samples.
  *
- * Units:     as the names say
  * Threads:   any
  */
 #ifndef GLIM_GEOMETRY_H
@@ -43,7 +42,7 @@ static inline void vec3d_sub(const double a[3], const double b[3], double to[3])
         to[i] = a[i] - b[i];
 }
 
-/* Overflows only where the result does. */
+/* Returns the length; it overflows only if the result is out of range. */
 static inline double vec3d_length(const double v[3])
 {
     return hypot(hypot(v[0], v[1]), v[2]);

@@ -9,7 +9,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 
-/* Longer words are cut in messages. */
+/* Bytes of a word that a message quotes; longer words are cut. */
 #define QUOTE_BYTES 40
 
 bool lexer_is_blank(char c)
@@ -31,7 +31,7 @@ void lexer_init(struct lexer *lex, const char *text, size_t size_bytes)
         lex->p += 3;
 }
 
-/* Bytes of a line's end at p: 0, 1 or 2. */
+/* Returns the size of the line end at p: 0, 1 or 2 bytes. */
 static size_t line_end_bytes(const char *p, const char *end)
 {
     if (p == end || !is_line_end(*p))
@@ -39,7 +39,8 @@ static size_t line_end_bytes(const char *p, const char *end)
     return *p == '\r' && end - p > 1 && p[1] == '\n' ? 2 : 1;
 }
 
-/* Bytes of a backslash and the end of the line or text after it, or 0. */
+/* Returns the size of the join at p, which is a backslash with the end of the
+ * line or text behind it, or 0. */
 static size_t join_bytes(const char *p, const char *end)
 {
     size_t n;
@@ -107,7 +108,7 @@ struct word lexer_word(struct lexer *lex)
     return word;
 }
 
-/* Bytes of the join at p, or 0: behind a '#' there are none. */
+/* Returns the size of the join at p, or 0. There are no joins behind a '#'. */
 static size_t rest_join_bytes(const char *p, const char *end, bool *in_comment)
 {
     *in_comment |= *p == '#';
@@ -135,7 +136,7 @@ char *lexer_rest(struct lexer *lex)
     in_comment = false;
     for (const char *p = start; p < lex->p;) {
         size_t n = rest_join_bytes(p, lex->p, &in_comment);
-        /* A NUL would end the name early, and two names could be one. */
+        /* a NUL would end the name early and could make two names equal */
         char c = n != 0 || *p == '\0' ? ' ' : *p;
 
         if (length > 0 || !lexer_is_blank(c))
@@ -155,8 +156,9 @@ const char *lexer_rest_guard(const char *rest)
     return length > 0 && rest[length - 1] == '\\' ? " " : "";
 }
 
-/* What printf() of Microsoft's libraries writes: 1.#INF, 1.#IND, 1.#QNAN and
- * 1.#SNAN, with zeros for the digits that were asked for, or nan(ind). */
+/* Reads the special numbers that printf() of Microsoft's libraries writes:
+ * 1.#INF, 1.#IND, 1.#QNAN and 1.#SNAN, padded with zeros to the requested
+ * digits, or nan(ind). */
 static bool microsoft_number(struct word word, double *value)
 {
     char text[16];

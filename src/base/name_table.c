@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* FNV-1a: names are short. */
+/* Returns the FNV-1a hash, which is fast for short names. */
 static uint32_t hash(const char *name)
 {
     uint32_t h = 2166136261u;
@@ -16,7 +16,7 @@ static uint32_t hash(const char *name)
     return h ^ h >> 15;
 }
 
-/* The slot that has the name, or the free one where it belongs. The table is
+/* Returns the slot of the name, or the free slot where it belongs. The table is
  * never full. */
 static uint32_t *slot_of(const struct name_table *names, const char *name)
 {

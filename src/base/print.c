@@ -19,7 +19,7 @@ bool print_shows(uint32_t c)
     return !is_control && !ends_line && !turns && !is_none;
 }
 
-/* The C library's wide characters are Unicode's numbers. */
+/* Assumes that wide characters of the C library are Unicode code points. */
 struct print_character print_first(const char *text)
 {
     mbstate_t state = {0};
@@ -47,10 +47,11 @@ void print_replace(char *text)
     *to = '\0';
 }
 
-/* Stands for a text that memory is out for. */
+/* Replaces a message for which memory is out. */
 static const char out_of_memory[] = "glim: out of memory\n";
 
-/* In one piece, so that no other program's output gets between. */
+/* Writes the message with one call, so that output of other programs cannot
+ * come in between. */
 __attribute__((format(printf, 3, 0))) static void
 print(FILE *to, const char *end, const char *format, va_list values)
 {

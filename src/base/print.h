@@ -20,21 +20,22 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* True if the character with this Unicode code point is shown. */
+/* Returns true if the character with this Unicode code point is shown as it is.
+ */
 bool print_shows(uint32_t code);
 
-/* A character of the text as it is shown. */
+/* First character of a text in the form in which it is shown. */
 struct print_character {
     const char *bytes;
-    size_t size_bytes;  /* bytes that are shown */
-    size_t taken_bytes; /* bytes of the text that it stands for */
+    size_t size_bytes;  /* bytes to show */
+    size_t taken_bytes; /* bytes of the text that the character replaces */
     int cols;
 };
 
-/* Returns the first character of a text that is not empty. */
+/* Returns the first character of a text, which must not be empty. */
 struct print_character print_first(const char *text);
 
-/* Makes the text one line that can be shown. It gets no longer. */
+/* Replaces unsafe characters and line ends in place. The text does not grow. */
 void print_replace(char *text);
 
 /* Writes the text with unsafe characters replaced. print_line() adds a line
@@ -44,7 +45,8 @@ void print_text(FILE *to, const char *format, ...)
 void print_line(FILE *to, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* The same for a text of several lines, in which a tab is a blank. */
+/* Writes a text of several lines with unsafe characters replaced. A tab becomes
+ * a blank. */
 void print_lines(FILE *to, const char *text);
 
 #endif

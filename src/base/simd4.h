@@ -74,19 +74,19 @@ static inline f4 f4_max(f4 a, f4 b)
     return _mm_max_ps(a, b);
 }
 
-/* a, but 0 where it is above `most`. */
+/* Returns a, with lanes above `most` set to 0. */
 static inline f4 f4_zero_above(f4 a, f4 most)
 {
     return _mm_and_ps(a, _mm_cmple_ps(a, most));
 }
 
-/* Converts integers below 2^31. */
+/* Converts integers below 2^31 to floats. */
 static inline f4 f4_from_u32(const uint32_t *p)
 {
     return _mm_cvtepi32_ps(_mm_load_si128((const void *)p));
 }
 
-/* Truncates to integers, as f4_truncate(). */
+/* Stores a truncated to integers, as f4_truncate(). */
 static inline void f4_store_u32(uint32_t *p, f4 a)
 {
     _mm_store_si128((void *)p, _mm_cvttps_epi32(a));
@@ -97,7 +97,8 @@ static inline f4 f4_truncate(f4 a)
     return _mm_cvtepi32_ps(_mm_cvttps_epi32(a));
 }
 
-/* a0 a1 + a1 a2 + a2 a0: half the surface area of a box with these sides. */
+/* Returns a0 a1 + a1 a2 + a2 a0: half the surface area of a box with these
+ * sides. */
 static inline float f4_pairs3(f4 a)
 {
     f4 b = _mm_mul_ps(a, _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1)));
@@ -107,8 +108,8 @@ static inline float f4_pairs3(f4 a)
         _mm_add_ss(_mm_add_ss(b, second), _mm_movehl_ps(b, b)));
 }
 
-/* Transposes the first three lanes of three vectors. The last lane copies the
- * one before. */
+/* Transposes the first three lanes of three vectors. The last lane copies lane
+ * 2. */
 static inline void f4_transpose3(f4 a, f4 b, f4 c, f4 to[3])
 {
     f4 low = _mm_unpacklo_ps(a, b), high = _mm_unpackhi_ps(a, b);
@@ -128,14 +129,14 @@ static inline uint32_t f4_mask_lt(f4 a, f4 b)
     return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a, b));
 }
 
-/* Mask of the lanes in which a, b and c are equal. */
+/* Returns the mask of lanes in which a, b and c are equal. */
 static inline uint32_t f4_mask_equal3(f4 a, f4 b, f4 c)
 {
     return (uint32_t)_mm_movemask_ps(
         _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c)));
 }
 
-/* Mask of the integers that are n. */
+/* Returns the mask of integers equal to n. */
 static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
 {
     __m128i same = _mm_cmpeq_epi32(_mm_load_si128((const void *)p),
@@ -144,7 +145,7 @@ static inline uint32_t f4_mask_equal_u32(const uint32_t *p, uint32_t n)
     return (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(same));
 }
 
-/* x in the lanes in which a, b and c are equal, else y. */
+/* Selects x in lanes in which a, b and c are equal, and y elsewhere. */
 static inline f4 f4_select_equal3(f4 a, f4 b, f4 c, f4 x, f4 y)
 {
     f4 same = _mm_and_ps(_mm_cmpeq_ps(a, b), _mm_cmpeq_ps(a, c));

@@ -2,13 +2,13 @@
 /*
  * simd8.h - vectors of eight floats: AVX2, or two halves of four (simd4.h)
  *
- * Functions that simd4.h has as well do the same here, without contraction.
+ * Functions with the name of one in simd4.h do the same, without contraction.
  *
  * The functions of distances may give other bits on other processors.
  * f8_mul_sub rounds once or twice. f8_distance_max and f8_distance_min return
  * any of two negative numbers. f8_distance_mask_lt needs a first number that is
- * not negative. f8_distance_add_ulps adds so many units in the last place, or a
- * few more.
+ * not negative. f8_distance_add_ulps adds that many units in the last place, or
+ * a few more.
  */
 #ifndef GLIM_SIMD8_H
 #define GLIM_SIMD8_H
@@ -106,8 +106,8 @@ static inline f8 f8_mul_sub(f8 a, f8 b, f8 c)
 #endif
 }
 
-/* Integer comparison of the bits, which have the order of positive floats,
- * takes a quarter of the time. */
+/* Compares the bits as integers, which have the order of positive floats. This
+ * takes a quarter of the time of a float comparison. */
 static inline f8 f8_distance_max(f8 a, f8 b)
 {
     return _mm256_castsi256_ps(

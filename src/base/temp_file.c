@@ -16,14 +16,16 @@
 #include "base/clock.h"
 #include "base/memory.h"
 
-/* Names tried before giving up; each differs by the clock already. */
+/* Names that are tried. Names contain the clock, so one usually suffices. */
 #define TRIES 100
 
-/* Process numbers of other hosts mean nothing here, and clocks differ. */
+/* Age in seconds from which files of other hosts are swept too. Their process
+ * numbers mean nothing here, and their clocks may differ. */
 #define OLD_S (24 * 60 * 60)
 
-/* Where process numbers have a meaning: this boot of this kernel, and in it the
- * name space of processes, of which each container has one. 0: not known. */
+/* Returns a hash of the boot and of the process namespace, within which process
+ * numbers are unique; 0 if they are not known. Each container has its own
+ * namespace. */
 static uint32_t host_id(void)
 {
     char boot[64];
@@ -51,7 +53,7 @@ static void format_name(char name[NAME_BYTES], uint32_t host, int pid,
              number);
 }
 
-/* For free(); NULL and ENOMEM when memory is out. */
+/* Returns a new name for free(), or NULL and ENOMEM if memory is out. */
 static char *new_name(const char *folder, unsigned try)
 {
     char name[NAME_BYTES];
@@ -87,7 +89,7 @@ bool temp_file_open(struct temp_file *t, const char *folder, bool has_name,
     return t->fd >= 0;
 }
 
-/* Gives a file without a name this one, if nothing has it. */
+/* Gives an unnamed file this name. Fails if the name is taken. */
 static bool link_unnamed(const struct temp_file *t, const char *path)
 {
     char self[64];
@@ -117,12 +119,12 @@ static void forget_name(struct temp_file *t)
     t->name = NULL;
 }
 
-/* A link is made only where there is nothing yet; file systems without links
- * have a rename that does the same. */
+/* Publishes by link(), which never replaces a file. File systems without links
+ * have a rename that does not replace either. */
 static bool publish_new(struct temp_file *t, const char *target)
 {
     if (link(t->name, target) == 0)
-        return true; /* the temporary name goes when the file is closed */
+        return true; /* temp_file_close() removes the temporary name */
     if ((errno != EPERM && errno != EOPNOTSUPP) ||
         renameat2(AT_FDCWD, t->name, AT_FDCWD, target, RENAME_NOREPLACE) != 0)
         return false;
@@ -161,7 +163,8 @@ bool temp_file_close(struct temp_file *t)
     return ok;
 }
 
-/* Is it exactly what format_name() makes? */
+/* Parses a temporary name. Returns false unless format_name() makes exactly the
+ * same text of its numbers. */
 static bool parse_name(const char *name, uint32_t *host, int *pid)
 {
     char same[NAME_BYTES];

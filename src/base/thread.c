@@ -8,7 +8,7 @@
 #include "base/cgroup_quota.h"
 #include "base/memory.h"
 
-/* More processors than any kernel is built for. */
+/* Limit above the number of processors in any kernel configuration. */
 #define PROCESSORS_MAX (1 << 16)
 
 int thread_start(pthread_t *thread, void *(*run)(void *), void *argument)
@@ -26,7 +26,8 @@ int thread_start(pthread_t *thread, void *(*run)(void *), void *argument)
     return reason;
 }
 
-/* The kernel refuses a mask smaller than its own: try greater ones. */
+/* Returns the number of processors in the affinity mask, or 1 if unknown. The
+ * kernel refuses a mask smaller than its own, so larger ones are tried. */
 static int processors_of_affinity(void)
 {
     for (int count = CPU_SETSIZE; count <= PROCESSORS_MAX; count *= 2) {

@@ -11,14 +11,13 @@
 
 #include <pthread.h>
 
-/* Starts run(argument) with signals blocked, as a worker that took SIGWINCH
- * would leave the main thread waiting for a key. Only signals of a fault of its
- * own reach the thread, for the handler that restores the terminal. Returns 0
- * or an error number. */
+/* Starts run(argument) with signals blocked: a worker that took SIGWINCH would
+ * leave the main thread waiting for a key. Fault signals stay open, for the
+ * handler that restores the terminal. Returns 0 or an error number. */
 int thread_start(pthread_t *thread, void *(*run)(void *), void *argument);
 
-/* Returns the number of threads that this process may run at once, by its
- * affinity mask and the quota of its cgroup: at least 1. */
+/* Returns the number of threads that this process may run at once, at least 1,
+ * by its affinity mask and the quota of its control group. */
 int usable_threads(void);
 
 #endif

@@ -10,9 +10,9 @@
 #include "base/memory.h"
 #include "base/thread.h"
 
-/* A worker's items, first to end-1, as first << 32 | end: one word, so that
- * owner and thieves take items by an atomic exchange. Each has a cache line of
- * its own to avoid false sharing. */
+/* Range of items that a worker owns, packed as first << 32 | end: owner and
+ * thieves take items by an atomic exchange. Each range has its own cache line
+ * to avoid false sharing. */
 struct share {
     _Alignas(64) _Atomic uint64_t items;
 };
@@ -29,8 +29,8 @@ struct pool {
     struct share *shares;
 
     pthread_mutex_t lock;
-    pthread_cond_t begin; /* a job is there, or the end */
-    pthread_cond_t end;   /* the last worker is parked */
+    pthread_cond_t begin; /* a job has come or the pool ends */
+    pthread_cond_t end;   /* the last worker has parked */
     /* guarded by lock */
     uint64_t job_number;
     int busy_count;
@@ -46,7 +46,7 @@ static uint64_t share_pack(uint32_t first, uint32_t end)
     return (uint64_t)first << 32 | end;
 }
 
-/* The first item of a worker's own share. */
+/* Takes the first item of a worker's range. Returns false if it is empty. */
 static bool share_take(struct share *s, uint32_t *item)
 {
     uint64_t old = atomic_load(&s->items);
@@ -65,8 +65,8 @@ static bool share_take(struct share *s, uint32_t *item)
     }
 }
 
-/* Moves the upper half of the largest share to worker `thief`. False if
- * nothing is left anywhere. */
+/* Moves the upper half of the largest range to worker `thief`. Returns false if
+ * all ranges are empty. */
 static bool share_steal(struct pool *p, int thief)
 {
     for (;;) {

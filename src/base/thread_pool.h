@@ -20,7 +20,7 @@
 
 #include "base/error.h"
 
-/* A request to stop. OpenCL kernels read it as one 32-bit word. */
+/* Request to stop. OpenCL kernels read it as one 32-bit word. */
 struct cancel {
     atomic_uint requested;
 };
@@ -44,20 +44,20 @@ typedef void pool_job(void *context, uint32_t item, int worker);
 
 struct pool;
 
-/* Starts thread_count workers, with all signals blocked in them. */
+/* Starts thread_count workers with all signals blocked. */
 struct pool *pool_create(int thread_count, struct error *err);
 int pool_thread_count(const struct pool *pool);
 
 /* Returns the processor time that a worker has used so far, in nanoseconds. */
 uint64_t pool_cpu_ns(const struct pool *pool, int worker);
 
-/* Runs job(context, i, worker) for all i below count; blocks until every
- * worker is parked. When cancel is requested no further item is started.
- * True if all items were run. */
+/* Runs job(context, i, worker) for all i below count, and returns when every
+ * worker is parked. After a request to cancel no further item is started.
+ * Returns true if all items were run. */
 bool pool_run(struct pool *pool, uint32_t count, pool_job *job, void *context,
               const struct cancel *cancel);
 
-/* pool_run() that cannot be cancelled. Without a pool, or for a single item, it
+/* Runs all items without cancellation. Without a pool, or for a single item, it
  * runs in the caller's thread as worker 0. */
 void pool_each(struct pool *pool, uint32_t count, pool_job *job, void *context);
 

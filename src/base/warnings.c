@@ -18,7 +18,8 @@ static struct warnings_entry *find(const struct warnings *r, const char *kind)
     return NULL;
 }
 
-/* Takes both texts over; NULL: memory is out. */
+/* Appends an entry, which takes over both texts. A text that is NULL means that
+ * memory was out. */
 static void append(struct warnings *r, char *kind, char *text)
 {
     void *entries = r->entries;
@@ -35,7 +36,8 @@ static void append(struct warnings *r, char *kind, char *text)
     r->entries[r->entry_count++] = (struct warnings_entry){kind, text, 1};
 }
 
-/* Counts in the entry of this kind, made with the text if there is none yet. */
+/* Counts one warning in the entry of this kind, which is made with the text if
+ * it does not exist yet. */
 __attribute__((format(printf, 3, 0))) static void
 add(struct warnings *r, const char *kind, const char *format, va_list args)
 {
@@ -59,7 +61,7 @@ void warnings_add(struct warnings *r, const char *kind, const char *format, ...)
     va_end(args);
 }
 
-/* How many entries are of this kind with a name behind it. */
+/* Returns the number of entries of this kind with a name behind it. */
 static int count_named(const struct warnings *r, const char *kind)
 {
     size_t length = strlen(kind);
@@ -74,7 +76,7 @@ static int count_named(const struct warnings *r, const char *kind)
 void warnings_add_named(struct warnings *r, const char *kind, const char *name,
                         const char *format, ...)
 {
-    /* Long names that begin alike count as one. */
+    /* long names that begin alike count as one */
     char *named = format_text("%s '%.100s'", kind, name);
 
     bool is_full =

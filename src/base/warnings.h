@@ -16,27 +16,27 @@
 
 struct warnings_entry {
     char *kind;
-    char *text; /* the first of its kind, one finished line */
+    char *text; /* text of the first warning: one finished line */
     uint64_t count;
 };
 
-/* A zeroed struct is an empty report. */
+/* List of warnings. A zeroed struct is empty. */
 struct warnings {
     struct warnings_entry *entries;
     int entry_count;
     size_t capacity;
-    bool has_lost; /* an entry, as memory was out */
+    bool has_lost; /* true if a warning was lost because memory was out */
 };
 
-/* Counts one warning of this kind; keeps the text if it is the first. `kind`
- * is a short phrase that reads well after a number: "faces with a bad index".
- */
+/* Counts one warning of this kind, and keeps its text if it is the first.
+ * `kind` is a short phrase that reads well after a number: "faces with a bad
+ * index". */
 void warnings_add(struct warnings *r, const char *kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The same for what has a name in the file: the first of each kind and name in
- * full. After WARNINGS_NAMES_MAX names of a kind the others are counted
- * together, so that no file can fill the screen. */
+/* Counts one warning about a named object of the file; the first of each kind
+ * and name is kept in full. After WARNINGS_NAMES_MAX names of a kind the others
+ * are counted together, so that no file can fill the screen. */
 #define WARNINGS_NAMES_MAX 20
 void warnings_add_named(struct warnings *r, const char *kind, const char *name,
                         const char *format, ...)
@@ -46,8 +46,8 @@ void warnings_add_named(struct warnings *r, const char *kind, const char *name,
  * or NULL when memory is out. */
 char *warnings_line(const struct warnings_entry *entry);
 
-/* Writes a line for each kind, "glim: warning: TEXT", followed by
- * " (and N more KIND)" where there were more. */
+/* Writes a line for each kind: "glim: warning: TEXT", followed by " (and N more
+ * KIND)" if there were more. */
 void warnings_print(const struct warnings *r, FILE *to);
 
 void warnings_free(struct warnings *r);

@@ -10,13 +10,13 @@
 #ifndef GLIM_XDG_H
 #define GLIM_XDG_H
 
-/* The folder glim in that of the variable, or in ~/BELOW_HOME: it need not
- * exist. Relative names in the variable are ignored, as the specification says.
- */
+/* Returns the folder glim in the folder that the variable names, or in
+ * ~/BELOW_HOME. It need not exist. Relative names in the variable are ignored,
+ * as the specification says. */
 char *xdg_folder(const char *variable, const char *below_home);
 
-/* The path of a file in the folder of XDG_STATE_HOME, or in ~/.local/state,
- * which is made if need be. */
+/* Returns the path of a file in the folder of XDG_STATE_HOME, or in
+ * ~/.local/state. Makes the folder if necessary. */
 char *xdg_state_path(const char *name);
 
 #endif
