@@ -5,7 +5,7 @@
  * Watertight (Woop, Benthin and Wald 2013, JCGT 2:1): a ray through an edge or
  * a vertex hits at least one neighbour. Where rounding could have moved a
  * distance to the wrong side of the origin, or far along a needle, it is
- * computed again with pairs of floats (bounds of the errors: Pharr et al., PBR
+ * computed again in compensated floats (bounds of the errors: Pharr et al., PBR
  * 4th ed., 6.8).
  *
  * Units:     normalised scene units
@@ -56,15 +56,16 @@ static inline struct vec3 shear_apply(struct shear s, struct vec3 p)
     return v3(x - s.sx * z, y - s.sy * z, s.sz * z);
 }
 
-/* A number with twice the digits: the sum of two floats that do not overlap. */
-struct pair {
+/* Number with twice the digits: the unevaluated sum of a float and its rounding
+ * error (Dekker 1971; CompensatedFloat in Pharr et al., PBR). */
+struct compensated_float {
     float hi, lo;
 };
 
 /* The exact sum (Knuth). */
-static inline struct pair two_sum(float a, float b)
+static inline struct compensated_float two_sum(float a, float b)
 {
-    struct pair s;
+    struct compensated_float s;
     float bb;
 
     s.hi = a + b;
@@ -74,9 +75,9 @@ static inline struct pair two_sum(float a, float b)
 }
 
 /* The exact product (Dekker 1971), unless the low part underflows. */
-static inline struct pair two_product(float a, float b)
+static inline struct compensated_float two_product(float a, float b)
 {
-    struct pair p;
+    struct compensated_float p;
     float ca = 4097.0f * a;
     float cb = 4097.0f * b;
     float ah = ca - (ca - a);
@@ -91,53 +92,65 @@ static inline struct pair two_product(float a, float b)
 
 /* Adds both halves with two_sum(). The shorter sum is wrong where the high
  * halves cancel. */
-static inline struct pair pair_add(struct pair a, struct pair b)
+static inline struct compensated_float
+compensated_add(struct compensated_float a, struct compensated_float b)
 {
-    struct pair s = two_sum(a.hi, b.hi);
-    struct pair t = two_sum(a.lo, b.lo);
+    struct compensated_float s = two_sum(a.hi, b.hi);
+    struct compensated_float t = two_sum(a.lo, b.lo);
 
     s = two_sum(s.hi, s.lo + t.hi);
     return two_sum(s.hi, s.lo + t.lo);
 }
 
-static inline struct pair pair_mul(struct pair a, struct pair b)
+static inline struct compensated_float
+compensated_mul(struct compensated_float a, struct compensated_float b)
 {
-    struct pair p = two_product(a.hi, b.hi);
+    struct compensated_float p = two_product(a.hi, b.hi);
 
     p.lo += a.hi * b.lo + a.lo * b.hi;
     return two_sum(p.hi, p.lo);
 }
 
-static inline struct pair pair_neg(struct pair a)
+static inline struct compensated_float
+compensated_neg(struct compensated_float a)
 {
-    struct pair n = {-a.hi, -a.lo};
+    struct compensated_float n = {-a.hi, -a.lo};
 
     return n;
 }
 
-static inline struct pair pair_minor(struct pair a, struct pair b,
-                                     struct pair c, struct pair d)
+static inline struct compensated_float
+compensated_minor(struct compensated_float a, struct compensated_float b,
+                  struct compensated_float c, struct compensated_float d)
 {
-    return pair_add(pair_mul(a, d), pair_neg(pair_mul(b, c)));
+    return compensated_add(compensated_mul(a, d),
+                           compensated_neg(compensated_mul(b, c)));
 }
 
-/* Distance along the ray to the triangle's plane, computed with pairs. 0 if the
- * ray is parallel to it. */
+/* Distance along the ray to the triangle's plane, in compensated floats. 0 if
+ * the ray is parallel to it. */
 static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
                                    struct vec3 p2)
 {
-    struct pair ax = two_sum(p1.x, -p0.x), bx = two_sum(p2.x, -p0.x);
-    struct pair ay = two_sum(p1.y, -p0.y), by = two_sum(p2.y, -p0.y);
-    struct pair az = two_sum(p1.z, -p0.z), bz = two_sum(p2.z, -p0.z);
-    struct pair nx = pair_minor(ay, az, by, bz);
-    struct pair ny = pair_minor(az, ax, bz, bx);
-    struct pair nz = pair_minor(ax, ay, bx, by);
-    struct pair dx = {r.d.x, 0.0f}, dy = {r.d.y, 0.0f}, dz = {r.d.z, 0.0f};
-    struct pair above = pair_add(pair_add(pair_mul(nx, two_sum(p0.x, -r.o.x)),
-                                          pair_mul(ny, two_sum(p0.y, -r.o.y))),
-                                 pair_mul(nz, two_sum(p0.z, -r.o.z)));
-    struct pair slope = pair_add(pair_add(pair_mul(nx, dx), pair_mul(ny, dy)),
-                                 pair_mul(nz, dz));
+    struct compensated_float ax = two_sum(p1.x, -p0.x),
+                             bx = two_sum(p2.x, -p0.x);
+    struct compensated_float ay = two_sum(p1.y, -p0.y),
+                             by = two_sum(p2.y, -p0.y);
+    struct compensated_float az = two_sum(p1.z, -p0.z),
+                             bz = two_sum(p2.z, -p0.z);
+    struct compensated_float nx = compensated_minor(ay, az, by, bz);
+    struct compensated_float ny = compensated_minor(az, ax, bz, bx);
+    struct compensated_float nz = compensated_minor(ax, ay, bx, by);
+    struct compensated_float dx = {r.d.x, 0.0f}, dy = {r.d.y, 0.0f},
+                             dz = {r.d.z, 0.0f};
+    struct compensated_float above = compensated_add(
+        compensated_add(compensated_mul(nx, two_sum(p0.x, -r.o.x)),
+                        compensated_mul(ny, two_sum(p0.y, -r.o.y))),
+        compensated_mul(nz, two_sum(p0.z, -r.o.z)));
+    struct compensated_float slope =
+        compensated_add(compensated_add(compensated_mul(nx, dx),
+                                        compensated_mul(ny, dy)),
+                        compensated_mul(nz, dz));
 
     if (slope.hi == 0.0f)
         return 0.0f;

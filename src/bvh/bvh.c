@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * All threads together split the large ranges of triangles at the top. What
- * remains are parts, and one thread builds the tree of each. The size of a
- * range alone decides whether it is a part.
+ * All threads together split the large ranges of triangles at the top. Each
+ * smaller range becomes a subtree, which one thread builds. Only the size of a
+ * range decides this, so the tree does not depend on the number of threads.
  *
  * No triangle is in two leaves. Measured: after reinsertion, spatial splits
  * (Stich, Friedrich and Dietrich 2009) make rooms slower: rays take 0 to 30 %
@@ -19,17 +19,18 @@
 #include "bvh/sah_splitter.h"
 #include "kernels/traverse_leaf.h"
 
-/* Most triangles of a part: they stay in the cache of a core. */
-#define PART_MAX 16384
+/* Largest number of triangles in a subtree: they stay in the cache of a core.
+ */
+#define SUBTREE_TRIS_MAX 16384
 
 /* Cost of a triangle's test in visits of a node. Measured: the same from 1 to
  * 2. */
 #define TRIANGLE_COST 1.5f
 
-/* A node at the top, or a part with its whole tree. */
-struct part {
+/* Subtree that one thread builds, or a single node at the top. */
+struct subtree {
     struct range range;
-    uint32_t right; /* index of the node's right child; 0: this is a part */
+    uint32_t right; /* index of a top node's right child; 0 for a subtree */
     uint32_t node_count, depth;
     uint32_t first_node; /* index of its first node in the bvh */
 };
@@ -37,13 +38,13 @@ struct part {
 struct builder {
     struct splitter splitter;
     struct bvh *bvh;
-    struct node *nodes; /* two for each triangle, see nodes_of() */
-    struct part *parts; /* depth-first */
-    uint32_t part_count;
-    size_t part_capacity;
+    struct node *nodes;       /* two for each triangle, see nodes_of() */
+    struct subtree *subtrees; /* depth-first */
+    uint32_t subtree_count;
+    size_t subtree_capacity;
 };
 
-/* ---- parts ---- */
+/* ---- subtrees ---- */
 
 static void fill_leaf(const struct builder *b, const struct range *r,
                       struct node *n)
@@ -67,116 +68,119 @@ static struct node node_of(const struct range *r)
     return n;
 }
 
-/* Memory for the tree of a part, which has less than two nodes a triangle. */
-static struct node *nodes_of(const struct builder *b, const struct part *part)
+/* Returns the memory for a subtree, which has fewer than two nodes per
+ * triangle.
+ */
+static struct node *nodes_of(const struct builder *b,
+                             const struct subtree *subtree)
 {
-    return b->nodes + 2 * (size_t)part->range.first;
+    return b->nodes + 2 * (size_t)subtree->range.first;
 }
 
 /* Builds the tree of a range. Recursion is as deep as the tree, below
  * TRAVERSE_STACK. */
-static void build_tree(struct builder *b, struct part *part, int worker,
+static void build_tree(struct builder *b, struct subtree *subtree, int worker,
                        const struct range *r)
 {
-    uint32_t index = part->node_count++;
-    struct node *n = &nodes_of(b, part)[index];
+    uint32_t index = subtree->node_count++;
+    struct node *n = &nodes_of(b, subtree)[index];
     struct range sides[2];
 
     *n = node_of(r);
-    if (r->depth > part->depth)
-        part->depth = r->depth;
+    if (r->depth > subtree->depth)
+        subtree->depth = r->depth;
     if (!splitter_split(&b->splitter, worker, r, sides)) {
         fill_leaf(b, r, n);
         return;
     }
-    build_tree(b, part, worker, &sides[0]);
-    n->next = part->node_count;
-    build_tree(b, part, worker, &sides[1]);
+    build_tree(b, subtree, worker, &sides[0]);
+    n->next = subtree->node_count;
+    build_tree(b, subtree, worker, &sides[1]);
 }
 
-static void build_part(void *context, uint32_t item, int worker)
+static void build_subtree(void *context, uint32_t item, int worker)
 {
     struct builder *b = context;
-    struct part *part = &b->parts[item];
+    struct subtree *subtree = &b->subtrees[item];
 
-    if (part->right == 0)
-        build_tree(b, part, worker, &part->range);
+    if (subtree->right == 0)
+        build_tree(b, subtree, worker, &subtree->range);
 }
 
 /* ---- the top ---- */
 
-/* Adds a part. Without grow_array(), as boxes are aligned. */
-static bool add_part(struct builder *b, const struct range *r)
+/* Appends a subtree. Boxes are aligned, so grow_array() cannot be used. */
+static bool add_subtree(struct builder *b, const struct range *r)
 {
-    if (b->part_count == b->part_capacity) {
-        size_t capacity = 2 * b->part_capacity + 1;
-        struct part *parts = alloc_aligned(capacity, sizeof *parts);
+    if (b->subtree_count == b->subtree_capacity) {
+        size_t capacity = 2 * b->subtree_capacity + 1;
+        struct subtree *subtrees = alloc_aligned(capacity, sizeof *subtrees);
 
-        if (parts == NULL)
+        if (subtrees == NULL)
             return false;
-        if (b->parts != NULL)
-            memcpy(parts, b->parts, b->part_count * sizeof *parts);
-        free(b->parts);
-        b->parts = parts;
-        b->part_capacity = capacity;
+        if (b->subtrees != NULL)
+            memcpy(subtrees, b->subtrees, b->subtree_count * sizeof *subtrees);
+        free(b->subtrees);
+        b->subtrees = subtrees;
+        b->subtree_capacity = capacity;
     }
-    b->parts[b->part_count++] = (struct part){.range = *r};
+    b->subtrees[b->subtree_count++] = (struct subtree){.range = *r};
     return true;
 }
 
 static bool build_top(struct builder *b, const struct range *r)
 {
-    uint32_t index = b->part_count;
+    uint32_t index = b->subtree_count;
     struct range sides[2];
 
-    if (!add_part(b, r))
+    if (!add_subtree(b, r))
         return false;
-    if (r->count <= PART_MAX)
+    if (r->count <= SUBTREE_TRIS_MAX)
         return true;
     splitter_split_together(&b->splitter, r, sides);
     if (!build_top(b, &sides[0]))
         return false;
-    b->parts[index].right = b->part_count;
+    b->subtrees[index].right = b->subtree_count;
     return build_top(b, &sides[1]);
 }
 
 /* ---- the whole ---- */
 
-static void place_part(void *context, uint32_t item, int worker)
+static void place_subtree(void *context, uint32_t item, int worker)
 {
     const struct builder *b = context;
-    const struct part *part = &b->parts[item];
-    struct node *to = b->bvh->nodes + part->first_node;
+    const struct subtree *subtree = &b->subtrees[item];
+    struct node *to = b->bvh->nodes + subtree->first_node;
 
     (void)worker;
-    if (part->right != 0) {
-        *to = node_of(&part->range);
-        to->next = b->parts[part->right].first_node;
+    if (subtree->right != 0) {
+        *to = node_of(&subtree->range);
+        to->next = b->subtrees[subtree->right].first_node;
         return;
     }
-    for (uint32_t i = 0; i < part->node_count; i++) {
-        to[i] = nodes_of(b, part)[i];
+    for (uint32_t i = 0; i < subtree->node_count; i++) {
+        to[i] = nodes_of(b, subtree)[i];
         if (to[i].count == 0)
-            to[i].next += part->first_node;
+            to[i].next += subtree->first_node;
     }
 }
 
-static bool join_parts(struct builder *b)
+static bool join_subtrees(struct builder *b)
 {
     struct bvh *bvh = b->bvh;
 
-    for (uint32_t i = 0; i < b->part_count; i++) {
-        struct part *part = &b->parts[i];
+    for (uint32_t i = 0; i < b->subtree_count; i++) {
+        struct subtree *subtree = &b->subtrees[i];
 
-        part->first_node = bvh->node_count;
-        bvh->node_count += part->right != 0 ? 1 : part->node_count;
-        if (part->depth > bvh->depth)
-            bvh->depth = part->depth;
+        subtree->first_node = bvh->node_count;
+        bvh->node_count += subtree->right != 0 ? 1 : subtree->node_count;
+        if (subtree->depth > bvh->depth)
+            bvh->depth = subtree->depth;
     }
     bvh->nodes = alloc_aligned(bvh->node_count, sizeof *bvh->nodes);
     if (bvh->nodes == NULL)
         return false;
-    pool_each(b->splitter.pool, b->part_count, place_part, b);
+    pool_each(b->splitter.pool, b->subtree_count, place_subtree, b);
     return true;
 }
 
@@ -195,7 +199,7 @@ static bool begin(struct builder *b, const struct world *w,
 static void end(struct builder *b)
 {
     free(b->nodes);
-    free(b->parts);
+    free(b->subtrees);
     splitter_free(&b->splitter);
 }
 
@@ -205,8 +209,8 @@ static bool build(struct builder *b)
 
     if (!build_top(b, &all))
         return false;
-    pool_each(b->splitter.pool, b->part_count, build_part, b);
-    return join_parts(b);
+    pool_each(b->splitter.pool, b->subtree_count, build_subtree, b);
+    return join_subtrees(b);
 }
 
 static bool fail_for(struct bvh *bvh, const struct world *w, struct error *err)

@@ -14,8 +14,8 @@
 #define ALIGNMENT  64
 #define LARGE_PAGE ((size_t)2 << 20)
 
-/* Triangles of a part, of which one thread builds the tree. */
-#define PART_TRIS 4096
+/* Largest number of triangles in a subtree that one thread builds. */
+#define SUBTREE_TRIS 4096
 
 /* Measured: rays take up to 5 % less time the finer the binary tree is, up to a
  * block cost of 4. Large triangles are split to leaves of two, so that a node
@@ -23,19 +23,19 @@
  * much by the memory. */
 const struct bvh_leaves bvh8_leaves = {2, 1, 4.0f, BVH8_LEAF_TRIS};
 
-/* Children of a node: their nodes in the binary tree, and the node, first block
- * or part that each becomes. */
-struct plan {
+/* Node of the wide tree: the binary nodes that are its children, and the index
+ * of the node, first block or subtree that each of them becomes. */
+struct collapsed_node {
     uint32_t count;
     uint32_t from[BVH8_CHILDREN];
     uint32_t to[BVH8_CHILDREN];
 };
 
-/* A subtree that one thread plans and fills, or the top of the tree. */
-struct part {
+/* Subtree that one thread collapses and fills, or the top of the tree. */
+struct subtree {
     uint32_t root; /* its node in the binary tree */
-    struct plan *plans;
-    size_t plan_capacity;
+    struct collapsed_node *nodes;
+    size_t node_capacity;
     uint32_t node_count, block_count;
     uint32_t first_node, first_block; /* its first node and block in the tree */
     bool failed;
@@ -46,105 +46,105 @@ struct builder {
     const struct bvh *bvh;
     struct bvh8 *wide;
     struct bvh8_collapse collapse;
-    struct part top;
-    struct part *parts; /* subtrees below the top */
-    uint32_t part_count;
-    size_t part_capacity;
+    struct subtree top;
+    struct subtree *subtrees; /* subtrees below the top */
+    uint32_t subtree_count;
+    size_t subtree_capacity;
 };
 
-/* ---- plans ---- */
+/* ---- collapsing the binary tree ---- */
 
 static uint32_t tris_below(const struct builder *b, uint32_t node)
 {
     return b->collapse.costs[node].tri_count;
 }
 
-static uint32_t plan_leaf(const struct builder *b, struct part *part,
-                          uint32_t node)
+static uint32_t collapse_leaf(const struct builder *b, struct subtree *subtree,
+                              uint32_t node)
 {
-    uint32_t first = part->block_count;
+    uint32_t first = subtree->block_count;
 
-    part->block_count += bvh8_blocks(tris_below(b, node));
+    subtree->block_count += bvh8_blocks(tris_below(b, node));
     return first;
 }
 
-static bool is_part(const struct builder *b, uint32_t node)
+static bool is_subtree(const struct builder *b, uint32_t node)
 {
-    return tris_below(b, node) <= PART_TRIS;
+    return tris_below(b, node) <= SUBTREE_TRIS;
 }
 
-static bool add_part(struct builder *b, uint32_t root, uint32_t *index)
+static bool add_subtree(struct builder *b, uint32_t root, uint32_t *index)
 {
-    void *parts = b->parts;
+    void *subtrees = b->subtrees;
 
-    if (!grow_array(&parts, &b->part_capacity, (size_t)b->part_count + 1,
-                    sizeof *b->parts))
+    if (!grow_array(&subtrees, &b->subtree_capacity,
+                    (size_t)b->subtree_count + 1, sizeof *b->subtrees))
         return false;
-    b->parts = parts;
-    b->parts[b->part_count] = (struct part){.root = root};
-    *index = b->part_count++;
+    b->subtrees = subtrees;
+    b->subtrees[b->subtree_count] = (struct subtree){.root = root};
+    *index = b->subtree_count++;
     return true;
 }
 
 /* Plans the node. Recursion is as deep as the tree, at most. */
-static bool plan(struct builder *b, struct part *part, uint32_t node,
-                 uint32_t *index)
+static bool collapse_node(struct builder *b, struct subtree *subtree,
+                          uint32_t node, uint32_t *index)
 {
-    void *plans = part->plans;
-    struct plan p;
+    void *nodes = subtree->nodes;
+    struct collapsed_node p;
 
-    *index = part->node_count++;
-    if (!grow_array(&plans, &part->plan_capacity, part->node_count,
-                    sizeof *part->plans))
+    *index = subtree->node_count++;
+    if (!grow_array(&nodes, &subtree->node_capacity, subtree->node_count,
+                    sizeof *subtree->nodes))
         return false;
-    part->plans = plans;
+    subtree->nodes = nodes;
     p.count = bvh8_collapse_children(&b->collapse, node, p.from);
     for (uint32_t i = 0; i < p.count; i++) {
         bool ok = true;
 
         if (bvh8_collapse_leaf(&b->collapse, p.from[i]))
-            p.to[i] = plan_leaf(b, part, p.from[i]);
-        else if (part == &b->top && is_part(b, p.from[i]))
-            ok = add_part(b, p.from[i], &p.to[i]);
+            p.to[i] = collapse_leaf(b, subtree, p.from[i]);
+        else if (subtree == &b->top && is_subtree(b, p.from[i]))
+            ok = add_subtree(b, p.from[i], &p.to[i]);
         else
-            ok = plan(b, part, p.from[i], &p.to[i]);
+            ok = collapse_node(b, subtree, p.from[i], &p.to[i]);
         if (!ok)
             return false;
     }
-    part->plans[*index] = p;
+    subtree->nodes[*index] = p;
     return true;
 }
 
-static void plan_part(void *context, uint32_t item, int worker)
+static void collapse_subtree(void *context, uint32_t item, int worker)
 {
     struct builder *b = context;
-    struct part *part = &b->parts[item];
+    struct subtree *subtree = &b->subtrees[item];
     uint32_t root;
 
     (void)worker;
-    part->failed = !plan(b, part, part->root, &root);
+    subtree->failed = !collapse_node(b, subtree, subtree->root, &root);
 }
 
-static void place_part(struct bvh8 *wide, struct part *part)
+static void place_subtree(struct bvh8 *wide, struct subtree *subtree)
 {
-    part->first_node = wide->node_count;
-    part->first_block = wide->block_count;
-    wide->node_count += part->node_count;
-    wide->block_count += part->block_count;
+    subtree->first_node = wide->node_count;
+    subtree->first_block = wide->block_count;
+    wide->node_count += subtree->node_count;
+    wide->block_count += subtree->block_count;
 }
 
-static bool plan_all(struct builder *b, struct pool *pool)
+static bool collapse_all(struct builder *b, struct pool *pool)
 {
     bool ok = true;
     uint32_t root;
 
-    if (!plan(b, &b->top, 0, &root))
+    if (!collapse_node(b, &b->top, 0, &root))
         return false;
-    pool_each(pool, b->part_count, plan_part, b);
-    place_part(b->wide, &b->top);
-    for (uint32_t i = 0; i < b->part_count; i++) {
-        place_part(b->wide, &b->parts[i]);
-        ok = ok && !b->parts[i].failed;
+    pool_each(pool, b->subtree_count, collapse_subtree, b);
+    place_subtree(b->wide, &b->top);
+    for (uint32_t i = 0; i < b->subtree_count; i++) {
+        place_subtree(b->wide, &b->subtrees[i]);
+        ok = ok && !b->subtrees[i].failed;
     }
     b->wide->block_count++; /* the empty block */
     return ok;
@@ -208,30 +208,31 @@ static void fill_box(struct bvh8_node *n, uint32_t i, struct vec3 lo,
     n->planes[2][1][i] = hi.z;
 }
 
-static uint32_t fill_child(const struct builder *b, const struct part *part,
-                           uint32_t from, uint32_t to)
+static uint32_t fill_child(const struct builder *b,
+                           const struct subtree *subtree, uint32_t from,
+                           uint32_t to)
 {
     if (bvh8_collapse_leaf(&b->collapse, from))
-        return fill_leaf(b, from, &b->wide->blocks[part->first_block + to]);
-    if (part == &b->top && is_part(b, from))
-        to = b->parts[to].first_node;
+        return fill_leaf(b, from, &b->wide->blocks[subtree->first_block + to]);
+    if (subtree == &b->top && is_subtree(b, from))
+        to = b->subtrees[to].first_node;
     else
-        to += part->first_node;
+        to += subtree->first_node;
     return child_at(b->wide, &b->wide->nodes[to]);
 }
 
-static void fill_node(const struct builder *b, const struct part *part,
+static void fill_node(const struct builder *b, const struct subtree *subtree,
                       uint32_t index)
 {
     const struct vec3 nowhere = {INFINITY, INFINITY, INFINITY};
-    const struct plan *p = &part->plans[index];
-    struct bvh8_node *n = &b->wide->nodes[part->first_node + index];
+    const struct collapsed_node *p = &subtree->nodes[index];
+    struct bvh8_node *n = &b->wide->nodes[subtree->first_node + index];
 
     for (uint32_t i = 0; i < p->count; i++) {
         const struct node *from = &b->bvh->nodes[p->from[i]];
 
         fill_box(n, i, from->lo, from->hi);
-        n->child[i] = fill_child(b, part, p->from[i], p->to[i]);
+        n->child[i] = fill_child(b, subtree, p->from[i], p->to[i]);
     }
     for (uint32_t i = p->count; i < BVH8_CHILDREN; i++) {
         fill_box(n, i, nowhere, nowhere);
@@ -243,7 +244,7 @@ static void fill_node(const struct builder *b, const struct part *part,
 
 /* Prefetches the triangles of a node's leaves, which are scattered in memory.
  * Measured: one node ahead this saves 3 % of the time of a build. */
-static void fetch_tris(const struct builder *b, const struct plan *p)
+static void fetch_tris(const struct builder *b, const struct collapsed_node *p)
 {
     for (uint32_t i = 0; i < p->count; i++) {
         const uint32_t *tris;
@@ -256,17 +257,18 @@ static void fetch_tris(const struct builder *b, const struct plan *p)
     }
 }
 
-/* Fills a part. The top is the last item. */
-static void fill_part(void *context, uint32_t item, int worker)
+/* Fills the nodes of a subtree, or of the top for the last item. */
+static void fill_subtree(void *context, uint32_t item, int worker)
 {
     const struct builder *b = context;
-    const struct part *part = item < b->part_count ? &b->parts[item] : &b->top;
+    const struct subtree *subtree =
+        item < b->subtree_count ? &b->subtrees[item] : &b->top;
 
     (void)worker;
-    for (uint32_t i = 0; i < part->node_count; i++) {
-        if (i + 1 < part->node_count)
-            fetch_tris(b, &part->plans[i + 1]);
-        fill_node(b, part, i);
+    for (uint32_t i = 0; i < subtree->node_count; i++) {
+        if (i + 1 < subtree->node_count)
+            fetch_tris(b, &subtree->nodes[i + 1]);
+        fill_node(b, subtree, i);
     }
 }
 
@@ -294,7 +296,8 @@ static bool build(struct builder *b, struct pool *pool)
 {
     struct bvh8 *wide = b->wide;
 
-    if (!bvh8_collapse_init(&b->collapse, b->bvh, pool) || !plan_all(b, pool))
+    if (!bvh8_collapse_init(&b->collapse, b->bvh, pool) ||
+        !collapse_all(b, pool))
         return false;
     wide->nodes = alloc_tree(wide->node_count, wide->block_count);
     if (wide->nodes == NULL)
@@ -302,16 +305,16 @@ static bool build(struct builder *b, struct pool *pool)
     wide->blocks = (void *)(wide->nodes + wide->node_count);
     for (uint32_t i = 0; i < BLOCK_TRIS; i++)
         fill_tri(b->world, &wide->blocks[wide->block_count - 1], i, NO_INDEX);
-    pool_each(pool, b->part_count + 1, fill_part, b);
+    pool_each(pool, b->subtree_count + 1, fill_subtree, b);
     return true;
 }
 
 static void end(struct builder *b)
 {
-    for (uint32_t i = 0; i < b->part_count; i++)
-        free(b->parts[i].plans);
-    free(b->parts);
-    free(b->top.plans);
+    for (uint32_t i = 0; i < b->subtree_count; i++)
+        free(b->subtrees[i].nodes);
+    free(b->subtrees);
+    free(b->top.nodes);
     bvh8_collapse_free(&b->collapse);
 }
 

@@ -6,19 +6,19 @@
 
 /* ---- extents ---- */
 
-/* An extent in vectors, with `last` not negated. */
-struct reach {
+/* struct extent in vectors of four floats, with `last` not negated. */
+struct extent4 {
     f4 lo, hi, first, last;
 };
 
-static inline struct reach reach_none(void)
+static inline struct extent4 extent4_empty(void)
 {
     f4 most = f4_set1(FLOAT_MAX);
 
-    return (struct reach){most, most, most, f4_set1(-FLOAT_MAX)};
+    return (struct extent4){most, most, most, f4_set1(-FLOAT_MAX)};
 }
 
-static inline void reach_add(struct reach *r, const struct box *box)
+static inline void extent4_add(struct extent4 *r, const struct box *box)
 {
     f4 lo = f4_load(box->planes), hi = f4_load(box->planes + 4);
     f4 center = f4_sub(lo, hi);
@@ -33,15 +33,15 @@ static inline void reach_add(struct reach *r, const struct box *box)
  * throughput. */
 struct extent extent_of(const struct box *boxes, uint32_t count)
 {
-    struct reach a = reach_none(), b = a;
+    struct extent4 a = extent4_empty(), b = a;
     struct extent e;
 
     for (uint32_t i = 0; i + 1 < count; i += 2) {
-        reach_add(&a, &boxes[i]);
-        reach_add(&b, &boxes[i + 1]);
+        extent4_add(&a, &boxes[i]);
+        extent4_add(&b, &boxes[i + 1]);
     }
     if (count % 2 != 0)
-        reach_add(&a, &boxes[count - 1]);
+        extent4_add(&a, &boxes[count - 1]);
     f4_store(e.bounds.planes, f4_min(a.lo, b.lo));
     f4_store(e.bounds.planes + 4, f4_min(a.hi, b.hi));
     f4_store(e.centers.planes, f4_min(a.first, b.first));
@@ -114,18 +114,18 @@ void bins_add(struct bins *bins, const struct box *boxes, uint32_t count,
 
 /* ---- the plane ---- */
 
-/* The unions of boxes on one side of a plane, one for each axis. */
-struct front {
+/* Bounds of all boxes on one side of a plane, for each axis. */
+struct side_bounds {
     f4 lo[3], hi[3];
 };
 
-static void front_clear(struct front *f)
+static void side_bounds_clear(struct side_bounds *f)
 {
     for (int axis = 0; axis < 3; axis++)
         f->lo[axis] = f->hi[axis] = f4_set1(FLOAT_MAX);
 }
 
-static void front_join(struct front *f, const struct box boxes[3])
+static void side_bounds_join(struct side_bounds *f, const struct box boxes[3])
 {
     for (int axis = 0; axis < 3; axis++) {
         f->lo[axis] = f4_min(f->lo[axis], f4_load(boxes[axis].planes));
@@ -133,8 +133,8 @@ static void front_join(struct front *f, const struct box boxes[3])
     }
 }
 
-/* box_area() with a lane for each axis; infinite for empty unions. */
-static f4 front_areas(const struct front *f)
+/* Returns box_area() with a lane for each axis; infinite for empty bounds. */
+static f4 side_bounds_areas(const struct side_bounds *f)
 {
     f4 sides[3], to[3];
 
@@ -148,12 +148,12 @@ static f4 front_areas(const struct front *f)
 /* Computes the areas of the right side of each plane. */
 static void sweep_right(const struct bins *bins, f4 areas[SPLIT_BINS])
 {
-    struct front f;
+    struct side_bounds f;
 
-    front_clear(&f);
+    side_bounds_clear(&f);
     for (uint32_t i = bins->binning.count - 1; i > 0; i--) {
-        front_join(&f, bins->bins[i].boxes);
-        areas[i] = front_areas(&f);
+        side_bounds_join(&f, bins->bins[i].boxes);
+        areas[i] = side_bounds_areas(&f);
     }
 }
 
@@ -174,16 +174,17 @@ static f4 sweep_costs(const struct bins *bins, uint32_t block_bits,
     const f4 all = f4_set1((float)bins->box_count);
     f4 left = f4_set1(0.0f), least = f4_set1(INFINITY);
     f4 right_areas[SPLIT_BINS];
-    struct front f;
+    struct side_bounds f;
 
     sweep_right(bins, right_areas);
-    front_clear(&f);
+    side_bounds_clear(&f);
     for (uint32_t i = 1; i < bins->binning.count; i++) {
-        front_join(&f, bins->bins[i - 1].boxes);
+        side_bounds_join(&f, bins->bins[i - 1].boxes);
         left = f4_add(left, f4_from_u32(bins->bins[i - 1].counts));
-        costs[i] = f4_add(f4_mul(front_areas(&f), blocks(left, block_bits)),
-                          f4_mul(right_areas[i],
-                                 blocks(f4_sub(all, left), block_bits)));
+        costs[i] =
+            f4_add(f4_mul(side_bounds_areas(&f), blocks(left, block_bits)),
+                   f4_mul(right_areas[i],
+                          blocks(f4_sub(all, left), block_bits)));
         least = f4_min(costs[i], least);
     }
     return least;

@@ -218,19 +218,19 @@ static void photon_send(void *context, uint32_t i, int worker)
  * stands for the power of the lights times the area of the casters over their
  * number. */
 static void fill_rest(const struct search *s, double box,
-                      struct guide_flux *part)
+                      struct guide_flux *caustics)
 {
     double cell = 1 / (double)s->grid->cells_per_unit;
     double rest = REST * 2 * M_PI * PHOTONS / triangle_cdf_total(&s->casters) *
                   cell * cell / box;
 
     for (uint32_t i = 0; i < guide_cell_count(s->grid); i++)
-        part->rest[i] = (float)rest;
+        caustics->rest[i] = (float)rest;
 }
 
 bool caustics_find(const struct bvh8_world *w, const struct lights *lights,
                    const struct guide_grid *grid, double box, struct pool *pool,
-                   struct guide_flux *part)
+                   struct guide_flux *caustics)
 {
     struct search s = {.w = w, .grid = grid};
     bool ok = find_lists(&s, lights);
@@ -242,8 +242,8 @@ bool caustics_find(const struct bvh8_world *w, const struct lights *lights,
         pool_each(pool, PHOTONS, photon_send, &s);
         /* in the order of photons, so that threads do not matter */
         for (uint32_t i = 0; i < PHOTONS * LANDINGS; i++)
-            part->flux[s.landings[i].bin] += s.landings[i].flux;
-        fill_rest(&s, box, part);
+            caustics->flux[s.landings[i].bin] += s.landings[i].flux;
+        fill_rest(&s, box, caustics);
     }
     triangle_cdf_free(&s.lights);
     triangle_cdf_free(&s.casters);

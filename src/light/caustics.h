@@ -29,10 +29,10 @@ struct material caustics_material(struct material m);
 /* True if the world has lights and casters. */
 bool caustics_possible(const struct world *w);
 
-/* Traces photons and adds their flux to `part`. `box` is the surface area of
- * the box around the scene. */
+/* Traces photons and adds their flux to `caustics`. `box` is the surface area
+ * of the box around the scene. */
 bool caustics_find(const struct bvh8_world *w, const struct lights *lights,
                    const struct guide_grid *grid, double box, struct pool *pool,
-                   struct guide_flux *part);
+                   struct guide_flux *caustics);
 
 #endif

@@ -41,8 +41,8 @@ struct split {
     float lo, scale;
 };
 
-/* A range of emitters, first .. first + count - 1. */
-struct part {
+/* Range of emitters, first .. first + count - 1. */
+struct emitter_range {
     uint32_t first, count;
     double cost;
 };
@@ -182,44 +182,46 @@ static uint32_t split(struct emitter *e, uint32_t count, uint32_t depth)
     return best.axis == NO_INDEX ? count / 2 : partition(e, count, &best);
 }
 
-static struct part part_of(const struct builder *b, uint32_t first,
-                           uint32_t count)
+static struct emitter_range emitter_range_of(const struct builder *b,
+                                             uint32_t first, uint32_t count)
 {
     struct cluster c = cluster_all(b->emitters + first, count);
-    struct part p = {first, count, cluster_cost(&c)};
+    struct emitter_range p = {first, count, cluster_cost(&c)};
 
     return p;
 }
 
 /* True if `a` is to be split before `b`. */
-static bool is_worse(const struct part *a, const struct part *b, uint32_t depth)
+static bool is_worse(const struct emitter_range *a,
+                     const struct emitter_range *b, uint32_t depth)
 {
     if (depth >= LIGHT_SAH_DEPTH || a->cost == b->cost)
         return a->count > b->count;
     return a->cost > b->cost;
 }
 
-/* Splits the most expensive part until there are LIGHT_WIDTH. Returns the
- * number of parts. */
+/* Splits the most expensive range until there are LIGHT_WIDTH. Returns the
+ * number of ranges. */
 static uint32_t divide(const struct builder *b, uint32_t first, uint32_t count,
-                       uint32_t depth, struct part parts[LIGHT_WIDTH])
+                       uint32_t depth, struct emitter_range ranges[LIGHT_WIDTH])
 {
     uint32_t n = 1;
 
-    parts[0] = part_of(b, first, count);
+    ranges[0] = emitter_range_of(b, first, count);
     while (n < LIGHT_WIDTH) {
-        struct part *worst = NULL;
+        struct emitter_range *worst = NULL;
         uint32_t left;
 
         for (uint32_t i = 0; i < n; i++)
-            if (parts[i].count > 1 &&
-                (worst == NULL || is_worse(&parts[i], worst, depth)))
-                worst = &parts[i];
+            if (ranges[i].count > 1 &&
+                (worst == NULL || is_worse(&ranges[i], worst, depth)))
+                worst = &ranges[i];
         if (worst == NULL)
             break;
         left = split(b->emitters + worst->first, worst->count, depth);
-        parts[n++] = part_of(b, worst->first + left, worst->count - left);
-        *worst = part_of(b, worst->first, left);
+        ranges[n++] =
+            emitter_range_of(b, worst->first + left, worst->count - left);
+        *worst = emitter_range_of(b, worst->first, left);
     }
     return n;
 }
@@ -268,15 +270,15 @@ static bool add_node(struct builder *b, uint32_t *index, struct error *err)
 static bool build(struct builder *b, uint32_t first, uint32_t count,
                   uint32_t depth, uint32_t *index, struct error *err)
 {
-    struct part parts[LIGHT_WIDTH];
-    uint32_t part_count;
+    struct emitter_range ranges[LIGHT_WIDTH];
+    uint32_t range_count;
 
     assert(depth < LIGHT_LEVELS);
     if (!add_node(b, index, err))
         return false;
-    part_count = divide(b, first, count, depth, parts);
-    for (uint32_t i = 0; i < part_count; i++) {
-        struct part p = parts[i];
+    range_count = divide(b, first, count, depth, ranges);
+    for (uint32_t i = 0; i < range_count; i++) {
+        struct emitter_range p = ranges[i];
         uint32_t child;
 
         fill_child(&b->lights->nodes[*index], i, b->emitters + p.first,

@@ -36,7 +36,7 @@ struct table {
     uint32_t count;
 };
 
-/* ---- the parts ---- */
+/* ---- the fluxes ---- */
 
 static bool wants_caustics(const struct path_guide *g, const struct world *w)
 {
@@ -98,18 +98,18 @@ static double other_light(const struct path_guide *g, uint32_t cell,
 static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
                                   uint32_t cell, const struct other *o)
 {
-    const struct guide_flux *parts[2] = {&g->caustics, &g->portals.glazed};
+    const struct guide_flux *fluxes[2] = {&g->caustics, &g->portals.glazed};
     const double most[2] = {SHARE_CAUSTICS, SHARE_GLAZED};
     double totals[2] = {0, 0}, shares[2] = {0, 0};
     double scale;
     float *sums;
 
     for (int i = 0; i < 2; i++)
-        if (parts[i]->flux != NULL) {
+        if (fluxes[i]->flux != NULL) {
             double other = i == 0 ? 0 : other_light(g, cell, o), part;
 
-            totals[i] = guide_flux_total(parts[i], cell);
-            part = guide_flux_share(parts[i], cell, totals[i], other);
+            totals[i] = guide_flux_total(fluxes[i], cell);
+            part = guide_flux_share(fluxes[i], cell, totals[i], other);
             shares[i] = part < PART_LEAST ? 0 : most[i] * part;
         }
     if (shares[0] + shares[1] == 0)
@@ -118,7 +118,7 @@ static uint32_t add_scatter_table(struct table *t, const struct path_guide *g,
     scale = 1 - shares[0] * shares[1] / (shares[0] + shares[1]);
     sums = next_sums(t);
     for (int i = 0; i < 2; i++)
-        guide_flux_add_cdf(parts[i], cell, totals[i], scale * shares[i], sums);
+        guide_flux_add_cdf(fluxes[i], cell, totals[i], scale * shares[i], sums);
     return take_sums(t);
 }
 
