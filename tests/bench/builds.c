@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * builds - samples a second of processor time in whole renders, and what the
- * build of cpu_kernel.c for the scene's features brings beside the one for all;
+ * builds - samples per second of processor time in whole renders, and the gain
+ * of the build of cpu_kernel.c for the scene's features over the build for all;
  * rounds are interleaved
  *
  * usage: builds SCENE...
- *        builds --once own|whole SCENE   one small picture, for a counter of
- *                                        instructions, and its samples
+ *        builds --once own|whole SCENE
+ *
+ * --once renders one small picture, for a counter of instructions, and prints
+ * its number of samples.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +24,8 @@
 #define HEIGHT 270
 #define SPP    4
 
-/* A small picture's are taken by eight, as most are of a long render. */
+/* Samples of a small picture are taken in blocks of eight, like most of a long
+ * render. */
 #define SMALL_SPP    64
 #define SMALL_WIDTH  24
 #define SMALL_HEIGHT 12
@@ -33,8 +36,7 @@ static _Noreturn void stop(const struct error *err)
     exit(1);
 }
 
-/* Of all workers together: what other programs leave of the machine does not
- * matter to it. */
+/* Processor time of all workers, which other programs hardly disturb. */
 static uint64_t cpu_ns(const struct session *s)
 {
     const struct backend *b = render_backend(s->render);
@@ -45,9 +47,10 @@ static uint64_t cpu_ns(const struct session *s)
     return sum_ns;
 }
 
-/* Millions of samples a second; *p is the last picture's progress, 0 before the
- * first, which builds the tree. Features that no scene has choose the build for
- * all: samples are light, and leave what they do not need alone. */
+/* Returns millions of samples per second. *p is the progress of the previous
+ * picture, 0 before the first, which builds the tree. More features
+ * select the build for all of them; samples are of light and do not use those.
+ */
 static double rate(struct session *s, uint32_t more_features, struct rect crop,
                    uint64_t spp, struct render_progress *p)
 {

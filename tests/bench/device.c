@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * device - samples a second of the OpenCL device against the CPU's threads,
- * and what kernels without unneeded features bring; rounds are interleaved
+ * device - samples per second of the OpenCL device and of the CPU's threads,
+ * and the gain of kernels without unneeded features; rounds are interleaved
  *
  * usage: device THREADS SCENE...
  */
@@ -19,7 +19,7 @@
 
 enum contestant { CPU, FULL, SPECIAL, CONTESTANTS };
 
-/* Millions of samples a second. */
+/* Returns millions of samples per second. */
 static double rate(struct session *s, struct backend *backend)
 {
     struct render_progress p;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * frames - how many samples a pixel fit into a frame of 1/60 s, by size of the
- * picture and bounces: whole pictures, from the restart until the last sample
- * is in the film. 2^n samples are tried; "-" is where not one fits.
+ * frames - samples per pixel in a frame of 1/60 s, by size of the picture and
+ * bounces: whole pictures, from the restart until the last sample is in the
+ * film
+ *
+ * Counts are powers of two; "-" means that not one fits.
  *
  * usage: frames SCENE...
  */
@@ -18,7 +20,7 @@
 #define SPP_MOST  256
 #define UNLIMITED 999
 
-/* Text windows of 80x24 and 200x60 cells by halves, then screens. */
+/* Text windows of 80x24 and 200x60 cells with half blocks, then screens. */
 static const struct {
     int width, height;
 } sizes[] = {{80, 48}, {200, 120}, {320, 180}, {640, 360}, {1280, 720}};
@@ -40,8 +42,8 @@ static uint64_t picture_ns(struct session *s, uint64_t spp)
     return clock_ns() - begin_ns;
 }
 
-/* Does the fastest of some pictures? What else runs only adds to them, but
- * hardly doubles them. */
+/* Returns whether the fastest of some pictures fits. Other programs can only
+ * slow a picture down, and hardly by a factor of two. */
 static bool fits(struct session *s, uint64_t spp)
 {
     for (int i = 0; i < ROUNDS; i++) {
@@ -55,7 +57,7 @@ static bool fits(struct session *s, uint64_t spp)
     return false;
 }
 
-/* 0: not one. */
+/* Returns 0 if not one sample fits. */
 static uint64_t spp_that_fits(const char *path, int width, int height,
                               int bounces)
 {
@@ -94,7 +96,7 @@ static void print_table(const char *path)
         for (size_t d = 0; d < COUNT(depths); d++) {
             uint64_t spp = 0;
 
-            /* nothing fits that is more than what did not */
+            /* A larger picture or more bounces fit only if fewer do. */
             if ((i == 0 || last[d] > 0) && (d == 0 || last[d - 1] > 0))
                 spp = spp_that_fits(path, sizes[i].width, sizes[i].height,
                                     depths[d]);

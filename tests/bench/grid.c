@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * grid - prints an OBJ of a wavy grid of COLUMNS x ROWS squares, two
- * triangles each, as exporters write them: v, vt, vn, f v/vt/vn
+ * grid - prints an OBJ of a wavy grid of COLUMNS x ROWS squares of two
+ * triangles, in the form of exporters: v, vt, vn, f v/vt/vn
  *
  * usage: grid COLUMNS ROWS
  */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * halts - how long from the request to halt until every worker is parked, and
- * from a restart until the first whole (coarse) picture, as the screen makes
- * them in a window of some 120 x 40 cells
+ * halts - time from the request to halt until every worker is parked, and from
+ * a restart until the first whole (coarse) picture, as in a window of about 120
+ * x 40 cells
  *
  * usage: halts SCENE [COUNT [opencl]]
  */
@@ -35,7 +35,7 @@ static void print_row(const char *what, uint64_t *times_ns, int count)
     printf(" %8.3f\n", (double)times_ns[count - 1] * 1e-6);
 }
 
-/* The OpenCL device that there is. */
+/* Chooses the available OpenCL device. */
 static bool use_device(struct session *s, struct error *err)
 {
     struct cl_request request = {.features = world_features(&s->world)};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * median.h - of what a benchmark has measured
+ * median.h - the median of measurements
  *
- * Units:     the values'
- * Ownership: none; the values stay as they are
+ * Units:     those of the values
  * Threads:   any
  */
 #ifndef BENCH_MEDIAN_H
@@ -13,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Most values that median() takes. */
+/* Maximum number of values for median(). */
 #define MEDIAN_MAX 32
 
 static inline int median_order(const void *a, const void *b)

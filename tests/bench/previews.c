@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * previews - how long a frame of the preview takes while the camera moves, in a
+ * previews - time for a frame of the preview while the camera moves, in a
  * window of 200x60 cells: from the restart to the cells, without the terminal
  *
  * usage: previews SCENE [COUNT]
@@ -24,8 +24,7 @@ static int compare(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Of all threads together: what other programs leave of the machine does not
- * matter to it. */
+/* Processor time of all threads, which other programs hardly disturb. */
 static uint64_t cpu_ns(void)
 {
     struct timespec t;

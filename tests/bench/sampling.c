@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * sampling - prints what one random point, one light sample and its density
- * cost, for more and more lights, and how long their tree takes to build
+ * sampling - the costs of a random point, a light sample and its density for
+ * increasing numbers of lights, and the time to build their tree
  *
  * usage: sampling
  */
@@ -29,7 +29,7 @@ static struct vec2 point(uint32_t i, uint32_t dimension)
     return random_2d(sampler_start(i, 0, 0, 0), dimension);
 }
 
-/* Printed, so that no work is left out. */
+/* It is printed, so that the compiler keeps the work. */
 static float total;
 
 static double time_points(void)
@@ -71,7 +71,7 @@ static double time_samples(const struct world *w, double *pdf_ns)
     return sample_ns;
 }
 
-/* Small triangles everywhere above the receivers. */
+/* Makes small triangles above the receivers. */
 static bool bench_lights(uint32_t count, struct error *err)
 {
     struct material lamp = {.emission = {1, 1, 1},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * screens - how long it takes to bring a film of 1920x1080 pixels to a window
- * of 200x60 cells, by tone curve: processor time of one thread
+ * screens - processor time of one thread to convert a film of 1920x1080 pixels
+ * to a window of 200x60 cells, by tone curve
  *
  * usage: screens [COUNT]
  */

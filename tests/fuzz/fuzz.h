@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * fuzz.h - what the fuzz targets have in common: files for the functions that
- * read files, and checks
+ * fuzz.h - files and checks that the fuzz targets share
  *
  * Each fuzz_X.c has one function, LLVMFuzzerTestOneInput(). libFuzzer calls it
- * with inputs that it invents; replay.c calls it with files.
+ * with inputs that it generates; replay.c calls it with files.
  *
  * Units:     bytes
  * Ownership: paths live as long as the program
  * Threads:   one
- * Errors:    abort(), with a line that says what was wrong
+ * Errors:    abort(), with a line that names the failure
  */
 #ifndef TESTS_FUZZ_H
 #define TESTS_FUZZ_H
@@ -35,8 +34,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
         }                                                              \
     } while (0)
 
-/* The folder in which the process keeps its files: in TMPDIR, which the scripts
- * set and remove. */
+/* Returns the folder for files of this process. It is in TMPDIR, which the
+ * scripts set and remove. */
 static inline const char *fuzz_folder(void)
 {
     static char folder[256];
@@ -50,8 +49,8 @@ static inline const char *fuzz_folder(void)
     return folder;
 }
 
-/* Writes a file into the folder, or removes it if bytes is NULL. The path is
- * for free(). */
+/* Writes a file into the folder, or removes it if bytes is NULL. Returns the
+ * path for free(). */
 static inline char *fuzz_put(const char *name, const void *bytes, size_t size)
 {
     char path[512];
@@ -69,8 +68,8 @@ static inline char *fuzz_put(const char *name, const void *bytes, size_t size)
     return strdup(path);
 }
 
-/* The part up to the next separator, which it takes from *p; NULL: there is no
- * part any more. */
+/* Returns the part up to the next separator and advances *p, or returns NULL
+ * after the last part. */
 static inline const char *fuzz_part(const char **p, const char *end,
                                     size_t *size)
 {
@@ -87,8 +86,8 @@ static inline const char *fuzz_part(const char **p, const char *end,
 }
 
 /* Writes the files of a scene: the OBJ file, the MTL file, the view file and an
- * image, with lines "====" between them. Those that the input does not have are
- * not there. Returns the path of the OBJ file for free(). */
+ * image, which are separated by lines "====". Absent ones are not written.
+ * Returns the path of the OBJ file for free(). */
 static inline char *fuzz_put_scene(const uint8_t *data, size_t size)
 {
     static const char *const names[] = {"scene.obj", "scene.mtl", "scene.view",
@@ -108,7 +107,8 @@ static inline char *fuzz_put_scene(const uint8_t *data, size_t size)
     return strdup(path);
 }
 
-/* Bytes of the UTF-8 character at p, which ends with NUL; 0: there is none. */
+/* Returns the length of the UTF-8 character at p in a text that ends with NUL,
+ * or 0 if it is invalid. */
 static inline int fuzz_character_bytes(const unsigned char *p)
 {
     int count = *p < 0x80                  ? 1
@@ -123,8 +123,8 @@ static inline int fuzz_character_bytes(const unsigned char *p)
     return count;
 }
 
-/* A message is one line without anything that a terminal obeys: C0, DEL, and C1
- * as a character or as a byte alone. */
+/* A message is one line without control characters: C0, DEL, and C1 as a
+ * character or as a single byte. */
 static inline void fuzz_check_message(const char *text)
 {
     const unsigned char *p = (const unsigned char *)text;
@@ -140,7 +140,7 @@ static inline void fuzz_check_message(const char *text)
     }
 }
 
-/* The same for each line that is printed of a report. */
+/* Checks each line of a report. */
 static inline void fuzz_check_report(const struct warnings *report)
 {
     char *text = NULL, *next;

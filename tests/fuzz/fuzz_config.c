@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* The person's configuration file, and the keys that it leaves to others. */
+/* The user's configuration file, and the keys that remain for other actions. */
 #include "session/config.h"
 #include "fuzz.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Images of every kind, with the limits that scenes have: as texture and as
- * sky. What is accepted has its pixels, and light is finite.
+ * Images of every kind as texture and as sky, with the limits of scenes. Images
+ * that are accepted have all pixels, and radiance is finite.
  */
 #include <math.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /*
- * Keys, mouse reports and answers of terminals: the same events whether the
- * bytes come at once or in pieces of a size that the first byte says.
+ * Keys, mouse reports and answers of terminals. The events are the same whether
+ * the bytes arrive at once or in pieces, whose size is the first byte.
  */
 #include "terminal/tty_input.h"
 #include "fuzz.h"
 
-/* Longer sequences are dropped where they are broken, so pieces matter there.
- */
+/* Longer sequences are dropped at the end of a piece, so pieces change the
+ * events there. */
 #define COMPARED_BYTES 500
 
 #define EVENTS_MAX (2 * TTY_INPUT_BYTES)

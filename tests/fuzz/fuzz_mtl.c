@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * MTL text, with the files that its maps name. Whatever it says, materials have
- * values that can be rendered.
+ * MTL text with the files of its maps. Materials always have values that can be
+ * rendered.
  */
 #include <math.h>
 

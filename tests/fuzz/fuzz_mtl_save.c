@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * MTL files that are read, edited as in the panel, saved, and read again: each
- * material is then what the panel has shown. The first byte says how many edits
- * there are, three bytes are an edit, and the rest is the file.
+ * MTL files are read, edited as in the panel, saved, and read again. Then each
+ * material is the one that the panel showed. The first byte is the number of
+ * edits, three bytes are an edit, and the rest is the file.
  */
 #include "scene/material.h"
 #include "formats/mtl.h"
@@ -12,7 +12,7 @@
 
 #define EDITS_MAX 16
 
-/* Numbers of textures in a material. */
+/* Number of textures in a material. */
 #define MAPS 8
 
 static const uint32_t *const *maps_of(const struct material *m)
@@ -37,7 +37,7 @@ static void load(struct session *s, const struct options *options)
     require(session_load(s, options, 0, &err), err.text);
 }
 
-/* What a map alone has a use for counts only beside the map. */
+/* Values that only a map uses count only beside the map. */
 static struct material material_of(const struct session *s, uint32_t i)
 {
     struct warnings report = {0};
@@ -74,7 +74,7 @@ static void check_maps(const struct session *a, const struct material *m,
     }
 }
 
-/* The same colours and numbers, and the same images looked up alike. */
+/* Compares colours, numbers, images and look-ups. */
 static void check_material(const struct session *a, const struct material *m,
                            const struct session *b, const struct material *n,
                            const char *name)
@@ -123,7 +123,7 @@ static void save(struct session *s)
     file_watch_free(&watch);
 }
 
-/* Reads the file again, which has all materials and no others. */
+/* Reads the file again, which has exactly the same materials. */
 static void check_saved(const struct session *s, const struct options *options)
 {
     struct session back;

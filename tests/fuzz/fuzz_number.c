@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Numbers in text beside strtod(), which the C library wrote: the same value
- * and the same end. The first eight bytes are a double as well, which is
+ * Numbers in text are compared with strtod() of the C library: the value and
+ * the end are the same. The first eight bytes are also a double, which is
  * written and read again.
  */
 #include <math.h>
@@ -18,8 +18,8 @@ static uint64_t bits_of(double value)
     return bits;
 }
 
-/* What strtod() reads and a scene's file does not have: blanks before the
- * number, hexadecimal digits, and what stands behind nan in brackets. */
+/* Returns whether strtod() reads more than files of scenes may have: blanks
+ * before the number, hexadecimal digits, or brackets after nan. */
 static int is_foreign(const char *text)
 {
     const char *p = text + (*text == '-' || *text == '+');

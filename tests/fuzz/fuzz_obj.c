@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * A scene that is loaded with its materials and images, which are looked for
- * under the names that it has for them: all that it holds can be rendered.
- * fuzz_put_scene() says what the input is.
+ * A scene is loaded with its materials and images, which are found by their
+ * names in the files, and everything in it can be rendered. fuzz_put_scene()
+ * describes the input.
  */
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* The command line: a line of the input is an argument. */
+/* The command line: each line of the input is an argument. */
 #include "session/command_line.h"
 #include "fuzz.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * A scene that is opened with its view, its sky and all that it names; one
- * sample a pixel is rendered. fuzz_put_scene() says what the input is.
+ * A scene is opened with its view, its sky and all other files, and rendered
+ * with one sample per pixel. fuzz_put_scene() describes the input.
  */
 #include "session/session.h"
 #include "fuzz.h"

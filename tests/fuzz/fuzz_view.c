@@ -43,7 +43,7 @@ static void check_assigns(const struct assigns *a, const struct assigns *b)
     }
 }
 
-/* The same file, perhaps by another path. */
+/* Compares files, which may have different paths. */
 static void check_sky(const char *a, const char *b)
 {
     char *names[2];
@@ -80,7 +80,8 @@ static void check_same(const struct view *a, const struct view *b)
     check_assigns(&a->assigns, &b->assigns);
 }
 
-/* Whether the file could be read; what it warns of has to be messages. */
+/* Returns whether the file could be read. Its warnings must be valid
+ * messages. */
 static int read_view(struct view *view, const char *path, struct error *err)
 {
     struct warnings report = {0};

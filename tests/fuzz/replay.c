@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * Runs a fuzz target with the contents of files, without a fuzzer:
- * replay SECONDS MEBIBYTES FILE...
- * A file that takes more seconds of the processor ends the program, and so does
- * one after which the program has had more memory.
+ * Runs a fuzz target with the contents of files, without a fuzzer.
+ *
+ * usage: replay SECONDS MEBIBYTES FILE...
+ *
+ * A file that takes more seconds of processor time, or more memory, ends the
+ * program with an error.
  */
 #include <sys/resource.h>
 

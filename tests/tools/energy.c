@@ -2,11 +2,11 @@
 /*
  * energy.c - prints kernels/energy_tables.h: albedos of GGX surfaces
  *
- * Each albedo is an integral over the square that the kernels draw visible
- * normals from: E = mean of weights there, by Gauss's quadrature in double
- * over half the azimuth. Reflection takes the bounded caps, whose weights are
+ * Each albedo is an integral over the square from which the kernels draw
+ * visible normals: E is the mean of weights, by Gaussian quadrature in double
+ * over half of the azimuth. Reflection uses bounded caps, whose weights are
  * smooth; with all visible normals the cut at the horizon costs a digit. Glass
- * needs them all.
+ * needs all of them.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,9 +15,9 @@
 
 #define POINTS 128
 
-/* Points and weights of Gauss's quadrature in [0, 1]; `tail` has the same
- * points drawn towards 1, where the caps have their normals far from upright:
- * all that narrow GGX loses. */
+/* Points and weights of Gaussian quadrature in [0, 1]. The points of `tail` are
+ * denser near 1, where normals of the caps are far from upright; all losses of
+ * narrow GGX are there. */
 struct gauss {
     double x[POINTS];
     double w[POINTS];
@@ -25,7 +25,7 @@ struct gauss {
     double tail_w[POINTS];
 };
 
-/* Newton's method on Legendre's polynomial. */
+/* Newton's method finds the zeros of Legendre's polynomial. */
 static void gauss_init(struct gauss *g)
 {
     for (int i = 0; i < POINTS; i++) {
@@ -62,7 +62,7 @@ struct normal {
     double o_dot_h, z;
 };
 
-/* The visible normal at (u, v) from wo = (sqrt(1 - mu^2), 0, mu). */
+/* Returns the visible normal at (u, v) from wo = (sqrt(1 - mu^2), 0, mu). */
 static struct normal visible_normal(double mu, double alpha, double bound,
                                     double u, double v)
 {
@@ -83,8 +83,8 @@ static struct normal visible_normal(double mu, double alpha, double bound,
 }
 
 struct albedo {
-    double one;     /* every facet reflects all */
-    double schlick; /* it reflects (1 - cosine)^5 */
+    double one;     /* for facets of reflectance 1 */
+    double schlick; /* for facets of reflectance (1 - cosine)^5 */
 };
 
 static struct albedo reflection(const struct gauss *g, double mu, double alpha)
@@ -151,7 +151,7 @@ static double glass(const struct gauss *g, double mu, double alpha, double eta)
     return e;
 }
 
-/* Where a rising function of [0, 1] reaches y. */
+/* Returns where an increasing function of [0, 1] has the value y. */
 static double inverse(float (*f)(float, float), float parameter, double y)
 {
     double lo = 0, hi = 1;
@@ -179,13 +179,13 @@ static double alpha_at(double t)
     return r * r;
 }
 
-/* At 0 a limit: the tables hold ratios there. */
+/* At 0 this is a limit, because the tables have ratios there. */
 static double mu_at(double t, double alpha)
 {
     return fmax(inverse(energy_axis_mu, (float)alpha, t), 1e-7);
 }
 
-/* The inverse of energy_axis_eta(), its ends a little inside. */
+/* Inverts energy_axis_eta(), slightly inside its ends. */
 static double eta_at(double t)
 {
     double s = 2 * t - 1;
@@ -199,7 +199,7 @@ static void print_head(const char *type, const char *name, const char *size)
     printf("\nCONSTANT %s %s[%s] = {", type, name, size);
 }
 
-/* Before the number in the next of `columns` columns. */
+/* Prints the gap before number i in rows of `columns`. */
 static void print_gap(int i, int columns)
 {
     printf("%s", i % columns == 0 ? "\n    " : " ");
@@ -222,7 +222,8 @@ static void print_ggx(const struct gauss *g, bool is_shift)
     printf("\n};\n");
 }
 
-/* 2 int E mu dmu, in the square root of mu: steep at 0. */
+/* The mean is 2 int E mu dmu, integrated over the square root of mu because E
+ * is steep at 0. */
 static void print_means(const struct gauss *g, bool is_schlick)
 {
     for (int i = 0; i < GGX_MEAN_NODES; i++) {

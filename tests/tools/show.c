@@ -2,8 +2,8 @@
 /*
  * show.c - prints an image file as a small colour picture of half blocks
  *
- * For `make run` without a terminal, whose output lands in a log. With
- * NO_COLOR set it prints characters.
+ * `make run` uses it without a terminal, where output is a log. With NO_COLOR
+ * set it prints characters.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #define ROWS_MAX    48
 #define CELL_ASPECT 2.0
 
-/* Averages sRGB bytes: good enough for a thumbnail. */
+/* Averages sRGB bytes, which is exact enough for a thumbnail. */
 static void shrink(const struct image *image, struct frame *frame)
 {
     for (int y = 0; y < frame->height; y++) {

@@ -15,7 +15,7 @@
 #define WIDTH  930
 #define HEIGHT 600
 
-/* Where the diagram is; to its right stand the names of the curves. */
+/* Borders of the diagram; the names of the curves are at its right. */
 #define LEFT   90
 #define RIGHT  620
 #define TOP    50
@@ -29,7 +29,7 @@
 #define BLACK 0x000000u
 #define GRAY  0xdddddd
 
-/* One hexadecimal digit a row, the top one first. */
+/* Each hexadecimal digit is a row, the top one first. */
 static const uint32_t letters[] = {0x699f99, 0xe9e99e, 0x698896, 0xe9999e,
                                    0xf8e88f, 0xf8e888, 0x698b96, 0x99f999,
                                    0xe4444e, 0x311196, 0x9acca9, 0x88888f,
@@ -48,7 +48,7 @@ static const uint32_t mark_glyphs[] = {0x00f000, 0x000004, 0x000024,
 static const uint32_t colors[] = {0x000000, 0xd62728, 0x1f77b4, 0x2ca02c,
                                   0xff7f0e, 0x9467bd, 0x17a2b8, 0x8c564b};
 
-/* One axis: from where to where it goes, in decimal logarithms. */
+/* Range of an axis in decimal logarithms. */
 struct axis {
     double low, high;
     int from_px, to_px;
@@ -119,14 +119,14 @@ static bool is_drawn(const struct series *s, int i)
     return s->x[i] > 0 && s->y[i] > 0;
 }
 
-/* Widens the axis until the value is on it. */
+/* Extends the axis to include the value. */
 static void axis_add(struct axis *a, double value)
 {
     a->low = fmin(a->low, log10(value) - 0.05);
     a->high = fmax(a->high, log10(value) + 0.05);
 }
 
-/* Calls of `put` for 1, 2 and 5 times each power of ten on the axis. */
+/* Calls `put` for 1, 2 and 5 times each power of ten on the axis. */
 static void each_tick(struct screen *c, const struct axis *a,
                       void (*put)(struct screen *, int, const char *))
 {
@@ -199,7 +199,7 @@ static void draw(struct screen *c, const struct chart *chart,
     }
 }
 
-/* What the encoder writes to. */
+/* Destination of the encoder. */
 struct output {
     void *data;
     size_t size_bytes, capacity;

@@ -2,9 +2,9 @@
 /*
  * chart.h - curves in a log-log diagram, as a PNG file
  *
- * Units:     pixels inside; whatever the axes' labels say outside
+ * Units:     pixels inside; those of the axes' labels outside
  * Threads:   one
- * Errors:    nothing to draw, memory, unwritable file
+ * Errors:    no points, memory, unwritable file
  */
 #ifndef ERROR_CHART_H
 #define ERROR_CHART_H
@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "series.h"
 
-/* Points that are not above 0 are left out. Text is of letters, shown as
- * capitals, digits and - . , : + / _ ( ) */
+/* Points that are not above 0 are left out. Texts have letters, which are shown
+ * as capitals, digits and - . , : + / _ ( ) */
 struct chart {
     const char *title, *x_label, *y_label;
     const struct series *series;

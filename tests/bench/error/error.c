@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * error - relative MSE against seconds, with all techniques on and with each
- * of them off, and how far all together are from glim's first integrator
+ * error - relative MSE over seconds, with all techniques and with each of them
+ * off, and the gain over glim's first integrator
  *
  * usage: error FOLDER THREADS ROUNDS [PART_OF_A_NAME]
  *
- * Pictures are small: what a pixel costs and how it converges does not depend
- * on how many there are. A curve is one render that is looked at after 1, 2,
- * 4, ... samples a pixel. Rounds have their own seeds, and techniques take
- * turns in each, so that a slow minute of the machine hits all of them. Seconds
- * are the processor's for each thread, so that what runs beside hardly counts,
- * medians over the rounds; errors are means: they are expectations. The
+ * Pictures are small, since the cost and the convergence of a pixel do not
+ * depend on their number. A curve is one render that is measured after 1, 2, 4,
+ * ... samples per pixel. Rounds have their own seeds, and techniques take turns
+ * in each, so that a slow minute of the machine affects all of them. Seconds
+ * are processor time per thread, which other programs hardly disturb, and
+ * medians over the rounds. Errors are means, since they are expectations. The
  * reference's own noise is subtracted.
  */
 #include <math.h>
@@ -31,15 +31,15 @@
 #define ROUNDS_MAX MEDIAN_MAX
 #define HEIGHT_PX  56
 
-/* References of 256x256 pixels, too many here, become 64x64. */
+/* References of 256x256 pixels are too large here and are reduced to 64x64. */
 #define REDUCE 4
 
-/* Made of src/render/cpu_kernel.c with one function replaced: see the headers
+/* Builds of src/render/cpu_kernel.c with one function replaced; see the headers
  * in this folder. */
 extern const struct cpu_kernel paths_whole, paths_hashed, paths_uniform,
     paths_throughput, paths_shadows;
 
-/* What a scene must have for a technique to matter. */
+/* Feature that a scene must have for a technique to matter. */
 enum need {
     NEED_NOTHING,
     NEED_LIGHT_SAMPLES,
@@ -48,7 +48,7 @@ enum need {
     NEED_GUIDE
 };
 
-/* All techniques, or all but the one that is named. */
+/* All techniques, or all except the one of this name. */
 static const struct technique {
     const char *name;
     const struct cpu_kernel *paths;
@@ -83,12 +83,13 @@ enum { EVERYTHING, FIRST_INTEGRATOR };
 
 enum folder { SHIPPED, SHARED, MADE };
 
-/* What is measured; `goal` is how far it should be from the first integrator:
- * 0.95 is "no worse by more than 5 %". */
+/* Scenes that are measured. `goal` is the desired gain over the first
+ * integrator: 0.95 is "no worse by more than 5 %". */
 static const struct subject {
     const char *name;
     enum folder folder;
-    enum direct reference; /* what makes it, unless another renderer has */
+    enum direct reference; /* makes the reference, unless another renderer has
+                              made it */
     double goal;
 } subjects[] = {
     {"cornell", SHIPPED, DIRECT_MIS, 30},
@@ -108,20 +109,20 @@ static const struct subject {
 
 enum { SUBJECTS = sizeof subjects / sizeof subjects[0] };
 
-/* What one technique did in one scene. */
+/* Measurements of one technique in one scene. */
 struct curve {
     bool is_measured;
     double seconds[POINTS][ROUNDS_MAX];
     double error[POINTS]; /* sums over rounds, then means */
-    double square;        /* sum of the squares of the last of them */
-    double spread;        /* standard error of its mean, as a part of it */
+    double square;        /* sum of squares of the last errors */
+    double spread;        /* relative standard error of the last mean */
     double bias;
 };
 
-/* How many times less error than the first integrator, at equal time. */
+/* Ratio of the first integrator's error to this one's, at equal time. */
 struct gain {
     double times;  /* 0: not measured */
-    double spread; /* standard error, as a part of it */
+    double spread; /* relative standard error */
 };
 
 struct bench {
@@ -131,7 +132,7 @@ struct bench {
     struct backend *backends[TECHNIQUES];
 };
 
-/* One scene while it is measured. */
+/* The scene that is being measured. */
 struct measurement {
     const struct bench *bench;
     struct session session;
@@ -153,7 +154,7 @@ static bool matters(const struct technique *t, const struct settings *s)
     return true;
 }
 
-/* Of the processor: other programs that run beside this one hardly count. */
+/* Returns processor time, which other programs hardly disturb. */
 static double cpu_seconds(void)
 {
     struct timespec t;
@@ -171,7 +172,7 @@ static bool start(struct render *r, const struct render_job *job,
     return true;
 }
 
-/* Adds one render of this world to a curve, at the end of which `rgb` is. */
+/* Adds one render of this world to a curve; afterwards `rgb` is its picture. */
 static bool measure_world(struct measurement *m, struct curve *c, int round,
                           const struct world *world, struct error *err)
 {
@@ -229,7 +230,7 @@ static bool measure_round(struct measurement *m, int technique, int round,
     return measure_world(m, c, round, &world, err);
 }
 
-/* From sums over rounds to means without the reference's noise. */
+/* Converts sums over rounds to means without the reference's noise. */
 static void finish_curve(struct curve *c, int rounds, double noise)
 {
     double last = c->error[POINTS - 1] / rounds;
@@ -398,7 +399,7 @@ static char *path_of(const struct bench *bench, const struct subject *s)
     return xformat("scenes/%s.obj", s->name);
 }
 
-/* As it is shown, and as its diagram is called. */
+/* Returns the title in the output and in the name of the diagram. */
 static char *title_of(const struct subject *s)
 {
     return xformat("%s%s", s->folder == SHARED ? "shared-" : "", s->name);

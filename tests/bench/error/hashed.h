@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * hashed.h - for paths without Sobol points: plain hashed numbers
+ * hashed.h - replaces Sobol points by hashed random numbers
  *
  * Units:     32-bit fractions of the unit square
  */

@@ -15,7 +15,7 @@
 
 #define HALF_SPP 1024
 
-/* Measurements count their seeds from 0. */
+/* Measurements use seeds from 0 on. */
 #define SEED_OF_HALVES 1000000u
 
 static size_t number_count(const struct reference *r)
@@ -49,7 +49,7 @@ double reference_bias(const struct reference *r, const float *rgb)
     return sum / reference - 1;
 }
 
-/* The number behind "relmse" in the text. */
+/* Reads the number after "relmse" in the text. */
 static bool read_noise(const char *path, double *noise, struct error *err)
 {
     const char key[] = "\"relmse\":";
@@ -65,7 +65,7 @@ static bool read_noise(const char *path, double *noise, struct error *err)
     return found || fail(err, "%s: found no relmse", path);
 }
 
-/* Means of squares of pixels: what a render with larger pixels shows. */
+/* Averages squares of pixels, as a render with larger pixels does. */
 static void shrink(const struct image *from, int reduce, struct reference *to)
 {
     for (int y = 0; y < to->height; y++)
@@ -115,7 +115,7 @@ bool reference_read(struct reference *r, const char *scene_path, int reduce,
     return ok;
 }
 
-/* Is the file there, and younger than what the scene is read from? */
+/* Returns whether the file exists and is newer than the files of the scene. */
 static bool is_fresh(const char *path, const char *scene_path)
 {
     static const char *const endings[] = {"obj", "mtl", "view"};
@@ -152,7 +152,7 @@ static bool render_half(struct session *s, enum direct direct, int half,
     return image_write(render_film(s->render), develop_linear(0), path, err);
 }
 
-/* The half's picture, from its file if that is fresh. */
+/* Reads the half's picture from its file if that is new enough. */
 static bool read_half(struct image *image, struct session *s,
                       enum direct direct, const char *folder, int half,
                       struct error *err)
@@ -182,7 +182,7 @@ bool reference_make(struct reference *r, struct session *s, enum direct direct,
     if (ok) {
         for (size_t i = 0; i < number_count(r); i++)
             r->rgb[i] = (halves[0].rgb[i] + halves[1].rgb[i]) / 2;
-        /* of halves A and B the mean has the variance ((A - B) / 2)^2 */
+        /* The mean of halves A and B has the variance ((A - B) / 2)^2. */
         r->noise = reference_error(r, halves[0].rgb);
         snprintf(r->origin, sizeof r->origin, "2 halves of %d spp by %s",
                  HALF_SPP,

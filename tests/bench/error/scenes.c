@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * scenes - writes scenes that are too special to be shipped, for measuring how
- * far light sampling gets: plates lamps2000 sun balls
+ * scenes - writes special scenes that are not shipped, to measure the limits of
+ * light sampling: plates lamps2000 sun balls
  *
  * usage: scenes FOLDER
  */
@@ -38,14 +38,15 @@ static void write_text(const char *name, const char *text)
     write_file(name, text, strlen(text));
 }
 
-/* The same numbers in [0, 1) every time. */
+/* Returns the same sequence of numbers in [0, 1) every time. */
 static double next_random(uint32_t *state)
 {
     *state = *state * 1664525u + 1013904223u;
     return *state / 4294967296.0;
 }
 
-/* A plate 8 wide and 1.1 deep that mirrors `lamp` to `eye`, both on x = 0. */
+/* Adds a plate, 8 wide and 1.1 deep, that reflects `lamp` to `eye`, which are
+ * both on x = 0. */
 static void plate(struct mesh *m, struct point eye, struct point lamp, double y,
                   double z)
 {
@@ -59,7 +60,7 @@ static void plate(struct mesh *m, struct point eye, struct point lamp, double y,
 }
 
 /* After Veach 1997, figure 9.2: plates from nearly smooth to rough below lamps
- * from small to large that shine with equal power. */
+ * of equal power from small to large. */
 static void make_plates(void)
 {
     static const char *const names[] = {"smooth", "glossy", "dull", "rough"};
@@ -132,8 +133,8 @@ static void make_lamps2000(void)
                                  "res 1024 576\n");
 }
 
-/* A blue sky with a sun of one texel: 0.7 degrees, five times as much light as
- * all the rest. Rows of a PFM file begin at the bottom. */
+/* Writes a blue sky with a sun of one texel: 0.7 degrees, with five times as
+ * much light as the rest. Rows of a PFM file begin at the bottom. */
 static void write_sun(void)
 {
     enum { W = 512, H = 256 };

@@ -18,7 +18,7 @@ double series_slope(const struct series *s)
     return (s->count * xy - x * y) / (s->count * xx - x * x);
 }
 
-/* The error after so many seconds, between the two points around it. */
+/* Interpolates the error after this time. */
 static double error_after(const struct series *s, double seconds)
 {
     int i = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * series.h - points of a curve: error against seconds
+ * series.h - curves of error over seconds
  *
  * Units:     seconds, mean squares
  * Errors:    numbers that are not above 0 give NaN
@@ -12,16 +12,16 @@
 
 struct series {
     const char *name;
-    int count; /* 2 at least */
+    int count; /* at least 2 */
     double x[SERIES_POINTS], y[SERIES_POINTS];
 };
 
-/* Of the logarithm of the error's root against that of seconds, by least
- * squares; -0.5: independent samples. */
+/* Returns the slope of the logarithm of the root of the error over that of
+ * seconds, by least squares; -0.5 for independent samples. */
 double series_slope(const struct series *s);
 
-/* How many times the error of b is that of a at equal time: the longest that
- * both were measured for. */
+/* Returns the ratio of b's error to a's at the longest time for which both were
+ * measured. */
 double series_times(const struct series *a, const struct series *b);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * shadows.h - for paths that traces a shadow ray for any light
+ * shadows.h - turns off roulette of shadow rays: every light gets one
  *
  * Units:     probabilities
  */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * throughput.h - for paths with plain roulette: paths survive by
- * their throughput itself, from the first vertex on
+ * throughput.h - replaces roulette by a plain one: paths survive with the
+ * probability of their throughput, from the first vertex on
  *
  * Units:     probabilities
  */

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * uniform.h - for paths without a light tree: all lights are equally
- * likely
+ * uniform.h - replaces the light tree: all lights are equally likely
  */
 #ifndef ERROR_UNIFORM_H
 #define ERROR_UNIFORM_H
@@ -22,7 +21,7 @@ static inline float uniform_choose(const struct world *w,
                                    uint32_t *light)
 {
     *light = (uint32_t)(choice.x * (float)w->settings.light_count);
-    if (*light >= w->settings.light_count) /* rounded up, or there is none */
+    if (*light >= w->settings.light_count) /* by rounding, or without lights */
         return 0.0f;
     return uniform_probability(w, r, *light);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
 /*
- * whole.h - for paths as they are, built for the same instructions as those
- * that have a function replaced
+ * whole.h - replaces nothing; the build has the same instruction set as those
+ * with a function replaced
  */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What devices hold; only one builds at a time. */
+/* Memory of all devices; only one builds at a time. */
 static atomic_long bytes_held;
 
 static bool note_bytes(void *user, ssize_t bytes, bool post)
@@ -44,8 +44,8 @@ static RTCGeometry geometry_of(RTCDevice device, const struct world *w)
     return g;
 }
 
-/* Its manual asks for this: denormal numbers are slow, and change no hit of its
- * own. Returns what to set afterwards. */
+/* Flushes denormal numbers to zero, as Embree's manual recommends, because they
+ * are slow; this changes none of its hits. Returns the mode to restore. */
 static unsigned flush_denormals(void)
 {
     unsigned before = _mm_getcsr();
@@ -99,7 +99,8 @@ static struct answer ask_any(RTCScene scene, struct RTCIntersectContext *c,
     return (struct answer){0.0f, q.tfar < 0.0f ? 0 : NO_INDEX};
 }
 
-/* One by one; inlined, so that no call but Embree's is timed. */
+/* Traces rays one by one. It is inlined, so that only Embree's calls are
+ * timed. */
 static inline __attribute__((always_inline)) void
 ask_each(const struct embree *e, embree_query *ask, const struct ray *rays,
          uint32_t count, struct answer *answers)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
- * embree_racer.h - the same rays through Embree 3
+ * embree_racer.h - ray queries through Embree 3
  *
  * Units:     normalised scene units, seconds, bytes
- * Ownership: embree_free() frees; a zeroed struct is none
+ * Ownership: embree_free() frees; a zeroed struct is empty
  * Threads:   one builds; queries from any
- * Errors:    the program ends, for nobody can compare then
+ * Errors:    the program ends, since there is nothing to compare
  */
 #ifndef RAYS_EMBREE_RACER_H
 #define RAYS_EMBREE_RACER_H
@@ -21,9 +21,9 @@ struct embree {
 };
 
 enum embree_kind {
-    EMBREE_FAST,   /* built in high quality, with spatial splits */
-    EMBREE_MEDIUM, /* without */
-    EMBREE_ROBUST  /* watertight, which builds no spatial splits */
+    EMBREE_FAST,   /* high quality, with spatial splits */
+    EMBREE_MEDIUM, /* without spatial splits */
+    EMBREE_ROBUST  /* watertight; it does not support spatial splits */
 };
 
 void embree_build(struct embree *e, const struct world *world,

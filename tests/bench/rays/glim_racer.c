@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* Built with flags for a set of instructions: RACER is the name of the result.
- */
+/* Queries of glim, built for an instruction set; RACER is the name of the
+ * struct. */
 #include "racer.h"
 
 #include "bvh/bvh8_traverse.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * racer.h - what traces rays and is timed against others that do
+ * racer.h - ray queries that are timed against others
  *
  * Units:     normalised scene units
- * Ownership: the tree belongs to who made the racer
+ * Ownership: the tree belongs to the racer's maker
  * Threads:   queries from any
  */
 #ifndef RAYS_RACER_H
@@ -14,11 +14,11 @@
 #include "spent.h"
 
 struct answer {
-    float t;      /* of a nearest hit */
-    uint32_t tri; /* NO_INDEX: nothing hit; 0 if anything is enough */
+    float t;      /* distance of the nearest hit */
+    uint32_t tri; /* NO_INDEX: no hit; 0 if any hit is enough */
 };
 
-/* Answers `count` rays. */
+/* Traces `count` rays. */
 typedef void racer_query(const void *tree, const struct ray *rays,
                          uint32_t count, struct answer *answers);
 
@@ -26,12 +26,12 @@ struct racer {
     const void *tree;
     racer_query *closest;
     racer_query *any;
-    racer_query *coherent; /* nearest hits of neighbours */
+    racer_query *coherent; /* nearest hits of neighbouring rays */
     struct spent build;
-    double bytes; /* of the tree */
+    double bytes; /* size of the tree */
 };
 
-/* glim's queries for a set of instructions; the tree is a struct bvh8_world. */
+/* Queries of glim for an instruction set; the tree is a struct bvh8_world. */
 extern const struct racer racer_plain;
 extern const struct racer racer_avx2; /* x86-64 only */
 extern const struct racer racer_avx512;

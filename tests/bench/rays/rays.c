@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * rays - glim's ray queries beside Embree's: the same rays in one process,
- * medians of repeats that take turns, every hit compared
+ * rays - ray queries of glim and Embree: the same rays in one process, medians
+ * of interleaved repeats, and every hit compared
  *
  * usage: rays SHARED [PART of the meshes' names, or of "scaling" [ISA]]
  */
@@ -30,15 +30,15 @@
 #define SETTLE_NS   20000000
 #define THREADS_MAX 2
 
-/* Rays of a job. */
+/* Number of rays in a job. */
 #define CHUNK 4096
 
-/* Distances of the same hit differ by no more than this part, and where the ray
- * begins close by no more than coordinates are rounded. */
+/* Relative tolerance for distances of the same hit, and the tolerance near the
+ * ray's origin, where coordinates are rounded. */
 #define T_TOLERANCE 1e-5f
 #define T_ROUNDING  0x1p-23f
 
-/* Those that trace, those that build, and what lines say of builds. */
+/* Racers that trace, builders, and lines of output about builds. */
 enum {
     GLIM,
     ROBUST,
@@ -57,13 +57,13 @@ struct contest {
     struct shape shape;
     struct bvh8 tree;
     struct bvh8_world world;
-    struct embree embrees[BUILDERS]; /* GLIM's is none */
+    struct embree embrees[BUILDERS]; /* GLIM's is empty */
     struct racer racers[RACERS];
     struct ray_set sets[SETS];
     struct answer *answers[RACERS];
 };
 
-/* One racer's turn. */
+/* One racer's measurement. */
 struct heat {
     racer_query *query;
     const void *tree;
@@ -76,13 +76,13 @@ struct times {
     double s[REPEATS];
 };
 
-/* Logarithms of ratios, for the geometric mean. */
+/* Sums of logarithms of ratios, for the geometric mean. */
 struct mean {
     double robust, fast;
     int count;
 };
 
-/* Of rays that the scene has sent elsewhere, and of the camera's in groups. */
+/* Means for rays scattered by the scene, and for camera rays in groups. */
 static struct mean scattered, grouped;
 
 static void trace_chunk(void *context, uint32_t item, int worker)
@@ -118,7 +118,7 @@ static void time_heat(struct pool *pool, struct heat *h, struct times *times,
     times->cpu_s[repeat] = cpu_s(pool) - before_s;
 }
 
-/* A line that says how many answers agree with glim's. */
+/* Prints how many answers agree with glim's. */
 static void compare_answers(const struct contest *c, const struct ray_set *set,
                             int racer)
 {
@@ -141,8 +141,8 @@ static void compare_answers(const struct contest *c, const struct ray_set *set,
            set->count, hits, names[racer], ties, faults);
 }
 
-/* Times the queries, of which there is one for each racer, and compares what
- * one thread has found. The ratios go into the mean, or NULL. */
+/* Times one query per racer and compares the results of one thread. Adds the
+ * ratios to the mean, unless it is NULL. */
 static void race(struct contest *c, struct pool *pool, const char *name,
                  const struct ray_set *set, racer_query *const *queries,
                  struct mean *mean)
@@ -177,7 +177,7 @@ static void race(struct contest *c, struct pool *pool, const char *name,
     mean->count++;
 }
 
-/* `rays` names them, and ends in a blank, if it is not all that counts. */
+/* `rays` names the rays and ends in a blank, or is empty for all. */
 static void print_mean(const char *rays, const struct mean *m)
 {
     if (m->count > 0)
@@ -231,7 +231,7 @@ static bool build_glim(struct contest *c, const struct cpu_kernel *paths,
     return ok;
 }
 
-/* What reinsertion takes of that. */
+/* Times reinsertion alone. */
 static bool time_reinsertion(const struct contest *c, struct pool *pool,
                              struct spent *spent, struct error *err)
 {
@@ -256,14 +256,14 @@ static struct spent median_of(const struct spent times[BUILDS])
     return (struct spent){median(s, BUILDS), median(cpu_s, BUILDS)};
 }
 
-/* Lines that say what the trees take, and Embree's how many times as long as
- * glim's of the same kind. */
+/* Prints the costs of the trees, and the ratio of Embree's time to glim's for
+ * trees of the same kind. */
 static void print_builds(const struct contest *c,
                          struct spent times[BUILD_LINES][BUILDS])
 {
     static const struct {
         const char *name;
-        int glims; /* of the same kind */
+        int glims; /* glim's tree of the same kind */
     } lines[BUILD_LINES] = {[GLIM] = {"glim", GLIM},
                             [BINNED] = {"glim binned", BINNED},
                             [ROBUST] = {"Embree robust", BINNED},
@@ -286,14 +286,14 @@ static void print_builds(const struct contest *c,
     }
 }
 
-/* Embree's threads spin for a while when their work is done: they would take
- * the processors of whoever comes next. */
+/* Embree's threads spin for a while after their work, which would disturb the
+ * next measurement. */
 static void settle(void)
 {
     nanosleep(&(struct timespec){.tv_nsec = SETTLE_NS}, NULL);
 }
 
-/* Trees by turns, each with as many threads. */
+/* Builds trees in turns, all with the same number of threads. */
 static bool build_all(struct contest *c, const struct cpu_kernel *paths,
                       struct error *err)
 {

@@ -17,12 +17,12 @@
 
 #define REPEATS 5
 
-/* Squares of the terrains along x. */
+/* Number of squares of the terrains along x. */
 static const uint32_t columns[] = {32, 100, 316, 1000, 3162};
 
 enum { SIZES = sizeof columns / sizeof columns[0] };
 
-/* Of the sets, in the order of the columns that are printed. */
+/* Sets in the order of the printed columns. */
 static const enum set timed[] = {SET_PRIMARY, SET_BOUNCE, SET_SHADOW};
 
 enum { TIMED = sizeof timed / sizeof timed[0] };
@@ -35,7 +35,7 @@ static uint64_t thread_cpu_ns(void)
     return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-/* Median nanoseconds of a ray. */
+/* Returns the median nanoseconds per ray. */
 static double ray_ns(const struct racer *r, const struct ray_set *set, bool any,
                      struct answer *answers)
 {
@@ -92,7 +92,7 @@ static bool time_size(struct racer r, struct pool *pool, uint32_t across,
     return ok;
 }
 
-/* The slope of the straight line through the points, by least squares. */
+/* Returns the slope of a straight line through the points, by least squares. */
 static double slope_of(const double *x, double y[SIZES][TIMED], int column)
 {
     double mx = 0, my = 0, xy = 0, xx = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * scaling.h - what more triangles cost a ray
+ * scaling.h - the cost of a ray by the number of triangles
  *
  * Units:     seconds
  * Threads:   all build, one traces
@@ -13,7 +13,7 @@
 #include "racer.h"
 
 /* Prints times of glim's rays in terrains of 1,000 to 10 million triangles, and
- * what each doubling adds. The racer's tree is not read. */
+ * the increase per doubling. The racer's tree is not read. */
 bool scaling_run(const struct racer *racer, struct error *err);
 
 #endif

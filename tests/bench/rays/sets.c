@@ -9,20 +9,21 @@
 #include "kernels/hit.h"
 #include "kernels/rng.h"
 
-/* Rays begin this far above a surface: farther than the errors of any racer,
- * whose answers would not be comparable else. */
+/* Rays begin this far above a surface, which exceeds the errors of all racers;
+ * otherwise their hits would differ. */
 #define LIFT 2e-5f
 
-/* A shadow ray ends so near its lamp that no racer finds the lamp itself. */
+/* A shadow ray ends at this part of the distance, so that no racer hits the
+ * lamp itself. */
 #define REACH 0.999f
 
-/* Where a scene has no lamps. */
+/* Target of shadow rays in scenes without lamps. */
 static const struct vec3 sun = {0.5f, 0.5f, 0.2f};
 
 const char *const set_names[SETS] = {"primary", "bounce", "bounce2", "shadow"};
 
-/* Squares of 8 x 8 pixels, within them blocks of 4 x 2, so that any eight in a
- * row are neighbours. */
+/* Squares of 8 x 8 pixels consist of blocks of 4 x 2, so that any eight
+ * consecutive rays are neighbours. */
 static void make_primary(struct ray_set *to, const struct camera *c)
 {
     uint32_t width = (uint32_t)c->width, height = (uint32_t)c->height;
@@ -38,8 +39,8 @@ static void make_primary(struct ray_set *to, const struct camera *c)
     }
 }
 
-/* Where a hit is left, and the normal on the side that the ray came from. False
- * if nothing was hit. */
+/* Returns the point where a ray leaves the hit, and the normal on the incident
+ * side. Returns false if nothing was hit. */
 static bool leave(const struct world *w, const struct ray *r, struct answer a,
                   struct ray *next, struct vec3 *n)
 {
@@ -57,7 +58,7 @@ static bool leave(const struct world *w, const struct ray *r, struct answer a,
     return true;
 }
 
-/* Two independent numbers of ray i. */
+/* Returns two independent random numbers of ray i. */
 static struct vec2 random_pair(uint32_t i, uint32_t dimension)
 {
     uint32_t key = hash_u32(i + hash_u32(dimension + 1u));
@@ -79,7 +80,8 @@ static bool bounce(const struct world *w, struct vec2 u, struct vec2 choice,
     return true;
 }
 
-/* To a point of one of the lamps. False for one behind the surface. */
+/* Makes a ray to a point of a lamp. Returns false if it is behind the
+ * surface. */
 static bool shadow(const struct world *w, struct vec2 u, struct vec2 choice,
                    struct vec3 n, struct ray *r)
 {
@@ -108,7 +110,7 @@ static bool shadow(const struct world *w, struct vec2 u, struct vec2 choice,
     return true;
 }
 
-/* Rays that go on from the answers. */
+/* Makes rays that continue from the answers. */
 static void make_next(struct ray_set *to, const struct world *w,
                       const struct ray_set *from, const struct answer *answers,
                       uint32_t dimension,

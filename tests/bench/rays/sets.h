@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * sets.h - rays that are timed: from the camera, from what they hit and what
- * those hit, and to lamps
+ * sets.h - rays that are timed: from the camera, from their hits and the next
+ * hits, and to lamps
  *
  * Units:     normalised scene units
  * Ownership: sets_free() frees
@@ -14,10 +14,10 @@
 #include "racer.h"
 
 enum set {
-    SET_PRIMARY, /* through the middles of pixels, in blocks of 4 x 2 */
-    SET_BOUNCE,  /* by the cosine from what those hit */
-    SET_BOUNCE2, /* and from what the bounces hit */
-    SET_SHADOW,  /* from what primary rays hit to a lamp, or to the sun */
+    SET_PRIMARY, /* through the centres of pixels, in blocks of 4 x 2 */
+    SET_BOUNCE,  /* cosine-distributed, from hits of primary rays */
+    SET_BOUNCE2, /* from hits of bounces */
+    SET_SHADOW,  /* from hits of primary rays to a lamp, or to the sun */
     SETS
 };
 
@@ -28,7 +28,7 @@ struct ray_set {
     uint32_t count;
 };
 
-/* The racer's tree is that of the world. */
+/* The racer's tree is the world's. */
 void sets_make(struct ray_set sets[SETS], const struct world *world,
                const struct racer *racer);
 void sets_free(struct ray_set sets[SETS]);

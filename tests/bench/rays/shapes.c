@@ -12,7 +12,7 @@
 #include "terminal/xmalloc.h"
 #include "kernels/rng.h"
 
-/* Octaves of a terrain's height. */
+/* Number of octaves of a terrain's height. */
 #define OCTAVES 10
 
 #define WIDTH_PX  640
@@ -21,10 +21,11 @@
 const char *const shape_names[SHAPES] = {"bunny", "sponza_part", "veach_ajar",
                                          "terrain1m", "terrain4m"};
 
-/* Squares of a terrain along x; half as many along z. 0: a file. */
+/* Number of squares of a terrain along x, with half as many along z; 0 is a
+ * file. */
 static const uint32_t columns[SHAPES] = {0, 0, 0, 1000, 2000};
 
-/* In [-1, 1], at the corners of a lattice. */
+/* Returns a number in [-1, 1] at a corner of a lattice. */
 static double height_at(int x, int z, int octave)
 {
     uint32_t h = hash_u32((uint32_t)x + hash_u32((uint32_t)z + 1u));
@@ -32,7 +33,7 @@ static double height_at(int x, int z, int octave)
     return 2.0 * (double)unit_float(hash_u32(h + (uint32_t)octave)) - 1.0;
 }
 
-/* Value noise (Perlin's lattice with heights), x and z at least 0. */
+/* Value noise (Perlin's lattice with heights), for x and z at least 0. */
 static double noise(double x, double z, int octave)
 {
     int i = (int)x, k = (int)z;
@@ -45,7 +46,8 @@ static double noise(double x, double z, int octave)
     return a + (b - a) * u + (c - a) * v + (a - b - c + d) * u * v;
 }
 
-/* The square of the terrain whose first corner is `a`, as two triangles. */
+/* Adds the square of the terrain whose first corner is `a`, as two
+ * triangles. */
 static void add_square(struct scene *s, uint32_t a, uint32_t across)
 {
     const uint32_t corners[2][3] = {{a, a + across, a + 1},
@@ -58,7 +60,7 @@ static void add_square(struct scene *s, uint32_t a, uint32_t across)
                          .vt = {NO_INDEX, NO_INDEX, NO_INDEX}};
 }
 
-/* What obj_read() would have read. */
+/* Fills the scene as obj_read() does. */
 static bool make_terrain(struct scene *s, uint32_t across, struct error *err)
 {
     uint32_t along = across / 2;
@@ -88,7 +90,7 @@ static bool make_terrain(struct scene *s, uint32_t across, struct error *err)
     return mtl_add_default(s, err);
 }
 
-/* From above one corner over the middle. */
+/* The view is from above one corner towards the middle. */
 static bool load_terrain(struct scene *s, uint32_t across, struct view *view,
                          struct warnings *report, struct error *err)
 {
@@ -121,7 +123,7 @@ static bool load_file(struct scene *s, const char *name, const char *shared,
     return ok;
 }
 
-/* The world as the view sees it, if the scene was loaded. */
+/* Makes the world for the view, if the scene was loaded. */
 static bool finish(struct shape *shape, struct view *view, bool is_loaded,
                    struct warnings *report, struct error *err)
 {
@@ -132,7 +134,7 @@ static bool finish(struct shape *shape, struct view *view, bool is_loaded,
     ok = is_loaded && world_init(&shape->host, &shape->scene, 1, report, err) &&
          world_lend(&shape->host, &shape->scene, view, 0, &shape->world, err);
     warnings_free(report);
-    /* no holes: Embree's rays would not pass them */
+    /* without holes, which Embree's rays do not pass */
     shape->world.settings.features = 0;
     view_free(view);
     if (!ok)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * shapes.h - meshes that rays are timed in: scans and rooms from ../shared, and
- * terrains that are made here
+ * shapes.h - meshes in which rays are timed: scans and rooms from ../shared,
+ * and generated terrains
  *
  * Units:     normalised scene units
- * Ownership: shape_free() frees; a zeroed struct is none
+ * Ownership: shape_free() frees; a zeroed struct is empty
  * Threads:   one
  * Errors:    files that cannot be read, memory
  */
@@ -18,16 +18,17 @@
 struct shape {
     struct scene scene;
     struct host_world host;
-    struct world world; /* as the shape's camera sees it */
+    struct world world; /* for the shape's camera */
 };
 
 extern const char *const shape_names[SHAPES];
 
-/* False with an empty text: there is no such file below `shared`. */
+/* Returns false with an empty text if `shared` has no such file. */
 bool shape_load(struct shape *shape, int i, const char *shared,
                 struct error *err);
 
-/* Squares along x, half as many along z; each is two triangles. */
+/* Makes a terrain of this many squares along x and half as many along z; each
+ * is two triangles. */
 bool shape_make_terrain(struct shape *shape, uint32_t across,
                         struct error *err);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * spent.h - time that something takes, by the clock and of the processor
+ * spent.h - time by the clock and by the processor
  *
  * Units:     seconds
- * Threads:   any; the processor's time is that of all together
+ * Threads:   any; processor time is the sum of all threads
  */
 #ifndef RAYS_SPENT_H
 #define RAYS_SPENT_H

@@ -20,11 +20,11 @@
 #define HEIGHT 12
 #define BYTES  (3 * WIDTH * HEIGHT)
 
-/* More allocations than a run has. */
+/* A limit above the number of allocations of a run. */
 #define RUNS_MAX 100000
 
-static atomic_long call_count; /* of allocations since the run began */
-static atomic_long live_count; /* blocks that were not freed yet */
+static atomic_long call_count; /* allocations since the run began */
+static atomic_long live_count; /* blocks that are not freed */
 static long failing;           /* number of the call that fails; 0: none */
 
 static char picture_path[64];
@@ -85,7 +85,7 @@ char *__wrap_strndup(const char *text, size_t size)
     return fails() ? NULL : counted(__real_strndup(text, size));
 }
 
-/* With fortified headers vasprintf() is __vasprintf_chk(). */
+/* Fortified headers call __vasprintf_chk() for vasprintf(). */
 int __wrap_vasprintf(char **text, const char *format, va_list values);
 int __wrap_vasprintf(char **text, const char *format, va_list values)
 {
@@ -117,7 +117,7 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return fails() ? NULL : counted(__real_open_memstream(text, size));
 }
 
-/* Headers of an optimised build call this one for getline(). */
+/* Headers of an optimised build call this for getline(). */
 ssize_t __real___getdelim(char **line, size_t *size, int end, FILE *from);
 ssize_t __wrap___getdelim(char **line, size_t *size, int end, FILE *from);
 ssize_t __wrap___getdelim(char **line, size_t *size, int end, FILE *from)
@@ -146,7 +146,7 @@ void __wrap_free(void *p)
     __real_free(p);
 }
 
-/* What a run ends with. */
+/* The result of a run. */
 struct outcome {
     bool is_done;
     bool has_warning;
@@ -163,7 +163,7 @@ static bool render(struct glim *g, struct outcome *o, const char *picture)
            glim_save(g, picture, &o->err);
 }
 
-/* Opens, renders and saves; the n-th allocation fails. */
+/* Opens, renders and saves; allocation n fails. */
 static void run(struct outcome *o, const char *scene, long n)
 {
     struct glim *g;
@@ -182,8 +182,7 @@ static void run(struct outcome *o, const char *scene, long n)
                  (long)live_count, o->is_done ? "done" : o->err.text);
 }
 
-/* A run that nothing fails in gives the number of allocations and the picture.
- */
+/* A run without failures gives the number of allocations and the picture. */
 static void check_scene(const char *scene)
 {
     struct outcome good, now;

@@ -43,11 +43,12 @@ static void check_orthonormal(const struct axes *axes)
     check_close(vec3d_length(axes->forward), 1, 1e-12);
     check_close(vec3d_length(axes->pole), 1, 1e-12);
     vec3d_cross(axes->right, axes->up, across);
-    for (int k = 0; k < 3; k++) /* backwards: a right-handed system */
+    /* The axis points backwards: a right-handed system. */
+    for (int k = 0; k < 3; k++)
         check_close(across[k], -axes->forward[k], 1e-12);
 }
 
-/* Of any size, from the largest numbers to the least. */
+/* Tests cameras of all sizes, from the largest numbers to the smallest. */
 static void axes_are_orthonormal(void **state)
 {
     uint64_t seed = 3;
@@ -72,7 +73,7 @@ static void axes_are_orthonormal(void **state)
 }
 
 /* The threshold is a sine of 1e-6, for any length of up. */
-static void an_up_along_the_look_is_replaced(void **state)
+static void up_along_the_view_is_replaced(void **state)
 {
     static const double sines[] = {0, 1e-9, 0.9e-6, 1.1e-6, 1e-3};
 
@@ -87,7 +88,7 @@ static void an_up_along_the_look_is_replaced(void **state)
     }
 }
 
-static void no_look_and_no_up_have_axes(void **state)
+static void zero_vectors_give_axes(void **state)
 {
     struct pose pose = {.fovy_deg = 40};
     struct axes axes;
@@ -105,8 +106,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(impossible_cameras_are_refused),
         cmocka_unit_test(axes_are_orthonormal),
-        cmocka_unit_test(an_up_along_the_look_is_replaced),
-        cmocka_unit_test(no_look_and_no_up_have_axes),
+        cmocka_unit_test(up_along_the_view_is_replaced),
+        cmocka_unit_test(zero_vectors_give_axes),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,7 +11,7 @@
 
 #define PI 3.14159265358979323846
 
-/* Two texels: an opaque 255 128 0 and a clear 10 20 30. */
+/* Two texels: an opaque 255 128 0 and a transparent 10 20 30. */
 static const unsigned char two_texels[] = {
     137, 80,  78,  71,  13, 10, 26,  10, 0,  0,  0,   13,  73,  72,  68,
     82,  0,   0,   0,   2,  0,  0,   0,  1,  8,  6,   0,   0,   0,   244,
@@ -52,8 +52,8 @@ static void unload(struct loaded *l)
     warnings_free(&l->report);
 }
 
-/* Every vertex that a triangle uses is where the file has it, to the precision
- * of floats, and the greatest extent is in [1, 2). */
+/* Checks that every vertex used by a triangle has the place of the file, to the
+ * precision of floats, and that the greatest extent is in [1, 2). */
 static void check_normalized(const struct scene *s, const double *file)
 {
     double extent = 0;
@@ -84,7 +84,7 @@ static void check_normalized(const struct scene *s, const double *file)
     assert_true(extent < 2);
 }
 
-static void test_normalization(void **state)
+static void scenes_are_normalised(void **state)
 {
     static const double sizes[] = {1e-300, 1e-30, 1e-6,  0.3,    1,
                                    1e6,    1e30,  1e300, 1.7e308};
@@ -117,7 +117,7 @@ static void test_normalization(void **state)
     }
 }
 
-static void test_triangles_without_area(void **state)
+static void triangles_without_area_are_dropped(void **state)
 {
     struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv .1 .1 .1\n"
                            "v .3 .3 .3\nf 1 1 1\nf 1 2 2\nf 1 4 2\nf 1 5 6\n"
@@ -132,8 +132,8 @@ static void test_triangles_without_area(void **state)
     unload(&l);
 }
 
-/* An area in the file that is none in floats: a speck beside a world. */
-static void test_triangles_too_small_for_floats(void **state)
+/* An area of the file that is zero in floats: a speck beside a large world. */
+static void triangles_too_small_for_floats_are_dropped(void **state)
 {
     struct loaded l = load("v 0 0 0\nv 1e12 0 0\nv 0 1e12 0\nv 1 1 0\n"
                            "v 1.001 1 0\nv 1 1.001 0\nf 1 2 3\nf 4 5 6\n");
@@ -144,9 +144,9 @@ static void test_triangles_too_small_for_floats(void **state)
     unload(&l);
 }
 
-/* Beside an edge of 5e38 one of 1 is 2^-129 long, which has no reciprocal: the
- * first face keeps its normal, and of the second rounding leaves nothing. */
-static void test_needles_keep_their_normals(void **state)
+/* Beside an edge of 5e38 an edge of 1 has 2^-129, which has no reciprocal. The
+ * first face keeps its normal; rounding leaves nothing of the second. */
+static void needles_keep_their_normals(void **state)
 {
     static const char *const others[] = {"v 0 1 0", "v 0 1e-9 0", "v 0 1e30 0"};
 
@@ -172,7 +172,7 @@ static void test_needles_keep_their_normals(void **state)
     }
 }
 
-static void test_unused_vertices_have_no_effect(void **state)
+static void unused_vertices_have_no_effect(void **state)
 {
     struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e9 0 0\nv nan 0 0\n"
                            "v 1e308 -1e308 inf\nf 1 2 3\n");
@@ -190,7 +190,7 @@ static void test_unused_vertices_have_no_effect(void **state)
     unload(&l);
 }
 
-static void test_no_faces(void **state)
+static void scenes_without_faces_are_accepted(void **state)
 {
     struct loaded l = load("v 1 2 3\np 1\n");
     struct view view;
@@ -211,9 +211,9 @@ static void test_no_faces(void **state)
     unload(&l);
 }
 
-/* Copies of a face begin at the same corner, wherever they do so in the file;
- * winding, texture coordinates and normals stay with their corners. */
-static void test_copies_begin_alike(void **state)
+/* Copies of a face begin at the same corner, whichever is the first in the
+ * file. Winding, texture coordinates and normals stay with their corners. */
+static void copies_begin_at_the_same_corner(void **state)
 {
     static const uint32_t expected[4][3] = {{1, 2, 0},
                                             {1, 2, 0},
@@ -237,7 +237,7 @@ static void test_copies_begin_alike(void **state)
     unload(&l);
 }
 
-static void test_z_up(void **state)
+static void z_up_turns_the_scene(void **state)
 {
     struct loaded l = load_turned("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 -1 0\n"
                                   "vn 0 1 0\nf 1//1 2//1 3//1\nf 1 2 4\n",
@@ -252,7 +252,7 @@ static void test_z_up(void **state)
     unload(&l);
 }
 
-static void test_textures(void **state)
+static void textures_are_read_with_their_options(void **state)
 {
     static const char mtl[] =
         "newmtl a\nKd .5 .5 .5\nmap_Kd two.png\nnewmtl b\nKd 0 0 0\n"
@@ -295,8 +295,8 @@ static void test_textures(void **state)
     unload(&l);
 }
 
-/* Materials may be named before they are defined. */
-static void test_libraries(void **state)
+/* Materials may be used before they are defined. */
+static void libraries_are_found_beside_the_scene(void **state)
 {
     static const char one[] = "newmtl one\nKd 1 0 0\n";
     static const char two[] = "newmtl two\nKd 0 1 0\nKe 1 1 1\n";
@@ -329,7 +329,8 @@ static void test_libraries(void **state)
     unload(&l);
 }
 
-/* Where a point of the file is on the picture: in [-1, 1] if it is seen. */
+/* Projects a point of the file to the picture: visible points are in [-1,
+ * 1]. */
 static void project(const struct scene *s, const struct world *w,
                     const double point[3], double *x, double *y, double *z)
 {
@@ -353,7 +354,7 @@ static void project(const struct scene *s, const struct world *w,
     *z = along[2];
 }
 
-static void test_frame_shows_everything(void **state)
+static void framing_shows_everything(void **state)
 {
     static const double fovys[] = {1, 20, 40, 90, 170};
     static const int sizes[][2] = {{100, 100}, {1600, 90}, {90, 1600}};
@@ -398,7 +399,7 @@ static void check_vec(struct vec3 v, double x, double y, double z)
     check_close((double)v.z, z, 1e-6);
 }
 
-static void test_camera(void **state)
+static void camera_is_in_scene_units(void **state)
 {
     struct loaded l = load("v 0 0 0\nv 4 0 0\nv 0 2 0\nf 1 2 3\n");
     struct world w;
@@ -412,7 +413,7 @@ static void test_camera(void **state)
     view.width_px = 200;
     view.height_px = 100;
     assert_true(world_lend(&l.world, &l.scene, &view, 7, &w, &l.err));
-    /* the centre is 2 1 0 and the extent 4: a scale of 1/4 */
+    /* The centre is 2 1 0 and the extent 4: a scale of 1/4. */
     check_vec(w.settings.camera.eye, 0, 0, 2);
     check_vec(w.settings.camera.forward, 0, 0, -1);
     check_vec(w.settings.camera.right, 2, 0, 0);
@@ -422,7 +423,7 @@ static void test_camera(void **state)
     assert_int_equal(w.settings.max_vertices, 1000);
     assert_int_equal(w.settings.features, 0);
     assert_true(w.settings.camera.lens_radius == 0);
-    view.pose.aperture = 0.8; /* a radius of .4, and the distance to at: 8 */
+    view.pose.aperture = 0.8; /* a radius of .4, and a focus distance of 8 */
     assert_true(world_lend(&l.world, &l.scene, &view, 7, &w, &l.err));
     check_close((double)w.settings.camera.lens_radius, 0.1, 1e-7);
     check_close((double)w.settings.camera.focus, 2, 1e-6);
@@ -438,8 +439,9 @@ static void test_camera(void **state)
     unload(&l);
 }
 
-/* Straight down with +y up, and no up at all: some picture, upright axes. */
-static void test_up_along_the_view(void **state)
+/* A view straight down with +y up, or without up, gives a picture with upright
+ * axes. */
+static void up_along_the_view_is_replaced(void **state)
 {
     static const double ups[][3] = {
         {0, 1, 0}, {0, -5, 0}, {0, 0, 0}, {1e-8, 1, 0}, {NAN, 1, 0}};
@@ -474,7 +476,7 @@ static void test_up_along_the_view(void **state)
     unload(&l);
 }
 
-static void test_impossible_cameras(void **state)
+static void impossible_cameras_are_refused(void **state)
 {
     struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     struct world w;
@@ -493,7 +495,7 @@ static void test_impossible_cameras(void **state)
     unload(&l);
 }
 
-static void test_sky(void **state)
+static void skies_are_read(void **state)
 {
     struct loaded l = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     struct view view;
@@ -537,7 +539,7 @@ static void test_sky(void **state)
     unload(&l);
 }
 
-static void test_coverage(void **state)
+static void coverage_is_an_opacity_texture(void **state)
 {
     static const char *const mtls[] = {"newmtl m\nKd .5\n", "newmtl m\nd .5\n",
                                        "newmtl m\nKd .5\nmap_Kd two.png\n",
@@ -565,8 +567,8 @@ static void test_coverage(void **state)
     unlink("two.png");
 }
 
-/* Against the standard's own numbers. */
-static void test_srgb_table(void **state)
+/* Compares with the numbers of the standard. */
+static void srgb_table_is_that_of_the_standard(void **state)
 {
     struct loaded l = load("v 0 0 0\n");
 
@@ -583,23 +585,23 @@ static void test_srgb_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normalization),
-        cmocka_unit_test(test_triangles_without_area),
-        cmocka_unit_test(test_triangles_too_small_for_floats),
-        cmocka_unit_test(test_needles_keep_their_normals),
-        cmocka_unit_test(test_unused_vertices_have_no_effect),
-        cmocka_unit_test(test_no_faces),
-        cmocka_unit_test(test_copies_begin_alike),
-        cmocka_unit_test(test_z_up),
-        cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_libraries),
-        cmocka_unit_test(test_frame_shows_everything),
-        cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_up_along_the_view),
-        cmocka_unit_test(test_impossible_cameras),
-        cmocka_unit_test(test_sky),
-        cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_srgb_table),
+        cmocka_unit_test(scenes_are_normalised),
+        cmocka_unit_test(triangles_without_area_are_dropped),
+        cmocka_unit_test(triangles_too_small_for_floats_are_dropped),
+        cmocka_unit_test(needles_keep_their_normals),
+        cmocka_unit_test(unused_vertices_have_no_effect),
+        cmocka_unit_test(scenes_without_faces_are_accepted),
+        cmocka_unit_test(copies_begin_at_the_same_corner),
+        cmocka_unit_test(z_up_turns_the_scene),
+        cmocka_unit_test(textures_are_read_with_their_options),
+        cmocka_unit_test(libraries_are_found_beside_the_scene),
+        cmocka_unit_test(framing_shows_everything),
+        cmocka_unit_test(camera_is_in_scene_units),
+        cmocka_unit_test(up_along_the_view_is_replaced),
+        cmocka_unit_test(impossible_cameras_are_refused),
+        cmocka_unit_test(skies_are_read),
+        cmocka_unit_test(coverage_is_an_opacity_texture),
+        cmocka_unit_test(srgb_table_is_that_of_the_standard),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, leave_empty_folder);

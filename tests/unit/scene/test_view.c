@@ -14,9 +14,9 @@
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
 
-static struct file_change change; /* of what was written last */
+static struct file_change change; /* the most recent write */
 
-/* In the test's folder; the name lives until the next call. */
+/* Returns a path in the test's folder, valid until the next call. */
 static const char *file(const char *name)
 {
     static char path[256];
@@ -49,7 +49,7 @@ static void read_text(struct view *view, const char *text)
     warnings_free(&report);
 }
 
-/* expected: the text behind the file's name. */
+/* Checks the error; `expected` is the text behind the file's name. */
 static void refused(const char *text, const char *expected)
 {
     struct warnings report = {0};
@@ -73,7 +73,7 @@ static void is3(const double v[3], double x, double y, double z)
     assert_true(v[0] == x && v[1] == y && v[2] == z);
 }
 
-static void test_defaults(void **state)
+static void absent_keys_have_their_defaults(void **state)
 {
     struct view view;
 
@@ -90,7 +90,7 @@ static void test_defaults(void **state)
     view_free(&view);
 }
 
-static void test_all_keys(void **state)
+static void all_keys_are_read(void **state)
 {
     struct view view;
     char sky[256];
@@ -132,7 +132,7 @@ static void test_all_keys(void **state)
     view_free(&view);
 }
 
-static void test_over(void **state)
+static void later_lines_override_earlier_ones(void **state)
 {
     struct warnings report = {0};
     struct error err;
@@ -149,7 +149,7 @@ static void test_over(void **state)
     view_free(&view);
 }
 
-static void test_limits(void **state)
+static void limits_are_accepted(void **state)
 {
     struct view view;
 
@@ -157,7 +157,7 @@ static void test_limits(void **state)
     read_text(&view, "fovy 179.9\n");
     assert_true(view.pose.fovy_deg == 179.9);
     view_free(&view);
-    /* looking along up is for the camera to handle */
+    /* The camera accepts a view along up. */
     read_text(&view, "eye 0 5 0\nat 0 0 0\nup 0 1 0\nres 1 1\n");
     assert_true(view.has_camera);
     view_free(&view);
@@ -166,7 +166,7 @@ static void test_limits(void **state)
     view_free(&view);
 }
 
-static void test_refused(void **state)
+static void wrong_lines_have_their_message(void **state)
 {
     static const char angle[] = "an angle above 0 and below 180 degrees";
     static const char sizes[] = "2 whole numbers from 1 to 65536";
@@ -247,8 +247,9 @@ static void test_refused(void **state)
             "1: found 0 0 0, expected a direction for up");
 }
 
-/* What a line leaves out is as the keys above it say. */
-static void test_numbered_views(void **state)
+/* A numbered view has the values of the keys above it, except those on its
+ * line. */
+static void numbered_views_have_the_keys_above(void **state)
 {
     struct view view;
 
@@ -274,7 +275,7 @@ static void test_numbered_views(void **state)
     view_free(&view);
 }
 
-static void test_no_file(void **state)
+static void absent_files_have_their_message(void **state)
 {
     struct warnings report = {0};
     struct error err;
@@ -288,7 +289,7 @@ static void test_no_file(void **state)
     assert_non_null(strstr(err.text, ": found a folder"));
 }
 
-static void test_unknown(void **state)
+static void unknown_keys_are_warned_of(void **state)
 {
     struct warnings report = {0};
     struct error err;
@@ -308,8 +309,8 @@ static void test_unknown(void **state)
     warnings_free(&report);
 }
 
-/* Bytes without meaning are read or refused. */
-static void test_noise(void **state)
+/* Random bytes are read or refused. */
+static void random_bytes_do_no_harm(void **state)
 {
     uint64_t random = 3;
     char noise[512];
@@ -368,7 +369,7 @@ static void is_same(const struct view *a, const struct view *b)
     }
 }
 
-static void test_round_trip(void **state)
+static void written_views_are_read_back(void **state)
 {
     struct warnings report = {0};
     struct error err;
@@ -410,7 +411,7 @@ static void test_round_trip(void **state)
     assert_int_equal(report.entry_count, 0);
 }
 
-static void test_text(void **state)
+static void views_are_written_in_this_form(void **state)
 {
     struct error err;
     struct view view;
@@ -443,8 +444,8 @@ static void is_file(const char *path, const char *expected)
     assert_string_equal(text, expected);
 }
 
-/* Comments, order and lines of others outlive a new camera. */
-static void test_lines_are_kept(void **state)
+/* Comments, order and unknown lines are kept with a new camera. */
+static void lines_of_others_are_kept(void **state)
 {
     struct warnings report = {0};
     struct error err;
@@ -471,9 +472,9 @@ static void test_lines_are_kept(void **state)
     view_free(&view);
 }
 
-/* The sky that a view file names is the sky that was meant, from wherever the
- * program runs. */
-static void test_sky_names(void **state)
+/* The path of the sky in a view file leads to the same file from any current
+ * folder. */
+static void sky_paths_lead_to_the_file(void **state)
 {
     static const struct {
         const char *view_path, *sky, *line;
@@ -521,7 +522,7 @@ static void test_sky_names(void **state)
     assert_int_equal(chdir("/"), 0);
 }
 
-static void test_copy(void **state)
+static void copies_own_their_texts(void **state)
 {
     struct view a, b;
 
@@ -538,8 +539,8 @@ static void test_copy(void **state)
     view_free(&b);
 }
 
-/* The camera files that others wrote are all understood. */
-static void test_shared(void **state)
+/* The camera files of other programs in the shared folder are read. */
+static void shared_camera_files_are_read(void **state)
 {
     const char *shared = getenv("GLIM_SHARED");
     char pattern[512];
@@ -568,21 +569,22 @@ static void test_shared(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shared), /* before the folder changes */
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_all_keys),
-        cmocka_unit_test(test_over),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_no_file),
-        cmocka_unit_test(test_unknown),
-        cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_text),
-        cmocka_unit_test(test_sky_names),
-        cmocka_unit_test(test_copy),
-        cmocka_unit_test(test_numbered_views),
-        cmocka_unit_test(test_lines_are_kept),
+        cmocka_unit_test(
+            shared_camera_files_are_read), /* before the folder changes */
+        cmocka_unit_test(absent_keys_have_their_defaults),
+        cmocka_unit_test(all_keys_are_read),
+        cmocka_unit_test(later_lines_override_earlier_ones),
+        cmocka_unit_test(limits_are_accepted),
+        cmocka_unit_test(wrong_lines_have_their_message),
+        cmocka_unit_test(absent_files_have_their_message),
+        cmocka_unit_test(unknown_keys_are_warned_of),
+        cmocka_unit_test(random_bytes_do_no_harm),
+        cmocka_unit_test(written_views_are_read_back),
+        cmocka_unit_test(views_are_written_in_this_form),
+        cmocka_unit_test(sky_paths_lead_to_the_file),
+        cmocka_unit_test(copies_own_their_texts),
+        cmocka_unit_test(numbered_views_have_the_keys_above),
+        cmocka_unit_test(lines_of_others_are_kept),
     };
 
     return cmocka_run_group_tests_name("view", tests, make_folder,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The command line: what each option sets, and the exact words about what is
- * wrong with it.
+ * test_command_line.c - what each option sets, and the exact messages about
+ * wrong ones
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -59,7 +59,7 @@ static void bad(const char *line, const char *text)
     assert_string_equal(err.text, text);
 }
 
-static void test_defaults(void **state)
+static void defaults_are_set(void **state)
 {
     struct options o = good("a.obj");
 
@@ -86,7 +86,7 @@ static void test_defaults(void **state)
     assert_null(o.kernels_path);
 }
 
-static void test_every_option(void **state)
+static void every_option_sets_its_value(void **state)
 {
     struct options o =
         good("-b -t 2 --seed 7 -d 5 -c other.view --stats run.json -o out.pfm "
@@ -112,7 +112,7 @@ static void test_every_option(void **state)
     assert_string_equal(o.scene_path, "house.obj");
 }
 
-static void test_words(void **state)
+static void words_select_values(void **state)
 {
     (void)state;
     assert_int_equal(good("a --color 24").display.color, COLOR_24BIT);
@@ -143,7 +143,7 @@ static void test_words(void **state)
     bad("a --up x", "--up: found 'x', expected y or z");
 }
 
-static void test_spelling(void **state)
+static void misspelt_options_have_their_message(void **state)
 {
     (void)state;
     assert_int_equal(good("-w640 a").width_px, 640);
@@ -161,7 +161,7 @@ static void test_spelling(void **state)
     bad("a --phoe-keys=1", "--phoe-keys: found '1', expected no value");
 }
 
-static void test_numbers(void **state)
+static void wrong_numbers_have_their_message(void **state)
 {
     (void)state;
     assert_int_equal(good("a -w 1 -h 65536").height_px, 65536);
@@ -202,8 +202,8 @@ static void test_numbers(void **state)
         "--cell-aspect: found '', expected a number from 0.25 to 8");
 }
 
-/* -h is the height, but a person may mean help. */
-static void test_help(void **state)
+/* -h is the height, but a person may expect help. */
+static void help_is_recognised(void **state)
 {
     (void)state;
     assert_true(good("--help").show_help);
@@ -217,7 +217,7 @@ static void test_help(void **state)
                  "(for help: glim --help)");
 }
 
-static void test_crop(void **state)
+static void crops_are_read_or_refused(void **state)
 {
     static const char *const wrong[] = {
         "1,2,3", "1,2,3,4,5", "1,2,3,0",  "a,2,3,4",          "1,,3,4",
@@ -240,7 +240,7 @@ static void test_crop(void **state)
     }
 }
 
-static void test_backend(void **state)
+static void backends_are_chosen(void **state)
 {
     (void)state;
     assert_int_equal(good("a --backend cpu").backend, BACKEND_CPU);
@@ -263,7 +263,7 @@ static void test_backend(void **state)
         "--kernels: found --backend cpu, expected opencl or auto");
 }
 
-static void test_list_devices(void **state)
+static void list_devices_stands_alone(void **state)
 {
     struct options o = good("--list-devices -t 3");
 
@@ -275,7 +275,7 @@ static void test_list_devices(void **state)
         "-t: found '0', expected a whole number from 1 to 1024");
 }
 
-static void test_together(void **state)
+static void contradictions_have_their_message(void **state)
 {
     (void)state;
     bad("",
@@ -296,9 +296,9 @@ static void test_together(void **state)
     bad("-f", "-f: found no value, expected the name of a scene");
 }
 
-/* What is on the line wins over GLIM_COLOR, also "auto"; that is read only
- * where there is a picture in a terminal. */
-static void test_environment(void **state)
+/* Options win over GLIM_COLOR, even "auto". The variable is read only if a
+ * picture goes to a terminal. */
+static void environment_gives_way_to_options(void **state)
 {
     (void)state;
     setenv("GLIM_COLOR", "256", 1);
@@ -314,7 +314,7 @@ static void test_environment(void **state)
     unsetenv("GLIM_COLOR");
 }
 
-static void test_text_sizes(void **state)
+static void text_sizes_are_read_or_refused(void **state)
 {
     struct options o = good("-b --ansi 80x24 a");
 
@@ -333,12 +333,18 @@ static void test_text_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),   cmocka_unit_test(test_every_option),
-        cmocka_unit_test(test_words),      cmocka_unit_test(test_environment),
-        cmocka_unit_test(test_text_sizes), cmocka_unit_test(test_spelling),
-        cmocka_unit_test(test_numbers),    cmocka_unit_test(test_help),
-        cmocka_unit_test(test_crop),       cmocka_unit_test(test_together),
-        cmocka_unit_test(test_backend),    cmocka_unit_test(test_list_devices),
+        cmocka_unit_test(defaults_are_set),
+        cmocka_unit_test(every_option_sets_its_value),
+        cmocka_unit_test(words_select_values),
+        cmocka_unit_test(environment_gives_way_to_options),
+        cmocka_unit_test(text_sizes_are_read_or_refused),
+        cmocka_unit_test(misspelt_options_have_their_message),
+        cmocka_unit_test(wrong_numbers_have_their_message),
+        cmocka_unit_test(help_is_recognised),
+        cmocka_unit_test(crops_are_read_or_refused),
+        cmocka_unit_test(contradictions_have_their_message),
+        cmocka_unit_test(backends_are_chosen),
+        cmocka_unit_test(list_devices_stands_alone),
     };
 
     return cmocka_run_group_tests_name("options", tests, NULL, NULL);

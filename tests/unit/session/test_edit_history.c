@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Edits that are undone and done again give what they gave. A world that was
- * edited has the arrays of one that is loaded from the files that the edit
- * wrote.
+ * test_edit_history.c - edits that are undone and redone have the same state;
+ * an edited world equals one that is loaded from the saved files
  */
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +37,7 @@ static void put_scene(void)
     put("s.view", view);
 }
 
-/* Pictures of one pixel: what is compared is what they are made from. */
+/* Pictures have one pixel, since only the arrays behind them are compared. */
 static struct options options = {.scene_path = "s.obj",
                                  .width_px = 1,
                                  .height_px = 1,
@@ -76,7 +75,7 @@ static void save(struct session *s)
     free(saved(s));
 }
 
-/* The arrays that samples read. */
+/* Compares the arrays that samples read. */
 static void check_same_world(const struct session *s, const struct session *t)
 {
     const struct host_world *a = &s->world, *b = &t->world;
@@ -114,23 +113,23 @@ static void check_same_world(const struct session *s, const struct session *t)
 
 static uint64_t seed = 7;
 
-static uint32_t any(uint32_t count)
+static uint32_t random_below(uint32_t count)
 {
     return (uint32_t)(check_random(&seed) * count);
 }
 
 static void edit_anything(struct edit *e)
 {
-    uint32_t material = 1 + any(e->material_count - 1);
+    uint32_t material = 1 + random_below(e->material_count - 1);
     struct mtl_source source = e->now.sources[material];
     struct lighting light = e->now.view.lighting;
 
     while (!e->now.is_there[material])
         material--;
     source = e->now.sources[material];
-    if (any(3) != 0)
+    if (random_below(3) != 0)
         edit_break(e);
-    switch (any(8)) {
+    switch (random_below(8)) {
     case 0:
         source.kd = (struct mtl_color){{check_random(&seed), .5, 0}, 1};
         edit_material(e, material, &source);
@@ -144,14 +143,16 @@ static void edit_anything(struct edit *e)
         edit_material(e, material, &source);
         break;
     case 3:
-        source.illum = (struct mtl_number){(double)any(10), 1};
+        source.illum = (struct mtl_number){(double)random_below(10), 1};
         edit_material(e, material, &source);
         break;
     case 4:
-        edit_assign(e, any(e->object_count), any(2) ? NO_INDEX : material);
+        edit_assign(e, random_below(e->object_count),
+                    random_below(2) ? NO_INDEX : material);
         break;
     case 5:
-        edit_assign(e, any(e->object_count), edit_duplicate(e, material));
+        edit_assign(e, random_below(e->object_count),
+                    edit_duplicate(e, material));
         break;
     case 6:
         source.pr = (struct mtl_number){check_random(&seed), 1};
@@ -166,7 +167,7 @@ static void edit_anything(struct edit *e)
     }
 }
 
-/* A picture of the state in numbers. */
+/* Returns a hash of the state. */
 static uint64_t hash_state(const struct edit *e)
 {
     uint64_t h = 1469598103934665603u; /* FNV-1a */
@@ -193,7 +194,7 @@ static uint64_t hash_state(const struct edit *e)
 
 #define STEPS 400
 
-static void test_undo_redo(void **state)
+static void undo_and_redo_restore_the_state(void **state)
 {
     uint64_t hashes[STEPS + 1];
     struct session s;
@@ -209,7 +210,7 @@ static void test_undo_redo(void **state)
 
         edit_anything(&s.edit);
         if (s.edit.step_count == before && s.edit.group != group)
-            continue; /* nothing has changed, or a step went on */
+            continue; /* nothing has changed, or it continued a step */
         edit_break(&s.edit);
         if (hash_state(&s.edit) != hashes[count])
             hashes[++count] = hash_state(&s.edit);
@@ -218,7 +219,7 @@ static void test_undo_redo(void **state)
         uint64_t now = hash_state(&s.edit);
 
         assert_true(edit_undo(&s.edit));
-        if (hash_state(&s.edit) != now) /* what changes nothing is no step */
+        if (hash_state(&s.edit) != now) /* no change, no step */
             assert_true(hash_state(&s.edit) == hashes[--i]);
     }
     while (edit_undo(&s.edit))
@@ -232,8 +233,8 @@ static void test_undo_redo(void **state)
     session_close(&s);
 }
 
-/* One drag is one step, and a change after undoing forgets what was undone. */
-static void test_groups(void **state)
+/* One drag is one step, and a change after an undo discards the redo steps. */
+static void a_drag_is_one_step(void **state)
 {
     struct mtl_source source;
     struct session s;
@@ -262,7 +263,7 @@ static void test_groups(void **state)
     source.kd.rgb[2] = .9;
     edit_material(&s.edit, 2, &source);
     assert_false(edit_redo(&s.edit));
-    /* a duplicate and its assignment go together */
+    /* A duplicate and its assignment are one step. */
     edit_break(&s.edit);
     edit_assign(&s.edit, 1, edit_duplicate(&s.edit, 2));
     assert_string_equal(s.edit.names[s.edit.material_count - 1], "wall.2");
@@ -274,8 +275,8 @@ static void test_groups(void **state)
     session_close(&s);
 }
 
-/* What is rendered after an edit is what a fresh start renders after saving;
- * comparing and undoing bring back what was loaded. */
+/* A picture after an edit equals that of a fresh start after saving. Comparing
+ * and undoing give what was loaded. */
 static void test_saved_is_loaded(void **state)
 {
     struct session first;
@@ -291,7 +292,7 @@ static void test_saved_is_loaded(void **state)
         restart(&s);
         for (int i = 0; i < 12; i++) {
             edit_anything(&s.edit);
-            if (any(3) == 0)
+            if (random_below(3) == 0)
                 restart(&s);
         }
         restart(&s);
@@ -337,8 +338,8 @@ static unsigned new_parts(const struct session *s, struct host_world *before)
     return parts;
 }
 
-/* Arrays that change have other versions, and the others keep theirs. */
-static void test_versions(void **state)
+/* Changed arrays have new versions; the others keep theirs. */
+static void changed_arrays_have_new_versions(void **state)
 {
     const unsigned materials = 1u << WORLD_MATERIALS;
     const unsigned lights = 1u << WORLD_LIGHTS;
@@ -375,8 +376,8 @@ static void test_versions(void **state)
     session_close(&s);
 }
 
-/* Only what was changed is written, where it belongs. */
-static void test_saved_files(void **state)
+/* Only changes are written, each into its file. */
+static void only_changes_are_saved(void **state)
 {
     struct mtl_source source;
     struct session s;
@@ -415,8 +416,8 @@ static void test_saved_files(void **state)
     session_close(&s);
 }
 
-/* The line about it names what was written, and no more. */
-static void test_what_was_saved(void **state)
+/* The message names exactly the files that were written. */
+static void message_names_the_saved_files(void **state)
 {
     static const char *const names[] = {"glass", "lamp"};
     static const char *const lines[] = {
@@ -434,7 +435,7 @@ static void test_what_was_saved(void **state)
             uint32_t material = mtl_find(&s.scene, names[k]);
             struct mtl_source source = s.edit.now.sources[material];
 
-            /* one of them is the colour of a lamp, the other that of glass */
+            /* One of them is the colour of a lamp, the other that of glass. */
             source.kd = (struct mtl_color){{.25 * (double)(1 + i), 0, 0}, 1};
             source.tf = source.kd;
             edit_material(&s.edit, material, &source);
@@ -446,12 +447,12 @@ static void test_what_was_saved(void **state)
     session_close(&s);
 }
 
-/* What kinds leave behind is not written; a statement that a kind needs is
- * written later, although it was there once before. */
+/* Remains of other kinds are not written. A statement that a kind needs is
+ * written later, even if it existed once before. */
 static void test_kinds_leave_nothing(void **state)
 {
     static const struct {
-        int steps; /* from what was saved before */
+        int steps; /* from the state saved before */
         const char *wall;
     } cases[] = {
         {3, "newmtl wall\n\tKd .5 .5 .5\n\tTf 0.5 0.5 0.5\n\tillum 7\n"},
@@ -483,8 +484,8 @@ static void test_kinds_leave_nothing(void **state)
     session_close(&s);
 }
 
-/* Lines that name what is not there do nothing, and are kept. */
-static void test_lost_assignments(void **state)
+/* Assign lines about absent names do nothing and are kept. */
+static void assignments_without_names_are_kept(void **state)
 {
     const struct tri *tris;
     struct session s;
@@ -498,7 +499,7 @@ static void test_lost_assignments(void **state)
     put("s.view", "eye 0 0 5\nat 0 0 0\nassign nobody lamp\n"
                   "assign plain \"no such\"\nassign lamp wall # dim\n");
     open_session(&s);
-    assert_int_equal(s.report.entry_count, 3); /* the first: Ps */
+    assert_int_equal(s.report.entry_count, 3); /* the first is about Ps */
     check_has(s.report.entries[1].text, "found no object 'nobody' to assign");
     check_has(s.report.entries[2].text, "found no material 'no such'");
     tris = world_tris(&s.world, &s.scene);
@@ -518,7 +519,7 @@ static void test_lost_assignments(void **state)
     session_close(&s);
 }
 
-static void test_wrong_lines(void **state)
+static void wrong_lines_have_their_message(void **state)
 {
     static const char *const wrong[] = {"assign a", "assign", "assign a b c",
                                         "assign \"a b", "assign \"a\" \"b"};
@@ -548,8 +549,8 @@ static void test_wrong_lines(void **state)
     warnings_free(&report);
 }
 
-/* An image that no material had a use for is read when one gets it. */
-static void test_textures_come_into_use(void **state)
+/* An image that no material used is read when a material uses it. */
+static void textures_are_read_when_used(void **state)
 {
     struct session s, again;
     struct mtl_source source;
@@ -580,7 +581,8 @@ static void test_textures_come_into_use(void **state)
     open_session(&again);
     check_same_world(&s, &again);
     session_close(&again);
-    /* off: the colour alone; the next step copies no textures */
+    /* Without the texture the colour is used; the next step copies no
+     * textures. */
     textures = s.world.textures;
     source.maps_off = 1u << MTL_MAP_KS;
     edit_break(&s.edit);
@@ -608,16 +610,16 @@ static int enter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_undo_redo),
-        cmocka_unit_test(test_groups),
+        cmocka_unit_test(undo_and_redo_restore_the_state),
+        cmocka_unit_test(a_drag_is_one_step),
         cmocka_unit_test(test_saved_is_loaded),
-        cmocka_unit_test(test_versions),
-        cmocka_unit_test(test_textures_come_into_use),
-        cmocka_unit_test(test_saved_files),
-        cmocka_unit_test(test_what_was_saved),
+        cmocka_unit_test(changed_arrays_have_new_versions),
+        cmocka_unit_test(textures_are_read_when_used),
+        cmocka_unit_test(only_changes_are_saved),
+        cmocka_unit_test(message_names_the_saved_files),
         cmocka_unit_test(test_kinds_leave_nothing),
-        cmocka_unit_test(test_lost_assignments),
-        cmocka_unit_test(test_wrong_lines),
+        cmocka_unit_test(assignments_without_names_are_kept),
+        cmocka_unit_test(wrong_lines_have_their_message),
     };
 
     return cmocka_run_group_tests(tests, enter, remove_folder);

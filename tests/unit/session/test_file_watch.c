@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Files that are changed as editors change them: in place, by rename, through
- * links, from nothing; and what is no change.
+ * test_file_watch.c - files that change as editors change them: in place, by
+ * rename, through links, from nothing; and other events, which are no changes
  */
 #include "tests/unit/check.h"
 #include "tests/unit/files.h"
@@ -17,7 +17,7 @@ static char paths[4][256];
 
 enum { PLAIN, OTHER, LINK, TARGET };
 
-/* link -> below/target, plain; other is not there. */
+/* Makes link -> below/target and plain; other does not exist. */
 static void begin(struct file_watch *w)
 {
     static const char *const names[] = {"plain", "other", "link",
@@ -41,7 +41,7 @@ static void begin(struct file_watch *w)
     assert_true(w->fd >= 0);
 }
 
-/* Whether fd becomes readable; empties it. */
+/* Returns whether fd is readable, and empties it. */
 static bool is_told(struct file_watch *w)
 {
     struct pollfd fd = {.fd = w->fd, .events = POLLIN};
@@ -52,7 +52,7 @@ static bool is_told(struct file_watch *w)
     return is;
 }
 
-static void nothing_has_changed_at_first(void **state)
+static void unchanged_files_are_no_change(void **state)
 {
     struct file_watch w;
 
@@ -81,8 +81,8 @@ static void writing_in_place_is_noticed(void **state)
     file_watch_free(&w);
 }
 
-/* What this program writes is no news, but what someone else writes before or
- * after it is. */
+/* Writes of this program are not changes, unlike writes of others before or
+ * after them. */
 static void files_are_known_by_any_name(void **state)
 {
     struct file_watch w;
@@ -94,8 +94,9 @@ static void files_are_known_by_any_name(void **state)
     assert_true(file_watch_has(&w, paths[PLAIN]));
     assert_true(file_watch_has(&w, other_way));
     assert_true(
-        file_watch_has(&w, paths[TARGET])); /* the link is on the list */
-    assert_false(file_watch_has(&w, paths[OTHER])); /* listed, but not there */
+        file_watch_has(&w, paths[TARGET])); /* the link is in the list */
+    /* In the list, but absent. */
+    assert_false(file_watch_has(&w, paths[OTHER]));
     snprintf(other_way, sizeof other_way, "%s/same", folder);
     put(other_way, "one");
     assert_false(file_watch_has(&w, other_way));
@@ -103,7 +104,7 @@ static void files_are_known_by_any_name(void **state)
     file_watch_free(&w);
 }
 
-static void own_writing_is_known(void **state)
+static void own_writes_are_no_change(void **state)
 {
     struct file_change change;
     struct error err;
@@ -114,7 +115,7 @@ static void own_writing_is_known(void **state)
     change.before = file_identify(paths[PLAIN]);
     assert_true(file_replace(paths[PLAIN], "own", 3, &change, &err));
     assert_true(file_watch_has_changed(&w));
-    file_watch_replaced(&w, paths[LINK], &change); /* another one */
+    file_watch_replaced(&w, paths[LINK], &change); /* another version */
     assert_true(file_watch_has_changed(&w));
     file_watch_replaced(&w, paths[PLAIN], &change);
     assert_false(file_watch_has_changed(&w));
@@ -123,10 +124,11 @@ static void own_writing_is_known(void **state)
     change.before = file_identify(paths[PLAIN]);
     assert_true(file_replace(paths[PLAIN], "own", 3, &change, &err));
     file_watch_replaced(&w, paths[PLAIN], &change);
-    assert_true(file_watch_has_changed(&w)); /* theirs was not loaded */
+    /* The other version was not loaded. */
+    assert_true(file_watch_has_changed(&w));
     file_watch_wrote(&w, paths[PLAIN], &change.after);
     assert_false(file_watch_has_changed(&w));
-    unlink(paths[PLAIN]); /* nothing of theirs is left */
+    unlink(paths[PLAIN]); /* nothing of the other version is left */
     change.before = file_identify(paths[PLAIN]);
     assert_true(file_replace(paths[PLAIN], "again", 5, &change, &err));
     file_watch_replaced(&w, paths[PLAIN], &change);
@@ -140,12 +142,12 @@ static void renaming_over_is_noticed(void **state)
 
     (void)state;
     begin(&w);
-    put(paths[OTHER], "one"); /* is on the list itself */
+    put(paths[OTHER], "one"); /* it is in the list itself */
     file_watch_settle(&w);
     file_watch_drain(&w);
     assert_int_equal(rename(paths[OTHER], paths[PLAIN]), 0);
     assert_true(is_told(&w));
-    assert_false(file_watch_has_changed(&w)); /* until all are there again */
+    assert_false(file_watch_has_changed(&w)); /* until all files exist again */
     put(paths[OTHER], "one");
     assert_true(is_told(&w));
     assert_true(file_watch_has_changed(&w));
@@ -177,7 +179,7 @@ static void targets_of_links_are_noticed(void **state)
 }
 
 /* vim moves the old file away, writes a new one and removes the old one. */
-static void a_file_that_is_gone_is_waited_for(void **state)
+static void absent_files_are_waited_for(void **state)
 {
     struct file_watch w;
 
@@ -186,13 +188,14 @@ static void a_file_that_is_gone_is_waited_for(void **state)
     unlink(paths[PLAIN]);
     assert_false(file_watch_has_changed(&w));
     file_watch_settle(&w);
-    file_watch_begin(&w); /* a list without it, as it could not be loaded */
+    /* A list without the file, which could not be loaded. */
+    file_watch_begin(&w);
     file_watch_add(&w, paths[LINK]);
     file_watch_end(&w);
     put(paths[PLAIN], "one again");
     assert_true(is_told(&w));
     assert_true(file_watch_has_changed(&w));
-    file_watch_begin(&w); /* it is there, and nobody wants it */
+    file_watch_begin(&w); /* the file exists, but is not in a list */
     file_watch_add(&w, paths[LINK]);
     file_watch_end(&w);
     assert_false(file_watch_has_changed(&w));
@@ -200,7 +203,7 @@ static void a_file_that_is_gone_is_waited_for(void **state)
     file_watch_free(&w);
 }
 
-/* What was known before a new list is known after it. */
+/* A new list keeps what is known about the files. */
 static void lists_keep_what_is_known(void **state)
 {
     struct file_watch w;
@@ -231,14 +234,14 @@ static void other_files_are_no_change(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_has_changed_at_first),
+        cmocka_unit_test(unchanged_files_are_no_change),
         cmocka_unit_test(writing_in_place_is_noticed),
         cmocka_unit_test(files_are_known_by_any_name),
-        cmocka_unit_test(own_writing_is_known),
+        cmocka_unit_test(own_writes_are_no_change),
         cmocka_unit_test(renaming_over_is_noticed),
         cmocka_unit_test(new_files_are_noticed),
         cmocka_unit_test(targets_of_links_are_noticed),
-        cmocka_unit_test(a_file_that_is_gone_is_waited_for),
+        cmocka_unit_test(absent_files_are_waited_for),
         cmocka_unit_test(lists_keep_what_is_known),
         cmocka_unit_test(other_files_are_no_change),
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * What keys do, with keys of the person's own as well; that help, manual and
- * README tell of all of them.
+ * test_keymap.c - actions of keys, with a person's own keys too; help, manual
+ * and README name all of them
  */
 #include <stdlib.h>
 
@@ -26,7 +26,7 @@ static void choose(struct keymap *k, enum action action, int a, int b)
     keymap_choose(k, action, keys);
 }
 
-static void own_and_phoe_keys(void **state)
+static void key_tables_have_their_actions(void **state)
 {
     static const struct {
         int key;
@@ -63,8 +63,8 @@ static void own_and_phoe_keys(void **state)
     }
 }
 
-/* With Caps Lock on the six keys of the camera do as people know them. */
-static void capitals_move_too(void **state)
+/* With Caps Lock on, the six keys of the camera keep their actions. */
+static void capitals_keep_camera_actions(void **state)
 {
     struct keymap k = table_keys(false);
 
@@ -98,7 +98,7 @@ static void chosen_keys_replace_those_of_the_table(void **state)
     choose(&k, ACTION_FORWARD, 'x', 'q');
     choose(&k, ACTION_ORBIT, 'y', 0);
     choose(&k, ACTION_MOUSE, 0, 0);
-    choose(&k, ACTION_UNDO, 'x', 0); /* and takes it away from forward */
+    choose(&k, ACTION_UNDO, 'x', 0); /* which takes it away from forward */
     keymap_settle(&k, true);
     assert_int_equal(keymap_action(&k, 'q'), ACTION_FORWARD);
     assert_int_equal(keymap_action(&k, 'x'), ACTION_UNDO);
@@ -110,7 +110,7 @@ static void chosen_keys_replace_those_of_the_table(void **state)
     assert_int_equal(keymap_action(&k, 'w'), ACTION_UP);
 }
 
-static void names_come_back(void **state)
+static void names_of_keys_are_read_back(void **state)
 {
     struct keymap_name name;
 
@@ -119,7 +119,7 @@ static void names_come_back(void **state)
     assert_int_equal(keymap_find_action("", 0), ACTION_NONE);
     for (int key = 1; key < TTY_KEY_OTHER; key++) {
         if (key >= 128 && key < TTY_KEY_UP)
-            continue; /* none that a terminal sends */
+            continue; /* no terminal sends it */
         name = keymap_key_name(key);
         assert_int_equal(keymap_find_key(name.text, strlen(name.text)), key);
     }
@@ -131,7 +131,7 @@ static void names_come_back(void **state)
     assert_int_equal(keymap_find_key("^a", 2), 0);
 }
 
-static void first_names(void **state)
+static void first_names_are_the_usual_ones(void **state)
 {
     struct keymap k = {0};
 
@@ -143,7 +143,8 @@ static void first_names(void **state)
     assert_string_equal(keymap_first_name(&k, ACTION_MOUSE).text, "no key");
 }
 
-/* Every action but capitals of the same is in the help once; lines fit. */
+/* Every action, except those of capitals, is in the help once, and lines
+ * fit. */
 static void help_names_every_key(void **state)
 {
     (void)state;
@@ -188,7 +189,7 @@ static void help_shows_chosen_keys(void **state)
     assert_false(keymap_help(&k, -1, &help));
 }
 
-/* From the first line after `begin` up to `end`, for free(). */
+/* Returns the text from the line after `begin` up to `end`, for free(). */
 static char *section(const char *path, const char *begin, const char *end)
 {
     struct error err;
@@ -206,7 +207,8 @@ static char *section(const char *path, const char *begin, const char *end)
     return text;
 }
 
-/* The character that a manual writes as "\-" and so on; moves behind it. */
+/* Returns the character that the manual writes as "\-" and so on, and moves
+ * behind it. */
 static char manual_char(const char **p)
 {
     static const struct {
@@ -264,8 +266,8 @@ static void manual_lists_the_same_keys(void **state)
     check_manual(".Sh PANEL\n", keymap_panel_help);
 }
 
-/* Each key has one meaning there, and each line fits into the help. */
-static void panel_keys_are_told(void **state)
+/* Each key of the panel has one meaning, and each line fits into the help. */
+static void panel_keys_are_in_the_help(void **state)
 {
     struct keymap_help help;
     int seen = 0;
@@ -331,8 +333,8 @@ static void manual_lists_the_actions(void **state)
     free(text);
 }
 
-/* All entries are there once, whatever the window's size. */
-static void help_has_pages(void **state)
+/* All entries appear once, for any size of the window. */
+static void help_has_every_entry_on_some_page(void **state)
 {
     static const struct {
         int cols, rows, columns;
@@ -378,19 +380,19 @@ static void help_has_pages(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(own_and_phoe_keys),
-        cmocka_unit_test(capitals_move_too),
+        cmocka_unit_test(key_tables_have_their_actions),
+        cmocka_unit_test(capitals_keep_camera_actions),
         cmocka_unit_test(a_key_has_one_action),
         cmocka_unit_test(chosen_keys_replace_those_of_the_table),
-        cmocka_unit_test(names_come_back),
-        cmocka_unit_test(first_names),
+        cmocka_unit_test(names_of_keys_are_read_back),
+        cmocka_unit_test(first_names_are_the_usual_ones),
         cmocka_unit_test(help_names_every_key),
         cmocka_unit_test(help_shows_chosen_keys),
         cmocka_unit_test(manual_lists_the_same_keys),
-        cmocka_unit_test(panel_keys_are_told),
+        cmocka_unit_test(panel_keys_are_in_the_help),
         cmocka_unit_test(readme_lists_the_same_keys),
         cmocka_unit_test(manual_lists_the_actions),
-        cmocka_unit_test(help_has_pages),
+        cmocka_unit_test(help_has_every_entry_on_some_page),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

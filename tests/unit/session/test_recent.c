@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * The list of scenes: the last one first, each once, none that is gone, twenty
- * at most; what a person may answer; and when a lost picture is told of.
+ * test_recent.c - the list of scenes: the most recent first, each once, none
+ * that is gone, at most twenty; answers of a person; messages about lost
+ * pictures
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -26,7 +27,7 @@ static void make_scene(int number)
     recent_add(name);
 }
 
-/* Whether entry i is N.obj in the folder. */
+/* Checks whether entry i is N.obj in the folder. */
 static void is_scene(const struct recent *r, int i, int number)
 {
     char path[256];
@@ -44,7 +45,7 @@ static void forget(void)
     unlink(path);
 }
 
-static void the_last_is_first_and_once(void **state)
+static void most_recent_scene_is_first_and_once(void **state)
 {
     struct recent r;
 
@@ -83,7 +84,7 @@ static void the_oldest_are_forgotten(void **state)
     recent_free(&r);
 }
 
-static void odd_names_are_left_out(void **state)
+static void unusable_names_are_left_out(void **state)
 {
     struct recent r;
     FILE *to = fopen("a\nb.obj", "w");
@@ -98,7 +99,7 @@ static void odd_names_are_left_out(void **state)
     assert_int_equal(r.count, 0);
 }
 
-/* Changed a second after the last one of which this was said. */
+/* Sets the file's time a second after the last one with a message. */
 static void set_later(const char *path)
 {
     static struct timespec times[2] = {{.tv_sec = 1000000},
@@ -108,7 +109,7 @@ static void set_later(const char *path)
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
 }
 
-/* Whether a start finds the picture; it then opens a scene. */
+/* Checks whether a start finds the picture, and then opens a scene. */
 static void start_finds(bool expected)
 {
     char *lost = recent_find_lost();
@@ -134,7 +135,7 @@ static void lose(void)
     free(path);
 }
 
-static void a_lost_picture_is_told_of_once(void **state)
+static void lost_pictures_are_reported_once(void **state)
 {
     (void)state;
     forget();
@@ -145,11 +146,11 @@ static void a_lost_picture_is_told_of_once(void **state)
         start_finds(false);
     }
     lose();
-    forget(); /* no list at all */
+    forget(); /* without a list */
     start_finds(true);
 }
 
-static void no_folder_remembers_nothing(void **state)
+static void without_a_folder_nothing_is_remembered(void **state)
 {
     struct recent r;
 
@@ -159,14 +160,14 @@ static void no_folder_remembers_nothing(void **state)
     recent_read(&r);
     assert_int_equal(r.count, 0);
     assert_null(recent_find_lost());
-    setenv("XDG_STATE_HOME", "state", 1); /* relative: ignored */
+    setenv("XDG_STATE_HOME", "state", 1); /* relative, so it is ignored */
     setenv("HOME", "", 1);
     recent_read(&r);
     assert_int_equal(r.count, 0);
 }
 
-/* What the person gets for this answer; "": none. */
-static void gives(const char *answer, const char *expected)
+/* Checks the scene for this answer; "" is none. */
+static void check_answer(const char *answer, const char *expected)
 {
     static char first[] = "/tmp/a\033.obj", second[] = "/tmp/b.obj";
     const struct recent r = {{first, second}, 2};
@@ -185,16 +186,16 @@ static void gives(const char *answer, const char *expected)
     free(path);
 }
 
-static void answers(void **state)
+static void answers_select_a_scene(void **state)
 {
     (void)state;
-    gives("\n", "/tmp/a\033.obj");
-    gives("1\n", "/tmp/a\033.obj");
-    gives("2", "/tmp/b.obj");
-    gives("3\n0\n-1\n2 x\n2\n", "/tmp/b.obj");
-    gives("q\n2\n", "");
-    gives("/dev/null\n", "/dev/null");
-    gives("not there\n", "");
+    check_answer("\n", "/tmp/a\033.obj");
+    check_answer("1\n", "/tmp/a\033.obj");
+    check_answer("2", "/tmp/b.obj");
+    check_answer("3\n0\n-1\n2 x\n2\n", "/tmp/b.obj");
+    check_answer("q\n2\n", "");
+    check_answer("/dev/null\n", "/dev/null");
+    check_answer("not there\n", "");
 }
 
 static int enter(void **state)
@@ -210,12 +211,12 @@ static int enter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_last_is_first_and_once),
+        cmocka_unit_test(most_recent_scene_is_first_and_once),
         cmocka_unit_test(the_oldest_are_forgotten),
-        cmocka_unit_test(odd_names_are_left_out),
-        cmocka_unit_test(a_lost_picture_is_told_of_once),
-        cmocka_unit_test(no_folder_remembers_nothing),
-        cmocka_unit_test(answers),
+        cmocka_unit_test(unusable_names_are_left_out),
+        cmocka_unit_test(lost_pictures_are_reported_once),
+        cmocka_unit_test(without_a_folder_nothing_is_remembered),
+        cmocka_unit_test(answers_select_a_scene),
     };
 
     return cmocka_run_group_tests(tests, enter, remove_folder);

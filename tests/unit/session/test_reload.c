@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * A session that takes changed files renders bit for bit what a session renders
- * that was opened after the change; what is broken leaves the old scene.
+ * test_reload.c - a session that takes changed files renders the same bits as
+ * one opened after the change; broken files leave the old scene
  */
 #include "tests/unit/files.h"
 
@@ -45,9 +45,10 @@ static void render(struct session *s, float *pixels)
     film_linear(render_film(s->render), pixels);
 }
 
-/* Writes a file, lets the open session take it, and compares with a new one. */
-static void takes(struct session *s, const char *name, const char *text,
-                  bool has_same_shape)
+/* Writes a file, lets the open session take it, and compares with a new
+ * session. */
+static void check_reload(struct session *s, const char *name, const char *text,
+                         bool has_same_shape)
 {
     float before[FLOATS], taken[FLOATS], opened[FLOATS];
     struct session fresh;
@@ -75,7 +76,7 @@ static void is_taken(const char *name, const char *text, bool has_same_shape)
     struct session s;
 
     open_scene(&s);
-    takes(&s, name, text, has_same_shape);
+    check_reload(&s, name, text, has_same_shape);
 }
 
 static void changed_files_are_taken(void **state)
@@ -88,15 +89,15 @@ static void changed_files_are_taken(void **state)
              true);
     is_taken("s.obj", "v -1 -1 0\nv 1 -1 0\nv 0 2 0\nf 1 2 3\n", false);
     is_taken("s.obj", OBJ "v 3 3 3\nf 1 3 5\n", false);
-    /* one triangle is turned over: the same places in another order */
+    /* One triangle is reversed: the same places in another order. */
     is_taken("s.obj",
              "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 3 2\nf 1 2 4\n",
              false);
 }
 
-/* Nothing but the picture needs a tree where a lamp is the only light: the new
- * scene comes without one. */
-static void trees_stay(void **state)
+/* Where a lamp is the only light, only the picture needs a tree, and the new
+ * scene has none. */
+static void trees_are_built_only_for_pictures(void **state)
 {
     struct session s;
     struct error err;
@@ -107,10 +108,11 @@ static void trees_stay(void **state)
     put("s.view", "eye 0 0 5\nat 0 0 0\nres 24 16\nbackground 0 0 0\n");
     check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
     assert_null(world_tree(&s.world));
-    takes(&s, "s.mtl", "newmtl m\nKe 3 2 1\n", true);
+    check_reload(&s, "s.mtl", "newmtl m\nKe 3 2 1\n", true);
 }
 
-/* A camera that the person has moved stays where the file's has not changed. */
+/* A camera that the person has moved stays if the file's camera has not
+ * changed. */
 static void cameras_stay(void **state)
 {
     struct session s, fresh;
@@ -128,13 +130,13 @@ static void cameras_stay(void **state)
         check_close(s.edit.now.view.pose.eye[0], moves ? 0 : 1.5, 0);
         check_close(s.edit.now.view.pose.eye[1], moves ? 9 : 0, 0);
         check_close(s.edit.now.view.lighting.exposure, 2, 0);
-        assert_int_equal(s.edit.now.view.width_px, 1024); /* no res any more */
+        assert_int_equal(s.edit.now.view.width_px, 1024); /* without res */
         check_close(s.opened.eye[0], 0, 0);
         session_close(&s);
     }
 }
 
-/* Numbered views of the file come, go and change; the others stay. */
+/* Numbered views of the file appear, disappear and change; the others stay. */
 static void numbered_views_are_taken(void **state)
 {
     struct session s, fresh;
@@ -154,7 +156,7 @@ static void numbered_views_are_taken(void **state)
                  err.text);
     session_close(&s);
     check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
-    s.edit.now.view.shots[3].eye[0] = 5; /* by the person, in no file */
+    s.edit.now.view.shots[3].eye[0] = 5; /* set by the person, in no file */
     s.edit.now.view.has_shot[3] = true;
     check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
     for (int i = 0; i < 2; i++) {
@@ -174,7 +176,7 @@ static void numbered_views_are_taken(void **state)
     session_close(&s);
 }
 
-/* Cameras that the program has placed do not jump when the scene grows. */
+/* Cameras placed by the program do not jump when the scene grows. */
 static void framed_cameras_stay(void **state)
 {
     struct session s, fresh;
@@ -196,16 +198,14 @@ static void framed_cameras_stay(void **state)
     session_close(&s);
 }
 
-/* ---- through the work ---- */
-
-/* The time to look at files comes now. */
+/* Makes the next check of the files due now. */
 static void look_now(struct render_control *w)
 {
     w->files_ns = clock_ns();
     render_control_look(w);
 }
 
-/* Looks at the files, and waits for what is loaded then. */
+/* Checks the files and waits for what is then loaded. */
 static void end_reload(struct render_control *w)
 {
     if (!w->reload.is_busy)
@@ -244,7 +244,7 @@ static void broken_files_leave_the_scene(void **state)
     assert_non_null(strstr(w.message.text, "s.mtl:2: "));
     check_close(s.world.materials[1].color.x, .7f, 0);
     render_control_look_at_files(&w);
-    assert_false(w.has_changed_files); /* it was said once */
+    assert_false(w.has_changed_files); /* the message appears once */
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
@@ -257,7 +257,7 @@ static void broken_files_leave_the_scene(void **state)
     close_work(&w, &s);
 }
 
-static void warnings_are_told(void **state)
+static void warnings_are_shown(void **state)
 {
     struct session s;
     struct render_control w;
@@ -282,7 +282,7 @@ static void watched_files_are_loaded_at_once(void **state)
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
     end_reload(&w);
     check_close(s.world.materials[1].color.x, .25, 0);
-    /* not while a render of normal mode would be lost */
+    /* A render of normal mode that would be lost prevents it. */
     render_control_set_live(&w, false);
     render_control_start_or_halt(&w);
     put("s.mtl", "newmtl m\nKd .5 0 0\n");
@@ -290,7 +290,7 @@ static void watched_files_are_loaded_at_once(void **state)
     assert_true(w.has_changed_files);
     look_now(&w);
     assert_false(w.reload.is_busy);
-    render_control_reload(&w); /* only says so */
+    render_control_reload(&w); /* only a message */
     assert_false(w.reload.is_busy);
     render_control_set_live(&w, true);
     end_reload(&w);
@@ -299,8 +299,8 @@ static void watched_files_are_loaded_at_once(void **state)
     options.watch = false;
 }
 
-/* Where nothing tells of changes, files are looked at once a second. */
-static void unwatched_files_are_looked_at(void **state)
+/* Where the system reports no changes, files are checked once per second. */
+static void unwatched_files_are_checked_each_second(void **state)
 {
     struct session s;
     struct render_control w;
@@ -337,7 +337,8 @@ static void own_views_are_no_change(void **state)
     close_work(&w, &s);
 }
 
-/* Nor is a changed material; what someone else writes behind it is one. */
+/* A saved material is not a change either; a write by others after it is
+ * one. */
 static void own_materials_are_no_change(void **state)
 {
     struct session s;
@@ -355,7 +356,7 @@ static void own_materials_are_no_change(void **state)
     put("s.mtl", MTL "\n");
     render_control_look_at_files(&w);
     assert_true(w.has_changed_files);
-    /* and stays one when the next save takes it over */
+    /* It remains one when the next save overwrites it. */
     red.kd.rgb[0] = .25;
     edit_material(&s.edit, 1, &red);
     assert_true(save_edit(&w));
@@ -364,8 +365,8 @@ static void own_materials_are_no_change(void **state)
     close_work(&w, &s);
 }
 
-/* An image of the sky that was chosen in the panel is watched at once, also one
- * that has still to be mended. */
+/* An image chosen as sky in the panel is watched at once, even if it is still
+ * broken. */
 static void chosen_skies_are_watched(void **state)
 {
     struct session s;
@@ -394,14 +395,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(changed_files_are_taken),
-        cmocka_unit_test(trees_stay),
+        cmocka_unit_test(trees_are_built_only_for_pictures),
         cmocka_unit_test(cameras_stay),
         cmocka_unit_test(numbered_views_are_taken),
         cmocka_unit_test(framed_cameras_stay),
         cmocka_unit_test(broken_files_leave_the_scene),
-        cmocka_unit_test(warnings_are_told),
+        cmocka_unit_test(warnings_are_shown),
         cmocka_unit_test(watched_files_are_loaded_at_once),
-        cmocka_unit_test(unwatched_files_are_looked_at),
+        cmocka_unit_test(unwatched_files_are_checked_each_second),
         cmocka_unit_test(own_views_are_no_change),
         cmocka_unit_test(own_materials_are_no_change),
         cmocka_unit_test(chosen_skies_are_watched),

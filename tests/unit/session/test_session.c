@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Which view counts, what the command line changes in it, what is said about
- * scenes without camera, light or faces; and the JSON about a render.
+ * test_session.c - which view counts and what options change in it; messages
+ * about scenes without camera, light or faces; the JSON about a render
  */
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 #define CAMERA   "eye 0 0 5\nat 0 0 0\n"
 
-/* An odd name, which the statistics must still be able to tell. */
+/* A name with odd characters that the statistics must contain. */
 #define ODD "odd\"\\\n\xff\xc3\xa9.obj"
 
 static const char *const names[] = {"s.obj", "s.view",   "camera.txt", "o.view",
@@ -55,7 +55,7 @@ static void open_session(struct session *s, const struct options *o)
     check_or_say(session_open(s, o, clock_ns(), &err), err.text);
 }
 
-static void test_view_files(void **state)
+static void view_files_are_found(void **state)
 {
     struct options o = options_for("s.obj");
     struct session s;
@@ -65,7 +65,8 @@ static void test_view_files(void **state)
     put("camera.txt", CAMERA "fovy 11\n");
     open_session(&s, &o);
     assert_true(s.edit.now.view.pose.fovy_deg == 11.0);
-    assert_string_equal(s.view_path, "s.view"); /* camera.txt is not ours */
+    /* Camera.txt belongs to another program. */
+    assert_string_equal(s.view_path, "s.view");
     session_close(&s);
 
     put("s.view", CAMERA "fovy 22\n");
@@ -82,7 +83,7 @@ static void test_view_files(void **state)
     session_close(&s);
 }
 
-static void test_options_win(void **state)
+static void options_win_over_the_view(void **state)
 {
     struct options o = options_for("s.obj");
     struct session s;
@@ -108,7 +109,7 @@ static void test_options_win(void **state)
     o.width_px = 0;
     o.height_px = 1;
     open_session(&s, &o);
-    assert_int_equal(s.edit.now.view.width_px, 2); /* 1.5 to the nearest */
+    assert_int_equal(s.edit.now.view.width_px, 2); /* 1.5 rounded */
     session_close(&s);
 
     o.width_px = 65536;
@@ -118,7 +119,7 @@ static void test_options_win(void **state)
     assert_int_equal(s.edit.now.view.height_px, 7);
     session_close(&s);
 
-    /* without a size in the view file the shape is 1024x576 */
+    /* Without a size in the view file the shape is 1024x576. */
     put("s.view", CAMERA);
     o.width_px = 512;
     o.height_px = 0;
@@ -146,9 +147,9 @@ static void save_view(struct session *s)
     check_or_say(session_save_view(s, &change, &err), err.text);
 }
 
-/* The size and the bounces of -w, -h and -d are for one run: the file keeps its
- * own, or none, also when it is loaded anew meanwhile. */
-static void test_options_are_not_written(void **state)
+/* The size and the bounces of -w, -h and -d are for one run. The file keeps its
+ * own, or none, even if it is loaded again meanwhile. */
+static void options_are_not_written(void **state)
 {
     struct options o = options_for("s.obj");
     struct session s, fresh;
@@ -177,7 +178,7 @@ static void test_options_are_not_written(void **state)
     is_text("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 100\nmax_bounces 5\n");
     session_close(&s);
 
-    unlink("s.view"); /* a new file says nothing of them */
+    unlink("s.view"); /* a new file has none of them */
     o.height_px = 10;
     open_session(&s, &o);
     save_view(&s);
@@ -190,8 +191,9 @@ static void test_options_are_not_written(void **state)
     session_close(&s);
 }
 
-/* One step back: the text before the last change, whatever is written twice. */
-static void test_view_before_is_kept(void **state)
+/* The previous text is kept as a backup, however often the same text is
+ * written. */
+static void previous_view_is_kept(void **state)
 {
     const char *first = "# mine\n" CAMERA "up 0 1 0\nfovy 40\n";
     const char *second = "# mine\neye 1 0 5\nat 0 0 0\nup 0 1 0\nfovy 40\n";
@@ -205,7 +207,7 @@ static void test_view_before_is_kept(void **state)
     put("s.obj", TRIANGLE);
     put("s.view", first);
     open_session(&s, &o);
-    save_view(&s); /* nothing has changed: nothing is to be kept */
+    save_view(&s); /* without a change nothing is kept */
     assert_int_equal(access("s.view~", F_OK), -1);
     s.edit.now.view.pose.eye[0] = 1;
     for (int i = 0; i < 2; i++) {
@@ -218,7 +220,7 @@ static void test_view_before_is_kept(void **state)
     is_text("s.view", third);
     is_text("s.view~", second);
 
-    /* what cannot be kept is not replaced */
+    /* A file without a possible backup is not replaced. */
     unlink("s.view~");
     assert_int_equal(mkdir("s.view~", 0777), 0);
     s.edit.now.view.pose.eye[0] = 3;
@@ -229,7 +231,7 @@ static void test_view_before_is_kept(void **state)
     session_close(&s);
 }
 
-static void test_light(void **state)
+static void scenes_without_light_have_a_sky(void **state)
 {
     struct options o = options_for("s.obj");
     struct session s;
@@ -241,7 +243,7 @@ static void test_light(void **state)
     assert_true(s.edit.now.view.lighting.background[1] > 0.0);
     session_close(&s);
 
-    /* a person who wants it dark gets it dark */
+    /* A person may choose darkness. */
     put("s.view", CAMERA "background 0 0 0\n");
     open_session(&s, &o);
     assert_string_equal(s.notice, "");
@@ -263,8 +265,8 @@ static void test_light(void **state)
     session_close(&s);
 }
 
-/* The whole scene is seen when nobody says from where. */
-static void test_framing(void **state)
+/* Without a camera the whole scene is shown. */
+static void scenes_without_a_camera_are_framed(void **state)
 {
     struct options o = options_for("s.obj");
     struct session s;
@@ -279,7 +281,7 @@ static void test_framing(void **state)
     session_close(&s);
 }
 
-static void test_errors(void **state)
+static void errors_have_their_message(void **state)
 {
     struct options o = options_for("s.obj");
     struct session s;
@@ -310,7 +312,7 @@ static void test_errors(void **state)
     session_close(&s);
 }
 
-static void test_statistics(void **state)
+static void statistics_are_json(void **state)
 {
     struct options o = options_for(ODD);
     struct session s;
@@ -345,14 +347,16 @@ static void test_statistics(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_view_files, remove_files),
-        cmocka_unit_test_teardown(test_options_win, remove_files),
-        cmocka_unit_test_teardown(test_options_are_not_written, remove_files),
-        cmocka_unit_test_teardown(test_view_before_is_kept, remove_files),
-        cmocka_unit_test_teardown(test_light, remove_files),
-        cmocka_unit_test_teardown(test_framing, remove_files),
-        cmocka_unit_test_teardown(test_errors, remove_files),
-        cmocka_unit_test_teardown(test_statistics, remove_files),
+        cmocka_unit_test_teardown(view_files_are_found, remove_files),
+        cmocka_unit_test_teardown(options_win_over_the_view, remove_files),
+        cmocka_unit_test_teardown(options_are_not_written, remove_files),
+        cmocka_unit_test_teardown(previous_view_is_kept, remove_files),
+        cmocka_unit_test_teardown(scenes_without_light_have_a_sky,
+                                  remove_files),
+        cmocka_unit_test_teardown(scenes_without_a_camera_are_framed,
+                                  remove_files),
+        cmocka_unit_test_teardown(errors_have_their_message, remove_files),
+        cmocka_unit_test_teardown(statistics_are_json, remove_files),
     };
 
     return cmocka_run_group_tests_name("session", tests, enter_folder, leave);

@@ -17,8 +17,8 @@ static struct pose make_pose(void)
     return v;
 }
 
-/* That distance a second, for the first step of a key. */
-static void speed_follows_what_is_near(void **state)
+/* The speed is this distance per second, for the first step of a key. */
+static void speed_follows_the_distance(void **state)
 {
     struct camera_input s;
 
@@ -40,9 +40,9 @@ static void speed_follows_what_is_near(void **state)
     assert_true(s.scene_size > 0 && camera_input_speed(&s) > 0);
 }
 
-/* At a wall and in the void there is still a way; far off the eye comes back in
- * seconds, and goes away no faster than a number says. */
-static void speed_is_never_none(void **state)
+/* At a wall and in empty space the eye still moves. From far away it returns
+ * within seconds, and it never moves away faster than a number can hold. */
+static void speed_is_never_zero(void **state)
 {
     struct camera_input s;
     double open, far;
@@ -85,8 +85,8 @@ static double held(double seconds)
     return -v.eye[2];
 }
 
-/* The second second goes further than the first, a minute not for ever faster;
- * and as far with the person's factor. */
+/* The second second moves further than the first, up to a limit, with the
+ * person's factor too. */
 static void held_keys_get_faster(void **state)
 {
     double one = held(1), two = held(2), ten = held(10), eleven = held(11);
@@ -117,8 +117,8 @@ static void speed_has_ends(void **state)
     assert_true(s.speed > 0);
 }
 
-/* Over the whole height of the picture: by its field of view. */
-static void drag_turns_by_what_is_seen(void **state)
+/* A drag over the height of the picture turns by the field of view. */
+static void drags_turn_by_the_field_of_view(void **state)
 {
     struct camera_input s;
     struct pose v = make_pose();
@@ -139,8 +139,8 @@ static void drag_turns_by_what_is_seen(void **state)
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(v.at[1], sin(40 * 0.017453292519943295), 1e-9);
     assert_false(
-        camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* stands still */
-    e.x += 80; /* to the right by the whole width */
+        camera_input_mouse(&s, &v, &e, &fit, 200, 100)); /* no motion */
+    e.x += 80; /* right by the whole width */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(atan2(v.at[0], -v.at[2]), 80 * 0.017453292519943295, 1e-9);
     e.mouse = MOUSE_RELEASE;
@@ -150,8 +150,9 @@ static void drag_turns_by_what_is_seen(void **state)
     assert_false(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
 }
 
-/* A second of a held key: the angle, at a constant distance from the pivot. */
-static void orbits_while_keys_are_held(void **state)
+/* A held key turns by this angle per second, at a constant distance from the
+ * pivot. */
+static void held_keys_orbit(void **state)
 {
     struct camera_input s;
     struct pose v = make_pose();
@@ -165,7 +166,7 @@ static void orbits_while_keys_are_held(void **state)
     held_keys_press(&s.motion, HELD_KEYS_LOOK_RIGHT, 1, 1000 * MS);
     assert_true(camera_input_step(&s, &v, 1000 * MS));
     begin = atan2(v.eye[0], v.eye[2] + 4);
-    assert_true(begin > 0); /* to the right of where it was */
+    assert_true(begin > 0); /* to the right of its start */
     for (uint64_t t = 1010; t <= 1100; t += 10)
         camera_input_step(&s, &v, t * MS);
     angle = atan2(v.eye[0], v.eye[2] + 4);
@@ -175,8 +176,8 @@ static void orbits_while_keys_are_held(void **state)
     check_close(v.eye[1], 0, 1e-12);
 }
 
-/* A scene that is loaded anew twice as large is crossed in the same time, at
- * the speed that was chosen. */
+/* A scene that is loaded again at twice its size is crossed in the same time,
+ * at the chosen speed. */
 static void speeds_follow_the_scene(void **state)
 {
     const double far[3] = {2 * hi[0] - lo[0], 2 * hi[1] - lo[1],
@@ -211,8 +212,8 @@ static void hold(struct camera_input *s, struct pose *v,
     }
 }
 
-/* As many taps back as forth. */
-static void widens_and_narrows_alike(void **state)
+/* As many taps back restore the field of view. */
+static void zoom_is_symmetric(void **state)
 {
     struct camera_input s;
     struct pose v = make_pose();
@@ -226,7 +227,7 @@ static void widens_and_narrows_alike(void **state)
     assert_true(v.aperture == 0);
 }
 
-static void opens_from_a_pinhole_and_closes_to_one(void **state)
+static void aperture_opens_from_a_pinhole_and_closes(void **state)
 {
     struct camera_input s;
     struct pose v = make_pose();
@@ -246,14 +247,15 @@ static void opens_from_a_pinhole_and_closes_to_one(void **state)
     hold(&s, &v, HELD_KEYS_OPEN, -1, 1);
     assert_true(v.aperture == 0);
     hold(&s, &v, HELD_KEYS_OPEN, 1, 200);
-    check_close(v.aperture, 1, 1e-12); /* as far as it is sharp */
+    check_close(v.aperture, 1, 1e-12); /* the limit is the focus distance */
     v.focus = 3;
     hold(&s, &v, HELD_KEYS_OPEN, 1, 200);
     check_close(v.aperture, 3, 1e-12);
 }
 
-/* Over the picture's height: half around; a thing in the middle follows. */
-static void a_modified_drag_orbits(void **state)
+/* A drag over the height turns half around; a point in the middle follows the
+ * pointer. */
+static void modified_drags_orbit(void **state)
 {
     struct camera_input s;
     struct pose v = make_pose();
@@ -277,7 +279,7 @@ static void a_modified_drag_orbits(void **state)
     assert_true(s.has_dragged);
     check_close(v.eye[0], 4, 1e-9);
     check_close(v.eye[2], -4, 1e-9);
-    e.y += 5; /* downwards: one looks from above */
+    e.y += 5; /* downwards: the view is from above */
     assert_true(camera_input_mouse(&s, &v, &e, &fit, 200, 100));
     check_close(v.eye[1], 4 * sin(0.25 * 3.141592653589793), 1e-9);
     e = (struct event){.kind = EVENT_MOUSE, .is_modified = true};
@@ -291,16 +293,16 @@ static void a_modified_drag_orbits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(speed_follows_what_is_near),
-        cmocka_unit_test(speed_is_never_none),
+        cmocka_unit_test(speed_follows_the_distance),
+        cmocka_unit_test(speed_is_never_zero),
         cmocka_unit_test(held_keys_get_faster),
         cmocka_unit_test(speed_has_ends),
         cmocka_unit_test(speeds_follow_the_scene),
-        cmocka_unit_test(drag_turns_by_what_is_seen),
-        cmocka_unit_test(orbits_while_keys_are_held),
-        cmocka_unit_test(widens_and_narrows_alike),
-        cmocka_unit_test(opens_from_a_pinhole_and_closes_to_one),
-        cmocka_unit_test(a_modified_drag_orbits),
+        cmocka_unit_test(drags_turn_by_the_field_of_view),
+        cmocka_unit_test(held_keys_orbit),
+        cmocka_unit_test(zoom_is_symmetric),
+        cmocka_unit_test(aperture_opens_from_a_pinhole_and_closes),
+        cmocka_unit_test(modified_drags_orbit),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

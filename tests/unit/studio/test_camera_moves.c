@@ -32,7 +32,7 @@ static double distance(const struct pose *v)
 }
 
 /* Looking along -z with y up, x is to the right. */
-static void moves_along_its_axes(void **state)
+static void camera_moves_along_its_axes(void **state)
 {
     struct pose v = make_pose(1, 2, 3, 1, 2, -7);
 
@@ -42,8 +42,8 @@ static void moves_along_its_axes(void **state)
     check_point(v.at, 1.5, 2.25, -9);
 }
 
-/* Looking down at 45 degrees, up is the camera's, not the world's. */
-static void up_is_the_cameras(void **state)
+/* For a view down at 45 degrees, up is the camera's axis, not the world's. */
+static void up_is_the_camera_s_axis(void **state)
 {
     struct pose v = make_pose(0, 0, 0, 0, -1, -1);
 
@@ -52,7 +52,7 @@ static void up_is_the_cameras(void **state)
     check_point(v.eye, 0, 1, -1);
 }
 
-static void turns_about_up(void **state)
+static void camera_turns_about_up(void **state)
 {
     struct pose v = make_pose(0, 0, 0, 0, 0, -5);
 
@@ -64,13 +64,13 @@ static void turns_about_up(void **state)
     check_point(v.at, -5, 0, 0);
     camera_turn(&v, 90 * RAD, 30 * RAD);
     check_point(v.at, 0, 2.5, -5 * cos(30 * RAD));
-    /* the turn to the side keeps the height, wherever it looks */
+    /* Turning to the side keeps the height of the view. */
     camera_turn(&v, 77 * RAD, 0);
     check_close(v.at[1], 2.5, 1e-9);
     check_close(distance(&v), 5, 1e-9);
 }
 
-static void stops_at_the_poles(void **state)
+static void camera_stops_at_the_poles(void **state)
 {
     struct pose v = make_pose(0, 0, 0, 0, 0, -1);
     struct pose w;
@@ -88,8 +88,9 @@ static void stops_at_the_poles(void **state)
     check_close(w.at[1], -1, 1e-3);
 }
 
-/* Any up vector: turning a whole round comes back, forward and back too. */
-static void random_poses_come_back(void **state)
+/* For any up vector a full turn restores the pose, as does a move forward and
+ * back. */
+static void full_turns_restore_the_pose(void **state)
 {
     uint64_t seed = 4;
 
@@ -117,8 +118,8 @@ static void random_poses_come_back(void **state)
     }
 }
 
-/* Where a point is in the picture: -1 to 1 to the right and upwards, by rows of
- * a matrix made anew; the result is its depth. */
+/* Projects a point to [-1, 1] in the picture, by rows of a new matrix. Returns
+ * its depth. */
 static double project(const struct pose *v, const double p[3], double *x,
                       double *y)
 {
@@ -156,7 +157,7 @@ static struct pose random_pose(uint64_t *seed)
     return v;
 }
 
-static void orbits_on_a_ball(void **state)
+static void orbits_keep_the_distance(void **state)
 {
     static const double origin[3] = {0, 0, 0};
     struct pose v = make_pose(0, 0, 5, 0, 0, 0);
@@ -174,8 +175,8 @@ static void orbits_on_a_ball(void **state)
     assert_true(v.eye[2] > 0); /* not over the top */
 }
 
-/* Whatever is picked stays where it is in the picture, as far away. */
-static void orbit_keeps_the_point_in_its_place(void **state)
+/* The picked point keeps its place in the picture and its distance. */
+static void orbits_keep_the_point_in_its_place(void **state)
 {
     uint64_t seed = 11;
 
@@ -196,9 +197,9 @@ static void orbit_keeps_the_point_in_its_place(void **state)
     }
 }
 
-/* All corners are within the margin, and no nearer camera with this look would
- * do: two opposite sides are touched, unless it is close enough. */
-static void frames_as_near_as_can_be(void **state)
+/* All corners are within the margin, and the camera is as near as possible: the
+ * box touches two opposite sides, unless it is close enough. */
+static void framing_is_as_near_as_possible(void **state)
 {
     uint64_t seed = 12;
     uint32_t tight_count = 0;
@@ -244,8 +245,8 @@ static void frames_as_near_as_can_be(void **state)
     assert_in_range(tight_count, 500, 1000);
 }
 
-/* Without extent there is no distance from which it fills the picture. */
-static void frames_a_point_from_where_it_was(void **state)
+/* A point has no extent that could fill the picture, so the distance stays. */
+static void framing_a_point_keeps_the_distance(void **state)
 {
     static const double point[3] = {1, 2, 3};
     struct pose v = make_pose(0, 0, 5, 0, 0, 1);
@@ -257,7 +258,7 @@ static void frames_a_point_from_where_it_was(void **state)
     check_point(v.eye, 1, 2, 7);
 }
 
-static void widens_what_is_seen(void **state)
+static void zoom_changes_the_field_of_view(void **state)
 {
     struct pose v = make_pose(0, 0, 5, 0, 0, 0);
 
@@ -302,16 +303,16 @@ static void impossible_cameras_stay_finite(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(moves_along_its_axes),
-        cmocka_unit_test(up_is_the_cameras),
-        cmocka_unit_test(turns_about_up),
-        cmocka_unit_test(stops_at_the_poles),
-        cmocka_unit_test(random_poses_come_back),
-        cmocka_unit_test(orbits_on_a_ball),
-        cmocka_unit_test(orbit_keeps_the_point_in_its_place),
-        cmocka_unit_test(frames_as_near_as_can_be),
-        cmocka_unit_test(frames_a_point_from_where_it_was),
-        cmocka_unit_test(widens_what_is_seen),
+        cmocka_unit_test(camera_moves_along_its_axes),
+        cmocka_unit_test(up_is_the_camera_s_axis),
+        cmocka_unit_test(camera_turns_about_up),
+        cmocka_unit_test(camera_stops_at_the_poles),
+        cmocka_unit_test(full_turns_restore_the_pose),
+        cmocka_unit_test(orbits_keep_the_distance),
+        cmocka_unit_test(orbits_keep_the_point_in_its_place),
+        cmocka_unit_test(framing_is_as_near_as_possible),
+        cmocka_unit_test(framing_a_point_keeps_the_distance),
+        cmocka_unit_test(zoom_changes_the_field_of_view),
         cmocka_unit_test(impossible_cameras_stay_finite),
     };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * What is around an eye, against closed forms in rooms made by hand; when it is
- * lost; and how far keys move it there.
+ * test_clearance.c - distances around an eye against closed forms in rooms;
+ * when the eye is lost; how far keys move it
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -41,8 +41,8 @@ static void corner(struct obj *o, double x, double y, double z)
             z * o->scale);
 }
 
-/* A box of six faces; without = 0 to 5 leaves one of them out: low and high x,
- * y, z. How they are wound is as it comes. */
+/* Adds a box of six faces with mixed winding. `without` is the number of an
+ * omitted face, in the order of low and high x, y, z. */
 static void box(struct obj *o, const double lo[3], const double hi[3],
                 int without)
 {
@@ -97,7 +97,7 @@ static struct pose pose_from(double x, double y, double z)
     return v;
 }
 
-/* Where the eye is after it has gone to z, looking along -z. */
+/* Returns the place of the eye after it has moved to z, looking along -z. */
 static enum clearance_place go(struct clearance *c, const struct scene *scene,
                                double x, double z)
 {
@@ -107,8 +107,8 @@ static enum clearance_place go(struct clearance *c, const struct scene *scene,
     return c->place;
 }
 
-/* Above a plane at height h as many directions meet it within r as the cap of a
- * ball has, (1 - h/r)/2 of all. */
+/* At height h above a plane, the share of directions that meet it within r is
+ * that of a spherical cap, (1 - h/r)/2. */
 static void a_floor_is_as_near_as_its_height(void **state)
 {
     static const double lo[3] = {-1e4, 0, -1e4}, hi[3] = {1e4, 0.001, 1e4};
@@ -135,8 +135,7 @@ static void a_floor_is_as_near_as_its_height(void **state)
     }
 }
 
-/* A room 6 long with a cupboard in it, at the end of which another room
- * begins. */
+/* Loads a room of length 6 with a cupboard; another room begins at its end. */
 static void load_rooms(struct scene *scene)
 {
     static const double room[2][3] = {{-2, 0, 0}, {2, 3, 6}};
@@ -154,7 +153,7 @@ static void load_rooms(struct scene *scene)
     load(&o, scene);
 }
 
-static void walls_that_are_passed_are_noticed(void **state)
+static void passed_walls_are_noticed(void **state)
 {
     struct clearance c = {0};
     struct scene scene;
@@ -167,18 +166,19 @@ static void walls_that_are_passed_are_noticed(void **state)
     assert_int_equal(go(&c, &scene, 0, 6.1), CLEARANCE_OUTSIDE);
     check_close(c.away, 0.1, 1e-9);
     assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE);
-    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG); /* back in */
+    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG); /* back inside */
     assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE);
     clearance_forget(&c); /* a jump */
     assert_int_equal(go(&c, &scene, 0, 9), CLEARANCE_AMONG);
     clearance_forget(&c);
     assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG);
-    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_AMONG); /* next room */
+    /* The next room. */
+    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_AMONG);
     assert_int_equal(go(&c, &scene, 0, -7), CLEARANCE_OUTSIDE);
     unload(&scene);
 }
 
-static void solids_that_are_entered_are_noticed(void **state)
+static void entered_solids_are_noticed(void **state)
 {
     struct clearance c = {0};
     struct scene scene;
@@ -193,9 +193,9 @@ static void solids_that_are_entered_are_noticed(void **state)
     unload(&scene);
 }
 
-/* Nobody is told anything who goes through a door, stands in the open under the
- * sky, or goes through a thing that stands there. */
-static void open_places_are_no_loss(void **state)
+/* No message appears after going through a door, in the open under the sky, or
+ * through an object there. */
+static void open_places_give_no_message(void **state)
 {
     static const double room[2][3] = {{-2, 0, 0}, {2, 3, 6}};
     static const double ground[2][3] = {{-50, -1, -50}, {50, 0, 50}};
@@ -215,12 +215,12 @@ static void open_places_are_no_loss(void **state)
     load(&o, &scene);
     assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_AMONG);
     assert_true(c.closed >= CLEARANCE_CLOSED);
-    for (double z = 2; z < 20; z++) /* through the side that is open */
+    for (double z = 2; z < 20; z++) /* through the open side */
         assert_int_equal(go(&c, &scene, 0, z), CLEARANCE_AMONG);
     assert_true(c.closed < CLEARANCE_CLOSED);
     assert_int_equal(go(&c, &scene, 0, 21), CLEARANCE_INSIDE);
     assert_int_equal(go(&c, &scene, 0, 23), CLEARANCE_AMONG);
-    /* through the wall of the room into the open: that is told */
+    /* Going through a wall of the room into the open gives a message. */
     clearance_forget(&c);
     assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_AMONG);
     assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_OUTSIDE);
@@ -228,7 +228,7 @@ static void open_places_are_no_loss(void **state)
     unload(&scene);
 }
 
-static void an_empty_picture_is_noticed(void **state)
+static void empty_pictures_are_noticed(void **state)
 {
     static const double lo[3] = {-1, -1, -1}, hi[3] = {1, 1, 1};
     struct pose v = pose_from(0, 0, 9);
@@ -242,7 +242,7 @@ static void an_empty_picture_is_noticed(void **state)
     load(&o, &scene);
     clearance_follow(&c, &scene, &host, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AMONG);
-    v.at[2] = 10; /* turned round */
+    v.at[2] = 10; /* turned around */
     clearance_follow(&c, &scene, &host, &v, ASPECT);
     assert_int_equal(c.place, CLEARANCE_AWAY);
     v.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
@@ -255,7 +255,7 @@ static void an_empty_picture_is_noticed(void **state)
     unload(&scene);
 }
 
-/* As the pilot does: a look around before each step. */
+/* Presses a key: the surroundings are measured before each step. */
 static void press(struct camera_input *s, struct clearance *c,
                   const struct scene *scene, struct pose *v, uint64_t at_ns)
 {
@@ -269,8 +269,10 @@ static void press(struct camera_input *s, struct clearance *c,
     }
 }
 
-/* How far so many taps, a second each, go back from z, as a part of it. */
-static double taps(double scale, const double room[2][3], double z, int count)
+/* Returns how far this many taps, a second apart, move back from z, relative to
+ * the room. */
+static double distance_of_taps(double scale, const double room[2][3], double z,
+                               int count)
 {
     struct pose v = pose_from(0, 1.6 * scale, z * scale);
     struct clearance c = {0};
@@ -293,26 +295,28 @@ static double taps(double scale, const double room[2][3], double z, int count)
     return v.eye[2] / scale - z;
 }
 
-/* Half a step from the wall one tap does not reach it, nor do ten; a hall 200
- * long is another place after twenty; and a model may have any unit. */
-static void taps_are_as_long_as_the_place_allows(void **state)
+/* From half a step before the wall, ten taps do not reach it; in a hall of
+ * length 200, twenty taps cross a tenth; and the unit of the model does not
+ * matter. */
+static void taps_follow_the_size_of_the_place(void **state)
 {
     static const double room[2][3] = {{-2.5, 0, 0}, {2.5, 3, 6}};
     static const double hall[2][3] = {{-100, 0, -100}, {100, 50, 100}};
-    double tap = taps(1, room, 5.7, 1), walk = taps(1, hall, 0, 20);
+    double tap = distance_of_taps(1, room, 5.7, 1),
+           walk = distance_of_taps(1, hall, 0, 20);
 
     (void)state;
     assert_true(tap > 0.03 && tap < 0.15);
-    assert_true(taps(1, room, 5.7, 10) < 0.3);
+    assert_true(distance_of_taps(1, room, 5.7, 10) < 0.3);
     assert_true(walk > 5 && walk < 50);
     for (double scale = 1e-6; scale < 1e7; scale *= 1e3) {
-        check_close(taps(scale, room, 5.7, 1), tap, 1e-3 * tap);
-        check_close(taps(scale, hall, 0, 20), walk, 1e-3 * walk);
+        check_close(distance_of_taps(scale, room, 5.7, 1), tap, 1e-3 * tap);
+        check_close(distance_of_taps(scale, hall, 0, 20), walk, 1e-3 * walk);
     }
 }
 
-/* A key that is held gets through the wall in seconds: who wants to, may. */
-static void walls_give_way_at_last(void **state)
+/* A held key goes through the wall within seconds. */
+static void held_keys_pass_walls(void **state)
 {
     static const double lo[3] = {-2.5, 0, 0}, hi[3] = {2.5, 3, 6};
     struct pose v = pose_from(0, 1.6, 5.7);
@@ -340,12 +344,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_floor_is_as_near_as_its_height),
-        cmocka_unit_test(walls_that_are_passed_are_noticed),
-        cmocka_unit_test(solids_that_are_entered_are_noticed),
-        cmocka_unit_test(open_places_are_no_loss),
-        cmocka_unit_test(an_empty_picture_is_noticed),
-        cmocka_unit_test(taps_are_as_long_as_the_place_allows),
-        cmocka_unit_test(walls_give_way_at_last),
+        cmocka_unit_test(passed_walls_are_noticed),
+        cmocka_unit_test(entered_solids_are_noticed),
+        cmocka_unit_test(open_places_give_no_message),
+        cmocka_unit_test(empty_pictures_are_noticed),
+        cmocka_unit_test(taps_follow_the_size_of_the_place),
+        cmocka_unit_test(held_keys_pass_walls),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

@@ -7,7 +7,8 @@
 
 #define MS UINT64_C(1000000)
 
-/* Steps as the loop does, whenever one is due, until `to`. The time held. */
+/* Makes steps whenever one is due, like the event loop, until `to`. Returns the
+ * time held. */
 static double run(struct held_keys *m, uint64_t from_ns, uint64_t to_ns,
                   enum held_keys_axis axis)
 {
@@ -38,7 +39,7 @@ static void a_tap_moves_at_once_and_then_stops(void **state)
     assert_true(held_keys_next_ns(&m) == UINT64_MAX);
 }
 
-/* Repeats every 33 ms: smooth, as long as the key is held. */
+/* With a repeat every 33 ms the motion is even as long as the key is held. */
 static void held_keys_move_evenly(void **state)
 {
     struct held_keys m = {0};
@@ -55,7 +56,7 @@ static void held_keys_move_evenly(void **state)
     check_close(sum, 29 * 0.033 + 0.150, 1e-6);
 }
 
-static void keys_hold_together_and_turn_round(void **state)
+static void several_keys_are_held_together(void **state)
 {
     struct held_keys m = {0};
     double seconds[HELD_KEYS_AXES];
@@ -72,8 +73,7 @@ static void keys_hold_together_and_turn_round(void **state)
     assert_false(held_keys_step(&m, 1020 * MS, seconds));
 }
 
-/* A frame that took a second is no leap of a second: a tap is as long as ever.
- */
+/* After a frame of a second a tap is as long as always. */
 static void stalls_are_no_leaps(void **state)
 {
     struct held_keys m = {0};
@@ -93,7 +93,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tap_moves_at_once_and_then_stops),
         cmocka_unit_test(held_keys_move_evenly),
-        cmocka_unit_test(keys_hold_together_and_turn_round),
+        cmocka_unit_test(several_keys_are_held_together),
         cmocka_unit_test(stalls_are_no_leaps),
     };
 

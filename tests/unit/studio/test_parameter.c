@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * material_from_source() finds the values that were set, for materials as files
- * may have them. The text of a parameter can be typed, and steps are undone.
+ * test_parameter.c - parameters of materials are found by
+ * material_from_source(), their texts can be typed, and steps are undone
  */
 #include <math.h>
 #include <stdlib.h>
@@ -72,7 +72,7 @@ static double luminance(struct vec3 c)
     return 0.2126 * (double)c.x + 0.7152 * (double)c.y + 0.0722 * (double)c.z;
 }
 
-/* The material with these statements, and its parameter of this name. */
+/* Opens the parameter of this name of a material with these statements. */
 static struct owner open_source(const struct mtl_source *source,
                                 const char *label)
 {
@@ -88,7 +88,7 @@ static struct owner open_source(const struct mtl_source *source,
     return o;
 }
 
-/* False if the material has no such parameter. */
+/* Returns false if the material lacks the parameter. */
 static bool get(const struct mtl_source *source, const char *label,
                 struct value *value)
 {
@@ -121,7 +121,7 @@ static struct material material_of(const struct mtl_source *source)
     return open_source(source, "").material;
 }
 
-/* Each kind can be chosen, with the colour kept. */
+/* Each kind can be chosen and keeps the colour. */
 static void kinds_keep_the_color(void **state)
 {
     static const char *const names[] = {"diffuse", "plastic", "metal", "glass",
@@ -153,7 +153,7 @@ static void kinds_keep_the_color(void **state)
     }
 }
 
-static void values_arrive(void **state)
+static void set_values_reach_the_material(void **state)
 {
     (void)state;
     for (int round = 0; round < 2000; round++) {
@@ -191,8 +191,6 @@ static void values_arrive(void **state)
         assert_true(m.emission.x > m.emission.y && m.emission.y > m.emission.z);
     }
 }
-
-/* ---- parameters of a scene that was read ---- */
 
 struct stage {
     struct scene scene;
@@ -251,7 +249,7 @@ static const struct parameter *find(const struct parameter *list, int count,
     return NULL;
 }
 
-/* Steps of a parameter that follow each other are undone at once. */
+/* Consecutive steps of a parameter are undone together. */
 static void steps_are_undone(void **state)
 {
     static const struct {
@@ -292,8 +290,8 @@ static void steps_are_undone(void **state)
     close_stage(&s);
 }
 
-/* A choice of n is as before after n steps in either direction. */
-static void choices_go_round(void **state)
+/* A choice of n is the same after n steps in either direction. */
+static void choices_are_cyclic(void **state)
 {
     static const struct {
         enum parameter_page page;
@@ -329,8 +327,8 @@ static void choices_go_round(void **state)
     close_stage(&s);
 }
 
-/* The text of a parameter, typed, gives the same text; nonsense is refused and
- * changes nothing. */
+/* Typing the text of a parameter gives the same text. Invalid text is refused
+ * and changes nothing. */
 static void texts_can_be_typed(void **state)
 {
     struct stage s;
@@ -365,7 +363,7 @@ static void texts_can_be_typed(void **state)
     close_stage(&s);
 }
 
-static void typed_values_arrive(void **state)
+static void typed_values_reach_the_material(void **state)
 {
     static const struct {
         const char *label, *text, *shown;
@@ -395,7 +393,7 @@ static void typed_values_arrive(void **state)
         assert_string_equal(find(list, count, cases[i].label)->text,
                             cases[i].shown);
     }
-    /* a texture off and on */
+    /* Switches a texture off and on. */
     assert_string_equal(find(list, count, "map_Kd")->text, "on no.png");
     parameter_step(&target, find(list, count, "map_Kd")->id, 1);
     parameters_list(&target, list);
@@ -407,11 +405,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kinds_keep_the_color),
-        cmocka_unit_test(values_arrive),
+        cmocka_unit_test(set_values_reach_the_material),
         cmocka_unit_test(steps_are_undone),
-        cmocka_unit_test(choices_go_round),
+        cmocka_unit_test(choices_are_cyclic),
         cmocka_unit_test(texts_can_be_typed),
-        cmocka_unit_test(typed_values_arrive),
+        cmocka_unit_test(typed_values_reach_the_material),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Picking against the rays of the render itself, against closed forms in the
- * file's units, and at surfaces that let rays pass.
+ * test_pick.c - picks against rays of the render, against closed forms in file
+ * units, and at surfaces that let rays pass
  */
 #include <math.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@
 #include "kernels/camera_sample.h"
 #include "kernels/traverse.h"
 
-static struct host_world host; /* of the scene that was loaded last */
+static struct host_world host; /* the most recently loaded scene */
 
 static void load(struct scene *scene, const char *obj)
 {
@@ -48,7 +48,7 @@ static struct view view_from(double x, double y, double z)
     return v;
 }
 
-/* Triangles of random places and sizes, 2000 of them. */
+/* Loads 2000 triangles of random places and sizes. */
 static void load_soup(struct scene *scene)
 {
     uint64_t seed = 5;
@@ -74,8 +74,8 @@ static void load_soup(struct scene *scene)
     free(text);
 }
 
-/* The rays of the samples, sent through the tree as the render sends them. */
-static void finds_what_the_render_finds(void **state)
+/* Compares with rays of the samples, traced as in the render. */
+static void picks_hit_what_the_render_hits(void **state)
 {
     struct scene scene;
     struct view view = view_from(72, 73, 78);
@@ -116,8 +116,8 @@ static void finds_what_the_render_finds(void **state)
     unload(&scene);
 }
 
-/* A floor far from the origin, in parts with names. */
-static void says_what_it_is_in_units_of_the_file(void **state)
+/* Loads a floor far from the origin, in named parts. */
+static void picks_are_in_file_units(void **state)
 {
     struct scene scene;
     struct view view = view_from(1000, 2030, -500);
@@ -130,7 +130,7 @@ static void says_what_it_is_in_units_of_the_file(void **state)
                  "v 900 2000 -600\nv 1100 2000 -400\nv 1100 2000 -600\n"
                  "o left\nusemtl red\nf 1 2 3 4\n"
                  "o right\nusemtl blue\nf 2 5 6 3\n");
-    view.pose.at[0] = 1010; /* 10 to the right and 30 down: onto the floor */
+    view.pose.at[0] = 1010; /* 10 to the right and 30 down, on the floor */
     view.pose.at[1] = 2000;
     view.pose.at[2] = -500;
     assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
@@ -141,8 +141,8 @@ static void says_what_it_is_in_units_of_the_file(void **state)
     check_close(pick.position[1], 2000, 1e-4);
     check_close(pick.position[2], -500, 1e-4);
     check_close(pick.distance, sqrt(1000), 1e-4);
-    /* at the left edge the ray leaves the look, which is down the slope of 3
-     * in x and y, by half the field of view across it: along z */
+    /* At the left edge the ray differs from the view direction, which is along
+     * (3, *, 3), by half the horizontal field of view: it is along z. */
     double side = tan(20 * M_PI / 180) * 1024 / 576;
     assert_true(pick_at(&scene, &host, &view, 0, 288, &pick));
     check_close(pick.distance, sqrt(1000) * hypot(1, side), 1e-3);
@@ -150,7 +150,7 @@ static void says_what_it_is_in_units_of_the_file(void **state)
     unload(&scene);
 }
 
-static void knows_the_box_of_an_object(void **state)
+static void picks_have_the_box_of_their_object(void **state)
 {
     struct scene scene;
     double lo[3], hi[3];
@@ -166,7 +166,7 @@ static void knows_the_box_of_an_object(void **state)
     unload(&scene);
 }
 
-static void misses_the_sky_and_what_is_outside(void **state)
+static void picks_of_the_sky_miss(void **state)
 {
     struct scene scene;
     struct view view = view_from(0, 0, 5);
@@ -181,13 +181,14 @@ static void misses_the_sky_and_what_is_outside(void **state)
     assert_false(pick_at(&scene, &host, &view, 512, NAN, &pick));
     assert_int_equal(pick.tri, 77);
     assert_true(pick_at(&scene, &host, &view, 512, 288, &pick));
-    view.pose.at[2] = 5; /* no direction */
+    view.pose.at[2] = 5; /* without a direction */
     assert_false(pick_at(&scene, &host, &view, 512, 288, &pick));
     unload(&scene);
 }
 
-/* Two sheets and a wall behind: a pick takes the first that is half solid. */
-static void goes_through_what_is_rather_clear(void **state)
+/* A pick goes through surfaces that are more transparent than solid: two sheets
+ * before a wall. */
+static void picks_pass_transparent_surfaces(void **state)
 {
     struct scene scene;
     struct view view = view_from(0, 0, 5);
@@ -204,8 +205,8 @@ static void goes_through_what_is_rather_clear(void **state)
     unload(&scene);
 }
 
-/* The corners of all cells together are the picture. */
-static void cells_share_the_picture(void **state)
+/* The cells together cover the picture. */
+static void cells_cover_the_picture(void **state)
 {
     struct cells_rect fit = {.col = 3, .row = 2, .cols = 40, .rows = 10};
     double x, y;
@@ -226,12 +227,12 @@ static void cells_share_the_picture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(finds_what_the_render_finds),
-        cmocka_unit_test(says_what_it_is_in_units_of_the_file),
-        cmocka_unit_test(knows_the_box_of_an_object),
-        cmocka_unit_test(misses_the_sky_and_what_is_outside),
-        cmocka_unit_test(goes_through_what_is_rather_clear),
-        cmocka_unit_test(cells_share_the_picture),
+        cmocka_unit_test(picks_hit_what_the_render_hits),
+        cmocka_unit_test(picks_are_in_file_units),
+        cmocka_unit_test(picks_have_the_box_of_their_object),
+        cmocka_unit_test(picks_of_the_sky_miss),
+        cmocka_unit_test(picks_pass_transparent_surfaces),
+        cmocka_unit_test(cells_cover_the_picture),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

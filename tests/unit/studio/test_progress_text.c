@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * The panel says what the progress says, and each of its lines has at most the
- * same number of columns, whatever the numbers.
+ * test_progress_text.c - the panel shows the progress in lines of at most the
+ * same number of columns, for all numbers
  */
 #include "tests/unit/check.h"
 
@@ -42,7 +42,7 @@ static void numbers_are_short(void **state)
     }
 }
 
-static void half_a_render(void **state)
+static void half_done_renders_show_their_progress(void **state)
 {
     struct render_progress p = {.state = RENDER_RUNNING,
                                 .spp_limit = 1000,
@@ -73,7 +73,8 @@ static void half_a_render(void **state)
     assert_true(strncmp(lines[1], "█████████░", 30) == 0);
 }
 
-/* Speeds of 12 twelfths, 6, 0, 3, ...: columns of so many dots, from below. */
+/* Speeds of 12 twelfths, 6, 0, 3, ... make columns of as many dots, from
+ * below. */
 static void plots_are_to_scale(void **state)
 {
     struct render_progress p = {.state = RENDER_RUNNING};
@@ -86,7 +87,7 @@ static void plots_are_to_scale(void **state)
     speeds.samples[2] = 0;
     speeds.samples[3] = 300;
     progress_text_format(lines, &f);
-    /* dots 1 2 3 7 at the left, 4 5 6 8 at the right of U+2800 */
+    /* Dots 1 2 3 7 are at the left, 4 5 6 8 at the right of U+2800. */
     assert_true(strncmp(lines[6], "⡇⠀⠀", 9) == 0);
     assert_true(strncmp(lines[7], "⣧⠀⠀", 9) == 0);
     assert_true(strncmp(lines[8], "⣿⢰⠀", 9) == 0);
@@ -97,7 +98,7 @@ static void plots_are_to_scale(void **state)
     assert_true(strncmp(lines[8], "#| ", 3) == 0);
 }
 
-/* Random facts up to the greatest that there are. */
+/* Tests random values up to the greatest possible. */
 static void lines_have_room(void **state)
 {
     static double loads[1024];
@@ -125,7 +126,7 @@ static void lines_have_room(void **state)
     }
 }
 
-static void live_and_device_and_nothing(void **state)
+static void live_mode_device_and_nothing_are_shown(void **state)
 {
     struct render_progress p = {.state = RENDER_IDLE};
     struct speeds speeds = {0};
@@ -143,10 +144,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_short),
-        cmocka_unit_test(half_a_render),
+        cmocka_unit_test(half_done_renders_show_their_progress),
         cmocka_unit_test(plots_are_to_scale),
         cmocka_unit_test(lines_have_room),
-        cmocka_unit_test(live_and_device_and_nothing),
+        cmocka_unit_test(live_mode_device_and_nothing_are_shown),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * Live and normal mode on a real renderer: what is started, halted, saved and
- * thought to be unsaved.
+ * test_render_control.c - live and normal mode with a renderer: starting,
+ * halting, saving, and unsaved pictures
  */
 #include "tests/unit/check.h"
 #include "tests/unit/folder.h"
@@ -73,7 +73,7 @@ static int close_work(void **state)
     return 0;
 }
 
-/* Looks until the render is not running, ten seconds at most. */
+/* Polls until the render has ended, for at most ten seconds. */
 static void run_to_end(struct render_control *w)
 {
     assert_true(render_wait(w->session->render, 10000));
@@ -99,7 +99,7 @@ static void live_mode_has_nothing_to_lose(void **state)
     assert_true(render_control_may_move(w));
 }
 
-/* The camera, by very little. */
+/* Moves the camera very little. */
 static void move(struct render_control *w)
 {
     struct edit *e = &w->session->edit;
@@ -109,7 +109,7 @@ static void move(struct render_control *w)
     edit_pose(e, &pose);
 }
 
-static void moving_starts_anew(void **state)
+static void moving_restarts_the_render(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
     uint64_t before_ns = w->restarted_ns;
@@ -121,8 +121,8 @@ static void moving_starts_anew(void **state)
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
 
-/* A camera that never rests does not hide every picture: after one has come
- * there is time to show it. */
+/* A camera that never rests still shows pictures: after each there is time to
+ * show it. */
 static void moving_shows_pictures(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
@@ -131,7 +131,8 @@ static void moving_shows_pictures(void **state)
         uint64_t before_ns = w->restarted_ns;
 
         move(w);
-        while (render_control_awaits_picture(w)) { /* it may have come by now */
+        /* It may have arrived by now. */
+        while (render_control_awaits_picture(w)) {
             render_control_look(w);
             assert_int_equal(w->restarted_ns, before_ns);
             assert_true(render_control_is_outdated(w));
@@ -141,8 +142,8 @@ static void moving_shows_pictures(void **state)
     }
 }
 
-/* In live mode the draft comes first, and is not counted; in normal mode there
- * is none. */
+/* In live mode the draft comes first and is not counted. Normal mode has no
+ * draft. */
 static void drafts_are_live(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
@@ -170,7 +171,7 @@ static void normal_mode_renders_to_its_end(void **state)
     run_to_end(w);
     assert_int_equal(w->progress.state, RENDER_IDLE);
     assert_false(render_control_may_move(w));
-    assert_false(render_control_has_unsaved(w)); /* nothing was begun */
+    assert_false(render_control_has_unsaved(w)); /* nothing has begun */
     render_control_start_or_halt(w);
     run_to_end(w);
     assert_int_equal(w->progress.state, RENDER_DONE);
@@ -224,7 +225,7 @@ static void live_mode_pauses(void **state)
         render_control_look(w);
     assert_int_equal(w->progress.spp_limit, 0);
     render_control_start_or_halt(w);
-    move(w); /* a change goes on */
+    move(w); /* a change resumes the render */
     render_control_look(w);
     assert_false(w->is_halted);
     assert_int_equal(w->progress.state, RENDER_RUNNING);
@@ -256,8 +257,8 @@ static void steps_are_one_sample_each(void **state)
     assert_int_equal(w->progress.samples, 3 * 32 * 16);
 }
 
-/* A pass that was cut leaves pixels with more samples than others: a step adds
- * to those that have fewest, and all end with the same picture. */
+/* A halted pass leaves pixels with unequal numbers of samples. Steps add to
+ * those with the fewest, and all end with the same picture. */
 static void steps_after_a_halt_make_the_same_picture(void **state)
 {
     struct fixture *f = *state;
@@ -270,11 +271,11 @@ static void steps_after_a_halt_make_the_same_picture(void **state)
     film_linear(render_film(w->session->render), whole);
     render_control_restart(w);
     for (int i = 0; i < 10000 && w->progress.state != RENDER_DONE; i++) {
-        render_control_step(w);          /* halts what runs */
+        render_control_step(w);          /* halts the render */
         render_control_start_or_halt(w); /* halts the step */
         if (w->progress.state == RENDER_IDLE)
             render_control_start_or_halt(w);
-        render_wait(w->session->render, 1); /* some of a pass */
+        render_wait(w->session->render, 1); /* part of a pass */
         render_control_look(w);
     }
     run_to_end(w);
@@ -288,14 +289,14 @@ static bool is_kept(void)
     return access("glim/lost.png", F_OK) == 0;
 }
 
-static void what_no_file_has_is_kept(void **state)
+static void unsaved_pictures_are_kept(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
     char expected[256];
 
     snprintf(expected, sizeof expected, "kept %s/glim/lost.png, 3 spp", folder);
     render_whole(w);
-    for (int i = 0; i < 2; i++) { /* in one file */
+    for (int i = 0; i < 2; i++) { /* both in one file */
         save_lost_picture(w);
         assert_true(is_kept());
         assert_int_equal(w->result_count, i + 1);
@@ -303,7 +304,7 @@ static void what_no_file_has_is_kept(void **state)
     }
 }
 
-static void what_a_file_has_is_not_kept(void **state)
+static void saved_pictures_are_not_kept(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
 
@@ -312,14 +313,14 @@ static void what_a_file_has_is_not_kept(void **state)
     assert_true(save_finish(w));
     save_lost_picture(w);
     assert_false(is_kept());
-    render_control_restart(w); /* what follows is not in the file */
+    render_control_restart(w); /* the new render is not in the file */
     run_to_end(w);
     save_lost_picture(w);
     assert_true(is_kept());
 }
 
-/* Of live mode: what has taken a while, or shows what was edited. */
-static void what_is_made_anew_at_once_is_not_kept(void **state)
+/* A picture of live mode is kept if it took long or shows an edit. */
+static void quick_live_pictures_are_not_kept(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
 
@@ -341,7 +342,7 @@ static void what_is_made_anew_at_once_is_not_kept(void **state)
     assert_true(is_kept());
 }
 
-static void saving_never_replaces(void **state)
+static void saving_never_replaces_files(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
 
@@ -359,7 +360,7 @@ static void saving_never_replaces(void **state)
     assert_false(render_control_has_unsaved(w));
 }
 
-/* What is saved is what was there at the key, whatever happens after it. */
+/* The saved picture is that at the time of the key, whatever follows. */
 static void saving_takes_a_copy(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
@@ -371,7 +372,7 @@ static void saving_takes_a_copy(void **state)
     assert_true(save_finish(w));
     save_picture(w, "png");
     for (int i = 0; i < 3; i++)
-        w->session->edit.now.view.pose.eye[i] += 5; /* away: another picture */
+        w->session->edit.now.view.pose.eye[i] += 5; /* another picture */
     render_control_set_live(w, true);
     assert_true(save_finish(w));
     FILE *a = fopen("s.png", "rb");
@@ -385,8 +386,9 @@ static void saving_takes_a_copy(void **state)
     assert_memory_equal(first, second, sizes[0]);
 }
 
-/* Other sizes may have come meanwhile. */
-static void what_is_said_is_what_was_saved(void **state)
+/* The message has the size of the saved picture, even if the size changes
+ * meanwhile. */
+static void message_describes_the_saved_picture(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
 
@@ -399,8 +401,8 @@ static void what_is_said_is_what_was_saved(void **state)
     assert_string_equal(w->results[0], "saved s.png 32x16, 3 spp");
 }
 
-/* Without a look since it was begun. */
-static void a_young_picture_is_unsaved_too(void **state)
+/* This holds even before the first poll. */
+static void new_pictures_are_unsaved(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
 
@@ -410,9 +412,9 @@ static void a_young_picture_is_unsaved_too(void **state)
     assert_true(render_control_has_unsaved(w));
 }
 
-/* The thread that loads may have read the file as it was: the camera would go
- * back to that. */
-static void no_view_is_written_under_a_reload(void **state)
+/* The loading thread may have read the old file, and the camera would return to
+ * it. */
+static void no_view_is_written_during_a_reload(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
 
@@ -426,8 +428,8 @@ static void no_view_is_written_under_a_reload(void **state)
     assert_int_equal(access("s.view", F_OK), 0);
 }
 
-/* An error that comes while somebody types is not gone with the next key. */
-static void errors_are_seen(void **state)
+/* An error that appears while a person types stays after the next key. */
+static void errors_stay_visible(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
 
@@ -440,7 +442,8 @@ static void errors_are_seen(void **state)
     check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
 }
 
-/* 200 words of six characters a minute, a blank each: 50 ms a character. */
+/* A person reads 200 words of six characters per minute: 50 ms per
+ * character. */
 static void long_messages_can_be_read(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
@@ -487,8 +490,7 @@ static void views_are_written(void **state)
     warnings_free(&report);
 }
 
-/* Under a new name each time; what normal mode has rendered is still to be
- * saved as a picture. */
+/* Each text has a new name. A picture of normal mode remains unsaved. */
 static void texts_are_written(void **state)
 {
     struct render_control *w = &((struct fixture *)*state)->control;
@@ -520,7 +522,7 @@ static void texts_are_written(void **state)
     }
 }
 
-/* A person who gave the modes another key is told that one. */
+/* The message names the key that a person gave to the mode. */
 static void messages_name_the_chosen_keys(void **state)
 {
     struct fixture *f = *state;
@@ -542,7 +544,7 @@ int main(void)
 #define WORK_TEST(f) cmocka_unit_test_setup_teardown(f, open_work, close_work)
     const struct CMUnitTest tests[] = {
         WORK_TEST(live_mode_has_nothing_to_lose),
-        WORK_TEST(moving_starts_anew),
+        WORK_TEST(moving_restarts_the_render),
         WORK_TEST(moving_shows_pictures),
         WORK_TEST(drafts_are_live),
         WORK_TEST(normal_mode_renders_to_its_end),
@@ -550,15 +552,15 @@ int main(void)
         WORK_TEST(live_mode_pauses),
         WORK_TEST(steps_are_one_sample_each),
         WORK_TEST(steps_after_a_halt_make_the_same_picture),
-        WORK_TEST(what_no_file_has_is_kept),
-        WORK_TEST(what_a_file_has_is_not_kept),
-        WORK_TEST(what_is_made_anew_at_once_is_not_kept),
-        WORK_TEST(saving_never_replaces),
+        WORK_TEST(unsaved_pictures_are_kept),
+        WORK_TEST(saved_pictures_are_not_kept),
+        WORK_TEST(quick_live_pictures_are_not_kept),
+        WORK_TEST(saving_never_replaces_files),
         WORK_TEST(saving_takes_a_copy),
-        WORK_TEST(what_is_said_is_what_was_saved),
-        WORK_TEST(a_young_picture_is_unsaved_too),
-        WORK_TEST(no_view_is_written_under_a_reload),
-        WORK_TEST(errors_are_seen),
+        WORK_TEST(message_describes_the_saved_picture),
+        WORK_TEST(new_pictures_are_unsaved),
+        WORK_TEST(no_view_is_written_during_a_reload),
+        WORK_TEST(errors_stay_visible),
         WORK_TEST(long_messages_can_be_read),
         WORK_TEST(failures_are_messages),
         WORK_TEST(views_are_written),

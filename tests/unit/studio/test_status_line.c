@@ -15,7 +15,7 @@ static const char *duration(uint64_t ns)
     return text;
 }
 
-static void durations(void **state)
+static void durations_are_short(void **state)
 {
     (void)state;
     assert_string_equal(duration(0), "0 s");
@@ -38,7 +38,7 @@ static struct render_progress half_done(void)
     return p;
 }
 
-static void normal_mode_says_what_is_left(void **state)
+static void normal_mode_shows_the_time_left(void **state)
 {
     struct render_progress p = half_done();
     struct status_line s = {.is_started = true,
@@ -93,12 +93,13 @@ static void live_mode_has_no_end(void **state)
                                  " 10x20  mono "));
     assert_null(strchr(text, '%'));
     p = (struct render_progress){.state = RENDER_RUNNING};
-    status_line_format(text, 100, &s); /* nothing yet: no division by zero */
+    /* No progress yet: no division by zero. */
+    status_line_format(text, 100, &s);
     assert_non_null(strstr(text, "0 spp  0 s  0 ksamples/s"));
 }
 
-/* At any width the line has that many columns, begins with the mode and never
- * cuts a field. */
+/* At any width the line has that many columns, begins with the mode and cuts no
+ * field. */
 static void narrow_windows_drop_fields(void **state)
 {
     struct render_progress p = half_done();
@@ -120,14 +121,15 @@ static void narrow_windows_drop_fields(void **state)
         if (cols >= 24)
             assert_true(strncmp(text, " NORMAL", 7) == 0);
         for (size_t i = 1; i < 4; i++) {
-            if (strstr(text, fields[i])) /* less important ones went before */
+            /* Less important ones are dropped first. */
+            if (strstr(text, fields[i]))
                 assert_non_null(strstr(text, fields[0]));
         }
     }
 }
 
-/* In 80 columns the mode, files, samples, colours and the hint have room,
- * whatever the rest is, with the keys as they come. */
+/* 80 columns have space for the mode, files, samples, colours and the hint,
+ * with any keys. */
 static void eighty_columns_have_the_colors(void **state)
 {
     static const char *const colors[] = {"24 bit", "256 colours", "16 colours",
@@ -160,7 +162,7 @@ static void eighty_columns_have_the_colors(void **state)
     }
 }
 
-static void messages_are_clean(void **state)
+static void messages_have_no_control_characters(void **state)
 {
     char text[STATUS_BYTES];
 
@@ -176,12 +178,12 @@ static void messages_are_clean(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(durations),
-        cmocka_unit_test(normal_mode_says_what_is_left),
+        cmocka_unit_test(durations_are_short),
+        cmocka_unit_test(normal_mode_shows_the_time_left),
         cmocka_unit_test(live_mode_has_no_end),
         cmocka_unit_test(narrow_windows_drop_fields),
         cmocka_unit_test(eighty_columns_have_the_colors),
-        cmocka_unit_test(messages_are_clean),
+        cmocka_unit_test(messages_have_no_control_characters),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
