@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Camera paths a second of Cycles, for tests/bench/cycles/run.sh.
+"""Camera paths per second of Cycles, for tests/bench/cycles/run.sh.
 
 usage: blender -b --factory-startup -P cycles.py -- SCENE.obj THREADS OUT SPP...
 
-SCENE.obj has diffuse and shining materials; camera.txt beside it has the view.
-Prints "cycles SPP SECONDS SECONDS": of rendering that many samples a pixel, and
-of the processor for it. OUT0.pfm and OUT1.pfm become two pictures of the last
-number, with other noise. Whatever trades truth for speed is off, as in glim:
+SCENE.obj has diffuse and emitting materials; camera.txt beside it has the view.
+Prints "cycles SPP SECONDS SECONDS" for each number of samples per pixel: the
+time by the clock and the processor time. OUT0.pfm and OUT1.pfm are two pictures
+with the last number and different noise. Biased techniques are off, as in glim:
 clamps, filters, adaptive sampling, denoising. Paths have the scene's limit of
 bounces.
 """
@@ -21,13 +21,13 @@ from mathutils import Matrix, Vector
 
 
 def numbers(path):
-    """Key -> numbers of the lines that begin with a key."""
+    """Returns a map from keys to the numbers on their lines."""
     lines = (line.split("#")[0].split() for line in open(path))
     return {w[0]: [float(x) for x in w[1:]] for w in lines if w}
 
 
 def materials(path):
-    """Name -> key -> words of an MTL file."""
+    """Returns a map from names and keys to words of an MTL file."""
     found = {}
     for words in (line.split() for line in open(path)):
         if words and words[0] == "newmtl":

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The variance of a picture, from two with other noise.
+"""Prints the variance of a picture, from two with different noise.
 
 usage: noise.py A.pfm B.pfm
 
-Prints the mean over all channels of half the squared difference, each by the
-square of the mean there, with .01 added: relative, so that lamps do not drown
-the rest.
+The variance is the mean over all channels of half the squared difference,
+divided by the square of the channel's mean plus .01. It is relative, since
+otherwise lamps would dominate.
 """
 import array
 import sys

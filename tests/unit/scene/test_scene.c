@@ -144,7 +144,7 @@ static void triangles_too_small_for_floats_are_dropped(void **state)
     unload(&l);
 }
 
-/* Beside an edge of 5e38 an edge of 1 has 2^-129, which has no reciprocal. The
+/* Beside an edge of 5e38 an edge of 1 is 2^-129, which has no reciprocal. The
  * first face keeps its normal; rounding leaves nothing of the second. */
 static void needles_keep_their_normals(void **state)
 {
@@ -329,8 +329,7 @@ static void libraries_are_found_beside_the_scene(void **state)
     unload(&l);
 }
 
-/* Projects a point of the file to the picture: visible points are in [-1,
- * 1]. */
+/* Projects a point of the file. Visible points are in [-1, 1]. */
 static void project(const struct scene *s, const struct world *w,
                     const double point[3], double *x, double *y, double *z)
 {
@@ -539,7 +538,7 @@ static void skies_are_read(void **state)
     unload(&l);
 }
 
-static void coverage_is_an_opacity_texture(void **state)
+static void only_transparent_materials_have_coverage(void **state)
 {
     static const char *const mtls[] = {"newmtl m\nKd .5\n", "newmtl m\nd .5\n",
                                        "newmtl m\nKd .5\nmap_Kd two.png\n",
@@ -600,7 +599,7 @@ int main(void)
         cmocka_unit_test(up_along_the_view_is_replaced),
         cmocka_unit_test(impossible_cameras_are_refused),
         cmocka_unit_test(skies_are_read),
-        cmocka_unit_test(coverage_is_an_opacity_texture),
+        cmocka_unit_test(only_transparent_materials_have_coverage),
         cmocka_unit_test(srgb_table_is_that_of_the_standard),
     };
 

@@ -275,7 +275,7 @@ static void numbered_views_have_the_keys_above(void **state)
     view_free(&view);
 }
 
-static void absent_files_have_their_message(void **state)
+static void unreadable_files_have_their_message(void **state)
 {
     struct warnings report = {0};
     struct error err;
@@ -576,7 +576,7 @@ int main(void)
         cmocka_unit_test(later_lines_override_earlier_ones),
         cmocka_unit_test(limits_are_accepted),
         cmocka_unit_test(wrong_lines_have_their_message),
-        cmocka_unit_test(absent_files_have_their_message),
+        cmocka_unit_test(unreadable_files_have_their_message),
         cmocka_unit_test(unknown_keys_are_warned_of),
         cmocka_unit_test(random_bytes_do_no_harm),
         cmocka_unit_test(written_views_are_read_back),

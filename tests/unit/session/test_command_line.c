@@ -275,7 +275,7 @@ static void list_devices_stands_alone(void **state)
         "-t: found '0', expected a whole number from 1 to 1024");
 }
 
-static void contradictions_have_their_message(void **state)
+static void wrong_combinations_have_their_message(void **state)
 {
     (void)state;
     bad("",
@@ -342,7 +342,7 @@ int main(void)
         cmocka_unit_test(wrong_numbers_have_their_message),
         cmocka_unit_test(help_is_recognised),
         cmocka_unit_test(crops_are_read_or_refused),
-        cmocka_unit_test(contradictions_have_their_message),
+        cmocka_unit_test(wrong_combinations_have_their_message),
         cmocka_unit_test(backends_are_chosen),
         cmocka_unit_test(list_devices_stands_alone),
     };

@@ -65,7 +65,7 @@ static void view_files_are_found(void **state)
     put("camera.txt", CAMERA "fovy 11\n");
     open_session(&s, &o);
     assert_true(s.edit.now.view.pose.fovy_deg == 11.0);
-    /* Camera.txt belongs to another program. */
+    /* The file camera.txt belongs to another program. */
     assert_string_equal(s.view_path, "s.view");
     session_close(&s);
 
