@@ -14,7 +14,7 @@
 #define ROOM "Kd .5 .5 .5\nKe .5 .5 .5"
 
 /* Adds the room's faces, from (-1, -1, -1) to (1, 1, 1). */
-static void put_room(struct stage *s)
+static void put_room(struct stress_scene *s)
 {
     put_material(s, "room", ROOM);
     put_box(s, (double[]){-1, -1, -1}, (double[]){1, 1, 1});
@@ -26,7 +26,7 @@ static const struct shot inside = {.eye = {0.1, 0.2, 0.9},
 
 /* G1: faces with three equal corners, two equal ones, or all on a line; black
  * if visible. */
-static void degenerate_room(struct stage *s, double number)
+static void degenerate_room(struct stress_scene *s, double number)
 {
     (void)number;
     put_room(s);
@@ -47,7 +47,7 @@ static void degenerate_room(struct stage *s, double number)
 }
 
 /* G2: vertices with NaN. */
-static void room_with_nan(struct stage *s, double number)
+static void room_with_nan(struct stress_scene *s, double number)
 {
     static const char *const bad[] = {"nan", "inf", "-inf", "1e999"};
 
@@ -58,14 +58,14 @@ static void room_with_nan(struct stage *s, double number)
                 bad[i]);
 }
 
-static void put_hill(struct stage *s, int i, int j)
+static void put_hill(struct stress_scene *s, int i, int j)
 {
     put_vertex(s, i / 6.0 - 1, sin(i * 1.3) * cos(j * 0.9) / 4, j / 6.0 - 1);
 }
 
 /* G3: hills whose faces have four separate vertices each (1), or shared
  * vertices with unrelated ones between them (0). */
-static void hills(struct stage *s, double is_split)
+static void hills(struct stress_scene *s, double is_split)
 {
     const int side = 13;
 
@@ -92,7 +92,7 @@ static void hills(struct stage *s, double is_split)
 }
 
 /* G4, G19: needles. */
-static void needle_room(struct stage *s, double width)
+static void needle_room(struct stress_scene *s, double width)
 {
     uint64_t seed = 1;
 
@@ -110,7 +110,7 @@ static void needle_room(struct stage *s, double width)
 }
 
 /* G5: this many white faces at one place, under an open sky. */
-static void coincident(struct stage *s, double count)
+static void coincident(struct stress_scene *s, double count)
 {
     put_material(s, "white", "Kd .9 .9 .9");
     for (int i = 0; i < count; i++)
@@ -120,7 +120,7 @@ static void coincident(struct stage *s, double count)
 
 /* G6: a bright face (number 0) or a black one comes first, at the same
  * place. */
-static void two_materials(struct stage *s, double first)
+static void two_materials(struct stress_scene *s, double first)
 {
     for (int i = 0; i < 2; i++) {
         bool is_bright = (i == 0) == (first == 0);
@@ -134,7 +134,7 @@ static void two_materials(struct stage *s, double first)
 /* G6: triangles in slanted planes, bright (0) or black (1). Unless 2 is added,
  * each is followed in the file by a copy of the other colour, which begins at
  * another corner or has the opposite winding. */
-static void slanted(struct stage *s, double number)
+static void slanted(struct stress_scene *s, double number)
 {
     static const char *const orders[] = {"-3 -2 -1", "-2 -1 -3", "-1 -3 -2",
                                          "-3 -1 -2", "-1 -2 -3", "-2 -3 -1"};
@@ -158,7 +158,7 @@ static void slanted(struct stage *s, double number)
 }
 
 /* G7: boxes around one point. */
-static void nested_room(struct stage *s, double count)
+static void nested_room(struct stress_scene *s, double count)
 {
     put_room(s);
     for (int i = 1; i <= count; i++) {
@@ -169,7 +169,7 @@ static void nested_room(struct stage *s, double count)
 }
 
 /* Adds a floor and this many lamps above it. */
-static void lamps_over_floor(struct stage *s, double count)
+static void lamps_over_floor(struct stress_scene *s, double count)
 {
     put_floor(s);
     put_shining(s, "lamp", 1);
@@ -178,7 +178,7 @@ static void lamps_over_floor(struct stage *s, double count)
 }
 
 /* G9: each box is half as large as the one before. */
-static void chain_room(struct stage *s, double count)
+static void chain_room(struct stress_scene *s, double count)
 {
     put_room(s);
     for (int k = 0; k < count; k++) {
@@ -189,7 +189,7 @@ static void chain_room(struct stage *s, double count)
 }
 
 /* G10: no visible face (0) or one triangle (1). */
-static void one_or_none(struct stage *s, double count)
+static void one_or_none(struct stress_scene *s, double count)
 {
     put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
     put_vertex(s, -1, 0, 0);
@@ -200,7 +200,7 @@ static void one_or_none(struct stage *s, double count)
 
 /* G12: a long corridor of perfect mirrors. A path to its end meets walls and
  * edges 10 to 150 times. */
-static void mirror_corridor(struct stage *s, double length)
+static void mirror_corridor(struct stress_scene *s, double length)
 {
     put_material(s, "mirror", "illum 3\nKs 1 1 1");
     put_box(s, (double[]){-1, -1, -length}, (double[]){1, 1, 1});
@@ -209,7 +209,7 @@ static void mirror_corridor(struct stage *s, double length)
 }
 
 /* G14: all faces are in one plane across this axis. */
-static void flat_scene(struct stage *s, double axis)
+static void flat_scene(struct stress_scene *s, double axis)
 {
     put_material(s, "lamp", "Kd .5 .5 .5\nKe 1 1 1");
     put_quad(s, (int)axis, 0, (double[]){-9, -9}, (double[]){9, 9});
@@ -217,7 +217,7 @@ static void flat_scene(struct stage *s, double axis)
 
 /* G15, G18: the room is beside something so far away that its coordinates have
  * few digits. */
-static void room_far_off(struct stage *s, double distance)
+static void room_far_off(struct stress_scene *s, double distance)
 {
     const double x = distance, y = distance / 3;
 
@@ -226,7 +226,7 @@ static void room_far_off(struct stage *s, double distance)
 }
 
 /* G18: a lamp over a floor of this size, of two triangles. */
-static void huge_floor(struct stage *s, double size)
+static void huge_floor(struct stress_scene *s, double size)
 {
     lamps_over_floor(s, 1);
     put_material(s, "wide", "Kd 0 0 0");
@@ -234,14 +234,14 @@ static void huge_floor(struct stage *s, double size)
 }
 
 /* G18: a closed slab that is this much wider than high. */
-static void wide_slab(struct stage *s, double width)
+static void wide_slab(struct stress_scene *s, double width)
 {
     put_material(s, "room", ROOM);
     put_box(s, (double[]){-width, -1, -width}, (double[]){width, 1, width});
 }
 
 /* G17: this many clear sheets at distances of 1e-5 before a lamp. */
-static void thin_sheets(struct stage *s, double count)
+static void thin_sheets(struct stress_scene *s, double count)
 {
     put_material(s, "lamp", "Kd 0 0 0\nKe 1 1 1");
     put_quad(s, 2, -1, (double[]){-1, -1}, (double[]){1, 1});
@@ -252,7 +252,7 @@ static void thin_sheets(struct stage *s, double count)
 }
 
 /* G20: the lamp in 1024 tiles, in order (0) or shuffled. */
-static void tiled_lamp(struct stage *s, double is_shuffled)
+static void tiled_lamp(struct stress_scene *s, double is_shuffled)
 {
     lamps_over_floor(s, 0);
     for (int i = 0; i < 1024; i++) {
@@ -264,14 +264,14 @@ static void tiled_lamp(struct stage *s, double is_shuffled)
     }
 }
 
-static void plain_room(struct stage *s, double number)
+static void plain_room(struct stress_scene *s, double number)
 {
     (void)number;
     put_room(s);
 }
 
 /* Closed forms hold for moved and scaled scenes. */
-static void moved_and_scaled(struct stage *s)
+static void moved_and_scaled(struct stress_scene *s)
 {
     static const double moves[] = {1e4, 1e5, 1e6};
     static const double scales[] = {1e-6, 1e-5, 1e-4, 1e4, 1e6};
@@ -302,7 +302,7 @@ static void moved_and_scaled(struct stage *s)
     s->scale = 1;
 }
 
-static void check_truths(struct stage *s)
+static void check_truths(struct stress_scene *s)
 {
     const double lit = lit_floor(), r = 0.04;
     const struct shot above = {.eye = {0.3, 2, 0.2},
@@ -401,7 +401,7 @@ static void check_truths(struct stage *s)
         check_truth(s, &truths[i]);
 }
 
-static void check_pairs(struct stage *s)
+static void check_pairs(struct stress_scene *s)
 {
     const struct shot from_above = {.eye = {1, 2, 3},
                                     .at = {0, 0, 0},
@@ -424,14 +424,14 @@ static void check_pairs(struct stage *s)
 
 int main(int argc, char **argv)
 {
-    struct stage s;
+    struct stress_scene s;
 
     (void)argv;
-    if (!stage_open(&s, argc > 1))
+    if (!stress_scene_open(&s, argc > 1))
         return 0;
     check_truths(&s);
     check_pairs(&s);
     moved_and_scaled(&s);
-    stage_close(&s);
+    stress_scene_close(&s);
     return rows_status();
 }

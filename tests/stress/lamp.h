@@ -9,18 +9,18 @@
 #define TESTS_LAMP_H
 
 #include "tests/unit/lambert.h"
-#include "stage.h"
+#include "stress_scene.h"
 
 /* Corners of the lamp in the plane y = 0.7, in put_quad()'s order: z, x. */
 static const double lamp_lo[2] = {-0.3, -0.4}, lamp_hi[2] = {0.3, 0.4};
 
-static inline void put_floor(struct stage *s)
+static inline void put_floor(struct stress_scene *s)
 {
     put_material(s, "floor", "Kd .6 .6 .6");
     put_quad(s, 1, 0, (double[]){-2, -2}, (double[]){2, 2});
 }
 
-static inline void put_shining(struct stage *s, const char *name,
+static inline void put_shining(struct stress_scene *s, const char *name,
                                double radiance)
 {
     char lines[64];

@@ -26,7 +26,8 @@ enum normals {
     NORMALS_NAN
 };
 
-static void put_ball(struct stage *s, double radius, enum normals normals)
+static void put_ball(struct stress_scene *s, double radius,
+                     enum normals normals)
 {
     static const double lengths[] = {0, 1, 1e3, -1, 0, 0};
     const int rows = 16, columns = 24;
@@ -65,14 +66,14 @@ static void put_ball(struct stage *s, double radius, enum normals normals)
 }
 
 /* M1, M2: normals of all kinds. */
-static void ball_with_normals(struct stage *s, double normals)
+static void ball_with_normals(struct stress_scene *s, double normals)
 {
     put_material(s, "white", "Kd 1 1 1");
     put_ball(s, 0.5, (enum normals)normals);
 }
 
 /* M1: a mirror. */
-static void mirror_ball(struct stage *s, double alpha)
+static void mirror_ball(struct stress_scene *s, double alpha)
 {
     put_material(s, "white",
                  alpha > 0 ? "illum 3\nKs 1 1 1\nPr .5"
@@ -80,7 +81,7 @@ static void mirror_ball(struct stage *s, double alpha)
     put_ball(s, 0.5, NORMALS_UNIT);
 }
 
-static void glass_ball(struct stage *s, double number)
+static void glass_ball(struct stress_scene *s, double number)
 {
     (void)number;
     put_material(s, "white", "illum 7\nNi 1.5");
@@ -111,13 +112,13 @@ static const struct {
     {"M5", "albedo 2", "Kd 2 2 2", 0, true},
 };
 
-static void white_ball(struct stage *s, double thing)
+static void white_ball(struct stress_scene *s, double thing)
 {
     put_material(s, "white", white_things[(int)thing].lines);
     put_ball(s, 0.5, NORMALS_NONE);
 }
 
-static void check_white_things(struct stage *s)
+static void check_white_things(struct stress_scene *s)
 {
     for (size_t i = 0; i < sizeof white_things / sizeof white_things[0]; i++) {
         struct truth t = {white_things[i].name,
@@ -137,7 +138,7 @@ static void check_white_things(struct stage *s)
 }
 
 /* M5: a negative albedo is black. */
-static void negative_albedo(struct stage *s, double number)
+static void negative_albedo(struct stress_scene *s, double number)
 {
     (void)number;
     put_material(s, "negative", "Kd -1 -1 -1");
@@ -146,7 +147,7 @@ static void negative_albedo(struct stage *s, double number)
 
 /* M6: a view from inside glass straight out shows the sky times ior squared,
  * less the reflected part, which leaves elsewhere. */
-static void glass_cube(struct stage *s, double number)
+static void glass_cube(struct stress_scene *s, double number)
 {
     (void)number;
     put_material(s, "glass", "illum 7\nNi 1.5");
@@ -156,7 +157,7 @@ static void glass_cube(struct stage *s, double number)
 /* M6: a prism turns a view along the z axis by 90 degrees to a lamp on the
  * right. Two faces transmit 96 %, the third reflects everything. Reflected
  * light leaves the way it came, to the black sky. */
-static void prism(struct stage *s, double number)
+static void prism(struct stress_scene *s, double number)
 {
     const double p[6][3] = {{-1, -1, 1}, {1, -1, 1}, {1, -1, -1},
                             {-1, 1, 1},  {1, 1, 1},  {1, 1, -1}};
@@ -173,7 +174,7 @@ static void prism(struct stage *s, double number)
 
 /* M7: two balls that intersect (0), two cubes that touch (1), an open sheet
  * (2). */
-static void odd_glass(struct stage *s, double kind)
+static void odd_glass(struct stress_scene *s, double kind)
 {
     put_material(s, "glass", "illum 7\nNi 1.5");
     if (kind == 0) {
@@ -188,7 +189,7 @@ static void odd_glass(struct stage *s, double kind)
     }
 }
 
-static void lamp_over_floor(struct stage *s, double radiance)
+static void lamp_over_floor(struct stress_scene *s, double radiance)
 {
     put_floor(s);
     put_shining(s, "lamp", radiance);
@@ -196,7 +197,7 @@ static void lamp_over_floor(struct stage *s, double radiance)
 }
 
 /* M9: a lamp beside one of radiance 0. */
-static void lamp_and_dark(struct stage *s, double number)
+static void lamp_and_dark(struct stress_scene *s, double number)
 {
     (void)number;
     lamp_over_floor(s, 1);
@@ -205,7 +206,7 @@ static void lamp_and_dark(struct stage *s, double number)
 }
 
 /* M9: the lamp as 2 side^2 triangles, and as many without area. */
-static void many_lamps(struct stage *s, double side)
+static void many_lamps(struct stress_scene *s, double side)
 {
     const int n = (int)side;
 
@@ -224,7 +225,7 @@ static void many_lamps(struct stage *s, double side)
         }
 }
 
-static void no_lamp(struct stage *s, double number)
+static void no_lamp(struct stress_scene *s, double number)
 {
     (void)number;
     put_material(s, "floor", "Kd .6 .6 .6\nKe 0 0 0");
@@ -232,7 +233,7 @@ static void no_lamp(struct stage *s, double number)
 }
 
 /* M11: an emitting wall, 1 high and 2 wide, on the floor. */
-static void wall_lamp(struct stage *s, double number)
+static void wall_lamp(struct stress_scene *s, double number)
 {
     (void)number;
     put_floor(s);
@@ -250,7 +251,7 @@ static double beside_wall(double distance)
 }
 
 /* M11: a floor with a lamp in its plane. */
-static void flush_floor(struct stage *s, double number)
+static void flush_floor(struct stress_scene *s, double number)
 {
     (void)number;
     put_material(s, "floor", "Kd .6 .6 .6");
@@ -261,7 +262,7 @@ static void flush_floor(struct stage *s, double number)
 
 /* M12: a lamp in the plane of a ceiling, before it in the file (0), after it
  * (1), or lower by this number. */
-static void flush_lamp(struct stage *s, double number)
+static void flush_lamp(struct stress_scene *s, double number)
 {
     put_floor(s);
     for (int i = 0; i < 2; i++)
@@ -275,7 +276,7 @@ static void flush_lamp(struct stage *s, double number)
 }
 
 /* M13: a closed room of this albedo whose emission makes the radiance 1. */
-static void furnace(struct stage *s, double albedo)
+static void furnace(struct stress_scene *s, double albedo)
 {
     char lines[128];
     double ke = 1 - albedo;
@@ -287,7 +288,7 @@ static void furnace(struct stage *s, double albedo)
 }
 
 /* M15: a black body of this temperature and luminance 1. */
-static void black_body(struct stage *s, double kelvin)
+static void black_body(struct stress_scene *s, double kelvin)
 {
     char lines[64];
 
@@ -297,7 +298,7 @@ static void black_body(struct stage *s, double kelvin)
 }
 
 /* M16: a bright face of a ten thousandth of a square. */
-static void speck(struct stage *s, double radiance)
+static void speck(struct stress_scene *s, double radiance)
 {
     put_shining(s, "speck", radiance);
     put_quad(s, 1, 0, (double[]){-0.01, -0.01}, (double[]){0.01, 0.01});
@@ -355,13 +356,13 @@ static void write_sky(const struct sky_file *sky)
     FILE *f = fopen("sky", "wb");
 
     if (f == NULL)
-        stage_stop("cannot write the sky");
+        stress_scene_stop("cannot write the sky");
     if (sky->is_pfm)
         put_pfm(f, sky);
     else
         put_hdr(f, sky);
     if (fclose(f) != 0)
-        stage_stop("cannot write the sky");
+        stress_scene_stop("cannot write the sky");
 }
 
 /* Returns the irradiance of level ground. Radiance is bilinear between centres
@@ -383,14 +384,14 @@ static double hot_irradiance(const struct sky_file *sky)
                                   (2 * M_PI / sky->width);
 }
 
-static void ground(struct stage *s, double number)
+static void ground(struct stress_scene *s, double number)
 {
     (void)number;
     put_material(s, "ground", "Kd .5 .5 .5");
     put_quad(s, 1, 0, (double[]){-9, -9}, (double[]){9, 9});
 }
 
-static void check_skies(struct stage *s)
+static void check_skies(struct stress_scene *s)
 {
     static const struct {
         const char *what;
@@ -423,7 +424,7 @@ static void check_skies(struct stage *s)
     }
 }
 
-static void check_sky_of_nan(struct stage *s)
+static void check_sky_of_nan(struct stress_scene *s)
 {
     const struct sky_file file = {8, 4, 0, 0.25, NAN, true};
     const struct shot up = {.at = {0, 1, 0}, .fovy_deg = 40, .sky = "sky"};
@@ -431,10 +432,10 @@ static void check_sky_of_nan(struct stage *s)
     struct outcome o;
 
     write_sky(&file);
-    stage_begin(s);
+    stress_scene_begin(s);
     ground(s, 0);
-    stage_end(s);
-    o = stage_render(s, &up, 1);
+    stress_scene_end(s);
+    o = stress_scene_render(s, &up, 1);
     row(o.is_refused && strcmp(o.err.text, want) == 0, "M10",
         "one texel that is NaN: \"%s\", want \"%s\"",
         o.is_refused ? o.err.text : "rendered", want);
@@ -443,15 +444,15 @@ static void check_sky_of_nan(struct stage *s)
 
 /* M8: nothing overflows, and samples that are too bright for the sum are
  * counted. */
-static void check_brightest(struct stage *s)
+static void check_brightest(struct stress_scene *s)
 {
     const double want = 0x1p63 / 64; /* sums of 64 samples saturate at 2^63 */
     struct outcome o;
 
-    stage_begin(s);
+    stress_scene_begin(s);
     lamp_over_floor(s, 1e38);
-    stage_end(s);
-    o = stage_render(s, &at_floor, 1);
+    stress_scene_end(s);
+    o = stress_scene_render(s, &at_floor, 1);
     row(!o.is_refused && fabs(o.mean / want - 1) < ROUNDING &&
             o.last.non_finite == 0 && o.last.saturated == o.last.samples,
         "M8",
@@ -462,7 +463,7 @@ static void check_brightest(struct stage *s)
     free(o.rgb);
 }
 
-static void check_normals(struct stage *s)
+static void check_normals(struct stress_scene *s)
 {
     const struct shot shot = {.eye = {1, 2, 3},
                               .at = {0, 0, 0},
@@ -483,7 +484,7 @@ static void check_normals(struct stage *s)
         check_twins(s, &twins[i]);
 }
 
-static void check_truths(struct stage *s)
+static void check_truths(struct stress_scene *s)
 {
     const double lit = lit_floor();
     const struct shot sky = {.eye = {0, 0.5, 3},
@@ -613,10 +614,10 @@ static void check_truths(struct stage *s)
 
 int main(int argc, char **argv)
 {
-    struct stage s;
+    struct stress_scene s;
 
     (void)argv;
-    if (!stage_open(&s, argc > 1))
+    if (!stress_scene_open(&s, argc > 1))
         return 0;
     check_white_things(&s);
     check_normals(&s);
@@ -624,6 +625,6 @@ int main(int argc, char **argv)
     check_brightest(&s);
     check_skies(&s);
     check_sky_of_nan(&s);
-    stage_close(&s);
+    stress_scene_close(&s);
     return rows_status();
 }

@@ -6,7 +6,7 @@
  */
 #include "tests/unit/mesh.h"
 #include "tests/unit/sky_pdf.h"
-#include "stage.h"
+#include "stress_scene.h"
 
 #include "picture/blackbody.h"
 #include "light/lights.h"
@@ -31,12 +31,12 @@ static float played_survival(struct vec3 beta, uint32_t vertex)
 #include "kernels/path.h"
 
 /* Adds the closed room of geometry.c, where every pixel's radiance is 1. */
-static void put_room(struct stage *s)
+static void put_room(struct stress_scene *s)
 {
-    stage_begin(s);
+    stress_scene_begin(s);
     put_material(s, "room", "Kd .5 .5 .5\nKe .5 .5 .5");
     put_box(s, (double[]){-1, -1, -1}, (double[]){1, 1, 1});
-    stage_end(s);
+    stress_scene_end(s);
 }
 
 static struct shot room_shot(int side_px, uint64_t spp, uint32_t seed)
@@ -71,7 +71,7 @@ static double correlation(const float *one, const float *other, int side, int x,
  * (two-sided). There are 14 numbers per backend. */
 #define CORRELATION 0.02
 
-static void check_streams(struct stage *s)
+static void check_streams(struct stress_scene *s)
 {
     static const int shifts[][2] = {{1, 0}, {0, 1}, {1, 1}, {2, 0},
                                     {0, 2}, {8, 0}, {0, 8}};
@@ -81,7 +81,7 @@ static void check_streams(struct stage *s)
 
     put_room(s);
     for (int i = 0; i < 2; i++)
-        o[i] = stage_render(s, &shots[i], 1);
+        o[i] = stress_scene_render(s, &shots[i], 1);
     for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++) {
         double r =
             correlation(o[0].rgb, o[0].rgb, 256, shifts[i][0], shifts[i][1]);
@@ -105,10 +105,10 @@ static void check_streams(struct stage *s)
     free(o[1].rgb);
 }
 
-static double squared_error(struct stage *s, int side_px, uint64_t spp)
+static double squared_error(struct stress_scene *s, int side_px, uint64_t spp)
 {
     struct shot shot = room_shot(side_px, spp, 1);
-    struct outcome o = stage_render(s, &shot, 1);
+    struct outcome o = stress_scene_render(s, &shot, 1);
     double sum = 0;
 
     for (size_t i = 0; i < o.number_count; i++)
@@ -120,7 +120,7 @@ static double squared_error(struct stage *s, int side_px, uint64_t spp)
 /* C7: the error falls at least as fast as 1 / n. The mean of 64 squares of
  * normal numbers has a standard error of sqrt(2 / 64), and chance exceeds 4.9
  * of these once in 1e6. */
-static void check_slope(struct stage *s)
+static void check_slope(struct stress_scene *s)
 {
     const double slack = 1 + 4.9 * sqrt(2 / 64.0);
     double begin, end;
@@ -133,13 +133,13 @@ static void check_slope(struct stage *s)
         begin, end, begin * slack);
 }
 
-static void check_seeds(struct stage *s)
+static void check_seeds(struct stress_scene *s)
 {
     struct shot shot = room_shot(SIDE_PX, 64, 0xfffffffau);
     struct outcome o;
 
     put_room(s);
-    o = stage_render(s, &shot, SEEDS);
+    o = stress_scene_render(s, &shot, SEEDS);
     row(fabs(o.mean - 1) <= T_LIMIT * o.error && o.last.non_finite == 0, "C8",
         "seeds from 2^32-6 over 0 to 5: %.6g, want 1, off by %.2g of %.2g",
         o.mean, fabs(o.mean - 1), T_LIMIT * o.error);
@@ -228,7 +228,7 @@ static void check_film(void)
     float rgb[3];
 
     if (!film_init(&film, 1, 1, &err))
-        stage_stop(err.text);
+        stress_scene_stop(err.text);
     film_store_row(&film, 0, 0, 1, 1, sums, &count);
     for (int i = 0; i < 8; i++)
         samples[i] = (struct path_sample){.radiance = {1, 1, 1}};
@@ -326,7 +326,7 @@ static void make_lights(struct mesh *m, struct lights *lights,
     m->world.sky_texels = texels;
     if (!lights_build(lights, &m->world, &err) ||
         !sky_table_build(table, texels, 4, 2, SKY_ALONE, &err))
-        stage_stop(err.text);
+        stress_scene_stop(err.text);
     lights_lend(lights, &m->world);
     sky_table_lend(table, &m->world);
 }
@@ -531,7 +531,7 @@ static void check_black_bodies(void)
 
 int main(int argc, char **argv)
 {
-    struct stage s;
+    struct stress_scene s;
 
     (void)argv;
     if (argc == 1) {
@@ -546,11 +546,11 @@ int main(int argc, char **argv)
         check_black_bodies();
         check_late_samples();
     }
-    if (!stage_open(&s, argc > 1))
+    if (!stress_scene_open(&s, argc > 1))
         return rows_status();
     check_streams(&s);
     check_seeds(&s);
     check_slope(&s);
-    stage_close(&s);
+    stress_scene_close(&s);
     return rows_status();
 }

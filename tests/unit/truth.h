@@ -2,11 +2,12 @@
 /*
  * truth.h - means of paths against independent truth
  *
- * A stage is a small world with all data for light sampling. Each claim about
- * it is tested with every technique for direct light, over independent seeds.
+ * A lit mesh is a small world with all data for light sampling. Each claim
+ * about it is tested with every technique for direct light, over independent
+ * seeds.
  *
  * Units:     normalised scene units, radiance
- * Ownership: stage_free() frees the arrays
+ * Ownership: lit_mesh_free() frees the arrays
  * Threads:   one
  * Errors:    a wrong claim ends the test
  */
@@ -33,7 +34,7 @@
 /* Standard errors must be below this, or any claim would hold. */
 #define PRECISION 0.01
 
-struct stage {
+struct lit_mesh {
     struct mesh mesh;
     struct lights lights;
     struct sky_table skies[2]; /* index: enum sky_use */
@@ -54,7 +55,7 @@ struct claim {
 
 static const char *const ways[] = {"both ways", "chosen lights", "chance"};
 
-static inline void stage_finish(struct stage *s)
+static inline void lit_mesh_finish(struct lit_mesh *s)
 {
     struct world *w = &s->mesh.world;
     struct error err;
@@ -68,7 +69,7 @@ static inline void stage_finish(struct stage *s)
                                     &err));
 }
 
-static inline void stage_free(struct stage *s)
+static inline void lit_mesh_free(struct lit_mesh *s)
 {
     sky_table_free(&s->skies[SKY_WITH_MIS]);
     sky_table_free(&s->skies[SKY_ALONE]);
@@ -77,7 +78,7 @@ static inline void stage_free(struct stage *s)
 }
 
 /* Lends the tables that this technique for direct light needs. */
-static inline void stage_gather(struct stage *s, enum direct direct)
+static inline void lit_mesh_lend(struct lit_mesh *s, enum direct direct)
 {
     enum sky_use use = direct == DIRECT_LIGHTS ? SKY_ALONE : SKY_WITH_MIS;
 
@@ -151,19 +152,19 @@ static inline void check_claim_by(const struct world *w, const struct claim *c,
     }
 }
 
-static inline void check_claim_at(struct stage *s, struct claim c,
+static inline void check_claim_at(struct lit_mesh *s, struct claim c,
                                   const char *file, int line)
 {
     for (int direct = DIRECT_MIS; direct <= DIRECT_BSDF; direct++) {
         if ((c.without >> direct & 1) != 0)
             continue;
-        stage_gather(s, (enum direct)direct);
+        lit_mesh_lend(s, (enum direct)direct);
         check_claim_by(&s->mesh.world, &c, file, line);
     }
 }
 
-#define check_claim(stage, claim) \
-    check_claim_at(stage, claim, __FILE__, __LINE__)
+#define check_claim(lit_mesh, claim) \
+    check_claim_at(lit_mesh, claim, __FILE__, __LINE__)
 
 static inline struct material lamp_material(float radiance)
 {

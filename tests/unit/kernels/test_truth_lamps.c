@@ -29,7 +29,7 @@ static struct vec3 eye_over(struct vec3 p, struct vec3 n)
     return v3_add(p, v3_add(v3_scale(n, 0.04f), v3_scale(t, 0.03f)));
 }
 
-static void check_receiver(struct stage *s, const struct receiver *r,
+static void check_receiver(struct lit_mesh *s, const struct receiver *r,
                            double irradiance, int paths)
 {
     double truth = ALBEDO / M_PI * irradiance;
@@ -60,7 +60,7 @@ static void polygons_obey_lambert(void **state)
     (void)state;
     for (size_t k = 0; k < 2 * sizeof receivers / sizeof *receivers; k++) {
         const struct receiver *r = &receivers[k / 2];
-        struct stage s = {0};
+        struct lit_mesh s = {0};
         struct mesh *m = &s.mesh;
 
         m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -69,9 +69,9 @@ static void polygons_obey_lambert(void **state)
         for (int i = 1; i < 4; i++) /* either way round */
             mesh_add(m, corners[0], corners[k % 2 ? i : i + 1],
                      corners[k % 2 ? i + 1 : i], LAMP);
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_receiver(&s, r, 5 * lambert(corners, 5, r), 2048);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -130,7 +130,7 @@ static void screens_hide_their_share(void **state)
         float opacity = opacities[k >> 1 & 1];
         float glow = glows[k >> 2];
         struct sheet hidden = hidden_part(ceiling, screen, r->p);
-        struct stage s = {0};
+        struct lit_mesh s = {0};
         struct mesh *m = &s.mesh;
 
         m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -141,14 +141,14 @@ static void screens_hide_their_share(void **state)
         add_receiver(m, r->p, r->n);
         add_sheet(m, ceiling, LAMP);
         add_sheet(m, screen, SCREEN);
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_receiver(&s, r,
                        2 * sheet_irradiance(ceiling, r) +
                            (double)opacity *
                                ((double)glow * sheet_irradiance(screen, r) -
                                 2 * sheet_irradiance(hidden, r)),
                        512);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -181,7 +181,7 @@ static void cut_outs_hide_and_shine_by_half(void **state)
     for (uint32_t cut = LAMP; cut <= SCREEN; cut++) {
         struct sheet lamp = ceiling, shade = screen;
         struct sheet *sheet = cut == LAMP ? &lamp : &shade;
-        struct stage s = {0};
+        struct lit_mesh s = {0};
         struct mesh *m = &s.mesh;
 
         m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -200,13 +200,13 @@ static void cut_outs_hide_and_shine_by_half(void **state)
         if (cut == SCREEN)
             add_uvs(m);
         sheet->x0 = (sheet->x0 + sheet->x1) / 2;
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_receiver(&s, &r,
                        2 * (sheet_irradiance(lamp, &r) -
                             sheet_irradiance(hidden_part(lamp, shade, r.p),
                                              &r)),
                        1024);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -261,7 +261,7 @@ static void all_surfaces_shine_as_they_scatter(void **state)
         struct material floor = mesh_material(kinds[k / 2].kind, 1);
         struct vec3 wo = v3(0.6f, 0, k % 2 ? -0.8f : 0.8f);
         struct vec3 truth = {0, 0, 0};
-        struct stage s = {0};
+        struct lit_mesh s = {0};
         struct bsdf b;
 
         floor.color = v3(0.9f, 0.6f, 0.3f);
@@ -284,14 +284,14 @@ static void all_surfaces_shine_as_they_scatter(void **state)
                 seen.y = -seen.y;
             truth = v3_add(truth, reflected(&b, v3(wo.x, 0, 0.8f), seen));
         }
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_claim(&s,
                     ((struct claim){.eye = v3(0.06f, wo.z / 10, 0),
                                     .truth = {(double)truth.x, (double)truth.y,
                                               (double)truth.z},
                                     .systematic = 1e-4, /* of the midpoints */
                                     .paths = 4096}));
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -306,7 +306,7 @@ static void many_lamps_add_up(void **state)
     (void)state;
     for (size_t k = 0; k < 2; k++) {
         const struct receiver *r = &receivers[k];
-        struct stage s = {0};
+        struct lit_mesh s = {0};
         double irradiance = 0;
         uint64_t seed = 15;
 
@@ -325,9 +325,9 @@ static void many_lamps_add_up(void **state)
             mesh_add(&s.mesh, p[0], p[1], p[2], lamp);
             irradiance += lamp * lamp * lambert(p, 3, r);
         }
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_receiver(&s, r, irradiance, 4096);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -338,7 +338,7 @@ static void mirrors_show_lamps_to_floors(void **state)
     const struct receiver r = {{0.2f, 0, 0.1f}, {0, 1, 0}, false};
     const struct sheet lamp = {0.1f, 0.5f, -0.3f, 0.3f, 0.4f};
     const struct sheet image = {-0.5f, -0.1f, -0.3f, 0.3f, 0.4f};
-    struct stage s = {0};
+    struct lit_mesh s = {0};
 
     (void)state;
     s.mesh.materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -348,7 +348,7 @@ static void mirrors_show_lamps_to_floors(void **state)
     add_sheet(&s.mesh, lamp, LAMP);
     mesh_add_quad(&s.mesh, v3(0, 0, -1), v3(0, 1, -1), v3(0, 1, 1), v3(0, 0, 1),
                   SCREEN);
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     check_receiver(&s, &r,
                    2 * (sheet_irradiance(lamp, &r) +
                         sheet_irradiance(image, &r)),
@@ -361,7 +361,7 @@ static void mirrors_show_lamps_to_floors(void **state)
                                               (sheet_irradiance(lamp, &r) +
                                                sheet_irradiance(image, &r))),
                                 .paths = 1024}));
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 /* All within glass, seen from within and from outside: a face keeps .96 of what
@@ -371,7 +371,7 @@ static void glass_dims_what_is_in_it(void **state)
     const struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
     const struct sheet lamp = {0.05f, 0.6f, -0.3f, 0.3f, 0.4f};
     double truth = ALBEDO / M_PI * 2 * sheet_irradiance(lamp, &r);
-    struct stage s = {0};
+    struct lit_mesh s = {0};
 
     (void)state;
     s.mesh.materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
@@ -381,18 +381,18 @@ static void glass_dims_what_is_in_it(void **state)
     add_sheet(&s.mesh, lamp, LAMP);
     mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), OTHER);
     s.mesh.world.settings.max_vertices = 2; /* without what the faces reflect */
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     check_receiver(&s, &r, 2 * sheet_irradiance(lamp, &r), 1024);
     s.mesh.world.settings.max_vertices = 3;
     check_claim(&s, ((struct claim){.eye = {0, 2, 0},
                                     .truth = GREY(truth * 0.96 / (1.5 * 1.5)),
                                     .paths = 2048}));
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 /* A room with a glossy ball and a block of glass; four lamps of which one, or
  * all if it is NO_INDEX, are on. */
-static void make_room(struct stage *s, uint32_t lit)
+static void make_room(struct lit_mesh *s, uint32_t lit)
 {
     struct mesh *m = &s->mesh;
 
@@ -413,7 +413,7 @@ static void make_room(struct stage *s, uint32_t lit)
                 v3((float)i + 1, 2, 3 - 0.5f * (float)i);
         add_sheet(m, lamp, 3 + i);
     }
-    stage_finish(s);
+    lit_mesh_finish(s);
 }
 
 /* Light adds up: all lamps at once, and one after the other. */
@@ -431,13 +431,13 @@ static void lamps_add_up_one_by_one(void **state)
         struct estimate all = {{0}, {0}}, sum = {{0}, {0}};
 
         for (uint32_t lit = 0; lit <= 4; lit++) {
-            struct stage s = {0};
+            struct lit_mesh s = {0};
             struct estimate e;
 
             make_room(&s, lit < 4 ? lit : NO_INDEX);
-            stage_gather(&s, DIRECT_MIS);
+            lit_mesh_lend(&s, DIRECT_MIS);
             e = claim_estimate(&s.mesh.world, &c);
-            stage_free(&s);
+            lit_mesh_free(&s);
             if (lit == 4)
                 all = e;
             for (int i = 0; lit < 4 && i < 3; i++) {

@@ -38,16 +38,16 @@ static void closed_rooms_show_their_series(void **state)
             double rho = rhos[k];
             struct claim c =
                 claim_within(2 * (1 - pow(rho, depths[i])) / (1 - rho), &seed);
-            struct stage s = {0};
+            struct lit_mesh s = {0};
 
             s.mesh.materials[WALL] =
                 mesh_material(MATERIAL_DIFFUSE, (float)rho);
             s.mesh.materials[WALL].emission = v3(2, 2, 2);
             mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), WALL);
             s.mesh.world.settings.max_vertices = depths[i];
-            stage_finish(&s);
+            lit_mesh_finish(&s);
             check_claim(&s, c);
-            stage_free(&s);
+            lit_mesh_free(&s);
         }
 }
 
@@ -81,7 +81,7 @@ static void white_things_vanish_in_rooms(void **state)
     (void)state;
     for (size_t k = 0; k < 2 * THINGS; k++) {
         bool within = k % 2 != 0;
-        struct stage s = {0};
+        struct lit_mesh s = {0};
 
         if (within && white_things[k / 2].kind != MATERIAL_GLASS)
             continue;
@@ -90,7 +90,7 @@ static void white_things_vanish_in_rooms(void **state)
         s.mesh.materials[THING] = white_thing(k / 2);
         mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), WALL);
         mesh_add_sphere(&s.mesh, v3(0.1f, 0, 0.2f), 0.6f, 12, 20, THING);
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_claim(&s,
                     ((struct claim){.eye = within ? v3(0.2f, 0.1f, 0.2f)
                                                   : v3(-0.9f, 0.3f, -0.2f),
@@ -99,7 +99,7 @@ static void white_things_vanish_in_rooms(void **state)
                                     .systematic = TABLES,
                                     .paths = 512,
                                     .without = CORNERS}));
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -112,7 +112,7 @@ static void white_walls_show_each_bounce(void **state)
     (void)state;
     for (size_t k = 0; k < THINGS; k++) {
         struct claim c = claim_within(5 * 2, &seed);
-        struct stage s = {0};
+        struct lit_mesh s = {0};
 
         if (white_things[k].kind == MATERIAL_GLASS ||
             white_things[k].kind == MATERIAL_THIN_GLASS)
@@ -123,9 +123,9 @@ static void white_walls_show_each_bounce(void **state)
         s.mesh.materials[WALL].emission = v3(2, 2, 2);
         mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), WALL);
         s.mesh.world.settings.max_vertices = 5;
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_claim(&s, c);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -136,7 +136,7 @@ static void check_corridor(uint32_t k, uint32_t max_vertices, double truth)
     /* mirrors at x = +-1/2: the ray from their middle meets the k-th at
      * z = (k - 1/2) 3/4 */
     float end = 0.75f * (float)k + 0.1f;
-    struct stage s = {0};
+    struct lit_mesh s = {0};
 
     s.mesh.materials[WALL] = mesh_material(MATERIAL_METAL, 0.7f);
     s.mesh.materials[LAMP] = lamp_material(3);
@@ -149,11 +149,11 @@ static void check_corridor(uint32_t k, uint32_t max_vertices, double truth)
     mesh_add_quad(&s.mesh, v3(-2, -1, end), v3(2, -1, end), v3(2, 1, end),
                   v3(-2, 1, end), LAMP);
     s.mesh.world.settings.max_vertices = max_vertices;
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     check_claim(&s, ((struct claim){.at = v3(0.8f, 0, 0.6f),
                                     .truth = GREY(truth),
                                     .paths = 2048}));
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 static void corridors_keep_a_power(void **state)
@@ -188,7 +188,7 @@ static void panes_dim_floors(void **state)
     }
     for (size_t k = 0; k < 2; k++) {
         double truth = 2 * rho * t / (1 - rho * (1 - t));
-        struct stage s = {0};
+        struct lit_mesh s = {0};
 
         s.mesh.materials[WALL] = mesh_material(MATERIAL_METAL, 1);
         s.mesh.materials[THING] = mesh_material(kinds[k], 1);
@@ -204,12 +204,12 @@ static void panes_dim_floors(void **state)
                       v3(1, 0, -1), OTHER);
         mesh_add_quad(&s.mesh, v3(-1, 1, -1), v3(-1, 1, 1), v3(1, 1, 1),
                       v3(1, 1, -1), LAMP);
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_claim(&s, ((struct claim){.eye = {0.1f, 0.3f, 0.2f},
                                         .at = {-0.2f, 0, 0.1f},
                                         .truth = GREY(truth),
                                         .paths = 1024}));
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -366,7 +366,7 @@ static void boxes_agree_with_radiosity(void **state)
     static struct box boxes[2];
     const uint32_t bounces[] = {1, 2, 4, 60};
     const double places[][2] = {{0.1, -0.3}, {-0.7, 0.45}, {0.3, 0.6}};
-    struct stage s = {0};
+    struct lit_mesh s = {0};
 
     (void)state;
     box_init(&boxes[0], 8);
@@ -379,7 +379,7 @@ static void boxes_agree_with_radiosity(void **state)
         add_wall(&s.mesh, i, (uint32_t)i, SIDES);
     }
     s.mesh.materials[SIDES] = lamp_material(GLOW);
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     for (size_t i = 0; i < sizeof bounces / sizeof *bounces; i++) {
         bool is_limited = bounces[i] < 60;
 
@@ -397,7 +397,7 @@ static void boxes_agree_with_radiosity(void **state)
             check_claim(&s, c);
         }
     }
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 int main(void)

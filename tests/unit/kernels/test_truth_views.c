@@ -368,7 +368,7 @@ static void add_square(struct mesh *m)
     m->materials[LAMP] = lamp_material(2);
 }
 
-static void check_receiver(struct stage *s, const struct receiver *r,
+static void check_receiver(struct lit_mesh *s, const struct receiver *r,
                            double irradiance, double systematic)
 {
     struct vec3 t, b;
@@ -423,7 +423,7 @@ static void images_shine_as_they_look(void **state)
     }
     for (size_t k = 0; k < RECEIVERS; k++) {
         const uint32_t corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
-        struct stage s = {0};
+        struct lit_mesh s = {0};
 
         add_receiver(&s.mesh, &receivers[k]);
         add_square(&s.mesh);
@@ -436,11 +436,11 @@ static void images_shine_as_they_look(void **state)
         s.mesh.world.textures = &texture;
         s.mesh.world.texels = texels;
         s.mesh.world.linear_of_srgb = decoded;
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         check_receiver(&s, &receivers[k],
                        square_irradiance(&receivers[k], image_radiance, &p),
                        1e-4);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -490,7 +490,7 @@ static void skies_light_floors(void **state)
                                        (0.4 * (cos(TURN) * x - sin(TURN) * z) +
                                         0.3 * (double)r->n.y -
                                         0.2 * (sin(TURN) * x + cos(TURN) * z));
-        struct stage s = {0};
+        struct lit_mesh s = {0};
 
         add_receiver(&s.mesh, r);
         if (k % 2) {
@@ -504,10 +504,10 @@ static void skies_light_floors(void **state)
                          .height = HEIGHT,
                          .rotation_sin = (float)sin(TURN),
                          .rotation_cos = (float)cos(TURN)};
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         /* (pi / 128)^2 / 8 of the slope between four texels, twice */
         check_receiver(&s, r, irradiance, 2e-4);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 

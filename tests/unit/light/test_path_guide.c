@@ -224,7 +224,7 @@ static void light_samples_of_a_flat_sky_are_unbiased(void **state)
  * any guide, so a random one finds it too. */
 static void random_tables_keep_the_mean(void **state)
 {
-    struct stage s = {.mesh = {.positions = NULL}};
+    struct lit_mesh s = {.mesh = {.positions = NULL}};
     struct claim c = {.eye = {.2f, .1f, .4f},
                       .at = {-.3f, -1, .1f},
                       .truth = GREY(2),
@@ -238,11 +238,11 @@ static void random_tables_keep_the_mean(void **state)
         s.mesh.materials[i] = mesh_material(MATERIAL_DIFFUSE, .5f);
     s.mesh.materials[0].emission = v3(1, 1, 1);
     mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), 0);
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     table_init(&t, 0.7, 3);
     path_guide_lend(&t.guide, &s.mesh.world);
     check_claim(&s, c);
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 int main(void)

@@ -9,9 +9,9 @@
 #include "tests/unit/truth.h"
 
 /* Makes a small lamp beside a wall of this kind, above a floor. */
-static void make_lamp_and_wall(struct stage *s, enum material_kind kind)
+static void make_lamp_and_wall(struct lit_mesh *s, enum material_kind kind)
 {
-    *s = (struct stage){.mesh = {.positions = NULL}};
+    *s = (struct lit_mesh){.mesh = {.positions = NULL}};
     s->mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     s->mesh.materials[1] = mesh_material((uint32_t)kind, .9f);
     s->mesh.materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
@@ -22,19 +22,19 @@ static void make_lamp_and_wall(struct stage *s, enum material_kind kind)
                   v3(-.5f, .9f, .5f), v3(-.5f, .9f, -.5f), 1);
     mesh_add_quad(&s->mesh, v3(-.4f, .4f, -.02f), v3(-.4f, .4f, .02f),
                   v3(-.36f, .42f, .02f), v3(-.36f, .42f, -.02f), 2);
-    stage_finish(s);
+    lit_mesh_finish(s);
     lights_lend(&s->lights, &s->mesh.world);
 }
 
 /* Returns the lights that the world uses. */
-static const struct lights *lent_lights(const struct stage *s)
+static const struct lights *lent_lights(const struct lit_mesh *s)
 {
     static const struct lights none = {.light_count = 0};
 
     return s->mesh.world.settings.light_count > 0 ? &s->lights : &none;
 }
 
-static void build_guide(struct stage *s, float sky, struct path_guide *g)
+static void build_guide(struct lit_mesh *s, float sky, struct path_guide *g)
 {
     struct error err;
 
@@ -49,7 +49,7 @@ static void mirrors_guide_to_the_lamp_s_image(void **state)
 {
     struct vec3 image = {-.62f, .41f, 0};
     struct path_guide g = {.cells = NULL};
-    struct stage s;
+    struct lit_mesh s;
     int found = 0;
 
     (void)state;
@@ -80,13 +80,13 @@ static void mirrors_guide_to_the_lamp_s_image(void **state)
     }
     assert_true(found >= 6);
     path_guide_free(&g);
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 static void tables_exist_only_with_caustics(void **state)
 {
     struct path_guide g = {.cells = NULL}, again = {.cells = NULL};
-    struct stage s;
+    struct lit_mesh s;
     size_t count;
 
     (void)state;
@@ -108,7 +108,7 @@ static void tables_exist_only_with_caustics(void **state)
     build_guide(&s, 0, &g);
     assert_null(g.cells);
     path_guide_free(&again);
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 /* The room is [-1, 1]^3. Its wall at x = -1 has a window with these ranges of y
@@ -123,12 +123,12 @@ static void add_wall(struct mesh *m, float y0, float y1, float z0, float z1,
 }
 
 /* Makes the room: material 0 is that of walls, 1 of the pane, 2 of the lamp. */
-static void make_room(struct stage *s, bool has_pane)
+static void make_room(struct lit_mesh *s, bool has_pane)
 {
     struct mesh *m = &s->mesh;
     const float *y = window[0], *z = window[1];
 
-    *s = (struct stage){.mesh = {.positions = NULL}};
+    *s = (struct lit_mesh){.mesh = {.positions = NULL}};
     m->materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     m->materials[1] = mesh_material(MATERIAL_THIN_GLASS, 1);
     m->materials[2] = mesh_material(MATERIAL_DIFFUSE, 0);
@@ -198,12 +198,12 @@ static void guided_directions_lead_to_the_window(void **state)
         uint32_t (*not_at)(const struct world *, struct vec3, struct vec3) =
             has_pane ? sky_at : scatter_table_at;
         struct path_guide g = {.cells = NULL};
-        struct stage s;
+        struct lit_mesh s;
         struct world *w = &s.mesh.world;
         int found = 0;
 
         make_room(&s, has_pane);
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         build_guide(&s, 1, &g);
         path_guide_lend(&g, w);
         for (float x = -.7f; x < .95f; x += .2f)
@@ -225,18 +225,18 @@ static void guided_directions_lead_to_the_window(void **state)
         /* Surfaces that face outwards see the sky. */
         assert_int_equal(at(w, v3(1, 0, 0), v3(1, 0, 0)), NO_INDEX);
         path_guide_free(&g);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
 /* Returns the standard error of the floor's radiance under a sky of 1. */
-static double noise(struct stage *s, const struct path_guide *g)
+static double noise(struct lit_mesh *s, const struct path_guide *g)
 {
     const struct claim c = {.eye = {.6f, .1f, .4f},
                             .at = {.1f, -1, .1f},
                             .paths = 1000};
 
-    stage_gather(s, DIRECT_MIS);
+    lit_mesh_lend(s, DIRECT_MIS);
     path_guide_lend(g, &s->mesh.world);
     return claim_estimate(&s->mesh.world, &c).error[0];
 }
@@ -255,12 +255,12 @@ static void white_rooms_are_guided_less(void **state)
             struct vec3 p = {.1f, -1, .1f}, up = {0, 1, 0};
             struct path_guide g = {.cells = NULL};
             uint32_t first;
-            struct stage s;
+            struct lit_mesh s;
 
             make_room(&s, has_pane);
             s.mesh.materials[2].emission = v3(0, 0, 0);
             s.mesh.world.settings.sky.color = v3(1, 1, 1);
-            stage_finish(&s);
+            lit_mesh_finish(&s);
             build_guide(&s, 1, &g); /* of grey walls */
             s.mesh.materials[0] =
                 mesh_material(MATERIAL_DIFFUSE, is_white ? .98f : .3f);
@@ -278,7 +278,7 @@ static void white_rooms_are_guided_less(void **state)
             check_at_most(noise(&s, &g),
                           (is_white ? 1.5 : .9) * noise(&s, &none));
             path_guide_free(&g);
-            stage_free(&s);
+            lit_mesh_free(&s);
         }
         check_at_most(.1, shares[0]);
         check_at_most(shares[1], .5 * shares[0]);
@@ -297,19 +297,19 @@ static void guided_rooms_keep_the_mean(void **state)
                           .paths = 2000,
                           /* behind panes light samples see no sky */
                           .without = 1 << DIRECT_LIGHTS};
-        struct stage s;
+        struct lit_mesh s;
 
         make_room(&s, has_pane);
         s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .7f);
         s.mesh.materials[0].emission = v3(.3f, .3f, .3f);
         s.mesh.world.settings.sky.color = v3(1, 1, 1);
-        stage_finish(&s);
+        lit_mesh_finish(&s);
         build_guide(&s, 1, &g); /* as if only the sky emitted light */
         assert_true(g.grid.table_count > 0);
         path_guide_lend(&g, &s.mesh.world);
         check_claim(&s, c);
         path_guide_free(&g);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
 }
 
@@ -317,11 +317,11 @@ static void tables_exist_only_where_the_sky_is_hidden(void **state)
 {
     struct path_guide g = {.cells = NULL};
     struct error err;
-    struct stage s;
+    struct lit_mesh s;
 
     (void)state;
     make_room(&s, false);
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     build_guide(&s, 0, &g);
     assert_null(g.cells);
     check_or_say(path_guide_update(&g, &s.mesh.wide_world, lent_lights(&s), 1,
@@ -337,21 +337,21 @@ static void tables_exist_only_where_the_sky_is_hidden(void **state)
     assert_non_null(g.cells);
     build_guide(&s, 1e-4f, &g); /* the lamp is much brighter */
     assert_null(g.cells);
-    stage_free(&s);
+    lit_mesh_free(&s);
 
     make_room(&s, true);
     s.mesh.materials[1] = mesh_material(MATERIAL_DIFFUSE, .5f);
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     build_guide(&s, 1, &g); /* an opaque pane */
     assert_null(g.cells);
-    stage_free(&s);
+    lit_mesh_free(&s);
 
-    s = (struct stage){.mesh = {.positions = NULL}};
+    s = (struct lit_mesh){.mesh = {.positions = NULL}};
     s.mesh.materials[0] = mesh_material(MATERIAL_DIFFUSE, .5f);
     mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), 0);
     mesh_add_quad(&s.mesh, v3(-9, -1, -9), v3(-9, -1, 9), v3(9, -1, 9),
                   v3(9, -1, -9), 0);
-    stage_finish(&s);
+    lit_mesh_finish(&s);
     build_guide(&s, 1, &g);
     for (uint32_t i = 0; i < s.mesh.world.settings.tri_count; i++) {
         struct vec3 p[3];
@@ -361,7 +361,7 @@ static void tables_exist_only_where_the_sky_is_hidden(void **state)
         assert_int_equal(sky_at(&s.mesh.world, p[0], v3(0, 1, 0)), NO_INDEX);
     }
     path_guide_free(&g);
-    stage_free(&s);
+    lit_mesh_free(&s);
 }
 
 /* Tables for caustics and for windows have the same bits. */
@@ -374,11 +374,11 @@ static void thread_counts_give_the_same_tables(void **state)
     assert_non_null(pool);
     for (int sky = 0; sky < 2; sky++) {
         struct path_guide alone = {.cells = NULL}, together = {.cells = NULL};
-        struct stage s;
+        struct lit_mesh s;
 
         if (sky == 1) {
             make_room(&s, false);
-            stage_finish(&s);
+            lit_mesh_finish(&s);
         } else {
             make_lamp_and_wall(&s, MATERIAL_METAL);
         }
@@ -396,7 +396,7 @@ static void thread_counts_give_the_same_tables(void **state)
                                 sizeof *alone.sums);
         path_guide_free(&alone);
         path_guide_free(&together);
-        stage_free(&s);
+        lit_mesh_free(&s);
     }
     pool_destroy(pool);
 }

@@ -192,18 +192,18 @@ static void set_values_reach_the_material(void **state)
     }
 }
 
-struct stage {
+struct fixture {
     struct scene scene;
     struct view view;
     struct warnings report;
     struct edit edit;
 };
 
-static void open_stage(struct stage *s)
+static void open_fixture(struct fixture *s)
 {
     struct error err;
 
-    *s = (struct stage){.report = {0}};
+    *s = (struct fixture){.report = {0}};
     put("k.obj", "mtllib k.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no a\nusemtl m\n"
                  "f 1 2 3\no b\nusemtl n\nf 1 2 3\n");
     put("k.mtl", "newmtl m\nKd .5 .25 .125\nmap_Kd no.png\nnewmtl n\n"
@@ -214,7 +214,7 @@ static void open_stage(struct stage *s)
     edit_init(&s->edit, &s->scene, &s->view, &s->report);
 }
 
-static void close_stage(struct stage *s)
+static void close_fixture(struct fixture *s)
 {
     edit_free(&s->edit);
     scene_free(&s->scene);
@@ -231,7 +231,7 @@ static void check_same(const struct parameter *a, const struct parameter *b,
     }
 }
 
-static struct parameter_target target_of(struct stage *s,
+static struct parameter_target target_of(struct fixture *s,
                                          enum parameter_page page,
                                          uint32_t index, bool by_hsv)
 {
@@ -261,10 +261,10 @@ static void steps_are_undone(void **state)
         {PARAMETER_MATERIAL, 2, false}, {PARAMETER_OBJECT, 1, false},
         {PARAMETER_LIGHT, 0, false},    {PARAMETER_LIGHT, 0, true},
     };
-    struct stage s;
+    struct fixture s;
 
     (void)state;
-    open_stage(&s);
+    open_fixture(&s);
     edit_sky(&s.edit, "b.hdr");
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) {
         struct parameter_target target =
@@ -287,7 +287,7 @@ static void steps_are_undone(void **state)
             check_same(before, after, count);
         }
     }
-    close_stage(&s);
+    close_fixture(&s);
 }
 
 /* A choice of n is the same after n steps in either direction. */
@@ -301,10 +301,10 @@ static void choices_are_cyclic(void **state)
                    {PARAMETER_MATERIAL, "map_Kd", 2},
                    {PARAMETER_OBJECT, "material", 3},
                    {PARAMETER_LIGHT, "tone", 3}};
-    struct stage s;
+    struct fixture s;
 
     (void)state;
-    open_stage(&s);
+    open_fixture(&s);
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
         struct parameter_target target =
             target_of(&s, choices[i].page, 1, false);
@@ -324,17 +324,17 @@ static void choices_are_cyclic(void **state)
             }
         }
     }
-    close_stage(&s);
+    close_fixture(&s);
 }
 
 /* Typing the text of a parameter gives the same text. Invalid text is refused
  * and changes nothing. */
 static void texts_can_be_typed(void **state)
 {
-    struct stage s;
+    struct fixture s;
 
     (void)state;
-    open_stage(&s);
+    open_fixture(&s);
     for (uint32_t m = 1; m <= 2; m++) {
         struct parameter_target target =
             target_of(&s, PARAMETER_MATERIAL, m, m == 2);
@@ -360,7 +360,7 @@ static void texts_can_be_typed(void **state)
             assert_string_equal(after[k].text, before[k].text);
         }
     }
-    close_stage(&s);
+    close_fixture(&s);
 }
 
 static void typed_values_reach_the_material(void **state)
@@ -375,11 +375,11 @@ static void typed_values_reach_the_material(void **state)
     };
     struct parameter_target target;
     struct parameter list[PARAMETERS_MAX];
-    struct stage s;
+    struct fixture s;
     int count;
 
     (void)state;
-    open_stage(&s);
+    open_fixture(&s);
     target = target_of(&s, PARAMETER_MATERIAL, 1, false);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct error err;
@@ -398,7 +398,7 @@ static void typed_values_reach_the_material(void **state)
     parameter_step(&target, find(list, count, "map_Kd")->id, 1);
     parameters_list(&target, list);
     assert_string_equal(find(list, count, "map_Kd")->text, "off no.png");
-    close_stage(&s);
+    close_fixture(&s);
 }
 
 int main(void)

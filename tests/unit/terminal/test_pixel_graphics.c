@@ -108,7 +108,7 @@ static void screen_write(struct screen *s, struct ansi_diff *a)
     }
 }
 
-struct stage {
+struct fixture {
     struct pixel_graphics g;
     struct ansi_diff a;
     struct frame frame;
@@ -116,8 +116,8 @@ struct stage {
     struct screen screen;
 };
 
-static void stage_init(struct stage *st, enum pixel_graphics_kind kind,
-                       uint64_t *seed)
+static void fixture_init(struct fixture *st, enum pixel_graphics_kind kind,
+                         uint64_t *seed)
 {
     struct pixel_graphics_shape shape = {kind,   COLS,   ROWS,
                                          CELL_W, CELL_H, PALETTE_256};
@@ -134,7 +134,7 @@ static void stage_init(struct stage *st, enum pixel_graphics_kind kind,
         blank(&st->screen, 0, row, COLS);
 }
 
-static void stage_free(struct stage *st)
+static void fixture_free(struct fixture *st)
 {
     pixel_graphics_free(&st->g);
     ansi_diff_free(&st->a);
@@ -143,7 +143,7 @@ static void stage_free(struct stage *st)
 }
 
 /* Draws a frame and returns the number of its images. */
-static int draw(struct stage *st, const struct ansi_diff_draw *how,
+static int draw(struct fixture *st, const struct ansi_diff_draw *how,
                 bool *is_done)
 {
     st->screen.images = 0;
@@ -153,7 +153,7 @@ static int draw(struct stage *st, const struct ansi_diff_draw *how,
     return st->screen.images;
 }
 
-static int wanted(struct stage *st, int x, int y)
+static int wanted(struct fixture *st, int x, int y)
 {
     const uint8_t *p = st->frame.rgb + 3 * (y * WIDTH + x);
     struct rgb c = {p[0], p[1], p[2]};
@@ -165,7 +165,7 @@ static int wanted(struct stage *st, int x, int y)
 
 /* Checks that the terminal shows the picture, and BLANK in this rectangle of
  * cells. */
-static void check_shown(struct stage *st, struct ansi_diff_rect hole)
+static void check_shown(struct fixture *st, struct ansi_diff_rect hole)
 {
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -179,7 +179,7 @@ static void check_shown(struct stage *st, struct ansi_diff_rect hole)
     }
 }
 
-static void set_pixel(struct stage *st, int x, int y, int value)
+static void set_pixel(struct fixture *st, int x, int y, int value)
 {
     memset(st->frame.rgb + 3 * (y * WIDTH + x), value, 3);
 }
@@ -189,14 +189,14 @@ static void terminal_shows_the_picture(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
-    static struct stage st;
+    static struct fixture st;
     struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
     uint64_t seed = 1;
     bool is_done;
 
     (void)state;
     for (int i = 0; i < 2; i++) {
-        stage_init(&st, kinds[i], &seed);
+        fixture_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
         assert_true(is_done);
         check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
@@ -210,7 +210,7 @@ static void terminal_shows_the_picture(void **state)
         how.step = 1;
         assert_int_equal(draw(&st, &how, &is_done), 1);
         how.step = 0;
-        stage_free(&st);
+        fixture_free(&st);
     }
 }
 
@@ -220,7 +220,7 @@ static void budget_is_kept(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
-    static struct stage st;
+    static struct fixture st;
     struct ansi_diff_draw how = {.budget_bytes = 3000};
     uint64_t seed = 2;
 
@@ -229,7 +229,7 @@ static void budget_is_kept(void **state)
         bool is_done = false;
         int frames = 0;
 
-        stage_init(&st, kinds[i], &seed);
+        fixture_init(&st, kinds[i], &seed);
         for (; !is_done && frames < 100; frames++) {
             int images = draw(&st, &how, &is_done);
 
@@ -250,7 +250,7 @@ static void budget_is_kept(void **state)
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++)
                 assert_int_not_equal(st.screen.pixel[y][x], BLANK);
-        stage_free(&st);
+        fixture_free(&st);
     }
 }
 
@@ -259,7 +259,7 @@ static void windows_stay_free(void **state)
 {
     static const enum pixel_graphics_kind kinds[] = {PIXEL_GRAPHICS_SIXEL,
                                                      PIXEL_GRAPHICS_KITTY};
-    static struct stage st;
+    static struct fixture st;
     struct ansi_diff_rect window = {10, 1, 25, 3};
     uint64_t seed = 3;
     bool is_done;
@@ -269,7 +269,7 @@ static void windows_stay_free(void **state)
         struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX,
                                      .covered = &window};
 
-        stage_init(&st, kinds[i], &seed);
+        fixture_init(&st, kinds[i], &seed);
         draw(&st, &how, &is_done);
         how.covered_count = 1; /* curses overwrites sixels */
         if (kinds[i] == PIXEL_GRAPHICS_SIXEL) {
@@ -284,7 +284,7 @@ static void windows_stay_free(void **state)
         how.covered_count = 0;
         draw(&st, &how, &is_done);
         check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
-        stage_free(&st);
+        fixture_free(&st);
     }
 }
 
@@ -292,7 +292,7 @@ static void windows_stay_free(void **state)
  * rectangle. */
 static void small_frames_are_enlarged(void **state)
 {
-    static struct stage st;
+    static struct fixture st;
     struct ansi_diff_draw how = {.budget_bytes = SIZE_MAX};
     struct frame small;
     struct error err;
@@ -300,7 +300,7 @@ static void small_frames_are_enlarged(void **state)
     bool is_done;
 
     (void)state;
-    stage_init(&st, PIXEL_GRAPHICS_KITTY, &seed);
+    fixture_init(&st, PIXEL_GRAPHICS_KITTY, &seed);
     assert_true(frame_init(&small, WIDTH / 4, HEIGHT / 5, &err));
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -316,7 +316,7 @@ static void small_frames_are_enlarged(void **state)
     check_shown(&st, (struct ansi_diff_rect){0, 0, 0, 0});
     assert_int_equal(draw(&st, &how, &is_done), 0);
     frame_free(&small);
-    stage_free(&st);
+    fixture_free(&st);
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * stage.h - rows whose scenes are written as text, rendered, and compared with
+ * stress_scene.h - scenes of rows: written as text, rendered, compared with
  * a number
  *
  * A row's scene is written into OBJ and MTL files, loaded like any file, and
@@ -10,13 +10,13 @@
  * 8,000 choices of seeds. The seeds are fixed.
  *
  * Units:     file units in scenes, degrees, radiance
- * Ownership: stage_close() frees all and removes the files
+ * Ownership: stress_scene_close() frees all and removes the files
  * Threads:   one
  * Errors:    the outcome has errors of glim; failures of the machine end the
  *            program
  */
-#ifndef TESTS_STAGE_H
-#define TESTS_STAGE_H
+#ifndef TESTS_STRESS_SCENE_H
+#define TESTS_STRESS_SCENE_H
 
 #include <math.h>
 #include <stdlib.h>
@@ -37,7 +37,7 @@
 #define T_LIMIT 9.4
 #define SIDE_PX 16
 
-struct stage {
+struct stress_scene {
     FILE *obj, *mtl;
     double scale, move[3]; /* applied to what is written, in this order */
     struct backend *backend;
@@ -49,7 +49,7 @@ struct shot {
     double eye[3], at[3];
     double fovy_deg;
     double background;
-    const char *sky; /* a file in the stage's folder, or NULL */
+    const char *sky; /* a file in the scene's folder, or NULL */
     uint64_t spp;    /* 0: 64 */
     int side_px;     /* 0: SIDE_PX */
     enum direct direct;
@@ -66,20 +66,20 @@ struct outcome {
     size_t number_count;
 };
 
-static inline void stage_stop(const char *text)
+static inline void stress_scene_stop(const char *text)
 {
-    printf("FAIL stage: %s\n", text);
+    printf("FAIL scene: %s\n", text);
     exit(2);
 }
 
 /* Returns false, with a line on standard output, if there is no such device. */
-static inline bool stage_open(struct stage *s, bool on_device)
+static inline bool stress_scene_open(struct stress_scene *s, bool on_device)
 {
     struct cl_request request = {.features = FEATURES_ALL};
     struct error err;
     char *log = NULL;
 
-    *s = (struct stage){.scale = 1};
+    *s = (struct stress_scene){.scale = 1};
     if (on_device) {
         cl_environment_prepare(0);
         s->backend = backend_cl_create(&request, &log, &err);
@@ -94,13 +94,13 @@ static inline bool stage_open(struct stage *s, bool on_device)
     }
     s->render = render_create(s->backend, &err);
     if (s->render == NULL)
-        stage_stop(err.text);
+        stress_scene_stop(err.text);
     if (enter_folder(NULL) != 0)
-        stage_stop("no temporary folder");
+        stress_scene_stop("no temporary folder");
     return true;
 }
 
-static inline void stage_close(struct stage *s)
+static inline void stress_scene_close(struct stress_scene *s)
 {
     render_destroy(s->render);
     s->backend->destroy(s->backend);
@@ -108,38 +108,39 @@ static inline void stage_close(struct stage *s)
     unlink("a.mtl");
     unlink("sky");
     if (leave_empty_folder(NULL) != 0)
-        stage_stop("files are left in the temporary folder");
+        stress_scene_stop("files are left in the temporary folder");
 }
 
-static inline void stage_begin(struct stage *s)
+static inline void stress_scene_begin(struct stress_scene *s)
 {
     s->obj = fopen("a.obj", "w");
     s->mtl = fopen("a.mtl", "w");
     if (s->obj == NULL || s->mtl == NULL)
-        stage_stop("cannot write the scene");
+        stress_scene_stop("cannot write the scene");
     fprintf(s->obj, "mtllib a.mtl\n");
 }
 
-static inline void stage_end(struct stage *s)
+static inline void stress_scene_end(struct stress_scene *s)
 {
     if (fclose(s->obj) != 0 || fclose(s->mtl) != 0)
-        stage_stop("cannot write the scene");
+        stress_scene_stop("cannot write the scene");
 }
 
-static inline void put_material(struct stage *s, const char *name,
+static inline void put_material(struct stress_scene *s, const char *name,
                                 const char *lines)
 {
     fprintf(s->mtl, "newmtl %s\n%s\n", name, lines);
     fprintf(s->obj, "usemtl %s\n", name);
 }
 
-static inline void put_vertex(struct stage *s, double x, double y, double z)
+static inline void put_vertex(struct stress_scene *s, double x, double y,
+                              double z)
 {
     fprintf(s->obj, "v %.17g %.17g %.17g\n", x * s->scale + s->move[0],
             y * s->scale + s->move[1], z * s->scale + s->move[2]);
 }
 
-static inline void put_tri(struct stage *s, const double p[3][3])
+static inline void put_tri(struct stress_scene *s, const double p[3][3])
 {
     for (int k = 0; k < 3; k++)
         put_vertex(s, p[k][0], p[k][1], p[k][2]);
@@ -147,7 +148,7 @@ static inline void put_tri(struct stage *s, const double p[3][3])
 }
 
 /* Adds the rectangle from lo to hi in the plane where the axis is `at`. */
-static inline void put_quad(struct stage *s, int axis, double at,
+static inline void put_quad(struct stress_scene *s, int axis, double at,
                             const double lo[2], const double hi[2])
 {
     for (int i = 0; i < 4; i++) {
@@ -162,7 +163,7 @@ static inline void put_quad(struct stage *s, int axis, double at,
 }
 
 /* Adds a box with shared vertices that is wound outwards. */
-static inline void put_box(struct stage *s, const double lo[3],
+static inline void put_box(struct stress_scene *s, const double lo[3],
                            const double hi[3])
 {
     for (int i = 0; i < 8; i++)
@@ -187,7 +188,7 @@ static inline void load_scene(struct scene *scene, struct host_world *host,
     warnings_free(&report);
 }
 
-static inline struct view make_view(const struct stage *s,
+static inline struct view make_view(const struct stress_scene *s,
                                     const struct shot *shot)
 {
     struct view view;
@@ -207,7 +208,8 @@ static inline struct view make_view(const struct stage *s,
     return view;
 }
 
-static inline void render_seed(struct stage *s, const struct scene *scene,
+static inline void render_seed(struct stress_scene *s,
+                               const struct scene *scene,
                                struct host_world *host, const struct view *view,
                                const struct shot *shot, uint32_t seed,
                                struct outcome *o)
@@ -218,21 +220,22 @@ static inline void render_seed(struct stage *s, const struct scene *scene,
     struct error err;
 
     if (!world_lend(host, scene, view, seed, &job.world, &err))
-        stage_stop(err.text);
+        stress_scene_stop(err.text);
     job.world.settings.direct = shot->direct;
     if (!render_start(s->render, &job, &err))
-        stage_stop(err.text);
+        stress_scene_stop(err.text);
     if (!render_wait(s->render, 600000))
-        stage_stop("a picture takes more than ten minutes");
+        stress_scene_stop("a picture takes more than ten minutes");
     o->last = render_progress(s->render);
     if (o->last.state != RENDER_DONE)
-        stage_stop(o->last.error.text);
+        stress_scene_stop(o->last.error.text);
     film_linear(render_film(s->render), o->rgb);
 }
 
-/* Renders the scene that stage_end() has completed, with `seeds` seeds. */
-static inline struct outcome stage_render(struct stage *s,
-                                          const struct shot *shot, int seeds)
+/* Renders the scene that stress_scene_end() has completed, with `seeds` seeds.
+ */
+static inline struct outcome
+stress_scene_render(struct stress_scene *s, const struct shot *shot, int seeds)
 {
     struct outcome o = {0};
     struct view view = make_view(s, shot);
@@ -264,7 +267,7 @@ static inline struct outcome stage_render(struct stage *s,
 }
 
 /* Writes a scene; the meaning of the number is the function's. */
-typedef void scene_maker(struct stage *s, double number);
+typedef void scene_maker(struct stress_scene *s, double number);
 
 struct truth {
     const char *name, *what;
@@ -279,15 +282,15 @@ struct truth {
 /* Rounding of a sum of a few float operations. */
 #define ROUNDING 1e-5
 
-static inline void check_truth(struct stage *s, const struct truth *t)
+static inline void check_truth(struct stress_scene *s, const struct truth *t)
 {
     struct outcome o;
     double allowed;
 
-    stage_begin(s);
+    stress_scene_begin(s);
     t->make(s, t->number);
-    stage_end(s);
-    o = stage_render(s, &t->shot, SEEDS);
+    stress_scene_end(s);
+    o = stress_scene_render(s, &t->shot, SEEDS);
     if (o.is_refused) {
         row(false, t->name, "%s: refused: %s", t->what, o.err.text);
         free(o.rgb);
@@ -313,16 +316,16 @@ struct twins {
     struct shot shot;
 };
 
-static inline void check_twins(struct stage *s, const struct twins *t)
+static inline void check_twins(struct stress_scene *s, const struct twins *t)
 {
     const double numbers[] = {t->one, t->other};
     struct outcome o[2];
 
     for (int i = 0; i < 2; i++) {
-        stage_begin(s);
+        stress_scene_begin(s);
         t->make(s, numbers[i]);
-        stage_end(s);
-        o[i] = stage_render(s, &t->shot, 1);
+        stress_scene_end(s);
+        o[i] = stress_scene_render(s, &t->shot, 1);
     }
     row(!o[0].is_refused && !o[1].is_refused && o[0].mean > 0 &&
             o[0].last.non_finite == 0 && o[0].last.rays == o[1].last.rays &&
