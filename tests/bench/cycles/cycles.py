@@ -42,7 +42,7 @@ def color(words):
 
 
 def shade(material, lines, folder):
-    """Makes the material what its MTL lines say."""
+    """Sets the material to its MTL lines."""
     material.use_nodes = True
     nodes, links = material.node_tree.nodes, material.node_tree.links
     nodes.clear()
@@ -62,7 +62,7 @@ def shade(material, lines, folder):
 
 
 def add_camera(scene, view):
-    """y of the file is up here, too: the import turns nothing."""
+    """Sets the camera. y is up here as in the file: the import rotates nothing."""
     eye, at, up = (Vector(view[k]) for k in ("eye", "at", "up"))
     back = (eye - at).normalized()
     right = up.cross(back).normalized()
@@ -97,7 +97,7 @@ def set_up(scene, view, threads):
 
 
 def save(scene, path):
-    """Writes what was rendered as PFM."""
+    """Writes the rendered picture as PFM."""
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.image_settings.color_depth = "32"
     bpy.data.images["Render Result"].save_render(path + ".exr")

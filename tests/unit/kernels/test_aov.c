@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_aov.c - previews and numbers of what the camera's ray meets,
- * against closed forms
+ * test_aov.c - previews and features of camera rays against closed forms
  */
 #include "base/memory.h"
 #include "tests/unit/check.h"
@@ -17,10 +16,10 @@
 
 static struct mesh mesh;
 
-/* Of the picture, at the distance 1 from the eye. */
+/* Half the width of the picture at distance 1 from the eye. */
 static double half_width = 1;
 
-/* Looks along -z from z = 3. */
+/* The camera looks along -z from z = 3. */
 static void look_down(struct world *w, double half)
 {
     half_width = half;
@@ -45,7 +44,7 @@ static struct vec3 sample_of(enum sample_kind kind, uint32_t x, uint32_t y,
     return s.radiance;
 }
 
-/* Where the ray through the middle of a pixel goes, by the definition. */
+/* Returns the direction through the middle of a pixel, by definition. */
 static void direction_of(uint32_t x, uint32_t y, double d[3])
 {
     double sx = half_width * (2 * (x + 0.5) / SIDE - 1);
@@ -64,10 +63,10 @@ static void check_vector(struct vec3 got, const double want[3], double bound)
     check_close((double)got.z, want[2], bound);
 }
 
-/* A sphere of facets whose vertices have the sphere's normals: mixed at a point
- * of a facet they point away from the centre, exactly; those that would point
- * away from the eye are not used. The face's own normal is near. */
-static void normals_of_a_sphere(void **state)
+/* Facets have the sphere's normals at their vertices, so that interpolated
+ * normals point exactly away from the centre. Normals that would point away
+ * from the eye are not used. The face's own normal is near. */
+static void normals_are_those_of_the_sphere(void **state)
 {
     const float radius = 0.5f;
     struct vec3 *normals;
@@ -95,7 +94,7 @@ static void normals_of_a_sphere(void **state)
 
             direction_of(x, y, d);
             if (t == 0) {
-                /* the sky, where no facet can be: outside of the sphere */
+                /* The sky appears only outside of the sphere. */
                 assert_true(v3_is_zero(numbers));
                 continue;
             }
@@ -108,7 +107,7 @@ static void normals_of_a_sphere(void **state)
                 want[k] = 0.5 + 0.5 * p[k] / length;
             if (p[0] * d[0] + p[1] * d[1] + p[2] * d[2] < -1e-3 * length)
                 check_vector(numbers, want, 1e-5);
-            /* facets of 20 x 33 degrees are nearly as the sphere */
+            /* Facets of 20 x 33 degrees are close to the sphere. */
             face = sample_of(SAMPLE_FACE, x, y, 0);
             face = v3_sub(v3_scale(face, 2), v3(1, 1, 1));
             check_close((double)v3_length(face), 1, 1e-6);
@@ -117,15 +116,15 @@ static void normals_of_a_sphere(void **state)
                                          (double)face.z * p[2] / length);
         }
     }
-    /* of the sphere it would be pi (16 / 0.2)^2 / (3^2 / 0.5^2 - 1) = 574 */
+    /* A sphere would have pi (16 / 0.2)^2 / (3^2 / 0.5^2 - 1) = 574 pixels. */
     assert_in_range(seen, 500, 574);
     free(normals);
     mesh_free(&mesh);
 }
 
-/* A floor across the view: distances, uvs and numbers of materials are known at
- * every pixel, whatever the sample, the seed and the lens. */
-static void numbers_of_a_wall(void **state)
+/* A floor is perpendicular to the view: distances, uvs and material numbers are
+ * known at every pixel, for any sample, seed and lens. */
+static void features_of_a_wall_are_exact(void **state)
 {
     static const struct vec2 uvs[] = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}};
 
@@ -166,8 +165,8 @@ static void numbers_of_a_wall(void **state)
     mesh_free(&mesh);
 }
 
-/* From behind a face keeps the normal that it is wound to, and the shading
- * normal turns to the eye. */
+/* From behind, the face normal keeps the winding, and the shading normal turns
+ * to the eye. */
 static void faces_keep_their_winding(void **state)
 {
     (void)state;
@@ -184,9 +183,9 @@ static void faces_keep_their_winding(void **state)
     mesh_free(&mesh);
 }
 
-/* Colours dim with the cosine towards the eye; lamps have their hue; the sky is
- * as it is. */
-static void previews_are_simple(void **state)
+/* Colours are multiplied by the cosine towards the eye, lamps have their hue,
+ * and the sky is unchanged. */
+static void previews_show_colours_times_the_cosine(void **state)
 {
     (void)state;
     mesh = (struct mesh){0};
@@ -219,10 +218,10 @@ static void previews_are_simple(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(normals_of_a_sphere),
-        cmocka_unit_test(numbers_of_a_wall),
+        cmocka_unit_test(normals_are_those_of_the_sphere),
+        cmocka_unit_test(features_of_a_wall_are_exact),
         cmocka_unit_test(faces_keep_their_winding),
-        cmocka_unit_test(previews_are_simple),
+        cmocka_unit_test(previews_show_colours_times_the_cosine),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -59,7 +59,7 @@ static void smooth_glass_obeys_fresnel_and_snell(void **state)
 
             check_close(fresnel_dielectric(c, m.eta, &cos_t), f, 3e-4);
             assert_true(bsdf_sample(&m, direction(c), v2(0, 0), 0, &s));
-            check_close(s.wi.z, (double)c, 1e-6); /* the lobe at 0 */
+            check_close(s.wi.z, (double)c, 1e-6); /* the lobe at index 0 */
             check_close(s.weight.x, 1, 0);
             if (f > 0.999)
                 continue;
@@ -86,7 +86,7 @@ static void index_one_is_invisible(void **state)
     assert_true(s.wi.x == -0.6f && s.wi.z == -0.8f && s.weight.x == 1);
 }
 
-/* Sheets: reflectance 2F / (1 + F), the rest straight on. */
+/* A sheet reflects 2F / (1 + F) and transmits the rest straight on. */
 static void thin_glass_adds_up_its_reflections(void **state)
 {
     struct bsdf m = {.color = white, .eta = 1.5f, .kind = MATERIAL_THIN_GLASS};
@@ -112,9 +112,8 @@ static void thin_glass_adds_up_its_reflections(void **state)
     }
 }
 
-/* f(wo, wi) = f(wi, wo); through a face f(wo, wi; eta) = eta^2 f(wi, wo;
- * 1 / eta), once the glass's compensation, which is not reciprocal by its
- * nature, is taken out. */
+/* f(wo, wi) = f(wi, wo). Through a face f(wo, wi; eta) = eta^2 f(wi, wo; 1 /
+ * eta), without the compensation of glass, which is not reciprocal. */
 static void check_reciprocity(const struct bsdf *m, float mu)
 {
     uint64_t seed = 7;
@@ -177,8 +176,8 @@ static void mirrors_and_sheets_have_no_density(void **state)
     }
 }
 
-/* The mean weight over midpoints of the square, with the choice by multiples
- * of the golden ratio. */
+/* Returns the mean weight over midpoints of the square. Multiples of the golden
+ * ratio choose the lobe. */
 static double albedo(const struct bsdf *m, float mu)
 {
     const int side = 300;
@@ -196,8 +195,8 @@ static double albedo(const struct bsdf *m, float mu)
     return sum / side / side;
 }
 
-/* The integral of f |cosine| over the upper hemisphere, for surfaces without
- * highlights: midpoints in azimuth and in the root of the cosine. */
+/* Integrates f |cosine| over the upper hemisphere for surfaces without
+ * highlights, by midpoints in azimuth and in the root of the cosine. */
 static double integral_of_eval(const struct bsdf *m, float mu)
 {
     const int side = 500;
@@ -264,8 +263,8 @@ static void white_glass_loses_nothing(void **state)
         }
 }
 
-/* Turquin's and Hill's closed forms with albedos by quadrature: one bounce
- * F0 (E - S) + S, what follows (1 - E) F^2 E_mean / (1 - F (1 - E_mean)). */
+/* Closed forms of Turquin and Hill with albedos by quadrature: one bounce is F0
+ * (E - S) + S, further ones are (1 - E) F^2 E_mean / (1 - F (1 - E_mean)). */
 static void coloured_metal_has_its_albedo(void **state)
 {
     (void)state;
@@ -277,7 +276,7 @@ static void coloured_metal_has_its_albedo(void **state)
         double alpha = (double)alphas[a];
         double mean = 0;
 
-        for (int i = 0; i < 32; i++) { /* mu = t^2: steep at 0 */
+        for (int i = 0; i < 32; i++) { /* mu = t^2, because it is steep at 0 */
             double t = (i + 0.5) / 32;
 
             mean += albedo_by_quadrature(FACETS_WHITE, alpha, t * t, 0) * 4 *
@@ -298,8 +297,8 @@ static void coloured_metal_has_its_albedo(void **state)
     }
 }
 
-/* Single scattering of EON by quadrature, then the closed form of the rest:
- * rho E + rho_m (1 - E). */
+/* Single scattering of EON by quadrature, and the closed form of the rest: rho
+ * E + rho_m (1 - E). */
 static void rough_diffuse_has_its_albedo(void **state)
 {
     const int side = 400;
@@ -332,7 +331,7 @@ static void rough_diffuse_has_its_albedo(void **state)
     }
 }
 
-/* Whatever can come from files, textures and grazing rays. */
+/* Tests all values that files, textures and grazing rays can give. */
 static void nothing_is_ever_nan_or_negative(void **state)
 {
     const float edges[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-24f};

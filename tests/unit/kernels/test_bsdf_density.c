@@ -20,11 +20,11 @@ static bool draw(const struct bsdf *m, struct vec3 wo, uint64_t *state,
 }
 
 /*
- * The sphere of wi, cut into cells of the microfacet normal h that would lead
- * there, for reflections and for refractions: narrow lobes fill many cells.
- * Rows are uniform in asinh(tan(theta_h) / alpha), fine where the lobe is and
- * logarithmic beyond. Midpoint rule in each cell, with Walter's Jacobians
- * (2007, eqs. 14 and 17) in double.
+ * The sphere of wi is divided into cells of the microfacet normal h, for
+ * reflections and for refractions, so that narrow lobes fill many cells. Rows
+ * are uniform in asinh(tan(theta_h) / alpha): fine inside the lobe and
+ * logarithmic outside. Each cell is integrated by midpoints, with Walter's
+ * Jacobians (2007, eqs. 14 and 17) in double.
  */
 #define ROWS    24
 #define COLUMNS 12
@@ -33,8 +33,8 @@ static bool draw(const struct bsdf *m, struct vec3 wo, uint64_t *state,
 #define POINTS  512 /* of a cell */
 
 struct chart {
-    double alpha;  /* the width of the finest rows */
-    double extent; /* of the rows' coordinate */
+    double alpha;  /* width of the finest rows */
+    double extent; /* range of the coordinate of rows */
 };
 
 static struct chart chart_of(const struct bsdf *m)
@@ -48,7 +48,8 @@ static struct chart chart_of(const struct bsdf *m)
     return c;
 }
 
-/* x of a unit vector by the digits of y and z: near 1 its own are few. */
+/* Returns x of a unit vector from y and z, since x itself has few digits near
+ * 1. */
 static double long_x(struct vec3 v)
 {
     double r2 = (double)v.y * (double)v.y + (double)v.z * (double)v.z;
@@ -71,8 +72,8 @@ static int cell_of(const struct chart *c, const struct bsdf *m, struct vec3 wo,
     return ((wi.z < 0) * ROWS + i) * COLUMNS + j;
 }
 
-/* wi and the solid angle a unit of (row, column) covers there; 0 if no light
- * goes from wo to wi by this facet. */
+/* Returns wi and the solid angle per unit of (row, column) there, or 0 if this
+ * facet sends no light from wo to wi. */
 static double chart_point(const struct chart *c, const struct bsdf *m,
                           struct vec3 wo, bool is_crossing, double row,
                           double column, struct vec3 *wi)
@@ -106,12 +107,12 @@ static double chart_point(const struct chart *c, const struct bsdf *m,
     return z < 0 ? area * pow(o_dot_h / eta - ct, 2) / ct : 0;
 }
 
-/* The integral of the pdf over each cell; returns the whole. */
+/* Integrates the pdf over each cell and returns the sum. */
 static double expected_shares(const struct chart *c, const struct bsdf *m,
                               struct vec3 wo, double *shares)
 {
-    /* at normal incidence nothing depends on the column, and the horizon cuts
-     * all of them at the same place in a row */
+    /* At normal incidence the column does not matter, and the horizon cuts all
+     * cells of a row at the same place. */
     const int across = wo.z == 1 ? 1 : 8;
     double total = 0;
 
@@ -136,8 +137,8 @@ static double expected_shares(const struct chart *c, const struct bsdf *m,
     return total;
 }
 
-/* Beyond 5.2 deviations once in 1e7 by chance; 265 tests, so one false alarm
- * in 38,000 choices of the seed, which is fixed. */
+/* Chance exceeds 5.2 deviations once in 1e7. There are 265 tests, so one false
+ * alarm in 38,000 choices of the seed, which is fixed. */
 #define DEVIATE_MAX 5.2
 #define DRAWS       40000
 
@@ -153,7 +154,7 @@ static void check_density(const struct bsdf *m, float mu)
     memset(counts, 0, sizeof counts);
     for (int i = 0; i < DRAWS; i++) {
         struct bsdf_sample s;
-        int k = CELLS; /* rejected, or along a delta */
+        int k = CELLS; /* rejected, or from a delta distribution */
 
         if (draw(m, wo, &seed, &s) && !s.is_delta) {
             k = cell_of(&c, m, wo, s.wi);
@@ -162,8 +163,8 @@ static void check_density(const struct bsdf *m, float mu)
         }
         counts[k]++;
     }
-    /* the whole is 1: 6 standard errors of the share without density, and
-     * what the midpoint rule misses at the horizon */
+    /* The sum is 1 within 6 standard errors of the share without density and
+     * the error of the midpoint rule at the horizon. */
     shares[CELLS] = counts[CELLS] / DRAWS;
     check_close(total + shares[CELLS], 1,
                 2e-3 + 6 * sqrt(shares[CELLS] * (1 - shares[CELLS]) / DRAWS));
@@ -171,7 +172,7 @@ static void check_density(const struct bsdf *m, float mu)
     for (int k = 0; k <= CELLS; k++)
         chi_add(&chi, shares[k] * DRAWS, counts[k]);
     chi_end(&chi);
-    /* of cells that are too few for chi-square */
+    /* Cells with too few counts for chi-square. */
     check_at_most(chi.rest_count, chi.rest + 6 * sqrt(chi.rest) + 20);
     if (chi.degrees > 0 && chi_deviate(&chi) > DEVIATE_MAX) {
         print_error("kind %u alpha %g eta %g cosine %g: chi-square %g of %g\n",

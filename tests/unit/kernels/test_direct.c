@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_direct.c - light that is chosen, light that is met by chance, and both
- * weighed have the same mean in every scene that glim ships, and both weighed
- * has the least error; without the guide of caustics it is the same mean, too
+ * test_direct.c - light samples, BSDF samples and both with MIS have the same
+ * mean in every shipped scene, and MIS has the least error; the mean is the
+ * same without the caustic guide
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,15 +25,15 @@ static const char *const scenes[] = {
 #define SEEDS  24
 #define MODES  4
 
-/* After those of enum direct: both weighed, without the guide. */
+/* Follows the values of enum direct: MIS without the guide. */
 #define UNGUIDED 3
 
-/* Welch's t with at least 23 degrees is beyond this in 1e-5 of the cases;
- * there are 6 scenes, 3 channels and 3 pairs: one false alarm in 1,850 choices
- * of seeds. They are fixed. */
+/* Welch's t with at least 23 degrees of freedom exceeds this in 1e-5 of the
+ * cases. There are 6 scenes, 3 channels and 3 pairs: one false alarm in 1,850
+ * choices of seeds. The seeds are fixed. */
 #define T_LIMIT 5.6
 
-/* Mean and variance of a picture's mean over the seeds, for each channel, and
+/* Mean and variance over the seeds of a picture's mean, for each channel, and
  * the mean square deviation of its pixels from their mean over the seeds. */
 struct outcome {
     double mean[3];
@@ -41,7 +41,8 @@ struct outcome {
     double noise;
 };
 
-/* Compensated tables are zero in places, where only chance finds the sky. */
+/* Compensated tables are zero in places, where only BSDF samples find the
+ * sky. */
 static void fill_sky_table(struct host_world *host)
 {
     struct error err;
@@ -109,7 +110,7 @@ static void measure(struct session *s, int mode, struct outcome *o)
             (squares[i] / SEEDS - sums[i] / SEEDS * sums[i] / SEEDS) / NUMBERS;
 }
 
-static void same_mean(void **state)
+static void all_techniques_have_the_same_mean(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
@@ -157,7 +158,7 @@ static void same_mean(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_mean),
+        cmocka_unit_test(all_techniques_have_the_same_mean),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * test_draft.c - the draft before a film: where it looks, what it shows, and
- * that the film does not know of it
+ * test_draft.c - the draft before a film: its pixels, its mean, and that it
+ * does not affect the film
  */
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +64,7 @@ static void start(struct host_world *host, const struct world *world,
     check_or_say(render_start(session.render, &job, &err), err.text);
 }
 
-/* To the end; the film's sums and counts. */
+/* Renders to the end and returns the film's sums and counts. */
 static void finish(struct sum sums[3 * PIXELS], uint64_t counts[PIXELS])
 {
     struct film *film = render_film(session.render);
@@ -75,9 +75,9 @@ static void finish(struct sum sums[3 * PIXELS], uint64_t counts[PIXELS])
     memcpy(counts, film->counts, PIXELS * sizeof *counts);
 }
 
-/* With a draft and without, halted at any moment of either: the same bits, the
- * same numbers. */
-static void films_do_not_know_of_drafts(void **state)
+/* With and without a draft, and halted at any moment of either, a film has the
+ * same bits and counts. */
+static void films_do_not_depend_on_drafts(void **state)
 {
     static struct sum sums[2][3 * PIXELS];
     static uint64_t counts[2][PIXELS];
@@ -110,10 +110,10 @@ static void films_do_not_know_of_drafts(void **state)
     assert_int_equal(p[1].samples, 30 * PIXELS);
     assert_int_equal(p[1].rays, p[0].rays);
     assert_int_equal(p[1].draft_samples, DRAFT_SPP * 31 * 40);
-    assert_null(render_draft(session.render)); /* the film is old enough */
+    assert_null(render_draft(session.render)); /* the film has enough samples */
 }
 
-/* A draft has no more pixels than the film, nor more than its order knows. */
+/* A draft has at most as many pixels as the film, and as its order supports. */
 static void drafts_are_small(void **state)
 {
     (void)state;
@@ -126,9 +126,7 @@ static void drafts_are_small(void **state)
     assert_int_equal(render_progress(session.render).draft_samples, 0);
 }
 
-/* ---- where it looks ---- */
-
-/* A backend that notes what it is to begin. */
+/* A backend that records its calls of begin. */
 struct notes {
     struct backend base;
     struct world worlds[2];
@@ -173,9 +171,9 @@ static void check_same_direction(struct vec3 a, struct vec3 b)
     check_close((double)a.z, (double)b.z, 2e-6);
 }
 
-/* The corners and the middle of a draft's pixel lie where those of as large a
- * part of the crop do. */
-static void drafts_look_where_films_do(void **state)
+/* The corners and the middle of a draft's pixel are those of the same part of
+ * the crop. */
+static void drafts_show_the_same_part_as_films(void **state)
 {
     struct notes n = {
         .base = {.load = note_load, .begin = note_begin, .pass = note_pass}};
@@ -225,9 +223,7 @@ static void drafts_look_where_films_do(void **state)
     render_destroy(r);
 }
 
-/* ---- what it shows ---- */
-
-/* Draft and film of the same size and samples, linear. */
+/* Renders a draft and a film of the same size and samples, linear. */
 static void render_two(struct host_world *host, const struct world *world,
                        uint32_t seed, float draft[3 * PIXELS],
                        float film[3 * PIXELS])
@@ -238,7 +234,7 @@ static void render_two(struct host_world *host, const struct world *world,
     film_linear(render_film(session.render), film);
 }
 
-/* The mean of a quarter of a picture's channel. */
+/* Returns the mean of a channel over a quarter of a picture. */
 static double quarter_mean(const float *rgb, int quarter, int channel)
 {
     double sum = 0;
@@ -253,7 +249,7 @@ static double quarter_mean(const float *rgb, int quarter, int channel)
 }
 
 /* Over 40 seeds, for each quarter and channel: Student's t with 39 degrees of
- * freedom is beyond 5.9 once in a million; 12 are tried. */
+ * freedom exceeds 5.9 once in a million, and there are 12 values. */
 static void drafts_have_the_films_mean(void **state)
 {
     static float draft[3 * PIXELS], film[3 * PIXELS];
@@ -311,7 +307,7 @@ static void add_errors(struct errors *e, const float *rgb, const float *truth)
         }
 }
 
-/* A floor and above it a lamp, which paths meet by chance. */
+/* Makes a floor and a lamp above it, which only BSDF samples find. */
 static void make_floor(struct mesh *m)
 {
     memset(m, 0, sizeof *m);
@@ -330,10 +326,10 @@ static void make_floor(struct mesh *m)
     mesh_finish(m);
 }
 
-/* Against a film with 100 times the samples: to a blurring eye the draft errs
- * by half of what the film with as many samples does (.6 are allowed; pixels
- * that know nothing of each other have 1), pixel for pixel by the same. */
-static void drafts_are_calm(void **state)
+/* Compares with a film of 100 times as many samples. After a blur the draft has
+ * half the error of a film with as many samples (.6 is allowed; independent
+ * pixels have 1). Without a blur the errors are equal. */
+static void blurred_drafts_have_less_error(void **state)
 {
     static float draft[3 * PIXELS], film[3 * PIXELS], truth[3 * PIXELS];
     struct errors of_draft = {0, 0}, of_film = {0, 0};
@@ -357,11 +353,11 @@ static void drafts_are_calm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(films_do_not_know_of_drafts),
+        cmocka_unit_test(films_do_not_depend_on_drafts),
         cmocka_unit_test(drafts_are_small),
-        cmocka_unit_test(drafts_look_where_films_do),
+        cmocka_unit_test(drafts_show_the_same_part_as_films),
         cmocka_unit_test(drafts_have_the_films_mean),
-        cmocka_unit_test(drafts_are_calm),
+        cmocka_unit_test(blurred_drafts_have_less_error),
     };
 
     return cmocka_run_group_tests(tests, open_scene, close_scene);

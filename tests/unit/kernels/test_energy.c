@@ -11,14 +11,15 @@ static const double etas[] = {1.5,     1 / 1.5, 1.33,    1 / 1.33, 2.4,
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
 
-/* Off the tables' nodes too. */
+/* Number of points beside the tables' nodes. */
 #define OFF_NODES 24
 
 struct point {
     double alpha, mu, eta;
 };
 
-/* The grid of alphas and cosines, then points between. */
+/* Returns a point of the grid of alphas and cosines, then random points
+ * between. */
 static struct point point(int i, uint64_t *state)
 {
     struct point p = {0, 0, 0};
@@ -53,12 +54,12 @@ static void albedo_of_ggx_is_that_of_quadrature(void **state)
                     2e-3);
         check_at_most(0, (double)e.loss);
     }
-    /* what masking leaves at normal incidence and alpha 1 */
+    /* The loss by masking at normal incidence and alpha 1. */
     check_close((double)ggx_albedo(1, 1).loss, log(2.0), 1e-5);
 }
 
-/* The losses of rough metal are given back by (1 - E_i) / (1 - E_mean), whose
- * mean must be 1: as the same sum over the interpolated table. */
+/* The losses of rough metal are compensated by (1 - E_i) / (1 - E_mean). Its
+ * mean over the interpolated table must be 1. */
 static void means_are_those_of_the_table(void **state)
 {
     const int n = 20000;
@@ -71,7 +72,7 @@ static void means_are_those_of_the_table(void **state)
         double loss = 0, schlick = 0;
 
         for (int i = 0; i < n; i++) {
-            double t = (i + 0.5) / n; /* steep at 0: mu = t^2 */
+            double t = (i + 0.5) / n; /* mu = t^2, because it is steep at 0 */
             struct ggx_albedo e = ggx_albedo((float)(t * t), (float)alpha);
 
             loss += (double)e.loss * 4 * t * t * t / n;

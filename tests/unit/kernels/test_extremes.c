@@ -2,7 +2,7 @@
 #include "tests/stress/extremes.h"
 #include "tests/unit/folder.h"
 
-/* Of which so many are rendered on the device as well. */
+/* Number of scenes that are also rendered on the device. */
 #define SCENES    300
 #define ON_DEVICE 15
 
@@ -17,8 +17,8 @@ static void random_extremes_are_finite(void **state)
     assert_true(x->saturated > 0);
 }
 
-/* Two faces that shine at each other, as brightly as a float can say: light
- * adds up to more. */
+/* Two faces emit towards each other with the greatest floats, so that the sum
+ * of light exceeds them. */
 static void facing_lamps_are_finite(void **state)
 {
     struct extremes *x = *state;

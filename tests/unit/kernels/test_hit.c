@@ -43,7 +43,7 @@ static struct exact intersect(struct ray r, struct vec3 p0, struct vec3 p1,
     return x;
 }
 
-/* Clear hits are hits with the right distance and weights, clear misses are
+/* Clear hits have the right distance and weights, and clear misses are
  * misses. */
 static void hits_agree_with_long_double(void **state)
 {
@@ -78,8 +78,8 @@ static void hits_agree_with_long_double(void **state)
     assert_true(hits > 20000 && misses > 500000);
 }
 
-/* As far as triangle_hit() says, to the bit, which only edges can escape, and
- * not behind the ray. */
+/* Rays aimed at a triangle hit it, except at edges, at the exact distance of
+ * triangle_hit() and never behind the origin. */
 static void aimed_rays_end_at_the_triangle(void **state)
 {
     uint64_t seed = 9;
@@ -110,7 +110,7 @@ static void aimed_rays_end_at_the_triangle(void **state)
     check_at_most(missed, 20);
 }
 
-/* STRESS G4: hits of needles are on the needle, whatever its weights. */
+/* STRESS G4: hits of needles are on the needle, whatever the weights are. */
 static void needles_are_hit_where_they_are(void **state)
 {
     uint64_t seed = 6;
@@ -125,7 +125,7 @@ static void needles_are_hit_where_they_are(void **state)
         struct ray r = {point(&seed), {0, 0, 0}, FLOAT_MAX, 0, 0};
         struct hit h;
 
-        if (i % 3 == 0) /* nearly along it */
+        if (i % 3 == 0) /* nearly along the needle */
             r.o =
                 v3_add(v3_add(a, v3_sub(a, b)), v3_scale(point(&seed), width));
         r.d = v3_unit(v3_sub(at, r.o));
@@ -146,8 +146,9 @@ static void needles_are_hit_where_they_are(void **state)
     assert_true(hits > 50000);
 }
 
-/* STRESS G6, M12: what overlaps in one plane across an axis is as far off. */
-static void faces_in_one_plane_tie(void **state)
+/* STRESS G6, M12: overlapping faces in one plane across an axis have equal
+ * distances. */
+static void faces_in_one_plane_have_equal_distances(void **state)
 {
     uint64_t seed = 7;
     int hits = 0;
@@ -174,15 +175,16 @@ static void faces_in_one_plane_tie(void **state)
     assert_true(hits > 1000);
 }
 
-/* A face and its copy of the other winding are as far off. */
-static void windings_tie(void **state)
+/* A face and its copy of the opposite winding have equal distances. */
+static void both_windings_have_equal_distances(void **state)
 {
     uint64_t seed = 8;
     int hits = 0;
 
     (void)state;
     for (int i = 0; i < 300000; i++) {
-        /* every other one a needle, with distances in pairs of floats */
+        /* Every other triangle is a needle, with equal distances in pairs of
+         * floats. */
         struct vec3 a = point(&seed), b = point(&seed);
         struct vec3 c = i % 2 == 0 ? point(&seed)
                                    : v3_add(a, v3_scale(point(&seed), 1e-5f));
@@ -200,8 +202,8 @@ static void windings_tie(void **state)
     assert_true(hits > 200000);
 }
 
-/* STRESS G12: no ray from inside gets out of a closed mesh, aimed at vertices,
- * at edges or anywhere. */
+/* STRESS G12: no ray leaves a closed mesh from inside, whether aimed at
+ * vertices, at edges or anywhere. */
 static void closed_meshes_do_not_leak(void **state)
 {
     struct mesh m = {0};
@@ -225,7 +227,8 @@ static void closed_meshes_do_not_leak(void **state)
     mesh_free(&m);
 }
 
-/* What meets an edge or a corner of a box and goes on within stays within. */
+/* A ray that continues inwards from an edge or a corner of a box stays
+ * inside. */
 static void edges_are_left_inwards(void **state)
 {
     struct mesh m = {0};
@@ -260,9 +263,8 @@ static void edges_are_left_inwards(void **state)
     mesh_free(&m);
 }
 
-/* A normal does not depend on the triangle's size, down to the last numbers
- * that a float has, nor on how much longer one edge is than the other,
- * while their ratio is a float. */
+/* A normal does not depend on the triangle's size, down to the smallest floats,
+ * nor on the ratio of its edges as long as that is a float. */
 static void normals_do_not_depend_on_size(void **state)
 {
     uint64_t seed = 9;
@@ -283,7 +285,7 @@ static void normals_do_not_depend_on_size(void **state)
         struct vec3 p[3], ng, small;
 
         for (int k = 0; k < 3;
-             k++) /* few digits, so that small ones have all */
+             k++) /* few digits, so that small triangles are exact */
             p[k] = v3(roundf(point(&seed).x * 64), roundf(point(&seed).y * 64),
                       roundf(point(&seed).z * 64));
         if (!triangle_normal(p[0], p[1], p[2], &ng))
@@ -314,8 +316,8 @@ static void nothing_else_has_a_normal(void **state)
         }
 }
 
-/* A ray that leaves a face must not hit it again, and hits the face opposite:
- * over all angles, sizes and places. */
+/* A ray that leaves a face does not hit it again, and hits the opposite face,
+ * for all angles, sizes and places. */
 static void no_ray_hits_its_own_face(void **state)
 {
     uint64_t seed = 3;
@@ -331,7 +333,7 @@ static void no_ray_hits_its_own_face(void **state)
         struct vec3 ng, error, p, t, b;
         struct hit h, again;
         double angle = 2 * M_PI * check_random(&seed);
-        /* half of them within a thousandth of the plane */
+        /* Half of the directions are within a thousandth of the plane. */
         double z = i % 2 ? check_random(&seed) : 1e-3 * check_random(&seed);
         double rest = sqrt(1 - z * z);
         float u = (float)check_random(&seed), v = (float)check_random(&seed);
@@ -361,7 +363,7 @@ static void no_ray_hits_its_own_face(void **state)
     }
 }
 
-/* STRESS G17: a sheet 1e-5 above is hit by rays that leave the lower one. */
+/* STRESS G17: rays that leave a sheet hit another one 1e-5 above it. */
 static void near_sheets_are_both_hit(void **state)
 {
     uint64_t seed = 4;
@@ -405,8 +407,8 @@ int main(void)
         cmocka_unit_test(hits_agree_with_long_double),
         cmocka_unit_test(aimed_rays_end_at_the_triangle),
         cmocka_unit_test(needles_are_hit_where_they_are),
-        cmocka_unit_test(faces_in_one_plane_tie),
-        cmocka_unit_test(windings_tie),
+        cmocka_unit_test(faces_in_one_plane_have_equal_distances),
+        cmocka_unit_test(both_windings_have_equal_distances),
         cmocka_unit_test(closed_meshes_do_not_leak),
         cmocka_unit_test(edges_are_left_inwards),
         cmocka_unit_test(normals_do_not_depend_on_size),

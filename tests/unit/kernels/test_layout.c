@@ -16,7 +16,7 @@
 #include "kernels/cl_task.h"
 #include "kernels/pixel.h"
 
-/* Every struct that kernels and host share, with its members: S(struct)
+/* Lists every struct that kernels and host share, with its members: S(struct)
  * M(struct, member). */
 /* clang-format off */
 #define LAYOUT(S, M)                                                          \
@@ -77,9 +77,9 @@
 
 struct fact {
     const char *name;
-    uint32_t value;       /* on the host */
-    uint32_t member_size; /* 0: the size of a struct */
-    const char *code;     /* the kernel's statement that finds the value */
+    uint32_t value;       /* value on the host */
+    uint32_t member_size; /* 0 for the size of a struct */
+    const char *code;     /* the kernel's statement that computes the value */
 };
 
 static const struct fact facts[] = {
@@ -94,8 +94,8 @@ static const struct fact facts[] = {
 
 #define FACTS (sizeof facts / sizeof facts[0])
 
-/* The kernels' text, followed by a kernel `layout` that writes a value for each
- * fact. For free(). */
+/* Returns the kernels' text and a kernel `layout` that writes a value for each
+ * fact, for free(). */
 static char *layout_source(void)
 {
     struct error err;
@@ -150,7 +150,7 @@ static void run_layout(const struct cl_machine *m, const char *text,
     cl->ReleaseMemObject(out);
 }
 
-/* No member is missing from the list, and padding has a name. */
+/* The list contains all members, and padding has names. */
 static void members_fill_structs(void **state)
 {
     uint32_t total = 0;

@@ -9,7 +9,7 @@
 #define FOCUS  2.5
 #define RADIUS 0.125
 
-/* Looks along -x with y up, 90 degrees over 100 pixels. */
+/* The camera looks along -x with y up, 90 degrees over 100 pixels. */
 static struct camera camera(void)
 {
     struct camera c = {.eye = {0.3f, -0.2f, 0.1f},
@@ -24,7 +24,8 @@ static struct camera camera(void)
     return c;
 }
 
-/* Where the ray meets the plane at this distance from the eye. */
+/* Returns the point where the ray meets the plane at this distance from the
+ * eye. */
 static struct vec3 meet(struct camera c, struct ray r, double distance)
 {
     double t = distance / (double)v3_dot(r.d, c.forward);
@@ -36,9 +37,9 @@ static const uint32_t pixels[][2] = {{75, 50}, {0, 0}, {149, 70}, {10, 99}};
 
 #define PIXEL_COUNT (sizeof pixels / sizeof *pixels)
 
-/* Similar triangles: rays of a point of the film fill a disk of radius
- * r |f - D| / f at distance D, around where a pinhole's ray goes; uniformly,
- * so that the mean square of the radius is half the greatest. */
+/* By similar triangles, rays of a point of the film fill a disk of radius r |f
+ * - D| / f at distance D around the pinhole's ray. They are uniform, so the
+ * mean square of the radius is half the square of the greatest. */
 static void blur_is_a_disk(void **state)
 {
     const double distances[] = {0.5, 1.7, FOCUS, 4, 40};
@@ -67,7 +68,7 @@ static void blur_is_a_disk(void **state)
                 squares += (double)v3_dot(off, off) / n;
                 sum = v3_add(sum, v3_scale(off, 1 / (float)n));
             }
-            /* 40 is far: float coordinates of 1e2 */
+            /* At 40 coordinates of 1e2 have the precision of floats. */
             check_close(most, radius, 2e-3 * radius + 1e-5);
             check_close(squares, radius * radius / 2,
                         5e-3 * radius * radius + 1e-9);
@@ -75,9 +76,9 @@ static void blur_is_a_disk(void **state)
         }
 }
 
-/* The circle of confusion: a point at distance D is seen at film points of
- * tangent s with |s - s0| <= r |1/f - 1/D|. The point lies on the axis; which
- * pixel's rays from a lens point l meet it is solved by a search. */
+/* Circle of confusion: a point at distance D appears at film points of tangent
+ * s with |s - s0| <= r |1/f - 1/D|. The point is on the axis. A search finds
+ * the pixel whose ray from a lens point l meets it. */
 static void points_blur_into_circles(void **state)
 {
     const double distances[] = {0.7, 1.5, 5, 100};
@@ -90,13 +91,13 @@ static void points_blur_into_circles(void **state)
 
         for (int i = 0; i < 40; i++) {
             double s = (low + high) / 2;
-            /* the vertical tangent of a pixel's row is 1 - 2 y / height */
+            /* The vertical tangent of a pixel's row is 1 - 2 y / height. */
             double y = (1 - s) / 2 * (double)c.height;
             struct ray r =
                 camera_ray(c, 75, (uint32_t)y, v2(0, (float)(y - floor(y))));
             struct vec3 p;
 
-            /* the top of the lens: u = (1/2, 1) */
+            /* The top of the lens is u = (1/2, 1). */
             r = camera_through_lens(c, r, v2(0.5f, 1));
             p = meet(c, r, distances[k]);
             if (p.y > c.eye.y)
@@ -108,7 +109,7 @@ static void points_blur_into_circles(void **state)
     }
 }
 
-/* The middle of the lens is the pinhole. */
+/* A ray through the middle of the lens is the pinhole's ray. */
 static void middle_of_the_lens_is_a_pinhole(void **state)
 {
     struct camera c = camera();

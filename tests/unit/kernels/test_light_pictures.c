@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* Lights with pictures, and what of a picture a triangle covers. */
+/* test_light_pictures.c - lamps with emission maps, and the part of a map that
+ * a triangle covers */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@
 
 #define TEXTURE_SIDE 128
 
-/* A square lamp with a picture: uvs from 0 to `repeat`. */
+/* Adds a square lamp with a map; `uvs` are those of its corners. */
 static void add_picture(struct mesh *m, struct vec2 uvs[4], uint32_t *texels,
                         struct texture *texture, float linear[256],
                         float repeat)
@@ -40,7 +41,8 @@ static void add_picture(struct mesh *m, struct vec2 uvs[4], uint32_t *texels,
     m->world.linear_of_srgb = linear;
 }
 
-/* Irradiance under a square with a picture, by midpoints on the square. */
+/* Returns the irradiance under a square with a map, by midpoints on the
+ * square. */
 static double picture_irradiance(const struct world *w,
                                  const struct receiver *r, float repeat)
 {
@@ -62,7 +64,7 @@ static double picture_irradiance(const struct world *w,
     return sum / (side * side);
 }
 
-static void pictures_shine_as_they_look(void **state)
+static void emission_maps_light_the_floor(void **state)
 {
     const float repeats[] = {1, 3.5f, 0.2f};
 
@@ -98,8 +100,8 @@ static void pictures_shine_as_they_look(void **state)
     }
 }
 
-/* A lamp lets rays pass as other surfaces do: what comes from it is its share
- * of cover, and nothing from holes. */
+/* A lamp lets rays pass like other surfaces: it emits in proportion to its
+ * opacity, and nothing from holes. */
 static void holes_do_not_shine(void **state)
 {
     static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
@@ -113,7 +115,7 @@ static void holes_do_not_shine(void **state)
     int solid = 0;
 
     (void)state;
-    /* the left half is a hole */
+    /* The left half is a hole. */
     for (int i = 0; i < TEXTURE_SIDE * TEXTURE_SIDE; i++)
         texels[i] = i % TEXTURE_SIDE < TEXTURE_SIDE / 2 ? 0 : 0xff000000u;
     add_picture(&m, uvs, texels, &texture, linear, 1);
@@ -129,7 +131,7 @@ static void holes_do_not_shine(void **state)
 
         assert_true(
             light_sample(&m.world, &r, NO_INDEX, point, any_choice(&seed), &s));
-        if (fabsf(s.p.x) > 1e-2f && fabsf(s.p.x) < 0.49f) /* clear of edges */
+        if (fabsf(s.p.x) > 1e-2f && fabsf(s.p.x) < 0.49f) /* away from edges */
             assert_true(s.radiance.x == (s.p.x < 0 ? 0 : 0.25f));
         solid += s.radiance.x > 0;
     }
@@ -137,7 +139,7 @@ static void holes_do_not_shine(void **state)
     discard(&m, &lights);
 }
 
-/* A square of area 1 and radiance 1 under a grey picture that covers half. */
+/* A square of area 1 and radiance 1 has a grey map that covers half of it. */
 static void power_counts_picture_and_opacity(void **state)
 {
     static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
@@ -158,8 +160,8 @@ static void power_counts_picture_and_opacity(void **state)
     discard(&m, &lights);
 }
 
-/* Of the two halves of a square only that with light in its picture is a
- * light; it is the one below the diagonal from left bottom to right top. */
+/* Of the two halves of a square, only the one with light in its map is a light:
+ * the one below the diagonal from the lower left to the upper right. */
 static void dark_pictures_are_no_lights(void **state)
 {
     static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
@@ -175,7 +177,7 @@ static void dark_pictures_are_no_lights(void **state)
     finish(&m, &lights);
     assert_int_equal(lights.light_count, 0);
     lights_free(&lights);
-    /* row 0 is the top: u = 3/4, v = 1/4 */
+    /* Row 0 is the top: u = 3/4, v = 1/4. */
     texels[TEXTURE_SIDE * TEXTURE_SIDE * 3 / 4 + TEXTURE_SIDE * 3 / 4] = 1;
     finish(&m, &lights);
     assert_int_equal(lights.light_count, 1);
@@ -183,10 +185,10 @@ static void dark_pictures_are_no_lights(void **state)
     discard(&m, &lights);
 }
 
-/* The footprint's mean against random points of the bilinear look-up: on a
- * smooth picture the rim of 2 texels that may be covered as well counts by its
- * share of the area, times the picture's contrast; .006 is 4.9 standard errors
- * of 2000 points. Never 0 where a single texel shows. */
+/* Compares the mean over the footprint with random points of the bilinear
+ * look-up. On a smooth map the rim of 2 texels counts by its share of the area
+ * times the map's contrast; .006 is 4.9 standard errors of 2000 points. The
+ * mean is never 0 where a single texel is visible. */
 static void footprints_miss_nothing(void **state)
 {
     static uint32_t texels[TEXTURE_SIDE * TEXTURE_SIDE];
@@ -219,7 +221,7 @@ static void footprints_miss_nothing(void **state)
         if (!is_smooth)
             texels[spot] = 255;
         for (int i = 0; i < 3; i++) {
-            /* anywhere, or within 2 texels of the one */
+            /* Anywhere, or within 2 texels of the single one. */
             float u = is_smooth ? 0.2f * (float)(k % 5)
                                 : (0.5f + (float)(spot % TEXTURE_SIDE)) /
                                       TEXTURE_SIDE;
@@ -263,7 +265,7 @@ static void footprints_miss_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_shine_as_they_look),
+        cmocka_unit_test(emission_maps_light_the_floor),
         cmocka_unit_test(holes_do_not_shine),
         cmocka_unit_test(power_counts_picture_and_opacity),
         cmocka_unit_test(dark_pictures_are_no_lights),

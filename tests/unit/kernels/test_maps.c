@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* From image files and their MTL options to what a surface is at a point. */
+/* test_maps.c - image files and MTL options give the surface at a point */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,8 +24,8 @@ struct loaded {
     struct material material;
 };
 
-/* Uncompressed Targa with the top row first; channels 3 or 4 a pixel, in the
- * order red, green, blue, alpha. */
+/* Writes an uncompressed Targa with the top row first and 3 or 4 channels in
+ * the order red, green, blue, alpha. */
 static void write_image(const char *path, int width, int height, int channels,
                         const uint8_t *pixels)
 {
@@ -109,7 +109,7 @@ static double linear(uint8_t byte)
 static const uint8_t six[18] = {255, 0,  0,  0,   200, 10, 7,   8,  90,
                                 40,  50, 60, 100, 110, 3,  250, 99, 1};
 
-/* v is 0 at the bottom, the file begins with the top row. */
+/* v is 0 at the bottom; the file begins with the top row. */
 static void texels_are_met_in_their_centres(void **state)
 {
     struct loaded l;
@@ -150,7 +150,7 @@ static void options_move_and_scale(void **state)
     unload(&moved);
 }
 
-/* Coordinates and options that no float can hold together still show a texel's
+/* Coordinates and options whose product exceeds floats still give a texel's
  * colour. */
 static void extreme_coordinates_have_colors(void **state)
 {
@@ -197,8 +197,8 @@ static void an_image_is_read_once(void **state)
 
 #define MANY 40
 
-/* Whoever reads the images, they are taken in the order of their materials;
- * every fifth is the one before, and number 7 is lost. */
+/* Images are read in parallel and numbered in the order of their materials.
+ * Every fifth is the same as the one before, and number 7 is missing. */
 static void many_images_are_read(void **state)
 {
     uint32_t expected = 0;
@@ -254,7 +254,7 @@ static void many_images_are_read(void **state)
     unlink("many.mtl");
 }
 
-/* Numbers are not decoded: grey 51 is 0.2, 204 is 0.8. */
+/* Numbers are not decoded: grey 51 is 0.2 and 204 is 0.8. */
 static const uint8_t two[6] = {51, 51, 51, 204, 204, 204};
 
 static void roughness_is_multiplied(void **state)
@@ -303,11 +303,11 @@ static void holes_are_cut_by_their_map(void **state)
     assert_false(is_solid(&l, 0.25f, 0.25f));
     assert_true(is_solid(&l, 0.75f, 0.125f));
     unload(&l);
-    load(&l, "Kd .3\nmap_d leaf.tga"); /* by its alpha */
+    load(&l, "Kd .3\nmap_d leaf.tga"); /* uses its alpha channel */
     assert_false(is_solid(&l, 0.25f, 0.25f));
     assert_true(is_solid(&l, 0.75f, 0.125f));
     unload(&l);
-    load(&l, "Kd .3\nmap_Kd two.tga"); /* no holes, nothing to pay */
+    load(&l, "Kd .3\nmap_Kd two.tga"); /* no holes and no cost */
     assert_int_equal(l.world.settings.features & FEATURE_COVERAGE, 0);
     unload(&l);
 }
@@ -330,7 +330,7 @@ static void check_direction(struct vec3 n, double x, double y, double z)
     check_close((double)n.z, z / length, 1e-5);
 }
 
-/* Linear: 0 is -1, 255 is 1. */
+/* Decoding is linear: 0 is -1 and 255 is 1. */
 static void normal_maps_turn_the_normal(void **state)
 {
     const uint8_t tilted[3] = {170, 102, 221};
@@ -341,14 +341,14 @@ static void normal_maps_turn_the_normal(void **state)
     load(&l, "Kd 1\nnorm two.tga");
     check_direction(bumped(&l, 0.5f, 0.5f, up), 85. / 255, -51. / 255,
                     187. / 255);
-    /* u that grows to the left turns x around */
+    /* If u increases to the left, x is reversed. */
     l.scene.uvs[1].x = -1;
     check_direction(bumped(&l, 0.5f, 0.5f, up), -85. / 255, -51. / 255,
                     187. / 255);
     unload(&l);
 }
 
-/* A ramp of 0.2 a texel rises to the right: the normal leans left. */
+/* A ramp of 0.2 per texel rises to the right, so the normal leans left. */
 static void bump_maps_tilt_by_their_slope(void **state)
 {
     const uint8_t ramp[12] = {0,   0,   0,   51,  51,  51,
@@ -365,7 +365,7 @@ static void bump_maps_tilt_by_their_slope(void **state)
     unload(&l);
 }
 
-/* No mirror image is below the face, whatever the map says. */
+/* No reflected direction is below the face, whatever the map is. */
 static void bent_normals_reflect_upwards(void **state)
 {
     uint64_t seed = 5;

@@ -35,15 +35,15 @@ static struct estimate look(const struct world *w, struct vec3 eye,
     return e;
 }
 
-/* 4.9 standard errors: happens once in a million by chance, and the seed is
- * fixed. `rounding` is the relative error of float. */
+/* Chance exceeds 4.9 standard errors once in a million; the seed is fixed.
+ * `rounding` is the relative error of floats. */
 static void check_estimate(struct estimate e, double truth, double rounding)
 {
     check_close(e.mean, truth, 4.9 * e.error + rounding * truth);
 }
 
-/* A thing in a constant sky of 1: white ones must vanish, to the bit or to
- * rounding; nothing is lost at the rim or gained. */
+/* Returns the error of an object in a constant sky of 1. White objects are
+ * invisible, exactly or up to rounding. */
 static double furnace_error(struct material material, int n)
 {
     struct mesh m = {0};
@@ -86,8 +86,8 @@ static void thin_glass_vanishes(void **state)
         furnace_error(mesh_material(MATERIAL_THIN_GLASS, 1.0f), 50000) == 0);
 }
 
-/* On the average of many rays; 3e-3 for each table on the way: a ray meets
- * glass some four times. */
+/* Averages many rays. The tolerance is 3e-3 for each table on the way; a ray
+ * meets glass about four times. */
 static void white_rough_things_vanish(void **state)
 {
     const struct {
@@ -121,8 +121,8 @@ static void white_mirrors_vanish(void **state)
     assert_true(furnace_error(mesh_material(MATERIAL_METAL, 1.0f), 50000) == 0);
 }
 
-/* n clear sheets, ior 1.5, before a lamp: T = 1 / (1 + 2 n R / (1 - R)) with
- * R = .04 a face. */
+/* n clear sheets of ior 1.5 before a lamp transmit T = 1 / (1 + 2 n R / (1 -
+ * R)), with R = .04 per face. */
 static void sheets_transmit_their_share(void **state)
 {
     (void)state;
@@ -146,8 +146,8 @@ static void sheets_transmit_their_share(void **state)
     }
 }
 
-/* Inside glass radiance is eta^2 times that outside: a lamp seen from within
- * the medium through one face. */
+/* Radiance inside glass is eta^2 times that outside: a lamp is seen from inside
+ * through one face. */
 static void radiance_scales_across_a_face(void **state)
 {
     struct mesh m = {0};
@@ -156,7 +156,7 @@ static void radiance_scales_across_a_face(void **state)
     m.materials[0] = mesh_material(MATERIAL_GLASS, 1.0f);
     m.materials[1] = mesh_material(MATERIAL_DIFFUSE, 0.0f);
     m.materials[1].emission = v3(1, 1, 1);
-    /* the eye is below the face (in glass), the lamp above it */
+    /* The eye is below the face, in glass, and the lamp above it. */
     mesh_add_quad(&m, v3(-1, 0, 1), v3(1, 0, 1), v3(1, 0, -1), v3(-1, 0, -1),
                   0);
     mesh_add_quad(&m, v3(-9, 1, 9), v3(9, 1, 9), v3(9, 1, -9), v3(-9, 1, -9),
@@ -167,7 +167,7 @@ static void radiance_scales_across_a_face(void **state)
     mesh_free(&m);
 }
 
-/* STRESS M6: a camera inside glass under total reflection ends in time. */
+/* STRESS M6: paths from a camera inside glass under total reflection end. */
 static void total_reflection_ends(void **state)
 {
     struct mesh m = {0};
@@ -185,14 +185,16 @@ static void total_reflection_ends(void **state)
             path_trace(&m.world, r, sampler_start(0, 0, (uint64_t)i, 0));
 
         assert_true(s.rays <= PATH_HARD_STOP);
-        assert_true(s.radiance.x == 0 && s.cut == 1); /* never gets out */
+        /* Never leaves the glass. */
+        assert_true(s.radiance.x == 0 && s.cut == 1);
     }
     e = look(&m.world, v3(0.1f, 0.1f, 0), v3(0.1f, 0.1f, 1), 10000);
     check_estimate(e, 1.5 * 1.5, 1e-5); /* everything is sky times eta^2 */
     mesh_free(&m);
 }
 
-/* A constant opacity passes its share of rays, on every bounce anew. */
+/* A constant opacity passes its share of rays, independently at every
+ * bounce. */
 static void opacity_passes_its_share(void **state)
 {
     struct mesh m = {0};
@@ -211,7 +213,7 @@ static void opacity_passes_its_share(void **state)
     mesh_free(&m);
 }
 
-/* Normals as on the sphere or the plane that the mesh stands for. */
+/* Sets the normals of the sphere or the plane that the mesh approximates. */
 static void smooth(struct mesh *m, struct vec3 *normals, struct vec3 plane)
 {
     for (uint32_t t = 0; t < m->tri_count; t++)
@@ -224,13 +226,14 @@ static void smooth(struct mesh *m, struct vec3 *normals, struct vec3 plane)
     m->world.normals = normals;
 }
 
-/* A coarse ball with the normals of a sphere under a small lamp far away is as
- * bright as the sphere, up to the edge of its shade: the cosine's law. Faces
- * that are turned away from the lamp would be black. */
+/* A coarse ball with normals of a sphere under a small distant lamp is as
+ * bright as the sphere, up to the terminator, by the cosine law. Faces that are
+ * turned away from the lamp would be black. */
 static void coarse_balls_have_smooth_shade(void **state)
 {
     static struct vec3 normals[4096];
-    /* so that a face which begins 72 degrees from it is turned 95 degrees */
+    /* A face that begins 72 degrees from the lamp is turned away by 95
+     * degrees. */
     const struct vec3 lamp = {177.4f, 0, -92.36f};
     const struct vec3 aside = {0.04618f, 0, 0.0887f};
     const struct vec3 above = {0, 0.1f, 0};
@@ -276,7 +279,8 @@ static void coarse_balls_have_smooth_shade(void **state)
                    16;
         truth = 0.5 / M_PI * radiance * lamp_area * cosine /
                 (double)v3_dot(to_lamp, to_lamp);
-        /* the vertex is moved by up to .15 of 200, the cosine is at least .1 */
+        /* The vertex moves by up to .15 of 200, and the cosine is at least
+         * .1. */
         check_close(got / truth, 1, 0.15 / 200 / 0.1 + 0.0015);
         turned_away += v3_dot(v.ng, to_lamp) < 0.0f;
         seen++;
@@ -287,7 +291,7 @@ static void coarse_balls_have_smooth_shade(void **state)
     mesh_free(&m);
 }
 
-/* Normals that lean towards a light behind a wall let none of it through. */
+/* Normals that lean towards a light behind a wall do not let it through. */
 static void leaning_normals_leak_nothing(void **state)
 {
     static struct vec3 normals[64];

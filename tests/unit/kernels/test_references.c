@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * Pictures of scenes made by others against independent results of another
- * renderer: means of a 4x4 grid of regions, with both sides' standard errors.
- * The scenes are no part of this repository: without them it skips.
+ * test_references.c - pictures of public scenes against another renderer: means
+ * of a 4x4 grid of regions, with standard errors of both
+ *
+ * The scenes are not in this repository; without them the tests are skipped.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,8 +19,8 @@
 #define SEEDS   12
 #define REGIONS 48 /* 4 x 4 regions, 3 channels */
 
-/* Student's t with 11 degrees is beyond this once in 1e6 (two-sided); there
- * are 9 scenes of 48 numbers, so one false alarm in 2,300 choices of seeds.
+/* Student's t with 11 degrees of freedom exceeds this once in 1e6 (two-sided).
+ * There are 9 scenes of 48 numbers: one false alarm in 2,300 choices of seeds.
  * The seeds are fixed. */
 #define T_LIMIT 9.4
 
@@ -35,7 +36,7 @@ struct truth {
     double error[REGIONS];
 };
 
-/* The REGIONS numbers that follow `key`. */
+/* Reads the REGIONS numbers after `key`. */
 static void read_numbers(const char *text, const char *key, double *numbers)
 {
     const char *p = strstr(text, key);
@@ -80,7 +81,7 @@ static void region_means(const float *rgb, int width, int height,
         }
 }
 
-/* A PFM picture of 256x256; `mse` is its own noise a pixel. */
+/* Reads a PFM picture of 256x256; `mse` is its own noise per pixel. */
 static void read_picture(const char *path, double mse, struct truth *t)
 {
     char *text;
@@ -101,7 +102,7 @@ static void read_picture(const char *path, double mse, struct truth *t)
     free(text);
 }
 
-/* Renders with SEEDS seeds and compares the means of all regions but those
+/* Renders with SEEDS seeds and compares the means of all regions except those
  * whose bits are set in `without`. */
 static void compare(const char *scene, const struct truth *truth, int width,
                     int height, int spp, unsigned without)
@@ -195,60 +196,60 @@ static void bench_scene(const char *name, double mse, int spp)
     compare(scene, &truth, 64, 64, spp, 0);
 }
 
-static void empty_box(void **state)
+static void empty_box_agrees_with_the_reference(void **state)
 {
     (void)state;
     real_scene("CornellBox-Empty-RG", 64, 64, 64, 0);
 }
 
 /* The file has the front of the tall box twice. The other renderer bounces
- * paths between the two and is 41 % dark on it; here a face that is there
- * twice looks like one: see test_render. It covers 23, 74 and 30 % of regions
- * 5, 9 and 13, and at most 4 % of others. */
-static void original_box(void **state)
+ * paths between the copies and is 41 % too dark there; glim renders duplicate
+ * faces like single ones (see test_render_loop). The front covers 23, 74 and 30
+ * % of regions 5, 9 and 13, and at most 4 % of others. */
+static void original_box_agrees_with_the_reference(void **state)
 {
     (void)state;
     real_scene("CornellBox-Original", 64, 64, 64, 1u << 5 | 1u << 9 | 1u << 13);
 }
 
-static void bunny(void **state)
+static void bunny_agrees_with_the_reference(void **state)
 {
     (void)state;
     real_scene("bunny", 64, 48, 32, 0);
 }
 
-static void sponza(void **state)
+static void sponza_agrees_with_the_reference(void **state)
 {
     (void)state;
     real_scene("sponza_part", 64, 36, 64, 0);
 }
 
-static void spot(void **state)
+static void spot_agrees_with_the_reference(void **state)
 {
     (void)state;
     real_scene("spot", 64, 48, 32, 0);
 }
 
-static void viking_room(void **state)
+static void viking_room_agrees_with_the_reference(void **state)
 {
     (void)state;
     real_scene("viking_room", 64, 48, 32, 0);
 }
 
-/* mse: of the references, from the reference.json beside them */
-static void cornell(void **state)
+/* mse: noise of the references, from the reference.json beside them */
+static void cornell_agrees_with_the_reference(void **state)
 {
     (void)state;
     bench_scene("cornell", 6.5e-7, 64);
 }
 
-static void many_lights(void **state)
+static void many_lights_agrees_with_the_reference(void **state)
 {
     (void)state;
     bench_scene("many_lights", 6e-4, 64);
 }
 
-static void sky(void **state)
+static void sky_agrees_with_the_reference(void **state)
 {
     (void)state;
     bench_scene("sky", 1.5e-6, 32);
@@ -257,11 +258,15 @@ static void sky(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(empty_box), cmocka_unit_test(original_box),
-        cmocka_unit_test(bunny),     cmocka_unit_test(sponza),
-        cmocka_unit_test(spot),      cmocka_unit_test(viking_room),
-        cmocka_unit_test(cornell),   cmocka_unit_test(many_lights),
-        cmocka_unit_test(sky),
+        cmocka_unit_test(empty_box_agrees_with_the_reference),
+        cmocka_unit_test(original_box_agrees_with_the_reference),
+        cmocka_unit_test(bunny_agrees_with_the_reference),
+        cmocka_unit_test(sponza_agrees_with_the_reference),
+        cmocka_unit_test(spot_agrees_with_the_reference),
+        cmocka_unit_test(viking_room_agrees_with_the_reference),
+        cmocka_unit_test(cornell_agrees_with_the_reference),
+        cmocka_unit_test(many_lights_agrees_with_the_reference),
+        cmocka_unit_test(sky_agrees_with_the_reference),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

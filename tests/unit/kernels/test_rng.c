@@ -8,7 +8,7 @@
 
 #include "kernels/rng.h"
 
-/* What the tests below integrate over the unit square. */
+/* Integrands over the unit square. */
 static double plane(struct vec2 u)
 {
     return (double)u.x + (double)u.y;
@@ -62,8 +62,8 @@ static void unit_floats_stay_below_one(void **state)
         assert_true(unit_float(0xffffffffu - i) < 1.0f);
 }
 
-/* Takes the one of 2^wide x 2^high boxes in which u lies; false if it is taken
- * already. */
+/* Marks the one of 2^wide x 2^high boxes that contains u. Returns false if it
+ * is marked already. */
 static bool take_box(bool *is_taken, struct vec2 u, int wide, int high)
 {
     int column = (int)ldexp((double)u.x, wide);
@@ -74,8 +74,8 @@ static bool take_box(bool *is_taken, struct vec2 u, int wide, int high)
     return is_free;
 }
 
-/* Each box of area 2^-m, 2^-k by 2^-(m-k), holds one of the 2^m points from
- * `first` on. */
+/* Each box of area 2^-m, of 2^-k by 2^-(m-k), contains one of the 2^m points
+ * from `first` on. */
 static bool is_net(uint32_t x, uint64_t first, int m, uint32_t dimension)
 {
     for (int k = 0; k <= m; k++) {
@@ -91,8 +91,8 @@ static bool is_net(uint32_t x, uint64_t first, int m, uint32_t dimension)
     return true;
 }
 
-/* Prefixes, and all aligned blocks of indices up to the last ones: a sequence
- * may be extended at any power of two. */
+/* Tests prefixes and aligned blocks of indices up to the last ones, so that a
+ * sequence can be continued at any power of two. */
 static void points_are_nets(void **state)
 {
     (void)state;
@@ -109,9 +109,9 @@ static void points_are_nets(void **state)
     assert_true(is_net(3, 0, 12, 10));
 }
 
-/* A point by itself is uniform: chi-square over 16 x 16 boxes, 255 degrees of
- * freedom, for each of 64 sample indices; 5.5 standard errors happen once in
- * 5e7. */
+/* Single points are uniform: chi-square over 16 x 16 boxes, 255 degrees of
+ * freedom, for each of 64 sample indices. Chance exceeds 5.5 standard errors
+ * once in 5e7. */
 static void each_index_is_uniform(void **state)
 {
     (void)state;
@@ -134,8 +134,8 @@ static void each_index_is_uniform(void **state)
     }
 }
 
-/* STRESS C7: neighbours of any kind are uncorrelated. 1/sqrt(n) is one
- * standard error; 5 of them happen once in 2e6 by chance, 6 are tried. */
+/* STRESS C7: neighbours of any kind are uncorrelated. One standard error is
+ * 1/sqrt(n); chance exceeds 5 of them once in 2e6, and there are 6 values. */
 static void numbers_are_uncorrelated(void **state)
 {
     const int n = 200000;
@@ -164,7 +164,8 @@ static void numbers_are_uncorrelated(void **state)
 
 #define IMAGE_SIDE 256
 
-/* Correlation of an error image with another, the first moved by dx, dy. */
+/* Returns the correlation of an error image with another one, the first shifted
+ * by dx, dy. */
 static double correlation(const double *a, const double *b, int dx, int dy)
 {
     double ab = 0, aa = 0;
@@ -180,8 +181,8 @@ static double correlation(const double *a, const double *b, int dx, int dy)
     return ab / aa;
 }
 
-/* So are the errors of pixels after 16 samples, of neighbours and of two
- * dimensions. One standard error is 1/256; 5 happen once in 2e6. */
+/* Errors of pixels after 16 samples are uncorrelated too, of neighbours and of
+ * two dimensions. One standard error is 1/256; chance exceeds 5 once in 2e6. */
 static void errors_are_uncorrelated(void **state)
 {
     static double first[IMAGE_SIDE * IMAGE_SIDE];
@@ -201,8 +202,9 @@ static void errors_are_uncorrelated(void **state)
     check_close(correlation(first, second, 0, 0), 0, 5.0 / IMAGE_SIDE);
 }
 
-/* The mean of m samples over 4096 pixels: within 5 standard errors, found from
- * the pixels themselves; once in 2e6, 16 tried. */
+/* The mean of m samples over 4096 pixels is right within 5 standard errors,
+ * estimated from the pixels. Chance exceeds them once in 2e6, and there are 16
+ * values. */
 static void means_are_unbiased(void **state)
 {
     const int counts[] = {1, 3, 16, 37};
@@ -225,7 +227,7 @@ static void means_are_unbiased(void **state)
         }
 }
 
-/* Root mean square error of m samples over 256 pixels. */
+/* Returns the root mean square error of m samples over 256 pixels. */
 static double rmse(const struct integrand *g, int m)
 {
     double squares = 0;
@@ -235,9 +237,10 @@ static double rmse(const struct integrand *g, int m)
     return sqrt(squares / 256);
 }
 
-/* Owen 1997: -3/2 for smooth integrands; -3/4 for edges. Independent points
- * have -1/2 and the deviation over the root of m. The square root of a mean of
- * 256 squares errs by some 5 %: .02 in a slope over 8 doublings. */
+/* By Owen 1997 slopes are -3/2 for smooth integrands and -3/4 for edges.
+ * Independent points have -1/2 and the deviation over the root of m. The square
+ * root of a mean of 256 squares has an error of some 5 %: .02 in a slope over 8
+ * doublings. */
 static void errors_fall_fast(void **state)
 {
     (void)state;
@@ -251,7 +254,7 @@ static void errors_fall_fast(void **state)
     }
 }
 
-/* STRESS C8: the index is 64 bits wide, the seed 32. */
+/* STRESS C8: the index has 64 bits, the seed 32. */
 static void far_indices_and_seeds_differ(void **state)
 {
     int equal = 0;
@@ -271,17 +274,15 @@ static void far_indices_and_seeds_differ(void **state)
     assert_true(random_2d(sampler_start(0, 0, 0, 0), 0).x != 0);
 }
 
-/* ---- drafts ---- */
-
-/* The point of a draft's pixel (x, y). */
+/* Returns the point of a draft's pixel (x, y). */
 static struct vec2 draft_point(uint32_t x, uint32_t y, uint32_t index,
                                uint32_t seed, uint32_t dimension)
 {
     return random_2d(sampler_start_draft(x, y, index, seed), dimension);
 }
 
-/* The samples from `first` on, 2^more of them, of the 2^wide x 2^high pixels
- * whose corner is (x, y), as in is_net(). */
+/* Tests 2^more samples from `first` on of the 2^wide x 2^high pixels with
+ * corner (x, y), like is_net(). */
 static bool is_draft_net(uint32_t x, uint32_t y, int wide, int high,
                          uint32_t first, int more, uint32_t dimension)
 {
@@ -305,7 +306,7 @@ static bool is_draft_net(uint32_t x, uint32_t y, int wide, int high,
 }
 
 /* Aligned squares of pixels, and two of them side by side, hold nets: of their
- * first samples, of the four next, and of the four in one pixel. */
+ * first samples, of the next four, and of the four in one pixel. */
 static void squares_of_a_draft_are_nets(void **state)
 {
     (void)state;
@@ -324,7 +325,7 @@ static void squares_of_a_draft_are_nets(void **state)
             }
 }
 
-/* As in each_index_is_uniform(), over the seeds, for the samples of some
+/* Like each_index_is_uniform(), over the seeds, for the samples of some
  * pixels. */
 static void draft_points_are_uniform(void **state)
 {
@@ -355,8 +356,9 @@ static int compare_keys(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* No two of a draft's samples decide alike at holes. Of 2^32 keys some of the
- * 20480 are equal by chance: .05 pairs are expected, 5 come once in 4e8. */
+/* No two samples of a draft have the same keys at holes. Of 20480 keys with 32
+ * bits some are equal by chance: .05 pairs are expected, 5 occur once in 4e8.
+ */
 static void draft_keys_differ(void **state)
 {
     static uint32_t keys[64 * 64 * DRAFT_SPP];
@@ -377,11 +379,11 @@ static void draft_keys_differ(void **state)
     assert_in_range(equal, 0, 4);
 }
 
-/* Pixels that the eye takes together, and how far. */
+/* Radius of the blur by the eye, in pixels. */
 #define BLUR_RADIUS 6
 #define BLUR_SIGMA  1.5
 
-/* Along one axis: from pixel to pixel `step` apart, rows `across` apart. */
+/* Blurs along one axis: pixels are `step` apart, rows `across`. */
 static void blur_along(double *to, const double *from, int step, int across)
 {
     for (int row = 0; row < IMAGE_SIDE; row++)
@@ -408,7 +410,8 @@ static double mean_square(const double *image)
     return squares / (IMAGE_SIDE * IMAGE_SIDE);
 }
 
-/* Mean square error of a draft's first samples, and after a blur. */
+/* Returns the mean square error of a draft's first samples, and that after a
+ * blur. */
 static double draft_error(const struct integrand *g, uint32_t spp,
                           double *blurred)
 {
@@ -429,11 +432,11 @@ static double draft_error(const struct integrand *g, uint32_t spp,
     return mean_square(image);
 }
 
-/* A draft's pixels err as independent ones do, by the deviation, but where the
- * eye does not see it: a blur leaves of an error without a pattern
- * 1 / (4 pi sigma^2), and of this one a third or less where the integrand is
- * smooth, a half for an edge; of five samples, four of which are a net in each
- * pixel, a tenth and a fourth. The mean of 65536 squares is known to 1 %. */
+/* A draft's pixels have the error of independent ones, but its blurred error is
+ * less. A blur leaves 1 / (4 pi sigma^2) of an error without a pattern. Of a
+ * draft's error it leaves at most a third of that for smooth integrands and
+ * half for an edge; with five samples, four of which are a net in each pixel, a
+ * tenth and a fourth. The mean of 65536 squares is known to 1 %. */
 static void errors_of_a_draft_are_blue(void **state)
 {
     const double white = 1 / (4 * M_PI * BLUR_SIGMA * BLUR_SIGMA);

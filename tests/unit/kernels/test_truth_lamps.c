@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* Surfaces under lamps: closed forms and quadrature over the lamps. */
+/* test_truth_lamps.c - surfaces under lamps against closed forms and quadrature
+ * over the lamps */
 #include "tests/unit/check.h"
 #include "tests/unit/lambert.h"
 #include "tests/unit/truth.h"
@@ -8,7 +9,7 @@
 
 enum { FLOOR, LAMP, SCREEN, OTHER };
 
-/* A small square around p with normal n, of the material FLOOR. */
+/* Adds a small square of material FLOOR around p with normal n. */
 static void add_receiver(struct mesh *m, struct vec3 p, struct vec3 n)
 {
     struct vec3 t, b;
@@ -20,7 +21,7 @@ static void add_receiver(struct mesh *m, struct vec3 p, struct vec3 n)
                   v3_add(v3_add(p, t), b), v3_add(v3_sub(p, t), b), FLOOR);
 }
 
-/* From near by, 37 degrees off the normal. */
+/* Returns an eye near p, 37 degrees off the normal. */
 static struct vec3 eye_over(struct vec3 p, struct vec3 n)
 {
     struct vec3 t, b;
@@ -40,8 +41,8 @@ static void check_receiver(struct lit_mesh *s, const struct receiver *r,
                                    .paths = paths}));
 }
 
-/* Below it, above it, beside it: five corners, of which the plane of the
- * receiver cuts off up to four. */
+/* Polygons of five corners are below, above and beside the receiver, whose
+ * plane cuts off up to four of the corners. */
 static void polygons_obey_lambert(void **state)
 {
     const struct receiver receivers[] = {
@@ -66,7 +67,7 @@ static void polygons_obey_lambert(void **state)
         m->materials[FLOOR] = mesh_material(MATERIAL_DIFFUSE, (float)ALBEDO);
         m->materials[LAMP] = lamp_material(5);
         add_receiver(m, r->p, r->n);
-        for (int i = 1; i < 4; i++) /* either way round */
+        for (int i = 1; i < 4; i++) /* both windings */
             mesh_add(m, corners[0], corners[k % 2 ? i : i + 1],
                      corners[k % 2 ? i + 1 : i], LAMP);
         lit_mesh_finish(&s);
@@ -75,7 +76,7 @@ static void polygons_obey_lambert(void **state)
     }
 }
 
-/* A level rectangle between x0, x1 and z0, z1, at height y. */
+/* A level rectangle between x0, x1 and z0, z1 at height y. */
 struct sheet {
     float x0, x1, z0, z1, y;
 };
@@ -96,7 +97,7 @@ static double sheet_irradiance(struct sheet s, const struct receiver *r)
     return lambert(corners, 4, r);
 }
 
-/* The part of a sheet that another one hides, seen from p below both. */
+/* Returns the part of a sheet that another one hides from p below both. */
 static struct sheet hidden_part(struct sheet lamp, struct sheet screen,
                                 struct vec3 p)
 {
@@ -112,9 +113,8 @@ static struct sheet hidden_part(struct sheet lamp, struct sheet screen,
 static const struct sheet ceiling = {-0.6f, 0.6f, -0.5f, 0.5f, 0.8f};
 static const struct sheet screen = {-0.1f, 0.25f, -0.15f, 0.2f, 0.4f};
 
-/* A lamp behind a screen that lets a share of the rays pass, and shines or
- * does not; seen from where its shadow lies within the lamp and where it does
- * not. */
+/* A lamp is behind a screen that lets a share of the rays pass and emits or
+ * not, seen from points inside and outside its shadow. */
 static void screens_hide_their_share(void **state)
 {
     const float opacities[] = {1, 0.3f};
@@ -152,7 +152,7 @@ static void screens_hide_their_share(void **state)
     }
 }
 
-/* u from 0 at x0 to 1 at x1 on the mesh's last two triangles. */
+/* Sets u from 0 at x0 to 1 at x1 on the last two triangles. */
 static void add_uvs(struct mesh *m)
 {
     static const struct vec2 uvs[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -164,8 +164,7 @@ static void add_uvs(struct mesh *m)
            sizeof m->tris->vt);
 }
 
-/* A cut-out that leaves the right half of its sheet: of the screen, or of the
- * lamp. */
+/* A map keeps only the right half of a sheet: of the screen or of the lamp. */
 static void cut_outs_hide_and_shine_by_half(void **state)
 {
     static const uint32_t texels[2] = {0, 0xff000000u};
@@ -210,8 +209,8 @@ static void cut_outs_hide_and_shine_by_half(void **state)
     }
 }
 
-/* Radiance towards wo, in a BSDF's frame, of a floor at the origin under a
- * sheet of radiance 1, by midpoints. */
+/* Returns the radiance towards wo, in a BSDF's frame, of a floor at the origin
+ * under a sheet of radiance 1, by midpoints. */
 static struct vec3 reflected(const struct bsdf *b, struct vec3 wo,
                              struct sheet lamp)
 {
@@ -228,8 +227,8 @@ static struct vec3 reflected(const struct bsdf *b, struct vec3 wo,
                              (float)side);
         struct vec3 wi = v3_unit(p);
         double d2 = (double)v3_dot(p, p);
-        /* y is up there, z is up in a BSDF's frame; inside glass radiance is
-         * its index squared times that outside */
+        /* y is up there, and z in a BSDF's frame. Radiance inside glass is its
+         * index squared times that outside. */
         double g = fabs((double)wi.y) / d2 * area / (side * side) *
                    (wi.y < 0 ? pow((double)b->eta, -2) : 1);
         float pdf;
@@ -242,8 +241,8 @@ static struct vec3 reflected(const struct bsdf *b, struct vec3 wo,
     return v3((float)sums[0], (float)sums[1], (float)sums[2]);
 }
 
-/* One of each kind that is no mirror between a lamp above and one below, from
- * both sides; the smooth coat's mirror image shows neither. */
+/* Tests a surface of each kind, except mirrors, between a lamp above and one
+ * below, from both sides. The smooth coat's mirror image shows neither lamp. */
 static void all_surfaces_shine_as_they_scatter(void **state)
 {
     const struct {
@@ -280,7 +279,7 @@ static void all_surfaces_shine_as_they_scatter(void **state)
             struct sheet seen = lamps[i];
 
             add_sheet(&s.mesh, lamps[i], LAMP);
-            if (wo.z < 0) /* seen from below, all is turned over */
+            if (wo.z < 0) /* from below, everything is reversed */
                 seen.y = -seen.y;
             truth = v3_add(truth, reflected(&b, v3(wo.x, 0, 0.8f), seen));
         }
@@ -289,13 +288,14 @@ static void all_surfaces_shine_as_they_scatter(void **state)
                     ((struct claim){.eye = v3(0.06f, wo.z / 10, 0),
                                     .truth = {(double)truth.x, (double)truth.y,
                                               (double)truth.z},
-                                    .systematic = 1e-4, /* of the midpoints */
+                                    /* Error of the midpoints. */
+                                    .systematic = 1e-4,
                                     .paths = 4096}));
         lit_mesh_free(&s);
     }
 }
 
-/* 300 lamps of three radiances beside each other in a plane. */
+/* 300 lamps of three radiances are side by side in a plane. */
 static void many_lamps_add_up(void **state)
 {
     const struct receiver receivers[] = {{{0, 0, 0}, {0, 1, 0}, false},
@@ -331,8 +331,8 @@ static void many_lamps_add_up(void **state)
     }
 }
 
-/* A mirror's wall lights the floor as the lamp's image behind it would: light
- * that only chance finds, whatever the way. */
+/* A wall with a mirror lights the floor like the lamp's image behind it, which
+ * only BSDF samples find. */
 static void mirrors_show_lamps_to_floors(void **state)
 {
     const struct receiver r = {{0.2f, 0, 0.1f}, {0, 1, 0}, false};
@@ -353,7 +353,7 @@ static void mirrors_show_lamps_to_floors(void **state)
                    2 * (sheet_irradiance(lamp, &r) +
                         sheet_irradiance(image, &r)),
                    1024);
-    /* the floor's own image */
+    /* The floor's own image. */
     check_claim(&s,
                 ((struct claim){.eye = v3(0.3f, 0.1f, 0.1f),
                                 .at = v3(-r.p.x, r.p.y, r.p.z),
@@ -364,8 +364,9 @@ static void mirrors_show_lamps_to_floors(void **state)
     lit_mesh_free(&s);
 }
 
-/* All within glass, seen from within and from outside: a face keeps .96 of what
- * comes along its normal, and outside radiance is less by the index squared. */
+/* Everything is inside glass, seen from inside and from outside. A face
+ * transmits .96 along its normal, and radiance outside is less by the index
+ * squared. */
 static void glass_dims_what_is_in_it(void **state)
 {
     const struct receiver r = {{0, 0, 0}, {0, 1, 0}, false};
@@ -380,7 +381,8 @@ static void glass_dims_what_is_in_it(void **state)
     add_receiver(&s.mesh, r.p, r.n);
     add_sheet(&s.mesh, lamp, LAMP);
     mesh_add_box(&s.mesh, v3(-1, -1, -1), v3(1, 1, 1), OTHER);
-    s.mesh.world.settings.max_vertices = 2; /* without what the faces reflect */
+    /* Without light reflected by the faces. */
+    s.mesh.world.settings.max_vertices = 2;
     lit_mesh_finish(&s);
     check_receiver(&s, &r, 2 * sheet_irradiance(lamp, &r), 1024);
     s.mesh.world.settings.max_vertices = 3;
@@ -390,8 +392,8 @@ static void glass_dims_what_is_in_it(void **state)
     lit_mesh_free(&s);
 }
 
-/* A room with a glossy ball and a block of glass; four lamps of which one, or
- * all if it is NO_INDEX, are on. */
+/* Makes a room with a glossy ball, a block of glass and four lamps, of which
+ * one is on, or all if `lit` is NO_INDEX. */
 static void make_room(struct lit_mesh *s, uint32_t lit)
 {
     struct mesh *m = &s->mesh;
@@ -416,7 +418,7 @@ static void make_room(struct lit_mesh *s, uint32_t lit)
     lit_mesh_finish(s);
 }
 
-/* Light adds up: all lamps at once, and one after the other. */
+/* The radiance of all lamps is the sum of those of single ones. */
 static void lamps_add_up_one_by_one(void **state)
 {
     const struct vec3 places[] = {{0.4f, -1, -0.3f},

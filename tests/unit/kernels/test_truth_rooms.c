@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* Light that is scattered many times: furnaces, mirrors, a radiosity box. */
+/* test_truth_rooms.c - light after many bounces: furnaces, mirrors, a radiosity
+ * box */
 #include "tests/unit/check.h"
 #include "tests/unit/facets.h"
 #include "tests/unit/lambert.h"
@@ -7,10 +8,11 @@
 
 enum { WALL, THING, LAMP, OTHER };
 
-/* Where lamps meet in a corner the variance of chosen lights has no limit. */
+/* Where lamps meet in a corner, light samples have infinite variance. */
 #define CORNERS (1 << DIRECT_LIGHTS)
 
-/* Of a room that shines everywhere; the seed decides whence and whither. */
+/* Returns a claim about a room that emits everywhere; the seed chooses the
+ * ray. */
 static struct claim claim_within(double truth, uint64_t *seed)
 {
     double at[6];
@@ -24,8 +26,8 @@ static struct claim claim_within(double truth, uint64_t *seed)
                           .without = CORNERS};
 }
 
-/* E (1 + rho + ... + rho^(d-1)) with d vertices, E / (1 - rho) without a limit
- * (1000 vertices are none). */
+/* The radiance is E (1 + rho + ... + rho^(d-1)) with d vertices, E / (1 - rho)
+ * without a limit (1000 vertices suffice). */
 static void closed_rooms_show_their_series(void **state)
 {
     const double rhos[] = {0, 0.3, 0.8, 0.95};
@@ -70,12 +72,12 @@ static struct material white_thing(size_t k)
     return m;
 }
 
-/* Tables of energy are right to 3e-3 at each meeting; a path makes some four
- * before a wall ends it. */
+/* Energy tables are right to 3e-3 per use, and a path uses some four before a
+ * wall ends it. */
 #define TABLES 1.2e-2
 
-/* White things of all kinds cannot be seen in such a room, and from within
- * glass all is its index squared times as bright. */
+/* White objects of all kinds are invisible in such a room. From inside glass,
+ * radiance is its index squared times as great. */
 static void white_things_vanish_in_rooms(void **state)
 {
     (void)state;
@@ -103,8 +105,7 @@ static void white_things_vanish_in_rooms(void **state)
     }
 }
 
-/* Where walls are of such surfaces themselves, all that d vertices collect is
- * there: d E. */
+/* If the walls have such surfaces, d vertices collect d E. */
 static void white_walls_show_each_bounce(void **state)
 {
     uint64_t seed = 21;
@@ -116,7 +117,7 @@ static void white_walls_show_each_bounce(void **state)
 
         if (white_things[k].kind == MATERIAL_GLASS ||
             white_things[k].kind == MATERIAL_THIN_GLASS)
-            continue; /* these are no walls */
+            continue; /* these cannot be walls */
         c.paths = 512;
         c.systematic = TABLES;
         s.mesh.materials[WALL] = white_thing(k);
@@ -129,12 +130,12 @@ static void white_walls_show_each_bounce(void **state)
     }
 }
 
-/* Between two mirrors, k times: each keeps F(cosine) by Schlick's formula; with
- * a vertex less nothing is seen. */
+/* Between two mirrors, after k reflections each of which keeps F(cosine) by
+ * Schlick's formula. With one vertex less nothing is visible. */
 static void check_corridor(uint32_t k, uint32_t max_vertices, double truth)
 {
-    /* mirrors at x = +-1/2: the ray from their middle meets the k-th at
-     * z = (k - 1/2) 3/4 */
+    /* The mirrors are at x = +-1/2. The ray from the middle meets the k-th at z
+     * = (k - 1/2) 3/4. */
     float end = 0.75f * (float)k + 0.1f;
     struct lit_mesh s = {0};
 
@@ -169,10 +170,10 @@ static void corridors_keep_a_power(void **state)
     }
 }
 
-/* A floor at the ground of a shaft of perfect mirrors, as wide as one likes
- * therefore, below a pane and a lamp that fills the top. The pane keeps T of
- * diffuse light and sends the rest back: rho T / (1 - rho (1 - T)). A sheet of
- * two faces passes (1 - R) / (1 + R), solid or thin. */
+/* A floor is at the bottom of a shaft of perfect mirrors, which makes it
+ * infinitely wide, below a pane and a lamp that fills the top. The pane
+ * transmits T of diffuse light and reflects the rest: rho T / (1 - rho (1 -
+ * T)). A sheet of two faces transmits (1 - R) / (1 + R), solid or thin. */
 static void panes_dim_floors(void **state)
 {
     const uint32_t kinds[] = {MATERIAL_GLASS, MATERIAL_THIN_GLASS};
@@ -214,9 +215,10 @@ static void panes_dim_floors(void **state)
 }
 
 /*
- * Radiosity of a box, walls at +-1, whose ceiling has a lamp in its middle:
- * n x n patches a wall, form factors from their middles to patches in closed
- * form (Lambert's formula), gathered bounce by bounce.
+ * The radiosity of a box with walls at +-1 and a lamp in the middle of the
+ * ceiling is computed with n x n patches per wall, form factors from their
+ * middles to patches in closed form (Lambert's formula), and gathering bounce
+ * by bounce.
  */
 #define SIDES     6
 #define PATCHES   (SIDES * 16 * 16)
@@ -242,7 +244,8 @@ static const double albedos[SIDES][3] = {{0.8, 0.1, 0.5}, {0.1, 0.8, 0.5},
                                          {0.7, 0.7, 0.5}, {0.6, 0.6, 0.5},
                                          {0.5, 0.7, 0.5}, {0.3, 0.9, 0.5}};
 
-/* A point of a side: side i is at -1 (even) or 1 (odd) of axis i / 2. */
+/* Returns a point of a side: side i is at -1 (even) or 1 (odd) on axis i /
+ * 2. */
 static struct vec3 place(int side, double a, double b)
 {
     float wall = side % 2 ? 1 : -1, x = (float)a, y = (float)b;
@@ -252,7 +255,7 @@ static struct vec3 place(int side, double a, double b)
                       : v3(x, y, wall);
 }
 
-/* Such a point as what light falls on: the normal looks into the box. */
+/* Returns this point as a receiver, whose normal points into the box. */
 static struct receiver receiver_at(int side, double a, double b)
 {
     float n = side % 2 ? -1 : 1;
@@ -264,7 +267,8 @@ static struct receiver receiver_at(int side, double a, double b)
     return r;
 }
 
-/* The share of what a receiver on this side scatters that comes to a patch. */
+/* Returns the share of light scattered by a receiver on this side that arrives
+ * at a patch. */
 static double form_factor(const struct receiver *r, int side,
                           const struct patch *to)
 {
@@ -295,7 +299,7 @@ static void box_init(struct box *box, int n)
                             &box->patches[j]);
 }
 
-/* Radiance of all patches after this many bounces. */
+/* Returns the radiance of all patches after this many bounces. */
 static void box_solve(struct box *box, uint32_t bounces)
 {
     static double next[PATCHES][3];
@@ -318,7 +322,7 @@ static void box_solve(struct box *box, uint32_t bounces)
     }
 }
 
-/* What the patches make of a point of a wall. */
+/* Returns the radiance of a point of a wall lit by the patches. */
 static void box_shade(const struct box *box, const struct receiver *r, int side,
                       double radiance[3])
 {
@@ -329,7 +333,7 @@ static void box_shade(const struct box *box, const struct receiver *r, int side,
                            box->patches[j].radiance[k] * albedos[side][k];
 }
 
-/* A wall of nine quads, the middle one of the ceiling a lamp. */
+/* Adds a wall of nine quads; the middle one of the ceiling is a lamp. */
 static void add_wall(struct mesh *m, int side, uint32_t material, uint32_t lamp)
 {
     const double cuts[4] = {-1, -LAMP_HALF, LAMP_HALF, 1};
@@ -343,8 +347,8 @@ static void add_wall(struct mesh *m, int side, uint32_t material, uint32_t lamp)
     }
 }
 
-/* Patches of half the size quarter the error: the limit, from 8 and 16 a side,
- * and what may be left of it. */
+/* Patches of half the size have a quarter of the error. The limit is
+ * extrapolated from 8 and 16 patches per side, with a bound of its error. */
 static void box_limit(struct box boxes[2], uint32_t bounces,
                       const struct receiver *r, int side, struct claim *c)
 {
@@ -357,7 +361,8 @@ static void box_limit(struct box boxes[2], uint32_t bounces,
         c->systematic =
             fmax(c->systematic, fabs(fine[k] - coarse[k]) / 3 / c->truth[k]);
     }
-    /* one bounce comes straight from the lamp, which patches do not change */
+    /* One bounce comes directly from the lamp, which is independent of the
+     * patches. */
     check_at_most(c->systematic, bounces > 1 ? 2e-3 : 1e-10);
 }
 

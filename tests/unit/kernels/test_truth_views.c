@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* From files to pictures and to light: images on surfaces, on lamps and on the
- * dome of the sky, and what a lens makes of a lamp. */
+/* test_truth_views.c - pictures and light from files: images on surfaces, on
+ * lamps and on the sky, and the blur of a lamp by the lens */
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 
 #define SPP 64
 
-/* An image of numbers in [0, 1], decoded; row 0 is the top. */
+/* A decoded image of numbers in [0, 1]; row 0 is the top. */
 struct picture {
     int width, height;
     double texels[32][64];
@@ -26,7 +26,7 @@ static double srgb_decoded(uint8_t byte)
     return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
 }
 
-/* Grey noise, as 24-bit Targa with the top row first. */
+/* Writes grey noise as 24-bit Targa with the top row first. */
 static void write_noise(const char *path, struct picture *p, uint64_t seed)
 {
     uint8_t bytes[18 + 3 * 64 * 32] = {[2] = 2,
@@ -44,8 +44,8 @@ static void write_noise(const char *path, struct picture *p, uint64_t seed)
     put_bytes(path, bytes, (size_t)(18 + 3 * p->width * p->height));
 }
 
-/* The mean over SEEDS renders of the scene with this view, and its standard
- * error, of each pixel's red. */
+/* Returns the mean over SEEDS renders of the scene with this view, and its
+ * standard error, of each pixel's red. */
 static void render_means(const char *scene, const char *view, double *means,
                          double *errors)
 {
@@ -92,7 +92,7 @@ static void render_means(const char *scene, const char *view, double *means,
     session_close(&s);
 }
 
-/* What is systematic is relative. */
+/* The systematic error is relative. */
 static void check_pixel(int i, double mean, double error, double truth,
                         double systematic)
 {
@@ -111,10 +111,10 @@ static double texel_wrapped(const struct picture *p, int column, int row)
                     [(column + 8 * p->width) % p->width];
 }
 
-/* A lamp with an image fills the picture, a texel a pixel, repeated: the mean
- * of the bilinear look-up over a texel is 1/8, 3/4, 1/8 of it and its
- * neighbours, each way. */
-static void texels_are_pixels(void **state)
+/* A lamp with an image fills the picture, one texel per pixel, repeated. The
+ * mean of the bilinear look-up over a texel is 1/8, 3/4, 1/8 of its neighbour,
+ * itself and its other neighbour along each axis. */
+static void texels_fill_their_pixels(void **state)
 {
     enum { WIDTH = 16, HEIGHT = 6 };
     const double shares[3] = {1.0 / 8, 3.0 / 4, 1.0 / 8};
@@ -125,7 +125,7 @@ static void texels_are_pixels(void **state)
     write_noise("noise.tga", &p, 17);
     put("noise.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n"
                      "map_Ke noise.tga\n");
-    /* u from 0 to 2, v from -1/2 at the bottom to 1 */
+    /* u is from 0 to 2, v from -1/2 at the bottom to 1. */
     put("noise.obj", "mtllib noise.mtl\nv 2 4 0\nv 18 4 0\nv 18 10 0\n"
                      "v 2 10 0\nvt 0 -.5\nvt 2 -.5\nvt 2 1\nvt 0 1\n"
                      "usemtl lamp\nf 1/1 2/2 3/3 4/4\n");
@@ -142,8 +142,8 @@ static void texels_are_pixels(void **state)
     }
 }
 
-/* Bilinear, at u to the right and v down in texels, 0 the left top corner of
- * the image; columns repeat, rows repeat or end. */
+/* Bilinear look-up at u to the right and v down in texels from the upper left
+ * corner of the image. Columns repeat; rows repeat or end. */
 static double look_up(const struct picture *p, double u, double v, bool ends)
 {
     double column = floor(u - 0.5), row = floor(v - 0.5);
@@ -184,9 +184,9 @@ static void write_dome(const char *path, struct picture *p)
     assert_int_equal(fclose(f), 0);
 }
 
-/* Dome of radiance in a direction of the world, where +y is up, the image's
- * middle column looks along -z, columns grow towards +x, and the dome is
- * turned about +y. */
+/* Returns the sky's radiance in a direction of the world: +y is up, the image's
+ * middle column looks along -z, columns grow towards +x, and the sky is rotated
+ * about +y. */
 static double dome_radiance(const struct picture *p, const double d[3],
                             double angle)
 {
@@ -198,18 +198,18 @@ static double dome_radiance(const struct picture *p, const double d[3],
                    acos(d[1] / r) / M_PI * p->height, true);
 }
 
-/* Looking along an axis with fovy 90 degrees, `up` another one. */
-struct gaze {
+/* A view along an axis with fovy 90 degrees; `up` is another axis. */
+struct axis_view {
     double at[3], right[3], up[3];
 };
 
-static void skies_are_where_they_should_be(void **state)
+static void skies_have_the_right_orientation(void **state)
 {
     enum { WIDTH = 16, HEIGHT = 12, FINE = 32 };
-    const struct gaze gazes[] = {{{0, 0, -1}, {1, 0, 0}, {0, 1, 0}},
-                                 {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
-                                 {{0, 0, 1}, {-1, 0, 0}, {0, 1, 0}},
-                                 {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}};
+    const struct axis_view gazes[] = {{{0, 0, -1}, {1, 0, 0}, {0, 1, 0}},
+                                      {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
+                                      {{0, 0, 1}, {-1, 0, 0}, {0, 1, 0}},
+                                      {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}};
     const int angles_deg[] = {0, 35, 90, -120};
     static double means[WIDTH * HEIGHT], errors[WIDTH * HEIGHT];
     struct picture p = {.width = 64, .height = 32};
@@ -218,7 +218,7 @@ static void skies_are_where_they_should_be(void **state)
     write_dome("dome.pfm", &p);
     put("speck.obj", "v 9 9 9\nv 9 9 9.001\nv 9 9.001 9\nf 1 2 3\n");
     for (size_t k = 0; k < sizeof gazes / sizeof *gazes; k++) {
-        const struct gaze *g = &gazes[k];
+        const struct axis_view *g = &gazes[k];
         char view[512];
 
         snprintf(view, sizeof view,
@@ -248,7 +248,7 @@ static void skies_are_where_they_should_be(void **state)
     }
 }
 
-/* The share of a disk around 0 that a square around (x, y) covers. */
+/* Returns the share of a disk around 0 that a square around (x, y) covers. */
 static double disk_covered(double radius, double x, double y, double half)
 {
     enum { FINE = 64 };
@@ -265,9 +265,9 @@ static double disk_covered(double radius, double x, double y, double half)
     return area / (M_PI * radius * radius);
 }
 
-/* A small square lamp out of focus, behind the sharp plane and before it: each
- * pixel sees it through the share of the lens from where it is met. */
-static void lamps_blur_as_lenses_want(void **state)
+/* A small square lamp is out of focus, behind and before the focal plane. Each
+ * pixel sees it through the part of the lens whose rays meet it. */
+static void lamps_blur_by_the_lens(void **state)
 {
     enum { SIDE = 32, FINE = 16 };
     const double radius = 1, distance = 6, half = 0.25, glow = 7;
@@ -298,7 +298,7 @@ static void lamps_blur_as_lenses_want(void **state)
                 double y = (double)(i / SIDE) + (j / FINE + 0.5) / FINE;
                 double half_view = tan(30 * M_PI / 180) * distance;
 
-                /* from the lens point l the ray comes to shrink l + this */
+                /* The ray from the lens point l arrives at shrink l + this. */
                 x = (2 * x / SIDE - 1) * half_view;
                 y = (1 - 2 * y / SIDE) * half_view;
                 truth +=
@@ -307,7 +307,8 @@ static void lamps_blur_as_lenses_want(void **state)
                                  (lamp[1] - y) / shrink, fabs(half / shrink)) /
                     (FINE * FINE);
             }
-            /* below some 25 hits the noise is not normal; the sum has them */
+            /* Below some 25 hits the noise is not normal; the sum contains
+             * these pixels. */
             if (truth * SPP * SEEDS >= 25 * glow || truth == 0)
                 check_pixel(i, means[i], errors[i], truth, 2e-3);
             truths += truth;
@@ -323,8 +324,8 @@ enum { FLOOR, LAMP };
 
 #define ALBEDO 0.6
 
-/* What a square lamp at y = 1/2, x and z within 1/2, sends to a receiver, by
- * midpoints; its radiance is a function of the place and the direction. */
+/* Returns the irradiance from a square lamp at y = 1/2, x and z within 1/2, by
+ * midpoints. The radiance is a function of the place and the direction. */
 static double square_irradiance(const struct receiver *r,
                                 double (*radiance)(const struct picture *p,
                                                    double x, double z,
@@ -399,8 +400,8 @@ static double image_radiance(const struct picture *p, double x, double z,
                        (1 - (z + 0.5) * REPEATS) * p->height, false);
 }
 
-/* A lamp with an image lights a floor with it. */
-static void images_shine_as_they_look(void **state)
+/* A lamp with an image lights a floor. */
+static void lamps_with_images_light_the_floor(void **state)
 {
     static const struct vec2 uvs[4] = {{0, 0},
                                        {(float)REPEATS, 0},
@@ -444,15 +445,15 @@ static void images_shine_as_they_look(void **state)
     }
 }
 
-#define TURN 0.9 /* of the dome, in rad */
+#define TURN 0.9 /* rotation of the sky in rad */
 
-/* Linear in the direction before the dome is turned. */
+/* The radiance is linear in the direction before the rotation. */
 static double linear_radiance(const double d[3])
 {
     return 1 + 0.4 * d[0] + 0.3 * d[1] - 0.2 * d[2];
 }
 
-/* What a lamp of radiance 2 adds to the sky that it hides. */
+/* Returns the light of a lamp of radiance 2 less that of the sky behind it. */
 static double lamp_less_sky(const struct picture *p, double x, double z,
                             const double d[3])
 {
@@ -467,8 +468,9 @@ static double lamp_less_sky(const struct picture *p, double x, double z,
     return 2 - linear_radiance(turned);
 }
 
-/* A sky a + b.d alone, pi a + 2 pi / 3 b.n, and with a lamp before it. */
-static void skies_light_floors(void **state)
+/* The irradiance of a sky a + b.d is pi a + 2 pi / 3 b.n; also tests it with a
+ * lamp before it. */
+static void skies_light_floors_by_the_closed_form(void **state)
 {
     enum { WIDTH = 256, HEIGHT = 128 };
     static struct vec3 texels[WIDTH * HEIGHT];
@@ -505,7 +507,8 @@ static void skies_light_floors(void **state)
                          .rotation_sin = (float)sin(TURN),
                          .rotation_cos = (float)cos(TURN)};
         lit_mesh_finish(&s);
-        /* (pi / 128)^2 / 8 of the slope between four texels, twice */
+        /* The error is (pi / 128)^2 / 8 of the slope between four texels,
+         * twice. */
         check_receiver(&s, r, irradiance, 2e-4);
         lit_mesh_free(&s);
     }
@@ -526,11 +529,11 @@ static int remove_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texels_are_pixels),
-        cmocka_unit_test(skies_are_where_they_should_be),
-        cmocka_unit_test(lamps_blur_as_lenses_want),
-        cmocka_unit_test(images_shine_as_they_look),
-        cmocka_unit_test(skies_light_floors),
+        cmocka_unit_test(texels_fill_their_pixels),
+        cmocka_unit_test(skies_have_the_right_orientation),
+        cmocka_unit_test(lamps_blur_by_the_lens),
+        cmocka_unit_test(lamps_with_images_light_the_floor),
+        cmocka_unit_test(skies_light_floors_by_the_closed_form),
     };
 
     return cmocka_run_group_tests(tests, enter_folder, remove_files);
