@@ -62,7 +62,7 @@ def shade(material, lines, folder):
 
 
 def add_camera(scene, view):
-    """Sets the camera. y is up here as in the file: the import rotates nothing."""
+    """Sets the camera. y is up as in the file: the import does not rotate."""
     eye, at, up = (Vector(view[k]) for k in ("eye", "at", "up"))
     back = (eye - at).normalized()
     right = up.cross(back).normalized()
