@@ -23,7 +23,8 @@ struct point2 {
 
 enum monotone_result {
     MONOTONE_DONE,
-    MONOTONE_CROSSING, /* it crosses itself, or is all within the noise */
+    MONOTONE_CROSSING, /* the outline crosses itself, or all of it is within the
+                          noise */
     MONOTONE_NO_MEMORY
 };
 

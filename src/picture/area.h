@@ -4,8 +4,8 @@
  *
  * Along one axis, both grids have the same ends. The walk visits the pieces
  * into which the borders of both cut the axis. Lengths are integers, so that
- * none is rounded: a cell of `from` is as long as `to` has cells, and the other
- * way round.
+ * none is rounded: the length of a cell of `from` is the number of cells of
+ * `to`, and vice versa.
  *
  * Units:     cells, and lengths as above
  * Threads:   any
@@ -17,13 +17,13 @@
 #include <stdint.h>
 
 struct area_walk {
-    int from, to; /* cells of the next piece */
+    int from, to; /* cells of `from` and `to` that contain the next piece */
     int64_t at, last;
     int64_t from_end, to_end;
     int64_t from_step, to_step;
 };
 
-/* Begins a walk over cells [first, first + count) of `to` cells. */
+/* Begins a walk over cells [first, first + count) of a grid of `to` cells. */
 static inline struct area_walk area_walk(int from, int to, int first, int count)
 {
     int64_t at = (int64_t)first * from;
@@ -44,7 +44,7 @@ static inline bool area_walks(const struct area_walk *w)
     return w->at < w->last;
 }
 
-/* Moves to the next piece. Returns the length of this one. */
+/* Moves to the next piece. Returns the length of the current one. */
 static inline float area_step(struct area_walk *w)
 {
     int64_t end = w->from_end < w->to_end ? w->from_end : w->to_end;

@@ -3,16 +3,16 @@
 
 #include <math.h>
 
-/* Planck's second constant, metres times kelvin (CODATA 2018). */
+/* Second radiation constant of Planck's law in metre kelvins (CODATA 2018). */
 #define PLANCK_C2 0.014387769
 
 #define FIRST_NM 380
 #define STEP_NM  10
 
 /* Colour-matching functions of the CIE 1931 2 degree standard observer (CIE
- * 018, ISO/CIE 11664-1), every 10 nm from 380 to 780: numbers of a standard,
- * read from colour-science/colour's data (BSD-3-Clause). Against steps of 1 nm
- * chromaticities are off by 1.5e-4 at most. */
+ * 018, ISO/CIE 11664-1), every 10 nm from 380 to 780. The numbers are those of
+ * the standard, read from colour-science/colour's data (BSD-3-Clause).
+ * Chromaticities differ by 1.5e-4 at most from those with steps of 1 nm. */
 static const double observer[][3] = {
     {0.001368, 3.9e-05, 0.006450001},
     {0.004243, 0.00012, 0.02005001},
@@ -59,8 +59,9 @@ static const double observer[][3] = {
 
 #define ROW_COUNT ((int)(sizeof observer / sizeof *observer))
 
-/* Radiance at a wavelength, but for a factor that all wavelengths share: that
- * of the last one's exponential, so that none overflows. */
+/* Returns the spectral radiance by Planck's law, times a factor that is the
+ * same for all wavelengths. The factor holds the exponential of the last
+ * wavelength, so that nothing overflows. */
 static double planck(double nm, double kelvin)
 {
     double last = (FIRST_NM + (ROW_COUNT - 1) * STEP_NM) * 1e-9;
@@ -100,7 +101,8 @@ void blackbody_rgb(double kelvin, double rgb[3])
                  matrix[k][2] * xyz[2];
         least = fmin(least, rgb[k]);
     }
-    /* white of luminance 1 is 1 1 1: as far towards it as makes the least 0 */
+    /* move towards white, which is 1 1 1 at this luminance, until the least
+     * channel is 0 */
     for (int k = 0; k < 3; k++)
         rgb[k] = fmax((rgb[k] - least) / (1 - least), 0);
 }

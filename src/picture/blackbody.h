@@ -8,17 +8,16 @@
 #ifndef GLIM_BLACKBODY_H
 #define GLIM_BLACKBODY_H
 
-/* Range of temperatures: below nothing glows visibly, above the colour hardly
- * changes. */
+/* Range of temperatures. Below it nothing glows visibly; above it the colour
+ * hardly changes. */
 #define BLACKBODY_LEAST    1.0
 #define BLACKBODY_GREATEST 1e9
 
-/* Returns XYZ with Y = 1. kelvin is in the range above. */
+/* Sets XYZ with Y = 1. kelvin is in the range above. */
 void blackbody_xyz(double kelvin, double xyz[3]);
 
-/* Returns linear Rec.709 without negative channels. Below about 1900 K the
- * colour is outside the gamut and is moved towards white of the same luminance.
- */
+/* Sets linear Rec.709 without negative channels. Below about 1900 K the colour
+ * is outside the gamut and is moved towards white of the same luminance. */
 void blackbody_rgb(double kelvin, double rgb[3]);
 
 #endif

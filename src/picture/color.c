@@ -25,7 +25,7 @@ static double within_unit(double x)
     return x > 0 ? fmin(x, 1) : 0;
 }
 
-/* A. R. Smith, "Color gamut transform pairs", SIGGRAPH 1978. */
+/* Converts as A. R. Smith, "Color gamut transform pairs", SIGGRAPH 1978. */
 void color_to_hsv(const double rgb[3], double hsv[3])
 {
     double c[3], most, range;
@@ -50,8 +50,7 @@ void color_to_hsv(const double rgb[3], double hsv[3])
 void color_from_hsv(const double hsv[3], double rgb[3])
 {
     for (int i = 0; i < 3; i++) {
-        /* how far the hue is from this channel's own, in sixths of the circle
-         */
+        /* distance from the hue of this channel, in sixths of the circle */
         double d = fabs(remainder(hsv[0] / 60 - 2 * i, 6));
         double part = within_unit(2 - d);
 

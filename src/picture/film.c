@@ -15,7 +15,7 @@
 #include "kernels/tone.h"
 #include "kernels/vec.h"
 
-/* Pixels of a row that are worked on at once, in memory on the stack. */
+/* Pixels of a row that are processed at once, in memory on the stack. */
 #define RUN 256
 
 static void row_lock(struct film *f, int y)
@@ -40,7 +40,8 @@ bool film_init(struct film *f, int width, int height, struct error *err)
     struct memory_quota memory = cgroup_quota_memory("");
 
     *f = (struct film){.width = width, .height = height};
-    /* the system would promise more than it has, and kill us later */
+    /* Linux may grant more memory than the machine has and kill the process
+     * later */
     if (size_bytes < memory.size_bytes) {
         f->sums = alloc_array(pixels, 3 * sizeof *f->sums);
         f->counts = alloc_array(pixels, sizeof *f->counts);
@@ -65,9 +66,9 @@ bool film_init(struct film *f, int width, int height, struct error *err)
     return true;
 }
 
-/* Only the counts: a sum is reset by the first sample that is added to it. And
- * only rows that have some: while the camera moves, 60 times a second, these
- * are few. */
+/* Resets the counts only, since the first sample added to a pixel resets its
+ * sum, and only in rows that have samples: while the camera moves, film_clear()
+ * runs 60 times a second and few rows have some. */
 void film_clear(struct film *f)
 {
     for (int y = 0; y < f->height; y++) {
@@ -100,8 +101,8 @@ uint64_t film_count(const struct film *f, int x, int y)
 {
     size_t at = pixel_index(f, x, y);
 
-    /* who asks will add: a whole film is in no cache, and samples take long
-     * enough for it to come */
+    /* the caller will add samples: prefetch the sums, which are not in a cache,
+     * while the samples are computed */
     __builtin_prefetch(f->sums + 3 * at);
     __builtin_prefetch(f->sums + 3 * at + 2);
     return f->counts[at];
@@ -166,8 +167,8 @@ static inline f4 mean_of(const struct sum *sums, uint64_t count)
     return f4_div(all, f4_set1((float)count));
 }
 
-/* A pixel without samples: the mean of the nearest coarser grid point that has
- * some, or black. */
+/* Returns the value shown for a pixel without samples: the mean of the nearest
+ * coarser grid point that has some, or black. */
 static f4 coarse_mean(struct film *f, int x, int y)
 {
     f4 rgb = f4_set1(0.0f);
@@ -195,7 +196,8 @@ static void put(f4 rgb, float *to)
     memcpy(to, from, 3 * sizeof *to);
 }
 
-/* Means of `count` pixels of row y from x0 on, 3 floats a pixel. */
+/* Writes the means of `count` pixels of row y from x0 on, 3 floats per pixel.
+ */
 static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
 {
     bool has_gaps = false;
@@ -204,7 +206,7 @@ static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
     for (int i = 0; i < count; i++) {
         size_t at = pixel_index(f, x0 + i, y);
 
-        rgb[3 * i] = -1.0f; /* no mean is negative */
+        rgb[3 * i] = -1.0f; /* marks a gap, as no mean is negative */
         if (f->counts[at] != 0)
             put(mean_of(f->sums + 3 * at, f->counts[at]), rgb + 3 * i);
         else
@@ -233,13 +235,13 @@ void film_counts(struct film *f, float *counts)
     }
 }
 
-/* 2^stops for any number of stops. */
+/* Returns 2^stops, clamped to the range of normal floats. */
 static float exposure_factor(float stops)
 {
     return exp2f(f_max(-126.0f, f_min(stops, 126.0f)));
 }
 
-/* Light as a screen shows it: 1 is its white. The fourth number stays 0. */
+/* Develops linear light for a screen, whose white is 1. Lane 3 stays 0. */
 static inline f4 show(f4 light, float factor, uint32_t tone)
 {
     alignas(16) float rgb[4];
@@ -282,20 +284,20 @@ void film_resolve(struct film *f, struct develop how, struct frame *frame)
     }
 }
 
-/* A sum of colours times their weights, and of these. */
+/* Weighted sum of colours, with the sum of the weights in the last member. */
 struct weighted {
     alignas(16) float rgb_weight[4];
 };
 
-/* Pixels of row y of a frame from x on, as sums over a film's pixels by area.
- */
+/* Consecutive pixels of a frame's row y, from x on, as sums over the film's
+ * pixels weighted by area. */
 struct run {
     int x, y, count;
-    struct weighted shown[RUN]; /* each pixel as the screen shows it */
-    struct weighted light[RUN]; /* all samples alike, before the curve */
+    struct weighted shown[RUN]; /* sums of pixels developed one by one */
+    struct weighted light[RUN]; /* sums of linear light, developed afterwards */
 };
 
-/* How films become a frame. */
+/* Parameters of the conversion of films to a frame. */
 struct showing {
     const struct frame *frame;
     bool has_draft;
@@ -311,9 +313,10 @@ static inline void add(struct weighted *sum, f4 rgb, float weight)
     f4_store(sum->rgb_weight, f4_add(f4_load(sum->rgb_weight), more));
 }
 
-/* Pixels of few samples are too dark if each is toned: what is brighter than
- * white is cut off, what is darker stays. Beside a draft a pixel is trusted
- * from its second sample on, and wholly when the draft goes. */
+/* Returns the share of a film's pixel that is developed by itself. Pixels with
+ * few samples get too dark that way, because the curve cuts values above white
+ * but keeps the low ones. Beside a draft the share grows from 0 at one sample
+ * to 1 at FILM_YOUNG_SPP, when the draft goes. */
 static inline float trust(const struct showing *s, uint64_t samples)
 {
     if (!s->has_draft || samples >= FILM_YOUNG_SPP)
@@ -321,10 +324,12 @@ static inline float trust(const struct showing *s, uint64_t samples)
     return (float)(samples - 1) / (FILM_YOUNG_SPP - 1);
 }
 
-/* Sums are in no cache: they come in the time that so many pixels take. */
+/* Prefetch distance in pixels. Sums are in no cache and arrive in the time that
+ * this many pixels take. */
 #define AHEAD 32
 
-/* Adds what row y of the film has where the run is, `height` of it. */
+/* Adds the pixels of row y of the film that overlap the run, over `height` of
+ * the row's height. */
 static void add_row(const struct showing *how, const struct film *f, int y,
                     float height, bool is_draft, struct run *r)
 {
@@ -375,7 +380,8 @@ static void add_film(const struct showing *s, struct film *f, bool is_draft,
     }
 }
 
-/* The nearest sample of a coarser grid, for pixel i of the run. */
+/* Returns the mean of the nearest sample of a coarser grid for pixel i of the
+ * run. */
 static f4 coarse_part(const struct showing *s, struct film *f,
                       const struct run *r, int i)
 {
@@ -386,8 +392,9 @@ static f4 coarse_part(const struct showing *s, struct film *f,
                        (int)(y / (2 * s->frame->height)));
 }
 
-/* Pixel i of the run as the screen shows it. `whole` is the area of a pixel
- * that is trusted: what is missing of it is light. */
+/* Returns pixel i of the run as the screen shows it. Sums of developed pixels
+ * cover part of the area `whole` of a frame's pixel; developed linear light
+ * fills the rest. */
 static f4 finish(const struct showing *s, struct film *film, struct film *draft,
                  const struct run *r, int i)
 {

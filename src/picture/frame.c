@@ -34,7 +34,7 @@ void frame_dot(struct frame *frame, double x, double y, uint32_t rgb)
         pixel[c] = (uint8_t)(rgb >> (16 - 8 * c));
 }
 
-/* Cuts [*begin, *end] down to those t with at + slope * t in [0, length]. */
+/* Clips [*begin, *end] to the values t with at + slope * t in [0, length]. */
 static void keep_inside(double at, double slope, double length, double *begin,
                         double *end)
 {
@@ -57,12 +57,13 @@ void frame_line(struct frame *frame, double x0, double y0, double x1, double y1,
     double begin = 0, end = 1;
     int steps;
 
-    /* clipped as Liang and Barsky 1984: a line may go far beyond the frame */
+    /* clip as Liang and Barsky 1984, since a line may extend far beyond the
+     * frame */
     keep_inside(x0, dx, frame->width, &begin, &end);
     keep_inside(y0, dy, frame->height, &begin, &end);
     if (!(begin <= end))
         return;
-    /* steps shorter than a pixel: rounding leaves no gaps */
+    /* steps are shorter than a pixel, so that rounding leaves no gaps */
     steps = (int)(fmax(fabs(dx), fabs(dy)) * (end - begin)) + 2;
     for (int i = 0; i <= steps; i++) {
         double t = begin + (end - begin) * i / steps;

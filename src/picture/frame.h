@@ -2,11 +2,11 @@
 /*
  * frame.h - a picture of 8-bit pixels, and drawing into it
  *
- * Units:     pixels, (0, 0) is the top left corner of the first; colours are
- *            0xRRGGBB
+ * Units:     pixels; (0, 0) is the top left corner of the first one; colours
+ *            are 0xRRGGBB
  * Ownership: frame_free() frees
- * Threads:   any; one owner of the frame
- * Errors:    memory; what is outside of the frame is not drawn
+ * Threads:   any; one thread at a time for each frame
+ * Errors:    out of memory; drawings are clipped to the frame
  */
 #ifndef GLIM_FRAME_H
 #define GLIM_FRAME_H
@@ -16,27 +16,27 @@
 
 #include "base/error.h"
 
-/* 8-bit sRGB, 3 bytes a pixel, row 0 at the top. */
+/* Picture of 8-bit sRGB, 3 bytes per pixel, row 0 at the top. */
 struct frame {
     int width, height;
     uint8_t *rgb;
 };
 
-/* The pixels are not cleared. */
+/* Allocates the pixels without clearing them. */
 bool frame_init(struct frame *frame, int width, int height, struct error *err);
 void frame_free(struct frame *frame);
 
 void frame_dot(struct frame *frame, double x, double y, uint32_t rgb);
 
-/* Both ends and all between, a pixel wide. */
+/* Draws a line one pixel wide, with both ends. */
 void frame_line(struct frame *frame, double x0, double y0, double x1, double y1,
                 uint32_t rgb);
 
-/* The outline between two corners. */
+/* Draws the outline of the rectangle between two corners. */
 void frame_box(struct frame *frame, double x0, double y0, double x1, double y1,
                uint32_t rgb);
 
-/* Between black at 0 and the colour at 1. */
+/* Returns the colour scaled by the brightness: black at 0, unchanged at 1. */
 uint32_t frame_dim(uint32_t rgb, double brightness);
 
 #endif

@@ -21,7 +21,7 @@ static bool fail_memory(const struct image_file *f, struct error *err)
                 f->height);
 }
 
-/* A side as a file's header has it. */
+/* Sets a side from the number in the header. Fails if it is out of range. */
 static bool take_side(const struct image_file *f, double number, int *side,
                       struct error *err)
 {
@@ -41,8 +41,9 @@ static bool is_pfm(const struct image_file *f)
            (f->data[2] == '\n' || f->data[2] == '\r' || f->data[2] == ' ');
 }
 
-/* PFM: "PF" or "Pf", width, height, scale, one white space; rows from the
- * bottom up, little endian if the scale is negative. */
+/* Reads the header of a PFM file: "PF" or "Pf", width, height, scale, one white
+ * space. Rows come from the bottom up, little endian if the scale is negative.
+ */
 static bool pfm_header(struct image_file *f, struct error *err)
 {
     const char *p = f->data + 2;
@@ -130,8 +131,9 @@ static bool skip_text(const char **p, const char *end, const char *text)
     return true;
 }
 
-/* The fewest bytes that a row of so many pixels takes: one pixel, and repeats
- * of it, of which the first goes up to 255 and the second beyond any row. */
+/* Returns the fewest bytes that encode a row of this width: one pixel and two
+ * repeats of it, of which the first covers up to 255 pixels and the second any
+ * number. */
 static size_t hdr_row_bytes_min(int width)
 {
     if (width == 1)
@@ -139,7 +141,8 @@ static size_t hdr_row_bytes_min(int width)
     return width <= 256 ? 8 : 12;
 }
 
-/* Lines of text up to an empty one, then "-Y height +X width". */
+/* Reads the header of an HDR file: lines of text up to an empty one, then "-Y
+ * height +X width". */
 static bool hdr_header(struct image_file *f, struct error *err)
 {
     static const char blank[] = "\n\n", format[] = "FORMAT=32-bit_rle_rgbe";
@@ -165,9 +168,9 @@ static bool hdr_header(struct image_file *f, struct error *err)
                 f->path, found, f->width, f->height);
 }
 
-/* One row with its four channels apart, each in runs (128 + n: n times the
- * next byte) and copies (n: the next n bytes). False: the file ends, or the
- * row does not end where it should. */
+/* Decodes a row with its four channels apart, each in runs (128 + n: n times
+ * the next byte) and copies (n: the next n bytes). Returns false if the file or
+ * a run ends in the wrong place. */
 static bool hdr_packed_row(const unsigned char **p, const unsigned char *end,
                            int width, unsigned char *rgbe)
 {
@@ -189,8 +192,8 @@ static bool hdr_packed_row(const unsigned char **p, const unsigned char *end,
     return true;
 }
 
-/* One row of whole pixels; 1 1 1 n means the last one n times more, and in a
- * second such pixel n counts 256 times as much. */
+/* Decodes a row of whole pixels. A pixel 1 1 1 n repeats the last one n times;
+ * n counts 256 times as much in the second of two such pixels. */
 static bool hdr_flat_row(const unsigned char **p, const unsigned char *end,
                          int width, unsigned char *rgbe)
 {
@@ -228,7 +231,8 @@ static bool hdr_row(const unsigned char **p, const unsigned char *end,
     return hdr_packed_row(p, end, width, rgbe);
 }
 
-/* A value is mantissa * 2^(exponent - 136), exponent 0 is black. */
+/* Decodes all pixels. A value is mantissa * 2^(exponent - 136); an exponent of
+ * 0 means black. */
 static float *hdr_pixels(const struct image_file *f, struct error *err)
 {
     const unsigned char *data = (const unsigned char *)f->data;

@@ -5,7 +5,7 @@
  * Units:     pixels, row 0 at the top; linear floats
  * Ownership: image_float_decode() returns memory for free()
  * Threads:   any
- * Errors:    a header or pixels that are not as they should be
+ * Errors:    a malformed header, malformed or missing pixels
  */
 #ifndef GLIM_IMAGE_FLOAT_H
 #define GLIM_IMAGE_FLOAT_H
@@ -14,13 +14,13 @@
 
 #include "picture/image_read.h"
 
-/* IMAGE_HDR, IMAGE_PFM or IMAGE_UNKNOWN, by the file's first bytes. */
+/* Returns IMAGE_HDR, IMAGE_PFM or IMAGE_UNKNOWN by the file's first bytes. */
 enum image_kind image_float_kind(const struct image_file *file);
 
-/* Finds the sides, and where the pixels begin, in a file of these kinds. */
+/* Finds the sides and the offset of the pixels in a file of these kinds. */
 bool image_float_header(struct image_file *file, struct error *err);
 
-/* 3 floats a pixel; NULL is an error. */
+/* Returns 3 floats per pixel, or NULL and the error. */
 float *image_float_decode(const struct image_file *file, struct error *err);
 
 #endif

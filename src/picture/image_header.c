@@ -6,15 +6,15 @@
 
 #include "picture/stb.h"
 
-/* What a decoder takes beside its pixels: tables and rounding. */
+/* Memory of a decoder for tables and rounding, without its pixels. */
 #define DECODER_BYTES ((size_t)1 << 20)
 
-/* deflate codes at most 258 bytes in a length and a distance of one bit each.
- */
+/* Highest compression ratio of deflate, which codes at most 258 bytes in a
+ * length and a distance of one bit each. */
 #define DEFLATE_RATIO 1032
 
-/* Bytes a pixel at the moment when stb_image has most of them: 4 of one byte as
- * they are in the file and as they are wanted; or 3 of one byte and of two. */
+/* Peak memory of stb_image in bytes per pixel: 4 channels of one byte before
+ * and after conversion, or 3 channels of one byte and of two. */
 #define DECODED_BYTES 9
 
 struct bytes {
@@ -32,7 +32,7 @@ static uint64_t pixels_of(const struct image_file *f)
     return (uint64_t)f->width * (uint64_t)f->height;
 }
 
-/* Numbers of 2 and 4 bytes at a place, 0 behind the end. */
+/* Read numbers of 1, 2 and 4 bytes at an offset. Bytes behind the end are 0. */
 static uint32_t byte_at(struct bytes b, size_t at)
 {
     return at < b.size ? b.data[at] : 0;
@@ -111,7 +111,7 @@ static bool png_header(struct image_file *f, struct error *err)
     struct bytes b = bytes_of(f);
     size_t at = 8;
 
-    /* Apple's tools put a chunk of their own before. */
+    /* Apple's tools put a chunk of their own before the header */
     if (big32(b, at + 4) == 0x43674249) /* CgBI */
         at += 12 + big32(b, at);
     if (big32(b, at + 4) != 0x49484452) /* IHDR */
@@ -136,8 +136,8 @@ static bool png_header(struct image_file *f, struct error *err)
                     "%s: found %dx%d pixels of %u bits a channel, expected "
                     "less than 2 GiB of them",
                     f->path, f->width, f->height, depth);
-    /* filtered and not, and once more where rows come in seven passes; the
-     * packed pixels lie in a buffer that doubles */
+    /* memory for filtered and unfiltered bytes, and a third copy if rows come
+     * in seven passes; the packed bytes lie in a buffer that doubles */
     decoded *= is_interlaced ? 3 : 2;
     if (decoded < DECODED_BYTES * pixels_of(f))
         decoded = DECODED_BYTES * pixels_of(f);
@@ -152,8 +152,8 @@ static bool is_jpeg(struct bytes b)
     return b.size >= 3 && memcmp(b.data, "\xff\xd8\xff", 3) == 0;
 }
 
-/* The place of the frame header: behind its marker, which *is_progressive
- * comes from. 0: there is none that stb_image knows. */
+/* Returns the offset of the frame header behind its marker, or 0 if there is
+ * none that stb_image reads. The marker sets *is_progressive. */
 static size_t jpeg_frame(struct bytes b, bool *is_progressive)
 {
     for (size_t i = 2; i + 1 < b.size;) {
@@ -171,8 +171,9 @@ static size_t jpeg_frame(struct bytes b, bool *is_progressive)
     return 0;
 }
 
-/* Bits that blocks of 8x8 samples take at least: one for the mean, and where
- * all of a block comes at once, one that says that nothing else follows. */
+/* Reads the header of a JPEG file. Each block of 8x8 samples takes at least one
+ * bit for the mean and, unless the file is progressive, one bit that ends the
+ * block. */
 static bool jpeg_header(struct image_file *f, struct error *err)
 {
     struct bytes b = bytes_of(f);
@@ -208,7 +209,8 @@ static bool jpeg_header(struct image_file *f, struct error *err)
     if (!expect_bytes(f, f->size_bytes, blocks * (is_progressive ? 1 : 2) / 8,
                       err))
         return false;
-    /* the samples, as coefficients before; then the pixels beside them */
+    /* memory for the samples, with coefficients if progressive, and for the
+     * pixels beside them */
     uint64_t decoded = samples * (is_progressive ? 3 : 1) + 4 * pixels_of(f);
     if (decoded < DECODED_BYTES * pixels_of(f))
         decoded = DECODED_BYTES * pixels_of(f);
@@ -223,7 +225,8 @@ static bool is_bmp(struct bytes b)
     return b.size >= 26 && memcmp(b.data, "BM", 2) == 0;
 }
 
-/* Rows fill whole words of 4 bytes; the last one may lack what is unused. */
+/* Reads the header of a BMP file. Rows are padded to multiples of 4 bytes; the
+ * padding of the last one may be missing. */
 static bool bmp_header(struct image_file *f, struct error *err)
 {
     struct bytes b = bytes_of(f);
@@ -233,7 +236,7 @@ static bool bmp_header(struct image_file *f, struct error *err)
     uint64_t bits = is_old ? little16(b, 24) : little16(b, 28);
     uint64_t begin = little32(b, 10);
 
-    if (height > INT_MAX) /* rows from the top down */
+    if (height > INT_MAX) /* rows come from the top down */
         height = 0 - height;
     if (!take_sides(f, width, height, err))
         return false;
@@ -249,7 +252,8 @@ static bool bmp_header(struct image_file *f, struct error *err)
 
 enum { TGA_INDEXED = 1, TGA_COLOR = 2, TGA_GREY = 3, TGA_RUNS = 8 };
 
-/* There is no mark: what every field may be has to do. */
+/* Detects TGA by the allowed values of its fields, since the format has no
+ * signature. */
 static bool is_tga(struct bytes b)
 {
     uint32_t type = byte_at(b, 2) & ~(uint32_t)TGA_RUNS, bits = byte_at(b, 16);
@@ -262,8 +266,8 @@ static bool is_tga(struct bytes b)
            (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
 }
 
-/* Runs: 128 + n is n + 1 times the next pixel, n are the next n + 1 ones.
- * False: they end before the pixels do. */
+/* Returns true if the runs cover all pixels: 128 + n stands for n + 1 copies of
+ * the next pixel, n for the next n + 1 pixels. */
 static bool tga_has_runs(struct bytes b, uint64_t at, uint64_t pixel_bytes,
                          uint64_t pixels)
 {

@@ -2,13 +2,13 @@
 /*
  * image_header.h - headers of the image files that stb_image decodes
  *
- * stb_image takes memory for all pixels that a header promises before it looks
- * for them, and fills up with zeros what is missing in BMP and TGA files. Here
- * a file has to be long enough for its pixels first.
+ * stb_image allocates memory for all pixels that a header promises before it
+ * reads them, and replaces missing pixels of BMP and TGA files by zeros. So
+ * image_header() fails for files that are too short for their pixels.
  *
  * Units:     pixels, bytes
  * Threads:   any
- * Errors:    no such image, sides beyond the limits, a file that is too short
+ * Errors:    unknown kinds, sides beyond the limits, a file that is too short
  */
 #ifndef GLIM_IMAGE_HEADER_H
 #define GLIM_IMAGE_HEADER_H
@@ -20,7 +20,7 @@
 /* Finds kind, sides and decoder_bytes of a PNG, JPEG, BMP or TGA file. */
 bool image_header(struct image_file *file, struct error *err);
 
-/* Compares the sides that were found with the limits. */
+/* Fails if the sides exceed the limits. */
 bool image_expect_limits(const struct image_file *file, struct error *err);
 
 #endif

@@ -14,11 +14,12 @@
 
 #include "kernels/tone.h"
 
-/* What infinite values become: far above any sky, far below float's end. */
+/* Replacement for infinite values: far above any sky, far below the largest
+ * float. */
 #define LIGHT_MAX 1e30f
 
-/* Bytes a pixel of what is made of an image: 3 floats, and for a sky the sums
- * of its table; 4 bytes here and 4 as a texel. */
+/* Bytes per pixel of the result. Float images take 3 floats, and one for the
+ * sums of a sky's table; 8-bit images take 4 bytes here and 4 as a texel. */
 #define LINEAR_BYTES (3 * sizeof(float) + sizeof(float))
 #define BYTE_BYTES   8
 
@@ -34,8 +35,8 @@ static bool is_float(const struct image_file *f)
 
 /* ---- opening ---- */
 
-/* A part of the memory is left for triangles, the picture and other programs.
- */
+/* Fails if the image needs more than its share of the memory. The rest is left
+ * for triangles, the picture and other programs. */
 static bool expect_memory(struct image_file *f, uint64_t held_bytes,
                           struct error *err)
 {
@@ -54,7 +55,7 @@ static bool expect_memory(struct image_file *f, uint64_t held_bytes,
                 (double)quota.size_bytes / (1 << 20), quota.place);
 }
 
-/* What reading takes at the moment when it takes most. */
+/* Returns the peak memory of reading the image. */
 static uint64_t memory_of(const struct image_file *f)
 {
     uint64_t pixels = pixels_of(f);
@@ -114,8 +115,9 @@ static bool fail_decoding(const struct image_file *f, struct error *err)
                   : fail_memory(f, err);
 }
 
-/* The sRGB curve, IEC 61966-2-1, for all 16-bit values; for free(), or NULL. An
- * 8-bit value v comes as 257 v, which is the same number between 0 and 1. */
+/* Returns the inverse sRGB curve (IEC 61966-2-1) for all 16-bit values, for
+ * free(), or NULL if memory is out. An 8-bit value v is looked up as 257 v,
+ * which is the same number between 0 and 1. */
 static float *linear_of_srgb16(void)
 {
     float *table = malloc(65536 * sizeof *table);
@@ -127,7 +129,7 @@ static float *linear_of_srgb16(void)
     return table;
 }
 
-/* What stb_image has made; NULL and the reason for none. */
+/* Returns the pixels that stb_image has decoded, or NULL and the reason. */
 static void *expect_pixels(const struct image_file *f, void *pixels, int width,
                            int height, struct error *err)
 {
@@ -170,7 +172,8 @@ static float *decode_linear(struct image_file *f, struct error *err)
     return rgb;
 }
 
-/* False for NaN. */
+/* Clamps negative and infinite values and counts them. Returns false for NaN.
+ */
 static bool clamp_light(float *rgb, size_t count, uint64_t *clamped_count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -184,7 +187,7 @@ static bool clamp_light(float *rgb, size_t count, uint64_t *clamped_count)
     return true;
 }
 
-/* Floats as 8-bit sRGB; frees them. */
+/* Returns floats encoded as 8-bit sRGB, and frees the floats. */
 static uint8_t *encode_floats(const struct image_file *f, float *rgb,
                               struct error *err)
 {

@@ -3,9 +3,9 @@
  * image_read.h - reads image files: PNG, JPEG, BMP and TGA through stb_image,
  * PFM and Radiance HDR by its own code
  *
- * A file is opened first: its header says how many pixels it has and how much
- * memory they take. What the file is too short for, and what the process has no
- * memory for, is refused there. Then it is decoded.
+ * image_open() reads the header and finds the number of pixels and the memory
+ * that they take. It fails if the file is too short for them or if there is not
+ * enough memory. image_decode() then reads the pixels.
  *
  * Units:     pixels, row 0 at the top; 8-bit images are sRGB with linear
  *            alpha, float images are linear Rec.709
@@ -23,7 +23,7 @@
 
 #include "base/error.h"
 
-/* Neither side of an image may be longer, nor its pixels be more. */
+/* Limits on each side of an image and on its pixels. */
 #define IMAGE_SIDE_MAX   32768
 #define IMAGE_PIXELS_MAX (256u << 20)
 
@@ -38,11 +38,11 @@ enum image_kind {
 };
 
 enum image_form {
-    IMAGE_8BIT,   /* 4 bytes a pixel, whatever the file has */
-    IMAGE_LINEAR, /* 3 floats a pixel: HDR as it is, others decoded from sRGB */
+    IMAGE_8BIT,   /* 4 bytes per pixel for every file */
+    IMAGE_LINEAR, /* 3 floats per pixel, decoded from sRGB for 8-bit files */
 };
 
-/* A file in memory and what its header says. */
+/* Image file in memory, with the contents of its header. */
 struct image_file {
     const char *path;
     char *data;
@@ -51,32 +51,33 @@ struct image_file {
     int width, height;
 
     /* HDR and PFM */
-    size_t pixels_at; /* in the data */
+    size_t pixels_at; /* offset in the data */
     int channels;
     bool is_big_endian;
 
-    size_t decoder_bytes; /* stb_image's memory, the pixels with it, at most */
+    size_t decoder_bytes; /* peak memory of stb_image, pixels included */
 
     enum image_form form;
-    uint64_t memory_bytes; /* of reading it, file and pixels, at most */
-    bool is_beyond;        /* it was refused for want of memory */
+    uint64_t memory_bytes; /* peak memory of reading, file and pixels included
+                            */
+    bool is_beyond;        /* true if there was not enough memory for it */
 };
 
 struct image {
     int width, height;
-    uint8_t *rgba; /* 4 bytes a pixel, or NULL */
-    float *rgb;    /* 3 floats a pixel, or NULL */
+    uint8_t *rgba; /* 4 bytes per pixel, or NULL */
+    float *rgb;    /* 3 floats per pixel, or NULL */
 };
 
 /* Reads the file and its header. All images of a scene may take three quarters
- * of the memory that cgroup_quota_memory() finds; held_bytes are taken already.
+ * of the memory that cgroup_quota_memory() finds; held_bytes of it are in use.
  */
 bool image_open(struct image_file *file, const char *path, enum image_form form,
                 uint64_t held_bytes, struct error *err);
 
-/* Reads the pixels, in the form that the file was opened for, and closes the
- * file. Of floats NaN is refused, negative and infinite ones are clamped (to 0
- * and to 1e30) and counted. */
+/* Reads the pixels in the form that the file was opened for, and closes the
+ * file. NaN is an error. Negative and infinite floats are clamped to 0 and to
+ * 1e30, and counted. */
 bool image_decode(struct image_file *file, struct image *image,
                   uint64_t *clamped_count, struct error *err);
 

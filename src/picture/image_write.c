@@ -15,14 +15,15 @@
 
 #include "kernels/vec.h"
 
-/* stb counts in int and doubles its buffers: this much still fits. */
+/* Limit for buffers of stb_image_write, which counts in int and doubles its
+ * buffers. */
 #define STB_BYTES_MAX ((size_t)1 << 30)
 
-/* A growing file in memory. */
+/* File in memory that grows while it is written. */
 struct buffer {
     void *data;
     size_t size_bytes, capacity;
-    bool is_cut; /* memory was out */
+    bool is_cut; /* incomplete because memory was out */
 };
 
 static const struct ending {
@@ -140,8 +141,9 @@ static float *linear_of(struct film *film, const char *path, struct error *err)
     return rgb;
 }
 
-/* stb cuts mantissas off, which darkens a picture by a quarter of a per cent.
- * Values that are whole mantissas already pass unchanged. */
+/* Rounds to values that RGBE can hold. stb_image_write truncates mantissas,
+ * which darkens a picture by a quarter of a per cent, but keeps rounded values.
+ */
 static void round_to_rgbe(float rgb[3])
 {
     int exponent;
@@ -151,7 +153,7 @@ static void round_to_rgbe(float rgb[3])
     if (!(greatest > 0))
         return;
     if (roundf(mantissa * 256) >= 256)
-        exponent++; /* the greatest becomes the next power of two */
+        exponent++; /* the mantissa rounds up to the next power of two */
     for (int c = 0; c < 3; c++)
         rgb[c] = ldexpf(roundf(ldexpf(rgb[c], 8 - exponent)), exponent - 8);
 }
@@ -188,7 +190,7 @@ static void append_floats(struct buffer *b, const float *values, int count)
     }
 }
 
-/* Rows from the bottom up; the negative scale says little endian. */
+/* Encodes rows from the bottom up. The negative scale means little endian. */
 static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
                        struct error *err)
 {
@@ -220,7 +222,7 @@ static bool encode(struct film *film, struct develop how, const char *path,
                 path);
 }
 
-/* To the file, or to standard output. */
+/* Writes the buffer to the file or to standard output. */
 static bool publish(const struct buffer *b, const char *path, struct error *err)
 {
     if (is_stdout(path))

@@ -5,7 +5,8 @@
  * Units:     PNG: 8-bit sRGB after exposure; HDR and PFM: linear means,
  *            without exposure
  * Threads:   any; the film may be in use
- * Errors:    unwritable file, disk full, memory; nothing half-written remains
+ * Errors:    unwritable file, disk full, out of memory; no incomplete file
+ *            remains
  */
 #ifndef GLIM_IMAGE_WRITE_H
 #define GLIM_IMAGE_WRITE_H
@@ -24,23 +25,23 @@ enum image_write_format {
 /* Returns the format by the ending of the name. "-" is PNG. */
 enum image_write_format image_write_format_of(const char *path);
 
-/* Fails early, before rendering, if the file could not be written: unknown
- * ending, no such folder, no permission, is a folder. */
+/* Fails before rendering if the file could not be written: unknown ending, no
+ * such folder, no permission, is a folder. */
 bool image_write_check(const char *path, struct error *err);
 
-/* Writes to a temporary file beside it, fsync, rename: the old file or the
- * new one, never half of one. "-" is standard output. */
+/* Writes the file atomically (file_write()), so that readers see the old file
+ * or the new one. "-" is standard output. */
 bool image_write(struct film *film, struct develop how, const char *path,
                  struct error *err);
 
-/* Writes STEM.ENDING, or STEM-2.ENDING, STEM-3.ENDING, ... : the first name
- * that is free; never replaces a file. The ending is one of the formats'. The
- * name is for free(). */
+/* Writes the file under the first free name of STEM.ENDING, STEM-2.ENDING,
+ * STEM-3.ENDING and so on. Never replaces a file. The ending is one of the
+ * formats'. Returns the name for free(), or NULL on failure. */
 char *image_write_numbered(struct film *film, struct develop how,
                            const char *stem, const char *ending,
                            struct error *err);
 
-/* The same for what is no film, as PNG. */
+/* Write a frame as PNG, in the same ways. */
 bool image_write_frame(const struct frame *frame, const char *path,
                        struct error *err);
 char *image_write_frame_numbered(const struct frame *frame, const char *stem,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /*
- * Debian's libstb would do as well, but its limits are fixed, it decodes the
- * formats that we leave out, and its memory is not zeroed: a truncated file
- * would show what the memory held before.
+ * stb_image and stb_image_write are compiled here instead of linked from
+ * Debian's libstb, whose limits are fixed, which decodes the formats that we
+ * leave out, and which does not zero memory: a truncated file would show
+ * earlier contents of the memory.
  */
 #include "picture/stb.h"
 
@@ -13,11 +14,12 @@
 
 #include "picture/image_read.h"
 
-/* What the decoders may still take. */
+/* Memory that the decoders may still allocate. */
 static _Thread_local size_t left_bytes;
 static _Thread_local bool is_out_of_memory;
 
-/* Counts what p, which may be NULL, has taken. */
+/* Subtracts the size of block p from the limit. NULL means that an allocation
+ * has failed. */
 static void *count(void *p)
 {
     size_t size_bytes = malloc_usable_size(p);
@@ -49,13 +51,13 @@ static void *limited_realloc(void *p, size_t size_bytes)
     return count(grown);
 }
 
-/* Reading past the end gives 0, as in stb. */
+/* Returns byte i; bytes behind the end are 0, as in stb_image. */
 static unsigned byte_at(const unsigned char *data, size_t size_bytes, size_t i)
 {
     return i < size_bytes ? data[i] : 0;
 }
 
-/* The segment of Huffman tables whose length field is at i. */
+/* Checks the segment of Huffman tables whose length field is at i. */
 static bool are_tables_safe(const unsigned char *data, size_t size_bytes,
                             size_t i)
 {
@@ -75,9 +77,9 @@ static bool are_tables_safe(const unsigned char *data, size_t size_bytes,
     return true;
 }
 
-/* Up to the first scan the file is read marker by marker, as stb does: text and
- * thumbnails are skipped. From there on every ff c4 is taken for tables: packed
- * pixels have none. */
+/* Follows the markers up to the first scan as stb_image does, which skips text
+ * and thumbnails. From there on every ff c4 is taken for tables, since
+ * entropy-coded data contains none. */
 bool stb_is_safe(const unsigned char *data, size_t size_bytes)
 {
     enum { TABLES = 0xc4, START = 0xd8, SCAN = 0xda, PREFIX = 0xff };
@@ -85,7 +87,7 @@ bool stb_is_safe(const unsigned char *data, size_t size_bytes)
 
     for (size_t i = 0; i + 1 < size_bytes;) {
         if (i == 0 && data[0] != PREFIX)
-            return true; /* no JPEG */
+            return true; /* not a JPEG file */
         if (data[i] != PREFIX || data[i + 1] == PREFIX) {
             i++;
             continue;
@@ -102,16 +104,17 @@ bool stb_is_safe(const unsigned char *data, size_t size_bytes)
     return true;
 }
 
-/* The encoders do not check their allocations. One that fails leaves the
- * encoder by a jump, after which the blocks of this list are freed. */
+/* Allocated block of an encoder. The encoders do not check their allocations:
+ * one that fails leaves the encoder by longjmp(), and then all blocks in this
+ * list are freed. */
 struct block {
     _Alignas(max_align_t) struct block *prev;
     struct block *next;
 };
 
-static _Thread_local struct block
-    blocks;                           /* head of the list, no block itself */
-static _Thread_local jmp_buf *failed; /* NULL: nobody waits for a jump */
+static _Thread_local struct block blocks; /* head of the list, not an allocated
+                                             block */
+static _Thread_local jmp_buf *failed;     /* NULL while no encoder runs */
 
 static void list_block(struct block *b)
 {
@@ -162,8 +165,8 @@ static void *encoder_alloc(size_t size_bytes)
     return encoder_realloc(NULL, size_bytes);
 }
 
-/* stb copies nothing from or to NULL where a chunk is empty; memcpy() must not
- * be asked to. */
+/* Replaces memcpy(), which must not get NULL even for 0 bytes. stb_image_write
+ * passes NULL for empty chunks. */
 static void *copy_bytes(void *to, const void *from, size_t size_bytes)
 {
     return size_bytes > 0 ? memcpy(to, from, size_bytes) : to;
@@ -185,7 +188,8 @@ static void *copy_bytes(void *to, const void *from, size_t size_bytes)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 
-/* NULL + 0, for the same empty chunks: clang's sanitizer minds it */
+/* stb_image_write computes NULL + 0 for empty chunks, which clang's sanitizer
+ * reports */
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((no_sanitize("pointer-overflow"))), \
                              apply_to = function)
@@ -196,7 +200,7 @@ static void *copy_bytes(void *to, const void *from, size_t size_bytes)
 #pragma clang attribute pop
 #endif
 
-/* Calls the encoder of one of the formats. */
+/* Calls the encoder of the picture's format. */
 static bool encode(const struct stb_picture *picture, stbi_write_func *write,
                    void *context)
 {
@@ -209,7 +213,7 @@ static bool encode(const struct stb_picture *picture, stbi_write_func *write,
                                         p->floats) != 0;
 }
 
-/* The same, but returns false if an allocation has failed. */
+/* Encodes as encode() does, but returns false if an allocation has failed. */
 static bool try_encode(const struct stb_picture *picture,
                        stbi_write_func *write, void *context)
 {

@@ -9,7 +9,7 @@
  * Units:     bytes, pixels
  * Ownership: the decoders return memory for free()
  * Threads:   any; the limit is the calling thread's own
- * Errors:    NULL; stb_failure() has the calling thread's reason
+ * Errors:    NULL; stb_failure() returns the reason in the calling thread
  */
 #ifndef GLIM_STB_H
 #define GLIM_STB_H
@@ -23,28 +23,28 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
-/* Limits the memory that decoders in this thread may have at any time from now
- * on, as a small file can ask for gigabytes. Also forgets the last failure. */
+/* Limits the memory of decoders in this thread from now on, since a small file
+ * can ask for gigabytes. Also clears the last failure. */
 void stb_limit(size_t size_bytes);
 
-/* Why the last decoder since then has failed; NULL: for want of memory. */
+/* Returns the reason of the last failure since stb_limit(), or NULL if memory
+ * was out. */
 const char *stb_failure(void);
 
-/* Three channels a pixel: bytes for PNG, or floats for HDR. */
+/* Picture of three channels: bytes for PNG, or floats for HDR. */
 struct stb_picture {
     int width, height;
-    const uint8_t *bytes; /* NULL: floats */
+    const uint8_t *bytes; /* NULL if the picture has floats */
     const float *floats;
 };
 
-/* Encodes the picture in the format of its numbers. False when memory is out.
- */
+/* Encodes bytes as PNG and floats as HDR. Returns false if memory is out. */
 bool stb_encode(const struct stb_picture *picture, stbi_write_func *write,
                 void *context);
 
-/* False for a JPEG file with a Huffman table of more than 256 codes, which
- * stb_image 2.27 and before write behind its end: such files must not reach
- * it, not even for their size. */
+/* Returns false for a JPEG file with a Huffman table of more than 256 codes.
+ * stb_image up to 2.27 writes behind the end of its table there, so such files
+ * must not reach it, not even for their size. */
 bool stb_is_safe(const unsigned char *data, size_t size_bytes);
 
 #endif
