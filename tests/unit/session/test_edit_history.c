@@ -277,7 +277,7 @@ static void a_drag_is_one_step(void **state)
 
 /* A picture after an edit equals that of a fresh start after saving. Comparing
  * and undoing give what was loaded. */
-static void test_saved_is_loaded(void **state)
+static void saved_edits_are_loaded_again(void **state)
 {
     struct session first;
 
@@ -449,7 +449,7 @@ static void message_names_the_saved_files(void **state)
 
 /* Remains of other kinds are not written. A statement that a kind needs is
  * written later, even if it existed once before. */
-static void test_kinds_leave_nothing(void **state)
+static void kinds_leave_nothing_in_files(void **state)
 {
     static const struct {
         int steps; /* from the state saved before */
@@ -612,12 +612,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(undo_and_redo_restore_the_state),
         cmocka_unit_test(a_drag_is_one_step),
-        cmocka_unit_test(test_saved_is_loaded),
+        cmocka_unit_test(saved_edits_are_loaded_again),
         cmocka_unit_test(changed_arrays_have_new_versions),
         cmocka_unit_test(textures_are_read_when_used),
         cmocka_unit_test(only_changes_are_saved),
         cmocka_unit_test(message_names_the_saved_files),
-        cmocka_unit_test(test_kinds_leave_nothing),
+        cmocka_unit_test(kinds_leave_nothing_in_files),
         cmocka_unit_test(assignments_without_names_are_kept),
         cmocka_unit_test(wrong_lines_have_their_message),
     };
