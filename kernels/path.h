@@ -3,9 +3,9 @@
  * path.h - one sample of a pixel: a path from the eye
  *
  * The estimator of Kajiya 1986, "The rendering equation", with Russian roulette
- * by throughput. path_extend() is its loop's body: emission, light sample,
- * scattering, roulette, next hit. Direct light is estimated in two ways, by
- * next-event estimation and by the paths that meet a light, and both are
+ * by throughput. path_extend() is the body of its loop: emission, light
+ * sample, scattering, roulette, next hit. Direct light is estimated by
+ * next-event estimation and by paths that hit a light, and both estimates are
  * weighted by the power heuristic (Veach 1997, "Robust Monte Carlo methods for
  * light transport simulation", 9.2).
  *
@@ -18,7 +18,7 @@
  *
  * Units:   normalised scene units, radiance
  * Threads: path_samples() from any thread; the world is read only
- * Errors:  what cannot be computed is black
+ * Errors:  a surface that cannot be computed is black
  */
 #ifndef KERNELS_PATH_H
 #define KERNELS_PATH_H
@@ -31,34 +31,34 @@
 #include "kernels/camera_sample.h"
 #include "kernels/surface_point.h"
 
-/* 1: random numbers of several vertices are computed together, in loops that
- * compilers turn into vector code; 0: each is computed when it is used. */
+/* Set to 1, random numbers of several vertices are computed together, in loops
+ * that compilers vectorise; set to 0, each is computed when it is used. */
 #ifndef HAS_WIDE_VECTORS
 #define HAS_WIDE_VECTORS 0
 #endif
 
-/* Vertices whose random numbers are computed together. */
+/* Number of vertices whose random numbers are computed together. */
 #define VERTICES_AHEAD 2u
 
 /* Offset between the keys of a vertex's next ray and of its shadow ray. */
 #define SHADOW_KEY 0x10000u
 
-/* The state of a path between two vertices. */
+/* State of a path between two vertices. */
 struct path {
     struct ray ray;
     struct sampler sampler;
     struct vec2 numbers[VERTICES_AHEAD * DIMENSION_KINDS];
     struct vec3 beta; /* throughput for Russian roulette */
-    float scale;      /* factor of the throughput that roulette does not see */
-    float pdf;        /* density of the ray's direction; 0: a delta lobe or the
-                         camera, which light samples do not compete with */
-    struct receiver from; /* the vertex that the ray left, if pdf is above 0 */
+    float scale;      /* factor of the throughput that roulette ignores */
+    float pdf;        /* density of the ray's direction; 0 for the camera and
+                         delta lobes, with which light samples do not compete */
+    struct receiver from;   /* vertex that the ray left, if pdf is above 0 */
     struct guide_cell cell; /* tables of the path guide at that vertex */
     struct path_sample out;
 };
 
-/* Caps a factor at the largest float, as an infinite one would make NaN of a
- * black channel. NaN stays NaN, and the film counts it. */
+/* Caps a factor at the largest float, because an infinite factor times a black
+ * channel is NaN. NaN stays NaN, and the film counts it. */
 static inline float f_finite(float x)
 {
     return f_min(FLOAT_MAX, x);
@@ -71,15 +71,15 @@ static inline struct vec3 path_part(const struct path *p, struct vec3 radiance,
     return v3_mul(v3_scale(p->beta, f_finite(p->scale * weight)), radiance);
 }
 
-/* Random numbers of a vertex; vertices are counted from 1. `kind` is one of the
- * dimensions that enum dimension counts from DIMENSION_BOUNCE. */
+/* Returns two random numbers of a vertex. Vertices are counted from 1. `kind`
+ * is a dimension counted from DIMENSION_BOUNCE in enum dimension. */
 static inline struct vec2 vertex_2d(struct sampler s, uint32_t vertex,
                                     uint32_t kind)
 {
     return random_2d(s, vertex * DIMENSION_STRIDE + kind);
 }
 
-/* All random numbers of VERTICES_AHEAD vertices. */
+/* Computes all random numbers of VERTICES_AHEAD vertices. */
 VECTORISED static void vertices_2d(struct sampler s, uint32_t vertex,
                                    struct vec2 *numbers)
 {
@@ -109,10 +109,11 @@ static inline void path_add(struct path *p, struct vec3 radiance, float weight)
     p->out.radiance = v3_add(p->out.radiance, path_part(p, radiance, weight));
 }
 
-/* Power heuristic: the MIS weight of a sample with density `pdf` that the other
- * technique would have drawn with density `other`. With squares the error of
- * the Cornell boxes is 5 to 9 % less than with the densities themselves, of
- * many lights 7 % less; of materials it is 4 % more, elsewhere the same. */
+/* Returns the MIS weight by the power heuristic of a sample with density `pdf`
+ * that the other technique would have drawn with density `other`. Measured
+ * against the balance heuristic: the error of the Cornell boxes is 5 to 9 %
+ * smaller, of many lights 7 % smaller, of materials 4 % larger, elsewhere the
+ * same. */
 static inline float power_weight(float pdf, float other)
 {
     float ratio = other / pdf;
@@ -120,8 +121,8 @@ static inline float power_weight(float pdf, float other)
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/* MIS weight of light that the path has met. light_pdf is the density with
- * which light_sample() would have drawn the same point. */
+/* Returns the MIS weight of emission that the path has hit. light_pdf is the
+ * density with which light_sample() would have drawn the same point. */
 static inline float bsdf_mis_weight(const struct world *w, float pdf,
                                     float light_pdf)
 {
@@ -132,8 +133,8 @@ static inline float bsdf_mis_weight(const struct world *w, float pdf,
     return power_weight(pdf, light_pdf);
 }
 
-/* MIS weight of a light sample. pdf is the density with which the BSDF would
- * have drawn the same direction. */
+/* Returns the MIS weight of a light sample. pdf is the density with which the
+ * BSDF would have drawn the same direction. */
 static inline float light_mis_weight(const struct world *w, float light_pdf,
                                      float pdf)
 {
@@ -180,14 +181,15 @@ static inline bool shadow_survives(const struct path *p, uint32_t vertex,
 
     if (!(q < 1.0f))
         return true;
-    /* the number is above 0, so that q = 0 never survives and divides */
+    /* the random number is above 0, so q = 0 never survives and is no divisor
+     */
     if (!(1.0f - unit_float(hash_u32(shadow_key(p, vertex))) < q))
         return false;
     *light = v3_scale(*light, 1.0f / q);
     return true;
 }
 
-/* True if light_sample() can contribute at a surface with this BSDF. */
+/* Returns true if light_sample() can contribute at a surface with this BSDF. */
 static inline bool wants_light_sample(const struct world *w,
                                       const struct bsdf *b)
 {
@@ -198,15 +200,15 @@ static inline bool wants_light_sample(const struct world *w,
     return has_lights && w->settings.direct != DIRECT_BSDF && !bsdf_is_delta(b);
 }
 
-/* A light sample and its contribution to the pixel, if it is not occluded. */
+/* Light sample with its contribution to the pixel if it is not occluded. */
 struct path_light {
     struct light_sample at;
-    float cosine; /* between its direction and the shading normal */
+    float cosine; /* between the sample's direction and the shading normal */
     struct vec3 radiance;
 };
 
-/* Draws a light sample. Returns false if there is none, or if its shadow ray is
- * not worth tracing. */
+/* Draws a light sample. Returns false if there is none, or if roulette drops
+ * its shadow ray. */
 FLATTENED static inline bool
 path_choose_light(const struct world *w, const struct path *p,
                   const struct bsdf *b, const struct surface_point *v,
@@ -236,9 +238,9 @@ path_choose_light(const struct world *w, const struct path *p,
 }
 
 /* Traces the shadow ray and adds the light sample if it is not occluded. The
- * ray is aimed anew, as its origin is offset from the vertex; its direction
- * need not be of unit length. Flattened into one function with the traversal: 2
- * to 13 % less time where there is more than walls and lamps. */
+ * direction is computed again, because the ray's origin is offset from the
+ * vertex; it need not be of unit length. Flattened into one function with the
+ * traversal: 2 to 13 % less time in scenes of more than walls and lamps. */
 FLATTENED static inline void path_add_light(const struct world *w,
                                             struct path *p,
                                             const struct surface_point *v,
@@ -264,8 +266,8 @@ FLATTENED static inline void path_add_light(const struct world *w,
         p->out.radiance = v3_add(p->out.radiance, l->radiance);
 }
 
-/* Samples the BSDF, or the path guide where there is one, for the next ray.
- * Returns false if the path is absorbed. */
+/* Samples the next ray from the BSDF, or from the path guide if it has a table
+ * here. Returns false if the path is absorbed. */
 static inline bool path_scatter(const struct world *w, struct path *p,
                                 const struct bsdf *b,
                                 const struct surface_point *v, struct vec3 wo,
@@ -280,8 +282,8 @@ static inline bool path_scatter(const struct world *w, struct path *p,
             return false;
     } else if (!surface_scatter(v, b, wo, direction, choice, &s, &wi)) {
         /* A shading normal may send light that clear glass transmits to the
-         * wrong side of the face. The face's own normal then bends it, so that
-         * glass loses no light. */
+         * wrong side of the face. It is then refracted at the geometric normal,
+         * so that glass loses no light. */
         struct surface_point face = surface_of_face(*v);
 
         if (!bsdf_is_delta(b) ||
@@ -306,7 +308,8 @@ static inline bool path_survives(struct path *p, uint32_t vertex, float u)
     return u < q;
 }
 
-/* Sets the key by which coverage lets the ray pass on its way to `vertex`. */
+/* Sets the key of the random numbers by which coverage lets the ray pass on its
+ * way to `vertex`. */
 static inline void path_set_key(const struct world *w, struct sampler s,
                                 uint32_t vertex, struct ray *r)
 {
@@ -314,7 +317,7 @@ static inline void path_set_key(const struct world *w, struct sampler s,
         r->key = ray_key(s, vertex);
 }
 
-/* Finds what the path's ray meets on the way to `vertex`. */
+/* Finds the hit of the path's ray on the way to `vertex`. */
 static inline void path_intersect(const struct world *w, struct path *p,
                                   uint32_t vertex, struct hit *h)
 {
@@ -341,9 +344,8 @@ static inline void path_open(struct path *p, struct ray r,
     p->out.cut = 0;
 }
 
-/* Extends the path by one vertex. *h is the hit of the path's ray, which is the
- * vertex, and becomes the hit of the next ray. Returns false where the path
- * ends. */
+/* Extends the path by one vertex, the hit *h of the path's ray. *h becomes the
+ * hit of the next ray. Returns false if the path ends. */
 static inline bool path_extend(const struct world *w, struct path *p,
                                uint32_t vertex, struct hit *h)
 {
@@ -359,7 +361,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
         path_add_sky(w, p);
         return false;
     }
-    /* early, as it takes long and depends on nothing that follows */
+    /* call this early: it takes long, and nothing before depends on it */
     path_prepare_2d(p, vertex);
     m = w->materials[w->tris[h->tri].material];
     if (!surface_at(w, &m, p->ray, *h, &v))
@@ -381,8 +383,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
     p->cell = guide_cell_none();
     if (HAS(FEATURE_GUIDE) && guide_helps(&b))
         p->cell = guide_at(w, v.p, v.ng);
-    /* The next direction is sampled before the shadow ray is traced, as it
-     * depends on neither: 3 to 6 % less time. */
+    /* The next direction is sampled before the shadow ray is traced: 3 to 6 %
+     * less time. The two do not depend on each other. */
     is_lit = path_choose_light(w, p, &b, &v, wo, vertex, &light);
     lobe = path_2d(p, vertex, DIMENSION_BSDF_LOBE);
     goes_on =
@@ -396,8 +398,8 @@ static inline bool path_extend(const struct world *w, struct path *p,
     return goes_on;
 }
 
-/* Radiance along the camera ray r, whose hit is h; or the AOV of the hit.
- * Radiance beyond the largest float is capped there: the film counts it as
+/* Returns the radiance along the camera ray r, whose hit is h, or the AOV of
+ * the hit. Radiance is capped at the largest float, and the film counts it as
  * saturated. */
 static inline struct path_sample path_follow(const struct world *w,
                                              struct ray r,
@@ -417,7 +419,7 @@ static inline struct path_sample path_follow(const struct world *w,
     return p.out;
 }
 
-/* path_follow() of a camera ray that has not been traced. */
+/* Traces the camera ray r and returns path_follow() of its hit. */
 static inline struct path_sample path_trace(const struct world *w, struct ray r,
                                             struct sampler sampler)
 {
@@ -428,7 +430,7 @@ static inline struct path_sample path_trace(const struct world *w, struct ray r,
     return path_follow(w, r, sampler, h);
 }
 
-/* Samplers of some samples, and their points within the pixel. */
+/* Makes the samplers of some samples, and their points within the pixel. */
 VECTORISED static void path_points(const struct settings *s,
                                    const struct sample_id *places,
                                    uint32_t count, struct sampler *samplers,
@@ -441,8 +443,8 @@ VECTORISED static void path_points(const struct settings *s,
         points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
 }
 
-/* Computes at most SAMPLE_BLOCK samples. Those of one pixel, or of neighbours,
- * take less time together. */
+/* Computes at most SAMPLE_BLOCK samples. Samples of one pixel, or of
+ * neighbours, take less time together. */
 static inline void path_samples(const struct world *w,
                                 const struct sample_id *places, uint32_t count,
                                 struct path_sample *out)

@@ -5,10 +5,10 @@
 
 #include "studio/save_commands.h"
 
-/* A command is a function of one part of the studio, or one of the values
- * below. Before functions and numbered views a move of the camera ends. Before
- * functions of control, inspector, workspace and studio the render restarts if
- * the view has changed. */
+/* Command of an action: a function of one part of the studio, or one of the
+ * values below. Functions and numbered views first end a move of the camera.
+ * Functions of control, inspector, workspace and studio first restart the
+ * render if the view has changed. */
 struct command {
     void (*camera)(struct camera_control *camera);
     void (*cursor)(struct pick_cursor *cursor);
@@ -17,10 +17,11 @@ struct command {
     void (*workspace)(struct workspace *workspace);
     void (*studio)(struct studio *studio);
 
-    enum held_keys_axis axis; /* the camera moves along it while the key is */
-    int sign;                 /* held, 1 or -1; 0: it does not */
-    int right, down;          /* cells that the cursor moves */
-    int number;               /* of the view to go to, from 1 */
+    enum held_keys_axis axis; /* the camera moves along this axis */
+    int sign;                 /* while the key is held: 1 or -1, or 0 for no
+                                 move */
+    int right, down;          /* cells by which the cursor moves */
+    int number;               /* number of the view to go to, from 1 */
 };
 
 static const struct command commands[ACTIONS] = {
@@ -88,7 +89,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_QUIT] = {.studio = studio_quit},
 };
 
-/* While the cursor is shown these have other meanings. */
+/* Commands of actions that mean something else while the cursor is shown. */
 static const struct command cursor_commands[ACTIONS] = {
     [ACTION_LOOK_UP] = {.down = -1},
     [ACTION_LOOK_DOWN] = {.down = 1},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * commands.h - what each action of the keymap does
+ * commands.h - runs the commands of the actions of the keymap
  *
  * The table from actions to functions is in commands.c, the one from keys to
  * actions in session/keymap.c. Keys of the editor panel have their own in
@@ -16,11 +16,11 @@
 #include "session/keymap.h"
 #include "studio/studio.h"
 
-/* Does what the action means; ACTION_NONE does nothing. */
+/* Runs the command of an action. ACTION_NONE does nothing. */
 void command_run(struct studio *studio, enum action action);
 
-/* Does what the action means while the cursor is shown. Returns false if it is
- * not shown, or the action means the same as without it. */
+/* Runs the command that an action has while the cursor is shown. Returns false
+ * if the cursor is not shown, or if the action has no other command then. */
 bool command_run_at_cursor(struct studio *studio, enum action action);
 
 #endif

@@ -11,11 +11,10 @@
 #define ESCAPE    27
 #define BACKSPACE 127
 
-/* The gestures of edit_begin() that are the panel's; the camera has those
- * below. */
+/* First gesture of the panel for edit_begin(); lower ones are the camera's. */
 #define GESTURES 1000u
 
-/* Steps of the keys for a large change. */
+/* Number of steps of the keys for a large change. */
 #define MANY_STEPS 10
 
 static struct edit *edit_of(const struct editor_panel *p)
@@ -58,7 +57,7 @@ void editor_panel_select(struct editor_panel *p, const struct pick *pick)
 
 /* ---- changes ---- */
 
-/* Makes the picture and the panel show a change. */
+/* Reports a change, so that the picture and the panel show it. */
 static void take_change(struct editor_panel *p)
 {
     p->control->has_changed = true;
@@ -80,7 +79,8 @@ static bool may_change(struct editor_panel *p)
     return true;
 }
 
-/* Id of the selected parameter; -1 if there is none, or none may change now. */
+/* Returns the id of the selected parameter, or -1 if there is none or it may
+ * not change now. */
 static int changeable_id(struct editor_panel *p)
 {
     struct parameter list[PARAMETERS_MAX];
@@ -128,7 +128,7 @@ static void compare(struct editor_panel *p)
     take_change(p);
 }
 
-/* Copies the selected material. On the page of objects the object gets the
+/* Copies the selected material. On the page of objects, the object gets the
  * copy. */
 static void duplicate(struct editor_panel *p)
 {
@@ -187,7 +187,8 @@ static void move(struct editor_panel *p, int step)
         selection_move(&p->selection, step);
 }
 
-/* Enter changes a parameter that takes no text by a step. */
+/* Begins to type the value of the selected parameter. Enter changes a parameter
+ * that takes no text by one step. */
 static void begin_typing(struct editor_panel *p, int key)
 {
     struct parameter list[PARAMETERS_MAX];
@@ -232,7 +233,8 @@ static void enter(struct editor_panel *p)
         p->is_in_parameters = selection_has_one(&p->selection);
 }
 
-/* A step to the right in the list goes to the parameters. */
+/* Changes the selected parameter by steps. In the list, a step to the right
+ * moves to the parameters. */
 static void step(struct editor_panel *p, int by)
 {
     if (p->is_in_parameters)

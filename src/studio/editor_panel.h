@@ -11,7 +11,7 @@
  * Ownership: control and screen stay the caller's; editor_panel_free() frees
  *            the rest
  * Threads:   main only
- * Errors:    become messages
+ * Errors:    errors become messages
  */
 #ifndef GLIM_EDITOR_PANEL_H
 #define GLIM_EDITOR_PANEL_H
@@ -31,10 +31,11 @@ struct editor_panel {
     struct screen *screen;
     struct selection selection;
     bool is_open;
-    bool is_in_parameters;         /* the arrows move there; else in the list */
+    bool is_in_parameters;         /* the arrow keys move in the parameters,
+                                      else in the list */
     int parameter;                 /* row of the selected parameter */
-    int list_top, parameter_top;   /* first row that is shown */
-    int list_rows, parameter_rows; /* number of rows in the last drawing */
+    int list_top, parameter_top;   /* first rows that are shown */
+    int list_rows, parameter_rows; /* numbers of rows in the last drawing */
     bool is_typing;
     char typed[EDITOR_PANEL_TEXT];
 };
@@ -42,22 +43,22 @@ struct editor_panel {
 void editor_panel_init(struct editor_panel *p, struct render_control *control,
                        struct screen *screen);
 
-/* Opens or closes the panel; workspace_layout() is due. */
+/* Open or close the panel. The caller then calls workspace_layout(). */
 void editor_panel_open(struct editor_panel *p);
 void editor_panel_close(struct editor_panel *p);
 
-/* For a scene that was loaded anew: selects what has these names, and keeps
- * the text that is being typed. */
+/* Adapts the panel to a scene that was loaded again: selects the material and
+ * object with these names, and keeps the text that is being typed. */
 void editor_panel_renew(struct editor_panel *p,
                         const struct selection_names *names);
 
-/* Does what the key means in the panel. False if it means nothing there. */
+/* Handles a key. Returns false if the key means nothing in the panel. */
 bool editor_panel_key(struct editor_panel *p, int key);
 
-/* Does what the mouse does in the panel. False if it is elsewhere. */
+/* Handles an event of the mouse. Returns false if it is outside the panel. */
 bool editor_panel_mouse(struct editor_panel *p, const struct event *event);
 
-/* Selects the material and the object that were picked. */
+/* Selects the material and the object of the pick. */
 void editor_panel_select(struct editor_panel *p, const struct pick *pick);
 
 void editor_panel_free(struct editor_panel *p);

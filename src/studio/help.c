@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Finds entry `i` of the list: the panel's entries come first, if in_panel. */
+/* Finds entry `i` of the list. The panel's entries come first if in_panel.
+ * Returns false behind the last key. */
 static bool find_entry(const struct keymap *keys, bool in_panel, int i,
                        struct keymap_help *help)
 {
@@ -27,8 +28,8 @@ static int count_lines(const struct keymap *keys, bool in_panel)
     return count;
 }
 
-/* Appends entry `i` to a line, at its column. The entry after the last key is
- * the note. */
+/* Appends entry `i` to a line, at the column of the entry. The note is the
+ * entry after the last key. */
 static void add_entry(char line[HELP_LINE_BYTES], const struct keymap *keys,
                       bool in_panel, const char *note, int i)
 {

@@ -27,8 +27,8 @@ struct help_page {
     int page_count; /* pages of the whole help; at least 1 */
 };
 
-/* Lays out page `number`, from 0, for cols x rows cells of text. The panel's
- * keys come first if in_panel; the note is the entry after the last key. */
+/* Lays out page `number`, from 0, for cols x rows cells of text. Keys of the
+ * panel come first if in_panel; the note is the entry after the last key. */
 void help_page(struct help_page *page, const struct keymap *keys, bool in_panel,
                const char *note, int number, int cols, int rows);
 

@@ -112,8 +112,8 @@ static bool is_new_pick(const struct inspector *inspector)
                    sizeof inspector->position) != 0);
 }
 
-/* Finds the pixel where the pick is seen now; without a pick, or if it is not
- * in view, the middle of the picture. */
+/* Finds the pixel that shows the picked point now. Without a pick, or if the
+ * point is out of view, it is the middle of the picture. */
 static void find_pixel(struct inspector *inspector)
 {
     const struct scene *scene = &session_of(inspector)->scene;
@@ -154,7 +154,7 @@ static void follow_path(struct inspector *inspector)
                        inspector->sample);
 }
 
-/* Begins directions and path at what is picked. */
+/* Begins the drawings of directions and path at the picked point. */
 static void begin_at_pick(struct inspector *inspector)
 {
     struct world w;
@@ -182,7 +182,7 @@ static void say_drawing(struct inspector *inspector)
     inspector_open_table(inspector);
 }
 
-/* The path comes after the directions and begins at the same pixel. */
+/* The path follows the directions and begins at the same pixel. */
 void inspector_next_drawing(struct inspector *inspector)
 {
     struct error err;
@@ -208,8 +208,8 @@ static void change_level(struct inspector *inspector, int by)
     say_boxes(inspector);
 }
 
-/* After the last step comes the first of the next sample, before the first step
- * the last of the sample before. */
+/* Changes the step of the path. The first step of the next sample follows the
+ * last step, and the last step of the sample before precedes the first. */
 static void change_step(struct inspector *inspector, int by)
 {
     inspector->step += by;
@@ -255,7 +255,7 @@ void inspector_more(struct inspector *inspector)
 
 /* ---- saving ---- */
 
-/* True if there is something to save; light needs a sample first. */
+/* Returns true if there is a picture to save. Light needs a sample first. */
 static bool has_picture(struct inspector *inspector)
 {
     if (view_mode_sample(inspector->view_mode.kind) != SAMPLE_LIGHT ||
@@ -265,7 +265,7 @@ static bool has_picture(struct inspector *inspector)
     return false;
 }
 
-/* Fills a frame of any size with the picture and drawings as they are shown. */
+/* Fills a frame of any size with the picture and its drawings. */
 static bool paint_all(struct inspector *inspector, struct frame *frame,
                       struct error *err)
 {
@@ -307,7 +307,7 @@ void inspector_save_text(struct inspector *inspector)
     frame_free(&frame);
 }
 
-/* Light without drawings is saved from the film, by a thread. */
+/* Saves the picture. A thread saves light without drawings from the film. */
 void inspector_save(struct inspector *inspector)
 {
     if (inspector->view_mode.kind == SHOW_LIGHT &&
@@ -346,7 +346,8 @@ static void show(struct inspector *inspector, enum show_kind kind)
             inspector->control); /* the film has samples of the old kind */
 }
 
-/* Goes through the view modes; in normal mode through those made of light. */
+/* Switches to the next or previous view mode. Normal mode has only those made
+ * from light. */
 static void turn(struct inspector *inspector, int by)
 {
     int kind = (int)inspector->view_mode.kind;

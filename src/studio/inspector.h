@@ -10,7 +10,7 @@
  * Ownership: control, screen and cursor stay the caller's and outlive it;
  *            inspector_free() frees the rest
  * Threads:   main only
- * Errors:    become messages
+ * Errors:    errors become messages
  */
 #ifndef GLIM_INSPECTOR_H
 #define GLIM_INSPECTOR_H
@@ -36,55 +36,55 @@ struct inspector {
     struct pick_cursor *cursor;
     struct view_mode view_mode;
     enum inspector_drawing drawing;
-    uint32_t level; /* of the boxes that are drawn */
-    /* Directions and path begin at this camera's pixel (x, y). */
+    uint32_t level; /* level of the boxes that are drawn */
+    /* Directions and path begin at pixel (x, y) of this camera. */
     struct camera camera;
     uint32_t x, y;
-    bool is_picked;     /* the cursor has picked the pixel, */
-    double position[3]; /* at this point, in file units */
+    bool is_picked;     /* the cursor has picked the pixel */
+    double position[3]; /* point of the pick, in file units */
     bool is_surface;    /* the pixel shows a surface, not the sky */
-    uint64_t sample;    /* whose path is drawn */
-    int step;           /* so many steps of the path are drawn */
+    uint64_t sample;    /* sample whose path is drawn */
+    int step;           /* number of steps of the path that are drawn */
     struct path_record trail;
     struct path_record_lobes lobes;
-    bool has_table; /* its table is in the window */
+    bool has_table; /* the table of the drawing is in the window */
 };
 
 void inspector_init(struct inspector *inspector, struct render_control *control,
                     struct screen *screen, struct pick_cursor *cursor);
 
-/* Fills a frame for the screen: the render in the present view mode, with
+/* Fills a frame for the screen with the render in the current view mode and the
  * drawings over it. */
 void inspector_preview(struct inspector *inspector, struct frame *frame);
 
-/* Light, preview, normals, and so on. */
+/* Switch between the view modes: light, preview, normals, and so on. */
 void inspector_next_view(struct inspector *inspector);
 void inspector_previous_view(struct inspector *inspector);
 
-/* Boxes, directions, a path, nothing. */
+/* Switches to the next drawing: boxes, directions, a path, nothing. */
 void inspector_next_drawing(struct inspector *inspector);
 
-/* The level of boxes, or the step of the path. */
+/* Change the level of the boxes, or the step of the path, by one. */
 void inspector_less(struct inspector *inspector);
 void inspector_more(struct inspector *inspector);
 
-/* Saves the picture with the present view mode and drawings: as PNG, light
- * alone as HDR, or as coloured text. */
+/* Save the picture with the current view mode and drawings as PNG, as HDR
+ * (light alone), or as coloured text. */
 void inspector_save(struct inspector *inspector);
 void inspector_save_hdr(struct inspector *inspector);
 void inspector_save_text(struct inspector *inspector);
 
-/* Removes drawings and their table. */
+/* Removes the drawings and their table. */
 void inspector_stop_drawing(struct inspector *inspector);
 
-/* Draws from a new pick, if there is one. */
+/* Moves the drawings to a new pick, if there is one. */
 void inspector_step(struct inspector *inspector);
 
-/* Goes back to light if the view mode has samples of its own: normal mode
- * renders light only. */
+/* Switches back to light if the view mode has samples of its own, because
+ * normal mode renders light only. */
 void inspector_leave(struct inspector *inspector);
 
-/* Close the table before another window opens, and open it again after that. */
+/* Close the table before another window opens, and open it again afterwards. */
 void inspector_close_table(struct inspector *inspector);
 void inspector_open_table(struct inspector *inspector);
 

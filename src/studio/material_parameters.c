@@ -7,7 +7,7 @@
 #include "base/decimal.h"
 #include "base/file.h"
 
-/* Ks of a plastic that had none; see MATERIAL_COAT. */
+/* Ks that a material gets when it becomes plastic; see MATERIAL_COAT. */
 #define COAT_DEFAULT 0.5
 
 /* ---- statements ---- */
@@ -35,7 +35,7 @@ static double largest(const double rgb[3])
     return fmax(rgb[0], fmax(rgb[1], rgb[2]));
 }
 
-/* A number that a statement sets and the material has as a float. */
+/* Reads a number that a statement sets and that the material has as a float. */
 static bool get_statement(const struct owner *o, struct value *v)
 {
     const void *at = (const char *)&o->material + o->row->result;
@@ -53,7 +53,7 @@ static void set_statement(struct owner *o, const struct value *v)
 
 /* ---- kind and colour of a material ---- */
 
-/* Bits of the kinds of material. */
+/* Sets of material kinds as bits. */
 #define DIFFUSE (1u << MATERIAL_DIFFUSE | 1u << MATERIAL_ROUGH_DIFFUSE)
 #define PLASTIC (1u << MATERIAL_PLASTIC)
 #define METAL   (1u << MATERIAL_METAL)
@@ -65,7 +65,8 @@ static void set_statement(struct owner *o, const struct value *v)
 static const char *const kind_names[] = {"diffuse", "plastic", "metal", "glass",
                                          "thin glass"};
 
-/* Rough diffuse is diffuse with another roughness. */
+/* Bits of each choice of kind. Rough diffuse is diffuse with another roughness.
+ */
 static const uint32_t kind_bits[] = {DIFFUSE, PLASTIC, METAL, GLASS, THIN};
 
 void material_parameters_open(struct owner *o, const struct mtl_source *source)
@@ -90,7 +91,8 @@ static bool get_kind(const struct owner *o, struct value *v)
     return true;
 }
 
-/* Offset of the statement that has the colour of this kind of material. */
+/* Returns the offset of the statement that sets the colour of this kind of
+ * material. */
 static size_t color_member(const struct owner *o)
 {
     if (!is_kind(o, OPAQUE))
@@ -132,8 +134,8 @@ static void set_opaque(struct mtl_source *s, uint32_t bits, const double rgb[3])
         put_grey(&s->ks, 0);
 }
 
-/* The material keeps its colour. Maps that would make another kind of it are
- * off. */
+/* Changes the kind of the material and keeps its colour. Maps that would make
+ * it another kind are switched off. */
 static void set_kind(struct owner *o, const struct value *v)
 {
     uint32_t bits = kind_bits[(size_t)v->number];
@@ -203,7 +205,7 @@ static void set_map(struct owner *o, const struct value *v)
 
 /* ---- emission of a material ---- */
 
-/* Luminance of a black body, or the largest channel of Ke. */
+/* Returns the luminance of a black body, or the largest channel of Ke. */
 static double strength_of(const struct mtl_source *s)
 {
     return s->kelvin.line != 0 ? s->luminance.value : largest(s->ke.rgb);
@@ -230,7 +232,7 @@ static void set_emission(struct owner *o, const struct value *v)
     put_color(&s->ke, rgb);
 }
 
-/* The colour is white if nothing is emitted. */
+/* Reads the colour of the emission, which is white if there is none. */
 static bool get_emission_color(const struct owner *o, struct value *v)
 {
     struct mtl_color light = mtl_source_light(&o->source);
@@ -242,8 +244,8 @@ static bool get_emission_color(const struct owner *o, struct value *v)
     return strength_of(&o->source) > 0;
 }
 
-/* Keeps the luminance for a temperature, and the largest channel for a colour.
- */
+/* Changes the colour of the emission. A temperature keeps the luminance, a
+ * colour the largest channel. */
 static void set_emission_color(struct owner *o, const struct value *v)
 {
     struct mtl_source *s = &o->source;

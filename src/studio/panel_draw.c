@@ -9,20 +9,20 @@
 #include "terminal/xmalloc.h"
 #include "studio/material_parameters.h"
 
-/* Rows that are neither list nor parameters: pages, a title, two hints. */
+/* Rows besides list and parameters: pages, a title, two hints. */
 #define OTHER_ROWS 4
 #define LIST_MIN   3
 
 #define BAR_COLS 9
 
-/* Columns of texts that come from files. */
+/* Columns for names that come from files. */
 #define NAME_COLS  17
 #define OTHER_COLS 13
 #define TITLE_COLS 32
 #define VALUE_COLS 20
 #define NAME_BYTES 100
 
-/* Lines that are drawn, with colours at their left. */
+/* Lines of the panel, with a colour swatch at the left of each. */
 struct sheet {
     struct window_line *lines;
     int count;
@@ -61,7 +61,7 @@ static void add_pages(struct sheet *s, enum parameter_page page)
     add_line(s, WINDOW_TITLE, titles[page]);
 }
 
-/* Changes the first row that is shown so that the selected row is shown. */
+/* Scrolls, so that the selected row is shown. *top is the first row shown. */
 static void scroll(int *top, int selected, int rows)
 {
     if (*top > selected)
@@ -70,7 +70,8 @@ static void scroll(int *top, int selected, int rows)
         *top = selected - rows + 1;
 }
 
-/* Adds a material with its kind, or an object with its material. */
+/* Adds a material with its kind to the sheet, or an object with its material.
+ */
 static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
 {
     const struct selection *sel = &p->selection;

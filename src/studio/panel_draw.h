@@ -14,11 +14,11 @@
 #define PAGE_2 13
 #define PAGE_3 22
 
-/* Draws the panel if it is open: after a layout, and after a change. */
+/* Draws the panel if it is open. Call it after a layout and after a change. */
 void panel_draw(struct editor_panel *p);
 
-/* Lists the parameters of what is selected and returns their number. Selects
- * the last one if there are fewer than before. */
+/* Lists the parameters of the selected material, object or light and returns
+ * their number. If there are fewer than before, the last one is selected. */
 int panel_parameters(struct editor_panel *p,
                      struct parameter list[PARAMETERS_MAX]);
 

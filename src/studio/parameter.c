@@ -10,14 +10,14 @@
 #include "picture/color.h"
 #include "studio/parameter_table.h"
 
-/* A step on a scale whose step is a tenth of the value. */
+/* Factor of a step on a scale whose step is a tenth of the value. */
 #define GROWTH 1.1
 
-/* The first temperature of a light that had none. */
+/* First temperature of a light that had none, in kelvins. */
 #define KELVIN_WHITE 6500.0
 
-/* An id is a row of the table times PARTS, plus the part: 0 is the value, 1 to
- * 3 are the channels of a colour. */
+/* Number of ids for a row of the table: an id is the row times PARTS, plus 0
+ * for the value or 1 to 3 for a channel of a colour. */
 #define PARTS 4
 
 /* ---- scales ---- */
@@ -34,7 +34,7 @@ static double grown(const struct value_scale *s, double value, int steps)
 
     if (next < s->from || (value < s->from && steps < 0))
         return 0;
-    /* three digits are finer than a step */
+    /* three significant digits are finer than a step */
     digit = pow(10, floor(log10(next)) - 2);
     return fmin(round(next / digit) * digit, fmax(s->to, value));
 }
@@ -45,12 +45,12 @@ static double stepped(const struct value_scale *s, double value, int steps)
 
     if (s->step == 0)
         return grown(s, value, steps);
-    /* a multiple of the step, without the digits of rounding errors */
+    /* round to a multiple of the step, without digits of rounding errors */
     next = (round(value / s->step) + steps) * s->step;
     next = round(next * 1e6) / 1e6;
     if (s->wraps)
         return fmod(next + s->to, s->to);
-    /* a value that was typed beyond the ends stays there */
+    /* a value typed beyond the ends of the scale is not clamped */
     next = clamped(next, fmin(s->from, value), fmax(s->to, value));
     return s->is_positive ? fmax(next, s->step) : next;
 }
@@ -131,8 +131,8 @@ static const char *choice_name(const struct owner *o, uint32_t i)
     return i < row->name_count ? row->names[i] : NULL;
 }
 
-/* The next choice that is offered, or the one before. The first follows the
- * last. */
+/* Returns the next choice that is offered, or the previous one. The first
+ * choice follows the last. */
 static uint32_t next_choice(const struct owner *o, uint32_t i, bool is_forward)
 {
     uint32_t count = 0;
@@ -214,7 +214,7 @@ int parameters_list(const struct parameter_target *t,
 
 /* ---- changes ---- */
 
-/* Reads the parameter of this id. */
+/* Reads the parameter with this id. */
 static struct owner open_parameter(const struct parameter_target *t, int id,
                                    struct value *v)
 {
@@ -255,7 +255,7 @@ void parameter_step(const struct parameter_target *t, int id, int steps)
         v.number = v.number > 0 ? stepped(o.row->scale, v.number, steps)
                                 : KELVIN_WHITE;
     else
-        return; /* a colour has no steps, its channels have */
+        return; /* a colour has no steps, only its channels have */
     take_change(&o, &v);
 }
 
@@ -291,7 +291,7 @@ static bool parse_choice(const struct owner *o, const char *text,
     return fail(err, "found '%s', expected %s", text, o->row->expected);
 }
 
-/* A channel takes a number or a whole colour. */
+/* Parses a value. For a channel the text is a number or a whole colour. */
 static bool parse(const struct owner *o, const char *text, int part,
                   struct value *v, struct error *err)
 {
@@ -301,7 +301,7 @@ static bool parse(const struct owner *o, const char *text, int part,
 
     if (row->type == VALUE_CHOICE)
         return parse_choice(o, text, v, err);
-    if (row->type == VALUE_LIGHT_COLOR) /* a number alone is a temperature */
+    if (row->type == VALUE_LIGHT_COLOR) /* a single number is a temperature */
         return parse_number(row->scale, text, &v->number, &ignored) ||
                parse_color(text, RADIANCE_MAX, v, err);
     if (row->type == VALUE_COLOR &&

@@ -42,7 +42,8 @@ static const struct value_scale scale_exposure = {
 
 /* ---- material of an object ---- */
 
-/* The choice after the last material is the material of the file. */
+/* Returns the name of choice i. The choice after the last material is the
+ * material of the file. */
 static const char *material_name(const struct owner *o, uint32_t i)
 {
     const struct edit *e = o->target->edit;
@@ -68,7 +69,7 @@ static void set_assigned(struct owner *o, const struct value *v)
 
 /* ---- light ---- */
 
-/* Kinds of light: without an image of the sky, and with one. */
+/* Kinds of light as bits: without and with an image of the sky. */
 #define NO_SKY  (1u << 0)
 #define HAS_SKY (1u << 1)
 
@@ -101,7 +102,8 @@ static uint32_t find_sky(const struct owner *o, const char *path)
     return edit_sky(o->target->edit, path);
 }
 
-/* A member of struct lighting: a double, or a uint32_t that is a choice. */
+/* Reads a member of struct lighting: a double, or a uint32_t that is a choice.
+ */
 static bool get_lighting(const struct owner *o, struct value *v)
 {
     const void *at = (const char *)&o->lighting + o->row->member;

@@ -7,7 +7,7 @@
 #include "terminal/xmalloc.h"
 #include "studio/progress_text.h"
 
-/* Between two updates: time to read the numbers. */
+/* Time between two updates, long enough to read the numbers. */
 #define UPDATE_NS UINT64_C(500000000)
 
 static const struct backend *backend_of(const struct render_control *control)
@@ -33,8 +33,8 @@ uint64_t progress_panel_next_ns(const struct progress_panel *panel,
     return panel->is_on && changes ? panel->due_ns : UINT64_MAX;
 }
 
-/* Measures the load of each thread since the last update: 0 if the render is
- * paused. */
+/* Measures the load of each thread since the last update. Loads are 0 if the
+ * render is paused. */
 static void measure_loads(struct progress_panel *panel,
                           const struct render_control *control, uint64_t now_ns,
                           double *loads)

@@ -18,17 +18,17 @@
 
 struct progress_panel {
     bool is_on;
-    uint64_t due_ns; /* of the next update; 0: as soon as possible */
+    uint64_t due_ns; /* time of the next update; 0 means at once */
     struct thread_load load;
-    uint64_t load_ns; /* when the load was begun */
+    uint64_t load_ns; /* time when the measurement of the load began */
 };
 
-/* Switches the panel on or off. The caller closes the screen's window if it
- * goes off. */
+/* Switches the panel on or off. After switching it off the caller closes the
+ * screen's window. */
 void progress_panel_switch(struct progress_panel *panel,
                            const struct render_control *control);
 
-/* Time of the next update; UINT64_MAX if nothing will change. */
+/* Returns the time of the next update, or UINT64_MAX if nothing will change. */
 uint64_t progress_panel_next_ns(const struct progress_panel *panel,
                                 const struct render_control *control);
 

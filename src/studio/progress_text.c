@@ -9,7 +9,7 @@
 
 #define PLOT_ROWS 3
 
-/* Dots of a braille character, each way. */
+/* Number of dots of a braille character in each direction. */
 #define DOT_COLS 2
 #define DOT_ROWS 4
 
@@ -119,7 +119,8 @@ static void format_time(char *line, const struct render_progress *p)
 
 /* ---- diagrams ---- */
 
-/* Speed of span `i`, which is half a column of the plot; 0 if there is none. */
+/* Returns the speed in span `i`, which is half a column of the plot, or 0 if
+ * there is no such span. */
 static double speed_at(const struct speeds *s, int i)
 {
     return i < s->count ? speeds_at(s, i) : 0;
@@ -134,8 +135,8 @@ static double top_speed(const struct speeds *s)
     return top;
 }
 
-/* Number of dots that a bar of this height has in a row of the plot, 0 to
- * DOT_ROWS. Row 0 is the top. */
+/* Returns the number of dots that a bar of this height has in a row of the
+ * plot, 0 to DOT_ROWS. Row 0 is the top. */
 static int dots_in_row(double part, int row)
 {
     int dots = (int)(part * PLOT_ROWS * DOT_ROWS + 0.5);
@@ -145,7 +146,7 @@ static int dots_in_row(double part, int row)
 }
 
 /* Formats a braille character with two columns of dots, filled from the bottom.
- * The tables have the bits that Unicode gives to the dots. */
+ * The tables hold Unicode's bits of the dots. */
 static void put_braille(char *to, int left_dots, int right_dots)
 {
     static const unsigned char left[] = {0, 0x40, 0x44, 0x46, 0x47};
@@ -178,7 +179,7 @@ static void format_plot_title(char *line, const struct speeds *s)
 {
     char now[NUMBER_BYTES], top[NUMBER_BYTES], right[48];
 
-    /* the last span may have begun a moment ago */
+    /* the last span is skipped, as it may have begun a moment ago */
     progress_text_number(now, sizeof now,
                          s->count > 0
                              ? speeds_at(s, s->count > 1 ? s->count - 2 : 0)
@@ -197,7 +198,8 @@ static double mean_load(const double *loads, int begin, int end)
     return end > begin ? sum / (end - begin) : 0;
 }
 
-/* One column per thread, or per group of threads where there are more. */
+/* Formats the loads with one column per thread, or per group of threads if
+ * there are more threads than columns. */
 static void format_loads(char *line, const struct progress_text_facts *f)
 {
     static const char ascii[] = "_.:-=+*#@";
@@ -211,7 +213,7 @@ static void format_loads(char *line, const struct progress_text_facts *f)
         int eighths = (int)(load * 8 + 0.5);
         char cell[4] = {ascii[eighths]};
 
-        if (f->has_unicode) /* U+2581 to U+2588; idle is the lowest of them */
+        if (f->has_unicode) /* U+2581 to U+2588; the lowest one means idle */
             snprintf(cell, sizeof cell, "\xe2\x96%c",
                      (char)(0x80 + (eighths > 0 ? eighths : 1)));
         line = put(line, cell);

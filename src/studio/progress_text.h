@@ -22,14 +22,14 @@
 #define PROGRESS_TEXT_COLS 36
 #define PROGRESS_TEXT_ROWS 11
 
-/* Bytes of a line: characters of the diagrams have three in UTF-8. */
+/* Size of a line: characters of the diagrams take three bytes in UTF-8. */
 #define PROGRESS_TEXT_BYTES (3 * PROGRESS_TEXT_COLS + 1)
 
 struct progress_text_facts {
     const struct render_progress *progress;
     const struct speeds *speeds;
-    const double *loads; /* of each thread, from 0 to 1 */
-    int load_count;      /* 0: an OpenCL device renders */
+    const double *loads; /* load of each thread, from 0 to 1 */
+    int load_count;      /* 0 if an OpenCL device renders */
     bool has_unicode;
 };
 

@@ -30,8 +30,8 @@ static void save_and_quit(struct studio *studio)
         studio_quit(studio);
 }
 
-/* Every question has its row: y does `yes`, the save key does `save`, any
- * other key means no. */
+/* Table of the questions. The key y runs `yes`, the save key runs `save`, and
+ * any other key means no. */
 static const struct {
     const char *text;
     void (*yes)(struct studio *studio);
@@ -61,7 +61,8 @@ void question_ask(struct studio *studio, enum question question)
     workspace_ask(&studio->workspace, questions[question].text);
 }
 
-/* The answer is the key that goes to the view of that number. */
+/* Answers QUESTION_NUMBER: the key that goes to a view gives the number of that
+ * view. */
 static void answer_number(struct studio *studio, int key)
 {
     enum action action =

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
  * questions.h - questions in the last line, most of them before something is
- * lost, and what their answers do
+ * lost, and the effects of the answers
  *
  * Units:     keys are bytes or enum tty_key
  * Threads:   main only
- * Errors:    become messages
+ * Errors:    errors become messages
  */
 #ifndef GLIM_QUESTIONS_H
 #define GLIM_QUESTIONS_H
@@ -18,13 +18,13 @@ enum question {
     QUESTION_EDIT, /* quit without saving edits */
     QUESTION_LIVE, /* leave normal mode */
     QUESTION_RESTART,
-    QUESTION_NUMBER /* of a view */
+    QUESTION_NUMBER /* number for a view */
 };
 
-/* Shows a question instead of the status line; QUESTION_NONE: none. */
+/* Shows a question instead of the status line. QUESTION_NONE removes it. */
 void question_ask(struct studio *studio, enum question question);
 
-/* Takes any key as the answer; the question disappears. */
+/* Takes any key as the answer and removes the question. */
 void question_answer(struct studio *studio, int key);
 
 #endif

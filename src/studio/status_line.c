@@ -23,9 +23,9 @@ enum field {
     FIELDS
 };
 
-/* Fields in the order in which they are left out when there is no room. The
- * first are known or stand elsewhere, as in the progress panel; the last tell
- * what a key has changed. */
+/* Fields in the order in which they are left out if there is no room. The first
+ * ones are known or shown elsewhere, as in the progress panel; the last ones
+ * tell the effect of a key. */
 static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
                                          FIELD_SPEED,   FIELD_LEFT,
                                          FIELD_ELAPSED, FIELD_PERCENT,
@@ -74,7 +74,7 @@ bool status_line_left(char *text, size_t size_bytes,
     if (p->samples_limit == 0 || p->samples == 0)
         return false;
     left_ns = (double)p->render_ns * samples_left(p) / (double)p->samples;
-    /* rounded up: 0 s means that it is done */
+    /* rounded up, so that 0 s means done */
     status_line_duration(text, size_bytes,
                          left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
                                         : UINT64_C(1000000000000000000));

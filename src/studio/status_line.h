@@ -5,7 +5,7 @@
  * Units:     terminal columns, nanoseconds
  * Ownership: text goes to the caller's memory
  * Threads:   any
- * Errors:    none; a field without room is left out, the least important first
+ * Errors:    fields without room are left out, the least important first
  */
 #ifndef GLIM_STATUS_LINE_H
 #define GLIM_STATUS_LINE_H
@@ -20,15 +20,16 @@
 struct status_line {
     bool is_live;
     bool is_orbiting;
-    bool is_halted;       /* by the person */
-    bool is_started;      /* normal mode: a render was begun */
-    const char *load_key; /* that loads changed files; NULL: none has changed */
+    bool is_halted;       /* the user has paused the render */
+    bool is_started;      /* normal mode has begun a render */
+    const char *load_key; /* key that loads changed files; NULL if none has
+                             changed */
     const struct render_progress *progress;
-    const char *device; /* NULL: the CPU, with thread_count threads */
+    const char *device; /* NULL for the CPU with thread_count threads */
     int thread_count;
     int width_px, height_px;
-    const char *colors; /* name of the palette: "24 bit" */
-    const char *hint;   /* at the right end */
+    const char *colors; /* name of the palette, such as "24 bit" */
+    const char *hint;   /* text at the right end */
 };
 
 /* Formats the line for `cols` columns. */
@@ -38,7 +39,8 @@ void status_line_format(char text[STATUS_BYTES], int cols,
 /* Formats a time in seconds, rounded down: 7 s, 1:07, 2:01:07. */
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns);
 
-/* Formats the time that the render still needs. False if it is not known. */
+/* Formats the remaining time of the render. Returns false if it is not known.
+ */
 bool status_line_left(char *text, size_t size_bytes,
                       const struct render_progress *p);
 

@@ -36,8 +36,8 @@ void studio_set_live(struct studio *studio, bool is_live)
     render_control_set_live(&studio->control, is_live);
 }
 
-/* True if a render of normal mode is in no file. Waits for one that is being
- * written. */
+/* Returns true if a render of normal mode has not been saved. Waits for a save
+ * in progress. */
 static bool would_lose_render(struct studio *studio)
 {
     return save_finish(&studio->control) &&

@@ -5,7 +5,7 @@
  *
  * Units:     nanoseconds of clock_ns()
  * Threads:   main only
- * Errors:    become messages
+ * Errors:    errors become messages
  */
 #ifndef GLIM_STUDIO_H
 #define GLIM_STUDIO_H
@@ -24,33 +24,33 @@ struct studio {
     struct camera_control camera;
     struct workspace workspace;
     struct tty_input input;
-    uint64_t byte_ns; /* when the last byte of input came */
+    uint64_t byte_ns; /* time of the last byte of input */
     bool has_mouse;
-    enum question question; /* that waits for an answer */
+    enum question question; /* question that waits for an answer */
     bool is_ending;
-    bool is_gone; /* the terminal */
+    bool is_gone; /* the terminal has gone */
     int status;   /* exit status */
 };
 
 /* Ends the loop; the program exits with this status. */
 void studio_end(struct studio *studio, int status);
 
-/* Ends as Ctrl-C and Ctrl-\ end a program. */
+/* End the program as Ctrl-C and Ctrl-\ do. */
 void studio_interrupt(struct studio *studio);
 void studio_abort(struct studio *studio);
 
 /* Stops the program until the shell continues it. */
 void studio_suspend(struct studio *studio);
 
-/* Live or normal mode; loses what normal mode has rendered. */
+/* Switches to live or normal mode. The render of normal mode is lost. */
 void studio_set_live(struct studio *studio, bool is_live);
 
-/* These ask first if something would be lost. */
+/* Ask first if something would be lost. */
 void studio_change_mode(struct studio *studio);
 void studio_restart(struct studio *studio);
 void studio_quit(struct studio *studio);
 
-/* Asks which number the view shall have. */
+/* Asks for the number under which to keep the view. */
 void studio_keep_view(struct studio *studio);
 
 /* Switches the mouse on or off. */
