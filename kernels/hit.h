@@ -30,7 +30,7 @@ static inline float v3_axis(struct vec3 v, uint32_t axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* Without branches, which could not be predicted for rays in all directions. */
+/* Has no branches: they are unpredictable for rays in all directions. */
 static inline struct shear shear_of(struct ray r)
 {
     const float d[5] = {r.d.x, r.d.y, r.d.z, r.d.x, r.d.y};
@@ -62,7 +62,7 @@ struct compensated_float {
     float hi, lo;
 };
 
-/* The exact sum (Knuth). */
+/* Returns the exact sum (Knuth). */
 static inline struct compensated_float two_sum(float a, float b)
 {
     struct compensated_float s;
@@ -74,7 +74,7 @@ static inline struct compensated_float two_sum(float a, float b)
     return s;
 }
 
-/* The exact product (Dekker 1971), unless the low part underflows. */
+/* Returns the exact product (Dekker 1971), unless the low part underflows. */
 static inline struct compensated_float two_product(float a, float b)
 {
     struct compensated_float p;
@@ -127,8 +127,8 @@ compensated_minor(struct compensated_float a, struct compensated_float b,
                            compensated_neg(compensated_mul(b, c)));
 }
 
-/* Distance along the ray to the triangle's plane, in compensated floats. 0 if
- * the ray is parallel to it. */
+/* Returns the distance along the ray to the triangle's plane, in compensated
+ * floats, or 0 if the ray is parallel to it. */
 static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
                                    struct vec3 p2)
 {
@@ -157,8 +157,8 @@ static inline float plane_distance(struct ray r, struct vec3 p0, struct vec3 p1,
     return above.hi / slope.hi;
 }
 
-/* True if all are equal. Processors cannot predict which triangle of a lamp is
- * tested, so there is no branch between the comparisons. */
+/* Returns true if all are equal. Processors cannot predict which triangle of a
+ * lamp is tested, so there is no branch between the comparisons. */
 static inline bool are_same(float a, float b, float c)
 {
     return ((uint32_t)(a == b) & (uint32_t)(a == c)) != 0;

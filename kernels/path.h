@@ -181,8 +181,7 @@ static inline bool shadow_survives(const struct path *p, uint32_t vertex,
 
     if (!(q < 1.0f))
         return true;
-    /* the random number is above 0, so q = 0 never survives and is no divisor
-     */
+    /* the random number is above 0, so that q = 0 never survives */
     if (!(1.0f - unit_float(hash_u32(shadow_key(p, vertex))) < q))
         return false;
     *light = v3_scale(*light, 1.0f / q);

@@ -36,8 +36,7 @@ struct resource {
     uint64_t (*limit)(const char *folder, bool is_v2);
 };
 
-/* Reads the first line of a file in the folder. Returns false if there is none.
- */
+/* Reads the first line of a file in the folder. Returns false if it fails. */
 static bool line_in(const char *folder, const char *name, char *line,
                     int line_bytes)
 {

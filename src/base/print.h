@@ -20,8 +20,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Returns true if the character with this Unicode code point is shown as it is.
- */
+/* Returns true if the character with this code point is shown as it is. */
 bool print_shows(uint32_t code);
 
 /* First character of a text in the form in which it is shown. */

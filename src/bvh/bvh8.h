@@ -40,7 +40,7 @@
 #define BVH8_LEAF 4u
 #define BVH8_MORE 3u
 
-/* Most triangles of a leaf. */
+/* Largest number of triangles in a leaf. */
 #define BVH8_LEAF_TRIS ((BVH8_MORE + 1) * BLOCK_TRIS)
 
 struct bvh8_node {

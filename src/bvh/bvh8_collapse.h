@@ -42,7 +42,7 @@ static inline uint32_t bvh8_blocks(uint32_t tri_count)
 bool bvh8_collapse_init(struct bvh8_collapse *f, const struct bvh *bvh,
                         struct pool *pool);
 
-/* True if the node is to be a leaf. */
+/* Returns true if the node is to be a leaf. */
 bool bvh8_collapse_leaf(const struct bvh8_collapse *f, uint32_t node);
 
 /* Finds the children of a node, in their order. Returns their count. */

@@ -13,9 +13,9 @@
  * longer than all of these. */
 static const float parts[] = {1e-2f, 2e-3f, 4e-4f};
 
-/* Most visits of all searches, for each node of the tree. Measured: real meshes
- * need up to 20. Without a limit, triangles that all overlap would take very
- * long. */
+/* Limit on the visits of all searches per node of the tree. Measured: real
+ * meshes need up to 20. Without a limit, triangles that all overlap would take
+ * very long. */
 #define VISITS_EACH 32
 
 /* A node, or a small node with its whole subtree. Children are neighbours, the
@@ -23,7 +23,7 @@ static const float parts[] = {1e-2f, 2e-3f, 4e-4f};
 struct branch {
     struct box bounds;
     float area;
-    uint32_t parent, children; /* index of the first; 0: a closed subtree */
+    uint32_t parent, children; /* first child; 0 if closed */
     uint32_t first, count;     /* its range of nodes in the tree that is read */
     uint32_t height;           /* levels below, or more */
 };

@@ -228,7 +228,7 @@ uint32_t split_count(const struct split *s, const struct box *boxes,
     return right;
 }
 
-/* Without a branch, as half of the predictions would be wrong. */
+/* Written without a branch, as half of its predictions would be wrong. */
 uint32_t split_part(const struct split *s, const struct box *boxes,
                     uint32_t count, struct box *left, struct box *right)
 {

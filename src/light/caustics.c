@@ -20,7 +20,7 @@
 #define PHOTON_STRIDE    2u
 #define PHOTON_KEY       0x6a09e667u
 
-/* Most vertices of a photon. It ends there if it is still within glass. */
+/* Largest number of vertices of a photon. It ends there even within glass. */
 #define PHOTON_VERTICES 12u
 
 /* Light of other kinds, as a part of the mean irradiance by all lights on the
@@ -55,7 +55,8 @@ struct photon {
     uint32_t aim; /* triangle of the caster, which it has to hit first */
 };
 
-/* True if the material reflects or refracts light into few directions. */
+/* Returns true if the material reflects or refracts light into few directions.
+ */
 static bool casts(const struct material *m)
 {
     return m->alpha < GUIDE_ALPHA_MAX &&

@@ -26,7 +26,7 @@
 /* The material for photons, without colours: casters are white, others grey. */
 struct material caustics_material(struct material m);
 
-/* True if the world has lights and casters. */
+/* Returns true if the world has lights and casters. */
 bool caustics_possible(const struct world *w);
 
 /* Traces photons and adds their flux to `caustics`. `box` is the surface area

@@ -191,7 +191,7 @@ static struct emitter_range emitter_range_of(const struct builder *b,
     return p;
 }
 
-/* True if `a` is to be split before `b`. */
+/* Returns true if `a` is to be split before `b`. */
 static bool is_worse(const struct emitter_range *a,
                      const struct emitter_range *b, uint32_t depth)
 {

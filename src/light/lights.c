@@ -19,7 +19,7 @@
  * overflow in float; only BSDF samples find it. */
 #define AREA_LEAST 1e-30
 
-/* Without light samples, lights would cause this much variance, relative to the
+/* Variance that lights would cause without light samples, relative to the
  * square of the irradiance of a constant sky on a plane: from VARIANCE_FULL on
  * they are sampled each time, below in proportion, but never less often than
  * SHARE_LEAST. Measured: without sampling, the lamps of five scenes (6 and
@@ -122,8 +122,8 @@ static bool is_same_place(struct vec3 a, struct vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* True if the triangles share a side and have the same winding. *i and *k are
- * the corners that are not on it. */
+/* Returns true if the triangles share a side and have the same winding. *i and
+ * *k are the corners that are not on it. */
 static bool share_side(const struct world *w, uint32_t a, uint32_t b,
                        uint32_t *i, uint32_t *k)
 {

@@ -36,7 +36,8 @@ bool lights_build(struct lights *lights, const struct world *world,
  * channels, times its opacity. */
 double lights_power(const struct lights *lights);
 
-/* True if a change from one material to the other changes the lights. */
+/* Returns true if a change from one material to the other changes the lights.
+ */
 bool lights_differ(const struct material *a, const struct material *b);
 
 /* Lends the arrays to the world, which must have its sky. The lights get a

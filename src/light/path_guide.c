@@ -14,9 +14,9 @@
  * bright as other light. */
 #define SHARE_CAUSTICS 0.5
 
-/* The same for the sky behind panes of glass. A share of 1/2 leaves up to a
- * third more error in rooms of albedo .8 and more, and as much error in darker
- * ones. */
+/* Share of the table for paths to the sky behind panes of glass. A share of 1/2
+ * leaves up to a third more error in rooms of albedo .8 and more, and as much
+ * error in darker ones. */
 #define SHARE_GLAZED 0.25
 
 /* Share of the table for light samples of the sky. .75 leaves 4 to 8 % less
@@ -24,9 +24,9 @@
  * smaller than a bin. */
 #define SHARE_SKY 0.5
 
-/* Least part of a cell's light for which it gets a table. For caustics on two
- * balls this leaves out half of the cells, for 3 % more error and 7 % less
- * time. */
+/* Least share of a cell's light for which the cell gets a table. For caustics
+ * on two balls this leaves out half of the cells, for 3 % more error and 7 %
+ * less time. */
 #define PART_LEAST 0.1
 
 /* The tables while they are made. */
@@ -136,9 +136,9 @@ static uint32_t add_sky_table(struct table *t, const struct path_guide *g,
     return take_sums(t);
 }
 
-/* True if direct light of the sky is enough of the light in the cells that it
- * reaches. In white rooms it is not: few of a path's many vertices would gain,
- * and all would take more time. */
+/* Returns true if direct light of the sky is enough of the light in the cells
+ * that it reaches. In white rooms it is not: few of a path's many vertices
+ * would gain, and all would take more time. */
 static bool is_sky_worth_it(const struct path_guide *g, const struct other *o)
 {
     const struct guide_flux *open = &g->portals.open;

@@ -24,22 +24,23 @@
 #include "light/sky_portals.h"
 
 struct path_guide {
-    struct guide_cell *cells; /* see kernels/guide.h; NULL: no tables */
+    struct guide_cell *cells; /* see kernels/guide.h; NULL if there are none */
     float *sums;
     struct guide_grid grid;
     /* flux of which the tables are made */
-    struct guide_flux caustics; /* flux NULL: not searched for */
+    struct guide_flux caustics; /* flux is NULL before a search */
     struct sky_portals portals;
     double lights; /* mean irradiance by all lights on the box / pi */
     double sky;    /* mean radiance of the sky for which cells are */
     bool is_current;
 };
 
-/* True if the table suits a sky of this mean radiance, and nothing has changed
- * since it was made. */
+/* Returns true if the table suits a sky of this mean radiance, and nothing has
+ * changed since it was made. */
 bool path_guide_is_current(const struct path_guide *guide, double sky);
 
-/* True if path_guide_update() has to trace rays, for which it needs the tree.
+/* Returns true if path_guide_update() has to trace rays, for which it needs the
+ * tree.
  */
 bool path_guide_needs_rays(const struct path_guide *guide,
                            const struct world *world, double sky);
@@ -58,8 +59,8 @@ void path_guide_outdate(struct path_guide *guide);
 /* Call this when only colours have changed. */
 void path_guide_recolor(struct path_guide *guide);
 
-/* True if a change from one material to the other changes the rays of the
- * search. */
+/* Returns true if a change from one material to the other changes the rays of
+ * the search. */
 bool path_guides_differ(const struct material *a, const struct material *b);
 
 /* Lends the tables to the world. */

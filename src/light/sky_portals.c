@@ -34,8 +34,8 @@
 #define PANES  4
 #define HIDDEN (-1)
 
-/* Most light of all bounces as a multiple of the first, in a white room without
- * portals. */
+/* Limit on the light of all bounces as a multiple of the first, in a white room
+ * without portals. */
 #define BOUNCES_MOST 1000.0
 
 /* Weight, in rays, of the mean over all cells in a cell's estimate. */
@@ -146,7 +146,7 @@ static int panes_to_sky(const struct world *w, struct ray r, struct hit *h)
     return HIDDEN;
 }
 
-/* True if the surface that a probe ray has hit sees the sky in a random
+/* Returns true if the surface that a probe ray has hit sees the sky in a random
  * direction. */
 static bool is_lit(const struct world *w, struct ray probe_ray, struct hit h,
                    uint32_t i)

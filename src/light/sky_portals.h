@@ -32,9 +32,10 @@
 #include "light/guide_grid.h"
 
 struct sky_portals {
-    struct guide_flux open; /* for light samples; NULL: not searched for */
     struct guide_flux
-        glazed;        /* for paths, through panes of glass; NULL: no glass */
+        open; /* for light samples; flux is NULL before a search */
+    struct guide_flux
+        glazed;        /* for paths through panes; flux is NULL without glass */
     float *bounced;    /* of each cell: light by one bounce if all is white */
     struct hit *walls; /* hits on surfaces of enclosed probes */
     uint32_t wall_count;

@@ -19,7 +19,7 @@
 #include "kernels/types.h"
 
 struct sky_table {
-    float *sums; /* see kernels/sky.h; NULL: nothing to sample */
+    float *sums; /* see kernels/sky.h; NULL if the sky is not sampled */
     double mean; /* mean radiance of the image */
 };
 

@@ -8,7 +8,7 @@
 #include "picture/color.h"
 #include "kernels/texture.h"
 
-/* Most bands of a triangle. */
+/* Largest number of bands of a triangle. */
 #define BANDS 64
 
 /* Beyond these coordinates a triangle counts as showing the whole image. */

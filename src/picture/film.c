@@ -196,8 +196,7 @@ static void put(f4 rgb, float *to)
     memcpy(to, from, 3 * sizeof *to);
 }
 
-/* Writes the means of `count` pixels of row y from x0 on, 3 floats per pixel.
- */
+/* Writes the means of `count` pixels of row y from x0 on, 3 floats each. */
 static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
 {
     bool has_gaps = false;

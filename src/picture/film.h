@@ -30,8 +30,7 @@
  * two. */
 #define FILM_STRIDE_MAX 32
 
-/* Samples per pixel up to which a film is shown with a draft, if there is one.
- */
+/* Samples per pixel up to which a film is shown with its draft, if any. */
 #define FILM_YOUNG_SPP 16
 
 struct film {

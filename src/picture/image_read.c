@@ -172,8 +172,7 @@ static float *decode_linear(struct image_file *f, struct error *err)
     return rgb;
 }
 
-/* Clamps negative and infinite values and counts them. Returns false for NaN.
- */
+/* Clamps and counts negative and infinite values. Returns false for NaN. */
 static bool clamp_light(float *rgb, size_t count, uint64_t *clamped_count)
 {
     for (size_t i = 0; i < count; i++) {

@@ -58,8 +58,7 @@ struct image_file {
     size_t decoder_bytes; /* peak memory of stb_image, pixels included */
 
     enum image_form form;
-    uint64_t memory_bytes; /* peak memory of reading, file and pixels included
-                            */
+    uint64_t memory_bytes; /* peak memory of reading, file included */
     bool is_beyond;        /* true if there was not enough memory for it */
 };
 

@@ -65,8 +65,7 @@ static void set_statement(struct owner *o, const struct value *v)
 static const char *const kind_names[] = {"diffuse", "plastic", "metal", "glass",
                                          "thin glass"};
 
-/* Bits of each choice of kind. Rough diffuse is diffuse with another roughness.
- */
+/* Bits of each choice of kind. Rough diffuse differs in roughness only. */
 static const uint32_t kind_bits[] = {DIFFUSE, PLASTIC, METAL, GLASS, THIN};
 
 void material_parameters_open(struct owner *o, const struct mtl_source *source)

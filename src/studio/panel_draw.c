@@ -70,8 +70,7 @@ static void scroll(int *top, int selected, int rows)
         *top = selected - rows + 1;
 }
 
-/* Adds a material with its kind to the sheet, or an object with its material.
- */
+/* Adds a material with its kind, or an object with its material. */
 static void add_item(struct editor_panel *p, struct sheet *s, uint32_t i)
 {
     const struct selection *sel = &p->selection;

@@ -102,8 +102,7 @@ static uint32_t find_sky(const struct owner *o, const char *path)
     return edit_sky(o->target->edit, path);
 }
 
-/* Reads a member of struct lighting: a double, or a uint32_t that is a choice.
- */
+/* Reads a member of struct lighting: a double, or a choice as uint32_t. */
 static bool get_lighting(const struct owner *o, struct value *v)
 {
     const void *at = (const char *)&o->lighting + o->row->member;
