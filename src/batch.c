@@ -40,10 +40,11 @@ static bool check_outputs(const struct session *s, struct error *err)
 {
     const struct options *o = s->options;
 
-    if (o->stats_path && (!session_spares(s, "--stats", o->stats_path, err) ||
-                          !stats_json_check(o->stats_path, err)))
+    if (o->stats_path &&
+        (!session_check_output(s, "--stats", o->stats_path, err) ||
+         !stats_json_check(o->stats_path, err)))
         return false;
-    if (o->output_path && !session_spares(s, "-o", o->output_path, err))
+    if (o->output_path && !session_check_output(s, "-o", o->output_path, err))
         return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
@@ -67,7 +68,7 @@ static void wait_for_end(struct session *s, int wake_fd)
                             {.fd = wake_fd, .events = POLLIN}};
 
     for (;;) {
-        struct render_progress p = session_look(s);
+        struct render_progress p = session_progress(s);
         struct glim_progress shown = handle_progress(&p);
 
         if (p.state != RENDER_RUNNING || batch_stop_signal() != 0)
@@ -79,7 +80,7 @@ static void wait_for_end(struct session *s, int wake_fd)
     }
     batch_bar_erase(&bar);
     render_halt(s->render);
-    session_look(s);
+    session_progress(s);
 }
 
 /* Returns the glyphs of the text. The terminal is not asked, since the text may
@@ -244,13 +245,13 @@ static bool save_all(struct view_mode *show, struct error *err)
 static bool use_device(struct session *s, struct error *err)
 {
     const struct options *o = s->options;
-    struct backends *m = &s->machines;
+    struct backends *m = &s->backends;
     char *log = NULL;
     bool is_up = backends_begin_device(m, world_features(&s->world), err) &&
                  backends_end_device(m, &log, err);
 
     if (is_up)
-        render_use(s->render, m->device);
+        render_set_backend(s->render, m->device);
     else if (log && (o->device || o->backend != BACKEND_AUTO))
         print_lines(stderr, log);
     free(log);
@@ -274,7 +275,7 @@ static bool render_all(struct session *s, int wake_fd, struct error *err)
     if (!session_uses_device(s))
         return false;
     batch_warn_of_device(err->text);
-    render_use(s->render, s->machines.cpu);
+    render_set_backend(s->render, s->backends.cpu);
     return render_all(s, wake_fd, err);
 }
 

@@ -341,8 +341,8 @@ static bool read_rest(struct backend_cl *b, struct progress *p,
 /* Gives the kernels the word to test for cancellation. A device that is a CPU
  * reads the host's own word. Other devices might see a change too late, when
  * the next pass has begun, so their word stays 0. */
-static bool share_cancel(struct backend_cl *b, const struct cancel *cancel,
-                         struct error *err)
+static bool bind_cancel(struct backend_cl *b, const struct cancel *cancel,
+                        struct error *err)
 {
     static const uint32_t never = 0;
     bool is_cpu = b->machine.device->is_cpu;
@@ -398,7 +398,7 @@ static enum pass_result cl_pass(struct backend *base, const struct pass *pass,
     };
 
     b->done_ns = 0;
-    if (!share_cancel(b, cancel, err) || !run_tasks(b, &p, cancel, err)) {
+    if (!bind_cancel(b, cancel, err) || !run_tasks(b, &p, cancel, err)) {
         drain(b);
         return PASS_FAILED;
     }

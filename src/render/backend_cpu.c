@@ -13,10 +13,10 @@
 
 struct backend_cpu {
     struct backend base;
-    const struct cpu_kernel *paths; /* with all features */
+    const struct cpu_kernel *full_kernel; /* with all features */
     struct pool *pool;
     /* from begin() */
-    const struct cpu_kernel *fit; /* smallest build for the world */
+    const struct cpu_kernel *kernel; /* smallest build for the world */
     struct bvh8_world world;
     struct film *film;
     int x0, y0;
@@ -34,7 +34,7 @@ struct job {
 };
 
 /* Applies a bijection of the integers of `bits` bits. */
-static uint32_t scramble(uint32_t i, uint32_t bits, uint32_t key)
+static uint32_t permute_bits(uint32_t i, uint32_t bits, uint32_t key)
 {
     uint32_t mask = bits >= 32 ? 0xffffffffu : (1u << bits) - 1u;
     uint32_t shift = bits / 2 + 1;
@@ -49,12 +49,12 @@ static uint32_t scramble(uint32_t i, uint32_t bits, uint32_t key)
 
 /* Returns a permuted block index: repeats the bijection until the number is
  * below the count ("cycle walking"). */
-static uint32_t shuffled(const struct job *j, uint32_t item)
+static uint32_t permuted(const struct job *j, uint32_t item)
 {
     uint32_t key = hash_u32(j->pass.order + 1u);
 
     do
-        item = scramble(item, j->bits, key);
+        item = permute_bits(item, j->bits, key);
     while (item >= j->count);
     return item;
 }
@@ -63,7 +63,7 @@ static uint32_t shuffled(const struct job *j, uint32_t item)
 struct row {
     int counts[BLOCK_SIDE];
     uint32_t count; /* total of the counts */
-    struct sample_id places[BLOCK_SIDE * SAMPLE_BLOCK];
+    struct sample_id ids[BLOCK_SIDE * SAMPLE_BLOCK];
     struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
 };
 
@@ -80,9 +80,8 @@ static void row_begin(struct row *r, const struct job *j, int x, int y,
         uint32_t before = r->count;
 
         for (uint64_t k = film_count(b->film, px, y); k < j->pass.target; k++)
-            r->places[r->count++] =
-                (struct sample_id){(uint32_t)(b->x0 + px),
-                                   (uint32_t)(b->y0 + y), k};
+            r->ids[r->count++] = (struct sample_id){(uint32_t)(b->x0 + px),
+                                                    (uint32_t)(b->y0 + y), k};
         r->counts[i] = (int)(r->count - before);
     }
 }
@@ -109,7 +108,7 @@ static bool render_row(const struct job *j, int x, int y, int pixel_count)
     row_begin(&r, j, x, y, pixel_count);
     for (; done < r.count && !cancel_requested(j->cancel); done += n) {
         n = r.count - done < SAMPLE_BLOCK ? r.count - done : SAMPLE_BLOCK;
-        b->fit->samples(&b->world.world, r.places + done, n, r.samples + done);
+        b->kernel->samples(&b->world.world, r.ids + done, n, r.samples + done);
     }
     film_add_row(b->film, x, y, j->pass.stride,
                  row_pixels(&r, done, pixel_count), r.samples, r.counts);
@@ -120,7 +119,7 @@ static void render_block(void *context, uint32_t item, int worker)
 {
     const struct job *j = context;
     const struct film *film = j->backend->film;
-    uint32_t block = shuffled(j, item);
+    uint32_t block = permuted(j, item);
     int stride = j->pass.stride;
     int side = BLOCK_SIDE * stride;
     int x = (int)(block % j->columns) * side;
@@ -141,7 +140,7 @@ static bool cpu_load(struct backend *base, struct host_world *host,
 {
     struct backend_cpu *b = (struct backend_cpu *)base;
 
-    if (!world_need_tree(host, world, b->pool, err))
+    if (!world_ensure_tree(host, world, b->pool, err))
         return false;
     base->tree_bytes = bvh8_bytes(world_tree(host));
     return true;
@@ -159,7 +158,7 @@ static bool cpu_begin(struct backend *base, const struct host_world *host,
     struct backend_cpu *b = (struct backend_cpu *)base;
 
     (void)err;
-    b->fit = cpu_kernel_fit(b->paths, world->settings.features);
+    b->kernel = cpu_kernel_fit(b->full_kernel, world->settings.features);
     b->world.world = *world;
     b->world.tree = world_tree(host);
     b->film = film;
@@ -214,7 +213,7 @@ struct backend *backend_cpu_create(int thread_count,
         free(b);
         return NULL;
     }
-    b->paths = paths;
+    b->full_kernel = paths;
     b->base.name = "cpu";
     b->base.thread_count = pool_thread_count(b->pool);
     b->base.load = cpu_load;

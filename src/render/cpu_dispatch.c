@@ -29,7 +29,7 @@ static bool always(void)
 
 /* Builds of the kernel that the Makefile makes for each instruction set, from
  * the fewest features to all. */
-enum { BUILDS = 4, WHOLE = BUILDS - 1 };
+enum { BUILDS = 4, FULL = BUILDS - 1 };
 
 #define DECLARE(isa)                                                          \
     extern const struct cpu_kernel paths_##isa##_lamps, paths_##isa##_images, \
@@ -47,8 +47,8 @@ DECLARE(avx512);
 /* Instruction sets with their builds, fastest first. */
 static const struct {
     const struct cpu_kernel *builds[BUILDS];
-    bool (*is_here)(void);
-} all[] = {
+    bool (*is_supported)(void);
+} sets[] = {
 #if defined(__x86_64__)
     {BUILDS_OF(avx512), has_avx512},
     {BUILDS_OF(avx2), has_avx2},
@@ -56,13 +56,13 @@ static const struct {
     {BUILDS_OF(plain), always},
 };
 
-enum { COUNT = sizeof all / sizeof all[0] };
+enum { COUNT = sizeof sets / sizeof sets[0] };
 
 const struct cpu_kernel *cpu_kernel_at(int i)
 {
     for (int k = 0; k < COUNT; k++)
-        if (all[k].is_here() && i-- == 0)
-            return all[k].builds[WHOLE];
+        if (sets[k].is_supported() && i-- == 0)
+            return sets[k].builds[FULL];
     return NULL;
 }
 
@@ -93,8 +93,8 @@ const struct cpu_kernel *cpu_kernel_fit(const struct cpu_kernel *paths,
                                         uint32_t features)
 {
     for (int k = 0; k < COUNT; k++)
-        for (int i = 0; all[k].builds[WHOLE] == paths && i < BUILDS; i++)
-            if ((features & ~all[k].builds[i]->features) == 0)
-                return all[k].builds[i];
+        for (int i = 0; sets[k].builds[FULL] == paths && i < BUILDS; i++)
+            if ((features & ~sets[k].builds[i]->features) == 0)
+                return sets[k].builds[i];
     return paths;
 }

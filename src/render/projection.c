@@ -4,7 +4,7 @@
 #include "kernels/vec.h"
 
 /* Distance of the near plane. The extent of a normalised scene is about 1. */
-#define NEAREST 1e-4f
+#define NEAR_PLANE 1e-4f
 
 struct camera projection_camera(const struct camera *camera,
                                 const struct projection_part *part)
@@ -34,7 +34,7 @@ bool projection_point(const struct camera *c, struct vec3 p,
     double up = v3_dot(d, c->up) / v3_dot(c->up, c->up);
 
     /* rounding may put a point of the near plane in front of it */
-    if (!(depth >= 0.5 * NEAREST))
+    if (!(depth >= 0.5 * NEAR_PLANE))
         return false;
     to->x = 0.5 * (1 + right / depth) * c->width - c->left;
     to->y = 0.5 * (1 - up / depth) * c->height - c->top;
@@ -49,9 +49,10 @@ bool projection_line(const struct camera *c, struct vec3 a, struct vec3 b,
     float at_b = depth_of(c, b);
     struct vec3 cut;
 
-    if (at_a < NEAREST && at_b < NEAREST)
+    if (at_a < NEAR_PLANE && at_b < NEAR_PLANE)
         return false;
-    cut = v3_add(a, v3_scale(v3_sub(b, a), (NEAREST - at_a) / (at_b - at_a)));
-    return projection_point(c, at_a < NEAREST ? cut : a, &to[0]) &&
-           projection_point(c, at_b < NEAREST ? cut : b, &to[1]);
+    cut =
+        v3_add(a, v3_scale(v3_sub(b, a), (NEAR_PLANE - at_a) / (at_b - at_a)));
+    return projection_point(c, at_a < NEAR_PLANE ? cut : a, &to[0]) &&
+           projection_point(c, at_b < NEAR_PLANE ? cut : b, &to[1]);
 }

@@ -29,11 +29,11 @@ struct render {
     struct cancel cancel;
 
     pthread_mutex_t lock;
-    pthread_cond_t begin; /* signals has_job or ending */
+    pthread_cond_t begin; /* signals has_job or is_ending */
     pthread_cond_t end;   /* signals that the state left RENDER_RUNNING */
     /* guarded by lock */
-    bool wanted; /* a job waits for the render thread */
-    bool ending;
+    bool has_job; /* a job waits for the render thread */
+    bool is_ending;
     enum render_state state;
     uint64_t steps;    /* steps left before it halts; 0: no steps */
     uint64_t spp;      /* limit, 0: none */
@@ -47,7 +47,7 @@ struct render {
     /* set while the render thread is parked */
     struct render_job job;
     /* film of the backend's last begin(); NULL: a new picture */
-    const struct film *begun;
+    const struct film *begun_film;
 };
 
 /* Returns the target of the next pass after spp_done samples per pixel. */
@@ -128,13 +128,13 @@ static enum pass_result load(struct render *r)
 static enum pass_result begin(struct render *r, const struct world *world,
                               struct film *film, int x0, int y0)
 {
-    if (r->begun == film)
+    if (r->begun_film == film)
         return PASS_DONE;
-    r->begun = NULL;
+    r->begun_film = NULL;
     if (!r->backend->begin(r->backend, r->job.host, world, film, x0, y0,
                            &r->error))
         return PASS_FAILED;
-    r->begun = film;
+    r->begun_film = film;
     return PASS_DONE;
 }
 
@@ -235,11 +235,11 @@ static void *render_main(void *argument)
     for (;;) {
         enum pass_result result;
 
-        while (!r->wanted && !r->ending)
+        while (!r->has_job && !r->is_ending)
             pthread_cond_wait(&r->begin, &r->lock);
-        if (r->ending)
+        if (r->is_ending)
             break;
-        r->wanted = false;
+        r->has_job = false;
         pthread_mutex_unlock(&r->lock);
         result = run(r);
         pthread_mutex_lock(&r->lock);
@@ -287,18 +287,19 @@ struct render *render_create(struct backend *backend, struct error *err)
 }
 
 /* Hands the job to the render thread. The caller holds the lock. */
-static void go(struct render *r, uint64_t steps)
+static void start_run(struct render *r, uint64_t steps)
 {
     cancel_reset(&r->cancel);
     r->steps = steps;
     r->state = RENDER_RUNNING;
-    r->wanted = true;
+    r->has_job = true;
     r->run_begin_ns = clock_ns();
     pthread_cond_signal(&r->begin);
 }
 
 /* Makes *film an empty film of this size. */
-static bool renew(struct film *film, int width, int height, struct error *err)
+static bool reset_film(struct film *film, int width, int height,
+                       struct error *err)
 {
     if (film->width == width && film->height == height) {
         film_clear(film);
@@ -315,14 +316,14 @@ static int smallest(int a, int b, int c)
     return ab < c ? ab : c;
 }
 
-static bool renew_draft(struct render *r, const struct render_job *job,
+static bool reset_draft(struct render *r, const struct render_job *job,
                         struct error *err)
 {
     int width = smallest(job->draft_width, job->crop.width, DRAFT_SIDE_MAX);
     int height = smallest(job->draft_height, job->crop.height, DRAFT_SIDE_MAX);
 
     if (width > 0 && height > 0)
-        return renew(&r->draft, width, height, err);
+        return reset_film(&r->draft, width, height, err);
     film_free(&r->draft);
     return true;
 }
@@ -331,18 +332,18 @@ bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
     render_halt(r);
-    if (!renew(&r->film, job->crop.width, job->crop.height, err) ||
-        !renew_draft(r, job, err))
+    if (!reset_film(&r->film, job->crop.width, job->crop.height, err) ||
+        !reset_draft(r, job, err))
         return false;
     r->job = *job;
-    r->begun = NULL;
+    r->begun_film = NULL;
     pthread_mutex_lock(&r->lock);
     r->spp = job->spp;
     r->spp_done = 0;
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
-    go(r, job->steps);
+    start_run(r, job->steps);
     pthread_mutex_unlock(&r->lock);
     return true;
 }
@@ -358,7 +359,7 @@ void render_resume(struct render *r, uint64_t spp)
     pthread_mutex_lock(&r->lock);
     if (r->state == RENDER_IDLE || r->state == RENDER_DONE) {
         r->spp = spp;
-        go(r, 0);
+        start_run(r, 0);
     }
     pthread_mutex_unlock(&r->lock);
 }
@@ -378,7 +379,7 @@ bool render_step(struct render *r)
     pthread_mutex_lock(&r->lock);
     is_done = r->state != RENDER_IDLE;
     if (!is_done)
-        go(r, 1);
+        start_run(r, 1);
     pthread_mutex_unlock(&r->lock);
     return !is_done;
 }
@@ -454,7 +455,7 @@ struct film *render_draft(struct render *r)
     return is_young && r->draft.width > 0 ? &r->draft : NULL;
 }
 
-void render_use(struct render *r, struct backend *backend)
+void render_set_backend(struct render *r, struct backend *backend)
 {
     render_halt(r);
     if (r->backend != backend) {
@@ -475,7 +476,7 @@ void render_destroy(struct render *r)
         return;
     render_halt(r);
     pthread_mutex_lock(&r->lock);
-    r->ending = true;
+    r->is_ending = true;
     pthread_cond_signal(&r->begin);
     pthread_mutex_unlock(&r->lock);
     pthread_join(r->thread, NULL);

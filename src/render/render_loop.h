@@ -14,7 +14,7 @@
  *
  * Units:     samples per pixel (spp), pixels, nanoseconds
  * Ownership: the backend, the host and the world's arrays stay the caller's
- *            and must live until render_use(), render_halt() or
+ *            and must live until render_set_backend(), render_halt() or
  *            render_destroy()
  * Threads:   all functions from one thread (the main one)
  * Errors:    render_create(); render_start() for memory; errors of the backend
@@ -83,7 +83,7 @@ bool render_start(struct render *r, const struct render_job *job,
 
 /* Halts the current render and changes the backend. The next start loads the
  * geometry into it. */
-void render_use(struct render *r, struct backend *backend);
+void render_set_backend(struct render *r, struct backend *backend);
 
 /* Halts. Returns when every worker is parked; the film keeps its samples. */
 void render_halt(struct render *r);

@@ -30,7 +30,7 @@ static uint64_t span_end_ns(struct speeds *s, uint64_t time_ns)
     return (time_ns / s->span_ns + 1) * s->span_ns;
 }
 
-void speeds_look(struct speeds *s, uint64_t time_ns, uint64_t sample_count)
+void speeds_update(struct speeds *s, uint64_t time_ns, uint64_t sample_count)
 {
     if (time_ns < s->time_ns || sample_count < s->sample_count)
         *s = (struct speeds){0};

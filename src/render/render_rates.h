@@ -35,7 +35,7 @@ struct speeds {
 /* Adds a measurement: the number of samples after `time_ns`. The samples since
  * the last measurement are distributed evenly over the time since then. Begins
  * anew if the time or the number is less than before. */
-void speeds_look(struct speeds *s, uint64_t time_ns, uint64_t sample_count);
+void speeds_update(struct speeds *s, uint64_t time_ns, uint64_t sample_count);
 
 /* Returns the samples per second in span i, which is below count. */
 double speeds_at(const struct speeds *s, int i);

@@ -42,7 +42,7 @@ const char *const mtl_map_keys[MTL_MAPS] = {
     [MTL_MAP_NORM] = "norm", [MTL_MAP_BUMP] = "map_Bump",
 };
 
-struct place {
+struct diagnostics {
     const char *path;
     struct warnings *report;
 };
@@ -153,7 +153,7 @@ static double unit_clamped(double x)
 /* Returns a reflectance with each channel clamped to [0, 1], with a warning, or
  * `missing` in all channels if the file does not give it. */
 static struct vec3 reflecting(const struct mtl_color *c, const char *key,
-                              float missing, const struct place *at)
+                              float missing, const struct diagnostics *at)
 {
     double rgb[3];
     bool is_clamped = false;
@@ -173,7 +173,8 @@ static struct vec3 reflecting(const struct mtl_color *c, const char *key,
     return (struct vec3){(float)rgb[0], (float)rgb[1], (float)rgb[2]};
 }
 
-static struct vec3 emission(const struct mtl_color *c, const struct place *at)
+static struct vec3 emission(const struct mtl_color *c,
+                            const struct diagnostics *at)
 {
     float rgb[3] = {0, 0, 0};
     bool is_changed = false;
@@ -195,7 +196,7 @@ static struct vec3 emission(const struct mtl_color *c, const struct place *at)
 /* Returns the number if it is in [lo, hi], else `missing`; a number out of
  * range is reported. */
 static double within(const struct mtl_number *n, const char *key, double lo,
-                     double hi, double missing, const struct place *at)
+                     double hi, double missing, const struct diagnostics *at)
 {
     if (n->line == 0)
         return missing;
@@ -209,7 +210,7 @@ static double within(const struct mtl_number *n, const char *key, double lo,
     return missing;
 }
 
-static double alpha(const struct mtl_source *s, const struct place *at)
+static double alpha(const struct mtl_source *s, const struct diagnostics *at)
 {
     double ns = within(&s->ns, "Ns", 0, DBL_MAX, 0, at);
 
@@ -224,14 +225,14 @@ static double alpha(const struct mtl_source *s, const struct place *at)
 }
 
 static void roughen(struct material *m, const struct mtl_source *s,
-                    const struct place *at)
+                    const struct diagnostics *at)
 {
     m->alpha = (float)alpha(s, at);
     m->alpha_texture = mtl_source_map(s, MTL_MAP_PR);
 }
 
 /* Returns the opacity of d, or without d that of Tr. */
-static double opacity(const struct mtl_source *s, const struct place *at)
+static double opacity(const struct mtl_source *s, const struct diagnostics *at)
 {
     if (s->d.line != 0)
         return within(&s->d, "d", 0, 1,
@@ -239,7 +240,8 @@ static double opacity(const struct mtl_source *s, const struct place *at)
     return 1 - within(&s->tr, "Tr", 0, 1, unit_clamped(s->tr.value), at);
 }
 
-static int illumination(const struct mtl_source *s, const struct place *at)
+static int illumination(const struct mtl_source *s,
+                        const struct diagnostics *at)
 {
     double illum = within(&s->illum, "illum", 0, 10, 2, at);
 
@@ -247,7 +249,7 @@ static int illumination(const struct mtl_source *s, const struct place *at)
 }
 
 static void make_glass(struct material *m, uint32_t kind,
-                       const struct mtl_source *s, const struct place *at)
+                       const struct mtl_source *s, const struct diagnostics *at)
 {
     m->kind = kind;
     m->color = reflecting(&s->tf, "Tf", 1, at);
@@ -273,7 +275,8 @@ static bool is_black(const struct vec3 *c)
 }
 
 static void make_plastic(struct material *m, const struct vec3 *ks,
-                         const struct mtl_source *s, const struct place *at)
+                         const struct mtl_source *s,
+                         const struct diagnostics *at)
 {
     m->kind = MATERIAL_PLASTIC;
     m->coat = (struct vec3){ks->x * MATERIAL_COAT, ks->y * MATERIAL_COAT,
@@ -283,7 +286,7 @@ static void make_plastic(struct material *m, const struct vec3 *ks,
 }
 
 static void make_diffuse(struct material *m, const struct mtl_source *s,
-                         const struct place *at)
+                         const struct diagnostics *at)
 {
     double r = within(&s->kd_roughness, "Kd_roughness", 0, 1,
                       unit_clamped(s->kd_roughness.value), at);
@@ -295,7 +298,8 @@ static void make_diffuse(struct material *m, const struct mtl_source *s,
 }
 
 static void make_opaque(struct material *m, int illum,
-                        const struct mtl_source *s, const struct place *at)
+                        const struct mtl_source *s,
+                        const struct diagnostics *at)
 {
     uint32_t map_kd = mtl_source_map(s, MTL_MAP_KD);
     uint32_t map_ks = mtl_source_map(s, MTL_MAP_KS);
@@ -337,7 +341,7 @@ static void make_opaque(struct material *m, int illum,
 
 /* Reports a map that this kind of material does not use. */
 static void check_map(const struct mtl_source *s, enum mtl_map which,
-                      const struct material *m, const struct place *at)
+                      const struct material *m, const struct diagnostics *at)
 {
     uint32_t map = mtl_source_map(s, which);
 
@@ -352,10 +356,9 @@ static void check_map(const struct mtl_source *s, enum mtl_map which,
 struct material material_from_source(const struct mtl_source *s,
                                      const char *path, struct warnings *report)
 {
-    static const enum mtl_map particular[] = {MTL_MAP_KD, MTL_MAP_KS,
-                                              MTL_MAP_PR, MTL_MAP_PM,
-                                              MTL_MAP_D};
-    struct place at = {path, report};
+    static const enum mtl_map kind_maps[] = {MTL_MAP_KD, MTL_MAP_KS, MTL_MAP_PR,
+                                             MTL_MAP_PM, MTL_MAP_D};
+    struct diagnostics at = {path, report};
     struct material m = material_default();
     struct mtl_color light = mtl_source_light(s);
     int illum = illumination(s, &at);
@@ -366,8 +369,8 @@ struct material material_from_source(const struct mtl_source *s,
         make_glass(&m, MATERIAL_THIN_GLASS, s, &at);
     else
         make_opaque(&m, illum, s, &at);
-    for (size_t i = 0; i < sizeof particular / sizeof particular[0]; i++)
-        check_map(s, particular[i], &m, &at);
+    for (size_t i = 0; i < sizeof kind_maps / sizeof kind_maps[0]; i++)
+        check_map(s, kind_maps[i], &m, &at);
     m.normal_texture = mtl_source_map(s, MTL_MAP_NORM);
     m.bump_texture = mtl_source_map(s, MTL_MAP_BUMP);
     m.bump_scale = (float)s->bump_scale;

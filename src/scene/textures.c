@@ -92,11 +92,11 @@ static bool shares_texels(struct host_world *host, const struct scene *scene,
 struct reading {
     uint32_t texture;
     const char *path;
-    const struct reading *twin; /* an earlier reading of the same texels */
+    const struct reading *original; /* an earlier reading of the same texels */
     struct image_file file;
-    bool is_open, is_there;
+    bool is_open, is_decoded;
     struct image image;
-    struct error why; /* reason if the image could not be read */
+    struct error error; /* reason if the image could not be read */
 };
 
 static struct reading reading_of(const struct scene *scene, uint32_t texture)
@@ -116,7 +116,8 @@ uint64_t textures_bytes(const struct host_world *host)
 
 static void open_image(struct reading *r, uint64_t held_bytes)
 {
-    r->is_open = image_open(&r->file, r->path, IMAGE_8BIT, held_bytes, &r->why);
+    r->is_open =
+        image_open(&r->file, r->path, IMAGE_8BIT, held_bytes, &r->error);
 }
 
 static void decode_image(void *context, uint32_t item, int worker)
@@ -126,12 +127,12 @@ static void decode_image(void *context, uint32_t item, int worker)
 
     (void)worker;
     if (r->is_open)
-        r->is_there = image_decode(&r->file, &r->image, &ignored, &r->why);
+        r->is_decoded = image_decode(&r->file, &r->image, &ignored, &r->error);
 }
 
 /* Warns that an image is missing, with the place of its first statement. */
-static void report_lost(const struct scene *scene, const struct reading *r,
-                        struct warnings *report, const char *why)
+static void report_missing(const struct scene *scene, const struct reading *r,
+                           struct warnings *report, const char *why)
 {
     struct texture_origin o = scene->texture_origins[r->texture];
 
@@ -142,21 +143,21 @@ static void report_lost(const struct scene *scene, const struct reading *r,
 
 /* Copies the decoded image into the world. A texture whose image could not be
  * read stays without texels. */
-static bool take(struct host_world *host, const struct scene *scene,
-                 const struct reading *r, struct warnings *report,
-                 struct error *err)
+static bool copy_image(struct host_world *host, const struct scene *scene,
+                       const struct reading *r, struct warnings *report,
+                       struct error *err)
 {
-    const struct reading *source = r->twin != NULL ? r->twin : r;
+    const struct reading *source = r->original != NULL ? r->original : r;
     const struct image *image = &source->image;
 
     if (shares_texels(host, scene, r->texture))
         return true;
-    if (!source->is_there)
-        report_lost(scene, r, report, source->why.text);
+    if (!source->is_decoded)
+        report_missing(scene, r, report, source->error.text);
     else if ((uint64_t)image->width * (uint64_t)image->height >
              TEXELS_MAX - host->texel_count)
-        report_lost(scene, r, report,
-                    "found more than 4e9 texels in all textures");
+        report_missing(scene, r, report,
+                       "found more than 4e9 texels in all textures");
     else
         return append(host, image, &host->textures[r->texture], scene->path,
                       err);
@@ -169,9 +170,9 @@ static bool take(struct host_world *host, const struct scene *scene,
  * differ in size. */
 #define IMAGES_EACH 2
 
-static const struct reading *find_twin(const struct scene *scene,
-                                       const struct reading *readings,
-                                       uint32_t index)
+static const struct reading *find_original(const struct scene *scene,
+                                           const struct reading *readings,
+                                           uint32_t index)
 {
     const struct texture *t = scene->textures;
     const struct reading *r = &readings[index];
@@ -187,9 +188,9 @@ static const struct reading *find_twin(const struct scene *scene,
  * memory together. Returns their number. An image that does not fit beside the
  * others comes first the next time, so that its refusal depends only on what
  * the scene holds by then, not on the number of threads. */
-static uint32_t open_some(struct host_world *host, const struct scene *scene,
-                          const uint32_t *textures, uint32_t count,
-                          struct reading *readings)
+static uint32_t open_images(struct host_world *host, const struct scene *scene,
+                            const uint32_t *textures, uint32_t count,
+                            struct reading *readings)
 {
     uint64_t held_bytes = textures_bytes(host);
 
@@ -197,8 +198,8 @@ static uint32_t open_some(struct host_world *host, const struct scene *scene,
         struct reading *r = &readings[i];
 
         *r = reading_of(scene, textures[i]);
-        r->twin = find_twin(scene, readings, i);
-        if (r->twin != NULL || shares_texels(host, scene, r->texture))
+        r->original = find_original(scene, readings, i);
+        if (r->original != NULL || shares_texels(host, scene, r->texture))
             continue;
         open_image(r, held_bytes);
         if (r->file.is_beyond && i > 0)
@@ -210,14 +211,14 @@ static uint32_t open_some(struct host_world *host, const struct scene *scene,
 }
 
 /* Copies the decoded images into the world, in order, and frees them. */
-static bool take_some(struct host_world *host, const struct scene *scene,
-                      struct reading *readings, uint32_t count,
-                      struct warnings *report, struct error *err)
+static bool copy_images(struct host_world *host, const struct scene *scene,
+                        struct reading *readings, uint32_t count,
+                        struct warnings *report, struct error *err)
 {
     bool ok = true;
 
     for (uint32_t i = 0; i < count; i++)
-        ok = ok && take(host, scene, &readings[i], report, err);
+        ok = ok && copy_image(host, scene, &readings[i], report, err);
     for (uint32_t i = 0; i < count; i++)
         image_free(&readings[i].image);
     return ok;
@@ -237,9 +238,9 @@ static bool load_all(struct host_world *host, const struct scene *scene,
     for (uint32_t i = 0, n; ok && i < count; i += n) {
         uint32_t wanted = count - i < at_once ? count - i : at_once;
 
-        n = open_some(host, scene, textures + i, wanted, readings);
+        n = open_images(host, scene, textures + i, wanted, readings);
         pool_each(pool, n, decode_image, readings);
-        ok = take_some(host, scene, readings, n, report, err);
+        ok = copy_images(host, scene, readings, n, report, err);
     }
     free(readings);
     pool_destroy(pool);
@@ -256,8 +257,8 @@ static bool is_black(const struct vec3 *c)
 /* Combines a colour with its map. The colour is a factor of the map; a black or
  * absent one becomes `alone`. If the image is missing, the map is removed and a
  * black colour becomes `lost`. */
-static void settle(const struct host_world *host, uint32_t *texture,
-                   struct vec3 *color, float alone, float lost)
+static void resolve_map(const struct host_world *host, uint32_t *texture,
+                        struct vec3 *color, float alone, float lost)
 {
     bool is_lost = *texture != NO_INDEX && host->textures[*texture].width == 0;
     float x = is_lost ? lost : alone;
@@ -269,7 +270,7 @@ static void settle(const struct host_world *host, uint32_t *texture,
 }
 
 /* Removes a map of numbers whose image is missing. */
-static void settle_data(const struct host_world *host, uint32_t *texture)
+static void resolve_data_map(const struct host_world *host, uint32_t *texture)
 {
     if (*texture != NO_INDEX && host->textures[*texture].width == 0)
         *texture = NO_INDEX;
@@ -316,19 +317,19 @@ bool textures_load_for(struct host_world *host, const struct scene *scene,
         if (!shares_texels(host, scene, r.texture))
             open_image(&r, textures_bytes(host));
         decode_image(&r, 0, 0);
-        ok = take(host, scene, &r, report, err);
+        ok = copy_image(host, scene, &r, report, err);
         image_free(&r.image);
         if (!ok)
             return false;
     }
-    settle(host, &m->color_texture, &m->color, 1, MATERIAL_GREY);
-    settle(host, &m->emission_texture, &m->emission, 1, 0);
-    settle(host, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
-    settle_data(host, &m->alpha_texture);
-    settle_data(host, &m->metal_texture);
-    settle_data(host, &m->opacity_texture);
-    settle_data(host, &m->normal_texture);
-    settle_data(host, &m->bump_texture);
+    resolve_map(host, &m->color_texture, &m->color, 1, MATERIAL_GREY);
+    resolve_map(host, &m->emission_texture, &m->emission, 1, 0);
+    resolve_map(host, &m->coat_texture, &m->coat, MATERIAL_COAT, 0);
+    resolve_data_map(host, &m->alpha_texture);
+    resolve_data_map(host, &m->metal_texture);
+    resolve_data_map(host, &m->opacity_texture);
+    resolve_data_map(host, &m->normal_texture);
+    resolve_data_map(host, &m->bump_texture);
     if (m->kind == MATERIAL_PLASTIC && is_black(&m->coat))
         m->kind = MATERIAL_DIFFUSE;
     return true;

@@ -22,7 +22,7 @@ void view_init(struct view *view)
     };
 }
 
-void view_take_frame(struct view *view, const struct view *from)
+void view_copy_frame(struct view *view, const struct view *from)
 {
     view->width_px = from->width_px;
     view->height_px = from->height_px;

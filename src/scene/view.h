@@ -79,7 +79,7 @@ void view_keep_camera(struct view *view, const struct view *now,
                       const struct view *before, const struct view *after);
 
 /* Copies size and bounces, which the command line may set for one run. */
-void view_take_frame(struct view *view, const struct view *from);
+void view_copy_frame(struct view *view, const struct view *from);
 
 /* Replaces `to`, which must be initialised, by a copy of `from`. Returns false,
  * and changes nothing, when memory is out. */

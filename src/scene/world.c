@@ -259,8 +259,8 @@ struct pool *world_pool(const struct host_world *host)
                                   : NULL;
 }
 
-bool world_need_tree(struct host_world *host, const struct world *world,
-                     struct pool *pool, struct error *err)
+bool world_ensure_tree(struct host_world *host, const struct world *world,
+                       struct pool *pool, struct error *err)
 {
     if (atomic_load(&host->has_tree))
         return true;
@@ -332,7 +332,7 @@ bool world_guide(struct host_world *host, const struct scene *scene,
         return true;
     if (path_guide_needs_rays(guide, &w.world, sky)) {
         pool = world_pool(host);
-        ok = world_need_tree(host, &w.world, pool, err);
+        ok = world_ensure_tree(host, &w.world, pool, err);
     }
     ok = ok && path_guide_update(guide, &w, &host->lights, sky, pool, err);
     pool_destroy(pool);

@@ -12,7 +12,7 @@
  * Ownership: world_free() frees; a zeroed struct is an empty world. Lent arrays
  *            are valid until the next function that changes the world
  * Threads:   one thread changes a world, while nobody renders it. Only
- *            world_need_tree() may run while other threads read the rest
+ *            world_ensure_tree() may run while other threads read the rest
  * Errors:    impossible cameras; images; memory
  */
 #ifndef GLIM_WORLD_H
@@ -112,8 +112,8 @@ struct pool *world_pool(const struct host_world *host);
 
 /* Builds the tree if there is none yet. `world` is lent from `host`. With pool
  * NULL the caller's thread builds. */
-bool world_need_tree(struct host_world *host, const struct world *world,
-                     struct pool *pool, struct error *err);
+bool world_ensure_tree(struct host_world *host, const struct world *world,
+                       struct pool *pool, struct error *err);
 
 /* Returns the tree, or NULL if it has not been built. Callable from any
  * thread. */

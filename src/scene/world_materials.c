@@ -8,7 +8,7 @@
 #include "scene/textures.h"
 
 /* New arrays to be swapped in. NULL keeps the world's array. */
-struct next {
+struct new_arrays {
     struct tri *tris;
     uint32_t *assigned;
     struct material *materials;
@@ -20,16 +20,16 @@ struct next {
 };
 
 /* A change of materials in progress. */
-struct change {
+struct material_change {
     struct host_world *host;
     const struct scene *scene;
     uint32_t count; /* as in world_set_materials() */
     const struct mtl_source *sources;
     const uint32_t *assigned;
-    struct next next;
+    struct new_arrays next;
 };
 
-static bool out_of_memory(const struct change *c, struct error *err)
+static bool out_of_memory(const struct material_change *c, struct error *err)
 {
     return fail(err, "%s: out of memory for the changed materials",
                 c->scene->path);
@@ -58,10 +58,10 @@ static bool needs_tris(const struct host_world *host, const struct scene *scene,
     return false;
 }
 
-static bool make_tris(struct change *c)
+static bool make_tris(struct material_change *c)
 {
     const struct scene *scene = c->scene;
-    struct next *next = &c->next;
+    struct new_arrays *next = &c->next;
 
     if (!needs_tris(c->host, scene, c->assigned))
         return true;
@@ -81,7 +81,7 @@ static bool make_tris(struct change *c)
 
 /* ---- materials ---- */
 
-static bool *find_used(const struct change *c)
+static bool *find_used(const struct material_change *c)
 {
     bool *is_used = alloc_array(c->count, sizeof *is_used);
 
@@ -94,7 +94,7 @@ static bool *find_used(const struct change *c)
     return is_used;
 }
 
-static bool is_as_before(const struct change *c, uint32_t i)
+static bool is_as_before(const struct material_change *c, uint32_t i)
 {
     const struct host_world *host = c->host;
 
@@ -103,7 +103,8 @@ static bool is_as_before(const struct change *c, uint32_t i)
            mtl_source_equal(&host->sources[i], &c->sources[i]);
 }
 
-static struct material make_material(const struct change *c, uint32_t i)
+static struct material make_material(const struct material_change *c,
+                                     uint32_t i)
 {
     /* Warnings were reported when the file was read. */
     struct warnings report = {0};
@@ -116,7 +117,7 @@ static struct material make_material(const struct change *c, uint32_t i)
 
 /* Loads the images of a material that comes into use, into a copy of the
  * textures, since the old array is lent. */
-static bool load_textures(struct change *c, struct material *m,
+static bool load_textures(struct material_change *c, struct material *m,
                           struct error *err)
 {
     struct host_world *host = c->host;
@@ -138,9 +139,9 @@ static bool load_textures(struct change *c, struct material *m,
     return ok;
 }
 
-static bool make_materials(struct change *c, struct error *err)
+static bool make_materials(struct material_change *c, struct error *err)
 {
-    struct next *next = &c->next;
+    struct new_arrays *next = &c->next;
     bool ok = true;
 
     next->material_is_used = find_used(c);
@@ -165,12 +166,12 @@ static bool make_materials(struct change *c, struct error *err)
 
 /* Returns true if `differ` is true for a used material before and after the
  * change, or for the material of a triangle. */
-static bool any_differs(const struct change *c,
+static bool any_differs(const struct material_change *c,
                         bool (*differ)(const struct material *,
                                        const struct material *))
 {
     const struct host_world *host = c->host;
-    const struct next *next = &c->next;
+    const struct new_arrays *next = &c->next;
     const struct tri *tris = world_tris(host, c->scene);
 
     for (uint32_t i = 0; i < host->material_count; i++)
@@ -184,7 +185,7 @@ static bool any_differs(const struct change *c,
     return false;
 }
 
-static struct world next_arrays(const struct change *c)
+static struct world next_arrays(const struct material_change *c)
 {
     struct world arrays = world_arrays(c->host, c->scene);
 
@@ -197,7 +198,7 @@ static struct world next_arrays(const struct change *c)
     return arrays;
 }
 
-static bool make_lights(struct change *c, struct error *err)
+static bool make_lights(struct material_change *c, struct error *err)
 {
     struct world arrays = next_arrays(c);
 
@@ -207,7 +208,7 @@ static bool make_lights(struct change *c, struct error *err)
     return c->next.has_lights;
 }
 
-static bool needs_guide(const struct change *c)
+static bool needs_guide(const struct material_change *c)
 {
     return c->next.has_lights || c->next.textures != NULL ||
            any_differs(c, path_guides_differ);
@@ -215,10 +216,10 @@ static bool needs_guide(const struct change *c)
 
 /* ---- swap ---- */
 
-static void swap_in(struct change *c)
+static void swap_in(struct material_change *c)
 {
     struct host_world *host = c->host;
-    struct next *next = &c->next;
+    struct new_arrays *next = &c->next;
 
     free(host->materials);
     host->materials = next->materials;
@@ -247,7 +248,7 @@ static void swap_in(struct change *c)
     }
 }
 
-static void drop(struct next *next)
+static void free_arrays(struct new_arrays *next)
 {
     free(next->materials);
     free(next->sources);
@@ -276,11 +277,11 @@ bool world_set_materials(struct host_world *host, const struct scene *scene,
                          uint32_t count, const struct mtl_source *sources,
                          const uint32_t *assigned, struct error *err)
 {
-    struct change c = {.host = host,
-                       .scene = scene,
-                       .count = count,
-                       .sources = sources,
-                       .assigned = assigned};
+    struct material_change c = {.host = host,
+                                .scene = scene,
+                                .count = count,
+                                .sources = sources,
+                                .assigned = assigned};
     bool ok;
 
     if (has_materials(host, scene, count, sources, assigned))
@@ -288,7 +289,7 @@ bool world_set_materials(struct host_world *host, const struct scene *scene,
     ok = make_tris(&c) || out_of_memory(&c, err);
     ok = ok && make_materials(&c, err) && make_lights(&c, err);
     if (!ok) {
-        drop(&c.next);
+        free_arrays(&c.next);
         return false;
     }
     if (needs_guide(&c))

@@ -192,13 +192,13 @@ static void change(struct edit *e, const struct edit_step *step)
     set(e, step, &step->after);
 }
 
-void edit_break(struct edit *e)
+void edit_end_step(struct edit *e)
 {
     e->group++;
     e->gesture = 0;
 }
 
-bool edit_begin(struct edit *e, uint32_t gesture, uint64_t now_ns)
+bool edit_begin_gesture(struct edit *e, uint32_t gesture, uint64_t now_ns)
 {
     bool is_new = gesture != e->gesture || now_ns - e->gesture_ns > GESTURE_NS;
 
@@ -237,7 +237,8 @@ void edit_assign(struct edit *e, uint32_t object, uint32_t material)
 }
 
 /* Lends the path from the edit's skies, which stay. */
-static struct lighting lend_sky(struct edit *e, const struct lighting *lighting)
+static struct lighting with_own_path(struct edit *e,
+                                     const struct lighting *lighting)
 {
     struct lighting lent = *lighting;
     uint32_t sky = lent.sky_path != NULL ? edit_sky(e, lent.sky_path) : 0;
@@ -250,8 +251,8 @@ void edit_lighting(struct edit *e, const struct lighting *lighting)
 {
     struct edit_step step = {
         .kind = STEP_LIGHTING,
-        .before = {.lighting = lend_sky(e, &e->now.view.lighting)},
-        .after = {.lighting = lend_sky(e, lighting)},
+        .before = {.lighting = with_own_path(e, &e->now.view.lighting)},
+        .after = {.lighting = with_own_path(e, lighting)},
     };
 
     if (!lighting_equal(&step.before.lighting, lighting))
@@ -280,9 +281,9 @@ void edit_shot(struct edit *e, int number)
         .after = {.shot = {view->pose, true}},
     };
 
-    edit_break(e);
+    edit_end_step(e);
     change(e, &step);
-    edit_break(e);
+    edit_end_step(e);
 }
 
 static bool has_name(const struct edit *e, const char *name)
@@ -368,7 +369,7 @@ const char *edit_undo(struct edit *e)
         s = &e->steps[--e->done_count];
         set(e, s, &s->before);
     }
-    edit_break(e);
+    edit_end_step(e);
     return name_step(e, s);
 }
 
@@ -385,29 +386,29 @@ const char *edit_redo(struct edit *e)
 
         set(e, s, &s->after);
     }
-    edit_break(e);
+    edit_end_step(e);
     return name_step(e, first);
 }
 
 /* ---- what is shown and saved ---- */
 
-static bool has_other_assigned(const struct edit *e)
+static bool has_unsaved_assigned(const struct edit *e)
 {
     return memcmp(e->now.assigned, e->saved.assigned,
                   e->object_count * sizeof *e->now.assigned) != 0;
 }
 
 /* True if what is saved looks as what is now, but for its development. */
-static bool looks_saved(const struct edit *e)
+static bool is_shown_as_saved(const struct edit *e)
 {
-    return !edit_has_unsaved_materials(e) && !has_other_assigned(e) &&
+    return !edit_has_unsaved_materials(e) && !has_unsaved_assigned(e) &&
            lighting_is_same_light(&e->now.view.lighting,
                                   &e->saved.view.lighting);
 }
 
 void edit_compare(struct edit *e, bool is_comparing)
 {
-    if (is_comparing != e->is_comparing && !looks_saved(e))
+    if (is_comparing != e->is_comparing && !is_shown_as_saved(e))
         e->version++;
     e->is_comparing = is_comparing;
 }
@@ -444,10 +445,10 @@ bool edit_has_unsaved_materials(const struct edit *e)
 bool edit_has_unsaved_view(const struct edit *e)
 {
     return !lighting_equal(&e->now.view.lighting, &e->saved.view.lighting) ||
-           has_other_assigned(e);
+           has_unsaved_assigned(e);
 }
 
-bool edit_tidy_material(struct edit *e, uint32_t material, uint32_t pattern)
+bool edit_simplify_material(struct edit *e, uint32_t material, uint32_t pattern)
 {
     if (edit_is_saved(e, material))
         return false;

@@ -6,8 +6,8 @@
  * Values of materials, which object has which material, duplicates, light and
  * its development, the camera, numbered views. This is their only place; each
  * change goes through a function here. Changes that follow each other without
- * edit_break() between them are one step: a slider or a key that is held down
- * is undone at once.
+ * edit_end_step() between them are one step: a slider or a key that is held
+ * down is undone at once.
  *
  * Units:     those of MTL and view files
  * Ownership: edit_free() frees; nothing of the scene or view is kept
@@ -60,12 +60,12 @@ void edit_init(struct edit *edit, const struct scene *scene,
                const struct view *view, struct warnings *report);
 
 /* The next change is a step of its own. */
-void edit_break(struct edit *edit);
+void edit_end_step(struct edit *edit);
 
 /* The next changes belong to a gesture: a key that is held, a parameter that is
  * turned; its number, above 0, is the caller's. They join the step of the same
  * gesture if that was shortly before. Returns true if a new step begins. */
-bool edit_begin(struct edit *edit, uint32_t gesture, uint64_t now_ns);
+bool edit_begin_gesture(struct edit *edit, uint32_t gesture, uint64_t now_ns);
 
 /* What is equal to what was there is no change. */
 void edit_material(struct edit *edit, uint32_t material,
@@ -109,7 +109,8 @@ bool edit_has_unsaved_view(const struct edit *edit);
 /* For a material that is to be saved over what the files have of another or the
  * same: takes back what was left by kinds that it has no more. False if there
  * is nothing to save. */
-bool edit_tidy_material(struct edit *edit, uint32_t material, uint32_t pattern);
+bool edit_simplify_material(struct edit *edit, uint32_t material,
+                            uint32_t pattern);
 
 /* A material's values are in the files now. */
 void edit_saved_material(struct edit *edit, uint32_t material);

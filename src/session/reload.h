@@ -33,8 +33,8 @@ bool reload_init(struct reload *r, const struct options *options,
 /* False if a load is on its way, or no thread can start. */
 bool reload_begin(struct reload *r, struct error *err);
 
-/* Waits for the load. *fresh is for session_take() and session_close(), also
- * after an error. */
+/* Waits for the load. *fresh is for session_take_loaded() and session_close(),
+ * also after an error. */
 bool reload_end(struct reload *r, struct session *fresh, struct error *err);
 
 void reload_free(struct reload *r);

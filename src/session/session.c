@@ -87,8 +87,8 @@ static bool open_scene(struct session *s, struct view *view, struct error *err)
                     options_threads(o), &s->report, err))
         return false;
     edit_init(&s->edit, &s->scene, view, &s->report);
-    view_take_frame(&s->edit.saved.view, &file);
-    s->opened = view->pose;
+    view_copy_frame(&s->edit.saved.view, &file);
+    s->opened_pose = view->pose;
     note_additions(s);
     return true;
 }
@@ -113,9 +113,9 @@ bool session_open(struct session *s, const struct options *options,
 {
     if (!session_load(s, options, start_ns, err))
         return false;
-    if (!backends_open(&s->machines, options, err))
+    if (!backends_open(&s->backends, options, err))
         return false;
-    s->render = render_create(s->machines.cpu, err);
+    s->render = render_create(s->backends.cpu, err);
     return s->render != NULL;
 }
 
@@ -127,18 +127,18 @@ static void swap_loaded(struct session *a, struct session *b)
     a->world = b->world;
     a->edit = b->edit;
     a->crop = b->crop;
-    a->opened = b->opened;
+    a->opened_pose = b->opened_pose;
     a->report = b->report;
     b->scene = old.scene;
     b->world = old.world;
     b->edit = old.edit;
     b->crop = old.crop;
-    b->opened = old.opened;
+    b->opened_pose = old.opened_pose;
     b->report = old.report;
     memcpy(a->notice, b->notice, sizeof a->notice);
 }
 
-void session_take(struct session *s, struct session *fresh)
+void session_take_loaded(struct session *s, struct session *fresh)
 {
     bool has_same_shape = scene_has_same_shape(&s->scene, &fresh->scene);
 
@@ -163,8 +163,8 @@ void session_watch(const struct session *s, struct file_watch *watch)
     free(camera);
 }
 
-bool session_spares(const struct session *s, const char *option,
-                    const char *path, struct error *err)
+bool session_check_output(const struct session *s, const char *option,
+                          const char *path, struct error *err)
 {
     struct file_watch files;
     bool is_read;
@@ -213,7 +213,7 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     if (!render_start(s->render, &job, err))
         return false;
     if (session_uses_device(s) && spp == 0) /* there will be restarts */
-        backends_specialise(&s->machines, features);
+        backends_specialise(&s->backends, features);
     return true;
 }
 
@@ -239,24 +239,24 @@ struct develop session_develop(const struct session *s)
     return (struct develop){(float)l->exposure, l->tone};
 }
 
-struct render_progress session_look(struct session *s)
+struct render_progress session_progress(struct session *s)
 {
     struct render_progress p = render_progress(s->render);
 
-    speeds_look(&s->speeds, p.render_ns, p.samples);
+    speeds_update(&s->speeds, p.render_ns, p.samples);
     return p;
 }
 
 bool session_uses_device(const struct session *s)
 {
-    return render_backend(s->render) != s->machines.cpu;
+    return render_backend(s->render) != s->backends.cpu;
 }
 
 void session_close(struct session *s)
 {
     if (s->render)
         render_destroy(s->render); /* reads the scene until it returns */
-    backends_close(&s->machines);
+    backends_close(&s->backends);
     world_free(&s->world);
     scene_free(&s->scene);
     edit_free(&s->edit);

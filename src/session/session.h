@@ -25,13 +25,13 @@ struct session {
     struct host_world world; /* made of the scene and the edit */
     struct edit edit; /* materials, light, camera, as they are to be rendered */
     uint32_t rendered_version; /* of the edit */
-    struct pose opened;        /* the camera as loaded, to go back to */
+    struct pose opened_pose;   /* the camera as loaded, to go back to */
     struct rect crop;          /* of the picture, that is rendered */
     char *view_path;  /* where the view is kept: STEM.view or -c FILE */
     char notice[256]; /* one line for the person, or "" */
     struct warnings report;
     uint32_t files_version; /* counts changes of what session_watch() adds */
-    struct backends machines;
+    struct backends backends;
     struct render *render;
     uint64_t start_ns; /* of the program */
     uint64_t load_ns;
@@ -56,7 +56,7 @@ bool session_load(struct session *s, const struct options *options,
 /* Halts, and takes what `fresh` has loaded of the same files. The camera and
  * its steps of undo stay, but for what the view file has changed. What was
  * loaded before is in `fresh` then. session_restart() is due. */
-void session_take(struct session *s, struct session *fresh);
+void session_take_loaded(struct session *s, struct session *fresh);
 
 /* Adds all files that the session was loaded from, and those that would be
  * read if they were there. */
@@ -64,8 +64,8 @@ void session_watch(const struct session *s, struct file_watch *watch);
 
 /* False, with a message, if what the option names would be written over one of
  * these files. */
-bool session_spares(const struct session *s, const char *option,
-                    const char *path, struct error *err);
+bool session_check_output(const struct session *s, const char *option,
+                          const char *path, struct error *err);
 
 /* Halts and starts from sample 0 with what the edit shows. spp 0: no
  * limit. */
@@ -82,7 +82,7 @@ bool session_is_outdated(const struct session *s);
 struct develop session_develop(const struct session *s);
 
 /* How far the render is. To be called some times a second, for the speeds. */
-struct render_progress session_look(struct session *s);
+struct render_progress session_progress(struct session *s);
 
 /* True if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);

@@ -38,7 +38,7 @@ static size_t collect(struct session *s, uint32_t file,
     for (uint32_t i = 0; i < e->material_count; i++) {
         uint32_t pattern = pattern_of(e, i);
 
-        if (file_of(s, i) != file || !edit_tidy_material(e, i, pattern))
+        if (file_of(s, i) != file || !edit_simplify_material(e, i, pattern))
             continue;
         changes[count] = (struct mtl_change){
             .name = e->names[i],
@@ -126,7 +126,7 @@ bool session_save_view(struct session *s, struct file_change *change,
     xcheck(view_copy(&view, &s->edit.now.view) &&
            assigns_copy(&view.assigns, &s->edit.saved.view.assigns));
     view.has_camera = true; /* also one that was placed by the program */
-    view_take_frame(&view, &s->edit.saved.view);
+    view_copy_frame(&view, &s->edit.saved.view);
     edit_to_view(&s->edit, &s->scene, &view);
     ok = view_write(&view, s->view_path, change, err);
     if (ok)

@@ -49,74 +49,75 @@ void camera_control_stop(struct camera_control *camera)
 {
     held_keys_stop(&camera->input.motion);
     camera->input.is_dragging = false;
-    edit_break(edit_of(camera));
+    edit_end_step(edit_of(camera));
 }
 
 /* The eye is somewhere else, without a way there. */
-static void forget_place(struct camera_control *camera)
+static void reset_clearance(struct camera_control *camera)
 {
-    clearance_forget(&camera->clearance);
-    camera->said = CLEARANCE_AMONG;
+    clearance_reset(&camera->clearance);
+    camera->reported_state = CLEARANCE_IN_SCENE;
 }
 
-void camera_control_renew(struct camera_control *camera)
+void camera_control_set_scene(struct camera_control *camera)
 {
     camera->cursor.has_pick = false;
     camera->cursor.is_pick_new = false;
-    camera->cursor.must_look = camera->screen->has_cursor;
-    forget_place(camera);
+    camera->cursor.is_outdated = camera->screen->has_cursor;
+    reset_clearance(camera);
     camera_input_resize(&camera->input, scene_of(camera)->bounds_lo,
                         scene_of(camera)->bounds_hi);
 }
 
 /* ---- where the eye is ---- */
 
-static void look_around(struct camera_control *camera)
+static void update_clearance(struct camera_control *camera)
 {
     const struct session *s = camera->control->session;
 
     if (world_tree(&s->world) == NULL)
         return; /* the render thread may be building it */
-    clearance_follow(&camera->clearance, &s->scene, &s->world, pose_of(camera),
+    clearance_update(&camera->clearance, &s->scene, &s->world, pose_of(camera),
                      aspect_of(camera));
     camera_input_adapt(&camera->input, camera->clearance.near,
-                       camera->clearance.away);
+                       camera->clearance.box_distance);
 }
 
-static void say_place(struct camera_control *camera)
+static void say_state(struct camera_control *camera)
 {
     const struct clearance *c = &camera->clearance;
     struct keymap_name key = render_control_key(camera->control, ACTION_RESET);
     const char *name;
 
-    if (c->place == CLEARANCE_INSIDE) {
+    if (c->state == CLEARANCE_INSIDE_SOLID) {
         name = pick_cursor_object_name(&camera->cursor, c->passed);
         render_control_say_long(camera->control, "inside of %.60s: %s returns",
                                 name, key.text);
-    } else if (c->place == CLEARANCE_OUTSIDE) {
+    } else if (c->state == CLEARANCE_OUTSIDE_ROOM) {
         render_control_say_long(camera->control,
                                 "outside%s, behind a wall: %s returns",
-                                c->away > 0 ? " the scene" : "", key.text);
+                                c->box_distance > 0 ? " the scene" : "",
+                                key.text);
     } else {
         render_control_say_long(camera->control,
                                 "nothing of the scene is in view: %s returns",
                                 key.text);
     }
-    camera->said_ns = camera->control->message.said_ns;
+    camera->reported_ns = camera->control->message.said_ns;
 }
 
 /* After a move: who loses the scene is told so once; the message goes with its
  * reason. */
-static void judge(struct camera_control *camera)
+static void report_state(struct camera_control *camera)
 {
-    look_around(camera);
-    if (camera->clearance.place == camera->said)
+    update_clearance(camera);
+    if (camera->clearance.state == camera->reported_state)
         return;
-    camera->said = camera->clearance.place;
-    if (camera->said != CLEARANCE_AMONG)
-        say_place(camera);
-    else if (camera->said_ns == camera->control->message.said_ns)
-        render_control_be_silent(camera->control);
+    camera->reported_state = camera->clearance.state;
+    if (camera->reported_state != CLEARANCE_IN_SCENE)
+        say_state(camera);
+    else if (camera->reported_ns == camera->control->message.said_ns)
+        render_control_clear_message(camera->control);
 }
 
 /* ---- moves ---- */
@@ -147,15 +148,15 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
      */
     while ((next_ns = held_keys_next_ns(&camera->input.motion)) <= now_ns &&
            next_ns != UINT64_MAX) {
-        look_around(camera);
+        update_clearance(camera);
         has_moved |= camera_input_step(&camera->input, &pose, next_ns);
         edit_pose(edit_of(camera), &pose);
     }
     if (!has_moved)
         return;
-    camera->cursor.must_look = camera->screen->has_cursor;
+    camera->cursor.is_outdated = camera->screen->has_cursor;
     say_lens(camera);
-    judge(camera);
+    report_state(camera);
 }
 
 void camera_control_end_move(struct camera_control *camera)
@@ -172,8 +173,8 @@ void camera_control_move(struct camera_control *camera,
     if (!render_control_may_move(camera->control))
         return;
     steer_held(camera, now_ns);
-    if (edit_begin(edit_of(camera), 1 + 2 * (uint32_t)axis + (sign > 0),
-                   now_ns))
+    if (edit_begin_gesture(edit_of(camera), 1 + 2 * (uint32_t)axis + (sign > 0),
+                           now_ns))
         camera_input_begin(&camera->input, now_ns);
     camera->held = axis;
     held_keys_press(&camera->input.motion, axis, sign, now_ns);
@@ -191,16 +192,16 @@ static bool may_jump(struct camera_control *camera)
 
 static void jump(struct camera_control *camera, const struct pose *pose)
 {
-    edit_break(edit_of(camera));
+    edit_end_step(edit_of(camera));
     edit_pose(edit_of(camera), pose);
-    edit_break(edit_of(camera));
-    forget_place(camera);
+    edit_end_step(edit_of(camera));
+    reset_clearance(camera);
 }
 
 static void change_speed(struct camera_control *camera, int steps)
 {
     camera_input_change_speed(&camera->input, steps);
-    look_around(camera);
+    update_clearance(camera);
     render_control_say(camera->control, "speed times %.3g: %.3g a second here",
                        camera->input.speed, camera_input_speed(&camera->input));
 }
@@ -219,12 +220,12 @@ void camera_control_reset(struct camera_control *camera)
 {
     if (!may_jump(camera))
         return;
-    jump(camera, &camera->control->session->opened);
+    jump(camera, &camera->control->session->opened_pose);
     render_control_say(camera->control, "the view as it was opened");
 }
 
 /* What is loaded anew would take an undone change of materials back. */
-static bool may_travel(struct camera_control *camera)
+static bool may_undo(struct camera_control *camera)
 {
     struct render_control *control = camera->control;
 
@@ -238,12 +239,12 @@ static bool may_travel(struct camera_control *camera)
     return control->is_live && !control->reload.is_busy;
 }
 
-static void travel(struct camera_control *camera, bool is_back)
+static void step_history(struct camera_control *camera, bool is_back)
 {
     struct pose before = *pose_of(camera);
     const char *step;
 
-    if (!may_travel(camera))
+    if (!may_undo(camera))
         return;
     camera_control_stop(camera);
     step = is_back ? edit_undo(edit_of(camera)) : edit_redo(edit_of(camera));
@@ -254,17 +255,17 @@ static void travel(struct camera_control *camera, bool is_back)
         render_control_say(camera->control, "%s: %s",
                            is_back ? "undone" : "done again", step);
     if (memcmp(&before, pose_of(camera), sizeof before) != 0)
-        forget_place(camera);
+        reset_clearance(camera);
 }
 
 void camera_control_undo(struct camera_control *camera)
 {
-    travel(camera, true);
+    step_history(camera, true);
 }
 
 void camera_control_redo(struct camera_control *camera)
 {
-    travel(camera, false);
+    step_history(camera, false);
 }
 
 /* ---- orbit, frame, focus ---- */
@@ -275,7 +276,7 @@ static void find_pivot(struct camera_control *camera)
     struct pick pick = camera->cursor.pick;
 
     if (!camera->cursor.has_pick &&
-        !pick_cursor_look_ahead(&camera->cursor, &pick))
+        !pick_cursor_find_center(&camera->cursor, &pick))
         memcpy(pick.position, scene_of(camera)->center, sizeof pick.position);
     memcpy(camera->input.pivot, pick.position, sizeof camera->input.pivot);
 }
@@ -407,7 +408,7 @@ static bool steer_by(struct camera_control *camera, const struct event *event)
                             r.width, r.height))
         return false;
     if (camera->drag_is_new)
-        edit_break(edit_of(camera));
+        edit_end_step(edit_of(camera));
     camera->drag_is_new = false;
     edit_pose(edit_of(camera), &pose);
     return true;
@@ -418,7 +419,7 @@ static void drag(struct camera_control *camera, const struct event *event)
     if (!render_control_may_move(camera->control))
         camera->input.is_dragging = false; /* nor is it a click */
     else if (steer_by(camera, event))
-        judge(camera);
+        report_state(camera);
 }
 
 void camera_control_mouse(struct camera_control *camera,

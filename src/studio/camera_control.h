@@ -30,8 +30,8 @@ struct camera_control {
     bool drag_is_new;         /* nothing has moved yet */
     struct pick_cursor cursor;
     struct clearance clearance; /* of the eye, where it was last */
-    enum clearance_place said;
-    uint64_t said_ns; /* when, if it was a message */
+    enum clearance_state reported_state;
+    uint64_t reported_ns; /* when, if it was a message */
 };
 
 void camera_control_init(struct camera_control *camera,
@@ -83,7 +83,7 @@ void camera_control_step(struct camera_control *camera, uint64_t now_ns);
 uint64_t camera_control_next_ns(const struct camera_control *camera);
 
 /* After the scene was loaded anew: what was picked is of the one before. */
-void camera_control_renew(struct camera_control *camera);
+void camera_control_set_scene(struct camera_control *camera);
 
 /* Lets go of all keys and buttons. */
 void camera_control_stop(struct camera_control *camera);

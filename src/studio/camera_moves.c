@@ -45,8 +45,8 @@ void camera_turn(struct pose *pose, double right_rad, double up_rad)
 }
 
 /* Finds the coordinates of a point along the axes, seen from another. */
-static void along(const struct axes *axes, const double from[3],
-                  const double point[3], double xyz[3])
+static void to_axes(const struct axes *axes, const double from[3],
+                    const double point[3], double xyz[3])
 {
     double offset[3];
 
@@ -64,7 +64,7 @@ void camera_orbit(struct pose *pose, const double around[3], double right_rad,
     double xyz[3];
 
     pose_axes(pose, &axes);
-    along(&axes, pose->eye, around, xyz);
+    to_axes(&axes, pose->eye, around, xyz);
     camera_turn(pose, -right_rad, -up_rad);
     pose_axes(pose, &axes);
     for (int i = 0; i < 3; i++) {
@@ -79,7 +79,7 @@ void camera_orbit(struct pose *pose, const double around[3], double right_rad,
 /* The nearest place (*x, *z) before points from which all are seen by a camera
  * along z that sees as far to the sides as `slope` times the distance; `right`
  * and `left` are the greatest x - slope z and -x - slope z of the points. */
-static void stand_before(double right, double left, double slope, double *x,
+static void fit_distance(double right, double left, double slope, double *x,
                          double *z)
 {
     *x = (right - left) / 2;
@@ -112,15 +112,15 @@ void camera_frame(struct pose *pose, double aspect, const double lo[3],
         double p[3];
 
         corner_of(lo, hi, corner, p);
-        along(&axes, center, p, xyz);
+        to_axes(&axes, center, p, xyz);
         radius = vec3d_length(xyz);
         right = fmax(right, xyz[0] - slope_x * xyz[2]);
         left = fmax(left, -xyz[0] - slope_x * xyz[2]);
         above = fmax(above, xyz[1] - slope_y * xyz[2]);
         below = fmax(below, -xyz[1] - slope_y * xyz[2]);
     }
-    stand_before(right, left, slope_x, &x, &z_across);
-    stand_before(above, below, slope_y, &y, &z_high);
+    fit_distance(right, left, slope_x, &x, &z_across);
+    fit_distance(above, below, slope_y, &y, &z_high);
     /* a wide lens would see all of it from its nearest corner */
     z = fmin(-radius, fmin(z_across, z_high));
     if (!(z < 0))
@@ -146,7 +146,7 @@ bool camera_sees_box(const struct pose *pose, double aspect, const double lo[3],
         double p[3], xyz[3];
 
         corner_of(lo, hi, corner, p);
-        along(&axes, pose->eye, p, xyz);
+        to_axes(&axes, pose->eye, p, xyz);
         most[0] = fmax(most[0], xyz[2]);
         most[1] = fmax(most[1], slope_x * xyz[2] - xyz[0]);
         most[2] = fmax(most[2], slope_x * xyz[2] + xyz[0]);
@@ -165,7 +165,7 @@ double camera_depth(const struct pose *pose, const double point[3])
     double xyz[3];
 
     pose_axes(pose, &axes);
-    along(&axes, pose->eye, point, xyz);
+    to_axes(&axes, pose->eye, point, xyz);
     return xyz[2];
 }
 

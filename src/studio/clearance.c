@@ -68,8 +68,8 @@ static double distance_to_box(const struct scene *s, const double eye[3])
     return vec3d_length(off);
 }
 
-static void look_around(struct clearance *c, const struct scene *scene,
-                        const struct host_world *host)
+static void trace_around(struct clearance *c, const struct scene *scene,
+                         const struct host_world *host)
 {
     double nearest[NEAR_RAY + 1];
     struct ray ray = {.o = stored(scene, c->eye), .t_max = FLOAT_MAX};
@@ -88,8 +88,8 @@ static void look_around(struct clearance *c, const struct scene *scene,
         insert(nearest, NEAR_RAY + 1, (double)hit.t / scene->scale);
     }
     c->near = nearest[NEAR_RAY];
-    c->closed = (double)hits / RAYS;
-    c->within = (double)within / RAYS;
+    c->hit_share = (double)hits / RAYS;
+    c->passed_share = (double)within / RAYS;
 }
 
 /* The object of the first surface between two points; NO_INDEX: none. */
@@ -114,33 +114,35 @@ static uint32_t object_between(const struct scene *scene,
 /* After a surface was passed. Solids are told from rooms by what is in them:
  * little of another object. A thing that stands on the floor or at a wall
  * shares a face with it. */
-static enum clearance_place place_behind(const struct clearance *before,
-                                         const struct clearance *now,
-                                         const struct scene *scene)
+static enum clearance_state state_after_crossing(const struct clearance *before,
+                                                 const struct clearance *now,
+                                                 const struct scene *scene)
 {
     /* there is always one, for what comes before the first o line */
     bool has_objects = scene->object_count > 2;
 
-    if (before->place == CLEARANCE_INSIDE)
-        return CLEARANCE_AMONG;
-    if (now->closed < CLEARANCE_CLOSED)
-        return before->closed >= CLEARANCE_CLOSED ? CLEARANCE_OUTSIDE
-                                                  : CLEARANCE_AMONG;
-    return has_objects && before->place != CLEARANCE_OUTSIDE &&
-                   now->closed >= 1 && now->within > 0.5
-               ? CLEARANCE_INSIDE
-               : CLEARANCE_AMONG;
+    if (before->state == CLEARANCE_INSIDE_SOLID)
+        return CLEARANCE_IN_SCENE;
+    if (now->hit_share < CLEARANCE_ENCLOSED)
+        return before->hit_share >= CLEARANCE_ENCLOSED ? CLEARANCE_OUTSIDE_ROOM
+                                                       : CLEARANCE_IN_SCENE;
+    return has_objects && before->state != CLEARANCE_OUTSIDE_ROOM &&
+                   now->hit_share >= 1 && now->passed_share > 0.5
+               ? CLEARANCE_INSIDE_SOLID
+               : CLEARANCE_IN_SCENE;
 }
 
-static enum clearance_place place_beside(const struct clearance *before,
-                                         const struct clearance *now)
+static enum clearance_state
+state_without_crossing(const struct clearance *before,
+                       const struct clearance *now)
 {
-    if (before->place == CLEARANCE_INSIDE)
-        return CLEARANCE_INSIDE;
+    if (before->state == CLEARANCE_INSIDE_SOLID)
+        return CLEARANCE_INSIDE_SOLID;
     /* through the window one comes back without passing anything */
-    if (before->place == CLEARANCE_OUTSIDE && now->closed < CLEARANCE_CLOSED)
-        return CLEARANCE_OUTSIDE;
-    return CLEARANCE_AMONG;
+    if (before->state == CLEARANCE_OUTSIDE_ROOM &&
+        now->hit_share < CLEARANCE_ENCLOSED)
+        return CLEARANCE_OUTSIDE_ROOM;
+    return CLEARANCE_IN_SCENE;
 }
 
 /* Follows the eye to its new place. */
@@ -153,30 +155,30 @@ static void move(struct clearance *c, const struct scene *scene,
 
     c->is_known = true;
     memcpy(c->eye, eye, sizeof c->eye);
-    c->away = distance_to_box(scene, c->eye);
+    c->box_distance = distance_to_box(scene, c->eye);
     if (passed != NO_INDEX)
         c->passed = passed;
-    look_around(c, scene, host);
-    c->place = passed != NO_INDEX ? place_behind(&before, c, scene)
-                                  : place_beside(&before, c);
+    trace_around(c, scene, host);
+    c->state = passed != NO_INDEX ? state_after_crossing(&before, c, scene)
+                                  : state_without_crossing(&before, c);
 }
 
-void clearance_follow(struct clearance *c, const struct scene *scene,
+void clearance_update(struct clearance *c, const struct scene *scene,
                       const struct host_world *host, const struct pose *pose,
                       double aspect)
 {
     if (!c->is_known || memcmp(c->eye, pose->eye, sizeof c->eye) != 0)
         move(c, scene, host, pose->eye);
-    if (c->place != CLEARANCE_AMONG && c->place != CLEARANCE_AWAY)
+    if (c->state != CLEARANCE_IN_SCENE && c->state != CLEARANCE_OUT_OF_VIEW)
         return;
-    c->place =
+    c->state =
         scene->tri_count == 0 || camera_sees_box(pose, aspect, scene->bounds_lo,
                                                  scene->bounds_hi)
-            ? CLEARANCE_AMONG
-            : CLEARANCE_AWAY;
+            ? CLEARANCE_IN_SCENE
+            : CLEARANCE_OUT_OF_VIEW;
 }
 
-void clearance_forget(struct clearance *c)
+void clearance_reset(struct clearance *c)
 {
     *c = (struct clearance){.is_known = false};
 }

@@ -38,7 +38,7 @@ static const struct command commands[ACTIONS] = {
     [ACTION_FASTER] = {.camera = camera_control_faster},
     [ACTION_SLOWER] = {.camera = camera_control_slower},
     [ACTION_CURSOR] = {.cursor = pick_cursor_show},
-    [ACTION_CANCEL] = {.control = render_control_be_silent},
+    [ACTION_CANCEL] = {.control = render_control_clear_message},
     [ACTION_ORBIT] = {.camera = camera_control_switch_orbit},
     [ACTION_FRAME] = {.camera = camera_control_frame_object},
     [ACTION_FRAME_ALL] = {.camera = camera_control_frame_all},
@@ -102,7 +102,7 @@ static const struct command cursor_commands[ACTIONS] = {
 
 static void run_settled(struct studio *studio, const struct command *c)
 {
-    render_control_settle(&studio->control);
+    render_control_restart_if_outdated(&studio->control);
     if (c->control)
         c->control(&studio->control);
     else if (c->inspector)

@@ -11,7 +11,8 @@
 #define ESCAPE    27
 #define BACKSPACE 127
 
-/* First gesture of the panel for edit_begin(); lower ones are the camera's. */
+/* First gesture of the panel for edit_begin_gesture(); lower ones are the
+ * camera's. */
 #define GESTURES 1000u
 
 /* Number of steps of the keys for a large change. */
@@ -97,7 +98,7 @@ static void change_by(struct editor_panel *p, int steps)
 
     if (id < 0)
         return;
-    edit_begin(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
+    edit_begin_gesture(edit_of(p), GESTURES + (uint32_t)id, clock_ns());
     parameter_step(&target, id, steps);
     take_change(p);
 }
@@ -110,10 +111,10 @@ static void take_typed(struct editor_panel *p)
 
     if (id < 0)
         return;
-    edit_break(edit_of(p));
+    edit_end_step(edit_of(p));
     if (parameter_set_text(&target, id, p->typed, &err)) {
         p->is_typing = false;
-        edit_break(edit_of(p));
+        edit_end_step(edit_of(p));
         take_change(p);
     } else {
         render_control_say(p->control, "%s", err.text);
@@ -139,7 +140,7 @@ static void duplicate(struct editor_panel *p)
 
     if (s->page == PARAMETER_LIGHT || !selection_has_one(s) || !may_change(p))
         return;
-    edit_break(e);
+    edit_end_step(e);
     if (s->page == PARAMETER_OBJECT) {
         *material = edit_duplicate(e, selection_material_of(s, object));
         edit_assign(e, object, *material);
@@ -151,7 +152,7 @@ static void duplicate(struct editor_panel *p)
         render_control_say(p->control, "%.60s: Tab goes to the objects for it",
                            e->names[*material]);
     }
-    edit_break(e);
+    edit_end_step(e);
     selection_settle(s);
     take_change(p);
 }

@@ -85,7 +85,7 @@ static void take_key(struct studio *studio, int key)
     enum action action =
         keymap_action(&studio->control.session->options->keys, key);
 
-    render_control_be_heard(&studio->control);
+    render_control_acknowledge_error(&studio->control);
     if (is_urgent(action))
         command_run(studio, action);
     else if (studio->question != QUESTION_NONE)
@@ -208,7 +208,7 @@ static void take_reload(struct studio *studio)
         selection_names(&studio->workspace.panel.selection);
 
     if (render_control_end_reload(&studio->control)) {
-        camera_control_renew(&studio->camera);
+        camera_control_set_scene(&studio->camera);
         workspace_renew(&studio->workspace, &names);
     }
     free(names.material);
@@ -225,13 +225,13 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
     if (studio->is_ending)
         return;
     if (fds[FD_RENDER].revents)
-        event_fd_clear(fds[FD_RENDER].fd); /* render_control_look() follows */
+        event_fd_clear(fds[FD_RENDER].fd); /* render_control_update() follows */
     if (fds[FD_SAVER].revents)
         save_finish(&studio->control);
     if (fds[FD_DEVICE].revents)
         render_control_end_device(&studio->control);
     if (fds[FD_FILES].revents)
-        render_control_look_at_files(&studio->control);
+        render_control_check_files(&studio->control);
     if (fds[FD_RELOAD].revents)
         take_reload(studio);
     if (fds[FD_KEYS].revents)
@@ -244,7 +244,7 @@ static void take_events(struct studio *studio, struct pollfd fds[FDS])
 
 static void wait_for_events(struct studio *studio)
 {
-    const struct cl_start *start = studio->control.session->machines.start;
+    const struct cl_start *start = studio->control.session->backends.start;
     struct pollfd fds[FDS] = {
         [FD_KEYS].fd = STDIN_FILENO,
         [FD_SIGNALS].fd = tty_signal_fd(),
@@ -311,7 +311,7 @@ static void close_screen(struct studio *studio)
     if (!studio->is_gone)
         screen_drain(&studio->workspace.screen, &studio->input);
     /* before tty_close(): its end puts back the signal handlers of its start */
-    backends_abandon_device(&studio->control.session->machines);
+    backends_abandon_device(&studio->control.session->backends);
     tty_close(studio->is_gone);
     render_halt(studio->control.session->render);
     save_finish(&studio->control);
@@ -340,7 +340,7 @@ bool event_loop_run(struct session *s, const char *lost, int *status,
     bool ok;
 
     workspace_expect(s);
-    if (stats_path && (!session_spares(s, "--stats", stats_path, err) ||
+    if (stats_path && (!session_check_output(s, "--stats", stats_path, err) ||
                        !stats_json_check(stats_path, err)))
         return false;
     if (!render_control_init(&studio.control, s, err))
@@ -362,7 +362,7 @@ bool event_loop_run(struct session *s, const char *lost, int *status,
         loop(&studio);
         close_screen(&studio);
         *status = studio.status;
-        session_look(s);
+        session_progress(s);
         ok = !stats_path || stats_json_write(s, stats_path, err);
     }
     workspace_free(&studio.workspace);

@@ -189,7 +189,7 @@ void inspector_next_drawing(struct inspector *inspector)
 
     inspector->drawing =
         (enum inspector_drawing)((inspector->drawing + 1) % INSPECTOR_DRAWINGS);
-    render_control_be_silent(inspector->control);
+    render_control_clear_message(inspector->control);
     if (inspector->drawing != INSPECTOR_NOTHING &&
         !view_mode_need_tree(&inspector->view_mode, &err)) {
         inspector->drawing = INSPECTOR_NOTHING;
@@ -336,7 +336,7 @@ static void show(struct inspector *inspector, enum show_kind kind)
     enum sample_kind before = s->sample;
     struct error err;
 
-    render_control_be_silent(inspector->control);
+    render_control_clear_message(inspector->control);
     if (!view_mode_set(&inspector->view_mode, kind, &err))
         render_control_say_error(inspector->control, err.text);
     s->sample = view_mode_sample(inspector->view_mode.kind);

@@ -43,8 +43,8 @@ static void describe(const struct pick_cursor *cursor, const struct pick *pick,
 
 /* ---- looking ---- */
 
-static bool look_at_cell(const struct pick_cursor *cursor, int col, int row,
-                         struct pick *pick)
+static bool pick_cell(const struct pick_cursor *cursor, int col, int row,
+                      struct pick *pick)
 {
     const struct session *s = cursor->control->session;
     struct rect r = pick_cursor_shown_rect(cursor);
@@ -56,15 +56,17 @@ static bool look_at_cell(const struct pick_cursor *cursor, int col, int row,
                    r.y + y_px, pick);
 }
 
-static bool look_under(const struct pick_cursor *cursor, struct pick *pick)
+static bool pick_under_cursor(const struct pick_cursor *cursor,
+                              struct pick *pick)
 {
     const struct screen *screen = cursor->screen;
 
-    return look_at_cell(cursor, screen->fit.col + screen->cursor_col,
-                        screen->fit.row + screen->cursor_row, pick);
+    return pick_cell(cursor, screen->fit.col + screen->cursor_col,
+                     screen->fit.row + screen->cursor_row, pick);
 }
 
-bool pick_cursor_look_ahead(const struct pick_cursor *cursor, struct pick *pick)
+bool pick_cursor_find_center(const struct pick_cursor *cursor,
+                             struct pick *pick)
 {
     const struct session *s = cursor->control->session;
     struct rect r = pick_cursor_shown_rect(cursor);
@@ -78,10 +80,10 @@ void pick_cursor_step(struct pick_cursor *cursor)
     struct pick pick;
     char text[TEXT_BYTES];
 
-    if (!cursor->must_look)
+    if (!cursor->is_outdated)
         return;
-    cursor->must_look = false;
-    if (look_under(cursor, &pick))
+    cursor->is_outdated = false;
+    if (pick_under_cursor(cursor, &pick))
         describe(cursor, &pick, text);
     else
         snprintf(text, sizeof text, "nothing but the sky");
@@ -93,7 +95,7 @@ void pick_cursor_step(struct pick_cursor *cursor)
 static void set_shown(struct pick_cursor *cursor, bool is_shown)
 {
     cursor->screen->has_cursor = is_shown;
-    cursor->must_look = is_shown;
+    cursor->is_outdated = is_shown;
     cursor->control->has_changed = true;
 }
 
@@ -111,10 +113,10 @@ void pick_cursor_show(struct pick_cursor *cursor)
 void pick_cursor_hide(struct pick_cursor *cursor)
 {
     set_shown(cursor, false);
-    render_control_be_silent(cursor->control);
+    render_control_clear_message(cursor->control);
 }
 
-static int within(int x, int count)
+static int clamped(int x, int count)
 {
     return x < 0 ? 0 : x >= count ? count - 1 : x;
 }
@@ -133,15 +135,15 @@ void pick_cursor_move(struct pick_cursor *cursor, int right, int down)
     cursor->held_ns = now_ns;
     cells = 1 + cursor->held_count / HELD_CELLS;
     screen->cursor_col =
-        within(screen->cursor_col + cells * right, screen->fit.cols);
+        clamped(screen->cursor_col + cells * right, screen->fit.cols);
     screen->cursor_row =
-        within(screen->cursor_row + cells * down, screen->fit.rows);
+        clamped(screen->cursor_row + cells * down, screen->fit.rows);
     set_shown(cursor, true);
 }
 
 /* ---- picking ---- */
 
-static void take(struct pick_cursor *cursor, const struct pick *pick)
+static void set_pick(struct pick_cursor *cursor, const struct pick *pick)
 {
     char text[TEXT_BYTES];
 
@@ -160,8 +162,8 @@ bool pick_cursor_pick(struct pick_cursor *cursor)
 {
     struct pick pick;
 
-    if (look_under(cursor, &pick)) {
-        take(cursor, &pick);
+    if (pick_under_cursor(cursor, &pick)) {
+        set_pick(cursor, &pick);
         return true;
     }
     render_control_say(cursor->control, "nothing but the sky");
@@ -172,9 +174,9 @@ bool pick_cursor_click(struct pick_cursor *cursor, int col, int row)
 {
     struct pick pick;
 
-    if (!look_at_cell(cursor, col, row, &pick))
+    if (!pick_cell(cursor, col, row, &pick))
         return false;
-    take(cursor, &pick);
+    set_pick(cursor, &pick);
     return true;
 }
 

@@ -26,7 +26,7 @@ struct pick_cursor {
     struct pick pick;
     bool has_pick;
     bool is_pick_new; /* until the event loop has told the panel */
-    bool must_look;   /* the last line does not say yet what is under it */
+    bool is_outdated; /* the last line does not say yet what is under it */
     int held_right, held_down; /* the last step of the arrows, */
     uint64_t held_ns;          /* when it was made, */
     int held_count;            /* and how often before without a pause */
@@ -56,8 +56,8 @@ bool pick_cursor_need_pick(struct pick_cursor *cursor);
 
 /* Finds what is in the middle of the picture, without picking it. Returns false
  * if that is only the sky. */
-bool pick_cursor_look_ahead(const struct pick_cursor *cursor,
-                            struct pick *pick);
+bool pick_cursor_find_center(const struct pick_cursor *cursor,
+                             struct pick *pick);
 
 /* Says in the last line what is under the cursor, if that may have changed. */
 void pick_cursor_step(struct pick_cursor *cursor);

@@ -18,13 +18,13 @@
 
 /* The draft's first sample of all pixels is waited for: half a frame at 60 Hz
  * for a picture that is worth to be seen. */
-#define PATIENCE_NS UINT64_C(8000000)
+#define DRAFT_WAIT_NS UINT64_C(8000000)
 
 /* Editors and exporters write several files, or one in several steps. */
-#define QUIET_NS UINT64_C(150000000)
+#define FILES_QUIET_NS UINT64_C(150000000)
 
 /* How often files are looked at where the system does not watch them. */
-#define LOOK_NS UINT64_C(1000000000)
+#define FILES_POLL_NS UINT64_C(1000000000)
 
 static uint64_t reading_ns(const char *text)
 {
@@ -78,13 +78,13 @@ void render_control_say_error(struct render_control *control, const char *text)
     control->has_changed = true;
 }
 
-void render_control_be_silent(struct render_control *control)
+void render_control_clear_message(struct render_control *control)
 {
     control->message = (struct message){0};
     control->has_changed = true;
 }
 
-void render_control_be_heard(struct render_control *control)
+void render_control_acknowledge_error(struct render_control *control)
 {
     struct message *m = &control->message;
 
@@ -116,7 +116,7 @@ static void watch_files(struct render_control *control)
     file_watch_end(&control->watch);
     control->watched_version = control->session->files_version;
     control->files_ns =
-        control->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+        control->watch.fd < 0 ? clock_ns() + FILES_POLL_NS : UINT64_MAX;
 }
 
 static void begin(struct render_control *control, bool is_step)
@@ -176,11 +176,11 @@ bool render_control_awaits_picture(const struct render_control *control)
 
     return p->state == RENDER_RUNNING &&
            (p->first_picture_ns == 0 ||
-            (p->draft_is_coarse && p->render_ns < PATIENCE_NS));
+            (p->draft_is_coarse && p->render_ns < DRAFT_WAIT_NS));
 }
 
 /* A device that fails is replaced by the CPU, which starts anew. */
-static void take_failure(struct render_control *control)
+static void replace_device(struct render_control *control)
 {
     struct session *s = control->session;
     bool has_cpu = session_uses_device(s);
@@ -188,7 +188,7 @@ static void take_failure(struct render_control *control)
                          has_cpu ? "; the CPU renders" : "");
 
     if (has_cpu) {
-        render_use(s->render, s->machines.cpu);
+        render_set_backend(s->render, s->backends.cpu);
         restart(control);
     }
     render_control_say_error(control, text);
@@ -196,33 +196,33 @@ static void take_failure(struct render_control *control)
 }
 
 /* files_ns has come. */
-static void take_files(struct render_control *control)
+static void handle_files(struct render_control *control)
 {
     bool loads;
 
-    render_control_look_at_files(control);
+    render_control_check_files(control);
     loads = control->has_changed_files && control->session->options->watch &&
             control->is_live && !render_control_has_unsaved_edit(control);
     control->files_ns =
-        control->watch.fd < 0 ? clock_ns() + LOOK_NS : UINT64_MAX;
+        control->watch.fd < 0 ? clock_ns() + FILES_POLL_NS : UINT64_MAX;
     if (loads && control->reload.is_busy)
-        control->files_ns = clock_ns() + QUIET_NS;
+        control->files_ns = clock_ns() + FILES_QUIET_NS;
     else if (loads)
         render_control_reload(control);
 }
 
-void render_control_look(struct render_control *control)
+void render_control_update(struct render_control *control)
 {
     enum render_state before = control->progress.state;
     bool was_awaited = render_control_awaits_picture(control);
 
     if (clock_ns() >= control->files_ns)
-        take_files(control);
-    control->progress = session_look(control->session);
+        handle_files(control);
+    control->progress = session_progress(control->session);
     if (control->progress.state != before)
         control->has_changed = true;
     if (control->progress.state == RENDER_FAILED && before != RENDER_FAILED)
-        take_failure(control);
+        replace_device(control);
     /* A picture of the old place that has been begun is shown first, between
      * this look and the next, or a scene that is slow to begin would never show
      * anything on the way. */
@@ -230,7 +230,7 @@ void render_control_look(struct render_control *control)
         restart(control);
 }
 
-void render_control_settle(struct render_control *control)
+void render_control_restart_if_outdated(struct render_control *control)
 {
     if (render_control_is_outdated(control))
         restart(control);
@@ -279,7 +279,7 @@ void render_control_set_live(struct render_control *control, bool is_live)
 static void start_normal(struct render_control *control, bool is_step)
 {
     control->is_started = true;
-    render_control_be_silent(control);
+    render_control_clear_message(control);
     begin(control, is_step);
 }
 
@@ -338,11 +338,11 @@ void render_control_restart(struct render_control *control)
 
 /* ---- backends ---- */
 
-static void use(struct render_control *control, struct backend *backend)
+static void use_backend(struct render_control *control, struct backend *backend)
 {
-    struct backends *m = &control->session->machines;
+    struct backends *m = &control->session->backends;
 
-    render_use(control->session->render, backend);
+    render_set_backend(control->session->render, backend);
     restart(control);
     if (backend == m->device)
         render_control_say(control, "%s renders; self-test: %s",
@@ -355,22 +355,22 @@ void render_control_begin_device(struct render_control *control)
 {
     struct error err;
 
-    if (!backends_begin_device(&control->session->machines, FEATURES_ALL, &err))
+    if (!backends_begin_device(&control->session->backends, FEATURES_ALL, &err))
         render_control_say_error(control, err.text);
 }
 
 void render_control_switch_backend(struct render_control *control)
 {
-    struct backends *m = &control->session->machines;
+    struct backends *m = &control->session->backends;
 
     if (!control->is_live) {
         render_control_say(control,
                            "the backend changes in live mode: %s goes there",
                            render_control_key(control, ACTION_MODE).text);
     } else if (session_uses_device(control->session)) {
-        use(control, m->cpu);
+        use_backend(control, m->cpu);
     } else if (m->device != NULL) {
-        use(control, m->device);
+        use_backend(control, m->device);
     } else {
         render_control_say_long(control, "OpenCL: waiting for the device");
         if (m->start == NULL)
@@ -393,7 +393,7 @@ static void add_log(struct render_control *control, const char *log)
 
 void render_control_end_device(struct render_control *control)
 {
-    struct backends *m = &control->session->machines;
+    struct backends *m = &control->session->backends;
     struct error err;
     char *log;
 
@@ -401,7 +401,7 @@ void render_control_end_device(struct render_control *control)
         return;
     if (backends_end_device(m, &log, &err)) {
         if (control->is_live)
-            use(control, m->device);
+            use_backend(control, m->device);
         else
             render_control_say(
                 control, "OpenCL: the device is up: %s takes it in live mode",
@@ -419,7 +419,7 @@ void render_control_end_device(struct render_control *control)
 
 /* ---- files ---- */
 
-void render_control_look_at_files(struct render_control *control)
+void render_control_check_files(struct render_control *control)
 {
     bool has_changed;
 
@@ -429,8 +429,8 @@ void render_control_look_at_files(struct render_control *control)
         control->has_changed = true;
     control->has_changed_files = has_changed;
     if (has_changed && control->session->options->watch &&
-        control->files_ns > clock_ns() + QUIET_NS)
-        control->files_ns = clock_ns() + QUIET_NS;
+        control->files_ns > clock_ns() + FILES_QUIET_NS)
+        control->files_ns = clock_ns() + FILES_QUIET_NS;
 }
 
 void render_control_reload(struct render_control *control)
@@ -483,9 +483,9 @@ bool render_control_end_reload(struct render_control *control)
         render_control_say_error(control, err.text);
     } else {
         save_thread_wait_copied(&control->saver);
-        session_take(control->session, &fresh);
+        session_take_loaded(control->session, &fresh);
         watch_files(control);
-        render_control_look_at_files(control); /* what was missed meanwhile */
+        render_control_check_files(control); /* what was missed meanwhile */
         say_loaded(control);
         restart(control);
     }

@@ -34,7 +34,8 @@ struct render_control {
     struct save_thread saver;
     struct reload reload;
     struct file_watch watch;
-    struct render_progress progress; /* as of the last render_control_look() */
+    struct render_progress
+        progress; /* as of the last render_control_update() */
     struct message message;
 
     bool is_live;
@@ -68,11 +69,11 @@ void render_control_say_long(struct render_control *control, const char *format,
 void render_control_say_error(struct render_control *control, const char *text);
 
 /* The status line comes back. */
-void render_control_be_silent(struct render_control *control);
+void render_control_clear_message(struct render_control *control);
 
 /* A key was pressed: an error goes, at its time. It may have come while
  * somebody typed on. */
-void render_control_be_heard(struct render_control *control);
+void render_control_acknowledge_error(struct render_control *control);
 
 /* The key of an action, for messages that tell what to do next. */
 struct keymap_name render_control_key(const struct render_control *control,
@@ -88,10 +89,10 @@ bool render_control_is_outdated(const struct render_control *control);
 
 /* Looks how far the render is, and restarts it if it is outdated and the look
  * before has found a picture. */
-void render_control_look(struct render_control *control);
+void render_control_update(struct render_control *control);
 
 /* Restarts now if it is outdated, for what is to be done with the film. */
-void render_control_settle(struct render_control *control);
+void render_control_restart_if_outdated(struct render_control *control);
 
 /* True until there is a picture to show after a restart: a rough one, and where
  * a draft is soon whole, that. */
@@ -129,7 +130,7 @@ void render_control_begin_device(struct render_control *control);
 void render_control_end_device(struct render_control *control);
 
 /* The watch's fd is readable: have files of the scene changed? */
-void render_control_look_at_files(struct render_control *control);
+void render_control_check_files(struct render_control *control);
 
 /* Begins to load the files of the scene anew; what is rendered stays until the
  * reload's event_fd says, in live mode, that render_control_end_reload() has

@@ -440,7 +440,7 @@ void workspace_look(struct workspace *workspace)
     uint64_t before_ns = workspace->control->restarted_ns;
 
     inspector_step(&workspace->inspector);
-    render_control_look(workspace->control);
+    render_control_update(workspace->control);
     if (film->width != workspace->width_px ||
         film->height != workspace->height_px)
         workspace_layout(workspace);

@@ -25,7 +25,7 @@ static double rate(struct session *s, struct backend *backend)
     struct render_progress p;
     struct error err;
 
-    render_use(s->render, backend);
+    render_set_backend(s->render, backend);
     if (!session_restart(s, SPP, &err)) {
         fprintf(stderr, "device: %s\n", err.text);
         exit(1);
@@ -65,7 +65,7 @@ static void bench(const char *path, int threads)
         fprintf(stderr, "device: %s\n", err.text);
         exit(1);
     }
-    backends[CPU] = s.machines.cpu;
+    backends[CPU] = s.backends.cpu;
     backends[FULL] = open_device(FEATURES_ALL);
     backends[SPECIAL] = open_device(world_features(&s.world));
     for (int i = 0; i < CONTESTANTS; i++)
@@ -77,7 +77,7 @@ static void bench(const char *path, int threads)
     double full = median(rates[FULL], ROUNDS);
     printf("%-28s %7.3f %7.3f %7.2f %9.2f\n", path, cpu, full, full / cpu,
            median(rates[SPECIAL], ROUNDS) / full);
-    render_use(s.render, backends[CPU]);
+    render_set_backend(s.render, backends[CPU]);
     backends[FULL]->destroy(backends[FULL]);
     backends[SPECIAL]->destroy(backends[SPECIAL]);
     session_close(&s);

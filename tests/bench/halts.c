@@ -41,10 +41,10 @@ static bool use_device(struct session *s, struct error *err)
     struct cl_request request = {.features = world_features(&s->world)};
     char *log;
 
-    s->machines.device = backend_cl_create(&request, &log, err);
-    if (s->machines.device == NULL)
+    s->backends.device = backend_cl_create(&request, &log, err);
+    if (s->backends.device == NULL)
         return false;
-    render_use(s->render, s->machines.device);
+    render_set_backend(s->render, s->backends.device);
     return true;
 }
 

@@ -100,7 +100,7 @@ static void edit(struct session *s, const uint8_t *bytes)
     struct parameter list[PARAMETERS_MAX];
     int count;
 
-    edit_break(e);
+    edit_end_step(e);
     if (bytes[1] == 255)
         edit_undo(e);
     else if (bytes[1] == 254)

@@ -226,7 +226,7 @@ static bool measure_round(struct measurement *m, int technique, int round,
     if (t->is_unguided)
         path_guide_lend(&(struct path_guide){.cells = NULL}, &world);
     world.settings.direct = t->direct;
-    render_use(s->render, m->bench->backends[technique]);
+    render_set_backend(s->render, m->bench->backends[technique]);
     return measure_world(m, c, round, &world, err);
 }
 

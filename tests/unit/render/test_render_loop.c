@@ -276,7 +276,7 @@ static void waiting_backends_hold_no_tree(void **state)
     for (int i = 0; i < 3; i++) {
         struct render_job job = job_of(&m, 1);
 
-        render_use(r, order[i]);
+        render_set_backend(r, order[i]);
         assert_true(render_start(r, &job, &err));
         assert_true(render_wait(r, 60000));
         assert_true(order[i]->tree_bytes > 0);

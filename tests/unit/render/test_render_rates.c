@@ -34,7 +34,7 @@ static void steady_renders_have_one_speed(void **state)
     /* A thousand samples per second, queried at random times, for hours. */
     for (int i = 0; i < 20000; i++) {
         time_ns += 1000000 * (uint64_t)(1 + next_random(&random) % 2000);
-        speeds_look(&s, time_ns, time_ns / 1000000);
+        speeds_update(&s, time_ns, time_ns / 1000000);
         assert_true(s.count <= SPEEDS_MAX);
         if (i % 100 != 0)
             continue;
@@ -54,15 +54,15 @@ static void spans_have_the_samples_of_their_time(void **state)
     struct speeds s = {0};
 
     (void)state;
-    speeds_look(&s, S_NS / 2, 100); /* 200 per second in two spans */
-    speeds_look(&s, S_NS, 1100);    /* 2000 per second in the next two */
+    speeds_update(&s, S_NS / 2, 100); /* 200 per second in two spans */
+    speeds_update(&s, S_NS, 1100);    /* 2000 per second in the next two */
     assert_int_equal(s.span_ns, S_NS / 4);
     assert_int_equal(s.count, 4);
     check_close(speeds_at(&s, 0), 200, 1e-9);
     check_close(speeds_at(&s, 1), 200, 1e-9);
     check_close(speeds_at(&s, 2), 2000, 1e-9);
     check_close(speeds_at(&s, 3), 2000, 1e-9);
-    speeds_look(&s, S_NS + S_NS / 8, 1100); /* half a span without samples */
+    speeds_update(&s, S_NS + S_NS / 8, 1100); /* half a span without samples */
     assert_int_equal(s.count, 5);
     check_close(speeds_at(&s, 4), 0, 0);
 }
@@ -75,11 +75,11 @@ static void two_spans_are_merged(void **state)
     (void)state;
     for (int i = 0; i < SPEEDS_MAX; i++) {
         samples += i % 2 ? 300 : 100;
-        speeds_look(&s, (uint64_t)(i + 1) * S_NS / 4, samples);
+        speeds_update(&s, (uint64_t)(i + 1) * S_NS / 4, samples);
     }
     assert_int_equal(s.count, SPEEDS_MAX);
     check_close(speeds_at(&s, 1), 1200, 1e-9);
-    speeds_look(&s, SPEEDS_MAX * S_NS / 4 + 1, samples);
+    speeds_update(&s, SPEEDS_MAX * S_NS / 4 + 1, samples);
     assert_int_equal(s.span_ns, S_NS / 2);
     assert_int_equal(s.count, SPEEDS_MAX / 2 + 1);
     for (int i = 0; i < SPEEDS_MAX / 2; i++)
@@ -92,13 +92,13 @@ static void queries_at_one_time_lose_nothing(void **state)
     struct speeds s = {0};
 
     (void)state;
-    speeds_look(&s, 0, 0);
+    speeds_update(&s, 0, 0);
     assert_int_equal(s.count, 0);
-    speeds_look(&s, S_NS / 8, 10);
-    speeds_look(&s, S_NS / 8, 20);
-    speeds_look(&s, S_NS / 4, 30);
+    speeds_update(&s, S_NS / 8, 10);
+    speeds_update(&s, S_NS / 8, 20);
+    speeds_update(&s, S_NS / 4, 30);
     check_close(sum_of(&s), 30, 1e-9);
-    speeds_look(&s, S_NS / 8, 5);
+    speeds_update(&s, S_NS / 8, 5);
     assert_int_equal(s.count, 1);
     check_close(sum_of(&s), 5, 1e-9);
     check_close(speeds_at(&s, 0), 40, 1e-9);

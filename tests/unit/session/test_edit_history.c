@@ -128,7 +128,7 @@ static void edit_anything(struct edit *e)
         material--;
     source = e->now.sources[material];
     if (random_below(3) != 0)
-        edit_break(e);
+        edit_end_step(e);
     switch (random_below(8)) {
     case 0:
         source.kd = (struct mtl_color){{check_random(&seed), .5, 0}, 1};
@@ -211,7 +211,7 @@ static void undo_and_redo_restore_the_state(void **state)
         edit_anything(&s.edit);
         if (s.edit.step_count == before && s.edit.group != group)
             continue; /* nothing has changed, or it continued a step */
-        edit_break(&s.edit);
+        edit_end_step(&s.edit);
         if (hash_state(&s.edit) != hashes[count])
             hashes[++count] = hash_state(&s.edit);
     }
@@ -243,13 +243,13 @@ static void a_drag_is_one_step(void **state)
     put_scene();
     open_session(&s);
     source = s.edit.now.sources[2];
-    edit_break(&s.edit);
+    edit_end_step(&s.edit);
     for (int i = 1; i <= 100; i++) {
         source.kd.rgb[0] = i / 100.0;
         edit_material(&s.edit, 2, &source);
     }
     assert_int_equal(s.edit.step_count, 1);
-    edit_break(&s.edit);
+    edit_end_step(&s.edit);
     source.kd.rgb[1] = .1;
     edit_material(&s.edit, 2, &source);
     assert_int_equal(s.edit.step_count, 2);
@@ -264,7 +264,7 @@ static void a_drag_is_one_step(void **state)
     edit_material(&s.edit, 2, &source);
     assert_false(edit_redo(&s.edit));
     /* A duplicate and its assignment are one step. */
-    edit_break(&s.edit);
+    edit_end_step(&s.edit);
     edit_assign(&s.edit, 1, edit_duplicate(&s.edit, 2));
     assert_string_equal(s.edit.names[s.edit.material_count - 1], "wall.2");
     assert_true(edit_undo(&s.edit));
@@ -389,7 +389,7 @@ static void only_changes_are_saved(void **state)
     (void)state;
     put_scene();
     open_session(&s);
-    edit_break(&s.edit);
+    edit_end_step(&s.edit);
     copy = edit_duplicate(&s.edit, 1);
     edit_assign(&s.edit, 3, copy);
     source = s.edit.now.sources[copy];
@@ -585,7 +585,7 @@ static void textures_are_read_when_used(void **state)
      * textures. */
     textures = s.world.textures;
     source.maps_off = 1u << MTL_MAP_KS;
-    edit_break(&s.edit);
+    edit_end_step(&s.edit);
     edit_material(&s.edit, 2, &source);
     restart(&s);
     assert_ptr_equal(s.world.textures, textures);

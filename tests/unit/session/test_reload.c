@@ -59,7 +59,7 @@ static void check_reload(struct session *s, const char *name, const char *text,
     shape = s->world.versions[WORLD_SHAPE];
     put(name, text);
     check_or_say(session_load(&fresh, &options, clock_ns(), &err), err.text);
-    session_take(s, &fresh);
+    session_take_loaded(s, &fresh);
     session_close(&fresh);
     assert_int_equal(s->world.versions[WORLD_SHAPE] == shape, has_same_shape);
     render(s, taken);
@@ -125,13 +125,13 @@ static void cameras_stay(void **state)
         put("s.view", moves ? "eye 0 9 5\nat 0 0 0\nexposure 2\n"
                             : "eye 0 0 5\nat 0 0 0\nexposure 2\n");
         assert_true(session_load(&fresh, &options, clock_ns(), &err));
-        session_take(&s, &fresh);
+        session_take_loaded(&s, &fresh);
         session_close(&fresh);
         check_close(s.edit.now.view.pose.eye[0], moves ? 0 : 1.5, 0);
         check_close(s.edit.now.view.pose.eye[1], moves ? 9 : 0, 0);
         check_close(s.edit.now.view.lighting.exposure, 2, 0);
         assert_int_equal(s.edit.now.view.width_px, 1024); /* without res */
-        check_close(s.opened.eye[0], 0, 0);
+        check_close(s.opened_pose.eye[0], 0, 0);
         session_close(&s);
     }
 }
@@ -166,7 +166,7 @@ static void numbered_views_are_taken(void **state)
         view->has_shot[0] = false;
         view->shots[1].eye[0] = 2;
     }
-    session_take(&s, &fresh);
+    session_take_loaded(&s, &fresh);
     session_close(&fresh);
     assert_false(s.edit.now.view.has_shot[0]);
     check_close(s.edit.now.view.shots[1].eye[0], 2, 0);
@@ -192,7 +192,7 @@ static void framed_cameras_stay(void **state)
     put("s.obj", OBJ "v 9 9 9\nf 1 3 5\n");
     assert_true(session_load(&fresh, &options, clock_ns(), &err));
     assert_true(fresh.edit.now.view.pose.eye[2] != eye);
-    session_take(&s, &fresh);
+    session_take_loaded(&s, &fresh);
     session_close(&fresh);
     check_close(s.edit.now.view.pose.eye[2], eye, 0);
     session_close(&s);
@@ -202,7 +202,7 @@ static void framed_cameras_stay(void **state)
 static void look_now(struct render_control *w)
 {
     w->files_ns = clock_ns();
-    render_control_look(w);
+    render_control_update(w);
 }
 
 /* Checks the files and waits for what is then loaded. */
@@ -236,17 +236,17 @@ static void broken_files_leave_the_scene(void **state)
     (void)state;
     open_work(&w, &s);
     put("s.mtl", "newmtl m\nKd .1 x\n");
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_true(w.has_changed_files);
     render_control_reload(&w);
     end_reload(&w);
     assert_true(w.message.is_error);
     assert_non_null(strstr(w.message.text, "s.mtl:2: "));
     check_close(s.world.materials[1].color.x, .7f, 0);
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_false(w.has_changed_files); /* the message appears once */
     put("s.mtl", "newmtl m\nKd .25 0 0\n");
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_true(w.has_changed_files);
     render_control_reload(&w);
     end_reload(&w);
@@ -286,7 +286,7 @@ static void watched_files_are_loaded_at_once(void **state)
     render_control_set_live(&w, false);
     render_control_start_or_halt(&w);
     put("s.mtl", "newmtl m\nKd .5 0 0\n");
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_true(w.has_changed_files);
     look_now(&w);
     assert_false(w.reload.is_busy);
@@ -327,12 +327,12 @@ static void own_views_are_no_change(void **state)
     open_work(&w, &s);
     s.edit.now.view.lighting.exposure = 3;
     save_view(&w);
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
     s.edit.now.view.lighting.exposure = 4;
     save_view(&w);
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_true(w.has_changed_files); /* the other file */
     close_work(&w, &s);
 }
@@ -351,16 +351,16 @@ static void own_materials_are_no_change(void **state)
     red.kd.rgb[0] = .125;
     edit_material(&s.edit, 1, &red);
     assert_true(save_edit(&w));
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_false(w.has_changed_files);
     put("s.mtl", MTL "\n");
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_true(w.has_changed_files);
     /* It remains one when the next save overwrites it. */
     red.kd.rgb[0] = .25;
     edit_material(&s.edit, 1, &red);
     assert_true(save_edit(&w));
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
 }
@@ -382,11 +382,11 @@ static void chosen_skies_are_watched(void **state)
     put("sky.png", "no image");
     assert_true(render_control_is_outdated(&w));
     while (render_control_is_outdated(&w))
-        render_control_look(&w);
-    render_control_look_at_files(&w);
+        render_control_update(&w);
+    render_control_check_files(&w);
     assert_false(w.has_changed_files);
     put("sky.png", "no image either");
-    render_control_look_at_files(&w);
+    render_control_check_files(&w);
     assert_true(w.has_changed_files);
     close_work(&w, &s);
 }

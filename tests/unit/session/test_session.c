@@ -72,7 +72,7 @@ static void view_files_are_found(void **state)
     put("s.view", CAMERA "fovy 22\n");
     open_session(&s, &o);
     assert_true(s.edit.now.view.pose.fovy_deg == 22.0);
-    assert_true(s.opened.fovy_deg == 22.0);
+    assert_true(s.opened_pose.fovy_deg == 22.0);
     session_close(&s);
 
     put("o.view", CAMERA "fovy 33\n");
@@ -168,7 +168,7 @@ static void options_are_not_written(void **state)
 
     put("s.view", CAMERA "up 0 1 0\nfovy 40\nres 300 100\nmax_bounces 5\n");
     check_or_say(session_load(&fresh, &o, clock_ns(), &err), err.text);
-    session_take(&s, &fresh);
+    session_take_loaded(&s, &fresh);
     session_close(&fresh);
     assert_int_equal(s.edit.now.view.width_px,
                      150); /* the option wins as before */

@@ -76,7 +76,7 @@ static void load(struct obj *o, struct scene *scene)
                      world_init(&host, scene, 1, &report, &err),
                  err.text);
     world = world_arrays(&host, scene);
-    check_or_say(world_need_tree(&host, &world, NULL, &err), err.text);
+    check_or_say(world_ensure_tree(&host, &world, NULL, &err), err.text);
     warnings_free(&report);
 }
 
@@ -98,13 +98,13 @@ static struct pose pose_from(double x, double y, double z)
 }
 
 /* Returns the place of the eye after it has moved to z, looking along -z. */
-static enum clearance_place go(struct clearance *c, const struct scene *scene,
+static enum clearance_state go(struct clearance *c, const struct scene *scene,
                                double x, double z)
 {
     struct pose v = pose_from(x, 1, z);
 
-    clearance_follow(c, scene, &host, &v, ASPECT);
-    return c->place;
+    clearance_update(c, scene, &host, &v, ASPECT);
+    return c->state;
 }
 
 /* At height h above a plane, the share of directions that meet it within r is
@@ -125,11 +125,11 @@ static void a_floor_is_as_near_as_its_height(void **state)
             struct pose v = pose_from(0, (0.001 + h) * scale, 0);
             struct clearance c = {0};
 
-            clearance_follow(&c, &scene, &host, &v, ASPECT);
+            clearance_update(&c, &scene, &host, &v, ASPECT);
             assert_true(c.near > h * scale / (1 - 2 * 0.09));
             assert_true(c.near < h * scale / (1 - 2 * 0.12));
-            check_close(c.closed, 0.5, 0.04);
-            check_close(c.away / scale, h, 1e-6 * h);
+            check_close(c.hit_share, 0.5, 0.04);
+            check_close(c.box_distance / scale, h, 1e-6 * h);
         }
         unload(&scene);
     }
@@ -160,21 +160,22 @@ static void passed_walls_are_noticed(void **state)
 
     (void)state;
     load_rooms(&scene);
-    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG);
-    assert_true(c.closed >= 1 && c.away <= 0);
-    assert_int_equal(go(&c, &scene, 0, 5.9), CLEARANCE_AMONG);
-    assert_int_equal(go(&c, &scene, 0, 6.1), CLEARANCE_OUTSIDE);
-    check_close(c.away, 0.1, 1e-9);
-    assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE);
-    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG); /* back inside */
-    assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE);
-    clearance_forget(&c); /* a jump */
-    assert_int_equal(go(&c, &scene, 0, 9), CLEARANCE_AMONG);
-    clearance_forget(&c);
-    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_AMONG);
+    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_IN_SCENE);
+    assert_true(c.hit_share >= 1 && c.box_distance <= 0);
+    assert_int_equal(go(&c, &scene, 0, 5.9), CLEARANCE_IN_SCENE);
+    assert_int_equal(go(&c, &scene, 0, 6.1), CLEARANCE_OUTSIDE_ROOM);
+    check_close(c.box_distance, 0.1, 1e-9);
+    assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE_ROOM);
+    assert_int_equal(go(&c, &scene, 0, 5),
+                     CLEARANCE_IN_SCENE); /* back inside */
+    assert_int_equal(go(&c, &scene, 0, 7), CLEARANCE_OUTSIDE_ROOM);
+    clearance_reset(&c); /* a jump */
+    assert_int_equal(go(&c, &scene, 0, 9), CLEARANCE_IN_SCENE);
+    clearance_reset(&c);
+    assert_int_equal(go(&c, &scene, 0, 5), CLEARANCE_IN_SCENE);
     /* The next room. */
-    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_AMONG);
-    assert_int_equal(go(&c, &scene, 0, -7), CLEARANCE_OUTSIDE);
+    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_IN_SCENE);
+    assert_int_equal(go(&c, &scene, 0, -7), CLEARANCE_OUTSIDE_ROOM);
     unload(&scene);
 }
 
@@ -185,11 +186,11 @@ static void entered_solids_are_noticed(void **state)
 
     (void)state;
     load_rooms(&scene);
-    assert_int_equal(go(&c, &scene, 1.5, 3), CLEARANCE_AMONG);
-    assert_int_equal(go(&c, &scene, 1.5, 1.9), CLEARANCE_INSIDE);
+    assert_int_equal(go(&c, &scene, 1.5, 3), CLEARANCE_IN_SCENE);
+    assert_int_equal(go(&c, &scene, 1.5, 1.9), CLEARANCE_INSIDE_SOLID);
     assert_string_equal(scene.object_names[c.passed], "cupboard");
-    assert_int_equal(go(&c, &scene, 1.5, 1.2), CLEARANCE_INSIDE);
-    assert_int_equal(go(&c, &scene, 1.5, 0.5), CLEARANCE_AMONG);
+    assert_int_equal(go(&c, &scene, 1.5, 1.2), CLEARANCE_INSIDE_SOLID);
+    assert_int_equal(go(&c, &scene, 1.5, 0.5), CLEARANCE_IN_SCENE);
     unload(&scene);
 }
 
@@ -213,18 +214,18 @@ static void open_places_give_no_message(void **state)
     name(&o, "block");
     box(&o, block[0], block[1], -1);
     load(&o, &scene);
-    assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_AMONG);
-    assert_true(c.closed >= CLEARANCE_CLOSED);
+    assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_IN_SCENE);
+    assert_true(c.hit_share >= CLEARANCE_ENCLOSED);
     for (double z = 2; z < 20; z++) /* through the open side */
-        assert_int_equal(go(&c, &scene, 0, z), CLEARANCE_AMONG);
-    assert_true(c.closed < CLEARANCE_CLOSED);
-    assert_int_equal(go(&c, &scene, 0, 21), CLEARANCE_INSIDE);
-    assert_int_equal(go(&c, &scene, 0, 23), CLEARANCE_AMONG);
+        assert_int_equal(go(&c, &scene, 0, z), CLEARANCE_IN_SCENE);
+    assert_true(c.hit_share < CLEARANCE_ENCLOSED);
+    assert_int_equal(go(&c, &scene, 0, 21), CLEARANCE_INSIDE_SOLID);
+    assert_int_equal(go(&c, &scene, 0, 23), CLEARANCE_IN_SCENE);
     /* Going through a wall of the room into the open gives a message. */
-    clearance_forget(&c);
-    assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_AMONG);
-    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_OUTSIDE);
-    assert_true(c.away <= 0);
+    clearance_reset(&c);
+    assert_int_equal(go(&c, &scene, 0, 1), CLEARANCE_IN_SCENE);
+    assert_int_equal(go(&c, &scene, 0, -1), CLEARANCE_OUTSIDE_ROOM);
+    assert_true(c.box_distance <= 0);
     unload(&scene);
 }
 
@@ -240,18 +241,18 @@ static void empty_pictures_are_noticed(void **state)
     begin(&o, 1);
     box(&o, lo, hi, -1);
     load(&o, &scene);
-    clearance_follow(&c, &scene, &host, &v, ASPECT);
-    assert_int_equal(c.place, CLEARANCE_AMONG);
+    clearance_update(&c, &scene, &host, &v, ASPECT);
+    assert_int_equal(c.state, CLEARANCE_IN_SCENE);
     v.at[2] = 10; /* turned around */
-    clearance_follow(&c, &scene, &host, &v, ASPECT);
-    assert_int_equal(c.place, CLEARANCE_AWAY);
+    clearance_update(&c, &scene, &host, &v, ASPECT);
+    assert_int_equal(c.state, CLEARANCE_OUT_OF_VIEW);
     v.at[0] = 9; /* the picture's edge is 32 degrees from its middle */
     v.at[2] = 9 - 9 / tan((31 + 5) * M_PI / 180);
-    clearance_follow(&c, &scene, &host, &v, ASPECT);
-    assert_int_equal(c.place, CLEARANCE_AMONG); /* the box is 7 wide there */
+    clearance_update(&c, &scene, &host, &v, ASPECT);
+    assert_int_equal(c.state, CLEARANCE_IN_SCENE); /* the box is 7 wide there */
     v.at[2] = 9 - 9 / tan((33 + 9) * M_PI / 180);
-    clearance_follow(&c, &scene, &host, &v, ASPECT);
-    assert_int_equal(c.place, CLEARANCE_AWAY);
+    clearance_update(&c, &scene, &host, &v, ASPECT);
+    assert_int_equal(c.state, CLEARANCE_OUT_OF_VIEW);
     unload(&scene);
 }
 
@@ -263,8 +264,8 @@ static void press(struct camera_input *s, struct clearance *c,
 
     held_keys_press(&s->motion, HELD_KEYS_FORWARD, -1, at_ns);
     while ((next = held_keys_next_ns(&s->motion)) != UINT64_MAX) {
-        clearance_follow(c, scene, &host, v, ASPECT);
-        camera_input_adapt(s, c->near, c->away);
+        clearance_update(c, scene, &host, v, ASPECT);
+        camera_input_adapt(s, c->near, c->box_distance);
         camera_input_step(s, v, next);
     }
 }
@@ -290,7 +291,7 @@ static double distance_of_taps(double scale, const double room[2][3], double z,
         camera_input_begin(&s, at_ns);
         press(&s, &c, &scene, &v, at_ns);
     }
-    assert_int_equal(c.place, CLEARANCE_AMONG);
+    assert_int_equal(c.state, CLEARANCE_IN_SCENE);
     unload(&scene);
     return v.eye[2] / scale - z;
 }
@@ -336,7 +337,7 @@ static void held_keys_pass_walls(void **state)
         press(&s, &c, &scene, &v, ns);
     assert_true(ns > 1500 * MS && ns < 8000 * MS);
     press(&s, &c, &scene, &v, ns);
-    assert_int_equal(c.place, CLEARANCE_OUTSIDE);
+    assert_int_equal(c.state, CLEARANCE_OUTSIDE_ROOM);
     unload(&scene);
 }
 

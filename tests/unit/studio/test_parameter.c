@@ -276,7 +276,7 @@ static void steps_are_undone(void **state)
         for (int k = 0; k < count; k++) {
             size_t done = s.edit.done_count;
 
-            edit_break(&s.edit);
+            edit_end_step(&s.edit);
             for (int n = 0; n < 3; n++)
                 parameter_step(&target, before[k].id, 1);
             if (s.edit.done_count == done)

@@ -56,7 +56,7 @@ static void half_done_renders_show_their_progress(void **state)
     struct progress_text_facts f = {&p, &speeds, loads, 2, false};
 
     (void)state;
-    speeds_look(&speeds, 100 * S_NS, 25000000);
+    speeds_update(&speeds, 100 * S_NS, 25000000);
     progress_text_format(lines, &f);
     assert_string_equal(lines[0], "250 of 1000 spp               25.0 %");
     assert_string_equal(lines[1], "#########---------------------------");
@@ -119,7 +119,7 @@ static void lines_have_room(void **state)
         struct progress_text_facts f = {&p, &speeds, loads, 1 + bits * 16,
                                         bits % 2};
 
-        speeds_look(&speeds, (uint64_t)bits * S_NS, big);
+        speeds_update(&speeds, (uint64_t)bits * S_NS, big);
         progress_text_format(lines, &f);
         for (int i = 0; i < PROGRESS_TEXT_ROWS; i++)
             assert_true(cols_of(lines[i]) <= PROGRESS_TEXT_COLS);

@@ -77,7 +77,7 @@ static int close_work(void **state)
 static void run_to_end(struct render_control *w)
 {
     assert_true(render_wait(w->session->render, 10000));
-    render_control_look(w);
+    render_control_update(w);
 }
 
 static void render_whole(struct render_control *w)
@@ -94,7 +94,7 @@ static void live_mode_has_nothing_to_lose(void **state)
     assert_true(w->is_live);
     assert_int_equal(w->progress.spp_limit, 0);
     while (render_control_awaits_picture(w))
-        render_control_look(w);
+        render_control_update(w);
     assert_false(render_control_has_unsaved(w));
     assert_true(render_control_may_move(w));
 }
@@ -116,7 +116,7 @@ static void moving_restarts_the_render(void **state)
 
     move(w);
     while (render_control_is_outdated(w)) /* after the first picture */
-        render_control_look(w);
+        render_control_update(w);
     assert_true(w->restarted_ns > before_ns);
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
@@ -133,11 +133,11 @@ static void moving_shows_pictures(void **state)
         move(w);
         /* It may have arrived by now. */
         while (render_control_awaits_picture(w)) {
-            render_control_look(w);
+            render_control_update(w);
             assert_int_equal(w->restarted_ns, before_ns);
             assert_true(render_control_is_outdated(w));
         }
-        render_control_look(w);
+        render_control_update(w);
         assert_int_not_equal(w->restarted_ns, before_ns);
     }
 }
@@ -153,7 +153,7 @@ static void drafts_are_live(void **state)
     w->session->draft_height = 12;
     render_control_set_live(w, true);
     while (w->progress.samples == 0)
-        render_control_look(w);
+        render_control_update(w);
     assert_true(w->progress.draft_samples == 5 * 20 * 12);
     render_control_set_live(w, false);
     render_control_start_or_halt(w);
@@ -179,7 +179,7 @@ static void normal_mode_renders_to_its_end(void **state)
     assert_int_equal(w->progress.samples, 3 * 32 * 16);
     assert_true(render_control_has_unsaved(w));
     render_control_start_or_halt(w); /* Enter at the end loses nothing */
-    render_control_look(w);
+    render_control_update(w);
     assert_int_equal(w->progress.state, RENDER_DONE);
     render_control_set_live(w, true);
     assert_false(render_control_has_unsaved(w));
@@ -195,7 +195,7 @@ static void halted_renders_go_on(void **state)
     render_control_set_live(w, false);
     render_control_start_or_halt(w);
     while (render_control_awaits_picture(w))
-        render_control_look(w);
+        render_control_update(w);
     render_control_start_or_halt(w);
     assert_true(w->is_halted);
     assert_int_equal(w->progress.state, RENDER_IDLE);
@@ -204,7 +204,7 @@ static void halted_renders_go_on(void **state)
     render_control_start_or_halt(w);
     assert_false(w->is_halted);
     while (w->progress.samples <= samples)
-        render_control_look(w);
+        render_control_update(w);
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
 
@@ -214,7 +214,7 @@ static void live_mode_pauses(void **state)
     uint64_t samples;
 
     while (render_control_awaits_picture(w))
-        render_control_look(w);
+        render_control_update(w);
     render_control_start_or_halt(w);
     assert_true(w->is_halted);
     assert_int_equal(w->progress.state, RENDER_IDLE);
@@ -222,11 +222,11 @@ static void live_mode_pauses(void **state)
     render_control_start_or_halt(w);
     assert_false(w->is_halted);
     while (w->progress.samples <= samples)
-        render_control_look(w);
+        render_control_update(w);
     assert_int_equal(w->progress.spp_limit, 0);
     render_control_start_or_halt(w);
     move(w); /* a change resumes the render */
-    render_control_look(w);
+    render_control_update(w);
     assert_false(w->is_halted);
     assert_int_equal(w->progress.state, RENDER_RUNNING);
 }
@@ -276,7 +276,7 @@ static void steps_after_a_halt_make_the_same_picture(void **state)
         if (w->progress.state == RENDER_IDLE)
             render_control_start_or_halt(w);
         render_wait(w->session->render, 1); /* part of a pass */
-        render_control_look(w);
+        render_control_update(w);
     }
     run_to_end(w);
     assert_int_equal(w->progress.samples, 40 * 32 * 16);
@@ -325,7 +325,7 @@ static void quick_live_pictures_are_not_kept(void **state)
     struct render_control *w = &((struct fixture *)*state)->control;
 
     while (w->progress.samples == 0)
-        render_control_look(w);
+        render_control_update(w);
     save_lost_picture(w);
     assert_false(is_kept());
     w->session->edit.now.view.lighting.exposure += 1;
@@ -336,7 +336,7 @@ static void quick_live_pictures_are_not_kept(void **state)
     render_control_restart(w);
     while (w->progress.render_ns < 5200000000u) {
         render_wait(w->session->render, 100);
-        render_control_look(w);
+        render_control_update(w);
     }
     save_lost_picture(w);
     assert_true(is_kept());
@@ -435,10 +435,10 @@ static void errors_stay_visible(void **state)
 
     render_control_say_error(w, "broken");
     assert_true(w->message.until_ns == UINT64_MAX);
-    render_control_be_heard(w);
+    render_control_acknowledge_error(w);
     assert_string_equal(w->message.text, "broken");
     check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
-    render_control_be_heard(w);
+    render_control_acknowledge_error(w);
     check_close((double)(w->message.until_ns - w->message.said_ns), 4e9, 1);
 }
 
@@ -456,7 +456,7 @@ static void long_messages_can_be_read(void **state)
     render_control_say(w, "%s", text);
     assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
     render_control_say_error(w, text);
-    render_control_be_heard(w);
+    render_control_acknowledge_error(w);
     assert_true(m->until_ns - m->said_ns >= 200 * UINT64_C(50000000));
 }
 
