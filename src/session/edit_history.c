@@ -9,8 +9,8 @@
 #include "formats/scene_load.h"
 #include "terminal/xmalloc.h"
 
-/* The same gesture again within this time goes on with its step: longer than
- * keyboards wait before they repeat. */
+/* Time within which a gesture continues its step: longer than the delay of
+ * keyboards before the first repeat. */
 #define GESTURE_NS UINT64_C(700000000)
 
 enum step_kind {
@@ -26,7 +26,7 @@ union value {
     struct mtl_source source;
     uint32_t material;
     bool is_there;
-    struct lighting lighting; /* its sky_path is one of the edit's skies */
+    struct lighting lighting; /* sky_path belongs to edit.skies */
     struct pose pose;
     struct {
         struct pose pose;
@@ -34,10 +34,11 @@ union value {
     } shot;
 };
 
-/* One thing that changed; all of a group are a step for people. */
+/* Change of one value. All changes of a group are undone together. */
 struct edit_step {
     enum step_kind kind;
-    uint32_t index; /* of the material, object or numbered view */
+    /* number of the material, object or view */
+    uint32_t index;
     uint32_t group;
     union value before, after;
 };
@@ -79,7 +80,7 @@ static void grow_state(struct edit_state *s, uint32_t count)
     s->is_there = xrealloc(s->is_there, count * sizeof *s->is_there);
 }
 
-/* Room for one more material. */
+/* Adds a material; the caller sets its sources. */
 static void add_material(struct edit *e, const char *name, uint32_t copied_from)
 {
     uint32_t index = e->material_count++;
@@ -157,7 +158,7 @@ static void set(struct edit *e, const struct edit_step *s,
     }
     if (s->kind != STEP_SHOT && !is_same_light)
         e->version++;
-    if (s->kind < STEP_POSE) /* the person wants to see that */
+    if (s->kind < STEP_POSE) /* the changed state is shown */
         edit_compare(e, false);
 }
 
@@ -166,8 +167,8 @@ static bool joins(const struct edit_step *last, const struct edit_step *step)
     return last->kind == step->kind && last->index == step->index;
 }
 
-/* Does it, and takes what was undone out of the history. A later change of the
- * same thing in the same group takes the place of the earlier one. */
+/* Makes a change and removes undone changes from the history. A change of the
+ * same value in the same group is merged into the previous one. */
 static void change(struct edit *e, const struct edit_step *step)
 {
     struct edit_step *last = NULL;
@@ -177,13 +178,13 @@ static void change(struct edit *e, const struct edit_step *step)
     if (e->done_count > 0 && e->steps[e->done_count - 1].group == e->group)
         last = &e->steps[e->done_count - 1];
     if (last != NULL && !joins(last, step) && e->gesture != 0)
-        e->group++; /* another thing was changed during the gesture */
+        e->group++; /* another value was changed during the gesture */
     if (last != NULL && joins(last, step)) {
         last->after = step->after;
     } else {
         if (!grow_array(&steps, &e->step_capacity, e->step_count + 1,
                         sizeof *e->steps))
-            return; /* it would not be undone, so it is not done */
+            return; /* out of memory: no change without undo */
         e->steps = steps;
         e->steps[e->step_count] = *step;
         e->steps[e->step_count++].group = e->group;
@@ -236,7 +237,7 @@ void edit_assign(struct edit *e, uint32_t object, uint32_t material)
         change(e, &step);
 }
 
-/* Lends the path from the edit's skies, which stay. */
+/* Returns a lighting whose path belongs to edit.skies, which only grows. */
 static struct lighting with_own_path(struct edit *e,
                                      const struct lighting *lighting)
 {
@@ -294,7 +295,7 @@ static bool has_name(const struct edit *e, const char *name)
     return false;
 }
 
-/* "wood" becomes wood.2, and that wood.3. */
+/* Returns a free name, for free(): wood.2 for wood, wood.3 for wood.2. */
 static char *new_name(const struct edit *e, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -336,7 +337,7 @@ uint32_t edit_duplicate(struct edit *e, uint32_t material)
     return step.index;
 }
 
-/* Names the step for people, by its first change. */
+/* Returns the name of a step, which depends on its first change. */
 static const char *name_step(struct edit *e, const struct edit_step *s)
 {
     char *text = e->step_text;
@@ -390,7 +391,7 @@ const char *edit_redo(struct edit *e)
     return name_step(e, first);
 }
 
-/* ---- what is shown and saved ---- */
+/* ---- shown and saved state ---- */
 
 static bool has_unsaved_assigned(const struct edit *e)
 {
@@ -398,7 +399,8 @@ static bool has_unsaved_assigned(const struct edit *e)
                   e->object_count * sizeof *e->now.assigned) != 0;
 }
 
-/* True if what is saved looks as what is now, but for its development. */
+/* Returns true if saved and current state render the same picture, apart from
+ * exposure and tone. */
 static bool is_shown_as_saved(const struct edit *e)
 {
     return !edit_has_unsaved_materials(e) && !has_unsaved_assigned(e) &&
@@ -428,7 +430,7 @@ struct view edit_view(const struct edit *e)
 
 bool edit_is_saved(const struct edit *e, uint32_t i)
 {
-    /* a duplicate that was saved and then undone stays in its file */
+    /* an undone duplicate that was saved stays in its file */
     return !e->now.is_there[i] ||
            (e->saved.is_there[i] &&
             mtl_source_equal(&e->now.sources[i], &e->saved.sources[i]));
@@ -463,7 +465,7 @@ void edit_saved_material(struct edit *e, uint32_t material)
     e->saved.is_there[material] = e->now.is_there[material];
 }
 
-/* An object that never had an effect keeps its line. */
+/* Updates the lines of objects of the scene. Lines of unknown objects stay. */
 static void write_assigns(const struct edit *e, const struct scene *scene,
                           struct assigns *assigns)
 {
@@ -499,7 +501,7 @@ void edit_saved_view(struct edit *e, const struct view *written)
     edit_saved_lighting(e, written);
 }
 
-/* ---- the files loaded anew ---- */
+/* ---- reload ---- */
 
 void edit_keep_camera(struct edit *e, const struct edit *before)
 {

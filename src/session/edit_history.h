@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 /*
- * edit_history.h - all that a person changes of an opened scene, step by step
- * and back
+ * edit_history.h - the editable state of an open scene, with undo and redo
  *
- * Values of materials, which object has which material, duplicates, light and
- * its development, the camera, numbered views. This is their only place; each
- * change goes through a function here. Changes that follow each other without
- * edit_end_step() between them are one step: a slider or a key that is held
- * down is undone at once.
+ * The state has the values of materials, the assignment of materials to
+ * objects, duplicated materials, light, exposure and tone, the camera, and
+ * numbered views. It exists only here, and every change is made by a function
+ * of this file. Changes without edit_end_step() between them are one step: the
+ * whole motion of a slider or of a held key is undone at once.
  *
  * Units:     those of MTL and view files
- * Ownership: edit_free() frees; nothing of the scene or view is kept
+ * Ownership: edit_free() frees; scene and view are copied
  * Threads:   one thread at a time
- * Errors:    none; what has no memory ends the program, as small things do
+ * Errors:    xmalloc() ends the program when memory is out
  */
 #ifndef GLIM_EDIT_HISTORY_H
 #define GLIM_EDIT_HISTORY_H
@@ -25,107 +24,113 @@
 #include "scene/world_materials.h"
 
 struct edit_state {
-    struct mtl_source *sources; /* one a material */
-    bool *is_there;     /* one a material; false: a duplicate that was undone */
-    uint32_t *assigned; /* one an object, NO_INDEX: as in the file */
-    struct view view;   /* its assigns are lines of the file, some without
-                           effect */
+    struct mtl_source *sources; /* for each material */
+    bool *is_there; /* for each material; false for an undone duplicate */
+    /* for each object the assigned material, or NO_INDEX for that of the OBJ
+     * file */
+    uint32_t *assigned;
+    /* its assigns have all lines of the file, also those without effect */
+    struct view view;
 };
 
 struct edit_step;
 
 struct edit {
     struct edit_state now;
-    struct edit_state saved; /* as the files have it, or would: without the
-                                size and bounces of the command line */
-    bool is_comparing;       /* saved materials and light are to be shown */
-    uint32_t version;        /* counts changes that need a new render */
-    char **names;            /* of materials; those of files first */
-    uint32_t *copied_from;   /* one a material; NO_INDEX: from a file */
+    /* state of the files; size and bounces are not those of the command line */
+    struct edit_state saved;
+    bool is_comparing; /* the saved state is shown */
+    uint32_t version;  /* counts changes that restart the render */
+    char **names;      /* of materials; first those of files */
+    /* for each material its original, or NO_INDEX if it is from a file */
+    uint32_t *copied_from;
     uint32_t material_count, object_count;
-    struct name_table skies; /* paths of images to choose from; 0 is "" */
+    struct name_table skies; /* paths of known sky images; 0 is "" */
 
     struct edit_step *steps;
     size_t step_count, step_capacity;
-    size_t done_count; /* the others were undone */
-    uint32_t group;    /* of the next change */
-    uint32_t gesture;  /* that it belongs to; 0: none */
+    size_t done_count; /* steps from here on are undone */
+    uint32_t group;    /* group number of the next change */
+    uint32_t gesture;  /* current gesture, 0 for none */
     uint64_t gesture_ns;
-    char step_text[128]; /* names the step that was undone or redone last */
+    char step_text[128]; /* name of the last undone or redone step */
 };
 
-/* Begins with a finished scene and its view. Assignments of objects or
- * materials that are not there are a warning. */
+/* Initialises the state from a finished scene and its view. Assignments of
+ * unknown objects or materials are warnings. */
 void edit_init(struct edit *edit, const struct scene *scene,
                const struct view *view, struct warnings *report);
 
-/* The next change is a step of its own. */
+/* Ends the current step. The next change begins a new one. */
 void edit_end_step(struct edit *edit);
 
-/* The next changes belong to a gesture: a key that is held, a parameter that is
- * turned; its number, above 0, is the caller's. They join the step of the same
- * gesture if that was shortly before. Returns true if a new step begins. */
+/* Assigns the next changes to a gesture: a held key or a parameter in motion.
+ * The caller chooses its number, above 0. Changes join the step of the same
+ * gesture if that was less than 0.7 s ago. Returns true if a new step
+ * begins. */
 bool edit_begin_gesture(struct edit *edit, uint32_t gesture, uint64_t now_ns);
 
-/* What is equal to what was there is no change. */
+/* Change one value. An equal value is not a change. */
 void edit_material(struct edit *edit, uint32_t material,
                    const struct mtl_source *source);
 void edit_assign(struct edit *edit, uint32_t object, uint32_t material);
 void edit_lighting(struct edit *edit, const struct lighting *lighting);
 void edit_pose(struct edit *edit, const struct pose *pose);
 
-/* The camera of now becomes the numbered view, from 0. */
+/* Stores the current camera as a numbered view, from 0. */
 void edit_shot(struct edit *edit, int number);
 
-/* A new material like this one under a new name; its number. */
+/* Duplicates a material under a new name. Returns the number of the
+ * duplicate. */
 uint32_t edit_duplicate(struct edit *edit, uint32_t material);
 
-/* The number of the sky with this path. */
+/* Returns the number of the sky image with this path, which is added if new. */
 uint32_t edit_sky(struct edit *edit, const char *path);
 
-/* One step back or forth. Returns the words that name the step, such as
- * "camera", until the next one; NULL if there is none. */
+/* Undo or redo one step. Return its name, such as "camera", valid until the
+ * next call, or NULL if there is no step. */
 const char *edit_undo(struct edit *edit);
 const char *edit_redo(struct edit *edit);
 
-/* Shows what is saved of materials and light, or again what is now. */
+/* Chooses whether the saved or the current materials and light are shown. */
 void edit_compare(struct edit *edit, bool is_comparing);
 
-/* Returns materials, assignments and light that are to be shown: of now, or
- * while comparing those that are saved. */
+/* Returns the shown state of materials, assignments and light: the current one,
+ * or the saved one while comparing. */
 const struct edit_state *edit_shown(const struct edit *edit);
 
-/* Returns the view to render: now's, with the light that is shown. It borrows
- * from the edit. */
+/* Returns the view to render: the current one with the shown light. Its
+ * pointers belong to the edit. */
 struct view edit_view(const struct edit *edit);
 
-/* True if the files have this material as it is now. */
+/* Returns true if the material is saved as it is. */
 bool edit_is_saved(const struct edit *edit, uint32_t material);
 
-/* True if a material, or assignments and light, are not as in the files. */
+/* Return true if a material, or an assignment or the light, is not saved. */
 bool edit_has_unsaved_materials(const struct edit *edit);
 bool edit_has_unsaved_view(const struct edit *edit);
 
-/* For a material that is to be saved over what the files have of another or the
- * same: takes back what was left by kinds that it has no more. False if there
- * is nothing to save. */
+/* Simplifies a material before it is saved over the block of `pattern`:
+ * restores statements of the file that have no effect on its kind. Returns
+ * false if nothing remains to be saved. */
 bool edit_simplify_material(struct edit *edit, uint32_t material,
                             uint32_t pattern);
 
-/* A material's values are in the files now. */
+/* Marks a material as saved. */
 void edit_saved_material(struct edit *edit, uint32_t material);
 
-/* Puts light and assignments of now into a view. */
+/* Copies the current light and assignments into a view. */
 void edit_to_view(const struct edit *edit, const struct scene *scene,
                   struct view *view);
 
-/* This view was written: its light and assignments, which are now's, are in the
- * file. edit_saved_view(): all of it. */
+/* Mark light and assignments of the written view, which are the current ones,
+ * or all of that view, as saved. */
 void edit_saved_lighting(struct edit *edit, const struct view *written);
 void edit_saved_view(struct edit *edit, const struct view *written);
 
-/* After the files were loaded anew into `edit`: takes the camera and its steps
- * over from the edit before, but for what the view file has changed. */
+/* Copies camera, numbered views and camera steps of `before` into an edit that
+ * was loaded anew from the same files, except values that the view file has
+ * changed. */
 void edit_keep_camera(struct edit *edit, const struct edit *before);
 
 void edit_free(struct edit *edit);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * reload.h - loads the files of a session anew, in a thread of its own, while
- * the session renders on
+ * reload.h - loads the files of a session again, in a thread of its own, while
+ * the session continues to render
  *
- * Ownership: reload_end() hands what was loaded over; reload_free() waits for
- *            a load that is on its way
+ * Ownership: reload_end() returns a session, which the caller closes;
+ *            reload_free() waits for a load in progress
  * Threads:   all functions from one thread
- * Errors:    with the result: what is wrong with which file
+ * Errors:    reload_end() returns those of the load, which name the file
  */
 #ifndef GLIM_RELOAD_H
 #define GLIM_RELOAD_H
@@ -17,11 +17,11 @@
 #include "session/session.h"
 
 struct reload {
-    int event_fd; /* readable when it is done */
+    int event_fd; /* readable when the load is done */
     bool is_busy; /* between reload_begin() and reload_end() */
     pthread_t thread;
     const struct options *options;
-    /* the thread's until reload_end() joins it */
+    /* owned by the thread until reload_end() joins it */
     struct session fresh;
     bool is_loaded;
     struct error error;
@@ -30,11 +30,11 @@ struct reload {
 bool reload_init(struct reload *r, const struct options *options,
                  struct error *err);
 
-/* False if a load is on its way, or no thread can start. */
+/* Starts a load. Returns false if one is in progress or no thread can start. */
 bool reload_begin(struct reload *r, struct error *err);
 
-/* Waits for the load. *fresh is for session_take_loaded() and session_close(),
- * also after an error. */
+/* Waits for the load. *fresh is for session_take_loaded() and then
+ * session_close(), also after an error. */
 bool reload_end(struct reload *r, struct session *fresh, struct error *err);
 
 void reload_free(struct reload *r);

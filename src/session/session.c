@@ -11,7 +11,7 @@
 #include "formats/scene_load.h"
 #include "terminal/xmalloc.h"
 
-/* The command line wins over the view file. */
+/* Overrides values of the view file by those of the command line. */
 static void apply_options(const struct options *o, struct view *view)
 {
     if (o->width_px != 0 || o->height_px != 0)
@@ -20,7 +20,7 @@ static void apply_options(const struct options *o, struct view *view)
         view->max_bounces = o->max_bounces;
 }
 
-/* Says on the status line what scene_open() has added. */
+/* Puts the additions of scene_open() into the notice. */
 static void note_additions(struct session *s)
 {
     if (s->scene.tri_count == 0)
@@ -31,7 +31,7 @@ static void note_additions(struct session *s)
                  "no light in the scene: lit by a soft sky");
 }
 
-/* The rectangle to render, which must lie in the picture. */
+/* Sets the rectangle to render. Returns false if it is not in the picture. */
 static bool find_crop(struct session *s, const struct view *view,
                       struct error *err)
 {
@@ -51,8 +51,8 @@ static bool find_crop(struct session *s, const struct view *view,
     return true;
 }
 
-/* Brings the world to what the edit shows, which is *view. An image of the sky
- * that cannot be read leaves the one before, and a notice. */
+/* Updates the world to the shown state of the edit, whose view is *view. If the
+ * sky image cannot be read, the previous one stays and the notice says so. */
 static bool apply_edit(struct session *s, const struct view *view,
                        struct error *err)
 {
@@ -70,8 +70,8 @@ static bool apply_edit(struct session *s, const struct view *view,
     return world_guide(&s->world, &s->scene, view, err);
 }
 
-/* Reads the scene and its view, the size and bounces of which are the file's
- * but for the options. */
+/* Reads the scene and its view. edit.saved keeps size and bounces of the file;
+ * *view has those of the options. */
 static bool open_scene(struct session *s, struct view *view, struct error *err)
 {
     const struct options *o = s->options;
@@ -145,7 +145,7 @@ void session_take_loaded(struct session *s, struct session *fresh)
     render_halt(s->render);
     edit_keep_camera(&fresh->edit, &s->edit);
     swap_loaded(s, fresh);
-    if (has_same_shape) /* trees stay */
+    if (has_same_shape) /* keep the tree */
         world_take_shape(&s->world, &fresh->world);
 }
 
@@ -199,7 +199,8 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
         !world_lend(&s->world, &s->scene, &view, s->options->seed, &job.world,
                     err))
         return false;
-    /* a device has another; moves on the screen ask this one for distances */
+    /* a device has its own tree; the interactive program needs this one for
+     * camera speed and clearance */
     if (session_uses_device(s) && s->options->batch)
         world_drop_tree(&s->world);
     features = job.world.settings.features;
@@ -212,7 +213,8 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     thread_load_begin(&s->load, render_backend(s->render));
     if (!render_start(s->render, &job, err))
         return false;
-    if (session_uses_device(s) && spp == 0) /* there will be restarts */
+    /* restarts repay the time of a special build */
+    if (session_uses_device(s) && spp == 0)
         backends_specialise(&s->backends, features);
     return true;
 }
@@ -255,7 +257,7 @@ bool session_uses_device(const struct session *s)
 void session_close(struct session *s)
 {
     if (s->render)
-        render_destroy(s->render); /* reads the scene until it returns */
+        render_destroy(s->render); /* first, since it reads the scene */
     backends_close(&s->backends);
     world_free(&s->world);
     scene_free(&s->scene);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * session.h - a scene, its view and its renderer: what batch mode and the
- * screen have in common
+ * session.h - an open scene with its edit and its renderer, shared by batch
+ * mode and the interactive program
  *
  * Units:     as view.h and command_line.h
- * Ownership: session_close() frees all
- * Threads:   main only
- * Errors:    session_open() says what is wrong with which file
+ * Ownership: session_close() frees all; the options are the caller's
+ * Threads:   main only; session_load() any
+ * Errors:    session_open() and session_load() name the file
  */
 #ifndef GLIM_SESSION_H
 #define GLIM_SESSION_H
@@ -22,69 +22,75 @@
 struct session {
     const struct options *options;
     struct scene scene;
-    struct host_world world; /* made of the scene and the edit */
-    struct edit edit; /* materials, light, camera, as they are to be rendered */
-    uint32_t rendered_version; /* of the edit */
-    struct pose opened_pose;   /* the camera as loaded, to go back to */
-    struct rect crop;          /* of the picture, that is rendered */
-    char *view_path;  /* where the view is kept: STEM.view or -c FILE */
-    char notice[256]; /* one line for the person, or "" */
+    struct host_world world; /* made from the scene and the edit */
+    /* current materials, light and camera */
+    struct edit edit;
+    uint32_t rendered_version; /* edit.version at the last restart */
+    struct pose opened_pose;   /* camera as loaded */
+    struct rect crop;          /* part of the picture to render */
+    char *view_path;           /* path of the view file: STEM.view or -c FILE */
+    char notice[256];          /* one line for the status line, or "" */
     struct warnings report;
-    uint32_t files_version; /* counts changes of what session_watch() adds */
+    /* counts changes of the list of session_watch() */
+    uint32_t files_version;
     struct backends backends;
     struct render *render;
-    uint64_t start_ns; /* of the program */
+    uint64_t start_ns; /* start of the program */
     uint64_t load_ns;
-    uint64_t restart_ns; /* when session_restart() last started the render */
-    int draft_width, draft_height; /* of what will be seen live; 0: nothing */
-    enum sample_kind sample;       /* what will be seen live */
-    /* of the render since then */
+    /* time of the last session_restart() or session_step() */
+    uint64_t restart_ns;
+    /* size of the draft for live mode, in pixels; 0: no draft */
+    int draft_width, draft_height;
+    enum sample_kind sample; /* samples to be shown in live mode */
+    /* measured since restart_ns */
     struct speeds speeds;
     struct thread_load load;
 };
 
-/* Loads scene, view and sky, applies the options, frames and lights what has
- * no camera and no light. Nothing is rendered yet. session_close() is due also
- * after an error, which may leave warnings in the report. */
+/* Loads scene, view and sky and applies the options. A scene without a camera
+ * is framed, one without light gets a soft sky. Rendering does not start yet.
+ * The caller calls session_close() also after an error, when the report may
+ * have warnings. */
 bool session_open(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
 
-/* The part of it that reads files: for another session to take. */
+/* Loads the files only, for session_take_loaded() of another session. */
 bool session_load(struct session *s, const struct options *options,
                   uint64_t start_ns, struct error *err);
 
-/* Halts, and takes what `fresh` has loaded of the same files. The camera and
- * its steps of undo stay, but for what the view file has changed. What was
- * loaded before is in `fresh` then. session_restart() is due. */
+/* Halts and exchanges the loaded files with `fresh`, a later load of the same
+ * files, which the caller closes. Camera and its undo steps stay, except values
+ * that the view file has changed. The caller calls session_restart() next. */
 void session_take_loaded(struct session *s, struct session *fresh);
 
-/* Adds all files that the session was loaded from, and those that would be
- * read if they were there. */
+/* Adds the files that the session was loaded from, and those that would be
+ * loaded if they existed. */
 void session_watch(const struct session *s, struct file_watch *watch);
 
-/* False, with a message, if what the option names would be written over one of
- * these files. */
+/* Returns false, with an error, if the output path of an option is a file that
+ * the session reads. */
 bool session_check_output(const struct session *s, const char *option,
                           const char *path, struct error *err);
 
-/* Halts and starts from sample 0 with what the edit shows. spp 0: no
+/* Halts and starts from sample 0 with the shown state of the edit. spp 0: no
  * limit. */
 bool session_restart(struct session *s, uint64_t spp, struct error *err);
 
-/* The same, but it halts after the first sample of every pixel. */
+/* Restarts in the same way, and halts after the first sample of every pixel. */
 bool session_step(struct session *s, uint64_t spp, struct error *err);
 
-/* Returns true if what is to be shown has changed since session_restart(): more
- * than its development. */
+/* Returns true if the edit has changed since the last restart in more than
+ * exposure and tone. */
 bool session_is_outdated(const struct session *s);
 
-/* As the light says that is shown. */
+/* Returns exposure and tone of the shown state of the edit. */
 struct develop session_develop(const struct session *s);
 
-/* How far the render is. To be called some times a second, for the speeds. */
+/* Returns the progress of the render and adds it to the speeds. Call it several
+ * times per second. */
 struct render_progress session_progress(struct session *s);
 
-/* True if an OpenCL device renders. */
+/* Returns true if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);
 
 void session_close(struct session *s);

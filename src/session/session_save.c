@@ -8,7 +8,8 @@
 #include "formats/view_file.h"
 #include "terminal/xmalloc.h"
 
-/* The material whose block a new one begins with: the nearest in a file. */
+/* Returns the material whose saved block is the template for a new one: the
+ * material itself or the nearest original that is in a file. */
 static uint32_t pattern_of(const struct edit *e, uint32_t material)
 {
     while (!e->saved.is_there[material])
@@ -16,7 +17,7 @@ static uint32_t pattern_of(const struct edit *e, uint32_t material)
     return material;
 }
 
-/* The file in which a material is, or is to be. */
+/* Returns the index of the MTL file that has the material, or will have it. */
 static uint32_t file_of(const struct session *s, uint32_t material)
 {
     const struct edit *e = &s->edit;
@@ -28,7 +29,7 @@ static uint32_t file_of(const struct session *s, uint32_t material)
                : 0;
 }
 
-/* The changes that belong to a file; their number. */
+/* Lists the unsaved changes of one MTL file. Returns their number. */
 static size_t collect(struct session *s, uint32_t file,
                       struct mtl_change *changes, uint32_t *materials)
 {
@@ -51,10 +52,10 @@ static size_t collect(struct session *s, uint32_t file,
     return count;
 }
 
-/* Materials that were written, and the names of the files. */
+/* Count of the materials that were written, and the names of their files. */
 struct written {
     size_t count;
-    char *files; /* NULL: none */
+    char *files; /* separated by commas, or NULL */
 };
 
 static void note_written(struct written *w, size_t count, const char *path)
@@ -91,8 +92,8 @@ static bool save_file(struct session *s, uint32_t file,
     return ok;
 }
 
-/* Writes light and assignments into the file as it is now: the camera in there
- * is not this one's. */
+/* Writes light and assignments into the view file. The file is read first,
+ * since its camera and other values stay. */
 static bool save_lighting(struct session *s, struct file_watch *watch,
                           struct error *err)
 {
@@ -125,7 +126,7 @@ bool session_save_view(struct session *s, struct file_change *change,
     view_init(&view);
     xcheck(view_copy(&view, &s->edit.now.view) &&
            assigns_copy(&view.assigns, &s->edit.saved.view.assigns));
-    view.has_camera = true; /* also one that was placed by the program */
+    view.has_camera = true; /* also a camera that the program placed */
     view_copy_frame(&view, &s->edit.saved.view);
     edit_to_view(&s->edit, &s->scene, &view);
     ok = view_write(&view, s->view_path, change, err);
@@ -135,7 +136,8 @@ bool session_save_view(struct session *s, struct file_change *change,
     return ok;
 }
 
-/* NULL: the view file was not written. */
+/* Returns the line about the written files. view_path is NULL if the view file
+ * was not written. */
 static char *say_written(const struct written *w, const char *view_path)
 {
     if (w->count == 0 && view_path == NULL)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * session_save.h - writes what was changed of a session into its files
+ * session_save.h - writes changed materials, assignments, light and view into
+ * the files of a session
  *
- * Ownership: the session stays the caller's
  * Threads:   main only
- * Errors:    files that cannot be written; those of another's at the same time
+ * Errors:    files that cannot be written, or that another program has changed
  */
 #ifndef GLIM_SESSION_SAVE_H
 #define GLIM_SESSION_SAVE_H
@@ -13,15 +13,15 @@
 
 #include "session/session.h"
 
-/* Writes changed materials into their MTL files, and if assignments or light
- * have changed, these into the view file, the rest of which stays. The watch is
- * told of it. *what is a line about it, for free(). What was written before an
- * error is saved. */
+/* Writes changed materials into their MTL files. If assignments or light have
+ * changed, writes them into the view file, whose other values stay. Tells the
+ * watch of both. *what is a line about the files, for free(). After an error,
+ * files that were already written count as saved. */
 bool session_save_edit(struct session *s, struct file_watch *watch, char **what,
                        struct error *err);
 
-/* Writes view and light into the view file. What the command line says of this
- * run, size and bounces, is not written: the file keeps its own. */
+/* Writes view and light into the view file. Size and bounces stay those of the
+ * file, since the command line sets them for one run. */
 bool session_save_view(struct session *s, struct file_change *change,
                        struct error *err);
 

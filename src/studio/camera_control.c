@@ -52,7 +52,7 @@ void camera_control_stop(struct camera_control *camera)
     edit_end_step(edit_of(camera));
 }
 
-/* The eye is somewhere else, without a way there. */
+/* Resets the clearance after a jump of the eye. */
 static void reset_clearance(struct camera_control *camera)
 {
     clearance_reset(&camera->clearance);
@@ -69,7 +69,7 @@ void camera_control_set_scene(struct camera_control *camera)
                         scene_of(camera)->bounds_hi);
 }
 
-/* ---- where the eye is ---- */
+/* ---- clearance ---- */
 
 static void update_clearance(struct camera_control *camera)
 {
@@ -106,8 +106,8 @@ static void say_state(struct camera_control *camera)
     camera->reported_ns = camera->control->message.said_ns;
 }
 
-/* After a move: who loses the scene is told so once; the message goes with its
- * reason. */
+/* Updates the clearance after a move. A bad state has one message, which is
+ * removed when the state is good again. */
 static void report_state(struct camera_control *camera)
 {
     update_clearance(camera);
@@ -144,8 +144,8 @@ static void steer_held(struct camera_control *camera, uint64_t now_ns)
     uint64_t next_ns;
     bool has_moved = false;
 
-    /* each step as long as what is around allows, also where the loop is late
-     */
+    /* the speed of each step depends on the clearance at its begin, even if the
+     * event loop is late */
     while ((next_ns = held_keys_next_ns(&camera->input.motion)) <= now_ns &&
            next_ns != UINT64_MAX) {
         update_clearance(camera);
@@ -164,7 +164,7 @@ void camera_control_end_move(struct camera_control *camera)
     steer_held(camera, UINT64_MAX);
 }
 
-/* Time that the key was held until now counts even if the loop is late. */
+/* Held time until now is applied first, since the event loop may be late. */
 void camera_control_move(struct camera_control *camera,
                          enum held_keys_axis axis, int sign)
 {
@@ -181,7 +181,7 @@ void camera_control_move(struct camera_control *camera,
     steer_held(camera, now_ns);
 }
 
-/* True if the camera may jump now; what is held is let go. */
+/* Returns true if the camera may jump now, and releases held keys. */
 static bool may_jump(struct camera_control *camera)
 {
     if (!render_control_may_move(camera->control))
@@ -224,7 +224,8 @@ void camera_control_reset(struct camera_control *camera)
     render_control_say(camera->control, "the view as it was opened");
 }
 
-/* What is loaded anew would take an undone change of materials back. */
+/* Returns true if undo is allowed now. During a reload it is not: the loaded
+ * files would restore an undone change of materials. */
 static bool may_undo(struct camera_control *camera)
 {
     struct render_control *control = camera->control;
@@ -270,7 +271,8 @@ void camera_control_redo(struct camera_control *camera)
 
 /* ---- orbit, frame, focus ---- */
 
-/* What is picked, or what is in the middle of the picture, or of the scene. */
+/* Sets the centre of orbits to the pick, or else to the surface in the middle
+ * of the picture, or else to the centre of the scene. */
 static void find_pivot(struct camera_control *camera)
 {
     struct pick pick = camera->cursor.pick;
@@ -417,7 +419,7 @@ static bool steer_by(struct camera_control *camera, const struct event *event)
 static void drag(struct camera_control *camera, const struct event *event)
 {
     if (!render_control_may_move(camera->control))
-        camera->input.is_dragging = false; /* nor is it a click */
+        camera->input.is_dragging = false; /* the release is no click */
     else if (steer_by(camera, event))
         report_state(camera);
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /*
- * camera_control.h - what keys and mouse do with the camera
+ * camera_control.h - the camera commands of keys and mouse
  *
- * Moves are held keys or drags; each is one step of undo. What is picked is the
- * point to orbit and to focus on, and its object the one to frame. Who leaves a
- * room through its wall, flies into a solid or sees nothing of the scene any
- * more is told how to come back.
+ * A held key or a drag is one undo step. The picked point is the centre of
+ * orbits and the point of focus, and its object is the one to frame. A message
+ * names the key to return when the camera has left a room through its wall,
+ * entered a solid, or has no part of the scene in view.
  *
  * Units:     nanoseconds of clock_ns(), terminal cells
- * Ownership: control and screen stay the caller's and outlive the camera
+ * Ownership: control and screen are the caller's and outlive the camera
  * Threads:   main only
  * Errors:    become messages
  */
@@ -26,66 +26,72 @@ struct camera_control {
     struct render_control *control;
     struct screen *screen;
     struct camera_input input;
-    enum held_keys_axis held; /* the last key was for this axis */
-    bool drag_is_new;         /* nothing has moved yet */
+    enum held_keys_axis held; /* axis of the last key */
+    bool drag_is_new;         /* no motion since the press */
     struct pick_cursor cursor;
-    struct clearance clearance; /* of the eye, where it was last */
+    struct clearance clearance; /* of the last eye position */
     enum clearance_state reported_state;
-    uint64_t reported_ns; /* when, if it was a message */
+    uint64_t reported_ns; /* time of the message about it */
 };
 
 void camera_control_init(struct camera_control *camera,
                          struct render_control *control, struct screen *screen);
 
-/* A key for this axis was pressed, or repeats: the camera moves as long as it
+/* Handles a press or repeat of a key of an axis. The camera moves while the key
  * is held. Sign is 1 or -1. */
 void camera_control_move(struct camera_control *camera,
                          enum held_keys_axis axis, int sign);
 
-/* Ends what is moving, where it would have ended: a command that follows a tap
- * finds the same view, however soon its key comes. */
+/* Completes the motion of a held key at once, as if its time had passed, so
+ * that the next command does not depend on how soon its key is pressed. */
 void camera_control_end_move(struct camera_control *camera);
 
 void camera_control_faster(struct camera_control *camera);
 void camera_control_slower(struct camera_control *camera);
 
-/* Picks what is under the cursor; that is the point to orbit then. */
+/* Picks the surface under the cursor, which becomes the centre of orbits. */
 void camera_control_pick(struct camera_control *camera);
 
-/* Orbits what the cursor shows; without a cursor switches between looking
- * around and orbiting what was picked. */
+/* Picks the surface under the cursor and orbits it. Without a cursor, switches
+ * between looking around and orbiting the last pick. */
 void camera_control_switch_orbit(struct camera_control *camera);
 
-/* Moves back until the picked object or the whole scene is in view. */
+/* Move the camera so that the picked object or the whole scene fills the
+ * picture. */
 void camera_control_frame_object(struct camera_control *camera);
 void camera_control_frame_all(struct camera_control *camera);
 
+/* Focuses on the picked point. */
 void camera_control_focus(struct camera_control *camera);
-/* Undoes or redoes the last change, whatever it was. */
+
+/* Undo or redo the last change of the edit, of any kind. */
 void camera_control_undo(struct camera_control *camera);
 void camera_control_redo(struct camera_control *camera);
 
-/* Back to the view as it was opened. */
+/* Restores the camera that the scene was opened with. */
 void camera_control_reset(struct camera_control *camera);
 
-/* Numbers are 1 to VIEW_SHOTS. */
+/* Store the camera as a numbered view, or go to one. Numbers are 1 to
+ * VIEW_SHOTS. */
 void camera_control_keep_view(struct camera_control *camera, int number);
 void camera_control_go_to_view(struct camera_control *camera, int number);
 
 void camera_control_mouse(struct camera_control *camera,
                           const struct event *event);
 
-/* Moves the camera as far as keys were held until now; says what is under the
- * cursor. */
+/* Moves the camera for the time that keys were held until now. Describes the
+ * surface under the cursor. */
 void camera_control_step(struct camera_control *camera, uint64_t now_ns);
 
-/* When to call camera_control_step() next; UINT64_MAX: nothing moves. */
+/* Returns the time of the next camera_control_step(), or UINT64_MAX if nothing
+ * moves. */
 uint64_t camera_control_next_ns(const struct camera_control *camera);
 
-/* After the scene was loaded anew: what was picked is of the one before. */
+/* Adapts to a newly loaded scene. The pick is dropped, since its numbers are
+ * those of the old scene. */
 void camera_control_set_scene(struct camera_control *camera);
 
-/* Lets go of all keys and buttons. */
+/* Releases all keys and buttons. */
 void camera_control_stop(struct camera_control *camera);
 
 #endif

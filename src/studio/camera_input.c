@@ -6,24 +6,25 @@
 #include "base/geometry.h"
 #include "studio/camera_moves.h"
 
-/* Reaches a second that a key moves at first. A tap, which lasts 150 ms, moves
- * by a fifth of the way to the nearest surface; a key that is held towards a
- * wall comes nearer and nearer. */
+/* Initial speed in reaches per second. A tap, which lasts 150 ms, moves by
+ * about a fifth of the distance to the nearest surface; a key that is held
+ * towards a wall approaches it ever more slowly. */
 #define PACE 1.0
 
-/* Bounds of the reach, as parts of the scene's size. The least lets the eye
- * pass a surface at last; the most crosses the scene in a few seconds; the
- * first is for a scene of which nothing is known yet. */
+/* Bounds of the reach, in units of the scene's size. REACH_LEAST lets the eye
+ * finally pass a surface; REACH_MOST crosses the scene in a few seconds;
+ * REACH_FIRST is used until the clearance is known. */
 #define REACH_LEAST 0.002
 #define REACH_MOST  0.25
 #define REACH_FIRST 0.05
 
-/* Away from the scene the reach grows with the distance, to that of so many
- * sizes: a key that is held for a minute must not take the eye to infinity. */
+/* Outside of the scene the reach grows with the distance, up to AWAY_MOST scene
+ * sizes: a key that is held for a minute must not move the eye to infinity. */
 #define AWAY      0.1
 #define AWAY_MOST 10.0
 
-/* Times as fast, for each second that a key is held, and at most. */
+/* Increase of the speed factor per second that a key is held, and its
+ * maximum. */
 #define RAMP      0.75
 #define RAMP_MOST 8.0
 
@@ -31,17 +32,18 @@
 #define SPEED_MIN  1e-3
 #define SPEED_MAX  1e3
 
-/* Radians a second. */
+/* Radians per second. */
 #define LOOK_SPEED  0.9
 #define ORBIT_SPEED 1.5
 
-/* Powers of e a second. A tap, which lasts 150 ms, changes the field of view by
+/* Exponents per second. A tap, which lasts 150 ms, changes the field of view by
  * a tenth and the lens by one stop: half the light, a diameter of 1/sqrt 2. */
 #define WIDEN_SPEED 0.7
 #define OPEN_SPEED  2.3105
 
-/* Of the distance that is sharp. A smaller lens is as good as a pinhole: what
- * is far off is blurred by as many radians, less than a pixel. */
+/* Bounds of the aperture, in units of the focus distance. A smaller lens is
+ * like a pinhole: the blur of distant points, as many radians, is less than a
+ * pixel. */
 #define APERTURE_LEAST    1e-3
 #define APERTURE_GREATEST 1.0
 
@@ -60,7 +62,7 @@ void camera_input_resize(struct camera_input *s, const double lo[3],
     vec3d_sub(hi, lo, diagonal);
     s->scene_size = vec3d_length(diagonal);
     if (!(s->scene_size > 0) || isinf(s->scene_size))
-        s->scene_size = 1; /* a scene without extent */
+        s->scene_size = 1; /* the scene has no extent */
     s->reach = REACH_FIRST * s->scene_size;
 }
 
@@ -82,7 +84,7 @@ void camera_input_begin(struct camera_input *s, uint64_t now_ns)
     s->begun_ns = now_ns;
 }
 
-/* Times as fast as at first, after so many seconds. */
+/* Returns the speed factor of a key that was held for some seconds. */
 static double ramp(double seconds)
 {
     return fmin(1 + RAMP * fmax(seconds, 0), RAMP_MOST);
@@ -102,7 +104,7 @@ static void turn(const struct camera_input *s, struct pose *pose,
         camera_turn(pose, LOOK_SPEED * right, LOOK_SPEED * up);
 }
 
-/* Below the least there is only the pinhole. */
+/* Changes the aperture. Below APERTURE_LEAST it becomes 0, a pinhole. */
 static void open_lens(struct pose *pose, double seconds)
 {
     double sharp = pose->focus > 0 ? pose->focus : camera_depth(pose, pose->at);
@@ -134,9 +136,9 @@ bool camera_input_step(struct camera_input *s, struct pose *pose,
     return true;
 }
 
-/* The look turns by the angle that the picture shows under the pointer's way;
- * a thing in the middle turns with the pointer, half around for the picture's
- * height. */
+/* Turns by the angle that corresponds to the pointer's motion in the picture.
+ * An orbit follows the pointer with the pivot's front, half a turn for the
+ * height of the picture. */
 static bool drag(struct camera_input *s, struct pose *pose,
                  const struct event *e, const struct cells_rect *fit,
                  double shape)

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * camera_input.h - keys that are held and a mouse that is dragged, to motions
- * of a camera
+ * camera_input.h - converts held keys and mouse drags to motions of a camera
  *
- * Moves are as fast as what is around is far: in a room slow, slower at a wall,
- * fast over a landscape, the same for a model of any size. A key that is held
- * on gets faster.
+ * The speed of moves is proportional to the distance of the surfaces around the
+ * eye: slow in a room, slower at a wall, fast over a landscape, and independent
+ * of the model's size. It grows while a key is held.
  *
  * Units:     nanoseconds of clock_ns(), terminal cells, file units
- * Ownership: the pose stays the caller's
  * Threads:   one thread at a time
  */
 #ifndef GLIM_CAMERA_INPUT_H
@@ -25,52 +23,55 @@
 struct camera_input {
     struct held_keys motion;
     double scene_size;
-    double reach;      /* how far things are, for the speed of moves */
-    double speed;      /* the person's factor; 1 at first */
-    uint64_t begun_ns; /* when the key that is held went down */
-    bool is_orbiting;  /* what would look around turns about the pivot */
+    double reach;      /* distance that the speed is proportional to */
+    double speed;      /* factor chosen by the person; 1 at first */
+    uint64_t begun_ns; /* time when the held key was pressed */
+    /* keys and drags orbit the pivot instead of looking around */
+    bool is_orbiting;
     double pivot[3];
     bool is_dragging;
     bool drag_orbits;
-    bool has_dragged; /* since the button went down */
+    bool has_dragged; /* the pointer moved since the press */
     int drag_x, drag_y;
 };
 
-/* For a scene between these corners. */
+/* Initialises the input for a scene between these corners. */
 void camera_input_init(struct camera_input *s, const double lo[3],
                        const double hi[3]);
 
-/* The scene is between other corners now: what was chosen stays. */
+/* Adapts to new corners of the scene. Speed and pivot stay. */
 void camera_input_resize(struct camera_input *s, const double lo[3],
                          const double hi[3]);
 
-/* What the speed of moves follows: how far the surfaces near the eye are
- * (INFINITY: there is none), and how far the scene's box is (0 within it). */
+/* Sets the distances that the speed depends on: to the surfaces near the eye
+ * (INFINITY: none), and to the scene's bounding box (0 inside). */
 void camera_input_adapt(struct camera_input *s, double near, double away);
 
-/* File units a second that a key moves at first. */
+/* Returns the initial speed of moves in file units per second. */
 double camera_input_speed(const struct camera_input *s);
 
-/* A key goes down that was not held: moves begin slowly. */
+/* Reports a new press of a key, which moves at the initial speed. */
 void camera_input_begin(struct camera_input *s, uint64_t now_ns);
 
-/* Moves by the time that keys were held since the last call. True if the pose
- * has changed. */
+/* Moves the pose for the time that keys were held since the last call. Returns
+ * true if it has changed. */
 bool camera_input_step(struct camera_input *s, struct pose *pose,
                        uint64_t now_ns);
 
-/* True for a button that turns about the pivot: any that is no plain left one,
- * and all while is_orbiting. */
+/* Returns true if a drag with this button orbits the pivot: always while
+ * is_orbiting, else with modifiers or any button except the left one. */
 bool camera_input_orbits(const struct camera_input *s,
                          const struct event *event);
 
-/* Follows the pointer while a button is down; the picture of width_px x
- * height_px pixels lies at `fit`. True if the pose has changed. */
+/* Turns the pose with the pointer while a button is down. The picture of
+ * width_px x height_px pixels covers the cells of `fit`. Returns true if the
+ * pose has changed. */
 bool camera_input_mouse(struct camera_input *s, struct pose *pose,
                         const struct event *event, const struct cells_rect *fit,
                         int width_px, int height_px);
 
-/* Faster or slower by some steps. */
+/* Changes the speed by some steps of a factor 1.25; negative steps are
+ * slower. */
 void camera_input_change_speed(struct camera_input *s, int steps);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "base/geometry.h"
 
-/* From the poles: the picture must not turn about its middle. */
+/* Least angle to the poles, where the picture would turn about its centre. */
 #define POLE_RAD 0.01
 
 void camera_move(struct pose *pose, double right, double up, double forward)
@@ -30,8 +30,8 @@ void camera_turn(struct pose *pose, double right_rad, double up_rad)
     struct axes axes;
 
     pose_axes(pose, &axes);
-    /* `right` and `level` span the plane that the pole stands on; the look is
-     * over `level` */
+    /* `right` and `level` span the plane perpendicular to the pole; `level` is
+     * the forward axis without its part along the pole */
     vec3d_cross(axes.pole, axes.right, level);
     vec3d_normalize(level);
     polar = acos(fmax(-1, fmin(1, vec3d_dot(axes.forward, axes.pole))));
@@ -44,7 +44,7 @@ void camera_turn(struct pose *pose, double right_rad, double up_rad)
     }
 }
 
-/* Finds the coordinates of a point along the axes, seen from another. */
+/* Computes the coordinates of `point` relative to `from` along the axes. */
 static void to_axes(const struct axes *axes, const double from[3],
                     const double point[3], double xyz[3])
 {
@@ -56,7 +56,7 @@ static void to_axes(const struct axes *axes, const double from[3],
     xyz[2] = vec3d_dot(offset, axes->forward);
 }
 
-/* `around` keeps its coordinates along the axes that the camera carries. */
+/* `around` keeps its coordinates in the axes of the camera. */
 void camera_orbit(struct pose *pose, const double around[3], double right_rad,
                   double up_rad)
 {
@@ -76,9 +76,9 @@ void camera_orbit(struct pose *pose, const double around[3], double right_rad,
     }
 }
 
-/* The nearest place (*x, *z) before points from which all are seen by a camera
- * along z that sees as far to the sides as `slope` times the distance; `right`
- * and `left` are the greatest x - slope z and -x - slope z of the points. */
+/* Computes the nearest camera position (*x, *z), looking along z, from which
+ * all points are within `slope` times their distance sideways. `right` and
+ * `left` are the maxima of x - slope z and -x - slope z over the points. */
 static void fit_distance(double right, double left, double slope, double *x,
                          double *z)
 {
@@ -86,7 +86,7 @@ static void fit_distance(double right, double left, double slope, double *x,
     *z = -(right + left) / (2 * slope);
 }
 
-/* One of the eight corners of a box. */
+/* Returns one of the eight corners of a box. */
 static void corner_of(const double lo[3], const double hi[3], int corner,
                       double p[3])
 {
@@ -121,18 +121,19 @@ void camera_frame(struct pose *pose, double aspect, const double lo[3],
     }
     fit_distance(right, left, slope_x, &x, &z_across);
     fit_distance(above, below, slope_y, &y, &z_high);
-    /* a wide lens would see all of it from its nearest corner */
+    /* stays outside of the sphere: with a wide lens a corner would be too
+     * near */
     z = fmin(-radius, fmin(z_across, z_high));
     if (!(z < 0))
-        z = -reach; /* a point */
+        z = -reach; /* the box is a point */
     for (int i = 0; i < 3; i++) {
         pose->at[i] = center[i] + x * axes.right[i] + y * axes.up[i];
         pose->eye[i] = pose->at[i] + z * axes.forward[i];
     }
 }
 
-/* All corners lie beyond one of the planes through the eye that bound what is
- * seen, or behind it. */
+/* The box is invisible if all corners are beyond the same plane of the
+ * frustum. */
 bool camera_sees_box(const struct pose *pose, double aspect, const double lo[3],
                      const double hi[3])
 {

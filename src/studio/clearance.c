@@ -10,11 +10,12 @@
 
 #define RAYS 64
 
-/* The ray that counts as near is the seventh shortest: a tenth of all. Leaves
- * and wires meet fewer. Above a floor at height h it is 1.28 h long. */
+/* Rank of the ray whose length is `near`: the seventh shortest of 64, a tenth.
+ * Fewer rays hit leaves and wires. Above a floor at height h it is 1.28 h
+ * long. */
 #define NEAR_RAY 6
 
-/* 1 / golden ratio: turns from one direction to the next. */
+/* Turns between successive directions: 1 / golden ratio. */
 #define TURN 0.61803398874989485
 
 static struct vec3 stored(const struct scene *scene, const double p[3])
@@ -24,8 +25,8 @@ static struct vec3 stored(const struct scene *scene, const double p[3])
               (float)((p[2] - scene->center[2]) * scene->scale));
 }
 
-/* A spiral from pole to pole, of equal areas (Swinbank and Purser 2006,
- * "Fibonacci grids"). */
+/* Returns direction i of a spiral from pole to pole with equal areas (Swinbank
+ * and Purser 2006, "Fibonacci grids"). */
 static struct vec3 direction(int i)
 {
     double y = 1 - (2 * i + 1) / (double)RAYS;
@@ -35,7 +36,7 @@ static struct vec3 direction(int i)
     return v3((float)(r * cos(angle)), (float)y, (float)(r * sin(angle)));
 }
 
-/* Adds x to the sorted numbers, of which the last falls out. */
+/* Inserts x into the sorted numbers and drops the greatest. */
 static void insert(double *sorted, int count, double x)
 {
     for (int i = 0; i < count; i++) {
@@ -92,7 +93,7 @@ static void trace_around(struct clearance *c, const struct scene *scene,
     c->passed_share = (double)within / RAYS;
 }
 
-/* The object of the first surface between two points; NO_INDEX: none. */
+/* Returns the object of the first surface between two points, or NO_INDEX. */
 static uint32_t object_between(const struct scene *scene,
                                const struct host_world *host,
                                const double from[3], const double to[3])
@@ -111,14 +112,15 @@ static uint32_t object_between(const struct scene *scene,
                                          : NO_INDEX;
 }
 
-/* After a surface was passed. Solids are told from rooms by what is in them:
- * little of another object. A thing that stands on the floor or at a wall
- * shares a face with it. */
+/* Returns the state after crossing a surface. An enclosed place is a solid if
+ * most directions hit the crossed object itself, and a room if they hit others.
+ * The limit of a half allows for furniture that shares a face with floor or
+ * wall. */
 static enum clearance_state state_after_crossing(const struct clearance *before,
                                                  const struct clearance *now,
                                                  const struct scene *scene)
 {
-    /* there is always one, for what comes before the first o line */
+    /* the object of faces before the first o line always exists */
     bool has_objects = scene->object_count > 2;
 
     if (before->state == CLEARANCE_INSIDE_SOLID)
@@ -138,14 +140,14 @@ state_without_crossing(const struct clearance *before,
 {
     if (before->state == CLEARANCE_INSIDE_SOLID)
         return CLEARANCE_INSIDE_SOLID;
-    /* through the window one comes back without passing anything */
+    /* the eye may return through a window without crossing a surface */
     if (before->state == CLEARANCE_OUTSIDE_ROOM &&
         now->hit_share < CLEARANCE_ENCLOSED)
         return CLEARANCE_OUTSIDE_ROOM;
     return CLEARANCE_IN_SCENE;
 }
 
-/* Follows the eye to its new place. */
+/* Updates all members except the view test for a new position of the eye. */
 static void move(struct clearance *c, const struct scene *scene,
                  const struct host_world *host, const double eye[3])
 {

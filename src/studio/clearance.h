@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * clearance.h - how far surfaces are from a camera, and where it is lost
+ * clearance.h - distance from the camera to the surfaces around it; detects a
+ * camera that has left a room or entered a solid
  *
- * Rays go from the eye in fixed directions all around, through the world's
- * tree. A camera that leaves a room through its wall, or enters a solid, is
- * known by what it has passed and by what is around it then: how faces are
- * wound says nothing in files of strangers.
+ * Rays are traced from the eye in fixed directions all around. Leaving a room
+ * and entering a solid are detected by the surface that the eye has crossed and
+ * by the hits around it afterwards. The winding of faces is not used, because
+ * it is not reliable in scenes from other programs.
  *
  * Units:     file units of the scene
  * Ownership: scene and world stay the caller's
@@ -16,39 +17,41 @@
 
 #include "scene/world.h"
 
-/* From this share of all directions on a place counts as closed. Measured: in
- * rooms and an arcade 0.98 and more, in the open 0.5 and less. */
+/* Share of directions with a hit from which a place counts as enclosed.
+ * Measured: at least 0.98 in rooms and an arcade, at most 0.5 outdoors. */
 #define CLEARANCE_ENCLOSED 0.75
 
-/* Where the eye is. */
+/* Location of the eye. */
 enum clearance_state {
-    CLEARANCE_IN_SCENE,     /* what there is to see */
-    CLEARANCE_OUTSIDE_ROOM, /* of a room, through its wall */
-    CLEARANCE_INSIDE_SOLID, /* of a solid */
-    CLEARANCE_OUT_OF_VIEW   /* nothing of the scene can be in the picture */
+    CLEARANCE_IN_SCENE,     /* the normal case */
+    CLEARANCE_OUTSIDE_ROOM, /* left a room through its wall */
+    CLEARANCE_INSIDE_SOLID, /* entered a solid object */
+    CLEARANCE_OUT_OF_VIEW   /* no part of the scene in the picture */
 };
 
-/* A zeroed struct knows nothing yet. */
+/* Result of the last update. A zeroed struct has none. */
 struct clearance {
     bool is_known;
     double eye[3];
-    double near; /* a tenth of all directions meets a surface within this
-                    distance; INFINITY: fewer directions do at all */
-    double box_distance; /* from the scene's box; 0 within it */
-    double hit_share;    /* share of all directions that meet a surface */
-    uint32_t passed; /* object of the last surface that the eye has passed */
-    double passed_share; /* share of all directions that meet that object */
+    /* distance within which a tenth of all directions hit a surface; INFINITY
+     * if fewer hit any */
+    double near;
+    double box_distance; /* distance to the scene's bounding box; 0 inside */
+    double hit_share;    /* share of directions that hit a surface */
+    /* object whose surface the eye crossed last */
+    uint32_t passed;
+    double passed_share; /* share of directions that hit that object */
     enum clearance_state state;
 };
 
-/* Finds what is around the eye, which has come there on a straight way from
- * where the last call has found it. 65 rays, 15 us, and none where it has not
- * moved. A world without a tree has no surface. */
+/* Updates *c for the eye of `pose`, which has moved there in a straight line
+ * from the eye of the last call. Traces 65 rays, in 15 us, or none if the eye
+ * has not moved. A world without a tree has no surfaces. */
 void clearance_update(struct clearance *c, const struct scene *scene,
                       const struct host_world *host, const struct pose *pose,
                       double aspect);
 
-/* The eye has jumped: there was no way. */
+/* Resets *c after the eye has jumped, so that no surface counts as crossed. */
 void clearance_reset(struct clearance *c);
 
 #endif

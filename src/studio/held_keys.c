@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "studio/held_keys.h"
 
-/* Longer than the 33 to 40 ms between repeats, shorter than is felt as
- * slipping on. */
+/* Time after which a key without repeats counts as released: longer than the 33
+ * to 40 ms between repeats, and too short to be felt as a delay of the stop. */
 #define HELD_NS 150000000u
 
 void held_keys_press(struct held_keys *m, enum held_keys_axis axis, int sign,

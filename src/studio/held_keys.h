@@ -2,11 +2,10 @@
 /*
  * held_keys.h - keys that are held down
  *
- * Terminals report that a key was pressed, and again and again while it is
- * held, but not that it was let go. A key counts as held until no byte has come
- * for a while.
+ * Terminals report presses and repeats of a key, but no releases. A key counts
+ * as held until no repeat has come for 150 ms.
  *
- * Units:     nanoseconds of clock_ns(); seconds for what an axis was held
+ * Units:     nanoseconds of clock_ns(); held times in seconds
  * Threads:   one thread at a time
  */
 #ifndef GLIM_HELD_KEYS_H
@@ -21,33 +20,37 @@ enum held_keys_axis {
     HELD_KEYS_FORWARD,
     HELD_KEYS_LOOK_RIGHT,
     HELD_KEYS_LOOK_UP,
-    HELD_KEYS_WIDEN, /* the field of view */
-    HELD_KEYS_OPEN,  /* the aperture */
+    HELD_KEYS_WIDEN, /* field of view */
+    HELD_KEYS_OPEN,  /* aperture */
     HELD_KEYS_AXES
 };
 
-/* Time between two steps: 60 a second. */
+/* Time between two steps: 60 per second. */
 #define HELD_KEYS_STEP_NS 16666667u
 
-/* A zeroed struct is at rest. */
+/* State of the keys of all axes. In a zeroed struct no key is held. */
 struct held_keys {
-    uint64_t from_ns[HELD_KEYS_AXES]; /* what is before has been taken */
+    uint64_t from_ns[HELD_KEYS_AXES]; /* start of the held time that no step has
+                                         returned yet */
     uint64_t until_ns[HELD_KEYS_AXES];
     int sign[HELD_KEYS_AXES];
 };
 
-/* A key for this axis came; sign is 1 or -1. */
+/* Reports a press or repeat of a key of an axis; sign is 1 or -1. */
 void held_keys_press(struct held_keys *m, enum held_keys_axis axis, int sign,
                      uint64_t now_ns);
 
-/* Takes the seconds, with sign, that each axis was held since the last call. A
- * key pressed just now counts as one step at once. False if nothing moved. */
+/* Computes for each axis the time in seconds that it was held since the last
+ * call, with the sign of its key. A new press counts as one step at once.
+ * Returns false if all are 0. */
 bool held_keys_step(struct held_keys *m, uint64_t now_ns,
                     double seconds[HELD_KEYS_AXES]);
 
-/* When to call held_keys_step() next; UINT64_MAX: at rest. */
+/* Returns the time of the next held_keys_step(), or UINT64_MAX if no key is
+ * held. */
 uint64_t held_keys_next_ns(const struct held_keys *m);
 
+/* Releases all keys. */
 void held_keys_stop(struct held_keys *m);
 
 #endif

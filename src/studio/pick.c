@@ -7,11 +7,11 @@
 #include "kernels/hit.h"
 #include "kernels/texture.h"
 
-/* The least coverage that counts as solid. */
+/* Least opacity that counts as opaque. */
 #define SOLID 0.5f
 
-/* Finds the nearest t, at equal t the lowest triangle number, as traversal of
- * the tree does. */
+/* Finds the hit of least t, and of the lowest triangle number at equal t, like
+ * the traversal of the tree. Returns false if there is none. */
 static bool closest_hit(const struct world *w, struct ray ray, struct hit *best)
 {
     struct shear shear = shear_of(ray);

@@ -7,8 +7,8 @@
 
 #define TEXT_BYTES 256
 
-/* An arrow key that comes again within this time is held down. After every
- * HELD_CELLS repeats its step grows by a cell. */
+/* An arrow key that repeats within HELD_NS is held. After every HELD_CELLS
+ * repeats its step grows by a cell. */
 #define HELD_NS    UINT64_C(150000000)
 #define HELD_CELLS 8
 
@@ -41,7 +41,7 @@ static void describe(const struct pick_cursor *cursor, const struct pick *pick,
              pick->distance);
 }
 
-/* ---- looking ---- */
+/* ---- finding surfaces ---- */
 
 static bool pick_cell(const struct pick_cursor *cursor, int col, int row,
                       struct pick *pick)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 /*
- * pick_cursor.h - a cursor on the picture, and what it or a click has picked
+ * pick_cursor.h - a cursor on the picture, and the surface picked with it or by
+ * a click
  *
- * The last line says what is under the cursor.
+ * The status line describes the surface under the cursor.
  *
  * Units:     terminal cells
- * Ownership: control and screen stay the caller's and outlive the cursor
+ * Ownership: control and screen are the caller's and outlive the cursor
  * Threads:   main only
  * Errors:    become messages
  */
@@ -22,47 +23,49 @@
 
 struct pick_cursor {
     struct render_control *control;
-    struct screen *screen; /* has its cell, and whether it is shown */
+    struct screen *screen; /* has cursor_col, cursor_row, has_cursor */
     struct pick pick;
     bool has_pick;
-    bool is_pick_new; /* until the event loop has told the panel */
-    bool is_outdated; /* the last line does not say yet what is under it */
-    int held_right, held_down; /* the last step of the arrows, */
-    uint64_t held_ns;          /* when it was made, */
-    int held_count;            /* and how often before without a pause */
+    bool is_pick_new; /* set until the panel knows the pick */
+    /* the description in the status line is outdated */
+    bool is_outdated;
+    int held_right, held_down; /* direction of the last step, */
+    uint64_t held_ns;          /* its time, */
+    int held_count;            /* and number of repeats before it */
 };
 
-/* The part of the picture that is on the screen, in pixels. */
+/* Returns the part of the picture that is on the screen, in pixels. */
 struct rect pick_cursor_shown_rect(const struct pick_cursor *cursor);
 
-/* Shows the cursor where it was last; in the middle at first. */
+/* Show the cursor at its last cell, at first in the middle, or hide it. */
 void pick_cursor_show(struct pick_cursor *cursor);
 void pick_cursor_hide(struct pick_cursor *cursor);
 
-/* A step of an arrow key: one of both is 1 or -1. Held keys get faster. */
+/* Moves by a step of an arrow key: one of the two is 1 or -1, the other 0.
+ * Steps of held keys grow. */
 void pick_cursor_move(struct pick_cursor *cursor, int right, int down);
 
-/* Picks what is under the cursor and hides the cursor. Returns false, with a
- * message, if that is only the sky. */
+/* Picks the surface under the cursor and hides the cursor. Returns false, with
+ * a message, if there is only sky. */
 bool pick_cursor_pick(struct pick_cursor *cursor);
 
-/* Picks what is at a cell of the screen, from 0. Returns false if that is only
- * the sky. */
+/* Picks the surface at a cell of the screen, from 0. Returns false if there is
+ * only sky. */
 bool pick_cursor_click(struct pick_cursor *cursor, int col, int row);
 
-/* Picks what is under the cursor if it is shown. Returns false, with a message,
- * if nothing is picked after that. */
+/* Picks the surface under the cursor if the cursor is shown. Returns false,
+ * with a message, if there is no pick then. */
 bool pick_cursor_need_pick(struct pick_cursor *cursor);
 
-/* Finds what is in the middle of the picture, without picking it. Returns false
- * if that is only the sky. */
+/* Finds the surface in the middle of the picture, without picking it. Returns
+ * false if there is only sky. */
 bool pick_cursor_find_center(const struct pick_cursor *cursor,
                              struct pick *pick);
 
-/* Says in the last line what is under the cursor, if that may have changed. */
+/* Describes the surface under the cursor in the status line, if outdated. */
 void pick_cursor_step(struct pick_cursor *cursor);
 
-/* The name of an object, or words for none. */
+/* Returns the name of an object, or words for an object without name. */
 const char *pick_cursor_object_name(const struct pick_cursor *cursor,
                                     uint32_t object);
 

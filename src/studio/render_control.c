@@ -10,20 +10,21 @@
 #include "base/clock.h"
 #include "terminal/xmalloc.h"
 
-/* The least time for a message, and for each of its bytes: 200 words a minute
- * are read. */
+/* Least time of a message, and per byte for 200 words per minute. LONG_NS is
+ * the least time of long ones. */
 #define MESSAGE_NS UINT64_C(4000000000)
 #define BYTE_NS    UINT64_C(60000000)
 #define LONG_NS    UINT64_C(10000000000)
 
-/* The draft's first sample of all pixels is waited for: half a frame at 60 Hz
- * for a picture that is worth to be seen. */
+/* Limit of the wait for the draft's first whole pass: half a frame at 60 Hz, to
+ * show a better first picture. */
 #define DRAFT_WAIT_NS UINT64_C(8000000)
 
-/* Editors and exporters write several files, or one in several steps. */
+/* Time without changes before a reload: editors and exporters write several
+ * files, or one file in several steps. */
 #define FILES_QUIET_NS UINT64_C(150000000)
 
-/* How often files are looked at where the system does not watch them. */
+/* Period of checks of the files if the system cannot watch them. */
 #define FILES_POLL_NS UINT64_C(1000000000)
 
 static uint64_t reading_ns(const char *text)
@@ -33,7 +34,8 @@ static uint64_t reading_ns(const char *text)
     return ns > MESSAGE_NS ? ns : MESSAGE_NS;
 }
 
-/* For `least_ns`, or as long as it takes to read. */
+/* Shows a message for `least_ns` or the time to read it, whichever is
+ * longer. */
 static void __attribute__((format(printf, 3, 0)))
 say(struct render_control *control, uint64_t least_ns, const char *format,
     va_list values)
@@ -133,12 +135,12 @@ static void begin(struct render_control *control, bool is_step)
     control->session->notice[0] = '\0';
     control->is_halted = is_step;
     control->saved_samples = 0;
-    control->saving_samples = 0; /* these are of the picture before */
+    control->saving_samples = 0; /* both counted the old picture */
     if (control->session->files_version != control->watched_version)
-        watch_files(control); /* of another image from now on */
+        watch_files(control); /* another sky image */
     control->restarted_ns = clock_ns();
     control->progress = render_progress(control->session->render);
-    control->progress.first_picture_ns = 0; /* for the next look to find */
+    control->progress.first_picture_ns = 0; /* found by the next update */
 }
 
 bool render_control_is_outdated(const struct render_control *control)
@@ -179,7 +181,7 @@ bool render_control_awaits_picture(const struct render_control *control)
             (p->draft_is_coarse && p->render_ns < DRAFT_WAIT_NS));
 }
 
-/* A device that fails is replaced by the CPU, which starts anew. */
+/* Replaces a device that failed by the CPU, and restarts. */
 static void replace_device(struct render_control *control)
 {
     struct session *s = control->session;
@@ -195,7 +197,7 @@ static void replace_device(struct render_control *control)
     free(text);
 }
 
-/* files_ns has come. */
+/* Checks the files at files_ns. Reloads them if --watch is given. */
 static void handle_files(struct render_control *control)
 {
     bool loads;
@@ -223,9 +225,8 @@ void render_control_update(struct render_control *control)
         control->has_changed = true;
     if (control->progress.state == RENDER_FAILED && before != RENDER_FAILED)
         replace_device(control);
-    /* A picture of the old place that has been begun is shown first, between
-     * this look and the next, or a scene that is slow to begin would never show
-     * anything on the way. */
+    /* A picture in progress is shown once before the restart. Otherwise a scene
+     * whose first picture is slow would show none while the camera moves. */
     if (render_control_is_outdated(control) && !was_awaited)
         restart(control);
 }
@@ -265,7 +266,7 @@ void render_control_set_live(struct render_control *control, bool is_live)
     control->is_started = false;
     if (is_live) {
         render_control_say(control, "live mode: every change starts anew");
-        control->files_ns = clock_ns(); /* what has changed may be loaded now */
+        control->files_ns = clock_ns(); /* reload changed files now */
         restart(control);
         return;
     }
@@ -378,7 +379,7 @@ void render_control_switch_backend(struct render_control *control)
     }
 }
 
-/* Each line is a result. */
+/* Adds each line of a log to the results. */
 static void add_log(struct render_control *control, const char *log)
 {
     while (*log != '\0') {
@@ -449,8 +450,7 @@ void render_control_reload(struct render_control *control)
                      "in the panel ^S saves, u undoes");
         return;
     }
-    file_watch_settle(
-        &control->watch); /* what changes from here on is new again */
+    file_watch_settle(&control->watch); /* later changes count as new */
     control->has_changed_files = false;
     if (reload_begin(&control->reload, &err))
         render_control_say_long(control, "loading ...");
@@ -458,7 +458,7 @@ void render_control_reload(struct render_control *control)
         render_control_say_error(control, err.text);
 }
 
-/* How many warnings there are, and the first of them. */
+/* Shows the number of warnings and the first one. */
 static void say_loaded(struct render_control *control)
 {
     const struct warnings *r = &control->session->report;
@@ -485,7 +485,7 @@ bool render_control_end_reload(struct render_control *control)
         save_thread_wait_copied(&control->saver);
         session_take_loaded(control->session, &fresh);
         watch_files(control);
-        render_control_check_files(control); /* what was missed meanwhile */
+        render_control_check_files(control); /* changes during the load */
         say_loaded(control);
         restart(control);
     }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * render_control.h - what the screen renders: live and normal mode, starting
- * and halting, on which backend, files that change, messages about it
+ * render_control.h - controls the render of the interactive program: live and
+ * normal mode, starting and halting, the backend, changed files, messages
  *
- * Live mode renders without a limit and starts anew at every change. Normal
- * mode renders one view to the samples of -s; it can be halted, and what it has
- * made is not thrown away unasked.
+ * Live mode renders without a limit and restarts at every change. Normal mode
+ * renders one view up to the samples of -s; it can be halted, and its picture
+ * is not discarded without a question.
  *
  * Units:     nanoseconds of clock_ns(), samples of all pixels together
- * Ownership: the session stays the caller's; render_control_free() frees the
- * rest Threads:   main only Errors:    become messages, but for
- * render_control_init()
+ * Ownership: the session is the caller's; render_control_free() frees the rest
+ * Threads:   main only
+ * Errors:    become messages, except in render_control_init()
  */
 #ifndef GLIM_RENDER_CONTROL_H
 #define GLIM_RENDER_CONTROL_H
@@ -24,9 +24,9 @@
 
 struct message {
     char text[sizeof(struct error)];
-    bool is_error; /* stays until a key */
+    bool is_error; /* shown until a key is pressed */
     uint64_t said_ns;
-    uint64_t until_ns; /* 0: none */
+    uint64_t until_ns; /* end of the display; 0: no message */
 };
 
 struct render_control {
@@ -34,25 +34,25 @@ struct render_control {
     struct save_thread saver;
     struct reload reload;
     struct file_watch watch;
-    struct render_progress
-        progress; /* as of the last render_control_update() */
+    struct render_progress progress; /* of the last render_control_update() */
     struct message message;
 
     bool is_live;
-    bool is_started;  /* normal mode: a render was begun */
-    bool is_halted;   /* by the person */
-    bool has_changed; /* there is something new to show; the screen clears it */
-    bool has_changed_files; /* since they were loaded */
-    uint64_t files_ns;      /* when to look at them, or load them with --watch;
-                               UINT64_MAX: when the watch says so */
-    uint32_t watched_version; /* of the session's files */
+    bool is_started; /* normal mode: the render was started */
+    bool is_halted;  /* halted by the person */
+    /* the screen must be drawn; cleared by the screen */
+    bool has_changed;
+    bool has_changed_files; /* since the last load */
+    /* time to check or reload the files; UINT64_MAX: when the watch reports */
+    uint64_t files_ns;
+    uint32_t watched_version; /* session.files_version of the watch */
     uint64_t restarted_ns;
 
-    uint64_t saved_samples;  /* of this picture, in a file */
-    uint64_t saving_samples; /* that the saver will have written */
-    char saving_what[64];    /* its size and samples */
+    uint64_t saved_samples;  /* samples of this picture when last saved */
+    uint64_t saving_samples; /* samples that are being saved */
+    char saving_what[64];    /* description: size and samples */
 
-    char **results; /* a line for each file */
+    char **results; /* lines to print at the end */
     int result_count;
 };
 
@@ -60,82 +60,83 @@ struct render_control {
 bool render_control_init(struct render_control *control,
                          struct session *session, struct error *err);
 
-/* Shown for a while, or for longer; an error stays until a key, and so long at
- * least. */
+/* Show a message in the status line for at least 4 s, or 10 s (long), and at
+ * least as long as it takes to read. An error stays until a key is pressed. */
 void render_control_say(struct render_control *control, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void render_control_say_long(struct render_control *control, const char *format,
                              ...) __attribute__((format(printf, 2, 3)));
 void render_control_say_error(struct render_control *control, const char *text);
 
-/* The status line comes back. */
+/* Removes the message. */
 void render_control_clear_message(struct render_control *control);
 
-/* A key was pressed: an error goes, at its time. It may have come while
- * somebody typed on. */
+/* Handles a key press during an error: the error disappears, but not before it
+ * can be read, since the person may have been typing when it appeared. */
 void render_control_acknowledge_error(struct render_control *control);
 
-/* The key of an action, for messages that tell what to do next. */
+/* Returns the name of the key of an action, for messages. */
 struct keymap_name render_control_key(const struct render_control *control,
                                       enum action action);
 
-/* Printed when the screen is closed. */
+/* Adds a line that is printed when the screen is closed. */
 void render_control_add_result(struct render_control *control,
                                const char *text);
 
-/* Returns true if the picture is of an older version of the edit, and will be
- * rendered anew: in live mode. */
+/* Returns true if live mode shows the picture of an older version of the edit,
+ * which will be restarted. */
 bool render_control_is_outdated(const struct render_control *control);
 
-/* Looks how far the render is, and restarts it if it is outdated and the look
- * before has found a picture. */
+/* Updates the progress. Restarts the render if it is outdated and already had a
+ * picture at the last update. */
 void render_control_update(struct render_control *control);
 
-/* Restarts now if it is outdated, for what is to be done with the film. */
+/* Restarts an outdated render at once, before a command that uses the film. */
 void render_control_restart_if_outdated(struct render_control *control);
 
-/* True until there is a picture to show after a restart: a rough one, and where
- * a draft is soon whole, that. */
+/* Returns true after a restart until there is a picture to show: at least a
+ * coarse one, and the whole draft if that takes less than 8 ms. */
 bool render_control_awaits_picture(const struct render_control *control);
 
-/* True if a normal render would be lost. */
+/* Returns true if normal mode has an unsaved picture. */
 bool render_control_has_unsaved(const struct render_control *control);
 
-/* True if what was changed of materials or light would be lost. */
+/* Returns true if changes of materials, assignments or light are unsaved. */
 bool render_control_has_unsaved_edit(const struct render_control *control);
 
-/* True if the view may change now; else a message says when. */
+/* Returns true if the view may change now. Otherwise shows a message. */
 bool render_control_may_move(struct render_control *control);
 
-/* Loses what normal mode has rendered. */
+/* Changes the mode. Discards the picture of normal mode. */
 void render_control_set_live(struct render_control *control, bool is_live);
 
-/* In normal mode the first time starts the render. */
+/* Halts or continues the render; starts it at the first call in normal mode. */
 void render_control_start_or_halt(struct render_control *control);
 
-/* One more sample for every pixel, then a halt. */
+/* Renders one more sample of every pixel, then halts. */
 void render_control_step(struct render_control *control);
 
-/* Renders the same anew; loses what normal mode has rendered. */
+/* Restarts the render. Discards the picture of normal mode. */
 void render_control_restart(struct render_control *control);
 
-/* From the CPU to the OpenCL device, which is brought up first if need be, or
- * back. A new picture begins: no film is made by both. */
+/* Switches between CPU and OpenCL device, which is started first if necessary.
+ * A new picture begins, since one backend makes a whole film. */
 void render_control_switch_backend(struct render_control *control);
 
-/* Brings the device up in the background; the CPU draws on. */
+/* Starts the device in the background, while the CPU renders. */
 void render_control_begin_device(struct render_control *control);
 
-/* The start's event_fd is readable: takes the device, or says why not. */
+/* Handles the readable event_fd of the start: switches to the device, or shows
+ * the error. */
 void render_control_end_device(struct render_control *control);
 
-/* The watch's fd is readable: have files of the scene changed? */
+/* Handles the readable fd of the watch: checks whether files have changed. */
 void render_control_check_files(struct render_control *control);
 
-/* Begins to load the files of the scene anew; what is rendered stays until the
- * reload's event_fd says, in live mode, that render_control_end_reload() has
- * the result. An error, then render_control_end_reload() is false, leaves the
- * old scene. What is edited and not saved would be lost: it is refused. */
+/* Starts to reload the files of the scene, in live mode. The old scene is
+ * rendered until the reload's event_fd is readable; then
+ * render_control_end_reload() exchanges it. After an error this returns false
+ * and the old scene stays. A reload is refused while an edit is unsaved. */
 void render_control_reload(struct render_control *control);
 bool render_control_end_reload(struct render_control *control);
 

@@ -13,10 +13,10 @@
 #include "session/recent.h"
 #include "session/session_save.h"
 
-/* A live picture is worth keeping after this render time. */
+/* Least render time for which a live picture is saved at a hangup. */
 #define WORTH_NS UINT64_C(5000000000)
 
-/* The scene's name without folder and ending, for free(). */
+/* Returns the scene's file name without folder and extension, for free(). */
 static char *scene_name(const struct render_control *control)
 {
     char *stem = xchecked(path_stem(control->session->scene.path));
@@ -127,7 +127,8 @@ void save_view(struct render_control *control)
     const char *slash;
     char *text;
 
-    if (control->reload.is_busy) { /* it may have read the old view file */
+    if (control->reload
+            .is_busy) { /* the reload may have read the old view file */
         if (control->is_live)
             render_control_say(control,
                                "not written: the scene is being loaded");
@@ -163,15 +164,15 @@ bool save_edit(struct render_control *control)
         render_control_say_error(control, err.text);
         return false;
     }
-    control->files_ns = clock_ns(); /* changed files may be loaded now */
+    control->files_ns = clock_ns(); /* reload changed files now */
     render_control_say(control, "%s", what);
     render_control_add_result(control, what);
     free(what);
     return true;
 }
 
-/* True for a picture that is in no file, and that took a while or that q would
- * ask about. */
+/* Returns true for an unsaved picture that took WORTH_NS to render or that the
+ * command to quit would ask about. */
 static bool is_worth_keeping(const struct render_control *control)
 {
     return control->progress.samples > control->saved_samples &&

@@ -13,9 +13,9 @@
 #include "terminal/ansi_text.h"
 #include "studio/render_control.h"
 
-/* Begins to save the film as STEM.ENDING or the next free name in the current
- * folder; a thread does it. The saver's event_fd becomes readable when
- * save_finish() has the result. */
+/* Starts to save the film as STEM.ENDING, or the next free name, in the current
+ * folder. A thread writes the file. The saver's event_fd becomes readable when
+ * save_finish() can be called. */
 void save_picture(struct render_control *control, const char *ending);
 
 /* Writes a frame as STEM.png or the next free name. */
@@ -26,20 +26,20 @@ void save_frame(struct render_control *control, const struct frame *frame);
 void save_text(struct render_control *control, const struct frame *frame,
                const struct ansi_text_style *style);
 
-/* Waits for the picture that is being saved, if any. Returns false if that
- * failed. */
+/* Waits for a picture that is being saved, if any, and reports the result.
+ * Returns false if saving failed. */
 bool save_finish(struct render_control *control);
 
 /* Writes the view file. */
 void save_view(struct render_control *control);
 
-/* Writes changed materials and light to their files. Returns false if that
- * failed. */
+/* Writes changed materials, assignments and light to their files. Returns
+ * false, with a message, on errors. */
 bool save_edit(struct render_control *control);
 
-/* Halts the render at the end of a session that nobody could save, and writes
- * its picture to recent_lost_path(), over the one before. A picture of a few
- * seconds is not kept. */
+/* Halts the render at the end of a session that cannot ask the person, and
+ * writes its picture to recent_lost_path(), replacing an earlier one. Pictures
+ * of less than 5 s are not saved, unless an edit is unsaved. */
 void save_lost_picture(struct render_control *control);
 
 #endif
