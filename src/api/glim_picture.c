@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* The picture of a handle: read and saved. */
+/* Reading and saving the picture of a handle. */
 #include "api/handle.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@ static struct develop develop_of(const struct glim *g)
                             g->view.lighting.tone};
 }
 
-/* The film, or NULL and the error. */
+/* Returns the film, or NULL with an error if there is no picture. */
 static struct film *film_of(const struct glim *g, struct glim_error *err)
 {
     struct error why;

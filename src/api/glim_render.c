@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* The backends of a handle, and the loop that waits for the render thread. */
+/* Backends of a handle, and the loop that waits for the render thread. */
 #include "api/handle.h"
 
 #include <poll.h>
@@ -17,10 +17,10 @@
 #define GLIM_PROGRAM "glim"
 #endif
 
-/* More threads than any machine has processors. */
+/* Greatest number of threads, more than machines have processors. */
 #define THREADS_MAX 4096
 
-/* Between two calls of the progress function. */
+/* Milliseconds between calls of the progress function. */
 #define PROGRESS_MS 100
 
 /* ---- backends ---- */
@@ -40,7 +40,7 @@ int handle_threads(const struct glim *g)
     return g->thread_count > 0 ? g->thread_count : usable_threads();
 }
 
-/* Makes the renderer if there is none. */
+/* Creates the renderer if there is none. */
 static bool need_render(struct glim *g, struct error *err)
 {
     if (g->render != NULL)
@@ -120,7 +120,7 @@ bool glim_set_backend(struct glim *g, enum glim_backend backend,
     g->backend_log = NULL;
     if (backend == GLIM_BACKEND_CPU)
         return true;
-    /* the path guide is one of the features that kernels are built for */
+    /* first, since the guide adds a feature that the kernels must have */
     if (!world_guide(&g->world, &g->scene, &g->view, &why))
         return handle_fail(err, &why);
     request.features = world_features(&g->world);
@@ -157,24 +157,24 @@ struct glim_progress glim_get_progress(struct glim *g)
     return handle_progress(&p);
 }
 
-/* A new picture, with the settings as they are. */
+/* Starts a new picture with the current settings. */
 static bool begin(struct glim *g, uint64_t spp, struct error *err)
 {
     struct render_job job = {.host = &g->world, .crop = g->crop, .spp = spp};
 
-    if (!g->view.has_camera) /* all is seen in a picture of this shape */
+    if (!g->view.has_camera) /* depends on the aspect ratio */
         scene_frame(&g->scene, &g->view);
     if (!need_render(g, err) ||
         !world_guide(&g->world, &g->scene, &g->view, err) ||
         !world_lend(&g->world, &g->scene, &g->view, g->seed, &job.world, err))
         return false;
-    if (g->device != NULL) /* it has a tree of its own */
+    if (g->device != NULL) /* the device has its own tree */
         world_drop_tree(&g->world);
     g->has_picture = render_start(g->render, &job, err);
     return g->has_picture;
 }
 
-/* Milliseconds until the next look; -1: until something happens. */
+/* Returns the timeout of the next poll in milliseconds, or -1 for none. */
 static int pause_ms(uint64_t now_ns, uint64_t end_ns, bool has_progress)
 {
     uint64_t left_ms = end_ns > now_ns ? (end_ns - now_ns) / 1000000 + 1 : 0;
@@ -184,7 +184,8 @@ static int pause_ms(uint64_t now_ns, uint64_t end_ns, bool has_progress)
     return left_ms < PROGRESS_MS ? (int)left_ms : PROGRESS_MS;
 }
 
-/* Waits until the picture is done, the time is up or somebody wants a stop. */
+/* Waits until the picture is done, the time is up, or the render is stopped by
+ * the progress function or glim_cancel(). */
 static enum glim_result wait_for_end(struct glim *g, uint64_t end_ns,
                                      glim_progress_fn *progress, void *context)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* The handle with its scene and its view. */
+/* Handles: scene, view and settings. */
 #include "api/handle.h"
 
 #include <stdlib.h>
@@ -45,7 +45,7 @@ static bool make_warnings(struct glim *g, struct error *err)
            fail(err, "%s: out of memory for warnings", g->scene.path);
 }
 
-/* Gives objects the materials that the view says. */
+/* Assigns materials to objects according to the view file. */
 static bool assign(struct glim *g, struct error *err)
 {
     const struct scene *scene = &g->scene;

@@ -20,25 +20,26 @@ struct glim {
     struct scene scene;
     struct host_world world;
     struct view view;
-    char *view_path; /* STEM.view, or the one that was asked for */
+    char *view_path; /* path of the view file, which may not exist */
     struct warnings report;
     char **warnings; /* report.entry_count lines */
 
     struct rect crop;
     uint32_t seed;
-    int thread_count; /* 0: all that the process may use */
-    char *program;    /* that tries devices; NULL: the installed one */
+    int thread_count; /* 0: all processors of the process */
+    char *program;    /* path of the program that tests devices; NULL: the
+                         installed one */
 
-    struct backend *cpu;    /* NULL: not needed yet */
-    struct backend *device; /* renders if it is there */
+    struct backend *cpu;    /* NULL until needed */
+    struct backend *device; /* renders unless NULL */
     char *backend_log;
-    struct render *render; /* NULL: not needed yet */
-    char *saved_name;      /* of glim_save_new() */
-    bool has_picture;      /* as the settings are */
-    int cancel_fd;         /* readable: somebody has asked for a stop */
+    struct render *render; /* NULL until needed */
+    char *saved_name;      /* result of glim_save_new() */
+    bool has_picture;      /* there is a picture of the current settings */
+    int cancel_fd;         /* readable after glim_cancel() */
 };
 
-/* Copies the text to the caller's error, if there is one, and returns false. */
+/* Copies the text to the caller's error, if that is not NULL. Returns false. */
 bool handle_fail(struct glim_error *to, const struct error *err);
 
 /* Sets the number of threads of loading and rendering, as glim_set_threads()
@@ -48,10 +49,11 @@ bool handle_set_threads(struct glim *g, int count, struct error *err);
 /* Returns the number of threads, at least 1. */
 int handle_threads(const struct glim *g);
 
+/* Converts the progress of the renderer to that of the interface. */
 struct glim_progress handle_progress(const struct render_progress *p);
 
-/* Frees the renderer and the threads of the CPU, which the next glim_render()
- * makes anew. */
+/* Frees the renderer and the threads of the CPU backend. The next glim_render()
+ * creates them again. */
 void handle_drop_render(struct glim *g);
 
 #endif

@@ -30,8 +30,8 @@ enum held_keys_axis {
 
 /* State of the keys of all axes. In a zeroed struct no key is held. */
 struct held_keys {
-    uint64_t from_ns[HELD_KEYS_AXES]; /* start of the held time that no step has
-                                         returned yet */
+    /* start of the held time that no step has returned yet */
+    uint64_t from_ns[HELD_KEYS_AXES];
     uint64_t until_ns[HELD_KEYS_AXES];
     int sign[HELD_KEYS_AXES];
 };

@@ -127,8 +127,8 @@ void save_view(struct render_control *control)
     const char *slash;
     char *text;
 
-    if (control->reload
-            .is_busy) { /* the reload may have read the old view file */
+    /* the reload may have read the old view file */
+    if (control->reload.is_busy) {
         if (control->is_live)
             render_control_say(control,
                                "not written: the scene is being loaded");
