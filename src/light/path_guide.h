@@ -39,9 +39,8 @@ struct path_guide {
  * changed since it was made. */
 bool path_guide_is_current(const struct path_guide *guide, double sky);
 
-/* Returns true if path_guide_update() has to trace rays, for which it needs the
- * tree.
- */
+/* Returns true if path_guide_update() has to trace rays, for which it needs a
+ * tree. */
 bool path_guide_needs_rays(const struct path_guide *guide,
                            const struct world *world, double sky);
 

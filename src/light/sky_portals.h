@@ -32,10 +32,8 @@
 #include "light/guide_grid.h"
 
 struct sky_portals {
-    struct guide_flux
-        open; /* for light samples; flux is NULL before a search */
-    struct guide_flux
-        glazed;        /* for paths through panes; flux is NULL without glass */
+    struct guide_flux open;   /* for light samples; flux NULL before a search */
+    struct guide_flux glazed; /* for paths through panes; flux NULL if none */
     float *bounced;    /* of each cell: light by one bounce if all is white */
     struct hit *walls; /* hits on surfaces of enclosed probes */
     uint32_t wall_count;
