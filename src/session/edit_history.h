@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 /*
- * edit_history.h - the editable state of an open scene, with undo and redo
+ * edit_history.h - the list of changes to a scene, for undo and redo
  *
- * The state has the values of materials, the assignment of materials to
- * objects, duplicated materials, light, exposure and tone, the camera, and
- * numbered views. It exists only here, and every change is made by a function
- * of this file. Changes without edit_end_step() between them are one step: the
- * whole motion of a slider or of a held key is undone at once.
+ * A step is one changed value. It holds the value that the scene does not have:
+ * the one before the change if the step is done, the one after it if the step
+ * was undone. The caller (edit.c) exchanges it with the scene's. Steps of one
+ * group are undone and redone together.
  *
- * Units:     those of MTL and view files
- * Ownership: edit_free() frees; scene and view are copied
+ * Units:     those of MTL and view files; times are of clock_ns()
+ * Ownership: edit_history_free() frees; a zeroed history is empty
  * Threads:   one thread at a time
- * Errors:    xmalloc() ends the program when memory is out
+ * Errors:    the program ends when memory is out
  */
 #ifndef GLIM_EDIT_HISTORY_H
 #define GLIM_EDIT_HISTORY_H
@@ -20,119 +19,83 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/name_table.h"
-#include "scene/world_materials.h"
+#include "scene/material.h"
+#include "scene/view.h"
 
-struct edit_state {
-    struct mtl_source *sources; /* for each material */
-    bool *is_there; /* for each material; false for an undone duplicate */
-    /* for each object the assigned material, or NO_INDEX for that of the OBJ
-     * file */
-    uint32_t *assigned;
-    /* its assigns have all lines of the file, also those without effect */
-    struct view view;
+enum edit_step_kind {
+    STEP_MATERIAL,
+    STEP_ASSIGN,
+    STEP_DUPLICATE,
+    STEP_LIGHTING,
+    STEP_POSE,
+    STEP_SHOT
 };
 
-struct edit_step;
+/* A numbered view, or its absence. */
+struct edit_shot {
+    struct pose pose;
+    bool is_there;
+};
 
-struct edit {
-    struct edit_state now;
-    /* state of the files; size and bounces are not those of the command line */
-    struct edit_state saved;
-    bool is_comparing; /* the saved state is shown */
-    uint32_t version;  /* counts changes that restart the render */
-    char **names;      /* of materials; first those of files */
-    /* for each material its original, or NO_INDEX if it is from a file */
-    uint32_t *copied_from;
-    uint32_t material_count, object_count;
-    struct name_table skies; /* paths of known sky images; 0 is "" */
+struct edit_step {
+    enum edit_step_kind kind;
+    uint32_t index; /* of the material, object or numbered view */
+    uint32_t group;
+    union {
+        struct mtl_source *source; /* the step's own; it is larger than other
+                                      values, and most steps are poses */
+        uint32_t material;
+        bool is_there;
+        struct lighting lighting; /* its sky_path is borrowed from the edit */
+        struct pose pose;
+        struct edit_shot shot;
+    } value;
+};
 
+struct edit_history {
     struct edit_step *steps;
     size_t step_count, step_capacity;
-    size_t done_count; /* steps from here on are undone */
-    uint32_t group;    /* group number of the next change */
-    uint32_t gesture;  /* current gesture, 0 for none */
-    uint64_t gesture_ns;
-    char step_text[128]; /* name of the last undone or redone step */
+    size_t done_count;   /* the later steps were undone */
+    uint32_t group;      /* group of the next step */
+    uint32_t gesture;    /* gesture of the next step; 0: none */
+    uint64_t gesture_ns; /* time of the gesture's last event */
 };
 
-/* Initialises the state from a finished scene and its view. Assignments of
- * unknown objects or materials are warnings. */
-void edit_init(struct edit *edit, const struct scene *scene,
-               const struct view *view, struct warnings *report);
+/* Ends the current group; the next step begins a new one. */
+void edit_history_end_step(struct edit_history *history);
 
-/* Ends the current step. The next change begins a new one. */
-void edit_end_step(struct edit *edit);
-
-/* Assigns the next changes to a gesture: a held key or a parameter in motion.
- * The caller chooses its number, above 0. Changes join the step of the same
- * gesture if that was less than 0.7 s ago. Returns true if a new step
+/* Begins a new group unless the gesture, a number above 0, is that of the
+ * previous call, at most 700 ms before `now_ns`. Returns true if a group
  * begins. */
-bool edit_begin_gesture(struct edit *edit, uint32_t gesture, uint64_t now_ns);
+bool edit_history_begin_gesture(struct edit_history *history, uint32_t gesture,
+                                uint64_t now_ns);
 
-/* Change one value. An equal value is not a change. */
-void edit_material(struct edit *edit, uint32_t material,
-                   const struct mtl_source *source);
-void edit_assign(struct edit *edit, uint32_t object, uint32_t material);
-void edit_lighting(struct edit *edit, const struct lighting *lighting);
-void edit_pose(struct edit *edit, const struct pose *pose);
+/* Adds a step that was done, with the value before it, and drops all undone
+ * steps. A step that continues the last one (same group, kind and index) is
+ * merged with it, and its source is freed. Another kind or index during a
+ * gesture begins a new group. Returns the last step, valid until the next
+ * call. */
+const struct edit_step *edit_history_add(struct edit_history *history,
+                                         struct edit_step step);
 
-/* Stores the current camera as a numbered view, from 0. */
-void edit_shot(struct edit *edit, int number);
+/* Drops the last step, which is done, and all undone steps. */
+void edit_history_drop_last(struct edit_history *history);
 
-/* Duplicates a material under a new name. Returns the number of the
- * duplicate. */
-uint32_t edit_duplicate(struct edit *edit, uint32_t material);
+/* Marks the last done step as undone and returns it, for the caller to exchange
+ * the values. Returns NULL if there is none, or if `group` is not NULL and the
+ * step is not of that step's group. */
+struct edit_step *edit_history_back(struct edit_history *history,
+                                    const struct edit_step *group);
 
-/* Returns the number of the sky image with this path, which is added if new. */
-uint32_t edit_sky(struct edit *edit, const char *path);
+/* The same for the first undone step, which becomes done. */
+struct edit_step *edit_history_forward(struct edit_history *history,
+                                       const struct edit_step *group);
 
-/* Undo or redo one step. Return its name, such as "camera", valid until the
- * next call, or NULL if there is no step. */
-const char *edit_undo(struct edit *edit);
-const char *edit_redo(struct edit *edit);
+/* Replaces an empty history by the camera's steps (poses and numbered views) of
+ * another one. */
+void edit_history_take_camera(struct edit_history *history,
+                              const struct edit_history *from);
 
-/* Chooses whether the saved or the current materials and light are shown. */
-void edit_compare(struct edit *edit, bool is_comparing);
-
-/* Returns the shown state of materials, assignments and light: the current one,
- * or the saved one while comparing. */
-const struct edit_state *edit_shown(const struct edit *edit);
-
-/* Returns the view to render: the current one with the shown light. Its
- * pointers belong to the edit. */
-struct view edit_view(const struct edit *edit);
-
-/* Returns true if the material is saved as it is. */
-bool edit_is_saved(const struct edit *edit, uint32_t material);
-
-/* Return true if a material, or an assignment or the light, is not saved. */
-bool edit_has_unsaved_materials(const struct edit *edit);
-bool edit_has_unsaved_view(const struct edit *edit);
-
-/* Simplifies a material before it is saved over the block of `pattern`:
- * restores statements of the file that have no effect on its kind. Returns
- * false if nothing remains to be saved. */
-bool edit_simplify_material(struct edit *edit, uint32_t material,
-                            uint32_t pattern);
-
-/* Marks a material as saved. */
-void edit_saved_material(struct edit *edit, uint32_t material);
-
-/* Copies the current light and assignments into a view. */
-void edit_to_view(const struct edit *edit, const struct scene *scene,
-                  struct view *view);
-
-/* Mark light and assignments of the written view, which are the current ones,
- * or all of that view, as saved. */
-void edit_saved_lighting(struct edit *edit, const struct view *written);
-void edit_saved_view(struct edit *edit, const struct view *written);
-
-/* Copies camera, numbered views and camera steps of `before` into an edit that
- * was loaded anew from the same files, except values that the view file has
- * changed. */
-void edit_keep_camera(struct edit *edit, const struct edit *before);
-
-void edit_free(struct edit *edit);
+void edit_history_free(struct edit_history *history);
 
 #endif

@@ -16,7 +16,7 @@
 #include "render/render_rates.h"
 #include "session/backends.h"
 #include "session/command_line.h"
-#include "session/edit_history.h"
+#include "session/edit.h"
 #include "session/file_watch.h"
 
 struct session {

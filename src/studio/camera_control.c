@@ -373,7 +373,7 @@ void camera_control_focus(struct camera_control *camera)
 
 void camera_control_keep_view(struct camera_control *camera, int number)
 {
-    edit_shot(edit_of(camera), number - 1);
+    edit_shot(edit_of(camera), (uint32_t)number - 1);
     render_control_say(
         camera->control, "this is view %d: %s writes it to the view file",
         number, render_control_key(camera->control, ACTION_SAVE_VIEW).text);

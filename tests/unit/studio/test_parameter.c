@@ -274,14 +274,14 @@ static void steps_are_undone(void **state)
 
         assert_in_range(count, 1, PARAMETERS_MAX);
         for (int k = 0; k < count; k++) {
-            size_t done = s.edit.done_count;
+            size_t done = s.edit.history.done_count;
 
             edit_end_step(&s.edit);
             for (int n = 0; n < 3; n++)
                 parameter_step(&target, before[k].id, 1);
-            if (s.edit.done_count == done)
+            if (s.edit.history.done_count == done)
                 continue; /* a colour, or at the end of its scale */
-            assert_int_equal(s.edit.done_count, done + 1);
+            assert_int_equal(s.edit.history.done_count, done + 1);
             assert_true(edit_undo(&s.edit));
             assert_int_equal(parameters_list(&target, after), count);
             check_same(before, after, count);
@@ -343,7 +343,7 @@ static void texts_can_be_typed(void **state)
         struct error err;
 
         for (int k = 0; k < count; k++) {
-            size_t done = s.edit.done_count;
+            size_t done = s.edit.history.done_count;
             bool is_map = strncmp(before[k].label, "map", 3) == 0;
 
             assert_int_equal(before[k].takes_text, k > 0 && !is_map);
@@ -352,7 +352,7 @@ static void texts_can_be_typed(void **state)
             assert_false(
                 parameter_set_text(&target, before[k].id, "many", &err));
             check_has(err.text, "found 'many', expected ");
-            assert_int_equal(s.edit.done_count, done);
+            assert_int_equal(s.edit.history.done_count, done);
             check_or_say(parameter_set_text(&target, before[k].id,
                                             before[k].text, &err),
                          err.text);

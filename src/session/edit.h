@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+/*
+ * edit.h - the editable state of an open scene, with undo and redo
+ *
+ * The state has the values of materials, the assignment of materials to
+ * objects, duplicated materials, light, exposure and tone, the camera, and
+ * numbered views. It exists only here, and every change is made by a function
+ * of this file. Changes without edit_end_step() between them are one step: the
+ * whole motion of a slider or of a held key is undone at once.
+ *
+ * Units:     those of MTL and view files
+ * Ownership: edit_free() frees; scene and view are copied
+ * Threads:   one thread at a time
+ * Errors:    xmalloc() ends the program when memory is out
+ */
+#ifndef GLIM_EDIT_H
+#define GLIM_EDIT_H
+
+#include "base/name_table.h"
+#include "scene/world_materials.h"
+#include "session/edit_history.h"
+
+struct edit_state {
+    struct mtl_source *sources; /* for each material */
+    bool *is_there; /* for each material; false for an undone duplicate */
+    /* for each object the assigned material, or NO_INDEX for that of the OBJ
+     * file */
+    uint32_t *assigned;
+    /* its assigns have all lines of the file, also those without effect */
+    struct view view;
+};
+
+struct edit {
+    struct edit_state now;
+    /* state of the files; size and bounces are not those of the command line */
+    struct edit_state saved;
+    bool is_comparing; /* the saved state is shown */
+    uint32_t version;  /* counts changes that restart the render */
+    char **names;      /* of materials; first those of files */
+    /* for each material its original, or NO_INDEX if it is from a file */
+    uint32_t *copied_from;
+    uint32_t material_count, object_count;
+    struct name_table skies; /* paths of known sky images; 0 is "" */
+    struct edit_history history;
+    char step_text[128]; /* name of the last undone or redone step */
+};
+
+/* Initialises the state from a finished scene and its view. Assignments of
+ * unknown objects or materials are warnings. */
+void edit_init(struct edit *edit, const struct scene *scene,
+               const struct view *view, struct warnings *report);
+
+/* Ends the current step. The next change begins a new one. */
+void edit_end_step(struct edit *edit);
+
+/* Assigns the next changes to a gesture: a held key or a parameter in motion.
+ * The caller chooses its number, above 0. Changes join the step of the same
+ * gesture if its last call was at most 0.7 s ago. Returns true if a new step
+ * begins. */
+bool edit_begin_gesture(struct edit *edit, uint32_t gesture, uint64_t now_ns);
+
+/* Change one value. An equal value is not a change, and a step that comes back
+ * to the value before it is dropped. */
+void edit_material(struct edit *edit, uint32_t material,
+                   const struct mtl_source *source);
+void edit_assign(struct edit *edit, uint32_t object, uint32_t material);
+void edit_lighting(struct edit *edit, const struct lighting *lighting);
+void edit_pose(struct edit *edit, const struct pose *pose);
+
+/* Stores the current camera as a numbered view, from 0. */
+void edit_shot(struct edit *edit, uint32_t number);
+
+/* Duplicates a material under a new name. Returns the number of the
+ * duplicate. */
+uint32_t edit_duplicate(struct edit *edit, uint32_t material);
+
+/* Returns the number of the sky image with this path, which is added if new. */
+uint32_t edit_sky(struct edit *edit, const char *path);
+
+/* Undo or redo one step. Return its name, such as "camera", valid until the
+ * next call, or NULL if there is no step. */
+const char *edit_undo(struct edit *edit);
+const char *edit_redo(struct edit *edit);
+
+/* Chooses whether the saved or the current materials and light are shown. */
+void edit_compare(struct edit *edit, bool is_comparing);
+
+/* Returns the shown state of materials, assignments and light: the current one,
+ * or the saved one while comparing. */
+const struct edit_state *edit_shown(const struct edit *edit);
+
+/* Returns the view to render: the current one with the shown light. Its
+ * pointers belong to the edit. */
+struct view edit_view(const struct edit *edit);
+
+/* Returns true if the material is saved as it is. */
+bool edit_is_saved(const struct edit *edit, uint32_t material);
+
+/* Return true if a material, or an assignment or the light, is not saved. */
+bool edit_has_unsaved_materials(const struct edit *edit);
+bool edit_has_unsaved_view(const struct edit *edit);
+
+/* Simplifies a material before it is saved over the block of `pattern`:
+ * restores statements of the file that have no effect on its kind. Returns
+ * false if nothing remains to be saved. */
+bool edit_simplify_material(struct edit *edit, uint32_t material,
+                            uint32_t pattern);
+
+/* Marks a material as saved. This and the two functions below end the
+ * comparison. */
+void edit_saved_material(struct edit *edit, uint32_t material);
+
+/* Copies the current light and assignments into a view. */
+void edit_to_view(const struct edit *edit, const struct scene *scene,
+                  struct view *view);
+
+/* Mark light and assignments of the written view, which are the current ones,
+ * or all of that view, as saved. */
+void edit_saved_lighting(struct edit *edit, const struct view *written);
+void edit_saved_view(struct edit *edit, const struct view *written);
+
+/* Copies camera, numbered views and camera steps of `before` into an edit that
+ * was loaded anew from the same files, except values that the view file has
+ * changed. A camera that it has changed is a step. */
+void edit_keep_camera(struct edit *edit, const struct edit *before);
+
+void edit_free(struct edit *edit);
+
+#endif
