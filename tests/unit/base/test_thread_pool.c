@@ -114,8 +114,8 @@ static void processor_time_is_that_of_the_items(void **state)
 {
     struct cancel cancel = {0};
     struct error err;
-    struct pool *pool = pool_create(2, &err);
     uint64_t begin_ns = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    struct pool *pool = pool_create(2, &err);
     uint64_t parked_ns;
     int tries = 0;
 
