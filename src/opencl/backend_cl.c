@@ -447,7 +447,7 @@ static bool open_machine(struct cl_machine *m, const struct cl_request *r,
         return false;
     if (!r->needs_gpu || m->device->is_gpu)
         return true;
-    fail(err, "OpenCL: found no GPU, but %s", m->device->name);
+    fail(err, "OpenCL: found no GPU, only %s", m->device->name);
     cl_machine_close(m);
     return false;
 }

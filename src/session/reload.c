@@ -30,11 +30,11 @@ bool reload_begin(struct reload *r, struct error *err)
     int reason;
 
     if (r->is_busy)
-        return fail(err, "%s: is still being loaded", r->options->scene_path);
+        return fail(err, "%s: is being loaded already", r->options->scene_path);
     reason = thread_start(&r->thread, reload_main, r);
     if (reason != 0)
-        return fail(err, "%s: no thread to load it: %s", r->options->scene_path,
-                    strerror(reason));
+        return fail(err, "%s: cannot start a thread to load it: %s",
+                    r->options->scene_path, strerror(reason));
     r->is_busy = true;
     return true;
 }

@@ -141,7 +141,7 @@ bool session_save_view(struct session *s, struct file_change *change,
 static char *say_written(const struct written *w, const char *view_path)
 {
     if (w->count == 0 && view_path == NULL)
-        return xstrdup("nothing has changed since it was saved");
+        return xstrdup("no changes since the last save");
     if (w->count == 0)
         return xformat("wrote %s", view_path);
     return xformat("wrote %zu material%s to %s%s%s", w->count,

@@ -132,10 +132,10 @@ static void say_lens(struct camera_control *camera)
     else if (camera->held != HELD_KEYS_OPEN)
         return;
     else if (pose->aperture > 0)
-        render_control_say(camera->control, "lens open by %.3g",
-                           pose->aperture);
+        render_control_say(camera->control, "aperture %.3g", pose->aperture);
     else
-        render_control_say(camera->control, "a pinhole: everything is sharp");
+        render_control_say(camera->control,
+                           "pinhole lens: everything is in focus");
 }
 
 static void steer_held(struct camera_control *camera, uint64_t now_ns)
@@ -202,7 +202,8 @@ static void change_speed(struct camera_control *camera, int steps)
 {
     camera_input_change_speed(&camera->input, steps);
     update_clearance(camera);
-    render_control_say(camera->control, "speed times %.3g: %.3g a second here",
+    render_control_say(camera->control,
+                       "speed factor %.3g: %.3g units a second here",
                        camera->input.speed, camera_input_speed(&camera->input));
 }
 
@@ -232,11 +233,11 @@ static bool may_undo(struct camera_control *camera)
 
     if (!control->is_live)
         render_control_say(control,
-                           "changes are undone in live mode: %s goes there",
+                           "undo works only in live mode: %s switches to it",
                            render_control_key(control, ACTION_MODE).text);
     else if (control->reload.is_busy)
-        render_control_say(
-            control, "the scene is being loaded: changes are undone then");
+        render_control_say(control,
+                           "the scene is being loaded: undo works after that");
     return control->is_live && !control->reload.is_busy;
 }
 
@@ -251,10 +252,10 @@ static void step_history(struct camera_control *camera, bool is_back)
     step = is_back ? edit_undo(edit_of(camera)) : edit_redo(edit_of(camera));
     if (step == NULL)
         render_control_say(camera->control,
-                           is_back ? "nothing to undo" : "nothing to do again");
+                           is_back ? "nothing to undo" : "nothing to redo");
     else
         render_control_say(camera->control, "%s: %s",
-                           is_back ? "undone" : "done again", step);
+                           is_back ? "undone" : "redone", step);
     if (memcmp(&before, pose_of(camera), sizeof before) != 0)
         reset_clearance(camera);
 }
@@ -306,12 +307,12 @@ void camera_control_switch_orbit(struct camera_control *camera)
     held_keys_stop(&camera->input.motion);
     camera->input.is_orbiting = picks || !camera->input.is_orbiting;
     find_pivot(camera);
-    render_control_say(camera->control,
-                       !camera->input.is_orbiting
-                           ? "arrows and mouse look around"
-                       : camera->cursor.has_pick
-                           ? "arrows and mouse orbit what is picked"
-                           : "arrows and mouse orbit the middle");
+    render_control_say(
+        camera->control,
+        !camera->input.is_orbiting ? "arrows and mouse look around"
+        : camera->cursor.has_pick
+            ? "arrows and mouse orbit the picked point"
+            : "arrows and mouse orbit the centre of the picture");
 }
 
 static void frame(struct camera_control *camera, const double lo[3],
@@ -357,15 +358,15 @@ void camera_control_focus(struct camera_control *camera)
     pose.focus = camera_depth(pose_of(camera), camera->cursor.pick.position);
     if (!(pose.focus > 0)) {
         render_control_say(camera->control,
-                           "what is picked lies behind the camera");
+                           "the picked point is behind the camera");
         return;
     }
     jump(camera, &pose);
     if (pose.aperture > 0)
-        render_control_say(camera->control, "sharp %.4g away", pose.focus);
+        render_control_say(camera->control, "focus at %.4g", pose.focus);
     else
         render_control_say(
-            camera->control, "sharp %.4g away once the lens is open: %s",
+            camera->control, "focus at %.4g, once the lens is open: %s",
             pose.focus, render_control_key(camera->control, ACTION_OPEN).text);
 }
 
@@ -375,7 +376,7 @@ void camera_control_keep_view(struct camera_control *camera, int number)
 {
     edit_shot(edit_of(camera), (uint32_t)number - 1);
     render_control_say(
-        camera->control, "this is view %d: %s writes it to the view file",
+        camera->control, "stored as view %d: %s writes it to the view file",
         number, render_control_key(camera->control, ACTION_SAVE_VIEW).text);
 }
 
@@ -383,8 +384,9 @@ void camera_control_go_to_view(struct camera_control *camera, int number)
 {
     if (!view_of(camera)->has_shot[number - 1]) {
         render_control_say(
-            camera->control, "no view %d yet: %s %d makes this one so", number,
-            render_control_key(camera->control, ACTION_KEEP).text, number);
+            camera->control, "view %d is not set: %s %d stores this view there",
+            number, render_control_key(camera->control, ACTION_KEEP).text,
+            number);
     } else if (may_jump(camera)) {
         jump(camera, &view_of(camera)->shots[number - 1]);
         render_control_say(camera->control, "view %d", number);

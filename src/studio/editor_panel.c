@@ -67,14 +67,15 @@ static void take_change(struct editor_panel *p)
 static bool may_change(struct editor_panel *p)
 {
     if (!p->control->is_live) {
-        render_control_say(p->control,
-                           "materials change in live mode: %s goes there",
-                           render_control_key(p->control, ACTION_MODE).text);
+        render_control_say(
+            p->control, "materials change only in live mode: %s switches to it",
+            render_control_key(p->control, ACTION_MODE).text);
         return false;
     }
     if (p->control->reload.is_busy) {
-        render_control_say(p->control,
-                           "the scene is being loaded: materials change then");
+        render_control_say(
+            p->control,
+            "the scene is being loaded: materials change after that");
         return false;
     }
     return true;

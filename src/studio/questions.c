@@ -48,7 +48,7 @@ static const struct {
     [QUESTION_LIVE] = {"The render is not saved. Leave it? y: yes, p: save "
                        "it, other: no",
                        go_live, 'p', save_render},
-    [QUESTION_RESTART] = {"The render is not saved. Start anew? y: yes, p: "
+    [QUESTION_RESTART] = {"The render is not saved. Restart it? y: yes, p: "
                           "save it, other: no",
                           restart, 'p', save_render},
     [QUESTION_NUMBER] = {.text = "Which number for this view? 1 to 9, other: "

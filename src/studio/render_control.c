@@ -254,9 +254,9 @@ bool render_control_has_unsaved_edit(const struct render_control *control)
 bool render_control_may_move(struct render_control *control)
 {
     if (!control->is_live)
-        render_control_say(control,
-                           "the camera moves in live mode: %s goes there",
-                           render_control_key(control, ACTION_MODE).text);
+        render_control_say(
+            control, "the camera moves only in live mode: %s switches to it",
+            render_control_key(control, ACTION_MODE).text);
     return control->is_live;
 }
 
@@ -265,7 +265,8 @@ void render_control_set_live(struct render_control *control, bool is_live)
     control->is_live = is_live;
     control->is_started = false;
     if (is_live) {
-        render_control_say(control, "live mode: every change starts anew");
+        render_control_say(control,
+                           "live mode: every change restarts the render");
         control->files_ns = clock_ns(); /* reload changed files now */
         restart(control);
         return;
@@ -365,9 +366,9 @@ void render_control_switch_backend(struct render_control *control)
     struct backends *m = &control->session->backends;
 
     if (!control->is_live) {
-        render_control_say(control,
-                           "the backend changes in live mode: %s goes there",
-                           render_control_key(control, ACTION_MODE).text);
+        render_control_say(
+            control, "the backend changes only in live mode: %s switches to it",
+            render_control_key(control, ACTION_MODE).text);
     } else if (session_uses_device(control->session)) {
         use_backend(control, m->cpu);
     } else if (m->device != NULL) {
@@ -405,7 +406,8 @@ void render_control_end_device(struct render_control *control)
             use_backend(control, m->device);
         else
             render_control_say(
-                control, "OpenCL: the device is up: %s takes it in live mode",
+                control,
+                "OpenCL: the device is ready: %s selects it in live mode",
                 render_control_key(control, ACTION_BACKEND).text);
     } else if (control->session->options->backend == BACKEND_AUTO) {
         render_control_say(control, "%s", err.text);
@@ -439,9 +441,9 @@ void render_control_reload(struct render_control *control)
     struct error err;
 
     if (!control->is_live) {
-        render_control_say(control,
-                           "files are loaded in live mode: %s goes there",
-                           render_control_key(control, ACTION_MODE).text);
+        render_control_say(
+            control, "files are loaded only in live mode: %s switches to it",
+            render_control_key(control, ACTION_MODE).text);
         return;
     }
     if (render_control_has_unsaved_edit(control)) {

@@ -135,8 +135,8 @@ void save_view(struct render_control *control)
         else
             render_control_say(
                 control,
-                "not written: a loaded scene waits for live mode: %s goes "
-                "there",
+                "not written: the scene was loaded again, which live mode "
+                "takes over: %s switches to it",
                 render_control_key(control, ACTION_MODE).text);
         return;
     }

@@ -59,7 +59,7 @@ wait_for_rows 20 "$YELLOW"
 keys Tab Enter
 wait_for "│>    type"
 keys Down k 5
-wait_for "this is view 5"
+wait_for "stored as view 5"
 expect "│>    colour     #000000$"
 # Esc is Esc
 raw_keys "$(printf '\033\033q')"

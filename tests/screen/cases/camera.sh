@@ -39,7 +39,7 @@ wait_for "mouse off"
 raw_keys "$drag"
 moved x at 1 '==' 0
 raw_keys '+'
-wait_for "speed times 1.25: "
+wait_for "speed factor 1.25: "
 # held: a way that no single tap makes
 closer() # presses w; true when the triangle is as large as from 4 ahead
 {

@@ -21,7 +21,7 @@ orbited()
 start --cell-aspect 2 lamp.obj
 wait_for "▀"
 keys o
-wait_for "orbit the middle"
+wait_for "orbit the centre"
 orbited 1 Right Right Right
 keys o
 wait_for "look around"

@@ -32,7 +32,7 @@ wait_for "NORMAL paused  1/16 spp"
 keys .
 wait_for "NORMAL paused  2/16 spp  12 %"
 keys 0
-wait_for "The render is not saved. Start anew?"
+wait_for "The render is not saved. Restart it?"
 keys y
 wait_for "NORMAL done  16/16 spp"
 wait_until rests

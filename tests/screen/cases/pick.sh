@@ -42,12 +42,12 @@ keys Down Down Down Down Down Down Down Down Enter
 wait_for "left, red, face 1, .*o orbit, f focus, z frame"
 wait_until_gone "\[+\]"
 keys f
-wait_for "sharp 5 away once the lens is open"
+wait_for "focus at 5, once the lens is open"
 is focus 1 5
 keys '}'
-wait_for "lens open by"
+wait_for "aperture "
 keys '{' '{'
-wait_for "a pinhole"
+wait_for "pinhole lens"
 keys z
 wait_for "^ left"
 is at 1 -1
@@ -71,16 +71,16 @@ wait_for "^ left"
 is at 1 -1
 # o orbits what the cursor is on, even if it was on before
 keys o v Right Right Right o
-wait_for "orbit what is picked"
+wait_for "orbit the picked point"
 # in normal mode one can look, but not move
 keys Space
 wait_for "normal mode"
 raw_keys "$(printf '\033[<0;30;10M\033[<0;30;10m')"
 wait_for "left, red, "
 raw_keys "$(printf '\033[<0;30;10M\033[<32;40;10M\033[<0;40;10m')"
-wait_for "the camera moves in live mode" # and nothing is picked there
+wait_for "the camera moves only in live mode" # and nothing is picked there
 keys f
-wait_for "the camera moves in live mode"
+wait_for "the camera moves only in live mode"
 keys q
 expect_end 0
 fresh

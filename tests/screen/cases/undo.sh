@@ -24,7 +24,7 @@ keys u
 [ "$(line eye)" = "eye 0 0 5" ] || die "not back: $(line eye)"
 [ "$(line at)" = "at 0 0 0" ] || die "not back: $(line at)"
 keys U
-wait_for "done again: camera"
+wait_for "redone: camera"
 [ "$(line eye)" = "$forward" ] || die "not forth: $(line eye)"
 keys u
 # a field of view, with the wheel too
@@ -37,7 +37,7 @@ keys u
 wait_for "undone"
 [ "$(line fovy)" = "fovy 40" ] || die "not back: $(line fovy)"
 keys 3
-wait_for "no view 3 yet"
+wait_for "view 3 is not set"
 keys Enter
 wait_for "LIVE paused"
 keys k
@@ -45,7 +45,7 @@ wait_for "Which number"
 wait_until rests # the question has no time limit
 expect "Which number"
 keys 3
-wait_for "this is view 3"
+wait_for "stored as view 3"
 keys k x 4 # the x is no number: nothing is kept
 wait_for "no view 4 yet"
 keys s

@@ -312,9 +312,9 @@ static void only_changes_are_saved(void **state)
 static void message_names_the_saved_files(void **state)
 {
     static const char *const names[] = {"glass", "lamp"};
-    static const char *const lines[] = {
-        "wrote 1 material to b.mtl", "wrote 2 materials to a.mtl, b.mtl",
-        "nothing has changed since it was saved"};
+    static const char *const lines[] = {"wrote 1 material to b.mtl",
+                                        "wrote 2 materials to a.mtl, b.mtl",
+                                        "no changes since the last save"};
     struct session s;
 
     (void)state;

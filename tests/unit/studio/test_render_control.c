@@ -533,7 +533,7 @@ static void messages_name_the_chosen_keys(void **state)
     render_control_set_live(&f->control, false);
     assert_false(render_control_may_move(&f->control));
     assert_string_equal(f->control.message.text,
-                        "the camera moves in live mode: j goes there");
+                        "the camera moves only in live mode: j switches to it");
     render_control_restart(&f->control);
     assert_string_equal(f->control.message.text,
                         "nothing is rendered yet: Enter starts");
