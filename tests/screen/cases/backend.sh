@@ -23,7 +23,7 @@ wait_for "LIVE .* 1 thread "
 keys b
 wait_for "LIVE .* OpenCL pthread"
 keys Space b
-wait_for "the backend changes in live mode"
+wait_for "the backend changes only in live mode"
 keys q
 expect_end 0
 fresh

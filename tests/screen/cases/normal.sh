@@ -8,7 +8,7 @@ wait_for LIVE
 keys Space
 wait_for "normal mode: Enter starts the render"
 keys w
-wait_for "the camera moves in live mode"
+wait_for "the camera moves only in live mode"
 wait_for "NORMAL ready"
 keys q # nothing was rendered: no question
 expect_end 0

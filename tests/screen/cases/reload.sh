@@ -129,7 +129,7 @@ wait_for "NORMAL .*spp"
 shines .5 .2 0 | write wall.mtl
 wait_for "NORMAL  changed: l loads"
 keys l
-wait_for "files are loaded in live mode"
+wait_for "files are loaded only in live mode"
 wait_for_rows 20 "$GREEN"
 keys Space
 wait_for "not saved. Leave it?"

@@ -47,7 +47,7 @@ expect "Which number"
 keys 3
 wait_for "stored as view 3"
 keys k x 4 # the x is no number: nothing is kept
-wait_for "no view 4 yet"
+wait_for "view 4 is not set"
 keys s
 [ "$(line eye)" != "eye 0 0 5" ] || die "not moved"
 keys 3
