@@ -10,12 +10,6 @@
 #include "base/clock.h"
 #include "terminal/xmalloc.h"
 
-/* Least time of a message, and per byte for 200 words per minute. LONG_NS is
- * the least time of long ones. */
-#define MESSAGE_NS UINT64_C(4000000000)
-#define BYTE_NS    UINT64_C(60000000)
-#define LONG_NS    UINT64_C(10000000000)
-
 /* Limit of the wait for the draft's first whole pass: half a frame at 60 Hz, to
  * show a better first picture. */
 #define DRAFT_WAIT_NS UINT64_C(8000000)
@@ -27,38 +21,14 @@
 /* Period of checks of the files if the system cannot watch them. */
 #define FILES_POLL_NS UINT64_C(1000000000)
 
-static uint64_t reading_ns(const char *text)
-{
-    uint64_t ns = strlen(text) * BYTE_NS;
-
-    return ns > MESSAGE_NS ? ns : MESSAGE_NS;
-}
-
-/* Shows a message for `least_ns` or the time to read it, whichever is
- * longer. */
-static void __attribute__((format(printf, 3, 0)))
-say(struct render_control *control, uint64_t least_ns, const char *format,
-    va_list values)
-{
-    uint64_t read_ns;
-
-    vsnprintf(control->message.text, sizeof control->message.text, format,
-              values);
-    control->message.is_error = false;
-    control->message.said_ns = clock_ns();
-    read_ns = reading_ns(control->message.text);
-    control->message.until_ns =
-        control->message.said_ns + (read_ns > least_ns ? read_ns : least_ns);
-    control->has_changed = true;
-}
-
 void render_control_say(struct render_control *control, const char *format, ...)
 {
     va_list values;
 
     va_start(values, format);
-    say(control, MESSAGE_NS, format, values);
+    message_set(&control->message, false, format, values);
     va_end(values);
+    control->has_changed = true;
 }
 
 void render_control_say_long(struct render_control *control, const char *format,
@@ -67,16 +37,14 @@ void render_control_say_long(struct render_control *control, const char *format,
     va_list values;
 
     va_start(values, format);
-    say(control, LONG_NS, format, values);
+    message_set(&control->message, true, format, values);
     va_end(values);
+    control->has_changed = true;
 }
 
 void render_control_say_error(struct render_control *control, const char *text)
 {
-    snprintf(control->message.text, sizeof control->message.text, "%s", text);
-    control->message.is_error = true;
-    control->message.said_ns = clock_ns();
-    control->message.until_ns = UINT64_MAX;
+    message_set_error(&control->message, text);
     control->has_changed = true;
 }
 
@@ -88,13 +56,8 @@ void render_control_clear_message(struct render_control *control)
 
 void render_control_acknowledge_error(struct render_control *control)
 {
-    struct message *m = &control->message;
-
-    if (!m->is_error)
-        return;
-    m->is_error = false;
-    m->until_ns = m->said_ns + reading_ns(m->text);
-    control->has_changed = true;
+    if (message_acknowledge(&control->message))
+        control->has_changed = true;
 }
 
 struct keymap_name render_control_key(const struct render_control *control,

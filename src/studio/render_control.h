@@ -21,13 +21,7 @@
 #include "session/reload.h"
 #include "session/save_thread.h"
 #include "session/session.h"
-
-struct message {
-    char text[sizeof(struct error)];
-    bool is_error; /* shown until a key is pressed */
-    uint64_t said_ns;
-    uint64_t until_ns; /* end of the display; 0: no message */
-};
+#include "studio/message.h"
 
 struct render_control {
     struct session *session;
