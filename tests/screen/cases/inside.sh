@@ -12,6 +12,10 @@ two_walls()
     printf 'eye 0 0 5\nat 0 0 0\nres 100 50\nbackground 0 0 0\nexposure -4\n' \
         >walls.view
 }
+has_colors() # true if the screen has as many different ones
+{
+    [ "$(screen_colors | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)" = "$1" ]
+}
 colors_are() # as many different ones, and these
 {
     wait_until_gone "LIVE"
@@ -20,8 +24,7 @@ colors_are() # as many different ones, and these
     for color; do
         wait_for_rows 15 "48;2;$color"
     done
-    found=$(screen_colors | grep -o '48;2;[0-9;]*m' | sort -u | wc -l)
-    [ "$found" = "$count" ] || die "found $found colours, expected $count"
+    wait_until has_colors "$count"
 }
 two_walls
 start --cell-aspect 2 walls.obj
