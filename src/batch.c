@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "batch.h"
 
-#include <errno.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,13 +47,7 @@ static bool check_outputs(const struct session *s, struct error *err)
         return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
-    if (o->output_path)
-        return image_write_check(o->output_path, err);
-    if (access(".", W_OK | X_OK) != 0)
-        return fail(err,
-                    "current folder: %s, expected a writable one or -o FILE",
-                    strerror(errno));
-    return true;
+    return batch_check_picture(o->output_path, err);
 }
 
 /* Waits until all samples are done or a signal arrives, which halts the

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "batch_picture.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "glim/glim.h"
 
 #include "base/file.h"
 #include "base/print.h"
-#include "picture/image_write.h"
 #include "terminal/xmalloc.h"
 #include "session/file_watch.h"
 #include "batch_progress.h"
@@ -44,36 +41,20 @@ static bool set_up(struct glim *g, const struct options *o, struct error *err)
     return true;
 }
 
-static bool is_read_from(const struct glim *g, const char *path)
-{
-    struct file_watch files;
-    const char *name;
-    bool is_read;
-
-    file_watch_init(&files);
-    for (int i = 0; (name = glim_file(g, i)) != NULL; i++)
-        file_watch_add(&files, name);
-    is_read = file_watch_has(&files, path);
-    file_watch_free(&files);
-    return is_read;
-}
-
 /* Finds mistakes before minutes of rendering. */
 static bool check_output(const struct glim *g, const char *path,
                          struct error *err)
 {
-    if (path && is_read_from(g, path))
-        return fail(err,
-                    "-o: found '%s', which the scene is read from, expected "
-                    "another file",
-                    path);
-    if (path)
-        return image_write_check(path, err);
-    if (access(".", W_OK | X_OK) != 0)
-        return fail(err,
-                    "current folder: %s, expected a writable one or -o FILE",
-                    strerror(errno));
-    return true;
+    struct file_watch files;
+    const char *name;
+    bool ok;
+
+    file_watch_init(&files);
+    for (int i = 0; (name = glim_file(g, i)) != NULL; i++)
+        file_watch_add(&files, name);
+    ok = !path || file_watch_spares(&files, "-o", path, err);
+    file_watch_free(&files);
+    return ok && batch_check_picture(path, err);
 }
 
 /* Brings up the device that the options want. If it fails, the CPU renders,

@@ -12,6 +12,20 @@
 #include "base/clock.h"
 #include "base/event_fd.h"
 #include "base/print.h"
+#include "picture/image_write.h"
+
+/* ---- output file ---- */
+
+bool batch_check_picture(const char *path, struct error *err)
+{
+    if (path)
+        return image_write_check(path, err);
+    if (access(".", W_OK | X_OK) != 0)
+        return fail(err,
+                    "current folder: %s, expected a writable one or -o FILE",
+                    strerror(errno));
+    return true;
+}
 
 /* ---- signals ---- */
 

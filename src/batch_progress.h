@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /*
- * batch_progress.h - the signals that stop a batch render, its progress bar and
- * its last line
+ * batch_progress.h - the check of a batch render's output file, the signals
+ * that stop it, its progress bar and its last line
  *
  * Threads:   main only
- * Errors:    no event descriptor for the signals
+ * Errors:    files that cannot be written; no event descriptor for the signals
  */
 #ifndef GLIM_BATCH_PROGRESS_H
 #define GLIM_BATCH_PROGRESS_H
@@ -18,6 +18,10 @@
 
 /* The bar is drawn this often, which also bounds what a slow link gets. */
 #define BATCH_DRAW_MS 100
+
+/* Checks that the picture can be written to the file, or if `path` is NULL to a
+ * new file in the current folder. */
+bool batch_check_picture(const char *path, struct error *err);
 
 /* Lets SIGINT, SIGTERM and SIGHUP stop the render, unless they are ignored:
  * they cancel the handle, if there is one, and make *wake_fd readable. */

@@ -132,6 +132,16 @@ bool file_watch_has(const struct file_watch *w, const char *path)
     return false;
 }
 
+bool file_watch_spares(const struct file_watch *w, const char *option,
+                       const char *path, struct error *err)
+{
+    return !file_watch_has(w, path) ||
+           fail(err,
+                "%s: found '%s', which the scene is read from, expected "
+                "another file",
+                option, path);
+}
+
 void file_watch_settle(struct file_watch *w)
 {
     for (size_t i = 0; i < w->file_count; i++) {

@@ -48,6 +48,11 @@ bool file_watch_has_changed(const struct file_watch *w);
 /* Returns true if one of the files is this one, by whatever name. */
 bool file_watch_has(const struct file_watch *w, const char *path);
 
+/* Fails if the path that an option names is one of the files, which the scene
+ * is read from. */
+bool file_watch_spares(const struct file_watch *w, const char *option,
+                       const char *path, struct error *err);
+
 /* Takes the present state of all files as known. */
 void file_watch_settle(struct file_watch *w);
 

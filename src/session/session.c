@@ -167,16 +167,13 @@ bool session_check_output(const struct session *s, const char *option,
                           const char *path, struct error *err)
 {
     struct file_watch files;
-    bool is_read;
+    bool ok;
 
     file_watch_init(&files);
     session_watch(s, &files);
-    is_read = file_watch_has(&files, path);
+    ok = file_watch_spares(&files, option, path, err);
     file_watch_free(&files);
-    return !is_read || fail(err,
-                            "%s: found '%s', which the scene is read from, "
-                            "expected another file",
-                            option, path);
+    return ok;
 }
 
 static bool begin(struct session *s, uint64_t spp, uint64_t steps,

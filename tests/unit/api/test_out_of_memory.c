@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "glim/glim.h"
+#include "tests/unit/folder.h"
 
 #define WIDTH  16
 #define HEIGHT 12
@@ -27,7 +28,7 @@ static atomic_long call_count; /* allocations since the run began */
 static atomic_long live_count; /* blocks that are not freed */
 static long failing;           /* number of the call that fails; 0: none */
 
-static char picture_path[64];
+static char picture_path[200];
 
 static bool fails(void)
 {
@@ -208,8 +209,7 @@ static void check_scene(const char *scene)
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
-    snprintf(picture_path, sizeof picture_path, "/tmp/glim-%d.png",
-             (int)getpid());
+    snprintf(picture_path, sizeof picture_path, "%s/picture.png", folder);
     check_scene("scenes/cornell.obj");
     check_scene("scenes/skylit.obj");
     unlink(picture_path);
@@ -221,5 +221,5 @@ int main(void)
         cmocka_unit_test(every_allocation_may_fail),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, leave_empty_folder);
 }
