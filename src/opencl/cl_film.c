@@ -104,22 +104,33 @@ void cl_readback_free(struct cl_readback *r)
     *r = (struct cl_readback){0};
 }
 
-/* Enqueues a read of every stride-th row of a device buffer. */
+/* Enqueues a read of every stride-th row of a device buffer. The last row is
+ * read by itself, as NVIDIA's driver refuses a rectangle whose last row pitch
+ * ends beyond the buffer. */
 static bool read_rows(const struct cl_readback *r, const struct cl_film *f,
                       const struct cl_machine *m, cl_mem buffer, void *to,
                       size_t pixel_bytes, uint32_t stride, struct error *err)
 {
     size_t row_bytes = (size_t)f->film->width * pixel_bytes;
+    size_t last = r->count - 1;
     const size_t from[3] = {0, r->first, 0};
     const size_t origin[3] = {0, 0, 0};
-    const size_t region[3] = {row_bytes, r->count, 1};
+    const size_t region[3] = {row_bytes, last, 1};
 
-    return cl_machine_check(
-        m,
-        m->api->EnqueueReadBufferRect(m->queue, buffer, CL_FALSE, from, origin,
-                                      region, row_bytes * stride, 0, row_bytes,
-                                      0, to, 0, NULL, NULL),
-        "clEnqueueReadBufferRect", err);
+    return (last == 0 ||
+            cl_machine_check(m,
+                             m->api->EnqueueReadBufferRect(
+                                 m->queue, buffer, CL_FALSE, from, origin,
+                                 region, row_bytes * stride, 0, row_bytes, 0,
+                                 to, 0, NULL, NULL),
+                             "clEnqueueReadBufferRect", err)) &&
+           cl_machine_check(m,
+                            m->api->EnqueueReadBuffer(
+                                m->queue, buffer, CL_FALSE,
+                                (r->first + last) * stride * row_bytes,
+                                row_bytes, (char *)to + last * row_bytes, 0,
+                                NULL, NULL),
+                            "clEnqueueReadBuffer", err);
 }
 
 bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
