@@ -5,13 +5,16 @@
 #include "kernels/sum.h"
 
 __kernel void clear_buffers(ulong pixel_count, __global struct sum *sums,
+                            __global struct sum *odd_sums,
                             __global ulong *counts)
 {
     ulong pixel = get_global_id(0);
 
     if (pixel >= pixel_count)
         return;
-    for (uint c = 0; c < 3; c++)
-        sums[3 * pixel + c].lo = sums[3 * pixel + c].hi = 0;
+    for (ulong i = 3 * pixel; i < 3 * pixel + 3; i++) {
+        sums[i].lo = sums[i].hi = 0;
+        odd_sums[i].lo = odd_sums[i].hi = 0;
+    }
     counts[pixel] = 0;
 }

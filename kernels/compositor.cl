@@ -9,7 +9,9 @@
  * is added. */
 __kernel void add_samples(struct task task,
                           __global const struct path_sample *samples,
-                          __global struct sum *sums, __global ulong *counts,
+                          __global struct sum *sums,
+                          __global struct sum *odd_sums,
+                          __global ulong *counts,
                           volatile __global struct tally *tally)
 {
     uint point = (uint)get_global_id(0);
@@ -21,7 +23,8 @@ __kernel void add_samples(struct task task,
     pixel = task_pixel(task, point);
     samples += (ulong)point * task.samples;
     for (uint s = 0; s < task.samples && samples[s].rays != 0; s++)
-        pixel_add(&sums[3 * pixel], samples[s], &t);
+        pixel_add(&sums[3 * pixel], &odd_sums[3 * pixel], counts[pixel] + s,
+                  samples[s], &t);
     counts[pixel] += t.samples;
     atomic_add(&tally->samples, t.samples);
     atomic_add(&tally->rays, t.rays);

@@ -41,16 +41,26 @@ static inline void channel_add(GLOBAL struct sum *sum, float x, uint32_t *bad,
     sum_add(sum, x);
 }
 
-/* Adds a sample to the three sums of its pixel and to the tally. */
-static inline void pixel_add(GLOBAL struct sum *sums, struct path_sample p,
-                             struct tally *t)
+static inline void rgb_add(GLOBAL struct sum *sums, struct vec3 rgb,
+                           uint32_t *bad, uint32_t *full)
+{
+    channel_add(&sums[0], rgb.x, bad, full);
+    channel_add(&sums[1], rgb.y, bad, full);
+    channel_add(&sums[2], rgb.z, bad, full);
+}
+
+/* Adds sample `index` to the three sums of its pixel, to those of its odd
+ * samples if it is one, and to the tally. */
+static inline void pixel_add(GLOBAL struct sum *sums,
+                             GLOBAL struct sum *odd_sums, uint64_t index,
+                             struct path_sample p, struct tally *t)
 {
     uint32_t bad = 0;
     uint32_t full = 0;
 
-    channel_add(&sums[0], p.radiance.x, &bad, &full);
-    channel_add(&sums[1], p.radiance.y, &bad, &full);
-    channel_add(&sums[2], p.radiance.z, &bad, &full);
+    rgb_add(sums, p.radiance, &bad, &full);
+    if ((index & 1) != 0)
+        rgb_add(odd_sums, p.radiance, &bad, &full);
     t->samples++;
     t->rays += p.rays;
     t->non_finite += bad;

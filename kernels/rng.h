@@ -8,6 +8,13 @@
  * adding or xor-ing them first would make neighbouring pixels share sequences.
  * After 2^32 samples a pixel starts new sequences.
  *
+ * A picture has two such sequences in each pixel, the halves: sample i is
+ * sample i / 2 of half i % 2. The halves are independent, so the variance of
+ * the pixel can be estimated from their difference (picture/film_error.h).
+ * Within one sequence samples depend on each other, and every such estimate is
+ * wrong. The two halves together have 4 to 18 % more variance than a single
+ * sequence of as many samples.
+ *
  * In a draft all pixels share the sequences. Pixels take samples from them in
  * the order of a Morton curve, whose indices the shuffle of sobol.h scrambles
  * as a tree: the samples of a square of pixels are stratified like those of one
@@ -68,6 +75,16 @@ static inline struct sampler sampler_start(uint32_t x, uint32_t y,
     s.key = hash_u32(s.key ^ seed);
     s.key = hash_u32(s.key ^ (uint32_t)(index >> 32));
     s.reversed_index = reverse_bits((uint32_t)index);
+    return s;
+}
+
+/* Sampler of sample `index` of a pixel in a picture. */
+static inline struct sampler sampler_start_half(uint32_t x, uint32_t y,
+                                                uint64_t index, uint32_t seed)
+{
+    struct sampler s = sampler_start(x, y, index >> 1, seed);
+
+    s.key = hash_u32(s.key ^ ((uint32_t)index & 1u));
     return s;
 }
 

@@ -123,6 +123,6 @@ bool path_record_scatter(struct path_record_lobes *l, const struct world *w,
     l->tri = h.tri;
     for (uint32_t i = 0; i < PATH_RECORD_LOBES; i++)
         add_lobe(l, &b, &v, surface_to_local(&v, l->wo),
-                 sampler_start(x, y, i, w->settings.seed));
+                 sampler_start_half(x, y, i, w->settings.seed));
     return true;
 }

@@ -128,7 +128,9 @@ static bool clear_film(struct backend_cl *b, size_t pixel_count,
                                                   &count),
                      "clSetKernelArg", err) &&
            cl_machine_set(&b->machine, clear, 1,
-                          (cl_mem[]){b->film.sums, b->film.counts}, 2, err) &&
+                          (cl_mem[]){b->film.sums, b->film.odd_sums,
+                                     b->film.counts},
+                          3, err) &&
            cl_machine_enqueue(&b->machine, clear, pixel_count, err);
 }
 
@@ -226,9 +228,9 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
            cl_machine_set(&b->machine, k->trace, 4, b->world.buffers,
                           CL_ARRAY_COUNT, err) &&
            cl_machine_set(&b->machine, k->add, 1,
-                          (cl_mem[]){s->samples, b->film.sums, b->film.counts,
-                                     s->tally},
-                          4, err) &&
+                          (cl_mem[]){s->samples, b->film.sums, b->film.odd_sums,
+                                     b->film.counts, s->tally},
+                          5, err) &&
            cl_machine_enqueue(&b->machine, k->generate, paths, err) &&
            cl_machine_enqueue(&b->machine, k->trace, paths, err) &&
            cl_machine_enqueue(&b->machine, k->add, s->task.count, err);

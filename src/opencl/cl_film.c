@@ -16,10 +16,13 @@
 void cl_film_free(struct cl_film *f, const struct cl_machine *m)
 {
     cl_machine_drop(m, &f->sums);
+    cl_machine_drop(m, &f->odd_sums);
     cl_machine_drop(m, &f->counts);
     free(f->host_sums);
+    free(f->host_odd_sums);
     free(f->host_counts);
     f->host_sums = NULL;
+    f->host_odd_sums = NULL;
     f->host_counts = NULL;
     f->pixel_capacity = 0;
 }
@@ -30,14 +33,20 @@ static bool make_film(struct cl_film *f, const struct cl_machine *m,
     cl_film_free(f, m);
     if (m->device->is_cpu) {
         f->host_sums = alloc_array(pixel_count, PIXEL_SUMS_BYTES);
+        f->host_odd_sums = alloc_array(pixel_count, PIXEL_SUMS_BYTES);
         f->host_counts = alloc_array(pixel_count, sizeof *f->host_counts);
-        if (f->host_sums == NULL || f->host_counts == NULL)
+        if (f->host_sums == NULL || f->host_odd_sums == NULL ||
+            f->host_counts == NULL)
             return fail(err, "out of memory for a picture of %zu pixels",
                         pixel_count);
     }
     f->sums = cl_machine_buffer(m, f->host_sums, pixel_count * PIXEL_SUMS_BYTES,
                                 true, err);
     if (f->sums != NULL)
+        f->odd_sums =
+            cl_machine_buffer(m, f->host_odd_sums,
+                              pixel_count * PIXEL_SUMS_BYTES, true, err);
+    if (f->odd_sums != NULL)
         f->counts =
             cl_machine_buffer(m, f->host_counts, pixel_count * sizeof(uint64_t),
                               true, err);
@@ -52,7 +61,7 @@ bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
 {
     size_t pixel_count = (size_t)film->width * (size_t)film->height;
     size_t row_bytes =
-        (size_t)film->width * (PIXEL_SUMS_BYTES + sizeof(uint64_t));
+        (size_t)film->width * (2 * PIXEL_SUMS_BYTES + sizeof(uint64_t));
 
     if (pixel_count > f->pixel_capacity && !make_film(f, m, pixel_count, err))
         return false;
@@ -74,7 +83,7 @@ void cl_film_store_points(struct cl_film *f, const struct task *t)
         film_store_row(f->film, (int)(point % t->columns * t->stride),
                        (int)(row * t->stride), (int)t->stride,
                        (int)(row_end - point), f->host_sums + 3 * at,
-                       f->host_counts + at);
+                       f->host_odd_sums + 3 * at, f->host_counts + at);
         point = row_end;
     }
 }
@@ -90,8 +99,9 @@ bool cl_readback_begin(struct cl_readback *r, const struct cl_film *f,
         return true;
     cl_readback_free(r);
     r->sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
+    r->odd_sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
     r->counts = alloc_array(pixels, sizeof *r->counts);
-    if (r->sums == NULL || r->counts == NULL)
+    if (r->sums == NULL || r->odd_sums == NULL || r->counts == NULL)
         return fail(err, "out of memory for %u rows of the picture",
                     f->readback_rows);
     return true;
@@ -100,6 +110,7 @@ bool cl_readback_begin(struct cl_readback *r, const struct cl_film *f,
 void cl_readback_free(struct cl_readback *r)
 {
     free(r->sums);
+    free(r->odd_sums);
     free(r->counts);
     *r = (struct cl_readback){0};
 }
@@ -139,6 +150,8 @@ bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
 {
     return read_rows(r, f, m, f->sums, r->sums, PIXEL_SUMS_BYTES, stride,
                      err) &&
+           read_rows(r, f, m, f->odd_sums, r->odd_sums, PIXEL_SUMS_BYTES,
+                     stride, err) &&
            read_rows(r, f, m, f->counts, r->counts, sizeof *r->counts, stride,
                      err);
 }
@@ -151,6 +164,6 @@ void cl_readback_store(struct cl_readback *r, struct cl_film *f,
     for (uint32_t i = 0; i < r->count; i++)
         film_store_row(f->film, 0, (int)((r->first + i) * stride), 1,
                        f->film->width, r->sums + 3 * width * i,
-                       r->counts + width * i);
+                       r->odd_sums + 3 * width * i, r->counts + width * i);
     r->count = 0;
 }

@@ -21,9 +21,10 @@
 
 struct cl_film {
     struct film *film; /* the host's film */
-    cl_mem sums, counts;
-    struct sum *host_sums; /* buffer memory on a CPU device, else NULL */
-    uint64_t *host_counts; /* likewise */
+    cl_mem sums, odd_sums, counts;
+    /* memory of these buffers on a CPU device, else NULL */
+    struct sum *host_sums, *host_odd_sums;
+    uint64_t *host_counts;
     size_t pixel_capacity;
     uint32_t readback_rows; /* rows that a reading can hold */
 };
@@ -31,7 +32,7 @@ struct cl_film {
 /* Transfer of rows of a pass's grid to the host. */
 struct cl_readback {
     uint32_t first, count;
-    struct sum *sums; /* whole rows of the film */
+    struct sum *sums, *odd_sums; /* whole rows of the film */
     uint64_t *counts;
 };
 

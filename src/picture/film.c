@@ -36,7 +36,7 @@ static size_t pixel_index(const struct film *f, int x, int y)
 bool film_init(struct film *f, int width, int height, struct error *err)
 {
     size_t pixels = (size_t)width * (size_t)height;
-    size_t size_bytes = pixels * (3 * sizeof *f->sums + sizeof *f->counts);
+    size_t size_bytes = pixels * (6 * sizeof *f->sums + sizeof *f->counts);
     struct memory_quota memory = cgroup_quota_memory("");
 
     *f = (struct film){.width = width, .height = height};
@@ -44,11 +44,14 @@ bool film_init(struct film *f, int width, int height, struct error *err)
      * later */
     if (size_bytes < memory.size_bytes) {
         f->sums = alloc_array(pixels, 3 * sizeof *f->sums);
+        f->odd_sums = alloc_array(pixels, 3 * sizeof *f->odd_sums);
         f->counts = alloc_array(pixels, sizeof *f->counts);
         f->has_row = alloc_array((size_t)height, sizeof *f->has_row);
     }
-    if (f->sums == NULL || f->counts == NULL || f->has_row == NULL) {
+    if (f->sums == NULL || f->odd_sums == NULL || f->counts == NULL ||
+        f->has_row == NULL) {
         free(f->sums);
+        free(f->odd_sums);
         free(f->counts);
         free(f->has_row);
         *f = (struct film){0};
@@ -92,6 +95,7 @@ void film_free(struct film *f)
         for (int i = 0; i < FILM_LOCKS; i++)
             pthread_mutex_destroy(&f->locks[i]);
     free(f->sums);
+    free(f->odd_sums);
     free(f->counts);
     free(f->has_row);
     *f = (struct film){0};
@@ -105,6 +109,8 @@ uint64_t film_count(const struct film *f, int x, int y)
      * while the samples are computed */
     __builtin_prefetch(f->sums + 3 * at);
     __builtin_prefetch(f->sums + 3 * at + 2);
+    __builtin_prefetch(f->odd_sums + 3 * at);
+    __builtin_prefetch(f->odd_sums + 3 * at + 2);
     return f->counts[at];
 }
 
@@ -118,19 +124,22 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
     for (int i = 0; i < pixel_count; i++) {
         size_t at = pixel_index(f, x + i * stride, y);
         struct sum *sums = f->sums + 3 * at;
+        struct sum *odd_sums = f->odd_sums + 3 * at;
 
-        if (counts[i] > 0 && f->counts[at] == 0)
+        if (counts[i] > 0 && f->counts[at] == 0) {
             memset(sums, 0, 3 * sizeof *sums);
+            memset(odd_sums, 0, 3 * sizeof *odd_sums);
+        }
         for (int s = 0; s < counts[i]; s++)
-            pixel_add(sums, *samples++, &tally);
-        f->counts[at] += (uint64_t)counts[i];
+            pixel_add(sums, odd_sums, f->counts[at]++, *samples++, &tally);
     }
     row_unlock(f, y);
     film_count_more(f, &tally);
 }
 
 void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
-                    const struct sum *sums, const uint64_t *counts)
+                    const struct sum *sums, const struct sum *odd_sums,
+                    const uint64_t *counts)
 {
     row_lock(f, y);
     f->has_row[y] = true;
@@ -142,9 +151,32 @@ void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
         if (f->counts[at] == counts[from])
             continue;
         memcpy(f->sums + 3 * at, sums + 3 * from, 3 * sizeof *sums);
+        memcpy(f->odd_sums + 3 * at, odd_sums + 3 * from, 3 * sizeof *odd_sums);
         f->counts[at] = counts[from];
     }
     row_unlock(f, y);
+}
+
+bool film_copy(struct film *to, struct film *from, struct error *err)
+{
+    size_t width = (size_t)from->width;
+
+    if (!film_init(to, from->width, from->height, err))
+        return false;
+    for (int y = 0; y < from->height;
+         y++) { /* whole rows, as they are locked */
+        size_t at = (size_t)y * width;
+
+        row_lock(from, y);
+        memcpy(to->sums + 3 * at, from->sums + 3 * at,
+               3 * width * sizeof *to->sums);
+        memcpy(to->odd_sums + 3 * at, from->odd_sums + 3 * at,
+               3 * width * sizeof *to->odd_sums);
+        memcpy(to->counts + at, from->counts + at, width * sizeof *to->counts);
+        to->has_row[y] = from->has_row[y];
+        row_unlock(from, y);
+    }
+    return true;
 }
 
 void film_count_more(struct film *f, const struct tally *tally)

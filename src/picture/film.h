@@ -35,9 +35,10 @@
 
 struct film {
     int width, height;
-    struct sum *sums; /* 3 per pixel; guarded by locks[y % FILM_LOCKS] */
-    uint64_t *counts; /* samples of each pixel; guarded likewise */
-    bool *has_row;    /* whether a row has samples; guarded likewise */
+    struct sum *sums;     /* 3 per pixel; guarded by locks[y % FILM_LOCKS] */
+    struct sum *odd_sums; /* likewise, of samples with odd indices only */
+    uint64_t *counts;     /* samples of each pixel; guarded likewise */
+    bool *has_row;        /* whether a row has samples; guarded likewise */
     pthread_mutex_t locks[FILM_LOCKS];
     atomic_uint_least64_t samples; /* of all pixels */
     atomic_uint_least64_t rays;
@@ -72,12 +73,16 @@ uint64_t film_count(const struct film *film, int x, int y);
 void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
                   const struct path_sample *samples, const int *counts);
 
-/* Replaces pixels x, x + stride, ... of row y by sums that a device keeps.
- * `sums` and `counts` begin with those of pixel 0 of the row. Pixels whose
- * count is unchanged are skipped. */
+/* Replaces pixels x, x + stride, ... of row y by sums that a device keeps. The
+ * arrays begin with pixel 0 of the row. Pixels whose count is unchanged are
+ * skipped. */
 void film_store_row(struct film *film, int x, int y, int stride,
                     int pixel_count, const struct sum *sums,
-                    const uint64_t *counts);
+                    const struct sum *odd_sums, const uint64_t *counts);
+
+/* Copies the pixels of another film into an uninitialised one. The counters
+ * stay 0. */
+bool film_copy(struct film *to, struct film *from, struct error *err);
 
 /* Adds to the counters for samples whose sums are stored elsewhere or later. */
 void film_count_more(struct film *film, const struct tally *tally);

@@ -20,33 +20,11 @@ bool save_thread_init(struct save_thread *s, struct error *err)
     return true;
 }
 
-/* Copies row by row, so that the sums and counts of a row belong together. */
-static bool copy_film(struct film *to, struct film *from, struct error *err)
-{
-    size_t width = (size_t)from->width;
-
-    if (!film_init(to, from->width, from->height, err))
-        return false;
-    for (int y = 0; y < from->height; y++) {
-        pthread_mutex_t *lock = &from->locks[y % FILM_LOCKS];
-        size_t first = (size_t)y * width;
-
-        pthread_mutex_lock(lock);
-        memcpy(to->sums + 3 * first, from->sums + 3 * first,
-               3 * width * sizeof to->sums[0]);
-        memcpy(to->counts + first, from->counts + first,
-               width * sizeof to->counts[0]);
-        to->has_row[y] = from->has_row[y];
-        pthread_mutex_unlock(lock);
-    }
-    return true;
-}
-
 static void *saver_main(void *argument)
 {
     struct save_thread *s = argument;
     struct film copy = {0};
-    bool ok = copy_film(&copy, s->film, &s->error);
+    bool ok = film_copy(&copy, s->film, &s->error);
 
     pthread_mutex_lock(&s->lock);
     s->has_copied = true;

@@ -229,7 +229,7 @@ static void check_film(void)
 
     if (!film_init(&film, 1, 1, &err))
         stress_scene_stop(err.text);
-    film_store_row(&film, 0, 0, 1, 1, sums, &count);
+    film_store_row(&film, 0, 0, 1, 1, sums, sums, &count);
     for (int i = 0; i < 8; i++)
         samples[i] = (struct path_sample){.radiance = {1, 1, 1}};
     film_add_row(&film, 0, 0, 1, 1, samples, (const int[]){8});

@@ -109,6 +109,64 @@ static void points_are_nets(void **state)
     assert_true(is_net(3, 0, 12, 10));
 }
 
+/* Mean over 2^m samples of one half of a pixel. */
+static double half_mean_of(const struct integrand *g, uint32_t x, uint32_t y,
+                           uint64_t half, int count)
+{
+    double sum = 0;
+
+    for (int i = 0; i < count; i++)
+        sum += g->f(
+            random_2d(sampler_start_half(x, y, 2 * (uint64_t)i + half, 0), 10));
+    return sum / count;
+}
+
+/* The errors of the two halves of a pixel are uncorrelated, so that the square
+ * of half their difference estimates the variance of their mean: chance exceeds
+ * 5 standard errors once in 2e6. The same estimate from the two halves of one
+ * sequence is several times too high. */
+static void halves_are_independent(void **state)
+{
+    const int n = 40000, count = 16;
+
+    (void)state;
+    for (size_t g = 0; g < INTEGRAND_COUNT; g++) {
+        const struct integrand *f = &integrands[g];
+        double products = 0, squares = 0, adjacent = 0, whole = 0;
+
+        for (int i = 0; i < n; i++) {
+            uint32_t x = (uint32_t)i % 200, y = (uint32_t)i / 200;
+            double a = half_mean_of(f, x, y, 0, count) - f->integral;
+            double b = half_mean_of(f, x, y, 1, count) - f->integral;
+            double c = mean_of(f, x, y, 0, count, 10) - f->integral;
+            double d = mean_of(f, x, y, 16, count, 10) - f->integral;
+
+            products += a * b;
+            squares += a * a * b * b;
+            adjacent += (c - d) * (c - d) / 4;
+            whole += (c + d) * (c + d) / 4;
+        }
+        check_at_most(fabs(products) / sqrt(squares), 5);
+        assert_true(adjacent > 1.5 * whole);
+    }
+}
+
+/* Each half of a picture's pixel is a sequence of nets of its own. */
+static void halves_are_nets(void **state)
+{
+    (void)state;
+    for (uint64_t half = 0; half < 2; half++)
+        for (int k = 0; k <= 6; k++) {
+            bool is_taken[1 << 12] = {false};
+
+            for (uint64_t i = 0; i < 64; i++)
+                assert_true(take_box(
+                    is_taken,
+                    random_2d(sampler_start_half(3, 5, 2 * i + half, 7), 9), k,
+                    6 - k));
+        }
+}
+
 /* Single points are uniform: chi-square over 16 x 16 boxes, 255 degrees of
  * freedom, for each of 64 sample indices. Chance exceeds 5.5 standard errors
  * once in 5e7. */
@@ -459,6 +517,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unit_floats_stay_below_one),
         cmocka_unit_test(points_are_nets),
+        cmocka_unit_test(halves_are_independent),
+        cmocka_unit_test(halves_are_nets),
         cmocka_unit_test(each_index_is_uniform),
         cmocka_unit_test(numbers_are_uncorrelated),
         cmocka_unit_test(errors_are_uncorrelated),

@@ -181,6 +181,35 @@ static void bad_samples_count_as_zero(void **state)
     film_free(&film);
 }
 
+/* Samples with odd indices are also summed by themselves, however many are
+ * added at a time. */
+static void odd_samples_have_sums_of_their_own(void **state)
+{
+    struct film film, copy;
+    struct error err;
+    struct path_sample samples[7];
+    int counts[1];
+
+    (void)state;
+    assert_true(film_init(&film, 3, 2, &err));
+    for (int i = 0; i < 7; i++)
+        samples[i] = grey(ldexpf(1.0f, i));
+    samples[3] = grey(NAN); /* counts as 0 in both sums */
+    for (int i = 0; i < 7; i += counts[0]) {
+        counts[0] = i == 1 ? 3 : i == 4 ? 2 : 1;
+        film_add_row(&film, 1, 1, 1, 1, samples + i, counts);
+    }
+    assert_true(film_copy(&copy, &film, &err));
+    for (int c = 0; c < 3; c++) {
+        check_close(sum_float(copy.sums[3 * 4 + c]), ldexp(127 - 8, -c), 0);
+        check_close(sum_float(copy.odd_sums[3 * 4 + c]), ldexp(2 + 32, -c), 0);
+    }
+    assert_int_equal(copy.counts[4], 7);
+    assert_int_equal(atomic_load(&film.non_finite), 1);
+    film_free(&copy);
+    film_free(&film);
+}
+
 /* The preview averages with a box filter, so its mean is the picture's mean. */
 static void preview_averages(void **state)
 {
@@ -403,6 +432,7 @@ int main(void)
         cmocka_unit_test(bytes_follow_the_srgb_curve),
         cmocka_unit_test(film_shows_means_and_fills_gaps),
         cmocka_unit_test(bad_samples_count_as_zero),
+        cmocka_unit_test(odd_samples_have_sums_of_their_own),
         cmocka_unit_test(preview_averages),
         cmocka_unit_test(previews_add_the_draft),
         cmocka_unit_test(young_films_turn_into_files),
