@@ -129,10 +129,11 @@ static bool write_picture(struct session *s, const struct frame *frame,
                           struct error *err)
 {
     const char *path = s->options->output_path;
+    struct image_metadata metadata = session_metadata(s);
 
     return frame ? image_write_frame(frame, path, err)
-                 : image_write(render_film(s->render), session_develop(s), path,
-                               err);
+                 : image_write(render_film(s->render), session_develop(s),
+                               &metadata, path, err);
 }
 
 /* Writes to a file with a free name and returns the name, for free(). */
@@ -142,10 +143,11 @@ static char *write_numbered(struct session *s, const struct frame *frame,
     char *stem = xchecked(path_stem(s->options->scene_path));
     const char *slash = strrchr(stem, '/');
     const char *last = slash ? slash + 1 : stem;
+    struct image_metadata metadata = session_metadata(s);
     char *name =
         frame ? image_write_frame_numbered(frame, last, err)
               : image_write_numbered(render_film(s->render), session_develop(s),
-                                     last, "png", err);
+                                     &metadata, last, "png", err);
 
     free(stem);
     return name;

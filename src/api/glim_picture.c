@@ -6,11 +6,19 @@
 
 #include "picture/film.h"
 #include "picture/image_write.h"
+#include "render/render_metadata.h"
 
 static struct develop develop_of(const struct glim *g)
 {
     return (struct develop){(float)g->view.lighting.exposure,
                             g->view.lighting.tone};
+}
+
+static struct image_metadata metadata_of(const struct glim *g)
+{
+    struct render_progress p = render_progress(g->render);
+
+    return render_metadata(&p, g->scene.path, g->seed);
 }
 
 /* Returns the film, or NULL with an error if there is no picture. */
@@ -73,22 +81,29 @@ bool glim_read_bytes(struct glim *g, uint8_t *rgb, size_t count,
 bool glim_save(struct glim *g, const char *path, struct glim_error *err)
 {
     struct film *film = film_of(g, err);
+    struct image_metadata metadata;
     struct error why;
 
-    return film != NULL && (image_write(film, develop_of(g), path, &why) ||
-                            handle_fail(err, &why));
+    if (film == NULL)
+        return false;
+    metadata = metadata_of(g);
+    return image_write(film, develop_of(g), &metadata, path, &why) ||
+           handle_fail(err, &why);
 }
 
 const char *glim_save_new(struct glim *g, const char *stem,
                           struct glim_error *err)
 {
     struct film *film = film_of(g, err);
+    struct image_metadata metadata;
     struct error why;
     char *name;
 
     if (film == NULL)
         return NULL;
-    name = image_write_numbered(film, develop_of(g), stem, "png", &why);
+    metadata = metadata_of(g);
+    name =
+        image_write_numbered(film, develop_of(g), &metadata, stem, "png", &why);
     if (name == NULL) {
         handle_fail(err, &why);
         return NULL;

@@ -103,6 +103,41 @@ static bool expect_size(int width, int height, size_t pixel_bytes,
                 path, width, height, most);
 }
 
+/* Inserts bytes into the file at the offset `at`. */
+static void insert(struct buffer *b, size_t at, unsigned char *bytes,
+                   size_t size_bytes)
+{
+    size_t end = b->size_bytes;
+    char *data;
+
+    append(b, bytes, (int)size_bytes);
+    if (b->is_cut)
+        return;
+    data = b->data;
+    memmove(data + at + size_bytes, data + at, end - at);
+    memcpy(data + at, bytes, size_bytes);
+}
+
+/* Inserts the chunks behind the signature and IHDR. */
+static void insert_chunks(struct buffer *b, const struct image_metadata *m)
+{
+    enum { SIGNATURE_BYTES = 8, IHDR_BYTES = 12 + 13 };
+    unsigned char bytes[IMAGE_METADATA_BYTES];
+
+    insert(b, SIGNATURE_BYTES + IHDR_BYTES, bytes,
+           image_metadata_png(m, bytes));
+}
+
+/* Inserts the comments behind the first line, which names the format. */
+static void insert_comments(struct buffer *b, const struct image_metadata *m)
+{
+    const char *line_end = memchr(b->data, '\n', b->size_bytes);
+    unsigned char bytes[IMAGE_METADATA_BYTES];
+
+    insert(b, (size_t)(line_end + 1 - (const char *)b->data), bytes,
+           image_metadata_hdr(m, bytes));
+}
+
 static bool encode_frame(const struct frame *frame, const char *path,
                          struct buffer *b, struct error *err)
 {
@@ -209,8 +244,17 @@ static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
     return !b->is_cut || out_of_memory(film->width, film->height, path, err);
 }
 
-static bool encode(struct film *film, struct develop how, const char *path,
-                   struct buffer *b, struct error *err)
+static void embed(const struct image_metadata *m,
+                  enum image_write_format format, struct buffer *b)
+{
+    if (format == IMAGE_WRITE_PNG)
+        insert_chunks(b, m);
+    else if (format == IMAGE_WRITE_HDR)
+        insert_comments(b, m);
+}
+
+static bool encode_pixels(struct film *film, struct develop how,
+                          const char *path, struct buffer *b, struct error *err)
 {
     switch (image_write_format_of(path)) {
     case IMAGE_WRITE_PNG: return encode_png(film, how, path, b, err);
@@ -222,6 +266,17 @@ static bool encode(struct film *film, struct develop how, const char *path,
                 path);
 }
 
+static bool encode(struct film *film, struct develop how,
+                   const struct image_metadata *metadata, const char *path,
+                   struct buffer *b, struct error *err)
+{
+    if (!encode_pixels(film, how, path, b, err))
+        return false;
+    if (metadata != NULL)
+        embed(metadata, image_write_format_of(path), b);
+    return !b->is_cut || out_of_memory(film->width, film->height, path, err);
+}
+
 /* Writes the buffer to the file or to standard output. */
 static bool publish(const struct buffer *b, const char *path, struct error *err)
 {
@@ -230,11 +285,13 @@ static bool publish(const struct buffer *b, const char *path, struct error *err)
     return file_write(path, b->data, b->size_bytes, false, NULL, err);
 }
 
-bool image_write(struct film *film, struct develop how, const char *path,
+bool image_write(struct film *film, struct develop how,
+                 const struct image_metadata *metadata, const char *path,
                  struct error *err)
 {
     struct buffer b = {.data = NULL};
-    bool ok = encode(film, how, path, &b, err) && publish(&b, path, err);
+    bool ok =
+        encode(film, how, metadata, path, &b, err) && publish(&b, path, err);
 
     free(b.data);
     return ok;
@@ -252,6 +309,7 @@ bool image_write_frame(const struct frame *frame, const char *path,
 }
 
 char *image_write_numbered(struct film *film, struct develop how,
+                           const struct image_metadata *metadata,
                            const char *stem, const char *ending,
                            struct error *err)
 {
@@ -261,7 +319,7 @@ char *image_write_numbered(struct film *film, struct develop how,
 
     if (!name)
         fail(err, "%s: out of memory for its name", stem);
-    if (name && encode(film, how, name, &b, err))
+    if (name && encode(film, how, metadata, name, &b, err))
         path = file_write_numbered(stem, ending, b.data, b.size_bytes, err);
     free(b.data);
     free(name);

@@ -14,6 +14,7 @@
 #include <stdbool.h>
 
 #include "picture/film.h"
+#include "picture/image_metadata.h"
 
 enum image_write_format {
     IMAGE_WRITE_PNG,
@@ -30,18 +31,21 @@ enum image_write_format image_write_format_of(const char *path);
 bool image_write_check(const char *path, struct error *err);
 
 /* Writes the file atomically (file_write()), so that readers see the old file
- * or the new one. "-" is standard output. */
-bool image_write(struct film *film, struct develop how, const char *path,
+ * or the new one. "-" is standard output. PNG and HDR files carry the metadata,
+ * which may be NULL; PFM files have no place for it. */
+bool image_write(struct film *film, struct develop how,
+                 const struct image_metadata *metadata, const char *path,
                  struct error *err);
 
 /* Writes the file under the first free name of STEM.ENDING, STEM-2.ENDING,
  * STEM-3.ENDING and so on. Never replaces a file. The ending is one of the
  * formats'. Returns the name for free(), or NULL on failure. */
 char *image_write_numbered(struct film *film, struct develop how,
+                           const struct image_metadata *metadata,
                            const char *stem, const char *ending,
                            struct error *err);
 
-/* Write a frame as PNG, in the same ways. */
+/* Write a frame as PNG, in the same ways, without metadata. */
 bool image_write_frame(const struct frame *frame, const char *path,
                        struct error *err);
 char *image_write_frame_numbered(const struct frame *frame, const char *stem,

@@ -31,16 +31,17 @@ static void *saver_main(void *argument)
     pthread_cond_signal(&s->copied);
     pthread_mutex_unlock(&s->lock);
     if (ok)
-        s->name =
-            image_write_numbered(&copy, s->how, s->stem, s->ending, &s->error);
+        s->name = image_write_numbered(&copy, s->how, &s->metadata, s->stem,
+                                       s->ending, &s->error);
     film_free(&copy);
     event_fd_set(s->event_fd);
     return NULL;
 }
 
 bool save_thread_begin(struct save_thread *s, struct film *film,
-                       struct develop how, const char *stem, const char *ending,
-                       struct error *err)
+                       struct develop how,
+                       const struct image_metadata *metadata, const char *stem,
+                       const char *ending, struct error *err)
 {
     int reason;
 
@@ -49,6 +50,7 @@ bool save_thread_begin(struct save_thread *s, struct film *film,
                     stem, ending);
     s->film = film;
     s->how = how;
+    s->metadata = *metadata;
     s->stem = xstrdup(stem);
     s->ending = ending;
     s->has_copied = false;

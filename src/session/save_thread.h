@@ -17,6 +17,7 @@
 #include <stdbool.h>
 
 #include "picture/film.h"
+#include "picture/image_metadata.h"
 
 struct save_thread {
     int event_fd; /* readable when a picture is complete */
@@ -25,6 +26,7 @@ struct save_thread {
     /* set before the thread starts */
     struct film *film;
     struct develop how;
+    struct image_metadata metadata;
     char *stem;
     const char *ending;
     /* guarded by lock */
@@ -42,8 +44,9 @@ bool save_thread_init(struct save_thread *s, struct error *err);
  * another one of image_write.h. Returns false if another picture is being saved
  * or no thread can start. */
 bool save_thread_begin(struct save_thread *s, struct film *film,
-                       struct develop how, const char *stem, const char *ending,
-                       struct error *err);
+                       struct develop how,
+                       const struct image_metadata *metadata, const char *stem,
+                       const char *ending, struct error *err);
 
 /* Blocks until the film may be cleared: a few milliseconds for common sizes. */
 void save_thread_wait_copied(struct save_thread *s);

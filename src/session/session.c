@@ -246,6 +246,13 @@ struct render_progress session_progress(struct session *s)
     return p;
 }
 
+struct image_metadata session_metadata(const struct session *s)
+{
+    struct render_progress p = render_progress(s->render);
+
+    return render_metadata(&p, s->scene.path, s->options->seed);
+}
+
 bool session_uses_device(const struct session *s)
 {
     return render_backend(s->render) != s->backends.cpu;

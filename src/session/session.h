@@ -13,6 +13,7 @@
 
 #include "scene/world.h"
 #include "render/render_loop.h"
+#include "render/render_metadata.h"
 #include "render/render_rates.h"
 #include "session/backends.h"
 #include "session/command_line.h"
@@ -89,6 +90,9 @@ struct develop session_develop(const struct session *s);
 /* Returns the progress of the render and adds it to the speeds. Call it several
  * times per second. */
 struct render_progress session_progress(struct session *s);
+
+/* Returns the metadata of the picture as it is now. */
+struct image_metadata session_metadata(const struct session *s);
 
 /* Returns true if an OpenCL device renders. */
 bool session_uses_device(const struct session *s);

@@ -10,57 +10,26 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/print.h"
+#include "base/utf8.h"
 #include "glim/version.h"
-
-/* Returns the length of the UTF-8 character at p, or 0 if it is invalid. */
-static size_t utf8_length(const unsigned char *p)
-{
-    size_t length = *p < 0x80                 ? 1
-                    : *p >= 0xc2 && *p < 0xe0 ? 2
-                    : *p >= 0xe0 && *p < 0xf0 ? 3
-                    : *p >= 0xf0 && *p < 0xf5 ? 4
-                                              : 0;
-
-    for (size_t i = 1; i < length; i++) {
-        if ((p[i] & 0xc0) != 0x80)
-            return 0; /* also at the closing NUL */
-    }
-    /* overlong forms, surrogates, beyond U+10FFFF */
-    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) ||
-        (p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] > 0x8f))
-        return 0;
-    return length;
-}
-
-/* Returns the code point of a UTF-8 character. */
-static uint32_t utf8_code(const unsigned char *p, size_t length)
-{
-    uint32_t code = length == 1 ? *p : *p & (0x7fu >> length);
-
-    for (size_t i = 1; i < length; i++)
-        code = code << 6 | (p[i] & 0x3fu);
-    return code;
-}
 
 /* Writes a JSON string. Bytes that are not UTF-8, which JSON cannot hold,
  * become U+FFFD. Characters that print.h does not show are escaped; they are
  * never beyond U+FFFF. */
 static void write_string(FILE *to, const char *text)
 {
-    const unsigned char *p = (const unsigned char *)text;
-
     fputc('"', to);
-    while (*p) {
-        size_t length = utf8_length(p);
-        uint32_t code = length == 0 ? 0xfffd : utf8_code(p, length);
+    while (*text) {
+        size_t length = utf8_length(text);
+        uint32_t code = length == 0 ? 0xfffd : utf8_code(text, length);
 
         if (length == 0 || !print_shows(code))
             fprintf(to, "\\u%04" PRIx32, code);
-        else if (*p == '"' || *p == '\\')
-            fprintf(to, "\\%c", *p);
+        else if (*text == '"' || *text == '\\')
+            fprintf(to, "\\%c", *text);
         else
-            fwrite(p, 1, length, to);
-        p += length > 0 ? length : 1;
+            fwrite(text, 1, length, to);
+        text += length > 0 ? length : 1;
     }
     fputc('"', to);
 }

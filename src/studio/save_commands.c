@@ -30,6 +30,7 @@ static char *scene_name(const struct render_control *control)
 void save_picture(struct render_control *control, const char *ending)
 {
     struct render_progress now = render_progress(control->session->render);
+    struct image_metadata metadata = session_metadata(control->session);
     struct error err;
     char *stem;
 
@@ -40,8 +41,8 @@ void save_picture(struct render_control *control, const char *ending)
     stem = scene_name(control);
     if (save_thread_begin(&control->saver,
                           render_film(control->session->render),
-                          session_develop(control->session), stem, ending,
-                          &err)) {
+                          session_develop(control->session), &metadata, stem,
+                          ending, &err)) {
         control->saving_samples = now.samples;
         snprintf(control->saving_what, sizeof control->saving_what,
                  "%dx%d, %" PRIu64 " spp",
@@ -184,18 +185,20 @@ static bool is_worth_keeping(const struct render_control *control)
 void save_lost_picture(struct render_control *control)
 {
     struct session *s = control->session;
+    struct image_metadata metadata;
     struct error err;
     char *path, *text;
 
     render_halt(s->render);
     control->progress = render_progress(s->render);
+    metadata = session_metadata(s);
     if (!is_worth_keeping(control))
         return;
     path = recent_lost_path();
     if (!path)
         text = xstrdup("not kept: found no folder for the person's state");
-    else if (image_write(render_film(s->render), session_develop(s), path,
-                         &err))
+    else if (image_write(render_film(s->render), session_develop(s), &metadata,
+                         path, &err))
         text = xformat("kept %s, %" PRIu64 " spp", path,
                        control->progress.spp_done);
     else

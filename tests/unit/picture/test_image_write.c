@@ -41,7 +41,7 @@ static void png_has_the_frame_s_bytes(void **state)
     for (float exposure = -2; exposure <= 2; exposure += 2) {
         film_resolve(&film, develop_linear(exposure), &frame);
         assert_true(
-            image_write(&film, develop_linear(exposure), "a.png", &err));
+            image_write(&film, develop_linear(exposure), NULL, "a.png", &err));
         has_bytes("a.png", &frame);
     }
     frame_free(&frame);
@@ -58,7 +58,7 @@ static void hdr_has_the_film_s_means(void **state)
 
     (void)state;
     make_film(&film, WIDTH, HEIGHT, wide_range);
-    assert_true(image_write(&film, develop_linear(3), "a.hdr", &err));
+    assert_true(image_write(&film, develop_linear(3), NULL, "a.hdr", &err));
     film_free(&film);
     assert_true(image_read_linear(&image, "a.hdr", &clamped, &err));
     assert_int_equal(image.width, WIDTH);
@@ -99,7 +99,7 @@ static void hdr_is_right_beside_powers_of_two(void **state)
 
     (void)state;
     make_film(&film, WIDTH, HEIGHT, near_powers);
-    assert_true(image_write(&film, develop_linear(0), "p.hdr", &err));
+    assert_true(image_write(&film, develop_linear(0), NULL, "p.hdr", &err));
     film_free(&film);
     assert_true(image_read_linear(&image, "p.hdr", &clamped, &err));
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -121,7 +121,7 @@ static void pfm_has_the_film_s_exact_means(void **state)
     float *linear = calloc(WIDTH * HEIGHT * 3, sizeof *linear);
     assert_non_null(linear);
     film_linear(&film, linear);
-    assert_true(image_write(&film, develop_linear(5), "a.pfm", &err));
+    assert_true(image_write(&film, develop_linear(5), NULL, "a.pfm", &err));
     film_free(&film);
     char *text = read_file("a.pfm", &size);
     size_t head = strlen(header);
@@ -152,7 +152,8 @@ static void small_pictures_are_written(void **state)
         struct film film;
         make_film(&film, sizes[i][0], sizes[i][1], light);
         for (int k = 0; k < 3; k++)
-            assert_true(image_write(&film, develop_linear(0), paths[k], &err));
+            assert_true(
+                image_write(&film, develop_linear(0), NULL, paths[k], &err));
         struct frame frame;
         assert_true(frame_init(&frame, sizes[i][0], sizes[i][1], &err));
         film_resolve(&film, develop_linear(0), &frame);

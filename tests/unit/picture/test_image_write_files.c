@@ -114,7 +114,7 @@ static bool write_to_pipe(struct film *film, bool reads, struct error *err)
     close(ends[1]);
     if (!reads)
         waitpid(child, &status, 0);
-    bool ok = image_write(film, develop_linear(0), "-", err);
+    bool ok = image_write(film, develop_linear(0), NULL, "-", err);
     dup2(saved, STDOUT_FILENO);
     close(saved);
     if (reads)
@@ -163,8 +163,8 @@ static void numbered_pictures_take_the_first_free_name(void **state)
     fclose(fopen("n-3.png", "w"));
     assert_int_equal(symlink("nowhere", "n-5.png"), 0);
     for (int i = 0; i < 4; i++) {
-        char *path =
-            image_write_numbered(&film, develop_linear(0), "n", "png", &err);
+        char *path = image_write_numbered(&film, develop_linear(0), NULL, "n",
+                                          "png", &err);
         assert_non_null(path);
         assert_string_equal(path, expected[i]);
         assert_int_equal(stat(path, &st), 0);
@@ -174,8 +174,8 @@ static void numbered_pictures_take_the_first_free_name(void **state)
     assert_int_equal(stat("n-3.png", &st), 0);
     assert_int_equal(st.st_size, 0);
     assert_false(exists("nowhere"));
-    assert_null(
-        image_write_numbered(&film, develop_linear(0), "no/n", "png", &err));
+    assert_null(image_write_numbered(&film, develop_linear(0), NULL, "no/n",
+                                     "png", &err));
     assert_string_equal(err.text, "no/n.png: no such file or folder");
     film_free(&film);
 }
@@ -196,7 +196,7 @@ static void numbered_names_are_never_taken_twice(void **state)
             int written = 0;
             for (int k = 0; k < 10; k++) {
                 char *name = image_write_numbered(&film, develop_linear(0),
-                                                  "race", "png", &err);
+                                                  NULL, "race", "png", &err);
                 written += name != NULL;
                 free(name);
             }
@@ -222,8 +222,8 @@ static void write_forever(struct film *a, struct film *b)
     struct error err;
 
     for (;;) {
-        if (!image_write(a, develop_linear(0), "k.png", &err) ||
-            !image_write(b, develop_linear(0), "k.png", &err))
+        if (!image_write(a, develop_linear(0), NULL, "k.png", &err) ||
+            !image_write(b, develop_linear(0), NULL, "k.png", &err))
             _exit(1);
     }
 }
@@ -242,7 +242,8 @@ static void killed_writers_leave_a_whole_picture(void **state)
     make_film(&films[0], 160, 120, noise);
     make_film(&films[1], 160, 120, dark);
     for (int i = 0; i < 2; i++) {
-        assert_true(image_write(&films[i], develop_linear(0), "k.png", &err));
+        assert_true(
+            image_write(&films[i], develop_linear(0), NULL, "k.png", &err));
         files[i] = read_file("k.png", &size);
         sizes[i] = size;
     }
@@ -282,11 +283,12 @@ static bool fails_on_full_disk(struct film *film)
     signal(SIGXFSZ, SIG_IGN);
     ok = setrlimit(RLIMIT_FSIZE, &limit) == 0;
     for (int i = 0; i < 3; i++)
-        ok = ok && !image_write(film, develop_linear(0), paths[i], &err) &&
+        ok = ok &&
+             !image_write(film, develop_linear(0), NULL, paths[i], &err) &&
              strstr(err.text, ": File too large") &&
              strncmp(err.text, paths[i], 5) == 0;
-    return ok &&
-           !image_write_numbered(film, develop_linear(0), "full", "png", &err);
+    return ok && !image_write_numbered(film, develop_linear(0), NULL, "full",
+                                       "png", &err);
 }
 
 static void full_disk_keeps_the_old_picture(void **state)
@@ -315,7 +317,7 @@ static void full_disk_keeps_the_old_picture(void **state)
     int saved = dup(STDOUT_FILENO), full = open("/dev/full", O_WRONLY);
     fflush(stdout);
     dup2(full, STDOUT_FILENO);
-    bool ok = image_write(&film, develop_linear(0), "-", &err);
+    bool ok = image_write(&film, develop_linear(0), NULL, "-", &err);
     dup2(saved, STDOUT_FILENO);
     close(saved);
     close(full);
