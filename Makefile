@@ -73,14 +73,16 @@ FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
 	FEATURE_GUIDE
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
+# src/filter/filter_loops.c is built for each instruction set.
+FILTERS := $(ISAS:%=$(B)/filter_loops_%.o)
 SOURCES := $(wildcard src/*.c src/*/*.c)
 OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(SOURCES)) $(B)/kernels.o \
-	$(PATHS)
+	$(PATHS) $(FILTERS)
 LIBRARY := $(filter-out $(B)/main.o,$(OBJECTS))
 # libglim: the folders up to src/api/ in the table of CONTRIBUTING.md.
-LIB_FOLDERS := base picture bvh light scene formats render opencl api
+LIB_FOLDERS := base picture filter bvh light scene formats render opencl api
 LIB_OBJECTS := $(patsubst src/%.c,$(B)/%.o,$(foreach d,$(LIB_FOLDERS), \
-	$(wildcard src/$(d)/*.c))) $(B)/kernels.o $(PATHS)
+	$(wildcard src/$(d)/*.c))) $(B)/kernels.o $(PATHS) $(FILTERS)
 VERSION := $(shell sed -n 's/.*GLIM_VERSION *"\(.*\)"/\1/p' include/glim/version.h)
 SONAME := libglim.so.$(firstword $(subst ., ,$(VERSION)))
 LIB_FILES := $(B)/libglim.a $(B)/libglim.so.$(VERSION) $(B)/glim.pc
@@ -134,6 +136,11 @@ $(PATHS): $(B)/paths_%.o: src/render/cpu_kernel.c $(B)/flags
 	$(SAY) CC '$< ($*)'
 	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$(ISA)) $(FLAGS_$(SET)) -DPATHS=paths_$* \
 		-DPATHS_NAME='"$(ISA)"' $(if $(SET),-DFEATURES='($(FEATURES_$(SET)))') \
+		-MMD -MP -c -o $@ $<
+
+$(FILTERS): $(B)/filter_loops_%.o: src/filter/filter_loops.c $(B)/flags
+	$(SAY) CC '$< ($*)'
+	$(Q)$(CC) $(ALL_CFLAGS) $(FLAGS_$*) -DLOOPS=filter_loops_$* \
 		-MMD -MP -c -o $@ $<
 
 # The time of the folder changes when a file is added or removed.

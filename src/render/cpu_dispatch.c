@@ -5,22 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#if defined(__x86_64__)
-
-static bool has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-           __builtin_cpu_supports("bmi");
-}
-
-static bool has_avx512(void)
-{
-    return has_avx2() && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512bw");
-}
-
-#endif
+#include "base/cpu_features.h"
 
 static bool always(void)
 {
@@ -50,8 +35,8 @@ static const struct {
     bool (*is_supported)(void);
 } sets[] = {
 #if defined(__x86_64__)
-    {BUILDS_OF(avx512), has_avx512},
-    {BUILDS_OF(avx2), has_avx2},
+    {BUILDS_OF(avx512), cpu_has_avx512},
+    {BUILDS_OF(avx2), cpu_has_avx2},
 #endif
     {BUILDS_OF(plain), always},
 };

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+/*
+ * filter.h - arithmetic of the denoising filter
+ *
+ * The filter is an edge-avoiding a-trous wavelet transform (Dammertz et al.
+ * 2010) of two half pictures a and b with independent samples. Each half is
+ * filtered with weights from the other half (cross filtering, Rousselle et al.
+ * 2012, "Adaptive rendering with non-local means filtering"), so that noise
+ * does not choose its own weights. Light is divided by the albedo before and
+ * multiplied by it afterwards. A pixel p averages the pixels q at distances of
+ * 1, 2, 4, ... pixels in FILTER_LEVELS turns.
+ *
+ * A level computes, for each pixel p and each of eight pixels q,
+ *     filter_channel_distance() of three channels, summed over the 3x3 pixels
+ *         around p, and filter_light_distance() of the sum;
+ *     filter_feature_distance() of squared differences of features;
+ *     filter_weight() of both.
+ *
+ * Units: light scaled by a power of two so that its greatest number is about
+ *        2^FILTER_TOP; features divided by the differences that are edges
+ */
+#ifndef KERNELS_FILTER_H
+#define KERNELS_FILTER_H
+
+#include "kernels/vec.h"
+
+#define FILTER_LEVELS 6
+
+/* Exponent of the greatest light: its squares, and sums of 25 of them, are
+ * finite, and differences down to 2^-100 of it have squares above 0. */
+#define FILTER_TOP 55
+
+/* Least variance. It only prevents a division of 0 by 0. */
+#define FILTER_VARIANCE_MIN 0x1p-120f
+
+/* Squared number of standard deviations that count as noise. */
+#define FILTER_NOISE (1.6f * 1.6f)
+
+/* Weight of the pixel itself. Its eight neighbours have 1/8 and 1/16. */
+#define FILTER_CENTRE 0.25f
+
+/* Added to the albedo by which light is divided. */
+#define FILTER_ALBEDO_MIN 1e-3f
+
+/* Inverse differences of features that are edges: of albedos, of normals, and
+ * of depths as fractions of the picture's mean depth. */
+#define FILTER_ALBEDO_SCALE 7.0710678f /* 1 / (sqrt(2) * .1) */
+#define FILTER_NORMAL_SCALE 1.7677670f /* 1 / (sqrt(2) * .4) */
+#define FILTER_DEPTH_SCALE  5.0f       /* 1 / .2 */
+
+/* Returns the variance of both halves from the sum of (a - b)^2 over 5x5
+ * pixels. */
+static inline float filter_variance(float sum)
+{
+    return sum * (1.0f / 50.0f);
+}
+
+/* Returns the squared difference of light at p and q without the part that
+ * noise explains, in units of their variances vp and vq. */
+static inline float filter_channel_distance(float p, float q, float vp,
+                                            float vq)
+{
+    float difference = p - q;
+
+    return (difference * difference - (vp + f_min(vp, vq))) /
+           (FILTER_VARIANCE_MIN + FILTER_NOISE * (vp + vq));
+}
+
+/* Returns the distance from the sum of channel distances over three channels
+ * and 3x3 pixels. */
+static inline float filter_light_distance(float sum)
+{
+    return f_max(sum * (1.0f / 27.0f), 0.0f);
+}
+
+/* Returns the distance of features whose squared difference is `square`. np and
+ * nq are the variances of the means of p and q. */
+static inline float filter_feature_distance(float square, float np, float nq)
+{
+    return f_max((square - (np + f_min(np, nq))) / (1.0f + (np + nq)), 0.0f);
+}
+
+/* Returns the weight of q: tap * exp(-distance), nearly, and 0 from a distance
+ * of 16 on. */
+static inline float filter_weight(float tap, float light, float features)
+{
+    float w = f_max(1.0f - (light + features) * (1.0f / 16.0f), 0.0f);
+
+    w *= w;
+    w *= w;
+    w *= w;
+    return tap * (w * w);
+}
+
+#endif

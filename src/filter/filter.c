@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+#include "filter/filter.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "filter/filter_dispatch.h"
+
+/* Planes of two copies of two halves, features with their noise, and counts. */
+#define PLANES (2 * 12 + FILTER_FEATURES + 1 + 2)
+
+/* One run of the filter, for workers. */
+struct job {
+    struct filter *filter;
+    const struct filter_source *source;
+    int component;
+    float depth_scale;
+    float light_scale;
+    int from, step; /* of a level */
+    float *rgb;
+};
+
+/* ---- planes ---- */
+
+static struct filter_tile whole_row(const struct filter_planes *p, int y)
+{
+    return (struct filter_tile){0, y, p->width, 1};
+}
+
+/* Takes the next plane of the memory. Returns its pixel (0, 0). */
+static float *take(const struct filter_planes *p, float **next)
+{
+    float *first = *next + FILTER_PAD * p->pitch + FILTER_PAD;
+
+    *next += p->pitch * (p->height + 2 * FILTER_PAD);
+    return first;
+}
+
+bool filter_init(struct filter *f, int width, int height, struct error *err)
+{
+    struct filter_planes *p = &f->planes;
+    size_t floats =
+        (size_t)(width + 2 * FILTER_PAD) * (size_t)(height + 2 * FILTER_PAD);
+    float *next;
+
+    *f = (struct filter){.loops = filter_loops_at(0)};
+    f->memory = alloc_array(floats, PLANES * sizeof *f->memory);
+    f->row_max = alloc_array((size_t)height, sizeof *f->row_max);
+    if (f->memory == NULL || f->row_max == NULL) {
+        filter_free(f);
+        return fail(err, "out of memory for filtering %dx%d pixels", width,
+                    height);
+    }
+    p->width = width;
+    p->height = height;
+    p->pitch = width + 2 * FILTER_PAD;
+    next = f->memory;
+    for (int i = 0; i < 2; i++)
+        for (int h = 0; h < 2; h++)
+            for (int c = 0; c < 3; c++) {
+                p->halves[i].light[h][c] = take(p, &next);
+                p->halves[i].variance[h][c] = take(p, &next);
+            }
+    for (int i = 0; i < FILTER_FEATURES; i++)
+        p->features[i] = take(p, &next);
+    p->feature_noise = take(p, &next);
+    for (int h = 0; h < 2; h++)
+        f->count[h] = take(p, &next);
+    return true;
+}
+
+void filter_free(struct filter *f)
+{
+    free(f->memory);
+    free(f->row_max);
+    *f = (struct filter){0};
+}
+
+/* ---- features ---- */
+
+/* Lets the source fill a row. Noise of normals and depths goes to planes that
+ * are free until the first level. */
+static void load_features(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    ptrdiff_t at = (int)item * p->pitch;
+    float *normal_noise = p->halves[1].light[0][0] + at;
+    float *noise = p->feature_noise + at;
+    struct filter_row to = {
+        .depth = p->features[6] + at,
+        .albedo_noise = noise,
+        .normal_noise = normal_noise,
+        .depth_noise = p->halves[1].light[0][1] + at,
+        .count = {j->filter->count[0] + at, j->filter->count[1] + at},
+    };
+
+    (void)worker;
+    for (int c = 0; c < 3; c++) {
+        to.albedo[c] = p->features[c] + at;
+        to.normal[c] = p->features[3 + c] + at;
+    }
+    j->source->features(j->source->context, (int)item, &to);
+    for (int x = 0; x < p->width; x++) {
+        for (int c = 0; c < 3; c++) {
+            to.albedo[c][x] *= FILTER_ALBEDO_SCALE;
+            to.normal[c][x] *= FILTER_NORMAL_SCALE;
+        }
+        noise[x] =
+            noise[x] * (FILTER_ALBEDO_SCALE * FILTER_ALBEDO_SCALE) +
+            normal_noise[x] * (FILTER_NORMAL_SCALE * FILTER_NORMAL_SCALE);
+    }
+}
+
+static void scale_depths(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    struct filter_tile row = whole_row(p, (int)item);
+    ptrdiff_t at = (int)item * p->pitch;
+    float *depth = p->features[6] + at;
+    const float *depth_noise = p->halves[1].light[0][1] + at;
+    float *noise = p->feature_noise + at;
+    float scale = j->depth_scale;
+
+    (void)worker;
+    for (int x = 0; x < p->width; x++) {
+        depth[x] *= scale;
+        noise[x] += depth_noise[x] * scale * scale;
+    }
+    for (int i = 0; i < FILTER_FEATURES; i++)
+        filter_extend(p, p->features[i], row);
+    filter_extend(p, p->feature_noise, row);
+}
+
+/* Returns the inverse of the depth difference that is an edge. */
+static float depth_scale(const struct filter_planes *p)
+{
+    double pixels = (double)p->width * p->height;
+    double sum = 0;
+
+    for (int y = 0; y < p->height; y++)
+        for (int x = 0; x < p->width; x++)
+            sum += p->features[6][y * p->pitch + x];
+    return sum > 0 ? (float)(FILTER_DEPTH_SCALE * pixels / sum) : 0;
+}
+
+/* ---- light ---- */
+
+/* Returns the number by which light of a pixel is divided. */
+static float divisor(const struct filter_planes *p, int c, ptrdiff_t at)
+{
+    return p->features[c][at] * (1.0f / FILTER_ALBEDO_SCALE) +
+           FILTER_ALBEDO_MIN;
+}
+
+static void load_light(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    ptrdiff_t at = (int)item * p->pitch;
+    float *to[2][3];
+    float max = 0;
+
+    (void)worker;
+    for (int h = 0; h < 2; h++)
+        for (int c = 0; c < 3; c++)
+            to[h][c] = p->halves[0].light[h][c] + at;
+    j->source->light(j->source->context, j->component, (int)item, to);
+    for (int c = 0; c < 3; c++)
+        for (int x = 0; x < p->width; x++) {
+            float inverse = 1.0f / divisor(p, c, at + x);
+
+            for (int h = 0; h < 2; h++) {
+                to[h][c][x] *= inverse;
+                max = f_max(to[h][c][x], max);
+            }
+        }
+    j->filter->row_max[item] = max;
+}
+
+/* Returns the power of two that scales the light for the levels. */
+static float light_scale(const struct filter *f)
+{
+    float max = 0;
+    int exponent;
+
+    for (int y = 0; y < f->planes.height; y++)
+        max = f_max(f->row_max[y], max);
+    exponent = (int)(float_bits(max) >> 23) - 127; /* -127 of 0 */
+    exponent = FILTER_TOP - exponent;
+    return bits_float((uint32_t)(exponent < 120 ? exponent + 127 : 247) << 23);
+}
+
+static void scale_light(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter_planes *p = &j->filter->planes;
+    struct filter_tile row = whole_row(p, (int)item);
+
+    (void)worker;
+    for (int h = 0; h < 2; h++)
+        for (int c = 0; c < 3; c++) {
+            float *light = p->halves[0].light[h][c] + (int)item * p->pitch;
+
+            for (int x = 0; x < p->width; x++)
+                light[x] *= j->light_scale;
+            filter_extend(p, p->halves[0].light[h][c], row);
+        }
+}
+
+/* ---- tiles ---- */
+
+static uint32_t tile_columns(const struct filter_planes *p)
+{
+    return (uint32_t)((p->width + FILTER_TILE_WIDTH - 1) / FILTER_TILE_WIDTH);
+}
+
+static uint32_t tile_count(const struct filter_planes *p)
+{
+    return (uint32_t)((p->height + FILTER_TILE_HEIGHT - 1) /
+                      FILTER_TILE_HEIGHT) *
+           tile_columns(p);
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static struct filter_tile tile_at(const struct filter_planes *p, uint32_t i)
+{
+    int x = (int)(i % tile_columns(p)) * FILTER_TILE_WIDTH;
+    int y = (int)(i / tile_columns(p)) * FILTER_TILE_HEIGHT;
+
+    return (struct filter_tile){x, y, smaller(FILTER_TILE_WIDTH, p->width - x),
+                                smaller(FILTER_TILE_HEIGHT, p->height - y)};
+}
+
+static void run_variance(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+
+    (void)worker;
+    f->loops->variance(&f->planes, tile_at(&f->planes, item));
+}
+
+static void run_level(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+
+    (void)worker;
+    f->loops->level(&f->planes, tile_at(&f->planes, item), j->from, j->step);
+}
+
+/* Adds a row of the filtered component to the picture. */
+static void add_row(void *context, uint32_t item, int worker)
+{
+    struct job *j = context;
+    const struct filter *f = j->filter;
+    const struct filter_planes *p = &f->planes;
+    const struct filter_halves *halves = &p->halves[j->from];
+    ptrdiff_t at = (int)item * p->pitch;
+    float *rgb = j->rgb + 3 * (size_t)item * (size_t)p->width;
+    float unit = 1.0f / j->light_scale;
+
+    (void)worker;
+    for (int x = 0; x < p->width; x++, at++) {
+        float a = f->count[0][at], b = f->count[1][at];
+
+        for (int c = 0; c < 3; c++) {
+            float light =
+                (a * halves->light[0][c][at] + b * halves->light[1][c][at]) /
+                (a + b);
+
+            rgb[3 * x + c] += light * unit * divisor(p, c, at);
+        }
+    }
+}
+
+static void run_component(struct job *j, int levels, struct pool *pool)
+{
+    const struct filter_planes *p = &j->filter->planes;
+    uint32_t rows = (uint32_t)p->height;
+
+    pool_each(pool, rows, load_light, j);
+    j->light_scale = light_scale(j->filter);
+    pool_each(pool, rows, scale_light, j);
+    pool_each(pool, tile_count(p), run_variance, j);
+    j->from = 0;
+    for (int l = 0; l < levels; l++, j->from = 1 - j->from) {
+        j->step = 1 << l;
+        pool_each(pool, tile_count(p), run_level, j);
+    }
+    pool_each(pool, rows, add_row, j);
+}
+
+void filter_run(struct filter *f, const struct filter_source *source,
+                int levels, struct pool *pool, float *rgb)
+{
+    const struct filter_planes *p = &f->planes;
+    uint32_t rows = (uint32_t)p->height;
+    struct job j = {.filter = f, .source = source, .rgb = rgb};
+
+    assert(levels <= FILTER_LEVELS);
+    memset(rgb, 0, (size_t)p->width * (size_t)p->height * 3 * sizeof *rgb);
+    pool_each(pool, rows, load_features, &j);
+    j.depth_scale = depth_scale(p);
+    pool_each(pool, rows, scale_depths, &j);
+    for (; j.component < source->component_count; j.component++)
+        run_component(&j, levels, pool);
+}

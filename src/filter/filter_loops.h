@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/*
+ * filter_loops.h - the loops of the denoising filter over the pixels of a tile,
+ * compiled for several instruction sets
+ *
+ * The Makefile compiles src/filter/filter_loops.c for each (FILTERS). All
+ * builds give the same bits. filter_dispatch.h chooses one.
+ *
+ * Units:     as kernels/filter.h
+ * Threads:   any, on tiles that differ
+ */
+#ifndef GLIM_FILTER_LOOPS_H
+#define GLIM_FILTER_LOOPS_H
+
+#include "filter/filter_planes.h"
+
+struct filter_loops {
+    /* Computes the variances of halves[0] from its light. */
+    void (*variance)(const struct filter_planes *p, struct filter_tile t);
+
+    /* Filters halves[from] into halves[1 - from] with the given step. */
+    void (*level)(const struct filter_planes *p, struct filter_tile t, int from,
+                  int step);
+};
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/*
+ * filter_planes.h - arrays of the denoising filter
+ *
+ * A plane is a float for each pixel, with copies of the outermost pixels around
+ * the picture, so that loops need no limits.
+ *
+ * Units:     as kernels/filter.h
+ * Ownership: the planes are the filter's
+ * Threads:   any, on tiles that differ
+ */
+#ifndef GLIM_FILTER_PLANES_H
+#define GLIM_FILTER_PLANES_H
+
+#include <stddef.h>
+
+#include "kernels/filter.h"
+
+/* Copied pixels on each side: the largest step, and one for 3x3 pixels. */
+#define FILTER_PAD ((1 << (FILTER_LEVELS - 1)) + 1)
+
+/* Albedo, normal and depth. */
+#define FILTER_FEATURES 7
+
+/* Size of a tile. Larger ones have fewer distances in common with others;
+ * smaller ones fit into nearer caches. */
+#define FILTER_TILE_WIDTH  128
+#define FILTER_TILE_HEIGHT 16
+
+/* Both halves: light and the variance of its noise. */
+struct filter_halves {
+    float *light[2][3];
+    float *variance[2][3];
+};
+
+struct filter_planes {
+    int width, height;
+    ptrdiff_t pitch;                  /* floats from a row to the next */
+    struct filter_halves halves[2];   /* a level reads one, writes the other */
+    float *features[FILTER_FEATURES]; /* scaled by FILTER_x_SCALE */
+    float *feature_noise; /* variance of the mean, summed over features */
+};
+
+struct filter_tile {
+    int x, y, width, height;
+};
+
+/* Copies the outermost pixels of the tile to the pixels outside of the picture
+ * that are beside it. */
+void filter_extend(const struct filter_planes *p, float *plane,
+                   struct filter_tile t);
+
+#endif

@@ -1,0 +1,564 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_filter.c - the denoising filter against closed forms, against its
+ * definition in double precision, and at the ends of its ranges
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/unit/check.h"
+
+#include "filter/filter.h"
+#include "filter/filter_dispatch.h"
+
+/* A picture in memory. */
+struct picture {
+    int width, height;
+    int component_count;
+    float (*light[2][2])[3]; /* of a component and half, for each pixel */
+    float (*features)[FILTER_FEATURES];
+    float feature_noise; /* variance of albedo, normal and depth alike */
+    float count[2];
+};
+
+static void picture_init(struct picture *p, int width, int height)
+{
+    size_t pixels = (size_t)width * (size_t)height;
+
+    *p = (struct picture){width, height, .component_count = 1, .count = {2, 2}};
+    for (int k = 0; k < 2; k++)
+        for (int h = 0; h < 2; h++)
+            p->light[k][h] = calloc(pixels, sizeof *p->light[k][h]);
+    p->features = calloc(pixels, sizeof *p->features);
+    for (size_t i = 0; i < pixels; i++)
+        for (int f = 0; f < FILTER_FEATURES; f++)
+            p->features[i][f] = f < 3 ? 0.5f : 1.0f;
+}
+
+static void picture_free(struct picture *p)
+{
+    for (int k = 0; k < 2; k++)
+        for (int h = 0; h < 2; h++)
+            free(p->light[k][h]);
+    free(p->features);
+}
+
+static void give_features(void *context, int y, const struct filter_row *to)
+{
+    const struct picture *p = context;
+
+    for (int x = 0; x < p->width; x++) {
+        const float *from = p->features[y * p->width + x];
+
+        for (int c = 0; c < 3; c++) {
+            to->albedo[c][x] = from[c];
+            to->normal[c][x] = from[3 + c];
+        }
+        to->depth[x] = from[6];
+        to->albedo_noise[x] = p->feature_noise;
+        to->normal_noise[x] = p->feature_noise;
+        to->depth_noise[x] = p->feature_noise;
+        to->count[0][x] = p->count[0];
+        to->count[1][x] = p->count[1];
+    }
+}
+
+static void give_light(void *context, int component, int y, float *to[2][3])
+{
+    const struct picture *p = context;
+
+    for (int h = 0; h < 2; h++)
+        for (int x = 0; x < p->width; x++)
+            for (int c = 0; c < 3; c++)
+                to[h][c][x] = p->light[component][h][y * p->width + x][c];
+}
+
+/* Returns the filtered picture, for free(). */
+static float *filtered(struct picture *p, int levels, struct pool *pool,
+                       const struct filter_loops *loops)
+{
+    struct filter_source source = {p, p->component_count, give_features,
+                                   give_light};
+    struct filter f;
+    struct error err;
+    float *rgb = calloc((size_t)p->width * (size_t)p->height, 3 * sizeof *rgb);
+
+    assert_true(filter_init(&f, p->width, p->height, &err));
+    f.loops = loops;
+    filter_run(&f, &source, levels, pool, rgb);
+    filter_free(&f);
+    return rgb;
+}
+
+static float *filtered_well(struct picture *p)
+{
+    return filtered(p, FILTER_LEVELS, NULL, filter_loops_at(0));
+}
+
+/* A number with mean 0 and variance 1, nearly normal. */
+static double noise(uint64_t *seed)
+{
+    double sum = -6;
+
+    for (int i = 0; i < 12; i++)
+        sum += check_random(seed);
+    return sum;
+}
+
+/* Sets light of the given mean with independent noise in each half. */
+static void set_noisy(struct picture *p, int x, int y, float mean, double sigma,
+                      uint64_t *seed)
+{
+    for (int h = 0; h < 2; h++)
+        for (int c = 0; c < 3; c++)
+            p->light[0][h][y * p->width + x][c] =
+                (float)(mean + sigma * noise(seed));
+}
+
+/* Fills light and features with random numbers: patches, gradients, noise. */
+static void fill_any(struct picture *p, uint64_t seed)
+{
+    for (int i = 0; i < p->width * p->height; i++) {
+        int x = i % p->width, y = i / p->width;
+
+        for (int f = 0; f < FILTER_FEATURES; f++)
+            p->features[i][f] =
+                (float)(0.3 + 0.2 * (x / 9 % 2) + 0.1 * (y / 7 % 3) +
+                        0.02 * check_random(&seed));
+        for (int k = 0; k < 2; k++)
+            for (int h = 0; h < 2; h++)
+                for (int c = 0; c < 3; c++)
+                    p->light[k][h][i][c] =
+                        (float)(0.5 + 0.01 * x + 0.7 * (y > x) +
+                                0.3 * check_random(&seed));
+    }
+}
+
+/* A picture of constant light stays, under any albedo. */
+static void constant_light_stays(void **state)
+{
+    struct picture p;
+    float *rgb;
+
+    (void)state;
+    picture_init(&p, 50, 41);
+    fill_any(&p, 1);
+    for (int i = 0; i < 50 * 41; i++)
+        for (int h = 0; h < 2; h++)
+            for (int c = 0; c < 3; c++)
+                p.light[0][h][i][c] =
+                    (float)(c + 1) * (p.features[i][c] + FILTER_ALBEDO_MIN);
+    rgb = filtered_well(&p);
+    for (int i = 0; i < 3 * 50 * 41; i++) {
+        double want = p.light[0][0][i / 3][i % 3];
+
+        check_close(rgb[i], want, 4e-6 * want);
+    }
+    free(rgb);
+    picture_free(&p);
+}
+
+/* Halves without noise are not changed: each level rounds the sums of equal
+ * numbers, and everything that differs has weight 0. */
+static void equal_halves_stay(void **state)
+{
+    struct picture p;
+    double most = 0;
+    float *rgb;
+
+    (void)state;
+    picture_init(&p, 70, 45);
+    p.component_count = 2;
+    fill_any(&p, 2);
+    for (int i = 0; i < 70 * 45; i++)
+        for (int k = 0; k < 2; k++)
+            for (int c = 0; c < 3; c++)
+                p.light[k][1][i][c] = p.light[k][0][i][c];
+    rgb = filtered_well(&p);
+    for (int i = 0; i < 3 * 70 * 45; i++) {
+        double want =
+            (double)p.light[0][0][i / 3][i % 3] + p.light[1][0][i / 3][i % 3];
+
+        most = fmax(most, fabs(rgb[i] - want) / want);
+    }
+    check_at_most(most, 12 * 0x1p-24); /* units in the last place */
+    free(rgb);
+    picture_free(&p);
+}
+
+/* Noise of known variance on a plane falls, and the mean stays. Six levels of
+ * the taps (1/4, 1/2, 1/4)^2 have the weights of a triangle of half width 64,
+ * which would reduce the variance by (3 * 64 / 2)^2. At least the reduction of
+ * four levels is required, (3 * 16 / 2)^2, as some differences look like edges.
+ */
+static void noise_falls(void **state)
+{
+    double before = 0, after = 0, mean = 0, mean_before = 0;
+    uint64_t seed = 3;
+    struct picture p;
+    float *rgb;
+
+    (void)state;
+    picture_init(&p, 256, 256);
+    for (int i = 0; i < 256 * 256; i++)
+        set_noisy(&p, i % 256, i / 256, 5, 1, &seed);
+    rgb = filtered_well(&p);
+    for (int i = 0; i < 3 * 256 * 256; i++) {
+        double raw = ((double)p.light[0][0][i / 3][i % 3] +
+                      p.light[0][1][i / 3][i % 3]) /
+                     2;
+
+        mean_before += raw / (3 * 256 * 256);
+        mean += rgb[i] / (3.0 * 256 * 256);
+        before += (raw - 5) * (raw - 5);
+        after += (rgb[i] - 5) * (rgb[i] - 5);
+    }
+    check_at_most(576, before / after);
+    /* standard error of the mean: sqrt(1 / 2 / 196608) = .0016 */
+    check_close(mean, mean_before, 0.003);
+    free(rgb);
+    picture_free(&p);
+}
+
+/* Light that only a feature's edge separates stays on its side, although the
+ * noise is larger than the step. */
+static void edges_of_features_survive(void **state)
+{
+    (void)state;
+    for (int f = 0; f < FILTER_FEATURES; f += 3) {
+        uint64_t seed = 4;
+        struct picture p;
+        double sum[2] = {0};
+        float *rgb;
+
+        picture_init(&p, 64, 64);
+        for (int i = 0; i < 64 * 64; i++) {
+            bool is_right = i % 64 >= 32;
+
+            set_noisy(&p, i % 64, i / 64, is_right ? 3.2f : 3.0f, 0.7, &seed);
+            p.features[i][f] = is_right ? 0.1f : 0.9f;
+        }
+        rgb = filtered_well(&p);
+        for (int y = 0; y < 64; y++)
+            for (int c = 0; c < 3; c++) {
+                sum[0] += rgb[3 * (64 * y + 31) + c] / (64 * 3.0);
+                sum[1] += rgb[3 * (64 * y + 32) + c] / (64 * 3.0);
+            }
+        /* columns of raw pixels have a standard error of .7 / sqrt(2 * 192) */
+        check_close(sum[0], 3.0, 0.06);
+        check_close(sum[1], 3.2, 0.06);
+        free(rgb);
+        picture_free(&p);
+    }
+}
+
+/* An edge of light that no feature shows survives if it is larger than the
+ * noise. */
+static void edges_of_light_survive(void **state)
+{
+    uint64_t seed = 5;
+    struct picture p;
+    float *rgb;
+
+    (void)state;
+    picture_init(&p, 64, 64);
+    for (int i = 0; i < 64 * 64; i++)
+        set_noisy(&p, i % 64, i / 64, i % 64 < 32 ? 1.0f : 3.0f, 0.1, &seed);
+    rgb = filtered_well(&p);
+    for (int i = 0; i < 3 * 64 * 64; i++)
+        check_close(rgb[i], i / 3 % 64 < 32 ? 1.0 : 3.0, 0.1);
+    free(rgb);
+    picture_free(&p);
+}
+
+/* Noise in features, if they say how much it is, does not stop the filter. */
+static void noise_of_features_is_no_edge(void **state)
+{
+    double before = 0, after = 0;
+    uint64_t seed = 6;
+    struct picture p;
+    float *rgb;
+
+    (void)state;
+    picture_init(&p, 128, 128);
+    p.feature_noise = 3 * 0.01f;
+    for (int i = 0; i < 128 * 128; i++) {
+        set_noisy(&p, i % 128, i / 128, 2, 0.3, &seed);
+        for (int f = 3; f < 6; f++)
+            p.features[i][f] += (float)(0.1 * noise(&seed));
+    }
+    rgb = filtered_well(&p);
+    for (int i = 0; i < 3 * 128 * 128; i++) {
+        double raw = ((double)p.light[0][0][i / 3][i % 3] +
+                      p.light[0][1][i / 3][i % 3]) /
+                     2;
+
+        before += (raw - 2) * (raw - 2);
+        after += (rgb[i] - 2) * (rgb[i] - 2);
+    }
+    check_at_most(200, before / after);
+    free(rgb);
+    picture_free(&p);
+}
+
+/* ---- the definition, in double precision ---- */
+
+struct truth {
+    const struct picture *p;
+    double light[2][3][64 * 64];
+    double variance[2][3][64 * 64];
+    double depth_scale;
+};
+
+static int clamped(int i, int count)
+{
+    return i < 0 ? 0 : i >= count ? count - 1 : i;
+}
+
+static int at(const struct truth *t, int x, int y)
+{
+    return clamped(y, t->p->height) * t->p->width + clamped(x, t->p->width);
+}
+
+/* The distance of half h between the pixels around (x, y) and those a step
+ * away. Pixels outside of the picture are copies of those at its edge. */
+static double light_distance(const struct truth *t, int h, int x, int y, int dx,
+                             int dy)
+{
+    double sum = 0;
+
+    for (int j = y - 1; j <= y + 1; j++)
+        for (int i = x - 1; i <= x + 1; i++)
+            for (int c = 0; c < 3; c++) {
+                double e = t->light[h][c][at(t, i, j)] -
+                           t->light[h][c][at(t, i + dx, j + dy)];
+                double vp = t->variance[h][c][at(t, i, j)];
+                double vq = t->variance[h][c][at(t, i + dx, j + dy)];
+
+                sum += (e * e - vp - fmin(vp, vq)) / (1e-40 + 2.56 * (vp + vq));
+            }
+    return fmax(sum / 27, 0);
+}
+
+static double feature_distance(const struct truth *t, int p, int q)
+{
+    const float *fp = t->p->features[p], *fq = t->p->features[q];
+    double n = t->p->feature_noise *
+               (1 / 0.02 + 1 / 0.32 + t->depth_scale * t->depth_scale);
+    double sum = 0;
+
+    for (int i = 0; i < FILTER_FEATURES; i++) {
+        double scale = i < 3   ? sqrt(1 / 0.02)
+                       : i < 6 ? sqrt(1 / 0.32)
+                               : t->depth_scale;
+
+        sum += pow((fp[i] - (double)fq[i]) * scale, 2);
+    }
+    return fmax((sum - 2 * n) / (1 + 2 * n), 0);
+}
+
+static void truth_level(const struct truth *from, struct truth *to, int step)
+{
+    static const double tap[] = {0.25, 0.5, 0.25};
+    const struct picture *p = from->p;
+
+    *to = *from;
+    for (int h = 0; h < 2; h++)
+        for (int i = 0; i < p->width * p->height; i++) {
+            int x = i % p->width, y = i / p->width;
+            double light[3] = {0}, variance[3] = {0}, all = 0;
+
+            for (int k = 0; k < 9; k++) {
+                int dx = (k % 3 - 1) * step, dy = (k / 3 - 1) * step;
+                int q = at(from, x + dx, y + dy);
+                double d = light_distance(from, 1 - h, x, y, dx, dy) +
+                           feature_distance(from, i, q);
+                double w = tap[k % 3] * tap[k / 3];
+
+                w *= k == 4 ? 1 : pow(fmax(1 - d / 16, 0), 16);
+                all += w;
+                for (int c = 0; c < 3; c++) {
+                    light[c] += w * from->light[h][c][q];
+                    variance[c] += w * w * from->variance[h][c][q];
+                }
+            }
+            for (int c = 0; c < 3; c++) {
+                to->light[h][c][i] = light[c] / all;
+                to->variance[h][c][i] = variance[c] / (all * all);
+            }
+        }
+}
+
+static void truth_begin(struct truth *t, const struct picture *p)
+{
+    double depths = 0;
+
+    t->p = p;
+    for (int i = 0; i < p->width * p->height; i++) {
+        depths += p->features[i][6];
+        for (int h = 0; h < 2; h++)
+            for (int c = 0; c < 3; c++)
+                t->light[h][c][i] =
+                    p->light[0][h][i][c] / (p->features[i][c] + 1e-3);
+    }
+    t->depth_scale = p->width * p->height / (0.2 * depths);
+    for (int i = 0; i < p->width * p->height; i++)
+        for (int c = 0; c < 3; c++) {
+            double sum = 0;
+
+            for (int k = 0; k < 25; k++) {
+                int q =
+                    at(t, i % p->width + k % 5 - 2, i / p->width + k / 5 - 2);
+
+                sum += pow(t->light[0][c][q] - t->light[1][c][q], 2) / 2;
+            }
+            t->variance[0][c][i] = t->variance[1][c][i] = sum / 25;
+        }
+}
+
+/* The filter computes its definition, at sizes below and above the steps. */
+static void result_is_the_definition(void **state)
+{
+    static struct truth t[2];
+    static const int sizes[][2] = {{64, 37}, {5, 64}, {1, 1}, {3, 2}};
+
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        struct picture p;
+        float *rgb;
+
+        picture_init(&p, sizes[n][0], sizes[n][1]);
+        p.feature_noise = 0.001f;
+        p.count[0] = 3;
+        fill_any(&p, 7);
+        truth_begin(&t[0], &p);
+        for (int l = 0; l < FILTER_LEVELS; l++)
+            truth_level(&t[l % 2], &t[1 - l % 2], 1 << l);
+        rgb = filtered_well(&p);
+        for (int i = 0; i < 3 * p.width * p.height; i++) {
+            int c = i % 3;
+            double want =
+                (3 * t[0].light[0][c][i / 3] + 2 * t[0].light[1][c][i / 3]) /
+                5 * (p.features[i / 3][c] + 1e-3);
+
+            check_close(rgb[i], want, 1e-4 * want);
+        }
+        free(rgb);
+        picture_free(&p);
+    }
+}
+
+/* ---- bits ---- */
+
+static void assert_same(const float *a, const float *b, const struct picture *p)
+{
+    assert_memory_equal(a, b,
+                        (size_t)p->width * (size_t)p->height * 3 * sizeof *a);
+}
+
+/* Threads and instruction sets give the same bits. */
+static void bits_depend_on_the_picture_only(void **state)
+{
+    struct picture p;
+    struct error err;
+    float *one;
+
+    (void)state;
+    picture_init(&p, 300, 70);
+    p.component_count = 2;
+    p.feature_noise = 0.002f;
+    fill_any(&p, 8);
+    one = filtered_well(&p);
+    for (int threads = 1; threads < 5; threads++) {
+        struct pool *pool = pool_create(threads, &err);
+        float *some = filtered(&p, FILTER_LEVELS, pool, filter_loops_at(0));
+
+        assert_same(one, some, &p);
+        free(some);
+        pool_destroy(pool);
+    }
+    for (int i = 1; filter_loops_at(i) != NULL; i++) {
+        float *other = filtered(&p, FILTER_LEVELS, NULL, filter_loops_at(i));
+
+        assert_same(one, other, &p);
+        free(other);
+    }
+    free(one);
+    picture_free(&p);
+}
+
+/* Exchanging the halves does not change the picture. */
+static void halves_are_alike(void **state)
+{
+    struct picture p;
+    float *one, *other;
+
+    (void)state;
+    picture_init(&p, 90, 33);
+    fill_any(&p, 9);
+    one = filtered_well(&p);
+    for (int i = 0; i < 90 * 33; i++)
+        for (int c = 0; c < 3; c++) {
+            float a = p.light[0][0][i][c];
+
+            p.light[0][0][i][c] = p.light[0][1][i][c];
+            p.light[0][1][i][c] = a;
+        }
+    other = filtered_well(&p);
+    assert_same(one, other, &p);
+    free(one);
+    free(other);
+    picture_free(&p);
+}
+
+/* The result is finite and not negative for black pictures, single bright
+ * pixels and mixtures of the greatest and least numbers. */
+static void ends_of_the_range_are_finite(void **state)
+{
+    static const float values[] = {0, 0x1p-149f, 1e-30f, 1, 0x1p62f};
+    static const int sizes[][2] = {{1, 1}, {3, 2}, {1, 70}, {40, 40}};
+    uint64_t seed = 10;
+
+    (void)state;
+    for (int round = 0; round < 200; round++) {
+        const int *size = sizes[round % 4];
+        int kinds = 1 + (int)(5 * check_random(&seed));
+        struct picture p;
+        float *rgb;
+
+        picture_init(&p, size[0], size[1]);
+        for (int i = 0; i < size[0] * size[1]; i++) {
+            for (int f = 0; f < FILTER_FEATURES; f++)
+                p.features[i][f] =
+                    round % 3 == 0 ? 0 : (float)check_random(&seed);
+            for (int h = 0; h < 2; h++)
+                for (int c = 0; c < 3; c++)
+                    p.light[0][h][i][c] =
+                        values[(int)(kinds * check_random(&seed))];
+        }
+        p.feature_noise = round % 5 == 0 ? 0x1p60f : 0;
+        rgb = filtered_well(&p);
+        for (int i = 0; i < 3 * size[0] * size[1]; i++)
+            assert_true(rgb[i] >= 0 && rgb[i] <= 0x1p73f);
+        free(rgb);
+        picture_free(&p);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(constant_light_stays),
+        cmocka_unit_test(equal_halves_stay),
+        cmocka_unit_test(noise_falls),
+        cmocka_unit_test(edges_of_features_survive),
+        cmocka_unit_test(edges_of_light_survive),
+        cmocka_unit_test(noise_of_features_is_no_edge),
+        cmocka_unit_test(result_is_the_definition),
+        cmocka_unit_test(bits_depend_on_the_picture_only),
+        cmocka_unit_test(halves_are_alike),
+        cmocka_unit_test(ends_of_the_range_are_finite),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
