@@ -33,6 +33,7 @@
 #include "session/session.h"
 #include "studio/event_loop.h"
 #include "batch.h"
+#include "batch_compare.h"
 #include "batch_picture.h"
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
@@ -130,6 +131,8 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
     bool ok;
     char *lost;
 
+    if (o->command == COMMAND_COMPARE)
+        return batch_compare_run(o, status, err);
     if (batch_picture_is_wanted(o))
         return batch_picture_run(o, start_ns, status, err);
     ok = session_open(s, o, start_ns, err);
@@ -253,7 +256,10 @@ int main(int argc, char **argv)
     if (options.batch)
         signal(SIGPIPE, SIG_IGN);
     if (!run(&session, &options, start_ns, &status, &err))
-        status = complain(EXIT_FAILED, &err);
+        /* as cmp(1): 1 means that the pictures differ */
+        status = complain(options.command == COMMAND_COMPARE ? EXIT_USAGE
+                                                             : EXIT_FAILED,
+                          &err);
     session_close(&session);
     free(chosen);
     return status;

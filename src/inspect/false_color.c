@@ -90,3 +90,12 @@ uint32_t false_color_heat(float part)
     return rgb_of(a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]),
                   a[2] + f * (b[2] - a[2]));
 }
+
+uint32_t false_color_difference(float part)
+{
+    float at = 2.0f * fminf(fabsf(part), 1.0f);
+    float low = fminf(at, 1.0f), high = at - low;
+
+    return part < 0.0f ? rgb_of(0.5f * high, 0.3f * low + 0.6f * high, low)
+                       : rgb_of(low, 0.15f * low + 0.75f * high, 0.0f);
+}

@@ -33,4 +33,8 @@ uint32_t false_color(enum sample_kind kind, const float xyz[3],
  * white. */
 uint32_t false_color_heat(float part);
 
+/* Returns the colour of a difference from -1 to 1: light blue, blue, black,
+ * red, yellow. */
+uint32_t false_color_difference(float part);
+
 #endif

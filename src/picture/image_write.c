@@ -226,22 +226,28 @@ static void append_floats(struct buffer *b, const float *values, int count)
 }
 
 /* Encodes rows from the bottom up. The negative scale means little endian. */
+static bool encode_floats(const float *rgb, int width, int height,
+                          const char *path, struct buffer *b, struct error *err)
+{
+    char header[64];
+    int length =
+        snprintf(header, sizeof header, "PF\n%d %d\n-1.0\n", width, height);
+
+    append(b, header, length);
+    for (int y = height - 1; y >= 0; y--)
+        append_floats(b, rgb + 3 * (size_t)y * (size_t)width, 3 * width);
+    return !b->is_cut || out_of_memory(width, height, path, err);
+}
+
 static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
                        struct error *err)
 {
-    char header[64];
     float *rgb = linear_of(film, path, err);
+    bool ok =
+        rgb && encode_floats(rgb, film->width, film->height, path, b, err);
 
-    if (!rgb)
-        return false;
-    int length = snprintf(header, sizeof header, "PF\n%d %d\n-1.0\n",
-                          film->width, film->height);
-    append(b, header, length);
-    for (int y = film->height - 1; y >= 0; y--)
-        append_floats(b, rgb + 3 * (size_t)y * (size_t)film->width,
-                      3 * film->width);
     free(rgb);
-    return !b->is_cut || out_of_memory(film->width, film->height, path, err);
+    return ok;
 }
 
 static void embed(const struct image_metadata *m,
@@ -303,6 +309,17 @@ bool image_write_frame(const struct frame *frame, const char *path,
     struct buffer b = {.data = NULL};
     bool ok = expect_size(frame->width, frame->height, 3, path, err) &&
               encode_frame(frame, path, &b, err) && publish(&b, path, err);
+
+    free(b.data);
+    return ok;
+}
+
+bool image_write_pfm(const float *rgb, int width, int height, const char *path,
+                     struct error *err)
+{
+    struct buffer b = {.data = NULL};
+    bool ok = encode_floats(rgb, width, height, path, &b, err) &&
+              publish(&b, path, err);
 
     free(b.data);
     return ok;

@@ -9,10 +9,12 @@
 #include "base/thread.h"
 #include "picture/image_write.h"
 #include "session/option_table.h"
+#include "session/sub_command.h"
 
 const char options_help[] =
     "usage: glim [options] scene.obj\n"
     "       glim -b [options] [-o picture.png] scene.obj\n"
+    "       glim compare [options] picture.pfm reference.pfm\n"
     "\n"
     "Path traces a Wavefront OBJ scene, live in the terminal or, with -b, to "
     "a\n"
@@ -64,6 +66,14 @@ const char options_help[] =
     "  --watch          load the scene's files again when they change\n"
     "  --phoe-keys      W S A D Q E move up, down, left, right, forward, back\n"
     "\n"
+    "measurements\n"
+    "  compare          compare two .pfm, .hdr or .png pictures of one size:\n"
+    "                   errors, and the tiles that differ by more than noise;\n"
+    "                   -o writes a picture of the differences\n"
+    "  --tiles N        most tiles each way, 1 to 256 (default: 16)\n"
+    "  --false-alarms P probability that any tile is marked although only\n"
+    "                   noise differs (default: 0.01)\n"
+    "\n"
     "  --help           print this text\n"
     "  --version        print the version\n"
     "  --               end of the options\n";
@@ -81,13 +91,17 @@ const char *const options_shows[] = {
 };
 
 /* Finds the rule of an option. `text` is the option without its dashes. */
-static bool find_option(struct option_given *g, const char *dashes,
-                        const char *text, size_t length, struct error *err)
+static bool find_option(const struct options *o, struct option_given *g,
+                        const char *dashes, const char *text, size_t length,
+                        struct error *err)
 {
     g->rule = option_rule_named(text, length);
     if (!g->rule || (length == 1) != (dashes[1] == '\0'))
         return fail(err, "unknown option '%s%.*s', see glim --help", dashes,
                     (int)length, text);
+    if (!sub_command_takes(o->command, g->rule->id))
+        return fail(err, "%s%s: not an option of glim%s, see glim --help",
+                    dashes, g->rule->name, sub_command_name(o->command));
     /* all names in the table fit */
     memcpy(g->shown, dashes, strlen(dashes));
     memcpy(g->shown + strlen(dashes), text, length);
@@ -117,7 +131,7 @@ static bool parse_long(struct options *o, int argc, char **argv, int *i,
     const char *attached = text[length] == '=' ? text + length + 1 : NULL;
     struct option_given g = {0};
 
-    if (!find_option(&g, "--", text, length, err))
+    if (!find_option(o, &g, "--", text, length, err))
         return false;
     if (!g.rule->value && attached)
         return fail(err, "%s: found '%s', expected no value", g.shown,
@@ -137,7 +151,7 @@ static bool parse_short(struct options *o, int argc, char **argv, int *i,
     while (*p) {
         struct option_given g = {0};
 
-        if (!find_option(&g, "-", p, 1, err))
+        if (!find_option(o, &g, "-", p, 1, err))
             return false;
         p++;
         if (g.rule->value) {
@@ -259,7 +273,10 @@ static bool take_environment(struct options *o, struct error *err)
 
 void options_init(struct options *o)
 {
-    *o = (struct options){.spp = 16, .max_bounces = -1};
+    *o = (struct options){.spp = 16,
+                          .max_bounces = -1,
+                          .tile_count = 16,
+                          .false_alarms = 0.01};
 }
 
 /* Returns true for options that suit a person or a machine and do not change
@@ -301,12 +318,14 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
 {
     bool ended = false;
 
-    for (int i = 1; i < argc; i++) {
+    o->command = argc > 1 ? sub_command_named(argv[1]) : COMMAND_RENDER;
+    o->batch |= o->command != COMMAND_RENDER;
+    for (int i = o->command == COMMAND_RENDER ? 1 : 2; i < argc; i++) {
         const char *arg = argv[i];
         bool ok;
 
         if (ended || arg[0] != '-' || arg[1] == '\0') {
-            ok = option_set_scene(o, arg, err);
+            ok = sub_command_set_operand(o, arg, err);
         } else if (strcmp(arg, "--") == 0) {
             ended = true;
             ok = true;
@@ -324,6 +343,8 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
     if (!settle_backend(o, err) || !check_together(o, err) ||
         !take_environment(o, err))
         return false;
+    if (o->command != COMMAND_RENDER)
+        return sub_command_check(o, err);
     if (o->scene_path || o->list_devices || o->probe)
         return true;
     o->lacks_scene = !o->batch;

@@ -38,7 +38,18 @@ enum backend_choice {
     BACKEND_AUTO /* a GPU through OpenCL if there is one, else the CPU */
 };
 
+/* First word of the command line. */
+enum sub_command {
+    COMMAND_RENDER, /* without a word: live mode or -b */
+    COMMAND_COMPARE,
+};
+
 struct options {
+    enum sub_command command;
+    const char *picture_path;   /* compare: the first picture */
+    const char *reference_path; /* compare: the second picture */
+    int tile_count;             /* compare: most tiles each way */
+    double false_alarms;        /* compare: probability of any */
     const char *scene_path;
     bool lacks_scene;        /* no scene was given and the screen needs one */
     const char *view_path;   /* NULL: beside the scene */

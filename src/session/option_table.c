@@ -15,6 +15,7 @@
 #define THREADS_MAX 1024
 #define BOUNCES_MAX 999
 #define CELLS_MAX   2000
+#define TILES_MAX   256
 
 static const struct option_rule rules[] = {
     {"f", OPTION_SCENE, "the name of a scene"},
@@ -47,6 +48,8 @@ static const struct option_rule rules[] = {
     {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
     {"watch", OPTION_WATCH, NULL},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
+    {"tiles", OPTION_TILES, "a number of tiles"},
+    {"false-alarms", OPTION_FALSE_ALARMS, "a probability"},
     {"help", OPTION_HELP, NULL},
     {"version", OPTION_VERSION, NULL},
 };
@@ -152,17 +155,18 @@ wrong:
                 g->shown, g->value, VIEW_SIDE_MAX);
 }
 
-static bool set_cell_aspect(struct options *o, const struct option_given *g,
-                            struct error *err)
+/* Sets a number that may have decimals. */
+static bool set_decimal(const struct option_given *g, double min, double max,
+                        double *value, struct error *err)
 {
     const char *p = g->value;
     double number;
 
     if (!decimal_parse(&p, p + strlen(p), &number) || *p != '\0' ||
-        !(number >= 0.25 && number <= 8.0))
-        return fail(err, "%s: found '%s', expected a number from 0.25 to 8",
-                    g->shown, g->value);
-    o->display.cell_aspect = number;
+        !(number >= min && number <= max))
+        return fail(err, "%s: found '%s', expected a number from %g to %g",
+                    g->shown, g->value, min, max);
+    *value = number;
     return true;
 }
 
@@ -284,7 +288,8 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_OUTPUT: return given_text(g, &o->output_path, err);
     case OPTION_ANSI: return set_text_size(o, g, err);
     case OPTION_STATS: return given_text(g, &o->stats_path, err);
-    case OPTION_CELL_ASPECT: return set_cell_aspect(o, g, err);
+    case OPTION_CELL_ASPECT:
+        return set_decimal(g, 0.25, 8, &o->display.cell_aspect, err);
     case OPTION_DEVICE: return given_text(g, &o->device, err);
     case OPTION_KERNELS: return given_text(g, &o->kernels_path, err);
     case OPTION_ISA:
@@ -299,6 +304,9 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
     case OPTION_WATCH: o->watch = true; return true;
     case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
+    case OPTION_TILES: return whole_int(g, 1, TILES_MAX, &o->tile_count, err);
+    case OPTION_FALSE_ALARMS:
+        return set_decimal(g, 1e-9, 0.5, &o->false_alarms, err);
     case OPTION_HELP: o->show_help = true; return true;
     case OPTION_VERSION: o->show_version = true; return true;
     }

@@ -202,6 +202,28 @@ static void wrong_numbers_have_their_message(void **state)
         "--cell-aspect: found '', expected a number from 0.25 to 8");
 }
 
+static void sub_commands_have_their_own_operands(void **state)
+{
+    struct options o = good("compare a.pfm --tiles 4 b.pfm -o d.png");
+
+    (void)state;
+    assert_int_equal(o.command, COMMAND_COMPARE);
+    assert_true(o.batch);
+    assert_string_equal(o.picture_path, "a.pfm");
+    assert_string_equal(o.reference_path, "b.pfm");
+    assert_string_equal(o.output_path, "d.png");
+    assert_int_equal(o.tile_count, 4);
+    assert_null(o.scene_path);
+    assert_true(good("compare a b --false-alarms 1e-3").false_alarms == 1e-3);
+    /* only the first word is a sub-command */
+    assert_int_equal(good("./compare").command, COMMAND_RENDER);
+    assert_string_equal(good("-- compare").scene_path, "compare");
+    assert_string_equal(good("-b compare").scene_path, "compare");
+    bad("compare a b -s 4",
+        "-s: not an option of glim compare, see glim --help");
+    bad("a --tiles 4", "--tiles: not an option of glim, see glim --help");
+}
+
 /* -h is the height, but a person may expect help. */
 static void help_is_recognised(void **state)
 {
@@ -340,6 +362,7 @@ int main(void)
         cmocka_unit_test(text_sizes_are_read_or_refused),
         cmocka_unit_test(misspelt_options_have_their_message),
         cmocka_unit_test(wrong_numbers_have_their_message),
+        cmocka_unit_test(sub_commands_have_their_own_operands),
         cmocka_unit_test(help_is_recognised),
         cmocka_unit_test(crops_are_read_or_refused),
         cmocka_unit_test(wrong_combinations_have_their_message),
