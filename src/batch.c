@@ -260,7 +260,7 @@ static bool render_all(struct session *s, int wake_fd, struct error *err)
 {
     struct render_progress p;
 
-    if (!session_restart(s, s->options->spp, err))
+    if (!session_restart(s, options_limits(s->options), err))
         return false;
     wait_for_end(s, wake_fd);
     p = render_progress(s->render);

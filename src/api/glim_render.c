@@ -157,10 +157,39 @@ struct glim_progress glim_get_progress(struct glim *g)
     return handle_progress(&p);
 }
 
-/* Starts a new picture with the current settings. */
-static bool begin(struct glim *g, uint64_t spp, struct error *err)
+/* Limits of one call of glim_render(). */
+struct glim_call {
+    uint64_t spp;    /* 0: none */
+    uint64_t end_ns; /* of clock_ns(); 0: none */
+};
+
+static struct glim_call call_of(uint64_t spp, double seconds)
 {
-    struct render_job job = {.host = &g->world, .crop = g->crop, .spp = spp};
+    double ns = seconds * 1e9;
+    bool has_end = seconds > 0 && ns < 9e18;
+
+    return (struct glim_call){spp, has_end ? clock_ns() + (uint64_t)ns : 0};
+}
+
+/* Returns the limits of the picture, which was rendered for `before_ns` by
+ * earlier calls. */
+static struct render_limits limits_of(const struct glim_call *call,
+                                      uint64_t before_ns)
+{
+    struct render_limits limits = {.spp = call->spp};
+    uint64_t now_ns = clock_ns();
+
+    if (call->end_ns != 0)
+        limits.time_ns =
+            before_ns + (call->end_ns > now_ns ? call->end_ns - now_ns : 1);
+    return limits;
+}
+
+/* Starts a new picture with the current settings. */
+static bool begin(struct glim *g, const struct glim_call *call,
+                  struct error *err)
+{
+    struct render_job job = {.host = &g->world, .crop = g->crop};
 
     if (!g->view.has_camera) /* depends on the aspect ratio */
         scene_frame(&g->scene, &g->view);
@@ -170,24 +199,15 @@ static bool begin(struct glim *g, uint64_t spp, struct error *err)
         return false;
     if (g->device != NULL) /* the device has its own tree */
         world_drop_tree(&g->world);
+    job.limits = limits_of(call, 0);
     g->has_picture = render_start(g->render, &job, err);
     return g->has_picture;
 }
 
-/* Returns the timeout of the next poll in milliseconds, or -1 for none. */
-static int pause_ms(uint64_t now_ns, uint64_t end_ns, bool has_progress)
-{
-    uint64_t left_ms = end_ns > now_ns ? (end_ns - now_ns) / 1000000 + 1 : 0;
-
-    if (!has_progress && end_ns == UINT64_MAX)
-        return -1;
-    return left_ms < PROGRESS_MS ? (int)left_ms : PROGRESS_MS;
-}
-
-/* Waits until the picture is done, the time is up, or the render is stopped by
- * the progress function or glim_cancel(). */
-static enum glim_result wait_for_end(struct glim *g, uint64_t end_ns,
-                                     glim_progress_fn *progress, void *context)
+/* Waits until a limit is reached, or the render is stopped by the progress
+ * function or glim_cancel(). */
+static enum glim_result wait_for_end(struct glim *g, glim_progress_fn *progress,
+                                     void *context)
 {
     struct pollfd fds[2] = {{.fd = render_event_fd(g->render),
                              .events = POLLIN},
@@ -197,11 +217,11 @@ static enum glim_result wait_for_end(struct glim *g, uint64_t end_ns,
         struct render_progress p = render_progress(g->render);
         struct glim_progress shown = handle_progress(&p);
 
-        if (p.state != RENDER_RUNNING || clock_ns() >= end_ns)
+        if (p.state != RENDER_RUNNING)
             return GLIM_DONE;
         if (progress != NULL && !progress(context, &shown))
             return GLIM_STOPPED;
-        if (poll(fds, 2, pause_ms(clock_ns(), end_ns, progress != NULL)) <= 0)
+        if (poll(fds, 2, progress != NULL ? PROGRESS_MS : -1) <= 0)
             continue;
         if (fds[0].revents & POLLIN)
             event_fd_clear(fds[0].fd);
@@ -212,29 +232,23 @@ static enum glim_result wait_for_end(struct glim *g, uint64_t end_ns,
     }
 }
 
-static uint64_t end_of(double seconds)
-{
-    double ns = seconds * 1e9;
-
-    return seconds > 0 && ns < 9e18 ? clock_ns() + (uint64_t)ns : UINT64_MAX;
-}
-
 enum glim_result glim_render(struct glim *g, uint64_t spp, double seconds,
                              glim_progress_fn *progress, void *context,
                              struct glim_error *err)
 {
-    uint64_t end_ns = end_of(seconds);
+    struct glim_call call = call_of(spp, seconds);
     struct render_progress p;
     enum glim_result result;
     struct error why;
 
     if (g->has_picture) {
-        render_resume(g->render, spp);
-    } else if (!begin(g, spp, &why)) {
+        p = render_progress(g->render);
+        render_resume(g->render, limits_of(&call, p.render_ns));
+    } else if (!begin(g, &call, &why)) {
         handle_fail(err, &why);
         return GLIM_FAILED;
     }
-    result = wait_for_end(g, end_ns, progress, context);
+    result = wait_for_end(g, progress, context);
     render_halt(g->render);
     p = render_progress(g->render);
     if (p.state != RENDER_FAILED)

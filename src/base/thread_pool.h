@@ -18,11 +18,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 
-/* Request to stop. OpenCL kernels read it as one 32-bit word. */
+/* Request to stop, at once or at a time. OpenCL kernels read `requested` as one
+ * 32-bit word. */
 struct cancel {
     atomic_uint requested;
+    /* set while no job runs: clock_ns() at which a stop is requested; 0: never
+     */
+    uint64_t deadline_ns;
 };
 
 static inline void cancel_request(struct cancel *c)
@@ -37,7 +42,8 @@ static inline void cancel_reset(struct cancel *c)
 
 static inline bool cancel_requested(const struct cancel *c)
 {
-    return atomic_load_explicit(&c->requested, memory_order_relaxed) != 0;
+    return atomic_load_explicit(&c->requested, memory_order_relaxed) != 0 ||
+           (c->deadline_ns != 0 && clock_ns() >= c->deadline_ns);
 }
 
 typedef void pool_job(void *context, uint32_t item, int worker);

@@ -83,7 +83,7 @@ static bool make_job(const struct scene *scene, struct host_world *host,
 
     *job = (struct render_job){.host = host,
                                .crop = {0, 0, SIDE, SIDE},
-                               .spp = SPP};
+                               .limits.spp = SPP};
     view_init(&view);
     view.width_px = view.height_px = SIDE;
     view.pose.eye[0] = 0.3;

@@ -35,8 +35,8 @@ struct render {
     bool has_job; /* a job waits for the render thread */
     bool is_ending;
     enum render_state state;
-    uint64_t steps;    /* steps left before it halts; 0: no steps */
-    uint64_t spp;      /* limit, 0: none */
+    uint64_t steps; /* steps left before it halts; 0: no steps */
+    enum render_limit stopped_by;
     uint64_t spp_done; /* samples that every pixel has */
     uint64_t draft_spp_done;
     uint64_t run_begin_ns;
@@ -46,6 +46,7 @@ struct render {
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
+    struct render_limits limits;
     /* film of the backend's last begin(); NULL: a new picture */
     const struct film *begun_film;
 };
@@ -199,19 +200,28 @@ static bool was_last_step(struct render *r)
     return is_last;
 }
 
-/* Renders the film until the limit, the last step, a cancel or an error. */
+/* Returns the limit that holds at the end of a pass. */
+static enum render_limit limit_at(const struct render *r, uint64_t spp_done)
+{
+    return r->limits.spp != 0 && spp_done >= r->limits.spp ? RENDER_LIMIT_SPP
+                                                           : RENDER_LIMIT_NONE;
+}
+
+/* Renders the film until a limit, the last step, a cancel or an error. */
 static enum pass_result run_film(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
     enum pass_result result =
         begin(r, &r->job.world, &r->film, r->job.crop.x, r->job.crop.y);
 
-    while (result == PASS_DONE && (r->spp == 0 || *spp_done < r->spp)) {
-        uint64_t target =
-            is_stepping(r) ? *spp_done + 1 : next_target(*spp_done, r->spp);
+    while (result == PASS_DONE && limit_at(r, *spp_done) == RENDER_LIMIT_NONE) {
+        uint64_t target = is_stepping(r)
+                              ? *spp_done + 1
+                              : next_target(*spp_done, r->limits.spp);
 
         result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
-        if (result == PASS_DONE && was_last_step(r) && *spp_done != r->spp)
+        if (result == PASS_DONE && was_last_step(r) &&
+            limit_at(r, *spp_done) == RENDER_LIMIT_NONE)
             result = PASS_CANCELLED;
     }
     return result;
@@ -225,6 +235,22 @@ static enum pass_result run(struct render *r)
         r->draft_spp_done < draft_spp(&r->job))
         result = run_draft(r);
     return result == PASS_DONE && is_light(&r->job) ? run_film(r) : result;
+}
+
+/* Ends a run. The caller holds the lock. A run that was cancelled at the limit
+ * of time is done. */
+static void end_run(struct render *r, enum pass_result result)
+{
+    r->run_before_ns += clock_ns() - r->run_begin_ns;
+    if (result == PASS_DONE)
+        r->stopped_by = limit_at(r, r->spp_done);
+    else if (result == PASS_CANCELLED && r->limits.time_ns != 0 &&
+             r->run_before_ns >= r->limits.time_ns)
+        r->stopped_by = RENDER_LIMIT_TIME;
+    r->state = result == PASS_FAILED ? RENDER_FAILED
+               : result == PASS_DONE || r->stopped_by != RENDER_LIMIT_NONE
+                   ? RENDER_DONE
+                   : RENDER_IDLE;
 }
 
 static void *render_main(void *argument)
@@ -243,10 +269,7 @@ static void *render_main(void *argument)
         pthread_mutex_unlock(&r->lock);
         result = run(r);
         pthread_mutex_lock(&r->lock);
-        r->run_before_ns += clock_ns() - r->run_begin_ns;
-        r->state = result == PASS_DONE        ? RENDER_DONE
-                   : result == PASS_CANCELLED ? RENDER_IDLE
-                                              : RENDER_FAILED;
+        end_run(r, result);
         pthread_cond_broadcast(&r->end);
         event_fd_set(r->event_fd);
     }
@@ -289,11 +312,16 @@ struct render *render_create(struct backend *backend, struct error *err)
 /* Hands the job to the render thread. The caller holds the lock. */
 static void start_run(struct render *r, uint64_t steps)
 {
+    const uint64_t limit_ns = r->limits.time_ns;
+
     cancel_reset(&r->cancel);
     r->steps = steps;
     r->state = RENDER_RUNNING;
+    r->stopped_by = RENDER_LIMIT_NONE;
     r->has_job = true;
     r->run_begin_ns = clock_ns();
+    r->cancel.deadline_ns =
+        limit_ns != 0 ? r->run_begin_ns - r->run_before_ns + limit_ns : 0;
     pthread_cond_signal(&r->begin);
 }
 
@@ -338,7 +366,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->job = *job;
     r->begun_film = NULL;
     pthread_mutex_lock(&r->lock);
-    r->spp = job->spp;
+    r->limits = job->limits;
     r->spp_done = 0;
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
@@ -354,11 +382,11 @@ void render_halt(struct render *r)
     render_wait(r, -1);
 }
 
-void render_resume(struct render *r, uint64_t spp)
+void render_resume(struct render *r, struct render_limits limits)
 {
     pthread_mutex_lock(&r->lock);
     if (r->state == RENDER_IDLE || r->state == RENDER_DONE) {
-        r->spp = spp;
+        r->limits = limits;
         start_run(r, 0);
     }
     pthread_mutex_unlock(&r->lock);
@@ -419,7 +447,9 @@ struct render_progress render_progress(struct render *r)
 
     pthread_mutex_lock(&r->lock);
     p.state = r->state;
-    p.spp_limit = r->spp;
+    p.stopped_by = r->stopped_by;
+    p.spp_limit = r->limits.spp;
+    p.time_limit_ns = r->limits.time_ns;
     p.spp_done = r->spp_done;
     p.render_ns = r->run_before_ns;
     if (r->state == RENDER_RUNNING)

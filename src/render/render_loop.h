@@ -33,12 +33,18 @@ struct rect {
     int x, y, width, height;
 };
 
+/* Limits of a render; 0 is none. The first that holds ends it. */
+struct render_limits {
+    uint64_t spp;     /* samples per pixel */
+    uint64_t time_ns; /* time of rendering, without halts */
+};
+
 struct render_job {
     struct host_world *host;
     struct world world; /* lent from the host */
     struct rect crop;   /* rectangle of the camera's picture to render */
-    uint64_t spp;       /* limit of samples per pixel; 0: none */
-    uint64_t steps;     /* halts after this many steps; 0: does not halt */
+    struct render_limits limits;
+    uint64_t steps; /* halts after this many steps; 0: does not halt */
     /* size of the draft in pixels: that of the shown picture, reduced to that
      * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;
@@ -47,18 +53,23 @@ struct render_job {
 enum render_state {
     RENDER_IDLE, /* not started, or halted */
     RENDER_RUNNING,
-    RENDER_DONE,  /* spp reached the limit */
+    RENDER_DONE,  /* a limit is reached */
     RENDER_FAILED /* member `error` has the reason */
 };
 
+/* The limit that ended a render. */
+enum render_limit { RENDER_LIMIT_NONE, RENDER_LIMIT_SPP, RENDER_LIMIT_TIME };
+
 struct render_progress {
     enum render_state state;
-    uint64_t spp_limit;     /* 0: none */
-    uint64_t spp_done;      /* samples that every pixel has */
-    uint64_t samples;       /* samples of all pixels together */
-    uint64_t samples_limit; /* 0: none */
-    uint64_t draft_samples; /* samples of the draft; not in `samples` */
-    bool draft_is_coarse;   /* true while draft pixels lack a sample */
+    enum render_limit stopped_by; /* none unless the state is RENDER_DONE */
+    uint64_t spp_limit;           /* 0: none */
+    uint64_t time_limit_ns;       /* 0: none */
+    uint64_t spp_done;            /* samples that every pixel has */
+    uint64_t samples;             /* samples of all pixels together */
+    uint64_t samples_limit;       /* 0: none */
+    uint64_t draft_samples;       /* samples of the draft; not in `samples` */
+    bool draft_is_coarse;         /* true while draft pixels lack a sample */
     uint64_t rays;
     uint64_t non_finite;
     uint64_t saturated;
@@ -88,9 +99,8 @@ void render_set_backend(struct render *r, struct backend *backend);
 /* Halts. Returns when every worker is parked; the film keeps its samples. */
 void render_halt(struct render *r);
 
-/* Continues after render_halt() or the end. `spp` is the new limit, 0 for
- * none. */
-void render_resume(struct render *r, uint64_t spp);
+/* Continues after render_halt() or the end, with new limits. */
+void render_resume(struct render *r, struct render_limits limits);
 
 /* Adds one sample to every pixel, then halts by itself. Steps accumulate: a
  * call during a step adds another one. Returns false if the render is done or

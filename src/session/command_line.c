@@ -254,6 +254,16 @@ static bool check_together(const struct options *o, struct error *err)
     return check_batch(o, err) && check_show(o, err);
 }
 
+struct render_limits options_limits(const struct options *o)
+{
+    bool has_other = o->time_ns != 0;
+
+    return (struct render_limits){
+        .spp = o->has_spp || !has_other ? o->spp : 0,
+        .time_ns = o->time_ns,
+    };
+}
+
 int options_threads(const struct options *o)
 {
     return o->thread_count != 0 ? o->thread_count : usable_threads();

@@ -58,6 +58,7 @@ struct options {
     int width_px, height_px; /* 0 if not given */
     uint64_t spp;            /* samples per pixel */
     bool has_spp;
+    uint64_t time_ns; /* limit of the time of rendering; 0: none */
     int thread_count; /* 0: all that the process may use */
     int max_bounces;  /* -1: no limit */
     bool has_max_bounces;
@@ -97,6 +98,10 @@ bool options_set_configured(struct options *o, const char *name,
 /* Parses argv over the values in *o, takes GLIM_COLOR for the screen and
  * completes the keys. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
+
+/* Returns the limits of a render to a file and of normal mode. The samples are
+ * one of them if they were given, or if there is no other. */
+struct render_limits options_limits(const struct options *o);
 
 /* Returns the number of CPU threads. */
 int options_threads(const struct options *o);

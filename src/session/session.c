@@ -176,17 +176,18 @@ bool session_check_output(const struct session *s, const char *option,
     return ok;
 }
 
-static bool begin(struct session *s, uint64_t spp, uint64_t steps,
-                  struct error *err)
+static bool begin(struct session *s, struct render_limits limits,
+                  uint64_t steps, struct error *err)
 {
     struct render_job job = {.host = &s->world,
                              .crop = s->crop,
-                             .spp = spp,
+                             .limits = limits,
                              .steps = steps};
     struct view view = edit_view(&s->edit);
+    bool is_live = limits.spp == 0 && limits.time_ns == 0;
     uint32_t features;
 
-    if (spp == 0) {
+    if (is_live) {
         job.draft_width = s->draft_width;
         job.draft_height = s->draft_height;
     }
@@ -201,7 +202,7 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     if (session_uses_device(s) && s->options->batch)
         world_drop_tree(&s->world);
     features = job.world.settings.features;
-    if (spp == 0 && s->sample != SAMPLE_LIGHT) {
+    if (is_live && s->sample != SAMPLE_LIGHT) {
         job.world.settings.sample = s->sample;
         job.world.settings.features |= FEATURE_AOV;
     }
@@ -211,19 +212,21 @@ static bool begin(struct session *s, uint64_t spp, uint64_t steps,
     if (!render_start(s->render, &job, err))
         return false;
     /* restarts repay the time of a special build */
-    if (session_uses_device(s) && spp == 0)
+    if (session_uses_device(s) && is_live)
         backends_specialise(&s->backends, features);
     return true;
 }
 
-bool session_restart(struct session *s, uint64_t spp, struct error *err)
+bool session_restart(struct session *s, struct render_limits limits,
+                     struct error *err)
 {
-    return begin(s, spp, 0, err);
+    return begin(s, limits, 0, err);
 }
 
-bool session_step(struct session *s, uint64_t spp, struct error *err)
+bool session_step(struct session *s, struct render_limits limits,
+                  struct error *err)
 {
-    return begin(s, spp, 1, err);
+    return begin(s, limits, 1, err);
 }
 
 bool session_is_outdated(const struct session *s)

@@ -73,12 +73,14 @@ void session_watch(const struct session *s, struct file_watch *watch);
 bool session_check_output(const struct session *s, const char *option,
                           const char *path, struct error *err);
 
-/* Halts and starts from sample 0 with the shown state of the edit. spp 0: no
- * limit. */
-bool session_restart(struct session *s, uint64_t spp, struct error *err);
+/* Halts and starts from sample 0 with the shown state of the edit. Without a
+ * limit it is the render of live mode, which begins with a draft. */
+bool session_restart(struct session *s, struct render_limits limits,
+                     struct error *err);
 
 /* Restarts in the same way, and halts after the first sample of every pixel. */
-bool session_step(struct session *s, uint64_t spp, struct error *err);
+bool session_step(struct session *s, struct render_limits limits,
+                  struct error *err);
 
 /* Returns true if the edit has changed since the last restart in more than
  * exposure and tone. */

@@ -84,14 +84,21 @@ static void watch_files(struct render_control *control)
         control->watch.fd < 0 ? clock_ns() + FILES_POLL_NS : UINT64_MAX;
 }
 
+/* Returns the limits of the mode; live mode has none. */
+static struct render_limits limits_of(const struct render_control *control)
+{
+    return control->is_live ? (struct render_limits){0}
+                            : options_limits(control->session->options);
+}
+
 static void begin(struct render_control *control, bool is_step)
 {
-    uint64_t spp = control->is_live ? 0 : control->session->options->spp;
+    struct render_limits limits = limits_of(control);
     struct error err;
 
     save_thread_wait_copied(&control->saver);
-    if (!(is_step ? session_step(control->session, spp, &err)
-                  : session_restart(control->session, spp, &err)))
+    if (!(is_step ? session_step(control->session, limits, &err)
+                  : session_restart(control->session, limits, &err)))
         render_control_say_error(control, err.text);
     if (control->session->notice[0] != '\0')
         render_control_say_error(control, control->session->notice);
@@ -122,7 +129,7 @@ bool render_control_init(struct render_control *control,
     *control = (struct render_control){.session = session,
                                        .is_live = true,
                                        .restarted_ns = clock_ns()};
-    if (!session_restart(session, 0, err) ||
+    if (!session_restart(session, limits_of(control), err) ||
         !save_thread_init(&control->saver, err))
         return false;
     if (!reload_init(&control->reload, session->options, err)) {
@@ -267,8 +274,7 @@ void render_control_start_or_halt(struct render_control *control)
         render_halt(render);
         control->is_halted = true;
     } else if (control->progress.state == RENDER_IDLE) {
-        render_resume(render,
-                      control->is_live ? 0 : control->session->options->spp);
+        render_resume(render, limits_of(control));
         control->is_halted = false;
     } else {
         say_done(control);

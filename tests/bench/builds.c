@@ -54,7 +54,9 @@ static uint64_t cpu_ns(const struct session *s)
 static double rate(struct session *s, uint32_t more_features, struct rect crop,
                    uint64_t spp, struct render_progress *p)
 {
-    struct render_job job = {.host = &s->world, .crop = crop, .spp = spp};
+    struct render_job job = {.host = &s->world,
+                             .crop = crop,
+                             .limits.spp = spp};
     uint64_t begin_ns = cpu_ns(s);
     struct error err;
 

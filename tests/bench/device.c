@@ -26,7 +26,7 @@ static double rate(struct session *s, struct backend *backend)
     struct error err;
 
     render_set_backend(s->render, backend);
-    if (!session_restart(s, SPP, &err)) {
+    if (!session_restart(s, (struct render_limits){.spp = SPP}, &err)) {
         fprintf(stderr, "device: %s\n", err.text);
         exit(1);
     }

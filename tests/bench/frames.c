@@ -34,7 +34,7 @@ static uint64_t picture_ns(struct session *s, uint64_t spp)
     uint64_t begin_ns = clock_ns();
     struct error err;
 
-    if (!session_restart(s, spp, &err)) {
+    if (!session_restart(s, (struct render_limits){.spp = spp}, &err)) {
         fprintf(stderr, "frames: %s\n", err.text);
         exit(1);
     }

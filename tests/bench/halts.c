@@ -61,7 +61,8 @@ int main(int argc, char **argv)
 
     cl_environment_prepare(0);
     if (argc < 2 || !session_open(&s, &o, clock_ns(), &err) ||
-        (argc > 3 && !use_device(&s, &err)) || !session_restart(&s, 0, &err)) {
+        (argc > 3 && !use_device(&s, &err)) ||
+        !session_restart(&s, (struct render_limits){0}, &err)) {
         fprintf(stderr, "halts: %s\n", argc < 2 ? "no scene" : err.text);
         return 1;
     }
@@ -78,7 +79,7 @@ int main(int argc, char **argv)
         render_halt(s.render);
         halts[i] = clock_ns() - begin;
         begin = clock_ns();
-        if (!session_restart(&s, 0, &err)) {
+        if (!session_restart(&s, (struct render_limits){0}, &err)) {
             fprintf(stderr, "halts: %s\n", err.text);
             return 1;
         }

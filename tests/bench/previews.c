@@ -39,7 +39,7 @@ static bool draw(struct session *s, struct frame *frame, struct cells *cells,
     s->edit.now.view.pose.eye[0] +=
         1e-3 * (s->edit.now.view.pose.at[0] - s->edit.now.view.pose.eye[0]) +
         1e-4;
-    if (!session_restart(s, 0, err))
+    if (!session_restart(s, (struct render_limits){0}, err))
         return false;
     render_wait(s->render, -1);
     film_preview(render_film(s->render), render_draft(s->render),

@@ -11,7 +11,8 @@ static void render(struct session *s)
     struct error err = {""};
     struct render_progress p;
 
-    require(session_restart(s, 1, &err), err.text);
+    require(session_restart(s, (struct render_limits){.spp = 1}, &err),
+            err.text);
     render_wait(s->render, -1);
     p = render_progress(s->render);
     require(p.state == RENDER_DONE, p.error.text);

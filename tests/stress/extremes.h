@@ -290,7 +290,7 @@ static inline bool extremes_render(struct extremes *x, struct session *s,
 {
     struct render_job job = {.host = &s->world,
                              .crop = s->crop,
-                             .spp = EXTREMES_SPP};
+                             .limits.spp = EXTREMES_SPP};
     struct render *render = x->renders[which];
     float rgb[EXTREMES_NUMBERS];
     struct render_progress p;

@@ -216,7 +216,7 @@ static inline void render_seed(struct stress_scene *s,
 {
     struct render_job job = {.host = host,
                              .crop = {0, 0, view->width_px, view->height_px},
-                             .spp = shot->spp > 0 ? shot->spp : 64};
+                             .limits.spp = shot->spp > 0 ? shot->spp : 64};
     struct error err;
 
     if (!world_lend(host, scene, view, seed, &job.world, &err))

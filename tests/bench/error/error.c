@@ -181,7 +181,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
                              .host = &s->world,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
-                             .spp = 1};
+                             .limits.spp = 1};
     double seconds = 0, error = 0;
 
     if (!start(s->render, &job, err)) /* builds the tree, loads the code */
@@ -190,7 +190,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
         double begin = cpu_seconds();
 
         if (i > 0) {
-            render_resume(s->render, 1ull << i);
+            render_resume(s->render, (struct render_limits){.spp = 1ull << i});
             render_wait(s->render, -1);
         } else if (!start(s->render, &job, err)) {
             return false;

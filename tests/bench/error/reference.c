@@ -140,7 +140,7 @@ static bool render_half(struct session *s, enum direct direct, int half,
     struct render_job job = {.host = &s->world,
                              .crop = {0, 0, s->view.width_px,
                                       s->view.height_px},
-                             .spp = HALF_SPP};
+                             .limits.spp = HALF_SPP};
 
     if (!world_lend(&s->world, &s->scene, &s->view,
                     SEED_OF_HALVES + (uint32_t)half, &job.world, err))

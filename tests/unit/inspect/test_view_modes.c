@@ -45,7 +45,7 @@ static void draw_draft(struct session *s, struct view_mode *show,
     s->sample = view_mode_sample(show->kind);
     s->draft_width = WIDTH;
     s->draft_height = HEIGHT;
-    check_or_say(session_restart(s, 0, &err), err.text);
+    check_or_say(session_restart(s, (struct render_limits){0}, &err), err.text);
     assert_true(render_wait(s->render, 60000));
     film = render_film(s->render);
     draft = render_draft(s->render);

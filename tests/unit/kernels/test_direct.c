@@ -60,7 +60,7 @@ static void render_seed(struct session *s, int mode, uint32_t seed, float *rgb)
 {
     struct render_job job = {.host = &s->world,
                              .crop = {0, 0, WIDTH, HEIGHT},
-                             .spp = SPP};
+                             .limits.spp = SPP};
     struct error err;
 
     check_or_say(world_lend(&s->world, &s->scene, &s->edit.now.view, seed,

@@ -55,7 +55,7 @@ static void start(struct host_world *host, const struct world *world,
     struct render_job job = {.world = *world,
                              .host = host,
                              .crop = {0, 0, SIDE, SIDE},
-                             .spp = spp,
+                             .limits.spp = spp,
                              .draft_width = draft_width,
                              .draft_height = draft_height};
     struct error err;
@@ -99,7 +99,7 @@ static void films_do_not_depend_on_drafts(void **state)
         p[1] = render_progress(session.render);
         if (p[1].samples == 0 && p[1].draft_samples > 0)
             draft_halts++;
-        render_resume(session.render, 30);
+        render_resume(session.render, (struct render_limits){.spp = 30});
         halts++;
     }
     assert_true(halts > 10 && draft_halts > 0);
@@ -189,7 +189,7 @@ static void drafts_show_the_same_part_as_films(void **state)
     struct render_job job = {.host = &host,
                              .world.settings.camera = camera,
                              .crop = {201, 33, 290, 130},
-                             .spp = 1,
+                             .limits.spp = 1,
                              .draft_width = 77,
                              .draft_height = 41};
     struct error err;

@@ -125,7 +125,8 @@ static void compare(const char *scene, const struct truth *truth, int width,
         double means[REGIONS];
 
         if (!session_open(&s, &o, clock_ns(), &err) ||
-            !session_restart(&s, (uint64_t)spp, &err))
+            !session_restart(&s, (struct render_limits){.spp = (uint64_t)spp},
+                             &err))
             print_error("%s\n", err.text);
         assert_string_equal(err.text, "");
         render_wait(s.render, -1);

@@ -54,7 +54,7 @@ static void render_means(const char *scene, const char *view, double *means,
                         .max_bounces = -1,
                         .batch = true};
     struct session s;
-    struct render_job job = {.host = &s.world, .spp = SPP};
+    struct render_job job = {.host = &s.world, .limits.spp = SPP};
     struct error err;
     float *rgb;
     int count;

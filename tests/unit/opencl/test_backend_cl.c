@@ -120,7 +120,7 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
 {
     struct render_job job = {.host = &p->world,
                              .crop = crop,
-                             .spp = spp,
+                             .limits.spp = spp,
                              .draft_width = p->draft_width,
                              .draft_height = p->draft_height};
     struct error err;
@@ -416,7 +416,7 @@ static void halts_lose_no_samples(void **state)
         nanosleep(&pause, NULL);
         render_halt(p.renders[1]);
         halt_count++;
-        render_resume(p.renders[1], 60);
+        render_resume(p.renders[1], (struct render_limits){.spp = 60});
         assert_true(halt_count < 100000);
     }
     assert_true(halt_count > 20);

@@ -142,7 +142,9 @@ static void screens_are_the_average_of_files(void **state)
         options.height_px = HEIGHT;
         options.thread_count = 2;
         check_or_say(session_open(&s, &options, clock_ns(), &err), err.text);
-        check_or_say(session_restart(&s, 2, &err), err.text);
+        check_or_say(session_restart(&s, (struct render_limits){.spp = 2},
+                                     &err),
+                     err.text);
         assert_true(render_wait(s.render, 60000));
         for (uint32_t tone = 0; tone < TONES; tone++)
             check_terminals(render_film(s.render),

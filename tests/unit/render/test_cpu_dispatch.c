@@ -45,7 +45,7 @@ static void render(struct session *s, uint32_t more_features, float *rgb)
 {
     struct render_job job = {.host = &s->world,
                              .crop = {0, 0, WIDTH, HEIGHT},
-                             .spp = SPP};
+                             .limits.spp = SPP};
     struct error err;
 
     check_or_say(world_lend(&s->world, &s->scene, &s->edit.now.view, 1,

@@ -70,7 +70,7 @@ static struct render_job job_of(struct mesh *m, uint64_t spp)
     struct render_job job = {.world = m->world,
                              .host = &m->host,
                              .crop = {0, 0, WIDTH, HEIGHT},
-                             .spp = spp};
+                             .limits.spp = spp};
 
     job.world.settings.features = FEATURES_ALL;
     return job;
@@ -160,18 +160,95 @@ static void halts_lose_and_repeat_no_samples(void **state)
     while (!render_wait(halted, 1)) {
         render_halt(halted);
         assert_int_not_equal(render_progress(halted).state, RENDER_RUNNING);
-        render_resume(halted, 40);
+        render_resume(halted, (struct render_limits){.spp = 40});
         halts++;
     }
     assert_true(render_wait(whole, 60000));
     assert_true(halts > 3);
     assert_int_equal(render_progress(halted).state, RENDER_DONE);
     assert_same_film(render_film(whole), render_film(halted));
-    render_resume(whole, 41); /* one more sample per pixel */
+    /* one more sample per pixel */
+    render_resume(whole, (struct render_limits){.spp = 41});
     assert_true(render_wait(whole, 60000));
     assert_int_equal(render_progress(whole).samples, 41 * WIDTH * HEIGHT);
     close_render(whole);
     close_render(halted);
+    mesh_free(&m);
+}
+
+static struct render_progress wait_for_done(struct render *r)
+{
+    struct render_progress p;
+
+    assert_true(render_wait(r, 60000));
+    p = render_progress(r);
+    assert_int_equal(p.state, RENDER_DONE);
+    return p;
+}
+
+/* The limit of time counts rendering only, and the samples that it cuts off are
+ * not lost: the picture can be completed. */
+static void time_ends_a_render(void **state)
+{
+    const uint64_t limit_ns = 200000000;
+    struct render *whole = open_render(2), *timed = open_render(2);
+    struct render_limits limits = {.time_ns = limit_ns};
+    struct render_progress p;
+    struct render_job job;
+    struct mesh m;
+    struct error err;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 0);
+    job.limits = limits;
+    assert_true(render_start(timed, &job, &err));
+    assert_false(render_wait(timed, 60));
+    render_halt(timed);
+    p = render_progress(timed);
+    assert_int_equal(p.state, RENDER_IDLE);
+    assert_int_equal(p.stopped_by, RENDER_LIMIT_NONE);
+    usleep(250000); /* longer than the limit */
+    render_resume(timed, limits);
+    p = wait_for_done(timed);
+    assert_int_equal(p.stopped_by, RENDER_LIMIT_TIME);
+    assert_true(p.render_ns >= limit_ns && p.samples > 0);
+    /* done already */
+    render_resume(timed, limits);
+    assert_int_equal(wait_for_done(timed).stopped_by, RENDER_LIMIT_TIME);
+    /* samples come first */
+    limits.spp = render_progress(timed).spp_done + 20;
+    limits.time_ns = UINT64_MAX / 4;
+    render_resume(timed, limits);
+    p = wait_for_done(timed);
+    assert_int_equal(p.stopped_by, RENDER_LIMIT_SPP);
+    job = job_of(&m, limits.spp);
+    assert_true(render_start(whole, &job, &err));
+    assert_int_equal(wait_for_done(whole).stopped_by, RENDER_LIMIT_SPP);
+    assert_same_film(render_film(whole), render_film(timed));
+    close_render(whole);
+    close_render(timed);
+    mesh_free(&m);
+}
+
+/* A time that is over before the first sample gives an empty film. */
+static void no_time_gives_no_sample(void **state)
+{
+    struct render *r = open_render(2);
+    struct render_progress p;
+    struct render_job job;
+    struct mesh m;
+    struct error err;
+
+    (void)state;
+    make_room(&m);
+    job = job_of(&m, 7);
+    job.limits.time_ns = 1;
+    assert_true(render_start(r, &job, &err));
+    p = wait_for_done(r);
+    assert_int_equal(p.stopped_by, RENDER_LIMIT_TIME);
+    assert_int_equal(p.samples, 0);
+    close_render(r);
     mesh_free(&m);
 }
 
@@ -189,7 +266,7 @@ static void restarts_show_nothing_old(void **state)
     assert_true(render_start(r, &job, &err));
     for (int i = 0; i < 30; i++) {
         job.world.settings.camera.eye.x = 0.01f * (float)i;
-        job.spp = i == 29 ? 5 : 0;
+        job.limits.spp = i == 29 ? 5 : 0;
         while (i % 2 == 0 && render_progress(r).samples == 0)
             sched_yield();
         assert_true(render_start(r, &job, &err));
@@ -366,6 +443,8 @@ int main(void)
         cmocka_unit_test(thread_counts_give_the_same_bits),
         cmocka_unit_test(instruction_sets_give_the_same_bits),
         cmocka_unit_test(halts_lose_and_repeat_no_samples),
+        cmocka_unit_test(time_ends_a_render),
+        cmocka_unit_test(no_time_gives_no_sample),
         cmocka_unit_test(restarts_show_nothing_old),
         cmocka_unit_test(a_crop_is_part_of_the_whole),
         cmocka_unit_test(duplicate_faces_change_nothing),

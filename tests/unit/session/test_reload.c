@@ -39,7 +39,8 @@ static void render(struct session *s, float *pixels)
 {
     struct error err;
 
-    check_or_say(session_restart(s, 2, &err), err.text);
+    check_or_say(session_restart(s, (struct render_limits){.spp = 2}, &err),
+                 err.text);
     assert_true(render_wait(s->render, 10000));
     assert_int_equal(render_progress(s->render).state, RENDER_DONE);
     film_linear(render_film(s->render), pixels);

@@ -325,7 +325,7 @@ static void statistics_are_json(void **state)
     o.width_px = 6;
     o.height_px = 4;
     open_session(&s, &o);
-    assert_true(session_restart(&s, 2, &err));
+    assert_true(session_restart(&s, (struct render_limits){.spp = 2}, &err));
     assert_true(render_wait(s.render, 60000));
     assert_true(stats_json_write(&s, "out.json", &err));
     session_close(&s);

@@ -56,7 +56,8 @@ static void restart(struct session *s)
 {
     struct error err;
 
-    check_or_say(session_restart(s, 1, &err), err.text);
+    check_or_say(session_restart(s, (struct render_limits){.spp = 1}, &err),
+                 err.text);
     render_wait(s->render, -1);
 }
 
