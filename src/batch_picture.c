@@ -10,76 +10,13 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "terminal/xmalloc.h"
-#include "session/file_watch.h"
+#include "batch_handle.h"
 #include "batch_progress.h"
 
 bool batch_picture_is_wanted(const struct options *o)
 {
     return o->batch && o->show == SHOW_LIGHT && o->text_cols == 0 &&
            !o->stats_path && !o->paths && !o->kernels_path;
-}
-
-static bool fail_as(struct error *err, const struct glim_error *why)
-{
-    return fail(err, "%s", why->text);
-}
-
-/* Applies the options of the picture. */
-static bool set_up(struct glim *g, const struct options *o, struct error *err)
-{
-    const struct rect *c = &o->crop;
-    struct glim_error why;
-
-    if ((o->width_px != 0 || o->height_px != 0) &&
-        !glim_set_size(g, o->width_px, o->height_px, &why))
-        return fail_as(err, &why);
-    if (o->has_crop && !glim_set_crop(g, c->x, c->y, c->width, c->height, &why))
-        return fail(err, "--%s", why.text);
-    if (o->has_max_bounces && !glim_set_max_bounces(g, o->max_bounces, &why))
-        return fail_as(err, &why);
-    glim_set_seed(g, o->seed);
-    return true;
-}
-
-/* Finds mistakes before minutes of rendering. */
-static bool check_output(const struct glim *g, const char *path,
-                         struct error *err)
-{
-    struct file_watch files;
-    const char *name;
-    bool ok;
-
-    file_watch_init(&files);
-    for (int i = 0; (name = glim_file(g, i)) != NULL; i++)
-        file_watch_add(&files, name);
-    ok = !path || file_watch_spares(&files, "-o", path, err);
-    file_watch_free(&files);
-    return ok && batch_check_picture(path, err);
-}
-
-/* Brings up the device that the options want. If it fails, the CPU renders,
- * unless the options name the device. A missing GPU is not reported if glim
- * chooses. */
-static bool use_device(struct glim *g, const struct options *o,
-                       struct error *err)
-{
-    bool is_auto = o->backend == BACKEND_AUTO;
-    struct glim_error why;
-    const char *log;
-
-    if (!glim_set_program(g, "/proc/self/exe", &why))
-        return fail_as(err, &why);
-    if (glim_set_backend(g, is_auto ? GLIM_BACKEND_GPU : GLIM_BACKEND_OPENCL,
-                         o->device, &why))
-        return true;
-    log = glim_backend_log(g);
-    if (log && (o->device || !is_auto))
-        print_lines(stderr, log);
-    if (o->device)
-        return fail_as(err, &why);
-    if (!is_auto)
-        batch_warn_of_device(why.text);
-    return true;
 }
 
 static bool on_progress(void *bar, const struct glim_progress *p)
@@ -102,11 +39,11 @@ static bool render(struct glim *g, const struct options *o, bool has_device,
     if (result != GLIM_FAILED)
         return true;
     if (!has_device)
-        return fail_as(err, &why);
+        return batch_fail_as(err, &why);
     batch_warn_of_device(why.text);
     return glim_set_backend(g, GLIM_BACKEND_CPU, NULL, &why)
                ? render(g, o, false, err)
-               : fail_as(err, &why);
+               : batch_fail_as(err, &why);
 }
 
 /* Returns the name for messages, or NULL. */
@@ -130,7 +67,7 @@ static const char *write_picture(struct glim *g, const struct options *o,
         free(stem);
     }
     if (!name)
-        fail_as(err, &why);
+        batch_fail_as(err, &why);
     return name;
 }
 
@@ -157,18 +94,15 @@ static bool save(struct glim *g, const struct options *o, uint64_t start_ns,
 static bool run(struct glim *g, const struct options *o, uint64_t start_ns,
                 struct error *err)
 {
-    const char *line;
     bool wants_device = o->backend != BACKEND_CPU;
     int wake_fd;
 
-    if (!set_up(g, o, err))
-        return false;
-    for (int i = 0; (line = glim_warning(g, i)) != NULL; i++)
-        print_line(stderr, "glim: warning: %s", line);
-    if (!check_output(g, o->output_path, err))
+    if ((o->output_path &&
+         !batch_handle_spares(g, "-o", o->output_path, err)) ||
+        !batch_check_picture(o->output_path, err))
         return false;
     /* before our signals are set: drivers put theirs over them */
-    if (wants_device && !use_device(g, o, err))
+    if (wants_device && !batch_handle_use_device(g, o, err))
         return false;
     return batch_catch_signals(g, &wake_fd, err) &&
            render(g, o, wants_device, err) && save(g, o, start_ns, err);
@@ -177,14 +111,8 @@ static bool run(struct glim *g, const struct options *o, uint64_t start_ns,
 bool batch_picture_run(const struct options *o, uint64_t start_ns, int *status,
                        struct error *err)
 {
-    struct glim_open_options how = {
-        .view_path = o->view_path,
-        .up = o->up_is_z ? GLIM_UP_Z : GLIM_UP_Y,
-        .threads = options_threads(o),
-    };
-    struct glim_error why;
-    struct glim *g = glim_open(o->scene_path, &how, &why);
-    bool ok = g != NULL ? run(g, o, start_ns, err) : fail_as(err, &why);
+    struct glim *g = batch_handle_open(o, err);
+    bool ok = g != NULL && run(g, o, start_ns, err);
 
     *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;
     glim_close(g);
