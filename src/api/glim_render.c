@@ -189,7 +189,9 @@ static struct render_limits limits_of(const struct glim_call *call,
 static bool begin(struct glim *g, const struct glim_call *call,
                   struct error *err)
 {
-    struct render_job job = {.host = &g->world, .crop = g->crop};
+    struct render_job job = {.host = &g->world,
+                             .crop = g->crop,
+                             .exposure = (float)g->view.lighting.exposure};
 
     if (!g->view.has_camera) /* depends on the aspect ratio */
         scene_frame(&g->scene, &g->view);

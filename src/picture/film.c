@@ -18,12 +18,12 @@
 /* Pixels of a row that are processed at once, in memory on the stack. */
 #define RUN 256
 
-static void row_lock(struct film *f, int y)
+void film_lock_row(struct film *f, int y)
 {
     pthread_mutex_lock(&f->locks[y % FILM_LOCKS]);
 }
 
-static void row_unlock(struct film *f, int y)
+void film_unlock_row(struct film *f, int y)
 {
     pthread_mutex_unlock(&f->locks[y % FILM_LOCKS]);
 }
@@ -75,12 +75,12 @@ bool film_init(struct film *f, int width, int height, struct error *err)
 void film_clear(struct film *f)
 {
     for (int y = 0; y < f->height; y++) {
-        row_lock(f, y);
+        film_lock_row(f, y);
         if (f->has_row[y])
             memset(f->counts + pixel_index(f, 0, y), 0,
                    (size_t)f->width * sizeof *f->counts);
         f->has_row[y] = false;
-        row_unlock(f, y);
+        film_unlock_row(f, y);
     }
     atomic_store(&f->samples, 0);
     atomic_store(&f->rays, 0);
@@ -119,7 +119,7 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
 {
     struct tally tally = {0};
 
-    row_lock(f, y);
+    film_lock_row(f, y);
     f->has_row[y] = true;
     for (int i = 0; i < pixel_count; i++) {
         size_t at = pixel_index(f, x + i * stride, y);
@@ -133,7 +133,7 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
         for (int s = 0; s < counts[i]; s++)
             pixel_add(sums, odd_sums, f->counts[at]++, *samples++, &tally);
     }
-    row_unlock(f, y);
+    film_unlock_row(f, y);
     film_count_more(f, &tally);
 }
 
@@ -141,7 +141,7 @@ void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
                     const struct sum *sums, const struct sum *odd_sums,
                     const uint64_t *counts)
 {
-    row_lock(f, y);
+    film_lock_row(f, y);
     f->has_row[y] = true;
     for (int i = 0; i < pixel_count; i++) {
         int px = x + i * stride;
@@ -154,7 +154,7 @@ void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
         memcpy(f->odd_sums + 3 * at, odd_sums + 3 * from, 3 * sizeof *odd_sums);
         f->counts[at] = counts[from];
     }
-    row_unlock(f, y);
+    film_unlock_row(f, y);
 }
 
 bool film_copy(struct film *to, struct film *from, struct error *err)
@@ -167,14 +167,14 @@ bool film_copy(struct film *to, struct film *from, struct error *err)
          y++) { /* whole rows, as they are locked */
         size_t at = (size_t)y * width;
 
-        row_lock(from, y);
+        film_lock_row(from, y);
         memcpy(to->sums + 3 * at, from->sums + 3 * at,
                3 * width * sizeof *to->sums);
         memcpy(to->odd_sums + 3 * at, from->odd_sums + 3 * at,
                3 * width * sizeof *to->odd_sums);
         memcpy(to->counts + at, from->counts + at, width * sizeof *to->counts);
         to->has_row[y] = from->has_row[y];
-        row_unlock(from, y);
+        film_unlock_row(from, y);
     }
     return true;
 }
@@ -211,11 +211,11 @@ static f4 coarse_mean(struct film *f, int x, int y)
         int cy = y - y % stride;
         size_t at = pixel_index(f, cx, cy);
 
-        row_lock(f, cy);
+        film_lock_row(f, cy);
         found = f->counts[at] != 0;
         if (found)
             rgb = mean_of(f->sums + 3 * at, f->counts[at]);
-        row_unlock(f, cy);
+        film_unlock_row(f, cy);
     }
     return rgb;
 }
@@ -233,7 +233,7 @@ static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
 {
     bool has_gaps = false;
 
-    row_lock(f, y);
+    film_lock_row(f, y);
     for (int i = 0; i < count; i++) {
         size_t at = pixel_index(f, x0 + i, y);
 
@@ -243,7 +243,7 @@ static void linear_run(struct film *f, int x0, int y, int count, float *rgb)
         else
             has_gaps = true;
     }
-    row_unlock(f, y);
+    film_unlock_row(f, y);
     for (int i = 0; has_gaps && i < count; i++)
         if (rgb[3 * i] < 0.0f)
             put(coarse_mean(f, x0 + i, y), rgb + 3 * i);
@@ -258,11 +258,11 @@ void film_linear(struct film *f, float *rgb)
 void film_counts(struct film *f, float *counts)
 {
     for (int y = 0; y < f->height; y++) {
-        row_lock(f, y);
+        film_lock_row(f, y);
         for (int x = 0; x < f->width; x++)
             counts[pixel_index(f, x, y)] =
                 (float)f->counts[pixel_index(f, x, y)];
-        row_unlock(f, y);
+        film_unlock_row(f, y);
     }
 }
 
@@ -404,10 +404,10 @@ static void add_film(const struct showing *s, struct film *f, bool is_draft,
         int y = w.from;
         float height = area_step(&w);
 
-        row_lock(f, y);
+        film_lock_row(f, y);
         if (f->has_row[y])
             add_row(s, f, y, height, is_draft, r);
-        row_unlock(f, y);
+        film_unlock_row(f, y);
     }
 }
 

@@ -64,6 +64,10 @@ bool film_init(struct film *film, int width, int height, struct error *err);
 void film_clear(struct film *film);
 void film_free(struct film *film);
 
+/* Locks a row, for direct access to its sums and counts. */
+void film_lock_row(struct film *film, int y);
+void film_unlock_row(struct film *film, int y);
+
 /* Returns the number of samples of a pixel so far, which is the index of its
  * next one. Only the thread that adds to the row may call it. */
 uint64_t film_count(const struct film *film, int x, int y);

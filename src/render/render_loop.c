@@ -43,6 +43,7 @@ struct render {
     uint64_t run_before_ns; /* total of earlier runs of the picture */
     uint64_t build_ns;
     uint64_t first_picture_ns;
+    struct film_error film_error;
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
@@ -207,6 +208,15 @@ static enum render_limit limit_at(const struct render *r, uint64_t spp_done)
                                                            : RENDER_LIMIT_NONE;
 }
 
+static void estimate_error(struct render *r)
+{
+    struct film_error e = film_error(&r->film, r->job.exposure);
+
+    pthread_mutex_lock(&r->lock);
+    r->film_error = e;
+    pthread_mutex_unlock(&r->lock);
+}
+
 /* Renders the film until a limit, the last step, a cancel or an error. */
 static enum pass_result run_film(struct render *r)
 {
@@ -220,6 +230,8 @@ static enum pass_result run_film(struct render *r)
                               : next_target(*spp_done, r->limits.spp);
 
         result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
+        if (result == PASS_DONE)
+            estimate_error(r);
         if (result == PASS_DONE && was_last_step(r) &&
             limit_at(r, *spp_done) == RENDER_LIMIT_NONE)
             result = PASS_CANCELLED;
@@ -371,6 +383,7 @@ bool render_start(struct render *r, const struct render_job *job,
     r->draft_spp_done = 0;
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
+    r->film_error = (struct film_error){0};
     start_run(r, job->steps);
     pthread_mutex_unlock(&r->lock);
     return true;
@@ -456,6 +469,7 @@ struct render_progress render_progress(struct render *r)
         p.render_ns += clock_ns() - r->run_begin_ns;
     p.build_ns = r->build_ns;
     p.first_picture_ns = r->first_picture_ns;
+    p.film_error = r->film_error;
     p.draft_is_coarse = r->draft.width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)
         p.error = r->error;

@@ -27,6 +27,7 @@
 #include <stdint.h>
 
 #include "picture/film.h"
+#include "picture/film_error.h"
 #include "render/backend.h"
 
 struct rect {
@@ -45,6 +46,7 @@ struct render_job {
     struct rect crop;   /* rectangle of the camera's picture to render */
     struct render_limits limits;
     uint64_t steps; /* halts after this many steps; 0: does not halt */
+    float exposure; /* for the error, film_error.h */
     /* size of the draft in pixels: that of the shown picture, reduced to that
      * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;
@@ -79,6 +81,7 @@ struct render_progress {
     /* time until every point of the coarsest grid had a sample, in the draft if
      * there is one; 0: not yet */
     uint64_t first_picture_ns;
+    struct film_error film_error; /* at the end of the last pass */
     struct error error;
 };
 

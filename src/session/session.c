@@ -187,6 +187,7 @@ static bool begin(struct session *s, struct render_limits limits,
     bool is_live = limits.spp == 0 && limits.time_ns == 0;
     uint32_t features;
 
+    job.exposure = (float)view.lighting.exposure;
     if (is_live) {
         job.draft_width = s->draft_width;
         job.draft_height = s->draft_height;

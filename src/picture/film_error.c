@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include "picture/film_error.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Pixels of a tile, which is processed in memory on the stack. */
+#define SIDE 32
+
+/* Pixels around a tile that its local means need. */
+#define HALO 2
+
+#define WIDE (SIDE + 2 * HALO)
+
+/* Limit of means and differences, below which sums of squares are finite. */
+#define LARGEST 1e18f
+
+/* Quantile of the normal distribution for 95 %. */
+#define QUANTILE 1.96
+
+/* Pixels with the largest errors, as a share of all, and the share of the
+ * error above which they make it unresolved. */
+#define TOP_SHARE  0.001
+#define TOP_WEIGHT 0.5
+
+/* Bins of a histogram of errors, four for each power of two: the upper bits of
+ * positive floats. */
+#define BINS 1024
+
+/* Means x and half differences e of a tile and the pixels around it, for each
+ * channel. Pixels beyond the film are 0 and have is_inside 0. */
+struct tile {
+    int x0, y0, width, height; /* without the pixels around */
+    bool is_known;
+    float mean[3][WIDE][WIDE];
+    float e[3][WIDE][WIDE];
+    float is_inside[WIDE][WIDE];
+};
+
+/* Reads pixel `at` of the film. Returns false if a half of it has no sample. */
+static bool read_pixel(struct tile *t, int row, int column,
+                       const struct film *f, size_t at)
+{
+    uint64_t count = f->counts[at];
+    float odd_count = (float)(count / 2);
+    float even_count = (float)(count - count / 2);
+    /* for unequal counts, var(x) is var(a - b) times this factor squared */
+    float factor = sqrtf(even_count * odd_count) / (float)count;
+
+    if (count < 2)
+        return false;
+    for (size_t c = 0; c < 3; c++) {
+        float sum = sum_float(f->sums[3 * at + c]);
+        float odd = sum_float(f->odd_sums[3 * at + c]);
+        float difference = (sum - odd) / even_count - odd / odd_count;
+
+        t->mean[c][row][column] = f_min(sum / (float)count, LARGEST);
+        t->e[c][row][column] =
+            f_max(f_min(difference * factor, LARGEST), -LARGEST);
+    }
+    t->is_inside[row][column] = 1.0f;
+    return true;
+}
+
+static void read_row(struct tile *t, struct film *f, int row)
+{
+    int y = t->y0 + row - HALO;
+    int first = t->x0 >= HALO ? 0 : HALO;
+    int last = t->width + 2 * HALO;
+
+    if (y < 0 || y >= f->height)
+        return;
+    if (last > f->width - t->x0 + HALO)
+        last = f->width - t->x0 + HALO;
+    film_lock_row(f, y);
+    for (int i = first; i < last; i++) {
+        size_t x = (size_t)(t->x0 + i - HALO);
+
+        if (!read_pixel(t, row, i, f, (size_t)y * (size_t)f->width + x))
+            t->is_known = false;
+    }
+    film_unlock_row(f, y);
+}
+
+static void read_tile(struct tile *t, struct film *f, int x0, int y0)
+{
+    memset(t, 0, sizeof *t);
+    t->x0 = x0;
+    t->y0 = y0;
+    t->width = f->width - x0 < SIDE ? f->width - x0 : SIDE;
+    t->height = f->height - y0 < SIDE ? f->height - y0 : SIDE;
+    t->is_known = true;
+    for (int row = 0; row < t->height + 2 * HALO; row++)
+        read_row(t, f, row);
+}
+
+/* Differences e of a tile times the roots of their weights. */
+struct weighted {
+    float e[3][SIDE][SIDE];
+};
+
+/* Sums over the 5 rows from y on, then over 5 columns. */
+static void sum_around(float values[WIDE][WIDE], int y, float sums[SIDE])
+{
+    float columns[WIDE];
+
+    for (int x = 0; x < WIDE; x++)
+        columns[x] = values[y][x] + values[y + 1][x] + values[y + 2][x] +
+                     values[y + 3][x] + values[y + 4][x];
+    for (int x = 0; x < SIDE; x++)
+        sums[x] = columns[x] + columns[x + 1] + columns[x + 2] +
+                  columns[x + 3] + columns[x + 4];
+}
+
+/* Weighs a channel by the roots of 1 / (m^2 + floor). The weights are corrected
+ * for the noise of m, which enlarges their mean by a few per cent at a few
+ * samples: that is the second term of Taylor's series. */
+static void weigh(struct tile *t, int c, float floor, float to[SIDE][SIDE])
+{
+    float squares[WIDE][WIDE];
+    float count[SIDE], mean[SIDE], square[SIDE];
+
+    for (int y = 0; y < WIDE; y++)
+        for (int x = 0; x < WIDE; x++)
+            squares[y][x] = t->e[c][y][x] * t->e[c][y][x];
+    for (int y = 0; y < t->height; y++) {
+        sum_around(t->is_inside, y, count);
+        sum_around(t->mean[c], y, mean);
+        sum_around(squares, y, square);
+        for (int x = 0; x < SIDE; x++) {
+            float others = f_max(count[x] - 1.0f, 1.0f);
+            float own = t->mean[c][y + HALO][x + HALO];
+            float own_square = squares[y + HALO][x + HALO];
+            float m = (mean[x] - own) / others;
+            float variance = (square[x] - own_square) / (others * others);
+            float w = 1.0f / (m * m + floor);
+            float curve = (3.0f * m * m - floor) * w * w;
+            float change = f_max(f_min(-curve * variance, 0.5f), -0.5f);
+
+            to[y][x] = t->e[c][y + HALO][x + HALO] * sqrtf(w * (1.0f + change));
+        }
+    }
+}
+
+/* Sums over the pixels of a film. */
+struct total {
+    double squares;    /* of e, weighted */
+    double fourths;    /* squares of those of each pixel */
+    double neighbours; /* squares of the products of e of neighbours */
+    double pair_count; /* of neighbours */
+    double cubes;      /* of e of three neighbours, see add_corner() */
+    double corner_count;
+    uint64_t bin_counts[BINS];
+    double bin_squares[BINS];
+};
+
+static float product(const struct weighted *w, int x, int y, int x1, int y1)
+{
+    return w->e[0][y][x] * w->e[0][y1][x1] + w->e[1][y][x] * w->e[1][y1][x1] +
+           w->e[2][y][x] * w->e[2][y1][x1];
+}
+
+static void add_pixel(struct total *t, float square)
+{
+    uint32_t bin = float_bits(square) >> 21;
+
+    t->squares += (double)square;
+    t->fourths += (double)square * (double)square;
+    t->bin_counts[bin]++;
+    t->bin_squares[bin] += (double)square;
+}
+
+static void add_pair(struct total *t, float product)
+{
+    t->neighbours += (double)product * (double)product;
+    t->pair_count++;
+}
+
+/* Adds what the noise of the weights contributes to the variance. An error of m
+ * changes the weights of the pixels around, and the estimate by twice the
+ * relative error times their squares. These are taken from the neighbours, so
+ * that the factors are independent. */
+static void add_corner(struct total *t, const struct weighted *w, int x, int y)
+{
+    float right = 0.0f, below = 0.0f;
+
+    for (int c = 0; c < 3; c++) {
+        float e = w->e[c][y][x];
+
+        right += e * w->e[c][y][x + 1] * w->e[c][y][x + 1];
+        below += e * w->e[c][y + 1][x] * w->e[c][y + 1][x];
+    }
+    t->cubes += (double)right * (double)below;
+    t->corner_count++;
+}
+
+static void add_tile(struct total *total, const struct tile *t,
+                     const struct weighted *w)
+{
+    for (int y = 0; y < t->height; y++)
+        for (int x = 0; x < t->width; x++) {
+            add_pixel(total, product(w, x, y, x, y));
+            if (x + 1 < t->width)
+                add_pair(total, product(w, x, y, x + 1, y));
+            if (y + 1 < t->height)
+                add_pair(total, product(w, x, y, x, y + 1));
+            if (x + 1 < t->width && y + 1 < t->height)
+                add_corner(total, w, x, y);
+        }
+}
+
+/* Returns the share of the sum that the largest pixels have. */
+static double top_weight(const struct total *t, double pixels)
+{
+    double left = ceil(pixels * TOP_SHARE);
+    double sum = 0;
+
+    for (int i = BINS - 1; i >= 0 && left > 0; i--) {
+        double count = (double)t->bin_counts[i];
+        double taken = fmin(count, left);
+
+        if (count > 0)
+            sum += t->bin_squares[i] * taken / count;
+        left -= taken;
+    }
+    return t->squares > 0 ? sum / t->squares : 0;
+}
+
+/* Returns the mean over the pixels of the square of their variance, which the
+ * interval needs. It is a third of the fourth moment where errors are normal,
+ * less where they are not. The product of neighbours' squares has it as its
+ * mean where variances of neighbours are equal, and is lower elsewhere. The
+ * mean of the two is close in practice (tests/stress/error.c). */
+static double mean_variance_squared(const struct total *t, double pixels)
+{
+    double high = t->fourths / 3 / pixels;
+    double low = t->pair_count > 0 ? t->neighbours / t->pair_count : high;
+
+    return (low + high) / 2;
+}
+
+static struct film_error conclude(const struct total *t, double pixels)
+{
+    double mean = t->squares / (3 * pixels);
+    double cubes = t->corner_count > 0 ? t->cubes / t->corner_count : 0;
+    double deviation =
+        2.0 / 3 *
+        sqrt((mean_variance_squared(t, pixels) + fmax(cubes, 0)) / pixels);
+
+    return (struct film_error){
+        .is_known = true,
+        .is_resolved = top_weight(t, pixels) <= TOP_WEIGHT,
+        .error = sqrt(mean),
+        .low = sqrt(fmax(0, mean - QUANTILE * deviation)),
+        .high = sqrt(mean + QUANTILE * deviation),
+    };
+}
+
+static int tiles_in(int length)
+{
+    return (length + SIDE - 1) / SIDE;
+}
+
+/* Reads tile i of the film and weighs it. Returns false if a pixel in it or
+ * around it has a half without a sample. */
+static bool take_tile(struct film *f, int i, float exposure, struct tile *t,
+                      struct weighted *weighted)
+{
+    int columns = tiles_in(f->width);
+    double black = 0.1 * exp2(-(double)exposure);
+
+    read_tile(t, f, i % columns * SIDE, i / columns * SIDE);
+    for (int c = 0; c < 3; c++)
+        weigh(t, c, (float)(black * black), weighted->e[c]);
+    return t->is_known;
+}
+
+struct film_error film_error(struct film *f, float exposure)
+{
+    struct total total = {0};
+    struct weighted weighted;
+    struct tile t;
+
+    for (int i = 0; i < tiles_in(f->width) * tiles_in(f->height); i++) {
+        if (!take_tile(f, i, exposure, &t, &weighted))
+            return (struct film_error){0};
+        add_tile(&total, &t, &weighted);
+    }
+    return conclude(&total, (double)f->width * (double)f->height);
+}
+
+/* Replaces `count` numbers, `step` floats apart, by the means of the 5 around
+ * each, fewer at the ends. */
+static void average(float *x, int count, size_t step)
+{
+    float before[HALO] = {0}; /* old values of the two numbers before */
+
+    for (int i = 0; i < count; i++) {
+        float own = x[(size_t)i * step];
+        float sum = before[0] + before[1] + own;
+        int terms = 1 + (i < HALO ? i : HALO);
+
+        for (int j = i + 1; j <= i + HALO && j < count; j++, terms++)
+            sum += x[(size_t)j * step];
+        before[0] = before[1];
+        before[1] = own;
+        x[(size_t)i * step] = sum / (float)terms;
+    }
+}
+
+bool film_error_map(struct film *f, float exposure, float *map)
+{
+    struct weighted weighted;
+    struct tile t;
+    size_t width = (size_t)f->width;
+
+    for (int i = 0; i < tiles_in(f->width) * tiles_in(f->height); i++) {
+        if (!take_tile(f, i, exposure, &t, &weighted))
+            return false;
+        for (int y = 0; y < t.height; y++)
+            for (int x = 0; x < t.width; x++)
+                map[(size_t)(t.y0 + y) * width + (size_t)(t.x0 + x)] =
+                    product(&weighted, x, y, x, y) / 3.0f;
+    }
+    for (int y = 0; y < f->height; y++)
+        average(map + (size_t)y * width, f->width, 1);
+    for (size_t x = 0; x < width; x++)
+        average(map + x, f->height, width);
+    for (size_t i = 0; i < width * (size_t)f->height; i++)
+        map[i] = sqrtf(map[i]);
+    return true;
+}

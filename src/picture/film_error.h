@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+/*
+ * film_error.h - the error of a film, estimated from the two halves of each
+ * pixel
+ *
+ * Halves a and b are independent, so e = (a - b) / 2 has the variance of the
+ * pixel x = (a + b) / 2. The error of the picture is its relative root mean
+ * square error: the root of the mean over pixels and channels of
+ *
+ *     (x - truth)^2 / (m^2 + (0.1 / 2^exposure)^2)
+ *
+ * where m is the mean of the 24 pixels around, by which noise does not weigh
+ * itself. The second term keeps pixels that are black on the screen from
+ * counting.
+ *
+ * The estimate is the mean of e^2 with the same weights. It differs from the
+ * error of this very picture by the mean of the products of the errors of a and
+ * b, because (x - truth)^2 - e^2 is that product. Its variance gives the
+ * interval.
+ *
+ * Threads:   any; rows of the film are locked
+ */
+#ifndef GLIM_FILM_ERROR_H
+#define GLIM_FILM_ERROR_H
+
+#include <stdbool.h>
+
+#include "picture/film.h"
+
+struct film_error {
+    bool is_known; /* every pixel has a sample in each half */
+    /* Few pixels do not carry most of the error. Otherwise light that few
+     * samples find, a caustic perhaps, may be missing from the estimate. */
+    bool is_resolved;
+    double error;     /* 0.01 is 1 % */
+    double low, high; /* 95 % interval */
+};
+
+struct film_error film_error(struct film *film, float exposure);
+
+/* Writes the error of each pixel, as a root mean square over the 5 x 5 pixels
+ * around it. Returns false if the error is unknown. */
+bool film_error_map(struct film *film, float exposure, float *map);
+
+#endif

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_film_error.c - the stated error against films of known noise
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "picture/film_error.h"
+#include "tests/unit/check.h"
+
+#define SIDE   70 /* no multiple of the tiles' side */
+#define PIXELS (SIDE * SIDE)
+
+static uint64_t state_of_random = 1;
+
+/* Uniform in [0, 1): a multiplicative generator, independent of glim's. */
+static double uniform(void)
+{
+    state_of_random = state_of_random * UINT64_C(6364136223846793005) +
+                      UINT64_C(1442695040888963407);
+    return (double)(state_of_random >> 11) * 0x1p-53;
+}
+
+/* A sample of mean `mean`: with chance `chance` the light is mean / chance. Its
+ * variance is mean^2 (1 / chance - 1). */
+static float rare(double mean, double chance)
+{
+    return uniform() < chance ? (float)(mean / chance) : 0.0f;
+}
+
+struct noise {
+    double mean, chance;
+};
+
+static void fill(struct film *film, const struct noise *n, int spp)
+{
+    struct path_sample *samples = calloc((size_t)(SIDE * spp), sizeof *samples);
+    int counts[SIDE];
+
+    assert_non_null(samples);
+    film_clear(film);
+    for (int y = 0; y < SIDE; y++) {
+        for (int i = 0; i < SIDE * spp; i++)
+            samples[i].radiance =
+                v3(rare(n->mean, n->chance), rare(n->mean, n->chance),
+                   rare(n->mean, n->chance));
+        for (int x = 0; x < SIDE; x++)
+            counts[x] = spp;
+        film_add_row(film, 0, y, 1, SIDE, samples, counts);
+    }
+    free(samples);
+}
+
+/* The error of the picture itself, whose truth is the same everywhere. */
+static double true_error(struct film *film, double mean, double exposure)
+{
+    static float rgb[3 * PIXELS];
+    double sum = 0;
+
+    film_linear(film, rgb);
+    for (int i = 0; i < 3 * PIXELS; i++)
+        sum += pow((double)rgb[i] - mean, 2);
+    return sqrt(sum / (3 * PIXELS) /
+                (mean * mean + 0.01 * exp2(-2 * exposure)));
+}
+
+static void make(struct film *film)
+{
+    struct error err;
+
+    assert_true(film_init(film, SIDE, SIDE, &err));
+}
+
+/* The error is the standard deviation of the mean, for even and odd numbers of
+ * samples. 14,700 channels of chance 1/2 make it exact to 1 %. */
+static void the_error_is_that_of_the_noise(void **state)
+{
+    const int spp[] = {2, 3, 4, 7, 16, 31};
+    struct film film;
+
+    (void)state;
+    make(&film);
+    for (int i = 0; i < 6; i++) {
+        struct film_error e;
+
+        fill(&film, &(struct noise){1, 0.5}, spp[i]);
+        e = film_error(&film, 0);
+        assert_true(e.is_known && e.is_resolved);
+        check_close(e.error, 1 / sqrt(spp[i] * 1.01), 0.03 * e.error);
+        assert_true(e.low < e.error && e.error < e.high);
+    }
+    film_free(&film);
+}
+
+/* The interval contains the error of the very picture in 92 to 98 % of 1,000
+ * pictures, also where most samples are black. The standard error of the share
+ * is 0.7 %. */
+static void intervals_are_calibrated(void **state)
+{
+    const struct noise noises[] = {{1, 0.5}, {0.2, 0.1}, {5, 0.02}};
+    const int spp[] = {4, 16, 64};
+    struct film film;
+
+    (void)state;
+    make(&film);
+    for (int i = 0; i < 3; i++) {
+        int inside = 0;
+
+        for (int k = 0; k < 1000; k++) {
+            struct film_error e;
+            double truth;
+
+            fill(&film, &noises[i], spp[i]);
+            e = film_error(&film, 0);
+            truth = true_error(&film, noises[i].mean, 0);
+            inside += e.low <= truth && truth <= e.high;
+        }
+        print_message("%d of 1000 inside\n", inside);
+        assert_true(inside >= 920 && inside <= 980);
+    }
+    film_free(&film);
+}
+
+/* Light and exposure may be scaled together. Nearly black pictures have no
+ * error to speak of. */
+static void the_error_is_relative_to_white(void **state)
+{
+    struct film film;
+    double error;
+
+    (void)state;
+    make(&film);
+    state_of_random = 7;
+    fill(&film, &(struct noise){0.25, 0.5}, 8);
+    error = film_error(&film, 0).error;
+    state_of_random = 7;
+    fill(&film, &(struct noise){256, 0.5}, 8);
+    check_close(film_error(&film, -10).error, error, 1e-6 * error);
+    assert_true(film_error(&film, 0).error > error);
+    fill(&film, &(struct noise){1e-6, 0.5}, 8);
+    check_at_most(film_error(&film, 0).error, 1e-5);
+    film_free(&film);
+}
+
+/* Without a sample in each half of each pixel the error is unknown. */
+static void one_sample_says_nothing(void **state)
+{
+    struct film film;
+    struct film_error e;
+    static float map[PIXELS];
+
+    (void)state;
+    make(&film);
+    assert_false(film_error(&film, 0).is_known);
+    fill(&film, &(struct noise){1, 0.5}, 1);
+    e = film_error(&film, 0);
+    assert_false(e.is_known || film_error_map(&film, 0, map));
+    fill(&film, &(struct noise){1, 0.5}, 2);
+    assert_true(film_error(&film, 0).is_known);
+    film_clear(&film);
+    assert_false(film_error(&film, 0).is_known);
+    film_free(&film);
+}
+
+/* A few pixels with nearly all of the error make it unresolved. */
+static void fireflies_are_unresolved(void **state)
+{
+    struct path_sample flash = {.radiance = {1e4f, 1e4f, 1e4f}};
+    struct film film;
+
+    (void)state;
+    make(&film);
+    fill(&film, &(struct noise){1, 0.5}, 16);
+    film_add_row(&film, 30, 31, 1, 1, &flash, (const int[]){1});
+    assert_false(film_error(&film, 0).is_resolved);
+    film_free(&film);
+}
+
+/* Maps show where the noise is, and their root mean square is the error. */
+static void maps_show_where_the_noise_is(void **state)
+{
+    struct path_sample samples[16 * SIDE];
+    static float map[PIXELS];
+    int counts[SIDE];
+    struct film film;
+    double sum = 0;
+
+    (void)state;
+    make(&film);
+    for (int y = 0; y < SIDE; y++) {
+        for (int i = 0; i < 16 * SIDE; i++) {
+            float x = i / 16 < SIDE / 2 ? 1.0f : rare(1, 0.5);
+
+            samples[i].radiance = v3(x, x, x);
+        }
+        for (int x = 0; x < SIDE; x++)
+            counts[x] = 16;
+        film_add_row(&film, 0, y, 1, SIDE, samples, counts);
+    }
+    assert_true(film_error_map(&film, 0, map));
+    for (int i = 0; i < PIXELS; i++) {
+        int x = i % SIDE;
+
+        if (x < SIDE / 2 - 2)
+            assert_true(map[i] == 0);
+        if (x > SIDE / 2 + 2)
+            sum += (double)map[i] * (double)map[i];
+    }
+    check_close(sqrt(sum / (SIDE * (SIDE / 2 - 3))), 0.25, 0.02);
+    film_free(&film);
+}
+
+static void odd_pictures_have_numbers(void **state)
+{
+    const int sides[][2] = {{1, 1}, {1, 5}, {33, 1}, {3, 2}};
+
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct path_sample samples[4] = {{.radiance = {1, 0, 1e30f}},
+                                         {.radiance = {0, 0, 0}},
+                                         {.radiance = {1, 0, 1e30f}},
+                                         {.radiance = {1, 0, 1}}};
+        float map[64];
+        struct film film;
+        struct film_error e;
+        struct error err;
+
+        assert_true(film_init(&film, sides[i][0], sides[i][1], &err));
+        for (int y = 0; y < sides[i][1]; y++)
+            for (int x = 0; x < sides[i][0]; x++)
+                film_add_row(&film, x, y, 1, 1, samples, (const int[]){4});
+        e = film_error(&film, 0);
+        assert_true(e.is_known && isfinite(e.error) && isfinite(e.high));
+        assert_true(e.low >= 0 && e.low <= e.error && e.error <= e.high);
+        assert_true(film_error_map(&film, 0, map));
+        for (int k = 0; k < sides[i][0] * sides[i][1]; k++)
+            assert_true(isfinite(map[k]));
+        film_free(&film);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_error_is_that_of_the_noise),
+        cmocka_unit_test(intervals_are_calibrated),
+        cmocka_unit_test(the_error_is_relative_to_white),
+        cmocka_unit_test(one_sample_says_nothing),
+        cmocka_unit_test(fireflies_are_unresolved),
+        cmocka_unit_test(maps_show_where_the_noise_is),
+        cmocka_unit_test(odd_pictures_have_numbers),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
