@@ -46,7 +46,7 @@ static void fill(struct film *film, const struct noise *n, int spp)
                    rare(n->mean, n->chance));
         for (int x = 0; x < SIDE; x++)
             counts[x] = spp;
-        film_add_row(film, 0, y, 1, SIDE, samples, counts);
+        film_add_row(film, 0, y, 1, SIDE, samples, NULL, counts);
     }
     free(samples);
 }
@@ -171,7 +171,7 @@ static void fireflies_are_unresolved(void **state)
     (void)state;
     make(&film);
     fill(&film, &(struct noise){1, 0.5}, 16);
-    film_add_row(&film, 30, 31, 1, 1, &flash, (const int[]){1});
+    film_add_row(&film, 30, 31, 1, 1, &flash, NULL, (const int[]){1});
     assert_false(film_error(&film, 0).is_resolved);
     film_free(&film);
 }
@@ -195,7 +195,7 @@ static void maps_show_where_the_noise_is(void **state)
         }
         for (int x = 0; x < SIDE; x++)
             counts[x] = 16;
-        film_add_row(&film, 0, y, 1, SIDE, samples, counts);
+        film_add_row(&film, 0, y, 1, SIDE, samples, NULL, counts);
     }
     assert_true(film_error_map(&film, 0, map));
     for (int i = 0; i < PIXELS; i++) {
@@ -228,7 +228,8 @@ static void odd_pictures_have_numbers(void **state)
         assert_true(film_init(&film, sides[i][0], sides[i][1], &err));
         for (int y = 0; y < sides[i][1]; y++)
             for (int x = 0; x < sides[i][0]; x++)
-                film_add_row(&film, x, y, 1, 1, samples, (const int[]){4});
+                film_add_row(&film, x, y, 1, 1, samples, NULL,
+                             (const int[]){4});
         e = film_error(&film, 0);
         assert_true(e.is_known && isfinite(e.error) && isfinite(e.high));
         assert_true(e.low >= 0 && e.low <= e.error && e.error <= e.high);
