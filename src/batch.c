@@ -211,7 +211,8 @@ static void say_result(const struct session *s, const char *name,
     const struct film *film = render_film(s->render);
     struct glim_progress done = handle_progress(p);
 
-    batch_say_result(name, film->width, film->height, &done, s->start_ns);
+    batch_say_result(name, film->width, film->height, &done, s->options,
+                     s->start_ns);
 }
 
 static bool save_all(struct view_mode *show, struct error *err)
@@ -223,8 +224,7 @@ static bool save_all(struct view_mode *show, struct error *err)
 
     if (p.samples == 0) {
         /* an old picture is better than a black one */
-        batch_say_empty();
-        return true;
+        return batch_say_empty(err);
     }
     ok = save_picture(show, &name, err);
     if (ok)

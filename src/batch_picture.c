@@ -7,6 +7,7 @@
 
 #include "glim/glim.h"
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/print.h"
 #include "terminal/xmalloc.h"
@@ -29,11 +30,15 @@ static bool on_progress(void *bar, const struct glim_progress *p)
 static bool render(struct glim *g, const struct options *o, bool has_device,
                    struct error *err)
 {
+    struct render_limits limits = options_limits(o);
     struct batch_bar bar = batch_bar_begin();
     struct glim_error why;
-    enum glim_result result =
-        glim_render(g, o->spp, 0, bar.is_wanted ? on_progress : NULL, &bar,
-                    &why);
+    enum glim_result result;
+
+    if (!glim_set_error_limit(g, limits.error, &why))
+        return batch_fail_as(err, &why);
+    result = glim_render(g, limits.spp, seconds_between(0, limits.time_ns),
+                         bar.is_wanted ? on_progress : NULL, &bar, &why);
 
     batch_bar_erase(&bar);
     if (result != GLIM_FAILED)
@@ -80,14 +85,13 @@ static bool save(struct glim *g, const struct options *o, uint64_t start_ns,
 
     if (p.samples == 0) {
         /* an old picture is worth more than a black one */
-        batch_say_empty();
-        return true;
+        return batch_say_empty(err);
     }
     name = write_picture(g, o, err);
     if (!name)
         return false;
     glim_get_picture_size(g, &width, &height);
-    batch_say_result(name, width, height, &p, start_ns);
+    batch_say_result(name, width, height, &p, o, start_ns);
     return true;
 }
 

@@ -13,6 +13,7 @@
 #include "base/event_fd.h"
 #include "base/print.h"
 #include "picture/image_write.h"
+#include "render/error_text.h"
 
 /* ---- output file ---- */
 
@@ -114,30 +115,53 @@ static int terminal_cols(void)
     return size.ws_col;
 }
 
-/* One line without its end. Samples per second are those of the tracing
- * alone: the time left follows from them. */
-static void format_bar(char *text, size_t size_bytes,
+static struct film_error error_of(const struct glim_progress *p)
+{
+    return (struct film_error){p->error_is_known, p->error_is_resolved,
+                               p->error, p->error_low, p->error_high};
+}
+
+/* Formats the samples: "12 of 16 spp", or "12 spp" without a limit. */
+static void format_spp(char text[48], const struct glim_progress *p)
+{
+    if (p->spp_limit > 0)
+        snprintf(text, 48, "%" PRIu64 " of %" PRIu64 " spp", p->spp,
+                 p->spp_limit);
+    else
+        snprintf(text, 48, "%" PRIu64 " spp", p->spp);
+}
+
+/* Formats the line for `cols` columns, without the speed if there is no room.
+ * Samples per second are those of the tracing alone, from which the time left
+ * follows. */
+static void format_bar(char *text, size_t size_bytes, int cols,
                        const struct glim_progress *p)
 {
     static const char full[] = "####################";
     static const char empty[] = "--------------------";
-    double done = p->samples_limit == 0
-                      ? 0.0
-                      : (double)p->samples / (double)p->samples_limit;
-    double elapsed = p->seconds;
-    double tracing = elapsed - p->build_seconds;
+    struct film_error error = error_of(p);
+    double tracing = p->seconds - p->build_seconds;
     double rate = tracing > 0.0 ? (double)p->samples / tracing : 0.0;
-    int filled = (int)(done * 20.0);
-    char elapsed_text[16], left_text[16] = "-";
+    int filled = (int)(p->part_done * 20.0);
+    char elapsed[16], left[16] = "-", spp[48], noise[ERROR_TEXT_BYTES];
+    char speed[48];
 
-    format_time(elapsed_text, elapsed);
-    if (rate > 0.0)
-        format_time(left_text, (double)(p->samples_limit - p->samples) / rate);
-    snprintf(text, size_bytes,
-             "%3d %% [%.*s%.*s] %" PRIu64 " of %" PRIu64
-             " spp, %.2f Msamples/s, %s, left %s",
-             (int)(done * 100.0), filled, full, 20 - filled, empty, p->spp,
-             p->spp_limit, rate * 1e-6, elapsed_text, left_text);
+    format_time(elapsed, p->seconds);
+    if (p->seconds_left >= 0)
+        format_time(left, p->seconds_left);
+    format_spp(spp, p);
+    error_text_noise(noise, &error);
+    snprintf(speed, sizeof speed, ", %.2f Msamples/s", rate * 1e-6);
+    for (int has_speed = 1; has_speed >= 0; has_speed--) {
+        int length =
+            snprintf(text, size_bytes,
+                     "%3d %% [%.*s%.*s] %s%s, %s, left %s, %s",
+                     (int)(p->part_done * 100.0), filled, full, 20 - filled,
+                     empty, spp, has_speed ? speed : "", elapsed, left, noise);
+
+        if (length <= cols)
+            break;
+    }
 }
 
 /* Writes `text` over what is shown; a line that filled the last column would
@@ -164,11 +188,11 @@ struct batch_bar batch_bar_begin(void)
 
 void batch_bar_draw(struct batch_bar *bar, const struct glim_progress *p)
 {
-    char text[160];
+    char text[256];
 
     if (!bar->is_wanted)
         return;
-    format_bar(text, sizeof text, p);
+    format_bar(text, sizeof text, terminal_cols() - 1, p);
     bar_show(bar, text);
 }
 
@@ -183,22 +207,54 @@ void batch_bar_erase(struct batch_bar *bar)
 
 /* ---- lines ---- */
 
-void batch_say_empty(void)
+bool batch_say_empty(struct error *err)
 {
+    if (stop_signal == 0)
+        return fail(err, "--time: found an end before the first sample, "
+                         "expected a longer time: nothing written");
     print_line(stderr, "stopped by %s before the first sample: nothing written",
                signal_name(stop_signal));
+    return true;
+}
+
+/* Formats the limit that ended the render, with a colon: "stopped at 1 %: ".
+ * The text is empty if there was no choice, since samples were the only limit.
+ */
+static void format_limit(char text[ERROR_TEXT_BYTES],
+                         const struct glim_progress *p, const struct options *o)
+{
+    struct render_limits limits = options_limits(o);
+    bool has_choice = limits.error > 0 || limits.time_ns != 0;
+
+    text[0] = '\0';
+    if (p->limit == GLIM_LIMIT_ERROR)
+        snprintf(text, ERROR_TEXT_BYTES,
+                 "stopped at %g %%: ", 100 * limits.error);
+    else if (p->limit == GLIM_LIMIT_SECONDS)
+        snprintf(text, ERROR_TEXT_BYTES,
+                 "stopped after %g s: ", seconds_between(0, limits.time_ns));
+    else if (p->limit == GLIM_LIMIT_SPP && has_choice)
+        snprintf(text, ERROR_TEXT_BYTES,
+                 "stopped at %" PRIu64 " spp: ", p->spp_limit);
 }
 
 void batch_say_result(const char *name, int width, int height,
-                      const struct glim_progress *p, uint64_t start_ns)
+                      const struct glim_progress *p, const struct options *o,
+                      uint64_t start_ns)
 {
+    struct film_error e = error_of(p);
+    char limit[ERROR_TEXT_BYTES], error[ERROR_TEXT_BYTES], spp[48];
+
+    format_limit(limit, p, o);
+    format_spp(spp, p);
+    error_text_interval(error, &e);
     if (stop_signal != 0)
-        print_line(stderr,
-                   "stopped by %s at %" PRIu64 " of %" PRIu64 " spp: wrote %s",
-                   signal_name(stop_signal), p->spp, p->spp_limit, name);
+        print_line(stderr, "stopped by %s at %s: wrote %s, error %s",
+                   signal_name(stop_signal), spp, name, error);
     else
-        print_line(stderr, "%s: %dx%d, %" PRIu64 " spp, %.1f s", name, width,
-                   height, p->spp, seconds_between(start_ns, clock_ns()));
+        print_line(stderr, "%s: %s%dx%d, %" PRIu64 " spp, %.1f s, error %s",
+                   name, limit, width, height, p->spp,
+                   seconds_between(start_ns, clock_ns()), error);
     if (p->non_finite > 0)
         print_line(stderr,
                    "glim: warning: %" PRIu64

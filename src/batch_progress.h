@@ -15,6 +15,7 @@
 #include "glim/glim.h"
 
 #include "base/error.h"
+#include "session/command_line.h"
 
 /* The bar is drawn this often, which also bounds what a slow link gets. */
 #define BATCH_DRAW_MS 100
@@ -39,12 +40,15 @@ struct batch_bar batch_bar_begin(void);
 void batch_bar_draw(struct batch_bar *bar, const struct glim_progress *p);
 void batch_bar_erase(struct batch_bar *bar);
 
-/* Says that nothing was written, as there is no sample. */
-void batch_say_empty(void);
+/* Says that a signal came before the first sample, so that nothing was written.
+ * Fails if it was no signal but the limit of time. */
+bool batch_say_empty(struct error *err);
 
-/* Says what was written to `name`. start_ns is that of the program. */
+/* Says what was written to `name`: which limit of the options ended the render,
+ * and the error of the picture. start_ns is that of the program. */
 void batch_say_result(const char *name, int width, int height,
-                      const struct glim_progress *p, uint64_t start_ns);
+                      const struct glim_progress *p, const struct options *o,
+                      uint64_t start_ns);
 
 /* Says that the CPU renders because of the error. */
 void batch_warn_of_device(const char *text);

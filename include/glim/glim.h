@@ -61,8 +61,16 @@ enum glim_backend {
 
 enum glim_result {
     GLIM_FAILED,  /* *err has the reason */
-    GLIM_DONE,    /* the limit of samples or seconds is reached */
+    GLIM_DONE,    /* a limit is reached */
     GLIM_STOPPED, /* stopped by the progress function or glim_cancel() */
+};
+
+/* Limits of a render. */
+enum glim_limit {
+    GLIM_LIMIT_NONE,
+    GLIM_LIMIT_SPP,
+    GLIM_LIMIT_ERROR,
+    GLIM_LIMIT_SECONDS
 };
 
 struct glim_camera {
@@ -82,6 +90,16 @@ struct glim_progress {
     uint64_t non_finite;    /* NaN, infinite or negative samples: black */
     double seconds;         /* time spent on the picture */
     double build_seconds;   /* part of it for the tree of triangles */
+    /* relative error of the picture at the end of the last pass, 0.01 for 1 %,
+     * and its 95 % interval; all 0 while unknown */
+    bool error_is_known;
+    bool error_is_resolved; /* false if few pixels carry most of it */
+    double error, error_low, error_high;
+    /* the limit that ended the last glim_render(), or the nearest one while it
+     * runs */
+    enum glim_limit limit;
+    double part_done;    /* part of the way to that limit, 0 to 1 */
+    double seconds_left; /* time until then; negative if unknown */
 };
 
 /* Returns the GLIM_VERSION of the linked library, which may differ from the
@@ -181,9 +199,16 @@ GLIM_API const char *glim_backend_log(const struct glim *g);
  * render. */
 typedef bool glim_progress_fn(void *context, const struct glim_progress *p);
 
-/* Renders until every pixel has `spp` samples or `seconds` have passed; 0 is no
- * limit. Blocks until then. Continues the previous picture if no setting has
- * changed since. `progress` may be NULL. */
+/* Sets the limit of the picture's error for glim_render(), 0.01 for 1 %; 0, the
+ * default, is no limit. The picture so far stays. Returns false for an error
+ * that is not a number from 0 to 1. */
+GLIM_API bool glim_set_error_limit(struct glim *g, double error,
+                                   struct glim_error *err);
+
+/* Renders until every pixel has `spp` samples, `seconds` have passed, or the
+ * upper end of the error is at its limit; 0 is no limit. Blocks until then.
+ * Continues the previous picture if no setting has changed since. `progress`
+ * may be NULL. */
 GLIM_API enum glim_result glim_render(struct glim *g, uint64_t spp,
                                       double seconds,
                                       glim_progress_fn *progress, void *context,

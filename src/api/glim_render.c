@@ -12,6 +12,7 @@
 #include "base/thread.h"
 #include "opencl/cl_start.h"
 #include "render/cpu_dispatch.h"
+#include "render/render_left.h"
 
 #ifndef GLIM_PROGRAM
 #define GLIM_PROGRAM "glim"
@@ -134,8 +135,23 @@ const char *glim_backend_log(const struct glim *g)
 
 /* ---- rendering ---- */
 
+static enum glim_limit limit_of(enum render_limit limit)
+{
+    switch (limit) {
+    case RENDER_LIMIT_NONE: break;
+    case RENDER_LIMIT_SPP: return GLIM_LIMIT_SPP;
+    case RENDER_LIMIT_ERROR: return GLIM_LIMIT_ERROR;
+    case RENDER_LIMIT_TIME: return GLIM_LIMIT_SECONDS;
+    }
+    return GLIM_LIMIT_NONE;
+}
+
 struct glim_progress handle_progress(const struct render_progress *p)
 {
+    bool is_running = p->state == RENDER_RUNNING;
+    struct render_left left = render_left(p);
+    bool is_known = left.limit != RENDER_LIMIT_NONE;
+
     return (struct glim_progress){
         .spp = p->spp_done,
         .spp_limit = p->spp_limit,
@@ -144,6 +160,14 @@ struct glim_progress handle_progress(const struct render_progress *p)
         .non_finite = p->non_finite,
         .seconds = seconds_between(0, p->render_ns),
         .build_seconds = seconds_between(0, p->build_ns),
+        .error_is_known = p->film_error.is_known,
+        .error_is_resolved = p->film_error.is_resolved,
+        .error = p->film_error.error,
+        .error_low = p->film_error.low,
+        .error_high = p->film_error.high,
+        .limit = limit_of(is_running ? left.limit : p->stopped_by),
+        .part_done = left.part,
+        .seconds_left = is_known ? left.ns * 1e-9 : -1,
     };
 }
 
@@ -157,18 +181,36 @@ struct glim_progress glim_get_progress(struct glim *g)
     return handle_progress(&p);
 }
 
-/* Limits of one call of glim_render(). */
+bool glim_set_error_limit(struct glim *g, double error, struct glim_error *err)
+{
+    struct error why;
+
+    if (!(error >= 0 && error <= 1)) {
+        fail(&why, "error limit: found %g, expected 0 to 1", error);
+        return handle_fail(err, &why);
+    }
+    g->error_limit = error;
+    return true;
+}
+
+/* Limits of one call of glim_render(); 0 is none. */
 struct glim_call {
-    uint64_t spp;    /* 0: none */
-    uint64_t end_ns; /* of clock_ns(); 0: none */
+    uint64_t spp;
+    double error;
+    uint64_t end_ns; /* of clock_ns() */
 };
 
-static struct glim_call call_of(uint64_t spp, double seconds)
+static struct glim_call call_of(const struct glim *g, uint64_t spp,
+                                double seconds)
 {
     double ns = seconds * 1e9;
     bool has_end = seconds > 0 && ns < 9e18;
 
-    return (struct glim_call){spp, has_end ? clock_ns() + (uint64_t)ns : 0};
+    return (struct glim_call){
+        .spp = spp,
+        .error = g->error_limit,
+        .end_ns = has_end ? clock_ns() + (uint64_t)ns : 0,
+    };
 }
 
 /* Returns the limits of the picture, which was rendered for `before_ns` by
@@ -176,7 +218,7 @@ static struct glim_call call_of(uint64_t spp, double seconds)
 static struct render_limits limits_of(const struct glim_call *call,
                                       uint64_t before_ns)
 {
-    struct render_limits limits = {.spp = call->spp};
+    struct render_limits limits = {.spp = call->spp, .error = call->error};
     uint64_t now_ns = clock_ns();
 
     if (call->end_ns != 0)
@@ -238,7 +280,7 @@ enum glim_result glim_render(struct glim *g, uint64_t spp, double seconds,
                              glim_progress_fn *progress, void *context,
                              struct glim_error *err)
 {
-    struct glim_call call = call_of(spp, seconds);
+    struct glim_call call = call_of(g, spp, seconds);
     struct render_progress p;
     enum glim_result result;
     struct error why;

@@ -36,6 +36,7 @@ struct glim {
     struct render *render; /* NULL until needed */
     char *saved_name;      /* result of glim_save_new() */
     bool has_picture;      /* there is a picture of the current settings */
+    double error_limit;    /* of glim_render(); 0: none */
     int cancel_fd;         /* readable after glim_cancel() */
 };
 

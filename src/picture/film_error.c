@@ -112,10 +112,6 @@ static void sum_around(float values[WIDE][WIDE], int y, float sums[SIDE])
                   columns[x + 3] + columns[x + 4];
 }
 
-/* Share of a pixel that replaces the mean around it if it is larger, in both
- * halves. */
-#define OWN_SHARE 0.25f
-
 /* Weighs a channel by the roots of 1 / (m^2 + floor). The weights are corrected
  * for the noise of m, which enlarges their mean by a few per cent at a few
  * samples: that is the second term of Taylor's series. */
@@ -135,16 +131,13 @@ static void weigh(struct tile *t, int c, float floor, float to[SIDE][SIDE])
             float others = f_max(count[x] - 1.0f, 1.0f);
             float own = t->mean[c][y + HALO][x + HALO];
             float own_square = squares[y + HALO][x + HALO];
-            float around = (mean[x] - own) / others;
-            float e = t->e[c][y + HALO][x + HALO];
-            float m = f_max(around, OWN_SHARE * (own - fabsf(e)));
+            float m = (mean[x] - own) / others;
             float variance = (square[x] - own_square) / (others * others);
             float w = 1.0f / (m * m + floor);
             float curve = (3.0f * m * m - floor) * w * w;
-            float change = m > around ? 0.0f : -curve * variance;
+            float change = f_max(f_min(-curve * variance, 0.5f), -0.5f);
 
-            change = f_max(f_min(change, 0.5f), -0.5f);
-            to[y][x] = e * sqrtf(w * (1.0f + change));
+            to[y][x] = t->e[c][y + HALO][x + HALO] * sqrtf(w * (1.0f + change));
         }
     }
 }

@@ -11,6 +11,7 @@
 #include "base/event_fd.h"
 #include "base/memory.h"
 #include "base/thread.h"
+#include "render/error_trend.h"
 #include "render/projection.h"
 
 #include "kernels/path_types.h"
@@ -44,6 +45,7 @@ struct render {
     uint64_t build_ns;
     uint64_t first_picture_ns;
     struct film_error film_error;
+    struct error_trend error_trend;
     struct error error;
     /* set while the render thread is parked */
     struct render_job job;
@@ -64,6 +66,16 @@ static uint64_t next_target(uint64_t spp_done, uint64_t spp)
         more = SAMPLE_BLOCK;
     target = spp_done + more;
     return spp != 0 && target > spp ? spp : target;
+}
+
+uint64_t render_pass_end(uint64_t spp)
+{
+    uint64_t end = 1;
+
+    while (end < spp && end < SAMPLE_BLOCK)
+        end *= 2;
+    return end < spp ? (spp + SAMPLE_BLOCK - 1) / SAMPLE_BLOCK * SAMPLE_BLOCK
+                     : end;
 }
 
 static enum pass_result run_pass(struct render *r, int stride, uint64_t done,
@@ -201,9 +213,14 @@ static bool was_last_step(struct render *r)
     return is_last;
 }
 
-/* Returns the limit that holds at the end of a pass. */
+/* Returns the limit that holds at the end of a pass, which depends on samples
+ * only. The error counts more than the samples, since it tells more. */
 static enum render_limit limit_at(const struct render *r, uint64_t spp_done)
 {
+    const struct film_error *e = &r->film_error;
+
+    if (r->limits.error > 0 && e->is_known && e->high <= r->limits.error)
+        return RENDER_LIMIT_ERROR;
     return r->limits.spp != 0 && spp_done >= r->limits.spp ? RENDER_LIMIT_SPP
                                                            : RENDER_LIMIT_NONE;
 }
@@ -214,6 +231,8 @@ static void estimate_error(struct render *r)
 
     pthread_mutex_lock(&r->lock);
     r->film_error = e;
+    if (e.is_known)
+        error_trend_add(&r->error_trend, r->spp_done, e.high);
     pthread_mutex_unlock(&r->lock);
 }
 
@@ -339,21 +358,14 @@ static void start_run(struct render *r, uint64_t steps)
 
 /* Makes *film an empty film of this size. */
 static bool reset_film(struct film *film, int width, int height,
-                       bool has_surfaces, struct error *err)
+                       struct error *err)
 {
-    if (film->width == width && film->height == height &&
-        (film->surfaces != NULL) == has_surfaces) {
+    if (film->width == width && film->height == height) {
         film_clear(film);
         return true;
     }
     film_free(film);
-    return film_init(film, width, height, err) &&
-           (!has_surfaces || film_init_surfaces(film, err));
-}
-
-static bool has_surfaces(const struct render_job *job)
-{
-    return (job->world.settings.features & FEATURE_FILTER) != 0;
+    return film_init(film, width, height, err);
 }
 
 static int smallest(int a, int b, int c)
@@ -370,7 +382,7 @@ static bool reset_draft(struct render *r, const struct render_job *job,
     int height = smallest(job->draft_height, job->crop.height, DRAFT_SIDE_MAX);
 
     if (width > 0 && height > 0)
-        return reset_film(&r->draft, width, height, has_surfaces(job), err);
+        return reset_film(&r->draft, width, height, err);
     film_free(&r->draft);
     return true;
 }
@@ -379,8 +391,7 @@ bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
     render_halt(r);
-    if (!reset_film(&r->film, job->crop.width, job->crop.height,
-                    has_surfaces(job), err) ||
+    if (!reset_film(&r->film, job->crop.width, job->crop.height, err) ||
         !reset_draft(r, job, err))
         return false;
     r->job = *job;
@@ -392,6 +403,8 @@ bool render_start(struct render *r, const struct render_job *job,
     r->run_before_ns = 0;
     r->first_picture_ns = 0;
     r->film_error = (struct film_error){0};
+    r->error_trend = (struct error_trend){.count = 0};
+    r->build_ns = 0;
     start_run(r, job->steps);
     pthread_mutex_unlock(&r->lock);
     return true;
@@ -470,6 +483,7 @@ struct render_progress render_progress(struct render *r)
     p.state = r->state;
     p.stopped_by = r->stopped_by;
     p.spp_limit = r->limits.spp;
+    p.error_limit = r->limits.error;
     p.time_limit_ns = r->limits.time_ns;
     p.spp_done = r->spp_done;
     p.render_ns = r->run_before_ns;
@@ -478,11 +492,13 @@ struct render_progress render_progress(struct render *r)
     p.build_ns = r->build_ns;
     p.first_picture_ns = r->first_picture_ns;
     p.film_error = r->film_error;
+    p.error_exponent = error_trend_exponent(&r->error_trend);
     p.draft_is_coarse = r->draft.width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)
         p.error = r->error;
     pthread_mutex_unlock(&r->lock);
     p.samples = atomic_load(&r->film.samples);
+    p.pixels = pixels;
     p.samples_limit = p.spp_limit * pixels;
     p.draft_samples = atomic_load(&r->draft.samples);
     p.rays = atomic_load(&r->film.rays);

@@ -36,7 +36,9 @@ struct rect {
 
 /* Limits of a render; 0 is none. The first that holds ends it. */
 struct render_limits {
-    uint64_t spp;     /* samples per pixel */
+    uint64_t spp; /* samples per pixel */
+    /* upper end of the film's error at the end of a pass; 0.01 is 1 % */
+    double error;
     uint64_t time_ns; /* time of rendering, without halts */
 };
 
@@ -60,18 +62,25 @@ enum render_state {
 };
 
 /* The limit that ended a render. */
-enum render_limit { RENDER_LIMIT_NONE, RENDER_LIMIT_SPP, RENDER_LIMIT_TIME };
+enum render_limit {
+    RENDER_LIMIT_NONE,
+    RENDER_LIMIT_SPP,
+    RENDER_LIMIT_ERROR,
+    RENDER_LIMIT_TIME
+};
 
 struct render_progress {
     enum render_state state;
     enum render_limit stopped_by; /* none unless the state is RENDER_DONE */
     uint64_t spp_limit;           /* 0: none */
+    double error_limit;           /* 0: none */
     uint64_t time_limit_ns;       /* 0: none */
     uint64_t spp_done;            /* samples that every pixel has */
     uint64_t samples;             /* samples of all pixels together */
     uint64_t samples_limit;       /* 0: none */
-    uint64_t draft_samples;       /* samples of the draft; not in `samples` */
-    bool draft_is_coarse;         /* true while draft pixels lack a sample */
+    uint64_t pixels;
+    uint64_t draft_samples; /* samples of the draft; not in `samples` */
+    bool draft_is_coarse;   /* true while draft pixels lack a sample */
     uint64_t rays;
     uint64_t non_finite;
     uint64_t saturated;
@@ -82,6 +91,7 @@ struct render_progress {
      * there is one; 0: not yet */
     uint64_t first_picture_ns;
     struct film_error film_error; /* at the end of the last pass */
+    double error_exponent;        /* of its course: error_trend.h */
     struct error error;
 };
 
@@ -119,6 +129,10 @@ bool render_wait(struct render *r, int timeout_ms);
 int render_event_fd(const struct render *r);
 
 struct render_progress render_progress(struct render *r);
+
+/* Returns the number of samples per pixel at the end of the pass in which every
+ * pixel gets this many, if no limit comes before. */
+uint64_t render_pass_end(uint64_t spp);
 
 /* Returns the film, for reading: film_preview(), film_resolve(), film_linear(),
  * image_write(). It is valid until the next render_start() with another

@@ -15,7 +15,6 @@ const char options_help[] =
     "usage: glim [options] scene.obj\n"
     "       glim -b [options] [-o picture.png] scene.obj\n"
     "       glim compare [options] picture.pfm reference.pfm\n"
-    "       glim curve [options] reference.pfm scene.obj\n"
     "\n"
     "Path traces a Wavefront OBJ scene, live in the terminal or, with -b, to "
     "a\n"
@@ -26,7 +25,12 @@ const char options_help[] =
     "  -c FILE          the view file (default: SCENE.view beside the scene)\n"
     "  -w WIDTH         in pixels (default: from the view file, or 1024)\n"
     "  -h HEIGHT        in pixels (default: from the view file, or 576)\n"
-    "  -s SAMPLES       samples per pixel (default: 16)\n"
+    "  -s SAMPLES       stop at this number of samples per pixel (default: "
+    "16,\n"
+    "                   or none with -e or --time)\n"
+    "  -e ERROR         stop at this error of the picture, such as 1% or 0.01\n"
+    "  --time TIME      stop after this time of rendering, such as 90, 1.5m or "
+    "2h\n"
     "  -d BOUNCES       most bounces of a path, 0 to 999 (default: from the\n"
     "                   view file, or no limit)\n"
     "  --seed N         seed of the noise, 0 to 4294967295 (default: 0)\n"
@@ -71,11 +75,6 @@ const char options_help[] =
     "  compare          compare two .pfm, .hdr or .png pictures of one size:\n"
     "                   errors, and the tiles that differ by more than noise;\n"
     "                   -o writes a picture of the differences\n"
-    "  curve            render with 1, 2, 4 .. samples up to -s (default: "
-    "256)\n"
-    "                   and print the error and the time of each; -o draws a\n"
-    "                   diagram\n"
-    "  --csv FILE       write the curve as comma-separated values\n"
     "  --tiles N        most tiles each way, 1 to 256 (default: 16)\n"
     "  --false-alarms P probability that any tile is marked although only\n"
     "                   noise differs (default: 0.01)\n"
@@ -262,10 +261,11 @@ static bool check_together(const struct options *o, struct error *err)
 
 struct render_limits options_limits(const struct options *o)
 {
-    bool has_other = o->time_ns != 0;
+    bool has_other = o->error_limit > 0 || o->time_ns != 0;
 
     return (struct render_limits){
         .spp = o->has_spp || !has_other ? o->spp : 0,
+        .error = o->error_limit,
         .time_ns = o->time_ns,
     };
 }

@@ -42,14 +42,12 @@ enum backend_choice {
 enum sub_command {
     COMMAND_RENDER, /* without a word: live mode or -b */
     COMMAND_COMPARE,
-    COMMAND_CURVE,
 };
 
 struct options {
     enum sub_command command;
     const char *picture_path;   /* compare: the first picture */
-    const char *reference_path; /* compare: the second picture; curve */
-    const char *csv_path;       /* curve: NULL: no such file */
+    const char *reference_path; /* compare: the second picture */
     int tile_count;             /* compare: most tiles each way */
     double false_alarms;        /* compare: probability of any */
     const char *scene_path;
@@ -60,9 +58,10 @@ struct options {
     int width_px, height_px; /* 0 if not given */
     uint64_t spp;            /* samples per pixel */
     bool has_spp;
-    uint64_t time_ns; /* limit of the time of rendering; 0: none */
-    int thread_count; /* 0: all that the process may use */
-    int max_bounces;  /* -1: no limit */
+    double error_limit; /* relative; 0: none */
+    uint64_t time_ns;   /* limit of the time of rendering; 0: none */
+    int thread_count;   /* 0: all that the process may use */
+    int max_bounces;    /* -1: no limit */
     bool has_max_bounces;
     uint32_t seed;
     bool batch;

@@ -15,6 +15,7 @@
 #define THREADS_MAX 1024
 #define BOUNCES_MAX 999
 #define CELLS_MAX   2000
+#define TIME_S_MAX  1e9 /* 32 years */
 #define TILES_MAX   256
 
 static const struct option_rule rules[] = {
@@ -23,6 +24,8 @@ static const struct option_rule rules[] = {
     {"w", OPTION_WIDTH, "a width in pixels"},
     {"h", OPTION_HEIGHT, "a height in pixels"},
     {"s", OPTION_SPP, "a number of samples"},
+    {"e", OPTION_ERROR, "an error such as 1% or 0.01"},
+    {"time", OPTION_TIME, "a time such as 90, 1.5m or 2h"},
     {"d", OPTION_BOUNCES, "a number of bounces"},
     {"seed", OPTION_SEED, "a number"},
     {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
@@ -48,7 +51,6 @@ static const struct option_rule rules[] = {
     {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
     {"watch", OPTION_WATCH, NULL},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
-    {"csv", OPTION_CSV, "the name of a file"},
     {"tiles", OPTION_TILES, "a number of tiles"},
     {"false-alarms", OPTION_FALSE_ALARMS, "a probability"},
     {"help", OPTION_HELP, NULL},
@@ -171,6 +173,48 @@ static bool set_decimal(const struct option_given *g, double min, double max,
     return true;
 }
 
+/* Parses a relative error: a percentage, or a fraction below 1, so that a
+ * forgotten % is found. */
+static bool set_error(struct options *o, const struct option_given *g,
+                      struct error *err)
+{
+    const char *p = g->value;
+    double number;
+    bool ok = decimal_parse(&p, p + strlen(p), &number);
+
+    if (ok && p[0] == '%' && p[1] == '\0') {
+        number /= 100;
+        ok = number > 0 && number <= 1;
+    } else {
+        ok = ok && *p == '\0' && number > 0 && number < 1;
+    }
+    if (!ok)
+        return fail(err, "%s: found '%s', expected %s: above 0, at most 100%%",
+                    g->shown, g->value, g->rule->value);
+    o->error_limit = number;
+    return true;
+}
+
+/* Parses a number of seconds, minutes or hours. */
+static bool set_time(struct options *o, const struct option_given *g,
+                     struct error *err)
+{
+    static const char units[] = "smh";
+    const char *p = g->value;
+    double seconds;
+    bool ok = decimal_parse(&p, p + strlen(p), &seconds);
+    const char *unit = ok && *p != '\0' ? strchr(units, *p) : units;
+
+    for (long i = 0; unit != NULL && i < unit - units; i++)
+        seconds *= 60;
+    if (!ok || unit == NULL || p[*p != '\0'] != '\0' ||
+        !(seconds > 0 && seconds <= TIME_S_MAX))
+        return fail(err, "%s: found '%s', expected %s: above 0, at most 1e9 s",
+                    g->shown, g->value, g->rule->value);
+    o->time_ns = seconds > 1e-9 ? (uint64_t)(seconds * 1e9) : 1;
+    return true;
+}
+
 /* Parses COLSxROWS. */
 static bool set_text_size(struct options *o, const struct option_given *g,
                           struct error *err)
@@ -278,6 +322,8 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_SPP:
         o->has_spp = true;
         return whole_number(g, 1, SPP_MAX, &o->spp, err);
+    case OPTION_ERROR: return set_error(o, g, err);
+    case OPTION_TIME: return set_time(o, g, err);
     case OPTION_BOUNCES:
         o->has_max_bounces = true;
         return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);
@@ -305,7 +351,6 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
     case OPTION_WATCH: o->watch = true; return true;
     case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
-    case OPTION_CSV: return given_text(g, &o->csv_path, err);
     case OPTION_TILES: return whole_int(g, 1, TILES_MAX, &o->tile_count, err);
     case OPTION_FALSE_ALARMS:
         return set_decimal(g, 1e-9, 0.5, &o->false_alarms, err);

@@ -184,7 +184,8 @@ static bool begin(struct session *s, struct render_limits limits,
                              .limits = limits,
                              .steps = steps};
     struct view view = edit_view(&s->edit);
-    bool is_live = limits.spp == 0 && limits.time_ns == 0;
+    bool is_live =
+        limits.spp == 0 && !(limits.error > 0) && limits.time_ns == 0;
     uint32_t features;
 
     job.exposure = (float)view.lighting.exposure;

@@ -12,6 +12,7 @@
 #include "base/print.h"
 #include "base/utf8.h"
 #include "glim/version.h"
+#include "render/render_left.h"
 
 /* Writes a JSON string. Bytes that are not UTF-8, which JSON cannot hold,
  * become U+FFFD. Characters that print.h does not show are escaped; they are
@@ -78,21 +79,16 @@ static void write_load(FILE *to, const struct session *s, uint64_t render_ns)
 static void write_progress(FILE *to, const struct session *s,
                            const struct render_progress *p)
 {
-    bool has_limit = p->samples_limit > 0;
+    struct render_left left = render_left(p);
+    bool has_left = left.limit != RENDER_LIMIT_NONE;
     double seconds = seconds_between(p->build_ns, p->render_ns);
     double rate = seconds > 0 ? (double)p->samples / seconds : 0;
     double rays = seconds > 0 ? (double)p->rays / seconds : 0;
-    double missing = has_limit && p->samples < p->samples_limit
-                         ? (double)(p->samples_limit - p->samples)
-                         : 0;
 
-    write_real(to, "percent",
-               100 - 100 * missing / (double)(has_limit ? p->samples_limit : 1),
-               has_limit);
+    write_real(to, "percent", 100 * left.part, has_left);
     write_real(to, "samples_per_s", rate, true);
     write_real(to, "rays_per_s", rays, true);
-    write_real(to, "left_s", missing > 0 ? missing / rate : 0,
-               has_limit && (rate > 0 || missing <= 0));
+    write_real(to, "left_s", left.ns * 1e-9, has_left);
     write_speeds(to, &s->speeds);
     write_load(to, s, p->render_ns);
 }
@@ -115,6 +111,25 @@ static void write_scene(FILE *to, const struct scene *scene,
     write_number(to, "materials", scene->material_count - 1);
     write_number(to, "unused_materials", unused_materials(host));
     write_number(to, "geometry_bytes", scene_geometry_bytes(scene));
+}
+
+static void write_limit(FILE *to, enum render_limit limit)
+{
+    fputs("  \"stopped_by\": ", to);
+    write_string(to, limit != RENDER_LIMIT_NONE ? render_limit_name(limit)
+                                                : "signal");
+    fputs(",\n", to);
+}
+
+static void write_error(FILE *to, const struct film_error *e)
+{
+    write_real(to, "error", e->error, e->is_known);
+    write_real(to, "error_low", e->low, e->is_known);
+    write_real(to, "error_high", e->high, e->is_known);
+    fprintf(to, "  \"resolved\": %s,\n",
+            !e->is_known     ? "null"
+            : e->is_resolved ? "true"
+                             : "false");
 }
 
 static void write_object(FILE *to, const struct session *s)
@@ -145,7 +160,9 @@ static void write_object(FILE *to, const struct session *s)
     write_number(to, "height", (uint64_t)film->height);
     write_number(to, "spp", p.spp_done);
     fprintf(to, "  \"stopped\": %s,\n",
-            p.spp_limit == 0 || p.spp_done < p.spp_limit ? "true" : "false");
+            p.stopped_by == RENDER_LIMIT_NONE ? "true" : "false");
+    write_limit(to, p.stopped_by);
+    write_error(to, &p.film_error);
     write_number(to, "samples", p.samples);
     write_number(to, "rays", p.rays);
     write_number(to, "non_finite", p.non_finite);

@@ -157,6 +157,46 @@ static void check_stops(void)
     glim_close(g);
 }
 
+static bool save_progress(void *context, const struct glim_progress *p)
+{
+    *(struct glim_progress *)context = *p;
+    return true;
+}
+
+/* The error ends a render, and the progress says so. */
+static void check_limits(void)
+{
+    struct glim *g = open_small();
+    struct glim_progress p, during = {.spp = 0};
+    struct glim_error err;
+
+    check_error(glim_set_error_limit(g, -0.1, &err), &err, "found -0.1");
+    check_error(glim_set_error_limit(g, NAN, &err), &err, "expected 0 to 1");
+    check(glim_render(g, 4, 0, NULL, NULL, NULL) == GLIM_DONE, "4 samples");
+    p = glim_get_progress(g);
+    check(p.limit == GLIM_LIMIT_SPP && p.part_done == 1 && p.seconds_left == 0,
+          "samples as the limit");
+    check(p.error_is_known && p.error_low <= p.error &&
+              p.error <= p.error_high && p.error > 0.02,
+          "an error with its interval");
+    check(glim_set_error_limit(g, 0.05, &err), "a limit of the error");
+    check(glim_get_progress(g).spp == 4, "the picture stays");
+    check(glim_render(g, 0, 0, save_progress, &during, NULL) == GLIM_DONE,
+          "up to the error");
+    check(during.limit == GLIM_LIMIT_ERROR || during.limit == GLIM_LIMIT_NONE,
+          "the error as the nearest limit");
+    p = glim_get_progress(g);
+    check(p.limit == GLIM_LIMIT_ERROR && p.error_high <= 0.05 && p.spp > 4,
+          "the error as the limit");
+    check(glim_render(g, 0, 0, NULL, NULL, NULL) == GLIM_DONE, "done already");
+    check(glim_get_progress(g).spp == p.spp, "no more samples");
+    check(glim_set_error_limit(g, 0, &err), "no limit of the error");
+    check(glim_render(g, 0, 0.02, NULL, NULL, NULL) == GLIM_DONE, "0.02 s");
+    check(glim_get_progress(g).limit == GLIM_LIMIT_SECONDS,
+          "the time as the limit");
+    glim_close(g);
+}
+
 static void *render_in_thread(void *rgb)
 {
     struct glim *g = open_small();
@@ -226,6 +266,7 @@ int main(int argc, char **argv)
     check_wrong_reads();
     check_parts();
     check_stops();
+    check_limits();
     check_threads();
     check_device();
     check_signals();

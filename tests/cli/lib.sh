@@ -10,10 +10,17 @@ run()
     echo "exit $?"
 }
 
-# Runs glim like run, without the seconds in the closing line.
+# Copies a text without seconds and error in the closing line.
+untimed()
+{
+    sed -e 's/, [0-9.]* s\(, error .*\)*$/, T s/' \
+        -e 's/^\(stopped by .* wrote .*\), error .*/\1/' "$@"
+}
+
+# Runs glim like run, without the seconds and the error in the closing line.
 run_untimed()
 {
-    run "$@" | sed 's/, [0-9.]* s$/, T s/'
+    run "$@" | untimed
 }
 
 # Skips the case for this reason.

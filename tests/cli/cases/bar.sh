@@ -10,4 +10,4 @@ tr '\r' '\n' <log | grep -c '^ *0 % \[-*\] [0-9]* of' |
     awk '{ print ($1 >= 3 && $1 <= 16 ? "some bars" : $1 " bars") }'
 tr '\r' '\n' <log | grep spp | awk 'length > 59 && !/stopped/ { print "too wide: " $0 }'
 grep 'stopped by' log | tr '\r' '\n' | grep 'stopped' |
-    sed 's/ at [0-9]* of/ at N of/'
+    sed 's/ at [0-9]* of/ at N of/' | untimed

@@ -36,7 +36,7 @@ clean out
 clean err
 clean run.json
 grep '"scene"' run.json
-sed 's/, [0-9.]* s$/, T s/' err
+untimed err
 
 echo '- errors'
 refused()

@@ -25,7 +25,7 @@ echo '- a signal saves the picture so far'
 timeout --preserve-status -s TERM 2 glim -b --backend opencl -w 40 -h 30 \
     -s 1000000000 -o out.png box.obj 2>err
 echo "exit $?"
-sed 's/ at [0-9]* of/ at N of/' err
+sed 's/ at [0-9]* of/ at N of/' err | untimed
 kind out.png
 
 echo '- no driver'

@@ -10,7 +10,7 @@ kind wall.png
 run_untimed -b --show preview -o preview.png --crop 1,2,3,4 wall.obj
 kind preview.png
 glim -b --show normals --ansi 2x1 wall.obj 2>err | cat -v
-sed 's/, [0-9.]* s$/, T s/' err
+untimed err
 glim -b --show faces --ansi 2x1 wall.obj 2>/dev/null | cat -v
 glim -b --show uvs --ansi 2x1 wall.obj 2>/dev/null | cat -v
 glim -b --show light --ansi 2x1 -s 1 wall.obj 2>/dev/null | wc -l

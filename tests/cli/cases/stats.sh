@@ -6,8 +6,8 @@ glim -b -w 20 -h 10 -s 3 -t 2 --seed 7 -o out.png --stats run.json box.obj \
     2>/dev/null
 sed -n 's/^  \("[a-z_]*"\).*/\1/p' run.json | tr '\n' ' '
 echo
-grep -E '"(width|height|spp|threads|samples|seed|triangles|non_finite)"' run.json
-grep -E '"(backend|scene|stopped)"' run.json
+grep -E '"(width|height|spp|threads|samples|seed|triangles|non_finite)":' run.json
+grep -E '"(backend|scene|stopped|stopped_by|resolved)":' run.json
 awk -F '[:,]' '/(load|build|picture|render|total|span)_s"/ { t[$1] = $2 + 0; if ($2 !~ /^ [0-9]+\.[0-9]+$/) bad = 1 }
     /"rays"/ { rays = $2 }
     END {
@@ -43,7 +43,8 @@ echo 'crop and odd names:'
 cp box.obj 'a"b\c.obj'
 glim -b -w 9 -h 9 --crop 1,1,3,2 -s 1 -o out.png --stats run.json 'a"b\c.obj' \
     2>/dev/null
-grep -E '"(width|height|samples|scene)"' run.json
+grep -E '"(width|height|samples|scene|error|error_low|error_high|resolved)":' \
+    run.json
 echo 'what is dropped and what nobody uses:'
 {
     cat box.obj

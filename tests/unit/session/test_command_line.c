@@ -143,6 +143,56 @@ static void words_select_values(void **state)
     bad("a --up x", "--up: found 'x', expected y or z");
 }
 
+#define WRONG_ERROR \
+    ", expected an error such as 1% or 0.01: above 0, at most 100%"
+#define WRONG_TIME \
+    ", expected a time such as 90, 1.5m or 2h: above 0, at most 1e9 s"
+
+static void limits_are_parsed(void **state)
+{
+    (void)state;
+    assert_true(good("a -e 1%").error_limit == 0.01);
+    assert_true(good("a -e .5e-1").error_limit == 0.05);
+    assert_true(good("a -e0.25%").error_limit == 0.0025);
+    assert_true(good("a -e 100%").error_limit == 1);
+    assert_true(good("a --time 60").time_ns == 60000000000u);
+    assert_true(good("a --time=.25s").time_ns == 250000000u);
+    assert_true(good("a --time 1.5m").time_ns == 90000000000u);
+    assert_true(good("a --time 2h").time_ns == 7200000000000u);
+    assert_true(good("a --time 1e9").time_ns == 1000000000000000000u);
+    assert_true(good("a --time 1e-30").time_ns == 1);
+    bad("a -e 0", "-e: found '0'" WRONG_ERROR);
+    bad("a -e 1", "-e: found '1'" WRONG_ERROR);
+    bad("a -e 100.1%", "-e: found '100.1%'" WRONG_ERROR);
+    bad("a -e nan%", "-e: found 'nan%'" WRONG_ERROR);
+    bad("a -e 1%x", "-e: found '1%x'" WRONG_ERROR);
+    bad("a -e", "-e: found no value, expected an error such as 1% or 0.01");
+    bad("a --time -0", "--time: found '-0'" WRONG_TIME);
+    bad("a --time 1e99", "--time: found '1e99'" WRONG_TIME);
+    bad("a --time 300000h", "--time: found '300000h'" WRONG_TIME);
+    bad("a --time 1ms", "--time: found '1ms'" WRONG_TIME);
+    bad("a --time 1S", "--time: found '1S'" WRONG_TIME);
+}
+
+/* The samples are a limit if they were given or if there is no other. */
+static void samples_need_not_be_a_limit(void **state)
+{
+    struct options o = good("a");
+
+    (void)state;
+    assert_int_equal(options_limits(&o).spp, 16);
+    o = good("a -s 4");
+    assert_int_equal(options_limits(&o).spp, 4);
+    o = good("a -e 1%");
+    assert_int_equal(options_limits(&o).spp, 0);
+    assert_true(options_limits(&o).error > 0);
+    o = good("a --time 1");
+    assert_int_equal(options_limits(&o).spp, 0);
+    assert_int_equal(options_limits(&o).time_ns, 1000000000);
+    o = good("a --time 1 -e 1% -s 16");
+    assert_int_equal(options_limits(&o).spp, 16);
+}
+
 static void misspelt_options_have_their_message(void **state)
 {
     (void)state;
@@ -215,12 +265,6 @@ static void sub_commands_have_their_own_operands(void **state)
     assert_int_equal(o.tile_count, 4);
     assert_null(o.scene_path);
     assert_true(good("compare a b --false-alarms 1e-3").false_alarms == 1e-3);
-    o = good("curve ref.pfm --csv c.csv -s 64 -w 32 a.obj");
-    assert_int_equal(o.command, COMMAND_CURVE);
-    assert_string_equal(o.reference_path, "ref.pfm");
-    assert_string_equal(o.scene_path, "a.obj");
-    assert_string_equal(o.csv_path, "c.csv");
-    assert_string_equal(good("curve -f a.obj ref.pfm").scene_path, "a.obj");
     /* only the first word is a sub-command */
     assert_int_equal(good("./compare").command, COMMAND_RENDER);
     assert_string_equal(good("-- compare").scene_path, "compare");
@@ -366,6 +410,8 @@ int main(void)
         cmocka_unit_test(words_select_values),
         cmocka_unit_test(environment_gives_way_to_options),
         cmocka_unit_test(text_sizes_are_read_or_refused),
+        cmocka_unit_test(limits_are_parsed),
+        cmocka_unit_test(samples_need_not_be_a_limit),
         cmocka_unit_test(misspelt_options_have_their_message),
         cmocka_unit_test(wrong_numbers_have_their_message),
         cmocka_unit_test(sub_commands_have_their_own_operands),

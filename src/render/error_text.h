@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+/*
+ * error_text.h - errors of pictures as text for people
+ *
+ * Threads:   any
+ */
+#ifndef GLIM_ERROR_TEXT_H
+#define GLIM_ERROR_TEXT_H
+
+#include <stddef.h>
+
+#include "picture/film_error.h"
+
+#define ERROR_TEXT_BYTES 64
+
+/* Formats a relative error with two digits: "0.98 %", "2.3 %", "120 %". */
+void error_text_percent(char text[ERROR_TEXT_BYTES], double error);
+
+/* Formats the error and its interval: "0.98 % (0.97 to 0.99 %)", followed by
+ * ", unresolved" if it is, or "unknown". */
+void error_text_interval(char text[ERROR_TEXT_BYTES],
+                         const struct film_error *e);
+
+/* Formats "noise 2.3 %", "noise 3 %, unresolved" or "noise unknown". */
+void error_text_noise(char text[ERROR_TEXT_BYTES], const struct film_error *e);
+
+/* Returns the error to aim at without a limit: the largest of 10 %, 5 %, 2 %,
+ * 1 %, 0.5 % and so on that is at most half of this one. */
+double error_text_target(double error);
+
+#endif

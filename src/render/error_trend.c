@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "render/error_trend.h"
+
+#include <math.h>
+#include <string.h>
+
+#define EXPONENT_MAX 1.5
+
+void error_trend_add(struct error_trend *t, uint64_t spp, double error)
+{
+    const struct error_at now = {(double)spp, error};
+
+    t->last = now;
+    if (t->count > 0 && now.spp < 2 * t->points[t->count - 1].spp)
+        return;
+    if (t->count == ERROR_TREND_MAX) {
+        t->count--;
+        memmove(t->points, t->points + 1, (size_t)t->count * sizeof now);
+    }
+    t->points[t->count++] = now;
+}
+
+double error_trend_exponent(const struct error_trend *t)
+{
+    const struct error_at *first = &t->points[0];
+    double p;
+
+    if (t->count == 0 || t->last.spp < 2 * first->spp ||
+        !(first->error > 0 && t->last.error > 0))
+        return 1;
+    p = 2 * log(first->error / t->last.error) / log(t->last.spp / first->spp);
+    return p > 1 ? fmin(p, EXPONENT_MAX) : 1;
+}
+
+double error_trend_spp(double spp, double error, double target, double exponent)
+{
+    return error > target ? spp * pow(error / target, 2 / exponent) : spp;
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "render/render_left.h"
+
+#include "render/error_trend.h"
+
+/* Samples per pixel beyond which a time is of no interest, and which integers
+ * hold. */
+#define SPP_MAX 1e15
+
+/* Returns the time until every pixel has so many samples, at the mean speed so
+ * far. Returns false before the first sample. */
+static bool ns_to_spp(const struct render_progress *p, double spp, double *ns)
+{
+    double missing = spp * (double)p->pixels - (double)p->samples;
+    uint64_t tracing_ns =
+        p->render_ns > p->build_ns ? p->render_ns - p->build_ns : 0;
+
+    if (p->samples == 0 || tracing_ns == 0)
+        return false;
+    *ns = missing > 0 ? missing * (double)tracing_ns / (double)p->samples : 0;
+    return true;
+}
+
+bool render_left_to_error(const struct render_progress *p, double target,
+                          double *ns)
+{
+    const struct film_error *e = &p->film_error;
+    double spp;
+
+    if (!e->is_known || !e->is_resolved || p->spp_done == 0)
+        return false;
+    spp = error_trend_spp((double)p->spp_done, e->high, target,
+                          p->error_exponent);
+    if (e->high > target && spp < SPP_MAX) /* the error is known after passes */
+        spp = (double)render_pass_end((uint64_t)spp + 1);
+    return ns_to_spp(p, spp, ns);
+}
+
+/* Takes the limit if it is nearer. */
+static void take(struct render_left *left, enum render_limit limit, double ns)
+{
+    if (left->limit != RENDER_LIMIT_NONE && ns >= left->ns)
+        return;
+    left->limit = limit;
+    left->ns = ns;
+}
+
+struct render_left render_left(const struct render_progress *p)
+{
+    struct render_left left = {.limit = RENDER_LIMIT_NONE};
+    double elapsed_ns = (double)p->render_ns;
+    double ns;
+
+    if (p->spp_limit != 0 && ns_to_spp(p, (double)p->spp_limit, &ns))
+        take(&left, RENDER_LIMIT_SPP, ns);
+    if (p->error_limit > 0 && render_left_to_error(p, p->error_limit, &ns))
+        take(&left, RENDER_LIMIT_ERROR, ns);
+    if (p->time_limit_ns != 0)
+        take(&left, RENDER_LIMIT_TIME,
+             p->time_limit_ns > p->render_ns
+                 ? (double)(p->time_limit_ns - p->render_ns)
+                 : 0);
+    if (left.limit == RENDER_LIMIT_SPP)
+        left.part =
+            (double)p->samples / ((double)p->spp_limit * (double)p->pixels);
+    else if (left.limit != RENDER_LIMIT_NONE && elapsed_ns > 0)
+        left.part = elapsed_ns / (elapsed_ns + left.ns);
+    if (left.part > 1)
+        left.part = 1;
+    return left;
+}

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_render_left.c - the time left to each limit, with simulated renders of
+ * known speed and known course of the error
+ */
+#include "tests/unit/check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "render/error_text.h"
+#include "render/error_trend.h"
+#include "render/render_left.h"
+
+#define S_NS   UINT64_C(1000000000)
+#define PIXELS 10000
+
+/* Render of 1e6 samples per second, whose squared error falls as n^-p. */
+struct simulation {
+    double p;
+    double first_error; /* at one sample */
+    double wobble;      /* relative error of the estimates */
+    uint64_t build_ns;
+};
+
+static double error_of(const struct simulation *s, double spp)
+{
+    /* estimates of one film share their samples, so they vary slowly */
+    return s->first_error * pow(spp, -s->p / 2) *
+           (1 + s->wobble * sin(2 * log(spp)));
+}
+
+static double ns_of(const struct simulation *s, double spp)
+{
+    return (double)s->build_ns + spp * PIXELS * 1e3;
+}
+
+static struct render_progress at(const struct simulation *s, uint64_t spp,
+                                 const struct error_trend *trend)
+{
+    double error = error_of(s, (double)spp);
+
+    return (struct render_progress){
+        .state = RENDER_RUNNING,
+        .spp_done = spp,
+        .samples = spp * PIXELS,
+        .pixels = PIXELS,
+        .render_ns = (uint64_t)ns_of(s, (double)spp),
+        .build_ns = s->build_ns,
+        .film_error = {true, true, error, error * 0.97, error * 1.03},
+        .error_exponent = error_trend_exponent(trend),
+    };
+}
+
+/* Renders until the upper end is at the target, and compares the time left that
+ * was shown from a tenth of the way on with the true one. Returns the worst
+ * deviation as a part of the true one, but of a second at least. */
+static double worst_deviation(const struct simulation *s, double target)
+{
+    struct error_trend trend = {.count = 0};
+    double shown_ns[4096], at_ns[4096], worst = 0;
+    int count = 0;
+
+    for (uint64_t spp = 1;; spp = render_pass_end(spp + 1)) {
+        struct render_progress p;
+        struct render_left left;
+
+        error_trend_add(&trend, spp, 1.03 * error_of(s, (double)spp));
+        p = at(s, spp, &trend);
+        p.error_limit = target;
+        left = render_left(&p);
+        assert_int_equal(left.limit, RENDER_LIMIT_ERROR);
+        assert_true(count < 4096);
+        at_ns[count] = (double)p.render_ns;
+        shown_ns[count++] = left.ns;
+        if (p.film_error.high <= target)
+            break;
+    }
+    for (int i = 0; i < count; i++) {
+        double end_ns = at_ns[count - 1];
+        double left_ns = end_ns - at_ns[i];
+
+        if (at_ns[i] >= end_ns / 10)
+            worst = fmax(worst, fabs(shown_ns[i] - left_ns) /
+                                    fmax(left_ns, end_ns / 10));
+    }
+    return worst;
+}
+
+static void time_to_an_error_is_right_from_a_tenth_on(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 4; i++) {
+        struct simulation s = {.p = 1 + 0.1 * i, .first_error = 0.5};
+
+        for (double target = 0.1; target > 0.004; target /= 1.7)
+            assert_true(worst_deviation(&s, target) < 0.05);
+        s.build_ns = S_NS / 20;
+        assert_true(worst_deviation(&s, 0.01) < 0.05);
+        s.wobble = 0.02;
+        assert_true(worst_deviation(&s, 0.01) < 0.2);
+    }
+}
+
+static void exponents_are_fitted(void **state)
+{
+    struct error_trend t = {.count = 0};
+
+    (void)state;
+    assert_true(error_trend_exponent(&t) == 1);
+    error_trend_add(&t, 2, 0.1);
+    assert_true(error_trend_exponent(&t) == 1);
+    t = (struct error_trend){.count = 0};
+    for (uint64_t n = 2; n < 1000; n += 2) {
+        error_trend_add(&t, n, pow((double)n, -0.6));
+        if (n >= 4)
+            check_close(error_trend_exponent(&t), 1.2, 1e-9);
+    }
+    /* out of bounds: an error that grows, or that vanishes */
+    t = (struct error_trend){.count = 0};
+    error_trend_add(&t, 2, 0.1);
+    error_trend_add(&t, 4, 0.3);
+    assert_true(error_trend_exponent(&t) == 1);
+    error_trend_add(&t, 8, 1e-9);
+    assert_true(error_trend_exponent(&t) == 1.5);
+    error_trend_add(&t, 16, 0);
+    assert_true(error_trend_exponent(&t) == 1);
+    check_close(error_trend_spp(16, 0.04, 0.01, 1), 256, 1e-9);
+    check_close(error_trend_spp(16, 0.01, 0.04, 1), 16, 0);
+}
+
+static void the_nearest_limit_counts(void **state)
+{
+    const struct error_trend none = {.count = 0};
+    const struct simulation s = {.p = 1, .first_error = 0.5};
+    struct render_progress p = at(&s, 100, &none); /* 1 s, 5 % */
+    struct render_left left;
+
+    (void)state;
+    left = render_left(&p);
+    assert_int_equal(left.limit, RENDER_LIMIT_NONE);
+    assert_true(left.part == 0);
+    p.spp_limit = 500;
+    left = render_left(&p);
+    assert_int_equal(left.limit, RENDER_LIMIT_SPP);
+    check_close(left.ns, 4e9, 1);
+    check_close(left.part, 0.2, 1e-9);
+    p.time_limit_ns = 4 * S_NS;
+    left = render_left(&p);
+    assert_int_equal(left.limit, RENDER_LIMIT_TIME);
+    check_close(left.ns, 3e9, 1);
+    check_close(left.part, 0.25, 1e-9);
+    p.error_limit = 0.0515 / 1.5; /* 225 samples: the pass ends at 232 */
+    left = render_left(&p);
+    assert_int_equal(left.limit, RENDER_LIMIT_ERROR);
+    check_close(left.ns, 1.32e9, 1e8);
+    p.error_limit = 0.04;
+    p.time_limit_ns = 1; /* over */
+    left = render_left(&p);
+    assert_int_equal(left.limit, RENDER_LIMIT_TIME);
+    assert_true(left.ns == 0 && left.part == 1);
+}
+
+static void unknown_errors_have_no_time(void **state)
+{
+    const struct error_trend none = {.count = 0};
+    const struct simulation s = {.p = 1, .first_error = 0.5};
+    struct render_progress p = at(&s, 100, &none);
+    double ns;
+
+    (void)state;
+    p.error_limit = 0.01;
+    p.film_error.is_resolved = false;
+    assert_int_equal(render_left(&p).limit, RENDER_LIMIT_NONE);
+    p.film_error = (struct film_error){0};
+    assert_int_equal(render_left(&p).limit, RENDER_LIMIT_NONE);
+    p.spp_limit = 200;
+    assert_int_equal(render_left(&p).limit, RENDER_LIMIT_SPP);
+    p = (struct render_progress){.spp_limit = 7, .error_limit = 0.1};
+    assert_int_equal(render_left(&p).limit, RENDER_LIMIT_NONE);
+    assert_false(render_left_to_error(&p, 0.01, &ns));
+    /* errors that no time reaches */
+    p = at(&s, 100, &none);
+    assert_true(render_left_to_error(&p, 1e-300, &ns) && ns > 1e18);
+    assert_true(render_left_to_error(&p, 1, &ns) && ns == 0);
+}
+
+/* ---- text ---- */
+
+static const char *percent(double error)
+{
+    static char text[ERROR_TEXT_BYTES];
+
+    error_text_percent(text, error);
+    return text;
+}
+
+static void errors_have_two_digits(void **state)
+{
+    (void)state;
+    assert_string_equal(percent(0), "0 %");
+    assert_string_equal(percent(0.0098), "0.98 %");
+    assert_string_equal(percent(0.00994), "0.99 %");
+    assert_string_equal(percent(0.00996), "1.0 %");
+    assert_string_equal(percent(0.023), "2.3 %");
+    assert_string_equal(percent(0.0994), "9.9 %");
+    assert_string_equal(percent(0.0996), "10 %");
+    assert_string_equal(percent(1.2), "120 %");
+    assert_string_equal(percent(0.0000123), "0.0012 %");
+    assert_string_equal(percent(1e9), "over 9999 %");
+    assert_string_equal(percent(INFINITY), "over 9999 %");
+    assert_string_equal(percent(1e-30), "0.000000 %");
+}
+
+static void texts_say_what_is_known(void **state)
+{
+    struct film_error e = {true, true, 0.0098, 0.0097, 0.00994};
+    char text[ERROR_TEXT_BYTES];
+
+    (void)state;
+    error_text_interval(text, &e);
+    assert_string_equal(text, "0.98 % (0.97 to 0.99 %)");
+    error_text_noise(text, &e);
+    assert_string_equal(text, "noise 0.98 %");
+    e.is_resolved = false;
+    error_text_interval(text, &e);
+    assert_string_equal(text, "0.98 % (0.97 to 0.99 %), unresolved");
+    error_text_noise(text, &e);
+    assert_string_equal(text, "noise 0.98 %, unresolved");
+    e = (struct film_error){true, false, 1e30, 1e30, 1e30};
+    error_text_interval(text, &e);
+    assert_string_equal(text,
+                        "over 9999 % (over 9999 to over 9999 %), unresolved");
+    e.is_known = false;
+    error_text_interval(text, &e);
+    assert_string_equal(text, "unknown");
+    error_text_noise(text, &e);
+    assert_string_equal(text, "noise unknown");
+}
+
+static void targets_are_round(void **state)
+{
+    (void)state;
+    check_close(error_text_target(5), 0.1, 1e-12);
+    check_close(error_text_target(0.2), 0.1, 1e-12);
+    check_close(error_text_target(0.19), 0.05, 1e-12);
+    check_close(error_text_target(0.099), 0.02, 1e-12);
+    check_close(error_text_target(0.023), 0.01, 1e-12);
+    check_close(error_text_target(0.019), 0.005, 1e-12);
+    check_close(error_text_target(0.0099), 0.002, 1e-12);
+    check_close(error_text_target(0.0021), 0.001, 1e-12);
+    assert_true(error_text_target(0) > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(time_to_an_error_is_right_from_a_tenth_on),
+        cmocka_unit_test(exponents_are_fitted),
+        cmocka_unit_test(the_nearest_limit_counts),
+        cmocka_unit_test(unknown_errors_have_no_time),
+        cmocka_unit_test(errors_have_two_digits),
+        cmocka_unit_test(texts_say_what_is_known),
+        cmocka_unit_test(targets_are_round),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
