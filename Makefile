@@ -291,7 +291,7 @@ test:
 	@BUILD=$(B) SAN='$(SAN)' CC='$(CC)' tests/run.sh
 
 tests: $(B)/glim lib $(UNITS) $(TOOLS) $(B)/scenes/generate $(BENCHES) $(STRESSES) \
-	$(FUZZERS)
+	$(FUZZERS) $(B)/error/error
 
 ## fuzz: tests parsers of files, options and keys with random inputs;
 ##       TIME=60 seconds for each target, FILTER=PART of a target's name

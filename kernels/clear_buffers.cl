@@ -2,12 +2,14 @@
 /*
  * clear_buffers.cl - empties the film, one work-item a pixel
  */
-#include "kernels/sum.h"
+#include "kernels/surface_sums.h"
 
 __kernel void clear_buffers(ulong pixel_count, __global struct sum *sums,
                             __global struct sum *odd_sums,
+                            __global struct surface_sums *surfaces,
                             __global ulong *counts)
 {
+    const struct surface_sums none = {{{0}}};
     ulong pixel = get_global_id(0);
 
     if (pixel >= pixel_count)
@@ -17,4 +19,6 @@ __kernel void clear_buffers(ulong pixel_count, __global struct sum *sums,
         odd_sums[i].lo = odd_sums[i].hi = 0;
     }
     counts[pixel] = 0;
+    if (surfaces != 0)
+        surfaces[pixel] = none;
 }

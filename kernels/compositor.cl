@@ -2,17 +2,17 @@
 /*
  * compositor.cl - adds the samples of a task to the film, one work-item a point
  */
-#include "kernels/pixel.h"
+#include "kernels/surface_sums.h"
 #include "kernels/cl_task.h"
 
 /* Samples of a pixel are consecutive. After the first that was cancelled none
  * is added. */
-__kernel void add_samples(struct task task,
-                          __global const struct path_sample *samples,
-                          __global struct sum *sums,
-                          __global struct sum *odd_sums,
-                          __global ulong *counts,
-                          volatile __global struct tally *tally)
+__kernel void
+add_samples(struct task task, __global const struct path_sample *samples,
+            __global const struct first_surface *surfaces,
+            __global struct sum *sums, __global struct sum *odd_sums,
+            __global struct surface_sums *surface_sums, __global ulong *counts,
+            volatile __global struct tally *tally)
 {
     uint point = (uint)get_global_id(0);
     struct tally t = {0, 0, 0, 0, 0};
@@ -22,9 +22,14 @@ __kernel void add_samples(struct task task,
         return;
     pixel = task_pixel(task, point);
     samples += (ulong)point * task.samples;
-    for (uint s = 0; s < task.samples && samples[s].rays != 0; s++)
+    for (uint s = 0; s < task.samples && samples[s].rays != 0; s++) {
+        if (HAS(FEATURE_FILTER) && surfaces != 0)
+            surface_add(&surface_sums[pixel], counts[pixel] + s,
+                        surfaces[(ulong)point * task.samples + s],
+                        samples[s].radiance);
         pixel_add(&sums[3 * pixel], &odd_sums[3 * pixel], counts[pixel] + s,
                   samples[s], &t);
+    }
     counts[pixel] += t.samples;
     atomic_add(&tally->samples, t.samples);
     atomic_add(&tally->rays, t.rays);

@@ -21,10 +21,11 @@ enum feature {
     FEATURE_EMITTERS = 256,  /* emissive surfaces */
     FEATURE_BUMPS = 512,     /* bump and normal maps */
     FEATURE_AOV = 1024,      /* AOVs in place of radiance: aov.h */
-    FEATURE_GUIDE = 2048     /* path guide: guide.h */
+    FEATURE_GUIDE = 2048,    /* path guide: guide.h */
+    FEATURE_FILTER = 4096    /* features for the filter: first_surface.h */
 };
 
-#define FEATURES_ALL 4095u
+#define FEATURES_ALL 8191u
 
 #ifndef FEATURES
 #define FEATURES FEATURES_ALL

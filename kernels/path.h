@@ -24,6 +24,7 @@
 #define KERNELS_PATH_H
 
 #include "kernels/aov.h"
+#include "kernels/first_surface.h"
 #include "kernels/guide.h"
 #include "kernels/light.h"
 #include "kernels/path_types.h"
@@ -55,6 +56,7 @@ struct path {
     struct receiver from;   /* vertex that the ray left, if pdf is above 0 */
     struct guide_cell cell; /* tables of the path guide at that vertex */
     struct path_sample out;
+    struct first_surface surface;
 };
 
 /* Caps a factor at the largest float, because an infinite factor times a black
@@ -341,6 +343,7 @@ static inline void path_open(struct path *p, struct ray r,
     p->out.radiance = v3(0.0f, 0.0f, 0.0f);
     p->out.rays = 1; /* the camera ray */
     p->out.cut = 0;
+    first_surface_begin(&p->surface);
 }
 
 /* Extends the path by one vertex, the hit *h of the path's ray. *h becomes the
@@ -366,11 +369,13 @@ static inline bool path_extend(const struct world *w, struct path *p,
     if (!surface_at(w, &m, p->ray, *h, &v))
         return false;
     path_add_emission(w, p, &m, h->tri, &v);
+    first_surface_light(&p->surface, p->out.radiance);
     if (vertex >= w->settings.max_vertices) {
         p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
         return false;
     }
     b = bsdf_at(w, &m, &v);
+    first_surface_meet(&p->surface, &b, v.n, h->t);
     if (bsdf_is_black(&b))
         return false;
     if (!bsdf_is_glass(&b))
@@ -399,11 +404,10 @@ static inline bool path_extend(const struct world *w, struct path *p,
 
 /* Returns the radiance along the camera ray r, whose hit is h, or the AOV of
  * the hit. Radiance is capped at the largest float, and the film counts it as
- * saturated. */
-static inline struct path_sample path_follow(const struct world *w,
-                                             struct ray r,
-                                             struct sampler sampler,
-                                             struct hit h)
+ * saturated. *surface is set if the world's samples have first surfaces. */
+static inline struct path_sample
+path_follow(const struct world *w, struct ray r, struct sampler sampler,
+            struct hit h, struct first_surface *surface)
 {
     struct path p;
     uint32_t vertex = 1;
@@ -415,18 +419,23 @@ static inline struct path_sample path_follow(const struct world *w,
         vertex++;
     p.out.radiance =
         v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
+    if (has_first_surface(w)) {
+        first_surface_end(&p.surface, p.out.radiance);
+        *surface = p.surface;
+    }
     return p.out;
 }
 
 /* Traces the camera ray r and returns path_follow() of its hit. */
 static inline struct path_sample path_trace(const struct world *w, struct ray r,
-                                            struct sampler sampler)
+                                            struct sampler sampler,
+                                            struct first_surface *surface)
 {
     struct hit h;
 
     path_set_key(w, sampler, 1, &r);
     hit_closest(w, r, &h);
-    return path_follow(w, r, sampler, h);
+    return path_follow(w, r, sampler, h, surface);
 }
 
 /* Makes the samplers of some samples, and their points within the pixel. */
@@ -442,11 +451,13 @@ VECTORISED static void path_points(const struct settings *s,
         points[i] = random_2d(samplers[i], DIMENSION_PIXEL);
 }
 
-/* Computes at most SAMPLE_BLOCK samples. Samples of one pixel, or of
- * neighbours, take less time together. */
+/* Computes at most SAMPLE_BLOCK samples, and their first surfaces if the
+ * world's samples have some. Samples of one pixel, or of neighbours, take less
+ * time together. */
 static inline void path_samples(const struct world *w,
                                 const struct sample_id *places, uint32_t count,
-                                struct path_sample *out)
+                                struct path_sample *out,
+                                struct first_surface *surfaces)
 {
     struct sample_id all[SAMPLE_BLOCK];
     struct sampler samplers[SAMPLE_BLOCK];
@@ -467,7 +478,7 @@ static inline void path_samples(const struct world *w,
     }
     hits_closest(w, rays, count, hits);
     for (uint32_t i = 0; i < count; i++)
-        out[i] = path_follow(w, rays[i], samplers[i], hits[i]);
+        out[i] = path_follow(w, rays[i], samplers[i], hits[i], surfaces + i);
 }
 
 #endif

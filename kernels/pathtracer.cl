@@ -7,11 +7,13 @@
 #include "kernels/path.h"
 #include "kernels/cl_task.h"
 
-/* The result of a path that was not traced has 0 rays. */
+/* The result of a path that was not traced has 0 rays. `surfaces` is NULL if
+ * the samples have no first surfaces, as are those of the film. */
 __kernel void trace_paths(
     struct task task, volatile __global const uint *cancel,
     __global const struct camera_sample *starts,
     __global struct path_sample *samples,
+    __global struct first_surface *surfaces,
     __global const struct settings *settings,
     __global const struct vec3 *positions, __global const struct vec3 *normals,
     __global const struct vec2 *uvs, __global const struct tri *tris,
@@ -38,6 +40,10 @@ __kernel void trace_paths(
                           lights,         tri_lights, light_nodes, sky_cdf,
                           guide_cells,    guide_cdf};
 
-        samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler);
+        struct first_surface surface;
+
+        samples[i] = path_trace(&w, starts[i].ray, starts[i].sampler, &surface);
+        if (has_first_surface(&w))
+            surfaces[i] = surface;
     }
 }

@@ -61,6 +61,15 @@ static inline void sum_add(GLOBAL struct sum *s, float x)
     sum_join(s, value);
 }
 
+/* Returns x - part, for sums of which one is a part of the other. */
+static inline struct sum sum_without(struct sum x, struct sum part)
+{
+    struct sum rest = {x.lo - part.lo,
+                       x.hi - part.hi - (x.lo < part.lo ? 1 : 0)};
+
+    return rest;
+}
+
 /* Converts the sum to a float. The fraction is converted as a signed number; if
  * it is too large for that it is halved first and rounded to odd, which gives
  * the same float without an unpredictable branch. */

@@ -21,8 +21,8 @@
 
 static const char *const channels[] = {"red", "green", "blue"};
 
-static bool read_picture(struct image *image, const char *path,
-                         uint64_t held_bytes, struct error *err)
+bool batch_compare_read(struct image *image, const char *path,
+                        uint64_t held_bytes, struct error *err)
 {
     struct image_file file;
     uint64_t clamped;
@@ -59,9 +59,9 @@ static bool read_pair(struct image images[2], const struct options *o,
 {
     const struct image *a = &images[0], *b = &images[1];
 
-    if (!read_picture(&images[0], o->picture_path, 0, err) ||
-        !read_picture(&images[1], o->reference_path,
-                      12 * (uint64_t)a->width * (uint64_t)a->height, err))
+    if (!batch_compare_read(&images[0], o->picture_path, 0, err) ||
+        !batch_compare_read(&images[1], o->reference_path,
+                            12 * (uint64_t)a->width * (uint64_t)a->height, err))
         return false;
     if (a->width != b->width || a->height != b->height)
         return fail(err, "%s: found %dx%d pixels, expected %dx%d as in %s",

@@ -34,6 +34,7 @@
 #include "studio/event_loop.h"
 #include "batch.h"
 #include "batch_compare.h"
+#include "batch_curve.h"
 #include "batch_picture.h"
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
@@ -133,6 +134,8 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
 
     if (o->command == COMMAND_COMPARE)
         return batch_compare_run(o, status, err);
+    if (o->command == COMMAND_CURVE)
+        return batch_curve_run(o, status, err);
     if (batch_picture_is_wanted(o))
         return batch_picture_run(o, start_ns, status, err);
     ok = session_open(s, o, start_ns, err);

@@ -23,7 +23,7 @@ static void trace_row(void *context, uint32_t y, int worker)
         struct sample_id place = {(uint32_t)x, y, 0};
         struct path_sample sample;
 
-        path_samples(j->world, &place, 1, &sample);
+        path_samples(j->world, &place, 1, &sample, NULL);
         row[3 * x] = sample.radiance.x;
         row[3 * x + 1] = sample.radiance.y;
         row[3 * x + 2] = sample.radiance.z;

@@ -112,6 +112,27 @@ struct picture_error picture_error_of(const struct picture_pair *p)
     return e;
 }
 
+struct group_errors picture_error_groups(const struct picture_pair *p)
+{
+    struct group_errors e = {{0}, {0}};
+    size_t counts[PIXEL_GROUPS] = {0};
+
+    for (size_t i = 0; i < value_count(p); i++) {
+        size_t x = i / 3 % (size_t)p->width, y = i / 3 / (size_t)p->width;
+        size_t group = (x + 5 * y) % PIXEL_GROUPS;
+        double r = (double)p->reference[i], d = difference_at(p, i);
+
+        e.mse[group] += d * d;
+        e.relmse[group] += d * d / (r * r + DARK);
+        counts[group]++;
+    }
+    for (int i = 0; i < PIXEL_GROUPS; i++) {
+        e.mse[i] /= (double)counts[i];
+        e.relmse[i] /= (double)counts[i];
+    }
+    return e;
+}
+
 double picture_error_without(double measured, double own)
 {
     return own > OWN_SHARE_MAX * measured ? measured - own : measured;

@@ -31,6 +31,16 @@ struct picture_error {
 
 struct picture_error picture_error_of(const struct picture_pair *pair);
 
+/* Errors of parts of the picture, which are independent of each other: each has
+ * pixels from everywhere. */
+#define PIXEL_GROUPS 16
+
+struct group_errors {
+    double mse[PIXEL_GROUPS], relmse[PIXEL_GROUPS];
+};
+
+struct group_errors picture_error_groups(const struct picture_pair *pair);
+
 /* Returns the measured error without the reference's own, which is independent
  * and so adds to it. Up to 5 % of the measured error it does not matter and
  * stays. The result is 0 or less if the reference is too noisy. */

@@ -32,6 +32,7 @@
 struct slot {
     cl_mem starts;
     cl_mem samples;
+    cl_mem surfaces; /* NULL if the film has none */
     cl_mem tally;
     uint32_t capacity; /* of starts and samples, in paths */
     struct task task;
@@ -112,6 +113,7 @@ static void free_slot(struct backend_cl *b, struct slot *s)
 {
     cl_machine_drop(&b->machine, &s->starts);
     cl_machine_drop(&b->machine, &s->samples);
+    cl_machine_drop(&b->machine, &s->surfaces);
     cl_machine_drop(&b->machine, &s->tally);
     cl_readback_free(&s->reading);
     *s = (struct slot){0};
@@ -129,8 +131,8 @@ static bool clear_film(struct backend_cl *b, size_t pixel_count,
                      "clSetKernelArg", err) &&
            cl_machine_set(&b->machine, clear, 1,
                           (cl_mem[]){b->film.sums, b->film.odd_sums,
-                                     b->film.counts},
-                          3, err) &&
+                                     b->film.surfaces, b->film.counts},
+                          4, err) &&
            cl_machine_enqueue(&b->machine, clear, pixel_count, err);
 }
 
@@ -175,15 +177,17 @@ static bool make_room(struct backend_cl *b, struct slot *s, uint32_t paths,
                       struct error *err)
 {
     const struct cl_machine *m = &b->machine;
+    bool has_surfaces = b->film.surfaces != NULL;
 
     if (s->tally == NULL)
         s->tally = cl_machine_buffer(m, NULL, sizeof s->result, false, err);
     if (s->tally == NULL)
         return false;
-    if (paths <= s->capacity)
+    if (paths <= s->capacity && (s->surfaces != NULL) == has_surfaces)
         return true;
     cl_machine_drop(m, &s->starts);
     cl_machine_drop(m, &s->samples);
+    cl_machine_drop(m, &s->surfaces);
     s->capacity = 0;
     s->starts = cl_machine_buffer(m, NULL, paths * sizeof(struct camera_sample),
                                   false, err);
@@ -191,7 +195,11 @@ static bool make_room(struct backend_cl *b, struct slot *s, uint32_t paths,
         s->samples =
             cl_machine_buffer(m, NULL, paths * sizeof(struct path_sample),
                               false, err);
-    if (s->samples == NULL)
+    if (s->samples != NULL && has_surfaces)
+        s->surfaces =
+            cl_machine_buffer(m, NULL, paths * sizeof(struct first_surface),
+                              false, err);
+    if (s->samples == NULL || (has_surfaces && s->surfaces == NULL))
         return false;
     s->capacity = paths;
     return true;
@@ -223,14 +231,16 @@ static bool enqueue_task(struct backend_cl *b, struct slot *s,
                                      b->film.counts, s->starts},
                           4, err) &&
            cl_machine_set(&b->machine, k->trace, 1,
-                          (cl_mem[]){b->cancel, s->starts, s->samples}, 3,
-                          err) &&
-           cl_machine_set(&b->machine, k->trace, 4, b->world.buffers,
+                          (cl_mem[]){b->cancel, s->starts, s->samples,
+                                     s->surfaces},
+                          4, err) &&
+           cl_machine_set(&b->machine, k->trace, 5, b->world.buffers,
                           CL_ARRAY_COUNT, err) &&
            cl_machine_set(&b->machine, k->add, 1,
-                          (cl_mem[]){s->samples, b->film.sums, b->film.odd_sums,
+                          (cl_mem[]){s->samples, s->surfaces, b->film.sums,
+                                     b->film.odd_sums, b->film.surfaces,
                                      b->film.counts, s->tally},
-                          5, err) &&
+                          7, err) &&
            cl_machine_enqueue(&b->machine, k->generate, paths, err) &&
            cl_machine_enqueue(&b->machine, k->trace, paths, err) &&
            cl_machine_enqueue(&b->machine, k->add, s->task.count, err);

@@ -17,12 +17,15 @@ void cl_film_free(struct cl_film *f, const struct cl_machine *m)
 {
     cl_machine_drop(m, &f->sums);
     cl_machine_drop(m, &f->odd_sums);
+    cl_machine_drop(m, &f->surfaces);
     cl_machine_drop(m, &f->counts);
     free(f->host_sums);
     free(f->host_odd_sums);
+    free(f->host_surfaces);
     free(f->host_counts);
     f->host_sums = NULL;
     f->host_odd_sums = NULL;
+    f->host_surfaces = NULL;
     f->host_counts = NULL;
     f->pixel_capacity = 0;
 }
@@ -56,6 +59,29 @@ static bool make_film(struct cl_film *f, const struct cl_machine *m,
     return true;
 }
 
+/* Allocates the surfaces if the film has some, and frees them otherwise. */
+static bool make_surfaces(struct cl_film *f, const struct cl_machine *m,
+                          const struct film *film, struct error *err)
+{
+    cl_machine_drop(m, &f->surfaces);
+    free(f->host_surfaces);
+    f->host_surfaces = NULL;
+    if (film->surfaces == NULL)
+        return true;
+    if (m->device->is_cpu) {
+        f->host_surfaces =
+            alloc_array(f->pixel_capacity, sizeof *f->host_surfaces);
+        if (f->host_surfaces == NULL)
+            return fail(err, "out of memory for a picture of %zu pixels",
+                        f->pixel_capacity);
+    }
+    f->surfaces =
+        cl_machine_buffer(m, f->host_surfaces,
+                          f->pixel_capacity * sizeof *f->host_surfaces, true,
+                          err);
+    return f->surfaces != NULL;
+}
+
 bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
                    struct film *film, struct error *err)
 {
@@ -63,11 +89,22 @@ bool cl_film_begin(struct cl_film *f, const struct cl_machine *m,
     size_t row_bytes =
         (size_t)film->width * (2 * PIXEL_SUMS_BYTES + sizeof(uint64_t));
 
-    if (pixel_count > f->pixel_capacity && !make_film(f, m, pixel_count, err))
+    if (film->surfaces != NULL)
+        row_bytes += (size_t)film->width * sizeof *film->surfaces;
+    if ((pixel_count > f->pixel_capacity &&
+         !make_film(f, m, pixel_count, err)) ||
+        !make_surfaces(f, m, film, err))
         return false;
     f->film = film;
     f->readback_rows = (uint32_t)(READ_BYTES / row_bytes) + 1;
     return true;
+}
+
+/* Returns the address of an item of an array, or NULL if there is none. */
+static const struct surface_sums *surfaces_at(const struct surface_sums *sums,
+                                              size_t at)
+{
+    return sums != NULL ? sums + at : NULL;
 }
 
 void cl_film_store_points(struct cl_film *f, const struct task *t)
@@ -83,7 +120,8 @@ void cl_film_store_points(struct cl_film *f, const struct task *t)
         film_store_row(f->film, (int)(point % t->columns * t->stride),
                        (int)(row * t->stride), (int)t->stride,
                        (int)(row_end - point), f->host_sums + 3 * at,
-                       f->host_odd_sums + 3 * at, f->host_counts + at);
+                       f->host_odd_sums + 3 * at,
+                       surfaces_at(f->host_surfaces, at), f->host_counts + at);
         point = row_end;
     }
 }
@@ -100,8 +138,11 @@ bool cl_readback_begin(struct cl_readback *r, const struct cl_film *f,
     cl_readback_free(r);
     r->sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
     r->odd_sums = alloc_array(pixels, PIXEL_SUMS_BYTES);
+    if (f->surfaces != NULL)
+        r->surfaces = alloc_array(pixels, sizeof *r->surfaces);
     r->counts = alloc_array(pixels, sizeof *r->counts);
-    if (r->sums == NULL || r->odd_sums == NULL || r->counts == NULL)
+    if (r->sums == NULL || r->odd_sums == NULL || r->counts == NULL ||
+        (f->surfaces != NULL && r->surfaces == NULL))
         return fail(err, "out of memory for %u rows of the picture",
                     f->readback_rows);
     return true;
@@ -111,6 +152,7 @@ void cl_readback_free(struct cl_readback *r)
 {
     free(r->sums);
     free(r->odd_sums);
+    free(r->surfaces);
     free(r->counts);
     *r = (struct cl_readback){0};
 }
@@ -152,6 +194,9 @@ bool cl_readback_enqueue(struct cl_readback *r, const struct cl_film *f,
                      err) &&
            read_rows(r, f, m, f->odd_sums, r->odd_sums, PIXEL_SUMS_BYTES,
                      stride, err) &&
+           (f->surfaces == NULL ||
+            read_rows(r, f, m, f->surfaces, r->surfaces, sizeof *r->surfaces,
+                      stride, err)) &&
            read_rows(r, f, m, f->counts, r->counts, sizeof *r->counts, stride,
                      err);
 }
@@ -164,6 +209,8 @@ void cl_readback_store(struct cl_readback *r, struct cl_film *f,
     for (uint32_t i = 0; i < r->count; i++)
         film_store_row(f->film, 0, (int)((r->first + i) * stride), 1,
                        f->film->width, r->sums + 3 * width * i,
-                       r->odd_sums + 3 * width * i, r->counts + width * i);
+                       r->odd_sums + 3 * width * i,
+                       surfaces_at(r->surfaces, width * i),
+                       r->counts + width * i);
     r->count = 0;
 }

@@ -22,8 +22,10 @@
 struct cl_film {
     struct film *film; /* the host's film */
     cl_mem sums, odd_sums, counts;
+    cl_mem surfaces; /* NULL if the film has none */
     /* memory of these buffers on a CPU device, else NULL */
     struct sum *host_sums, *host_odd_sums;
+    struct surface_sums *host_surfaces;
     uint64_t *host_counts;
     size_t pixel_capacity;
     uint32_t readback_rows; /* rows that a reading can hold */
@@ -33,6 +35,7 @@ struct cl_film {
 struct cl_readback {
     uint32_t first, count;
     struct sum *sums, *odd_sums; /* whole rows of the film */
+    struct surface_sums *surfaces;
     uint64_t *counts;
 };
 

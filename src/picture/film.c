@@ -33,16 +33,34 @@ static size_t pixel_index(const struct film *f, int x, int y)
     return (size_t)y * (size_t)f->width + (size_t)x;
 }
 
+static bool lacks_memory(int width, int height, size_t size_bytes,
+                         struct error *err)
+{
+    struct memory_quota memory = cgroup_quota_memory("");
+
+    return fail(err,
+                "a picture of %dx%d pixels needs %.1f GiB of memory, %s%.1f "
+                "GiB %s",
+                width, height, (double)size_bytes / (1 << 30),
+                size_bytes < memory.size_bytes ? "more than is left of the "
+                                               : "found ",
+                (double)memory.size_bytes / (1 << 30), memory.place);
+}
+
+/* Linux may grant more memory than the machine has and kill the process
+ * later. */
+static bool fits_memory(size_t size_bytes)
+{
+    return size_bytes < cgroup_quota_memory("").size_bytes;
+}
+
 bool film_init(struct film *f, int width, int height, struct error *err)
 {
     size_t pixels = (size_t)width * (size_t)height;
     size_t size_bytes = pixels * (6 * sizeof *f->sums + sizeof *f->counts);
-    struct memory_quota memory = cgroup_quota_memory("");
 
     *f = (struct film){.width = width, .height = height};
-    /* Linux may grant more memory than the machine has and kill the process
-     * later */
-    if (size_bytes < memory.size_bytes) {
+    if (fits_memory(size_bytes)) {
         f->sums = alloc_array(pixels, 3 * sizeof *f->sums);
         f->odd_sums = alloc_array(pixels, 3 * sizeof *f->odd_sums);
         f->counts = alloc_array(pixels, sizeof *f->counts);
@@ -55,18 +73,22 @@ bool film_init(struct film *f, int width, int height, struct error *err)
         free(f->counts);
         free(f->has_row);
         *f = (struct film){0};
-        return fail(
-            err,
-            "a picture of %dx%d pixels needs %.1f GiB of memory, %s%.1f "
-            "GiB %s",
-            width, height, (double)size_bytes / (1 << 30),
-            size_bytes < memory.size_bytes ? "more than is left of the "
-                                           : "found ",
-            (double)memory.size_bytes / (1 << 30), memory.place);
+        return lacks_memory(width, height, size_bytes, err);
     }
     for (int i = 0; i < FILM_LOCKS; i++)
         pthread_mutex_init(&f->locks[i], NULL);
     return true;
+}
+
+bool film_init_surfaces(struct film *f, struct error *err)
+{
+    size_t pixels = (size_t)f->width * (size_t)f->height;
+    size_t size_bytes = pixels * sizeof *f->surfaces;
+
+    if (fits_memory(size_bytes))
+        f->surfaces = alloc_array(pixels, sizeof *f->surfaces);
+    return f->surfaces != NULL ||
+           lacks_memory(f->width, f->height, size_bytes, err);
 }
 
 /* Resets the counts only, since the first sample added to a pixel resets its
@@ -96,6 +118,7 @@ void film_free(struct film *f)
             pthread_mutex_destroy(&f->locks[i]);
     free(f->sums);
     free(f->odd_sums);
+    free(f->surfaces);
     free(f->counts);
     free(f->has_row);
     *f = (struct film){0};
@@ -115,7 +138,8 @@ uint64_t film_count(const struct film *f, int x, int y)
 }
 
 void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
-                  const struct path_sample *samples, const int *counts)
+                  const struct path_sample *samples,
+                  const struct first_surface *surfaces, const int *counts)
 {
     struct tally tally = {0};
 
@@ -129,7 +153,12 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
         if (counts[i] > 0 && f->counts[at] == 0) {
             memset(sums, 0, 3 * sizeof *sums);
             memset(odd_sums, 0, 3 * sizeof *odd_sums);
+            if (f->surfaces != NULL)
+                f->surfaces[at] = (struct surface_sums){.count = 0};
         }
+        for (int s = 0; s < counts[i] && f->surfaces != NULL; s++)
+            surface_add(&f->surfaces[at], f->counts[at] + (uint64_t)s,
+                        *surfaces++, samples[s].radiance);
         for (int s = 0; s < counts[i]; s++)
             pixel_add(sums, odd_sums, f->counts[at]++, *samples++, &tally);
     }
@@ -139,7 +168,7 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
 
 void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
                     const struct sum *sums, const struct sum *odd_sums,
-                    const uint64_t *counts)
+                    const struct surface_sums *surfaces, const uint64_t *counts)
 {
     film_lock_row(f, y);
     f->has_row[y] = true;
@@ -152,6 +181,8 @@ void film_store_row(struct film *f, int x, int y, int stride, int pixel_count,
             continue;
         memcpy(f->sums + 3 * at, sums + 3 * from, 3 * sizeof *sums);
         memcpy(f->odd_sums + 3 * at, odd_sums + 3 * from, 3 * sizeof *odd_sums);
+        if (f->surfaces != NULL)
+            f->surfaces[at] = surfaces[from];
         f->counts[at] = counts[from];
     }
     film_unlock_row(f, y);
@@ -163,6 +194,10 @@ bool film_copy(struct film *to, struct film *from, struct error *err)
 
     if (!film_init(to, from->width, from->height, err))
         return false;
+    if (from->surfaces != NULL && !film_init_surfaces(to, err)) {
+        film_free(to);
+        return false;
+    }
     for (int y = 0; y < from->height;
          y++) { /* whole rows, as they are locked */
         size_t at = (size_t)y * width;
@@ -172,6 +207,9 @@ bool film_copy(struct film *to, struct film *from, struct error *err)
                3 * width * sizeof *to->sums);
         memcpy(to->odd_sums + 3 * at, from->odd_sums + 3 * at,
                3 * width * sizeof *to->odd_sums);
+        if (from->surfaces != NULL)
+            memcpy(to->surfaces + at, from->surfaces + at,
+                   width * sizeof *to->surfaces);
         memcpy(to->counts + at, from->counts + at, width * sizeof *to->counts);
         to->has_row[y] = from->has_row[y];
         film_unlock_row(from, y);

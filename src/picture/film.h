@@ -21,7 +21,7 @@
 
 #include "base/error.h"
 #include "picture/frame.h"
-#include "kernels/pixel.h"
+#include "kernels/surface_sums.h"
 #include "kernels/tone.h"
 
 #define FILM_LOCKS 64
@@ -37,8 +37,10 @@ struct film {
     int width, height;
     struct sum *sums;     /* 3 per pixel; guarded by locks[y % FILM_LOCKS] */
     struct sum *odd_sums; /* likewise, of samples with odd indices only */
-    uint64_t *counts;     /* samples of each pixel; guarded likewise */
-    bool *has_row;        /* whether a row has samples; guarded likewise */
+    /* of each pixel, guarded likewise; NULL: not wanted */
+    struct surface_sums *surfaces;
+    uint64_t *counts; /* samples of each pixel; guarded likewise */
+    bool *has_row;    /* whether a row has samples; guarded likewise */
     pthread_mutex_t locks[FILM_LOCKS];
     atomic_uint_least64_t samples; /* of all pixels */
     atomic_uint_least64_t rays;
@@ -61,6 +63,9 @@ static inline struct develop develop_linear(float exposure)
 }
 
 bool film_init(struct film *film, int width, int height, struct error *err);
+
+/* Gives an empty film sums of first surfaces, for the denoising filter. */
+bool film_init_surfaces(struct film *film, struct error *err);
 void film_clear(struct film *film);
 void film_free(struct film *film);
 
@@ -73,16 +78,20 @@ void film_unlock_row(struct film *film, int y);
 uint64_t film_count(const struct film *film, int x, int y);
 
 /* Adds samples to pixels x, x + stride, ... of row y: counts[i] samples to the
- * i-th of them. `samples` holds them pixel after pixel. */
+ * i-th of them. `samples` holds them pixel after pixel; so does `surfaces`, if
+ * the film has surfaces. */
 void film_add_row(struct film *film, int x, int y, int stride, int pixel_count,
-                  const struct path_sample *samples, const int *counts);
+                  const struct path_sample *samples,
+                  const struct first_surface *surfaces, const int *counts);
 
 /* Replaces pixels x, x + stride, ... of row y by sums that a device keeps. The
  * arrays begin with pixel 0 of the row. Pixels whose count is unchanged are
  * skipped. */
 void film_store_row(struct film *film, int x, int y, int stride,
                     int pixel_count, const struct sum *sums,
-                    const struct sum *odd_sums, const uint64_t *counts);
+                    const struct sum *odd_sums,
+                    const struct surface_sums *surfaces,
+                    const uint64_t *counts);
 
 /* Copies the pixels of another film into an uninitialised one. The counters
  * stay 0. */

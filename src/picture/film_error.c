@@ -112,6 +112,10 @@ static void sum_around(float values[WIDE][WIDE], int y, float sums[SIDE])
                   columns[x + 3] + columns[x + 4];
 }
 
+/* Share of a pixel that replaces the mean around it if it is larger, in both
+ * halves. */
+#define OWN_SHARE 0.25f
+
 /* Weighs a channel by the roots of 1 / (m^2 + floor). The weights are corrected
  * for the noise of m, which enlarges their mean by a few per cent at a few
  * samples: that is the second term of Taylor's series. */
@@ -131,13 +135,16 @@ static void weigh(struct tile *t, int c, float floor, float to[SIDE][SIDE])
             float others = f_max(count[x] - 1.0f, 1.0f);
             float own = t->mean[c][y + HALO][x + HALO];
             float own_square = squares[y + HALO][x + HALO];
-            float m = (mean[x] - own) / others;
+            float around = (mean[x] - own) / others;
+            float e = t->e[c][y + HALO][x + HALO];
+            float m = f_max(around, OWN_SHARE * (own - fabsf(e)));
             float variance = (square[x] - own_square) / (others * others);
             float w = 1.0f / (m * m + floor);
             float curve = (3.0f * m * m - floor) * w * w;
-            float change = f_max(f_min(-curve * variance, 0.5f), -0.5f);
+            float change = m > around ? 0.0f : -curve * variance;
 
-            to[y][x] = t->e[c][y + HALO][x + HALO] * sqrtf(w * (1.0f + change));
+            change = f_max(f_min(change, 0.5f), -0.5f);
+            to[y][x] = e * sqrtf(w * (1.0f + change));
         }
     }
 }

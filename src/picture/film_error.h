@@ -10,8 +10,9 @@
  *     (x - truth)^2 / (m^2 + (0.1 / 2^exposure)^2)
  *
  * where m is the mean of the 24 pixels around, by which noise does not weigh
- * itself. The second term keeps pixels that are black on the screen from
- * counting.
+ * itself, or a quarter of the pixel if that is more: the edge of a lamp before
+ * a dark wall would otherwise outweigh the picture. The second term keeps
+ * pixels that are black on the screen from counting.
  *
  * The estimate is the mean of e^2 with the same weights. It differs from the
  * error of this very picture by the mean of the products of the errors of a and

@@ -65,6 +65,7 @@ struct row {
     uint32_t count; /* total of the counts */
     struct sample_id ids[BLOCK_SIDE * SAMPLE_BLOCK];
     struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
+    struct first_surface surfaces[BLOCK_SIDE * SAMPLE_BLOCK];
 };
 
 /* Lists the samples that pixels x, x + stride, ... of row y need to reach the
@@ -108,10 +109,12 @@ static bool render_row(const struct job *j, int x, int y, int pixel_count)
     row_begin(&r, j, x, y, pixel_count);
     for (; done < r.count && !cancel_requested(j->cancel); done += n) {
         n = r.count - done < SAMPLE_BLOCK ? r.count - done : SAMPLE_BLOCK;
-        b->kernel->samples(&b->world.world, r.ids + done, n, r.samples + done);
+        b->kernel->samples(&b->world.world, r.ids + done, n, r.samples + done,
+                           r.surfaces + done);
     }
     film_add_row(b->film, x, y, j->pass.stride,
-                 row_pixels(&r, done, pixel_count), r.samples, r.counts);
+                 row_pixels(&r, done, pixel_count), r.samples, r.surfaces,
+                 r.counts);
     return done == r.count;
 }
 

@@ -23,9 +23,9 @@ __attribute__((flatten))
 #endif
 static void
 samples(const struct world *w, const struct sample_id *places, uint32_t count,
-        struct path_sample *out)
+        struct path_sample *out, struct first_surface *surfaces)
 {
-    path_samples(w, places, count, out);
+    path_samples(w, places, count, out, surfaces);
 }
 
 const struct cpu_kernel PATHS = {PATHS_NAME, FEATURES, samples};

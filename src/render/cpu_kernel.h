@@ -14,6 +14,7 @@
 #define GLIM_CPU_KERNEL_H
 
 #include "bvh/bvh8.h"
+#include "kernels/first_surface.h"
 #include "kernels/path_types.h"
 
 struct cpu_kernel {
@@ -23,7 +24,8 @@ struct cpu_kernel {
     /* path_samples() of kernels/path.h. w must be the member of a struct
      * bvh8_world. */
     void (*samples)(const struct world *w, const struct sample_id *places,
-                    uint32_t count, struct path_sample *out);
+                    uint32_t count, struct path_sample *out,
+                    struct first_surface *surfaces);
 };
 
 #endif

@@ -358,14 +358,21 @@ static void start_run(struct render *r, uint64_t steps)
 
 /* Makes *film an empty film of this size. */
 static bool reset_film(struct film *film, int width, int height,
-                       struct error *err)
+                       bool has_surfaces, struct error *err)
 {
-    if (film->width == width && film->height == height) {
+    if (film->width == width && film->height == height &&
+        (film->surfaces != NULL) == has_surfaces) {
         film_clear(film);
         return true;
     }
     film_free(film);
-    return film_init(film, width, height, err);
+    return film_init(film, width, height, err) &&
+           (!has_surfaces || film_init_surfaces(film, err));
+}
+
+static bool has_surfaces(const struct render_job *job)
+{
+    return (job->world.settings.features & FEATURE_FILTER) != 0;
 }
 
 static int smallest(int a, int b, int c)
@@ -382,7 +389,7 @@ static bool reset_draft(struct render *r, const struct render_job *job,
     int height = smallest(job->draft_height, job->crop.height, DRAFT_SIDE_MAX);
 
     if (width > 0 && height > 0)
-        return reset_film(&r->draft, width, height, err);
+        return reset_film(&r->draft, width, height, has_surfaces(job), err);
     film_free(&r->draft);
     return true;
 }
@@ -391,7 +398,8 @@ bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
     render_halt(r);
-    if (!reset_film(&r->film, job->crop.width, job->crop.height, err) ||
+    if (!reset_film(&r->film, job->crop.width, job->crop.height,
+                    has_surfaces(job), err) ||
         !reset_draft(r, job, err))
         return false;
     r->job = *job;

@@ -42,12 +42,14 @@ enum backend_choice {
 enum sub_command {
     COMMAND_RENDER, /* without a word: live mode or -b */
     COMMAND_COMPARE,
+    COMMAND_CURVE,
 };
 
 struct options {
     enum sub_command command;
     const char *picture_path;   /* compare: the first picture */
-    const char *reference_path; /* compare: the second picture */
+    const char *reference_path; /* compare: the second picture; curve */
+    const char *csv_path;       /* curve: NULL: no such file */
     int tile_count;             /* compare: most tiles each way */
     double false_alarms;        /* compare: probability of any */
     const char *scene_path;

@@ -51,6 +51,7 @@ static const struct option_rule rules[] = {
     {"cell-aspect", OPTION_CELL_ASPECT, "a number"},
     {"watch", OPTION_WATCH, NULL},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
+    {"csv", OPTION_CSV, "the name of a file"},
     {"tiles", OPTION_TILES, "a number of tiles"},
     {"false-alarms", OPTION_FALSE_ALARMS, "a probability"},
     {"help", OPTION_HELP, NULL},
@@ -351,6 +352,7 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_LIST_DEVICES: o->list_devices = true; return true;
     case OPTION_WATCH: o->watch = true; return true;
     case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
+    case OPTION_CSV: return given_text(g, &o->csv_path, err);
     case OPTION_TILES: return whole_int(g, 1, TILES_MAX, &o->tile_count, err);
     case OPTION_FALSE_ALARMS:
         return set_decimal(g, 1e-9, 0.5, &o->false_alarms, err);

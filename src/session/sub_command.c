@@ -8,6 +8,7 @@
 static const char *const names[] = {
     [COMMAND_RENDER] = "",
     [COMMAND_COMPARE] = " compare",
+    [COMMAND_CURVE] = " curve",
 };
 
 #define COMMAND_COUNT (int)(sizeof names / sizeof names[0])
@@ -32,40 +33,83 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_VERSION: return true;
     case OPTION_TILES:
     case OPTION_FALSE_ALARMS: return command == COMMAND_COMPARE;
-    case OPTION_OUTPUT:
-        return command == COMMAND_RENDER || command == COMMAND_COMPARE;
+    case OPTION_CSV: return command == COMMAND_CURVE;
+    case OPTION_OUTPUT: return true;
+    case OPTION_SCENE:
+    case OPTION_VIEW:
+    case OPTION_WIDTH:
+    case OPTION_HEIGHT:
+    case OPTION_SPP:
+    case OPTION_BOUNCES:
+    case OPTION_SEED:
+    case OPTION_CROP:
+    case OPTION_UP:
+    case OPTION_THREADS:
+    case OPTION_BACKEND:
+    case OPTION_DEVICE: return command != COMMAND_COMPARE;
     default: return command == COMMAND_RENDER;
+    }
+}
+
+/* Returns the operands of a sub-command in their order; NULL: no second one. */
+static void operands_of(struct options *o, const char **operands[2])
+{
+    operands[0] = &o->reference_path;
+    operands[1] = &o->scene_path;
+    if (o->command == COMMAND_COMPARE) {
+        operands[0] = &o->picture_path;
+        operands[1] = &o->reference_path;
     }
 }
 
 bool sub_command_set_operand(struct options *o, const char *path,
                              struct error *err)
 {
-    const char **to = !o->picture_path ? &o->picture_path : &o->reference_path;
+    const char **operands[2];
 
     if (o->command == COMMAND_RENDER)
         return option_set_scene(o, path, err);
-    if (*to)
-        return fail(err, "found a third picture '%s', expected two", path);
-    *to = path;
-    return true;
+    operands_of(o, operands);
+    for (int i = 0; i < 2; i++)
+        if (!*operands[i]) {
+            *operands[i] = path;
+            return true;
+        }
+    return fail(err, "found '%s' beside '%s' and '%s', expected two files",
+                path, *operands[0], *operands[1]);
+}
+
+/* Checks the name of the picture that -o draws. */
+static bool check_output(const struct options *o, struct error *err)
+{
+    bool may_be_pfm = o->command == COMMAND_COMPARE;
+    enum image_write_format format;
+
+    if (!o->output_path)
+        return true;
+    format = image_write_format_of(o->output_path);
+    if (strcmp(o->output_path, "-") != 0 &&
+        (format == IMAGE_WRITE_PNG ||
+         (may_be_pfm && format == IMAGE_WRITE_PFM)))
+        return true;
+    return fail(err, "-o: found '%s', expected a name that ends in .png%s",
+                o->output_path, may_be_pfm ? " or .pfm" : "");
 }
 
 bool sub_command_check(const struct options *o, struct error *err)
 {
-    enum image_write_format format = o->output_path
-                                         ? image_write_format_of(o->output_path)
-                                         : IMAGE_WRITE_PNG;
+    static const char *const expected[] = {
+        [COMMAND_COMPARE] = "picture.pfm reference.pfm",
+        [COMMAND_CURVE] = "reference.pfm scene.obj",
+    };
+    bool is_complete =
+        o->reference_path &&
+        (o->command == COMMAND_COMPARE ? o->picture_path : o->scene_path);
 
-    if (!o->picture_path || !o->reference_path)
+    if (!is_complete)
         return fail(err,
-                    "found %s, expected: glim compare [options] "
-                    "picture.pfm reference.pfm (see glim --help)",
-                    o->picture_path ? "one picture" : "no pictures");
-    if ((format != IMAGE_WRITE_PNG && format != IMAGE_WRITE_PFM) ||
-        (o->output_path && strcmp(o->output_path, "-") == 0))
-        return fail(err,
-                    "-o: found '%s', expected a name that ends in .png or .pfm",
-                    o->output_path);
-    return true;
+                    "found too few files, expected: glim%s [options] %s (see "
+                    "glim --help)",
+                    names[o->command], expected[o->command]);
+    return check_output(o, err);
 }

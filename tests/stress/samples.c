@@ -161,7 +161,8 @@ static double path_error(const struct world *w, uint64_t index)
     struct ray r = {v3(0.1f, 0.2f, 0.3f), v3_unit(v3(1, 0.3f, 0.2f)), FLOAT_MAX,
                     0, 0};
 
-    return (double)path_trace(w, r, sampler_start(3, 5, index, 0)).radiance.x -
+    return (double)path_trace(w, r, sampler_start(3, 5, index, 0), NULL)
+               .radiance.x -
            1;
 }
 
@@ -229,10 +230,10 @@ static void check_film(void)
 
     if (!film_init(&film, 1, 1, &err))
         stress_scene_stop(err.text);
-    film_store_row(&film, 0, 0, 1, 1, sums, sums, &count);
+    film_store_row(&film, 0, 0, 1, 1, sums, sums, NULL, &count);
     for (int i = 0; i < 8; i++)
         samples[i] = (struct path_sample){.radiance = {1, 1, 1}};
-    film_add_row(&film, 0, 0, 1, 1, samples, (const int[]){8});
+    film_add_row(&film, 0, 0, 1, 1, samples, NULL, (const int[]){8});
     film_linear(&film, rgb);
     row(film_count(&film, 0, 0) == count + 8 && rgb[0] == 1, "C6",
         "a pixel of 2^40 and 8 samples has %llu, mean %.9g, want 1",
@@ -462,7 +463,8 @@ static struct mean mean_of_paths(const struct world *w, uint32_t row)
     for (uint32_t i = 0; i < count; i++) {
         struct ray r = {v3(0.7f, 0.8f, 0.9f), v3_unit(v3(-1, -1.1f, -1.2f)),
                         FLOAT_MAX, 0, 0};
-        struct vec3 c = path_trace(w, r, sampler_start(i, row, 0, 0)).radiance;
+        struct vec3 c =
+            path_trace(w, r, sampler_start(i, row, 0, 0), NULL).radiance;
         double x = ((double)c.x + (double)c.y + (double)c.z) / 3;
 
         sum += x;

@@ -22,9 +22,9 @@
 
 #include "base/clock.h"
 #include "scene/world.h"
+#include "measure/chart.h"
 #include "terminal/xmalloc.h"
 #include "tests/bench/median.h"
-#include "chart.h"
 #include "reference.h"
 
 #define POINTS     7 /* 1 to 64 samples a pixel */
@@ -179,8 +179,8 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
     struct session *s = &m->session;
     struct render_job job = {.world = *world,
                              .host = &s->world,
-                             .crop = {0, 0, s->view.width_px,
-                                      s->view.height_px},
+                             .crop = {0, 0, s->edit.now.view.width_px,
+                                      s->edit.now.view.height_px},
                              .limits.spp = 1};
     double seconds = 0, error = 0;
 
@@ -215,8 +215,8 @@ static bool measure_round(struct measurement *m, int technique, int round,
     struct curve *c = &m->curves[technique];
     struct world world;
 
-    if (!world_lend(&s->world, &s->scene, &s->view, (uint32_t)round, &world,
-                    err))
+    if (!world_lend(&s->world, &s->scene, &s->edit.now.view, (uint32_t)round,
+                    &world, err))
         return false;
     c->is_measured = matters(t, &world.settings);
     if (!c->is_measured)
@@ -288,7 +288,7 @@ static void print_curves(const struct measurement *m, const char *name,
         for (int k = 0; k < POINTS; k++)
             printf(" %8.2e", s->y[k]);
         printf(" %3.0f%% %8.3f %6.2f %10.3g %6.3g %5.1f%%\n",
-               100 * m->curves[i].spread, seconds, series_slope(s),
+               100 * m->curves[i].spread, seconds, series_fit(s).slope,
                1 / (error * seconds), series_times(&series[EVERYTHING], s),
                100 * m->curves[i].bias);
         for (int k = 0; k < POINTS; k++)
@@ -336,11 +336,11 @@ static bool find_reference(struct measurement *m, const struct subject *subject,
 
 static bool build_whole_sky(struct measurement *m, struct error *err)
 {
-    const struct scene *s = &m->session.scene;
+    const struct host_world *host = &m->session.world;
 
-    return s->sky_texels == NULL ||
-           sky_table_build(&m->whole_sky, s->sky_texels, s->sky_width,
-                           s->sky_height, SKY_ALONE, err);
+    return host->sky_texels == NULL ||
+           sky_table_build(&m->whole_sky, host->sky_texels, host->sky_width,
+                           host->sky_height, SKY_ALONE, err);
 }
 
 static bool measure_scene(const struct bench *bench,
@@ -360,6 +360,8 @@ static bool measure_scene(const struct bench *bench,
 
     m->bench = bench;
     ok = session_open(&m->session, &o, clock_ns(), err) &&
+         world_guide(&m->session.world, &m->session.scene,
+                     &m->session.edit.now.view, err) &&
          find_reference(m, subject, err) && build_whole_sky(m, err);
     if (ok) {
         m->rgb =

@@ -9,6 +9,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "picture/image_write.h"
+#include "measure/picture_error.h"
+#include "measure/reference_info.h"
 #include "scene/world.h"
 #include "terminal/xmalloc.h"
 #include "tests/unit/whole_image.h"
@@ -23,46 +25,32 @@ static size_t number_count(const struct reference *r)
     return 3 * (size_t)r->width * (size_t)r->height;
 }
 
+static struct picture_error error_of(const struct reference *r,
+                                     const float *rgb)
+{
+    struct picture_pair pair = {r->width, r->height, rgb, r->rgb};
+
+    return picture_error_of(&pair);
+}
+
 double reference_error(const struct reference *r, const float *rgb)
 {
-    size_t count = number_count(r);
-    double sum = 0;
-
-    for (size_t i = 0; i < count; i++) {
-        double ref = (double)r->rgb[i];
-        double miss = (double)rgb[i] - ref;
-
-        sum += miss * miss / (ref * ref + 0.01);
-    }
-    return sum / (double)count;
+    return error_of(r, rgb).relmse;
 }
 
 double reference_bias(const struct reference *r, const float *rgb)
 {
-    size_t count = number_count(r);
-    double sum = 0, reference = 0;
-
-    for (size_t i = 0; i < count; i++) {
-        sum += (double)rgb[i];
-        reference += (double)r->rgb[i];
-    }
-    return sum / reference - 1;
+    return error_of(r, rgb).bias;
 }
 
-/* Reads the number after "relmse" in the text. */
-static bool read_noise(const char *path, double *noise, struct error *err)
+static bool read_noise(const char *picture, double *noise, struct error *err)
 {
-    const char key[] = "\"relmse\":";
-    char *text = NULL, *at;
-    size_t size;
-    bool found;
+    struct reference_info info = reference_info_read(picture);
 
-    if (!file_read(path, &text, &size, err))
-        return false;
-    at = strstr(text, key);
-    found = at != NULL && sscanf(at + sizeof key - 1, "%lf", noise) == 1;
-    free(text);
-    return found || fail(err, "%s: found no relmse", path);
+    *noise = info.relmse;
+    return info.is_known ||
+           fail(err, "%s: found no relmse in the .json file beside it",
+                picture);
 }
 
 /* Averages squares of pixels, as a render with larger pixels does. */
@@ -96,12 +84,11 @@ bool reference_read(struct reference *r, const char *scene_path, int reduce,
                     struct error *err)
 {
     char *picture = path_beside(scene_path, "reference.pfm");
-    char *facts = path_beside(scene_path, "reference.json");
     struct image image = {0};
     uint64_t clamped;
     bool ok =
         image_read_linear(&image, picture, &clamped, err) &&
-        read_noise(facts, &r->noise, err) &&
+        read_noise(picture, &r->noise, err) &&
         reference_init(r, image.width / reduce, image.height / reduce, err);
 
     if (ok) {
@@ -111,7 +98,6 @@ bool reference_read(struct reference *r, const char *scene_path, int reduce,
     }
     image_free(&image);
     free(picture);
-    free(facts);
     return ok;
 }
 
@@ -138,11 +124,11 @@ static bool render_half(struct session *s, enum direct direct, int half,
                         const char *path, struct error *err)
 {
     struct render_job job = {.host = &s->world,
-                             .crop = {0, 0, s->view.width_px,
-                                      s->view.height_px},
+                             .crop = {0, 0, s->edit.now.view.width_px,
+                                      s->edit.now.view.height_px},
                              .limits.spp = HALF_SPP};
 
-    if (!world_lend(&s->world, &s->scene, &s->view,
+    if (!world_lend(&s->world, &s->scene, &s->edit.now.view,
                     SEED_OF_HALVES + (uint32_t)half, &job.world, err))
         return false;
     job.world.settings.direct = direct;
@@ -176,7 +162,8 @@ bool reference_make(struct reference *r, struct session *s, enum direct direct,
                     const char *folder, struct error *err)
 {
     struct image halves[2] = {{0}, {0}};
-    bool ok = reference_init(r, s->view.width_px, s->view.height_px, err);
+    bool ok = reference_init(r, s->edit.now.view.width_px,
+                             s->edit.now.view.height_px, err);
 
     for (int i = 0; ok && i < 2; i++)
         ok = read_half(&halves[i], s, direct, folder, i, err);

@@ -63,6 +63,7 @@ static void check_recorded_paths(const struct world *w, uint32_t first,
 {
     struct sample_id places[SAMPLE_BLOCK];
     struct path_sample want[SAMPLE_BLOCK];
+    struct first_surface surfaces[SAMPLE_BLOCK];
     struct path_record t;
 
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
@@ -70,7 +71,7 @@ static void check_recorded_paths(const struct world *w, uint32_t first,
 
         places[i] = (struct sample_id){k % SIDE, k / SIDE, k % 5};
     }
-    path_samples(w, places, SAMPLE_BLOCK, want);
+    path_samples(w, places, SAMPLE_BLOCK, want, surfaces);
     for (uint32_t i = 0; i < SAMPLE_BLOCK; i++) {
         path_record_follow(&t, w, places[i].x, places[i].y, places[i].index);
         assert_memory_equal(&t.radiance, &want[i].radiance, sizeof t.radiance);

@@ -23,8 +23,8 @@ static struct estimate look(const struct world *w, struct vec3 eye,
     for (int i = 0; i < n; i++) {
         struct ray r = {eye, v3_unit(v3_sub(at, eye)), FLOAT_MAX, 0, 0};
         struct path_sample s =
-            path_trace(w, r,
-                       sampler_start(1, 2, (uint64_t)i, w->settings.seed));
+            path_trace(w, r, sampler_start(1, 2, (uint64_t)i, w->settings.seed),
+                       NULL);
 
         assert_int_equal(s.cut, 0);
         sum += (double)s.radiance.x;
@@ -182,7 +182,7 @@ static void total_reflection_ends(void **state)
         struct ray r = {v3(0.1f, 0.2f, 0.3f), v3_unit(v3(0.5f, 0.6f, 0.624f)),
                         FLOAT_MAX, 0, 0};
         struct path_sample s =
-            path_trace(&m.world, r, sampler_start(0, 0, (uint64_t)i, 0));
+            path_trace(&m.world, r, sampler_start(0, 0, (uint64_t)i, 0), NULL);
 
         assert_true(s.rays <= PATH_HARD_STOP);
         /* Never leaves the glass. */
@@ -274,9 +274,10 @@ static void coarse_balls_have_smooth_shade(void **state)
         if (cosine < 0.1)
             continue;
         for (uint32_t k = 0; k < 16; k++)
-            got += (double)path_trace(&m.world, r, sampler_start(0, 0, k, 0))
-                       .radiance.x /
-                   16;
+            got +=
+                (double)path_trace(&m.world, r, sampler_start(0, 0, k, 0), NULL)
+                    .radiance.x /
+                16;
         truth = 0.5 / M_PI * radiance * lamp_area * cosine /
                 (double)v3_dot(to_lamp, to_lamp);
         /* The vertex moves by up to .15 of 200, and the cosine is at least
@@ -310,7 +311,7 @@ static void leaning_normals_leak_nothing(void **state)
     mesh_finish(&m);
     for (uint32_t i = 0; i < 20000; i++)
         assert_true(v3_is_zero(
-            path_trace(&m.world, r, sampler_start(0, 0, i, 0)).radiance));
+            path_trace(&m.world, r, sampler_start(0, 0, i, 0), NULL).radiance));
     mesh_free(&m);
 }
 

@@ -42,6 +42,7 @@ struct pair {
     struct render *renders[2];
     int draft_width, draft_height;
     uint32_t sample; /* enum sample_kind */
+    bool has_surfaces;
 };
 
 static struct backend *device; /* NULL: not available */
@@ -131,6 +132,8 @@ static void start(struct pair *p, int which, struct rect crop, uint64_t spp,
     job.world.settings.sample = p->sample;
     if (p->sample != SAMPLE_LIGHT)
         job.world.settings.features |= FEATURE_AOV;
+    if (p->has_surfaces)
+        job.world.settings.features |= FEATURE_FILTER;
     check_or_say(render_start(p->renders[which], &job, &err), err.text);
 }
 
@@ -204,6 +207,10 @@ static void assert_same(struct pair *p, uint64_t spp)
     assert_true(pb.rays == pa.rays);
     assert_true(pb.cut_paths == pa.cut_paths);
     assert_memory_equal(a->sums, b->sums, 3 * pixels * sizeof *a->sums);
+    assert_true((a->surfaces != NULL) == p->has_surfaces);
+    if (p->has_surfaces)
+        assert_memory_equal(a->surfaces, b->surfaces,
+                            pixels * sizeof *a->surfaces);
 }
 
 static void render_both(struct pair *p, struct rect crop, uint64_t spp,
@@ -226,6 +233,23 @@ static void shipped_scenes_are_equal(void **state)
         render_both(&p, (struct rect){0, 0, 97, 55}, 11, (uint32_t)i);
         close_pair(&p);
     }
+}
+
+/* Sums of first surfaces are those of the CPU, with and without them in
+ * turn. */
+static void surfaces_are_equal(void **state)
+{
+    struct pair p;
+
+    (void)state;
+    if (!device)
+        return;
+    open_pair(&p, "scenes/glass_mirror.obj", 90, 57);
+    for (int i = 0; i < 4; i++) {
+        p.has_surfaces = i % 2 == 0;
+        render_both(&p, (struct rect){0, 0, 90 - i, 57 - i}, 9, 3);
+    }
+    close_pair(&p);
 }
 
 /* Tests one backend after another scene, sizes that are not multiples of a
@@ -559,6 +583,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shipped_scenes_are_equal),
+        cmocka_unit_test(surfaces_are_equal),
         cmocka_unit_test(pictures_of_all_options_are_equal),
         cmocka_unit_test(drafts_are_equal),
         cmocka_unit_test(feature_pictures_are_equal),

@@ -265,6 +265,12 @@ static void sub_commands_have_their_own_operands(void **state)
     assert_int_equal(o.tile_count, 4);
     assert_null(o.scene_path);
     assert_true(good("compare a b --false-alarms 1e-3").false_alarms == 1e-3);
+    o = good("curve ref.pfm --csv c.csv -s 64 -w 32 a.obj");
+    assert_int_equal(o.command, COMMAND_CURVE);
+    assert_string_equal(o.reference_path, "ref.pfm");
+    assert_string_equal(o.scene_path, "a.obj");
+    assert_string_equal(o.csv_path, "c.csv");
+    assert_string_equal(good("curve -f a.obj ref.pfm").scene_path, "a.obj");
     /* only the first word is a sub-command */
     assert_int_equal(good("./compare").command, COMMAND_RENDER);
     assert_string_equal(good("-- compare").scene_path, "compare");

@@ -21,7 +21,7 @@ static struct film make_film(void)
         for (int x = 0; x < 4; x++)
             samples[x].radiance =
                 (struct vec3){y < 2, y < 2 ? 0.0f : 0.5f, 0.0f};
-        film_add_row(&film, 0, y, 1, 4, samples, counts);
+        film_add_row(&film, 0, y, 1, 4, samples, NULL, counts);
     }
     return film;
 }

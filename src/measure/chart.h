@@ -6,11 +6,11 @@
  * Threads:   one
  * Errors:    no points, memory, unwritable file
  */
-#ifndef ERROR_CHART_H
-#define ERROR_CHART_H
+#ifndef GLIM_CHART_H
+#define GLIM_CHART_H
 
 #include "base/error.h"
-#include "series.h"
+#include "measure/series.h"
 
 /* Points that are not above 0 are left out. Texts have letters, which are shown
  * as capitals, digits and - . , : + / _ ( ) */

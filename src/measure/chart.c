@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "chart.h"
+#include "measure/chart.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "measure/axis.h"
 #include "picture/stb.h"
 #include "terminal/xmalloc.h"
 
@@ -47,12 +48,6 @@ static const uint32_t mark_glyphs[] = {0x00f000, 0x000004, 0x000024,
 
 static const uint32_t colors[] = {0x000000, 0xd62728, 0x1f77b4, 0x2ca02c,
                                   0xff7f0e, 0x9467bd, 0x17a2b8, 0x8c564b};
-
-/* Range of an axis in decimal logarithms. */
-struct axis {
-    double low, high;
-    int from_px, to_px;
-};
 
 struct screen {
     uint8_t rgb[HEIGHT][WIDTH][3];
@@ -96,54 +91,26 @@ static int text_width(const char *text)
 }
 
 static void put_line(struct screen *c, double x0, double y0, double x1,
-                     double y1, uint32_t color)
+                     double y1, int thickness, uint32_t color)
 {
     int steps = (int)(fabs(x1 - x0) + fabs(y1 - y0)) + 1;
 
     for (int i = 0; i <= steps; i++) {
         double t = (double)i / steps;
 
-        fill(c, (int)(x0 + t * (x1 - x0)), (int)(y0 + t * (y1 - y0)), 2, 2,
-             color);
+        fill(c, (int)(x0 + t * (x1 - x0)), (int)(y0 + t * (y1 - y0)), thickness,
+             thickness, color);
     }
 }
 
-static double pixel_of(const struct axis *a, double value)
-{
-    return a->from_px + (a->to_px - a->from_px) * (log10(value) - a->low) /
-                            (a->high - a->low);
-}
-
-static bool is_drawn(const struct series *s, int i)
-{
-    return s->x[i] > 0 && s->y[i] > 0;
-}
-
-/* Extends the axis to include the value. */
-static void axis_add(struct axis *a, double value)
-{
-    a->low = fmin(a->low, log10(value) - 0.05);
-    a->high = fmax(a->high, log10(value) + 0.05);
-}
-
-/* Calls `put` for 1, 2 and 5 times each power of ten on the axis. */
+/* Calls `put` for each tick of the axis. */
 static void each_tick(struct screen *c, const struct axis *a,
                       void (*put)(struct screen *, int, const char *))
 {
-    static const int steps[] = {1, 2, 5};
+    struct axis_tick tick;
 
-    for (int power = (int)floor(a->low); power <= a->high; power++)
-        for (int i = 0; i < 3; i++) {
-            double value = steps[i] * pow(10, power);
-            char label[32];
-
-            if (log10(value) < a->low || log10(value) > a->high)
-                continue;
-            snprintf(label, sizeof label, "%.3g", value);
-            if (power < -2)
-                snprintf(label, sizeof label, "%de%d", steps[i], power);
-            put(c, (int)pixel_of(a, value), label);
-        }
+    for (int i = 0; axis_tick(a, i, &tick); i++)
+        put(c, (int)axis_place(a, tick.value), tick.label);
 }
 
 static void put_x_tick(struct screen *c, int x, const char *label)
@@ -167,13 +134,15 @@ static void put_series(struct screen *c, const struct series *s,
     int before = -1;
 
     for (int i = 0; i < s->count; i++) {
-        if (!is_drawn(s, i))
+        if (!axis_shows(s, i))
             continue;
-        fill(c, (int)pixel_of(x, s->x[i]) - 2, (int)pixel_of(y, s->y[i]) - 2, 6,
-             6, color);
+        if (!s->is_guide)
+            fill(c, (int)axis_place(x, s->x[i]) - 2,
+                 (int)axis_place(y, s->y[i]) - 2, 6, 6, color);
         if (before >= 0)
-            put_line(c, pixel_of(x, s->x[before]), pixel_of(y, s->y[before]),
-                     pixel_of(x, s->x[i]), pixel_of(y, s->y[i]), color);
+            put_line(c, axis_place(x, s->x[before]),
+                     axis_place(y, s->y[before]), axis_place(x, s->x[i]),
+                     axis_place(y, s->y[i]), s->is_guide ? 1 : 2, color);
         before = i;
     }
 }
@@ -218,19 +187,13 @@ static void append(void *context, void *data, int size_bytes)
 
 bool chart_write(const struct chart *chart, const char *path, struct error *err)
 {
-    struct axis x = {INFINITY, -INFINITY, LEFT, RIGHT};
-    struct axis y = {INFINITY, -INFINITY, BOTTOM, TOP};
+    struct axis x = {.from = LEFT, .to = RIGHT};
+    struct axis y = {.from = BOTTOM, .to = TOP};
     struct output out = {NULL, 0, 0};
     struct screen *c;
     bool ok;
 
-    for (int i = 0; i < chart->series_count; i++)
-        for (int k = 0; k < chart->series[i].count; k++)
-            if (is_drawn(&chart->series[i], k)) {
-                axis_add(&x, chart->series[i].x[k]);
-                axis_add(&y, chart->series[i].y[k]);
-            }
-    if (!(x.low < x.high))
+    if (!axes_fit(&x, &y, chart->series, chart->series_count))
         return fail(err, "%s: found no point to draw", path);
     c = xmalloc(sizeof *c);
     draw(c, chart, &x, &y);

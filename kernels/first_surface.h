@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+/*
+ * first_surface.h - the first surface of a path that is not a mirror or clear
+ * glass, with the light that it sends by itself
+ *
+ * The denoising filter tells surfaces apart by these features, and filters
+ * direct light apart from indirect light.
+ *
+ * Units:     normalised scene units, radiance
+ */
+#ifndef KERNELS_FIRST_SURFACE_H
+#define KERNELS_FIRST_SURFACE_H
+
+#include "kernels/bsdf.h"
+
+enum surface_state {
+    SURFACE_AHEAD, /* delta lobes only so far */
+    SURFACE_MET,   /* it has been met, and direct light goes on */
+    SURFACE_BEHIND /* direct light is complete */
+};
+
+/* A path without such a surface has no features, and all its light is
+ * direct. */
+struct first_surface {
+    /* light of the path up to the surface, of its emission, and of lights that
+     * it reflects */
+    struct vec3 direct;
+    struct vec3 albedo;
+    struct vec3 normal; /* shading normal on the eye's side */
+    float depth;        /* length of the path to the surface */
+    uint32_t state;     /* enum surface_state */
+};
+
+/* True if the world's samples have first surfaces. */
+static inline bool has_first_surface(const struct world *w)
+{
+    return HAS(FEATURE_FILTER) && (w->settings.features & FEATURE_FILTER) != 0;
+}
+
+static inline void first_surface_begin(struct first_surface *s)
+{
+    if (!HAS(FEATURE_FILTER))
+        return;
+    s->depth = 0.0f;
+    s->state = SURFACE_AHEAD;
+}
+
+/* Takes the BSDF of the path's next vertex, with its normal and its distance
+ * from the last one. */
+static inline void first_surface_meet(struct first_surface *s,
+                                      const struct bsdf *b, struct vec3 n,
+                                      float distance)
+{
+    if (!HAS(FEATURE_FILTER) || s->state != SURFACE_AHEAD)
+        return;
+    s->depth += distance;
+    if (bsdf_is_delta(b))
+        return;
+    s->albedo = b->color;
+    s->normal = n;
+    s->state = SURFACE_MET;
+}
+
+/* Takes the path's radiance after the emission of a vertex was added. That of
+ * the vertex behind the surface is the last direct light. */
+static inline void first_surface_light(struct first_surface *s,
+                                       struct vec3 radiance)
+{
+    if (!HAS(FEATURE_FILTER) || s->state != SURFACE_MET)
+        return;
+    s->direct = radiance;
+    s->state = SURFACE_BEHIND;
+}
+
+/* Completes the surface with the whole radiance of the path. */
+static inline void first_surface_end(struct first_surface *s,
+                                     struct vec3 radiance)
+{
+    if (HAS(FEATURE_FILTER) && s->state != SURFACE_BEHIND)
+        s->direct = radiance;
+}
+
+#endif

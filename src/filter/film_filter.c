@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "filter/film_filter.h"
+
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "filter/filter.h"
+
+/* Depth of a film without surfaces. */
+#define DEPTH_ANY 1.0f
+
+struct source {
+    struct film *film;
+    float far; /* greatest depth, which rays that leave the scene have */
+};
+
+static size_t row_index(const struct film *f, int y)
+{
+    return (size_t)y * (size_t)f->width;
+}
+
+static void row_lock(struct film *f, int y)
+{
+    pthread_mutex_lock(&f->locks[y % FILM_LOCKS]);
+}
+
+static void row_unlock(struct film *f, int y)
+{
+    pthread_mutex_unlock(&f->locks[y % FILM_LOCKS]);
+}
+
+bool film_filter_applies(struct film *f)
+{
+    bool applies = f->surfaces != NULL;
+
+    for (int y = 0; applies && y < f->height; y++) {
+        row_lock(f, y);
+        for (int x = 0; x < f->width; x++)
+            applies = applies && f->counts[row_index(f, y) + (size_t)x] >= 2;
+        row_unlock(f, y);
+    }
+    return applies;
+}
+
+/* Returns the greatest mean depth of a pixel's surfaces. */
+static float greatest_depth(struct film *f)
+{
+    float far = 0.0f;
+
+    for (int y = 0; y < f->height; y++) {
+        row_lock(f, y);
+        for (int x = 0; x < f->width; x++) {
+            const struct surface_sums *s =
+                &f->surfaces[row_index(f, y) + (size_t)x];
+
+            if (s->hit_count > 0)
+                far = f_max(sum_float(s->depth) / (float)s->hit_count, far);
+        }
+        row_unlock(f, y);
+    }
+    return far > 0.0f ? far : DEPTH_ANY;
+}
+
+/* Returns the variance of the mean of `count` samples from the sum of their
+ * squares and the square of their mean. */
+static float mean_variance(float squares, float mean_square, float count)
+{
+    return f_max(squares / count - mean_square, 0.0f) / count;
+}
+
+/* Writes the features of a pixel. Rays that leave the scene have an albedo of
+ * 1, no normal, and the greatest depth. */
+static void put_features(const struct surface_sums *s, float far, int x,
+                         const struct filter_row *to)
+{
+    float count = (float)s->count, hits = (float)s->hit_count;
+    float misses = (float)(s->count - s->hit_count);
+    float albedo_square = 0.0f, normal_square = 0.0f, depth;
+
+    for (int c = 0; c < 3; c++) {
+        float albedo =
+            ((float)s->albedo[c] * (1.0f / SURFACE_ONE) + misses) / count;
+        float normal =
+            ((float)s->normal[c] * (2.0f / SURFACE_ONE) - hits) / count;
+
+        to->albedo[c][x] = albedo;
+        to->normal[c][x] = normal;
+        albedo_square += albedo * albedo;
+        normal_square += normal * normal;
+    }
+    depth = (sum_float(s->depth) + misses * far) / count;
+    to->depth[x] = depth;
+    to->albedo_noise[x] =
+        mean_variance((float)s->albedo_square * (3.0f / SURFACE_ONE) +
+                          3.0f * misses,
+                      albedo_square, count);
+    to->normal_noise[x] = mean_variance(hits, normal_square, count);
+    to->depth_noise[x] =
+        mean_variance(sum_float(s->depth_square) + misses * far * far,
+                      depth * depth, count);
+}
+
+static void give_features(void *context, int y, const struct filter_row *to)
+{
+    const struct source *s = context;
+    struct film *f = s->film;
+
+    row_lock(f, y);
+    for (int x = 0; x < f->width; x++) {
+        size_t at = row_index(f, y) + (size_t)x;
+
+        put_features(&f->surfaces[at], s->far, x, to);
+        to->count[0][x] = (float)((f->counts[at] + 1) / 2);
+        to->count[1][x] = (float)(f->counts[at] / 2);
+    }
+    row_unlock(f, y);
+}
+
+/* Writes the mean of each half of a pixel: of direct light for component 0, of
+ * the rest for component 1. */
+static void put_light(const struct film *f, size_t at, int component, int x,
+                      float *to[2][3])
+{
+    const struct surface_sums *surface = &f->surfaces[at];
+    float even_count = (float)((f->counts[at] + 1) / 2);
+    float odd_count = (float)(f->counts[at] / 2);
+
+    for (int c = 0; c < 3; c++) {
+        struct sum all = surface->direct[c], odd = surface->odd_direct[c];
+
+        if (component == 1) {
+            all = sum_without(f->sums[3 * at + (size_t)c], all);
+            odd = sum_without(f->odd_sums[3 * at + (size_t)c], odd);
+        }
+        to[0][c][x] = sum_float(sum_without(all, odd)) / even_count;
+        to[1][c][x] = sum_float(odd) / odd_count;
+    }
+}
+
+static void give_light(void *context, int component, int y, float *to[2][3])
+{
+    const struct source *s = context;
+    struct film *f = s->film;
+
+    row_lock(f, y);
+    for (int x = 0; x < f->width; x++)
+        put_light(f, row_index(f, y) + (size_t)x, component, x, to);
+    row_unlock(f, y);
+}
+
+static void store(struct film *to, const float *rgb)
+{
+    static const int one = 1;
+
+    for (int y = 0; y < to->height; y++)
+        for (int x = 0; x < to->width; x++, rgb += 3) {
+            struct path_sample sample = {{rgb[0], rgb[1], rgb[2]}, 0, 0};
+
+            film_add_row(to, x, y, 1, 1, &sample, NULL, &one);
+        }
+}
+
+bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
+                 struct error *err)
+{
+    struct source context = {f, greatest_depth(f)};
+    const struct filter_source source = {&context, 2, give_features,
+                                         give_light};
+    float *rgb =
+        alloc_array((size_t)f->width * (size_t)f->height, 3 * sizeof *rgb);
+    struct filter filter;
+    bool ok = rgb != NULL
+                  ? filter_init(&filter, f->width, f->height, err)
+                  : fail(err, "out of memory for filtering %dx%d pixels",
+                         f->width, f->height);
+
+    if (ok) {
+        filter_run(&filter, &source, FILTER_LEVELS, pool, rgb);
+        filter_free(&filter);
+        store(filtered, rgb);
+    }
+    free(rgb);
+    return ok;
+}

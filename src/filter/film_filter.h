@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/*
+ * film_filter.h - the denoising filter of a film with first surfaces
+ *
+ * Direct and indirect light are filtered apart.
+ *
+ * Units:     radiance
+ * Ownership: the film stays the caller's
+ * Threads:   one at a time; the film's rows are locked one by one
+ * Errors:    out of memory
+ */
+#ifndef GLIM_FILM_FILTER_H
+#define GLIM_FILM_FILTER_H
+
+#include "base/thread_pool.h"
+#include "picture/film.h"
+
+/* Returns true if the film can be filtered: it has surfaces, and each pixel has
+ * a sample in each half. */
+bool film_filter_applies(struct film *film);
+
+/* Adds the filtered picture to an empty film of the same size, as one sample of
+ * each pixel. The pool may be NULL. Blocks. */
+bool film_filter(struct film *film, struct pool *pool, struct film *filtered,
+                 struct error *err);
+
+#endif

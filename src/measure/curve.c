@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "measure/curve.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/print.h"
+#include "measure/student_t.h"
+
+/* Beyond this share the error of the reference's own noise makes the rest
+ * uncertain. */
+#define DROWNED_SHARE 0.5
+
+void curve_add(struct curve *c, uint64_t spp, double seconds,
+               const struct picture_pair *pair,
+               const struct reference_info *own)
+{
+    struct picture_error e = picture_error_of(pair);
+    struct curve_point *p = &c->points[c->count];
+
+    if (c->count == SERIES_POINTS)
+        return;
+    *p = (struct curve_point){
+        .spp = spp,
+        .seconds = seconds,
+        .mse = fmax(picture_error_without(e.mse, own->mse), 0),
+        .relmse = fmax(picture_error_without(e.relmse, own->relmse), 0),
+        .bias = e.bias,
+        .percentile = e.percentile,
+        .groups = picture_error_groups(pair),
+        .is_drowned = own->mse > DROWNED_SHARE * e.mse ||
+                      own->relmse > DROWNED_SHARE * e.relmse,
+    };
+    for (int i = 0; i < PIXEL_GROUPS; i++) {
+        p->groups.mse[i] -= e.mse - p->mse;
+        p->groups.relmse[i] -= e.relmse - p->relmse;
+    }
+    c->count++;
+}
+
+double curve_efficiency(const struct curve_point *p)
+{
+    return 1 / (p->relmse * p->seconds);
+}
+
+/* True if the point is part of the slope and the diagram. */
+static bool is_shown(const struct curve_point *p)
+{
+    return !p->is_drowned && p->mse > 0 && p->relmse > 0 && p->seconds > 0;
+}
+
+static struct series series_of(const struct curve *c, const char *name,
+                               bool is_relative)
+{
+    struct series s = {.name = name};
+
+    for (int i = 0; i < c->count; i++) {
+        const struct curve_point *p = &c->points[i];
+
+        if (!is_shown(p))
+            continue;
+        s.x[s.count] = p->seconds;
+        s.y[s.count++] = is_relative ? p->relmse : p->mse;
+    }
+    return s;
+}
+
+struct series curve_mse(const struct curve *c)
+{
+    return series_of(c, "MSE", false);
+}
+
+struct series curve_relmse(const struct curve *c)
+{
+    return series_of(c, "relative MSE", true);
+}
+
+void curve_write_head(FILE *to)
+{
+    print_line(to, "%10s %9s %10s %10s %9s %10s %10s", "spp", "seconds", "RMSE",
+               "relMSE", "bias", "99.9 %", "efficiency");
+}
+
+void curve_write_row(FILE *to, const struct curve_point *p)
+{
+    print_line(to,
+               "%10" PRIu64 " %9.4g %10.4g %10.4g %+7.2f %% %10.4g %10.4g%s",
+               p->spp, p->seconds, sqrt(p->mse), p->relmse, 100 * p->bias,
+               p->percentile, curve_efficiency(p),
+               p->is_drowned ? " (reference too noisy)" : "");
+}
+
+/* Returns the mean error of all groups but one. */
+static double mean_without(const double groups[PIXEL_GROUPS], int left_out)
+{
+    double sum = 0;
+
+    for (int i = 0; i < PIXEL_GROUPS; i++)
+        sum += i == left_out ? 0 : groups[i];
+    return sum / (PIXEL_GROUPS - 1);
+}
+
+/* Returns the slope without one group of pixels. */
+static double slope_without(const struct curve *c, bool is_relative,
+                            int left_out)
+{
+    struct series s = {.count = 0};
+
+    for (int i = 0; i < c->count; i++) {
+        const struct curve_point *p = &c->points[i];
+
+        if (!is_shown(p))
+            continue;
+        s.x[s.count] = p->seconds;
+        s.y[s.count++] =
+            mean_without(is_relative ? p->groups.relmse : p->groups.mse,
+                         left_out);
+    }
+    return series_fit(&s).slope;
+}
+
+struct series_fit curve_fit(const struct curve *c, bool is_relative)
+{
+    struct series s = is_relative ? curve_relmse(c) : curve_mse(c);
+    struct series_fit fit = series_fit(&s);
+    double slopes[PIXEL_GROUPS], mean = 0, squares = 0, margin;
+
+    for (int i = 0; i < PIXEL_GROUPS; i++) {
+        slopes[i] = slope_without(c, is_relative, i);
+        mean += slopes[i] / PIXEL_GROUPS;
+    }
+    for (int i = 0; i < PIXEL_GROUPS; i++)
+        squares += (slopes[i] - mean) * (slopes[i] - mean);
+    margin = student_t_bound(0.05, PIXEL_GROUPS - 1) *
+             sqrt(squares * (PIXEL_GROUPS - 1) / PIXEL_GROUPS);
+    if (margin > fit.slope - fit.low) {
+        fit.low = fit.slope - margin;
+        fit.high = fit.slope + margin;
+    }
+    return fit;
+}
+
+static void write_slope(FILE *to, const char *label, const struct curve *c,
+                        bool is_relative)
+{
+    struct series_fit fit = curve_fit(c, is_relative);
+
+    if (isnan(fit.slope))
+        print_line(to, "%s: unknown, too few points", label);
+    else if (isnan(fit.low))
+        print_line(to, "%s: %.2f", label, fit.slope);
+    else
+        print_line(to, "%s: %.2f (95 %%: %.2f to %.2f)", label, fit.slope,
+                   fit.low, fit.high);
+}
+
+void curve_write_slopes(FILE *to, const struct curve *c)
+{
+    write_slope(to, "slope of log RMSE over log seconds", c, false);
+    write_slope(to, "slope of log root relMSE", c, true);
+}
+
+char *curve_csv(const struct curve *c)
+{
+    char *text = format_text("spp,seconds,rmse,relmse,bias,percentile_999,"
+                             "efficiency\n");
+
+    for (int i = 0; text != NULL && i < c->count; i++) {
+        const struct curve_point *p = &c->points[i];
+        char *longer =
+            format_text("%s%" PRIu64 ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", text,
+                        p->spp, p->seconds, sqrt(p->mse), p->relmse, p->bias,
+                        p->percentile, curve_efficiency(p));
+
+        free(text);
+        text = longer;
+    }
+    return text;
+}

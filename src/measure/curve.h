@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/*
+ * curve.h - the error of one render at doubling numbers of samples
+ *
+ * Units:     seconds, samples per pixel; errors as struct picture_error
+ * Ownership: curve_csv() returns memory for free()
+ * Threads:   any
+ */
+#ifndef GLIM_CURVE_H
+#define GLIM_CURVE_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "measure/picture_error.h"
+#include "measure/reference_info.h"
+#include "measure/series.h"
+
+/* Errors without the reference's own. */
+struct curve_point {
+    uint64_t spp;
+    double seconds;
+    double mse, relmse;
+    double bias, percentile;
+    struct group_errors groups;
+    bool is_drowned; /* the reference's own error is more than half of it */
+};
+
+struct curve {
+    struct curve_point points[SERIES_POINTS];
+    int count;
+};
+
+/* Adds a measurement, unless the curve is full. */
+void curve_add(struct curve *curve, uint64_t spp, double seconds,
+               const struct picture_pair *pair,
+               const struct reference_info *own);
+
+/* Returns 1 / (relMSE x seconds). */
+double curve_efficiency(const struct curve_point *point);
+
+/* Return the points that are not drowned as MSE or relative MSE over
+ * seconds. */
+struct series curve_mse(const struct curve *curve);
+struct series curve_relmse(const struct curve *curve);
+
+/* Write the head of the table, and the row of a point. */
+void curve_write_head(FILE *to);
+void curve_write_row(FILE *to, const struct curve_point *point);
+
+/* Fits the slope. The interval covers the distances of the points from the
+ * line, which have the noise of the times, and the noise of the errors: groups
+ * of pixels are left out in turn (jackknife). The larger of the two counts. */
+struct series_fit curve_fit(const struct curve *curve, bool is_relative);
+
+/* Write the slopes with their intervals. */
+void curve_write_slopes(FILE *to, const struct curve *curve);
+
+/* Returns the table as comma-separated values, NULL if memory is out. */
+char *curve_csv(const struct curve *curve);
+
+#endif

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_curve.c - how often the interval of a slope contains the truth, the
+ * reference's own error, and the table
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/unit/check.h"
+
+#include "measure/curve.h"
+
+enum { SIDE = 24, VALUES = 3 * SIDE * SIDE, DOUBLINGS = 8, TRIES = 200 };
+
+static float black[VALUES], picture[VALUES];
+
+static const struct picture_pair pair = {SIDE, SIDE, picture, black};
+
+static double normal(uint64_t *random)
+{
+    double r = sqrt(-2 * log(1 - check_random(random)));
+
+    return r * cos(6.28318530717958648 * check_random(random));
+}
+
+/* Lognormal noise of this spread with mean 0; normal noise if it is 0. */
+static double noise(double spread, uint64_t *random)
+{
+    return spread > 0 ? exp(spread * normal(random)) - exp(spread * spread / 2)
+                      : normal(random);
+}
+
+/* Measures one render of independent samples, the same in all channels of a
+ * pixel, at 1, 2, 4 .. samples. Its slope is -0.5. */
+static void render(struct curve *curve, double spread, uint64_t *random)
+{
+    static double sums[SIDE * SIDE];
+    struct reference_info own = {0};
+    int n = 0;
+
+    curve->count = 0;
+    for (int k = 0; k < SIDE * SIDE; k++)
+        sums[k] = 0;
+    for (int i = 0; i < DOUBLINGS; i++) {
+        for (; n < 1 << i; n++)
+            for (int k = 0; k < SIDE * SIDE; k++)
+                sums[k] += noise(spread, random);
+        for (int k = 0; k < VALUES; k++)
+            picture[k] = (float)(sums[k / 3] / n);
+        curve_add(curve, (uint64_t)n, 0.01 * n, &pair, &own);
+    }
+}
+
+/* The larger of two intervals is wide rather than narrow: at least 92 % of the
+ * tries must be inside, where the distances from the line alone have 86 % under
+ * skewed noise, and least squares without the correlation of the points 60 %.
+ */
+static void interval_contains_the_truth(void **state)
+{
+    static const double spreads[] = {0, 0.7, 1};
+    static struct curve curve;
+
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        uint64_t random = 5;
+        int inside = 0;
+
+        for (int i = 0; i < TRIES; i++) {
+            struct series_fit fit;
+
+            render(&curve, spreads[k], &random);
+            fit = curve_fit(&curve, false);
+            inside += fit.low <= -0.5 && -0.5 <= fit.high;
+            /* the interval says something */
+            check_at_most(fit.high - fit.low, 0.4);
+        }
+        check_at_most(TRIES - inside, 16);
+    }
+}
+
+static void own_error_is_subtracted(void **state)
+{
+    static struct curve curve;
+    struct reference_info own = {.is_known = true, .mse = 0.1, .relmse = 1};
+
+    (void)state;
+    for (int k = 0; k < VALUES; k++)
+        picture[k] = 0.5f; /* MSE 0.25, relMSE 25 */
+    curve_add(&curve, 4, 2, &pair, &own);
+    check_close(curve.points[0].mse, 0.15, 1e-9);
+    check_close(curve.points[0].relmse, 25, 1e-9); /* 1 is 4 % of it */
+    check_close(curve_efficiency(&curve.points[0]), 1.0 / 50, 1e-9);
+    assert_false(curve.points[0].is_drowned);
+    for (int k = 0; k < VALUES; k++)
+        picture[k] = 0.4f; /* MSE 0.16, of which 0.1 is the reference's */
+    curve_add(&curve, 8, 4, &pair, &own);
+    assert_true(curve.points[1].is_drowned);
+    assert_int_equal(curve_mse(&curve).count, 1);
+}
+
+static void table_has_a_line_for_each_point(void **state)
+{
+    static struct curve curve;
+    struct reference_info own = {0};
+    char *csv;
+
+    (void)state;
+    for (int k = 0; k < VALUES; k++)
+        picture[k] = 0.5f;
+    curve_add(&curve, 1, 0.5, &pair, &own);
+    curve_add(&curve, 2, 1, &pair, &own);
+    csv = curve_csv(&curve);
+    assert_string_equal(csv, "spp,seconds,rmse,relmse,bias,percentile_999,"
+                             "efficiency\n"
+                             "1,0.5,0.5,25,inf,0.5,0.08\n"
+                             "2,1,0.5,25,inf,0.5,0.04\n");
+    free(csv);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(interval_contains_the_truth),
+        cmocka_unit_test(own_error_is_subtracted),
+        cmocka_unit_test(table_has_a_line_for_each_point),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

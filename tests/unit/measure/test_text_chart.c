@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/*
+ * test_text_chart.c - diagrams of characters, compared with drawings by hand
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/unit/check.h"
+
+#include "measure/text_chart.h"
+
+static char *drawn(const struct chart *chart, int cols, int rows,
+                   bool has_braille)
+{
+    char *text = NULL;
+    size_t size_bytes;
+    FILE *to = open_memstream(&text, &size_bytes);
+
+    assert_non_null(to);
+    text_chart_write(to, chart, cols, rows, has_braille);
+    assert_int_equal(fclose(to), 0);
+    return text;
+}
+
+/* A straight line through two decades each way. Both axes end 0.05 decades
+ * beyond the points. */
+static void a_line_is_drawn_in_ascii(void **state)
+{
+    struct series s = {.count = 3, .x = {1, 10, 100}, .y = {100, 10, 1}};
+    struct chart chart = {"", "seconds", "error", &s, 1};
+    char *text = drawn(&chart, 29, 11, false);
+
+    (void)state;
+    assert_string_equal(text, "error over seconds\n"
+                              "   100 |*..                  \n"
+                              "    50 |   ...               \n"
+                              "    20 |      ...            \n"
+                              "    10 |         .*.         \n"
+                              "     5 |            ...      \n"
+                              "     2 |               ...   \n"
+                              "     1 |                  ..*\n"
+                              "       +---------------------\n"
+                              "        1  2   5 10 20    100 \n");
+    free(text);
+}
+
+static void braille_has_the_same_frame(void **state)
+{
+    struct series s = {.count = 2, .x = {1, 100}, .y = {100, 1}};
+    struct chart chart = {"", "seconds", "error", &s, 1};
+    char *text = drawn(&chart, 29, 11, true);
+
+    (void)state;
+    check_has(text, "   100 |");
+    free(text);
+}
+
+/* Points that are not above 0 or not finite are left out. */
+static void no_point_is_no_diagram(void **state)
+{
+    struct series s = {.count = 3, .x = {1, 0, INFINITY}, .y = {0, 1, 1}};
+    struct chart chart = {"", "x", "y", &s, 1};
+    char *text = drawn(&chart, 30, 10, false);
+
+    (void)state;
+    assert_string_equal(text, "");
+    free(text);
+}
+
+/* One point, tiny and huge ranges and sizes end. */
+static void extremes_end(void **state)
+{
+    static const double values[][2] = {{1, 1}, {1e-30, 1e30}, {1, 1.0000001}};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        struct series s = {.count = 2,
+                           .x = {values[i][0], values[i][1]},
+                           .y = {values[i][1], values[i][0]}};
+        struct chart chart = {"", "x", "y", &s, 1};
+
+        for (int cols = -1; cols < 100; cols += 67)
+            free(drawn(&chart, cols, cols / 2, cols % 2 == 0));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_line_is_drawn_in_ascii),
+        cmocka_unit_test(braille_has_the_same_frame),
+        cmocka_unit_test(no_point_is_no_diagram),
+        cmocka_unit_test(extremes_end),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
