@@ -18,6 +18,7 @@
 #include "terminal/xmalloc.h"
 #include "session/stats_json.h"
 #include "inspect/view_modes.h"
+#include "batch_filter.h"
 #include "batch_progress.h"
 
 static bool is_standard_output(const char *path)
@@ -44,6 +45,8 @@ static bool check_outputs(const struct session *s, struct error *err)
          !stats_json_check(o->stats_path, err)))
         return false;
     if (o->output_path && !session_check_output(s, "-o", o->output_path, err))
+        return false;
+    if (o->denoise_path && !batch_filter_check(s, err))
         return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
@@ -96,7 +99,8 @@ static enum palette text_palette(const struct options *o)
     return term_caps_palette(o->display.color);
 }
 
-static bool save_text(struct view_mode *show, char **name, struct error *err)
+static bool save_text(struct view_mode *show, struct film *film, char **name,
+                      struct error *err)
 {
     const struct session *s = show->session;
     const struct options *o = s->options;
@@ -111,7 +115,7 @@ static bool save_text(struct view_mode *show, char **name, struct error *err)
     size_t size_bytes;
     char *text;
     bool ok = ansi_text_frame_init(&frame, &style, err) &&
-              view_mode_picture(show, render_film(s->render), &frame, err) &&
+              view_mode_picture(show, film, &frame, err) &&
               ansi_text_of_frame(&frame, &style, &text, &size_bytes, err);
 
     frame_free(&frame);
@@ -125,29 +129,27 @@ static bool save_text(struct view_mode *show, char **name, struct error *err)
 }
 
 /* Writes to the file that the options name. */
-static bool write_picture(struct session *s, const struct frame *frame,
-                          struct error *err)
+static bool write_picture(struct session *s, struct film *film,
+                          const struct frame *frame, struct error *err)
 {
     const char *path = s->options->output_path;
-    struct image_metadata metadata = session_metadata(s);
+    struct image_metadata metadata = batch_filter_metadata(s, film);
 
     return frame ? image_write_frame(frame, path, err)
-                 : image_write(render_film(s->render), session_develop(s),
-                               &metadata, path, err);
+                 : image_write(film, session_develop(s), &metadata, path, err);
 }
 
 /* Writes to a file with a free name and returns the name, for free(). */
-static char *write_numbered(struct session *s, const struct frame *frame,
-                            struct error *err)
+static char *write_numbered(struct session *s, struct film *film,
+                            const struct frame *frame, struct error *err)
 {
     char *stem = xchecked(path_stem(s->options->scene_path));
     const char *slash = strrchr(stem, '/');
     const char *last = slash ? slash + 1 : stem;
-    struct image_metadata metadata = session_metadata(s);
-    char *name =
-        frame ? image_write_frame_numbered(frame, last, err)
-              : image_write_numbered(render_film(s->render), session_develop(s),
-                                     &metadata, last, "png", err);
+    struct image_metadata metadata = batch_filter_metadata(s, film);
+    char *name = frame ? image_write_frame_numbered(frame, last, err)
+                       : image_write_numbered(film, session_develop(s),
+                                              &metadata, last, "png", err);
 
     free(stem);
     return name;
@@ -155,16 +157,17 @@ static char *write_numbered(struct session *s, const struct frame *frame,
 
 /* Saves the frame, or the film if frame is NULL. *name is the file's name, for
  * free(). */
-static bool save_pixels(struct session *s, const struct frame *frame,
-                        char **name, struct error *err)
+static bool save_pixels(struct session *s, struct film *film,
+                        const struct frame *frame, char **name,
+                        struct error *err)
 {
     const char *path = s->options->output_path;
 
     if (path) {
         *name = xstrdup(is_standard_output(path) ? "standard output" : path);
-        return write_picture(s, frame, err);
+        return write_picture(s, film, frame, err);
     }
-    *name = write_numbered(s, frame, err);
+    *name = write_numbered(s, film, frame, err);
     return *name != NULL;
 }
 
@@ -175,19 +178,38 @@ static bool save_shown(struct view_mode *show, char **name, struct error *err)
     struct frame frame = {0};
     bool ok = frame_init(&frame, s->crop.width, s->crop.height, err) &&
               view_mode_picture(show, NULL, &frame, err) &&
-              save_pixels(s, &frame, name, err);
+              save_pixels(s, NULL, &frame, name, err);
 
     frame_free(&frame);
     return ok;
 }
 
-static bool save_picture(struct view_mode *show, char **name, struct error *err)
+static bool save_picture(struct view_mode *show, struct film *film, char **name,
+                         struct error *err)
 {
     if (show->session->options->text_cols > 0)
-        return save_text(show, name, err);
+        return save_text(show, film, name, err);
     if (show->kind != SHOW_LIGHT)
         return save_shown(show, name, err);
-    return save_pixels(show->session, NULL, name, err);
+    return save_pixels(show->session, film, NULL, name, err);
+}
+
+/* Saves the film, filtered if the options want that. With --denoise=FILE the
+ * filtered picture has a file of its own. */
+static bool save_film(struct view_mode *show, char **name, struct error *err)
+{
+    struct session *s = show->session;
+    struct film *film = render_film(s->render);
+    struct film filtered = {0};
+    bool ok = !s->options->denoise || batch_filter(s, &filtered, err);
+
+    if (ok && s->is_denoised && s->options->denoise_path)
+        ok = batch_filter_write(s, &filtered, err);
+    else if (s->is_denoised)
+        film = &filtered;
+    ok = ok && save_picture(show, film, name, err);
+    film_free(&filtered);
+    return ok;
 }
 
 /* Writes the statistics, unless the free name of the picture is that of their
@@ -226,7 +248,7 @@ static bool save_all(struct view_mode *show, struct error *err)
         /* an old picture is better than a black one */
         return batch_say_empty(err);
     }
-    ok = save_picture(show, &name, err);
+    ok = save_film(show, &name, err);
     if (ok)
         say_result(s, name, &p);
     if (ok && s->options->stats_path)
@@ -242,7 +264,7 @@ static bool use_device(struct session *s, struct error *err)
     const struct options *o = s->options;
     struct backends *m = &s->backends;
     char *log = NULL;
-    bool is_up = backends_begin_device(m, world_features(&s->world), err) &&
+    bool is_up = backends_begin_device(m, session_features(s), err) &&
                  backends_end_device(m, &log, err);
 
     if (is_up)
@@ -280,7 +302,7 @@ static bool run_show(struct view_mode *show, struct error *err)
     const struct session *s = show->session;
     char *name = NULL;
     bool ok = view_mode_set(show, s->options->show, err) &&
-              save_picture(show, &name, err);
+              save_picture(show, render_film(s->render), &name, err);
 
     if (ok)
         print_line(stderr, "%s: %dx%d, %s, %.1f s", name, s->crop.width,

@@ -55,6 +55,11 @@ const char options_help[] =
     "  -o FILE          .png, .hdr or .pfm file to write or replace, or - for\n"
     "                   standard output (default: a new .png file in the\n"
     "                   current folder, named after the scene)\n"
+    "  --denoise        filter the noise out of the picture; as "
+    "--denoise=FILE\n"
+    "                   write the filtered picture to a .png, .hdr or .pfm "
+    "file\n"
+    "                   and the unfiltered one to that of -o\n"
     "  --ansi COLSxROWS write coloured text of at most this size instead of a\n"
     "                   picture, to the file of -o or standard output\n"
     "  --show KIND      preview, normals, faces, uvs, depth, materials or "
@@ -147,7 +152,9 @@ static bool parse_long(struct options *o, int argc, char **argv, int *i,
     if (!g.rule->value && attached)
         return fail(err, "%s: found '%s', expected no value", g.shown,
                     attached);
-    if (g.rule->value && !take_value(&g, attached, argc, argv, i, err))
+    if (option_value_is_optional(g.rule))
+        g.value = attached;
+    else if (g.rule->value && !take_value(&g, attached, argc, argv, i, err))
         return false;
     return option_set(o, &g, err);
 }
@@ -237,6 +244,37 @@ static bool check_batch(const struct options *o, struct error *err)
     return true;
 }
 
+/* Refuses a filtered picture on the screen or in the file of another output. */
+static bool check_denoise(const struct options *o, struct error *err)
+{
+    const char *path = o->denoise_path;
+
+    if (!o->denoise)
+        return true;
+    if (!o->batch)
+        return fail(err, "--denoise: found no -b, expected batch mode");
+    if (o->show != SHOW_LIGHT)
+        return fail(err, "--denoise: found --show, expected a render of light");
+    if (!path)
+        return true;
+    if (is_standard_output(path) ||
+        image_write_format_of(path) == IMAGE_WRITE_UNKNOWN)
+        return fail(err,
+                    "--denoise: found '%s', expected a name that ends in .png, "
+                    ".hdr or .pfm",
+                    path);
+    if ((o->output_path && path_is_same(path, o->output_path)) ||
+        (o->stats_path && path_is_same(path, o->stats_path)))
+        return fail(err,
+                    "--denoise: found '%s', the file of %s, expected another "
+                    "file",
+                    path,
+                    o->output_path && path_is_same(path, o->output_path)
+                        ? "-o"
+                        : "--stats");
+    return true;
+}
+
 /* Refuses options about samples of light beside --show. */
 static bool check_show(const struct options *o, struct error *err)
 {
@@ -262,7 +300,7 @@ static bool check_together(const struct options *o, struct error *err)
 {
     if (o->list_devices || o->probe)
         return true;
-    return check_batch(o, err) && check_show(o, err);
+    return check_batch(o, err) && check_denoise(o, err) && check_show(o, err);
 }
 
 struct render_limits options_limits(const struct options *o)

@@ -67,7 +67,9 @@ struct options {
     bool has_max_bounces;
     uint32_t seed;
     bool batch;
-    enum show_kind show; /* in batch mode */
+    bool denoise;             /* filter the picture, in batch mode */
+    const char *denoise_path; /* file of the filtered picture; NULL: -o */
+    enum show_kind show;      /* in batch mode */
     bool up_is_z;
     bool has_crop;
     struct rect crop;

@@ -43,6 +43,7 @@ static const struct option_rule rules[] = {
     {"ansi", OPTION_ANSI, "COLSxROWS in characters"},
     {"show", OPTION_SHOW,
      "light, preview, normals, faces, uvs, depth, materials or cost"},
+    {"denoise", OPTION_DENOISE, "the name of a picture"},
     {"stats", OPTION_STATS, "the name of a file"},
     {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
     {"glyph", OPTION_GLYPH,
@@ -335,6 +336,9 @@ bool option_set(struct options *o, const struct option_given *g,
         return whole_int(g, 1, THREADS_MAX, &o->thread_count, err);
     case OPTION_OUTPUT: return given_text(g, &o->output_path, err);
     case OPTION_ANSI: return set_text_size(o, g, err);
+    case OPTION_DENOISE:
+        o->denoise = true;
+        return !g->value || given_text(g, &o->denoise_path, err);
     case OPTION_STATS: return given_text(g, &o->stats_path, err);
     case OPTION_CELL_ASPECT:
         return set_decimal(g, 0.25, 8, &o->display.cell_aspect, err);

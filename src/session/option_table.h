@@ -38,6 +38,7 @@ enum option_id {
     OPTION_OUTPUT,
     OPTION_ANSI,
     OPTION_SHOW,
+    OPTION_DENOISE,
     OPTION_STATS,
     OPTION_COLOR,
     OPTION_GLYPH,
@@ -57,6 +58,12 @@ struct option_rule {
     const char *value; /* the expected value, for messages; NULL: no value */
 };
 
+/* Returns true if the value may be missing. It then follows a = sign. */
+static inline bool option_value_is_optional(const struct option_rule *rule)
+{
+    return rule->id == OPTION_DENOISE;
+}
+
 /* Option from the command line or a file, with its value. */
 struct option_given {
     const struct option_rule *rule;
@@ -68,7 +75,8 @@ struct option_given {
  * none. */
 const struct option_rule *option_rule_named(const char *name, size_t length);
 
-/* Sets an option. The value must be present if the rule wants one. */
+/* Sets an option. The value must be present if the rule wants one and it is not
+ * optional. */
 bool option_set(struct options *o, const struct option_given *g,
                 struct error *err);
 

@@ -203,6 +203,7 @@ static bool begin(struct session *s, struct render_limits limits,
      * camera speed and clearance */
     if (session_uses_device(s) && s->options->batch)
         world_drop_tree(&s->world);
+    job.world.settings.features = session_features(s);
     features = job.world.settings.features;
     if (is_live && s->sample != SAMPLE_LIGHT) {
         job.world.settings.sample = s->sample;
@@ -217,6 +218,12 @@ static bool begin(struct session *s, struct render_limits limits,
     if (session_uses_device(s) && is_live)
         backends_specialise(&s->backends, features);
     return true;
+}
+
+uint32_t session_features(const struct session *s)
+{
+    return world_features(&s->world) |
+           (s->options->denoise ? (uint32_t)FEATURE_FILTER : 0);
 }
 
 bool session_restart(struct session *s, struct render_limits limits,

@@ -43,6 +43,7 @@ struct session {
     /* size of the draft for live mode, in pixels; 0: no draft */
     int draft_width, draft_height;
     enum sample_kind sample; /* samples to be shown in live mode */
+    bool is_denoised;        /* a filtered picture was written */
     /* measured since restart_ns */
     struct speeds speeds;
     struct thread_load load;
@@ -88,6 +89,9 @@ bool session_is_outdated(const struct session *s);
 
 /* Returns exposure and tone of the shown state of the edit. */
 struct develop session_develop(const struct session *s);
+
+/* Returns the kernel features that renders of the session need. */
+uint32_t session_features(const struct session *s);
 
 /* Returns the progress of the render and adds it to the speeds. Call it several
  * times per second. */

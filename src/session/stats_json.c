@@ -163,6 +163,7 @@ static void write_object(FILE *to, const struct session *s)
             p.stopped_by == RENDER_LIMIT_NONE ? "true" : "false");
     write_limit(to, p.stopped_by);
     write_error(to, &p.film_error);
+    fprintf(to, "  \"denoised\": %s,\n", s->is_denoised ? "true" : "false");
     write_number(to, "samples", p.samples);
     write_number(to, "rays", p.rays);
     write_number(to, "non_finite", p.non_finite);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/*
+ * batch_filter.h - the filtered picture of --denoise
+ *
+ * Threads:   main only
+ * Errors:    out of memory; a file that cannot be written
+ */
+#ifndef GLIM_BATCH_FILTER_H
+#define GLIM_BATCH_FILTER_H
+
+#include "session/session.h"
+
+/* Checks before the render that the file of --denoise=FILE can be written. */
+bool batch_filter_check(const struct session *s, struct error *err);
+
+/* Filters the film of the render into *filtered, for film_free(), and sets
+ * s->is_denoised. If a pixel has fewer than two samples it reports that
+ * instead. */
+bool batch_filter(struct session *s, struct film *filtered, struct error *err);
+
+/* Writes the filtered film to the file of --denoise=FILE and says so. */
+bool batch_filter_write(struct session *s, struct film *filtered,
+                        struct error *err);
+
+/* Returns the metadata of a film of the session, which says whether it is the
+ * filtered one. */
+struct image_metadata batch_filter_metadata(const struct session *s,
+                                            const struct film *film);
+
+#endif
