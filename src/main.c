@@ -31,11 +31,13 @@
 #include "session/config.h"
 #include "session/recent.h"
 #include "session/session.h"
+#include "session/sub_command.h"
 #include "studio/event_loop.h"
 #include "batch.h"
 #include "batch_compare.h"
 #include "batch_curve.h"
 #include "batch_picture.h"
+#include "batch_reference.h"
 
 enum exit_status { EXIT_DONE, EXIT_FAILED, EXIT_USAGE };
 
@@ -70,6 +72,12 @@ static int print_out(const char *text)
         return EXIT_DONE;
     fail(&err, "standard output: %s", strerror(errno));
     return complain(EXIT_FAILED, &err);
+}
+
+static int print_help(void)
+{
+    print_lines(stdout, options_help);
+    return print_out(sub_command_help);
 }
 
 static int list_devices(void)
@@ -136,6 +144,8 @@ static bool run(struct session *s, const struct options *o, uint64_t start_ns,
         return batch_compare_run(o, status, err);
     if (o->command == COMMAND_CURVE)
         return batch_curve_run(o, status, err);
+    if (o->command == COMMAND_REFERENCE)
+        return batch_reference_run(o, start_ns, status, err);
     if (batch_picture_is_wanted(o))
         return batch_picture_run(o, start_ns, status, err);
     ok = session_open(s, o, start_ns, err);
@@ -242,7 +252,7 @@ int main(int argc, char **argv)
         return err.text[0] == '\0' ? EXIT_DONE : complain(EXIT_USAGE, &err);
     uint64_t start_ns = clock_ns();
     if (options.show_help)
-        return print_out(options_help);
+        return print_help();
     if (options.show_version)
         return print_version();
     if (!has_config)

@@ -16,6 +16,7 @@ const char options_help[] =
     "       glim -b [options] [-o picture.png] scene.obj\n"
     "       glim compare [options] picture.pfm reference.pfm\n"
     "       glim curve [options] reference.pfm scene.obj\n"
+    "       glim reference [options] out.pfm scene.obj\n"
     "\n"
     "Path traces a Wavefront OBJ scene, live in the terminal or, with -b, to "
     "a\n"
@@ -76,19 +77,6 @@ const char options_help[] =
     "                   (default: ask the terminal)\n"
     "  --watch          load the scene's files again when they change\n"
     "  --phoe-keys      W S A D Q E move up, down, left, right, forward, back\n"
-    "\n"
-    "measurements\n"
-    "  compare          compare two .pfm, .hdr or .png pictures of one size:\n"
-    "                   errors, and the tiles that differ by more than noise;\n"
-    "                   -o writes a picture of the differences\n"
-    "  curve            render with 1, 2, 4 .. samples up to -s (default: "
-    "256)\n"
-    "                   and print the error and the time of each; -o draws a\n"
-    "                   diagram\n"
-    "  --csv FILE       write the curve as comma-separated values\n"
-    "  --tiles N        most tiles each way, 1 to 256 (default: 16)\n"
-    "  --false-alarms P probability that any tile is marked although only\n"
-    "                   noise differs (default: 0.01)\n"
     "\n"
     "  --help           print this text\n"
     "  --version        print the version\n"
@@ -335,6 +323,7 @@ void options_init(struct options *o)
 {
     *o = (struct options){.spp = 16,
                           .max_bounces = -1,
+                          .seed_count = 8,
                           .tile_count = 16,
                           .false_alarms = 0.01};
 }
@@ -379,6 +368,7 @@ bool options_parse(struct options *o, int argc, char **argv, struct error *err)
     bool ended = false;
 
     o->command = argc > 1 ? sub_command_named(argv[1]) : COMMAND_RENDER;
+    o->arguments = argv;
     o->batch |= o->command != COMMAND_RENDER;
     for (int i = o->command == COMMAND_RENDER ? 1 : 2; i < argc; i++) {
         const char *arg = argv[i];

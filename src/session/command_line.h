@@ -43,12 +43,15 @@ enum sub_command {
     COMMAND_RENDER, /* without a word: live mode or -b */
     COMMAND_COMPARE,
     COMMAND_CURVE,
+    COMMAND_REFERENCE,
 };
 
 struct options {
     enum sub_command command;
     const char *picture_path;   /* compare: the first picture */
     const char *reference_path; /* compare: the second picture; curve */
+    int seed_count;             /* reference: independent renders */
+    char *const *arguments;     /* the command line, ending with NULL */
     const char *csv_path;       /* curve: NULL: no such file */
     int tile_count;             /* compare: most tiles each way */
     double false_alarms;        /* compare: probability of any */
@@ -66,6 +69,7 @@ struct options {
     int max_bounces;    /* -1: no limit */
     bool has_max_bounces;
     uint32_t seed;
+    bool has_seed;
     bool batch;
     bool denoise;             /* filter the picture, in batch mode */
     const char *denoise_path; /* file of the filtered picture; NULL: -o */

@@ -17,6 +17,8 @@
 #define CELLS_MAX   2000
 #define TIME_S_MAX  1e9 /* 32 years */
 #define TILES_MAX   256
+#define SEEDS_MIN   4
+#define SEEDS_MAX   64
 
 static const struct option_rule rules[] = {
     {"f", OPTION_SCENE, "the name of a scene"},
@@ -53,6 +55,7 @@ static const struct option_rule rules[] = {
     {"watch", OPTION_WATCH, NULL},
     {"phoe-keys", OPTION_PHOE_KEYS, NULL},
     {"csv", OPTION_CSV, "the name of a file"},
+    {"seeds", OPTION_SEEDS, "a number of seeds"},
     {"tiles", OPTION_TILES, "a number of tiles"},
     {"false-alarms", OPTION_FALSE_ALARMS, "a probability"},
     {"help", OPTION_HELP, NULL},
@@ -258,6 +261,7 @@ static bool set_seed(struct options *o, const struct option_given *g,
     if (!whole_number(g, 0, UINT32_MAX, &seed, err))
         return false;
     o->seed = (uint32_t)seed;
+    o->has_seed = true;
     return true;
 }
 
@@ -357,6 +361,8 @@ bool option_set(struct options *o, const struct option_given *g,
     case OPTION_WATCH: o->watch = true; return true;
     case OPTION_PHOE_KEYS: o->phoe_keys = true; return true;
     case OPTION_CSV: return given_text(g, &o->csv_path, err);
+    case OPTION_SEEDS:
+        return whole_int(g, SEEDS_MIN, SEEDS_MAX, &o->seed_count, err);
     case OPTION_TILES: return whole_int(g, 1, TILES_MAX, &o->tile_count, err);
     case OPTION_FALSE_ALARMS:
         return set_decimal(g, 1e-9, 0.5, &o->false_alarms, err);

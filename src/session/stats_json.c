@@ -9,31 +9,9 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "base/print.h"
-#include "base/utf8.h"
+#include "base/json.h"
 #include "glim/version.h"
 #include "render/render_left.h"
-
-/* Writes a JSON string. Bytes that are not UTF-8, which JSON cannot hold,
- * become U+FFFD. Characters that print.h does not show are escaped; they are
- * never beyond U+FFFF. */
-static void write_string(FILE *to, const char *text)
-{
-    fputc('"', to);
-    while (*text) {
-        size_t length = utf8_length(text);
-        uint32_t code = length == 0 ? 0xfffd : utf8_code(text, length);
-
-        if (length == 0 || !print_shows(code))
-            fprintf(to, "\\u%04" PRIx32, code);
-        else if (*text == '"' || *text == '\\')
-            fprintf(to, "\\%c", *text);
-        else
-            fwrite(text, 1, length, to);
-        text += length > 0 ? length : 1;
-    }
-    fputc('"', to);
-}
 
 static void write_number(FILE *to, const char *key, uint64_t value)
 {
@@ -116,8 +94,8 @@ static void write_scene(FILE *to, const struct scene *scene,
 static void write_limit(FILE *to, enum render_limit limit)
 {
     fputs("  \"stopped_by\": ", to);
-    write_string(to, limit != RENDER_LIMIT_NONE ? render_limit_name(limit)
-                                                : "signal");
+    json_write_string(to, limit != RENDER_LIMIT_NONE ? render_limit_name(limit)
+                                                     : "signal");
     fputs(",\n", to);
 }
 
@@ -140,16 +118,16 @@ static void write_object(FILE *to, const struct session *s)
     uint64_t now_ns = clock_ns();
 
     fputs("{\n  \"version\": ", to);
-    write_string(to, GLIM_VERSION);
+    json_write_string(to, GLIM_VERSION);
     fputs(",\n  \"scene\": ", to);
-    write_string(to, s->options->scene_path);
+    json_write_string(to, s->options->scene_path);
     fputs(",\n  \"backend\": ", to);
-    write_string(to, backend->name);
+    json_write_string(to, backend->name);
     if (backend->device) {
         fputs(",\n  \"device\": ", to);
-        write_string(to, backend->device);
+        json_write_string(to, backend->device);
         fputs(",\n  \"driver\": ", to);
-        write_string(to, backend->driver);
+        json_write_string(to, backend->driver);
     }
     fputs(",\n", to);
     write_number(to, "threads", (uint64_t)backend->thread_count);

@@ -25,7 +25,10 @@ bool sub_command_takes(enum sub_command command, enum option_id id);
 bool sub_command_set_operand(struct options *o, const char *path,
                              struct error *err);
 
+/* Text of --help about sub-commands, after options_help. */
+extern const char sub_command_help[];
+
 /* Checks the operands and options of a sub-command together. */
-bool sub_command_check(const struct options *o, struct error *err);
+bool sub_command_check(struct options *o, struct error *err);
 
 #endif

@@ -205,7 +205,7 @@ static void misspelt_options_have_their_message(void **state)
     bad("a -x", "unknown option '-x', see glim --help");
     bad("a -bx", "unknown option '-x', see glim --help");
     bad("a --w 4", "unknown option '--w', see glim --help");
-    bad("a --seeds=4", "unknown option '--seeds', see glim --help");
+    bad("a --seeds=4", "--seeds: not an option of glim, see glim --help");
     bad("a --=4", "unknown option '--', see glim --help");
     bad("a --see 4", "unknown option '--see', see glim --help");
     bad("a --phoe-keys=1", "--phoe-keys: found '1', expected no value");
@@ -271,6 +271,12 @@ static void sub_commands_have_their_own_operands(void **state)
     assert_string_equal(o.scene_path, "a.obj");
     assert_string_equal(o.csv_path, "c.csv");
     assert_string_equal(good("curve -f a.obj ref.pfm").scene_path, "a.obj");
+    o = good("reference out.pfm a.obj --seeds 5 --seed 0");
+    assert_int_equal(o.command, COMMAND_REFERENCE);
+    assert_string_equal(o.output_path, "out.pfm");
+    assert_string_equal(o.scene_path, "a.obj");
+    assert_int_equal(o.seed_count, 5);
+    assert_true(o.has_seed && !good("reference out.pfm a.obj").has_seed);
     /* only the first word is a sub-command */
     assert_int_equal(good("./compare").command, COMMAND_RENDER);
     assert_string_equal(good("-- compare").scene_path, "compare");

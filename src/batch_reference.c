@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "batch_reference.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/print.h"
+#include "picture/image_write.h"
+#include "terminal/xmalloc.h"
+#include "measure/reference_info.h"
+#include "measure/replicates.h"
+#include "batch_handle.h"
+#include "batch_progress.h"
+
+#define SPP_DEFAULT 4096
+
+/* Measurements have seeds from 0 on. */
+#define SEED_DEFAULT 1000000
+
+/* The reference in progress. */
+struct making {
+    const struct options *o;
+    struct glim *g;
+    char *json_path;
+    struct replicates replicates;
+    uint64_t spp; /* samples of each seed */
+    uint64_t non_finite;
+    struct batch_bar bar;
+};
+
+static bool on_progress(void *context, const struct glim_progress *p)
+{
+    batch_bar_draw(context, p);
+    return true;
+}
+
+static uint32_t first_seed(const struct options *o)
+{
+    return o->has_seed ? o->seed : SEED_DEFAULT;
+}
+
+/* Finds mistakes before minutes of rendering. */
+static bool check_outputs(const struct making *m, struct error *err)
+{
+    const char *const paths[] = {m->o->output_path, m->json_path};
+
+    for (int i = 0; i < 2; i++)
+        if (!batch_handle_spares(m->g, "reference", paths[i], err) ||
+            !file_check(paths[i], err))
+            return false;
+    return true;
+}
+
+/* Renders one seed. The first one is limited by its share of the time, and the
+ * others get its number of samples, since the pictures must be alike.
+ * *is_complete is false after a signal. */
+static bool render_seed(struct making *m, int index, bool *is_complete,
+                        struct error *err)
+{
+    double limit_s =
+        index == 0 ? (double)m->o->time_ns * 1e-9 / m->o->seed_count : 0;
+    size_t count =
+        3 * (size_t)m->replicates.width * (size_t)m->replicates.height;
+    struct glim_error why;
+    struct glim_progress p;
+    enum glim_result result;
+
+    glim_set_seed(m->g, first_seed(m->o) + (uint32_t)index);
+    result = glim_render(m->g, m->spp, limit_s,
+                         m->bar.is_wanted ? on_progress : NULL, &m->bar, &why);
+    batch_bar_erase(&m->bar);
+    if (result == GLIM_FAILED)
+        return batch_fail_as(err, &why);
+    *is_complete = result == GLIM_DONE;
+    if (!*is_complete)
+        return true;
+    p = glim_get_progress(m->g);
+    m->spp = p.spp;
+    m->non_finite += p.non_finite;
+    if (m->spp == 0)
+        return fail(err,
+                    "--time: found no complete sample in %.3g s for each "
+                    "of %d seeds, expected more time",
+                    limit_s, m->o->seed_count);
+    return glim_read_floats(m->g, m->replicates.rgb[index], count, &why) ||
+           batch_fail_as(err, &why);
+}
+
+static bool render(struct making *m, struct error *err)
+{
+    uint64_t seeds = (uint64_t)m->o->seed_count;
+    uint64_t total = m->o->has_spp ? m->o->spp : SPP_DEFAULT;
+    bool is_complete = true;
+
+    m->spp = m->o->time_ns > 0 && !m->o->has_spp ? 0 /* no limit */
+                                                 : (total + seeds - 1) / seeds;
+    for (int i = 0; i < m->o->seed_count; i++) {
+        if (!render_seed(m, i, &is_complete, err))
+            return false;
+        if (!is_complete)
+            break;
+        m->replicates.count++;
+    }
+    return true;
+}
+
+/* Writes the picture and the file beside it. */
+static bool write(struct making *m, uint64_t start_ns, struct error *err)
+{
+    struct replicates *r = &m->replicates;
+    struct mean_error e;
+    const float *mean = replicates_mean(r, &e);
+    struct reference_info info = {
+        .is_known = true,
+        .mse = e.mse,
+        .relmse = e.relmse,
+        .relmse_low = e.relmse_low,
+        .relmse_high = e.relmse_high,
+        .first_seed = first_seed(m->o),
+        .seed_count = r->count,
+    };
+    struct reference_origin origin = {
+        .width = r->width,
+        .height = r->height,
+        .spp = m->spp * (uint64_t)r->count,
+        .mean = e.mean,
+        .seconds = seconds_between(start_ns, clock_ns()),
+        .scene_path = m->o->scene_path,
+        .arguments = m->o->arguments,
+    };
+
+    if (!image_write_pfm(mean, r->width, r->height, m->o->output_path, err) ||
+        !reference_info_write(&info, &origin, m->json_path, err))
+        return false;
+    print_line(stderr,
+               "%s: %dx%d, %" PRIu64 " spp in %d seeds, relMSE %.3g (95 %%: "
+               "%.3g to %.3g), %.1f s",
+               m->o->output_path, r->width, r->height, origin.spp, r->count,
+               e.relmse, e.relmse_low, e.relmse_high, origin.seconds);
+    if (m->non_finite > 0)
+        print_line(stderr,
+                   "glim: warning: %" PRIu64
+                   " samples were not finite and count as black",
+                   m->non_finite);
+    return true;
+}
+
+static bool prepare(struct making *m, struct error *err)
+{
+    int width, height, wake_fd;
+
+    m->json_path = xchecked(reference_info_path(m->o->output_path));
+    m->g = batch_handle_open(m->o, err);
+    if (m->g == NULL || !check_outputs(m, err))
+        return false;
+    glim_get_size(m->g, &width, &height);
+    if (m->o->has_crop) {
+        width = m->o->crop.width;
+        height = m->o->crop.height;
+    }
+    if (!replicates_init(&m->replicates, width, height, m->o->seed_count, err))
+        return false;
+    /* before our signals are set: drivers put theirs over them */
+    if (m->o->backend != BACKEND_CPU &&
+        !batch_handle_use_device(m->g, m->o, err))
+        return false;
+    return batch_catch_signals(m->g, &wake_fd, err);
+}
+
+static bool make(struct making *m, uint64_t start_ns, struct error *err)
+{
+    if (!prepare(m, err) || !render(m, err))
+        return false;
+    if (m->replicates.count >= REPLICATES_MIN)
+        return write(m, start_ns, err);
+    print_line(stderr,
+               "stopped after %d of %d seeds, expected at least %d: nothing "
+               "written",
+               m->replicates.count, m->o->seed_count, REPLICATES_MIN);
+    return true;
+}
+
+bool batch_reference_run(const struct options *o, uint64_t start_ns,
+                         int *status, struct error *err)
+{
+    struct making m = {.o = o, .bar = batch_bar_begin()};
+    bool ok = make(&m, start_ns, err);
+
+    *status = batch_stop_signal() != 0 ? 128 + batch_stop_signal() : 0;
+    glim_close(m.g);
+    replicates_free(&m.replicates);
+    free(m.json_path);
+    return ok;
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "measure/replicates.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "base/cgroup_quota.h"
+#include "base/memory.h"
+
+/* As in relMSE. */
+#define DARK 0.01
+
+static size_t value_count(const struct replicates *r)
+{
+    return 3 * (size_t)r->width * (size_t)r->height;
+}
+
+bool replicates_init(struct replicates *r, int width, int height, int capacity,
+                     struct error *err)
+{
+    struct memory_quota quota = cgroup_quota_memory("");
+    double bytes = (double)sizeof(float) * 3 * width * height * capacity;
+    bool ok = true;
+
+    *r = (struct replicates){.width = width, .height = height};
+    /* the other half is for the scene and the film */
+    if (bytes > (double)quota.size_bytes / 2)
+        return fail(err,
+                    "%d pictures of %dx%d pixels need %.1f GiB of memory, "
+                    "expected at most half of the %.1f GiB %s",
+                    capacity, width, height, bytes / (1 << 30),
+                    (double)quota.size_bytes / (1 << 30), quota.place);
+    for (int i = 0; ok && i < capacity; i++) {
+        r->rgb[i] = alloc_array(value_count(r), sizeof *r->rgb[i]);
+        ok = r->rgb[i] != NULL;
+    }
+    return ok || fail(err, "out of memory for %d pictures of %dx%d pixels",
+                      capacity, width, height);
+}
+
+void replicates_free(struct replicates *r)
+{
+    for (int i = 0; i < REPLICATES_MAX; i++)
+        free(r->rgb[i]);
+    *r = (struct replicates){0};
+}
+
+/* Sets the interval of the true error, sum, from the sum of squares of the
+ * variances v of the pixels' means. The difference of a pixel's true squared
+ * error and its estimate from k pictures has the variance 2 v^2 k / (k - 1),
+ * also if the noise has long tails: a bright sample raises both. The logarithm
+ * keeps the interval above 0. */
+static void set_interval(struct mean_error *e, double sum, double squares,
+                         int count)
+{
+    double variance = 2 * squares * count / (count - 1);
+    double margin = 1.96 * sqrt(variance) / sum;
+
+    e->relmse_low = e->relmse * exp(-margin);
+    e->relmse_high = e->relmse * exp(margin);
+}
+
+/* Estimates of the variance of a mean: from all pictures, and two independent
+ * ones from their halves. */
+struct variances {
+    double all, halves[2];
+};
+
+/* Returns the variance of the pictures from `begin` to `end`. */
+static double variance_of(const struct replicates *r, size_t i, int begin,
+                          int end)
+{
+    double mean = 0, squares = 0;
+
+    for (int j = begin; j < end; j++)
+        mean += (double)r->rgb[j][i] / (end - begin);
+    for (int j = begin; j < end; j++)
+        squares += pow((double)r->rgb[j][i] - mean, 2);
+    return squares / (end - begin - 1);
+}
+
+static double mean_of(const struct replicates *r, size_t i)
+{
+    double sum = 0;
+
+    for (int j = 0; j < r->count; j++)
+        sum += (double)r->rgb[j][i];
+    return sum / r->count;
+}
+
+const float *replicates_mean(struct replicates *r, struct mean_error *e)
+{
+    double count = (double)value_count(r), sum = 0, squares = 0;
+    int k = r->count, half = k / 2;
+
+    assert(k >= REPLICATES_MIN);
+    *e = (struct mean_error){0};
+    for (size_t pixel = 0; pixel < value_count(r); pixel += 3) {
+        struct variances relative = {0, {0, 0}};
+
+        /* channels of a pixel have the same noise and count as one */
+        for (size_t i = pixel; i < pixel + 3; i++) {
+            double mean = mean_of(r, i);
+            double variance = variance_of(r, i, 0, k) / k;
+            double scale = 1 / (mean * mean + DARK);
+
+            e->mean += mean / count;
+            e->mse += variance / count;
+            relative.all += variance * scale;
+            relative.halves[0] += variance_of(r, i, 0, half) / k * scale;
+            relative.halves[1] += variance_of(r, i, half, k) / k * scale;
+            r->rgb[0][i] = (float)mean;
+        }
+        sum += relative.all;
+        squares += relative.halves[0] * relative.halves[1];
+    }
+    e->relmse = sum / count;
+    if (sum > 0)
+        set_interval(e, sum, squares, k);
+    return r->rgb[0];
+}
