@@ -7,11 +7,12 @@
  * hold. */
 #define SPP_MAX 1e15
 
-/* Returns the time until every pixel has so many samples, at the mean speed so
- * far. Returns false before the first sample. */
-static bool ns_to_spp(const struct render_progress *p, double spp, double *ns)
+/* Finds the time until the film has so many samples, at the mean speed so far.
+ * Returns false before the first sample. */
+static bool ns_to_samples(const struct render_progress *p, double samples,
+                          double *ns)
 {
-    double missing = spp * (double)p->pixels - (double)p->samples;
+    double missing = samples - (double)p->samples;
     uint64_t tracing_ns =
         p->render_ns > p->build_ns ? p->render_ns - p->build_ns : 0;
 
@@ -33,7 +34,7 @@ bool render_left_to_error(const struct render_progress *p, double target,
                           p->error_exponent);
     if (e->high > target && spp < SPP_MAX) /* the error is known after passes */
         spp = (double)render_pass_end((uint64_t)spp + 1);
-    return ns_to_spp(p, spp, ns);
+    return ns_to_samples(p, spp * (double)p->pixels, ns);
 }
 
 /* Takes the limit if it is nearer. */
@@ -51,7 +52,10 @@ struct render_left render_left(const struct render_progress *p)
     double elapsed_ns = (double)p->render_ns;
     double ns;
 
-    if (p->spp_limit != 0 && ns_to_spp(p, (double)p->spp_limit, &ns))
+    if (p->stopped_by != RENDER_LIMIT_NONE)
+        return (struct render_left){p->stopped_by, 0, 1};
+    if (p->samples_limit != 0 &&
+        ns_to_samples(p, (double)p->samples_limit, &ns))
         take(&left, RENDER_LIMIT_SPP, ns);
     if (p->error_limit > 0 && render_left_to_error(p, p->error_limit, &ns))
         take(&left, RENDER_LIMIT_ERROR, ns);
@@ -61,8 +65,7 @@ struct render_left render_left(const struct render_progress *p)
                  ? (double)(p->time_limit_ns - p->render_ns)
                  : 0);
     if (left.limit == RENDER_LIMIT_SPP)
-        left.part =
-            (double)p->samples / ((double)p->spp_limit * (double)p->pixels);
+        left.part = (double)p->samples / (double)p->samples_limit;
     else if (left.limit != RENDER_LIMIT_NONE && elapsed_ns > 0)
         left.part = elapsed_ns / (elapsed_ns + left.ns);
     if (left.part > 1)

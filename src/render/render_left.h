@@ -14,8 +14,8 @@
 #include "render/render_loop.h"
 
 struct render_left {
-    /* the nearest limit; none without limits, or while the time to none of them
-     * is known */
+    /* the limit that is reached, or the nearest one; none without limits, or
+     * while the time to none of them is known */
     enum render_limit limit;
     double ns;
     double part; /* part of the way to that limit, 0 to 1 */

@@ -94,8 +94,10 @@ static void write_scene(FILE *to, const struct scene *scene,
 static void write_limit(FILE *to, enum render_limit limit)
 {
     fputs("  \"stopped_by\": ", to);
-    json_write_string(to, limit != RENDER_LIMIT_NONE ? render_limit_name(limit)
-                                                     : "signal");
+    if (limit != RENDER_LIMIT_NONE)
+        json_write_string(to, render_limit_name(limit));
+    else
+        fputs("null", to);
     fputs(",\n", to);
 }
 

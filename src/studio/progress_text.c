@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "render/error_text.h"
+#include "render/render_left.h"
 #include "studio/status_line.h"
 
 #define PLOT_ROWS 3
@@ -57,32 +59,38 @@ static void put_sides(char *line, const char *left, const char *right)
              gap > 0 ? gap : 0, "", gap >= 0 ? right : "");
 }
 
-static double done_part(const struct render_progress *p)
-{
-    if (p->samples_limit == 0)
-        return 0;
-    return p->samples < p->samples_limit
-               ? (double)p->samples / (double)p->samples_limit
-               : 1;
-}
-
 static void format_done(char *line, const struct render_progress *p)
 {
+    bool has_limit =
+        p->spp_limit > 0 || p->error_limit > 0 || p->time_limit_ns > 0;
     char left[64], right[16] = "no limit";
 
-    if (p->spp_limit > 0) {
+    if (p->spp_limit > 0)
         snprintf(left, sizeof left, "%" PRIu64 " of %" PRIu64 " spp",
                  p->spp_done, p->spp_limit);
-        snprintf(right, sizeof right, "%.1f %%", 100 * done_part(p));
-    } else {
+    else
         snprintf(left, sizeof left, "%" PRIu64 " spp", p->spp_done);
-    }
+    if (has_limit)
+        snprintf(right, sizeof right, "%.1f %%", 100 * render_left(p).part);
     put_sides(line, left, right);
+}
+
+/* The word "unresolved" takes the place of "noise", as there is no room for
+ * both. */
+static void format_noise(char *line, const struct render_progress *p)
+{
+    struct film_error e = p->film_error;
+    bool is_doubtful = e.is_known && !e.is_resolved;
+    char interval[ERROR_TEXT_BYTES];
+
+    e.is_resolved = true;
+    error_text_interval(interval, &e);
+    put_sides(line, is_doubtful ? "unresolved" : "noise", interval);
 }
 
 static void format_bar(char *line, const struct progress_text_facts *f)
 {
-    int filled = (int)(done_part(f->progress) * PROGRESS_TEXT_COLS);
+    int filled = (int)(render_left(f->progress).part * PROGRESS_TEXT_COLS);
     const char *full = f->has_unicode ? "\xe2\x96\x88" : "#";
     const char *empty = f->has_unicode ? "\xe2\x96\x91" : "-";
 
@@ -243,6 +251,7 @@ void progress_text_format(char lines[PROGRESS_TEXT_ROWS][PROGRESS_TEXT_BYTES],
 
     format_done(lines[row++], p);
     format_bar(lines[row++], f);
+    format_noise(lines[row++], p);
     format_rate(lines[row++], "samples", p->samples, p->render_ns);
     format_rate(lines[row++], "rays", p->rays, p->render_ns);
     format_time(lines[row++], p);

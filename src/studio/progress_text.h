@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /*
- * progress_text.h - the text of the progress panel: samples, speed, load of the
- * threads
+ * progress_text.h - the text of the progress panel: samples, noise, speed, load
+ * of the threads
  *
  * The number of lines and columns is constant, so that the text stays in place.
  * The diagrams use Unicode, or ASCII where the terminal has no Unicode.
@@ -20,7 +20,7 @@
 #include "render/render_rates.h"
 
 #define PROGRESS_TEXT_COLS 36
-#define PROGRESS_TEXT_ROWS 11
+#define PROGRESS_TEXT_ROWS 12
 
 /* Size of a line: characters of the diagrams take three bytes in UTF-8. */
 #define PROGRESS_TEXT_BYTES (3 * PROGRESS_TEXT_COLS + 1)

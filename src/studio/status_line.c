@@ -6,14 +6,21 @@
 #include <string.h>
 
 #include "base/text_width.h"
+#include "render/error_text.h"
+#include "render/render_left.h"
 
 #define FIELD_BYTES 48
+
+/* Longest time to an error that is shown: 100 hours. */
+#define TARGET_NS_MAX 3.6e14
 
 enum field {
     FIELD_MODE,
     FIELD_FILES,
     FIELD_SAMPLES,
     FIELD_PERCENT,
+    FIELD_NOISE,
+    FIELD_TARGET, /* ends the field of noise */
     FIELD_ELAPSED,
     FIELD_LEFT,
     FIELD_SPEED,
@@ -29,6 +36,7 @@ enum field {
 static const enum field dispensable[] = {FIELD_MACHINE, FIELD_SIZE,
                                          FIELD_SPEED,   FIELD_LEFT,
                                          FIELD_ELAPSED, FIELD_PERCENT,
+                                         FIELD_TARGET,  FIELD_NOISE,
                                          FIELD_COLORS,  FIELD_SAMPLES};
 
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns)
@@ -59,42 +67,73 @@ static const char *mode_word(const struct status_line *s)
     return s->is_halted ? "NORMAL paused" : "NORMAL";
 }
 
-static double samples_left(const struct render_progress *p)
+/* Formats a time to come, rounded up, so that 0 s means done. */
+static void format_left(char *text, size_t size_bytes, double ns)
 {
-    return p->samples < p->samples_limit
-               ? (double)(p->samples_limit - p->samples)
-               : 0.0;
+    status_line_duration(text, size_bytes,
+                         ns < 1e18 ? (uint64_t)ns + 999999999u
+                                   : UINT64_C(1000000000000000000));
 }
 
 bool status_line_left(char *text, size_t size_bytes,
                       const struct render_progress *p)
 {
-    double left_ns;
+    struct render_left left = render_left(p);
 
-    if (p->samples_limit == 0 || p->samples == 0)
+    if (left.limit == RENDER_LIMIT_NONE)
         return false;
-    left_ns = (double)p->render_ns * samples_left(p) / (double)p->samples;
-    /* rounded up, so that 0 s means done */
-    status_line_duration(text, size_bytes,
-                         left_ns < 1e18 ? (uint64_t)left_ns + 999999999u
-                                        : UINT64_C(1000000000000000000));
+    format_left(text, size_bytes, left.ns);
     return true;
 }
 
-static void format_limited(char text[FIELDS][FIELD_BYTES],
+static void format_samples(char text[FIELD_BYTES],
                            const struct render_progress *p)
 {
-    double part = p->samples_limit > 0
-                      ? 1.0 - samples_left(p) / (double)p->samples_limit
-                      : 0.0;
+    if (p->spp_limit > 0)
+        snprintf(text, FIELD_BYTES, "%" PRIu64 "/%" PRIu64 " spp", p->spp_done,
+                 p->spp_limit);
+    else
+        snprintf(text, FIELD_BYTES, "%" PRIu64 " spp", p->spp_done);
+}
+
+static void format_left_fields(char text[FIELDS][FIELD_BYTES],
+                               const struct render_progress *p)
+{
+    struct render_left left = render_left(p);
     char duration[24];
 
-    snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 "/%" PRIu64 " spp",
-             p->spp_done, p->spp_limit);
-    snprintf(text[FIELD_PERCENT], FIELD_BYTES, "%d %%", (int)(100.0 * part));
-    if (p->state == RENDER_RUNNING &&
-        status_line_left(duration, sizeof duration, p))
-        snprintf(text[FIELD_LEFT], FIELD_BYTES, "left %s", duration);
+    if (left.limit == RENDER_LIMIT_NONE)
+        return;
+    snprintf(text[FIELD_PERCENT], FIELD_BYTES, "%d %%",
+             (int)(100.0 * left.part));
+    /* the time to an error is in the field of the target */
+    if (p->state != RENDER_RUNNING || left.limit == RENDER_LIMIT_ERROR)
+        return;
+    format_left(duration, sizeof duration, left.ns);
+    snprintf(text[FIELD_LEFT], FIELD_BYTES, "left %s", duration);
+}
+
+/* Formats the error and the time to the limit of -e or, without one, to a round
+ * error, unless another limit comes before. */
+static void format_noise(char text[FIELDS][FIELD_BYTES],
+                         const struct render_progress *p)
+{
+    const struct film_error *e = &p->film_error;
+    double target =
+        p->error_limit > 0 ? p->error_limit : error_text_target(e->high);
+    struct render_left left = render_left(p);
+    char noise[ERROR_TEXT_BYTES], duration[24];
+    double ns;
+
+    error_text_noise(noise, e);
+    snprintf(text[FIELD_NOISE], FIELD_BYTES, "%.*s", FIELD_BYTES - 1, noise);
+    if (p->state != RENDER_RUNNING || !(e->high > target) ||
+        !render_left_to_error(p, target, &ns) || ns > TARGET_NS_MAX ||
+        (left.limit != RENDER_LIMIT_NONE && left.ns < ns))
+        return;
+    format_left(duration, sizeof duration, ns);
+    snprintf(text[FIELD_TARGET], FIELD_BYTES, ", %g %% in %s", 100 * target,
+             duration);
 }
 
 static void format_speed(char text[FIELD_BYTES],
@@ -131,13 +170,17 @@ static void format_fields(char text[FIELDS][FIELD_BYTES],
     snprintf(text[FIELD_COLORS], FIELD_BYTES, "%s", s->colors);
     if (!s->is_live && !s->is_started)
         return;
-    if (p->spp_limit > 0)
-        format_limited(text, p);
-    else
-        snprintf(text[FIELD_SAMPLES], FIELD_BYTES, "%" PRIu64 " spp",
-                 p->spp_done);
+    format_samples(text[FIELD_SAMPLES], p);
+    format_left_fields(text, p);
+    format_noise(text, p);
     status_line_duration(text[FIELD_ELAPSED], FIELD_BYTES, p->render_ns);
     format_speed(text[FIELD_SPEED], p);
+}
+
+/* Returns the blanks before a field. */
+static int gap_before(int field)
+{
+    return field == FIELD_TARGET ? 0 : 2;
 }
 
 static int length_of(char text[FIELDS][FIELD_BYTES])
@@ -145,7 +188,7 @@ static int length_of(char text[FIELDS][FIELD_BYTES])
     int length = 0;
 
     for (int i = 0; i < FIELDS; i++)
-        length += text[i][0] ? (int)strlen(text[i]) + 2 : 0;
+        length += text[i][0] ? (int)strlen(text[i]) + gap_before(i) : 0;
     return length;
 }
 
@@ -155,7 +198,7 @@ void status_line_format(char text[STATUS_BYTES], int cols,
     char fields[FIELDS][FIELD_BYTES] = {{0}};
     int room = cols < STATUS_BYTES - 1 ? cols : STATUS_BYTES - 1;
     int hint = (int)strlen(s->hint);
-    int at = 1;
+    int at = -1; /* the first field has a gap as well */
 
     format_fields(fields, s);
     for (size_t i = 0; i < sizeof dispensable / sizeof dispensable[0]; i++) {
@@ -167,13 +210,14 @@ void status_line_format(char text[STATUS_BYTES], int cols,
     text[room] = '\0';
     for (int i = 0; i < FIELDS; i++) {
         int length = (int)strlen(fields[i]);
+        int begin = at + gap_before(i);
 
-        if (length == 0 || at + length > room)
+        if (length == 0 || begin + length > room)
             continue;
-        memcpy(text + at, fields[i], (size_t)length);
-        at += length + 2;
+        memcpy(text + begin, fields[i], (size_t)length);
+        at = begin + length;
     }
-    if (at + hint + 1 <= room)
+    if (at + 2 + hint + 1 <= room)
         memcpy(text + room - hint - 1, s->hint, (size_t)hint);
 }
 

@@ -39,7 +39,7 @@ void status_line_format(char text[STATUS_BYTES], int cols,
 /* Formats a time in seconds, rounded down: 7 s, 1:07, 2:01:07. */
 void status_line_duration(char *text, size_t size_bytes, uint64_t ns);
 
-/* Formats the remaining time of the render. Returns false if unknown. */
+/* Formats the time to the nearest limit. Returns false if it is unknown. */
 bool status_line_left(char *text, size_t size_bytes,
                       const struct render_progress *p);
 

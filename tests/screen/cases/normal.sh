@@ -50,3 +50,30 @@ keys q
 wait_for "The render is not saved. Quit?"
 keys y
 expect_end 0
+
+# the error ends it, and is in the statistics
+fresh
+start -e 20% --stats run.json lamp.obj
+wait_for LIVE
+keys Space Enter
+wait_for "NORMAL done  [0-9]* spp  100 %  noise [0-9]"
+keys q y
+expect_end 0
+grep -q '"stopped_by": "error",' run.json || die "not stopped by the error"
+# a pause is not time of rendering
+fresh
+start -e 0.0001% --time 2 --stats run.json lamp.obj
+wait_for LIVE
+keys Space Enter
+wait_for "NORMAL  .* left [12] s"
+keys Enter
+wait_for "NORMAL paused"
+sleep 2.1
+keys Enter
+wait_for "NORMAL  .* left [12] s"
+wait_for "NORMAL done"
+keys q y
+expect_end 0
+grep -q '"stopped_by": "time",' run.json || die "not stopped by the time"
+awk -F'[:,]' '/"render_s"/ { exit !($2 >= 1.9 && $2 < 2.5) }' run.json ||
+    die "another time: $(grep render_s run.json)"

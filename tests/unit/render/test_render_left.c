@@ -140,7 +140,7 @@ static void the_nearest_limit_counts(void **state)
     left = render_left(&p);
     assert_int_equal(left.limit, RENDER_LIMIT_NONE);
     assert_true(left.part == 0);
-    p.spp_limit = 500;
+    p.samples_limit = 500 * PIXELS;
     left = render_left(&p);
     assert_int_equal(left.limit, RENDER_LIMIT_SPP);
     check_close(left.ns, 4e9, 1);
@@ -174,11 +174,16 @@ static void unknown_errors_have_no_time(void **state)
     assert_int_equal(render_left(&p).limit, RENDER_LIMIT_NONE);
     p.film_error = (struct film_error){0};
     assert_int_equal(render_left(&p).limit, RENDER_LIMIT_NONE);
-    p.spp_limit = 200;
+    p.samples_limit = 200 * PIXELS;
     assert_int_equal(render_left(&p).limit, RENDER_LIMIT_SPP);
-    p = (struct render_progress){.spp_limit = 7, .error_limit = 0.1};
+    p = (struct render_progress){.samples_limit = 7, .error_limit = 0.1};
     assert_int_equal(render_left(&p).limit, RENDER_LIMIT_NONE);
     assert_false(render_left_to_error(&p, 0.01, &ns));
+    /* reached, though unresolved */
+    p.stopped_by = RENDER_LIMIT_ERROR;
+    p.film_error = (struct film_error){.is_known = true};
+    assert_int_equal(render_left(&p).limit, RENDER_LIMIT_ERROR);
+    assert_true(render_left(&p).part == 1 && render_left(&p).ns == 0);
     /* errors that no time reaches */
     p = at(&s, 100, &none);
     assert_true(render_left_to_error(&p, 1e-300, &ns) && ns > 1e18);

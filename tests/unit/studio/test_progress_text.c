@@ -60,15 +60,21 @@ static void half_done_renders_show_their_progress(void **state)
     progress_text_format(lines, &f);
     assert_string_equal(lines[0], "250 of 1000 spp               25.0 %");
     assert_string_equal(lines[1], "#########---------------------------");
-    assert_string_equal(lines[2], "samples       25.0 M         250 k/s");
-    assert_string_equal(lines[3], "rays           200 M        2.00 M/s");
-    assert_string_equal(lines[4], "elapsed         1:40       left 5:00");
-    assert_string_equal(lines[5], "samples/s      now 250 k, most 250 k");
-    assert_string_equal(lines[9], "2 threads                  busy 75 %");
-    assert_string_equal(lines[10], "@=");
+    assert_string_equal(lines[2], "noise                        unknown");
+    assert_string_equal(lines[3], "samples       25.0 M         250 k/s");
+    assert_string_equal(lines[4], "rays           200 M        2.00 M/s");
+    assert_string_equal(lines[5], "elapsed         1:40       left 5:00");
+    assert_string_equal(lines[6], "samples/s      now 250 k, most 250 k");
+    assert_string_equal(lines[10], "2 threads                  busy 75 %");
+    assert_string_equal(lines[11], "@=");
     f.has_unicode = true;
+    p.film_error = (struct film_error){true, true, 0.023, 0.0222, 0.0239};
     progress_text_format(lines, &f);
-    assert_string_equal(lines[10], "█▄");
+    assert_string_equal(lines[2], "noise           2.3 % (2.2 to 2.4 %)");
+    p.film_error.is_resolved = false;
+    progress_text_format(lines, &f);
+    assert_string_equal(lines[2], "unresolved      2.3 % (2.2 to 2.4 %)");
+    assert_string_equal(lines[11], "█▄");
     assert_int_equal(cols_of(lines[1]), PROGRESS_TEXT_COLS);
     assert_true(strncmp(lines[1], "█████████░", 30) == 0);
 }
@@ -88,14 +94,14 @@ static void plots_are_to_scale(void **state)
     speeds.samples[3] = 300;
     progress_text_format(lines, &f);
     /* Dots 1 2 3 7 are at the left, 4 5 6 8 at the right of U+2800. */
-    assert_true(strncmp(lines[6], "⡇⠀⠀", 9) == 0);
-    assert_true(strncmp(lines[7], "⣧⠀⠀", 9) == 0);
-    assert_true(strncmp(lines[8], "⣿⢰⠀", 9) == 0);
+    assert_true(strncmp(lines[7], "⡇⠀⠀", 9) == 0);
+    assert_true(strncmp(lines[8], "⣧⠀⠀", 9) == 0);
+    assert_true(strncmp(lines[9], "⣿⢰⠀", 9) == 0);
     f.has_unicode = false;
     progress_text_format(lines, &f);
-    assert_true(strncmp(lines[6], "#  ", 3) == 0);
     assert_true(strncmp(lines[7], "#  ", 3) == 0);
-    assert_true(strncmp(lines[8], "#| ", 3) == 0);
+    assert_true(strncmp(lines[8], "#  ", 3) == 0);
+    assert_true(strncmp(lines[9], "#| ", 3) == 0);
 }
 
 /* Tests random values up to the greatest possible. */
@@ -135,9 +141,9 @@ static void live_mode_device_and_nothing_are_shown(void **state)
     (void)state;
     progress_text_format(lines, &f);
     assert_string_equal(lines[0], "0 spp                       no limit");
-    assert_string_equal(lines[4], "elapsed          0 s                ");
-    assert_string_equal(lines[10], "");
-    assert_non_null(strstr(lines[9], "OpenCL"));
+    assert_string_equal(lines[5], "elapsed          0 s                ");
+    assert_string_equal(lines[11], "");
+    assert_non_null(strstr(lines[10], "OpenCL"));
 }
 
 int main(void)

@@ -53,8 +53,8 @@ static void normal_mode_shows_the_time_left(void **state)
     (void)state;
     status_line_format(text, 120, &s);
     assert_string_equal(
-        text, " NORMAL  8/16 spp  50 %  4 s  left 4 s  2.00 Msamples/s  2 "
-              "threads  1024x576  24 bit                     ? help  q quit ");
+        text, " NORMAL  8/16 spp  50 %  noise unknown  4 s  left 4 s  2.00 "
+              "Msamples/s  2 threads  1024x576  24 bit      ? help  q quit ");
     s.is_orbiting = true;
     status_line_format(text, 120, &s);
     check_has(text, " NORMAL orbit  8/16 spp  ");
@@ -62,7 +62,9 @@ static void normal_mode_shows_the_time_left(void **state)
     p.state = RENDER_IDLE;
     s.is_halted = true;
     status_line_format(text, 120, &s);
-    assert_non_null(strstr(text, "NORMAL paused  8/16 spp  50 %  4 s  2.00"));
+    assert_non_null(
+        strstr(text,
+               "NORMAL paused  8/16 spp  50 %  noise unknown  4 s  2.00"));
     p.state = RENDER_DONE;
     p.samples = p.samples_limit;
     status_line_format(text, 120, &s);
@@ -89,13 +91,91 @@ static void live_mode_has_no_end(void **state)
     (void)state;
     p.spp_limit = p.samples_limit = 0;
     status_line_format(text, 100, &s);
-    assert_non_null(strstr(text, " LIVE  8 spp  4 s  2.00 Msamples/s  1 thread "
-                                 " 10x20  mono "));
+    assert_non_null(strstr(text, " LIVE  8 spp  noise unknown  4 s  2.00 "
+                                 "Msamples/s  1 thread  10x20  mono "));
     assert_null(strchr(text, '%'));
     p = (struct render_progress){.state = RENDER_RUNNING};
     /* No progress yet: no division by zero. */
     status_line_format(text, 100, &s);
-    assert_non_null(strstr(text, "0 spp  0 s  0 ksamples/s"));
+    assert_non_null(strstr(text, "0 spp  noise unknown  0 s  0 ksamples/s"));
+}
+
+/* The nearest limit has its time: the error in the field of noise, others in a
+ * field of their own. */
+static void noise_is_shown_with_the_time_to_a_target(void **state)
+{
+    struct render_progress p = half_done();
+    struct status_line s = {.is_live = true,
+                            .progress = &p,
+                            .thread_count = 1,
+                            .width_px = 10,
+                            .height_px = 20,
+                            .colors = "mono",
+                            .hint = "? help  q quit"};
+    char text[STATUS_BYTES];
+
+    (void)state;
+    p.spp_limit = p.samples_limit = 0;
+    p.pixels = 1000000;
+    p.spp_done = 8;
+    p.error_exponent = 1;
+    p.film_error = (struct film_error){true, true, 0.0192, 0.0185, 0.0199};
+    /* live: to 0.5 %, with 8 * 3.98^2 = 126.7, in blocks 128 samples */
+    status_line_format(text, 100, &s);
+    check_has(text, " LIVE  8 spp  noise 1.9 %, 0.5 % in 1:00  4 s  2.00 ");
+    p.state = RENDER_IDLE;
+    status_line_format(text, 100, &s);
+    check_has(text, "  8 spp  noise 1.9 %  4 s  2.00 ");
+    p.state = RENDER_RUNNING;
+    p.film_error.is_resolved = false;
+    status_line_format(text, 100, &s);
+    check_has(text, "  8 spp  noise 1.9 %, unresolved  4 s  ");
+    p.film_error.is_resolved = true;
+    /* -e 1%: 8 * 1.99^2 = 31.7, so 32 samples */
+    s.is_live = false;
+    s.is_started = true;
+    p.error_limit = 0.01;
+    status_line_format(text, 100, &s);
+    check_has(text,
+              " NORMAL  8 spp  25 %  noise 1.9 %, 1 % in 12 s  4 s  2.00");
+    p.time_limit_ns = 10 * SEC; /* before */
+    status_line_format(text, 100, &s);
+    check_has(text, "  8 spp  40 %  noise 1.9 %  4 s  left 6 s  2.00 ");
+    p.time_limit_ns = 0;
+    p.film_error.high = 0.0099;
+    status_line_format(text, 100, &s);
+    check_has(text, "  8 spp  100 %  noise 1.9 %  4 s  2.00 ");
+}
+
+/* In narrow windows the time to the target goes before the noise. */
+static void noise_outlives_its_target(void **state)
+{
+    struct render_progress p = half_done();
+    struct status_line s = {.is_live = true,
+                            .progress = &p,
+                            .colors = "mono",
+                            .hint = "? help  q quit"};
+    char text[STATUS_BYTES];
+    bool had_noise = false, had_target = false;
+
+    (void)state;
+    p.spp_limit = p.samples_limit = 0;
+    p.pixels = 1000000;
+    p.error_exponent = 1;
+    p.film_error = (struct film_error){true, true, 0.0192, 0.0185, 0.0199};
+    for (int cols = 20; cols < 120; cols++) {
+        bool has_noise, has_target;
+
+        status_line_format(text, cols, &s);
+        has_noise = strstr(text, "  noise 1.9 %") != NULL;
+        has_target = strstr(text, "  noise 1.9 %, 0.5 % in 1:00 ") != NULL;
+        assert_true(has_target == (strstr(text, "1:00") != NULL));
+        assert_true(has_noise || !has_target);
+        assert_true(has_noise >= had_noise && has_target >= had_target);
+        had_noise = has_noise;
+        had_target = has_target;
+    }
+    assert_true(had_target);
 }
 
 /* At any width the line has that many columns, begins with the mode and cuts no
@@ -181,6 +261,8 @@ int main(void)
         cmocka_unit_test(durations_are_short),
         cmocka_unit_test(normal_mode_shows_the_time_left),
         cmocka_unit_test(live_mode_has_no_end),
+        cmocka_unit_test(noise_is_shown_with_the_time_to_a_target),
+        cmocka_unit_test(noise_outlives_its_target),
         cmocka_unit_test(narrow_windows_drop_fields),
         cmocka_unit_test(eighty_columns_have_the_colors),
         cmocka_unit_test(messages_have_no_control_characters),
