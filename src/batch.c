@@ -17,6 +17,7 @@
 #include "terminal/tty.h"
 #include "terminal/xmalloc.h"
 #include "session/stats_json.h"
+#include "inspect/error_map.h"
 #include "inspect/view_modes.h"
 #include "batch_filter.h"
 #include "batch_progress.h"
@@ -47,6 +48,10 @@ static bool check_outputs(const struct session *s, struct error *err)
     if (o->output_path && !session_check_output(s, "-o", o->output_path, err))
         return false;
     if (o->denoise_path && !batch_filter_check(s, err))
+        return false;
+    if (o->error_map_path &&
+        (!session_check_output(s, "--error-map", o->error_map_path, err) ||
+         !batch_check_picture(o->error_map_path, err)))
         return false;
     if (o->text_cols > 0)
         return !text_path(o) || file_check(text_path(o), err);
@@ -212,19 +217,29 @@ static bool save_film(struct view_mode *show, char **name, struct error *err)
     return ok;
 }
 
-/* Writes the statistics, unless the free name of the picture is that of their
- * file. */
-static bool save_stats(const struct session *s, const char *picture,
-                       struct error *err)
+/* Fails if the free name of the picture is that of another file. */
+static bool is_other_file(const char *option, const char *path,
+                          const char *picture, struct error *err)
 {
-    const char *path = s->options->stats_path;
+    return !path_is_same(picture, path) ||
+           fail(err,
+                "%s: found '%s', the file of the picture, expected another "
+                "file",
+                option, path);
+}
 
-    if (path_is_same(picture, path))
-        return fail(err,
-                    "--stats: found '%s', the file of the picture, expected "
-                    "another file",
-                    path);
-    return stats_json_write(s, path, err);
+/* Writes the files beside the picture. */
+static bool save_more(const struct session *s, const char *picture,
+                      struct error *err)
+{
+    const char *stats = s->options->stats_path;
+    const char *map = s->options->error_map_path;
+
+    return (!map || (is_other_file("--error-map", map, picture, err) &&
+                     error_map_write(render_film(s->render),
+                                     session_develop(s).exposure, map, err))) &&
+           (!stats || (is_other_file("--stats", stats, picture, err) &&
+                       stats_json_write(s, stats, err)));
 }
 
 static void say_result(const struct session *s, const char *name,
@@ -251,8 +266,7 @@ static bool save_all(struct view_mode *show, struct error *err)
     ok = save_film(show, &name, err);
     if (ok)
         say_result(s, name, &p);
-    if (ok && s->options->stats_path)
-        ok = save_stats(s, name, err);
+    ok = ok && save_more(s, name, err);
     free(name);
     return ok;
 }

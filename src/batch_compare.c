@@ -157,7 +157,7 @@ static bool write_floats(const struct picture_pair *p, const char *path,
                     p->height);
     for (size_t i = 0; i < count; i++)
         rgb[i] = p->rgb[i] - p->reference[i];
-    ok = image_write_pfm(rgb, p->width, p->height, path, err);
+    ok = image_write_floats(rgb, p->width, p->height, path, err);
     free(rgb);
     return ok;
 }

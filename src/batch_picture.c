@@ -17,7 +17,8 @@
 bool batch_picture_is_wanted(const struct options *o)
 {
     return o->batch && o->show == SHOW_LIGHT && o->text_cols == 0 &&
-           !o->denoise && !o->stats_path && !o->paths && !o->kernels_path;
+           !o->denoise && !o->stats_path && !o->error_map_path && !o->paths &&
+           !o->kernels_path;
 }
 
 static bool on_progress(void *bar, const struct glim_progress *p)

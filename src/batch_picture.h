@@ -11,7 +11,7 @@
 #include "session/command_line.h"
 
 /* True if the options want a picture of light and nothing that libglim has not:
- * text, statistics, properties, other instructions or kernels. */
+ * text, statistics, maps, properties, other instructions or kernels. */
 bool batch_picture_is_wanted(const struct options *o);
 
 /* Renders and saves. *status is the exit status. */

@@ -132,7 +132,8 @@ static bool write(struct making *m, uint64_t start_ns, struct error *err)
         .arguments = m->o->arguments,
     };
 
-    if (!image_write_pfm(mean, r->width, r->height, m->o->output_path, err) ||
+    if (!image_write_floats(mean, r->width, r->height, m->o->output_path,
+                            err) ||
         !reference_info_write(&info, &origin, m->json_path, err))
         return false;
     print_line(stderr,

@@ -8,10 +8,13 @@
 
 #include "base/memory.h"
 #include "picture/area.h"
+#include "picture/film_error.h"
 #include "picture/frame.h"
 #include "scene/world.h"
+#include "render/error_text.h"
 #include "render/projection.h"
 #include "inspect/aov_picture.h"
+#include "inspect/error_map.h"
 #include "kernels/tone.h"
 
 /* Sample kind and legend of each view. */
@@ -31,6 +34,7 @@ static const struct {
     [SHOW_MATERIALS] = {SAMPLE_MATERIAL, "MATERIALS  a colour for each"},
     [SHOW_COST] = {SAMPLE_PREVIEW, "COST"},
     [SHOW_SAMPLES] = {SAMPLE_LIGHT, "SAMPLES"},
+    [SHOW_ERROR] = {SAMPLE_LIGHT, "ERROR"},
 };
 
 void view_mode_init(struct view_mode *s, struct session *session)
@@ -120,6 +124,7 @@ bool view_mode_set(struct view_mode *s, enum show_kind kind, struct error *err)
     bool ok = kind != SHOW_COST || view_mode_need_tree(s, err);
 
     s->kind = ok ? kind : SHOW_LIGHT;
+    s->error_spp = 0; /* other views use its numbers */
     set_legend(s, "%s", kinds[s->kind].legend);
     return ok;
 }
@@ -244,6 +249,44 @@ static bool paint_samples(struct view_mode *s, struct film *film,
     return true;
 }
 
+/* Finds the errors again if a pass has ended. */
+static bool find_errors(struct view_mode *s, struct film *film)
+{
+    struct session *of = s->session;
+    struct render_progress p = render_progress(of->render);
+
+    if (s->error_spp == p.spp_done && s->error_restart_ns == of->restart_ns)
+        return s->error_spp > 0;
+    s->error_spp = 0;
+    if (!p.film_error.is_known ||
+        !need_numbers(s, (size_t)film->width * (size_t)film->height) ||
+        !film_error_map(film, session_develop(of).exposure, s->numbers))
+        return false;
+    s->error_spp = p.spp_done;
+    s->error_restart_ns = of->restart_ns;
+    s->error = p.film_error;
+    return true;
+}
+
+static bool paint_errors(struct view_mode *s, struct film *film,
+                         struct frame *frame)
+{
+    char noise[ERROR_TEXT_BYTES];
+
+    if (!find_errors(s, film)) {
+        set_legend(s, "ERROR  unknown until each pixel has two samples");
+        return false;
+    }
+    for (int y = 0; y < frame->height; y++)
+        for (int x = 0; x < frame->width; x++)
+            frame_dot(frame, x, y,
+                      error_map_color(
+                          mean_at(s, frame, x, y, film->width, film->height)));
+    error_text_noise(noise, &s->error);
+    set_legend(s, "ERROR  " ERROR_MAP_SCALE "; %s", noise);
+    return true;
+}
+
 /* Counts costs again if the camera or the frame's size has changed. */
 static bool count_costs(struct view_mode *s, const struct frame *frame)
 {
@@ -309,6 +352,7 @@ void view_mode_preview(struct view_mode *s, struct film *film,
     case SHOW_PREVIEW: break;
     case SHOW_COST: is_painted = paint_costs(s, frame); break;
     case SHOW_SAMPLES: is_painted = paint_samples(s, film, frame); break;
+    case SHOW_ERROR: is_painted = paint_errors(s, film, frame); break;
     default: is_painted = paint_draft(s, draft, frame); break;
     }
     if (!is_painted)
@@ -355,6 +399,10 @@ bool view_mode_picture(struct view_mode *s, struct film *film,
     case SHOW_LIGHT: film_preview(film, NULL, develop_of(s), frame); break;
     case SHOW_SAMPLES:
         return paint_samples(s, film, frame) || fail_memory(frame, err);
+    case SHOW_ERROR:
+        if (!paint_errors(s, film, frame))
+            film_preview(film, NULL, develop_of(s), frame);
+        break;
     case SHOW_COST: return paint_costs(s, frame) || fail_memory(frame, err);
     default:
         if (!find_numbers(s, frame, err))

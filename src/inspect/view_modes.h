@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /*
  * view_modes.h - other views of a scene: a preview, or false colours for
- * normals, uvs, depth, materials, cost of rays, samples
+ * normals, uvs, depth, materials, cost of rays, samples, error
  *
  * Kinds with samples of their own (enum sample_kind) are rendered like a
- * draft. The cost of rays and the sample counts of pixels are computed here.
+ * draft. The cost of rays, the sample counts and the errors of pixels are
+ * computed here.
  *
  * Units:     pixels of frames
  * Ownership: the session stays the caller's and outlives the view_mode;
@@ -35,6 +36,9 @@ struct view_mode {
 
     float *numbers; /* of the frame that was painted last, or of its film */
     size_t number_capacity;
+    uint64_t error_spp; /* of the errors in `numbers`; 0: none */
+    uint64_t error_restart_ns;
+    struct film_error error;      /* of that picture */
     struct traversal_cost *costs; /* for cost_camera, one for each pixel */
     uint64_t cost_generation;
     struct camera cost_camera;
@@ -55,8 +59,8 @@ void view_mode_preview(struct view_mode *s, struct film *film,
                        struct film *draft, struct frame *frame);
 
 /* Fills a frame of any size with the whole picture of this view, without a
- * draft. Light and sample counts are taken from `film`, which may be NULL for
- * other views. Blocks while the rest is computed. */
+ * draft. Light, sample counts and errors are taken from `film`, which may be
+ * NULL for other views. Blocks while the rest is computed. */
 bool view_mode_picture(struct view_mode *s, struct film *film,
                        struct frame *frame, struct error *err);
 

@@ -193,23 +193,22 @@ static void round_to_rgbe(float rgb[3])
         rgb[c] = ldexpf(roundf(ldexpf(rgb[c], 8 - exponent)), exponent - 8);
 }
 
-static bool encode_hdr(struct film *film, const char *path, struct buffer *b,
-                       struct error *err)
+static bool encode_hdr(const float *rgb, int width, int height,
+                       const char *path, struct buffer *b, struct error *err)
 {
-    size_t pixels = (size_t)film->width * (size_t)film->height;
+    size_t pixels = (size_t)width * (size_t)height;
+    float *rounded = alloc_array(pixels, 3 * sizeof *rounded);
+    struct stb_picture picture = {width, height, NULL, rounded};
+    bool ok = rounded != NULL;
 
-    if (!expect_size(film->width, film->height, 3 * sizeof(float), path, err))
-        return false;
-    float *rgb = linear_of(film, path, err);
-    if (!rgb)
-        return false;
-    for (size_t i = 0; i < pixels; i++)
-        round_to_rgbe(rgb + 3 * i);
-    struct stb_picture picture = {film->width, film->height, NULL, rgb};
-    bool ok = stb_encode(&picture, append, b);
-    free(rgb);
-    return (ok && !b->is_cut) ||
-           out_of_memory(film->width, film->height, path, err);
+    if (ok) {
+        memcpy(rounded, rgb, 3 * sizeof *rounded * pixels);
+        for (size_t i = 0; i < pixels; i++)
+            round_to_rgbe(rounded + 3 * i);
+        ok = stb_encode(&picture, append, b) && !b->is_cut;
+    }
+    free(rounded);
+    return ok || out_of_memory(width, height, path, err);
 }
 
 static void append_floats(struct buffer *b, const float *values, int count)
@@ -226,8 +225,8 @@ static void append_floats(struct buffer *b, const float *values, int count)
 }
 
 /* Encodes rows from the bottom up. The negative scale means little endian. */
-static bool encode_floats(const float *rgb, int width, int height,
-                          const char *path, struct buffer *b, struct error *err)
+static bool encode_pfm(const float *rgb, int width, int height,
+                       const char *path, struct buffer *b, struct error *err)
 {
     char header[64];
     int length =
@@ -239,8 +238,18 @@ static bool encode_floats(const float *rgb, int width, int height,
     return !b->is_cut || out_of_memory(width, height, path, err);
 }
 
-static bool encode_pfm(struct film *film, const char *path, struct buffer *b,
-                       struct error *err)
+/* Encodes floats as HDR or PFM. */
+static bool encode_floats(const float *rgb, int width, int height,
+                          const char *path, struct buffer *b, struct error *err)
+{
+    if (image_write_format_of(path) == IMAGE_WRITE_PFM)
+        return encode_pfm(rgb, width, height, path, b, err);
+    return expect_size(width, height, 3 * sizeof *rgb, path, err) &&
+           encode_hdr(rgb, width, height, path, b, err);
+}
+
+static bool encode_linear(struct film *film, const char *path, struct buffer *b,
+                          struct error *err)
 {
     float *rgb = linear_of(film, path, err);
     bool ok =
@@ -264,8 +273,8 @@ static bool encode_pixels(struct film *film, struct develop how,
 {
     switch (image_write_format_of(path)) {
     case IMAGE_WRITE_PNG: return encode_png(film, how, path, b, err);
-    case IMAGE_WRITE_HDR: return encode_hdr(film, path, b, err);
-    case IMAGE_WRITE_PFM: return encode_pfm(film, path, b, err);
+    case IMAGE_WRITE_HDR:
+    case IMAGE_WRITE_PFM: return encode_linear(film, path, b, err);
     case IMAGE_WRITE_UNKNOWN: break;
     }
     return fail(err, "%s: found no known ending, expected .png, .hdr or .pfm",
@@ -314,8 +323,8 @@ bool image_write_frame(const struct frame *frame, const char *path,
     return ok;
 }
 
-bool image_write_pfm(const float *rgb, int width, int height, const char *path,
-                     struct error *err)
+bool image_write_floats(const float *rgb, int width, int height,
+                        const char *path, struct error *err)
 {
     struct buffer b = {.data = NULL};
     bool ok = encode_floats(rgb, width, height, path, &b, err) &&

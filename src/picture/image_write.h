@@ -51,8 +51,8 @@ bool image_write_frame(const struct frame *frame, const char *path,
 char *image_write_frame_numbered(const struct frame *frame, const char *stem,
                                  struct error *err);
 
-/* Writes 3 floats a pixel, row 0 at the top, as a PFM file. */
-bool image_write_pfm(const float *rgb, int width, int height, const char *path,
-                     struct error *err);
+/* Writes 3 floats a pixel, row 0 at the top, as an HDR or PFM file. */
+bool image_write_floats(const float *rgb, int width, int height,
+                        const char *path, struct error *err);
 
 #endif

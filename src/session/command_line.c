@@ -63,6 +63,10 @@ const char options_help[] =
     "                   and the unfiltered one to that of -o\n"
     "  --ansi COLSxROWS write coloured text of at most this size instead of a\n"
     "                   picture, to the file of -o or standard output\n"
+    "  --error-map FILE write a .png, .hdr or .pfm picture of the error of "
+    "each\n"
+    "                   pixel: heat colours from black, 0.1 %, to white, 100 "
+    "%\n"
     "  --show KIND      preview, normals, faces, uvs, depth, materials or "
     "cost\n"
     "                   instead of light\n"
@@ -91,7 +95,8 @@ const char *const options_shows[] = {
     [SHOW_DEPTH] = "depth",
     [SHOW_MATERIALS] = "materials",
     [SHOW_COST] = "cost",
-    [SHOW_SAMPLES] = NULL, /* all pixels of a file have the same number */
+    /* all pixels of a file have the same number, and --error-map has errors */
+    [SHOW_SAMPLES] = NULL,
 };
 
 /* Finds the rule of an option. `text` is the option without its dashes. */
@@ -232,35 +237,60 @@ static bool check_batch(const struct options *o, struct error *err)
     return true;
 }
 
+static bool is_other_file(const char *option, const char *path,
+                          const char *other_option, const char *other,
+                          struct error *err)
+{
+    return !other || !path_is_same(path, other) ||
+           fail(err, "%s: found '%s', the file of %s, expected another file",
+                option, path, other_option);
+}
+
+/* Refuses a name that is no picture's or that of another output. */
+static bool check_side_picture(const struct options *o, const char *option,
+                               const char *path, struct error *err)
+{
+    if (is_standard_output(path) ||
+        image_write_format_of(path) == IMAGE_WRITE_UNKNOWN)
+        return fail(err,
+                    "%s: found '%s', expected a name that ends in .png, .hdr "
+                    "or .pfm",
+                    option, path);
+    return is_other_file(option, path, "-o", o->output_path, err) &&
+           is_other_file(option, path, "--stats", o->stats_path, err);
+}
+
 /* Refuses a filtered picture on the screen or in the file of another output. */
 static bool check_denoise(const struct options *o, struct error *err)
 {
-    const char *path = o->denoise_path;
-
     if (!o->denoise)
         return true;
     if (!o->batch)
         return fail(err, "--denoise: found no -b, expected batch mode");
     if (o->show != SHOW_LIGHT)
         return fail(err, "--denoise: found --show, expected a render of light");
-    if (!path)
+    return !o->denoise_path ||
+           check_side_picture(o, "--denoise", o->denoise_path, err);
+}
+
+static bool check_error_map(const struct options *o, struct error *err)
+{
+    if (!o->error_map_path)
         return true;
-    if (is_standard_output(path) ||
-        image_write_format_of(path) == IMAGE_WRITE_UNKNOWN)
+    if (!o->batch)
         return fail(err,
-                    "--denoise: found '%s', expected a name that ends in .png, "
-                    ".hdr or .pfm",
-                    path);
-    if ((o->output_path && path_is_same(path, o->output_path)) ||
-        (o->stats_path && path_is_same(path, o->stats_path)))
+                    "--error-map: found no -b, expected batch mode (on the "
+                    "screen %s shows it)",
+                    keymap_first_name(&o->keys, ACTION_VIEW_BACK).text);
+    if (o->show != SHOW_LIGHT)
         return fail(err,
-                    "--denoise: found '%s', the file of %s, expected another "
-                    "file",
-                    path,
-                    o->output_path && path_is_same(path, o->output_path)
-                        ? "-o"
-                        : "--stats");
-    return true;
+                    "--error-map: found --show, expected a render of light");
+    if (o->has_spp && o->spp < 2)
+        return fail(err, "--error-map: found -s 1, expected at least two "
+                         "samples, whose difference is the error");
+    return check_side_picture(o, "--error-map", o->error_map_path, err) &&
+           is_other_file("--error-map", o->error_map_path, "--denoise",
+                         o->denoise_path, err);
 }
 
 /* Refuses options about samples of light beside --show. */
@@ -288,7 +318,8 @@ static bool check_together(const struct options *o, struct error *err)
 {
     if (o->list_devices || o->probe)
         return true;
-    return check_batch(o, err) && check_denoise(o, err) && check_show(o, err);
+    return check_batch(o, err) && check_denoise(o, err) &&
+           check_error_map(o, err) && check_show(o, err);
 }
 
 struct render_limits options_limits(const struct options *o)

@@ -29,6 +29,7 @@ enum show_kind {
     SHOW_MATERIALS,
     SHOW_COST,
     SHOW_SAMPLES,
+    SHOW_ERROR,
     SHOW_KINDS
 };
 
@@ -60,8 +61,9 @@ struct options {
     const char *view_path;   /* NULL: beside the scene */
     const char *output_path; /* NULL: STEM.png in batch mode */
     const char *stats_path;  /* NULL: no statistics */
-    int width_px, height_px; /* 0 if not given */
-    uint64_t spp;            /* samples per pixel */
+    const char *error_map_path; /* NULL: no map */
+    int width_px, height_px;    /* 0 if not given */
+    uint64_t spp;               /* samples per pixel */
     bool has_spp;
     double error_limit; /* relative; 0: none */
     uint64_t time_ns;   /* limit of the time of rendering; 0: none */

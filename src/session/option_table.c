@@ -47,6 +47,7 @@ static const struct option_rule rules[] = {
      "light, preview, normals, faces, uvs, depth, materials or cost"},
     {"denoise", OPTION_DENOISE, "the name of a picture"},
     {"stats", OPTION_STATS, "the name of a file"},
+    {"error-map", OPTION_ERROR_MAP, "the name of a picture"},
     {"color", OPTION_COLOR, "24, 256, 16, mono or auto"},
     {"glyph", OPTION_GLYPH,
      "auto, half, upper, lower, quadrant, sextant, braille, space, ascii, "
@@ -344,6 +345,7 @@ bool option_set(struct options *o, const struct option_given *g,
         o->denoise = true;
         return !g->value || given_text(g, &o->denoise_path, err);
     case OPTION_STATS: return given_text(g, &o->stats_path, err);
+    case OPTION_ERROR_MAP: return given_text(g, &o->error_map_path, err);
     case OPTION_CELL_ASPECT:
         return set_decimal(g, 0.25, 8, &o->display.cell_aspect, err);
     case OPTION_DEVICE: return given_text(g, &o->device, err);

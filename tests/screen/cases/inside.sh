@@ -62,12 +62,16 @@ keys n
 wait_for "COST  tests of a camera ray, black 0, white [1-9]"
 keys n
 wait_for "SAMPLES  of a pixel, black 0, white [1-9]"
-keys N N
+# samples of lamps are all equal
+keys n
+wait_for "ERROR  black 0.1 %, red 3, white 100 %; noise 0"
+colors_are 1 "0;0;0"
+keys N N N
 wait_for "MATERIALS"
 # moving restarts it
 keys -N 30 w
 wait_for "MATERIALS"
-keys r n n n
+keys r n n n n
 wait_for "LIVE"
 # boxes
 keys t
@@ -106,7 +110,7 @@ keys t
 wait_until_gone "sample 0 of"
 keys '>'
 wait_for "t draws them"
-# normal mode has light and samples
+# normal mode has light, samples and errors
 keys n
 wait_for "PREVIEW"
 keys Space
@@ -114,7 +118,9 @@ wait_for "normal mode"
 keys n
 wait_for "SAMPLES"
 keys n
-wait_until_gone "SAMPLES"
+wait_for "ERROR  unknown until each pixel has two samples"
+keys n
+wait_until_gone "ERROR"
 # tmux restores the shell's screen whole only at the size that it had
 mux resize-window -x 60 -y 21
 keys q
