@@ -25,6 +25,9 @@ struct first_surface {
     /* light of the path up to the surface, of its emission, and of lights that
      * it reflects */
     struct vec3 direct;
+    /* part of it: the sky and emission that a pinhole sees with nothing
+     * between, without noise but for edges; 0 with a lens */
+    struct vec3 seen;
     struct vec3 albedo;
     struct vec3 normal; /* shading normal on the eye's side */
     float depth;        /* length of the path to the surface */
@@ -41,6 +44,7 @@ static inline void first_surface_begin(struct first_surface *s)
 {
     if (!HAS(FEATURE_FILTER))
         return;
+    s->seen = v3(0.0f, 0.0f, 0.0f);
     s->depth = 0.0f;
     s->state = SURFACE_AHEAD;
 }
@@ -62,21 +66,34 @@ static inline void first_surface_meet(struct first_surface *s,
 }
 
 /* Takes the path's radiance after the emission of a vertex was added. That of
- * the vertex behind the surface is the last direct light. */
-static inline void first_surface_light(struct first_surface *s,
+ * the first vertex is seen; that of the vertex behind the surface is the last
+ * direct light. */
+static inline void first_surface_light(struct first_surface *s, uint32_t vertex,
                                        struct vec3 radiance)
 {
-    if (!HAS(FEATURE_FILTER) || s->state != SURFACE_MET)
+    if (!HAS(FEATURE_FILTER))
+        return;
+    if (vertex == 1)
+        s->seen = radiance;
+    if (s->state != SURFACE_MET)
         return;
     s->direct = radiance;
     s->state = SURFACE_BEHIND;
 }
 
-/* Completes the surface with the whole radiance of the path. */
-static inline void first_surface_end(struct first_surface *s,
+/* Completes the surface with the whole radiance of the path, which has this
+ * number of vertices. */
+static inline void first_surface_end(const struct world *w,
+                                     struct first_surface *s, uint32_t vertices,
                                      struct vec3 radiance)
 {
-    if (HAS(FEATURE_FILTER) && s->state != SURFACE_BEHIND)
+    if (!HAS(FEATURE_FILTER))
+        return;
+    if (vertices == 1)
+        s->seen = radiance;
+    if (w->settings.camera.lens_radius > 0.0f)
+        s->seen = v3(0.0f, 0.0f, 0.0f);
+    if (s->state != SURFACE_BEHIND)
         s->direct = radiance;
 }
 

@@ -369,7 +369,7 @@ static inline bool path_extend(const struct world *w, struct path *p,
     if (!surface_at(w, &m, p->ray, *h, &v))
         return false;
     path_add_emission(w, p, &m, h->tri, &v);
-    first_surface_light(&p->surface, p->out.radiance);
+    first_surface_light(&p->surface, vertex, p->out.radiance);
     if (vertex >= w->settings.max_vertices) {
         p->out.cut = vertex >= PATH_HARD_STOP ? 1u : 0u;
         return false;
@@ -420,7 +420,7 @@ path_follow(const struct world *w, struct ray r, struct sampler sampler,
     p.out.radiance =
         v3_min(v3(FLOAT_MAX, FLOAT_MAX, FLOAT_MAX), p.out.radiance);
     if (has_first_surface(w)) {
-        first_surface_end(&p.surface, p.out.radiance);
+        first_surface_end(w, &p.surface, vertex, p.out.radiance);
         *surface = p.surface;
     }
     return p.out;

@@ -20,9 +20,12 @@
 #define SURFACE_ONE 65535.0f
 
 struct surface_sums {
-    /* direct light, of all samples and of odd ones: parts of the film's sums */
+    /* direct light, and the part of it that is seen, of all samples and of odd
+     * ones: parts of the film's sums */
     struct sum direct[3];
     struct sum odd_direct[3];
+    struct sum seen[3];
+    struct sum odd_seen[3];
     struct sum depth;
     struct sum depth_square;
     uint32_t albedo[3];
@@ -74,14 +77,17 @@ static inline void surface_add(GLOBAL struct surface_sums *sums, uint64_t index,
     uint32_t bad = 0, full = 0;
 
     if (!sum_accepts(radiance.x))
-        s.direct.x = 0.0f;
+        s.direct.x = s.seen.x = 0.0f;
     if (!sum_accepts(radiance.y))
-        s.direct.y = 0.0f;
+        s.direct.y = s.seen.y = 0.0f;
     if (!sum_accepts(radiance.z))
-        s.direct.z = 0.0f;
+        s.direct.z = s.seen.z = 0.0f;
     rgb_add(sums->direct, s.direct, &bad, &full);
-    if ((index & 1) != 0)
+    rgb_add(sums->seen, s.seen, &bad, &full);
+    if ((index & 1) != 0) {
         rgb_add(sums->odd_direct, s.direct, &bad, &full);
+        rgb_add(sums->odd_seen, s.seen, &bad, &full);
+    }
     surface_add_features(sums, s);
 }
 

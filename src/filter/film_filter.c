@@ -116,8 +116,8 @@ static void give_features(void *context, int y, const struct filter_row *to)
     row_unlock(f, y);
 }
 
-/* Writes the mean of each half of a pixel: of direct light for component 0, of
- * the rest for component 1. */
+/* Writes the mean of each half of a pixel: of direct light that is not seen for
+ * component 0, of indirect light for component 1. */
 static void put_light(const struct film *f, size_t at, int component, int x,
                       float *to[2][3])
 {
@@ -128,7 +128,10 @@ static void put_light(const struct film *f, size_t at, int component, int x,
     for (int c = 0; c < 3; c++) {
         struct sum all = surface->direct[c], odd = surface->odd_direct[c];
 
-        if (component == 1) {
+        if (component == 0) {
+            all = sum_without(all, surface->seen[c]);
+            odd = sum_without(odd, surface->odd_seen[c]);
+        } else {
             all = sum_without(f->sums[3 * at + (size_t)c], all);
             odd = sum_without(f->odd_sums[3 * at + (size_t)c], odd);
         }
@@ -148,16 +151,30 @@ static void give_light(void *context, int component, int y, float *to[2][3])
     row_unlock(f, y);
 }
 
-static void store(struct film *to, const float *rgb)
+/* Adds seen light to a row of the filtered rest. It keeps its noise at edges: a
+ * lamp of a pixel would spread to its neighbours. */
+static void add_seen(struct film *f, int y, float *rgb)
+{
+    row_lock(f, y);
+    for (int x = 0; x < f->width; x++) {
+        size_t at = row_index(f, y) + (size_t)x;
+
+        for (int c = 0; c < 3; c++)
+            rgb[3 * x + c] +=
+                sum_float(f->surfaces[at].seen[c]) / (float)f->counts[at];
+    }
+    row_unlock(f, y);
+}
+
+static void store_row(struct film *to, int y, const float *rgb)
 {
     static const int one = 1;
 
-    for (int y = 0; y < to->height; y++)
-        for (int x = 0; x < to->width; x++, rgb += 3) {
-            struct path_sample sample = {{rgb[0], rgb[1], rgb[2]}, 0, 0};
+    for (int x = 0; x < to->width; x++, rgb += 3) {
+        struct path_sample sample = {{rgb[0], rgb[1], rgb[2]}, 0, 0};
 
-            film_add_row(to, x, y, 1, 1, &sample, NULL, &one);
-        }
+        film_add_row(to, x, y, 1, 1, &sample, NULL, &one);
+    }
 }
 
 bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
@@ -177,7 +194,10 @@ bool film_filter(struct film *f, struct pool *pool, struct film *filtered,
     if (ok) {
         filter_run(&filter, &source, FILTER_LEVELS, pool, rgb);
         filter_free(&filter);
-        store(filtered, rgb);
+        for (int y = 0; y < f->height; y++) {
+            add_seen(f, y, rgb + 3 * row_index(f, y));
+            store_row(filtered, y, rgb + 3 * row_index(f, y));
+        }
     }
     free(rgb);
     return ok;

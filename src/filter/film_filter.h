@@ -2,7 +2,8 @@
 /*
  * film_filter.h - the denoising filter of a film with first surfaces
  *
- * Direct and indirect light are filtered apart.
+ * Direct and indirect light are filtered apart. Lamps and the sky stay as a
+ * pinhole camera sees them.
  *
  * Units:     radiance
  * Ownership: the film stays the caller's

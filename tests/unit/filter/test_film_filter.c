@@ -15,6 +15,9 @@
 #define WIDTH  96
 #define HEIGHT 64
 
+/* Light of the sky that is seen, as a part of its direct light. */
+static float seen_share;
+
 /* Adds samples of a floor with albedo .5 and sky above it. The light of sample
  * `index` is given by a function of the pixel. */
 static void add_samples(struct film *f, uint64_t first, int count,
@@ -27,14 +30,17 @@ static void add_samples(struct film *f, uint64_t first, int count,
         for (int x = 0; x < f->width; x++) {
             for (int i = 0; i < count; i++) {
                 float l = light(x, y, first + (uint64_t)i);
+                bool is_sky = y < f->height / 2;
+                float seen = is_sky ? seen_share : 0;
 
                 samples[i] = (struct path_sample){{l, l / 2, l / 4}, 1, 0};
                 surfaces[i] = (struct first_surface){
                     .direct = {l / 2, l / 8, 0},
+                    .seen = {seen * l / 2, seen * l / 8, 0},
                     .albedo = {0.5f, 0.5f, 0.5f},
                     .normal = {0, 1, 0},
                     .depth = 2,
-                    .state = y < f->height / 2 ? SURFACE_AHEAD : SURFACE_BEHIND,
+                    .state = is_sky ? SURFACE_AHEAD : SURFACE_BEHIND,
                 };
             }
             film_add_row(f, x, y, 1, 1, samples, surfaces, &count);
@@ -121,6 +127,40 @@ static void noise_falls_on_each_surface(void **state)
         check_at_most(squares, 1 / 48.0 / 50);
     }
     free(rgb);
+    film_free(&f);
+}
+
+static float lamp_light(int x, int y, uint64_t index)
+{
+    bool is_lamp = x == 40 && y == 9 && index % 3 == 0;
+
+    return y < HEIGHT / 2 ? 100.0f * (float)is_lamp : noisy_light(x, y, index);
+}
+
+/* A lamp of one pixel that covers a third of its samples keeps its light, of
+ * which a half is seen, and gives none of that to its neighbours. */
+static void lamps_stay_sharp(void **state)
+{
+    float at[2], beside[2];
+    struct film f;
+    float *rgb;
+
+    (void)state;
+    open_film(&f);
+    for (int share = 0; share < 2; share++) {
+        film_clear(&f);
+        seen_share = (float)share;
+        add_samples(&f, 0, 12, lamp_light);
+        rgb = filtered(&f, NULL);
+        at[share] = rgb[3 * (9 * WIDTH + 40)];
+        beside[share] = rgb[3 * (9 * WIDTH + 41)];
+        free(rgb);
+    }
+    seen_share = 0;
+    check_at_most(at[1], 100 / 3.0 + 1e-4);
+    check_at_most(50 / 3.0, at[1]);
+    check_at_most(at[0], at[1]);
+    check_at_most(beside[1], beside[0] / 2 + 1e-6);
     film_free(&f);
 }
 
@@ -233,6 +273,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clean_films_stay),
         cmocka_unit_test(noise_falls_on_each_surface),
+        cmocka_unit_test(lamps_stay_sharp),
         cmocka_unit_test(few_samples_are_not_filtered),
         cmocka_unit_test(scenes_lose_their_noise),
     };

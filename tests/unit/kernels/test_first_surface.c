@@ -49,6 +49,7 @@ static void check_floor(const struct first_surface *s, double depth)
     check_close(s->albedo.x, 0.5, 0);
     check_close(s->normal.x, 0, 1e-6);
     check_close(s->normal.y, 1, 1e-6);
+    check_close(s->seen.x, 0, 0);
 }
 
 /* The floor is found directly, in the mirror and through the pane, at the
@@ -75,6 +76,15 @@ static void surfaces_are_found(void **state)
     follow(&m, v3(0, 1, 0.5f), 0, &s);
     assert_int_equal(s.state, SURFACE_AHEAD);
     check_close(s.direct.x, 1, 0);
+    check_close(s.seen.x, 1, 0);
+    follow(&m, v3(1, 0.5f, 0), 0, &s); /* the sky in the mirror */
+    assert_int_equal(s.state, SURFACE_AHEAD);
+    check_close(s.direct.x, 1, 1e-6);
+    check_close(s.seen.x, 0, 0);
+    m.world.settings.camera.lens_radius = 0.1f;
+    follow(&m, v3(0, 1, 0.5f), 0, &s);
+    check_close(s.direct.x, 1, 0);
+    check_close(s.seen.x, 0, 0);
     mesh_free(&m);
 }
 
