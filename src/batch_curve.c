@@ -131,6 +131,13 @@ static bool warm_up(struct measurement *m, bool *is_complete, struct error *err)
     return true;
 }
 
+/* Writes the text so far. A reader that has gone ends the measurement. */
+static bool flush(struct error *err)
+{
+    return (fflush(stdout) == 0 && !ferror(stdout)) ||
+           fail(err, "standard output: %s", strerror(errno));
+}
+
 /* Measures the picture so far and prints its row. */
 static bool add_point(struct measurement *m, struct error *err)
 {
@@ -144,8 +151,7 @@ static bool add_point(struct measurement *m, struct error *err)
         return batch_fail_as(err, &why);
     curve_add(&m->curve, p.spp, p.seconds - p.build_seconds, &pair, &m->own);
     curve_write_row(stdout, &m->curve.points[m->curve.count - 1]);
-    fflush(stdout);
-    return true;
+    return flush(err);
 }
 
 static bool measure(struct measurement *m, struct error *err)
@@ -218,8 +224,7 @@ static bool report(const struct measurement *m, struct error *err)
     curve_write_slopes(stdout, &m->curve);
     if (!write_csv(m, err) || !draw(m, err))
         return false;
-    return (fflush(stdout) == 0 && !ferror(stdout)) ||
-           fail(err, "standard output: %s", strerror(errno));
+    return flush(err);
 }
 
 static bool run(struct measurement *m, struct error *err)

@@ -90,10 +90,33 @@ static double mean_of(const struct replicates *r, size_t i)
     return sum / r->count;
 }
 
+/* Replaces a value by its mean and adds its variances. Errors are divided by
+ * w = mean^2 + DARK, whose own noise makes the quotient of the squared error
+ * larger than that of the variance v: by v^2 (1 / w)'', the next term of the
+ * series. */
+static void add_value(struct replicates *r, size_t i, struct mean_error *e,
+                      struct variances *relative)
+{
+    int k = r->count, half = k / 2;
+    double mean = mean_of(r, i);
+    double all = variance_of(r, i, 0, k) / k;
+    double first = variance_of(r, i, 0, half) / k;
+    double second = variance_of(r, i, half, k) / k;
+    double w = mean * mean + DARK;
+
+    e->mean += mean;
+    e->mse += all;
+    relative->all +=
+        all / w + first * second * (6 * mean * mean - 2 * DARK) / (w * w * w);
+    relative->halves[0] += first / w;
+    relative->halves[1] += second / w;
+    r->rgb[0][i] = (float)mean;
+}
+
 const float *replicates_mean(struct replicates *r, struct mean_error *e)
 {
     double count = (double)value_count(r), sum = 0, squares = 0;
-    int k = r->count, half = k / 2;
+    int k = r->count;
 
     assert(k >= REPLICATES_MIN);
     *e = (struct mean_error){0};
@@ -101,21 +124,13 @@ const float *replicates_mean(struct replicates *r, struct mean_error *e)
         struct variances relative = {0, {0, 0}};
 
         /* channels of a pixel have the same noise and count as one */
-        for (size_t i = pixel; i < pixel + 3; i++) {
-            double mean = mean_of(r, i);
-            double variance = variance_of(r, i, 0, k) / k;
-            double scale = 1 / (mean * mean + DARK);
-
-            e->mean += mean / count;
-            e->mse += variance / count;
-            relative.all += variance * scale;
-            relative.halves[0] += variance_of(r, i, 0, half) / k * scale;
-            relative.halves[1] += variance_of(r, i, half, k) / k * scale;
-            r->rgb[0][i] = (float)mean;
-        }
+        for (size_t i = pixel; i < pixel + 3; i++)
+            add_value(r, i, e, &relative);
         sum += relative.all;
         squares += relative.halves[0] * relative.halves[1];
     }
+    e->mse /= count;
+    e->mean /= count;
     e->relmse = sum / count;
     if (sum > 0)
         set_interval(e, sum, squares, k);

@@ -21,8 +21,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!options_parse(&options, argc, argv, &err))
         fuzz_check_message(err.text);
     else if (!options.show_help && !options.show_version)
-        require(options.scene_path || options.list_devices || options.probe,
-                "a scene");
+        require(options.scene_path || options.list_devices || options.probe ||
+                    (options.picture_path && options.reference_path),
+                "a scene or two pictures");
     free(text);
     return 0;
 }

@@ -33,6 +33,7 @@ static void four_pixels_by_hand(void **state)
     struct replicates r;
     struct mean_error e;
     struct error err;
+    double relmse = 0;
 
     (void)state;
     assert_true(replicates_init(&r, 1, 1, 4, &err));
@@ -42,9 +43,21 @@ static void four_pixels_by_hand(void **state)
     r.count = 4;
     check_close(replicates_mean(&r, &e)[1], 3, 1e-6);
     check_close(e.mean, 3, 1e-6);
-    /* squares of distances from the mean: 5, 20, 45, over 4 x 3 */
+    /* squares of distances from the mean: 5, 20, 45, over 4 x 3; those of both
+     * halves: 0.5, 2, 4.5, over 4 */
     check_close(e.mse, (5 + 20 + 45) / 12.0 / 3, 1e-6);
-    check_close(e.relmse, (5 / 2.26 + 20 / 9.01 + 45 / 20.26) / 12.0 / 3, 1e-6);
+    for (int c = 1; c <= 3; c++) {
+        double v = c * c * 5.0 / 12, half = c * c * 0.5 / 4;
+        double mean = 1.5 * c, w = mean * mean + 0.01;
+        /* the second derivative of 1 / (x^2 + 0.01) by differences */
+        double h = 1e-4;
+        double above = 1 / ((mean + h) * (mean + h) + 0.01);
+        double below = 1 / ((mean - h) * (mean - h) + 0.01);
+        double second = (above - 2 / w + below) / (h * h);
+
+        relmse += (v / w + half * half * second) / 3;
+    }
+    check_close(e.relmse, relmse, 1e-6);
     assert_true(e.relmse_low < e.relmse && e.relmse < e.relmse_high);
     replicates_free(&r);
 }
