@@ -114,16 +114,37 @@ static int by_significance(const void *left, const void *right)
     return a->y != b->y ? a->y - b->y : a->x - b->x;
 }
 
-static void print_tile(const struct tile *t)
+/* Formats the difference of a tile for people. */
+static void format_difference(char *text, size_t size_bytes,
+                              const struct tile *t)
 {
     char relative[32] = "";
 
     if (t->reference > 0)
         snprintf(relative, sizeof relative, " (%+.3g %%)",
                  100 * t->difference / t->reference);
-    print_line(stdout, "  %dx%d at %d,%d: %s %+.4g%s, t %.1f", t->width,
-               t->height, t->x, t->y, channels[t->channel], t->difference,
-               relative, t->t);
+    snprintf(text, size_bytes, "%s %+.4g%s, t %.1f", channels[t->channel],
+             t->difference, relative, t->t);
+}
+
+static void print_whole(const struct tile_test *test)
+{
+    char text[128];
+
+    format_difference(text, sizeof text, &test->whole);
+    if (test->whole.differs)
+        print_line(stdout, "%-18s differs: %s", "mean", text);
+    else
+        print_line(stdout, "%-18s does not differ", "mean");
+}
+
+static void print_tile(const struct tile *t)
+{
+    char text[128];
+
+    format_difference(text, sizeof text, t);
+    print_line(stdout, "  %dx%d at %d,%d: %s", t->width, t->height, t->x, t->y,
+               text);
 }
 
 /* Prints the tiles that differ. Sorts the tiles. */
@@ -209,8 +230,9 @@ static bool compare(const struct options *o, const struct picture_pair *p,
         ok = write_output(p, &test, o->output_path, err);
     }
     if (ok) {
+        print_whole(&test);
         print_tiles(&test);
-        *status = test.differing > 0;
+        *status = test.whole.differs || test.differing > 0;
         ok = fflush(stdout) == 0 && !ferror(stdout);
         if (!ok)
             fail(err, "standard output: %s", strerror(errno));

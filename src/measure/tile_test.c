@@ -74,6 +74,21 @@ static double variance_around(const struct tile_test *test,
     return sum / count;
 }
 
+/* Sets the channel if it is the most significant one so far. */
+static void test_channel(struct tile *t, int channel, const struct moments *m,
+                         double variance)
+{
+    double error = sqrt(variance / ((double)t->width * t->height));
+    double value = m->difference == 0 ? 0 : m->difference / error;
+
+    if (channel > 0 && fabs(value) <= fabs(t->t))
+        return;
+    t->channel = channel;
+    t->t = value;
+    t->difference = m->difference;
+    t->reference = m->reference;
+}
+
 /* Tests a tile. Noise of light is skewed: a tile that lacks the rare bright
  * samples is too dark and seems too calm, and its own variance would make
  * hundreds of times more false alarms than wanted. The variance is at least
@@ -82,24 +97,30 @@ static void test_tile(struct tile_test *test, const struct moments *all,
                       int col, int row)
 {
     struct tile *t = &test->tiles[row * test->cols + col];
-    double pixels = (double)t->width * t->height;
 
     for (int c = 0; c < 3; c++) {
         const struct moments *m = &all[3 * (row * test->cols + col) + c];
-        double variance =
-            fmax(m->variance, variance_around(test, all, col, row, c));
-        double error = sqrt(variance / pixels);
-        double value = m->difference == 0 ? 0 : m->difference / error;
+        double around = variance_around(test, all, col, row, c);
 
-        if (c == 0 || fabs(value) > fabs(t->t)) {
-            t->channel = c;
-            t->t = value;
-            t->difference = m->difference;
-            t->reference = m->reference;
-        }
+        test_channel(t, c, m, fmax(m->variance, around));
     }
     t->differs = fabs(t->t) > test->bound;
     test->differing += t->differs;
+}
+
+/* Tests the whole picture, which shows differences that are too small for a
+ * tile. */
+static void test_whole(struct tile_test *test, const struct picture_pair *p)
+{
+    struct tile *t = &test->whole;
+
+    *t = (struct tile){.width = p->width, .height = p->height};
+    for (int c = 0; c < 3; c++) {
+        struct moments m = moments_of(p, t, c);
+
+        test_channel(t, c, &m, m.variance);
+    }
+    t->differs = fabs(t->t) > test->bound;
 }
 
 static void place_tiles(struct tile_test *test, const struct picture_pair *p)
@@ -120,7 +141,7 @@ static void place_tiles(struct tile_test *test, const struct picture_pair *p)
 static double bound_of(const struct picture_pair *p,
                        const struct tile_test *test, double false_alarms)
 {
-    double tests = 3.0 * test->cols * test->rows;
+    double tests = 3.0 * (test->cols * test->rows + 1);
     double pixels =
         (double)(p->width / test->cols) * (double)(p->height / test->rows);
 
@@ -151,6 +172,7 @@ bool tile_test_init(struct tile_test *test, const struct picture_pair *p,
     for (int row = 0; row < test->rows; row++)
         for (int col = 0; col < test->cols; col++)
             test_tile(test, all, col, row);
+    test_whole(test, p);
     free(all);
     return true;
 }

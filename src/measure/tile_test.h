@@ -5,7 +5,7 @@
  * The pictures are divided into tiles. The mean difference of a tile and
  * channel over its standard error has Student's t distribution if the pictures
  * are the same but for noise that is independent between pixels. The bound is
- * for all tiles together (Bonferroni).
+ * for all tiles and the whole picture together (Bonferroni).
  *
  * Units:     pixels; linear radiance
  * Ownership: tile_test_free() frees
@@ -38,7 +38,8 @@ struct tile_test {
     int cols, rows;
     struct tile *tiles; /* row by row */
     double bound;
-    int differing; /* number of tiles that differ */
+    int differing;     /* number of tiles that differ */
+    struct tile whole; /* the whole picture, which is tested as well */
 };
 
 /* Divides the pictures into at most `side_max` tiles each way, of at least

@@ -22,7 +22,7 @@ const char sub_command_help[] =
     "                   1000000)\n"
     "  --csv FILE       write the curve as comma-separated values\n"
     "  --tiles N        most tiles each way, 1 to 256 (default: 16)\n"
-    "  --false-alarms P probability that any tile is marked although only\n"
+    "  --false-alarms P probability that anything is marked although only\n"
     "                   noise differs (default: 0.01)\n";
 
 static const char *const names[] = {

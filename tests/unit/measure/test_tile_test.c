@@ -51,7 +51,7 @@ static int differing(double false_alarms)
 
     assert_true(tile_test_init(&test, &pair, 16, false_alarms, &err));
     assert_int_equal(test.cols * test.rows, TILES * TILES);
-    count = test.differing;
+    count = test.differing + test.whole.differs;
     tile_test_free(&test);
     return count;
 }
@@ -121,6 +121,26 @@ static void one_per_cent_in_one_tile_is_found(void **state)
     check_at_most(100 - found, 25);
 }
 
+/* A shift of 0.4 % everywhere is 1.5 standard errors of a tile's mean and 6 of
+ * the picture's. */
+static void a_small_shift_of_the_mean_is_found(void **state)
+{
+    struct picture_pair pair = {SIDE, SIDE, pictures[0], pictures[1]};
+    struct tile_test test;
+    struct error err;
+    uint64_t random = 4;
+
+    (void)state;
+    fill(pictures[0], NOISE_NORMAL, 0.02, &random);
+    fill(pictures[1], NOISE_NORMAL, 0.02, &random);
+    for (int i = 2; i < VALUES; i += 3)
+        pictures[0][i] -= 0.004f;
+    assert_true(tile_test_init(&test, &pair, 16, 0.01, &err));
+    assert_true(test.whole.differs && test.whole.channel == 2);
+    check_close(test.whole.difference, -0.004, 0.0015);
+    tile_test_free(&test);
+}
+
 /* Without noise any difference counts, and none is none. */
 static void a_constant_shift_is_found(void **state)
 {
@@ -130,7 +150,7 @@ static void a_constant_shift_is_found(void **state)
     assert_int_equal(differing(0.01), 0);
     for (int i = 0; i < VALUES; i++)
         pictures[0][i] = 1.001f;
-    assert_int_equal(differing(0.01), TILES * TILES);
+    assert_int_equal(differing(0.01), TILES * TILES + 1);
 }
 
 /* Tiles cover every pixel once, whatever the size. */
@@ -167,6 +187,7 @@ int main(void)
         cmocka_unit_test(two_noisy_pictures_do_not_differ),
         cmocka_unit_test(skewed_noise_makes_no_more_alarms),
         cmocka_unit_test(one_per_cent_in_one_tile_is_found),
+        cmocka_unit_test(a_small_shift_of_the_mean_is_found),
         cmocka_unit_test(a_constant_shift_is_found),
         cmocka_unit_test(tiles_cover_the_picture),
     };
