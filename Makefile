@@ -58,12 +58,12 @@ FLAGS = $(CC) $(strip $(ALL_CFLAGS)) : $(strip $(ALL_LDFLAGS)) $(LIBS)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 # src/render/cpu_kernel.c is built for each instruction set and each set of
 # features. cpu_dispatch.c uses the first set that covers the scene: walls and
-# lamps, images on them, most materials, or all features.
+# lamps, images on them, most materials, all of light, or all features.
 ISAS := $(if $(X86_64),avx2 avx512)
 FLAGS_avx2 := -mavx2 -mfma -mbmi
 FLAGS_avx512 := $(FLAGS_avx2) -mavx512f -mavx512vl -mavx512dq -mavx512bw \
 	-mprefer-vector-width=256
-SETS := lamps images shiny
+SETS := lamps images shiny light
 FEATURES_lamps := FEATURE_EMITTERS
 FLAGS_lamps := -DFLATTEN
 FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE | \
@@ -71,6 +71,7 @@ FEATURES_images := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_COVERAGE | \
 FEATURES_shiny := $(FEATURES_lamps) | FEATURE_TEXTURES | FEATURE_SKY_IMAGE | \
 	FEATURE_METAL | FEATURE_GLASS | FEATURE_PLASTIC | FEATURE_ROUGH | \
 	FEATURE_GUIDE
+FEATURES_light := FEATURES_ALL & ~(FEATURE_AOV | FEATURE_FILTER)
 PATHS := $(patsubst %,$(B)/paths_%.o,$(ISAS) \
 	$(foreach isa,plain $(ISAS),$(SETS:%=$(isa)_%)))
 # src/filter/filter_loops.c is built for each instruction set.
