@@ -168,11 +168,15 @@ stress_keys() {
     done
 }
 
+stress_error() {
+    rows error
+}
+
 stress_extremes() {
     rows extremes
 }
 
-for name in samples geometry light extremes sizes keys rays oclgrind valgrind; do
+for name in samples geometry light error extremes sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi
