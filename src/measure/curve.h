@@ -48,9 +48,11 @@ struct series curve_relmse(const struct curve *curve);
 void curve_write_head(FILE *to);
 void curve_write_row(FILE *to, const struct curve_point *point);
 
-/* Fits the slope. The interval covers the distances of the points from the
- * line, which have the noise of the times, and the noise of the errors: groups
- * of pixels are left out in turn (jackknife). The larger of the two counts. */
+/* Fits the slope. Its interval is the larger of two: from the points' distances
+ * from the line, which have the noise of the times, and from leaving out groups
+ * of pixels in turn (jackknife), which has the noise of the errors. Errors
+ * share half of their samples with the point before, so the distances alone do
+ * not show it. */
 struct series_fit curve_fit(const struct curve *curve, bool is_relative);
 
 /* Write the slopes with their intervals. */

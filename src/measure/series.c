@@ -5,38 +5,21 @@
 
 #include "measure/student_t.h"
 
-/* Correlation of the errors of neighbouring points. The mean of 2N samples is
- * the mean of two halves, one of which is the previous point. The correlation
- * of squared means is 1/2 for normal errors and grows to the root of 1/2 for
- * rare bright samples, as which renders have them. */
-#define NEIGHBOURS 0.70710678118654752
-
 /* Sums of least squares over the points. */
 struct sums {
-    double cc, cx, xx, cy, xy, yy;
+    double x, xx, y, xy, yy;
 };
 
-/* Adds the difference of each point from its prediction by the one before it.
- * These differences are not correlated. */
 static struct sums sums_of(const struct series *s)
 {
     struct sums sum = {0};
-    double first = sqrt(1 - NEIGHBOURS * NEIGHBOURS);
 
     for (int i = 0; i < s->count; i++) {
-        double part = i == 0 ? 0 : NEIGHBOURS;
-        double scale = i == 0 ? first : 1;
-        double c = scale * (1 - part);
-        double x = scale * log(s->x[i]), y = scale * log(s->y[i]) / 2;
+        double x = log(s->x[i]), y = log(s->y[i]) / 2;
 
-        if (i > 0) {
-            x -= part * log(s->x[i - 1]);
-            y -= part * log(s->y[i - 1]) / 2;
-        }
-        sum.cc += c * c;
-        sum.cx += c * x;
+        sum.x += x;
         sum.xx += x * x;
-        sum.cy += c * y;
+        sum.y += y;
         sum.xy += x * y;
         sum.yy += y * y;
     }
@@ -47,18 +30,18 @@ struct series_fit series_fit(const struct series *s)
 {
     struct series_fit fit = {NAN, NAN, NAN};
     struct sums m = sums_of(s);
-    double determinant = m.cc * m.xx - m.cx * m.cx;
+    double n = s->count, determinant = n * m.xx - m.x * m.x;
     double offset, rest, margin;
 
     if (s->count < 2)
         return fit;
-    fit.slope = (m.cc * m.xy - m.cx * m.cy) / determinant;
+    fit.slope = (n * m.xy - m.x * m.y) / determinant;
     if (s->count < 3)
         return fit;
-    offset = (m.xx * m.cy - m.cx * m.xy) / determinant;
-    rest = fmax(m.yy - offset * m.cy - fit.slope * m.xy, 0);
-    margin = student_t_bound(0.05, s->count - 2) *
-             sqrt(rest / (s->count - 2) * m.cc / determinant);
+    offset = (m.xx * m.y - m.x * m.xy) / determinant;
+    rest = fmax(m.yy - offset * m.y - fit.slope * m.xy, 0);
+    margin =
+        student_t_bound(0.05, n - 2) * sqrt(rest / (n - 2) * n / determinant);
     fit.low = fit.slope - margin;
     fit.high = fit.slope + margin;
     return fit;

@@ -26,10 +26,9 @@ struct series_fit {
     double slope, low, high;
 };
 
-/* Fits the logarithm of the root of the error over that of seconds; -0.5 for
- * independent samples. Point i must have twice the samples of point i - 1, of
- * which it shares one half. The interval follows from the points' distances
- * from the line. */
+/* Fits the logarithm of the root of the error over that of seconds by least
+ * squares; -0.5 for independent samples. The interval follows from the points'
+ * distances from the line, as if they were independent. */
 struct series_fit series_fit(const struct series *s);
 
 /* Returns a guide of slope -0.5 through the points' centre of gravity. The

@@ -56,10 +56,11 @@ static void other_files_are_no_error(void **state)
                                         "{\"relmse\": \"x\", \"mse\": 1}",
                                         "{\"relmse\": nan, \"mse\": 1}",
                                         "{\"relmse\": -1, \"mse\": 1}",
-                                        "{\"relmse\":"};
+                                        "{\"relmse\":",
+                                        "{\"relmse\": 1, \"mse\": -1}"};
 
     (void)state;
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 8; i++) {
         put("d.json", texts[i]);
         assert_false(reference_info_read("d.pfm").is_known);
     }
