@@ -216,7 +216,7 @@ static double true_error(const struct series *of, enum moment moment, int k)
 
 /* Renders of a series at one moment. */
 struct coverage {
-    int resolved, inside;        /* resolved ones, and of those */
+    int resolved, inside, above; /* resolved ones, and of those */
     int unresolved, lost_inside; /* the others */
     int stopped, below;          /* at the target, and truly so */
     double stated, width, truth; /* means */
@@ -237,6 +237,7 @@ static void count(struct coverage *c, const struct picture *p, double truth,
     if (p->stated.is_resolved) {
         c->resolved++;
         c->inside += is_inside;
+        c->above += truth > p->stated.high;
     } else {
         c->unresolved++;
         c->lost_inside += is_inside;
@@ -261,11 +262,11 @@ static void print_coverage(const char *name, const char *moment,
         snprintf(apart, sizeof apart, "; %d unresolved, %d of them inside",
                  c->unresolved, c->lost_inside);
     row(is_calibrated(c), name,
-        "%s: %d of %d inside (%.1f %%), want 92 to 98 %%; error %.3f %%, true "
-        "%.3f %%, interval of %.3f %%, at %.1f spp%s",
-        moment, c->inside, c->resolved,
-        c->resolved > 0 ? 100.0 * c->inside / c->resolved : 0, 100 * c->stated,
-        100 * c->truth, 100 * c->width, c->spp, apart);
+        "%s at %.1f spp: %d of %d inside (%.1f %%, want 92 to 98), %d above; "
+        "error %.2f %% +- %.2f, true %.2f %%%s",
+        moment, c->spp, c->inside, c->resolved,
+        c->resolved > 0 ? 100.0 * c->inside / c->resolved : 0, c->above,
+        100 * c->stated, 50 * c->width, 100 * c->truth, apart);
 }
 
 static void judge(const char *name, const struct series *of)
