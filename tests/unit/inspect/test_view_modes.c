@@ -14,6 +14,8 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "picture/film_error.h"
+#include "inspect/error_map.h"
 #include "inspect/view_modes.h"
 #include "tests/unit/files.h"
 
@@ -121,6 +123,59 @@ static void depths_are_distances_along_the_ray(void **state)
     session_close(&s);
 }
 
+static void render(struct session *s, uint64_t spp)
+{
+    struct error err;
+
+    check_or_say(session_restart(s, (struct render_limits){.spp = spp}, &err),
+                 err.text);
+    assert_true(render_wait(s->render, 60000));
+}
+
+/* Errors are those of film_error.h, in the colours of --error-map. With one
+ * sample they are unknown, and light is shown. Both films have the same
+ * numbers of samples when the view looks at them, but not the same samples. */
+static void errors_are_those_of_the_film(void **state)
+{
+    static float map[WIDTH * HEIGHT];
+    char path[PATH_MAX + 32];
+    struct view_mode light, show;
+    struct frame expected, f;
+    struct session s;
+    struct error err;
+
+    (void)state;
+    snprintf(path, sizeof path, "%s/scenes/cornell.obj", root);
+    open_scene(&s, path);
+    view_mode_init(&light, &s);
+    view_mode_init(&show, &s);
+    assert_true(frame_init(&expected, WIDTH, HEIGHT, &err));
+    assert_true(frame_init(&f, WIDTH, HEIGHT, &err));
+    assert_true(view_mode_set(&show, SHOW_ERROR, &err));
+    render(&s, 1);
+    view_mode_preview(&light, render_film(s.render), NULL, &expected);
+    view_mode_preview(&show, render_film(s.render), NULL, &f);
+    assert_memory_equal(f.rgb, expected.rgb, 3 * WIDTH * HEIGHT);
+    assert_string_equal(show.legend,
+                        "ERROR  unknown until each pixel has two samples");
+    for (int i = 0; i < 2; i++) {
+        options.seed = (uint32_t)i;
+        render(&s, 8);
+        view_mode_preview(&show, render_film(s.render), NULL, &f);
+        assert_true(film_error_map(render_film(s.render),
+                                   session_develop(&s).exposure, map));
+        for (int k = 0; k < WIDTH * HEIGHT; k++)
+            frame_dot(&expected, k % WIDTH, k / WIDTH, error_map_color(map[k]));
+        assert_memory_equal(f.rgb, expected.rgb, 3 * WIDTH * HEIGHT);
+        assert_non_null(strstr(show.legend, "white 100 %; noise "));
+    }
+    frame_free(&f);
+    frame_free(&expected);
+    view_mode_free(&show);
+    view_mode_free(&light);
+    session_close(&s);
+}
+
 static int enter(void **state)
 {
     return getcwd(root, sizeof root) != NULL ? enter_folder(state) : -1;
@@ -131,6 +186,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_show_what_the_screen_shows),
         cmocka_unit_test(depths_are_distances_along_the_ray),
+        cmocka_unit_test(errors_are_those_of_the_film),
     };
 
     return cmocka_run_group_tests(tests, enter, remove_folder);
