@@ -90,10 +90,20 @@ static double mean_of(const struct replicates *r, size_t i)
     return sum / r->count;
 }
 
-/* Replaces a value by its mean and adds its variances. Errors are divided by
- * w = mean^2 + DARK, whose own noise makes the quotient of the squared error
- * larger than that of the variance v: by v^2 (1 / w)'', the next term of the
- * series. */
+/* Returns the mean of the squared error of x over w = x^2 + DARK, if x has this
+ * mean and the variance v, whose square is given. The noise of w changes the
+ * quotient by v^2 (1 / w)'', the next term of the series. It is limited, since
+ * the series needs small errors. */
+static double relative_error(double mean, double variance, double square)
+{
+    double w = mean * mean + DARK;
+    double error = variance / w, limit = error / 2;
+    double more = square * (6 * mean * mean - 2 * DARK) / (w * w * w);
+
+    return error + fmin(fmax(more, -limit), limit);
+}
+
+/* Replaces a value by its mean and adds its variances. */
 static void add_value(struct replicates *r, size_t i, struct mean_error *e,
                       struct variances *relative)
 {
@@ -106,8 +116,7 @@ static void add_value(struct replicates *r, size_t i, struct mean_error *e,
 
     e->mean += mean;
     e->mse += all;
-    relative->all +=
-        all / w + first * second * (6 * mean * mean - 2 * DARK) / (w * w * w);
+    relative->all += relative_error(mean, all, first * second);
     relative->halves[0] += first / w;
     relative->halves[1] += second / w;
     r->rgb[0][i] = (float)mean;

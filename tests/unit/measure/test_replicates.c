@@ -62,6 +62,25 @@ static void four_pixels_by_hand(void **state)
     replicates_free(&r);
 }
 
+/* Noise that is far above the radiance leaves an error and an interval. */
+static void dark_pictures_have_an_error(void **state)
+{
+    struct replicates r;
+    struct mean_error e;
+    struct error err;
+
+    (void)state;
+    assert_true(replicates_init(&r, 1, 1, 4, &err));
+    for (int i = 0; i < 4; i++)
+        for (int c = 0; c < 3; c++)
+            r.rgb[i][c] = i % 2 == 0 ? 0.5f : -0.5f;
+    r.count = 4;
+    replicates_mean(&r, &e);
+    assert_true(e.relmse > 0 && e.relmse_low > 0);
+    assert_true(e.relmse_low < e.relmse && e.relmse < e.relmse_high);
+    replicates_free(&r);
+}
+
 static void equal_pictures_have_no_error(void **state)
 {
     struct replicates r;
@@ -147,6 +166,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(four_pixels_by_hand),
+        cmocka_unit_test(dark_pictures_have_an_error),
         cmocka_unit_test(equal_pictures_have_no_error),
         cmocka_unit_test(interval_contains_the_true_error),
         cmocka_unit_test(pictures_beyond_the_memory_are_refused),
