@@ -131,9 +131,9 @@ static void format_spp(char text[48], const struct glim_progress *p)
         snprintf(text, 48, "%" PRIu64 " spp", p->spp);
 }
 
-/* Formats the line for `cols` columns, without the speed if there is no room.
- * Samples per second are those of the tracing alone, from which the time left
- * follows. */
+/* Formats the line for `cols` columns, without the speed or also without the
+ * noise if there is no room. Samples per second are those of the tracing alone,
+ * from which the time left follows. */
 static void format_bar(char *text, size_t size_bytes, int cols,
                        const struct glim_progress *p)
 {
@@ -152,12 +152,13 @@ static void format_bar(char *text, size_t size_bytes, int cols,
     format_spp(spp, p);
     error_text_noise(noise, &error);
     snprintf(speed, sizeof speed, ", %.2f Msamples/s", rate * 1e-6);
-    for (int has_speed = 1; has_speed >= 0; has_speed--) {
+    for (int left_out = 0; left_out < 3; left_out++) {
         int length =
             snprintf(text, size_bytes,
-                     "%3d %% [%.*s%.*s] %s%s, %s, left %s, %s",
+                     "%3d %% [%.*s%.*s] %s%s, %s, left %s%s%s",
                      (int)(p->part_done * 100.0), filled, full, 20 - filled,
-                     empty, spp, has_speed ? speed : "", elapsed, left, noise);
+                     empty, spp, left_out < 1 ? speed : "", elapsed, left,
+                     left_out < 2 ? ", " : "", left_out < 2 ? noise : "");
 
         if (length <= cols)
             break;
