@@ -9,7 +9,6 @@ __kernel void clear_buffers(ulong pixel_count, __global struct sum *sums,
                             __global struct surface_sums *surfaces,
                             __global ulong *counts)
 {
-    const struct surface_sums none = {{{0}}};
     ulong pixel = get_global_id(0);
 
     if (pixel >= pixel_count)
@@ -20,5 +19,5 @@ __kernel void clear_buffers(ulong pixel_count, __global struct sum *sums,
     }
     counts[pixel] = 0;
     if (surfaces != 0)
-        surfaces[pixel] = none;
+        surface_clear(&surfaces[pixel]);
 }

@@ -36,6 +36,19 @@ struct surface_sums {
     uint32_t pad;
 };
 
+static inline void surface_clear(GLOBAL struct surface_sums *sums)
+{
+    const struct sum zero = {0, 0};
+
+    for (uint32_t c = 0; c < 3; c++) {
+        sums->direct[c] = sums->odd_direct[c] = zero;
+        sums->seen[c] = sums->odd_seen[c] = zero;
+        sums->albedo[c] = sums->normal[c] = 0;
+    }
+    sums->depth = sums->depth_square = zero;
+    sums->albedo_square = sums->count = sums->hit_count = sums->pad = 0;
+}
+
 /* Returns the number of 16 bits for x in [0, 1]. */
 static inline uint32_t surface_number(float x)
 {

@@ -154,7 +154,7 @@ void film_add_row(struct film *f, int x, int y, int stride, int pixel_count,
             memset(sums, 0, 3 * sizeof *sums);
             memset(odd_sums, 0, 3 * sizeof *odd_sums);
             if (f->surfaces != NULL)
-                f->surfaces[at] = (struct surface_sums){.count = 0};
+                surface_clear(&f->surfaces[at]);
         }
         for (int s = 0; s < counts[i] && f->surfaces != NULL; s++)
             surface_add(&f->surfaces[at], f->counts[at] + (uint64_t)s,
