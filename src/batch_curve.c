@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/print.h"
@@ -31,6 +32,7 @@ struct measurement {
     struct reference_info own;
     float *rgb;
     struct curve curve;
+    uint64_t cpu_ns; /* processor time of the render so far */
     struct batch_bar bar;
 };
 
@@ -107,12 +109,14 @@ static bool render(struct measurement *m, uint64_t spp, bool *is_complete,
     double left_s = limit_s - glim_get_progress(m->g).seconds;
     struct glim_error why;
     enum glim_result result;
+    uint64_t begin_ns = clock_cpu_ns();
 
     *is_complete = false;
     if (m->o->time_ns > 0 && left_s <= 0)
         return true;
     result = glim_render(m->g, spp, m->o->time_ns > 0 ? left_s : 0,
                          m->bar.is_wanted ? on_progress : NULL, &m->bar, &why);
+    m->cpu_ns += clock_cpu_ns() - begin_ns;
     batch_bar_erase(&m->bar);
     if (result == GLIM_FAILED)
         return batch_fail_as(err, &why);
@@ -128,6 +132,7 @@ static bool warm_up(struct measurement *m, bool *is_complete, struct error *err)
     if (!render(m, 1, is_complete, err))
         return false;
     glim_set_seed(m->g, m->o->seed);
+    m->cpu_ns = 0;
     return true;
 }
 
@@ -149,7 +154,8 @@ static bool add_point(struct measurement *m, struct error *err)
 
     if (!glim_read_floats(m->g, m->rgb, count, &why))
         return batch_fail_as(err, &why);
-    curve_add(&m->curve, p.spp, p.seconds - p.build_seconds, &pair, &m->own);
+    curve_add(&m->curve, p.spp, p.seconds - p.build_seconds,
+              seconds_between(0, m->cpu_ns), &pair, &m->own);
     curve_write_row(stdout, &m->curve.points[m->curve.count - 1]);
     return flush(err);
 }
@@ -186,7 +192,8 @@ static bool measure(struct measurement *m, struct error *err)
 /* Draws the diagram in characters, and to the file of -o. */
 static bool draw(const struct measurement *m, struct error *err)
 {
-    struct series series[2] = {curve_relmse(&m->curve)};
+    struct series series[2] = {
+        curve_series(&m->curve, (struct curve_axes){.is_relative = true})};
     struct chart chart = {path_name(m->o->scene_path), "seconds",
                           "relative MSE", series, 2};
     bool ignored;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /*
- * clock.h - monotonic time, for measuring
+ * clock.h - monotonic time and processor time, for measuring
  *
  * Units:     nanoseconds
  * Threads:   any
@@ -13,7 +13,11 @@
 /* Reads the monotonic clock. */
 uint64_t clock_ns(void);
 
-/* Seconds between two readings of clock_ns(). */
+/* Reads the processor time of the process, of all threads together, which other
+ * programs hardly disturb. */
+uint64_t clock_cpu_ns(void);
+
+/* Seconds between two readings of the same clock. */
 double seconds_between(uint64_t begin_ns, uint64_t end_ns);
 
 #endif

@@ -14,7 +14,7 @@
 #define DROWNED_SHARE 0.5
 
 void curve_add(struct curve *c, uint64_t spp, double seconds,
-               const struct picture_pair *pair,
+               double cpu_seconds, const struct picture_pair *pair,
                const struct reference_info *own)
 {
     struct picture_error e = picture_error_of(pair);
@@ -25,6 +25,7 @@ void curve_add(struct curve *c, uint64_t spp, double seconds,
     *p = (struct curve_point){
         .spp = spp,
         .seconds = seconds,
+        .cpu_seconds = cpu_seconds,
         .mse = fmax(picture_error_without(e.mse, own->mse), 0),
         .relmse = fmax(picture_error_without(e.relmse, own->relmse), 0),
         .bias = e.bias,
@@ -48,47 +49,37 @@ double curve_efficiency(const struct curve_point *p)
 /* True if the point is part of the slope and the diagram. */
 static bool is_shown(const struct curve_point *p)
 {
-    return !p->is_drowned && p->mse > 0 && p->relmse > 0 && p->seconds > 0;
+    return !p->is_drowned && p->mse > 0 && p->relmse > 0 && p->seconds > 0 &&
+           p->cpu_seconds > 0;
 }
 
-static struct series series_of(const struct curve *c, const char *name,
-                               bool is_relative)
+struct series curve_series(const struct curve *c, struct curve_axes axes)
 {
-    struct series s = {.name = name};
+    struct series s = {.name = axes.is_relative ? "relative MSE" : "MSE"};
 
     for (int i = 0; i < c->count; i++) {
         const struct curve_point *p = &c->points[i];
 
         if (!is_shown(p))
             continue;
-        s.x[s.count] = p->seconds;
-        s.y[s.count++] = is_relative ? p->relmse : p->mse;
+        s.x[s.count] = axes.is_cpu ? p->cpu_seconds : p->seconds;
+        s.y[s.count++] = axes.is_relative ? p->relmse : p->mse;
     }
     return s;
 }
 
-struct series curve_mse(const struct curve *c)
-{
-    return series_of(c, "MSE", false);
-}
-
-struct series curve_relmse(const struct curve *c)
-{
-    return series_of(c, "relative MSE", true);
-}
-
 void curve_write_head(FILE *to)
 {
-    print_line(to, "%10s %9s %10s %10s %9s %10s %10s", "spp", "seconds", "RMSE",
-               "relMSE", "bias", "99.9 %", "efficiency");
+    print_line(to, "%10s %9s %9s %9s %9s %9s %9s %10s", "spp", "seconds",
+               "cpu s", "RMSE", "relMSE", "bias", "99.9 %", "efficiency");
 }
 
 void curve_write_row(FILE *to, const struct curve_point *p)
 {
     print_line(to,
-               "%10" PRIu64 " %9.4g %10.4g %10.4g %+7.2f %% %10.4g %10.4g%s",
-               p->spp, p->seconds, sqrt(p->mse), p->relmse, 100 * p->bias,
-               p->percentile, curve_efficiency(p),
+               "%10" PRIu64 " %9.4g %9.4g %9.4g %9.4g %+7.2f %% %9.4g %10.4g%s",
+               p->spp, p->seconds, p->cpu_seconds, sqrt(p->mse), p->relmse,
+               100 * p->bias, p->percentile, curve_efficiency(p),
                p->is_drowned ? " (reference too noisy)" : "");
 }
 
@@ -103,32 +94,29 @@ static double mean_without(const double groups[PIXEL_GROUPS], int left_out)
 }
 
 /* Returns the slope without one group of pixels. */
-static double slope_without(const struct curve *c, bool is_relative,
+static double slope_without(const struct curve *c, struct curve_axes axes,
                             int left_out)
 {
-    struct series s = {.count = 0};
+    struct series s = curve_series(c, axes);
 
-    for (int i = 0; i < c->count; i++) {
-        const struct curve_point *p = &c->points[i];
+    for (int i = 0, k = 0; i < c->count; i++) {
+        const struct group_errors *g = &c->points[i].groups;
 
-        if (!is_shown(p))
-            continue;
-        s.x[s.count] = p->seconds;
-        s.y[s.count++] =
-            mean_without(is_relative ? p->groups.relmse : p->groups.mse,
-                         left_out);
+        if (is_shown(&c->points[i]))
+            s.y[k++] =
+                mean_without(axes.is_relative ? g->relmse : g->mse, left_out);
     }
     return series_fit(&s).slope;
 }
 
-struct series_fit curve_fit(const struct curve *c, bool is_relative)
+struct series_fit curve_fit(const struct curve *c, struct curve_axes axes)
 {
-    struct series s = is_relative ? curve_relmse(c) : curve_mse(c);
+    struct series s = curve_series(c, axes);
     struct series_fit fit = series_fit(&s);
     double slopes[PIXEL_GROUPS], mean = 0, squares = 0, margin;
 
     for (int i = 0; i < PIXEL_GROUPS; i++) {
-        slopes[i] = slope_without(c, is_relative, i);
+        slopes[i] = slope_without(c, axes, i);
         mean += slopes[i] / PIXEL_GROUPS;
     }
     for (int i = 0; i < PIXEL_GROUPS; i++)
@@ -143,9 +131,9 @@ struct series_fit curve_fit(const struct curve *c, bool is_relative)
 }
 
 static void write_slope(FILE *to, const char *label, const struct curve *c,
-                        bool is_relative)
+                        struct curve_axes axes)
 {
-    struct series_fit fit = curve_fit(c, is_relative);
+    struct series_fit fit = curve_fit(c, axes);
 
     if (isnan(fit.slope))
         print_line(to, "%s: unknown, too few points", label);
@@ -158,21 +146,32 @@ static void write_slope(FILE *to, const char *label, const struct curve *c,
 
 void curve_write_slopes(FILE *to, const struct curve *c)
 {
-    write_slope(to, "slope of log RMSE over log seconds", c, false);
-    write_slope(to, "slope of log root relMSE", c, true);
+    static const struct {
+        const char *label;
+        struct curve_axes axes;
+    } slopes[] = {
+        {"slope of log RMSE over log seconds", {false, false}},
+        {"slope of log RMSE over log cpu seconds", {false, true}},
+        {"slope of log root relMSE over log seconds", {true, false}},
+        {"slope of log root relMSE over log cpu seconds", {true, true}},
+    };
+
+    for (int i = 0; i < 4; i++)
+        write_slope(to, slopes[i].label, c, slopes[i].axes);
 }
 
 char *curve_csv(const struct curve *c)
 {
-    char *text = format_text("spp,seconds,rmse,relmse,bias,percentile_999,"
-                             "efficiency\n");
+    char *text =
+        format_text("spp,seconds,cpu_seconds,rmse,relmse,bias,percentile_999,"
+                    "efficiency\n");
 
     for (int i = 0; text != NULL && i < c->count; i++) {
         const struct curve_point *p = &c->points[i];
         char *longer =
-            format_text("%s%" PRIu64 ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", text,
-                        p->spp, p->seconds, sqrt(p->mse), p->relmse, p->bias,
-                        p->percentile, curve_efficiency(p));
+            format_text("%s%" PRIu64 ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n",
+                        text, p->spp, p->seconds, p->cpu_seconds, sqrt(p->mse),
+                        p->relmse, p->bias, p->percentile, curve_efficiency(p));
 
         free(text);
         text = longer;

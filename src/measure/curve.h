@@ -9,6 +9,7 @@
 #ifndef GLIM_CURVE_H
 #define GLIM_CURVE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -20,6 +21,8 @@
 struct curve_point {
     uint64_t spp;
     double seconds;
+    double cpu_seconds; /* processor time of all threads; other programs hardly
+                           disturb it */
     double mse, relmse;
     double bias, percentile;
     struct group_errors groups;
@@ -33,16 +36,20 @@ struct curve {
 
 /* Adds a measurement, unless the curve is full. */
 void curve_add(struct curve *curve, uint64_t spp, double seconds,
-               const struct picture_pair *pair,
+               double cpu_seconds, const struct picture_pair *pair,
                const struct reference_info *own);
 
 /* Returns 1 / (relMSE x seconds). */
 double curve_efficiency(const struct curve_point *point);
 
-/* Return the points that are not drowned as MSE or relative MSE over
- * seconds. */
-struct series curve_mse(const struct curve *curve);
-struct series curve_relmse(const struct curve *curve);
+/* Measures of error and time of a curve. */
+struct curve_axes {
+    bool is_relative; /* relMSE, else MSE */
+    bool is_cpu;      /* processor time */
+};
+
+/* Returns the points that are not drowned. */
+struct series curve_series(const struct curve *curve, struct curve_axes axes);
 
 /* Write the head of the table, and the row of a point. */
 void curve_write_head(FILE *to);
@@ -53,7 +60,7 @@ void curve_write_row(FILE *to, const struct curve_point *point);
  * of pixels in turn (jackknife), which has the noise of the errors. Errors
  * share half of their samples with the point before, so the distances alone do
  * not show it. */
-struct series_fit curve_fit(const struct curve *curve, bool is_relative);
+struct series_fit curve_fit(const struct curve *curve, struct curve_axes axes);
 
 /* Write the slopes with their intervals. */
 void curve_write_slopes(FILE *to, const struct curve *curve);

@@ -17,7 +17,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -154,15 +153,6 @@ static bool matters(const struct technique *t, const struct settings *s)
     return true;
 }
 
-/* Returns processor time, which other programs hardly disturb. */
-static double cpu_seconds(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
-
 static bool start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
@@ -187,7 +177,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
     if (!start(s->render, &job, err)) /* builds the tree, loads the code */
         return false;
     for (int i = 0; i < POINTS; i++) {
-        double begin = cpu_seconds();
+        uint64_t begin_ns = clock_cpu_ns();
 
         if (i > 0) {
             render_resume(s->render, (struct render_limits){.spp = 1ull << i});
@@ -195,7 +185,7 @@ static bool measure_world(struct measurement *m, struct curve *c, int round,
         } else if (!start(s->render, &job, err)) {
             return false;
         }
-        seconds += cpu_seconds() - begin;
+        seconds += seconds_between(begin_ns, clock_cpu_ns());
         c->seconds[i][round] = seconds / m->bench->threads;
         film_linear(render_film(s->render), m->rgb);
         error = reference_error(&m->reference, m->rgb);

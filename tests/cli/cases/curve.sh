@@ -21,7 +21,7 @@ cut -d, -f1 curve.csv
 # the same render gives the same error
 glim -b -w 32 -h 32 -s 8 -o eight.pfm box.obj 2>/dev/null
 glim compare eight.pfm ref.pfm | sed -n 's/RMSE *//p' >one
-awk '$1 == 8 { print $3 }' text >two
+awk '$1 == 8 { print $4 }' text >two
 same one two
 # one sample: no slope, no diagram
 run curve -s 1 ref.pfm box.obj | without_times

@@ -47,7 +47,7 @@ static void render(struct curve *curve, double spread, uint64_t *random)
                 sums[k] += noise(spread, random);
         for (int k = 0; k < VALUES; k++)
             picture[k] = (float)(sums[k / 3] / n);
-        curve_add(curve, (uint64_t)n, 0.01 * n, &pair, &own);
+        curve_add(curve, (uint64_t)n, 0.01 * n, 0.02 * n, &pair, &own);
     }
 }
 
@@ -67,7 +67,7 @@ static void interval_contains_the_truth(void **state)
             struct series_fit fit;
 
             render(&curve, spreads[k], &random);
-            fit = curve_fit(&curve, false);
+            fit = curve_fit(&curve, (struct curve_axes){false, false});
             inside += fit.low <= -0.5 && -0.5 <= fit.high;
             /* the interval says something */
             check_at_most(fit.high - fit.low, 0.4);
@@ -85,34 +85,39 @@ static void own_error_is_subtracted(void **state)
     (void)state;
     for (int k = 0; k < VALUES; k++)
         picture[k] = 0.5f; /* MSE 0.25, relMSE 25 */
-    curve_add(&curve, 4, 2, &pair, &own);
+    curve_add(&curve, 4, 2, 3, &pair, &own);
     check_close(curve.points[0].mse, 0.15, 1e-9);
     check_close(curve.points[0].relmse, 25, 1e-9); /* 1 is 4 % of it */
     check_close(curve_efficiency(&curve.points[0]), 1.0 / 50, 1e-9);
     assert_false(curve.points[0].is_drowned);
     for (int k = 0; k < VALUES; k++)
         picture[k] = 0.4f; /* MSE 0.16, of which 0.1 is the reference's */
-    curve_add(&curve, 8, 4, &pair, &own);
+    curve_add(&curve, 8, 4, 6, &pair, &own);
     assert_true(curve.points[1].is_drowned);
-    assert_int_equal(curve_mse(&curve).count, 1);
+    assert_int_equal(
+        curve_series(&curve, (struct curve_axes){false, false}).count, 1);
 }
 
 static void table_has_a_line_for_each_point(void **state)
 {
     static struct curve curve;
     struct reference_info own = {0};
+    struct curve_axes axes = {.is_relative = true};
     char *csv;
 
     (void)state;
     for (int k = 0; k < VALUES; k++)
         picture[k] = 0.5f;
-    curve_add(&curve, 1, 0.5, &pair, &own);
-    curve_add(&curve, 2, 1, &pair, &own);
+    curve_add(&curve, 1, 0.5, 0.75, &pair, &own);
+    curve_add(&curve, 2, 1, 2, &pair, &own);
+    axes.is_cpu = true;
+    check_close(curve_series(&curve, axes).x[1], 2, 0);
     csv = curve_csv(&curve);
-    assert_string_equal(csv, "spp,seconds,rmse,relmse,bias,percentile_999,"
-                             "efficiency\n"
-                             "1,0.5,0.5,25,inf,0.5,0.08\n"
-                             "2,1,0.5,25,inf,0.5,0.04\n");
+    assert_string_equal(
+        csv, "spp,seconds,cpu_seconds,rmse,relmse,bias,percentile_999,"
+             "efficiency\n"
+             "1,0.5,0.75,0.5,25,inf,0.5,0.08\n"
+             "2,1,2,0.5,25,inf,0.5,0.04\n");
     free(csv);
 }
 
