@@ -336,8 +336,8 @@ bench-cycles: $(B)/glim
 		ROUNDS)),3,$(ROUNDS)) tests/bench/cycles/run.sh
 
 ## stress: runs checks at numerical limits, and others that take minutes;
-##         FILTER=NAME selects one: samples geometry light extremes sizes
-##         keys rays oclgrind valgrind
+##         FILTER=NAME selects one: samples geometry light error filter
+##         extremes sizes keys rays oclgrind valgrind
 stress: $(B)/glim $(STRESSES) $(B)/unit/terminal/test_tty
 	@BUILD=$(B) FILTER='$(FILTER)' tests/stress/run.sh
 

@@ -172,11 +172,15 @@ stress_error() {
     rows error
 }
 
+stress_filter() {
+    rows filter
+}
+
 stress_extremes() {
     rows extremes
 }
 
-for name in samples geometry light error extremes sizes keys rays oclgrind valgrind; do
+for name in samples geometry light error filter extremes sizes keys rays oclgrind valgrind; do
     if wanted "$name"; then
         "stress_$name"
     fi
