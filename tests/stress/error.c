@@ -271,8 +271,7 @@ static void print_coverage(const char *name, const char *moment,
 
 static void judge(const char *name, const struct series *of)
 {
-    static const char *const moments[MOMENTS] = {"first", "last",
-                                                 "at the stop"};
+    static const char *const moments[MOMENTS] = {"first", "last", "stopped"};
 
     for (int m = 0; m < MOMENTS; m++) {
         struct coverage c = {0};
