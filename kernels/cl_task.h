@@ -23,6 +23,8 @@ struct task {
     uint32_t width;   /* width of the film */
     uint32_t x0;      /* the film's corner in the picture */
     uint32_t y0;
+    uint32_t has_targets; /* 1: pixels have targets of their own */
+    uint32_t pad;
 };
 
 /* Coordinates and index in the film of the task's point i. */

@@ -4,21 +4,26 @@
  */
 #include "kernels/camera_sample.h"
 #include "kernels/cl_task.h"
+#include "kernels/targets.h"
 
 __kernel void generate_rays(struct task task,
                             volatile __global const uint *cancel,
                             __global const struct settings *settings,
                             __global const ulong *counts,
+                            __global const uint *targets,
                             __global struct camera_sample *starts)
 {
     uint i = (uint)get_global_id(0);
     uint point = i / task.samples;
-    ulong index;
+    ulong index, target = task.target;
 
     if (point >= task.count || *cancel != 0)
         return;
     index = counts[task_pixel(task, point)] + i % task.samples;
-    if (index < task.target) {
+    if (task.has_targets != 0)
+        target = targets[target_index(task_x(task, point), task_y(task, point),
+                                      task.width)];
+    if (index < target) {
         struct settings s = *settings;
 
         starts[i] = camera_sample_begin(&s, task.x0 + task_x(task, point),

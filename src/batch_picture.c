@@ -38,6 +38,7 @@ static bool render(struct glim *g, const struct options *o, bool has_device,
 
     if (!glim_set_error_limit(g, limits.error, &why))
         return batch_fail_as(err, &why);
+    glim_set_adaptive(g, options_adaptive(o));
     result = glim_render(g, limits.spp, seconds_between(0, limits.time_ns),
                          bar.is_wanted ? on_progress : NULL, &bar, &why);
 

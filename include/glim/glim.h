@@ -205,6 +205,10 @@ typedef bool glim_progress_fn(void *context, const struct glim_progress *p);
 GLIM_API bool glim_set_error_limit(struct glim *g, double error,
                                    struct glim_error *err);
 
+/* Sets whether pixels with more error get more samples: then `spp` is the mean
+ * over the pixels. Off by default. A change begins a new picture. */
+GLIM_API void glim_set_adaptive(struct glim *g, bool is_adaptive);
+
 /* Renders until every pixel has `spp` samples, `seconds` have passed, or the
  * upper end of the error is at its limit; 0 is no limit. Blocks until then.
  * Continues the previous picture if no setting has changed since. `progress`

@@ -193,6 +193,12 @@ bool glim_set_error_limit(struct glim *g, double error, struct glim_error *err)
     return true;
 }
 
+void glim_set_adaptive(struct glim *g, bool is_adaptive)
+{
+    g->has_picture = g->has_picture && g->is_adaptive == is_adaptive;
+    g->is_adaptive = is_adaptive;
+}
+
 /* Limits of one call of glim_render(); 0 is none. */
 struct glim_call {
     uint64_t spp;
@@ -244,6 +250,7 @@ static bool begin(struct glim *g, const struct glim_call *call,
     if (g->device != NULL) /* the device has its own tree */
         world_drop_tree(&g->world);
     job.limits = limits_of(call, 0);
+    job.is_adaptive = g->is_adaptive;
     g->has_picture = render_start(g->render, &job, err);
     return g->has_picture;
 }

@@ -37,7 +37,8 @@ struct glim {
     char *saved_name;      /* result of glim_save_new() */
     bool has_picture;      /* there is a picture of the current settings */
     double error_limit;    /* of glim_render(); 0: none */
-    int cancel_fd;         /* readable after glim_cancel() */
+    bool is_adaptive;
+    int cancel_fd; /* readable after glim_cancel() */
 };
 
 /* Copies the text to the caller's error, if that is not NULL. Returns false. */

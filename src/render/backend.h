@@ -17,12 +17,19 @@
 
 enum pass_result { PASS_DONE, PASS_CANCELLED, PASS_FAILED };
 
+/* Most samples of a pixel in a pass. */
+#define PASS_SAMPLES_MAX 32
+
 /* One pass over the pixels of a grid (0, stride, 2 stride, ... in both
- * directions). Pixels with fewer than `target` samples get up to that many. */
+ * directions). Pixels with fewer samples than their target get up to that
+ * many. */
 struct pass {
     int stride;
-    uint64_t target;
-    /* greatest number that a pixel needs; up to SAMPLE_BLOCK */
+    uint64_t target;         /* of each pixel */
+    const uint32_t *targets; /* instead, for adaptive sampling: targets.h */
+    uint32_t target_count;   /* length of `targets` */
+    uint32_t target_version; /* of `targets`: equal ones have equal contents */
+    /* greatest number that a pixel needs; up to PASS_SAMPLES_MAX */
     uint32_t samples;
     uint32_t order; /* seed for the random order of blocks */
 };

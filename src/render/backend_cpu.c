@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "render/cpu_dispatch.h"
 #include "kernels/sobol.h"
+#include "kernels/targets.h"
 
 /* Width and height of a block, in points of the pass's grid. */
 #define BLOCK_SIDE 8
@@ -63,10 +64,19 @@ static uint32_t permuted(const struct job *j, uint32_t item)
 struct row {
     int counts[BLOCK_SIDE];
     uint32_t count; /* total of the counts */
-    struct sample_id ids[BLOCK_SIDE * SAMPLE_BLOCK];
-    struct path_sample samples[BLOCK_SIDE * SAMPLE_BLOCK];
-    struct first_surface surfaces[BLOCK_SIDE * SAMPLE_BLOCK];
+    struct sample_id ids[BLOCK_SIDE * PASS_SAMPLES_MAX];
+    struct path_sample samples[BLOCK_SIDE * PASS_SAMPLES_MAX];
+    struct first_surface surfaces[BLOCK_SIDE * PASS_SAMPLES_MAX];
 };
+
+static uint64_t target_of(const struct job *j, int x, int y)
+{
+    uint32_t width = (uint32_t)j->backend->film->width;
+
+    return j->pass.targets != NULL
+               ? j->pass.targets[target_index((uint32_t)x, (uint32_t)y, width)]
+               : j->pass.target;
+}
 
 /* Lists the samples that pixels x, x + stride, ... of row y need to reach the
  * target. */
@@ -78,9 +88,10 @@ static void row_begin(struct row *r, const struct job *j, int x, int y,
     r->count = 0;
     for (int i = 0; i < pixel_count; i++) {
         int px = x + i * j->pass.stride;
+        uint64_t target = target_of(j, px, y);
         uint32_t before = r->count;
 
-        for (uint64_t k = film_count(b->film, px, y); k < j->pass.target; k++)
+        for (uint64_t k = film_count(b->film, px, y); k < target; k++)
             r->ids[r->count++] = (struct sample_id){(uint32_t)(b->x0 + px),
                                                     (uint32_t)(b->y0 + y), k};
         r->counts[i] = (int)(r->count - before);
@@ -178,7 +189,7 @@ static enum pass_result cpu_pass(struct backend *base, const struct pass *pass,
     int side = BLOCK_SIDE * pass->stride;
 
     (void)err;
-    assert(pass->samples <= SAMPLE_BLOCK);
+    assert(pass->samples <= PASS_SAMPLES_MAX);
     j.columns = (uint32_t)((b->film->width + side - 1) / side);
     j.count = j.columns * (uint32_t)((b->film->height + side - 1) / side);
     while (j.bits < 32 && (1u << j.bits) < j.count)

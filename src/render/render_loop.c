@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "render/error_trend.h"
+#include "picture/adaptive.h"
 #include "render/projection.h"
 
 #include "kernels/path_types.h"
@@ -24,7 +25,8 @@
 struct render {
     struct backend *backend;
     struct film film;
-    struct film draft; /* width 0: there is no draft */
+    struct film draft;        /* width 0: there is no draft */
+    struct adaptive adaptive; /* empty: the render is not adaptive */
     pthread_t thread;
     int event_fd;
     struct cancel cancel;
@@ -54,6 +56,11 @@ struct render {
     const struct film *begun_film;
 };
 
+static bool is_adaptive_after(const struct render *r, uint64_t spp_done)
+{
+    return r->adaptive.targets != NULL && spp_done >= ADAPTIVE_FIRST;
+}
+
 /* Returns the target of the next pass after spp_done samples per pixel. */
 static uint64_t next_target(uint64_t spp_done, uint64_t spp)
 {
@@ -81,9 +88,17 @@ uint64_t render_pass_end(uint64_t spp)
 static enum pass_result run_pass(struct render *r, int stride, uint64_t done,
                                  uint64_t target)
 {
-    struct pass pass = {stride, target, (uint32_t)(target - done),
-                        (uint32_t)target};
+    struct pass pass = {.stride = stride,
+                        .target = target,
+                        .samples = (uint32_t)(target - done),
+                        .order = (uint32_t)target};
 
+    if (is_adaptive_after(r, done)) {
+        pass.targets = r->adaptive.targets;
+        pass.target_count = 2 * (uint32_t)r->adaptive.cells;
+        pass.target_version = r->adaptive.version;
+        pass.samples = ADAPTIVE_MOST;
+    }
     return r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
 }
 
@@ -248,6 +263,11 @@ static enum pass_result run_film(struct render *r)
                               ? *spp_done + 1
                               : next_target(*spp_done, r->limits.spp);
 
+        if (is_adaptive_after(r, *spp_done) &&
+            !adaptive_next_pass(&r->adaptive, &r->film, r->job.exposure,
+                                *spp_done, target - *spp_done, &target,
+                                &r->error))
+            return PASS_FAILED;
         result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
         if (result == PASS_DONE)
             estimate_error(r);
@@ -375,6 +395,23 @@ static bool has_surfaces(const struct render_job *job)
     return (job->world.settings.features & FEATURE_FILTER) != 0;
 }
 
+static bool reset_adaptive(struct render *r, const struct render_job *job,
+                           struct error *err)
+{
+    struct adaptive *a = &r->adaptive;
+    int width = job->crop.width, height = job->crop.height;
+
+    adaptive_reset(a);
+    if (!job->is_adaptive || width < 8 || height < 8) {
+        adaptive_free(a);
+        return true;
+    }
+    if (a->targets != NULL && a->width == width && a->height == height)
+        return true;
+    adaptive_free(a);
+    return adaptive_init(a, width, height, err);
+}
+
 static int smallest(int a, int b, int c)
 {
     int ab = a < b ? a : b;
@@ -400,7 +437,7 @@ bool render_start(struct render *r, const struct render_job *job,
     render_halt(r);
     if (!reset_film(&r->film, job->crop.width, job->crop.height,
                     has_surfaces(job), err) ||
-        !reset_draft(r, job, err))
+        !reset_draft(r, job, err) || !reset_adaptive(r, job, err))
         return false;
     r->job = *job;
     r->begun_film = NULL;
@@ -562,5 +599,6 @@ void render_destroy(struct render *r)
     close(r->event_fd);
     film_free(&r->film);
     film_free(&r->draft);
+    adaptive_free(&r->adaptive);
     free(r);
 }

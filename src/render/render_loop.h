@@ -47,8 +47,9 @@ struct render_job {
     struct world world; /* lent from the host */
     struct rect crop;   /* rectangle of the camera's picture to render */
     struct render_limits limits;
-    uint64_t steps; /* halts after this many steps; 0: does not halt */
-    float exposure; /* for the error, film_error.h */
+    uint64_t steps;   /* halts after this many steps; 0: does not halt */
+    float exposure;   /* for the error, film_error.h */
+    bool is_adaptive; /* adaptive.h; not in pictures of fewer than 8 x 8 */
     /* size of the draft in pixels: that of the shown picture, reduced to that
      * of the crop if larger. There is no draft if either is 0. */
     int draft_width, draft_height;

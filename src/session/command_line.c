@@ -33,6 +33,8 @@ const char options_help[] =
     "  -e ERROR         stop at this error of the picture, such as 1% or 0.01\n"
     "  --time TIME      stop after this time of rendering, such as 90, 1.5m or "
     "2h\n"
+    "  --adaptive       more samples where the error is (default with -e)\n"
+    "  --no-adaptive    the same number of samples in each pixel\n"
     "  -d BOUNCES       most bounces of a path, 0 to 999 (default: from the\n"
     "                   view file, or no limit)\n"
     "  --seed N         seed of the noise, 0 to 4294967295 (default: 0)\n"
@@ -320,6 +322,11 @@ static bool check_together(const struct options *o, struct error *err)
         return true;
     return check_batch(o, err) && check_denoise(o, err) &&
            check_error_map(o, err) && check_show(o, err);
+}
+
+bool options_adaptive(const struct options *o)
+{
+    return o->adaptive || (!o->no_adaptive && o->error_limit > 0);
 }
 
 struct render_limits options_limits(const struct options *o)

@@ -65,10 +65,11 @@ struct options {
     int width_px, height_px;    /* 0 if not given */
     uint64_t spp;               /* samples per pixel */
     bool has_spp;
-    double error_limit; /* relative; 0: none */
-    uint64_t time_ns;   /* limit of the time of rendering; 0: none */
-    int thread_count;   /* 0: all that the process may use */
-    int max_bounces;    /* -1: no limit */
+    double error_limit;         /* relative; 0: none */
+    bool adaptive, no_adaptive; /* neither: with error_limit */
+    uint64_t time_ns;           /* limit of the time of rendering; 0: none */
+    int thread_count;           /* 0: all that the process may use */
+    int max_bounces;            /* -1: no limit */
     bool has_max_bounces;
     uint32_t seed;
     bool has_seed;
@@ -109,6 +110,9 @@ bool options_set_configured(struct options *o, const char *name,
 /* Parses argv over the values in *o, takes GLIM_COLOR for the screen and
  * completes the keys. */
 bool options_parse(struct options *o, int argc, char **argv, struct error *err);
+
+/* Returns true if pixels with more error are to get more samples. */
+bool options_adaptive(const struct options *o);
 
 /* Returns the limits of a render to a file and of normal mode. The samples are
  * one of them if they were given, or if there is no other. */

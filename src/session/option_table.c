@@ -28,6 +28,8 @@ static const struct option_rule rules[] = {
     {"s", OPTION_SPP, "a number of samples"},
     {"e", OPTION_ERROR, "an error such as 1% or 0.01"},
     {"time", OPTION_TIME, "a time such as 90, 1.5m or 2h"},
+    {"adaptive", OPTION_ADAPTIVE, NULL},
+    {"no-adaptive", OPTION_NO_ADAPTIVE, NULL},
     {"d", OPTION_BOUNCES, "a number of bounces"},
     {"seed", OPTION_SEED, "a number"},
     {"crop", OPTION_CROP, "X,Y,W,H in pixels"},
@@ -331,6 +333,11 @@ bool option_set(struct options *o, const struct option_given *g,
         return whole_number(g, 1, SPP_MAX, &o->spp, err);
     case OPTION_ERROR: return set_error(o, g, err);
     case OPTION_TIME: return set_time(o, g, err);
+    case OPTION_ADAPTIVE:
+    case OPTION_NO_ADAPTIVE: /* the last one counts */
+        o->adaptive = g->rule->id == OPTION_ADAPTIVE;
+        o->no_adaptive = !o->adaptive;
+        return true;
     case OPTION_BOUNCES:
         o->has_max_bounces = true;
         return whole_int(g, 0, BOUNCES_MAX, &o->max_bounces, err);

@@ -182,7 +182,8 @@ static bool begin(struct session *s, struct render_limits limits,
     struct render_job job = {.host = &s->world,
                              .crop = s->crop,
                              .limits = limits,
-                             .steps = steps};
+                             .steps = steps,
+                             .is_adaptive = options_adaptive(s->options)};
     struct view view = edit_view(&s->edit);
     bool is_live =
         limits.spp == 0 && !(limits.error > 0) && limits.time_ns == 0;

@@ -66,6 +66,8 @@ bool sub_command_takes(enum sub_command command, enum option_id id)
     case OPTION_SEED:
     case OPTION_CROP:
     case OPTION_TIME:
+    case OPTION_ADAPTIVE:
+    case OPTION_NO_ADAPTIVE:
     case OPTION_UP:
     case OPTION_THREADS:
     case OPTION_BACKEND:

@@ -10,8 +10,8 @@ run -b -w 65536 -h 65536 -s 1 -o big.png box.obj |
 [ ! -e big.png ] || echo "big.png is there"
 # the message names the limit
 limit_memory 3000000 || exit 0
-glim -b -w 8000 -h 8000 -s 1 -o big.png box.obj 2>&1 |
-    grep -v 'needs 3.3 GiB of memory, found 2.9 GiB under ulimit -v$'
-glim -b -w 7400 -h 7400 -s 1 -o big.png box.obj 2>&1 |
+glim -b -w 5900 -h 5900 -s 1 -o big.png box.obj 2>&1 |
+    grep -v 'needs 3.4 GiB of memory, found 2.9 GiB under ulimit -v$'
+glim -b -w 5430 -h 5430 -s 1 -o big.png box.obj 2>&1 |
     grep -v 'needs 2.9 GiB of memory, more than is left of the 2.9 GiB under ulimit -v$'
 exit 0
