@@ -19,25 +19,15 @@ static size_t row_index(const struct film *f, int y)
     return (size_t)y * (size_t)f->width;
 }
 
-static void row_lock(struct film *f, int y)
-{
-    pthread_mutex_lock(&f->locks[y % FILM_LOCKS]);
-}
-
-static void row_unlock(struct film *f, int y)
-{
-    pthread_mutex_unlock(&f->locks[y % FILM_LOCKS]);
-}
-
 bool film_filter_applies(struct film *f)
 {
     bool applies = f->surfaces != NULL;
 
     for (int y = 0; applies && y < f->height; y++) {
-        row_lock(f, y);
+        film_lock_row(f, y);
         for (int x = 0; x < f->width; x++)
             applies = applies && f->counts[row_index(f, y) + (size_t)x] >= 2;
-        row_unlock(f, y);
+        film_unlock_row(f, y);
     }
     return applies;
 }
@@ -48,7 +38,7 @@ static float greatest_depth(struct film *f)
     float far = 0.0f;
 
     for (int y = 0; y < f->height; y++) {
-        row_lock(f, y);
+        film_lock_row(f, y);
         for (int x = 0; x < f->width; x++) {
             const struct surface_sums *s =
                 &f->surfaces[row_index(f, y) + (size_t)x];
@@ -56,7 +46,7 @@ static float greatest_depth(struct film *f)
             if (s->hit_count > 0)
                 far = f_max(sum_float(s->depth) / (float)s->hit_count, far);
         }
-        row_unlock(f, y);
+        film_unlock_row(f, y);
     }
     return far > 0.0f ? far : DEPTH_ANY;
 }
@@ -105,7 +95,7 @@ static void give_features(void *context, int y, const struct filter_row *to)
     const struct source *s = context;
     struct film *f = s->film;
 
-    row_lock(f, y);
+    film_lock_row(f, y);
     for (int x = 0; x < f->width; x++) {
         size_t at = row_index(f, y) + (size_t)x;
 
@@ -113,7 +103,7 @@ static void give_features(void *context, int y, const struct filter_row *to)
         to->count[0][x] = (float)((f->counts[at] + 1) / 2);
         to->count[1][x] = (float)(f->counts[at] / 2);
     }
-    row_unlock(f, y);
+    film_unlock_row(f, y);
 }
 
 /* Writes the mean of each half of a pixel: of direct light that is not seen for
@@ -145,17 +135,17 @@ static void give_light(void *context, int component, int y, float *to[2][3])
     const struct source *s = context;
     struct film *f = s->film;
 
-    row_lock(f, y);
+    film_lock_row(f, y);
     for (int x = 0; x < f->width; x++)
         put_light(f, row_index(f, y) + (size_t)x, component, x, to);
-    row_unlock(f, y);
+    film_unlock_row(f, y);
 }
 
 /* Adds seen light to a row of the filtered rest. It keeps its noise at edges: a
  * lamp of a pixel would spread to its neighbours. */
 static void add_seen(struct film *f, int y, float *rgb)
 {
-    row_lock(f, y);
+    film_lock_row(f, y);
     for (int x = 0; x < f->width; x++) {
         size_t at = row_index(f, y) + (size_t)x;
 
@@ -163,7 +153,7 @@ static void add_seen(struct film *f, int y, float *rgb)
             rgb[3 * x + c] +=
                 sum_float(f->surfaces[at].seen[c]) / (float)f->counts[at];
     }
-    row_unlock(f, y);
+    film_unlock_row(f, y);
 }
 
 static void store_row(struct film *to, int y, const float *rgb)

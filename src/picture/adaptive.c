@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "picture/film_error.h"
 
 /* Pilots around a cell, in each direction, whose deviations it takes. */
 #define REACH 2
@@ -57,21 +58,16 @@ void adaptive_reset(struct adaptive *a)
     a->planned = 0;
 }
 
-/* Reads the pilot of a cell: means, and variances of one sample. */
+/* Reads the pilot of a cell, which has samples in both halves: means, and
+ * variances of one sample. */
 static void read_pilot(struct film *f, int x, int y, float *to)
 {
     size_t at = (size_t)y * (size_t)f->width + (size_t)x;
-    float count = (float)f->counts[at];
-    float odd = (float)(f->counts[at] / 2), even = count - odd;
+    float e[3];
 
-    for (size_t c = 0; c < 3; c++) {
-        float sum = sum_float(f->sums[3 * at + c]);
-        float odd_sum = sum_float(f->odd_sums[3 * at + c]);
-        float e = (sum - odd_sum) / even - odd_sum / odd;
-
-        to[MEAN + c] = f_min(sum / count, 1e15f);
-        to[VARIANCE + c] = f_min(e * e * even * odd / count, 1e30f);
-    }
+    film_pixel_error(f, at, to + MEAN, e);
+    for (int c = 0; c < 3; c++)
+        to[VARIANCE + c] = f_min(e[c] * e[c] * (float)f->counts[at], 1e30f);
     to[PILOTS] = 1.0f;
 }
 

@@ -37,7 +37,7 @@
 
 struct adaptive {
     int width, height; /* of the film */
-    size_t cells;      /* NULL arrays if there are none */
+    size_t cells;      /* number of cells of 2 x 2 pixels */
     /* two numbers for each cell, of its pilot and of its other pixels: see
      * kernels/targets.h */
     uint32_t *targets; /* samples after the pass */

@@ -37,9 +37,8 @@ struct tile {
     float is_inside[WIDE][WIDE];
 };
 
-/* Reads pixel `at` of the film. Returns false if a half of it has no sample. */
-static bool read_pixel(struct tile *t, int row, int column,
-                       const struct film *f, size_t at)
+bool film_pixel_error(const struct film *f, size_t at, float mean[3],
+                      float e[3])
 {
     uint64_t count = f->counts[at];
     float odd_count = (float)(count / 2);
@@ -54,9 +53,23 @@ static bool read_pixel(struct tile *t, int row, int column,
         float odd = sum_float(f->odd_sums[3 * at + c]);
         float difference = (sum - odd) / even_count - odd / odd_count;
 
-        t->mean[c][row][column] = f_min(sum / (float)count, LARGEST);
-        t->e[c][row][column] =
-            f_max(f_min(difference * factor, LARGEST), -LARGEST);
+        mean[c] = f_min(sum / (float)count, LARGEST);
+        e[c] = f_max(f_min(difference * factor, LARGEST), -LARGEST);
+    }
+    return true;
+}
+
+/* Reads pixel `at` of the film. Returns false if a half of it has no sample. */
+static bool read_pixel(struct tile *t, int row, int column,
+                       const struct film *f, size_t at)
+{
+    float mean[3], e[3];
+
+    if (!film_pixel_error(f, at, mean, e))
+        return false;
+    for (int c = 0; c < 3; c++) {
+        t->mean[c][row][column] = mean[c];
+        t->e[c][row][column] = e[c];
     }
     t->is_inside[row][column] = 1.0f;
     return true;

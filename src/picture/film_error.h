@@ -37,6 +37,12 @@ struct film_error {
     double low, high; /* 95 % interval */
 };
 
+/* Reads pixel `at` of a film, whose row is locked: its mean, and e. Both are
+ * limited, so that sums of their squares are finite. Returns false if a half
+ * has no sample. */
+bool film_pixel_error(const struct film *film, size_t at, float mean[3],
+                      float e[3]);
+
 struct film_error film_error(struct film *film, float exposure);
 
 /* Writes the error of each pixel, as a root mean square over the 5 x 5 pixels

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "tests/unit/check.h"
+#include "tests/unit/noise.h"
 
 #include "measure/curve.h"
 
@@ -15,20 +16,6 @@ enum { SIDE = 24, VALUES = 3 * SIDE * SIDE, DOUBLINGS = 8, TRIES = 200 };
 static float black[VALUES], picture[VALUES];
 
 static const struct picture_pair pair = {SIDE, SIDE, picture, black};
-
-static double normal(uint64_t *random)
-{
-    double r = sqrt(-2 * log(1 - check_random(random)));
-
-    return r * cos(6.28318530717958648 * check_random(random));
-}
-
-/* Lognormal noise of this spread with mean 0; normal noise if it is 0. */
-static double noise(double spread, uint64_t *random)
-{
-    return spread > 0 ? exp(spread * normal(random)) - exp(spread * spread / 2)
-                      : normal(random);
-}
 
 /* Measures one render of independent samples, the same in all channels of a
  * pixel, at 1, 2, 4 .. samples. Its slope is -0.5. */

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "tests/unit/check.h"
+#include "tests/unit/noise.h"
 
 #include "measure/picture_error.h"
 #include "measure/replicates.h"
@@ -13,20 +14,6 @@
 enum { SIDE = 30, VALUES = 3 * SIDE * SIDE, TRIES = 300 };
 
 static float truth[VALUES];
-
-static double normal(uint64_t *random)
-{
-    double r = sqrt(-2 * log(1 - check_random(random)));
-
-    return r * cos(6.28318530717958648 * check_random(random));
-}
-
-/* Lognormal noise of this spread with mean 0; normal noise if it is 0. */
-static double noise(double spread, uint64_t *random)
-{
-    return spread > 0 ? exp(spread * normal(random)) - exp(spread * spread / 2)
-                      : normal(random);
-}
 
 static void four_pixels_by_hand(void **state)
 {

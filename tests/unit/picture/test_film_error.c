@@ -13,19 +13,12 @@
 
 static uint64_t state_of_random = 1;
 
-/* Uniform in [0, 1): a multiplicative generator, independent of glim's. */
-static double uniform(void)
-{
-    state_of_random = state_of_random * UINT64_C(6364136223846793005) +
-                      UINT64_C(1442695040888963407);
-    return (double)(state_of_random >> 11) * 0x1p-53;
-}
-
 /* A sample of mean `mean`: with chance `chance` the light is mean / chance. Its
  * variance is mean^2 (1 / chance - 1). */
 static float rare(double mean, double chance)
 {
-    return uniform() < chance ? (float)(mean / chance) : 0.0f;
+    return check_random(&state_of_random) < chance ? (float)(mean / chance)
+                                                   : 0.0f;
 }
 
 struct noise {

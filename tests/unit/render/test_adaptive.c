@@ -151,13 +151,6 @@ static void the_mean_is_that_of_uniform_sampling(void **state)
 
 static uint64_t state_of_random = 1;
 
-static double uniform(void)
-{
-    state_of_random = state_of_random * UINT64_C(6364136223846793005) +
-                      UINT64_C(1442695040888963407);
-    return (double)(state_of_random >> 11) * 0x1p-53;
-}
-
 /* Takes the samples that the targets want; in pixels from column x0 on the
  * light is 50 with a chance of 2 %, in the others 1. */
 static void take_samples(struct film *film, const struct adaptive *a,
@@ -173,7 +166,9 @@ static void take_samples(struct film *film, const struct adaptive *a,
                                               (uint32_t)film->width)];
 
             while (*count < end) {
-                float light = x < x0 ? 1.0f : uniform() < 0.02 ? 50.0f : 0.0f;
+                float light = x < x0                                  ? 1.0f
+                              : check_random(&state_of_random) < 0.02 ? 50.0f
+                                                                      : 0.0f;
                 struct path_sample sample = {{light, light, light}, 1, 0};
 
                 film_add_row(film, x, y, 1, 1, &sample, NULL, (const int[]){1});
