@@ -28,7 +28,8 @@ for i in $(seq $kills); do
     [ $((i % 2)) = 0 ] || cp old.pfm out/out.pfm
     [ $((i % 4)) != 2 ] || rm -f out/out.pfm
     moment_us=$((took_us * i * 11 / kills / 10))
-    timeout -s KILL $(printf %d.%06d $((moment_us / 1000000)) \
+    # in the foreground timeout waits until the process has ended
+    timeout --foreground -s KILL $(printf %d.%06d $((moment_us / 1000000)) \
         $((moment_us % 1000000))) \
         glim $b --seed 2 -o out/out.pfm box.obj 2>/dev/null
     for file in $all; do
