@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "base/clock.h"
 
-#include <time.h>
-
 static uint64_t read_clock(clockid_t clock)
 {
     struct timespec t;
@@ -19,6 +17,20 @@ uint64_t clock_ns(void)
 uint64_t clock_cpu_ns(void)
 {
     return read_clock(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+struct timespec clock_time_after(int ms)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    t.tv_sec += ms / 1000;
+    t.tv_nsec += (long)(ms % 1000) * 1000000;
+    if (t.tv_nsec >= 1000000000) {
+        t.tv_sec++;
+        t.tv_nsec -= 1000000000;
+    }
+    return t;
 }
 
 double seconds_between(uint64_t begin_ns, uint64_t end_ns)

@@ -9,9 +9,13 @@
 #define GLIM_CLOCK_H
 
 #include <stdint.h>
+#include <time.h>
 
 /* Reads the monotonic clock. */
 uint64_t clock_ns(void);
+
+/* Returns the time of the monotonic clock in so many milliseconds. */
+struct timespec clock_time_after(int ms);
 
 /* Reads the processor time of the process, of all threads together, which other
  * programs hardly disturb. */

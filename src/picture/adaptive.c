@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "picture/adaptive.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -234,7 +235,7 @@ static void add_quotas(struct adaptive *a, uint64_t more)
                                     ADAPTIVE_PASS);
 }
 
-static uint64_t round_end(uint64_t done)
+uint64_t adaptive_round_end(uint64_t done)
 {
     uint64_t end = ADAPTIVE_FIRST;
 
@@ -244,10 +245,9 @@ static uint64_t round_end(uint64_t done)
 }
 
 bool adaptive_next_pass(struct adaptive *a, struct film *f, float exposure,
-                        uint64_t done, uint64_t more, uint64_t *target,
-                        struct error *err)
+                        uint64_t done, uint64_t *target, struct error *err)
 {
-    uint64_t end = round_end(done);
+    uint64_t end = adaptive_round_end(done);
     bool is_first = a->planned < ADAPTIVE_FIRST;
 
     if (a->planned <= done) { /* otherwise it was interrupted */
@@ -259,10 +259,9 @@ bool adaptive_next_pass(struct adaptive *a, struct film *f, float exposure,
                 return false;
             choose_quotas(a, end / 2);
         }
-        more = more < ADAPTIVE_PASS ? more : ADAPTIVE_PASS;
-        more = more < end - done ? more : end - done;
-        add_quotas(a, more);
-        a->planned = done + more;
+        assert(*target <= done + ADAPTIVE_PASS && *target <= end);
+        add_quotas(a, *target - done);
+        a->planned = *target;
         a->version++;
     }
     *target = a->planned;

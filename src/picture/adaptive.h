@@ -54,11 +54,13 @@ void adaptive_free(struct adaptive *a);
 /* Returns to the state before the first round. */
 void adaptive_reset(struct adaptive *a);
 
-/* Sets the targets of the next pass, which begins after `done` samples per
- * pixel in the mean and adds up to `more`. Returns the samples after it. A pass
- * that was interrupted keeps its targets. */
+/* Returns the samples per pixel at the end of the round after `done`. */
+uint64_t adaptive_round_end(uint64_t done);
+
+/* Sets the targets of the next pass, from `done` to *target samples per pixel
+ * in the mean: at most ADAPTIVE_PASS, and within a round. A pass that was
+ * interrupted keeps its targets, and *target becomes theirs. */
 bool adaptive_next_pass(struct adaptive *a, struct film *film, float exposure,
-                        uint64_t done, uint64_t more, uint64_t *target,
-                        struct error *err);
+                        uint64_t done, uint64_t *target, struct error *err);
 
 #endif

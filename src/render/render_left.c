@@ -2,6 +2,7 @@
 #include "render/render_left.h"
 
 #include "render/error_trend.h"
+#include "render/pass_plan.h"
 
 /* Samples per pixel beyond which a time is of no interest, and which integers
  * hold. */
@@ -33,7 +34,8 @@ bool render_left_to_error(const struct render_progress *p, double target,
     spp = error_trend_spp((double)p->spp_done, e->high, target,
                           p->error_exponent);
     if (e->high > target && spp < SPP_MAX) /* the error is known after passes */
-        spp = (double)render_pass_end((uint64_t)spp + 1);
+        spp = (double)pass_plan_end(p->spp_done, (uint64_t)spp + 1,
+                                    p->is_adaptive);
     return ns_to_samples(p, spp * (double)p->pixels, ns);
 }
 

@@ -4,7 +4,6 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -12,10 +11,9 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "render/error_trend.h"
-#include "picture/adaptive.h"
-#include "render/projection.h"
+#include "render/pass_plan.h"
+#include "render/render_films.h"
 
-#include "kernels/path_types.h"
 #include "kernels/rng.h"
 
 /* Stride of the coarsest grid in a draft, whose pixels are about ten times as
@@ -24,9 +22,7 @@
 
 struct render {
     struct backend *backend;
-    struct film film;
-    struct film draft;        /* width 0: there is no draft */
-    struct adaptive adaptive; /* empty: the render is not adaptive */
+    struct render_films films;
     pthread_t thread;
     int event_fd;
     struct cancel cancel;
@@ -56,77 +52,35 @@ struct render {
     const struct film *begun_film;
 };
 
-static bool is_adaptive_after(const struct render *r, uint64_t spp_done)
+static bool is_adaptive(const struct render *r)
 {
-    return r->adaptive.targets != NULL && spp_done >= ADAPTIVE_FIRST;
+    return r->films.adaptive.targets != NULL;
 }
 
-/* Returns the target of the next pass after spp_done samples per pixel. */
-static uint64_t next_target(uint64_t spp_done, uint64_t spp)
+static void note_first_picture(struct render *r)
 {
-    uint64_t more = spp_done == 0 ? 1 : spp_done;
-    uint64_t target;
-
-    /* doubles up to one block per pass: short passes give early pictures, and
-     * in long ones the wait at the end is a small share */
-    if (more > SAMPLE_BLOCK)
-        more = SAMPLE_BLOCK;
-    target = spp_done + more;
-    return spp != 0 && target > spp ? spp : target;
+    pthread_mutex_lock(&r->lock);
+    if (r->first_picture_ns == 0)
+        r->first_picture_ns = r->run_before_ns + clock_ns() - r->run_begin_ns;
+    pthread_mutex_unlock(&r->lock);
 }
 
-uint64_t render_pass_end(uint64_t spp)
-{
-    uint64_t end = 1;
-
-    while (end < spp && end < SAMPLE_BLOCK)
-        end *= 2;
-    return end < spp ? (spp + SAMPLE_BLOCK - 1) / SAMPLE_BLOCK * SAMPLE_BLOCK
-                     : end;
-}
-
-static enum pass_result run_pass(struct render *r, int stride, uint64_t done,
-                                 uint64_t target)
-{
-    struct pass pass = {.stride = stride,
-                        .target = target,
-                        .samples = (uint32_t)(target - done),
-                        .order = (uint32_t)target};
-
-    if (is_adaptive_after(r, done)) {
-        pass.targets = r->adaptive.targets;
-        pass.target_count = 2 * (uint32_t)r->adaptive.cells;
-        pass.target_version = r->adaptive.version;
-        pass.samples = ADAPTIVE_MOST;
-    }
-    return r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
-}
-
-/* Renders the first sample of all pixels, from the coarsest grid to the
- * finest. */
-static enum pass_result run_first_pass(struct render *r, int stride)
-{
-    enum pass_result result = PASS_DONE;
-
-    for (; stride > 0 && result == PASS_DONE; stride /= 2) {
-        result = run_pass(r, stride, 0, 1);
-        pthread_mutex_lock(&r->lock);
-        if (r->first_picture_ns == 0 && result == PASS_DONE)
-            r->first_picture_ns =
-                r->run_before_ns + clock_ns() - r->run_begin_ns;
-        pthread_mutex_unlock(&r->lock);
-    }
-    return result;
-}
-
-/* Renders every pixel from *spp_done up to `target` samples. */
+/* Renders every pixel from *spp_done up to `target` samples; the first sample
+ * from the coarsest grid to the finest. */
 static enum pass_result run_to(struct render *r, uint64_t target,
                                int stride_max, uint64_t *spp_done)
 {
-    enum pass_result result = *spp_done == 0
-                                  ? run_first_pass(r, stride_max)
-                                  : run_pass(r, 1, *spp_done, target);
+    enum pass_result result = PASS_DONE;
 
+    for (int stride = *spp_done == 0 ? stride_max : 1;
+         stride > 0 && result == PASS_DONE; stride /= 2) {
+        struct pass pass =
+            pass_plan_pass(*spp_done, target, stride, &r->films.adaptive);
+
+        result = r->backend->pass(r->backend, &pass, &r->cancel, &r->error);
+        if (result == PASS_DONE)
+            note_first_picture(r);
+    }
     if (result == PASS_DONE) {
         pthread_mutex_lock(&r->lock);
         *spp_done = target;
@@ -167,39 +121,13 @@ static enum pass_result begin(struct render *r, const struct world *world,
     return PASS_DONE;
 }
 
-/* Returns the world of the draft: the crop at the draft's resolution. */
-static struct world draft_world(const struct render_job *job,
-                                const struct film *draft)
-{
-    struct world w = job->world;
-    struct projection_part part = {job->crop.x,     job->crop.y,
-                                   job->crop.width, job->crop.height,
-                                   draft->width,    draft->height};
-
-    w.settings.camera = projection_camera(&w.settings.camera, &part);
-    w.settings.order = ORDER_DRAFT;
-    return w;
-}
-
-static bool is_light(const struct render_job *job)
-{
-    return job->world.settings.sample == SAMPLE_LIGHT;
-}
-
-/* Returns the samples per pixel of a draft. Those that are not light are all
- * equal, so one suffices. */
-static uint64_t draft_spp(const struct render_job *job)
-{
-    return is_light(job) ? DRAFT_SPP : 1;
-}
-
 /* Renders the draft in two passes, one for each sample set of ORDER_DRAFT. */
 static enum pass_result run_draft(struct render *r)
 {
-    struct world world = draft_world(&r->job, &r->draft);
-    uint64_t spp = draft_spp(&r->job);
+    struct world world = render_films_draft_world(&r->films, &r->job);
+    uint64_t spp = render_films_draft_spp(&r->job);
     uint64_t *spp_done = &r->draft_spp_done;
-    enum pass_result result = begin(r, &world, &r->draft, 0, 0);
+    enum pass_result result = begin(r, &world, &r->films.draft, 0, 0);
 
     while (result == PASS_DONE && *spp_done < spp)
         result =
@@ -228,21 +156,14 @@ static bool was_last_step(struct render *r)
     return is_last;
 }
 
-/* Returns the limit that holds at the end of a pass, which depends on samples
- * only. The error counts more than the samples, since it tells more. */
-static enum render_limit limit_at(const struct render *r, uint64_t spp_done)
+static enum render_limit limit_at_pass_end(const struct render *r)
 {
-    const struct film_error *e = &r->film_error;
-
-    if (r->limits.error > 0 && e->is_known && e->high <= r->limits.error)
-        return RENDER_LIMIT_ERROR;
-    return r->limits.spp != 0 && spp_done >= r->limits.spp ? RENDER_LIMIT_SPP
-                                                           : RENDER_LIMIT_NONE;
+    return render_limits_at(&r->limits, r->spp_done, &r->film_error);
 }
 
 static void estimate_error(struct render *r)
 {
-    struct film_error e = film_error(&r->film, r->job.exposure);
+    struct film_error e = film_error(&r->films.film, r->job.exposure);
 
     pthread_mutex_lock(&r->lock);
     r->film_error = e;
@@ -256,23 +177,23 @@ static enum pass_result run_film(struct render *r)
 {
     uint64_t *spp_done = &r->spp_done;
     enum pass_result result =
-        begin(r, &r->job.world, &r->film, r->job.crop.x, r->job.crop.y);
+        begin(r, &r->job.world, &r->films.film, r->job.crop.x, r->job.crop.y);
 
-    while (result == PASS_DONE && limit_at(r, *spp_done) == RENDER_LIMIT_NONE) {
-        uint64_t target = is_stepping(r)
-                              ? *spp_done + 1
-                              : next_target(*spp_done, r->limits.spp);
+    while (result == PASS_DONE && limit_at_pass_end(r) == RENDER_LIMIT_NONE) {
+        uint64_t target =
+            is_stepping(r)
+                ? *spp_done + 1
+                : pass_plan_next(*spp_done, r->limits.spp, is_adaptive(r));
 
-        if (is_adaptive_after(r, *spp_done) &&
-            !adaptive_next_pass(&r->adaptive, &r->film, r->job.exposure,
-                                *spp_done, target - *spp_done, &target,
-                                &r->error))
+        if (pass_plan_has_targets(*spp_done, is_adaptive(r)) &&
+            !adaptive_next_pass(&r->films.adaptive, &r->films.film,
+                                r->job.exposure, *spp_done, &target, &r->error))
             return PASS_FAILED;
         result = run_to(r, target, FILM_STRIDE_MAX, spp_done);
         if (result == PASS_DONE)
             estimate_error(r);
         if (result == PASS_DONE && was_last_step(r) &&
-            limit_at(r, *spp_done) == RENDER_LIMIT_NONE)
+            limit_at_pass_end(r) == RENDER_LIMIT_NONE)
             result = PASS_CANCELLED;
     }
     return result;
@@ -282,10 +203,11 @@ static enum pass_result run(struct render *r)
 {
     enum pass_result result = load(r);
 
-    if (result == PASS_DONE && r->draft.width > 0 &&
-        r->draft_spp_done < draft_spp(&r->job))
+    if (result == PASS_DONE && r->films.draft.width > 0 &&
+        r->draft_spp_done < render_films_draft_spp(&r->job))
         result = run_draft(r);
-    return result == PASS_DONE && is_light(&r->job) ? run_film(r) : result;
+    return result == PASS_DONE && render_films_want_light(&r->job) ? run_film(r)
+                                                                   : result;
 }
 
 /* Ends a run. The caller holds the lock. A run that was cancelled at the limit
@@ -294,7 +216,7 @@ static void end_run(struct render *r, enum pass_result result)
 {
     r->run_before_ns += clock_ns() - r->run_begin_ns;
     if (result == PASS_DONE)
-        r->stopped_by = limit_at(r, r->spp_done);
+        r->stopped_by = limit_at_pass_end(r);
     else if (result == PASS_CANCELLED && r->limits.time_ns != 0 &&
              r->run_before_ns >= r->limits.time_ns)
         r->stopped_by = RENDER_LIMIT_TIME;
@@ -376,68 +298,11 @@ static void start_run(struct render *r, uint64_t steps)
     pthread_cond_signal(&r->begin);
 }
 
-/* Makes *film an empty film of this size. */
-static bool reset_film(struct film *film, int width, int height,
-                       bool has_surfaces, struct error *err)
-{
-    if (film->width == width && film->height == height &&
-        (film->surfaces != NULL) == has_surfaces) {
-        film_clear(film);
-        return true;
-    }
-    film_free(film);
-    return film_init(film, width, height, err) &&
-           (!has_surfaces || film_init_surfaces(film, err));
-}
-
-static bool has_surfaces(const struct render_job *job)
-{
-    return (job->world.settings.features & FEATURE_FILTER) != 0;
-}
-
-static bool reset_adaptive(struct render *r, const struct render_job *job,
-                           struct error *err)
-{
-    struct adaptive *a = &r->adaptive;
-    int width = job->crop.width, height = job->crop.height;
-
-    adaptive_reset(a);
-    if (!job->is_adaptive || width < 8 || height < 8) {
-        adaptive_free(a);
-        return true;
-    }
-    if (a->targets != NULL && a->width == width && a->height == height)
-        return true;
-    adaptive_free(a);
-    return adaptive_init(a, width, height, err);
-}
-
-static int smallest(int a, int b, int c)
-{
-    int ab = a < b ? a : b;
-
-    return ab < c ? ab : c;
-}
-
-static bool reset_draft(struct render *r, const struct render_job *job,
-                        struct error *err)
-{
-    int width = smallest(job->draft_width, job->crop.width, DRAFT_SIDE_MAX);
-    int height = smallest(job->draft_height, job->crop.height, DRAFT_SIDE_MAX);
-
-    if (width > 0 && height > 0)
-        return reset_film(&r->draft, width, height, has_surfaces(job), err);
-    film_free(&r->draft);
-    return true;
-}
-
 bool render_start(struct render *r, const struct render_job *job,
                   struct error *err)
 {
     render_halt(r);
-    if (!reset_film(&r->film, job->crop.width, job->crop.height,
-                    has_surfaces(job), err) ||
-        !reset_draft(r, job, err) || !reset_adaptive(r, job, err))
+    if (!render_films_reset(&r->films, job, err))
         return false;
     r->job = *job;
     r->begun_film = NULL;
@@ -493,17 +358,10 @@ bool render_step(struct render *r)
 
 bool render_wait(struct render *r, int timeout_ms)
 {
-    struct timespec until;
+    struct timespec until = clock_time_after(timeout_ms);
     bool is_parked;
     int reason = 0;
 
-    clock_gettime(CLOCK_MONOTONIC, &until);
-    until.tv_sec += timeout_ms / 1000;
-    until.tv_nsec += (long)(timeout_ms % 1000) * 1000000;
-    if (until.tv_nsec >= 1000000000) {
-        until.tv_sec++;
-        until.tv_nsec -= 1000000000;
-    }
     pthread_mutex_lock(&r->lock);
     while (r->state == RENDER_RUNNING && reason == 0)
         reason = timeout_ms < 0
@@ -522,7 +380,6 @@ int render_event_fd(const struct render *r)
 struct render_progress render_progress(struct render *r)
 {
     struct render_progress p = {0};
-    uint64_t pixels = (uint64_t)r->film.width * (uint64_t)r->film.height;
 
     pthread_mutex_lock(&r->lock);
     p.state = r->state;
@@ -538,24 +395,17 @@ struct render_progress render_progress(struct render *r)
     p.first_picture_ns = r->first_picture_ns;
     p.film_error = r->film_error;
     p.error_exponent = error_trend_exponent(&r->error_trend);
-    p.draft_is_coarse = r->draft.width > 0 && r->draft_spp_done == 0;
+    p.draft_is_coarse = r->films.draft.width > 0 && r->draft_spp_done == 0;
     if (r->state == RENDER_FAILED)
         p.error = r->error;
     pthread_mutex_unlock(&r->lock);
-    p.samples = atomic_load(&r->film.samples);
-    p.pixels = pixels;
-    p.samples_limit = p.spp_limit * pixels;
-    p.draft_samples = atomic_load(&r->draft.samples);
-    p.rays = atomic_load(&r->film.rays);
-    p.non_finite = atomic_load(&r->film.non_finite);
-    p.saturated = atomic_load(&r->film.saturated);
-    p.cut_paths = atomic_load(&r->film.cut_paths);
+    render_films_count(&r->films, &p);
     return p;
 }
 
 struct film *render_film(struct render *r)
 {
-    return &r->film;
+    return &r->films.film;
 }
 
 struct film *render_draft(struct render *r)
@@ -565,7 +415,7 @@ struct film *render_draft(struct render *r)
     pthread_mutex_lock(&r->lock);
     is_young = r->spp_done < FILM_YOUNG_SPP;
     pthread_mutex_unlock(&r->lock);
-    return is_young && r->draft.width > 0 ? &r->draft : NULL;
+    return is_young && r->films.draft.width > 0 ? &r->films.draft : NULL;
 }
 
 void render_set_backend(struct render *r, struct backend *backend)
@@ -597,8 +447,6 @@ void render_destroy(struct render *r)
     pthread_cond_destroy(&r->begin);
     pthread_cond_destroy(&r->end);
     close(r->event_fd);
-    film_free(&r->film);
-    film_free(&r->draft);
-    adaptive_free(&r->adaptive);
+    render_films_free(&r->films);
     free(r);
 }

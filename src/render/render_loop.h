@@ -4,7 +4,7 @@
  *
  * The first pass goes from a coarse grid to every pixel, so that there is a
  * whole picture after a few milliseconds; later passes visit blocks in random
- * order. Pass sizes depend on sample counts, never on the clock.
+ * order (pass_plan.h).
  *
  * For a screen a draft may come first: a small film of the same picture, with a
  * few samples per pixel whose errors are distributed as blue noise. The screen
@@ -29,17 +29,10 @@
 #include "picture/film.h"
 #include "picture/film_error.h"
 #include "render/backend.h"
+#include "render/render_limits.h"
 
 struct rect {
     int x, y, width, height;
-};
-
-/* Limits of a render; 0 is none. The first that holds ends it. */
-struct render_limits {
-    uint64_t spp; /* samples per pixel */
-    /* upper end of the film's error at the end of a pass; 0.01 is 1 % */
-    double error;
-    uint64_t time_ns; /* time of rendering, without halts */
 };
 
 struct render_job {
@@ -62,14 +55,6 @@ enum render_state {
     RENDER_FAILED /* member `error` has the reason */
 };
 
-/* The limit that ended a render. */
-enum render_limit {
-    RENDER_LIMIT_NONE,
-    RENDER_LIMIT_SPP,
-    RENDER_LIMIT_ERROR,
-    RENDER_LIMIT_TIME
-};
-
 struct render_progress {
     enum render_state state;
     enum render_limit stopped_by; /* none unless the state is RENDER_DONE */
@@ -80,6 +65,7 @@ struct render_progress {
     uint64_t samples;             /* samples of all pixels together */
     uint64_t samples_limit;       /* 0: none */
     uint64_t pixels;
+    bool is_adaptive;
     uint64_t draft_samples; /* samples of the draft; not in `samples` */
     bool draft_is_coarse;   /* true while draft pixels lack a sample */
     uint64_t rays;
@@ -130,10 +116,6 @@ bool render_wait(struct render *r, int timeout_ms);
 int render_event_fd(const struct render *r);
 
 struct render_progress render_progress(struct render *r);
-
-/* Returns the number of samples per pixel at the end of the pass in which every
- * pixel gets this many, if no limit comes before. */
-uint64_t render_pass_end(uint64_t spp);
 
 /* Returns the film, for reading: film_preview(), film_resolve(), film_linear(),
  * image_write(). It is valid until the next render_start() with another

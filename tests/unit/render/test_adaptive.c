@@ -197,8 +197,11 @@ static void rare_light_is_not_lost(void **state)
         adaptive_reset(&a);
         take_samples(&film, &a, done, 0);
         while (done < 64) {
-            assert_true(adaptive_next_pass(&a, &film, 0, done, 8, &done, &err));
-            take_samples(&film, &a, done, 0);
+            uint64_t target = done + 8;
+
+            assert_true(adaptive_next_pass(&a, &film, 0, done, &target, &err));
+            take_samples(&film, &a, target, 0);
+            done = target;
         }
         film_linear(&film, rgb);
         for (int i = 0; i < 144; i++) {
@@ -229,8 +232,11 @@ static void samples_go_where_the_error_is(void **state)
     assert_true(adaptive_init(&a, 64, 64, &err));
     take_samples(&film, &a, done, 32);
     while (done < 256) {
-        assert_true(adaptive_next_pass(&a, &film, 0, done, 8, &done, &err));
-        take_samples(&film, &a, done, 32);
+        uint64_t target = done + 8;
+
+        assert_true(adaptive_next_pass(&a, &film, 0, done, &target, &err));
+        take_samples(&film, &a, target, 32);
+        done = target;
     }
     for (int y = 0; y < 64; y++)
         for (int x = 0; x < 64; x++) {

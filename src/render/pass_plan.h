@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/*
+ * pass_plan.h - the plan of passes: how many samples each of them adds
+ *
+ * Passes double, from one sample per pixel to SAMPLE_BLOCK: short passes give
+ * early pictures, and in long ones the wait at the end is a small share. The
+ * plan depends on sample counts, never on the clock.
+ *
+ * Units:     samples per pixel; of adaptive renders in the mean
+ */
+#ifndef GLIM_PASS_PLAN_H
+#define GLIM_PASS_PLAN_H
+
+#include "picture/adaptive.h"
+#include "render/backend.h"
+
+/* Returns whether the passes after `done` samples have targets of adaptive
+ * sampling, in a render that is adaptive or not. */
+bool pass_plan_has_targets(uint64_t done, bool is_adaptive);
+
+/* Returns the number of samples at the end of the pass after `done` samples,
+ * which is at most `limit` (0: no limit). */
+uint64_t pass_plan_next(uint64_t done, uint64_t limit, bool is_adaptive);
+
+/* Returns the number of samples at the end of the pass in which a render with
+ * `done` samples gets `spp` samples, if no limit comes before. */
+uint64_t pass_plan_end(uint64_t done, uint64_t spp, bool is_adaptive);
+
+/* Returns the pass from `done` to `target` samples over a grid. `adaptive` has
+ * its targets if pass_plan_has_targets(); they are lent to the pass. */
+struct pass pass_plan_pass(uint64_t done, uint64_t target, int stride,
+                           const struct adaptive *adaptive);
+
+#endif
